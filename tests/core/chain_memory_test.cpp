@@ -5,20 +5,43 @@
 #include "chain_support.hpp"
 #include "memory.hpp"
 
-namespace tendril::test {
-bool memory_is_out = false;
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/lsan_interface.h>
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#include <sanitizer/lsan_interface.h>
+#define __SANITIZE_ADDRESS__
+#endif
+#endif
+
+namespace {
+std::size_t allocations_left = tendril::test::unlimited;
+
+void* allocated(std::size_t size) noexcept {
+    if (allocations_left != tendril::test::unlimited && allocations_left-- == 0) {
+        allocations_left = 0;
+        return nullptr;
+    }
+    return std::malloc(size == 0 ? 1 : size);
+}
+}  // namespace
+
+void tendril::test::allow_allocations(std::size_t count) {
+#if defined(__SANITIZE_ADDRESS__)
+    if ((count == unlimited) != (allocations_left == unlimited))
+        count == unlimited ? __lsan_enable() : __lsan_disable();
+#endif
+    allocations_left = count;
 }
 
-// These replace allocation in the whole test program; they fail only inside without_memory.
+// These replace allocation in the whole test program.
 void* operator new(std::size_t size) {
-    if (!tendril::test::memory_is_out) {
-        if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-    }
+    if (void* memory = allocated(size)) return memory;
     throw std::bad_alloc();
 }
 // For the nothrow allocations of the standard library (stable_sort), which the operator below frees.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-    return tendril::test::memory_is_out ? nullptr : std::malloc(size == 0 ? 1 : size);
+    return allocated(size);
 }
 void operator delete(void* memory) noexcept {
     std::free(memory);

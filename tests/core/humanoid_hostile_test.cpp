@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <tendril/humanoid/balance.hpp>
 #include <tendril/humanoid/body.hpp>
 #include <tendril/humanoid/feet_many.hpp>
 #include <tendril/humanoid/hands.hpp>
@@ -142,8 +143,11 @@ TEST_F(HostileHumanoid, APoseThatIsNotSaneIsRefusedByAllAndAlwaysLeavesTheStateS
         const Expected<Hands> hands = Hands::make(body, map);
         const Expected<LookAt> look_at = LookAt::make(body, map);
         Expected<SpringChain> spring = SpringChain::make(body, map, random.below(body.size() + 1));
+        const Expected<Masses> masses = find_masses(body, map);
+        EXPECT_TRUE(!masses || map.is_usable());
         if (!check(map, body)) {
-            EXPECT_FALSE(solver || feet || hands || look_at || spring) << check(map, body).message();
+            EXPECT_FALSE(solver || feet || hands || look_at || spring || masses)
+                << check(map, body).message();
             ++refused;
         }
         BodyState body_state;

@@ -229,6 +229,126 @@ TEST(Linkage, at_a_change_point_large_steps_go_on_as_small_ones_do) {
     }
 }
 
+// Bars that are almost those of a change point: the branches keep a small distance, which a drive keeps to.
+TEST(Linkage, ADriveStaysOnItsBranchWhereTwoNearlyMeet) {
+    Random random(53);
+    const auto part = [&] { return static_cast<double>(random.part()); };
+    int steps = 0;
+    for (int i = 0; i < 300; ++i) {
+        const double ground = 0.5 + 2.0 * part(), crank = 0.3 + 1.5 * part(), coupler = 0.5 + 2.0 * part();
+        const double sums[] = {ground + coupler - crank, ground + crank - coupler, crank + coupler - ground};
+        const double off = std::pow(10.0, -7.0 + 5.0 * part()) * (random.chance(2) ? 1.0 : -1.0);
+        const double rocker = sums[random.below(3)] * (1.0 + off);
+        const auto sketch =
+            four_bar({.ground = ground, .crank = crank, .coupler = coupler, .rocker = rocker});
+        if (!(rocker > 0.05) || !sketch) continue;
+        Machine machine{sketch};
+        const auto side = [&] {
+            const glm::dvec3 a = machine.point("C") - machine.point("B"),
+                             b = machine.point("D") - machine.point("C");
+            return a.x * b.y - a.y * b.x;
+        };
+        machine.solver.place(machine.state);
+        const double first = side(), step = deg(0.2 + 30.0 * part() * part());
+        double at = machine.value("crank");
+        for (int k = 0; k < 60 && machine.drive("crank", at += step).status == LinkageStatus::Reached; ++k) {
+            ++steps;
+            ASSERT_GT(first * side(), 0.0) << i << ", off by " << off << ", at " << at;
+        }
+    }
+    EXPECT_GT(steps, 5000);
+}
+
+// A crank and a rocker about axes that cross nowhere, and a coupler between two balls that turns about
+// itself.
+TEST(Linkage, ADriveInSpaceStaysOnItsBranchWhereTwoNearlyMeet) {
+    Random random(11);
+    const auto part = [&] { return static_cast<double>(random.part()); };
+    int steps = 0;
+    for (int i = 0; i < 150; ++i) {
+        const double crank = 0.3 + part(), rocker = 0.5 + part();
+        const glm::dvec3 pivot(1.0 + part(), part() - 0.5, part() - 0.5);
+        const glm::dvec3 axis = glm::normalize(glm::dvec3(part() - 0.5, part() - 0.5, 0.3 + part()));
+        const glm::dvec3 x = glm::normalize(glm::cross(axis, glm::dvec3(1.0, 0.3, 0.2))),
+                         y = glm::cross(axis, x);
+        const auto tip = [&](double angle) {
+            return crank * glm::dvec3(std::cos(angle), std::sin(angle), 0.0);
+        };
+        // The coupler's square is free + reach * cos(the rocker's angle - phase).
+        struct Span {
+            double free, reach, phase;
+        };
+        const auto span_at = [&](double angle) {
+            const glm::dvec3 d = pivot - tip(angle);
+            const double a = glm::dot(d, x), b = glm::dot(d, y);
+            return Span{rocker * rocker + glm::dot(d, d), 2.0 * rocker * std::hypot(a, b), std::atan2(b, a)};
+        };
+        // Just as long as it must be to reach all round: the two branches nearly meet at `meet`.
+        double square = 0.0, meet = 0.0;
+        for (double width = 0.01, from = 0.0, to = deg(360); width > 1e-11; width *= 0.01) {
+            for (double angle = from; angle < to; angle += width)
+                if (const Span span = span_at(angle); span.free - span.reach > square)
+                    square = span.free - span.reach, meet = angle;
+            from = meet - width, to = meet + width;
+        }
+        square += std::pow(10.0, -6.0 + 5.0 * part());
+        const double start = meet + 2.0;
+        const Span span = span_at(start);
+        const double cosine = (square - span.free) / span.reach;
+        if (std::abs(cosine) > 0.95) continue;
+        const double angle = span.phase + std::acos(cosine);
+        const glm::dvec3 end = pivot + rocker * (std::cos(angle) * x + std::sin(angle) * y);
+        Linkage linkage;
+        linkage.links = {{.name = "crank", .at = glm::dvec3(0.0), .rest = start},
+                         {.name = "rocker", .at = pivot, .axis = axis, .rest = angle},
+                         {.name = "coupler", .parent = 0, .joint = LinkJoint::Ball, .at = tip(start)}};
+        linkage.closures = {{"end", ClosureKind::Point, 2, 1, end, end}};
+        Machine machine{Expected<Linkage>(linkage)};
+        const double step = deg(0.2 + 30.0 * part() * part());
+        double at = start;
+        for (int k = 0; k < 60 && machine.drive("crank", at += step).status == LinkageStatus::Reached; ++k) {
+            ++steps;
+            ASSERT_GT(std::sin(machine.value("rocker") - span_at(at).phase), 0.0) << i << ", at " << at;
+        }
+    }
+    EXPECT_GT(steps, 2000);
+}
+
+TEST(Linkage, AMotorBetweenBarsOfOneRigidBodyIsRefused) {
+    // A four-bar whose coupler is a triangle of three bars with another on it, and a triangle on two pins.
+    LinkageSketch sketch;
+    sketch.points = {{"A", {0, 0}, SketchHold::Pinned},
+                     {"B", {0, 1}},
+                     {"C", {3, 2}},
+                     {"D", {3, 0}, SketchHold::Pinned},
+                     {"E", {1, 3}},
+                     {"F", {3, 4}},
+                     {"G", {1.5, -1}}};
+    sketch.bars = {{"AB", {0, 1}}, {"BC", {1, 2}}, {"CD", {2, 3}}, {"BE", {1, 4}}, {"CE", {2, 4}},
+                   {"EF", {4, 5}}, {"CF", {2, 5}}, {"AG", {0, 6}}, {"GD", {6, 3}}};
+    EXPECT_EQ(rigid_bodies(sketch),
+              (std::vector<std::size_t>{0, 1, 2, 1, 1, 1, 1, ground_link, ground_link}));
+    for (const auto& [point, bar, against, fine] : {std::tuple(1, 1, 0, true),
+                                                    {1, 3, 0, true},
+                                                    {1, 1, 3, false},
+                                                    {4, 5, 3, false},
+                                                    {2, 6, 2, true},
+                                                    {2, 1, 6, false}}) {
+        sketch.motors = {{"m", static_cast<std::size_t>(point), static_cast<std::size_t>(bar),
+                          static_cast<std::size_t>(against)}};
+        const Expected<Linkage> made = linkage_from(sketch);
+        EXPECT_EQ(made.ok(), fine) << made.message();
+    }
+    EXPECT_STREQ(linkage_from(sketch).message(),
+                 "linkage_from: motor \"m\" must turn two rigid bodies, got bar \"BC\" and bar \"CF\", which "
+                 "triangles "
+                 "join into one");
+    sketch.motors = {{"m", 0, 7}};
+    EXPECT_FALSE(linkage_from(sketch));
+    sketch.motors = {{"m", 0, 0}};
+    EXPECT_TRUE(linkage_from(sketch));
+}
+
 // ------------------------------------------------------------------------------------------- other modes
 
 TEST(Linkage, what_moves_freely_has_no_other_mode) {

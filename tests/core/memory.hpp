@@ -1,21 +1,35 @@
-// Runs code without memory: meanwhile, every `new` in the test program throws std::bad_alloc.
+// Runs code with little or no memory: `new` in the test program then throws std::bad_alloc.
 #pragma once
+
+#include <cstddef>
+#include <new>
 
 namespace tendril::test {
 
-/// Read by the operators that chain_memory_test.cpp replaces for the whole program.
-extern bool memory_is_out;
+inline constexpr std::size_t unlimited = ~std::size_t{0};
+/// How many allocations succeed from now on: for the operators that chain_memory_test.cpp replaces. What code
+/// without exceptions leaks when one fails is no leak of the test.
+void allow_allocations(std::size_t count);
 
+/// False: an allocation failed.
 template <class Call>
-void without_memory(Call call) {
-    memory_is_out = true;
+bool with_allocations(std::size_t count, Call call) {
+    allow_allocations(count);
     try {
         call();
+    } catch (const std::bad_alloc&) {
+        allow_allocations(unlimited);
+        return false;
     } catch (...) {
-        memory_is_out = false;
+        allow_allocations(unlimited);
         throw;
     }
-    memory_is_out = false;
+    allow_allocations(unlimited);
+    return true;
+}
+template <class Call>
+void without_memory(Call call) {
+    if (!with_allocations(0, call)) throw std::bad_alloc();
 }
 
 }  // namespace tendril::test

@@ -13,7 +13,6 @@ namespace tendril::humanoid {
 namespace {
 
 using namespace rig::detail;
-using tendril::detail::refused;
 
 // De Leva's table 4, males: part of the body's mass, and of the segment's length from its upper end. Heights
 // of the trunk's three parts and of the head are parts of the line from the middle of the hips to the neck.
@@ -157,8 +156,7 @@ glm::dvec3 Masses::centre(std::span<const Placement> placements) const noexcept 
 
 Expected<Masses> find_masses(const Skeleton& skeleton, const BoneMap& map) {
     if (const Result bad = detail::check_map("find_masses", map, skeleton); !bad) return bad;
-    if (!map.is_usable())
-        return refused("find_masses", "map", "with all bones that a body needs", "one without");
+    if (const Result bad = detail::check_usable("find_masses", map); !bad) return bad;
     const Expected<Soles> soles = find_soles(skeleton, map);
     if (!soles) return soles.error();
     return MassFinder(skeleton, map, *soles).find();

@@ -121,11 +121,11 @@ BentChain::BentChain(BentChain&&) noexcept = default;
 BentChain& BentChain::operator=(BentChain&&) noexcept = default;
 
 std::span<const std::size_t> BentChain::nodes() const noexcept {
-    return plan_->nodes;
+    return tendril::detail::held_or_empty(plan_).nodes;
 }
 
 Placement BentChain::space(std::span<const Placement> placed) const noexcept {
-    if (plan_->path.empty()) return {};
+    if (!plan_ || plan_->path.empty()) return {};
     const Placement& at = placed[static_cast<std::size_t>(plan_->path.back())];
     return placement(rig::Transform{.translation = at.position, .rotation = at.rotation()});
 }
@@ -133,8 +133,8 @@ Placement BentChain::space(std::span<const Placement> placed) const noexcept {
 std::vector<glm::vec3> BentChain::points_through(std::span<const rig::Transform> pose,
                                                  std::size_t count) const {
     std::vector<glm::vec3> points;
-    std::vector<Placement> placed(plan_->nodes.size());
-    if (pose.size() != plan_->count || !detail::is_sane(pose) ||
+    std::vector<Placement> placed(nodes().size());
+    if (!plan_ || pose.size() != plan_->count || !detail::is_sane(pose) ||
         !plan_->place_nodes(seen_from_points(plan_->parent(pose)), pose, placed))
         return points;
     count = std::min(std::min(count, max_points), bones());
@@ -218,13 +218,14 @@ void BentChain::Plan::lay(std::span<rig::Transform> pose, Placement at, const gl
 
 ik::CurveReport BentChain::bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,
                                 const BendOptions& options, ik::CurveMemory& memory) noexcept {
+    if (!plan_) return {.status = ik::Status::InvalidInput};
     return plan_->bend(pose, points, options, memory);
 }
 
 ik::CurveReport BentChain::bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,
                                 const BendOptions& options) noexcept {
     ik::CurveMemory none;
-    return plan_->bend(pose, points, options, none);
+    return bend(pose, points, options, none);
 }
 
 }  // namespace tendril::humanoid

@@ -118,19 +118,16 @@ Body& Body::operator=(Body&&) noexcept = default;
 Body::~Body() = default;
 
 const std::vector<Bone>& Body::bones() const noexcept {
-    return work_->bones;
+    return tendril::detail::held_or_empty(work_).bones;
 }
 const BodyJoints& Body::joints() const noexcept {
-    return work_->joints;
+    return tendril::detail::held_or_empty(work_).joints;
 }
 
 Expected<Body> Body::make(const Skeleton& skeleton, const BoneMap& map, const BodyLimits& limits,
                           std::span<const BodyCapsule> capsules) {
     if (const Result bad = detail::check_map("Body", map, skeleton); !bad) return bad;
-    for (std::size_t i = 0; i < bone_count; ++i)
-        if (const auto bone = static_cast<Bone>(i); is_needed(bone) && map[bone].node < 0)
-            return refused("Body", name(bone), "mapped", "none");
-    if (!map.upright) return refused("Body", "map", "for an upright body", "one that is not upright");
+    if (const Result bad = detail::check_usable("Body", map); !bad) return bad;
     Expected<BodyJoints> joints = BodyJoints::make(skeleton, map, limits);
     if (!joints) return joints.error();
     auto work = std::make_unique<Work>();
@@ -214,6 +211,7 @@ void Body::find_tips(Work& work, const Skeleton& skeleton) {
 
 Expected<BodyReport> Body::solve(std::span<rig::Transform> pose, std::span<const BodyTarget> targets,
                                  BodyState& state, const BodyOptions& options) {
+    if (!work_) return tendril::detail::moved_from("Body::solve", "body");
     if (const Result bad =
             tendril::detail::check_count("Body::solve", "pose", pose.size(), work_->parents.size());
         !bad)
@@ -282,16 +280,18 @@ void Body::Work::take(std::span<const rig::Transform> pose) noexcept {
         link.offset = rotated(back, minus(placements[link.node].position, placements[before.node].position));
         link.own = math::compose(back, link.start);
     }
+    const auto own = [&](const Link& link, const glm::dvec3& v) {
+        const glm::dmat3& axes = placements[link.node].axes;
+        const glm::dvec3 at = plus(plus(times(axes[0], v.x), times(axes[1], v.y)), times(axes[2], v.z));
+        return rotated(conjugate(link.start), at);
+    };
     for (detail::Volume& volume : volumes) {
         const Link& link = links[static_cast<std::size_t>(volume.link)];
-        const glm::dquat back = conjugate(link.start);
-        volume.from = rotated(back, placements[link.node].axes * volume.capsule.from);
-        volume.to = rotated(back, placements[link.node].axes * volume.capsule.to);
+        volume.from = own(link, volume.capsule.from);
+        volume.to = own(link, volume.capsule.to);
     }
-    for (detail::LinkMass& mass : masses) {
-        const Link& link = links[static_cast<std::size_t>(mass.link)];
-        mass.at = rotated(conjugate(link.start), placements[link.node].axes * mass.point.at);
-    }
+    for (detail::LinkMass& mass : masses)
+        mass.at = own(links[static_cast<std::size_t>(mass.link)], mass.point.at);
     for (detail::BodyLimb& limb : limbs) {
         const double a = length(links[static_cast<std::size_t>(limb.lower)].offset);
         const double b = length(links[static_cast<std::size_t>(limb.end)].offset);

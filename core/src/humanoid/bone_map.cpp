@@ -378,6 +378,18 @@ bool is_in(const Skeleton& skeleton, std::int32_t node) noexcept {
 
 }  // namespace
 
+Result detail::check_usable(std::string_view operation, const BoneMap& map) noexcept {
+    using tendril::detail::refused;
+    for (std::size_t i = 0; i < bone_count; ++i)
+        if (const auto bone = static_cast<Bone>(i); is_needed(bone) && map[bone].node < 0)
+            return refused(operation, name(bone), "mapped", "none");
+    return map.upright ? Result() : refused(operation, "map", "for an upright body", "one that is not");
+}
+
+bool BoneMap::is_usable() const noexcept {
+    return detail::check_usable("", *this).ok();
+}
+
 Result detail::check_map(std::string_view operation, const BoneMap& map, const Skeleton& skeleton) noexcept {
     using tendril::detail::refused;
     for (std::size_t i = 0; i < bone_count; ++i) {

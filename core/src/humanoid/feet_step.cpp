@@ -194,6 +194,7 @@ FeetReport FeetStep::report() const noexcept {
 
 FeetReport Feet::step(std::span<rig::Transform> pose, const Ground& ground, double dt, FeetState& state,
                       const FeetOptions& options) const noexcept {
+    if (!plan_) return {.valid = false};
     const detail::FeetPlan& plan = *plan_;
     if (pose.size() != plan.nodes || !detail::is_sane(pose) || !check(options) || !check(state))
         return {.valid = false};

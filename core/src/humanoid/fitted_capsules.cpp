@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "humanoid/anatomy.hpp"
+#include "humanoid/limb.hpp"
 #include "rig/math.hpp"
 #include "tendril/humanoid/capsules.hpp"
 #include "tendril/magnitude.hpp"
@@ -112,15 +113,14 @@ std::vector<BodyCapsule> fitted_capsules(const Skeleton& skeleton, const BoneMap
     const Facing at_rest = facing(skeleton, map);
     for (BodyCapsule& capsule : capsules) {
         const Placement& at = rest[static_cast<std::size_t>(map[capsule.bone].node)];
-        if (!(std::abs(glm::determinant(at.axes)) > 1e-30)) continue;
+        if (!(std::abs(dot(at.axes[0], cross(at.axes[1], at.axes[2]))) > 1e-30)) continue;
         const bool ends_free =
             capsule.bone == Bone::Head || capsule.bone == Bone::LeftHand || capsule.bone == Bone::RightHand;
         const auto fit = fitted(place(capsule, map, rest), at_rest, ends_free,
                                 of_bone[static_cast<std::size_t>(capsule.bone)]);
         if (!fit) continue;
-        const glm::dmat3 back = glm::inverse(at.axes);
-        capsule.from = back * minus(fit->from, at.position);
-        capsule.to = back * minus(fit->to, at.position);
+        capsule.from = detail::seen_from(at, minus(fit->from, at.position));
+        capsule.to = detail::seen_from(at, minus(fit->to, at.position));
         capsule.radius = fit->radius;
     }
     return capsules;

@@ -149,10 +149,7 @@ Hands& Hands::operator=(Hands&&) noexcept = default;
 Expected<Hands> Hands::make(const Skeleton& skeleton, const BoneMap& map) {
     const Expected<Soles> soles = find_soles(skeleton, map);
     if (!soles) return soles.error();
-    if (!map.is_usable()) return refused("Hands", "map", "usable", "one that is not");
-    for (std::size_t i = 0; i < bone_count; ++i)
-        if (is_needed(static_cast<Bone>(i)) && map.bones[i].node < 0)
-            return refused("Hands", name(static_cast<Bone>(i)), "mapped to a node", map.bones[i].node);
+    if (const Result bad = detail::check_usable("Hands", map); !bad) return bad;
     auto plan = std::make_unique<Plan>();
     plan->nodes = skeleton.size();
     plan->head = detail::Head::make(skeleton, map, soles->forward);
@@ -194,6 +191,7 @@ Expected<Hands> Hands::make(const Skeleton& skeleton, const BoneMap& map) {
 
 HandsReport Hands::step(std::span<rig::Transform> pose, const HandTargets& targets, double dt,
                         HandsState& state, const HandsOptions& options) const noexcept {
+    if (!plan_) return {.valid = false};
     const Plan& plan = *plan_;
     if (pose.size() != plan.nodes || !detail::is_sane(pose) || !check(options)) return {.valid = false};
     const Placement root = placement(options.root);

@@ -13,6 +13,9 @@ namespace tendril::humanoid::detail {
 /// check(), with `operation` in the error message.
 Result check_map(std::string_view operation, const BoneMap& map, const Skeleton& skeleton) noexcept;
 
+/// BoneMap::is_usable(), with what is missing.
+Result check_usable(std::string_view operation, const BoneMap& map) noexcept;
+
 /// The error for a node that is mapped to `bone` but is not below the hips.
 Result not_below_hips(const Skeleton& skeleton, std::size_t node, Bone bone) noexcept;
 

@@ -113,10 +113,7 @@ LookAt& LookAt::operator=(LookAt&&) noexcept = default;
 Expected<LookAt> LookAt::make(const Skeleton& skeleton, const BoneMap& map) {
     const Expected<Soles> soles = find_soles(skeleton, map);
     if (!soles) return soles.error();
-    if (!map.is_usable()) return refused("LookAt", "map", "usable", "one that is not");
-    for (std::size_t i = 0; i < bone_count; ++i)
-        if (is_needed(static_cast<Bone>(i)) && map.bones[i].node < 0)
-            return refused("LookAt", name(static_cast<Bone>(i)), "mapped to a node", map.bones[i].node);
+    if (const Result bad = detail::check_usable("LookAt", map); !bad) return bad;
     auto plan = std::make_unique<Plan>();
     plan->nodes = skeleton.size();
     plan->head = detail::Head::make(skeleton, map, soles->forward);
@@ -136,6 +133,7 @@ Expected<LookAt> LookAt::make(const Skeleton& skeleton, const BoneMap& map) {
 
 LookAtReport LookAt::step(std::span<rig::Transform> pose, const LookAtOptions& options, double dt,
                           LookAtState& state) const noexcept {
+    if (!plan_) return {.valid = false};
     const Plan& plan = *plan_;
     if (pose.size() != plan.nodes || !detail::is_sane(pose) || !check(options)) return {.valid = false};
     const Placement root = placement(options.root);

@@ -232,7 +232,7 @@ SpringChain::SpringChain(SpringChain&&) noexcept = default;
 SpringChain& SpringChain::operator=(SpringChain&&) noexcept = default;
 
 std::span<const std::size_t> SpringChain::bones() const noexcept {
-    return plan_->turning;
+    return tendril::detail::held_or_empty(plan_).turning;
 }
 
 void SpringChain::Plan::move(std::span<const rig::Transform> pose, const SpringOptions& options, Time time,
@@ -327,11 +327,13 @@ SpringReport SpringChain::Plan::run(std::span<rig::Transform> pose, const Spring
 
 SpringReport SpringChain::step(std::span<rig::Transform> pose, const SpringOptions& options, double dt,
                                SpringChainState& state, std::span<const PlacedCapsule> colliders) noexcept {
+    if (!plan_) return {.valid = false};
     return plan_->run(pose, options, signal::is_step(dt) ? Time::Passes : Time::Stands, dt, state, colliders);
 }
 
 SpringReport SpringChain::teleport(std::span<rig::Transform> pose, const SpringOptions& options,
                                    SpringChainState& state) noexcept {
+    if (!plan_) return {.valid = false};
     return plan_->run(pose, options, Time::Jumps, 0.0, state, {});
 }
 

@@ -118,4 +118,10 @@ Result refused_count(std::string_view operation, const Argument& argument, std::
     return message.as(ErrorCode::InvalidArgument);
 }
 
+Result moved_from(std::string_view operation, std::string_view what) noexcept {
+    Message message;
+    message.add(operation).add(": the ").add(what).add(" must not be moved from");
+    return message.as(ErrorCode::InvalidArgument);
+}
+
 }  // namespace tendril::detail

@@ -160,6 +160,15 @@ Result Hierarchy::set_parent(ElementId element, ElementId parent, Space keep) no
     return {};
 }
 
+void Hierarchy::swap(Hierarchy& other) noexcept {
+    std::swap(nodes_, other.nodes_);
+    std::swap(roots_, other.roots_);
+    std::swap(values_, other.values_);
+    std::swap(free_, other.free_);
+    std::swap(size_, other.size_);
+    std::swap(recomputations_, other.recomputations_);
+}
+
 void Hierarchy::clear() noexcept {
     while (roots_.first_child != none) static_cast<void>(remove(handle(roots_.first_child)));
 }

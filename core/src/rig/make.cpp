@@ -269,7 +269,7 @@ bool same_types(const std::vector<Output>& a, const std::vector<Output>& b) {
 }  // namespace
 
 Expected<Rig> Rig::with_unit(Unit unit) const {
-    const Layout& layout = *plan_->layout;
+    const Layout& layout = *plan().layout;
     const auto found = layout.units_by_name.find(unit.name);
     if (found == layout.units_by_name.end()) return missing("there is no unit " + quoted(unit.name));
     Definition changed = plan_->definition;

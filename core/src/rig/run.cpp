@@ -32,7 +32,8 @@ const char* message(Warning warning) noexcept {
 }
 
 bool Rig::solve(State& state, double dt, Workspace& workspace, Observer* observer) const noexcept {
-    return Runner(*plan_, state, dt, workspace).run(observer);
+    Workspace::Parts* const parts = workspace.parts();
+    return plan_ && parts && Runner(*plan_, state, dt, *parts).run(observer);
 }
 
 bool Runner::run(Observer* observer) noexcept {

@@ -104,7 +104,7 @@ void Runner::solve_chain(ik::Method method, const Input<glm::dvec3>& target,
     const std::size_t bones = plan_.layout->units[unit_].bones.size() - 1;
     const glm::dvec3 to = read(target), origin = bone_place(0);
     if (weight_ > 0.0) {
-        ChainScratch& chain = workspace_.parts().chains[unit_];
+        ChainScratch& chain = workspace_.chains[unit_];
         if (!prepare_chain(chain)) {
             warn(Warning::CannotSolve);
         } else {
@@ -172,7 +172,7 @@ void Runner::operator()(const Spline& op) noexcept {
     const glm::dvec3 origin = point(0), end = point(unit.points.size() - 1);
     ik::CurveReport report;
     if (weight_ > 0.0) {
-        ChainScratch& chain = workspace_.parts().chains[unit_];
+        ChainScratch& chain = workspace_.chains[unit_];
         measure_chain(chain);
         measure_rest(chain);
         chain.points.clear();

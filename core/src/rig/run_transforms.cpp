@@ -79,7 +79,7 @@ void Runner::operator()(const AimMath& op) noexcept {
 void Runner::operator()(const ParentConstraint& op) noexcept {
     Hierarchy& tree = state_.elements;
     const ElementId id = item(op.item);
-    std::vector<ConstraintParent>& parents = workspace_.parts().parents;
+    std::vector<ConstraintParent>& parents = workspace_.parents;
     parents.clear();  // keeps its capacity, which is enough for every unit of the rig
     double sum = 0.0;
     for (const ParentInputs& inputs : op.parents) {

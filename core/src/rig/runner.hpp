@@ -6,19 +6,17 @@
 
 #include "rig/plan.hpp"
 #include "rig/value.hpp"
+#include "rig/workspace.hpp"
 #include "tendril/ik/method.hpp"
 #include "tendril/rig/collect.hpp"
-#include "tendril/rig/workspace.hpp"
 
 namespace tendril::rig {
-
-struct ChainScratch;
 
 /// Runs the units of a rig on a state in order. Each operator() computes its operation for `unit_`, and in
 /// the body of a for-each for `visit_`.
 class Runner {
   public:
-    Runner(const detail::Plan& plan, State& state, double dt, Workspace& workspace) noexcept
+    Runner(const detail::Plan& plan, State& state, double dt, Workspace::Parts& workspace) noexcept
         : plan_(plan), state_(state), dt_(dt), workspace_(workspace) {}
 
     /// Whether anything with memory still moves.
@@ -84,7 +82,7 @@ class Runner {
     const detail::Plan& plan_;
     State& state_;
     double dt_;
-    Workspace& workspace_;
+    Workspace::Parts& workspace_;
 
     std::size_t unit_ = 0;  ///< index in Plan::units
     std::size_t next_ = 0;  ///< index of the next unit

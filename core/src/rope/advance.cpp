@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 
 #include "math/fork_join.hpp"
+#include "math/rotation.hpp"
 #include "math/tasks.hpp"
 #include "rope/build.hpp"
 #include "rope/contact_shape.hpp"
@@ -65,7 +66,7 @@ void drive(State& state, Collider& collider, Scratch::Moving& moving) {
     const dvec3 was(centre(collider.shape));
     collider.shape = detail::driven(collider.shape, collider.drive, h);
     moving.spins = collider.drive.spin != 0.0f;
-    moving.unspin = glm::conjugate(detail::turn_by(collider.drive, h));
+    moving.unspin = math::conjugate(detail::turn_by(collider.drive, h));
     moving.middle = dvec3(centre(collider.shape));
     if (const auto* const plane = std::get_if<Plane>(&collider.shape)) {
         const dvec3 normal = detail::unit(dvec3(plane->normal)), by = h * dvec3(collider.drive.velocity);
@@ -76,10 +77,10 @@ void drive(State& state, Collider& collider, Scratch::Moving& moving) {
     constexpr double edge = max_magnitude;
     collider.goal = glm::clamp(collider.goal + (moving.middle - was), dvec3(-edge), dvec3(edge));
     if (moving.spins) {
-        const glm::dquat turn = glm::conjugate(moving.unspin);
-        if (collider.half_goal) collider.half_goal = turn * *collider.half_goal;
+        const glm::dquat turn = math::conjugate(moving.unspin);
+        if (collider.half_goal) collider.half_goal = math::rotated(turn, *collider.half_goal);
         for (Pin& pin : state.pins)
-            if (pin.collider == collider.id) pin.goal = turn * pin.goal;
+            if (pin.collider == collider.id) pin.goal = math::rotated(turn, pin.goal);
     }
     double reach = static_cast<double>(size(collider.shape));
     if (const auto* const box = std::get_if<Box>(&collider.shape))
@@ -179,6 +180,9 @@ void Workspace::Parts::add_up(Advance& done) {
 /// Keeps the contacts of the substep.
 void Workspace::Parts::note_contacts(State& state) {
     if (plan.colliding == 0 && state.contacts.empty()) return;
+    std::size_t most = 0;
+    for (const BodyContactScratch& island : scratch.body_contacts) most += island.contacts.size();
+    state.contacts.reserve(most);
     state.contacts.clear();
     const double per_square = 1.0 / (state.settings.substep * state.settings.substep);
     for (const BodyContactScratch& island : scratch.body_contacts)
@@ -192,29 +196,28 @@ void Workspace::Parts::note_contacts(State& state) {
 
 Advance World::advance(double seconds, Workspace& workspace, const AdvanceOptions& options) {
     Advance done;
-    done.refused = !(seconds >= 0.0 && seconds <= 1e9);
+    done.refused = !(seconds >= 0.0 && seconds <= 1e9) || !workspace.parts_;
     if (done.refused) return done;
     const double substep = state_.settings.substep;
     // Only whole substeps are dropped. A remainder is kept, as dropping it would not be counted.
     constexpr double rounding = 1e-6;  // of a substep
     const double over = std::max(0.0, seconds - static_cast<double>(state_.settings.longest_frame));
     done.dropped = static_cast<std::uint64_t>(over / substep + rounding);
-    state_.remainder += std::max(0.0, seconds - static_cast<double>(done.dropped) * substep);
-    const auto due = static_cast<std::uint64_t>(state_.remainder / substep + rounding);
+    double left = state_.remainder + std::max(0.0, seconds - static_cast<double>(done.dropped) * substep);
+    const auto due = static_cast<std::uint64_t>(left / substep + rounding);
     if (due > options.max_substeps) {
         const std::uint64_t more = due - options.max_substeps;
-        state_.remainder = std::max(0.0, state_.remainder - static_cast<double>(more) * substep);
+        left = std::max(0.0, left - static_cast<double>(more) * substep);
         done.dropped += more;
     }
+    const auto is_due = [&] { return left >= substep * (1.0 - rounding); };
+    Workspace::Parts& parts = *workspace.parts_;
+    const bool steps = is_due();
+    if (steps) parts.prepare(state_);                   // allocates, so before anything changes
     constexpr auto countable = std::uint64_t{1} << 53;  // exactly representable in a file's numbers
     state_.dropped = std::min(state_.dropped + done.dropped, countable);
-    const auto is_due = [&] { return state_.remainder >= substep * (1.0 - rounding); };
-    if (!is_due()) return done;
-
-    Workspace::Parts& parts = *workspace.parts_;
-    parts.prepare(state_);
     while (is_due()) {
-        state_.remainder = std::max(0.0, state_.remainder - substep);
+        left = std::max(0.0, left - substep);
         move_colliders(state_, parts.scratch);
         parts.solve_islands(state_, !is_due());
         parts.add_up(done);
@@ -226,6 +229,8 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
         const bool torn = parts.plan.tears && tear(state_), untied = tear_ties(state_);
         if (torn || untied) parts.replan(state_);
     }
+    state_.remainder = left;
+    if (steps) parts.prepared = true;
     return done;
 }
 

@@ -83,6 +83,11 @@ Expected<BodyId> append(State& state, const char* operation, Draft draft) {
             return refused(operation, "the length of its links", "at most 1e9 m", link.rest);
     }
     const std::size_t first = state.position.size(), count = draft.points.size();
+    for (auto* const list : {&state.position, &state.displacement}) reserve_more(*list, count);
+    reserve_more(state.mass, count);
+    reserve_more(state.links, draft.links.size());
+    reserve_more(state.pins, draft.pins.size());
+    draft.body.id = take_slot(state.body_slots, state.bodies);
     state.position.insert(state.position.end(), draft.points.begin(), draft.points.end());
     state.displacement.resize(first + count, dvec3(0.0));
     state.mass.resize(first + count, draft.mass);
@@ -93,7 +98,6 @@ Expected<BodyId> append(State& state, const char* operation, Draft draft) {
     state.links.insert(state.links.end(), draft.links.begin(), draft.links.end());
     for (Pin& pin : draft.pins) pin.particle += first;
     state.pins.insert(state.pins.end(), draft.pins.begin(), draft.pins.end());
-    draft.body.id = take_slot<BodyId>(state.body_slots, state.bodies.size());
     draft.body.first = first;
     draft.body.count = count;
     state.bodies.push_back(draft.body);

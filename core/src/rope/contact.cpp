@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "math/rotation.hpp"
 #include "rope/build.hpp"
 #include "rope/contact_shape.hpp"
 #include "rope/geometry.hpp"
@@ -40,7 +41,7 @@ struct Bounds {
 
 dvec3 Scratch::Moving::by_at(const dvec3& at) const {
     if (spins) {
-        const dvec3 from = at - middle, all = by + (from - unspin * from);
+        const dvec3 from = at - middle, all = by + (from - math::rotated(unspin, from));
         const auto* const plane = std::get_if<Plane>(shape);
         if (plane == nullptr) return all;
         const dvec3 normal = detail::unit(dvec3(plane->normal));  // along which it stays

@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "math/rotation.hpp"
 #include "rope/geometry.hpp"
 #include "tendril/chain/segment.hpp"
 
@@ -127,9 +128,9 @@ Shape driven(const Shape& shape, const Drive& drive, double seconds) noexcept {
     if (drive.spin == 0.0f) return kept_in(there);
     const glm::dquat turn = turn_by(drive, seconds);
     if (auto* box = std::get_if<Box>(&there))
-        box->rotation = glm::quat(glm::normalize(turn * glm::dquat(box->rotation)));
+        box->rotation = math::narrow(math::compose(turn, math::wide(box->rotation)));
     if (auto* capsule = std::get_if<Capsule>(&there)) {
-        const dvec3 middle(centre(there)), half = turn * half_of(*capsule);
+        const dvec3 middle(centre(there)), half = math::rotated(turn, half_of(*capsule));
         *capsule = {glm::vec3(middle - half), glm::vec3(middle + half), capsule->radius};
     }
     return kept_in(there);

@@ -139,7 +139,7 @@ Edited taken_apart(State state, BodyId id) {
         if (&piece == &pieces.front()) {
             state.bodies[static_cast<std::size_t>(at)] = std::move(body);
         } else {
-            body.id = detail::take_slot<BodyId>(state.body_slots, state.bodies.size());
+            body.id = detail::take_slot(state.body_slots, state.bodies);
             edited.pieces.push_back(body.id);
             state.bodies.insert(state.bodies.begin() + ++at, std::move(body));
             detail::collide_alike(state, id, edited.pieces.back());

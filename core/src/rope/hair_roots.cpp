@@ -1,9 +1,9 @@
 #include "tendril/rope/hair_roots.hpp"
 
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "math/checks.hpp"
+#include "math/vector.hpp"
 
 namespace tendril::rope {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 /// The patch's direction, or `otherwise` if it has none; unit.
 Expected<glm::vec3> direction_of(const HairPatch& patch, glm::vec3 otherwise) {
     const glm::vec3 direction = patch.direction.value_or(otherwise);
-    const float length = glm::length(direction);
+    const float length = math::length(direction);
     if (length > 0.0f && std::isfinite(length)) return direction / length;
     return tendril::detail::refused("hair", "direction", "of finite length over 0", length);
 }
@@ -25,8 +25,9 @@ struct Seat {
 std::vector<Seat> seats(const HairPatch& patch, glm::vec3 direction) {
     constexpr float golden_angle = 2.3999632f;
     const glm::vec3 across = std::abs(direction.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
-    const glm::vec3 first = glm::normalize(glm::cross(direction, across));
-    const glm::vec3 second = glm::cross(direction, first);
+    const glm::vec3 aside = math::cross(direction, across);
+    const glm::vec3 first = math::times(aside, 1.0f / math::length(aside));
+    const glm::vec3 second = math::cross(direction, first);
     std::vector<Seat> found;
     found.reserve(static_cast<std::size_t>(patch.strands));
     for (int i = 0; i < patch.strands; ++i) {

@@ -68,7 +68,7 @@ Result World::set_mass(BodyId body, double kilograms) noexcept {
     return {};
 }
 
-double World::density(const Body& body) const noexcept {
+double World::density(const Body& body) const {
     const detail::RestGrid grid = detail::rest_grid(state_, body);
     const double filled = static_cast<double>(body.count) / static_cast<double>(body.row * body.rows());
     double extent = filled * grid.length() * grid.width() * std::sqrt(1.0 - grid.cosine * grid.cosine);
@@ -80,7 +80,7 @@ double World::density(const Body& body) const noexcept {
     return extent > 0.0 ? mass(body) / extent : 0.0;
 }
 
-Result World::set_density(BodyId body, double density) noexcept {
+Result World::set_density(BodyId body, double density) {
     const Body* const changed = find(body);
     if (changed == nullptr) return missing("set_density", "body", "body", body.index);
     if (!(density >= static_cast<double>(min_density) && density <= static_cast<double>(max_magnitude)))
@@ -96,7 +96,7 @@ void World::scale_mass(const Body& body, double factor) noexcept {
         state_.mass[i] = std::clamp(factor * state_.mass[i], 1e-30, 1e30);
 }
 
-double World::compliance(const Body& body, Link::Kind kind) const noexcept {
+double World::compliance(const Body& body, Link::Kind kind) const {
     const auto link = std::find_if(state_.links.begin(), state_.links.end(), [&](const Link& each) {
         return each.kind == kind && detail::owns(body, each);
     });
@@ -106,7 +106,7 @@ double World::compliance(const Body& body, Link::Kind kind) const noexcept {
     return per > 0.0 ? link->compliance / per : 0.0;
 }
 
-Result World::set_compliance(BodyId body, Link::Kind kind, double compliance) noexcept {
+Result World::set_compliance(BodyId body, Link::Kind kind, double compliance) {
     const Body* const changed = find(body);
     if (changed == nullptr) return missing("set_compliance", "body", "body", body.index);
     if (!(compliance >= 0.0 && compliance <= static_cast<double>(max_magnitude)))
@@ -121,15 +121,15 @@ Result World::set_compliance(BodyId body, Link::Kind kind, double compliance) no
     return {};
 }
 
-double World::width(const Body& body) const noexcept {
+double World::width(const Body& body) const {
     return body.kind == Body::Kind::Cloth ? detail::rest_grid(state_, body).width() : 0.0;
 }
 
-Result World::set_length(BodyId body, float metres) noexcept {
+Result World::set_length(BodyId body, float metres) {
     return scale(body, "set_length", metres, true);
 }
 
-Result World::set_width(BodyId cloth, float metres) noexcept {
+Result World::set_width(BodyId cloth, float metres) {
     const Body* const changed = find(cloth);
     if (changed != nullptr && changed->kind != Body::Kind::Cloth)
         return {ErrorCode::InvalidArgument, "only cloth has a width"};
@@ -137,7 +137,7 @@ Result World::set_width(BodyId cloth, float metres) noexcept {
 }
 
 /// Scales a body along its rows, or across them.
-Result World::scale(BodyId body, const char* operation, float metres, bool rows) noexcept {
+Result World::scale(BodyId body, const char* operation, float metres, bool rows) {
     Body* const changed = found(body);
     if (changed == nullptr) return missing(operation, "body", "body", body.index);
     if (const Result bad = check_length(operation, "metres", metres); !bad) return bad;

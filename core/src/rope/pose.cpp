@@ -4,6 +4,7 @@
 #include <glm/vector_relational.hpp>
 #include <span>
 
+#include "math/rotation.hpp"
 #include "rope/contact_shape.hpp"
 #include "rope/geometry.hpp"
 #include "tendril/magnitude.hpp"
@@ -78,7 +79,8 @@ class PosedParticles {
             const dvec3& now = state_.position[pin->particle];
             dvec3 goal = pin->goal;
             if (const Collider* const holder = world_.find(pin->collider)) {
-                if (holder->drive.spin != 0.0f) goal = detail::turn_by(holder->drive, pending_) * goal;
+                if (holder->drive.spin != 0.0f)
+                    goal = math::rotated(detail::turn_by(holder->drive, pending_), goal);
                 goal += dvec3(centre(world_.pose(*holder)));
             }
             at_[pin->particle - first_] = now + part_after(pending_, pin->seconds) * (goal - now);

@@ -307,7 +307,8 @@ struct Workspace::Parts {
     Scratch scratch;
     std::vector<IslandScratch> threads{1};
     Tasks tasks;
-    bool prepared = false;  ///< sizes match the plan
+    /// Sizes match the plan, and the last advance() was not cut short.
+    bool prepared = false;
 
     /// Adapts everything to a state.
     void prepare(const State& state);

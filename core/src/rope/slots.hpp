@@ -11,15 +11,25 @@
 
 namespace tendril::rope::detail {
 
-/// Takes the first free slot, so that the same calls give the same handles.
-template <class Id>
-Id take_slot(std::vector<std::uint32_t>& slots, std::size_t taken) {
+/// Capacity for `more` elements. An edit reserves all that it needs before it changes anything: if memory
+/// runs out, the world is as it was.
+template <class T>
+void reserve_more(std::vector<T>& list, std::size_t more) {
+    if (list.size() + more > list.capacity()) list.reserve(std::max(list.size() + more, 2 * list.capacity()));
+}
+
+/// Takes the first free slot, so that the same calls give the same handles, for an element that is added to
+/// `list` next; that needs no more memory.
+template <class T>
+auto take_slot(std::vector<std::uint32_t>& slots, std::vector<T>& list) {
+    reserve_more(list, 1);
+    reserve_more(slots, 1);
     auto free = slots.end();
-    if (taken < slots.size())
+    if (list.size() < slots.size())
         free = std::find_if(slots.begin(), slots.end(), [](std::uint32_t uses) { return uses % 2 == 0; });
     const auto index = static_cast<std::uint32_t>(free - slots.begin());
     if (free == slots.end()) slots.push_back(0);
-    return {index, ++slots[index]};
+    return decltype(T::id){index, ++slots[index]};
 }
 
 template <class Id>
@@ -57,15 +67,15 @@ inline void insert_collision(std::vector<Collision>& list, const Collision& each
     if (at == list.end() || !(*at == each)) list.insert(at, each);
 }
 
-/// A new body collides with what the one that it came off does.
+/// A new body collides with what the one that it came off does. Adds at most one more than there are.
 inline void collide_alike(State& state, BodyId whole, BodyId rest) {
-    std::vector<Collision> more;
-    for (const Collision& each : state.collisions) {
+    for (std::size_t i = 0, count = state.collisions.size(); i < count; ++i) {
+        const Collision each = state.collisions[i];
         if (each.a != whole && each.b != whole) continue;
-        more.push_back(ordered(each.a == whole ? rest : each.a, each.b == whole ? rest : each.b));
-        if (each.a == each.b) more.push_back(ordered(whole, rest));
+        state.collisions.push_back(ordered(each.a == whole ? rest : each.a, each.b == whole ? rest : each.b));
+        if (each.a == each.b) state.collisions.push_back(ordered(whole, rest));
     }
-    for (const Collision& each : more) insert_collision(state.collisions, each);
+    std::sort(state.collisions.begin(), state.collisions.end(), before);
 }
 
 inline bool owns(const Body& body, const Link& link) noexcept {

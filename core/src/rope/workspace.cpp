@@ -1,6 +1,8 @@
 // Workspaces: memory sized by a world's state.
 #include "tendril/rope/workspace.hpp"
 
+#include <utility>
+
 #include "math/checks.hpp"
 #include "math/tasks.hpp"
 #include "rope/build.hpp"
@@ -42,6 +44,7 @@ void size(Scratch& scratch, const State& state, const Plan& plan) {
 }
 
 void size(IslandScratch& scratch, const State& state, const Plan& plan, std::size_t lanes) {
+    scratch.done = {};
     scratch.touched.clear();
     scratch.touched.reserve(state.position.size());
     scratch.near.reserve(4 * plan.chunks.size());
@@ -72,6 +75,7 @@ Workspace& Workspace::operator=(Workspace&&) noexcept = default;
 Workspace::~Workspace() = default;
 
 Result Workspace::use_vector_unit(std::string_view name) {
+    if (!parts_) return tendril::detail::moved_from("use_vector_unit", "workspace");
     const bool single = name == "none";
     const detail::VectorUnit unit = detail::vector_unit(single ? "" : name);
     if (unit.solve == nullptr) {
@@ -86,6 +90,7 @@ Result Workspace::use_vector_unit(std::string_view name) {
 }
 
 Result Workspace::use_threads(int threads, const Tasks& tasks) {
+    if (!parts_) return tendril::detail::moved_from("use_threads", "workspace");
     if (threads < 1 || threads > static_cast<int>(tendril::detail::max_threads))
         return tendril::detail::refused("use_threads", "threads", "1 to 256", threads);
     parts_->threads.resize(static_cast<std::size_t>(threads));
@@ -95,7 +100,7 @@ Result Workspace::use_threads(int threads, const Tasks& tasks) {
 }
 
 void Workspace::Parts::prepare(const State& state) {
-    if (!prepared || !plan.fits(state)) replan(state);
+    if (!std::exchange(prepared, false) || !plan.fits(state)) replan(state);
     scratch.colliders.resize(state.colliders.size());
     if (detail::has_air(state.settings)) scratch.blown.assign(state.position.size(), glm::dvec3(0.0));
     for (IslandScratch& thread : threads) thread.close.reserve(state.colliders.size());
@@ -108,7 +113,6 @@ void Workspace::Parts::replan(const State& state) {
     plan = Plan(state);
     size(scratch, state, plan);
     for (IslandScratch& thread : threads) size(thread, state, plan, scratch.unit.lanes);
-    prepared = true;
 }
 
 }  // namespace tendril::rope

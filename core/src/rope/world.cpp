@@ -56,6 +56,21 @@ void number_slots(State& state) {
     number(state.ties, state.tie_slots);
 }
 
+World& World::operator=(const World& other) {
+    const State &to = state_, &from = other.state_;
+    const auto fit = [&](auto... lists) { return (((to.*lists).capacity() >= (from.*lists).size()) && ...); };
+    bool fits = fit(&State::bodies, &State::links, &State::position, &State::displacement, &State::mass,
+                    &State::pins, &State::colliders, &State::body_slots, &State::collider_slots, &State::ties,
+                    &State::tie_slots, &State::collisions, &State::contacts);
+    for (std::size_t i = 0; fits && i < from.bodies.size(); ++i)
+        fits = from.bodies[i].cells.size() <= (i < to.bodies.size() ? to.bodies[i].cells.capacity() : 0);
+    if (fits)
+        state_ = from;  // needs no memory
+    else
+        state_ = State(from);
+    return *this;
+}
+
 Expected<World> World::from_state(State state) {
     if (const Result bad = detail::check(state); !bad) return bad;
     World world;
@@ -198,7 +213,7 @@ bool World::pinned(std::size_t particle) const noexcept {
 }
 
 Expected<BodyId> World::cut(BodyId rope, std::size_t segment) {
-    Body* const whole = found(rope);
+    const Body* const whole = find(rope);
     if (whole == nullptr) return missing("cut", "rope", "body", rope.index);
     if (whole->kind != Body::Kind::Rope)
         return Result(ErrorCode::InvalidArgument, "only ropes can be cut, not cloth or hair");
@@ -210,9 +225,12 @@ Expected<BodyId> World::cut(BodyId rope, std::size_t segment) {
     rest.count -= kept;
     rest.row = rest.count;
     const auto at = static_cast<std::uint32_t>(whole->first + segment);
-    whole->count = whole->row = kept;
-    rest.id = detail::take_slot<BodyId>(state_.body_slots, state_.bodies.size());
-    state_.bodies.insert(state_.bodies.begin() + (whole - state_.bodies.data()) + 1, rest);
+    const auto number = whole - state_.bodies.data();
+    detail::reserve_more(state_.collisions, state_.collisions.size() + 1);
+    rest.id = detail::take_slot(state_.body_slots, state_.bodies);
+    Body& front = state_.bodies[static_cast<std::size_t>(number)];
+    front.count = front.row = kept;
+    state_.bodies.insert(state_.bodies.begin() + number + 1, rest);
     std::erase_if(state_.links, [&](const Link& link) { return link.a == at && link.b == at + 1; });
     std::erase_if(state_.contacts, [&](const BodyContact& each) { return each.a == at || each.b == at; });
     detail::collide_alike(state_, rope, rest.id);
@@ -248,7 +266,7 @@ Expected<TieId> World::tie(std::size_t a, std::size_t b, const TieShape& shape) 
     if (const Result bad = check_particle("tie", b, size()); !bad) return bad;
     if (a == b) return refused("tie", "b", "another particle than a", b);
     if (const Result bad = check_fields("tie", shape); !bad) return bad;
-    const auto id = detail::take_slot<TieId>(state_.tie_slots, state_.ties.size());
+    const auto id = detail::take_slot(state_.tie_slots, state_.ties);
     const double apart = detail::length(position(b) - position(a));
     state_.ties.push_back({.id = id,
                            .a = static_cast<std::uint32_t>(a),
@@ -303,7 +321,7 @@ bool World::collides(BodyId a, BodyId b) const noexcept {
 
 Expected<ColliderId> World::add_collider(const Shape& shape) {
     if (const Result bad = check("add_collider", shape); !bad) return bad;
-    const auto id = detail::take_slot<ColliderId>(state_.collider_slots, state_.colliders.size());
+    const auto id = detail::take_slot(state_.collider_slots, state_.colliders);
     state_.colliders.push_back({.id = id, .shape = shape, .goal = glm::dvec3(centre(shape)), .seconds = 0.0});
     return id;
 }

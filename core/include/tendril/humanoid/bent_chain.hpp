@@ -54,7 +54,7 @@ class BentChain {
 
     /// From first to last.
     std::span<const std::size_t> nodes() const noexcept;
-    std::size_t bones() const noexcept { return nodes().size() - 1; }
+    std::size_t bones() const noexcept { return nodes().empty() ? 0 : nodes().size() - 1; }
     /// The space of the control points: where the chain's parent is, turned as it is, in metres. `placed`: of
     /// all nodes.
     Placement space(std::span<const Placement> placed) const noexcept;

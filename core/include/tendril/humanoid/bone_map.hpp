@@ -71,12 +71,12 @@ const char* name(RestPose pose) noexcept;
 
 struct BoneMap {
     std::array<BoneMatch, bone_count> bones{};
-    std::vector<Bone> missing{};  ///< of the fifteen needed ones, in enum order
+    std::vector<Bone> missing{};  ///< by the last review(): of the fifteen needed ones, in enum order
     bool upright = true;          ///< from hips to head, the rise exceeds the horizontal distance
     RestPose rest = RestPose::Other;
 
-    /// A body can be solved with it.
-    bool is_usable() const noexcept { return missing.empty() && upright; }
+    /// A body can be solved with it: it is upright, and each needed bone has a node, whether reviewed or not.
+    bool is_usable() const noexcept;
     BoneMatch& operator[](Bone bone) noexcept { return bones[static_cast<std::size_t>(bone)]; }
     const BoneMatch& operator[](Bone bone) const noexcept { return bones[static_cast<std::size_t>(bone)]; }
     bool operator==(const BoneMap&) const = default;

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -43,8 +44,12 @@ struct HeightField {
 
 class Ground {
   public:
-    /// No ground: rays hit nothing.
+    /// No ground: rays hit nothing. So is one that was moved from.
     Ground() = default;
+    Ground(const Ground&) = default;
+    Ground(Ground&& other) noexcept : shape_(std::exchange(other.shape_, {})) {}
+    Ground& operator=(Ground other) noexcept { return shape_.swap(other.shape_), *this; }
+    ~Ground() = default;
     /// Level and unbounded.
     static Expected<Ground> flat(double height = 0.0);
     /// Rises along +Z from z = 0 on: max(0, z) * tan(angle). Radians, -1.5 to 1.5.

@@ -22,7 +22,8 @@
 // value in substeps: one is taken only if it ends where the tangent led (E. Allgower, K. Georg, "Introduction
 // to Numerical Continuation Methods", 2003, on step control). So a linkage stays in its assembly mode while a
 // driver glides, and stops at a dead point. Where branches cross, as in a parallelogram folded onto one line,
-// it goes on as it last moved.
+// it goes on as it last moved; branches that come within 1e-4 radians or sizes of each other count as
+// crossing.
 //
 // Targets have no such guard. A small step of a target can make its nearest place vanish. The point then
 // jumps to another part of its path, and the report says so.
@@ -250,6 +251,14 @@ class LinkageSolver {
 
     /// In this pose, without drivers.
     LinkageFreedom freedom(const LinkageState& state) noexcept;
+
+    /// What balances a torque or force of 1 on a joint, in this pose, with the joints of `held` fixed: for
+    /// each closure the force on its first link, of which its second has the opposite; of frames without the
+    /// torque. N for each N m, or for each N on a slider. Returns the part that nothing balances, 0 to 1: 0
+    /// at a dead point of the joint. 1, and `forces` is unchanged, for a state, a link or a size of `forces`
+    /// that does not fit, and for a ball.
+    double balance(const LinkageState& state, std::size_t link, std::span<const std::size_t> held,
+                   std::span<glm::dvec3> forces) noexcept;
 
     // The pose of the last solve, or of place().
 

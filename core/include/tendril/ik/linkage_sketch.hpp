@@ -75,6 +75,11 @@ struct LinkageSketch {
     bool operator==(const LinkageSketch&) const = default;
 };
 
+/// Which bars are rigidly joined: for each the first bar of its body, or ground_link if that cannot move.
+/// Bodies that share two points, and three that share a point each with each, are one: triangles of bars,
+/// however many. O(bars^2 * points) a body found.
+std::vector<std::size_t> rigid_bodies(const LinkageSketch& sketch);
+
 /// Removes the point, the bars that would have one point left, and the motors of these; OutOfRange for an
 /// index that is not there. Likewise remove_bar: its points stay.
 Result remove_point(LinkageSketch& sketch, std::size_t point);
@@ -85,8 +90,9 @@ Result remove_bar(LinkageSketch& sketch, std::size_t bar);
 /// how far it is from the origin along its line.
 ///
 /// Bars that no pin or guide reaches float: they cannot be placed, and are refused, as are bars of fewer than
-/// two points or of no length, points or bars that are not there, motors in a circle or drawn outside their
-/// range, two links of one name, and what check() refuses. Each message has the name.
+/// two points or of no length, points or bars that are not there, motors in a circle, between bars of one
+/// rigid body or drawn outside their range, two links of one name, and what check() refuses. Each message has
+/// the name.
 Expected<Linkage> linkage_from(const LinkageSketch& sketch);
 
 }  // namespace tendril::ik

@@ -35,6 +35,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "tendril/handle.hpp"
@@ -61,6 +62,17 @@ using ElementId = Handle<struct ElementHandleKind>;
 
 class Hierarchy {
   public:
+    Hierarchy() = default;
+    Hierarchy(const Hierarchy&) = default;
+    /// Leaves an empty one.
+    Hierarchy(Hierarchy&& other) noexcept : Hierarchy() { swap(other); }
+    Hierarchy& operator=(const Hierarchy&) = default;
+    Hierarchy& operator=(Hierarchy&& other) noexcept {
+        Hierarchy taken(std::move(other));
+        return swap(taken), *this;
+    }
+    ~Hierarchy() = default;
+
     // Elements. An empty parent handle means none: an element without a parent is a root. Children are in the
     // order in which they were added.
 
@@ -161,6 +173,7 @@ class Hierarchy {
         bool operator==(const Values&) const = default;
     };
 
+    void swap(Hierarchy& other) noexcept;
     const Values& values(Pose pose) const noexcept { return values_[static_cast<std::size_t>(pose)]; }
     Values& values(Pose pose) noexcept { return values_[static_cast<std::size_t>(pose)]; }
     const Node& siblings_of(Index parent) const noexcept { return parent == none ? roots_ : nodes_[parent]; }

@@ -17,7 +17,7 @@ class Workspace {
     Workspace& operator=(Workspace&&) noexcept;
 
     struct Parts;
-    Parts& parts() noexcept { return *parts_; }
+    Parts* parts() noexcept { return parts_.get(); }  ///< null: moved from
 
   private:
     std::unique_ptr<Parts> parts_;

@@ -26,9 +26,9 @@
 // coordinate, where particles stop. The same calls give the same bits with every compiler, every vector unit
 // and any number of threads.
 //
-// A refused editing call names the argument and its value, and leaves the world unchanged. advance()
-// allocates nothing once the workspace has seen the world in its shape, unless more colliders are near than
-// ever before.
+// A refused editing call names the argument and its value, and leaves the world unchanged, as does one that
+// runs out of memory. advance() allocates nothing once the workspace has seen the world in its shape, unless
+// more colliders are near than ever before.
 //
 // Bodies that no link, tie or collision joins do not affect each other. Threads can share them, and a cloth
 // of 8 192 particles or more: Workspace::use_threads. A rope is solved on one thread. Two limits are shared
@@ -63,7 +63,8 @@ struct Advance {
                                     ///< crossed, and were held back
     double contact_loss = 0.0;      ///< joules that bodies near resting colliders lost beyond damping: to
                                     ///< contact, friction and the solver. Its rounding depends on threads
-    bool refused = false;           ///< `seconds` was not a number from 0 to 1e9: nothing was done
+    bool refused = false;           ///< `seconds` was not a number from 0 to 1e9, or the workspace was moved
+                                    ///< from: nothing was done
 };
 
 struct AdvanceOptions {
@@ -73,6 +74,12 @@ struct AdvanceOptions {
 class World {
   public:
     World() = default;
+    World(const World&) = default;
+    World(World&&) noexcept = default;
+    /// Allocates nothing if this world has been as large as the other.
+    World& operator=(const World& other);
+    World& operator=(World&&) noexcept = default;
+    ~World() = default;
     /// Refuses an inconsistent state: lists of different lengths, links to missing particles, numbers out of
     /// range, duplicate handles. O(n).
     static Expected<World> from_state(State state);
@@ -115,8 +122,8 @@ class World {
     Result set_mass(BodyId body, double kilograms) noexcept;
     double mass(const Body& body) const noexcept;
     /// Of its material, min_density to 1e9: kg/m of a rope or strand, kg/m^2 of a cloth.
-    Result set_density(BodyId body, double density) noexcept;
-    double density(const Body& body) const noexcept;                           ///< 0 for a body of length 0
+    Result set_density(BodyId body, double density);
+    double density(const Body& body) const;                                    ///< 0 for a body of length 0
     Result set_friction(BodyId body, std::optional<float> friction) noexcept;  ///< empty: the settings'
     /// Bending stiffness of a rope, N m^2, 0 to max_magnitude.
     Result set_bending(BodyId rope, float stiffness) noexcept;
@@ -125,14 +132,14 @@ class World {
     /// Of its links of that kind, 0 to 1e9. Of stretch links that of its material, in addition to the
     /// settings': strain per newton, 1/N, of a rope, a strand, or a strip of cloth a metre wide. Of the
     /// others m/N of each link.
-    Result set_compliance(BodyId body, Link::Kind kind, double compliance) noexcept;
-    double compliance(const Body& body, Link::Kind kind) const noexcept;  ///< of the first such link
+    Result set_compliance(BodyId body, Link::Kind kind, double compliance);
+    double compliance(const Body& body, Link::Kind kind) const;  ///< of the first such link
     /// Of a rope, a row of a cloth, a strand of hair: all of its links change in proportion, and its mass
     /// with them. Metres; refused for a body of length 0.
-    Result set_length(BodyId body, float metres) noexcept;
+    Result set_length(BodyId body, float metres);
     /// The same across the rows of a cloth.
-    Result set_width(BodyId cloth, float metres) noexcept;
-    double width(const Body& body) const noexcept;  ///< of a cloth, metres; 0 for others
+    Result set_width(BodyId cloth, float metres);
+    double width(const Body& body) const;  ///< of a cloth, metres; 0 for others
 
     /// Ties two particles, of one body or of two. Torn or with one of their bodies removed, ties are gone; a
     /// cut leaves each on its particle. Refuses a particle tied to itself.
@@ -193,7 +200,7 @@ class World {
     Collider* found(ColliderId collider) noexcept;
     void take_stretch(Body& body) noexcept;
     void scale_mass(const Body& body, double factor) noexcept;
-    Result scale(BodyId body, const char* operation, float metres, bool rows) noexcept;
+    Result scale(BodyId body, const char* operation, float metres, bool rows);
 
     State state_;
 };

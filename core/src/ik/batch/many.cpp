@@ -120,10 +120,10 @@ Batch::Batch(Batch&&) noexcept = default;
 Batch& Batch::operator=(Batch&&) noexcept = default;
 
 std::size_t Batch::size() const noexcept {
-    return parts_->chains;
+    return parts_ ? parts_->chains : 0;
 }
 std::size_t Batch::bones() const noexcept {
-    return parts_->bones;
+    return parts_ ? parts_->bones : 0;
 }
 
 namespace {
@@ -165,6 +165,7 @@ Result Batch::set_lengths(std::size_t chain, std::span<const float> lengths) {
 }
 
 Result Batch::set_lengths(std::span<const float> lengths) {
+    if (!parts_) return tendril::detail::moved_from("set_lengths", "batch");
     if (const Result bad = check_lengths(lengths, bones()); !bad) return bad;
     for (std::size_t chain = 0; chain < size(); ++chain) parts_->set_lengths(chain, lengths);
     return {};
@@ -179,6 +180,7 @@ Result Batch::set_joints(std::size_t chain, std::span<const glm::vec3> joints) {
 }
 
 Result Batch::set_joints(std::span<const glm::vec3> joints) {
+    if (!parts_) return tendril::detail::moved_from("set_joints", "batch");
     const std::size_t each = bones() + 1;
     if (const Result bad = check_joints(joints, size() * each); !bad) return bad;
     parts_->for_each_block([&](const Block& block, std::size_t first, std::size_t lanes) {
@@ -195,6 +197,7 @@ Result Batch::set_root(std::size_t chain, glm::vec3 root) {
 }
 
 Result Batch::set_limits(std::span<const Limit> limits, std::span<const glm::vec3> rest_directions) {
+    if (!parts_) return tendril::detail::moved_from("set_limits", "batch");
     if (limits.empty()) {
         parts_->limits.reset();
         return {};
@@ -237,6 +240,7 @@ Result Batch::set_limits(std::span<const Limit> limits, std::span<const glm::vec
 }
 
 Result Batch::set_rotations(std::span<const glm::quat> rotations) {
+    if (!parts_) return tendril::detail::moved_from("set_rotations", "batch");
     if (parts_->limits == nullptr) return no_limits("set_rotations");
     const Result bad = check_count("set_rotations", "rotations", rotations.size(), size() * bones());
     if (!bad) return bad;
@@ -252,6 +256,7 @@ Result Batch::set_rotations(std::span<const glm::quat> rotations) {
 }
 
 Result Batch::copy_rotations(std::span<glm::quat> out) const {
+    if (!parts_) return tendril::detail::moved_from("copy_rotations", "batch");
     if (parts_->limits == nullptr) return no_limits("copy_rotations");
     if (const Result bad = check_count("copy_rotations", "out", out.size(), size() * bones()); !bad)
         return bad;
@@ -270,6 +275,7 @@ Result Batch::copy_joints(std::size_t chain, std::span<glm::vec3> out) const {
 }
 
 Result Batch::copy_joints(std::span<glm::vec3> out) const {
+    if (!parts_) return tendril::detail::moved_from("copy_joints", "batch");
     const std::size_t each = bones() + 1;
     if (const Result bad = check_count("copy_joints", "out", out.size(), size() * each); !bad) return bad;
     parts_->for_each_block([&](const Block& block, std::size_t first, std::size_t lanes) {
@@ -290,17 +296,21 @@ float Batch::reach(std::size_t chain) const noexcept {
     return parts_->block(chain).reach()[chain % block_lanes];
 }
 
+static ManySummary refused_many(std::span<ManyReport> reports, std::size_t chains) noexcept {
+    std::fill(reports.begin(), reports.end(), ManyReport{.status = Status::InvalidInput});
+    return {.invalid = chains};
+}
+
 ManySummary solve_many(Batch& batch, std::span<const glm::vec3> targets, std::span<ManyReport> reports,
                        const ManyOptions& options) noexcept {
+    if (!batch.parts_) return refused_many(reports, targets.size());
     return Batch::Parts::solve(*batch.parts_, targets, nullptr, reports, options);
 }
 
 ManySummary solve_many(Batch& batch, std::span<glm::vec3> joints, std::span<const glm::vec3> targets,
                        std::span<ManyReport> reports, const ManyOptions& options) noexcept {
-    if (joints.size() != batch.size() * (batch.bones() + 1)) {
-        std::fill(reports.begin(), reports.end(), ManyReport{.status = Status::InvalidInput});
-        return {.invalid = batch.size()};
-    }
+    if (!batch.parts_) return refused_many(reports, targets.size());
+    if (joints.size() != batch.size() * (batch.bones() + 1)) return refused_many(reports, batch.size());
     return Batch::Parts::solve(*batch.parts_, targets, joints.data(), reports, options);
 }
 
@@ -317,10 +327,8 @@ ManySummary Batch::Parts::solve(Parts& parts, std::span<const glm::vec3> targets
     scalar.plane = options.plane;
     if (parts.limits) scalar.limits = parts.limits->limits;
     const bool fits = targets.size() == parts.chains && (reports.empty() || reports.size() == parts.chains);
-    if (!fits || unit == nullptr || !are_valid(scalar, parts.bones)) {
-        std::fill(reports.begin(), reports.end(), ManyReport{.status = Status::InvalidInput});
-        return {.invalid = parts.chains};
-    }
+    if (!fits || unit == nullptr || !are_valid(scalar, parts.bones))
+        return refused_many(reports, parts.chains);
     Work work({parts.blocks.get(), parts.chains, parts.bones, targets, joints, reports, scalar, *unit,
                parts.limits.get(), parts.rotations.get()});
     const std::size_t useful = std::min(parts.block_count(), parts.chains * parts.bones / bones_a_thread);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
-#include <glm/trigonometric.hpp>
+
+#include "ik/incident/thresholds.hpp"
+#include "ik/math.hpp"
 
 namespace tendril::ik {
 namespace {
@@ -16,15 +16,15 @@ constexpr float axis_turn = 0.52f;                           ///< radians: as fa
 
 float distance_to_segment(glm::vec3 point, glm::vec3 a, glm::vec3 b) noexcept {
     const glm::vec3 along = b - a;
-    const float square = glm::dot(along, along);
-    const float t = square > 0.0f ? std::clamp(glm::dot(point - a, along) / square, 0.0f, 1.0f) : 0.0f;
-    return glm::distance(point, a + t * along);
+    const float square = math::dot(along, along);
+    const float t = square > 0.0f ? std::clamp(math::dot(point - a, along) / square, 0.0f, 1.0f) : 0.0f;
+    return math::distance(point, a + t * along);
 }
 
 /// Radians between two lines, 0 to pi/2.
 float off_line(glm::vec3 a, glm::vec3 b) noexcept {
     const float angle = angle_between(a, b);
-    return std::min(angle, glm::pi<float>() - angle);
+    return std::min(angle, static_cast<float>(math::pi) - angle);
 }
 
 /// How far the target and the pole target moved, relative to the root.
@@ -38,12 +38,12 @@ InputMove input_move(const ReachPose& before, const ReachPose& after) noexcept {
     InputMove move;
     if (!before.target || !after.target) return move;
     const glm::vec3 from = *before.target - before.root(), to = *after.target - after.root();
-    move = {glm::distance(from, to), angle_between(from, to)};
+    move = {math::distance(from, to), angle_between(from, to)};
     if (!before.pole || !after.pole) return move;
     const glm::vec3 pole_from = *before.pole - before.root(), pole_to = *after.pole - after.root();
     if (pole_from == pole_to) return move;
-    move.distance = std::max(move.distance, glm::distance(pole_from, pole_to));
-    move.angle = std::max(move.angle, angle_between(glm::cross(to, pole_from), glm::cross(to, pole_to)));
+    move.distance = std::max(move.distance, math::distance(pole_from, pole_to));
+    move.angle = std::max(move.angle, angle_between(math::cross(to, pole_from), math::cross(to, pole_to)));
     return move;
 }
 
@@ -65,7 +65,7 @@ const char* text(FlipCause cause) noexcept {
 }
 
 float angle_between(glm::vec3 a, glm::vec3 b) noexcept {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+    return std::atan2(math::length(math::cross(a, b)), math::dot(a, b));
 }
 
 BoneTurn furthest_turn(const ReachPose& before, const ReachPose& after) noexcept {
@@ -78,7 +78,7 @@ BoneTurn furthest_turn(const ReachPose& before, const ReachPose& after) noexcept
         const float angle = angle_between(was[i] - was[i - 1], is[i] - is[i - 1]);
         if (angle <= furthest.radians + equal) continue;
         const auto moved = [&](std::size_t joint) {
-            return glm::distance(was[joint] + root_move, is[joint]);
+            return math::distance(was[joint] + root_move, is[joint]);
         };
         furthest = {moved(i - 1) > moved(i) ? i - 1 : i, angle};
     }
@@ -88,7 +88,7 @@ BoneTurn furthest_turn(const ReachPose& before, const ReachPose& after) noexcept
 std::optional<BoneTurn> find_flip(const ReachPose& before, const ReachPose& after,
                                   const FlipRule& rule) noexcept {
     const BoneTurn turn = furthest_turn(before, after);
-    if (glm::degrees(turn.radians) <= rule.degrees) return std::nullopt;
+    if (in_degrees(turn.radians) <= rule.degrees) return std::nullopt;
     const InputMove move = input_move(before, after);
     const bool explained =
         move.angle >= rule.angle_share * turn.radians && move.distance >= rule.reach_share * reach_of(after);
@@ -107,7 +107,7 @@ FlipCause flip_cause(const ReachPose& before, const ReachPose& after) noexcept {
 float reach_of(const ReachPose& pose) noexcept {
     float reach = 0.0f;
     for (std::size_t i = 1; i < pose.joints.size(); ++i)
-        reach += glm::distance(pose.joints[i - 1], pose.joints[i]);
+        reach += math::distance(pose.joints[i - 1], pose.joints[i]);
     return reach;
 }
 
@@ -121,7 +121,7 @@ PolePassage pole_passage(const ReachPose& before, const ReachPose& after) noexce
     if (!before.target || !after.target || !before.pole || !after.pole) return {};
     const glm::vec3 from = *before.target - before.root(), to = *after.target - after.root(),
                     pole_from = *before.pole - before.root(), pole_to = *after.pole - after.root();
-    return {glm::dot(glm::cross(from, pole_from), glm::cross(to, pole_to)) < 0.0f,
+    return {math::dot(math::cross(from, pole_from), math::cross(to, pole_to)) < 0.0f,
             std::min(off_line(from, pole_from), off_line(to, pole_to)) < close_to_pole};
 }
 
@@ -131,21 +131,21 @@ bool passed_axis(const ReachPose& before, const ReachPose& after) noexcept {
     for (int i = 0; i < 3; ++i) {
         glm::vec3 axis(0.0f);
         axis[i] = 1.0f;
-        const float turned = angle_between(glm::cross(from, axis), glm::cross(to, axis));
+        const float turned = angle_between(math::cross(from, axis), math::cross(to, axis));
         const bool close = std::min(off_line(from, axis), off_line(to, axis)) < close_to_pole;
-        if (turned > (close ? axis_turn : glm::half_pi<float>())) return true;
+        if (turned > (close ? axis_turn : static_cast<float>(0.5 * math::pi))) return true;
     }
     return false;
 }
 
 float bend_of(const ReachPose& pose) noexcept {
     const glm::vec3 line = pose.joints.back() - pose.root();
-    const float length = glm::length(line);
+    const float length = math::length(line);
     float furthest = 0.0f;
     for (const glm::vec3 joint : pose.joints) {
         const glm::vec3 from_root = joint - pose.root();
         const float off =
-            length > 0.0f ? glm::length(glm::cross(from_root, line)) / length : glm::length(from_root);
+            length > 0.0f ? math::length(math::cross(from_root, line)) / length : math::length(from_root);
         furthest = std::max(furthest, off);
     }
     return furthest;
@@ -157,8 +157,8 @@ bool was_straight(const ReachPose& before, const ReachPose& after) noexcept {
 
 FlipCause collinear_cause(const ReachPose& before, const ReachPose& after) noexcept {
     const ReachPose& flat = bend_of(before) <= bend_of(after) ? before : after;
-    return glm::distance(flat.root(), flat.joints.back()) < 0.5f * reach_of(after) ? FlipCause::Folded
-                                                                                   : FlipCause::Straight;
+    return math::distance(flat.root(), flat.joints.back()) < 0.5f * reach_of(after) ? FlipCause::Folded
+                                                                                    : FlipCause::Straight;
 }
 
 }  // namespace tendril::ik

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <span>
 #include <utility>
 
 #include "ik/incident/thresholds.hpp"
+#include "ik/math.hpp"
 #include "tendril/ik/incident.hpp"
 
 namespace tendril::ik {
@@ -18,7 +18,7 @@ bool IncidentFinder::find_jump(const ReachPose& pose) {
         return false;
     }
     const ReachPose& before = recent_.back();
-    const float step = glm::distance(*before.target - before.root(), *pose.target - pose.root());
+    const float step = math::distance(*before.target - before.root(), *pose.target - pose.root());
     const float long_step = std::max(jump_share * reach_, rounding_steps * options_.resolution);
     if (steps_ > 0 && step_ > long_step && step_ > jump_factor * std::max(step, step_before_))
         note({.kind = IncidentKind::TargetJump,
@@ -42,7 +42,7 @@ void IncidentFinder::find_repeated(const ReachPose& pose) {
         held_.earlier_step = 0.0f;
         if (recent_.size() > 2)
             held_.earlier_step =
-                glm::distance(earlier.joints[end_], recent_[recent_.size() - 3].joints[end_]);
+                math::distance(earlier.joints[end_], recent_[recent_.size() - 3].joints[end_]);
         held_.moved = both_moved(earlier, before);
         held_.target = *before.target;
         return;
@@ -58,31 +58,31 @@ void IncidentFinder::find_repeated(const ReachPose& pose) {
 
 bool IncidentFinder::both_moved(const ReachPose& a, const ReachPose& b) const noexcept {
     const float moving = std::max(moving_share * reach_, rounding_steps * options_.resolution);
-    return glm::distance(a.joints[end_], b.joints[end_]) > moving &&
-           glm::distance(*a.target, *b.target) > moving;
+    return math::distance(a.joints[end_], b.joints[end_]) > moving &&
+           math::distance(*a.target, *b.target) > moving;
 }
 
 // One frame that repeats is a fault. Over several a chain may also rest, but then it slows down before, or
 // starts in another direction or at another speed; unless its target went on.
 bool IncidentFinder::resumes(const ReachPose& pose) const {
     const ReachPose& before = recent_.back();
-    if (held_.frames == 1 || glm::distance(held_.target, *before.target) > moving_share * reach_) return true;
+    if (held_.frames == 1 || math::distance(held_.target, *before.target) > moving_share * reach_) return true;
     const glm::vec3 step = pose.joints[end_] - before.joints[end_];
-    const float was = glm::length(held_.step), is = glm::length(step);
+    const float was = math::length(held_.step), is = math::length(step);
     const float longest = resumed_faster * static_cast<float>(held_.frames + 1) * was;
     return was > resumed_share * held_.earlier_step && is > resumed_share * was && is < longest &&
-           glm::dot(held_.step, step) > resumed_cosine * was * is;
+           math::dot(held_.step, step) > resumed_cosine * was * is;
 }
 
 void IncidentFinder::find_missed(const ReachPose& pose) {
-    const float distance = glm::distance(*pose.target, pose.root());
+    const float distance = math::distance(*pose.target, pose.root());
     const float inner = inner_reach();
     const float allowed = std::max(missed_share * reach_, rounding_steps * options_.resolution);
     const glm::vec3 tip = pose.joints[end_] - pose.root();
-    float error = glm::distance(tip, *pose.target - pose.root());
+    float error = math::distance(tip, *pose.target - pose.root());
     const auto latest = static_cast<std::ptrdiff_t>(std::min(targets_.size(), max_lag));
     for (auto target = targets_.end() - latest; target != targets_.end(); ++target)
-        error = std::min(error, glm::distance(tip, *target));
+        error = std::min(error, math::distance(tip, *target));
     // A bone of another length moves the tip as well; that is reported.
     const bool whole_bones = std::ranges::none_of(length_, &Episode::open);
     const bool reachable = distance < reach_ - allowed && distance > inner + allowed && whole_bones;
@@ -111,15 +111,15 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
 void IncidentFinder::follow(const ReachPose& pose) {
     const glm::vec3 target = *pose.target - pose.root();
     const float moving = std::max(moving_share * reach_, options_.resolution);
-    const auto moved = [&](glm::vec3 a, glm::vec3 b) { return glm::distance(a, b) > moving; };
+    const auto moved = [&](glm::vec3 a, glm::vec3 b) { return math::distance(a, b) > moving; };
     if (!first_move_ && !targets_.empty() && moved(target, targets_.back())) first_move_ = frames_;
     // A tip that jumps alone arrives from now on, or misses from now on.
     const glm::vec3 tip_now = pose.joints[end_] - pose.root();
     if (!followers_.empty()) {
-        float longest = glm::distance(target, targets_.back());
+        float longest = math::distance(target, targets_.back());
         for (std::size_t i = 1; i < targets_.size(); ++i)
-            longest = std::max(longest, glm::distance(targets_[i - 1], targets_[i]));
-        if (glm::distance(tip_now, followers_.back()) > leap_steps * longest + leap_share * reach_) {
+            longest = std::max(longest, math::distance(targets_[i - 1], targets_[i]));
+        if (math::distance(tip_now, followers_.back()) > leap_steps * longest + leap_share * reach_) {
             targets_.clear();
             followers_.clear();
             for (Following& path : paths_) path.close();
@@ -133,7 +133,7 @@ void IncidentFinder::follow(const ReachPose& pose) {
     }
     const auto within_reach = [&](std::size_t ago) {
         const glm::vec3 at = targets_[targets_.size() - 1 - ago];
-        const float away = glm::length(at);
+        const float away = math::length(at);
         return glm::dvec3(away > 0.0f ? at * (std::clamp(away, inner_reach(), reach_) / away) : at);
     };
     if (targets_.size() <= max_lag ||
@@ -159,7 +159,7 @@ float IncidentFinder::inner_reach() const noexcept {
 
 void IncidentFinder::find_jitter(const ReachPose& pose) {
     const bool still =
-        targets_.size() >= 2 && glm::distance(targets_[targets_.size() - 2], targets_.back()) <=
+        targets_.size() >= 2 && math::distance(targets_[targets_.size() - 2], targets_.back()) <=
                                     std::max(0.1f * jitter_share * reach_, 2.0f * options_.resolution);
     if (!still) {
         judge_jitter();
@@ -218,13 +218,13 @@ void IncidentFinder::Following::add(const glm::dvec3& tip) noexcept {
     ++frames;
     count += 1.0;
     sum += tip;
-    square += glm::dot(tip, tip);
+    square += math::dot(tip, tip);
 }
 
 void IncidentFinder::Following::Lagged::add(const glm::dvec3& tip, const glm::dvec3& target) noexcept {
     sum += target;
-    square += glm::dot(target, target);
-    product += glm::dot(tip, target);
+    square += math::dot(target, target);
+    product += math::dot(tip, target);
 }
 
 void IncidentFinder::Following::close() noexcept {
@@ -235,11 +235,11 @@ void IncidentFinder::Following::close() noexcept {
 std::array<double, IncidentFinder::max_lag + 1> IncidentFinder::Following::left() const noexcept {
     std::array<double, max_lag + 1> squares = before;
     if (count == 0.0) return squares;
-    const double tips = square - glm::dot(sum, sum) / count;
+    const double tips = square - math::dot(sum, sum) / count;
     for (std::size_t lag = 0; lag <= max_lag; ++lag) {
         const Lagged& with = lags[lag];
-        const double targets = with.square - glm::dot(with.sum, with.sum) / count,
-                     both = with.product - glm::dot(with.sum, sum) / count;
+        const double targets = with.square - math::dot(with.sum, with.sum) / count,
+                     both = with.product - math::dot(with.sum, sum) / count;
         const double scale = targets > 0.0 ? std::clamp(both / targets, lag_scale, 1.0 / lag_scale) : 1.0;
         squares[lag] += std::max(0.0, tips - 2.0 * scale * both + scale * scale * targets);
     }

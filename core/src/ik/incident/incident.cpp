@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/trigonometric.hpp>
 #include <utility>
 
 #include "ik/incident/thresholds.hpp"
+#include "ik/math.hpp"
 
 namespace tendril::ik {
 namespace {
@@ -19,10 +17,10 @@ bool finite(glm::vec3 p) noexcept {
 
 /// `v`, turned by the smallest rotation that takes direction `from` to direction `to`. Both have length 1.
 glm::vec3 transported(glm::vec3 v, glm::vec3 from, glm::vec3 to) noexcept {
-    const glm::vec3 axis = glm::cross(from, to);
-    const float cosine = glm::dot(from, to);
+    const glm::vec3 axis = math::cross(from, to);
+    const float cosine = math::dot(from, to);
     if (cosine <= -0.9999f) return v;
-    return v + glm::cross(axis, v) + glm::cross(axis, glm::cross(axis, v)) / (1.0f + cosine);
+    return v + math::cross(axis, v) + math::cross(axis, math::cross(axis, v)) / (1.0f + cosine);
 }
 
 }  // namespace
@@ -86,7 +84,7 @@ void IncidentFinder::add(const TraceFrame& frame) {
                    .pole = frame.pole};
     if (lengths_.empty()) {
         for (std::size_t i = 1; i < pose.joints.size(); ++i)
-            lengths_.push_back(glm::distance(pose.joints[i - 1], pose.joints[i]));
+            lengths_.push_back(math::distance(pose.joints[i - 1], pose.joints[i]));
         for (std::size_t i = 0; i < end_; ++i) reach_ += lengths_[i];
         length_.resize(lengths_.size());
         limit_.resize(options_.limits.size());
@@ -135,11 +133,11 @@ const char* IncidentFinder::nan_cause(const TraceFrame& frame) const noexcept {
         if (was.joints[i] == was.joints[i - 1]) return "a bone has no length, and so no direction";
     if (!frame.target) return text(FlipCause::Unexplained);
     const glm::vec3 way = *frame.target - (finite(frame.joints.front()) ? frame.joints.front() : was.root());
-    const float distance = glm::length(way);
+    const float distance = math::length(way);
     if (distance <= 1e-4f * reach_) return "the target is on the root, where it has no direction";
     if (frame.pole) {
         const float angle = angle_between(way, *frame.pole - (*frame.target - way));
-        if (std::min(angle, glm::radians(180.0f) - angle) < glm::radians(0.5f))
+        if (in_degrees(std::min(angle, static_cast<float>(math::pi) - angle)) < 0.5f)
             return "the pole target is on the target's line, where the bend has no direction";
     }
     if (distance >= (1.0f - 1e-4f) * reach_)
@@ -161,9 +159,9 @@ bool IncidentFinder::find_nan(const TraceFrame& frame) {
 
 void IncidentFinder::find_lengths(const ReachPose& pose) {
     for (std::size_t i = 0; i < lengths_.size(); ++i) {
-        const float length = glm::distance(pose.joints[i], pose.joints[i + 1]), off = length - lengths_[i];
+        const float length = math::distance(pose.joints[i], pose.joints[i + 1]), off = length - lengths_[i];
         const float allowed = std::max(length_share * lengths_[i], rounding_steps * options_.resolution);
-        const bool reaching = pose.target && glm::distance(*pose.target, pose.root()) > reach_;
+        const bool reaching = pose.target && math::distance(*pose.target, pose.root()) > reach_;
         last(length_[i], std::abs(off) > allowed,
              {.kind = IncidentKind::Length,
               .frame = frames_,
@@ -181,7 +179,7 @@ void IncidentFinder::find_limits(const ReachPose& pose) {
         if (limit.joint == 0 || limit.joint + 1 >= pose.joints.size()) continue;
         const glm::vec3 at = pose.joints[limit.joint];
         const float bend =
-            glm::degrees(angle_between(at - pose.joints[limit.joint - 1], pose.joints[limit.joint + 1] - at));
+            in_degrees(angle_between(at - pose.joints[limit.joint - 1], pose.joints[limit.joint + 1] - at));
         const float beyond = std::max(bend - limit.max, limit.min - bend);
         last(
             limit_[i], beyond > limit_degrees,
@@ -200,7 +198,7 @@ void IncidentFinder::find_flips(const ReachPose& pose, bool jumped) {
               .frame = frames_,
               .last_frame = frames_,
               .joint = turn.joint,
-              .amount = static_cast<double>(glm::degrees(turn.radians)),
+              .amount = static_cast<double>(in_degrees(turn.radians)),
               .cause = text(cause),
               .flip = cause});
         flipped_ = true;
@@ -217,7 +215,7 @@ void IncidentFinder::find_flips(const ReachPose& pose, bool jumped) {
     // describes: close to the root that is any. A damped solver takes some frames for it.
     const auto swung = [&](const ReachPose& was, float degrees) -> std::optional<BoneTurn> {
         const BoneTurn turn = furthest_turn(was, pose);
-        const bool far = glm::degrees(turn.radians) > degrees;
+        const bool far = in_degrees(turn.radians) > degrees;
         return far && leads(was, pose, turn.joint, swing_lead) ? std::optional(turn) : std::nullopt;
     };
     if (const auto turn = swung(before, options_.flip_degrees)) return flip(*turn, cause(before));
@@ -249,18 +247,19 @@ void IncidentFinder::find_rolls(const ReachPose& pose, std::span<const glm::quat
     BoneTurn furthest;
     for (std::size_t i = 0; i < std::min(rotations.size(), was.size() - 1); ++i) {
         const glm::vec3 from = was[i + 1] - was[i], to = pose.joints[i + 1] - pose.joints[i];
-        if (!(glm::length(from) > 0.0f && glm::length(to) > 0.0f)) continue;
-        const glm::vec3 bone = glm::normalize(to);
+        const auto pointed = math::direction_of(from, 0.0f), bone = math::direction_of(to, 0.0f);
+        if (!pointed || !bone) continue;
         // Swing-twist: the part about the bone, after the swing that takes it there.
-        const glm::quat turn = rotations[i] * glm::conjugate(before[i]);
-        const glm::quat roll = turn * glm::conjugate(glm::quat(glm::normalize(from), bone));
-        const float radians =
-            2.0f * std::atan2(std::abs(glm::dot(glm::vec3(roll.x, roll.y, roll.z), bone)), std::abs(roll.w));
+        const glm::quat turn = math::compose(rotations[i], math::conjugate(before[i]));
+        const glm::quat swing = math::minimal_rotation(*pointed, *bone);
+        const glm::quat roll = math::compose(turn, math::conjugate(swing));
+        const float radians = 2.0f * std::atan2(std::abs(math::dot(glm::vec3(roll.x, roll.y, roll.z), *bone)),
+                                                std::abs(roll.w));
         if (radians > furthest.radians) furthest = {i, radians};  // not if it is not finite
     }
-    const float degrees = glm::degrees(furthest.radians);
+    const float degrees = in_degrees(furthest.radians);
     if (!(degrees > std::max(options_.flip_degrees, roll_degrees)) ||
-        glm::degrees(furthest_turn(recent_.back(), pose).radians) > options_.flip_degrees)
+        in_degrees(furthest_turn(recent_.back(), pose).radians) > options_.flip_degrees)
         return;
     note({.kind = IncidentKind::Flip,
           .frame = frames_,
@@ -274,7 +273,7 @@ void IncidentFinder::find_rolls(const ReachPose& pose, std::span<const glm::quat
 bool IncidentFinder::leads(const ReachPose& before, const ReachPose& after, std::size_t joint,
                            float times) noexcept {
     const auto moved = [&](glm::vec3 from, glm::vec3 to) {
-        return glm::distance(from - before.root(), to - after.root());
+        return math::distance(from - before.root(), to - after.root());
     };
     const float driven = std::max(moved(*before.target, *after.target),
                                   before.pole && after.pole ? moved(*before.pole, *after.pole) : 0.0f);
@@ -284,12 +283,13 @@ bool IncidentFinder::leads(const ReachPose& before, const ReachPose& after, std:
 bool IncidentFinder::changed_sides(const ReachPose& pose, bool jumped) {
     if (end_ != 2) return false;
     const glm::vec3 line = pose.joints[end_] - pose.root(), elbow = pose.joints[1] - pose.root();
-    const float length = glm::length(line);
+    const float length = math::length(line);
     if (bend_of(reaching(pose)) < side_bend * reach_ || !(length > side_bend * reach_)) {
         if (side_) side_->straight_since = true;
         return false;
     }
-    Side now{.line = line / length, .normal = glm::normalize(glm::cross(line, elbow))};
+    Side now{.line = line / length,
+             .normal = math::direction_of(math::cross(line, elbow), 0.0f).value_or(line)};
     if (pose.pole) now.pole = *pose.pole - pose.root();
     bool changed = false;
     if (side_) {
@@ -297,9 +297,9 @@ bool IncidentFinder::changed_sides(const ReachPose& pose, bool jumped) {
         const glm::vec3 was = transported(side_->normal, side_->line, now.line);
         // Whoever moves the pole target around the chain asks for the other side.
         const bool asked = side_->pole.has_value() != now.pole.has_value() ||
-                           (now.pole && angle_between(glm::cross(now.line, *side_->pole),
-                                                      glm::cross(now.line, *now.pole)) > side_turn);
-        changed = !asked && turned < (jumped ? 2.0f : 1.0f) * side_turn && glm::dot(was, now.normal) < -0.5f;
+                           (now.pole && angle_between(math::cross(now.line, *side_->pole),
+                                                      math::cross(now.line, *now.pole)) > side_turn);
+        changed = !asked && turned < (jumped ? 2.0f : 1.0f) * side_turn && math::dot(was, now.normal) < -0.5f;
         if (side_->straight_since && now.pole) changed = false;
     }
     side_ = now;

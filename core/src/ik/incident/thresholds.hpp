@@ -5,6 +5,10 @@
 
 namespace tendril::ik {
 
+constexpr float in_degrees(float radians) noexcept {
+    return radians * 57.2957795f;
+}
+
 inline constexpr float length_share = 2e-3f;   ///< of the bone
 inline constexpr float rounding_steps = 4.0f;  ///< of the resolution: two points, in three coordinates
 inline constexpr float limit_degrees = 0.5f;   ///< beyond a limit

@@ -65,6 +65,7 @@ void LinkageSolve::find_return() noexcept {
     for (std::size_t i = 0; i < work_.linkage.closures.size(); ++i) {
         take_rows(work_.closure_block(i), work_.equations_of(work_.linkage.closures[i]), i);
     }
+    least_in_step_ = std::min(least_in_step_, least_left_);
     if (!keeps_exact_) return;
     for (std::size_t i = 0; i < goals_.targets.size(); ++i) {
         if (!goals_.targets[i].exact) continue;

@@ -69,7 +69,7 @@ bool LinkageSolve::glide_by(double from, double to) noexcept {
 bool LinkageSolve::take_glide_step(double to) noexcept {
     work_.kept = work_.joints;
     ++iterations_;
-    const double predicted = norm_of(work_.step);
+    const double predicted = length_of_step_ = norm_of(work_.step);
     const bool wide = !(work_.widest() <= widest_step);
     if (!wide) {
         work_.take_step(1.0);
@@ -115,7 +115,8 @@ void LinkageSolve::glide() noexcept {
             return;
         }
         const double to = by >= 1.0 - at ? 1.0 : at + by;
-        if (glide_by(at, to)) {
+        least_in_step_ = 1.0;
+        if (glide_by(at, to) && !jumped_branch()) {
             at = to;
             by = std::min(2.0 * by, furthest);
             work_.active.clear();

@@ -21,6 +21,54 @@ int LinkageSolve::watched_mode() noexcept {
     return work_.mode;
 }
 
+/// The sign of the determinant of the closures and of what completes them, directions that they leave free: a
+/// coupler between two balls turns about itself.
+int LinkageSolve::completed_mode(std::span<double> free, std::size_t& count) noexcept {
+    work_.release();
+    static_cast<void>(closure_rank());
+    count = 0;
+    const std::size_t columns = work_.columns, wanted = free_columns();
+    for (const double least : {0.3, 1e-9})  // what is left of an axis: short ones are rounding
+        for (std::size_t col = 0; col < columns && work_.basis.rank() < wanted; ++col) {
+            if (work_.held[col]) continue;
+            const std::span<double> axis = work_.row(0);
+            std::ranges::fill(axis, 0.0);
+            axis[col] = 1.0;
+            if (work_.basis.add(axis, 1e9 * least) == 0.0) continue;
+            std::ranges::copy(axis, free.begin() + static_cast<std::ptrdiff_t>(count++ * columns));
+        }
+    return work_.basis.orientation(work_.held, work_.square);
+}
+
+/// Whether the last substep of a drive, which began at `kept`, jumped to another branch; it is then undone.
+/// Branches that come nearer to each other than `crossing` count as crossing.
+bool LinkageSolve::jumped_branch() noexcept {
+    // Radians or sizes. The closures' tolerance leaves a singular pose undetermined by its root, 1e-5.
+    constexpr double crossing = 1e-4;
+    // From 30 degrees off a singular pose a substep does not reach 30 beyond it: no joint turns by more than
+    // widest_step.
+    constexpr double far_from_singular = 0.5;
+    if (least_in_step_ > far_from_singular || length_of_step_ <= crossing) return false;
+    std::size_t before_count = 0, count = 0;
+    work_.best = work_.joints;
+    put_back(work_.kept);
+    const int before = completed_mode(work_.factor, before_count);
+    put_back(work_.best);
+    const int after = completed_mode(work_.curvature, count);
+    if (count != before_count) return false;
+    // The sign of a determinant depends on the directions' own, which change by less than a right angle.
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t k = 0; k < count; ++k) {
+            double dot = 0.0;
+            for (std::size_t col = 0; col < work_.columns; ++col)
+                dot += work_.factor[i * work_.columns + col] * work_.curvature[k * work_.columns + col];
+            work_.square[i * count + k] = dot;
+        }
+    if (before * after * sign_of_determinant(work_.square, count) >= 0) return false;
+    put_back(work_.kept);
+    return true;
+}
+
 int LinkageSolve::mode() noexcept {
     work_.release();
     const std::size_t rank = closure_rank();

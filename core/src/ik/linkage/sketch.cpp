@@ -1,7 +1,9 @@
 // From joints and bars in the plane to links, their tree and its closures.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <utility>
 
 #include "ik/math.hpp"
 #include "math/checks.hpp"
@@ -103,6 +105,17 @@ class SketchTree {
             if (const Result bad = check_motor(sketch_.motors[i], said("motor", sketch_.motors[i].name, i));
                 !bad)
                 return bad;
+        const std::vector<std::size_t> bodies = rigid_bodies(sketch_);
+        for (std::size_t i = 0; i < sketch_.motors.size(); ++i) {
+            const auto& [name, point, bar, against, minimum, maximum] = sketch_.motors[i];
+            if (bodies[bar] == (against == ground_link ? ground_link : bodies[against]))
+                return sketch_refused(said("motor", name, i) + " must turn two rigid bodies, got " +
+                                      said("bar", sketch_.bars[bar].name, bar) + " and " +
+                                      (against == ground_link
+                                           ? "the ground"
+                                           : said("bar", sketch_.bars[against].name, against)) +
+                                      ", which triangles join into one");
+        }
         return {};
     }
     Result check_bar(const SketchBar& bar, const std::string& who) const {
@@ -265,6 +278,51 @@ class SketchTree {
 };
 
 }  // namespace
+
+std::vector<std::size_t> rigid_bodies(const LinkageSketch& sketch) {
+    const std::size_t count = sketch.bars.size();
+    // The points of each body; the ground's is the first. Those that became part of another are empty.
+    std::vector<std::vector<std::size_t>> points(count + 1);
+    std::vector<std::size_t> body(count + 1);
+    for (std::size_t i = 0; i < sketch.points.size(); ++i)
+        if (sketch.points[i].hold == SketchHold::Pinned) points[0].push_back(i);
+    for (std::size_t i = 0; i <= count; ++i) {
+        body[i] = i;
+        if (i > 0) points[i] = sketch.bars[i - 1].points;
+        std::ranges::sort(points[i]);
+    }
+    std::vector<std::size_t> shared;
+    const auto share = [&](std::size_t a, std::size_t b) -> const std::vector<std::size_t>& {
+        shared.clear();
+        std::ranges::set_intersection(points[a], points[b], std::back_inserter(shared));
+        return shared;
+    };
+    const auto join = [&](std::size_t a, std::size_t b) {
+        std::vector<std::size_t> both;
+        std::ranges::set_union(points[a], points[b], std::back_inserter(both));
+        points[a] = std::move(both);
+        points[b].clear();
+        std::ranges::replace(body, b, a);
+    };
+    const auto joined = [&](std::size_t a) {
+        std::vector<std::pair<std::size_t, std::size_t>> neighbours;  // and the point
+        for (std::size_t b = 0; b <= count; ++b) {
+            if (b == a || share(a, b).empty()) continue;
+            const std::size_t point = shared.front();
+            if (shared.size() > 1) return join(std::min(a, b), std::max(a, b)), true;
+            for (const auto& [c, other] : neighbours)
+                if (other != point && !share(b, c).empty() && shared.front() != point &&
+                    shared.front() != other)
+                    return join(std::min(a, b), std::max(a, b)), true;
+            neighbours.emplace_back(b, point);
+        }
+        return false;
+    };
+    for (std::size_t a = 0; a <= count;) a = joined(a) ? 0 : a + 1;
+    std::vector<std::size_t> of_bars;
+    for (std::size_t i = 1; i <= count; ++i) of_bars.push_back(body[i] == 0 ? ground_link : body[i] - 1);
+    return of_bars;
+}
 
 std::optional<std::size_t> LinkageSketch::find_point(std::string_view name) const noexcept {
     return index_of_name(points, name);

@@ -59,6 +59,8 @@ class LinkageSolve {
     bool glide_by(double from, double to) noexcept;
     bool take_glide_step(double to) noexcept;
     bool repeat_last_move(double part) noexcept;
+    bool jumped_branch() noexcept;
+    int completed_mode(std::span<double> free, std::size_t& count) noexcept;
     double driver_distance(const LinkDriver& driver) const noexcept;
 
     void descend(Aim aim) noexcept;
@@ -92,6 +94,8 @@ class LinkageSolve {
     /// The least that was left of a closure's equations by those before, as a part: near 0 where the rank is
     /// about to fall, or has fallen.
     double least_left_ = 1.0;
+    double least_in_step_ = 1.0;   ///< the smallest of these in a substep of a drive
+    double length_of_step_ = 0.0;  ///< of that substep, as predicted
     bool keeps_exact_ = false;     ///< exact targets are, too
     double heaviest_ = 0.0;        ///< of the weights of the aim's targets
     bool descended_ = false;       ///< the last descent took a step

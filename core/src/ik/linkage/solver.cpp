@@ -2,10 +2,13 @@
 #include <cmath>
 
 #include "ik/linkage/solve.hpp"
+#include "math/checks.hpp"
 #include "math/elementary.hpp"
 #include "tendril/magnitude.hpp"
 
 namespace tendril::ik {
+
+using tendril::detail::held_or_empty;
 
 struct LinkageSolver::Parts : detail::LinkageWork {
     using detail::LinkageWork::LinkageWork;
@@ -22,18 +25,18 @@ LinkageSolver::LinkageSolver(LinkageSolver&&) noexcept = default;
 LinkageSolver& LinkageSolver::operator=(LinkageSolver&&) noexcept = default;
 
 const Linkage& LinkageSolver::linkage() const noexcept {
-    return parts_->linkage;
+    return held_or_empty(parts_).linkage;
 }
 bool LinkageSolver::planar() const noexcept {
-    return parts_->planar;
+    return held_or_empty(parts_).planar;
 }
 double LinkageSolver::size() const noexcept {
-    return parts_->size;
+    return held_or_empty(parts_).size;
 }
 
 LinkageState LinkageSolver::initial_state() const {
     LinkageState state;
-    for (const Link& link : parts_->linkage.links)
+    for (const Link& link : linkage().links)
         state.joints.push_back({link.joint == LinkJoint::Ball ? 0.0 : link.rest});
     return state;
 }
@@ -95,13 +98,13 @@ void take_state(detail::LinkageWork& work, const LinkageState& state) noexcept {
 
 LinkageReport LinkageSolver::solve(LinkageState& state, const LinkageGoals& goals,
                                    const LinkageOptions& options) noexcept {
-    detail::LinkageWork& work = *parts_;
     LinkageReport report;
-    if (!fits(state, work) || !drives(goals.drivers, work) || !aims(goals.targets, work) ||
-        !allows(options, work)) {
+    if (!parts_ || !fits(state, *parts_) || !drives(goals.drivers, *parts_) ||
+        !aims(goals.targets, *parts_) || !allows(options, *parts_)) {
         report.status = LinkageStatus::InvalidInput;
         return report;
     }
+    detail::LinkageWork& work = *parts_;
     take_state(work, state);
     report = detail::LinkageSolve(work, goals, options).run();
     state.joints = work.joints;
@@ -109,9 +112,8 @@ LinkageReport LinkageSolver::solve(LinkageState& state, const LinkageGoals& goal
 }
 
 bool LinkageSolver::other_mode(LinkageState& state, std::span<const LinkDriver> drivers) noexcept {
-    detail::LinkageWork& work = *parts_;
-    if (!fits(state, work) || !drives(drivers, work)) return false;
-    return work.columns > 0 && detail::find_other_mode(work, state, drivers);
+    if (!parts_ || !fits(state, *parts_) || !drives(drivers, *parts_)) return false;
+    return parts_->columns > 0 && detail::find_other_mode(*parts_, state, drivers);
 }
 
 LinkageFreedom LinkageSolver::freedom(const LinkageState& state) noexcept {
@@ -128,35 +130,59 @@ LinkageFreedom LinkageSolver::freedom(const LinkageState& state) noexcept {
     return freedom;
 }
 
+double LinkageSolver::balance(const LinkageState& state, std::size_t link, std::span<const std::size_t> held,
+                              std::span<glm::dvec3> forces) noexcept {
+    if (link >= linkage().links.size() || linkage().links[link].joint == LinkJoint::Ball ||
+        forces.size() != linkage().closures.size() || !place(state))
+        return 1.0;
+    detail::LinkageWork& work = *parts_;
+    const LinkageGoals none;
+    const LinkageOptions options;
+    detail::LinkageSolve solve(work, none, options);
+    for (const std::size_t each : held)
+        if (each < linkage().links.size() && each != link) work.driven[work.column[each]] = 1;
+    work.release();
+    static_cast<void>(solve.closure_rank());
+    std::ranges::fill(work.pull, 0.0);
+    work.pull[work.column[link]] = 1.0;
+    work.basis.multipliers(work.pull, work.multiplier);
+    std::ranges::fill(forces, glm::dvec3(0.0));
+    for (std::size_t k = 0; k < work.basis.rank(); ++k)
+        if (const std::size_t row = work.row_origin[k] % 6; row < 3)
+            forces[work.row_origin[k] / 6][static_cast<int>(row)] += work.multiplier[k];
+    work.basis.remove_from(work.pull);
+    return detail::norm_of(work.pull);
+}
+
 bool LinkageSolver::place(const LinkageState& state) noexcept {
-    if (!fits(state, *parts_)) return false;
+    if (!parts_ || !fits(state, *parts_)) return false;
     take_state(*parts_, state);
     parts_->move_links();
     return true;
 }
 
 std::span<const LinkPlace> LinkageSolver::links() const noexcept {
-    return parts_->places;
+    return held_or_empty(parts_).places;
 }
 glm::dvec3 LinkageSolver::point(std::size_t index) const noexcept {
-    if (index >= parts_->linkage.points.size()) return glm::dvec3(0.0);
+    if (index >= linkage().points.size()) return glm::dvec3(0.0);
     const LinkPoint& point = parts_->linkage.points[index];
     return parts_->point_of(point.link, point.at);
 }
 glm::dvec3 LinkageSolver::joint(std::size_t link) const noexcept {
-    return link < parts_->origins.size() ? parts_->origins[link] : glm::dvec3(0.0);
+    return link < linkage().links.size() ? parts_->origins[link] : glm::dvec3(0.0);
 }
 glm::dvec3 LinkageSolver::axis(std::size_t link) const noexcept {
-    return link < parts_->axes.size() ? parts_->axes[link] : glm::dvec3(0.0);
+    return link < linkage().links.size() ? parts_->axes[link] : glm::dvec3(0.0);
 }
 std::span<const double> LinkageSolver::residuals() const noexcept {
-    return parts_->residuals;
+    return held_or_empty(parts_).residuals;
 }
 std::span<const std::size_t> LinkageSolver::active() const noexcept {
-    return parts_->active;
+    return held_or_empty(parts_).active;
 }
 std::span<const std::size_t> LinkageSolver::open_closures() const noexcept {
-    return parts_->open;
+    return held_or_empty(parts_).open;
 }
 
 }  // namespace tendril::ik

@@ -101,23 +101,25 @@ int RowBasis::orientation(std::span<const std::uint8_t> held, std::span<double> 
         for (std::size_t r = 0; r < count_; ++r) scratch[free * count_ + r] = rows_[r * columns_ + col];
         ++free;
     }
+    return sign_of_determinant(scratch, count_);
+}
+
+int sign_of_determinant(std::span<double> matrix, std::size_t size) noexcept {
     int sign = 1;
-    for (std::size_t k = 0; k < count_; ++k) {
+    for (std::size_t k = 0; k < size; ++k) {
         std::size_t pivot = k;
-        for (std::size_t i = k + 1; i < count_; ++i)
-            if (std::abs(scratch[i * count_ + k]) > std::abs(scratch[pivot * count_ + k])) pivot = i;
-        if (scratch[pivot * count_ + k] == 0.0) return 0;
+        for (std::size_t i = k + 1; i < size; ++i)
+            if (std::abs(matrix[i * size + k]) > std::abs(matrix[pivot * size + k])) pivot = i;
+        if (matrix[pivot * size + k] == 0.0) return 0;
         if (pivot != k) {
             sign = -sign;
-            for (std::size_t j = k; j < count_; ++j)
-                std::swap(scratch[pivot * count_ + j], scratch[k * count_ + j]);
+            for (std::size_t j = k; j < size; ++j) std::swap(matrix[pivot * size + j], matrix[k * size + j]);
         }
-        if (scratch[k * count_ + k] < 0.0) sign = -sign;
-        for (std::size_t i = k + 1; i < count_; ++i) {
-            const double by = scratch[i * count_ + k] / scratch[k * count_ + k];
+        if (matrix[k * size + k] < 0.0) sign = -sign;
+        for (std::size_t i = k + 1; i < size; ++i) {
+            const double by = matrix[i * size + k] / matrix[k * size + k];
             if (by == 0.0) continue;
-            for (std::size_t j = k + 1; j < count_; ++j)
-                scratch[i * count_ + j] -= by * scratch[k * count_ + j];
+            for (std::size_t j = k + 1; j < size; ++j) matrix[i * size + j] -= by * matrix[k * size + j];
         }
     }
     return sign;

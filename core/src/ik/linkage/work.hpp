@@ -51,8 +51,11 @@ class RowBasis {
     std::vector<Window> windows_;
 };
 
+/// By elimination, in place; 1 for none.
+int sign_of_determinant(std::span<double> matrix, std::size_t size) noexcept;
+
 struct LinkageWork {
-    explicit LinkageWork(const Linkage& from);
+    explicit LinkageWork(const Linkage& from = {});
 
     // Constants.
     Linkage linkage;

@@ -88,18 +88,18 @@ Solver::Solver(Solver&&) noexcept = default;
 Solver& Solver::operator=(Solver&&) noexcept = default;
 
 std::size_t Solver::bones() const noexcept {
-    return parts_->scratch.lengths.size();
+    return held_or_empty(parts_).scratch.lengths.size();
 }
 
 float Solver::reach() const noexcept {
-    return parts_->scratch.reach;
+    return held_or_empty(parts_).scratch.reach;
 }
 
 Report Solver::solve(Method method, std::span<glm::vec3> joints, State& state, glm::vec3 target,
                      const Options& options, Observer* observer) noexcept {
     // With a tip orientation the last bone is placed separately.
     const bool taken = takes(method, bones()) || (options.tip_orientation && takes(method, bones() - 1));
-    if (joints.size() != bones() + 1 || !taken) return invalid_input;
+    if (!parts_ || joints.size() != bones() + 1 || !taken) return invalid_input;
     if (!are_points(joints) || !are_points({&target, 1}) || !are_valid(options, bones()))
         return invalid_input;
     if (!is_valid(state, bones())) return invalid_input;
@@ -115,7 +115,7 @@ Report Solver::solve(Method method, std::span<glm::vec3> joints, State& state, g
 
 Report Solver::solve(Method method, Chain& chain, State& state, glm::vec3 target, const Options& options,
                      Observer* observer) noexcept {
-    if (chain.size() != bones() + 1) return invalid_input;
+    if (!parts_ || chain.size() != bones() + 1) return invalid_input;
     std::vector<glm::vec3>& joints = parts_->scratch.joints;
     for (std::size_t i = 0; i < joints.size(); ++i) joints[i] = chain.segments()[i].position;
     Options saved = options;

@@ -125,17 +125,18 @@ Tree::Tree(Tree&&) noexcept = default;
 Tree& Tree::operator=(Tree&&) noexcept = default;
 
 std::size_t Tree::size() const noexcept {
-    return parts_->scratch.joints.size();
+    return tendril::detail::held_or_empty(parts_).scratch.joints.size();
 }
 
 double Tree::reach() const noexcept {
-    return parts_->scratch.reach;
+    return tendril::detail::held_or_empty(parts_).scratch.reach;
 }
 
 TreeReport Tree::solve(std::span<glm::vec3> joints, std::span<const Effector> effectors,
                        const TreeOptions& options) noexcept {
+    if (!parts_ || !is_valid(parts_->scratch, joints, effectors, options))
+        return {Status::InvalidInput, 0, 0.0f};
     TreeScratch& scratch = parts_->scratch;
-    if (!is_valid(scratch, joints, effectors, options)) return {Status::InvalidInput, 0, 0.0f};
     const double tolerance =
         options.tolerance ? static_cast<double>(*options.tolerance) : 1e-3 * scratch.reach;
     prepare(scratch, joints, effectors);

@@ -1,0 +1,31 @@
+// Included first into every source of the library, by its CMakeLists.txt: GLM's functions that multiply and
+// add do not compile there, for the reason given in point.hpp. vector.hpp and rotation.hpp have them. More
+// constrained than GLM's own, these are chosen in their place. Not installed.
+#pragma once
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+
+namespace glm {
+
+// clang-format off
+template <length_t L, class T, qualifier Q> requires true T dot(const vec<L, T, Q>&, const vec<L, T, Q>&) = delete;
+template <length_t L, class T, qualifier Q> requires true T length(const vec<L, T, Q>&) = delete;
+template <length_t L, class T, qualifier Q> requires true T distance(const vec<L, T, Q>&, const vec<L, T, Q>&) = delete;
+template <length_t L, class T, qualifier Q> requires true vec<L, T, Q> normalize(const vec<L, T, Q>&) = delete;
+template <class T, qualifier Q> requires true vec<3, T, Q> cross(const vec<3, T, Q>&, const vec<3, T, Q>&) = delete;
+template <class T, qualifier Q> requires true T dot(const qua<T, Q>&, const qua<T, Q>&) = delete;
+template <class T, qualifier Q> requires true T length(const qua<T, Q>&) = delete;
+template <class T, qualifier Q> requires true qua<T, Q> normalize(const qua<T, Q>&) = delete;
+template <class T, qualifier Q> requires true qua<T, Q> inverse(const qua<T, Q>&) = delete;
+template <class T, qualifier Q> requires true qua<T, Q> angleAxis(const T&, const vec<3, T, Q>&) = delete;
+template <class T, qualifier Q> requires true qua<T, Q> operator*(const qua<T, Q>&, const qua<T, Q>&) = delete;
+template <class T, qualifier Q> requires true vec<3, T, Q> operator*(const qua<T, Q>&, const vec<3, T, Q>&) = delete;
+template <class T, qualifier Q> requires true vec<3, T, Q> operator*(const mat<3, 3, T, Q>&, const vec<3, T, Q>&) = delete;
+template <class T, qualifier Q> requires true mat<3, 3, T, Q> operator*(const mat<3, 3, T, Q>&, const mat<3, 3, T, Q>&) = delete;
+template <length_t C, length_t R, class T, qualifier Q> requires true T determinant(const mat<C, R, T, Q>&) = delete;
+template <length_t C, length_t R, class T, qualifier Q> requires true mat<C, R, T, Q> inverse(const mat<C, R, T, Q>&) = delete;
+// clang-format on
+
+}  // namespace glm
