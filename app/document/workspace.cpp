@@ -14,6 +14,24 @@ int Clock::whole_ticks() const {
     return static_cast<int>(std::floor(after + rounding) - std::floor(passed + rounding));
 }
 
+namespace {
+
+/// Of the last ten seconds of all closed labs together: as much as the open one may have.
+constexpr std::size_t max_closed_bytes = 64u << 20;
+
+/// Drops the last ten seconds of closed labs, the largest first, until the rest keep within that.
+void trim(std::map<std::string, Workspace::Past>& pasts) {
+    const auto bytes = [](const auto& each) { return each.second.rewind.bytes(); };
+    for (;;) {
+        std::size_t sum = 0;
+        for (const auto& each : pasts) sum += bytes(each);
+        if (sum <= max_closed_bytes) return;
+        std::ranges::max_element(pasts, {}, bytes)->second.rewind.clear();
+    }
+}
+
+}  // namespace
+
 void Workspace::open_lab(const std::string& name) {
     if (name == lab) return;
     pass_change();
@@ -25,6 +43,7 @@ void Workspace::open_lab(const std::string& name) {
     pasts[lab] = {std::move(rewind), moment, document.parts().at(lab), clock.looks_back};
     lab = name;
     Past past = std::exchange(pasts[name], Past());
+    trim(pasts);
     if (past.left != document.parts().at(name)) past = Past();
     rewind = std::move(past.rewind);
     moment = past.moment;

@@ -54,12 +54,13 @@ void step_through(Workspace& workspace, bool back) {
 }
 
 void add_history_commands(CommandTable& table) {
-    table.add({.name = "undo",
-               .title = "Undo",
-               .arguments = {},
-               .help = "Undoes the last change; a whole drag is one change",
-               .effect = Effect::Replace,
-               .apply = [](Workspace& w, const Arguments&) { step_through(w, true); }});
+    table.add(
+        {.name = "undo",
+         .title = "Undo",
+         .arguments = {},
+         .help = "Undoes the last change; a whole drag is one change. Keeps 1000 of them, in up to 256 MB",
+         .effect = Effect::Replace,
+         .apply = [](Workspace& w, const Arguments&) { step_through(w, true); }});
     table.add(
         {.name = "paste",
          .title = "Paste",

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/kit/part_cache.hpp"
 
 namespace tendril::app {
 
@@ -44,14 +45,35 @@ std::shared_ptr<const Part> HumanoidPart::at_moment(std::shared_ptr<const Part> 
     return part;
 }
 
-/// Copies share the character and the map, so each counts only a fraction of them.
-std::size_t HumanoidPart::bytes() const {
-    constexpr std::size_t sharing = 16, a_node = 200, a_key = 48;
-    std::size_t keys = 0;
-    for (const humanoid::Clip& clip : loaded->clips())
+namespace {
+
+template <class Value>
+std::size_t bytes_of(const humanoid::Track<Value>& track) {
+    return track.times.size() * sizeof(double) + track.values.size() * sizeof(Value);
+}
+
+std::size_t bytes_of(const SkinnedMesh& mesh) {
+    std::size_t pixels = 0;
+    for (const Picture& each : mesh.pictures) pixels += each.rgba.size();
+    constexpr std::size_t a_vertex = 2 * sizeof(glm::vec3) + sizeof(JointWeights) + sizeof(glm::vec2);
+    return mesh.positions.size() * a_vertex + mesh.indices.size() * sizeof(mesh.indices[0]) + pixels;
+}
+
+/// Each retarget, cure or other unit makes a character of its own, with all clips. Meshes are shared on.
+std::size_t bytes_of(const LoadedCharacter& loaded) {
+    constexpr std::size_t a_node = 400;
+    std::size_t bytes = loaded.skeleton().size() * a_node;
+    for (const humanoid::Clip& clip : loaded.clips())
         for (const humanoid::Channel& channel : clip.channels)
-            keys +=
-                channel.translation.times.size() + channel.rotation.times.size() + channel.scale.times.size();
+            bytes += sizeof(channel) + bytes_of(channel.translation) + bytes_of(channel.rotation) +
+                     bytes_of(channel.scale);
+    const auto& mesh = loaded.character.skin.mesh;
+    return bytes + (mesh ? share_of(mesh, bytes_of(*mesh)) : 0);
+}
+
+}  // namespace
+
+std::size_t HumanoidPart::bytes() const {
     constexpr std::size_t a_particle = 80, a_pin = 80, a_turn = 80;
     const rope::State& ropes = attachments.world->state();
     const std::size_t hanging = ropes.position.size() * a_particle + ropes.pins.size() * a_pin +
@@ -64,7 +86,7 @@ std::size_t HumanoidPart::bytes() const {
     for (const BoneCurve& each : curves)
         curved += sizeof(each) + each.shape.points.size() * sizeof(glm::vec3);
     return sizeof(*this) + swinging + curved + selection.all().size() * sizeof(std::size_t) +
-           (skeleton().size() * a_node + keys * a_key) / sharing + hanging;
+           share_of(loaded, bytes_of(*loaded)) + share_of(map, sizeof(BoneMap)) + hanging;
 }
 
 bool HumanoidPart::operator==(const HumanoidPart& other) const {

@@ -13,6 +13,13 @@
 
 namespace tendril::app {
 
+/// The share that each of its holders has of something with so many bytes: what one part alone holds counts
+/// whole.
+template <class Shared>
+std::size_t share_of(const std::shared_ptr<Shared>& shared, std::size_t bytes) {
+    return shared ? bytes / static_cast<std::size_t>(shared.use_count()) : 0;
+}
+
 /// Bytes of memory, beyond the value itself.
 template <class Value>
 std::size_t bytes_beyond(const Value&) {

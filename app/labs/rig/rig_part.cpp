@@ -5,6 +5,7 @@
 #include <tendril/rig/workspace.hpp>
 
 #include "app/labs/kit/arguments.hpp"
+#include "app/labs/kit/part_cache.hpp"
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 
@@ -100,15 +101,16 @@ std::size_t state_bytes(const rig::State& state) {
     return bytes;
 }
 
-/// Approximate. The compiled rig is about as large as its definition. Copies share the clip and the keys, so
-/// each counts only a fraction of them.
+/// Approximate. The compiled rig is about as large as its definition.
 std::size_t RigPart::bytes() const {
-    constexpr std::size_t an_element = 750, a_unit = 800, sharing = 16;
-    std::size_t shared = clip ? clip->poses.size() * sizeof(ClipPose) : 0;
-    if (take.keys) shared += take.keys->size() * sizeof(TakeKey);
-    const std::size_t solved = last_solved ? state_bytes(*last_solved) : 0;
-    return sizeof(*this) + solved + state.controls.size() * an_element + state.units.size() * a_unit +
-           state_bytes(state) + selected.elements.all().size() * sizeof(std::size_t) + shared / sharing;
+    constexpr std::size_t an_element = 750, a_unit = 800;
+    std::size_t shared = clip ? share_of(clip, clip->poses.size() * sizeof(ClipPose)) : 0;
+    if (take.keys) shared += share_of(take.keys, take.keys->size() * sizeof(TakeKey));
+    if (take.start) shared += share_of(take.start, state_bytes(*take.start));
+    if (clip_left) shared += share_of(clip_left, clip_left->done() * sizeof(FrameLeft));
+    if (last_solved) shared += share_of(last_solved, state_bytes(*last_solved));
+    return sizeof(*this) + shared + state.controls.size() * an_element + state.units.size() * a_unit +
+           state_bytes(state) + selected.elements.all().size() * sizeof(std::size_t);
 }
 
 }  // namespace tendril::app

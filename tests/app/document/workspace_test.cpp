@@ -48,5 +48,21 @@ TEST(Workspace, a_toast_said_again_lasts_anew_and_stands_once) {
     EXPECT_EQ(workspace.ui.toasts[1].ticks_left, 7 * 60);
 }
 
+TEST(Workspace, the_pasts_of_closed_labs_keep_within_one_bound) {
+    constexpr std::size_t bound = 64u << 20;
+    Workspace workspace = test::make_workspace();
+    for (int i = 0; i < 6; ++i) {
+        const std::string lab = "lab " + std::to_string(i);
+        workspace.document.set(lab, test::make_part(lab, std::vector<float>(1'000'000)));
+        workspace.open_lab(lab);
+        for (int tick = 0; tick < 10; ++tick, ++workspace.moment) workspace.remember_moment();
+    }
+    std::size_t bytes = 0;
+    for (const auto& [lab, past] : workspace.pasts) bytes += past.rewind.bytes();
+    EXPECT_LE(bytes, bound);
+    EXPECT_GT(bytes, 0u);
+    EXPECT_EQ(workspace.rewind.size(), 10u) << "the open lab keeps its own";
+}
+
 }  // namespace
 }  // namespace tendril::app
