@@ -185,12 +185,13 @@ TEST(BoneMap, AFigureLikeItsMirrorImageHasAMapLikeItsMirrorImage) {
         const Habit& habit = habits[random() % std::size(habits)];
         SCOPED_TRACE(habit.maker + (", " + std::to_string(round)));
         Naming names = habit.names(), others = habits[random() % std::size(habits)].names();
-        for (auto& [key, name] : names) {
-            if (name.empty() || !key.starts_with("Left") || random() % 4 > 0) continue;
-            const auto same = [&](const auto& other) { return other.second == others[key]; };
-            const bool is_other =
-                random() % 2 == 0 && !others[key].empty() && std::none_of(names.begin(), names.end(), same);
-            name = is_other ? others[key] : "part " + std::to_string(count++);
+        for (auto& [key, text] : names) {
+            if (text.empty() || !key.starts_with("Left") || random() % 4 > 0) continue;
+            const std::string& other = others[key];
+            const bool is_free =
+                !other.empty() && std::none_of(names.begin(), names.end(),
+                                               [&](const auto& each) { return each.second == other; });
+            text = is_free && random() % 2 == 0 ? other : "part " + std::to_string(count++);
         }
         const Skeleton skeleton = make_figure(names);
         const BoneMap map = match_bones(skeleton);

@@ -158,14 +158,15 @@ GltfText dressed(const std::string& extensions) {
     put(R"(},{"mesh":0)", R"(,"children":[2])");
     put(R"(],"skins")",
         R"(,{"name":"hair","translation":[0,1,0],"children":[3]},{"name":"tip","translation":[0,-0.2,0]})");
-    file.members += R"(,"animations":[{"samplers":[{"input":)" + input + R"(,"output":)" + output +
-                    R"(},{"input":)" + input + R"(,"interpolation":"CUBICSPLINE","output":)" + bent +
-                    R"(},{"input":)" + input + R"(,"output":)" + weights +
-                    R"(}],"channels":[{"sampler":0,"target":{"node":0,"path":"rotation"}},)"
-                    R"({"sampler":1,"target":{"node":2,"path":"translation"}},)"
-                    R"({"sampler":2,"target":{"node":1,"path":"weights"}},{"sampler":0,"target":{"path":"pointer",)"
-                    R"("extensions":{"KHR_animation_pointer":{"pointer":"/nodes/3/rotation"}}}}]}])" +
-                    extensions;
+    file.members +=
+        R"(,"animations":[{"samplers":[{"input":)" + input + R"(,"output":)" + output + R"(},{"input":)" +
+        input + R"(,"interpolation":"CUBICSPLINE","output":)" + bent + R"(},{"input":)" + input +
+        R"(,"output":)" + weights +
+        R"(}],"channels":[{"sampler":0,"target":{"node":0,"path":"rotation"}},)"
+        R"({"sampler":1,"target":{"node":2,"path":"translation"}},)"
+        R"({"sampler":2,"target":{"node":1,"path":"weights"}},{"sampler":0,"target":{"path":"pointer",)"
+        R"("extensions":{"KHR_animation_pointer":{"pointer":"/nodes/3/rotation"}}}}]}])" +
+        extensions;
     return file;
 }
 

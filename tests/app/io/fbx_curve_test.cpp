@@ -20,7 +20,6 @@ using test::FbxScene;
 
 constexpr std::int64_t constant = 0x2, constant_next = 0x102, linear = 0x4, user = 0x408;
 constexpr std::int64_t automatic = 0x108, tcb = 0x208;
-constexpr std::int64_t weighted = 0x3000000;
 
 /// A bone that these keys move along X, in a stack of 2 s.
 FbxScene moved_by(const std::vector<Key>& keys) {

@@ -89,22 +89,16 @@ std::vector<T> elements(const Property& array) {
     result.reserve(count);
     const auto add = [&](auto value) { result.push_back(converted<T>(value)); };
     for (std::size_t i = 0; i < count; ++i) {
-        switch (array.kind) {
-            case 'f':
-                add(raw_at<float>(bytes, 4 * i));
-                break;
-            case 'd':
-                add(raw_at<double>(bytes, 8 * i));
-                break;
-            case 'i':
-                add(raw_at<std::int32_t>(bytes, 4 * i));
-                break;
-            case 'l':
-                add(raw_at<std::int64_t>(bytes, 8 * i));
-                break;
-            default:
-                add(static_cast<unsigned char>(bytes[i]));
-        }
+        if (array.kind == 'f')
+            add(raw_at<float>(bytes, 4 * i));
+        else if (array.kind == 'd')
+            add(raw_at<double>(bytes, 8 * i));
+        else if (size == 4)
+            add(raw_at<std::int32_t>(bytes, 4 * i));
+        else if (size == 8)
+            add(raw_at<std::int64_t>(bytes, 8 * i));
+        else
+            add(static_cast<unsigned char>(bytes[i]));
     }
     return result;
 }
@@ -148,26 +142,17 @@ const Record* Record::child(std::string_view wanted) const {
 
 double Record::number(std::size_t index, double otherwise) const {
     if (index >= properties.size()) return otherwise;
-    double value = otherwise;
     const Property& property = properties[index];
-    if (property.kind == 'T')
-        value = number_in(property.bytes, otherwise);
-    else
-        visit(property, [&](auto each) { value = static_cast<double>(each); });
+    double value = property.kind == 'T' ? number_in(property.bytes, otherwise) : otherwise;
+    visit(property, [&](auto each) { value = static_cast<double>(each); });
     return std::isfinite(value) ? value : otherwise;
 }
 
 std::int64_t Record::integer(std::size_t index, std::int64_t otherwise) const {
     if (index >= properties.size()) return otherwise;
-    std::int64_t value = otherwise;
     const Property& property = properties[index];
-    if (property.kind == 'T') return integer_in(property.bytes, otherwise);
-    visit(property, [&](auto each) {
-        if constexpr (std::is_integral_v<decltype(each)>)
-            value = each;
-        else if (std::abs(each) < 9e18)
-            value = static_cast<std::int64_t>(each);
-    });
+    std::int64_t value = property.kind == 'T' ? integer_in(property.bytes, otherwise) : otherwise;
+    visit(property, [&](auto each) { value = converted<std::int64_t>(each); });
     return value;
 }
 

@@ -1,10 +1,11 @@
 // Which node of a skeleton is which bone of a human body.
 //
 // Two independent readers examine a skeleton. One knows common names: Mixamo, Unreal's mannequin, VRM, Unity,
-// Rigify, 3ds Max's Biped, CMU and other captures. The other ignores names: it looks for a node from which
-// two equal limbs go down and a column goes up, for two equal limbs at the top of the column, and for a head
-// above them. If both agree, the match is nearly certain; if they differ, or only one finds the bone, the
-// confidence is lower. The reasons say why in words.
+// Rigify, 3ds Max's Biped, Acclaim, Motive and other captures. The other ignores names: it looks for a node
+// from which two equal limbs go down and a column goes up, for two equal limbs at the top of the column, and
+// for a head above them. If both agree, the match is nearly certain; if they differ, or only one finds the
+// bone, the confidence is lower. Where a limb has as many nodes as the one on the other side, both have their
+// bones at the same ones. The reasons say why in words.
 //
 //     const BoneMap map = match_bones(skeleton);
 //     if (!map.is_usable()) ...  // map.missing lists the missing bones, or the map is not upright
