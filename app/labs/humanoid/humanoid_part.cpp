@@ -46,6 +46,13 @@ std::shared_ptr<const Part> HumanoidPart::at_moment(std::shared_ptr<const Part> 
 }
 
 /// Copies share the character and the map, so each counts only a fraction of them.
+std::vector<std::filesystem::path> HumanoidPart::files() const {
+    std::vector<std::filesystem::path> all;
+    if (!loaded->path.empty()) all.emplace_back(loaded->path);
+    for (const LoadedMotion& each : loaded->motions) all.emplace_back(each.path);
+    return all;
+}
+
 std::size_t HumanoidPart::bytes() const {
     constexpr std::size_t sharing = 16, a_node = 200, a_key = 48;
     std::size_t keys = 0;
