@@ -65,7 +65,8 @@ App::~App() = default;
 
 void App::start_from(const RecordingStart& start) {
     replays_ = start.live;
-    load_scene(workspace_, start.scene);
+    if (const auto missing = load_scene(workspace_, start.scene); !missing.empty())
+        throw std::runtime_error(missing.front());
     if (labs_.find(start.lab) == nullptr)
         throw std::runtime_error("lab: there is no lab \"" + start.lab + "\"");
     workspace_.open_lab(start.lab);
@@ -91,7 +92,9 @@ void App::start_recording(bool live) {
     const std::shared_ptr<const Part> part = workspace_.document.parts().at(workspace_.lab);
     if (part != workspace_.blank.parts().at(workspace_.lab)) {
         const bool modified = workspace_.modified();
-        workspace_.document.set(workspace_.lab, part->load(part->save(), workspace_.lab));
+        const std::shared_ptr<Part> again = part->load(part->save(), workspace_.lab);
+        again->unread = part->unread;
+        workspace_.document.set(workspace_.lab, again);
         if (!modified) workspace_.saved = workspace_.document;
     }
     workspace_.forget_pasts();
@@ -341,11 +344,11 @@ Image App::screenshot() {
 }
 
 void App::write_screenshot(const std::string& path) {
-    write_png(path, screenshot());
+    workspace_.writes().write(path, OutputKind::Picture, encode_png(screenshot()), true);
 }
 
 void App::write_state(const std::string& path) {
-    write_file_atomically(path, state().dump(2) + "\n");
+    workspace_.writes().write(path, OutputKind::State, state().dump(2) + "\n", true);
 }
 
 Json App::lab_state() const {

@@ -34,7 +34,11 @@ void App::take_picture(const PictureRequest& wanted) {
         const PictureView view = picture_view(wanted.size);
         const auto text = picture_text(workspace_, lab(), view, wanted);
         const Image image = picture_of(workspace_, lab(), renderer_, view, wanted.transparent, text.get());
-        copies ? copy_picture(image) : write_png(wanted.path, image);
+        if (copies)
+            copy_picture(image);
+        else  // a script draws it again
+            workspace_.writes().write(wanted.path, OutputKind::Picture, encode_png(image),
+                                      !workspace_.outputs.in_window);
     } catch (const std::exception& error) {
         throw Refused(command + ": " + error.what());
     }
@@ -75,6 +79,7 @@ void App::write_video(bool ends) {
         workspace_.ui.filming = video_->progress();
         if (!ends || !video_->has_all_frames()) return;
         video_->finish();
+        workspace_.outputs.own(video_->wanted().path);
         workspace_.toast(written_text(video_->wanted().path));
         drop_video();
     } catch (const std::exception& error) {

@@ -1,15 +1,18 @@
 #include "app/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <map>
+#include <sstream>
 #include <string>
 #include <tendril/chain/segment.hpp>
 #include <tendril/version.hpp>
 
 #include "app/batch/code.hpp"
 #include "app/batch/motion.hpp"
+#include "app/batch/output.hpp"
 #include "app/batch/paper_table.hpp"
 #include "app/batch/signal.hpp"
 #include "app/batch/solve.hpp"
@@ -35,8 +38,17 @@ glm::ivec2 read_size(const std::string& text) {
     return {width, height};
 }
 
-void list_commands() {
+/// Prints to standard output. Throws std::runtime_error if that fails.
+void print(const std::string& text) {
+    Progress none;
+    Output out(none);
+    out.write(text);
+    out.finish();
+}
+
+std::string list_of_commands() {
     const Labs labs;
+    std::string list;
     const auto type_text = [](ArgumentType type) {
         switch (type) {
             case ArgumentType::Number:
@@ -64,19 +76,24 @@ void list_commands() {
     };
     const CommandTable table = make_command_table(labs);
     for (const Command& command : table.all()) {
-        std::printf("%s\n    %s\n    %s\n", usage(command).c_str(), command.title.c_str(),
-                    command.help.c_str());
+        list += usage(command) + "\n    " + command.title + "\n    " + command.help + '\n';
         for (const Argument& argument : command.arguments) {
             std::string choices;
             for (const auto& choice : argument.choices) choices += (choices.empty() ? ": " : ", ") + choice;
-            std::printf("    %-18s %s%s; %s%s\n", argument.name.c_str(), type_text(argument.type),
-                        argument.required ? "" : ", optional", argument.help.c_str(), choices.c_str());
+            const std::string name =
+                argument.name +
+                std::string(std::max<std::size_t>(argument.name.size(), 18) - argument.name.size(), ' ');
+            list += "    " + name + ' ' + type_text(argument.type) +
+                    (argument.required ? "; " : ", optional; ") + argument.help + choices + '\n';
         }
     }
+    return list;
 }
 
-void list_labs() {
-    for (const Labs labs; const auto& lab : labs.all()) std::printf("%s\n", lab->name().c_str());
+std::string list_of_labs() {
+    std::string list;
+    for (const Labs labs; const auto& lab : labs.all()) list += lab->name() + '\n';
+    return list;
 }
 
 /// The command line of a session.
@@ -109,6 +126,7 @@ void SessionLine::add_to(CLI::App& line) {
     line.add_option("--screenshot", options.screenshot, "Write the final picture")->option_text("PNG");
     line.add_option("--state", options.state, "Write the final state")->option_text("JSON");
     line.add_option("--record", options.record, "Record what is done as a script")->option_text("FILE");
+    line.add_flag("--force", options.force, "Replace files that exist; see app/README.md");
     line.add_flag("--no-config", no_config, "Do not read or write settings or kept bone maps");
     line.add_flag("--list-labs", labs, "Print the labs");
     line.add_flag("--list-commands", commands, "Print every command with its arguments");
@@ -126,11 +144,11 @@ void SessionLine::check() {
 }
 
 int SessionLine::run() {
-    if (labs) list_labs();
-    if (commands) list_commands();
+    if (labs) print(list_of_labs());
+    if (commands) print(list_of_commands());
     if (shortcuts) {
         const Labs all;
-        std::fputs(Shortcuts(all, make_command_table(all)).markdown().c_str(), stdout);
+        print(Shortcuts(all, make_command_table(all)).markdown());
     }
     if (labs || commands || shortcuts) return 0;
     return run_session(options);
@@ -219,6 +237,7 @@ CLI::App* add_bake(CLI::App& line, BakeOptions& options) {
         ->check(CLI::Range(1.0, 1000.0))
         ->option_text("N");
     bake->add_option("--out", options.out, "A .gltf, .glb or .bvh file; see below")->option_text("FILE");
+    bake->add_flag("--force", options.force, "Replace a .gltf, .glb or .bvh file that exists");
     bake->footer(bake_help);
     return bake;
 }
@@ -306,6 +325,19 @@ class BatchLine {
     std::string scene_;
 };
 
+/// Or the version.
+int print_help(const CLI::App& line, const CLI::ParseError& error) {
+    std::ostringstream text;
+    const int exit_code = line.exit(error, text);
+    try {
+        print(text.str());
+        return exit_code;
+    } catch (const std::exception& failure) {
+        complain(failure.what());
+        return 2;
+    }
+}
+
 }  // namespace
 
 int run_command_line(int argc, const char* const* argv) {
@@ -322,7 +354,7 @@ int run_command_line(int argc, const char* const* argv) {
         }
         return batch.run();
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return line.exit(error);
+        if (error.get_exit_code() == 0) return print_help(line, error);
         complain(error.what());
         return 2;
     } catch (const std::exception& error) {

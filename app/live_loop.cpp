@@ -64,9 +64,9 @@ LiveLoop::LiveLoop(App& app, Window& window, const Options& options)
     kept_ = app_.workspace().settings;
     app_.workspace().config = config_folder();
     app_.workspace().keeps = true;
+    autosave_.emplace(config_folder());
     for (const std::filesystem::path& file : Autosave::left_behind(config_folder()))
         app_.workspace().ui.recoverable.push_back({file, Autosave::title(file)});
-    autosave_.emplace(config_folder());
 }
 
 void LiveLoop::run(Player& player, std::optional<int> frames) {

@@ -1,9 +1,11 @@
 #include "app/session.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "app/app.hpp"
 #include "app/document/atomic_file.hpp"
@@ -35,10 +37,28 @@ std::unique_ptr<Window> make_window(const SessionOptions& options, glm::ivec2 si
 }
 
 /// Fails before anything runs if an output could not be written at the end.
-void check_outputs(const SessionOptions& options) {
-    for (const std::string& path : {options.screenshot, options.state, options.record}) {
-        if (!path.empty()) check_writable(path);
+Outputs check_outputs(const SessionOptions& options) {
+    Outputs outputs;
+    outputs.force = options.force;
+    outputs.in_window = !options.headless;
+    if (!options.script.empty()) outputs.inputs.emplace_back(options.script);
+    std::vector<std::filesystem::path> before;
+    for (const auto& [path, kind] : {std::pair{options.screenshot, OutputKind::Picture},
+                                     {options.state, OutputKind::State},
+                                     {options.record, OutputKind::Recording}}) {
+        if (path.empty()) continue;
+        std::error_code error;
+        const auto file = std::filesystem::weakly_canonical(path, error);
+        const bool is_file =
+            !std::filesystem::exists(file, error) || std::filesystem::is_regular_file(file, error);
+        if (is_file && std::ranges::find(before, file) != before.end())
+            throw std::runtime_error(path + " is named for two outputs");
+        before.push_back(file);
+        outputs.check({path}, kind, kind != OutputKind::Recording);
+        check_writable(path);
+        outputs.own(path);
     }
+    return outputs;
 }
 
 Script read_script(const SessionOptions& options, const CommandTable& commands) {
@@ -54,7 +74,12 @@ Script read_script(const SessionOptions& options, const CommandTable& commands) 
 /// Nothing to undo or to save: the file is where the session starts.
 void open_given(App& app, const std::string& file) {
     Workspace& workspace = app.workspace();
-    if (file_route(app.labs(), file).lab == nullptr) return load_scene_file(workspace, file);
+    if (file_route(app.labs(), file).lab == nullptr) {
+        load_scene_file(workspace, file);
+        for (const Toast& each : workspace.ui.toasts)  // what it starts without
+            if (!workspace.outputs.in_window) complain(each.text);
+        return;
+    }
     const std::uint64_t beginnings = workspace.beginnings;
     app.commands().run(workspace, "file.open", {{"path", file}});
     app.commands().find("file.open")->finish(workspace);
@@ -76,8 +101,33 @@ void open_scene(App& app, const SessionOptions& options) {
     app.settle();
 }
 
+/// The start is the first line of its recording.
+void start_recorded(App& app, const SessionOptions& options, const RecordingStart& start) {
+    try {
+        app.start_from(start);
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(options.script + ": line " + std::to_string(start.line) + ": " +
+                                 error.what());
+    }
+}
+
+/// Under another name if another program has put a file there meanwhile: what was done cannot be done again.
+void write_recording(App& app, const std::filesystem::path& path) {
+    try {
+        app.workspace().writes().write(path, OutputKind::Recording, app.recording());
+    } catch (const std::runtime_error& error) {
+        std::filesystem::path free = path;
+        std::error_code ignored;
+        for (int i = 2; std::filesystem::exists(free, ignored); ++i)
+            free.replace_filename(path.stem().string() + '-' + std::to_string(i) + path.extension().string());
+        if (free == path) throw;
+        write_file_atomically(free, app.recording());
+        throw std::runtime_error(error.what() + std::string("; the recording is in ") + free.string());
+    }
+}
+
 void write_outputs(App& app, const SessionOptions& options) {
-    if (!options.record.empty()) write_file_atomically(options.record, app.recording());
+    if (!options.record.empty()) write_recording(app, options.record);
     if (!options.state.empty()) app.write_state(options.state);
     if (!options.screenshot.empty()) app.write_screenshot(options.screenshot);
 }
@@ -88,7 +138,7 @@ void run_headless(App& app, Player& player, int frames) {
 }
 
 int run(const SessionOptions& options) {
-    check_outputs(options);
+    Outputs outputs = check_outputs(options);
     const Labs labs;
     Script script = read_script(options, make_command_table(labs));
     glm::ivec2 size = options.size.value_or(options.headless ? headless_size : window_size);
@@ -98,6 +148,7 @@ int run(const SessionOptions& options) {
     if (!options.size && !script.start) window->fit_screen();
     App app(*window, options.headless);
     app.workspace().names_pictures = !options.headless;
+    app.workspace().outputs = std::move(outputs);
     // A recording has its own settings, which must not replace the user's.
     const bool config = options.config && !options.headless && !script.start;
     // Off screen the config folder is only used by commands.
@@ -105,7 +156,7 @@ int run(const SessionOptions& options) {
     LiveLoop live(app, *window, {.config = config, .ending = ending});
     if (!options.headless && options.script.empty()) offer_cards(app);
     open_scene(app, options);
-    if (script.start) app.start_from(*script.start);
+    if (script.start) start_recorded(app, options, *script.start);
     if (!options.record.empty()) app.start_recording(!options.headless);
 
     int exit_code = 0;

@@ -22,6 +22,7 @@ struct SessionOptions {
     std::string state;
     std::string record;
     bool config = true;
+    bool force = false;  ///< replaces files that exist, as Outputs says
 };
 
 /// Returns 0 on success; 1 if a script's expectation failed or one of its commands was refused; 2 if

@@ -92,7 +92,7 @@ fs::path place_beside(const fs::path& file) {
 }
 
 ExportReport bake_one(const Character& character, const Clip& clip, const BakeOptions& options,
-                      const fs::path& out) {
+                      const fs::path& out, Outputs& outputs) {
     const double rate = options.fps.value_or(humanoid::frame_rate(clip));
     Clip corrected = clip;
     if (options.travel) {
@@ -114,7 +114,8 @@ ExportReport bake_one(const Character& character, const Clip& clip, const BakeOp
                         .original = clip,
                         .corrected = corrected,
                         .rate = rate,
-                        .ground = &ground},
+                        .ground = &ground,
+                        .outputs = &outputs},
                        out);
 }
 
@@ -164,21 +165,26 @@ void run_bake(const BakeOptions& options) {
     const Clip& first =
         options.motion.empty() ? clip_named(character, options.file, options.clip) : character.clips.front();
     const fs::path out = options.out.empty() ? place_beside(options.file) : fs::path(options.out);
+    Outputs outputs;
+    outputs.force = options.force;
+    outputs.inputs = {options.file};
+    if (!options.motion.empty()) outputs.inputs.emplace_back(options.motion);
     Progress progress;
     Output print(progress);
     print_notes(notes, print);
     if (options.all) {
         const std::vector<fs::path> paths = paths_of_clips(character, out);
+        outputs.check(paths, OutputKind::Motion);
         for (std::size_t i = 0; i < paths.size(); ++i) {
             progress.show("writing", static_cast<double>(i) / static_cast<double>(paths.size()));
             const Clip& clip = character.clips[i];
             print.write(paths[i].string() + ": " + printable(clip.name) + ", " +
-                        bake_one(character, clip, options, paths[i]).text() + '\n');
+                        bake_one(character, clip, options, paths[i], outputs).text() + '\n');
         }
     } else {
         const std::string which = one_of_clips_text(character, first.name);
         print.write(out.string() + ": " + printable(which.empty() ? first.name : which) + ", " +
-                    bake_one(character, first, options, out).text() + '\n');
+                    bake_one(character, first, options, out, outputs).text() + '\n');
     }
     print.finish();
 }
@@ -212,8 +218,9 @@ hills. A clip that walks in place climbs nothing: with --travel it goes along at
 speed of its standing foot. The file is then read back, and two errors are printed:
 the joint that is furthest from where it was, in mm, and how far a standing foot
 slides at most, before and after. A BVH's frame 0 is time 0. What a file does not say
-and was guessed (unit, up axis, root) is printed first. An existing file is replaced
-as a whole, or left as it was (exit code 2). A signal ends it at once.
+and was guessed (unit, up axis, root) is printed first. A glTF, GLB or BVH file
+that exists is replaced only with --force, as a whole or not at all; any other file
+and the files read never are (exit code 2). A signal ends it at once.
 To open a scene file that is named bake, write ./bake.)";
 
 }  // namespace tendril::app

@@ -25,6 +25,7 @@ struct BakeOptions {
     bool travel = false;          ///< a clip that walks in place travels at the speed of its standing foot
     std::optional<double> fps{};  ///< frames per second; the clip's own by default
     std::string out;              ///< path; empty: FILE_baked beside the file
+    bool force = false;           ///< replaces glTF, GLB and BVH files that exist
 };
 /// The names of the grounds.
 std::vector<std::string> bake_grounds();

@@ -86,6 +86,7 @@ std::size_t run_trace(const TraceOptions& options) {
     if (!standard && fs::is_directory(options.file)) throw std::runtime_error(name + ": is a folder");
     std::ifstream file;
     if (!standard) {
+        const auto pipe = await_pipe(options.file);
         file.open(options.file, std::ios::binary);
         if (!file) throw std::runtime_error(name + ": " + std::strerror(errno));
     }

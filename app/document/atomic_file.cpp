@@ -2,15 +2,18 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 namespace tendril::app {
@@ -55,10 +58,13 @@ bool is_stream(const fs::file_status& status) {
     return fs::exists(status) && !fs::is_regular_file(status);
 }
 
+constexpr std::string_view torn_start = ".tendril-", torn_end = ".tmp";
+
 /// A name that no other writer is using, in this program or another.
 fs::path temporary_name(const fs::path& folder) {
     static std::atomic<unsigned> counter{0};
-    return folder / (".tendril-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
+    return folder / (std::string(torn_start) + std::to_string(::getpid()) + "-" + std::to_string(counter++) +
+                     std::string(torn_end));
 }
 
 std::string last_error() {
@@ -86,9 +92,20 @@ bool write_all(int fd, std::string_view bytes) {
     return true;
 }
 
+/// Opening a pipe waits for its reader: not for ever.
+int open_stream(const fs::path& path) {
+    using Time = std::chrono::steady_clock;
+    const auto end = Time::now() + std::chrono::seconds(5);
+    int fd = -1;
+    while ((fd = open_file(path, O_WRONLY | O_NONBLOCK)) < 0 && errno == ENXIO && Time::now() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    if (fd < 0) fail(path, errno == ENXIO ? "nobody reads from this pipe" : last_error());
+    ::fcntl(fd, F_SETFL, ::fcntl(fd, F_GETFL) & ~O_NONBLOCK);
+    return fd;
+}
+
 void write_stream(const fs::path& path, std::string_view bytes) {
-    const int fd = open_file(path, O_WRONLY);
-    if (fd < 0) fail(path, last_error());
+    const int fd = open_stream(path);
     const bool written = write_all(fd, bytes);
     const std::string reason = last_error();
     ::close(fd);
@@ -107,6 +124,11 @@ class AtomicFile::Beside {
             name_ = temporary_name(folder);
             fd_ = open_file(name_, O_WRONLY | O_CREAT | O_EXCL);
             if (fd_ < 0 && errno != EEXIST) break;
+            // Before the lock another program may take it for a torn file and remove it.
+            struct stat made {};
+            const bool taken = fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+            if (taken || (fd_ >= 0 && ::fstat(fd_, &made) == 0 && made.st_nlink == 0))
+                ::close(std::exchange(fd_, -1));
         }
         if (fd_ < 0) fail(target_, last_error());
     }
@@ -124,11 +146,11 @@ class AtomicFile::Beside {
         struct stat before {};
         if (::stat(old.c_str(), &before) == 0) require(::fchmod(fd_, before.st_mode & 07777) == 0);
         require(::fsync(fd_) == 0);
-        require(::close(std::exchange(fd_, -1)) == 0);
     }
     void move_over(const fs::path& file) {
         require(::rename(name_.c_str(), file.c_str()) == 0);
         moved_ = true;
+        ::close(std::exchange(fd_, -1));  // until now its lock says that it is not torn
         // The rename has succeeded; a file system that cannot sync a folder is no error.
         const int folder = open_file(folder_of(file), O_RDONLY | O_DIRECTORY);
         if (folder < 0) return;
@@ -194,6 +216,19 @@ const fs::path& AtomicFile::beside() const {
 void AtomicFile::commit() {
     beside_->finish(file_);
     beside_->move_over(file_);
+}
+
+void remove_torn_files(const fs::path& folder) {
+    std::error_code error;
+    for (fs::directory_iterator each(folder, error), end; !error && each != end; each.increment(error)) {
+        const std::string name = each->path().filename().string();
+        if (!name.starts_with(torn_start) || !name.ends_with(torn_end)) continue;
+        const int fd = open_file(each->path(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
+        if (fd < 0) continue;
+        // Its writer holds the lock as long as it runs.
+        if (::flock(fd, LOCK_EX | LOCK_NB) == 0) ::unlink(each->path().c_str());
+        ::close(fd);
+    }
 }
 
 void check_writable(const fs::path& path) {

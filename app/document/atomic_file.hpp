@@ -1,6 +1,6 @@
 // Atomic file writes: a temporary file in the same folder is written, synced to disk and renamed over the old
-// one, so a crash leaves either the old file or the new one. The only way this program writes files, and how its
-// messages give their paths.
+// one, so a crash leaves either the old file or the new one. The only way this program writes files, and how
+// its messages give their paths.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace tendril::app {
 
 /// Throws std::runtime_error: "cannot write <path>: <reason>"; the old file is then unchanged and no
 /// temporary file remains. Keeps the permissions of a file it replaces, follows symbolic links, and writes to
-/// devices and pipes directly.
+/// devices and pipes directly; a pipe that nobody opens to read within 5 s is refused.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
 /// The same for data written in pieces, or by another program. Throws as above.
@@ -37,6 +37,9 @@ class AtomicFile {
     std::filesystem::path path_, file_;  ///< as given, and with symbolic links resolved
     std::unique_ptr<Beside> beside_;
 };
+
+/// Removes the temporary files that programs left in a folder when they were killed.
+void remove_torn_files(const std::filesystem::path& folder);
 
 /// Throws, as above, if `path` cannot be written: its folder is missing or not writable, or it is a folder
 /// itself. Leaves no file behind.

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view name_start = "autosave-", name_end = ".json";
 
-/// The stem of the newest Autosave; adopt() renames files to it.
+/// The stem of the newest Autosave; recover() gives files names of it.
 std::string own_stem = std::to_string(::getpid());
 
 std::string name_for(const std::string& stem) {
@@ -32,8 +32,8 @@ fs::path lock_of(const fs::path& folder, const std::string& stem) {
     return folder / std::string(name_start).append(stem).append(".lock");
 }
 
-/// Whether the file is an autosave whose program has ended. Always true of one that the constructor renamed
-/// ("autosave-12.1.json").
+/// Whether the file is an autosave whose program has ended: "autosave-12.json", of a second program with that
+/// process ID "autosave-12_2.json", and of recovered work "autosave-12.1.json".
 bool is_left_behind(const fs::path& file) {
     const std::string name = file.filename().string();
     if (!name.starts_with(name_start) || !name.ends_with(name_end)) return false;
@@ -44,22 +44,31 @@ bool is_left_behind(const fs::path& file) {
     const auto [rest, error] = std::from_chars(stem.data(), stem.data() + stem.size(), pid);
     if (error != std::errc() || pid <= 0) return false;
     const std::string_view more(rest, static_cast<std::size_t>(stem.data() + stem.size() - rest));
-    if (more.starts_with('.')) return true;
-    return (more.empty() || more.starts_with('_')) && !FileLock::is_held(lock_of(file.parent_path(), stem));
+    return (more.empty() || more.starts_with('_') || more.starts_with('.')) &&
+           !FileLock::is_held(lock_of(file.parent_path(), stem.substr(0, stem.find('.'))));
 }
 
-/// Removes temporary files of programs that were killed while writing. Files being written now are younger
-/// than the minute that this leaves.
-void remove_torn_files(const fs::path& folder) {
+/// Removes the locks of programs that were killed.
+void remove_left_locks(const fs::path& folder) {
+    std::vector<fs::path> locks;
     std::error_code error;
-    const auto old = fs::file_time_type::clock::now() - std::chrono::minutes(1);
     for (fs::directory_iterator each(folder, error), end; !error && each != end; each.increment(error)) {
         const std::string name = each->path().filename().string();
         std::error_code ignored;
-        if (name.starts_with(".tendril-") && name.ends_with(".tmp") && each->is_regular_file(ignored) &&
-            each->last_write_time(ignored) < old)
-            fs::remove(each->path(), ignored);
+        if (name.starts_with(name_start) && name.ends_with(".lock") && each->is_regular_file(ignored))
+            locks.push_back(each->path());
     }
+    for (const fs::path& each : locks) FileLock::take(each);  // and let go: that removes it
+}
+
+/// Renames the file to a name of this program that is free. Returns where it is.
+fs::path adopted(const fs::path& file) {
+    std::error_code error;
+    fs::path mine;
+    for (int i = 1; i == 1 || fs::exists(mine, error); ++i)
+        mine = file.parent_path() / name_for(own_stem + '.' + std::to_string(i));
+    fs::rename(file, mine, error);
+    return error ? file : mine;
 }
 
 }  // namespace
@@ -69,24 +78,27 @@ Autosave::Autosave(fs::path folder, Clock::duration interval)
     std::error_code ignored;
     fs::create_directories(folder_, ignored);
     remove_torn_files(folder_);
+    remove_left_locks(folder_);
     const std::string pid = std::to_string(::getpid());
     for (int i = 1; !lock_ && i < 100; ++i) {
         stem_ = i == 1 ? pid : pid + "_" + std::to_string(i);
-        lock_ = FileLock::take(lock_of(folder_, stem_));
+        // A program that crashed may have had the same process ID: its files stay its own.
+        const std::vector<fs::path> left = left_behind(folder_);
+        const auto has_stem = [&](const fs::path& each) {
+            const std::string name = each.filename().string(), stem = std::string(name_start) + stem_;
+            return name.starts_with(stem + '.');
+        };
+        if (std::ranges::none_of(left, has_stem)) lock_ = FileLock::take(lock_of(folder_, stem_));
     }
     own_stem = stem_;
-    // An existing file of that name is a crashed program's, which had the same process ID: keep it.
-    for (int i = 1; fs::exists(file(), ignored) && i < 1000; ++i) {
-        const fs::path aside = folder_ / name_for(stem_ + "." + std::to_string(i));
-        if (!fs::exists(aside, ignored)) fs::rename(file(), aside, ignored);
-    }
 }
 
 void Autosave::end(Workspace& workspace, bool keep_unsaved) {
     if (keep_unsaved && workspace.modified()) {
         write(workspace);
     } else {
-        remove();
+        std::error_code ignored;
+        fs::remove(file_of(workspace), ignored);
     }
 }
 
@@ -94,15 +106,16 @@ fs::path Autosave::file() const {
     return folder_ / name_for(stem_);
 }
 
-void Autosave::remove() {
-    std::error_code ignored;
-    fs::remove(file(), ignored);
-}
-
 void Autosave::update(Workspace& workspace, Clock::time_point now) {
+    std::error_code ignored;
+    if (shown_ != workspace.recovered) {
+        shown_ = workspace.recovered;
+        has_file_ = fs::exists(file_of(workspace), ignored);
+        written_ = Document();
+    }
     if (!workspace.modified()) {
         // Otherwise the file would offer changes that have been saved since.
-        if (std::exchange(has_file_, false)) remove();
+        if (std::exchange(has_file_, false)) fs::remove(file_of(workspace), ignored);
         waiting_ = false;
         return;
     }
@@ -123,7 +136,7 @@ void Autosave::write(Workspace& workspace) {
         Json scene = save_scene(workspace);
         std::error_code ignored;
         if (!workspace.path.empty()) scene["path"] = fs::absolute(workspace.path, ignored).string();
-        write_file_atomically(file(), json_to_text(scene));
+        write_file_atomically(file_of(workspace), json_to_text(scene));
         written_ = workspace.document;
         has_file_ = true;
         failed_ = false;
@@ -167,14 +180,13 @@ void Autosave::recover(Workspace& workspace, const fs::path& file) {
     const Json scene = read_json_file(file);
     std::string path;
     if (scene.is_object() && scene.contains("path")) path = json_text(scene["path"], "path");
-    load_scene(workspace, scene);
+    const std::vector<std::string> missing =
+        load_scene(workspace, scene, {.folder = fs::path(path).parent_path(), .whole = false});
     workspace.path = path;
+    if (!path.empty()) workspace.outputs.own(path);
     workspace.saved = Document();
-}
-
-void Autosave::adopt(const fs::path& file) {
-    std::error_code ignored;
-    fs::rename(file, file.parent_path() / name_for(own_stem), ignored);
+    workspace.recovered = adopted(file);
+    for (const std::string& each : missing) workspace.toast(each, ToastKind::Refusal);
 }
 
 }  // namespace tendril::app

@@ -1,6 +1,7 @@
 // Copies unsaved work to the config folder after 30 s of changes, and recovers what a crash left there. Each
 // running program has its own file, autosave-<pid>.json, removed on a clean exit, and holds
-// autosave-<pid>.lock: an autosave whose lock is not held was left by a crash.
+// autosave-<pid>.lock: an autosave whose lock is not held was left by a crash. Recovered work keeps a file of
+// its own, autosave-<pid>.<n>.json, until it is saved, whatever else is recovered or opened meanwhile.
 #pragma once
 
 #include <chrono>
@@ -24,9 +25,10 @@ class Autosave {
     /// Writes the scene when it has unsaved changes that are not yet in the file, and `interval` has passed
     /// since the first of them. The first failure to write is reported in a toast.
     void update(Workspace& workspace, Clock::time_point now);
-    /// Call on a clean exit: removes this program's file or, with `keep_unsaved`, updates it so that the next
+    /// Call on a clean exit: removes the work's file or, with `keep_unsaved`, updates it so that the next
     /// start offers it. A program that ends without this call leaves the file too.
     void end(Workspace& workspace, bool keep_unsaved);
+    /// This program's own.
     std::filesystem::path file() const;
 
     /// Files of programs that no longer run, newest first.
@@ -34,14 +36,16 @@ class Autosave {
     /// The title of such a file in the window: the scene's file name and the time of writing.
     static std::string title(const std::filesystem::path& file);
     /// Opens such a file as unsaved changes to its original scene file (the extra member "path"), or to none.
-    /// Throws as load_scene_file does. Keeps the autosave.
+    /// What of a lab cannot be read stays in the file, and a toast says so. Throws as load_scene_file does.
+    /// The autosave becomes this program's, so that the work in it stays safe until it is saved.
     static void recover(Workspace& workspace, const std::filesystem::path& file);
-    /// Renames such a file to this program's own, so that the work in it stays safe until it is saved.
-    static void adopt(const std::filesystem::path& file);
 
   private:
+    /// The file of the work that the workspace shows.
+    std::filesystem::path file_of(const Workspace& workspace) const {
+        return workspace.recovered.empty() ? file() : workspace.recovered;
+    }
     void write(Workspace& workspace);
-    void remove();
 
     std::filesystem::path folder_;
     std::string stem_;  ///< the process ID, with a suffix if another program holds that name
@@ -49,8 +53,9 @@ class Autosave {
     Clock::duration interval_;
     Document written_;
     Clock::time_point changed_at_{};
-    bool waiting_ = false;   ///< since changed_at_
-    bool has_file_ = false;  ///< holds written_
+    bool waiting_ = false;         ///< since changed_at_
+    bool has_file_ = false;        ///< holds written_
+    std::filesystem::path shown_;  ///< Workspace::recovered, at the last update
     bool failed_ = false;
 };
 

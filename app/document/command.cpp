@@ -31,6 +31,20 @@ void remember(Workspace& workspace, const Document& changed, const Command& comm
     workspace.history.push(changed, command.name, gesture, from, to);
 }
 
+/// A scene's JSON that could not be read is kept only while its lab is left alone.
+void forget_unread(Workspace& workspace, const Document& before) {
+    const Document edited_document = workspace.document;
+    for (const auto& [lab, part] : edited_document.parts()) {
+        const auto was = before.parts().find(lab);
+        if (!part->unread || was == before.parts().end() || was->second == part ||
+            was->second->unread != part->unread)
+            continue;
+        const std::shared_ptr<Part> edited = part->clone();
+        edited->unread = nullptr;
+        workspace.document.set(lab, edited);
+    }
+}
+
 }  // namespace
 
 void check_arguments(const Command& command, const Json& given) {
@@ -80,12 +94,13 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
         command->apply(workspace, Arguments(arguments));
     } catch (const std::exception& error) {
         workspace.document = before;
-        throw Refused(refusal_text(command->name, error.what()));
+        throw Refused(refusal_text(command->name, reason_of(error)));
     }
     // A new file path counts as a change too: undo restores the old one.
     if (workspace.document == before && workspace.path == from.path) return;
     if (command->effect == Effect::Replace) return;
     if (command->effect == Effect::Edit) {
+        forget_unread(workspace, before);
         if (beginnings == workspace.beginnings) {  // else the command has made the past itself
             const auto& part = before.parts().at(workspace.lab);
             workspace.discard_later(part);

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/document/json.hpp"
 
@@ -31,6 +33,12 @@ class Part {
     virtual std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const { return then; }
     /// Rough size in memory, for the history's bound.
     virtual std::size_t bytes() const = 0;
+    /// Files that load() reads beside the JSON: nothing is written over them.
+    virtual std::vector<std::filesystem::path> files() const { return {}; }
+
+    /// The scene's JSON for this lab if it could not be read, because a file is missing; else null. It is
+    /// saved instead of save() until a command edits the part.
+    std::shared_ptr<const Json> unread{};
 };
 
 class Document {

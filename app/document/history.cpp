@@ -18,6 +18,10 @@ void History::push(const Document& before, const std::string& label, Gesture ges
         entry.from.path.reset();
         entry.to.path.reset();
     }
+    if (from.recovered == to.recovered) {
+        entry.from.recovered.reset();
+        entry.to.recovered.reset();
+    }
     if (from.lab == to.lab && from.camera == to.camera) {
         entry.from.camera.reset();
         entry.to.camera.reset();
@@ -67,6 +71,7 @@ Document History::exchange(Entry& entry, const Document& current) {
 void History::go(Place& target, Place& origin, Place* place) {
     if (place == nullptr) return;
     if (target.path) origin.path = place->path;
+    if (target.recovered) origin.recovered = place->recovered;
     if (target.camera && place->lab == origin.lab) origin.camera = place->camera;
     if (target.moment && place->lab == origin.lab) origin.moment = place->moment;
     if (target.openings) origin.openings = place->openings;

@@ -31,6 +31,7 @@ struct Place {
     std::optional<CameraPose> camera{};               ///< of the lab
     std::optional<MomentId> moment{};                 ///< set by time.seek only
     std::optional<std::set<std::string>> openings{};  ///< labs that move by themselves until they are changed
+    std::optional<std::filesystem::path> recovered{};  ///< the autosave that holds this work
 };
 
 class History {

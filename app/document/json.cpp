@@ -1,5 +1,9 @@
 #include "app/document/json.hpp"
 
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -147,6 +151,35 @@ std::string json_summary(const Json& json) {
     return json.is_array() ? "a list" : "an object";
 }
 
+std::string reason_of(const std::exception& error) {
+    if (dynamic_cast<const Json::exception*>(&error) != nullptr)
+        return "a value is missing, or of another type than expected";
+    return error.what();
+}
+
+std::shared_ptr<void> await_pipe(const std::filesystem::path& path) {
+    std::error_code error;
+    // A shell's own pipes, /dev/fd/63, have their writer.
+    if (!std::filesystem::is_fifo(path, error) || path.string().starts_with("/dev/fd/")) return nullptr;
+    const auto open_end = [&](int flags) {
+        return std::shared_ptr<const int>(new int(::open(path.c_str(), flags | O_NONBLOCK | O_CLOEXEC)),
+                                          [](const int* fd) {
+                                              if (*fd >= 0) ::close(*fd);
+                                              delete fd;
+                                          });
+    };
+    const auto reader = open_end(O_RDONLY);
+    struct pollfd wanted {};
+    wanted.fd = *reader;
+    wanted.events = POLLIN;
+    constexpr int patience = 5000;  // ms
+    if (*reader >= 0 && ::poll(&wanted, 1, patience) == 0)
+        fail(path.string(), "nothing came through this pipe for 5 s");
+    // Being a writer, too, the next one who opens it to read does not wait.
+    return std::make_shared<std::pair<std::shared_ptr<const int>, std::shared_ptr<const int>>>(
+        reader, open_end(O_RDWR));
+}
+
 std::string read_text_file(const std::filesystem::path& path) {
     const std::string shown = path.string();
     if (shown.find('\0') != std::string::npos) throw std::runtime_error("not a file name");
@@ -159,7 +192,9 @@ std::string read_text_file(const std::filesystem::path& path) {
         std::filesystem::file_size(path, error) > max_file_bytes && !error)
         fail(shown, too_large);
 
+    auto pipe = await_pipe(path);
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(shown.c_str(), "rb"), &std::fclose);
+    pipe.reset();
     if (!file) fail(shown, std::generic_category().message(errno));
     std::string text;
     std::array<char, 1 << 16> block{};

@@ -74,6 +74,15 @@ Json parse_json(std::string_view text);
 /// that path that exists; 0 if none does.
 int json_line(std::string_view text, std::string_view path);
 
+/// What an exception says, but for the JSON library's own: these say in our words that a value is of another
+/// type than expected.
+std::string reason_of(const std::exception& error);
+
+/// Opening a named pipe waits for its writer. This waits instead until something comes through it, and throws
+/// std::runtime_error naming the path if nothing does within 5 s. Keep what it returns until the pipe is
+/// open.
+[[nodiscard]] std::shared_ptr<void> await_pipe(const std::filesystem::path& path);
+
 /// Reads a whole file, pipe or device of at most max_file_bytes. Throws std::runtime_error naming the path.
 std::string read_text_file(const std::filesystem::path& path);
 /// read_text_file and parse_json; the message is "<path>: line 3: <reason>".

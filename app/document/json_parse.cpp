@@ -22,22 +22,42 @@ void check_depth(std::string_view text) {
     }
 }
 
-/// The parser's message without its name, position and grammar, in one line of printable ASCII.
-std::string concise(std::string_view what) {
-    constexpr std::size_t longest = 100;
-    const auto skip_past = [&](std::string_view mark) {
-        const auto at = what.find(mark);
-        if (at == what.npos) return false;
-        what.remove_prefix(at + mark.size());
-        return true;
-    };
+/// In words of this program: the parser's speak of literals and last reads. One line of printable ASCII.
+std::string parse_reason(std::string_view what, std::string_view token) {
+    constexpr std::size_t longest = 60;
+    what = what.substr(0, what.find("; last read"));  // what the file says is not what the parser says
+    const auto says = [&](std::string_view part) { return what.find(part) != what.npos; };
+    const std::string_view unexpected = "unexpected ";
     std::string reason;
-    if (skip_past("number overflow parsing "))
+    if (says("number overflow"))
         reason = "number too large: ";
-    else
-        skip_past(" - ") || skip_past("] ");
-    for (const char c : what.substr(0, longest)) reason += c >= ' ' && c <= '~' ? c : '?';
-    return what.size() > longest ? reason + "..." : reason;
+    else if (says("invalid literal"))
+        reason = "expected a value, found ";
+    else if (says("invalid number"))
+        reason = "not a number: ";
+    else if (says("UTF-8"))
+        return "a text has bytes that are not UTF-8";
+    else if (says("control character"))
+        return "a text has a line break or control character in it";
+    else if (says("missing closing quote"))
+        return "a text has no closing quote";
+    else if (says("invalid string"))
+        reason = "a text has an unknown escape: ";
+    else if (const auto at = what.find(unexpected); at != what.npos) {
+        const std::string_view found = what.substr(at, what.find(';', at) - at);
+        if (found.ends_with("string literal")) return "unexpected text";
+        if (found.ends_with(" literal"))
+            return std::string(found.substr(0, found.size() - std::string_view(" literal").size()));
+        return std::string(found);
+    } else {
+        return "not JSON";
+    }
+    reason += '\'';
+    // It names control characters as <U+000A>, and may begin before the mistake.
+    token = says("invalid string") ? token.substr(0, token.find("<U+"))
+                                   : token.substr(token.find_last_of(" >{}[],:\"") + 1);
+    for (const char c : token.substr(0, longest)) reason += c >= ' ' && c <= '~' ? c : '?';
+    return reason + (token.size() > longest ? "...'" : "'");
 }
 
 using Members = std::vector<std::pair<std::string, Json>>;
@@ -91,8 +111,8 @@ class Builder : public nlohmann::json_sax<Json> {
         open_.pop_back();
         return value(std::move(array));
     }
-    bool parse_error(std::size_t position, const std::string&, const Json::exception& error) override {
-        throw ParseError(line_at(text_, position == 0 ? 0 : position - 1), concise(error.what()));
+    bool parse_error(std::size_t position, const std::string& token, const Json::exception& error) override {
+        throw ParseError(line_at(text_, position == 0 ? 0 : position - 1), parse_reason(error.what(), token));
     }
 
   private:

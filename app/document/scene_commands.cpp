@@ -84,7 +84,6 @@ void add_recovery_commands(CommandTable& table) {
                .apply = [](Workspace& w, const Arguments& a) {
                    const std::filesystem::path file = offered(w, a);
                    Autosave::recover(w, file);
-                   Autosave::adopt(file);
                    answered(w, file);
                    w.toast("Recovered. It is not saved yet.");
                }});

@@ -1,5 +1,6 @@
 #include "app/document/scene_file.hpp"
 
+#include <algorithm>
 #include <glm/common.hpp>
 #include <stdexcept>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "app/document/json_complete.hpp"
 
 namespace tendril::app {
+namespace fs = std::filesystem;
 namespace {
 
 const Json* optional_member(const Json& object, const char* key) {
@@ -26,28 +28,100 @@ int read_version(const Json& scene) {
     return json_integer(version, "tendril_scene", 1, scene_version);
 }
 
-/// Converts any exception of the part to std::runtime_error.
-std::shared_ptr<const Part> load_part(const Part& blank, const Json& json, int version,
-                                      const std::string& where) {
+/// Where a file that was at `path` may be now: the end of its path under the scene's folder or, with at least
+/// one folder, under the two above that. Empty if it is in none.
+fs::path moved_file(const fs::path& path, const fs::path& scene_folder) {
+    constexpr std::size_t longest = 4096;  // bytes, as systems have it
+    fs::path base = path.native().size() > longest ? fs::path() : scene_folder;
+    std::error_code error;
+    for (int up = 0; up <= 2 && !base.empty(); ++up, base /= "..") {
+        const fs::path below = path.relative_path();
+        for (auto from = below.begin(); from != below.end(); ++from) {
+            fs::path end;
+            for (auto each = from; each != below.end(); ++each) end /= *each;
+            if (up > 0 && !end.has_parent_path()) break;
+            if (fs::is_regular_file(base / end, error)) return base / end;
+        }
+    }
+    return {};
+}
+
+/// The files that a lab's part of a scene names.
+struct SceneFiles {
+    fs::path folder;        ///< the scene's
+    bool any = false;       ///< it names one
+    std::string missing{};  ///< what to say of the first that is nowhere
+
+    /// Sets the paths of those that have moved with the scene.
+    void find(Json& json, const std::string& where) {
+        const auto text = [&](const char* key) {
+            const auto found = json.find(key);
+            return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+        };
+        if (json.is_object() && !text("file").empty() && json.contains("path")) {
+            any = true;
+            const fs::path path = text("path");
+            std::error_code error;
+            if (!fs::exists(path, error) && !fs::exists(text("file"), error)) {
+                const fs::path found = moved_file(path, folder);
+                if (!found.empty())
+                    json["path"] = fs::absolute(found, error).lexically_normal().string();
+                else if (missing.empty())
+                    missing = where + ".file: " + path.filename().string() + " is missing, at " +
+                              shown_path(path) + " and beside the scene";
+            }
+        }
+        if (!json.is_structured()) return;
+        for (const auto& item : json.items())
+            if (item.value().is_structured()) find(item.value(), where + '.' + item.key());
+    }
+};
+
+/// Calls the part, and converts any exception of it to std::runtime_error.
+template <class Call>
+auto converted(const std::string& where, const Call& call) {
     try {
-        if (version == scene_version) return blank.load(json, where);
-        Json upgraded = json;
-        blank.upgrade(upgraded, version);
-        return blank.load(upgraded, where);
+        return call();
     } catch (const std::runtime_error&) {
         throw;
     } catch (const std::exception& error) {
-        throw std::runtime_error(where + ": " + error.what());
+        throw std::runtime_error(where + ": " + reason_of(error));
     }
 }
 
-Document load_document(const Document& blank, const Json& labs, int version) {
+/// Adds what could not be read to `missing`.
+std::shared_ptr<const Part> load_part(const Part& blank, const Json& json, int version,
+                                      const std::string& where, const SceneLoading& loading,
+                                      std::vector<std::string>& missing) {
+    auto saved = std::make_shared<Json>(json);
+    if (version != scene_version) converted(where, [&] { blank.upgrade(*saved, version); });
+    Json found = *saved;
+    SceneFiles files{.folder = loading.folder};
+    files.find(found, where);
+    std::string why = files.missing;
+    try {
+        if (why.empty())
+            return converted(where,
+                             [&]() -> std::shared_ptr<const Part> { return blank.load(found, where); });
+    } catch (const std::runtime_error& error) {
+        if (loading.whole && !files.any) throw;
+        why = error.what();
+    }
+    missing.push_back(
+        why + ". This lab starts blank, and saving keeps what the scene has of it until you change it");
+    const std::shared_ptr<Part> part = blank.clone();
+    part->unread = std::move(saved);
+    return part;
+}
+
+Document load_document(const Document& blank, const Json& labs, int version, const SceneLoading& loading,
+                       std::vector<std::string>& missing) {
     Document document = blank;
     for (const auto& [name, json] : labs.items()) {
         const auto known = blank.parts().find(name);
         if (known == blank.parts().end())
             throw std::runtime_error("labs: there is no lab " + json_summary(Json(name)));
-        document.set(name, load_part(*known->second, json, version, "labs." + name));
+        document.set(name, load_part(*known->second, json, version, "labs." + name, loading, missing));
     }
     return document;
 }
@@ -59,7 +133,8 @@ Document sharing_equal_parts(const Document& document, const Document& present) 
     Document result = document;
     for (const auto& [lab, part] : document.parts()) {
         const auto now = present.parts().find(lab);
-        if (now != present.parts().end() && now->second != part && now->second->save() == part->save())
+        if (now != present.parts().end() && now->second != part && !now->second->unread && !part->unread &&
+            now->second->save() == part->save())
             result.set(lab, now->second);
     }
     return result;
@@ -112,7 +187,8 @@ CameraPose load_camera(const Json& json, const std::string& where) {
 Json save_scene(const Workspace& workspace) {
     Json labs = Json::object();
     for (const auto& [name, part] : workspace.document.parts()) {
-        if (name == workspace.lab || !workspace.openings.contains(name)) labs[name] = part->save();
+        if (name == workspace.lab || !workspace.openings.contains(name))
+            labs[name] = part->unread ? *part->unread : part->save();
     }
     return Json{{"tendril_scene", scene_version},
                 {"lab", workspace.lab},
@@ -126,14 +202,16 @@ struct Scene {
     Document document;
     std::string lab;
     CameraPose camera;
+    std::vector<std::string> missing;
 };
 
 /// Throws what load_scene() throws.
-Scene read_scene(const Workspace& workspace, const Json& json) {
+Scene read_scene(const Workspace& workspace, const Json& json, const SceneLoading& loading) {
     const int version = read_version(json);
     const Json& labs = json_member(json, "labs", "");
     if (!labs.is_object()) throw std::runtime_error("labs: expected an object, found " + json_summary(labs));
-    Scene scene{load_document(workspace.blank, labs, version), workspace.lab, {}};
+    Scene scene{{}, workspace.lab, {}, {}};
+    scene.document = load_document(workspace.blank, labs, version, loading, scene.missing);
     if (const Json* found = optional_member(json, "lab")) {
         scene.lab = json_text(*found, "lab");
         if (!scene.document.parts().contains(scene.lab))
@@ -144,10 +222,20 @@ Scene read_scene(const Workspace& workspace, const Json& json) {
     return scene;
 }
 
-/// Why a saved scene would not open; empty if it would.
+/// Why a saved scene would not open; empty if it would. A missing file is not the scene's fault.
 std::string loading_fault(const Workspace& workspace, const std::string& text) {
     try {
-        (void)read_scene(workspace, parse_json(text));
+        const Scene scene = read_scene(workspace, parse_json(text), {});
+        for (const std::string& why : scene.missing) {
+            const std::string lab =
+                why.substr(5, why.find_first_of(".:", 5) - 5);  // "labs.humanoid.file: ..."
+            const Part& part = *workspace.document.parts().at(lab);
+            if (!part.unread && std::ranges::all_of(part.files(), [](const fs::path& file) {
+                    std::error_code unknown;
+                    return fs::exists(file, unknown);
+                }))
+                return why;
+        }
         return {};
     } catch (const std::exception& error) {
         return error.what();
@@ -156,8 +244,8 @@ std::string loading_fault(const Workspace& workspace, const std::string& text) {
 
 }  // namespace
 
-void load_scene(Workspace& workspace, const Json& json) {
-    Scene scene = read_scene(workspace, json);
+std::vector<std::string> load_scene(Workspace& workspace, const Json& json, const SceneLoading& loading) {
+    Scene scene = read_scene(workspace, json, loading);
     scene.document = sharing_equal_parts(scene.document, workspace.document);
 
     // Nothing below throws.
@@ -165,6 +253,7 @@ void load_scene(Workspace& workspace, const Json& json) {
     workspace.lab = std::move(scene.lab);
     workspace.camera = scene.camera;
     workspace.start_anew();
+    return std::move(scene.missing);
 }
 
 void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
@@ -178,7 +267,8 @@ void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
         throw std::runtime_error(path.filename().string() +
                                  " was not overwritten, because the scene would not open again: " + fault +
                                  ". Save it under another name");
-    write_file_atomically(path, text);
+    remove_torn_files(path.has_parent_path() ? path.parent_path() : fs::path("."));
+    workspace.writes().write(path, OutputKind::Scene, text);
     workspace.path = path;
     workspace.saved = workspace.document;
     if (!fault.empty()) workspace.toast("Saved, but the file does not open: " + fault, ToastKind::Refusal);
@@ -186,15 +276,20 @@ void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
 
 void load_scene_file(Workspace& workspace, const std::filesystem::path& path) {
     const std::string text = read_text_file(path);
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    std::vector<std::string> missing;
     try {
-        load_scene(workspace, parse_json(text));
+        missing = load_scene(workspace, parse_json(text), {.folder = folder});
     } catch (const ParseError& error) {
         throw std::runtime_error(path.string() + ": " + error.what());
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(path.string() + ": " + line_prefix(text, error.what()) + error.what());
     }
+    remove_torn_files(folder);
+    workspace.outputs.own(path);
     workspace.path = path;
     workspace.saved = workspace.document;
+    for (const std::string& each : missing) workspace.toast(each, ToastKind::Refusal);
 }
 
 }  // namespace tendril::app

@@ -56,8 +56,18 @@ void Workspace::open_lab(const std::string& name) {
     clock.replaying = false;
 }
 
+Outputs& Workspace::writes() {
+    outputs.in_use.clear();
+    for (const auto& [lab, part] : document.parts()) {
+        const std::vector<std::filesystem::path> files = part->files();
+        outputs.in_use.insert(outputs.in_use.end(), files.begin(), files.end());
+    }
+    return outputs;
+}
+
 void Workspace::start_anew() {
     openings.clear();
+    recovered.clear();
     ++beginnings;
     clock.replaying = false;
     clock.tick = 0;

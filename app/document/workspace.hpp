@@ -14,6 +14,7 @@
 #include "app/document/card_progress.hpp"
 #include "app/document/document.hpp"
 #include "app/document/history.hpp"
+#include "app/document/outputs.hpp"
 #include "app/document/rewind.hpp"
 #include "app/document/runtime.hpp"
 #include "app/document/settings.hpp"
@@ -123,9 +124,11 @@ struct Workspace {
     bool keeps = false;            ///< save it automatically: only in a live window
     bool names_pictures = false;   ///< gives new pictures a name: only in a live window
     UiState ui;
-    std::filesystem::path path;      ///< the scene's file; empty if it has none
-    Document saved;                  ///< as last saved or opened
-    std::set<std::string> openings;  ///< labs whose opening still moves by itself: nothing to save
+    std::filesystem::path path;       ///< the scene's file; empty if it has none
+    std::filesystem::path recovered;  ///< the autosave that holds this work; empty: the program's own
+    Outputs outputs;                  ///< of writes(), for all but the session's options
+    Document saved;                   ///< as last saved or opened
+    std::set<std::string> openings;   ///< labs whose opening still moves by itself: nothing to save
 
     /// Opens a lab with the camera it had when it was last open.
     void open_lab(const std::string& name);
@@ -157,8 +160,10 @@ struct Workspace {
         std::shared_ptr<const Part> before, after;
     };
     BeforeAndAfter around(const Incident& incident) const;
-    Place place() const { return {lab, path, camera, std::nullopt, openings}; }
+    Place place() const { return {lab, path, camera, std::nullopt, openings, recovered}; }
     bool modified() const { return document != saved; }
+    /// Through which every file is written: it knows which files the document reads.
+    Outputs& writes();
     /// Closes the file dialog; what it has paused goes on.
     void close_file_dialog();
     void toast(std::string text, ToastKind kind = ToastKind::Info);

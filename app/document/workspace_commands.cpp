@@ -42,6 +42,7 @@ void step_through(Workspace& workspace, bool back) {
     }
     if (place.openings) workspace.set_openings(*place.openings);
     if (place.path) workspace.path = *place.path;
+    if (place.recovered) workspace.recovered = *place.recovered;
     if (place.camera) workspace.camera = *place.camera;
     if (const Rewind::Moment* then = place.moment ? rewind.find(*place.moment) : nullptr) {
         workspace.moment = then->tick;

@@ -191,6 +191,10 @@ bool ChildProcess::ended_after_input() {
     return ended();
 }
 
+bool ChildProcess::succeeded() const {
+    return WIFEXITED(status_) && WEXITSTATUS(status_) == 0 && last_line().empty();
+}
+
 void ChildProcess::finish(double seconds) {
     using Time = std::chrono::steady_clock;
     const auto end = Time::now() + std::chrono::duration<double>(seconds);
@@ -199,7 +203,7 @@ void ChildProcess::finish(double seconds) {
         std::this_thread::sleep_for(look_again);
     }
     if (WIFSIGNALED(status_)) fail("signal " + std::to_string(WTERMSIG(status_)) + " ended it");
-    if (WEXITSTATUS(status_) != 0) fail("exit code " + std::to_string(WEXITSTATUS(status_)));
+    if (!succeeded()) fail("exit code " + std::to_string(WEXITSTATUS(status_)));
 }
 
 }  // namespace tendril::app

@@ -29,7 +29,9 @@ class ChildProcess {
     void write(std::string_view bytes, double seconds = 30.0);
     /// Closes its input and returns whether it has ended, successfully or not.
     bool ended_after_input();
-    /// The same, but waits for at most `seconds`, and throws if it has not ended by then or has failed.
+    /// Once it has ended: whether with exit code 0 and nothing on stderr.
+    bool succeeded() const;
+    /// Closes its input, waits for at most `seconds`, and throws if it has not succeeded by then.
     void finish(double seconds);
 
   private:

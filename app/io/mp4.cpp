@@ -54,6 +54,22 @@ std::vector<std::string> command(const VideoFormat& format, const std::filesyste
             "file:" + std::filesystem::absolute(file).string()};
 }
 
+std::vector<std::string> reading_command(const std::filesystem::path& file) {
+    return {find_program("ffmpeg").string(),
+            "-hide_banner",
+            "-nostdin",
+            "-loglevel",
+            "error",
+            "-xerror",
+            "-f",
+            "mp4",
+            "-i",
+            "file:" + std::filesystem::absolute(file).string(),
+            "-f",
+            "null",
+            "-"};
+}
+
 }  // namespace
 
 std::string why_no_mp4() {
@@ -79,8 +95,15 @@ double Mp4File::seconds_left() {
     return std::max(0.0, Seconds(*ends_by_ - Time::now()).count());
 }
 
+void Mp4File::begin_reading() {
+    if (!reader_ && ffmpeg_.ended_after_input() && ffmpeg_.succeeded())
+        reader_.emplace(reading_command(file_.beside()));
+}
+
 bool Mp4File::waits() {
-    return !ffmpeg_.ended_after_input() && seconds_left() > 0.0;
+    begin_reading();
+    const bool ended = reader_ ? reader_->ended_after_input() : ffmpeg_.ended_after_input();
+    return !ended && seconds_left() > 0.0;
 }
 
 void Mp4File::finish() {
@@ -88,6 +111,8 @@ void Mp4File::finish() {
         throw std::runtime_error("only " + std::to_string(frames_) + " of " + std::to_string(format_.frames) +
                                  " frames");
     ffmpeg_.finish(seconds_left());
+    begin_reading();
+    reader_->finish(seconds_left());
     file_.commit();
 }
 

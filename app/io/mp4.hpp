@@ -1,5 +1,6 @@
 // MP4 with H.264 video, which everything plays, written by ffmpeg if that is installed, through a pipe.
-// Colour has half the resolution (4:2:0), and there is no alpha channel.
+// ffmpeg may end well after a write has failed, so it then reads the whole file back; only then is the old
+// one gone. Colour has half the resolution (4:2:0), and there is no alpha channel.
 #pragma once
 
 #include <chrono>
@@ -27,10 +28,13 @@ class Mp4File final : public VideoFile {
     AtomicFile file_;  ///< must outlive the process that writes it
     VideoFormat format_;
     ChildProcess ffmpeg_;
+    std::optional<ChildProcess> reader_;  ///< once ffmpeg_ has ended well
     int frames_ = 0;
     std::optional<std::chrono::steady_clock::time_point> ends_by_;  ///< set once it has all frames
 
     double seconds_left();
+    /// Starts reading it back, unless ffmpeg_ has failed or is still running.
+    void begin_reading();
 };
 
 }  // namespace tendril::app

@@ -187,7 +187,7 @@ void set_range(VideoRequest& wanted, const Workspace& w, const Arguments& given)
                       seconds_text(wanted.from));
 }
 
-VideoRequest video_request(const Workspace& w, const Arguments& given) {
+VideoRequest video_request(Workspace& w, const Arguments& given) {
     VideoRequest wanted = film_request(w, given);
     if (given.has("every")) wanted.every = given.integer("every");
     if (given.has("speed")) wanted.speed = given.real("speed");

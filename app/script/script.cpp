@@ -195,7 +195,7 @@ void parse_line(std::string_view text, int line_number, const CommandTable& comm
     if (!line.is_object()) fail("expected an object, found " + json_summary(line));
     const bool first = !script.start && script.lines.empty();
     if (first && line.contains("recording") && !line.contains("command"))
-        script.start = recording_start(line);
+        (script.start = recording_start(line))->line = line_number;
     else
         script.lines.push_back({line_number, parse_action(line, commands)});
 }

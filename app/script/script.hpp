@@ -59,6 +59,7 @@ struct RecordingStart {
     bool modified = false;  ///< it had unsaved changes
     float scale = 1.0f;     ///< the window's own scale for text and widgets
     bool live = false;      ///< made in a window: the end of another program is an event
+    int line = 1;           ///< of the script
 };
 
 struct Script {

@@ -54,7 +54,7 @@ void FileDialog::send(const fs::path& path, Emit& emit) {
     emit(saving() ? "scene.save" : "file.open", {{"path", path.string()}});
 }
 
-void FileDialog::take(const Workspace& workspace, Emit& emit) {
+void FileDialog::take(Emit& emit) {
     if (name_[0] == '\0') return;
     fs::path path = fs::path(name_.data()).is_absolute() ? fs::path(name_.data()) : folder_ / name_.data();
     std::error_code error;
@@ -67,14 +67,6 @@ void FileDialog::take(const Workspace& workspace, Emit& emit) {
         path = video_.with_ending(path);
     else if (saving() && path.extension().empty())
         path += ".json";
-    // The scene's own file is replaced without asking.
-    const bool mine = !filming() && path == workspace.path;
-    if (saving() && !mine && path != confirmed_ && fs::exists(path, error)) {
-        confirmed_ = path;
-        complaint_ =
-            path.filename().string() + " already exists. Press " + action() + " again to replace it.";
-        return;
-    }
     send(path, emit);
 }
 
@@ -84,7 +76,6 @@ void FileDialog::start(const Workspace& workspace, const Labs& labs) {
     filter_ = 0;
     std::error_code error;
     go_to(workspace.path.empty() ? fs::current_path(error) : fs::absolute(workspace.path).parent_path());
-    confirmed_.clear();
     if (filming()) video_.start(workspace, labs.find(workspace.lab)->labels_pictures(workspace));
     const std::string name = filming()  ? video_name(workspace, folder_)
                              : saving() ? workspace.path.filename().string()
@@ -175,7 +166,7 @@ void FileDialog::frame(const Workspace& workspace, const Labs& labs, glm::vec2 s
     if (ImGui::Button("Cancel")) emit("view.close");
     explain("Esc: closes this and changes nothing");
     if (!complaint_.empty()) note(complaint_);
-    if (done) take(workspace, emit);
+    if (done) take(emit);
     ImGui::End();
 }
 

@@ -33,7 +33,7 @@ class FileDialog {
     bool list();
     /// What can be opened, where the folder has nothing of it.
     std::string why_no_files() const;
-    void take(const Workspace& workspace, Emit& emit);
+    void take(Emit& emit);
     void send(const std::filesystem::path& path, Emit& emit);
 
     bool saving() const { return shown_ != UiState::FileDialog::Open; }
@@ -43,7 +43,7 @@ class FileDialog {
         return filming() ? "Record a video" : saving() ? "Save scene as" : "Open a file";
     }
 
-    std::filesystem::path folder_, confirmed_;
+    std::filesystem::path folder_;
     std::vector<Entry> entries_;
     std::vector<FileKind> kinds_;  ///< that can be opened
     int filter_ = 0;               ///< 0: all of them; else the kind before

@@ -228,6 +228,11 @@ ExportReport export_clip(const Export& what, const fs::path& path) {
     constexpr double max_frames = 1'000'000;
     if (what.corrected.duration * what.rate > max_frames)
         throw std::runtime_error(name + ": would have more than 1000000 frames");
+    Outputs any;
+    any.force = true;
+    if (!what.file.empty()) any.inputs.push_back(what.file);
+    Outputs& outputs = what.outputs ? *what.outputs : any;
+    outputs.check({path}, OutputKind::Motion);
     check_writable(path);
     try {
         const bool is_bvh = ending == ".bvh";
@@ -239,10 +244,11 @@ ExportReport export_clip(const Export& what, const fs::path& path) {
                    : gltf_bytes(written, what.corrected, what.rate, origin, ending == ".glb");
         const Character read = is_bvh ? parse_bvh(bytes, name) : parse_gltf(bytes, name, {});
         const ExportReport report = report_of(what, read, is_bvh, !origin.bytes.empty());
-        write_file_atomically(path, bytes);
+        outputs.write(path, OutputKind::Motion, bytes);
         return report;
-    } catch (const nlohmann::json::exception& error) {
-        throw std::runtime_error(name + ": its file's JSON is not valid glTF, " + message(error.what()));
+    } catch (const nlohmann::json::exception&) {
+        throw std::runtime_error(name + ": the JSON of " + fs::path(what.file).filename().string() +
+                                 " is not valid glTF");
     }
 }
 

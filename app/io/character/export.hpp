@@ -7,6 +7,7 @@
 #include <tendril/humanoid/ground.hpp>
 #include <vector>
 
+#include "app/document/outputs.hpp"
 #include "app/io/character/character.hpp"
 
 namespace tendril::app {
@@ -36,6 +37,7 @@ struct Export {
     const humanoid::Clip& corrected;           ///< the clip to write
     double rate = 60.0;                        ///< frames per second
     const humanoid::Ground* ground = nullptr;  ///< on which its feet were put, for the lint
+    Outputs* outputs = nullptr;                ///< which files are replaced; null: any glTF, GLB or BVH
 };
 
 inline constexpr double min_rate = 1.0, largest_rate = 1000.0;
@@ -52,9 +54,9 @@ std::vector<std::filesystem::path> paths_of_clips(const Character& character,
 /// "14 clips; worst joint Head, 0.0012 mm; no new findings in them"
 std::string sum_text(const std::vector<ExportReport>& reports);
 
-/// Writes the file atomically, in the format of its extension, with the hierarchy of the character's file. A
-/// glTF file keeps the contents of the character's own glTF file (gltf_write.hpp). Throws std::runtime_error
-/// and then writes nothing.
+/// Writes the file atomically, in the format of its extension, with the hierarchy of the character's file,
+/// which it never replaces. A glTF file keeps the contents of the character's own glTF file (gltf_write.hpp).
+/// Throws std::runtime_error and then writes nothing.
 ExportReport export_clip(const Export& what, const std::filesystem::path& path);
 
 }  // namespace tendril::app

@@ -135,6 +135,11 @@ std::shared_ptr<const Part> ChainPart::at_moment(std::shared_ptr<const Part> the
     return part;
 }
 
+std::vector<std::filesystem::path> ChainPart::files() const {
+    if (!traced || traced->trace->path.empty()) return {};
+    return {traced->trace->path};
+}
+
 std::size_t ChainPart::bytes() const {
     return sizeof(*this) + chain.size() * sizeof(Segment) + reach.limits.size() * sizeof(ik::Limit) +
            (reach.plane ? reach.plane->limits.size() * sizeof(ik::AngleLimit) +

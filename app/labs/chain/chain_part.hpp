@@ -68,6 +68,7 @@ struct ChainPart final : Part {
     void upgrade(Json& json, int version) const override;
     std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const override;
     std::size_t bytes() const override;
+    std::vector<std::filesystem::path> files() const override;
 };
 
 /// The lab's initial chain: eight segments of 1 m along +X, the target on the tail.

@@ -35,6 +35,7 @@ constexpr std::uint64_t max_from = 2'000'000'000;
 
 std::unique_ptr<std::istream> open_source(const ShownTrace& trace) {
     if (trace.path.empty()) return std::make_unique<std::istringstream>(trace.text);
+    const auto pipe = await_pipe(trace.path);
     auto file = std::make_unique<std::ifstream>(trace.path, std::ios::binary);
     if (!*file) throw Refused(trace.path + ": cannot be read");
     return file;

@@ -296,7 +296,7 @@ void add_save_trace_command(CommandTable& table) {
          .apply = [](Workspace& workspace, const Arguments& given) {
              const std::string path =
                  given.has("path") ? given.text("path") : new_file(workspace, "trace", ".jsonl").string();
-             write_file_atomically(path, trace_of_strip(workspace));
+             workspace.writes().write(path, OutputKind::Trace, trace_of_strip(workspace));
              workspace.toast(written_text(path));
          }});
 }

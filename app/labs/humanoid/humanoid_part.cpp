@@ -45,6 +45,13 @@ std::shared_ptr<const Part> HumanoidPart::at_moment(std::shared_ptr<const Part> 
     return part;
 }
 
+std::vector<std::filesystem::path> HumanoidPart::files() const {
+    std::vector<std::filesystem::path> all;
+    if (!loaded->path.empty()) all.emplace_back(loaded->path);
+    for (const LoadedMotion& each : loaded->motions) all.emplace_back(each.path);
+    return all;
+}
+
 namespace {
 
 template <class Value>

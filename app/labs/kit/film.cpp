@@ -22,12 +22,11 @@ std::vector<Argument> film_arguments(std::vector<Argument> more, bool may_name) 
     return all;
 }
 
-VideoRequest film_request(const Workspace& workspace, const Arguments& given, const std::string& what) {
+VideoRequest film_request(Workspace& workspace, const Arguments& given, const std::string& what) {
     const auto& filming = workspace.ui.filming;
     if (filming) throw Refused(filming->name + " is still being written; view.end_video cancels it");
     VideoRequest wanted;
-    wanted.path =
-        given.has("path") ? std::filesystem::path(given.text("path")) : new_file(workspace, what);
+    wanted.path = given.has("path") ? std::filesystem::path(given.text("path")) : new_file(workspace, what);
     if (const std::string why = why_no_video(wanted.path); !why.empty()) throw Refused(why);
     set_look(given, wanted);
     const bool mp4 = wanted.path.extension() == ".mp4";
@@ -36,6 +35,7 @@ VideoRequest film_request(const Workspace& workspace, const Arguments& given, co
         if (mp4 && given.has(side) && given.integer(side) % 2 != 0)
             throw Refused(std::string(side) + " of an MP4 must be even, got " +
                           std::to_string(given.integer(side)));
+    workspace.writes().check({wanted.path}, OutputKind::Video);
     check_writable(wanted.path);
     return wanted;
 }

@@ -14,6 +14,6 @@ namespace tendril::app {
 std::vector<Argument> film_arguments(std::vector<Argument> more, bool may_name = false);
 /// The request without its frames. A new file is called "<scene>-<what>-1.png". Throws Refused: another video
 /// is being written, or the file cannot be.
-VideoRequest film_request(const Workspace& workspace, const Arguments& given, const std::string& what = {});
+VideoRequest film_request(Workspace& workspace, const Arguments& given, const std::string& what = {});
 
 }  // namespace tendril::app

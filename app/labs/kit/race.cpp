@@ -47,7 +47,7 @@ void add_race_csv_commands(CommandTable& table, const RaceCsv& csv) {
                .help = "Writes " + csv.holds + " as CSV",
                .effect = Effect::Look,
                .apply = [text = csv.text](Workspace& workspace, const Arguments& given) {
-                   write_file_atomically(given.text("path"), text(workspace));
+                   workspace.writes().write(given.text("path"), OutputKind::Csv, text(workspace));
                    workspace.toast(written_text(given.text("path")));
                }});
 }

@@ -56,6 +56,11 @@ std::shared_ptr<const Part> RopePart::at_moment(std::shared_ptr<const Part> then
     return part;
 }
 
+std::vector<std::filesystem::path> RopePart::files() const {
+    if (!walker.figure || walker.figure->path.empty()) return {};
+    return {walker.figure->path};
+}
+
 std::size_t RopePart::bytes() const {
     const std::size_t selected = selection ? selection->particles.all().size() * sizeof(std::size_t) : 0;
     const auto bytes_in = [](const NamedWorld& in, const std::vector<RopeSample>& of,

@@ -120,6 +120,7 @@ struct RopePart final : Part {
     std::shared_ptr<const Part> after_undo() const override;
     std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const override;
     std::size_t bytes() const override;
+    std::vector<std::filesystem::path> files() const override;
 };
 
 /// The part that the lab starts with.

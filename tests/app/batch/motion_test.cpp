@@ -104,7 +104,7 @@ TEST_F(MotionProgram, bake_writes_the_clip_and_says_how_near_it_came) {
     const std::string file = figure("walk.glb");
     for (const char* ground : {"none", "flat", "slope", "stairs", "terrain"}) {
         for (const char* name : {"out.glb", "out.gltf", "out.bvh"}) {
-            const Outcome outcome = run({"bake", file, "--ground", ground, "--out", path(name)});
+            const Outcome outcome = run({"bake", file, "--ground", ground, "--out", path(name), "--force"});
             EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
             EXPECT_NE(outcome.out.find("67 frames at 60 fps; worst joint "), std::string::npos)
                 << outcome.out;
@@ -179,7 +179,8 @@ TEST_F(MotionProgram, bake_makes_a_clip_that_walks_in_place_travel) {
     for (glm::dvec3& at : walk.channels.at(0).translation.values) at.z = 0.0;
     app::export_clip({character, {}, walk, walk, 60.0}, folder_ / "still.glb");
     for (const bool travels : {false, true}) {
-        Strings arguments{"bake", path("still.glb"), "--ground", "stairs", "--out", path("up.bvh")};
+        Strings arguments{"bake",  path("still.glb"), "--ground", "stairs",
+                          "--out", path("up.bvh"),    "--force"};
         if (travels) arguments.push_back("--travel");
         EXPECT_EQ(run(arguments).exit_code, 0);
         const app::Character read = app::read_character(folder_ / "up.bvh");
@@ -192,6 +193,8 @@ TEST_F(MotionProgram, bake_makes_a_clip_that_walks_in_place_travel) {
 TEST_F(MotionProgram, what_cannot_be_read_or_written_ends_with_2) {
     const std::string file = figure("walk.glb");
     write(folder_ / "text.glb", "no character");
+    write(folder_ / "other.bvh", "HIERARCHY");
+    std::filesystem::create_hard_link(file, folder_ / "link.glb");
     const std::vector<Strings> bad{{"lint"},
                                    {"lint", path("nothing.glb")},
                                    {"lint", path("text.glb")},
@@ -201,14 +204,21 @@ TEST_F(MotionProgram, what_cannot_be_read_or_written_ends_with_2) {
                                    {"bake", file, "--fps", "nan"},
                                    {"bake", file, "--fps", "1001"},
                                    {"bake", file, "--out", path("walk.fbx")},
-                                   {"bake", file, "--out", path("nowhere/walk.glb")}};
+                                   {"bake", file, "--out", path("nowhere/walk.glb")},
+                                   {"bake", file, "--out", path("other.bvh")},
+                                   {"bake", file, "--out", file, "--force"},
+                                   {"bake", file, "--out", path("link.glb"), "--force"},
+                                   {"bake", file, "--out", path("text.glb"), "--force"}};
     for (const Strings& arguments : bad) {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.exit_code, 2) << arguments.back() << ": " << outcome.out;
         EXPECT_EQ(outcome.out, "") << arguments.back();
         EXPECT_EQ(outcome.err.find("tendril: "), 0u) << outcome.err;
     }
-    EXPECT_EQ(folder_.names(), (Strings{"text.glb", "walk.glb"}));
+    EXPECT_EQ(folder_.names(), (Strings{"link.glb", "other.bvh", "text.glb", "walk.glb"}));
+    EXPECT_EQ(read(folder_ / "text.glb"), "no character");
+    EXPECT_EQ(read(folder_ / "other.bvh"), "HIERARCHY");
+    EXPECT_EQ(run({"bake", file, "--out", path("other.bvh"), "--force"}).exit_code, 0);
 }
 
 TEST_F(MotionProgram, a_signal_ends_a_bake_at_once_and_leaves_nothing) {

@@ -158,6 +158,12 @@ TEST(AtomicFile, writes_into_pipes_and_leaves_them_there) {
     EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
+TEST(AtomicFile, is_not_awaited_for_ever_by_a_pipe_that_nobody_reads) {
+    const TempFolder folder;
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    EXPECT_TRUE(has(write_message(folder / "pipe"), "nobody reads from this pipe"));
+}
+
 TEST(AtomicFile, checking_leaves_no_trace) {
     const TempFolder folder;
     test::write(folder / "file", "old");

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "app/document/atomic_file.hpp"
+#include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "tests/app/support/child.hpp"
@@ -113,7 +117,7 @@ TEST(Autosave, keeps_unsaved_work_that_was_ended_from_outside) {
     Autosave autosave(folder.path());
     workspace.saved = workspace.document;
     autosave.end(workspace, true);
-    EXPECT_FALSE(std::filesystem::exists(file)) << "there is nothing to keep";
+    EXPECT_FALSE(std::filesystem::exists(autosave.file())) << "there is nothing to keep";
 }
 
 TEST(Autosave, makes_its_folder_and_tells_once_when_it_cannot) {
@@ -155,11 +159,10 @@ TEST(Autosave, offers_only_what_programs_that_ended_left_the_newest_first) {
     ASSERT_TRUE(ours && first);
     std::filesystem::create_directory(folder / ("autosave-" + dead_pid() + ".json"));
     const auto now = std::filesystem::file_time_type::clock::now();
-    std::filesystem::last_write_time(folder / aside, now - 3h);
     std::filesystem::last_write_time(folder / old_file, now - 2h);
     std::filesystem::last_write_time(folder / new_file, now - 1h);
     EXPECT_EQ(Autosave::left_behind(folder.path()),
-              (std::vector<std::filesystem::path>{folder / new_file, folder / old_file, folder / aside}));
+              (std::vector<std::filesystem::path>{folder / new_file, folder / old_file}));
     EXPECT_TRUE(Autosave::left_behind(folder / "missing").empty());
     EXPECT_TRUE(Autosave::left_behind("").empty());
 }
@@ -195,17 +198,18 @@ TEST(Autosave, of_two_programs_with_one_number_are_two_files) {
     EXPECT_EQ(Autosave::left_behind(folder.path()).size(), 1u) << "the second one's, which has ended";
 }
 
-TEST(Autosave, takes_away_what_was_torn_in_its_folder) {
+TEST(Autosave, takes_away_what_killed_programs_left_in_its_folder) {
     const TempFolder folder;
-    for (const char* name : {".tendril-1-0.tmp", ".tendril-2-0.tmp", "mine.tmp"})
+    const AtomicFile being_written(folder / "picture.png");
+    const auto held = FileLock::take(folder / "autosave-2.lock");
+    for (const char* name : {".tendril-1-0.tmp", "mine.tmp", "autosave-1.lock", "autosave-1.json"})
         test::write(folder / name, "half");
-    const auto old = std::filesystem::file_time_type::clock::now() - 1h;
-    std::filesystem::last_write_time(folder / ".tendril-1-0.tmp", old);
-    std::filesystem::last_write_time(folder / "mine.tmp", old);
     const Autosave autosave(folder.path());
     EXPECT_FALSE(std::filesystem::exists(folder / ".tendril-1-0.tmp"));
-    EXPECT_TRUE(std::filesystem::exists(folder / ".tendril-2-0.tmp")) << "it may be being written";
-    EXPECT_TRUE(std::filesystem::exists(folder / "mine.tmp"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "autosave-1.lock"));
+    EXPECT_TRUE(std::filesystem::exists(being_written.beside()));
+    for (const char* name : {"mine.tmp", "autosave-2.lock", "autosave-1.json"})
+        EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
 }
 
 TEST(Autosave, of_a_program_that_was_killed_is_found_and_recovered) {
@@ -230,22 +234,96 @@ TEST(Autosave, of_a_program_that_was_killed_is_found_and_recovered) {
     EXPECT_EQ(workspace.document.get<TestPart>("arm").title, "precious");
     EXPECT_EQ(workspace.path, "/elsewhere/scene.json");
     EXPECT_TRUE(workspace.modified());
-    EXPECT_TRUE(std::filesystem::exists(files[0]));
+    EXPECT_TRUE(std::filesystem::exists(workspace.recovered));
 }
 
 /// In a container, every start of the program may have the same process ID.
 TEST(Autosave, does_not_overwrite_what_a_program_of_the_same_number_left) {
     const TempFolder folder;
-    Workspace lost = test::make_workspace();
     for (const char* title : {"first crash", "second crash"}) {
+        Workspace lost = test::make_workspace();
+        Autosave autosave(folder.path(), 0s);
         change(lost, title);
-        const std::string own = "autosave-" + std::to_string(::getpid()) + ".json";
-        test::write(folder / own, json_to_text(save_scene(lost)));
-        const Autosave autosave(folder.path());
+        autosave.update(lost, start);
     }
     const auto files = Autosave::left_behind(folder.path());
     ASSERT_EQ(files.size(), 2u);
     EXPECT_NE(saved_title(files[0]), saved_title(files[1]));
+}
+
+/// Two crashes left A and B; both are recovered, one after the other, and one of them is saved.
+class RecoveredTwo : public testing::Test {
+  protected:
+    RecoveredTwo() {
+        for (const char* title : {"A", "B"}) {
+            Workspace lost = test::make_workspace();
+            change(lost, title);
+            test::write(folder_ / ("autosave-" + dead_pid() + ".json"), json_to_text(save_scene(lost)));
+        }
+        add_workspace_commands(table_);
+        autosave_.emplace(folder_.path(), 0s);
+        for (const char* title : {"A", "B"})
+            for (const auto& file : Autosave::left_behind(folder_.path()))
+                if (saved_title(file) == title) {
+                    workspace_.ui.recoverable = {{file, title}};
+                    run("scene.recover", {{"path", file.string()}});
+                }
+    }
+    void run(const char* command, const Json& arguments = Json::object()) {
+        table_.run(workspace_, command, arguments);
+        for (int i = 0; i < 2; ++i) autosave_->update(workspace_, now_ += 1s);
+    }
+    /// What a later start of the program would offer, were this one killed now; sorted.
+    std::vector<std::string> on_disk() {
+        std::vector<std::string> titles;
+        for (const auto& each : std::filesystem::directory_iterator(folder_.path()))
+            if (each.path().filename().string().starts_with("autosave-") &&
+                each.path().extension() == ".json")
+                titles.push_back(saved_title(each.path()));
+        std::ranges::sort(titles);
+        return titles;
+    }
+    const TempFolder folder_;
+    Workspace workspace_ = test::make_workspace();
+    CommandTable table_;
+    std::optional<Autosave> autosave_;
+    Autosave::Clock::time_point now_ = start;
+};
+
+TEST_F(RecoveredTwo, AreBothOnDiskUntilEachIsSaved) {
+    using Titles = std::vector<std::string>;
+    EXPECT_EQ(workspace_.document.get<TestPart>("arm").title, "B");
+    EXPECT_EQ(on_disk(), (Titles{"A", "B"}));
+    EXPECT_TRUE(Autosave::left_behind(folder_.path()).empty()) << "another program must not offer them";
+    change(workspace_, "B edited");
+    autosave_->update(workspace_, now_ += 1s);
+    autosave_->update(workspace_, now_ += 1s);
+    EXPECT_EQ(on_disk(), (Titles{"A", "B edited"}));
+    run("undo");
+    EXPECT_EQ(workspace_.document.get<TestPart>("arm").title, "A");
+    EXPECT_EQ(on_disk(), (Titles{"A", "B edited"}));
+    run("scene.save", {{"path", (folder_ / "a.json").string()}});
+    EXPECT_EQ(on_disk(), Titles{"B edited"});
+    run("redo");
+    run("scene.save", {{"path", (folder_ / "b.json").string()}});
+    autosave_->end(workspace_, false);
+    EXPECT_EQ(on_disk(), Titles{});
+}
+
+/// The other labs' work is there, and the file keeps what could not be read.
+TEST(Autosave, of_which_a_lab_cannot_be_read_gives_the_others) {
+    const TempFolder folder;
+    Workspace workspace = test::make_workspace();
+    change(workspace, "precious");
+    Json scene = save_scene(workspace);
+    scene["labs"]["rope"]["target"] = "nowhere";
+    test::write(folder / "autosave-1.json", json_to_text(scene));
+    Workspace again = test::make_workspace();
+    Autosave::recover(again, folder / "autosave-1.json");
+    EXPECT_EQ(again.document.get<TestPart>("arm").title, "precious");
+    ASSERT_FALSE(again.ui.toasts.empty());
+    EXPECT_TRUE(has(again.ui.toasts.back().text, "labs.rope.target"));
+    EXPECT_EQ(save_scene(again)["labs"], scene["labs"]);
 }
 
 TEST(Autosave, that_is_broken_is_refused_and_changes_nothing) {

@@ -46,17 +46,6 @@ TEST(History, goes_back_and_forward_with_the_labels_of_the_commands) {
     EXPECT_EQ(history.size(), 2u);
 }
 
-TEST(History, forgets_what_could_be_redone_when_something_else_is_done) {
-    History history;
-    history.push(document_of("0"), "a", 0);
-    history.push(document_of("1"), "b", 0);
-    const auto now = history.undo(document_of("2"));
-    history.push(*now, "c", 0);
-    EXPECT_FALSE(history.can_redo());
-    EXPECT_EQ(history.undo_label(), "c");
-    EXPECT_EQ(title_of(*history.undo(document_of("3"))), "1");
-}
-
 /// Two labs: one changes by itself while the other is edited and undone.
 TEST(History, brings_back_only_what_the_command_changed) {
     History history;

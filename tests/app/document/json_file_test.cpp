@@ -64,6 +64,13 @@ TEST(JsonFile, may_be_a_pipe) {
     EXPECT_EQ(json["a"][0], 7);
 }
 
+TEST(JsonFile, is_not_awaited_for_ever_from_a_pipe_that_nobody_writes) {
+    const TempFolder folder;
+    const auto pipe = folder / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_TRUE(test::says(read_message(pipe), "pipe nothing came through this pipe for 5 s"));
+}
+
 TEST(JsonFile, of_100_megabytes_of_brackets_is_refused_in_no_memory) {
     const TempFolder folder;
     const auto path = folder / "brackets.json";

@@ -54,19 +54,33 @@ TEST(Json, an_angle_is_in_degrees_and_comes_back_bit_for_bit) {
 
 TEST(Json, errors_name_the_line_and_a_short_reason) {
     EXPECT_TRUE(has(parse_message(""), "line 1: unexpected end of input"));
-    EXPECT_TRUE(has(parse_message("{\n \"a\": 1,\n \"b\" 2}"), "line 3: unexpected number literal"));
+    EXPECT_TRUE(has(parse_message("{\n \"a\": 1,\n \"b\" 2}"), "line 3: unexpected number"));
     EXPECT_TRUE(has(parse_message("[1,\n2,\n"), "line 3: unexpected end of input"));
     EXPECT_TRUE(test::says(parse_message("[1,\n1e999]"), "line 2 number 1e999"));
-    EXPECT_TRUE(has(parse_message("[\n\n\"a\xff\"]"), "line 3: invalid string: ill-formed UTF-8 byte"));
-    EXPECT_TRUE(has(parse_message("[1,\n\"a\nb\"]"), "line 2: invalid string: control character"));
-    EXPECT_TRUE(has(parse_message("1 2"), "line 1: unexpected number literal"));
-    EXPECT_TRUE(has(parse_message("nul"), "line 1: invalid literal"));
+    EXPECT_TRUE(has(parse_message("[\n\n\"a\xff\"]"), "line 3: a text has bytes that are not UTF-8"));
+    EXPECT_TRUE(has(parse_message("[1,\n\"a\nb\"]"), "line 2: a text has a line break"));
+    EXPECT_TRUE(has(parse_message("1 2"), "line 1: unexpected number"));
+    EXPECT_TRUE(has(parse_message("nul"), "line 1: expected a value, found 'nul'"));
     for (const char* bad :
          {"", "{", "[1,]", "{\"a\":}", "\"\\x\"", "01", "NaN", "Infinity", "// a", "{a:1}", "\x01"}) {
         const std::string message = parse_message(bad);
         EXPECT_TRUE(message.starts_with("line 1: ")) << bad << " gives " << message;
-        EXPECT_FALSE(has(message, "json.exception"));
         EXPECT_LT(message.size(), 160u) << bad;
+    }
+}
+
+/// In our words, not in the library's.
+TEST(Json, errors_say_what_is_wrong_whatever_is_damaged) {
+    const std::string good = R"({"a": [1, -2.5e3, true, null, "\u00e4 \n"], "b": {"c": "text"}, "d": false})";
+    const std::string alphabet = "\"\\{}[]:,-.0eEntfu/ab\n\t\x01\xff\xc3 ";
+    std::mt19937 random(53);
+    for (int i = 0; i < 20'000; ++i) {
+        std::string bad = good.substr(0, 1 + random() % good.size());
+        for (int n = 0; n < 2; ++n) bad[random() % bad.size()] = alphabet[random() % alphabet.size()];
+        const std::string message = parse_message(bad);
+        for (const char* word :
+             {"json.exception", "literal", "last read", "syntax", "invalid", "not JSON", "<"})
+            ASSERT_EQ(message.find(word), message.npos) << bad << " gives " << message;
     }
 }
 

@@ -232,7 +232,7 @@ TEST(SceneFile, errors_on_disk_name_the_file_and_the_line) {
         EXPECT_EQ(snapshot(workspace), before);
         return error;
     };
-    EXPECT_TRUE(has(message("{\n\n\"a\" 1}"), "s.json: line 3: unexpected number literal"));
+    EXPECT_TRUE(has(message("{\n\n\"a\" 1}"), "s.json: line 3: unexpected number"));
     EXPECT_TRUE(has(message("{\"tendril_scene\": 1,\n\"labs\": {\n\"arm\": {\"title\": \"\",\n\"values\": "
                             "[1,\n2,\n\"x\"]}}}"),
                     "s.json: line 6: labs.arm.values.2: expected a number, found \"x\""));
@@ -247,6 +247,94 @@ TEST(SceneFile, errors_on_disk_name_the_file_and_the_line) {
     EXPECT_TRUE(
         has(message_of([&] { save_scene_file(workspace, folder / "none" / "s.json"); }), "cannot write "));
     EXPECT_EQ(workspace.path, "old.json");
+}
+
+/// A part that reads a file beside the JSON, as a character's.
+struct FilePart : Part {
+    std::string file, path, text;
+    int edits = 0;
+    std::shared_ptr<Part> clone() const override { return std::make_shared<FilePart>(*this); }
+    Json save() const override {
+        return {{"models", Json::array({{{"file", file}, {"path", path}}})}, {"edits", edits}};
+    }
+    std::shared_ptr<Part> load(const Json& json, const std::string&) const override {
+        auto part = std::make_shared<FilePart>();
+        part->file = json["models"][0]["file"].get<std::string>();
+        part->path = json["models"][0]["path"].get<std::string>();
+        part->edits = json["edits"].get<int>();
+        if (!part->file.empty()) part->text = test::read(part->path);
+        return part;
+    }
+    std::size_t bytes() const override { return sizeof(FilePart); }
+};
+
+class SceneWithAFile : public testing::Test {
+  protected:
+    SceneWithAFile() {
+        std::filesystem::create_directories(folder_ / "project/models");
+        std::filesystem::create_directories(folder_ / "project/scenes");
+    }
+    Workspace workspace() {
+        Workspace workspace = make_busy_workspace();
+        workspace.blank.set("file", std::make_shared<FilePart>());
+        workspace.document.set("file", workspace.blank.parts().at("file"));
+        return workspace;
+    }
+    /// Saves a scene that reads the model.
+    void save(const std::string& scene, const std::string& model) {
+        test::write(folder_ / model, "the model");
+        std::filesystem::remove(folder_ / scene);
+        Workspace saved = workspace();
+        auto& part = saved.document.edit<FilePart>("file");
+        part.file = "model.glb";
+        part.path = (folder_ / model).string();
+        part.edits = 7;
+        save_scene_file(saved, folder_ / scene);
+    }
+    const TempFolder folder_;
+};
+
+TEST_F(SceneWithAFile, FindsItWhereBothHaveMovedTogether) {
+    for (const auto& [scene, model] : {std::pair{"project/s.json", "project/model.glb"},
+                                       {"project/s.json", "project/models/model.glb"},
+                                       {"project/scenes/s.json", "project/models/model.glb"}}) {
+        save(scene, model);
+        std::filesystem::rename(folder_ / "project", folder_ / "moved");
+        Workspace again = workspace();
+        load_scene_file(again, folder_ / ("moved" + std::string(scene).substr(7)));
+        EXPECT_TRUE(again.ui.toasts.empty()) << model;
+        EXPECT_EQ(again.document.get<FilePart>("file").text, "the model") << model;
+        EXPECT_EQ(again.document.get<FilePart>("file").edits, 7);
+        std::filesystem::remove(folder_ / "moved" / std::string(model).substr(8));
+        std::filesystem::rename(folder_ / "moved", folder_ / "project");
+    }
+}
+
+TEST_F(SceneWithAFile, OpensWithoutItAndSavesWhatItHolds) {
+    save("project/s.json", "model.glb");
+    std::filesystem::remove(folder_ / "model.glb");
+    const Json saved = read_json_file(folder_ / "project/s.json");
+    Workspace again = workspace();
+    CommandTable table;
+    add_workspace_commands(table);
+    table.add({.name = "file.edit",
+               .title = "Edit",
+               .arguments = {},
+               .help = "Edits",
+               .effect = Effect::Edit,
+               .apply = [](Workspace& w, const Arguments&) { ++w.document.edit<FilePart>("file").edits; }});
+    table.run(again, "scene.open", {{"path", (folder_ / "project/s.json").string()}});
+    ASSERT_FALSE(again.ui.toasts.empty());
+    EXPECT_TRUE(test::says(again.ui.toasts.back().text, "labs.file.models.0.file model.glb is missing"));
+    EXPECT_EQ(again.document.get<TestPart>("arm").title, saved["labs"]["arm"]["title"]);
+
+    again.document.edit<FilePart>("file").text = "the simulation went on";
+    save_scene_file(again, folder_ / "project/s.json");
+    EXPECT_EQ(read_json_file(folder_ / "project/s.json")["labs"], saved["labs"]);
+    table.run(again, "file.edit", Json::object());
+    EXPECT_EQ(save_scene(again)["labs"]["file"]["edits"], 1) << "it was edited as it is now";
+    table.run(again, "undo", Json::object());
+    EXPECT_EQ(save_scene(again)["labs"], saved["labs"]);
 }
 
 TEST(SceneFile, cut_off_anywhere_is_refused) {

@@ -1,5 +1,6 @@
 // The command line: what it lists; errors are one line with exit code 2, and nothing is overwritten.
 #include <algorithm>
+#include <map>
 #include <sstream>
 
 #include "tests/app/support/play.hpp"
@@ -38,7 +39,7 @@ TEST_F(CommandLine, help_names_every_flag) {
     const std::string help = run_program({"--help"}).out;
     for (const char* flag :
          {"SCENE", "--lab", "--size", "--headless", "--backend", "--script", "--frames", "--screenshot",
-          "--state", "--record", "--no-config", "--list-labs", "--list-commands", "--version"}) {
+          "--state", "--record", "--force", "--no-config", "--list-labs", "--list-commands", "--version"}) {
         EXPECT_TRUE(has(help, flag));
     }
 }
@@ -89,18 +90,22 @@ class Mistakes : public testing::TestWithParam<Mistake> {};
 
 TEST_P(Mistakes, are_one_line_and_exit_code_2) {
     const TempFolder folder;
-    write(folder / "state.json", "old");
-    write(folder / "picture.png", "old");
-    write(folder / "record.jsonl", "old");
-    Strings arguments{"--state",      (folder / "state.json").string(),
-                      "--screenshot", (folder / "picture.png").string(),
-                      "--record",     (folder / "record.jsonl").string()};
+    const std::pair<const char*, const char*> olds[]{{"state.json", R"({"handles": [], "layout": {}})"},
+                                                     {"picture.png", "\x89PNG\r\n\x1a\nold"},
+                                                     {"record.jsonl", R"({"recording":1})"}};
+    for (const auto& [name, old] : olds) write(folder / name, old);
+    Strings arguments{"--force",
+                      "--state",
+                      (folder / "state.json").string(),
+                      "--screenshot",
+                      (folder / "picture.png").string(),
+                      "--record",
+                      (folder / "record.jsonl").string()};
     arguments.insert(arguments.end(), GetParam().arguments.begin(), GetParam().arguments.end());
     const Outcome outcome = run_program(arguments, {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}});
     EXPECT_TRUE(complained(outcome, 2, GetParam().told));
     EXPECT_TRUE(outcome.out.empty()) << outcome.out;
-    for (const char* name : {"state.json", "picture.png", "record.jsonl"})
-        EXPECT_EQ(read(folder / name), "old") << name;
+    for (const auto& [name, old] : olds) EXPECT_EQ(read(folder / name), old) << name;
     EXPECT_EQ(folder.names().size(), 3u);
 }
 
@@ -156,6 +161,91 @@ TEST_F(CommandLine, a_path_within_a_script_that_cannot_be_written_ends_it_with_2
         EXPECT_TRUE(complained(run_program({"--headless", "--script", path("script.jsonl")}), 2,
                                {path("missing/out")}))
             << form;
+    }
+}
+
+/// The script, a scene and a text named as an output; a recording and a bone map that exist; one file twice.
+TEST_F(CommandLine, nothing_is_written_over_that_would_be_lost) {
+    const std::string png = path("a.png"), script = path("s.jsonl"), scene = path("scene.json");
+    write(script, ScriptText().wait(1).text());
+    ASSERT_TRUE(succeeded(run_here({"--headless", "--script", script, "--screenshot", png, "--record",
+                                    path("r.jsonl"), "--state", path("state.json")})));
+    write(scene, R"({"tendril_scene": 2, "labs": {}})");
+    write(folder_ / "diary.txt", "Dear diary");
+    fs::create_symlink(script, folder_ / "link.png");
+    struct Case {
+        Strings arguments;
+        const char* told;
+        bool forced = false;  ///< --force helps
+    };
+    const std::vector<Case> cases{{{"--screenshot", script}, "in use as input"},
+                                  {{"--screenshot", path("link.png")}, "in use as input"},
+                                  {{"--record", script}, "in use as input"},
+                                  {{"--state", scene}, "is not a state"},
+                                  {{"--record", scene}, "is not a recording"},
+                                  {{"--screenshot", path("diary.txt")}, "is not a PNG"},
+                                  {{"--screenshot", path("new"), "--state", path("new")}, "two outputs"},
+                                  {{"--record", path("r.jsonl")}, "already exists; --force", true},
+                                  {{"--screenshot", png, "--state", path("state.json")}, nullptr, true}};
+    for (const Case& each : cases) {
+        for (const bool force : {false, true}) {
+            std::map<std::string, std::string> before;
+            for (const std::string& name : folder_.names()) before[name] = read(folder_ / name);
+            Strings arguments{"--headless", "--script", script};
+            arguments.insert(arguments.end(), each.arguments.begin(), each.arguments.end());
+            if (force) arguments.push_back("--force");
+            const Outcome outcome = run_here(arguments);
+            if (each.told == nullptr || (force && each.forced)) {
+                EXPECT_TRUE(succeeded(outcome));
+                continue;
+            }
+            EXPECT_TRUE(complained(outcome, 2, {each.told}));
+            for (const auto& [name, bytes] : before) EXPECT_EQ(read(folder_ / name), bytes) << name;
+            EXPECT_EQ(folder_.names().size(), before.size());
+        }
+    }
+}
+
+/// Commands of scripts, too.
+TEST_F(CommandLine, commands_of_scripts_ask_for_force) {
+    write(folder_ / "b.json", R"({"tendril_scene": 2, "labs": {}})");
+    write(folder_ / "walk.glb", "glTF");
+    for (const char* name : {"b.json", "walk.glb"}) {
+        const std::string old = read(folder_ / name);
+        ScriptText script;
+        script.command("chain.add", {{"length", 0.5}}).command("scene.save", {{"path", path("own.json")}});
+        script.command("chain.add", {{"length", 0.5}}).command("scene.save", {{"path", path("own.json")}});
+        script.command("scene.save", {{"path", path(name)}});
+        write(folder_ / "s.jsonl", script.text());
+        fs::remove(folder_ / "own.json");
+        EXPECT_TRUE(complained(run_here({"--headless", "--script", path("s.jsonl")}), 1, {"line 5", name}));
+        EXPECT_EQ(read(folder_ / name), old);
+        fs::remove(folder_ / "own.json");
+        const Outcome forced = run_here({"--headless", "--force", "--script", path("s.jsonl")});
+        EXPECT_EQ(forced.exit_code, std::string_view(name) == "b.json" ? 0 : 1) << forced.err;
+    }
+    EXPECT_EQ(read(folder_ / "walk.glb"), "glTF");
+    EXPECT_NE(read(folder_ / "b.json").find("0.5"), std::string::npos);
+}
+
+TEST_F(CommandLine, a_full_disk_is_no_success_of_anything_that_prints) {
+    write(folder_ / "cases.json", R"([{"lengths": [1, 1], "target": [1, 1, 0]}])");
+    write(folder_ / "filter.json", R"({"kind": "spring"})");
+    write(folder_ / "samples.csv", "dt,input\n0.1,1\n");
+    write(folder_ / "trace.jsonl", "{\"joints\": [[0,0,0],[1,0,0]]}\n{\"joints\": [[0,0,0],[1,0,0]]}\n");
+    write(folder_ / "scene.json", R"({"tendril_scene": 2, "labs": {}})");
+    const std::string bvh = source_path("tests/app/golden/a_pose.bvh");
+    for (const std::string& arguments :
+         {std::string("--list-commands"), std::string("--list-labs"), std::string("--list-shortcuts"),
+          std::string("--version"), std::string("--help"), std::string("solve --help"),
+          "solve " + path("cases.json"), "signal " + path("filter.json") + " " + path("samples.csv"),
+          "trace " + path("trace.jsonl"), "code " + path("scene.json"), "lint " + bvh,
+          "bake " + bvh + " --out " + path("out.bvh") + " --force"}) {
+        const std::string line = program_command({}).front() + " " + arguments;
+        const Outcome printed = Process({"sh", "-c", line}).wait();
+        EXPECT_LE(printed.exit_code, 1) << arguments << ": " << printed.err;
+        EXPECT_TRUE(complained(Process({"sh", "-c", line + " > /dev/full"}).wait(), 2, {"No space left"}))
+            << arguments;
     }
 }
 

@@ -70,6 +70,32 @@ TEST_F(FileDialogTest, SaysWhatCanBeOpenedWhereThereIsNothingOfIt) {
         says(text(), "poses/ No files that can be opened here scenes json characters gltf motions bvh"));
 }
 
+TEST_F(FileDialogTest, AsksBeforeItReplacesAScene) {
+    const std::string old = R"({"tendril_scene": 2, "labs": {}})";
+    app_.run({"scene.save", Json{{"path", (folder_ / "arm.json").string()}}});
+    write(folder_ / "old.json", old);
+    write(folder_ / "walk.json", "{\"asset\": {}}");
+    const auto save_as = [&](const char* name) {
+        app_.run({"scene.save_dialog", Json{{"ask", true}}});
+        for (int i = 0; i < 4; ++i) app_.tick(nullptr);
+        key("ctrl+a");
+        type(name);
+        key("enter");
+        app_.tick(nullptr);
+    };
+    save_as("walk.json");
+    EXPECT_TRUE(says(text(), "walk.json is not replaced: it is not a scene"));
+    key("escape");
+    save_as("old.json");
+    EXPECT_TRUE(says(text(), "old.json already exists"));
+    EXPECT_EQ(read(folder_ / "old.json"), old);
+    key("enter");
+    app_.tick(nullptr);
+    EXPECT_NE(read(folder_ / "old.json"), old);
+    EXPECT_EQ(app_.workspace().ui.file_dialog, UiState::FileDialog::None);
+    EXPECT_EQ(read(folder_ / "walk.json"), "{\"asset\": {}}");
+}
+
 TEST_F(FileDialogTest, BeginsAnewEachTime) {
     app_.run({"scene.save", Json{{"path", (folder_ / "arm.json").string()}}});
     open();

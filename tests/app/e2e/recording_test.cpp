@@ -50,18 +50,6 @@ const Json& start_state() {
     return state;
 }
 
-TEST_F(Recording, begins_with_what_it_started_from) {
-    const Left left = record_and_replay(ScriptText().wait(3));
-    const Json first = app::parse_json(left.recording.substr(0, left.recording.find('\n')));
-    EXPECT_EQ(first["recording"], 1);
-    EXPECT_EQ(first["size"], Json::array({1280, 720}));
-    EXPECT_EQ(first["lab"], "chain");
-    EXPECT_TRUE(first["version"].is_string());
-    EXPECT_TRUE(first["scene"].is_object());
-    EXPECT_TRUE(first["settings"].is_object());
-    EXPECT_TRUE(has(left.recording, "{\"wait\":3}"));
-}
-
 TEST_F(Recording, holds_drags_and_commands) {
     const glm::vec2 target = handle(start_state(), "target");
     ScriptText script;

@@ -153,7 +153,7 @@ TEST(Script, that_has_a_wrong_line_is_refused_with_the_reason) {
         "\"focus\", \"video\", \"wait\", \"screenshot\", \"state\"";
     const std::string one_measure = "expected exactly one of \"equals\", \"near\", \"below\", \"above\"";
     const std::vector<std::pair<std::string, std::string>> bad{
-        {"nonsense", "invalid literal"},
+        {"nonsense", "expected a value, found 'no'"},
         {"[]", "expected an object, found []"},
         {"3", "expected an object, found 3"},
         {"{}", no_form},
@@ -177,15 +177,12 @@ TEST(Script, that_has_a_wrong_line_is_refused_with_the_reason) {
         {R"({"mouse": "move", "at": [1, null]})", "at: expected a number, found null"},
         {R"({"mouse": "move", "at": [1, 1e10]})",
          "at: expected a number of at most 1e9, found 10000000000.0"},
-        {R"({"mouse": "move", "at": [1, 2], "button": "left"})", "unknown member \"button\""},
         {R"({"mouse": "down"})", "\"button\" is missing"},
         {R"({"mouse": "down", "button": "top"})",
          R"(button: expected "left", "right" or "middle", found "top")"},
         {R"({"mouse": "up", "button": 0})", "button: expected"},
-        {R"({"mouse": "down", "button": "left", "at": [1, 2]})", "unknown member \"at\""},
         {R"({"mouse": "wheel"})", "\"by\" is missing"},
         {R"({"mouse": "wheel", "by": "1"})", "by: expected a number, found \"1\""},
-        {R"({"mouse": "wheel", "by": 1, "at": [1, 2]})", "unknown member \"at\""},
 
         {R"({"key": "hyper+z"})", "unknown key \"hyper+z\""},
         {R"({"key": ""})", "unknown key \"\""},
@@ -195,9 +192,7 @@ TEST(Script, that_has_a_wrong_line_is_refused_with_the_reason) {
         {R"({"key": "x", "action": true})", "action: expected"},
         {R"({"key": "ctrl+x", "action": "down"})", "unknown key \"ctrl+x\""},
         {R"({"key": "", "action": "down"})", "unknown key \"\""},
-        {R"({"key": "x", "held": true})", "unknown member \"held\""},
         {R"({"text": 0.5})", "text: expected text, found 0.5"},
-        {R"({"text": "a", "wait": 1})", "unknown member \"wait\""},
 
         {R"({"resize": [800]})", "resize: expected [width, height], found [800]"},
         {R"({"resize": [0, 600]})", "resize: expected a whole number from 1 to 16384, found 0"},
@@ -218,7 +213,6 @@ TEST(Script, that_has_a_wrong_line_is_refused_with_the_reason) {
         {R"({"screenshot": ""})", "screenshot: expected text, found \"\""},
         {R"({"screenshot": null})", "screenshot: expected text, found null"},
         {R"({"state": 1})", "state: expected text, found 1"},
-        {R"({"state": "a", "screenshot": "b"})", "unknown member \"state\""},
 
         {R"({"expect": "tail"})", one_measure},
         {R"({"expect": "tail", "equals": 1, "near": 1})", one_measure},
@@ -233,7 +227,6 @@ TEST(Script, that_has_a_wrong_line_is_refused_with_the_reason) {
         {R"({"expect": "tail", "near": 1, "within": -1})", "within: expected a number from 0 to "},
         {R"({"expect": "tail", "near": 1, "within": "1"})", "within: expected a number from 0 to "},
         {R"({"expect": "tail", "equals": 1, "within": 1})", "within: goes with \"near\" only"},
-        {R"({"expect": "tail", "is": 1})", "unknown member \"is\""},
     };
     for (const auto& [line, reason] : bad)
         EXPECT_TRUE(has(refusal("{\"wait\": 1}\n" + line), "line 2: " + reason)) << line;

@@ -446,7 +446,8 @@ std::string given_text(const Arguments& given, const char* name) {
 
 void save_map(Workspace& workspace, const Arguments& given) {
     const HumanoidPart& part = humanoid_part(workspace);
-    write_file_atomically(given.text("path"), map_text(saved_map(*part.map, part.skeleton())));
+    workspace.writes().write(given.text("path"), OutputKind::BoneMap,
+                             map_text(saved_map(*part.map, part.skeleton())));
     workspace.toast(written_text(given.text("path")));
 }
 
@@ -476,7 +477,8 @@ ExportReport export_one(Workspace& workspace, const Arguments& given, std::size_
                         .original = original,
                         .corrected = clip_as_shown(part, solvers, clip, rate),
                         .rate = rate,
-                        .ground = ground_of_feet(part, solvers)},
+                        .ground = ground_of_feet(part, solvers),
+                        .outputs = &workspace.writes()},
                        path);
 }
 
@@ -488,6 +490,7 @@ void export_shown(Workspace& workspace, const Arguments& given) {
         if (given.has("clip")) throw std::invalid_argument("give either a clip or all of them");
         const std::vector<std::filesystem::path> paths = paths_of_clips(character, path);
         std::vector<ExportReport> reports;
+        workspace.writes().check(paths, OutputKind::Motion);
         for (std::size_t i = 0; i < paths.size(); ++i)
             reports.push_back(export_one(workspace, given, i, paths[i]));
         return workspace.toast(written_text(paths.front()) +

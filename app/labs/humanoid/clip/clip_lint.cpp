@@ -331,7 +331,7 @@ void export_rows(const HumanoidPanel& panel) {
         "A .gltf, .glb or .bvh file for the chosen clip, or the first, with everything that IK does to it.");
     const std::vector<Clip>& clips = panel.part.loaded->clips();
     const int buttons = clips.size() > 1 ? 2 : 1;
-    if (row_button("Export clip", buttons, !path.empty(), "An existing file is replaced"))
+    if (row_button("Export clip", buttons, !path.empty(), "Asks before it replaces a file"))
         panel.emit("humanoid.export", {{"path", path}});
     if (buttons == 2 && row_button("Export all", 2, !path.empty(),
                                    "Each clip to a file of its own: its name is added to the file's name"))
@@ -346,7 +346,7 @@ void map_rows(const HumanoidPanel& panel) {
     auto& state = panel.runtime.panel;
     text_field("map file", state.map_file, "bones.json");
     explain("A bone map file to save to or load from. It suits every character with the same node names.");
-    if (row_button("Save map", 2, !state.map_file.empty(), "To the file; an existing one is replaced"))
+    if (row_button("Save map", 2, !state.map_file.empty(), "To the file; asks before it replaces one"))
         panel.emit("humanoid.map.save", {{"path", state.map_file}});
     if (row_button("Load map", 2, !state.map_file.empty(), "From the file"))
         panel.emit("humanoid.map.load", {{"path", state.map_file}});

@@ -1,0 +1,157 @@
+#include "app/document/outputs.hpp"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "app/document/atomic_file.hpp"
+#include "app/document/text.hpp"
+
+namespace tendril::app {
+namespace fs = std::filesystem;
+namespace {
+
+/// The same for all names of a file but hard links.
+fs::path canonical_name(const fs::path& path) {
+    std::error_code error;
+    fs::path name = fs::weakly_canonical(path, error);
+    return error ? path : name;
+}
+
+std::string text_of(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+/// The first and the last 64 kB of a file, which tell its kind.
+std::string ends_of(const fs::path& path) {
+    constexpr std::streamoff enough = 1 << 16;
+    std::ifstream in(path, std::ios::binary | std::ios::ate);
+    const std::streamoff size = in.tellg();
+    std::string text(static_cast<std::size_t>(std::clamp<std::streamoff>(size, 0, 2 * enough)), '\0');
+    in.seekg(0);
+    in.read(text.data(), std::min<std::streamoff>(size, enough));
+    if (size > enough) {
+        const std::streamoff rest = std::min(size - enough, enough);
+        in.seekg(size - rest);
+        in.read(text.data() + enough, rest);
+    }
+    return text;
+}
+
+bool is_png(std::string_view text) {
+    return text.starts_with("\x89PNG\r\n\x1a\n");
+}
+
+bool is_animated(std::string_view text) {
+    constexpr std::size_t after_header = 37;  // bytes: signature, IHDR and the length of the next chunk
+    return is_png(text) && text.substr(std::min(after_header, text.size()), 4) == "acTL";
+}
+
+bool is_mp4(std::string_view text) {
+    return text.substr(std::min<std::size_t>(4, text.size()), 4) == "ftyp";
+}
+
+bool is(OutputKind kind, std::string_view text) {
+    const auto holds = [&](const char* part) { return text.find(part) != text.npos; };
+    const std::string_view line = text.substr(0, text.find('\n'));
+    const bool json = text.starts_with('{'), recording = text.starts_with("{\"recording\":"),
+               scene = json && !recording && holds("\"tendril_scene\"");
+    switch (kind) {
+        case OutputKind::Scene:
+            return scene;
+        case OutputKind::Recording:
+            return recording;
+        case OutputKind::State:
+            return json && !scene && !recording && holds("\"handles\":") && holds("\"layout\":");
+        case OutputKind::Picture:
+            return is_png(text) && !is_animated(text);
+        case OutputKind::Video:
+            return is_animated(text) || is_mp4(text);
+        case OutputKind::Motion:
+            return text.starts_with("glTF") || text.starts_with("HIERARCHY") || (json && holds("\"asset\""));
+        case OutputKind::BoneMap:
+            return json && holds("\"bone map\"");
+        case OutputKind::Csv:
+            return !json && !text.starts_with('[') && text.find('\0') == text.npos &&
+                   line.find(',') != line.npos;
+        case OutputKind::Trace:
+            return json && line.find("\"trace\"") != line.npos;
+    }
+    return false;
+}
+
+const char* name(OutputKind kind) {
+    constexpr const char* names[]{"a scene",       "a recording", "a state of --state",
+                                  "a PNG picture", "a video",     "a glTF, GLB or BVH file",
+                                  "a bone map",    "a CSV file",  "a trace"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+/// Whether `input` is that file, or a glTF file that names it as its buffer or picture.
+bool reads(const fs::path& input, const fs::path& path) {
+    std::error_code error;
+    if (fs::equivalent(input, path, error)) return true;
+    return lower_case(input.extension().string()) == ".gltf" && fs::is_regular_file(input, error) &&
+           text_of(input).find(path.filename().string() + '"') != std::string::npos;
+}
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& why) {
+    throw std::runtime_error(shown_path(path) + ' ' + why);
+}
+
+}  // namespace
+
+Outputs::Stamp Outputs::stamp_of(const fs::path& path) {
+    struct stat found {};
+    if (::stat(path.c_str(), &found) != 0) return {};
+    return {found.st_dev, found.st_ino, static_cast<std::uint64_t>(found.st_size), found.st_mtim.tv_sec,
+            found.st_mtim.tv_nsec};
+}
+
+void Outputs::own(const fs::path& path) {
+    const fs::path file = canonical_name(path);
+    owned_[file] = stamp_of(path);
+    asked_.erase(file);
+}
+
+void Outputs::check(const std::vector<fs::path>& paths, OutputKind kind, bool redraws) {
+    std::vector<fs::path> others;  // that exist and are not the session's
+    for (const fs::path& path : paths) {
+        std::error_code error;
+        if (!fs::is_regular_file(path, error)) continue;  // the writer says what is wrong with it
+        for (const auto* list : {&inputs, &in_use})
+            for (const fs::path& input : *list)
+                if (reads(input, path)) refuse(path, "is not replaced: it is in use as input");
+        if (fs::file_size(path, error) == 0) continue;
+        if (!is(kind, ends_of(path))) refuse(path, std::string("is not replaced: it is not ") + name(kind));
+        const auto owned = owned_.find(canonical_name(path));
+        const bool own = owned != owned_.end() && owned->second == stamp_of(path);
+        if (!force && !redraws && !own) others.push_back(path);
+    }
+    bool asked = true;
+    for (const fs::path& path : others) asked &= !asked_.insert(canonical_name(path)).second;
+    if (asked) return;
+    const std::string more = others.size() > 1 ? "and " + std::to_string(others.size() - 1) + " more " : "",
+                      again = in_window ? ". Do the same again to replace it" : "; --force replaces it";
+    refuse(others.front(),
+           more +
+               (owned_.contains(canonical_name(others.front())) ? "was changed by another program"
+                : others.size() > 1                             ? "already exist"
+                                                                : "already exists") +
+               again);
+}
+
+void Outputs::write(const fs::path& path, OutputKind kind, std::string_view bytes, bool redraws) {
+    std::error_code error;
+    const bool same = fs::is_regular_file(path, error) && fs::file_size(path, error) == bytes.size() &&
+                      text_of(path) == bytes;
+    if (!same) check({path}, kind, redraws);
+    write_file_atomically(path, bytes);
+    own(path);
+}
+
+}  // namespace tendril::app

@@ -1,0 +1,52 @@
+// Which files this program may write over: one rule for every writer, in the window and in a terminal.
+//
+// A new or empty file, a device and a pipe are written. A file that the program reads as input, and one of
+// another kind than is written, whatever its name, are never replaced. One that this session has opened or
+// written itself is replaced, unless another program has changed it since; so is one that already holds the
+// same bytes, and, where a command line asks for it, an earlier picture or state. Any other is replaced if
+// the same is asked for once more, or with --force.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tendril::app {
+
+enum class OutputKind { Scene, Recording, State, Picture, Video, Motion, BoneMap, Csv, Trace };
+
+class Outputs {
+  public:
+    bool force = false;                         ///< --force
+    bool in_window = false;                     ///< for the message: a window asks, a terminal refuses
+    std::vector<std::filesystem::path> inputs;  ///< files that the session reads
+    std::vector<std::filesystem::path> in_use;  ///< files that the document reads again when it is opened
+
+    /// Throws std::runtime_error if one of the files must not be written over. `redraws`: a command line asks
+    /// for a picture or a state, which replaces an earlier one.
+    void check(const std::vector<std::filesystem::path>& paths, OutputKind kind, bool redraws = false);
+    /// Checks, writes atomically and owns the file. Throws std::runtime_error; the old file is then as it
+    /// was.
+    void write(const std::filesystem::path& path, OutputKind kind, std::string_view bytes,
+               bool redraws = false);
+    /// The session has opened or written this file: it may replace it.
+    void own(const std::filesystem::path& path);
+
+  private:
+    /// Changes whenever another program writes the file. All 0: there is no file.
+    struct Stamp {
+        std::uint64_t device = 0, file = 0, size = 0;
+        std::int64_t seconds = 0, nanoseconds = 0;
+        bool operator==(const Stamp&) const = default;
+    };
+    static Stamp stamp_of(const std::filesystem::path& path);
+
+    std::map<std::filesystem::path, Stamp> owned_;
+    std::set<std::filesystem::path> asked_;  ///< refused because they exist
+};
+
+}  // namespace tendril::app

@@ -1,0 +1,119 @@
+#include "app/document/outputs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app {
+namespace {
+
+namespace fs = std::filesystem;
+using test::message_of;
+using test::TempFolder;
+
+struct Sample {
+    OutputKind kind;
+    std::string bytes;
+};
+
+std::vector<Sample> samples() {
+    const std::string png = "\x89PNG\r\n\x1a\n", header = std::string(25, '0') + "0000";
+    return {{OutputKind::Scene, R"({"tendril_scene": 2, "labs": {"chain": {"handles": 1, "layout": 2}}})"},
+            {OutputKind::Recording, R"({"recording":1,"scene":{"tendril_scene":2}})"},
+            {OutputKind::State, "{\"mode\": \"reach\",\n \"points\": \"" + std::string(300'000, '1') +
+                                    "\",\n \"handles\": [],\n \"layout\": {}}"},
+            {OutputKind::Picture, png + header + "IDAT"},
+            {OutputKind::Video, png + header + "acTL"},
+            {OutputKind::Video, std::string("\0\0\0\x20", 4) + "ftypisom"},
+            {OutputKind::Motion, "glTF binary"},
+            {OutputKind::Motion, "{\n  \"asset\": {\"version\": \"2.0\"}}"},
+            {OutputKind::Motion, "HIERARCHY\nROOT Hips\n"},
+            {OutputKind::BoneMap, R"({"tendril": "bone map", "version": 1})"},
+            {OutputKind::Csv, "tick,error\n0,1\n"},
+            {OutputKind::Trace, "{\"tendril\":\"trace\",\"up\":\"y\"}\n{\"joints\":[]}\n"}};
+}
+
+std::string refusal(Outputs outputs, const fs::path& path, OutputKind kind, bool redraws = false) {
+    return message_of([&] { outputs.check({path}, kind, redraws); });
+}
+
+/// Every kind over every kind: only its own is asked about; another is refused, whatever --force says.
+TEST(Outputs, ReplaceOnlyTheirOwnKind) {
+    const TempFolder folder;
+    const fs::path file = folder / "file.any";
+    std::vector<Sample> there = samples();
+    for (const char* other :
+         {"Dear diary", "\xff\xd8\xff\xe0 JPEG", "{}", "[1, 2]", "{\"command\": \"undo\"}\n"})
+        there.push_back({OutputKind{-1}, other});
+    for (const Sample& old : there) {
+        test::write(file, old.bytes);
+        for (const Sample& fresh : samples()) {
+            const bool own = old.kind == fresh.kind;
+            const std::string why = refusal({}, file, fresh.kind);
+            EXPECT_TRUE(test::says(why, own ? "already exists --force" : "is not replaced it is not"))
+                << why << ": " << old.bytes.substr(0, 30) << " by " << fresh.bytes.substr(0, 30);
+            Outputs outputs;
+            outputs.force = true;
+            EXPECT_EQ(refusal(outputs, file, fresh.kind).empty(), own);
+            EXPECT_EQ(refusal({}, file, fresh.kind, true).empty(), own);
+        }
+    }
+}
+
+TEST(Outputs, AreNeverInputsByAnyName) {
+    const TempFolder folder;
+    test::write(folder / "walk.glb", "glTF");
+    test::write(folder / "skin.png", samples()[3].bytes);
+    test::write(folder / "hero.gltf", R"({"asset": {}, "images": [{"uri": "skin.png"}]})");
+    fs::create_directory(folder / "sub");
+    fs::create_symlink(folder / "walk.glb", folder / "symbolic.glb");
+    fs::create_hard_link(folder / "walk.glb", folder / "hard.glb");
+    Outputs outputs;
+    outputs.force = true;
+    outputs.inputs = {folder / "walk.glb"};
+    outputs.in_use = {folder / "hero.gltf"};
+    for (const char* name : {"walk.glb", "sub/../walk.glb", "symbolic.glb", "hard.glb", "hero.gltf"})
+        EXPECT_TRUE(test::says(refusal(outputs, folder / name, OutputKind::Motion), "in use as input"))
+            << name;
+    EXPECT_TRUE(
+        test::says(refusal(outputs, folder / "skin.png", OutputKind::Picture, true), "in use as input"));
+    EXPECT_EQ(refusal(outputs, folder / "new.glb", OutputKind::Motion), "");
+}
+
+TEST(Outputs, AreReplacedWithoutAQuestionWhileOnlyThisSessionHasWrittenThem) {
+    const TempFolder folder;
+    const fs::path file = folder / "a.csv";
+    Outputs outputs;
+    const auto write = [&](const std::string& bytes) {
+        return message_of([&] { outputs.write(file, OutputKind::Csv, bytes); });
+    };
+    for (const char* bytes : {"a,b\n1,2\n", "a,b\n3,4\n"}) EXPECT_EQ(write(bytes), "");
+    test::write(file, "another,program\n");
+    EXPECT_TRUE(test::says(write("a,b\n"), "was changed by another program"));
+    EXPECT_EQ(test::read(file), "another,program\n");
+    EXPECT_EQ(write("another,program\n"), "") << "it holds that already";
+    test::write(file, "another,again\n");
+    outputs.in_window = true;
+    EXPECT_TRUE(test::says(write("a,b\n"), "Do the same again to replace it"));
+    EXPECT_EQ(write("a,b\n"), "");
+    EXPECT_EQ(test::read(file), "a,b\n");
+    test::write(file, "");
+    EXPECT_EQ(write("a,b\n"), "") << "an empty file has nothing to lose";
+}
+
+TEST(Outputs, AreAskedAboutTogether) {
+    const TempFolder folder;
+    std::vector<fs::path> files;
+    for (const char* name : {"a.bvh", "b.bvh", "c.bvh", "new.bvh"}) files.push_back(folder / name);
+    for (std::size_t i = 0; i < 3; ++i) test::write(files[i], "HIERARCHY");
+    Outputs outputs;
+    const auto check = [&] { return message_of([&] { outputs.check(files, OutputKind::Motion); }); };
+    EXPECT_TRUE(test::says(check(), "a.bvh and 2 more already exist"));
+    EXPECT_EQ(check(), "");
+}
+
+}  // namespace
+}  // namespace tendril::app
