@@ -19,13 +19,18 @@ struct EngineSpace {
     TraceUp up;
     TraceHand handed;
     TraceUnit unit;
+    bool has_unit = true;  ///< else any, and its size tells
 };
-constexpr std::array<EngineSpace, 5> engines{
+constexpr std::array<EngineSpace, 9> engines{
     {{"", "", TraceUp::Y, TraceHand::Right, TraceUnit::Metres},
      {"unreal", "as Unreal has it", TraceUp::Z, TraceHand::Left, TraceUnit::Centimetres},
      {"unity", "as Unity has it", TraceUp::Y, TraceHand::Left, TraceUnit::Metres},
      {"godot", "as Godot has it", TraceUp::Y, TraceHand::Right, TraceUnit::Metres},
-     {"blender", "as Blender has it", TraceUp::Z, TraceHand::Right, TraceUnit::Metres}}};
+     {"blender", "as Blender has it", TraceUp::Z, TraceHand::Right, TraceUnit::Metres},
+     {"xna", "as XNA and MonoGame have it", TraceUp::Y, TraceHand::Right, TraceUnit::Metres, false},
+     {"babylon", "as Babylon.js has it", TraceUp::Y, TraceHand::Left, TraceUnit::Metres, false},
+     {"houdini", "as Houdini has it", TraceUp::Y, TraceHand::Right, TraceUnit::Metres, false},
+     {"ros", "as ROS has it", TraceUp::Z, TraceHand::Right, TraceUnit::Metres}}};
 
 bool is_finite(const glm::dvec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -221,7 +226,8 @@ Conventions conventions_of(const RawTrace& trace, std::span<const RawFrame> fram
     found.has_rotations =
         std::ranges::any_of(frames, [](const RawFrame& each) { return !each.rotations.empty(); });
     if (!take_given(trace_units, unit_name(choice.unit), unit_name(header.unit), found.unit))
-        found.unit = known ? Known<TraceUnit>{engine.unit, true, engine.has_it} : unit_by_size(reach);
+        found.unit = known && engine.has_unit ? Known<TraceUnit>{engine.unit, true, engine.has_it}
+                                              : unit_by_size(reach);
     const bool up = take_given(trace_ups, choice.up, header.up, found.up);
     const bool hand =
         take_given(trace_hands, hand_name(choice.handed), hand_name(header.handed), found.handed);

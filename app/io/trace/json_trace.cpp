@@ -49,8 +49,8 @@ Json parse_line(std::string_view text, std::size_t line) {
     } catch (const ParseError&) {
         try {
             return parse_json(without_nan(text));
-        } catch (const ParseError& error) {
-            fail_line(line, error.reason);
+        } catch (const ParseError&) {
+            fail_line(line, "is damaged: expected JSON such as {\"joints\": [[0, 0, 0], [1, 0, 0]]}");
         }
     }
 }
@@ -220,7 +220,12 @@ class JsonList final : public RawTrace {
 
     bool next(RawFrame& frame) override {
         Json json;
-        if (done_ || !list_->next(json)) return false;
+        try {
+            if (done_ || !list_->next(json)) return false;
+        } catch (const ParseError& error) {
+            fail_line(static_cast<std::size_t>(error.line),
+                      "the list of frames is damaged, or ends too early");
+        }
         line = static_cast<std::size_t>(list_->line_of(list_->place()));
         frame = {.line = line};
         try {
@@ -236,8 +241,6 @@ class JsonList final : public RawTrace {
                 return next(frame);
             }
             read_frame(frame, header, JsonPlace(json, list_->place()));
-        } catch (const ParseError&) {
-            throw;
         } catch (const std::runtime_error& error) {
             fail_line(line, error.what());
         }

@@ -1,10 +1,15 @@
-// Traces in any text: vectors as engines print them, with words around them.
+// Traces in any text: vectors as programs print them, with words around them.
 //
 // A line with two joints or more is a frame; a line with a target or a pole target alone belongs to it. Where
-// lines have one vector each, the joints of a frame follow one another, and a name that comes again begins
-// the next frame. Names in front of the vectors say which are targets and pole targets.
+// lines have one vector each, the joints of a frame follow one another; a name that comes again, or between
+// vectors without names a line without any, begins the next frame. Lines are joined where a bracket stays
+// open, as in a printed array or matrix, and where x, y and z have a line each, as in YAML; there, --- parts
+// frames. Names in front of the vectors say which are targets and pole targets, and which are no positions.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <deque>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -19,7 +24,7 @@ bool is_word(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c >= '0' && c <= '9');
 }
 
-enum class Meaning { Joint, Target, Pole };
+enum class Meaning { Joint, Target, Pole, Other };
 
 /// Three or four numbers.
 struct Found {
@@ -27,6 +32,25 @@ struct Found {
     std::vector<double> numbers;
     Meaning meaning = Meaning::Joint;
 };
+
+bool is_number_start(char c) {
+    return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
+}
+
+/// A number, or one as np.float64(1.5) prints it.
+std::optional<double> take_printed(std::string_view& text) {
+    if (const auto number = take_number(text)) return number;
+    for (const std::string_view type :
+         {"np.float64(", "np.float32(", "np.float16(", "numpy.float64(", "float("}) {
+        if (!text.starts_with(type)) continue;
+        std::string_view rest = text.substr(type.size());
+        const auto number = take_number(rest);
+        if (!number || !rest.starts_with(')')) return std::nullopt;
+        text = rest.substr(1);
+        return number;
+    }
+    return std::nullopt;
+}
 
 /// Finds vectors in one line.
 class Scanner {
@@ -37,16 +61,20 @@ class Scanner {
         std::vector<Found> found;
         for (std::size_t at = 0; at < text_.size();) {
             std::size_t end = at;
-            std::vector<double> numbers;
-            if (named(at, end, numbers) || bracketed(at, end, numbers)) {
-                found.push_back({label_before(at), std::move(numbers)});
-                found.back().meaning = meaning_of(found.back().label);
-                at = end;
-                from_ = end;
-            } else {
+            std::vector<std::vector<double>> rows(1);
+            if (!named(at, end, rows[0]) && !bracketed(at, end, rows) && !bare(at, end, rows[0])) {
                 ++at;
+                continue;
             }
+            const std::string label = label_before(at);
+            for (std::vector<double>& numbers : rows)
+                found.push_back({label, std::move(numbers),
+                                 names_no_position(text_.substr(from_, at - from_)) ? Meaning::Other
+                                                                                    : meaning_of(label)});
+            at = end;
+            from_ = end;
         }
+        positions_of_matrices(found);
         return found;
     }
 
@@ -59,6 +87,43 @@ class Scanner {
         return Meaning::Joint;
     }
 
+    /// Four rows with (0, 0, 0, 1) for the last row or column are one position; three that are at right
+    /// angles and 1 long are a rotation.
+    static void positions_of_matrices(std::vector<Found>& found) {
+        const auto sized = [&](std::size_t at, std::size_t rows, std::size_t numbers) {
+            return at + rows <= found.size() &&
+                   std::all_of(found.begin() + static_cast<std::ptrdiff_t>(at),
+                               found.begin() + static_cast<std::ptrdiff_t>(at + rows),
+                               [&](const Found& each) { return each.numbers.size() == numbers; });
+        };
+        const auto number = [&](std::size_t row, std::size_t column) { return found[row].numbers[column]; };
+        for (std::size_t at = 0; at < found.size(); ++at) {
+            if (sized(at, 4, 4) && number(at + 3, 3) == 1.0) {
+                bool by_row = true, by_column = true;
+                for (std::size_t i = 0; i < 3; ++i) {
+                    by_row = by_row && number(at + 3, i) == 0.0;
+                    by_column = by_column && number(at + i, 3) == 0.0;
+                }
+                if (!by_row && !by_column) continue;
+                found[at].numbers =
+                    by_row ? std::vector{number(at, 3), number(at + 1, 3), number(at + 2, 3)}
+                           : std::vector{number(at + 3, 0), number(at + 3, 1), number(at + 3, 2)};
+                found[at].meaning = Meaning::Joint;
+                found.erase(found.begin() + static_cast<std::ptrdiff_t>(at + 1),
+                            found.begin() + static_cast<std::ptrdiff_t>(at + 4));
+            } else if (sized(at, 3, 3)) {
+                bool rotates = true;
+                for (std::size_t i = 0; i < 3; ++i)
+                    for (std::size_t j = i; j < 3; ++j) {
+                        double product = 0.0;
+                        for (std::size_t k = 0; k < 3; ++k) product += number(at + i, k) * number(at + j, k);
+                        rotates = rotates && std::abs(product - (i == j ? 1.0 : 0.0)) < 5e-3;
+                    }
+                for (std::size_t i = 0; rotates && i < 3; ++i) found[at + i].meaning = Meaning::Other;
+            }
+        }
+    }
+
     std::size_t skip(std::size_t at, std::string_view what) const {
         while (at < text_.size() && what.find(text_[at]) != what.npos) ++at;
         return at;
@@ -69,14 +134,19 @@ class Scanner {
         if (at > 0 && is_word(text_[at - 1])) return false;
         constexpr std::string_view lower = "xyzw", upper = "XYZW";
         std::size_t here = at;
+        bool equals = false, tight = false;
         for (std::size_t i = 0; i < 4; ++i) {
-            const std::size_t start = skip(here, i == 0 ? "" : " ,;\t");
+            const std::size_t start = skip(here, i == 0 ? "" : " ,;\t\"'");
             if (start >= text_.size() || (text_[start] != lower[i] && text_[start] != upper[i])) break;
-            std::size_t value = skip(start + 1, " ");
-            if (value >= text_.size() || (text_[value] != '=' && text_[value] != ':')) break;
-            value = skip(value + 1, " ");
+            const std::size_t sign = skip(start + 1, " \"'");
+            if (sign >= text_.size() || (text_[sign] != '=' && text_[sign] != ':')) break;
+            const std::size_t value = skip(sign + 1, " ");
+            if (i == 0) {
+                equals = text_[sign] == '=';
+                tight = value == start + 2;
+            }
             std::string_view rest = text_.substr(value);
-            const auto number = take_number(rest);
+            const auto number = take_printed(rest);
             if (!number) break;
             numbers.push_back(*number);
             here = text_.size() - rest.size();
@@ -85,37 +155,66 @@ class Scanner {
             numbers.clear();
             return false;
         }
-        if (text_[at] == 'X') trace_.engine = Engine::Unreal;
+        const std::size_t before = at > 0 ? text_.find_last_not_of(' ', at - 1) : text_.npos;
+        const bool braced = before != text_.npos && text_[before] == '{';
+        if (text_[at] == 'X' && equals && tight && !braced) trace_.engine = Engine::Unreal;
+        if (text_[at] == 'X' && !equals && braced) trace_.engine = tight ? Engine::Xna : Engine::Babylon;
         end = here;
         return true;
     }
 
-    /// (1, 2, 3), [1, 2, 3] or {1, 2, 3}, of three or four numbers.
-    bool bracketed(std::size_t at, std::size_t& end, std::vector<double>& numbers) {
-        constexpr std::string_view open = "([{", close = ")]}";
+    /// 1.0 2.0 3.0, after a name and a colon or equals sign.
+    bool bare(std::size_t at, std::size_t& end, std::vector<double>& numbers) {
+        if (!is_number_start(text_[at]) || at == 0) return false;
+        const std::size_t sign = text_.find_last_not_of(" \t", at - 1);
+        if (sign == text_.npos || sign < from_ || (text_[sign] != ':' && text_[sign] != '=')) return false;
+        std::size_t here = at;
+        for (;;) {
+            std::string_view rest = text_.substr(here);
+            const auto number = take_printed(rest);
+            if (!number) break;
+            numbers.push_back(*number);
+            end = text_.size() - rest.size();
+            here = skip(end, " \t");
+            if (here < text_.size() && text_[here] == ',') here = skip(here + 1, " \t");
+            if (here == end) break;
+        }
+        const bool fits = (numbers.size() == 3 || numbers.size() == 4) &&
+                          text_.substr(at, end - at).find('.') != text_.npos && !label_before(at).empty();
+        if (!fits) numbers.clear();
+        return fits;
+    }
+
+    /// (1, 2, 3), [1, 2, 3], {1, 2, 3} or <1, 2, 3>, of three or four numbers; or rows of them, [1 2 3; 4 5
+    /// 6].
+    bool bracketed(std::size_t at, std::size_t& end, std::vector<std::vector<double>>& rows) {
+        constexpr std::string_view open = "([{<", close = ")]}>";
         const std::size_t kind = open.find(text_[at]);
         if (kind == open.npos) return false;
         std::size_t here = skip(at + 1, " ");
         bool single = false;  // 1.0f
-        while (here < text_.size() && numbers.size() < 5) {
+        while (here < text_.size()) {
             std::string_view rest = text_.substr(here);
-            const auto number = take_number(rest);
+            const auto number = take_printed(rest);
             if (!number) break;
-            numbers.push_back(*number);
+            rows.back().push_back(*number);
             here = text_.size() - rest.size();
             single = single || text_[here - 1] == 'f' || text_[here - 1] == 'F';
             const std::size_t next = skip(here, " \t");
-            if (next < text_.size() && (text_[next] == ',' || text_[next] == ';'))
+            if (next < text_.size() && (text_[next] == ',' || text_[next] == ';')) {
                 here = skip(next + 1, " \t");
-            else if (next == here || next >= text_.size() || text_[next] == close[kind]) {
+                if (text_[next] == ';' && rows.back().size() >= 3) rows.emplace_back();
+            } else if (next == here || next >= text_.size() || text_[next] == close[kind]) {
                 here = next;
                 break;
             } else {
                 here = next;
             }
         }
-        if (here >= text_.size() || text_[here] != close[kind] || numbers.size() < 3 || numbers.size() > 4) {
-            numbers.clear();
+        const bool fit =
+            std::ranges::all_of(rows, [](const auto& row) { return row.size() == 3 || row.size() == 4; });
+        if (here >= text_.size() || text_[here] != close[kind] || !fit) {
+            rows.assign(1, {});
             return false;
         }
         end = here + 1;
@@ -125,6 +224,8 @@ class Scanner {
             trace_.engine = before.ends_with("fvector(") ? Engine::Unreal : Engine::Blender;
         else if (before.ends_with("new vector3") || (before.ends_with("vector3") && single))
             trace_.engine = Engine::Unity;
+        else if (before.ends_with("hou.vector3 "))
+            trace_.engine = Engine::Houdini;
         else if (before.ends_with("vector3"))
             trace_.engine = Engine::Godot;
         else if (before.ends_with("fvector"))
@@ -135,21 +236,37 @@ class Scanner {
     /// The name in front of a vector: "elbow" in "elbow = new Vector3".
     std::string label_before(std::size_t at) const {
         std::size_t end = at;
+        std::string kind;
         for (;;) {
             while (end > from_ &&
-                   std::string_view(" =:<([{\"'\t").find(text_[end - 1]) != std::string_view::npos)
+                   std::string_view(" =:<([{\"'\t]").find(text_[end - 1]) != std::string_view::npos)
                 --end;
             std::size_t begin = end;
             while (begin > from_ && is_word(text_[begin - 1])) --begin;
             const std::string word = lower_case(text_.substr(begin, end - begin));
-            static const std::set<std::string> constructors{
-                "fvector", "vector3", "vector", "new", "vec3", "float3", "v", "quat", "fquat", "quaternion"};
-            if (!word.empty() && constructors.contains(word)) {
+            // Constructors, and words that every name may have behind it.
+            static const std::set<std::string> types{
+                "fvector", "vector3", "vector", "new",    "vec3",       "dvec3",      "float3",
+                "double3", "v",       "quat",   "fquat",  "quaternion", "array",      "hou",
+                "np",      "gf",      "vec3d",  "vec3f",  "lpoint3f",   "lvecbase3f", "lvector3f",
+                "tensor",  "numpy",   "point3", "matrix", "4x4",        "mat4"};
+            static const std::set<std::string> positions{"position", "pos", "location", "loc", "translation"};
+            if (!word.empty() && (types.contains(word) || positions.contains(word))) {
+                if (positions.contains(word)) kind = word;
                 end = begin;
+                if (end > from_ && text_[end - 1] == '.') --end;
                 continue;
             }
-            const bool name = word.find_first_not_of("0123456789_") != word.npos;
-            return name ? word : std::string();
+            if (word.find_first_not_of("0123456789_") != word.npos) return word;
+            // A number belongs to the word before it: joint 1, joint[1].
+            while (begin > from_ &&
+                   (text_[begin - 1] == ' ' || text_[begin - 1] == '[' || text_[begin - 1] == '#'))
+                --begin;
+            std::size_t name = begin;
+            while (name > from_ && is_word(text_[name - 1])) --name;
+            const std::string before = lower_case(text_.substr(name, begin - name));
+            const bool named = !word.empty() && before.find_first_not_of("0123456789_ [#") != before.npos;
+            return named ? before + word : kind;
         }
     }
 
@@ -167,10 +284,8 @@ class LogTrace final : public RawTrace {
     bool next(RawFrame& frame) override {
         frame = std::move(ahead_);
         ahead_ = {};
-        while (waiting_ || read_line(in_, text_, line)) {
-            waiting_ = false;
+        while (read_joined())
             if (take(frame)) return true;
-        }
         if (!frame.joints.empty()) return true;
         if (!any_)
             throw std::runtime_error(
@@ -179,20 +294,123 @@ class LogTrace final : public RawTrace {
     }
 
   private:
+    bool read_next() {
+        if (waiting_) return waiting_ = false, true;
+        if (later_.empty()) return read_line(in_, text_, line);
+        text_ = std::move(later_.front());
+        later_.pop_front();
+        ++line;
+        return true;
+    }
+    /// The next line into `text_`, with those that continue it.
+    bool read_joined() {
+        if (!read_next()) return false;
+        constexpr std::size_t longest = 1u << 20;
+        const auto join = [&](const auto& continues) {
+            std::string whole = std::move(text_);
+            bool more = false;
+            while (whole.size() < longest && continues(whole) && (more = read_next())) {
+                if (!is_part_of(whole, text_)) {
+                    waiting_ = true;
+                    break;
+                }
+                whole += ' ' + text_;
+            }
+            if (waiting_) {
+                later_.push_front(std::move(text_));
+                --line;
+                waiting_ = false;
+            }
+            text_ = std::move(whole);
+        };
+        if (component_of(text_)) {
+            if (!documents_) find_documents();
+            text_.insert(0, before_ + ' ');
+            join([](const std::string&) { return true; });
+            // Numbers alone, as a column of Eigen: in brackets.
+            if (text_.find_first_of(":=", before_.size()) == text_.npos)
+                text_ = before_ + " (" + text_.substr(before_.size() + 1) + ')';
+            before_.clear();
+        } else {
+            join(stays_open);
+            before_ = text_.size() < 200 && text_.ends_with(':') ? text_ : std::string();
+        }
+        return true;
+    }
+    /// x, y, z or w of a line such as "  x: 0.3", '#' of one that is a number alone, else 0.
+    static char component_of(std::string_view text) {
+        const std::size_t begin = text.find_first_not_of(" \t");
+        if (begin == text.npos) return 0;
+        text.remove_prefix(begin);
+        if (text.starts_with("- ")) text.remove_prefix(2);
+        char name = '#';
+        if (text.size() > 2 && text[0] >= 'w' && text[0] <= 'z' && text[1] == ':') {
+            name = text[0];
+            text.remove_prefix(text.find_first_not_of(' ', 2) == text.npos ? 2
+                                                                           : text.find_first_not_of(' ', 2));
+        }
+        const bool number = take_printed(text) && text.find_first_not_of(" \t") == text.npos;
+        return number ? name : '\0';
+    }
+    static bool is_part_of(std::string_view whole, std::string_view line) {
+        const char name = component_of(line);
+        return name == 0 ? stays_open(whole) : name != 'x';
+    }
+    /// Whether a bracket with nothing but numbers behind it is not closed.
+    static bool stays_open(std::string_view text) {
+        std::vector<std::size_t> opened;
+        for (std::size_t at = 0; at < text.size(); ++at) {
+            const char c = text[at];
+            if (c == '(' || c == '[' || c == '{' || text.substr(at).starts_with("<Matrix"))
+                opened.push_back(at);
+            const bool matrix = !opened.empty() && text[opened.back()] == '<';
+            if ((c == '>' ? matrix : (c == ')' || c == ']' || c == '}') && !matrix) && !opened.empty())
+                opened.pop_back();
+        }
+        if (opened.empty()) return false;
+        std::string_view rest = text.substr(opened.front());
+        if (rest.starts_with("<Matrix")) return true;
+        bool any = false;
+        while (!rest.empty()) {
+            const auto number = take_printed(rest);
+            any = any || number;
+            if (number) continue;
+            if (std::string_view(" \t,;()[]{}").find(rest[0]) == std::string_view::npos) return false;
+            rest.remove_prefix(1);
+        }
+        return any;
+    }
+    /// Reads ahead to see whether --- parts the frames.
+    void find_documents() {
+        constexpr std::size_t farthest = 20'000;
+        documents_ = false;
+        std::string text;
+        std::size_t at = line;
+        while (!*documents_ && later_.size() < farthest && read_line(in_, text, at)) {
+            documents_ = text.starts_with("---");
+            later_.push_back(std::move(text));
+        }
+        if (*documents_) engine = Engine::Ros;
+    }
+
     /// Adds a line's vectors to the frame. True if the line begins the next one, which is then in ahead_.
     bool take(RawFrame& frame) {
-        const std::vector<Found> found = Scanner(text_, *this).all();
-        if (found.empty()) return false;
+        std::vector<Found> found = Scanner(text_, *this).all();
+        const bool ends =
+            documents_.value_or(false) ? text_.starts_with("---") : labels_.empty() && !by_line_;
+        if (found.empty()) return ends && frame.joints.size() >= (documents_ ? 1u : 2u);
         count_decimals(*this, text_);
+        sort_fours(found);
         any_ = true;
         const auto joints = std::ranges::count_if(found, [](const Found& each) {
             return each.meaning == Meaning::Joint && each.numbers.size() == 3;
         });
         if (joints >= 2) by_line_ = true;
+        const bool by_document = documents_.value_or(false);
         RawFrame* into = &frame;
-        if (by_line_ && joints > 0 && !frame.joints.empty()) into = &ahead_;
+        if (by_line_ && !by_document && joints > 0 && !frame.joints.empty()) into = &ahead_;
         for (const Found& each : found) {
-            if (!by_line_ && begins_again(each) && !into->joints.empty()) {
+            if (!by_line_ && !by_document && begins_again(each) && !into->joints.empty()) {
                 into = &ahead_;
                 labels_.clear();
             }
@@ -200,12 +418,33 @@ class LogTrace final : public RawTrace {
         }
         return into == &ahead_;
     }
+    /// Four numbers are a quaternion if they are 1 long, or a point if the last is 1: in all of them, then.
+    void sort_fours(std::vector<Found>& found) {
+        const auto length = [](const std::vector<double>& n) {
+            return std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] + n[3] * n[3]);
+        };
+        const auto point = [](const Found& each) {
+            return each.numbers.size() == 4 && each.numbers[3] == 1.0 && each.meaning != Meaning::Other;
+        };
+        for (const Found& each : found)
+            homogeneous_ = homogeneous_ || (point(each) && length(each.numbers) > 1.02);
+        for (Found& each : found)
+            if (each.numbers.size() == 4) {
+                if (homogeneous_ && point(each))
+                    each.numbers.pop_back();
+                else if (std::abs(length(each.numbers) - 1.0) > 0.02)
+                    each.meaning = Meaning::Other;
+                else
+                    each.meaning = Meaning::Joint;
+            }
+    }
 
     bool begins_again(const Found& each) {
         return !each.label.empty() && each.numbers.size() == 3 && labels_.contains(each.label);
     }
 
     void add(RawFrame& frame, const Found& found) {
+        if (found.meaning == Meaning::Other) return;
         if (frame.line == 0) frame.line = line;
         const auto& n = found.numbers;
         if (n.size() == 4) {
@@ -228,11 +467,46 @@ class LogTrace final : public RawTrace {
     std::istream& in_;
     std::string text_;
     RawFrame ahead_;
-    std::set<std::string> labels_;  ///< of the present frame
-    bool waiting_ = true, by_line_ = false, any_ = false;
+    std::set<std::string> labels_;   ///< of the present frame
+    std::string before_;             ///< the line before, if it ends with a colon
+    std::deque<std::string> later_;  ///< lines that were read ahead
+    std::optional<bool>
+        documents_{};  ///< whether --- parts the frames; unknown before the first x: on a line
+    bool waiting_ = true, by_line_ = false, any_ = false, homogeneous_ = false;
 };
 
 }  // namespace
+
+bool names_no_position(std::string_view text) {
+    static const std::set<std::string> others{
+        "rotation", "rotations", "rot",     "orientation", "orient",       "quat",    "quaternion",
+        "fquat",    "rpy",       "euler",   "angle",       "angles",       "degree",  "degrees",
+        "deg",      "radian",    "radians", "rad",         "scale",        "scaling", "velocity",
+        "vel",      "speed",     "angular", "linear",      "acceleration", "accel",   "normal",
+        "tangent",  "force",     "torque",  "covariance",  "color",        "colour",  "size",
+        "extents",  "gravity",   "time",    "fps",         "dt",           "matrix",  "mat3",
+        "mat3x3",   "basis",     "scale3d"};
+    static const std::set<std::string> positions{"position",    "positions", "pos",    "location", "loc",
+                                                 "translation", "point",     "points", "target",   "goal",
+                                                 "joint",       "joints",    "pole",   "origin"};
+    std::size_t end = text.size();
+    while (end > 0) {
+        const auto letter = [&](std::size_t at) { return is_word(text[at]) && text[at] != '_'; };
+        while (end > 0 && !letter(end - 1)) --end;
+        std::size_t begin = end;
+        // A word ends where another begins: PoleTarget, pole_target.
+        while (begin > 0 && letter(begin - 1)) {
+            --begin;
+            const bool capital = text[begin] >= 'A' && text[begin] <= 'Z';
+            if (capital && begin > 0 && text[begin - 1] >= 'a' && text[begin - 1] <= 'z') break;
+        }
+        const std::string word = lower_case(text.substr(begin, end - begin));
+        if (others.contains(word)) return true;
+        if (positions.contains(word)) return false;
+        end = begin;
+    }
+    return false;
+}
 
 std::unique_ptr<RawTrace> open_log_trace(std::istream& in, std::string first, std::size_t line) {
     return std::make_unique<LogTrace>(in, std::move(first), line);

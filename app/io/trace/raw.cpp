@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/document/json_scan.hpp"
 #include "app/document/text.hpp"
 
 namespace tendril::app {
@@ -87,18 +88,50 @@ void count_decimals(RawTrace& trace, std::string_view text) {
     }
 }
 
+namespace {
+
+/// Whether a line can be JSON, as far as it goes: NumPy, MATLAB and Python print brackets, too.
+bool can_be_json(std::string_view text) {
+    bool value = false;  // the last thing was one
+    for (std::size_t at = 0; at < text.size();) {
+        const char c = text[at];
+        std::string_view rest = text.substr(at);
+        const bool begins =
+            c == '{' || c == '[' || c == '"' || (c != ',' && c != ':' && c != '}' && c != ']');
+        if (c == ' ' || c == '\t') {
+            ++at;
+            continue;
+        }
+        if (begins && value) return false;
+        value = begins ? c != '{' && c != '[' : c == '}' || c == ']';
+        if (c == '"') {
+            at = string_end(text, at);
+        } else if (!begins || c == '{' || c == '[') {
+            ++at;
+        } else if (take_number(rest)) {
+            at = text.size() - rest.size();
+        } else {
+            static constexpr std::array<std::string_view, 3> literals{"true", "false", "null"};
+            const auto word =
+                std::ranges::find_if(literals, [&](auto each) { return rest.starts_with(each); });
+            if (word == literals.end()) return false;
+            at += word->size();
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
 std::unique_ptr<RawTrace> open_raw_trace(std::istream& in) {
     std::string first;
     std::size_t line = 0;
     do {
         if (!read_line(in, first, line)) throw std::runtime_error("has nothing in it");
     } while (first.find_first_not_of(" \t") == first.npos);
-    const std::size_t at = first.find_first_not_of(" \t");
-    const std::size_t next = first.find_first_not_of(" \t", at + 1);
-    const char after = next == first.npos ? '\n' : first[next];
-    if (first[at] == '{' && (after == '"' || after == '}' || after == '\n'))
-        return open_json_trace(in, std::move(first), line);
-    if (first[at] == '[' && (after == '[' || after == '{' || after == '\n'))
+    const char begin = first[first.find_first_not_of(" \t")];
+    const bool named = first.find("\"joints\"") != first.npos || first.find("\"tendril\"") != first.npos;
+    if ((begin == '{' || begin == '[') && (named || can_be_json(first)))
         return open_json_trace(in, std::move(first), line);
     if (begins_table(first)) return open_table_trace(in, std::move(first), line);
     return open_log_trace(in, std::move(first), line);

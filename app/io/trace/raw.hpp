@@ -37,7 +37,7 @@ struct TraceHeader {
 };
 
 /// How a program writes vectors.
-enum class Engine { Unknown, Unreal, Unity, Godot, Blender };
+enum class Engine { Unknown, Unreal, Unity, Godot, Blender, Xna, Babylon, Houdini, Ros };
 
 class RawTrace {
   public:
@@ -62,6 +62,9 @@ std::unique_ptr<RawTrace> open_raw_trace(std::istream& in);
 /// A number, from the start of `text`, as any language prints it: 1.5, 1.5f, nan, -nan(ind), inf, 1.#QNAN.
 /// Removes it from `text`.
 std::optional<double> take_number(std::string_view& text);
+/// Whether the last word that says so, in a name or in the text before a vector, means something else than a
+/// position: "elbow_rotation", "in RPY (radian)".
+bool names_no_position(std::string_view text);
 /// Raises `trace.decimals` to those of the numbers in `text`.
 void count_decimals(RawTrace& trace, std::string_view text);
 /// Reads a line without its end; false at the end. Refuses one of over 16 MiB.

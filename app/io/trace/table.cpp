@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -59,21 +60,41 @@ struct Column {
     int axis = 0;
 };
 
-/// "Elbow_X" is axis 0 of "elbow".
+/// "Elbow_X", "elbow.x [cm]", "elbow[0]" and "x_elbow" are axis 0 of "elbow"; of a quaternion, w is axis 3.
 std::optional<std::pair<std::string, int>> point_column(std::string_view cell) {
+    if (cell.find_first_of("{}=<>") != cell.npos || cell.find(": ") != cell.npos) return std::nullopt;
     std::string name = lower_case(cell);
+    if (const std::size_t unit = name.find_first_of("([");
+        unit != name.npos && unit > 0 && name[unit - 1] == ' ')
+        name.resize(unit);
+    const auto is_separator = [](char c) { return c == '.' || c == '_' || c == ' ' || c == '-' || c == ':'; };
+    while (!name.empty() && is_separator(name.back())) name.pop_back();
     if (name.size() < 2) return std::nullopt;
-    const int axis = name.back() - 'x';
-    if (axis < 0 || axis > 2) return std::nullopt;
-    name.pop_back();
-    while (!name.empty() &&
-           (name.back() == '.' || name.back() == '_' || name.back() == ' ' || name.back() == '-'))
+    const auto axis_of = [](char c) { return c == 'w' ? 3 : c >= 'x' && c <= 'z' ? c - 'x' : -1; };
+    int axis = axis_of(name.back());
+    const bool indexed = name.size() > 3 && name.back() == ']' && name[name.size() - 3] == '[';
+    if (indexed) {
+        const char index = name[name.size() - 2];
+        axis = index >= '0' && index <= '3' ? index - '0' : axis_of(index);
+        name.resize(name.size() - 3);
+    } else if (axis >= 0) {
         name.pop_back();
+    } else if (axis = axis_of(name.front());
+               axis >= 0 && (is_separator(name[1]) || (name[1] >= '0' && name[1] <= '9'))) {
+        name.erase(0, 1);
+    } else {
+        return std::nullopt;
+    }
+    if (axis < 0) return std::nullopt;
+    while (!name.empty() && is_separator(name.back())) name.pop_back();
+    while (!name.empty() && is_separator(name.front())) name.erase(0, 1);
     if (name.empty()) return std::nullopt;
     return std::pair(name, axis);
 }
 
 Role role_of(const std::string& base) {
+    if (names_no_position(base) || base == "q" || base.ends_with("_q") || base.ends_with(".q"))
+        return Role::Ignored;
     for (const char* word : {"t", "target", "goal", "effector_target"})
         if (base == word) return Role::Target;
     for (const char* word : {"p", "pole", "pole_target", "hint"})
@@ -149,6 +170,11 @@ class Table final : public RawTrace {
     void read_names(const std::vector<std::string_view>& row) {
         std::map<std::string, std::size_t> joints;
         std::array<int, 3> axes{};
+        std::set<std::string> turns;  // points with a w are quaternions
+        for (const std::string_view cell : row)
+            if (const auto point = point_column(cell); point && point->second == 3)
+                turns.insert(point->first);
+        std::string left_out;
         for (const std::string_view cell : row) {
             Column column;
             const std::string name = lower_case(cell);
@@ -160,7 +186,10 @@ class Table final : public RawTrace {
             } else if (name == "chain") {
                 column.role = Role::Chain;
             } else if (point) {
-                column.role = role_of(point->first);
+                column.role = turns.contains(point->first) ? Role::Ignored : role_of(point->first);
+                if (column.role == Role::Ignored && left_out != point->first)
+                    notes.push_back("the columns of \"" + printable(left_out = point->first) +
+                                    "\" were left out: they are no position");
                 column.axis = point->second;
                 if (column.role == Role::Joint) {
                     const auto [at, is_new] = joints.try_emplace(point->first, joints.size());

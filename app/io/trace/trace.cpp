@@ -94,8 +94,11 @@ bool TraceReader::next_raw(RawFrame& frame) {
     try {
         if (!raw_->next(frame)) return false;
         if (frame.joints.size() < 2)
-            fail_line(frame.line,
-                      "expected two joints or more, found " + std::to_string(frame.joints.size()));
+            fail_line(frame.line, frame.joints.empty() ? "expected two joints or more, found none"
+                                  : frame.rotations.empty()
+                                      ? "expected two joints or more, found one position"
+                                      : "expected two joints or more, found one position and its rotation: "
+                                        "there is no bone, and nothing to explain");
         const auto [chain, is_new] = joints_.try_emplace(frame.chain, frame.joints.size());
         if (is_new && joints_.size() > 1000) fail_line(frame.line, "found more than 1000 chains");
         if (chain->second != frame.joints.size())

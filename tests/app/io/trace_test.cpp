@@ -307,6 +307,193 @@ TEST(Trace, PastedPosesAreRead) {
     EXPECT_EQ(aimed.pole, glm::vec3(0, 0, 1));
 }
 
+/// How a program prints a frame of shoulder, elbow and hand, and what it can be known to have.
+struct Maker {
+    const char* name;
+    std::string (*print)(const std::vector<glm::dvec3>& joints, std::size_t frame);
+    int space = 2;            ///< of test::made::spaces
+    const char* header = "";  ///< before the first frame
+    const char* engine = "";  ///< in the text of the conventions
+};
+
+std::string printed(const glm::dvec3& p, const char* format = "(%.4f, %.4f, %.4f)") {
+    char text[200];
+    std::snprintf(text, sizeof text, format, p.x, p.y, p.z);
+    return text;
+}
+template <std::size_t N>
+std::string each_joint(const std::vector<glm::dvec3>& joints, const char (&format)[N],
+                       const char* between = " ") {
+    std::string text;
+    for (const glm::dvec3& joint : joints) text += (text.empty() ? "" : between) + printed(joint, format);
+    return text;
+}
+std::string labelled(const std::vector<glm::dvec3>& joints, const char* format) {
+    return "shoulder" + printed(joints[0], format) + "elbow" + printed(joints[1], format) + "hand" +
+           printed(joints[2], format);
+}
+
+using Joints = std::vector<glm::dvec3>;
+const Maker makers[]{
+    {"NumPy",
+     [](const Joints& j, std::size_t) { return "[" + each_joint(j, "[%.4f %.4f %.4f]", "\n ") + "]\n"; }},
+    {"NumPy repr",
+     [](const Joints& j, std::size_t) {
+         return "arm = array([" + each_joint(j, "[ %.4f,  %.4f,  %.4f]", ",\n       ") + "])\n";
+     }},
+    {"NumPy scalars",
+     [](const Joints& j, std::size_t) {
+         return each_joint(j, "(np.float64(%.4f), np.float64(%.4f), np.float64(%.4f))") + "\n";
+     }},
+    {"System.Numerics",
+     [](const Joints& j, std::size_t) { return each_joint(j, "<%.4f, %.4f, %.4f>") + "\n"; }},
+    {"XNA", [](const Joints& j, std::size_t) { return each_joint(j, "{X:%.4f Y:%.4f Z:%.4f}") + "\n"; }, 2,
+     "", "XNA"},
+    {"Babylon",
+     [](const Joints& j, std::size_t) { return each_joint(j, "{X: %.4f Y: %.4f Z: %.4f}") + "\n"; }, 1, "",
+     "Babylon"},
+    {"C# record",
+     [](const Joints& j, std::size_t) {
+         return each_joint(j, "Vector3 { X = %.4f, Y = %.4f, Z = %.4f }") + "\n";
+     }},
+    {"Unreal",
+     [](const Joints& j, std::size_t) {
+         return "LogTemp: " + each_joint(j, "X=%.3f Y=%.3f Z=%.3f") + " Rotation: X=0.0 Y=0.0 Z=0.0 W=1.0\n";
+     },
+     0, "", "Unreal"},
+    {"Godot", [](const Joints& j, std::size_t) { return each_joint(j, "(%.4f, %.4f, %.4f)") + "\n"; }},
+    {"three.js", [](const Joints& j,
+                    std::size_t) { return each_joint(j, "Vector3 {x: %.4f, y: %.4f, z: %.4f}") + "\n"; }},
+    {"glm",
+     [](const Joints& j, std::size_t) {
+         return each_joint(j, "vec3(%f, %f, %f)") + " rot quat(1.000000, {0.000000, 0.000000, 0.000000})\n";
+     }},
+    {"Eigen column", [](const Joints& j, std::size_t) { return labelled(j, ":\n%.4f\n%.4f\n%.4f\n"); }},
+    {"Eigen row", [](const Joints& j, std::size_t) { return labelled(j, ": %.4f %.4f  %.4f\n"); }},
+    {"ROS",
+     [](const Joints& j, std::size_t) {
+         return "poses:\n" +
+                each_joint(j,
+                           "- position:\n    x: %.4f\n    y: %.4f\n    z: %.4f\n  orientation:\n    x: 0.0\n"
+                           "    y: 0.0\n    z: 0.0\n    w: 1.0\n",
+                           "") +
+                "---\n";
+     },
+     3, "", "ROS"},
+    {"Maya",
+     [](const Joints& j, std::size_t) { return "[" + each_joint(j, "[%.4f, %.4f, %.4f]", ", ") + "]\n"; }},
+    {"Maya points",
+     [](const Joints& j, std::size_t) { return each_joint(j, "(%.4f, %.4f, %.4f, 1)") + "\n"; }},
+    {"Maya selection", [](const Joints& j, std::size_t) { return labelled(j, " = %.4f %.4f %.4f //\n"); }},
+    {"Houdini",
+     [](const Joints& j, std::size_t) { return each_joint(j, "<hou.Vector3 [%.4f, %.4f, %.4f]>") + "\n"; }, 2,
+     "", "Houdini"},
+    {"Blender",
+     [](const Joints& j, std::size_t) { return each_joint(j, "<Vector (%.4f, %.4f, %.4f)>") + "\n"; }, 3, "",
+     "Blender"},
+    {"Blender matrices",
+     [](const Joints& j, std::size_t) {
+         std::string text;
+         for (std::size_t i = 0; i < 3; ++i)
+             text += "joint " + std::to_string(i) +
+                     printed(j[i],
+                             ": <Matrix 4x4 (0.6, -0.8, 0.0, %.4f)\n            (0.8, 0.6, 0.0, %.4f)\n"
+                             "            (0.0, 0.0, 1.0, %.4f)\n            (0.0, 0.0, 0.0, 1.0)>\n");
+         return text;
+     },
+     3},
+    {"MATLAB",
+     [](const Joints& j, std::size_t) { return "p = [" + each_joint(j, "%.4f %.4f %.4f", "; ") + "]\n"; }},
+    {"JOML", [](const Joints& j, std::size_t) { return each_joint(j, "( %.4E  %.4E  %.4E)") + "\n"; }},
+    {"Python",
+     [](const Joints& j, std::size_t) { return each_joint(j, "{'x': %.4f, 'y': %.4f, 'z': %.4f}") + "\n"; }},
+    {"JSON objects",
+     [](const Joints& j, std::size_t) { return each_joint(j, "{\"x\":%.4f,\"y\":%.4f,\"z\":%.4f}") + "\n"; }},
+    {"with rotations",
+     [](const Joints& j, std::size_t) {
+         return labelled(j, " position (%.4f, %.4f, %.4f) rotation (0.00, 90.00, 0.00) scale (1, 1, 1)\n");
+     }},
+    {"with matrices",
+     [](const Joints& j, std::size_t) {
+         return each_joint(j, "(%.4f, %.4f, %.4f)") + " [[0.6 -0.8 0.0] [0.8 0.6 0.0] [0.0 0.0 1.0]]\n";
+     }},
+    {"indexed",
+     [](const Joints& j, std::size_t) {
+         std::string text;
+         for (std::size_t i = 0; i < 3; ++i)
+             text += "joint[" + std::to_string(i) + "] = " + printed(j[i]) + "\n";
+         return text;
+     }},
+    {"blank lines",
+     [](const Joints& j, std::size_t) { return each_joint(j, "(%.4f, %.4f, %.4f)", "\n") + "\n\n"; }},
+    {"CSV .x",
+     [](const Joints& j, std::size_t) { return each_joint(j, "%.4f,%.4f,%.4f,0,0,0,1", ",") + "\n"; }, 2,
+     "a.pos.x,a.pos.y,a.pos.z,a.rot.x,a.rot.y,a.rot.z,a.rot.w,b.pos.x,b.pos.y,b.pos.z,b.rot.x,b.rot.y,b.rot."
+     "z,"
+     "b.rot.w,c.pos.x,c.pos.y,c.pos.z,c.rot.x,c.rot.y,c.rot.z,c.rot.w\n"},
+    {"CSV [0]", [](const Joints& j, std::size_t) { return each_joint(j, "%.4f,%.4f,%.4f", ",") + "\n"; }, 2,
+     "a[0],a[1],a[2],b[0],b[1],b[2],c[0],c[1],c[2]\n"},
+    {"CSV prefix", [](const Joints& j, std::size_t) { return each_joint(j, "%.4f,%.4f,%.4f", ",") + "\n"; },
+     2, "x1,y1,z1,x2,y2,z2,x3,y3,z3\n"},
+    {"CSV unit", [](const Joints& j, std::size_t) { return each_joint(j, "%.4f,%.4f,%.4f", ",") + "\n"; }, 2,
+     "a_x [m],a_y [m],a_z [m],b_x [m],b_y [m],b_z [m],c_x [m],c_y [m],c_z [m]\n"}};
+
+TEST(Trace, LogsOfManyMakersAreRead) {
+    for (const Maker& maker : makers)
+        for (unsigned seed = 0; seed < 6; ++seed) {
+            SCOPED_TRACE(maker.name);
+            const MadeTrace made = TraceMaker(seed).make(seed < 3 ? Plant::Length : Plant::None);
+            const Space& space = test::made::spaces[maker.space];
+            std::string text = maker.header;
+            for (std::size_t i = 0; i < made.frames.size(); ++i) {
+                Joints joints;
+                for (const glm::dvec3& joint : made.frames[i].joints) joints.push_back(space.of(joint));
+                text += maker.print(joints, i);
+            }
+            ASSERT_EQ(trace_refusal(text), "read") << maker.name << '\n' << text.substr(0, 400);
+            const ReadTrace found = read_trace(text);
+            EXPECT_EQ(found.findings.chains[0].frames, made.frames.size()) << maker.name << '\n'
+                                                                           << text.substr(0, 400);
+            const Conventions& said = found.conventions;
+            EXPECT_NE(said.text().find(maker.engine), std::string::npos) << maker.name << ": " << said.text();
+            EXPECT_TRUE(!said.up.sure || trace_ups.name(said.up.value) == std::string(space.up))
+                << maker.name;
+            EXPECT_TRUE(!said.handed.sure || trace_hands.name(said.handed.value) == std::string(space.handed))
+                << maker.name << ": " << said.text();
+            EXPECT_TRUE(!said.unit.sure || trace_units.name(said.unit.value) == std::string(space.unit))
+                << maker.name << ": " << said.text();
+            ASSERT_EQ(found.incidents().size(), made.kind.empty() ? 0u : 1u) << maker.name << '\n'
+                                                                             << found.text();
+            if (made.kind.empty()) continue;
+            EXPECT_EQ(found.incidents()[0].frame, made.frame) << maker.name;
+            EXPECT_EQ(found.incidents()[0].joint, static_cast<std::size_t>(made.joint)) << maker.name;
+            EXPECT_NEAR(found.incidents()[0].amount, made.amount, 5e-3) << maker.name;
+        }
+}
+
+TEST(Trace, OnePositionAndItsRotationHaveNothingToExplain) {
+    const std::string block =
+        "At time 100.000\n- Translation: [0.300, 0.100, 0.200]\n- Rotation: in Quaternion [0.000, 0.000, "
+        "0.000, 1.000]\n"
+        "            in RPY (radian) [0.000, -0.000, 0.000]\n            in RPY (degree) [0.000, -0.000, "
+        "0.000]\n";
+    const std::string said = trace_refusal(block + block + block);
+    EXPECT_TRUE(test::says(said, "line 2 one position and its rotation nothing to explain")) << said;
+}
+
+TEST(Trace, ATargetOfTheWristIsNotMissedByTheHand) {
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        MadeTrace made = TraceMaker(seed).make(seed % 2 == 0 ? Plant::None : Plant::Lag);
+        const glm::dvec3 hand(0.1, 0.1, 0.1);
+        for (auto& frame : made.frames) frame.joints.push_back(frame.joints.back() + hand);
+        const ReadTrace found =
+            read_trace(test::made::written(made, test::made::spaces[seed % 4], Format::JsonLines));
+        EXPECT_TRUE(test::says(found.conventions.text(), "target is that of joint 2"))
+            << found.conventions.text();
+        EXPECT_EQ(found.incidents().size(), seed % 2) << "seed " << seed << ":\n" << found.text();
+    }
+}
+
 TEST(Trace, DamageIsRefusedByItsLineOrReadUpToIt) {
     EXPECT_NE(trace_refusal("").find("nothing"), std::string::npos);
     EXPECT_NE(trace_refusal("hello\nworld\n").find("no positions"), std::string::npos);

@@ -312,6 +312,20 @@ void IncidentFinder::finish() {
     for (Episode& each : limit_) last(each, false, {});
     finish_following();
     std::ranges::stable_sort(found_, {}, &ChainIncident::frame);
+    // A joint out of its place changes both its bones, over the same frames: one incident, the larger.
+    std::size_t kept = 0;
+    bool merged = true;  // the last one is
+    for (const ChainIncident& each : found_) {
+        ChainIncident* const last = kept > 0 ? &found_[kept - 1] : nullptr;
+        merged = !merged && last->kind == IncidentKind::Length && each.kind == IncidentKind::Length &&
+                 last->frame == each.frame && last->last_frame == each.last_frame &&
+                 last->joint + 1 == each.joint;
+        if (!merged)
+            found_[kept++] = each;
+        else if (std::abs(each.amount) > std::abs(last->amount))
+            *last = each;
+    }
+    found_.resize(kept);
 }
 
 }  // namespace tendril::ik
