@@ -27,7 +27,7 @@ inline constexpr std::uint64_t golden_curve_hash = 0x091f8043d68a5fe2u;
 std::uint64_t curve_hash();
 
 /// The expected linkage_hash().
-inline constexpr std::uint64_t golden_linkage_hash = 0xdd68f03453423d89u;
+inline constexpr std::uint64_t golden_linkage_hash = 0x9f277fbe0ecdff6cu;
 
 /// Drives and draws six linkages 60 times each, and hashes the bits of every joint and point.
 std::uint64_t linkage_hash();
