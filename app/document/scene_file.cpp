@@ -1,6 +1,7 @@
 #include "app/document/scene_file.hpp"
 
 #include <glm/common.hpp>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -117,6 +118,7 @@ Json save_scene(const Workspace& workspace) {
     return Json{{"tendril_scene", scene_version},
                 {"lab", workspace.lab},
                 {"camera", save_camera(workspace.camera)},
+                {"paused", !workspace.clock.playing && !workspace.ui.plays_after_dialog},
                 {"labs", std::move(labs)}};
 }
 
@@ -126,6 +128,7 @@ struct Scene {
     Document document;
     std::string lab;
     CameraPose camera;
+    std::optional<bool> paused;  ///< older scenes do not say
 };
 
 /// Throws what load_scene() throws.
@@ -133,7 +136,8 @@ Scene read_scene(const Workspace& workspace, const Json& json) {
     const int version = read_version(json);
     const Json& labs = json_member(json, "labs", "");
     if (!labs.is_object()) throw std::runtime_error("labs: expected an object, found " + json_summary(labs));
-    Scene scene{load_document(workspace.blank, labs, version), workspace.lab, {}};
+    Scene scene{load_document(workspace.blank, labs, version), workspace.lab, {}, {}};
+    if (const Json* found = optional_member(json, "paused")) scene.paused = json_bool(*found, "paused");
     if (const Json* found = optional_member(json, "lab")) {
         scene.lab = json_text(*found, "lab");
         if (!scene.document.parts().contains(scene.lab))
@@ -165,6 +169,10 @@ void load_scene(Workspace& workspace, const Json& json) {
     workspace.lab = std::move(scene.lab);
     workspace.camera = scene.camera;
     workspace.start_anew();
+    if (!scene.paused) return;
+    workspace.clock.playing = !*scene.paused;
+    workspace.clock.held = *scene.paused;
+    workspace.clock.looks_back = workspace.ui.plays_after_dialog = false;
 }
 
 void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
