@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -193,6 +194,7 @@ Json save_scene(const Workspace& workspace) {
     return Json{{"tendril_scene", scene_version},
                 {"lab", workspace.lab},
                 {"camera", save_camera(workspace.camera)},
+                {"paused", !workspace.clock.playing && !workspace.ui.plays_after_dialog},
                 {"labs", std::move(labs)}};
 }
 
@@ -203,6 +205,7 @@ struct Scene {
     std::string lab;
     CameraPose camera;
     std::vector<std::string> missing;
+    std::optional<bool> paused;  ///< older scenes do not say
 };
 
 /// Throws what load_scene() throws.
@@ -210,8 +213,9 @@ Scene read_scene(const Workspace& workspace, const Json& json, const SceneLoadin
     const int version = read_version(json);
     const Json& labs = json_member(json, "labs", "");
     if (!labs.is_object()) throw std::runtime_error("labs: expected an object, found " + json_summary(labs));
-    Scene scene{{}, workspace.lab, {}, {}};
+    Scene scene{{}, workspace.lab, {}, {}, {}};
     scene.document = load_document(workspace.blank, labs, version, loading, scene.missing);
+    if (const Json* found = optional_member(json, "paused")) scene.paused = json_bool(*found, "paused");
     if (const Json* found = optional_member(json, "lab")) {
         scene.lab = json_text(*found, "lab");
         if (!scene.document.parts().contains(scene.lab))
@@ -253,6 +257,11 @@ std::vector<std::string> load_scene(Workspace& workspace, const Json& json, cons
     workspace.lab = std::move(scene.lab);
     workspace.camera = scene.camera;
     workspace.start_anew();
+    if (scene.paused) {
+        workspace.clock.playing = !*scene.paused;
+        workspace.clock.held = *scene.paused;
+        workspace.clock.looks_back = workspace.ui.plays_after_dialog = false;
+    }
     return std::move(scene.missing);
 }
 

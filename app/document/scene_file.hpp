@@ -1,6 +1,6 @@
 // Scenes on disk: versioned JSON holding every lab's part, which lab was open, and the camera.
 //
-//   {"tendril_scene": 2, "lab": "chain", "camera": {...}, "labs": {"chain": {...}}}
+//   {"tendril_scene": 2, "lab": "chain", "camera": {...}, "paused": false, "labs": {"chain": {...}}}
 //
 // Version 2 writes every rotation as [x, y, z, w]; version 1 wrote the chain's as [w, x, y, z]. Part::upgrade
 // converts older versions.
@@ -22,8 +22,8 @@ struct SceneLoading {
     bool whole = true;               ///< a lab that cannot be read refuses the scene, unless it names files
 };
 
-/// Converts a workspace's document, lab and camera to JSON and back. Loading resets time and makes blank any
-/// lab that the scene does not mention. It throws std::runtime_error with the path and the reason (a newer
+/// Converts a workspace's document, lab, camera and pause to JSON and back. Loading resets time and makes
+/// blank any lab that the scene does not mention. It throws std::runtime_error with the path and the reason (a newer
 /// version, an unknown lab, a value out of range) and then leaves the workspace unchanged.
 ///
 /// A part names each file that it reads in an object with "file", as it was given, and "path", which is

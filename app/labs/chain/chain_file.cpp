@@ -10,7 +10,81 @@
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/kit/arguments.hpp"
 
+namespace {
+
+constexpr double max_steps = 1e9, max_distance = 1e10;  ///< of a report; points are at most 3.5e9 m apart
+
+}  // namespace
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Report>() noexcept {
+    using ik::Report;
+    static const auto statuses = app::library_names<ik::Status, 7>();
+    static const Field rows[] = {field<&Report::status>("status", statuses),
+                                 field<&Report::iterations>("iterations", {0, max_steps}),
+                                 field<&Report::residual>("residual", {0, max_distance}, "m"),
+                                 field<&Report::closed_form>("closed_form"),
+                                 field<&Report::perturbations>("perturbations", {0, max_steps}),
+                                 field<&Report::least_squares_steps>("least_squares_steps", {0, max_steps}),
+                                 field<&Report::restarts>("restarts", {0, max_steps}),
+                                 field<&Report::off_plane>("off_plane", {0, max_distance}, "m")};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::ActiveLimit>() noexcept {
+    using ik::ActiveLimit;
+    static const auto kinds = app::library_names<ik::JointKind, 7>();
+    static const auto bounds = app::library_names<ik::Bound, 8>();
+    static const Field rows[] = {field<&ActiveLimit::joint>("joint", {0, app::max_limited_segments}),
+                                 field<&ActiveLimit::kind>("kind", kinds),
+                                 field<&ActiveLimit::bound>("bound", bounds),
+                                 field<&ActiveLimit::limit>("limit", {-10, 10}, "rad"),
+                                 field<&ActiveLimit::needed>("needed", {-10, 10}, "rad"),
+                                 field<&ActiveLimit::enough>("enough")};
+    return rows;
+}
+
 namespace tendril::app {
+namespace {
+
+Json save_result(const ReachResult& result) {
+    Json json{{"solver", ik::name(result.method)}, {"report", save_fields(result.report)}};
+    if (result.active_limit) json["active_limit"] = save_fields(*result.active_limit);
+    return json;
+}
+
+ReachResult load_result(const JsonPlace& place, const Chain& chain) {
+    ReachResult result;
+    result.method = load_method(place["solver"]);
+    load_all_fields(place["report"], result.report);
+    if (const auto limit = place.optional("active_limit")) {
+        load_all_fields(*limit, result.active_limit.emplace());
+        if (result.active_limit->joint >= chain.size()) (*limit)["joint"].fail("there is no such joint");
+    }
+    return result;
+}
+
+/// The crossings of the curve that the joints are at, and the joint that jumped to one.
+Json save_crossings(const AlongCurve& along) {
+    Json json{{"at", along.memory.at}};
+    if (along.report && along.report->jumped) json["jumped"] = *along.report->jumped;
+    return json;
+}
+
+/// Places the given chain along the curve as it was.
+void load_crossings(const JsonPlace& place, ChainPart& part) {
+    AlongCurve& along = part.along;
+    along.memory.points = part.curve.points.size();
+    const double pieces = static_cast<double>(std::max<std::size_t>(along.memory.points, 1) - 1);
+    place["at"].for_each("crossings", along.given.size(),
+                         [&](const JsonPlace& each) { along.memory.at.push_back(each.real(0.0, pieces)); });
+    follow_curve(part);
+    if (const auto jumped = place.optional("jumped"); jumped && along.report)
+        along.report->jumped = jumped->index(along.given.size() - 1);
+}
+
+}  // namespace
 
 Json ChainPart::save() const {
     Json segments = Json::array();
@@ -29,8 +103,15 @@ Json ChainPart::save() const {
     json["segments"] = std::move(segments);
     json["reach"] = save_reach(reach, chain);
     json["curve"] = save_curve(curve);
-    if (mode == ChainMode::Curve) json["selected_controls"] = along.selection.save();
+    if (mode == ChainMode::Curve) {
+        json["selected_controls"] = along.selection.save();
+        json["crossings"] = save_crossings(along);
+    }
     if (study.open()) json["study"] = save_study(study);
+    if (result) {
+        json["result"] = save_result(*result);
+        if (!study.last_start.empty()) json["before"] = save_start(study.last_start, study.last_state);
+    }
     json["flips"] = save_flip_rule(flips);
     return json;
 }
@@ -94,7 +175,10 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
         if (const auto drawn = place.optional("curve")) part->curve = load_curve(*drawn);
         if (part->mode == ChainMode::Curve) {
             std::swap(part->chain, part->along.given);
-            follow_curve(*part);
+            if (const auto crossings = place.optional("crossings"))
+                load_crossings(*crossings, *part);
+            else
+                follow_curve(*part);
             if (const auto selected = place.optional("selected_controls"))
                 part->along.selection = Selection::load(*selected, part->curve.points.size());
         }
@@ -102,6 +186,12 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
             if (part->mode != ChainMode::Reach)
                 place["study"].fail(std::string("is for mode reach, not ") + chain_modes.name(part->mode));
             part->study = load_study(place["study"], part->chain);
+        }
+        if (const auto solved = place.optional("result")) {
+            if (part->mode != ChainMode::Reach) solved->fail("is for mode reach");
+            part->result = load_result(*solved, part->chain);
+            if (const auto before = place.optional("before"))
+                load_start(*before, part->chain, part->study.last_start, part->study.last_state);
         }
         if (const auto rule = place.optional("flips")) part->flips = load_flip_rule(*rule);
         ChainRuntime runtime;  // the part belongs to no workspace yet
@@ -123,6 +213,12 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
 }
 
 // Mode Reach.
+
+ik::Method load_method(const JsonPlace& place) {
+    const auto method = ik::method_named(place.text());
+    if (!method) place.fail("there is no solver \"" + place.text() + "\"");
+    return *method;
+}
 
 namespace {
 
@@ -199,10 +295,7 @@ Json save_reach(const ReachSettings& settings, const Chain& chain) {
 
 ReachSettings load_reach(const JsonPlace& place, const Chain& chain) {
     ReachSettings settings;
-    const JsonPlace solver = place["solver"];
-    const auto method = ik::method_named(solver.text());
-    if (!method) solver.fail("there is no solver \"" + solver.text() + "\"");
-    settings.method = *method;
+    settings.method = load_method(place["solver"]);
     load_fields(place, settings);
     if (const auto pole = place.optional("pole")) settings.pole = pole->point();
     if (const auto plane = place.optional("plane")) settings.plane = load_plane(*plane, chain);

@@ -64,7 +64,7 @@ struct ReachSettings {
     bool operator==(const ReachSettings&) const = default;
 };
 
-/// The result of the last solve. Not saved: the chain may have moved since.
+/// The result of the last solve.
 struct ReachResult {
     ik::Method method = ik::Method::Fabrik;
     ik::Report report;
@@ -158,8 +158,9 @@ inline constexpr EnumNames<ik::JointKind, 7> joint_kinds{"kind of joint",
 void save_state(Json& json, const ik::State& state, const std::vector<glm::vec3>& joints);
 ik::State load_state(const JsonPlace& owner, const std::vector<glm::vec3>& joints);
 Json save_reach(const ReachSettings& settings, const Chain& chain);
-/// Throws std::runtime_error with the JSON path of the fault.
+// They throw std::runtime_error with the JSON path of the fault.
 ReachSettings load_reach(const JsonPlace& place, const Chain& chain);
+ik::Method load_method(const JsonPlace& place);
 
 }  // namespace tendril::app
 

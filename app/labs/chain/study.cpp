@@ -14,6 +14,16 @@
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/kit/arguments.hpp"
 
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Study>() noexcept {
+    using app::Study;
+    static constexpr Field rows[] = {
+        field<&Study::side_by_side>("side_by_side"),
+        field<&Study::pace>("pace", {0.0, static_cast<double>(app::fastest_pace)}, "1/s"),
+        field<&Study::passed>("passed", {0.0, 1e12})};
+    return rows;
+}
+
 namespace tendril::app {
 namespace {
 
@@ -110,17 +120,33 @@ bool Study::operator==(const Study& other) const {
            side_by_side == other.side_by_side;
 }
 
+Json save_start(const std::vector<glm::vec3>& joints, const ik::State& state) {
+    Json json{{"start", Json::array()}};
+    for (const glm::vec3& at : joints) json["start"].push_back(point(at));
+    save_state(json, state, joints);
+    return json;
+}
+
+void load_start(const JsonPlace& place, const Chain& chain, std::vector<glm::vec3>& joints,
+                ik::State& state) {
+    const JsonPlace start = place["start"];
+    start.check_size(chain.size(), "positions, one for each segment");
+    joints.clear();
+    for (std::size_t i = 0; i < chain.size(); ++i) joints.push_back(start.element(i).point());
+    state = load_state(place, joints);
+}
+
 Json save_study(const Study& study) {
     const bool race = study.kind == Study::Kind::Race;
-    Json json{{"kind", race ? "race" : "microscope"}, {"step", race ? 0 : study.step}};
+    Json json = save_start(study.start, study.start_state);
+    json.update(save_fields(study));
+    json["kind"] = race ? "race" : "microscope";
+    json["step"] = race ? 0 : study.step;
     if (race && study.step != Study::race_end) json["iteration"] = study.step;
-    for (const glm::vec3& at : study.start) json["start"].push_back(point(at));
-    save_state(json, study.start_state, study.start);
     json["solvers"] = Json::array();
     for (const ik::Method method : ik::all_methods) {
         if (study.racers[static_cast<std::size_t>(method)]) json["solvers"].push_back(ik::name(method));
     }
-    json["side_by_side"] = study.side_by_side;
     return json;
 }
 
@@ -131,21 +157,16 @@ Study load_study(const JsonPlace& place, const Chain& chain) {
         kind.fail("must be race or microscope, got \"" + kind.text() + "\"");
     study.begin(kind.text() == "race" ? Study::Kind::Race : Study::Kind::Microscope, Study::From::Here, chain,
                 {});
-    const JsonPlace start = place["start"];
-    start.check_size(chain.size(), "positions, one for each segment");
-    for (std::size_t i = 0; i < chain.size(); ++i) study.start[i] = start.element(i).point();
-    study.start_state = load_state(place, study.start);
+    load_start(place, chain, study.start, study.start_state);
+    load_fields(place, study);
     const auto step = static_cast<std::size_t>(place["step"].integer(0, max_trace_steps));
     if (study.kind == Study::Kind::Microscope) study.step = step;
     if (const auto iteration = place.optional("iteration"); iteration && study.kind == Study::Kind::Race)
         study.step = static_cast<std::size_t>(iteration->integer(0, max_iterations));
     study.racers.fill(false);
     place["solvers"].for_each("solvers", ik::all_methods.size(), [&](const JsonPlace& each) {
-        const auto method = ik::method_named(each.text());
-        if (!method) each.fail("there is no solver \"" + each.text() + "\"");
-        study.racers[static_cast<std::size_t>(*method)] = true;
+        study.racers[static_cast<std::size_t>(load_method(each))] = true;
     });
-    study.side_by_side = place["side_by_side"].flag();
     return study;
 }
 

@@ -75,7 +75,7 @@ struct Study {
     double passed = 0.0;  ///< steps since playback began
 
     /// The pose before the last drag (or before the last solve outside a drag), where a study that is opened
-    /// later can start. Not saved; empty for long chains.
+    /// later can start. Saved with the result of that solve; empty for long chains.
     std::vector<glm::vec3> last_start;
     ik::State last_state;
     bool gesture_begins = true;  ///< the next solve is the first of its drag
@@ -113,5 +113,12 @@ Studied work_out(const Study& study, Chain chain, ReachSettings settings, glm::v
 
 Json save_study(const Study& study);
 Study load_study(const JsonPlace& place, const Chain& chain);
+/// A start: one position per segment, and the solver's state there.
+Json save_start(const std::vector<glm::vec3>& joints, const ik::State& state);
+void load_start(const JsonPlace& place, const Chain& chain, std::vector<glm::vec3>& joints, ik::State& state);
 
 }  // namespace tendril::app
+
+/// How it is shown and played.
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Study>() noexcept;

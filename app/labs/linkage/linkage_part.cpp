@@ -8,8 +8,42 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/labs/kit/arguments.hpp"
+#include "app/labs/kit/library_json.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/measures.hpp"
+
+namespace {
+
+constexpr double max_links = tendril::ik::max_links, any = 1e12;
+
+}  // namespace
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::LinkageReport>() noexcept {
+    using ik::LinkageReport;
+    static const auto statuses = app::library_names<ik::LinkageStatus, 7>();
+    static const Field rows[] = {
+        field<&LinkageReport::status>("status", statuses),
+        field<&LinkageReport::iterations>("iterations", {0, 1e6}),
+        field<&LinkageReport::closed_to>("closed_to", {0, any}, "m"),
+        field<&LinkageReport::residual>("residual", {0, any}, "m"),
+        field<&LinkageReport::driver_residual>("driver_residual", {0, any}),  // radians or metres
+        field<&LinkageReport::freedom>("freedom", {-1e6, 1e6}),
+        field<&LinkageReport::stopped>("stopped", {0, max_links}),
+        field<&LinkageReport::stopped_at>("stopped_at", {-any, any}),  // likewise
+        field<&LinkageReport::passed_dead_point>("passed_dead_point"),
+        field<&LinkageReport::jumped>("jumped", {0, app::max_linkage_points}),
+        field<&LinkageReport::jump>("jump", {0, any}, "m")};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::LinkageFreedom>() noexcept {
+    using ik::LinkageFreedom;
+    static constexpr Field rows[] = {field<&LinkageFreedom::counted>("counted", {-1e6, 1e6}),
+                                     field<&LinkageFreedom::actual>("actual", {-1e6, 1e6})};
+    return rows;
+}
 
 namespace tendril::app {
 
@@ -194,12 +228,39 @@ ik::LinkageState load_state(const JsonPlace& place, const ik::Linkage& linkage) 
     return state;
 }
 
+Json save_target(const LinkageTarget& target) {
+    return {{"point", target.point},
+            {"to", dpoint(target.to)},
+            {"weight", target.weight},
+            {"exact", target.exact}};
+}
+
 LinkageTarget load_target(const JsonPlace& place, const LinkagePart& part) {
     const std::string point = place["point"].text();
     if (!part.linkage().find_point(point)) place["point"].fail("there is no point \"" + point + "\"");
-    if (std::ranges::count(part.targets, point, &LinkageTarget::point) > 0)
-        place["point"].fail(point + " has a target already");
     return {point, place["to"].dpoint(), place["weight"].real(1e-6, 1e6), place["exact"].flag()};
+}
+
+Json save_result(const LinkageResult& result) {
+    return {{"report", save_fields(result.report)},
+            {"freedom", save_fields(result.freedom)},
+            {"active", result.active},
+            {"open_closures", result.open_closures}};
+}
+
+LinkageResult load_result(const JsonPlace& place, const LinkagePart& part) {
+    LinkageResult result;
+    load_all_fields(place["report"], result.report);
+    load_all_fields(place["freedom"], result.freedom);
+    const auto load_list = [](const JsonPlace& list, std::size_t count, std::vector<std::size_t>& all) {
+        list.for_each("numbers", count, [&](const JsonPlace& each) { all.push_back(each.index(count - 1)); });
+    };
+    const std::size_t links = part.linkage().links.size();
+    load_list(place["active"], links, result.active);
+    load_list(place["open_closures"], part.linkage().closures.size(), result.open_closures);
+    if (result.report.stopped && *result.report.stopped >= links)
+        place["report"]["stopped"].fail("there is no such link");
+    return result;
 }
 
 void load_ranges(const JsonPlace& place, LinkageShape& shape) {
@@ -260,9 +321,9 @@ Json LinkagePart::save() const {
         json["drivers"].push_back(
             {{"joint", each.joint}, {"value", each.value}, {"rate", each.rate}, {"held", each.held}});
     json["targets"] = Json::array();
-    for (const LinkageTarget& each : targets)
-        json["targets"].push_back(
-            {{"point", each.point}, {"to", dpoint(each.to)}, {"weight", each.weight}, {"exact", each.exact}});
+    for (const LinkageTarget& each : targets) json["targets"].push_back(save_target(each));
+    if (drag) json["drag"] = save_target(*drag);
+    json["result"] = save_result(result);
     json["time"] = time;
     json["tool"] = linkage_tools.name(tool);
     json["selected"] = selected.empty() ? Json(nullptr) : Json(selected);
@@ -289,8 +350,12 @@ std::shared_ptr<Part> LinkagePart::load(const Json& json, const std::string& whe
         !part->copies.empty() && part->find_drive(motors.front().name) == nullptr)
         place["drivers"].fail("a walker needs its driver \"" + motors.front().name + "\"");
     place["targets"].for_each("targets", max_linkage_points, [&](const JsonPlace& each) {
-        part->targets.push_back(load_target(each, *part));
+        LinkageTarget target = load_target(each, *part);
+        if (std::ranges::count(part->targets, target.point, &LinkageTarget::point) > 0)
+            each["point"].fail(target.point + " has a target already");
+        part->targets.push_back(std::move(target));
     });
+    if (const auto held = place.optional("drag")) part->drag = load_target(*held, *part);
     part->time = place["time"].real(0.0, 1e9);
     part->tool = place["tool"].choice(linkage_tools);
     if (const auto selected_point = place.optional("selected")) {
@@ -298,7 +363,8 @@ std::shared_ptr<Part> LinkagePart::load(const Json& json, const std::string& whe
         if (!part->linkage().find_point(part->selected))
             selected_point->fail("there is no point \"" + part->selected + "\"");
     }
-    report_in_pose(*part);
+    report_in_pose(*part);  // of older files; places the links, too
+    if (const auto solved = place.optional("result")) part->result = load_result(*solved, *part);
     return part;
 }
 

@@ -1,4 +1,7 @@
-// The Rope lab in a scene file, and what --state writes. Saving releases a drag, which cannot go on later.
+// The Rope lab in a scene file, and what --state writes.
+#include <algorithm>
+#include <functional>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -14,6 +17,33 @@
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_part.hpp"
 #include "app/labs/rope/rope_time.hpp"
+
+namespace {
+
+constexpr double max_value = std::numeric_limits<float>::max(), max_count = 1e9;
+
+}  // namespace
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::RopeReport>() noexcept {
+    using app::RopeReport;
+    static constexpr Field rows[] = {
+        field<&RopeReport::inside>("inside", {0, max_count}),
+        field<&RopeReport::unconverged>("unconverged", {0, max_count}),
+        field<&RopeReport::suspended>("suspended", {0, max_count}),
+        field<&RopeReport::contact_loss>("contact_loss", {-max_value, max_value}, "J")};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::RopeSample>() noexcept {
+    using app::RopeSample;
+    static constexpr Field rows[] = {field<&RopeSample::stretch>("stretch", {-max_value, max_value}),
+                                     field<&RopeSample::error>("error", {-max_value, max_value}),
+                                     field<&RopeSample::energy>("energy", {-max_value, max_value}, "J"),
+                                     field<&RopeSample::frame>("frame", {0, max_value}, "ms")};
+    return rows;
+}
 
 namespace tendril::app {
 namespace {
@@ -109,6 +139,52 @@ RopeView load_view(const JsonPlace& place) {
     return view;
 }
 
+/// What a world of a race keeps beside its state: what a drag holds, and the last ten seconds, a column for
+/// each number but the cost, which is of this computer.
+void save_racer(Json& json, const std::optional<Hold>& hold, const std::vector<RopeSample>& samples) {
+    if (hold) json["held"] = {{"rope", hold->body}, {"particles", hold->particles}};
+    for (const RopeSample& each : samples) {
+        Json row = save_fields(each);
+        row.update(save_fields(each.report));
+        for (const auto& [name, value] : row.items()) json["samples"][name].push_back(value);
+    }
+}
+
+std::optional<Hold> load_hold(const JsonPlace& place, const NamedWorld& world) {
+    Hold hold{.body = place["rope"].text(), .particles = {}};
+    const rope::Body* const body = world.find(hold.body);
+    if (body == nullptr) place["rope"].fail("there is no rope \"" + hold.body + "\"");
+    const JsonPlace list = place["particles"];
+    list.for_each("particles", body->count, [&](const JsonPlace& each) {
+        hold.particles.push_back(each.index(body->count - 1));
+        if (!world.pinned(body->first + hold.particles.back())) each.fail("it is not pinned, so not held");
+    });
+    if (hold.particles.empty() ||
+        std::ranges::adjacent_find(hold.particles, std::greater_equal<>()) != hold.particles.end())
+        list.fail("expected ascending particles, at least one");
+    return hold;
+}
+
+std::vector<RopeSample> load_samples(const JsonPlace& place) {
+    std::vector<RopeSample> samples(place["error"].list_size("samples", max_rope_samples));
+    for (const auto& [name, column] : place.json().items())
+        place[name.c_str()].check_size(samples.size(), "numbers, one for each sample");
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        Json row = Json::object();
+        for (const auto& [name, column] : place.json().items()) row[name] = column[i];
+        const JsonPlace at(row, place.where() + "." + std::to_string(i));
+        load_all_fields(at, samples[i]);
+        load_all_fields(at, samples[i].report);
+    }
+    return samples;
+}
+
+void load_racer(const JsonPlace& place, const NamedWorld& world, std::optional<Hold>& hold,
+                std::vector<RopeSample>& samples) {
+    if (const auto held = place.optional("held")) hold = load_hold(*held, world);
+    if (const auto columns = place.optional("samples")) samples = load_samples(*columns);
+}
+
 }  // namespace
 
 Json RopePart::save() const {
@@ -120,9 +196,11 @@ Json RopePart::save() const {
               {"view", save_fields(view)},
               {"jitter", save_jitter(jitter)},
               {"swings", std::move(moving)},
-              {"world", save_world(*released(world, hold))}};
+              {"world", save_world(*world)}};
+    if (quiet_ticks > 0) json["quiet_ticks"] = quiet_ticks;
+    save_racer(json, hold, samples);
     for (const Rival& rival : rivals)
-        json["rivals"].push_back(save_world(*released(rival.world, rival.hold)));
+        save_racer(json["rivals"].emplace_back(save_world(*rival.world)), rival.hold, rival.samples);
     if (walker.figure) json["character"] = save_walker(walker);
     return json;
 }
@@ -155,8 +233,12 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
             }
             for (const RopeRacer& racer : rope_racers(*part))
                 if (racer.solver() == rival.world->settings().solver) each.fail("its solver races already");
+            load_racer(each, *rival.world, rival.hold, rival.samples);
             part->rivals.push_back(std::move(rival));
         });
+    load_racer(place, *part->world, part->hold, part->samples);
+    if (const auto ticks = place.optional("quiet_ticks"))
+        part->quiet_ticks = ticks->integer(0, std::numeric_limits<int>::max());
     part->swings = load_swings(place["swings"], *part->world);
     if (const auto character = place.optional("character")) part->walker = load_walker(*character);
     part->selection = load_selection(place["selected"], *part->world);

@@ -111,7 +111,7 @@ struct RopePart final : Part {
     Jitter jitter;
     RopeView view;
     int quiet_ticks = 0;              ///< consecutive ticks without noticeable motion
-    std::vector<RopeSample> samples;  ///< of the last ticks. Not saved.
+    std::vector<RopeSample> samples;  ///< of the last ticks
     std::vector<Rival> rivals;        ///< in a race (race.hpp)
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<RopePart>(*this); }

@@ -67,13 +67,5 @@ TEST_P(Hostile, events_and_commands_break_nothing) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Hostile, testing::Values(1u, 2u, 3u));
 
-TEST(HostileReplay, ends_where_the_recording_did) {
-    expect_replay_ends_the_same([](App& app) {
-        app.start_recording();
-        Monkey monkey = chain_monkey(app, 7);
-        for (int i = 0; i < 1000; ++i) monkey.act();
-    });
-}
-
 }  // namespace
 }  // namespace tendril::test

@@ -15,22 +15,23 @@ struct Refusal {
 const std::vector<Refusal>& refusals() {
     static const std::vector<Refusal> list{
         {R"({"command": "chain.add")", "length"},
-        {R"({"command": "chain.add", "length": -1)", "-1"},
-        {R"({"command": "chain.add", "length": 1e300)", "length"},
-        {R"({"command": "chain.add", "length": 1, "position": [0, "up", 0])", "position"},
         {R"({"command": "chain.add", "length": 1, "colour": "red")", "colour"},
-        {R"({"command": "chain.insert", "index": 1.5, "length": 1)", "1.5"},
-        {R"({"command": "chain.remove", "index": 4294967296)", "index"},
+        {R"({"command": "chain.insert", "index": 8, "length": 1)", "8"},
+        {R"({"command": "chain.remove", "index": 8)", "8"},
+        {R"({"command": "chain.set_length", "index": 99, "length": 1)", "99"},
         {R"({"command": "chain.mode", "mode": "sideways")", "sideways"},
-        {R"({"command": "chain.target", "to": [0, null, 0])", "to"},
-        {R"({"command": "chain.preset", "name": "coil", "count": 1e9)", "count"},
+        {R"({"command": "chain.mode", "mode": "with_index", "index": 8)", "8"},
+        {R"({"command": "chain.pull", "index": 8, "to": [0, 0, 0])", "8"},
+        {R"({"command": "chain.select", "index": 8)", "8"},
+        {R"({"command": "chain.clear", "default_direction": [0, 0, 0])", "direction"},
+        {R"({"command": "chain.clear", "default_direction": [2, 0, 0])", "direction"},
         {R"({"command": "chain.seek", "tick": 4)", "path"},
-        {R"({"command": "camera.set", "distance": 0)", "distance"},
         {R"({"command": "lab.open", "name": "kitchen")", "kitchen"},
         {R"({"command": "undo")", "undo"},
         {R"({"command": "undo", "times": 3)", "times"},
         {R"({"command": "scene.open", "path": "/no/such/scene.json")", "/no/such/scene.json"},
         {R"({"command": "scene.save", "path": "/no/such/folder/scene.json")", "/no/such/folder/scene.json"},
+        {R"({"command": "scene.save")", "path"},
     };
     return list;
 }

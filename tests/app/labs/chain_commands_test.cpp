@@ -86,40 +86,6 @@ TEST_F(ChainCommands, PullTakesTheTargetAlongAndLeavesTheMode) {
     EXPECT_EQ(part().mode, ChainMode::Backward);
 }
 
-TEST_F(ChainCommands, RefusalsSayWhyInOneLine) {
-    EXPECT_TRUE(test::says(refused("chain.remove", {{"index", 8}}), "chain.remove index 8 range 8"));
-    EXPECT_TRUE(test::says(refused("chain.add", Json::object()), "chain.add length missing number"));
-    EXPECT_TRUE(test::says(refused("chain.add", {{"length", -1}}), "chain.add length 0 -1"));
-    EXPECT_TRUE(test::says(refused("chain.add", {{"length", "long"}}), "chain.add length number long"));
-    EXPECT_TRUE(test::says(refused("chain.add", {{"lenght", 1}, {"length", 1}}), "chain.add unknown lenght"));
-    EXPECT_TRUE(test::says(refused("chain.mode", {{"mode", "sideways"}}), "chain.mode mode forward"));
-    const double nan = std::nan(""), inf = HUGE_VAL;
-    for (const double bad : {nan, inf, -inf, 1e10, -1e10}) {
-        refused("chain.add", {{"length", bad}});
-        refused("chain.target", {{"to", {0, bad, 0}}});
-        refused("chain.add", {{"length", 1}, {"position", {bad, 0, 0}}});
-        refused("chain.set_length", {{"index", 1}, {"length", bad}});
-        refused("chain.remove", {{"index", bad}});
-    }
-    for (const Json& bad :
-         {Json(1.5), Json(-1), Json("0"), Json(nullptr), Json::array(), Json(true), Json(8)}) {
-        refused("chain.remove", {{"index", bad}});
-        refused("chain.insert", {{"index", bad}, {"length", 1}});
-        refused("chain.select", {{"index", bad}});
-        refused("chain.mode", {{"mode", "with_index"}, {"index", bad}});
-    }
-    refused("chain.target", {{"to", {1, 2}}});
-    refused("chain.target", {{"to", {1, 2, "3"}}});
-    refused("chain.mode", {{"mode", "fixed"}, {"iterations", 0}});
-    refused("chain.preset", {{"name", "octopus"}});
-    refused("chain.preset", {{"name", "coil"}, {"count", 0}});
-    refused("chain.preset", {{"name", "coil"}, {"count", 500001}});
-    refused("chain.seek", {{"tick", 3}});
-    refused("undo", Json::object());
-    EXPECT_THROW(run("chain.fly"), UnknownCommand);
-    EXPECT_THROW(run("chain.add", Json::array({1})), Refused);
-}
-
 TEST_F(ChainCommands, ADragIsOneUndoStepAndUndoIsExact) {
     const Json start = save_scene(workspace);
     for (int i = 0; i < 30; ++i) run("chain.target", {{"to", {5, 0.1 * i, 0.3}}}, 42);
@@ -155,19 +121,6 @@ TEST_F(ChainCommands, PresetsAreSoundAtEverySize) {
                     << name << " " << i;
             }
         }
-    }
-}
-
-TEST_F(ChainCommands, ASceneComesBackBitForBit) {
-    for (int i = 0; i < 200; ++i) {
-        run("chain.preset", {{"name", "random"}, {"count", 20}, {"seed", i}});
-        run("chain.target", {{"to", {std::sin(i), std::cos(3 * i), 0.01 * i}}});
-        const Chain chain = part().chain;
-        const Json scene = parse_json(save_scene(workspace).dump());
-        run("chain.clear");
-        load_scene(workspace, scene);
-        EXPECT_EQ(part().chain, chain);
-        EXPECT_EQ(save_scene(workspace), scene);
     }
 }
 

@@ -154,17 +154,6 @@ TEST_F(ChainCurve, control_points_are_selected_and_removed_like_joints) {
     EXPECT_TRUE(part().along.selection.empty());
 }
 
-TEST_F(ChainCurve, is_saved_and_opened_as_it_is) {
-    run("chain.preset", {{"name", "spine"}});
-    run("chain.curve", {{"kind", "b_spline"}, {"weight", 0.75}, {"falloff", 0.5}});
-    run("chain.select", {{"control", 1}});
-    const ChainPart before = part();
-    const Json scene = parse_json(save_scene(workspace).dump());
-    run("chain.reset");
-    load_scene(workspace, scene);
-    EXPECT_TRUE(part() == before);
-}
-
 // A loop that narrows until it is less wide than a bone.
 TEST_F(ChainCurve, a_jump_is_an_incident_with_its_cause) {
     const auto loop = [](double high) { return Json{{0, 0, 0}, {1, high, 0}, {1, -0.3, 0}, {5, 0, 0}}; };

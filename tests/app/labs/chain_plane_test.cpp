@@ -106,24 +106,6 @@ TEST_F(ChainPlaneTest, WhatIsWrongIsSaid) {
     expect_refused("chain.limit", {{"index", 1}, {"kind", "hinge"}}, {"angle_limit"});
 }
 
-TEST_F(ChainPlaneTest, APlaneComesBackFromFileAndUndo) {
-    flat_with(4);
-    run("chain.plane", {{"normal", {1, 2, 3}}});
-    run("chain.bend", {{"side", "left"}});
-    run("chain.angle_limit", {{"index", 2}, {"min_deg", -20}, {"max_deg", 40}, {"from", "base"}});
-    target(1.0f, 2.0f, 0.3f);
-    EXPECT_LE(furthest_off({1, 2, 3}), 4e-6f);
-    const auto loaded = part().load(part().save(), "chain");
-    EXPECT_EQ(dynamic_cast<const ChainPart&>(*loaded).reach, part().reach);
-    Json bad = part().save();
-    bad["reach"]["plane"]["limits"][2]["min_deg"] = 90;
-    EXPECT_THROW(static_cast<void>(part().load(bad, "chain")), std::runtime_error);
-    const ReachSettings before = part().reach;
-    run("chain.plane", {{"off", true}});
-    run("undo");
-    EXPECT_EQ(part().reach, before);
-}
-
 TEST_F(ChainPlaneTest, LimitsComeBackWhenThePlaneGoes) {
     reach_with(4);
     run("chain.limit", {{"index", 2}, {"kind", "hinge"}});

@@ -167,15 +167,7 @@ TEST_F(ChainSelection, TheTargetOrThePoleInsteadOfJoints) {
     EXPECT_TRUE(state()["selected"].is_null());
 }
 
-TEST_F(ChainSelection, ComesBackFromAFileAndStaysOverTheSeconds) {
-    run("chain.select", {{"joints", {1, 4, 2}}});
-    Workspace other = make_blank_workspace(labs);
-    load_scene(other, parse_json(save_scene(workspace).dump()));
-    EXPECT_EQ(chain_part(other).selection, part().selection);
-    run("chain.select", {{"point", "target"}});
-    load_scene(other, parse_json(save_scene(workspace).dump()));
-    EXPECT_EQ(chain_part(other).chosen_point, ChainPoint::Target);
-    // A moment with fewer joints keeps the part of the selection that it has.
+TEST_F(ChainSelection, AMomentWithFewerJointsKeepsWhatItHasOfIt) {
     ChainPart then = part();
     then.chain = Chain();
     ChainPart now = part();

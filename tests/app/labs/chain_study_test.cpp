@@ -297,18 +297,6 @@ TEST_F(ChainStudy, what_does_not_change_the_solve_leaves_the_trace_alone) {
     EXPECT_EQ(race(), before) << "nor are its times measured anew";
 }
 
-TEST_F(ChainStudy, a_study_comes_back_from_a_file) {
-    run("microscope.open", {{"start", "straight"}});
-    run("chain.target", {{"to", {3, 3, 1}}});
-    run("microscope.seek", {{"step", 5}});
-    const Json scene = parse_json(save_scene(workspace).dump());
-    const Json shown = state()["microscope"];
-    Workspace other = make_blank_workspace(labs);
-    load_scene(other, scene);
-    EXPECT_EQ(save_scene(other), scene);
-    EXPECT_EQ(labs.find(chain_lab)->state(other)["microscope"], shown);
-}
-
 TEST_F(ChainStudy, what_changes_the_chain_closes_it_and_other_modes_too) {
     for (const char* kind : {"microscope.open", "race.open"}) {
         run(kind);

@@ -93,26 +93,6 @@ TEST_F(LinkageTest, IsDrawnByHandAndRuns) {
     EXPECT_EQ(state().at("drivers").size(), 1u);
 }
 
-TEST_F(LinkageTest, GoesThroughAFileAndOnFromThere) {
-    for (const bool drawn : {false, true}) {
-        if (drawn)
-            draw_four_bar();
-        else
-            four_bar();
-        run("linkage.motor", {{"joint", drawn ? "motor 1" : "crank"}, {"deg_per_s", 50}});
-        run("linkage.target", {{"point", "C"}, {"to", {1, 2, 0}}});
-        wait(20);
-        const Json saved = part().save();
-        const auto loaded = part().load(saved, "labs.linkage");
-        EXPECT_EQ(loaded->save(), saved);
-        Workspace other = workspace;
-        other.document.set(linkage_lab, loaded);
-        EXPECT_EQ(lab().state(other), state());
-        for (int i = 0; i < 60; ++i) lab().step(other), lab().step(workspace);
-        EXPECT_EQ(lab().state(other), state()) << "to the bit";
-    }
-}
-
 TEST_F(LinkageTest, TheLibrarysMechanismsStandAsTheyAreNamed) {
     for (const MechanismKind& kind : mechanism_kinds()) {
         run("linkage.preset", {{"name", kind.name}});

@@ -29,40 +29,18 @@ class RopeFile : public RopeTest {
     }
 };
 
-bool same_bits(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](const glm::dvec3& p, const glm::dvec3& q) {
-        return bits(p.x) == bits(q.x) && bits(p.y) == bits(q.y) && bits(p.z) == bits(q.z);
-    });
-}
-
-TEST_F(RopeFile, EverySceneComesBackBitForBitAndMovesOnTheSame) {
-    for (const RopeSceneEntry& entry : rope_scenes()) {
-        run("rope.preset", {{"name", entry.name}});
-        run("rope.jitter", {{"dial", 0.3}});
-        run("rope.select", {{"collider", "ground"}});
-        run("rope.view", {{"strain", true}});
-        wait(37);
-        Workspace copy = make_blank_workspace(labs);
-        load_scene(copy, parse_json(json_to_text(save_scene(workspace))));
-        EXPECT_EQ(save_scene(copy).dump(), save_scene(workspace).dump());
-        for (int i = 0; i < 20; ++i) lab().step(workspace), lab().step(copy);
-        const RopePart &a = part(), &b = rope_part(copy);
-        EXPECT_TRUE(same_bits(a.world->state().position, b.world->state().position)) << entry.name;
-        EXPECT_TRUE(same_bits(a.world->state().displacement, b.world->state().displacement)) << entry.name;
-        EXPECT_EQ(a.save().dump(), b.save().dump());
-        EXPECT_TRUE(a.swings == b.swings && a.time == b.time && a.jitter == b.jitter && a.view == b.view);
-    }
-}
-
-TEST_F(RopeFile, ADragIsLetGo) {
+/// Of a race too, where each world holds particles of its own.
+TEST_F(RopeFile, WhatADragHoldsIsHeldAfterwards) {
     single_rope();
-    run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
+    run("rope.race");
     run("rope.hold", {{"rope", "rope"}, {"particle", 4}, {"at", {0.5, 2.2, 0}}});
     const auto loaded = std::dynamic_pointer_cast<RopePart>(part().load(part().save(), ""));
-    EXPECT_FALSE(loaded->hold);
-    EXPECT_TRUE(loaded->world->pinned(0));
-    EXPECT_FALSE(loaded->world->pinned(4));
+    EXPECT_EQ(loaded->hold, part().hold);
+    EXPECT_EQ(loaded->rivals[1].hold, part().hold);
+    EXPECT_TRUE(loaded->world->pinned(4));
+    EXPECT_TRUE(has(wrong_with("/held/rope", "x"), "labs.rope.held.rope: there is no rope \"x\""));
+    EXPECT_TRUE(has(wrong_with("/held/particles", {4, 4}), "labs.rope.held.particles: expected ascending"));
+    EXPECT_TRUE(has(wrong_with("/held/particles/0", 3), "labs.rope.held.particles.0: it is not pinned"));
 }
 
 TEST_F(RopeFile, ParticlesAreCompactRows) {

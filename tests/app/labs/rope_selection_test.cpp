@@ -105,19 +105,6 @@ TEST_F(RopeSelectionTest, ACutLeavesThePartThatHasTheActiveOne) {
     EXPECT_EQ(selected(), (Indices{0, 2}));
 }
 
-TEST_F(RopeSelectionTest, ComesBackFromAFile) {
-    single_rope(8);
-    run("rope.select", {{"rope", "rope"}, {"particles", {1, 7, 3}}});
-    Workspace other = make_blank_workspace(labs);
-    load_scene(other, parse_json(save_scene(workspace).dump()));
-    EXPECT_EQ(rope_part(other).selection, part().selection);
-    Json broken = save_scene(workspace);
-    broken["labs"]["rope"]["selected"]["particle"]["all"] = {1, 7};
-    EXPECT_THROW(load_scene(other, broken), std::runtime_error);
-    broken["labs"]["rope"]["selected"]["particle"]["all"] = {3, 99};
-    EXPECT_THROW(load_scene(other, broken), std::runtime_error);
-}
-
 TEST_F(RopeSelectionTest, WhatIsNoParticleIsRefusedAndChangesNothing) {
     single_rope(8);
     run("rope.select", {{"rope", "rope"}, {"particles", {1, 2}}});

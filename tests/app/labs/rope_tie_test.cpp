@@ -3,7 +3,6 @@
 #include "app/labs/rope/rope_time.hpp"
 #include "tests/app/labs/rope_support.hpp"
 #include "tests/app/support/panel_text.hpp"
-#include "tests/app/support/temp_folder.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
@@ -154,21 +153,9 @@ TEST_F(RopeTieTest, GoesWithItsBody) {
     EXPECT_EQ(state()["ties"], Json::array());
 }
 
-TEST_F(RopeTieTest, SavedOpenedAndRewoundItContinuesTheSame) {
+TEST_F(RopeTieTest, IsInTheCode) {
     run("rope.preset", {{"name", "line"}});
     wait(40);
-    const test::TempFolder folder;
-    const std::string path = (folder / "scene.json").string();
-    run("scene.save", {{"path", path}});
-    wait(40);
-    const rope::State first = world().state();
-    run("scene.open", {{"path", path}});
-    wait(40);
-    EXPECT_EQ(world().state().position, first.position);
-    EXPECT_EQ(world().state().displacement, first.displacement);
-    ASSERT_EQ(world().state().ties.size(), first.ties.size());
-    for (std::size_t i = 0; i < first.ties.size(); ++i)
-        EXPECT_EQ(world().state().ties[i].tension, first.ties[i].tension);
     EXPECT_TRUE(
         test::says(rope_code(part()), "\"tie\" state.ties.push_back .length 0.04f rope::number_slots"));
 }

@@ -18,17 +18,6 @@ class RopeTime : public RopeTest {
     }
 };
 
-TEST_F(RopeTime, IsTheSameEachTime) {
-    for (const char* scene : {"drape", "hair"}) {
-        run("rope.preset", {{"name", scene}});
-        wait(60);
-        const Json once = part().save();
-        run("rope.preset", {{"name", scene}});
-        wait(60);
-        EXPECT_EQ(part().save(), once);
-    }
-}
-
 TEST_F(RopeTime, UnevenFramesLeadToTheSameWorld) {
     for (const char* scene : {"drape", "hair", "pendulum"}) {
         run("rope.preset", {{"name", scene}});

@@ -25,38 +25,6 @@ class SignalFile : public LabTest {
     }
 };
 
-TEST_F(SignalFile, AChainOfEveryKindGoesThroughAFileAndOnFromThere) {
-    every_kind();
-    wait(100);
-    const Json saved = part().save();
-    const auto loaded = part().load(saved, "labs.signal");
-    EXPECT_TRUE(dynamic_cast<const SignalPart&>(*loaded) == part());
-    EXPECT_EQ(loaded->save(), saved);
-    SignalPart again = dynamic_cast<const SignalPart&>(*loaded), here = part();
-    for (int i = 0; i < 200; ++i) {
-        pass_signal_time(again, tick_seconds);
-        pass_signal_time(here, tick_seconds);
-    }
-    EXPECT_TRUE(again == here) << "a replay starts exactly where it stopped";
-}
-
-TEST_F(SignalFile, ARecordingGoesOnWhereItWasSaved) {
-    run("signal.fit.record");
-    const auto armed = part().load(part().save(), "labs.signal");
-    EXPECT_TRUE(dynamic_cast<const SignalPart&>(*armed) == part());
-    run("signal.fit.hand", {{"value", 0.5}});
-    wait(20);
-    const auto loaded = part().load(part().save(), "labs.signal");
-    EXPECT_TRUE(dynamic_cast<const SignalPart&>(*loaded) == part());
-    SignalPart again = dynamic_cast<const SignalPart&>(*loaded), here = part();
-    for (int i = 0; i < 300; ++i) {
-        pass_signal_time(again, tick_seconds);
-        pass_signal_time(here, tick_seconds);
-    }
-    EXPECT_FALSE(here.recording);
-    EXPECT_TRUE(again == here);
-}
-
 TEST_F(SignalFile, ABrokenFileIsRefusedWithItsPlace) {
     every_kind();
     run("signal.fit.record");

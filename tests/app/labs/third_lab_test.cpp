@@ -64,19 +64,6 @@ TEST_F(ThirdLab, SwingsWhileTimeRuns) {
     EXPECT_NE(ball(), before);
 }
 
-TEST_F(ThirdLab, IsSavedWithTheSceneAndLoadedAgain) {
-    const TempFolder folder;
-    const std::string path = (folder / "spring.json").string();
-    drag("anchor", {60.0f, 0.0f});
-    const Json saved = save_scene(app_.workspace());
-    app_.run({"scene.save", Json{{"path", path}}});
-    app_.run({"scene.new"});
-    EXPECT_NE(save_scene(app_.workspace()), saved);
-    app_.run({"scene.open", Json{{"path", path}}});
-    EXPECT_EQ(save_scene(app_.workspace()), saved);
-    EXPECT_EQ(saved.at("lab"), "spring");
-}
-
 TEST_F(ThirdLab, IsPicturedAndItsHandlesAreWhereTheyAreDrawn) {
     const Image picture = app_.screenshot();
     const glm::ivec2 at(handle(app_.state(), "ball"));
@@ -99,22 +86,6 @@ TEST_F(ThirdLab, IsInThePaletteTheHelpAndTheShortcuts) {
     drag("ball", {90.0f, 0.0f});
     send(KeyTap{*chord_from_name("r")});
     EXPECT_EQ(ball(), point({0.5f, 1.0f, 0.0f}));
-}
-
-TEST(ThirdLabAgain, IsRecordedAndReplayed) {
-    expect_replay_ends_the_same(
-        [](App& app) {
-            app.run({"lab.open", Json{{"name", "spring"}}});
-            app.start_recording();
-            const glm::vec2 from = handle(app.state(), "ball");
-            for (const Event& event :
-                 {Event(MouseMove{from}), Event(MousePress{MouseButton::Left, true}),
-                  Event(MouseMove{from + glm::vec2(80.0f, 10.0f)}),
-                  Event(MousePress{MouseButton::Left, false}), Event(KeyTap{*chord_from_name("ctrl+z")})})
-                app.tick(&event);
-            for (int i = 0; i < 30; ++i) app.tick(nullptr);
-        },
-        labs_with_a_spring);
 }
 
 TEST(Labs, OfOneNameAreRefused) {
