@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/document/atomic_file.hpp"
+#include "app/document/drawn_sections.hpp"
 #include "app/document/json_complete.hpp"
 
 namespace tendril::app {
@@ -153,9 +154,17 @@ bool LiveLoop::take_ticks(Player& player) {
     return ticked;
 }
 
+/// A stall of any length counts as a quarter of the last second.
+void LiveLoop::note_pace(double elapsed, double dropped) {
+    if (!(elapsed > 0.0)) return;
+    double& pace = pace_of(app_.workspace().runtimes).kept;
+    pace += std::min(elapsed, max_credit) * (1.0 - dropped / elapsed - pace);
+}
+
 void LiveLoop::turn(std::vector<Event> events, double elapsed, Player& player) {
     // Accumulate no time while idle, or the first event afterwards would trigger a burst of ticks.
     const bool resting = queue_.empty() && player.done() && !app_.needs_ticks();
+    note_pace(elapsed, resting ? 0.0 : std::clamp(credit_ + elapsed - max_credit, 0.0, elapsed));
     credit_ = resting ? tick_seconds : std::min(credit_ + elapsed, max_credit);
     // A recording being replayed has its own VideoEnd.
     const auto is_end = [](const Event& event) { return std::holds_alternative<VideoEnd>(event); };

@@ -36,6 +36,7 @@ class LiveLoop {
     void tick(Player& player);
     void paste(const Player& player);
     void keep_house();
+    void note_pace(double elapsed, double dropped);
 
     App& app_;
     Window& window_;

@@ -34,7 +34,7 @@ void key_row(const std::string& keys, const std::string& effect) {
 /// One table of the help: a title, then rows that `rows` adds.
 template <class Rows>
 void key_table(const char* title, float key_width, Rows rows) {
-    section(title);
+    const PanelSection ids(title);
     if (!ImGui::BeginTable(title, 2, ImGuiTableFlags_NoPadOuterX)) return;
     ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, key_width);
     ImGui::TableSetupColumn("effect", ImGuiTableColumnFlags_WidthStretch);
@@ -166,7 +166,7 @@ void show_settings(const ShellFrame& frame, Emit& emit) {
     for (const auto& lab : frame.labs.all()) {
         const std::vector<LabSetting> of_lab = lab->settings();
         if (of_lab.empty()) continue;
-        section(lab->title().c_str());
+        const PanelSection ids(lab->title().c_str());
         for (const LabSetting& setting : of_lab) setting_row(setting, settings, emit);
     }
     ImGui::End();

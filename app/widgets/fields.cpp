@@ -93,7 +93,14 @@ void tooltip_of_button(const std::string& text) {
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) tooltip(text);
 }
 
-void section(const char* title) {
+IdScope::IdScope(const char* name) {
+    ImGui::PushID(name);
+}
+IdScope::~IdScope() {
+    ImGui::PopID();
+}
+
+PanelSection::PanelSection(const char* title) : ids(title) {
     ImGui::Dummy({0.0f, 0.35f * ImGui::GetTextLineHeight()});
     note_section(title);
     ImGui::TextUnformatted(title);
@@ -243,8 +250,10 @@ bool vector_field(const char* name, glm::vec3& value, float speed, glm::vec3 low
                   const char* format) {
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - 2.0f * gap) / 3.0f;
-    const ImVec2 from = ImGui::GetCursorScreenPos();
+    ImVec2 from = ImGui::GetCursorScreenPos();
     text_elided(name, ImGui::GetContentRegionAvail().x, true);
+    const ImVec2 fields = ImGui::GetCursorScreenPos();
+    if (fields.x < from.x) from = fields;  // what stands left of the name has a tooltip of its own
     bool changed = false;
     for (int i = 0; i < 3; ++i) {
         const std::string id = std::string("##") + name + ' ' + "xyz"[i];

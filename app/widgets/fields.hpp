@@ -1,7 +1,7 @@
 // The rows of a panel: a dim name on the left, a field on the right (below, if there is no room); numbers
 // have fixed width and units. Each field returns true in a frame in which the user changed its value. Names
-// are also ids and must be unique in a panel. A name that begins with ## is only an id, and its field fills
-// the row.
+// are also ids and must be unique in their section. A name that begins with ## is only an id, and its field
+// fills the row.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,8 +9,20 @@
 
 namespace tendril::app {
 
-/// A heading over a group of rows, with space above it.
-void section(const char* title);
+/// The ids of what is drawn while it exists are its own: a row may have the name of one in another section.
+class [[nodiscard]] IdScope {
+  public:
+    explicit IdScope(const char* name);
+    ~IdScope();
+    IdScope(const IdScope&) = delete;
+    IdScope& operator=(const IdScope&) = delete;
+};
+
+/// A heading, with space above it, over the rows that are drawn while it exists.
+struct [[nodiscard]] PanelSection {
+    explicit PanelSection(const char* title);
+    IdScope ids;
+};
 /// A heading with a mark that shows whether its section is open; true in a frame in which it is clicked.
 bool section_button(const char* title, bool open);
 /// The panel's main message, wrapped, in the largest text.

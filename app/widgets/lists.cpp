@@ -90,7 +90,7 @@ bool search_line(const char* id, const char* hint, SearchText& typed) {
 }
 
 bool begin_list(const char* name, const std::string* shown, ListRoom room) {
-    std::string id = std::string("##") + name, preview;
+    std::string id = std::string("##") + name + " list", preview;  // beside a field of that name
     if (shown != nullptr) {
         id = begin_row(name);
         const float buttons = room.swatch ? 2.0f : 1.0f;  // the arrow, and a swatch before it

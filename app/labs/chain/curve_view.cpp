@@ -81,10 +81,8 @@ LabSetting curve_frames() {
 // The panels.
 
 void curve_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
-    ImGui::PushID("along a curve");  // a tentacle is among the other presets too
     for (const Preset& preset : presets())
         if (is_along_curve(preset.name)) preset_button(preset, 3, emit);
-    ImGui::PopID();
     end_row();
     FieldRows(part.curve, "chain.curve", emit)
         .under(more)

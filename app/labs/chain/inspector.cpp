@@ -22,7 +22,7 @@ namespace {
 using Joints = std::vector<glm::vec3>;
 
 void chain_rows(const ShownChain& shown, const Joints& joints) {
-    section("Chain");
+    const PanelSection ids("Chain");
     const ChainPart& part = shown.part;
     const Chain& chain = part.chain;
     reading("size", "%s, %s", count_text(chain.size(), "joint").c_str(),
@@ -145,7 +145,7 @@ void ChainLab::inspector(const Workspace& workspace, Emit& emit) const {
     // No reference into the storage: the rows below add to it, which moves its elements.
     ImGuiStorage& kept = *ImGui::GetStateStorage();
     const ImGuiID below = ImGui::GetID("below the table");
-    if (folding_section(workspace, "Joints, in metres", emit, false))
+    if (const FoldingSection open(workspace, "Joints, in metres", emit, false); open)
         joint_table(shown, joints, kept.GetFloat(below), emit);
     const float from = ImGui::GetCursorPosY();
     incident_rows(workspace, colours, emit);  // last, so that fields stay put when one is added
@@ -236,7 +236,7 @@ bool same_limits(const ReachSettings& reach, const std::vector<std::size_t>& joi
 }  // namespace
 
 void selection_rows(const ShownChain& shown, const Joints& joints, Emit& emit) {
-    section("Selection");
+    const PanelSection ids("Selection");
     const ChainPart& part = shown.part;
     if (!part.along.selection.empty()) return control_rows(part, emit);
     if (part.selection.several()) return several_joints(shown, emit);
@@ -267,7 +267,7 @@ void limit_rows(const ChainPart& part, Emit& emit) {
                                   ? *part.selection.active()
                                   : joints.back();
     const bool several = joints.size() > 1;
-    section(several ? "Limit of these joints" : "Limit of this joint");
+    const PanelSection ids(several ? "Limit of these joints" : "Limit of this joint");
     if (several && !same_limits(part.reach, joints))
         note("They differ. Showing joint " + std::to_string(joint) + "; changes apply to all.");
     if (part.reach.plane) {

@@ -133,7 +133,7 @@ void export_rows(Emit& emit) {
 }
 
 void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
-    section("Microscope");
+    const PanelSection ids("Microscope");
     const ChainPart& part = shown.part;
     const Trace& trace = *shown.trace;
     const std::size_t step = part.study.step;
@@ -171,7 +171,7 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
 }
 
 void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
-    section("Race");
+    const PanelSection ids("Race");
     ImGuiStorage& kept = *ImGui::GetStateStorage();
     const ImGuiID kept_as = ImGui::GetID(against_time);
     bool time = kept.GetBool(kept_as);

@@ -207,7 +207,7 @@ void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {
     target_rows(panel);
     hand_rows(panel);
     ground_rows(panel);
-    if (folding_section(workspace, "Curves and springs", emit, false)) {
+    if (const FoldingSection open(workspace, "Curves and springs", emit, false); open) {
         curve_rows(panel);
         spring_rows(panel);
     }
@@ -236,7 +236,7 @@ void position_rows(const glm::dvec3& at) {
 }  // namespace
 
 void node_inspector(const HumanoidPanel& panel) {
-    section("Selection");
+    const PanelSection ids("Selection");
     const HumanoidPart& part = panel.part;
     const auto node = part.selection.active();
     if (!node) return note("Nothing is selected.");
@@ -263,7 +263,7 @@ void node_inspector(const HumanoidPanel& panel) {
 
 void target_inspector(const HumanoidPanel& panel) {
     if (!panel.part.ik.has_targets()) return;
-    section("Targets");
+    const PanelSection ids("Targets");
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
     if (!shown.refused.empty()) return note(shown.refused);
     for (const humanoid::Effector effector : all_effectors) {
@@ -282,14 +282,14 @@ void target_inspector(const HumanoidPanel& panel) {
 }
 
 void character_inspector(const HumanoidPanel& panel) {
-    section("Character");
+    const PanelSection ids("Character");
     const LoadedCharacter& loaded = *panel.part.loaded;
     text_row("from",
              loaded.file.empty() ? "built in" : std::filesystem::path(loaded.file).filename().string());
     reading("nodes", "%zu", loaded.skeleton().size());
     reading("clips", "%zu", loaded.clips().size());
     if (const humanoid::Clip* clip = panel.part.clip()) {
-        section("Clip");
+        const PanelSection of_clip("Clip");
         text_row("name", clip->name);
         reading("time", "%.2f of %.2f s", panel.part.playback.time, clip->duration);
         if (panel.part.playback.rounds > 0)
@@ -412,7 +412,8 @@ void node_chooser(const HumanoidPanel& panel) {
 }  // namespace
 
 void bone_rows(const HumanoidPanel& panel, bool open_at_first) {
-    if (!folding_section(panel.workspace, "Bones", panel.emit, open_at_first)) return;
+    const FoldingSection open(panel.workspace, "Bones", panel.emit, open_at_first);
+    if (!open) return;
     node_chooser(panel);
     const auto& waiting = panel.runtime.panel.bone;
     kept_note("how to map",

@@ -11,7 +11,9 @@
 
 namespace tendril::app {
 
-bool folding_section(const Workspace& workspace, const char* title, Emit& emit, bool open_at_first) {
+namespace {
+
+bool is_open(const Workspace& workspace, const char* title, Emit& emit, bool open_at_first) {
     const std::string section = workspace.lab + ": " + title;
     workspace.runtimes.of<DrawnSections>("sections").names.insert(section);
     const bool open = !is_folded(workspace.settings, section, !open_at_first);
@@ -26,6 +28,11 @@ bool folding_section(const Workspace& workspace, const char* title, Emit& emit, 
     return open;
 }
 
+}  // namespace
+
+FoldingSection::FoldingSection(const Workspace& workspace, const char* title, Emit& emit, bool open_at_first)
+    : open_(is_open(workspace, title, emit, open_at_first)), ids_(title) {}
+
 void more_rows(const Workspace& workspace, const char* title, const MoreRows& more, Emit& emit) {
     if (more.empty()) return;
     const std::string section = workspace.lab + ": " + title + ", more";
@@ -38,15 +45,14 @@ void more_rows(const Workspace& workspace, const char* title, const MoreRows& mo
         search->inside = around;
         return;
     }
-    ImGui::PushID(title);
     if (more.head(open)) emit("view.fold", {{"section", section}, {"folded", open}});
-    ImGui::PopID();
     if (open) more.draw();
 }
 
 void folding_section(const Workspace& workspace, const char* title, Emit& emit, bool open_at_first,
                      const std::function<void(MoreRows&)>& rows) {
-    if (!folding_section(workspace, title, emit, open_at_first)) return;
+    const FoldingSection open(workspace, title, emit, open_at_first);
+    if (!open) return;
     MoreRows more;
     rows(more);
     more_rows(workspace, title, more, emit);

@@ -10,14 +10,23 @@
 #include "app/document/workspace.hpp"
 #include "app/view/palette.hpp"
 #include "app/widgets/emit.hpp"
+#include "app/widgets/fields.hpp"
 #include "app/widgets/more.hpp"
 
 namespace tendril::app {
 
-/// A heading that folds its section by a click anywhere on it. Returns whether to show the section. Saved in
-/// the settings, by lab and title.
-[[nodiscard]] bool folding_section(const Workspace& workspace, const char* title, Emit& emit,
-                                   bool open_at_first = true);
+/// A heading that folds its section by a click anywhere on it; true if the section is open: its rows are
+/// drawn while this exists. Saved in the settings, by lab and title.
+class [[nodiscard]] FoldingSection {
+  public:
+    FoldingSection(const Workspace& workspace, const char* title, Emit& emit, bool open_at_first = true);
+    explicit operator bool() const& { return open_; }
+    explicit operator bool() && = delete;  // its rows would be drawn after its end
+
+  private:
+    bool open_;
+    IdScope ids_;
+};
 
 /// The same with its rows, of which those given to the MoreRows come last, under "More".
 void folding_section(const Workspace& workspace, const char* title, Emit& emit, bool open_at_first,

@@ -305,7 +305,7 @@ void incident_row(const Workspace& workspace, std::size_t number, const Palette&
 void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emit) {
     const auto& incidents = workspace.rewind.incidents();
     if (incidents.empty()) return;
-    section("What happened");
+    const PanelSection ids("What happened");
     std::size_t rows = 0;
     for (std::size_t i = incidents.size(); i-- > 0 && rows < max_rows; ++rows)
         incident_row(workspace, i, palette, emit);

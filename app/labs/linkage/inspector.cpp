@@ -24,7 +24,7 @@ void motor_rows(const Workspace& workspace) {
     const LinkagePart& part = linkage_part(workspace);
     const LinkageTurn& turn = workspace.runtimes.of<LinkageRuntime>(linkage_lab).turn(part);
     if (part.drives.empty() || turn.poses.size() < 2) return;
-    section("Motor");
+    const PanelSection ids("Motor");
     const std::string& joint = part.linkage().links[turn.joint].name;
     const auto end = [&](const LinkageTurn::Pose& pose) {
         return fixed_text(shown_value(part, joint, pose.value).value, turns(part, joint) ? 1 : 3);
@@ -61,7 +61,7 @@ void motor_rows(const Workspace& workspace) {
 }
 
 void freedom_rows(const LinkagePart& part) {
-    section("Degrees of freedom");
+    const PanelSection ids("Degrees of freedom");
     const ik::LinkageFreedom freedom = freedom_of(part);
     reading("in this pose", "%d", freedom.actual);
     explain(
@@ -111,7 +111,7 @@ void pair_motor_rows(const ik::LinkageSketch& sketch, std::size_t at, Emit& emit
 }
 
 void joint_rows(const LinkagePart& part, Emit& emit) {
-    section("Joint");
+    const PanelSection ids("Joint");
     const auto at = part.linkage().find_point(part.selected);
     if (!at) return note("Click a joint to select it: its path is drawn.");
     const glm::dvec3 place = part.at(*at);

@@ -263,7 +263,6 @@ void length_rows(const LinkagePart& part, MoreRows& more, Emit& emit) {
     const Mechanism& mechanism = part.shape->mechanism;
     const MechanismKind* const kind = kind_of(mechanism);
     if (kind == nullptr) return note("Drawn by hand: select a joint, and set its bars beside it.");
-    ImGui::PushID("lengths");  // a motor may have a length's name
     const FieldRows rows(mechanism_fields(mechanism), kind->texts, "linkage.set", emit);
     for (const FieldText& text : kind->texts) {
         const Field& field = *find_field(kind->fields, text.name);
@@ -276,7 +275,6 @@ void length_rows(const LinkagePart& part, MoreRows& more, Emit& emit) {
         else
             rows.row(field.name);
     }
-    ImGui::PopID();
 }
 
 constexpr PastHelp linkage_past_help{

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
@@ -100,8 +101,8 @@ void pin(LinkageSketch& sketch, const Arguments& given) {
     ik::SketchPoint& point = sketch.points[index];
     const bool pinned = point.hold == SketchHold::Pinned;
     const bool on = given.has("on") ? given.boolean("on") : !pinned;
-    if (on == pinned) return;
-    point.hold = on ? SketchHold::Pinned : SketchHold::Free;
+    const SketchHold hold = on ? SketchHold::Pinned : SketchHold::Free;
+    if (std::exchange(point.hold, hold) == hold) return;
     if (!on) remove_motors_at(sketch, index);
 }
 

@@ -104,7 +104,8 @@ void select_unit(const RigPanel& panel, const std::string& name) {
 void curve_rows(const RigPanel& panel) {
     const std::vector<rig::NamedCurve>& curves = panel.part.rig.definition().curves;
     if (curves.empty()) return;
-    if (!folding_section(panel.workspace, "Curves", panel.emit, false)) return;
+    const FoldingSection open(panel.workspace, "Curves", panel.emit, false);
+    if (!open) return;
     for (std::size_t i = 0; i < std::min<std::size_t>(curves.size(), 100); ++i) {
         reading(curves[i].name.c_str(), "%s", fixed_text(panel.part.state.curves[i], 3).c_str());
         explain("A number that units write, such as a morph weight or a material parameter.");
@@ -131,14 +132,15 @@ void solve_rows(const RigPanel& panel) {
 
 void RigLab::panel(const Workspace& workspace, Emit& emit) const {
     const RigPanel panel = rig_panel(workspace, emit);
-    if (folding_section(workspace, "Presets", emit)) preset_section(emit);
+    if (const FoldingSection open(workspace, "Presets", emit); open) preset_section(emit);
     walk_rows(workspace, emit);
     folding_section(workspace, "Elements", emit, false, [&](MoreRows& more) { element_tree(panel, more); });
-    if (folding_section(workspace, "Units, in order", emit)) unit_list(panel);
+    if (const FoldingSection open(workspace, "Units, in order", emit); open) unit_list(panel);
     curve_rows(panel);
-    if (folding_section(workspace, "Solve", emit, false)) solve_rows(panel);
+    if (const FoldingSection open(workspace, "Solve", emit, false); open) solve_rows(panel);
     time_rows(workspace, emit);
-    if (!folding_section(workspace, "Export", emit, false)) return;
+    const FoldingSection open(workspace, "Export", emit, false);
+    if (!open) return;
     if (row_button("Copy as C++", 1, true, "This rig, as it is now, as a program that uses the library"))
         emit("rig.copy");
 }
@@ -228,7 +230,7 @@ void name_field(const RigPanel& panel, const char* command, const std::string& n
 
 void element_inspector(const RigPanel& panel) {
     const Selection& selected = panel.part.selected.elements;
-    section(selected.several() ? "Elements" : "Element");
+    const PanelSection ids(selected.several() ? "Elements" : "Element");
     if (!selected.active())
         return note("Nothing is selected. Click an element, in the list or in the picture.");
     const rig::Element& element = panel.part.rig.definition().elements[*selected.active()];
@@ -247,8 +249,7 @@ void pose_rows(const RigPanel& panel) {
     if (!found) return;
     const rig::Element& element = panel.part.rig.definition().elements[*found];
     const rig::ElementId id = panel.part.rig.id(*found);
-    section("Poses");
-    ImGui::PushID("poses");
+    const PanelSection ids("Poses");
     pose_lines("local", *panel.now.known(id, rig::Space::Local), "Within its parent, after the last unit.");
     pose_lines("global", *panel.now.known(id, rig::Space::Global), "In the scene, after the last unit.");
     pose_lines("initial", *panel.now.known(id, rig::Space::Local, rig::Pose::Initial),
@@ -266,7 +267,6 @@ void pose_rows(const RigPanel& panel) {
                         {"transform", SharedJson(touched(**changed, transform_json(input)))}});
         scope_note(panel.part, alike.size(), "bones or nulls");
     }
-    ImGui::PopID();
 }
 
 void RigLab::inspector(const Workspace& workspace, Emit& emit) const {

@@ -301,8 +301,7 @@ void why_rows(const RigPanel& panel) {
     const rig::Element& selected = panel.part.rig.definition().elements[*element];
     const std::string title =
         selected.kind == rig::ElementKind::Bone ? "Why is this bone here?" : "Why is it here?";
-    section(title.c_str());
-    ImGui::PushID("why");
+    const PanelSection ids(title.c_str());
     const rig::Explanation& why = panel.runtime.explanation(panel.workspace, *element);
     const std::vector<rig::Unit>& units = panel.part.rig.definition().units;
     place_line("before any unit", why.input);
@@ -321,7 +320,6 @@ void why_rows(const RigPanel& panel) {
         end_row();
     }
     place_line("where it is", why.result);
-    ImGui::PopID();
 }
 
 }  // namespace tendril::app

@@ -154,7 +154,8 @@ void walk_rows(const Workspace& workspace, Emit& emit) {
     const RigPart& part = rig_part(workspace);
     const std::vector<std::size_t> controls = walkers(part);
     if (controls.empty()) return;
-    if (!folding_section(workspace, "Walk", emit)) return;
+    const FoldingSection open(workspace, "Walk", emit);
+    if (!open) return;
     const std::string& name = part.rig.definition().elements[controls.front()].name;
     const auto walk = std::ranges::find(part.walks, name, &RigWalk::control);
     const bool walks = walk != part.walks.end();
@@ -174,7 +175,7 @@ void walk_rows(const Workspace& workspace, Emit& emit) {
 
 void time_rows(const Workspace& workspace, Emit& emit) {
     const RigPart& part = rig_part(workspace);
-    if (folding_section(workspace, "Clip", emit, false)) clip_rows(part, emit);
+    if (const FoldingSection open(workspace, "Clip", emit, false); open) clip_rows(part, emit);
     folding_section(workspace, "Analyse", emit, false, [&](MoreRows& more) {
         past_view_rows(workspace, rig_past(), past_help, emit);
         rate_rows(part, emit);

@@ -396,8 +396,7 @@ class Fields {
 void unit_inspector(const RigPanel& panel) {
     const auto row = unit_row(panel.part, panel.part.selected.unit);
     if (!row) return;
-    section(elided("Unit: " + row->unit->name, ImGui::GetContentRegionAvail().x).c_str());
-    ImGui::PushID("unit");
+    const PanelSection ids(elided("Unit: " + row->unit->name, ImGui::GetContentRegionAvail().x).c_str());
     std::string operation = rig::operation_name(row->unit->operation.index());
     std::replace(operation.begin(), operation.end(), '_', ' ');
     note(operation + (row->inner ? ", run on each element of its for-each" : "") +
@@ -418,7 +417,6 @@ void unit_inspector(const RigPanel& panel) {
     if (row->inner) note("These are its outputs for the last element of the for-each.");
     if (row_button("Close", 2, true, "Deselects the unit")) select_unit(panel, "");
     end_row();
-    ImGui::PopID();
 }
 
 }  // namespace tendril::app

@@ -434,11 +434,9 @@ class Adding {
 }  // namespace
 
 void adding_rows(const Workspace& workspace, Emit& emit) {
-    ImGui::PushID("add");  // a scene and a button of this section may have the same title
     Adding adding(workspace, emit);
     adding.bodies();
     adding.colliders();
-    ImGui::PopID();
 }
 
 }  // namespace tendril::app

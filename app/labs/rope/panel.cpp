@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/document/drawn_sections.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
@@ -188,7 +189,8 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
 }
 
 void RopeLab::inspector(const Workspace& workspace, Emit& emit) const {
-    show_verdict(rope_verdict(rope_part(workspace)), palette(workspace.settings.theme), emit);
+    show_verdict(paced_verdict(rope_verdict(rope_part(workspace)), workspace),
+                 palette(workspace.settings.theme), emit);
     selection_rows(workspace, emit);
     number_rows(workspace, palette(workspace.settings.theme), emit);
 }
@@ -208,7 +210,7 @@ namespace {
 
 /// The physical properties of the body.
 void body_rows(const NamedWorld& world, const rope::Body& body, const Palette& colours, Emit& emit) {
-    section(world.name(body).c_str());
+    const PanelSection ids(world.name(body).c_str());
     const BodySettings settings = settings_of(world, body);
     const FieldRows rows(settings, "rope.set", emit, {{"rope", world.name(body)}});
     for (const Field& field : fields<BodySettings>()) {
@@ -384,7 +386,7 @@ void length_plot(const std::vector<RopeSample>& samples, const Palette& palette)
 
 /// The numbers of each racer now, and their curves; `timed`: with the cost too.
 void race_rows(const RopePart& part, bool timed, const Palette& palette, Emit& emit) {
-    section("Race");
+    const PanelSection ids("Race");
     const std::vector<RopeRacer> racers = rope_racers(part);
     for (const RopeRacer& racer : racers) {
         colour_mark(rope_solver_colour(palette, racer.solver()));
@@ -418,7 +420,7 @@ void race_rows(const RopePart& part, bool timed, const Palette& palette, Emit& e
 }  // namespace
 
 void selection_rows(const Workspace& workspace, Emit& emit) {
-    section("Selection");
+    const PanelSection ids("Selection");
     const RopePart& part = rope_part(workspace);
     const Palette& colours = palette(workspace.settings.theme);
     if (part.selection) {
@@ -438,7 +440,7 @@ void selection_rows(const Workspace& workspace, Emit& emit) {
 void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit) {
     const RopePart& part = rope_part(workspace);
     const rope::State& state = part.world->state();
-    section("Numbers");
+    const PanelSection numbers("Numbers");
     reading("particles", "%zu", state.position.size());
     const RopeSample last = part.samples.empty() ? sample_of(part, {}) : part.samples.back();
     reading("length error", "%s", share_text(last.error).c_str());
@@ -457,15 +459,20 @@ void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit)
     more.add("substeps dropped", {}, false, [&] {
         reading("substeps dropped", "%llu", static_cast<unsigned long long>(state.dropped));
         explain(
-            "Substeps skipped so as not to fall behind: from frames over the longest frame, and where the "
-            "work exceeds what a tick allows.");
+            "Substeps of the simulated time that were skipped: from frames over the longest frame, and "
+            "where the work exceeds what a tick allows. A slow machine skips none: time passes slower.");
     });
-    if (const std::string cost = cost_text(part.samples); workspace.clock.measured && !cost.empty())
-        more.add("time per tick", {}, false, [&] { reading("time per tick", "%s", cost.c_str()); });
+    const std::string cost = workspace.clock.measured ? cost_text(part.samples) : "";
+    if (!cost.empty())
+        more.add("time per tick, real time", {}, false, [&] {
+            reading("time per tick", "%s", cost.c_str());
+            reading("real time", "%.0f %%", 100.0 * pace_of(workspace.runtimes).kept);
+            explain("How much of the time on the wall passes here, over the last second.");
+        });
     more_rows(workspace, "Numbers", more, emit);
     if (!part.rivals.empty()) return race_rows(part, workspace.clock.measured, palette, emit);
     if (part.samples.size() < 2) return;
-    section("Last ten seconds");
+    const PanelSection past("Last ten seconds");
     MoreRows plots;
     const auto shows = [](const RopeSample& each) { return std::max(each.error, each.stretch) >= 1e-4f; };
     if (std::ranges::any_of(part.samples, shows))

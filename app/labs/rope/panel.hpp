@@ -28,6 +28,8 @@ glm::vec3 free_place(const Workspace& workspace, const Space& needed);
 void adding_rows(const Workspace& workspace, Emit& emit);
 /// How well lengths are kept.
 Verdict rope_verdict(const RopePart& part);
+/// The verdict, and how fast time passes where the machine is too slow for the ropes.
+Verdict paced_verdict(Verdict said, const Workspace& workspace);
 /// Buttons for what a rope collides with.
 void collision_rows(const NamedWorld& world, const rope::Body& body, Emit& emit);
 /// Of a selected tie.

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "app/document/drawn_sections.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rope/body_commands.hpp"
@@ -294,6 +295,17 @@ Verdict rope_verdict(const RopePart& part) {
     return {
         "Lengths hold", Verdict::Kind::Good,
         "The worst link is off by " + percent + "." + (passes ? " Cloth does not collide with itself." : "")};
+}
+
+Verdict paced_verdict(Verdict said, const Workspace& workspace) {
+    constexpr double slow = 0.75;  // one stall takes it no lower
+    const double kept = pace_of(workspace.runtimes).kept;
+    if (!workspace.clock.playing || kept >= slow) return said;
+    said.text += ", at " + fixed_text(5.0 * std::round(20.0 * kept), 0) + " % of real time";
+    if (said.kind != Verdict::Kind::Good) return said;
+    said.kind = Verdict::Kind::Open;
+    said.why = "A tick takes longer than its 16.7 ms: fewer particles or substeps are faster.";
+    return said;
 }
 
 }  // namespace tendril::app

@@ -191,23 +191,24 @@ void shelf_plot(const Workspace& workspace, const Palette& palette, float height
     const SignalPart& part = signal_part(workspace);
     std::vector<Curve> points;
     float most_lag = 20.0f;
-    for (const ShelfPoint& point : signal_runtime(workspace).shelf(part)) {
-        const float lag = static_cast<float>(1e3 * point.lag);
-        const float jitter = static_cast<float>(std::clamp(100.0 * point.jitter, 1.0, 900.0));
-        Curve curve{kind_title(point.filter), palette.neutral, {{std::max(lag, 0.0f), jitter}}};
-        curve.width = 1.6f;
-        curve.strength = 0.75f;
-        if (point.stage) {
-            curve.colour = stage_colour(palette, part, *point.stage);
-            curve.width = 2.6f;
-            curve.strength = 1.0f;
-        }
+    const auto add = [&](std::string name, double seconds, double left, std::optional<glm::vec3> colour) {
+        const float lag = static_cast<float>(1e3 * seconds);
+        const float jitter = static_cast<float>(std::clamp(100.0 * left, 1.0, 900.0));
+        Curve curve{std::move(name), colour.value_or(palette.neutral), {{std::max(lag, 0.0f), jitter}}};
+        curve.width = colour ? 2.6f : 1.6f;
+        curve.strength = colour ? 1.0f : 0.75f;
         most_lag = std::max(most_lag, 1.15f * lag);
         points.push_back(std::move(curve));
-    }
+    };
+    for (const ShelfPoint& point : signal_runtime(workspace).shelf(part))
+        add(kind_title(point.filter), point.lag, point.jitter,
+            point.stage ? std::optional(stage_colour(palette, part, *point.stage)) : std::nullopt);
+    const StageMeasures& whole = signal_runtime(workspace).chain(part).whole;
+    if (enabled_filters(part).size() > 1 && whole.lag && whole.jitter)
+        add("the whole chain", *whole.lag, *whole.jitter, palette.text);
     plot("shelf", points,
          {.x = "lag, ms",
-          .y = "jitter left",
+          .y = "jitter left, each alone on the input",
           .y_unit = "%",
           .min_y = 1.0f,
           .from_x = -0.05f * most_lag,

@@ -83,7 +83,8 @@ void export_section(Emit& emit) {
 
 /// One button with a list: fourteen buttons would be too many.
 void add_button(Emit& emit) {
-    const bool pressed = row_button("Add a filter", 1, true, "Choose a kind; the new filter comes last");
+    const bool pressed = row_button("Add a filter", 1, true,
+                                    "Choose a kind; the new filter works on the output of the last one");
     if (!begin_list_of_button("add filter", pressed)) return;
     for (const signal::Kind& kind : signal::kinds())
         if (list_row(kind_title(kind), false)) emit("signal.filter.add", {{"kind", kind.name}});
@@ -141,16 +142,17 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
         ImGui::PopID();
     }
     if (part.stages.empty()) note("No filters: the output is the input.");
+    if (part.stages.size() > 1) note("Each works on the output of the one above it.");
 }
 
 void SignalLab::panel(const Workspace& workspace, Emit& emit) const {
     const SignalPart& part = signal_part(workspace);
     const Palette& colours = palette(workspace.settings.theme);
-    if (folding_section(workspace, "Presets", emit)) preset_section(emit);
-    if (folding_section(workspace, "Input", emit, false)) input_section(part, emit);
-    if (folding_section(workspace, "Filters", emit)) chain_rows(part, colours, emit);
+    if (const FoldingSection open(workspace, "Presets", emit); open) preset_section(emit);
+    if (const FoldingSection open(workspace, "Input", emit, false); open) input_section(part, emit);
+    if (const FoldingSection open(workspace, "Filters", emit); open) chain_rows(part, colours, emit);
     parameter_rows(workspace, colours, emit);
-    if (folding_section(workspace, "Export", emit, false)) export_section(emit);
+    if (const FoldingSection open(workspace, "Export", emit, false); open) export_section(emit);
 }
 
 // The parameters of the selected filter, from the library's table; for a curve also its editor, for a spring
@@ -196,7 +198,7 @@ void parameter_rows(const Workspace& workspace, const Palette& palette, Emit& em
     const std::size_t at = *part.selected;
     const signal::Filter& filter = part.stages[at].filter;
     const std::string title = kind_title(filter);
-    section(title.c_str());
+    const PanelSection ids(title.c_str());
     ImGui::PushID(static_cast<int>(at));
     MoreRows more;
     const signal::Filter usual = signal::kind_of(filter).blank();
@@ -250,7 +252,7 @@ void response_rows(const StageMeasures& measures) {
     reading("settling", "%s", or_dash(measures.settling_time, 1e3, 0, "ms").c_str());
     explain("From a jump until it stays within 2 % of it. Needs jumps: a square wave.");
     reading("jitter left", "%s", or_dash(measures.jitter, 1e2, 1, "%").c_str());
-    explain("How much of the input's jitter remains: second differences, output over input.");
+    explain("How much remains of the jitter of what comes in: second differences, output over input.");
 }
 
 void measure_rows(const StageMeasures& measures) {
@@ -265,15 +267,14 @@ void measure_rows(const StageMeasures& measures) {
     }
     reading("rate difference", "%s", difference_text(measures.rate_difference).c_str());
     explain(
-        "The maximum difference, at any one time, between outputs of the chain up to here at 15, 30, 60, 144 "
-        "Hz and uneven frames.");
+        "The maximum difference, at any one time, between outputs at 15, 30, 60, 144 Hz and uneven frames.");
 }
 
 }  // namespace
 
 void fit_rows(const SignalPart& part, Emit& emit) {
     if (part.plot != SignalPlot::Fit) return;
-    section("Fit");
+    const PanelSection ids("Fit");
     if (part.recording) {
         note(
             "Drag the blue ball the way the output should move. The input starts when you grab it; the "
@@ -331,7 +332,7 @@ void SignalLab::inspector(const Workspace& workspace, Emit& emit) const {
     const Palette& colours = palette(workspace.settings.theme);
     const ChainAnalysis& analysis = signal_runtime(workspace).chain(part);
     show_verdict(signal_verdict(part, analysis.whole), colours, emit);
-    section("Now");
+    const PanelSection now("Now");
     reading("input", "%.3f", input_of(part));
     const double output = output_of(part);
     if (std::abs(output) < 1e6)
@@ -340,7 +341,9 @@ void SignalLab::inspector(const Workspace& workspace, Emit& emit) const {
         reading("output", "grows without bound");
     fit_rows(part, emit);
     if (part.stages.empty()) return;
-    section("Read-outs");
+    const PanelSection each("Read-outs");
+    const bool several = enabled_filters(part).size() > 1;
+    std::string before = "the input";
     for (std::size_t i = 0; i < part.stages.size(); ++i) {
         const SignalStage& stage = part.stages[i];
         colour_mark(stage_colour(colours, part, i));
@@ -350,10 +353,13 @@ void SignalLab::inspector(const Workspace& workspace, Emit& emit) const {
             continue;
         }
         ImGui::TextUnformatted(kind_title(stage.filter).c_str());
+        if (several) note("on " + before);
         measure_rows(analysis.stages[i]);
+        before = "the output of " + kind_title(stage.filter);
     }
-    if (enabled_filters(part).size() > 1) {
-        section("The whole chain");
+    if (several) {
+        const PanelSection whole("The whole chain");
+        note("on the input");
         measure_rows(analysis.whole);
     }
 }

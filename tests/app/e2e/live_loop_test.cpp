@@ -1,7 +1,11 @@
 // The loop of a real window, turned by hand: it draws if something may have changed, and only then.
 #include "app/live_loop.hpp"
 
+#include <algorithm>
+
+#include "app/document/drawn_sections.hpp"
 #include "app/labs/chain/chain_lab.hpp"
+#include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -66,6 +70,24 @@ TEST_F(LiveLoopTest, time_keeps_pace_with_slow_frames_but_does_not_race_after_a_
     tick = app_.workspace().clock.tick;
     turn({}, 30.0);
     EXPECT_LE(app_.workspace().clock.tick - tick, 20u);
+}
+
+TEST_F(LiveLoopTest, TheVerdictSaysThatTimePassesTooSlowly) {
+    FrameRecorder recorder;
+    app_.run({"lab.open", Json{{"name", "rope"}}});
+    app_.run({"rope.preset", Json{{"name", "line"}}});
+    const auto says = [&](const std::string& text) {
+        return std::ranges::any_of(recorder.frame().texts,
+                                   [&](const DrawnText& each) { return each.text == text; });
+    };
+    for (int i = 0; i < 60; ++i) turn();
+    turn({}, 30.0);
+    EXPECT_TRUE(says("Lengths hold")) << "one stall is none";
+    for (int i = 0; i < 20; ++i) turn({}, 0.5);  // a turn makes up for a quarter of a second at most
+    EXPECT_NEAR(pace_of(app_.workspace().runtimes).kept, 0.5, 0.01);
+    EXPECT_TRUE(says("Lengths hold, at 50 % of real time"));
+    for (int i = 0; i < 300; ++i) turn();
+    EXPECT_TRUE(says("Lengths hold"));
 }
 
 TEST_F(LiveLoopTest, a_thousand_moves_between_two_frames_are_one) {

@@ -161,21 +161,6 @@ TEST(RopeInTheWindow, UndoBringsTheLabAndTheViewAndLeavesOtherLabsAsTheyAre) {
     EXPECT_EQ(state_after(from_chain)["camera"], state_after(hair)["camera"]) << "and not the chain's";
 }
 
-TEST(RopeInTheWindow, ButtonsAddWhatTheySay) {
-    // In section "Add", below presets with the same titles.
-    ScriptText script = rope_lab()
-                            .command("rope.clear")
-                            .command("view.fold", {{"section", "rope: Add"}, {"folded", false}})
-                            .wait(2);
-    for (const glm::vec2 button : {glm::vec2(126, 412), glm::vec2(205, 412), glm::vec2(48, 412)})
-        script.move(button).wait(2).down().up().wait(2);
-    const Json added = state_after(script);
-    EXPECT_EQ(added["cloths"].size(), 1u);
-    EXPECT_EQ(added["hair"].size(), 1u);
-    EXPECT_EQ(added["ropes"].size(), 1u);
-    EXPECT_EQ(added["selected"]["rope"], "rope") << "what was added is selected";
-}
-
 TEST(RopeInTheWindow, EachLabHasItsOwnCamera) {
     const Json chain = state_after(ScriptText().wait(1))["camera"];
     const Json rope = state_after(rope_lab())["camera"];

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/app.hpp"
+#include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -246,6 +248,28 @@ TEST_F(CurveInTheWindow, ATangentIsDraggedByItsEnd) {
     EXPECT_GT(key.value("leave", 0.0), 0.5);
     EXPECT_EQ(key.value("arrive", 0.0), 0.0);
     EXPECT_EQ(key.at("time"), 0.5);
+}
+
+/// The second filter works on what the first leaves: its jitter alone is another number.
+TEST(SignalInTheWindow, EachNumberSaysWhatItIsOf) {
+    const auto window = app::open_offscreen({1440, 1400});
+    app::App app(*window);
+    FrameRecorder recorder;
+    const auto says = [&](const std::string& text) {
+        app.settle();
+        return std::ranges::any_of(recorder.frame().texts,
+                                   [&](const DrawnText& each) { return each.text == text; });
+    };
+    app.run({"lab.open", Json{{"name", "signal"}}});
+    app.run({"signal.preset", Json{{"name", "spring"}}});
+    app.run({"signal.input", Json{{"kind", "noise"}}});
+    app.run({"signal.plot", Json{{"name", "shelf"}}});
+    EXPECT_FALSE(says("on the input") || says("the whole chain"));
+    app.run({"signal.filter.add", Json{{"kind", "one_euro"}}});
+    for (const char* text :
+         {"on the input", "on the output of Spring", "the whole chain",
+          "jitter left, each alone on the input", "Each works on the output of the one above it."})
+        EXPECT_TRUE(says(text)) << text;
 }
 
 TEST(SignalInTheWindow, AFileIsTypedIntoThePanel) {

@@ -166,34 +166,6 @@ TEST(Panels, AreScrolledAsTheyWereAfterUndo) {
     EXPECT_EQ(panel(play(ScriptText(fixed).command("undo").wait(4), low).picture), panel(before));
 }
 
-TEST(Panels, ASectionFoldsByAClickOnItsTitle) {
-    // Folding the presets moves the modes up: a click at their new position chooses Reach.
-    const glm::vec2 presets(40.0f, 69.0f);
-    ScriptText folded = ScriptText().click(presets).wait(25);
-    const glm::vec2 reach_then(60.0f, chain_panel::forward.y - 32.0f - 96.0f);
-    EXPECT_EQ(state_after(ScriptText(folded).click(reach_then).wait(2))["mode"], "reach");
-    EXPECT_EQ(state_after(ScriptText().click(reach_then).wait(2))["mode"], "curve")
-        << "the tentacle is there";
-    // Another click unfolds them.
-    const glm::vec2 forward = chain_panel::forward;
-    EXPECT_EQ(state_after(folded.click(presets).wait(25).click(forward).wait(2))["mode"], "forward");
-}
-
-TEST(Panels, AddStaysUnderThePointer) {
-    const std::size_t before = state_after(ScriptText().wait(1))["segments"].size();
-    for (const char* mode : {"forward", "backward", "fixed"}) {
-        // Fixed has two more rows above it, so the button is further down.
-        ScriptText script = ScriptText()
-                                .command("chain.mode", {{"mode", mode}})
-                                .command("view.fold", {{"section", "chain: Joints"}, {"folded", false}})
-                                .wait(2);
-        const glm::vec2 at = chain_panel::add + glm::vec2(0.0f, std::string(mode) == "fixed" ? 60.0f : 0.0f);
-        script.move(at).wait(2);
-        for (int i = 0; i < 3; ++i) script.down().up().wait(25);
-        EXPECT_EQ(state_after(script)["segments"].size(), before + 3) << mode;
-    }
-}
-
 TEST(View, TheAxesInTheCornerAreClickedForASide) {
     // From the front, +X points right and +Y up: a click on their ends looks along them.
     const ScriptText front = ScriptText().command("camera.view", {{"name", "front"}});

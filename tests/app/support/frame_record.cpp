@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <glm/common.hpp>
+#include <map>
 #include <utility>
 
 namespace tendril::test {
@@ -68,21 +69,60 @@ void FrameRecorder::text(const ImDrawList& list, const ImFont* font, float size,
                              wrap});
 }
 
-void FrameRecorder::item(const ImVec4& box, unsigned id) {
+void FrameRecorder::item(const ImVec4& box, unsigned id, int flags) {
     begin();
     if (id == 0) return;
-    record_.items.push_back(
-        {ImGui::GetCurrentContext()->CurrentWindow, id, {{box.x, box.y}, {box.z, box.w}}});
+    const ImGuiContext& context = *ImGui::GetCurrentContext();
+    record_.items.push_back({context.CurrentWindow,
+                             id,
+                             {{box.x, box.y}, {box.z, box.w}},
+                             ((context.CurrentItemFlags | flags) & ImGuiItemFlags_Disabled) != 0});
 }
 
-void FrameRecorder::last_item_is(DrawnItem::Kind kind) {
+DrawnItem* FrameRecorder::last_item() {
     const ImGuiID id = ImGui::GetCurrentContext()->LastItemData.ID;
-    for (auto each = record_.items.rbegin(); each != record_.items.rend(); ++each) {
-        if (each->id != id) continue;
-        each->kind = kind;
-        return;
-    }
+    const auto found = std::find_if(record_.items.rbegin(), record_.items.rend(),
+                                    [&](const DrawnItem& each) { return each.id == id; });
+    return found != record_.items.rend() ? &*found : nullptr;
 }
+
+std::vector<std::string> FrameRecord::alike() const {
+    std::vector<std::string> found;
+    std::map<unsigned, const DrawnItem*> seen;
+    for (const DrawnItem& item : items) {
+        const auto [at, is_new] = seen.try_emplace(item.id, &item);
+        if (!is_new)
+            found.push_back('"' + item.label + "\" in " + item.window->Name + " and \"" + at->second->label +
+                            "\" in " + at->second->window->Name);
+        if ((item.window->Flags & ImGuiWindowFlags_ChildWindow) != 0 && item.window->BeginCount > 1)
+            found.push_back(std::string(item.window->Name) + " is begun twice");
+    }
+    return found;
+}
+
+bool FrameRecord::is_of_a_window(const DrawnItem& item) {
+    ImGuiWindow* const window = ImGui::FindWindowByName(item.window->Name);
+    return item.id == ImGui::GetWindowScrollbarID(window, ImGuiAxis_X) ||
+           item.id == ImGui::GetWindowScrollbarID(window, ImGuiAxis_Y) ||
+           item.id == ImGui::GetIDWithSeed("#CLOSE", nullptr, window->ID);
+}
+
+const DrawnItem* FrameRecord::find(unsigned id) const {
+    const auto found = std::ranges::find(items, id, &DrawnItem::id);
+    return found != items.end() ? &*found : nullptr;
+}
+
+namespace {
+
+/// Adds to the item that a wrapped function has just made.
+void note_item(DrawnItem::Kind kind, const char* label, std::optional<bool> on = {}, const char* shown = "") {
+    DrawnItem* const item = active != nullptr ? active->last_item() : nullptr;
+    if (item == nullptr) return;
+    if (item->kind != DrawnItem::Kind::Row) item->kind = kind;
+    item->label = label, item->on = on, item->shown = shown;
+}
+
+}  // namespace
 
 }  // namespace tendril::test
 
@@ -98,6 +138,10 @@ void FrameRecorder::last_item_is(DrawnItem::Kind kind) {
 #define TENDRIL_BUTTON "_ZN5ImGui6ButtonEPKcRK6ImVec2"
 #define TENDRIL_SMALL_BUTTON "_ZN5ImGui11SmallButtonEPKc"
 #define TENDRIL_RADIO_BUTTON "_ZN5ImGui11RadioButtonEPKcb"
+#define TENDRIL_CHECKBOX "_ZN5ImGui8CheckboxEPKcPb"
+#define TENDRIL_SELECTABLE "_ZN5ImGui10SelectableEPKcbiRK6ImVec2"
+#define TENDRIL_INVISIBLE_BUTTON "_ZN5ImGui15InvisibleButtonEPKcRK6ImVec2i"
+#define TENDRIL_DRAG_SCALAR "_ZN5ImGui10DragScalarEPKciPvfPKvS4_S1_i"
 #define TENDRIL_INPUT_TEXT "_ZN5ImGui17InputTextWithHintEPKcS1_PcmiPFiP26ImGuiInputTextCallbackDataEPv"
 #define TENDRIL_COMBO "_ZN5ImGui10BeginComboEPKcS1_i"
 #define TENDRIL_OVERLAP "_ZN5ImGui19SetItemAllowOverlapEv"
@@ -126,7 +170,7 @@ void add_plain_text(ImDrawList* list, const ImVec2& at, ImU32 colour, const char
 bool real_item_add(const ImRect&, ImGuiID, const ImRect*, ImGuiItemFlags) __asm__("__real_" TENDRIL_ITEM_ADD);
 bool item_add(const ImRect&, ImGuiID, const ImRect*, ImGuiItemFlags) __asm__("__wrap_" TENDRIL_ITEM_ADD);
 bool item_add(const ImRect& box, ImGuiID id, const ImRect* nav_box, ImGuiItemFlags flags) {
-    if (active != nullptr) active->item({box.Min.x, box.Min.y, box.Max.x, box.Max.y}, id);
+    if (active != nullptr) active->item({box.Min.x, box.Min.y, box.Max.x, box.Max.y}, id, flags);
     return real_item_add(box, id, nav_box, flags);
 }
 
@@ -134,7 +178,11 @@ bool real_button(const char*, const ImVec2&) __asm__("__real_" TENDRIL_BUTTON);
 bool button(const char*, const ImVec2&) __asm__("__wrap_" TENDRIL_BUTTON);
 bool button(const char* label, const ImVec2& size) {
     const bool pressed = real_button(label, size);
-    if (active != nullptr) active->last_item_is(DrawnItem::Kind::Button);
+    note_item(DrawnItem::Kind::Button, label);
+    const ImVec4 *const colours = ImGui::GetStyle().Colors, &own = colours[ImGuiCol_Button],
+                        &chosen = colours[ImGuiCol_Header];
+    if (DrawnItem* const item = active != nullptr ? active->last_item() : nullptr)
+        item->lit = own.x == chosen.x && own.y == chosen.y && own.z == chosen.z && own.w == chosen.w;
     return pressed;
 }
 
@@ -142,7 +190,7 @@ bool real_small_button(const char*) __asm__("__real_" TENDRIL_SMALL_BUTTON);
 bool small_button(const char*) __asm__("__wrap_" TENDRIL_SMALL_BUTTON);
 bool small_button(const char* label) {
     const bool pressed = real_small_button(label);
-    if (active != nullptr) active->last_item_is(DrawnItem::Kind::Button);
+    note_item(DrawnItem::Kind::Button, label);
     return pressed;
 }
 
@@ -150,8 +198,46 @@ bool real_radio_button(const char*, bool) __asm__("__real_" TENDRIL_RADIO_BUTTON
 bool radio_button(const char*, bool) __asm__("__wrap_" TENDRIL_RADIO_BUTTON);
 bool radio_button(const char* label, bool on) {
     const bool pressed = real_radio_button(label, on);
-    if (active != nullptr) active->last_item_is(DrawnItem::Kind::Button);
+    note_item(DrawnItem::Kind::Button, label, on);
     return pressed;
+}
+
+bool real_checkbox(const char*, bool*) __asm__("__real_" TENDRIL_CHECKBOX);
+bool checkbox(const char*, bool*) __asm__("__wrap_" TENDRIL_CHECKBOX);
+bool checkbox(const char* label, bool* on) {
+    const bool was = *on, pressed = real_checkbox(label, on);
+    note_item(DrawnItem::Kind::Check, label, was);
+    return pressed;
+}
+
+bool real_selectable(const char*, bool, ImGuiSelectableFlags,
+                     const ImVec2&) __asm__("__real_" TENDRIL_SELECTABLE);
+bool selectable(const char*, bool, ImGuiSelectableFlags, const ImVec2&) __asm__("__wrap_" TENDRIL_SELECTABLE);
+bool selectable(const char* label, bool chosen, ImGuiSelectableFlags flags, const ImVec2& size) {
+    const bool pressed = real_selectable(label, chosen, flags, size);
+    note_item(DrawnItem::Kind::Other, label);
+    return pressed;
+}
+
+bool real_invisible_button(const char*, const ImVec2&,
+                           ImGuiButtonFlags) __asm__("__real_" TENDRIL_INVISIBLE_BUTTON);
+bool invisible_button(const char*, const ImVec2&,
+                      ImGuiButtonFlags) __asm__("__wrap_" TENDRIL_INVISIBLE_BUTTON);
+bool invisible_button(const char* label, const ImVec2& size, ImGuiButtonFlags flags) {
+    const bool pressed = real_invisible_button(label, size, flags);
+    note_item(DrawnItem::Kind::Other, label);
+    return pressed;
+}
+
+bool real_drag_scalar(const char*, ImGuiDataType, void*, float, const void*, const void*, const char*,
+                      ImGuiSliderFlags) __asm__("__real_" TENDRIL_DRAG_SCALAR);
+bool drag_scalar(const char*, ImGuiDataType, void*, float, const void*, const void*, const char*,
+                 ImGuiSliderFlags) __asm__("__wrap_" TENDRIL_DRAG_SCALAR);
+bool drag_scalar(const char* label, ImGuiDataType type, void* value, float speed, const void* low,
+                 const void* high, const char* format, ImGuiSliderFlags flags) {
+    const bool changed = real_drag_scalar(label, type, value, speed, low, high, format, flags);
+    note_item(DrawnItem::Kind::Number, label);
+    return changed;
 }
 
 bool real_input_text(const char*, const char*, char*, std::size_t, ImGuiInputTextFlags,
@@ -161,7 +247,7 @@ bool input_text(const char*, const char*, char*, std::size_t, ImGuiInputTextFlag
 bool input_text(const char* label, const char* hint, char* text, std::size_t size, ImGuiInputTextFlags flags,
                 ImGuiInputTextCallback callback, void* data) {
     const bool entered = real_input_text(label, hint, text, size, flags, callback, data);
-    if (active != nullptr) active->last_item_is(DrawnItem::Kind::Text);
+    note_item(DrawnItem::Kind::Text, label);
     return entered;
 }
 
@@ -169,7 +255,7 @@ bool real_begin_combo(const char*, const char*, ImGuiComboFlags) __asm__("__real
 bool begin_combo(const char*, const char*, ImGuiComboFlags) __asm__("__wrap_" TENDRIL_COMBO);
 bool begin_combo(const char* label, const char* preview, ImGuiComboFlags flags) {
     const bool open = real_begin_combo(label, preview, flags);
-    if (active != nullptr && !open) active->last_item_is(DrawnItem::Kind::Combo);
+    if (!open) note_item(DrawnItem::Kind::Combo, label, {}, preview);
     return open;
 }
 
@@ -177,7 +263,8 @@ bool begin_combo(const char* label, const char* preview, ImGuiComboFlags flags) 
 void real_allow_overlap() __asm__("__real_" TENDRIL_OVERLAP);
 void allow_overlap() __asm__("__wrap_" TENDRIL_OVERLAP);
 void allow_overlap() {
-    if (active != nullptr) active->last_item_is(DrawnItem::Kind::Row);
+    if (DrawnItem* const item = active != nullptr ? active->last_item() : nullptr)
+        item->kind = DrawnItem::Kind::Row;
     real_allow_overlap();
 }
 #endif

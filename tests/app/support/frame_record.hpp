@@ -5,6 +5,7 @@
 
 #include <imgui.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,16 +26,27 @@ struct DrawnText {
 };
 
 struct DrawnItem {
-    enum class Kind { Button, Text, Combo, Row, Other };  ///< a row may contain other items
+    enum class Kind { Button, Check, Text, Number, Combo, Row, Other };  ///< a row may contain other items
     const ImGuiWindow* window = nullptr;
     unsigned id = 0;
     app::Rect box;
+    bool greyed = false, lit = false;  ///< lit: a button of the colour of what is chosen
     Kind kind = Kind::Other;
+    std::string label{};       ///< as given to Dear ImGui; empty if its function is not wrapped
+    std::string shown{};       ///< by a combo
+    std::optional<bool> on{};  ///< of a radio button or a checkbox
 };
 
 struct FrameRecord {
     std::vector<DrawnText> texts;
     std::vector<DrawnItem> items;  ///< that can be clicked, including those scrolled out of view
+
+    /// Whether it is a scroll bar or a close button, which mean the same everywhere.
+    static bool is_of_a_window(const DrawnItem& item);
+    /// What has the id of another item, or stands in a child window that was begun twice: a click on one may
+    /// act on the other.
+    std::vector<std::string> alike() const;
+    const DrawnItem* find(unsigned id) const;
 };
 
 /// Records while it exists; keeps the last frame. One at a time.
@@ -50,8 +62,9 @@ class FrameRecorder {
     // called by the wrapped functions
     void text(const ImDrawList& list, const ImFont* font, float size, const ImVec2& at, const char* begin,
               const char* end, float wrap, const ImVec4* clip);
-    void item(const ImVec4& box, unsigned id);
-    void last_item_is(DrawnItem::Kind kind);
+    void item(const ImVec4& box, unsigned id, int flags);
+    /// The latest item of the present id; null if it is not recorded.
+    DrawnItem* last_item();
 
   private:
     void begin();

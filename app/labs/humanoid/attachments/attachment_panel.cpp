@@ -48,7 +48,8 @@ void holder_field(const HumanoidPanel& panel) {
 }  // namespace
 
 void attachment_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Attachments", panel.emit, false)) return;
+    const FoldingSection open(panel.workspace, "Attachments", panel.emit, false);
+    if (!open) return;
     note("Order in each tick: clip, curves, IK, rig, springs, ropes.");
     explain(
         "Curves bend the clip's pose. Feet, targets and hands are IK; look-at, the rig's Aim, and springs "

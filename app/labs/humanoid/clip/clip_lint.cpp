@@ -312,14 +312,16 @@ static void findings_rows(const HumanoidPanel& panel) {
 }
 
 void lint_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Motion lint", panel.emit, false)) return;
+    const FoldingSection open(panel.workspace, "Motion lint", panel.emit, false);
+    if (!open) return;
     const float top = ImGui::GetCursorPosY();
     findings_rows(panel);
     keep_room("findings", top);
 }
 
 void export_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Export", panel.emit, false)) return;
+    const FoldingSection open(panel.workspace, "Export", panel.emit, false);
+    if (!open) return;
     if (row_button("Copy as C++", 1, true,
                    "Copies the character and its IK as a C++ program that uses the library"))
         panel.emit("humanoid.copy");

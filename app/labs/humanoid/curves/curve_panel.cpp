@@ -118,7 +118,7 @@ void curve_inspector(const HumanoidPanel& panel) {
     const humanoid::BentChain* const chain = panel.runtime.solvers.curves(panel.part)[*which].get();
     if (chain == nullptr) return;
     const BoneCurve& curve = panel.part.curves[*which];
-    section(("Curve: " + curve.first + " to " + curve.last).c_str());
+    const PanelSection ids(("Curve: " + curve.first + " to " + curve.last).c_str());
     const ik::CurveReport& report = panel.runtime.shown(panel.workspace).curves[*which];
     curve_notes(curve, report, *chain, panel);
     const FieldRows rows(curve.shape, "humanoid.curve", panel.emit, {{"first", curve.first}});

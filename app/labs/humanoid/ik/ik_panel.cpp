@@ -27,7 +27,7 @@ void effector_row(const HumanoidPanel& panel, humanoid::Effector effector) {
         explain("Gives it a target where it is now. Dragging its orange ball does the same.");
         return;
     }
-    const std::string id = "##" + name;
+    const std::string id = "##has " + name;  // the field beside it has the name
     if (ImGui::Checkbox(id.c_str(), &on))
         panel.emit("humanoid.target", {{"effector", humanoid::name(effector)}, {"weight", 0}});
     explain("Removes the target.");
@@ -134,7 +134,8 @@ void hand_row(const HumanoidPanel& panel, std::size_t hand) {
 }  // namespace
 
 void hand_rows(const HumanoidPanel& panel) {
-    if (!folding_section(panel.workspace, "Hands and gaze", panel.emit, false)) return;
+    const FoldingSection open(panel.workspace, "Hands and gaze", panel.emit, false);
+    if (!open) return;
     hold_rows(panel);
     const IkSettings& ik = panel.part.ik;
     const bool body = panel.runtime.solvers.body(panel.part) != nullptr;

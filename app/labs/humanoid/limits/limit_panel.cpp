@@ -199,8 +199,9 @@ void limit_inspector(const HumanoidPanel& panel) {
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
     const auto joint = joint_now(part, panel.runtime.solvers, shown, *joints.shown);
     if (!joint) return;
-    section(joints.all.size() == 1 ? ("Limits of " + std::string(humanoid::name(*joints.shown))).c_str()
-                                   : ("Limits of " + count_text(joints.all.size(), "joint")).c_str());
+    const PanelSection ids(joints.all.size() == 1
+                               ? ("Limits of " + std::string(humanoid::name(*joints.shown))).c_str()
+                               : ("Limits of " + count_text(joints.all.size(), "joint")).c_str());
     several_note(panel, joints);
     table(panel, *joints.shown, *joint);
     note(in_words(*joint));

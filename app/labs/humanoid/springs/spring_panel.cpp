@@ -105,8 +105,8 @@ void spring_inspector(const HumanoidPanel& panel) {
     const SpringSetting& spring = part.springs[shown];
     std::vector<std::string> nodes;
     for (const std::size_t each : selected) nodes.push_back(part.springs[each].node);
-    section(nodes.size() == 1 ? ("Spring: " + spring.node).c_str()
-                              : (count_text(nodes.size(), "spring") + " selected").c_str());
+    const PanelSection ids(nodes.size() == 1 ? ("Spring: " + spring.node).c_str()
+                                             : (count_text(nodes.size(), "spring") + " selected").c_str());
     const bool alike = std::ranges::all_of(
         selected, [&](std::size_t each) { return same_settings(part.springs[each], spring); });
     if (nodes.size() > 1)
