@@ -31,12 +31,14 @@ struct Row {
     const std::vector<glm::vec3>& joints;
     std::optional<ik::CurveReport> curve{};  ///< of a case that lies along a curve
     const LinkageCase* linkage = nullptr;    ///< of one that is a linkage: where it is now
+    std::string reason{};                    ///< of InvalidInput: what the library refuses, and where
 
     const char* solver() const { return linkage ? "linkage" : curve ? "curve" : ik::name(method); }
     /// "solver", "status", "iterations", "residual" and more.
     Json json() const {
         Json json = linkage ? linkage_row_json(linkage->part) : report_json(method, report);
         json["solver"] = solver();
+        if (!reason.empty()) json["reason"] = reason;
         return json;
     }
 };
@@ -123,9 +125,10 @@ class TableRows final : public Rows {
         const Json report = row.json();
         if (report["residual"].is_number())
             std::snprintf(residual, sizeof residual, "%.6g", report["residual"].get<double>());
-        const std::string ran = row.linkage ? report["verdict"].get<std::string>()
-                                : row.curve ? ""
-                                            : ran_text(row.method, row.report);
+        const std::string ran = row.linkage           ? report["verdict"].get<std::string>()
+                                : !row.reason.empty() ? row.reason
+                                : row.curve           ? ""
+                                                      : ran_text(row.method, row.report);
         std::snprintf(rest, sizeof rest, "  %-18s  %-14s  %10d  %14s  %10.2f  ", row.solver(),
                       report["status"].get_ref<const std::string&>().c_str(), report["iterations"].get<int>(),
                       residual, row.microseconds);
@@ -205,6 +208,28 @@ Row place(const Case& asked, std::vector<glm::vec3>& joints) {
     return {asked, ik::Method::Fabrik, report, taken.count(), joints, placed};
 }
 
+/// Why the library refuses a case; empty if it does not.
+std::string refusal(const Case& asked, ik::Method method) {
+    if (method == ik::Method::TwoBone && asked.lengths.size() != 2)
+        return "lengths: two_bone takes 2 bones, got " + std::to_string(asked.lengths.size());
+    const auto first_fault = [](const char* list, std::size_t count, auto fault_at) {
+        for (std::size_t i = 0; i < count; ++i)
+            if (const char* const fault = fault_at(i)) return list + std::to_string(i) + ": " + fault;
+        return std::string();
+    };
+    if (const std::string limit = first_fault("limits.", asked.limits.size(),
+                                              [&](std::size_t i) {
+                                                  const glm::vec3 rest = asked.rest_directions.empty()
+                                                                             ? glm::vec3(1, 0, 0)
+                                                                             : asked.rest_directions[i];
+                                                  return ik::fault(asked.limits[i], rest);
+                                              });
+        !limit.empty())
+        return limit;
+    return first_fault("angle_limits.", asked.angle_limits.size(),
+                       [&](std::size_t i) { return ik::fault(asked.angle_limits[i]); });
+}
+
 Row solve(const Case& asked, ik::Method method, const SolveOptions& options, std::vector<glm::vec3>& joints) {
     Expected<ik::Solver> made = ik::Solver::make(asked.lengths, asked.rest_directions);
     if (!made) throw std::invalid_argument(made.message());
@@ -220,7 +245,9 @@ Row solve(const Case& asked, ik::Method method, const SolveOptions& options, std
     const auto begin = Clock::now();
     const ik::Report report = solver.solve(method, joints, state, asked.target, told);
     const std::chrono::duration<double, std::micro> taken = Clock::now() - begin;
-    return {asked, method, report, taken.count(), joints};
+    const bool invalid = report.status == ik::Status::InvalidInput;
+    return {asked,  method,       report,  taken.count(),
+            joints, std::nullopt, nullptr, invalid ? refusal(asked, method) : ""};
 }
 
 /// One row, from where the row before left it.
@@ -331,8 +358,8 @@ const char* const solve_help =
     "Other keys are ignored. The whole file is checked first: a value of the wrong type or out of its range\n"
     "(1e9 m, a negative length, a wrong number of points, min over max) is reported with its line and\n"
     "place, and nothing is solved (exit code 2). So is a file of more than 64 MB. A case that a solver\n"
-    "cannot take, such as five bones for two_bone, has the status InvalidInput in its row. An empty list\n"
-    "gives an empty answer.\n"
+    "cannot take, such as five bones for two_bone, has the status InvalidInput in its row, with the reason\n"
+    "in a table and in --json. An empty list gives an empty answer.\n"
     "Ctrl+C ends the run with the rows done so far, whole and valid.\n"
     "To open a scene file that is named solve, write ./solve.";
 

@@ -150,10 +150,9 @@ class LinkageDrawing {
 
     void dead_point() {
         if (part_.result.report.status != ik::LinkageStatus::DeadPoint) return;
-        const std::vector<std::size_t> line = joints_in_line(part_);
-        for (std::size_t i = 1; i < line.size(); ++i)
-            list_.line(at(line[i - 1]), at(line[i]), px(2.0f), opaque(view_.palette.limit)).layer =
-                Layer::Overlay;
+        if (const auto found = app::dead_point(part_))
+            for (const auto& [from, to] : found->lines)
+                list_.line(at(from), at(to), px(2.0f), opaque(view_.palette.limit)).layer = Layer::Overlay;
     }
 
     void open_closures() {

@@ -73,6 +73,9 @@ void drive(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     if (given.has("angle_deg") && !turns(part, joint))
         throw Refused("joint \"" + joint + "\" is a slider: give value, in metres");
     drive.value = given.has("angle_deg") ? glm::radians(given.real("angle_deg")) : given.real("value");
+    const std::size_t link = *part.linkage().find_link(joint);
+    if (given.has("angle_deg") && std::abs(given.real("angle_deg")) < 360.0)
+        drive.value = turned_near(drive.value, part.state.joints[link].value, part.linkage().links[link]);
     drive.held = true;
     drive.rate = 0.0;
     solve_linkage(part, runtime);
@@ -356,11 +359,16 @@ void add_linkage_commands(CommandTable& table) {
         "Opens a mechanism made from named lengths", preset));
     table.add(linkage_command("linkage.set", "Set a mechanism's lengths", length_arguments(),
                               "Sets lengths of the preset; omitted ones are kept", set_lengths));
-    table.add(
-        linkage_command("linkage.drive", "Give a joint a value",
-                        {joint_argument(), number_argument("angle_deg", "of a hinge, degrees", -1e6, 1e6),
-                         number_argument("value", "of a slider, metres; of a hinge, radians", -1e6, 1e6)},
-                        "Turns a hinge or moves a slider, and holds it there", drive));
+    table.add(linkage_command(
+        "linkage.drive", "Give a joint a value",
+        {joint_argument(),
+         number_argument("angle_deg",
+                         "of a hinge, degrees. Under a full turn it is a direction, reached the "
+                         "shorter way; from 360 or -360 on, turns are counted from 0",
+                         -1e6, 1e6),
+         number_argument("value", "of a slider, metres; of a hinge, radians, with its turns counted", -1e6,
+                         1e6)},
+        "Turns a hinge or moves a slider, and holds it there", drive));
     table.add(linkage_command("linkage.release", "Let a joint move freely", {joint_argument()},
                               "Stops the joint's motor and lets it follow the others", release));
     table.add(linkage_command(

@@ -179,6 +179,8 @@ void take_shape(LinkagePart& part, LinkageShape shape, std::vector<LinkageRange>
 /// Sets the ranges of the joints that there are. Throws std::invalid_argument if one leaves out the pose in
 /// which the linkage is drawn.
 void set_ranges(LinkageShape& shape, std::vector<LinkageRange> ranges);
+/// A hinge's value, by whole turns nearest to another, or in its range.
+double turned_near(double value, double other, const ik::Link& link);
 /// The link of a bar of the sketch: it has the bar's name, or that of the motor that turns it. None: the bar
 /// floats.
 std::optional<std::size_t> link_of_bar(const ik::Linkage& linkage, const ik::LinkageSketch& sketch,

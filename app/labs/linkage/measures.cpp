@@ -6,9 +6,11 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <map>
 
 #include "app/document/text.hpp"
 #include "app/document/units.hpp"
+#include "app/labs/kit/arguments.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 
 namespace tendril::app {
@@ -152,38 +154,163 @@ ik::LinkageFreedom freedom_of(const LinkagePart& part) {
     return {held.counted + loose.counted, held.actual + loose.actual};
 }
 
-std::vector<std::size_t> joints_in_line(const LinkagePart& part, double within) {
-    const ik::LinkageSketch& sketch = part.shape->sketch;
-    double best = within;
-    std::vector<std::size_t> line;
-    for (std::size_t p = 0; p < sketch.points.size(); ++p) {
-        if (sketch.points[p].hold == ik::SketchHold::Pinned) continue;
-        // Of a bar with more joints, the one that joins it to something else.
-        std::vector<std::size_t> ends;
-        for (const ik::SketchBar& bar : sketch.bars) {
-            if (!is_on_bar(bar, p)) continue;
-            const auto end = std::ranges::find_if(bar.points, [&](std::size_t other) {
-                return other != p && (sketch.points[other].hold != ik::SketchHold::Free ||
-                                      bars_at(sketch, other).size() > 1);
-            });
-            if (end != bar.points.end()) ends.push_back(*end);
-        }
-        if (ends.size() != 2) continue;
-        const double angle = between(way(part, p, ends[0]), way(part, p, ends[1]));
-        const double bend = std::min(angle, 180.0 - angle);
-        if (bend >= best) continue;
-        best = bend;
-        line = {ends[0], p, ends[1]};
+namespace {
+
+/// What the joints of a linkage's bodies exert on each other while something balances its motor.
+class BalancedBodies {
+  public:
+    BalancedBodies(const LinkagePart& part, std::size_t driver)
+        : part_(part),
+          sketch_(part.shape->sketch),
+          linkage_(part.linkage()),
+          rigid_(ik::rigid_bodies(sketch_)),
+          body_(linkage_.links.size()),
+          forces_(linkage_.closures.size()) {
+        for (std::size_t i = 0; i < body_.size(); ++i) body_[i] = rigid_.size() + i;  // a guided point's
+        for (std::size_t bar = 0; bar < rigid_.size(); ++bar)
+            if (const auto link = link_of_bar(linkage_, sketch_, bar)) body_[*link] = rigid_[bar];
+        std::vector<std::size_t> held;
+        for (const LinkageDrive& each : part.drives)
+            if (each.held) held.push_back(*linkage_.find_link(each.joint));
+        ik::LinkageSolver solver = require_value(ik::LinkageSolver::make(linkage_));
+        loose_ = solver.balance(part.state, driver, held, forces_);
+        add_up();
+        turned_ = {body_of(driver), body_of(linkage_.links[driver].parent), ik::ground_link};
     }
-    return line;
+    /// The part of the motor's torque that nothing balances.
+    double loose() const { return loose_; }
+
+    /// Two bars, each held by two joints, are in line where they balance each other.
+    std::optional<DeadPoint> bars_in_line() const {
+        for (const auto& [body, points] : at_)
+            for (const auto& [joint, force] : points) {
+                const auto end = other_end(body, joint);
+                const auto other = only_other(body, joint);
+                if (!end || !other) continue;
+                if (sketch_.points[joint].hold == ik::SketchHold::Guided)
+                    return DeadPoint{{{*end, joint}},
+                                     "the line from " + name(*end) + " to " + name(joint) +
+                                         " is square to the guide of " + name(joint)};
+                const auto next = other_end(*other, joint);
+                if (next && body < *other)
+                    return DeadPoint{
+                        {{*end, joint}, {joint, *next}},
+                        name(*end) + ", " + name(joint) + " and " + name(*next) + " are in line"};
+            }
+        return std::nullopt;
+    }
+    /// The lines of three forces that balance meet.
+    std::optional<DeadPoint> forces_that_meet() const {
+        for (const auto& [body, points] : at_) {
+            if (points.size() != 3 || is_turned(body)) continue;
+            DeadPoint found;
+            std::vector<std::string> lines;
+            std::vector<glm::dvec2> ways;
+            for (const auto& [joint, force] : points) {
+                const auto other = only_other(body, joint);
+                const auto end = other ? other_end(*other, joint) : std::nullopt;
+                lines.push_back(end ? name(joint) + "-" + name(*end) : "of the force on " + name(joint));
+                if (end) found.lines.push_back({joint, *end});
+                ways.push_back(force / glm::length(force));
+            }
+            const auto apart = [&](std::size_t a, std::size_t b) {
+                return std::abs(ways[a].x * ways[b].y - ways[a].y * ways[b].x);
+            };
+            constexpr double parallel = 0.01;
+            const bool meet = std::max(apart(0, 1), apart(0, 2)) > parallel;
+            found.text = "the lines " + lines[0] + ", " + lines[1] + " and " + lines[2] +
+                         (meet ? " meet in one point" : " are parallel");
+            return found;
+        }
+        return std::nullopt;
+    }
+
+  private:
+    using Forces = std::map<std::size_t, glm::dvec2>;  ///< by the points of the sketch
+
+    std::size_t body_of(std::size_t link) const { return link == ik::ground_link ? link : body_[link]; }
+    const std::string& name(std::size_t point) const { return sketch_.points[point].name; }
+    /// A point of the sketch by where it is drawn.
+    std::size_t point_at(const glm::dvec3& drawn, const std::string& called) const {
+        std::size_t found = 0;
+        for (std::size_t i = sketch_.points.size(); i-- > 0;)
+            if (sketch_.points[i].at == glm::dvec2(drawn)) {
+                found = i;
+                if (sketch_.points[i].name == called) break;
+            }
+        return found;
+    }
+    void add_up() {
+        std::vector<glm::dvec2> on_link(body_.size(), glm::dvec2(0.0));
+        const auto exert = [&](std::size_t link, std::size_t point, const glm::dvec2& force) {
+            at_[body_of(link)].try_emplace(point, glm::dvec2(0.0)).first->second += force;
+            if (link != ik::ground_link) on_link[link] += force;
+        };
+        for (std::size_t i = 0; i < forces_.size(); ++i) {
+            const ik::Closure& closure = linkage_.closures[i];
+            const std::size_t point = point_at(closure.first_at, closure.name);
+            exert(closure.first, point, glm::dvec2(forces_[i]));
+            exert(closure.second, point, -glm::dvec2(forces_[i]));
+        }
+        for (std::size_t i = body_.size(); i-- > 0;) {
+            const glm::dvec2 passed_on = on_link[i];
+            const std::size_t point = point_at(linkage_.links[i].at, linkage_.links[i].name);
+            exert(i, point, -passed_on);
+            exert(linkage_.links[i].parent, point, passed_on);
+        }
+        double largest = 0.0;
+        for (const auto& [body, points] : at_)
+            for (const auto& [point, force] : points) largest = std::max(largest, glm::length(force));
+        // Near a dead point other loops have a part of what is not balanced there.
+        const double minimum = std::max(0.01, 3.0 * loose_) * largest;
+        for (auto& [body, points] : at_)
+            std::erase_if(points, [&](const auto& each) { return glm::length(each.second) <= minimum; });
+    }
+    bool is_turned(std::size_t body) const { return std::ranges::find(turned_, body) != turned_.end(); }
+    /// Of a body that two joints hold.
+    std::optional<std::size_t> other_end(std::size_t body, std::size_t joint) const {
+        const auto found = at_.find(body);
+        if (found == at_.end() || found->second.size() != 2 || is_turned(body)) return std::nullopt;
+        const std::size_t first = found->second.begin()->first;
+        return first == joint ? found->second.rbegin()->first : first;
+    }
+    /// The one body besides this that is held at the joint.
+    std::optional<std::size_t> only_other(std::size_t body, std::size_t joint) const {
+        std::optional<std::size_t> other;
+        for (const auto& [each, points] : at_) {
+            if (each == body || !points.contains(joint)) continue;
+            if (other) return std::nullopt;
+            other = each;
+        }
+        return other;
+    }
+
+    const LinkagePart& part_;
+    const ik::LinkageSketch& sketch_;
+    const ik::Linkage& linkage_;
+    std::vector<std::size_t> rigid_, body_;  ///< of each bar, and of each link
+    std::vector<glm::dvec3> forces_;
+    double loose_ = 1.0;
+    std::map<std::size_t, Forces> at_;     ///< by body
+    std::array<std::size_t, 3> turned_{};  ///< the motor's torque is on these as well, and on the ground any
+};
+
+}  // namespace
+
+std::optional<DeadPoint> dead_point(const LinkagePart& part, double within) {
+    if (part.shape->sketch.points.empty()) return std::nullopt;
+    std::optional<std::size_t> driver = part.result.report.stopped;
+    if (!driver && !part.drives.empty()) driver = part.linkage().find_link(part.drives.front().joint);
+    if (!driver) return std::nullopt;
+    const BalancedBodies bodies(part, *driver);
+    if (bodies.loose() > std::sin(glm::radians(within))) return std::nullopt;
+    if (auto found = bodies.bars_in_line()) return found;
+    return bodies.forces_that_meet();
 }
 
 std::string dead_point_reason(const LinkagePart& part, double within) {
-    const std::vector<std::size_t> line = joints_in_line(part, within);
-    if (line.empty()) return {};
-    const auto& points = part.shape->sketch.points;
-    return points[line[0]].name + ", " + points[line[1]].name + " and " + points[line[2]].name +
-           " are in line";
+    const auto found = dead_point(part, within);
+    return found ? found->text : std::string();
 }
 
 std::string stop_text(const LinkagePart& part) {

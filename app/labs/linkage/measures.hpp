@@ -2,6 +2,7 @@
 // and why a motor stops.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -56,10 +57,17 @@ class PartInTurn {
 /// Degrees of freedom, with those of what floats: three for each piece that no pin holds, and its own.
 ik::LinkageFreedom freedom_of(const LinkagePart& part);
 
-/// The three joints of two bars that are most nearly in line, the middle one between; empty: none are within
-/// so many degrees.
-std::vector<std::size_t> joints_in_line(const LinkagePart& part, double within = 4.0);
-/// "B, C and D are in line": why a motor stops there. Empty if no joint shows it.
+/// Why the stopped motor, or else the first, is at a dead point: found from the forces by which the rest of
+/// the linkage balances its torque. Two bodies that two joints hold each are in line, or the forces on one
+/// that three hold meet. A body is all bars that triangles join.
+struct DeadPoint {
+    std::vector<std::array<std::size_t, 2>> lines{};  ///< each from one point of the sketch to another
+    std::string text{};                               ///< "B, C and D are in line"
+};
+/// `within`: degrees of a joint off the dead point, roughly. None in space, and where more than three forces
+/// balance.
+std::optional<DeadPoint> dead_point(const LinkagePart& part, double within = 4.0);
+/// Its text, or empty.
 std::string dead_point_reason(const LinkagePart& part, double within = 4.0);
 /// "Crank at 43.0 degrees"
 std::string stop_text(const LinkagePart& part);

@@ -252,20 +252,19 @@ std::optional<std::size_t> link_of_bar(const ik::Linkage& linkage, const ik::Lin
     return linkage.find_link(sketch.bars[bar].name);
 }
 
-namespace {
+static constexpr double whole_turn = 2.0 * std::numbers::pi;
 
-constexpr double whole_turn = 2.0 * std::numbers::pi;
-
-bool is_hinge(const ik::Link& link) {
-    return link.joint == ik::LinkJoint::Hinge;
-}
-
-/// A hinge's value, by whole turns nearest to another, or in its range.
 double turned_near(double value, double other, const ik::Link& link) {
     value += whole_turn * std::round((other - value) / whole_turn);
     if (value > link.maximum) value -= whole_turn * std::ceil((value - link.maximum) / whole_turn);
     if (value < link.minimum) value += whole_turn * std::ceil((link.minimum - value) / whole_turn);
     return value;
+}
+
+namespace {
+
+bool is_hinge(const ik::Link& link) {
+    return link.joint == ik::LinkJoint::Hinge;
 }
 
 /// The direction of a bar, from its first joint to its second.

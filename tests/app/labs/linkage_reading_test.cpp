@@ -205,6 +205,81 @@ TEST_F(LinkageReading, AFourBarsKindSaysWhetherItsCrankGoesRound) {
     EXPECT_EQ(four_bar_kind(part()), "");
 }
 
+// The joints of one rigid body are in line by how it is built: they are never the cause.
+TEST_F(LinkageReading, ADeadPointNamesTheJointsThatMatterBesideAnyTriangles) {
+    test::RandomNumbers random(15);
+    int in_line = 0, meeting = 0;
+    for (int i = 0; i < 80; ++i) {
+        const auto joint = [&](const char* name, double x, double y, double spread = 0.6) {
+            run("linkage.joint",
+                {{"at", {x + random.uniform(-spread, spread), y + random.uniform(-spread, spread), 0}},
+                 {"name", name}});
+        };
+        const auto bars = [&](std::initializer_list<const char*> names) {
+            for (const std::string name : names)
+                run("linkage.bar", {{"from", name.substr(0, 1)}, {"to", name.substr(1)}, {"name", name}});
+        };
+        const bool driven_aside = i % 2 == 1;
+        run("linkage.clear");
+        joint("A", 0, 0), joint("B", 0, 2), joint("C", 3, 2), joint("D", 3, 0),
+            joint("E", 1.5, i % 3 == 0 ? 2 : 3);
+        bars({"AB", "BC", "CD", "BE", "CE"});
+        if (driven_aside)
+            joint("F", 3, 5), joint("G", 5, 4), bars({"EF", "FG"});
+        else
+            joint("F", 4, 1, 0.4), bars({"CF", "DF"});
+        for (const char* pin : {"A", "D"}) run("linkage.pin", {{"point", pin}});
+        if (driven_aside) run("linkage.pin", {{"point", "G"}});
+        run("linkage.motor.add",
+            {{"point", driven_aside ? "G" : "A"}, {"bar", driven_aside ? "FG" : "AB"}, {"name", "m"}});
+        for (int k = 0; k < 40 && state().at("status") == "Reached"; ++k)
+            run("linkage.drive", {{"joint", "m"}, {"angle_deg", driver("m") + (i % 4 < 2 ? 10.0 : -10.0)}});
+        if (state().at("status") != "DeadPoint") continue;
+        const std::string reason = dead_point_reason(part());
+        const auto off_line = [&](const char* a, const char* b, const char* c) {
+            const glm::dvec3 u = glm::normalize(at(b) - at(a)), v = glm::normalize(at(c) - at(b));
+            return std::abs(u.x * v.y - u.y * v.x);
+        };
+        if (reason == "B, C and D are in line" || reason == "D, C and B are in line") {
+            EXPECT_LT(off_line("B", "C", "D"), 0.02) << i;
+            ++in_line;
+        } else if (driven_aside &&
+                   (reason == "A, B and C are in line" || reason == "C, B and A are in line")) {
+            EXPECT_LT(off_line("A", "B", "C"), 0.02) << i;
+        } else {
+            ASSERT_TRUE(driven_aside) << i << ": " << reason;
+            EXPECT_TRUE(test::says(reason, "the lines B-A, C-D and E-F")) << i << ": " << reason;
+            // Where two of them cross, the third passes.
+            const glm::dvec3 u = at("B") - at("A"), v = at("D") - at("C"), w = at("C") - at("A");
+            const double across = u.x * v.y - u.y * v.x;
+            if (std::abs(across) < 0.1) continue;
+            const glm::dvec3 meet = at("A") + (w.x * v.y - w.y * v.x) / across * u;
+            const glm::dvec3 f = at("F") - at("E"), to = meet - at("E");
+            EXPECT_LT(std::abs(f.x * to.y - f.y * to.x) / glm::length(f) / (1.0 + glm::length(to)), 0.02)
+                << i;
+            ++meeting;
+        }
+    }
+    EXPECT_GT(in_line, 10);
+    EXPECT_GT(meeting, 5);
+}
+
+TEST_F(LinkageReading, AnAngleIsReachedTheShorterWayAndTurnsAreAskedFor) {
+    four_bar();
+    const auto to = [&](double angle) {
+        run("linkage.drive", {{"joint", "crank"}, {"angle_deg", angle}});
+        return driver("crank");
+    };
+    EXPECT_NEAR(to(170), 170.0, 1e-6);
+    EXPECT_NEAR(to(-170), 190.0, 1e-6);
+    EXPECT_NEAR(to(10), 370.0, 1e-6) << "half a turn: on";
+    EXPECT_NEAR(to(720), 720.0, 1e-6);
+    EXPECT_NEAR(to(-10), 710.0, 1e-6);
+    EXPECT_NEAR(to(-360), -360.0, 1e-6);
+    run("linkage.range", {{"joint", "crank"}, {"min", -400}, {"max", -200}});
+    EXPECT_NEAR(to(100), -260.0, 1e-6) << "the range has no other";
+}
+
 TEST_F(LinkageReading, APlotOverTheMotorsAngleGoesAllRound) {
     four_bar();
     run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 500}});
