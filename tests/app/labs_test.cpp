@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
 #include "app/labs/labs.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/places.hpp"

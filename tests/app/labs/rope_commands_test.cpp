@@ -393,23 +393,5 @@ TEST_F(RopeCommands, LooksLeaveNoStepAndAreKept) {
     EXPECT_EQ(state().at("ropes").size(), 4u);
 }
 
-/// Each preset stays intact and in place, and is in view.
-TEST_F(RopeCommands, ScenesHoldTogether) {
-    for (const RopeSceneEntry& entry : rope_scenes()) {
-        run("rope.preset", {{"name", entry.name}});
-        EXPECT_EQ(workspace.camera, entry.view);
-        wait(90);
-        double worst = 0.0;
-        for (const rope::Body& body : world().state().bodies)
-            worst = std::max(worst, world().length_error(body));
-        EXPECT_LT(worst, 0.06) << entry.name;
-        const Bounds bounds = lab().bounds(workspace, false);
-        EXPECT_LT(bounds.radius, 4.0f) << entry.name;
-        EXPECT_LT(glm::length(bounds.centre), 3.0f) << entry.name;
-        EXPECT_EQ(world().state().dropped, 0u);
-        EXPECT_LE(lab().handles(workspace).size(), 1000u);
-    }
-}
-
 }  // namespace
 }  // namespace tendril::app

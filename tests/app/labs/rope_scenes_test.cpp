@@ -29,7 +29,11 @@ TEST_P(RopeSceneHolds, KeepsLengthsWithinAPercent) {
     EXPECT_EQ(world().state().links.size(), links);
     EXPECT_EQ(world().state().ties.size(), ties);
     EXPECT_EQ(world().state().dropped, 0u);
-    EXPECT_LT(lab().bounds(workspace, false).radius, 4.0f);
+    const Bounds bounds = lab().bounds(workspace, false);
+    EXPECT_LT(bounds.radius, 4.0f);
+    EXPECT_LT(glm::length(bounds.centre), 3.0f);
+    EXPECT_EQ(workspace.camera, std::ranges::find(rope_scenes(), GetParam(), &RopeSceneEntry::name)->view);
+    EXPECT_LE(lab().handles(workspace).size(), 1000u);
 }
 
 std::vector<std::string> all_rope_scenes() {
