@@ -76,11 +76,13 @@ Workspace opened_again(const Workspace& workspace) {
 Json lasting_state(const Lab& lab, const Workspace& workspace) {
     Json state = lab.state(workspace);
     for (const char* key : {"verdict", "why", "status", "last_second", "frame_ms", "race"}) state.erase(key);
-    if (state.contains("solve")) state["solve"].erase("report");
+    if (state.contains("solve"))
+        for (const char* key : {"report", "active_limit", "explanation"}) state["solve"].erase(key);
     return {{"state", std::move(state)}, {"saved", workspace.document.parts().at(workspace.lab)->save()}};
 }
 
-/// And the open lab shows the same, to the bit, then and five seconds later; half a second if that takes long.
+/// And the open lab shows the same, to the bit, then and five seconds later; half a second if that takes
+/// long.
 void expect_opens_as_it_was(App& app) {
     constexpr std::uint64_t long_work = 50'000;
     Workspace& live = app.workspace();
@@ -126,7 +128,7 @@ TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
 /// Random scenes per test scene; TENDRIL_RANDOM_SCENES overrides it.
 unsigned random_scenes() {
     const char* const given = std::getenv("TENDRIL_RANDOM_SCENES");
-    return given == nullptr ? 2u : static_cast<unsigned>(std::strtoul(given, nullptr, 10));
+    return given == nullptr ? 1u : static_cast<unsigned>(std::strtoul(given, nullptr, 10));
 }
 
 TEST_P(EveryScene, OpensAsItWasSavedWhateverWasDoneToIt) {
