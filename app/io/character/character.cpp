@@ -89,9 +89,8 @@ void convert(std::vector<humanoid::Node>& nodes, std::vector<humanoid::Clip>& cl
                             value += turn_of(before.space.up) * (times * root.offset);
     }
     normalise(nodes, clips, now.scale / before.scale,
-              now.space.up == before.space.up
-                  ? turn_of(UpAxis::Y)
-                  : turn_of(now.space.up) * conjugate(turn_of(before.space.up)));
+              now.space.up == before.space.up ? turn_of(UpAxis::Y)
+                                              : turn_of(now.space.up) * conjugate(turn_of(before.space.up)));
 }
 
 }  // namespace

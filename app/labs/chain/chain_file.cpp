@@ -160,10 +160,9 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
             part->iterations[i] = repeats[chain_modes.rows[i].name].integer(1, max_iterations);
         part->tolerance = place["tolerance"].number(0.0f, max_magnitude);
         part->target = place["target"].point();
-        if (const auto kept = place.optional("reach_target")) {
-            if (part->mode == ChainMode::Reach) kept->fail("is for other modes than reach");
+        // Some older scenes have one in mode Reach too.
+        if (const auto kept = place.optional("reach_target"); kept && part->mode != ChainMode::Reach)
             part->reach_target = kept->point();
-        }
         part->motion = load_motion(place["motion"]);
         part->chain = require_value(
             Chain::from_segments(load_segments(place["segments"]), place["default_direction"].point()));

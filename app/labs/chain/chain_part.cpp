@@ -73,9 +73,11 @@ void enter_mode(ChainPart& part, ChainMode mode) {
     part.mode = mode;
     part.result.reset();
     put_target_on_led_joint(part);
-    if (mode != ChainMode::Reach || part.chain.empty() || part.motion.path != Motion::Path::Still) return;
-    if (part.reach_target)
-        part.target = *std::exchange(part.reach_target, std::nullopt);
+    if (mode != ChainMode::Reach) return;
+    const auto kept = std::exchange(part.reach_target, std::nullopt);
+    if (part.chain.empty() || part.motion.path != Motion::Path::Still) return;
+    if (kept)
+        part.target = *kept;
     else if (!from_tip)
         part.target = part.chain.position(part.chain.size() - 1);
 }

@@ -152,8 +152,9 @@ void read_edit(const JsonPlace& place, HumanoidPart& part) {
     try {
         // The path may not exist on another machine.
         part.loaded =
-            file.empty() ? cured(part, cure).loaded
-                         : with_motion(part, std::filesystem::exists(path) ? path : file, cure.clip, file).loaded;
+            file.empty()
+                ? cured(part, cure).loaded
+                : with_motion(part, std::filesystem::exists(path) ? path : file, cure.clip, file).loaded;
     } catch (const std::exception& error) {
         (file.empty() ? place : place["file"]).fail(error.what());
     }
@@ -202,8 +203,7 @@ Json HumanoidPart::save() const {
 std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& where) const {
     const JsonPlace place(json, where);
     const std::string file = place["file"].text();
-    auto part =
-        std::make_shared<HumanoidPart>(file.empty() ? load_character(file) : read_again(place, file));
+    auto part = std::make_shared<HumanoidPart>(file.empty() ? load_character(file) : read_again(place, file));
     take(place, *part, read_reading(place, reading_of(*part), part->skeleton()));
     read_edits(place, *part);
     if (const auto clip = place.optional("clip")) part->playback = read_playback(*clip, *part->loaded);

@@ -281,10 +281,11 @@ TEST_F(ChainReach, saves_its_target_while_another_mode_is_on) {
     Json wrong = saved;
     wrong["reach_target"] = {1, 2};
     EXPECT_TRUE(test::says(test::message_of([&] { part().load(wrong, "chain"); }), "chain.reach_target"));
-    wrong = saved;
-    wrong["mode"] = "reach";
-    EXPECT_TRUE(
-        test::says(test::message_of([&] { part().load(wrong, "chain"); }), "chain.reach_target reach"));
+
+    run("chain.mode", {{"mode", "forward"}});
+    run("chain.motion", {{"path", "circle"}});
+    run("chain.mode", {{"mode", "reach"}});
+    EXPECT_EQ(part().load(part().save(), "chain")->save(), part().save()) << "of a moving target, too";
 }
 
 TEST_F(ChainReach, a_preset_begins_without_a_pole) {

@@ -61,11 +61,11 @@ struct LoadedCharacter {
     std::string file;  ///< as given; empty: the stick figure
     std::string path;  ///< absolute path; empty for the stick figure
     Character character;
-    std::vector<ClipEdit> edits{};          ///< of its clips, in the order in which they were made
+    std::vector<ClipEdit> edits{};                    ///< of its clips, in the order in which they were made
     std::shared_ptr<const LoadedCharacter> source{};  ///< as the file was first read; null: this is it
-    humanoid::BoneMap matched;              ///< as named in the file, or as matched by the library
-    std::vector<humanoid::Placement> rest;  ///< of all nodes
-    RestBounds bounds{};                    ///< at rest
+    humanoid::BoneMap matched;                        ///< as named in the file, or as matched by the library
+    std::vector<humanoid::Placement> rest;            ///< of all nodes
+    RestBounds bounds{};                              ///< at rest
     const humanoid::Skeleton& skeleton() const { return character.skeleton; }
     const std::vector<humanoid::Clip>& clips() const { return character.clips; }
     double height() const { return bounds.height(); }

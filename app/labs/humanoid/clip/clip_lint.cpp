@@ -201,8 +201,7 @@ CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* pr
             throw std::invalid_argument("clip " + cure.clip + " has no such fault that can be fixed");
         throw std::invalid_argument(fixable->text + " cannot be fixed without a new fault");
     }
-    return {edited(part.loaded,
-                   {cure, reading_of(part), std::make_shared<const Clip>(std::move(clip))}),
+    return {edited(part.loaded, {cure, reading_of(part), std::make_shared<const Clip>(std::move(clip))}),
             cured_text(cure.clip, before - now, now, left)};
 }
 

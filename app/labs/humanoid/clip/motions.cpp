@@ -39,11 +39,11 @@ PlayedMotion with_motion(const HumanoidPart& part, const std::string& file, cons
     PlayedMotion played;
     played.text = "Clip " + motion.clip.name + " from " + std::filesystem::path(file).filename().string() +
                   ". " + motion.notes.front();
-    played.loaded = edited(
-        part.loaded, {LoadedMotion{named.empty() ? file : named,
-                                   std::filesystem::absolute(file).lexically_normal().string(), wanted.name,
-                                   std::move(motion.notes)},
-                      reading_of(part), std::make_shared<const Clip>(std::move(motion.clip))});
+    played.loaded =
+        edited(part.loaded, {LoadedMotion{named.empty() ? file : named,
+                                          std::filesystem::absolute(file).lexically_normal().string(),
+                                          wanted.name, std::move(motion.notes)},
+                             reading_of(part), std::make_shared<const Clip>(std::move(motion.clip))});
     return played;
 }
 

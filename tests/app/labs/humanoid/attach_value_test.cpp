@@ -13,12 +13,7 @@ TEST_F(HumanoidAttach, ComesFromAFileAsItWas) {
     dress();
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
     tick(33);
-    Workspace other = reopened();
-    EXPECT_EQ(lab().state(other), state());
-    EXPECT_TRUE(humanoid_part(other).attachments == part().attachments);
-    for (int i = 0; i < 30; ++i) lab().step(other);
-    tick(30);
-    EXPECT_EQ(lab().state(other), state());
+    expect_goes_on_the_same();
 }
 
 TEST_F(HumanoidAttach, ReplaysTheSame) {

@@ -189,8 +189,6 @@ TEST_F(HumanoidClips, ThatWalkInPlaceCanTravel) {
     EXPECT_EQ(result->treadmill, glm::dvec3(0.0)) << "the ground stands still";
     EXPECT_TRUE(result->findings.empty()) << result->findings[0].text;
     run("humanoid.export", {{"path", (folder / "out.glb").string()}});
-    const Workspace other = reopened();
-    EXPECT_EQ(humanoid_part(other).playback, part().playback);
     run("humanoid.load", {{"path", (folder / "out.glb").string()}});
     run("humanoid.clip", {{"index", 0}, {"time", walk_seconds}});
     EXPECT_NEAR(bone("Hips").z, walk_metres, 0.06);
@@ -274,11 +272,7 @@ TEST_F(HumanoidClips, GoOnFromAFileAsTheyWere) {
     run("humanoid.select", {{"node", "Head"}});
     run("humanoid.map", {{"bone", "UpperChest"}});
     run("humanoid.map", {{"bone", "Chest"}, {"node", "UpperChest"}});
-    Workspace other = reopened();
-    EXPECT_EQ(lab().state(other), state());
-    for (int i = 0; i < 30; ++i) lab().step(other);
-    tick(30);
-    EXPECT_EQ(lab().state(other), state());
+    expect_goes_on_the_same();
 }
 
 TEST_F(HumanoidClips, AFileThatIsWrongIsRefusedWithItsPlace) {

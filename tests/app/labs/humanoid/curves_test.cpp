@@ -121,12 +121,7 @@ TEST_F(HumanoidCurves, AreSavedUndoneAndReplayedTheSame) {
     move_point(2, {0.2f, 0.0f, 0.1f});
     run("humanoid.clip", {{"index", 0}, {"play", true}});
     tick(30);
-    Workspace other = reopened();
-    EXPECT_EQ(humanoid_part(other).curves, part().curves);
-    EXPECT_EQ(lab().state(other), state());
-    for (int i = 0; i < 20; ++i) lab().step(other);
-    tick(20);
-    EXPECT_EQ(lab().state(other), state());
+    expect_goes_on_the_same();
     run("undo");
     run("undo");
     EXPECT_EQ(curve().at("roll_end_deg"), 30.0);

@@ -302,11 +302,7 @@ TEST_F(HumanoidFeet, AreSavedAsTheyStand) {
     run("humanoid.foot_ik", {{"on", true}, {"enter_speed", 0.25}, {"max_angle_deg", 30}});
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
     tick(50);
-    Workspace other = reopened();
-    EXPECT_EQ(lab().state(other), state());
-    for (int i = 0; i < 40; ++i) lab().step(other);
-    tick(40);
-    EXPECT_EQ(lab().state(other), state());
+    expect_goes_on_the_same();
 }
 
 TEST_F(HumanoidFeet, RefuseWhatIsOutOfRange) {
@@ -336,17 +332,6 @@ TEST_F(HumanoidFeet, OnTheGroundCarryABodyThatReaches) {
     for (std::size_t side = 0; side < 2; ++side)
         EXPECT_LT(glm::distance(vector(foot(side).at("toe")), vector(before[side].at("toe"))), 1e-3)
             << "feet stay where the ground has them";
-}
-
-TEST_F(HumanoidFeet, ASavedWalkGoesOnAsItWould) {
-    run("humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.15}, {"step_depth", 0.3}});
-    run("humanoid.foot_ik", {{"on", true}});
-    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
-    for (int round = 0; round < 12; ++round) {
-        tick(11);
-        Workspace other = reopened();
-        EXPECT_EQ(lab().state(other), state()) << "after " << 11 * (round + 1) << " ticks";
-    }
 }
 
 }  // namespace

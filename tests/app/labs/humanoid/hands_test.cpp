@@ -78,11 +78,7 @@ TEST_F(HumanoidHands, ComeFromAFileAsTheyWere) {
     run("humanoid.look_at", {{"on", true}, {"to", {1, 1.5, 1}}, {"weight", 0.7}});
     run("humanoid.self_collision", {{"on", true}});
     tick(33);
-    Workspace other = reopened();
-    EXPECT_EQ(lab().state(other), state());
-    for (int i = 0; i < 30; ++i) lab().step(other);
-    tick(30);
-    EXPECT_EQ(lab().state(other), state());
+    expect_goes_on_the_same();
 }
 
 TEST_F(HumanoidHands, TimesMayBeTypedInAnyOrder) {

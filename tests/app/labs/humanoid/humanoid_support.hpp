@@ -43,6 +43,14 @@ class HumanoidTest : public LabTest {
         load_scene(other, save_scene(workspace));
         return other;
     }
+    /// Saved and loaded, the lab is the same to the bit, then and after `ticks`.
+    void expect_goes_on_the_same(int ticks = 30) {
+        Workspace other = reopened();
+        EXPECT_EQ(save_scene(other), save_scene(workspace));
+        EXPECT_EQ(lab().state(other), state());
+        for (int i = 0; i < ticks; ++i) lab().step(other), lab().step(workspace);
+        EXPECT_EQ(lab().state(other), state());
+    }
 };
 
 /// A figure with A-pose arms as a BVH in centimetres: two frames in which it moves 50 cm towards +Z.

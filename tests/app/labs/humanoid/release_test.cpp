@@ -214,12 +214,7 @@ TEST_F(HumanoidRelease, IsSavedUndoneAndGoesOnTheSame) {
     let_go("left_hand");
     tick(5);
     EXPECT_NE(part().ik_state.release, Release());
-    Workspace other = reopened();
-    EXPECT_EQ(humanoid_part(other).ik_state.release, part().ik_state.release);
-    EXPECT_EQ(lab().state(other), state());
-    for (int i = 0; i < 30; ++i) lab().step(other);
-    tick(30);
-    EXPECT_EQ(lab().state(other), state());
+    expect_goes_on_the_same();
     run("undo");
     run("undo");
     EXPECT_EQ(state(), held);

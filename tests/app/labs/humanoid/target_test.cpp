@@ -186,11 +186,7 @@ TEST_F(HumanoidTargets, AreSavedWithWhatTheBodyRemembers) {
         {{"effector", "head"}, {"to", {0, 1.5, 0.3}}, {"rotation", {0, 0, 0, 1}}, {"weight", 0.5}});
     run("humanoid.limits", {{"from", "motion"}});
     tick(7);
-    Workspace other = reopened();
-    EXPECT_EQ(lab().state(other), state());
-    for (int i = 0; i < 20; ++i) lab().step(other);
-    tick(20);
-    EXPECT_EQ(lab().state(other), state());
+    expect_goes_on_the_same();
 }
 
 TEST_F(HumanoidTargets, StandWhereARuntimeIsThrownAway) {
