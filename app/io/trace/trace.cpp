@@ -118,8 +118,8 @@ namespace {
 /// How far from the target each joint is over the frames: the median, at the best of some lags.
 std::vector<double> distances_to_target(const std::vector<const RawFrame*>& frames) {
     constexpr std::size_t max_lag = 8;
-    std::vector<double> least(frames.front()->joints.size(), std::numeric_limits<double>::infinity());
-    for (std::size_t joint = 0; joint < least.size(); ++joint)
+    std::vector<double> distances(frames.front()->joints.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t joint = 0; joint < distances.size(); ++joint)
         for (std::size_t lag = 0; lag <= max_lag && 2 * lag < frames.size(); ++lag) {
             std::vector<double> all;
             for (std::size_t i = lag; i < frames.size(); ++i)
@@ -129,9 +129,9 @@ std::vector<double> distances_to_target(const std::vector<const RawFrame*>& fram
             if (all.empty()) continue;
             const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
             std::ranges::nth_element(all, middle);
-            least[joint] = std::min(least[joint], *middle);
+            distances[joint] = std::min(distances[joint], *middle);
         }
-    return least;
+    return distances;
 }
 
 }  // namespace

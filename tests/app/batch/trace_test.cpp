@@ -48,6 +48,16 @@ TEST_F(TraceProgram, NamesTheFrameTheJointAndTheCauseOfAFlip) {
     EXPECT_TRUE(says(outcome.out, "1 incident"));
 }
 
+TEST_F(TraceProgram, OpensWithItsTimelineFromTheCommandLine) {
+    const Outcome outcome =
+        run_here({"--headless", "--no-config", file("arm.csv", Plant::FlipAtPole, Format::Csv), "--state",
+                  path("state.json")});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const app::Json time = app::parse_json(read(path("state.json")))["time"];
+    EXPECT_EQ(time["remembered"], 119);
+    EXPECT_EQ(time["moment"], 60) << "where it goes wrong";
+}
+
 TEST_F(TraceProgram, JsonSaysWhatWouldHavePreventedAFlip) {
     const Outcome outcome =
         run_here({"trace", file("arm.jsonl", Plant::FlipAtPole, Format::JsonLines), "--json"});
