@@ -105,7 +105,9 @@ std::vector<std::pair<const char*, Edit>> edits(const FullWorld& made) {
 TEST(RopeMemory, AnEditThatRunsOutOfItChangesNothing) {
     const FullWorld made;
     larger_world();
-    for (const auto& [name, edit] : edits(made)) {
+    for (const auto& named : edits(made)) {
+        const char* const name = named.first;
+        const Edit& edit = named.second;
         std::size_t failures = 0;
         for (bool whole = false; !whole && failures < 2000; failures += whole ? 0 : 1) {
             rope::World world = made.world;

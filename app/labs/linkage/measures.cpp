@@ -160,8 +160,7 @@ namespace {
 class BalancedBodies {
   public:
     BalancedBodies(const LinkagePart& part, std::size_t driver)
-        : part_(part),
-          sketch_(part.shape->sketch),
+        : sketch_(part.shape->sketch),
           linkage_(part.linkage()),
           rigid_(ik::rigid_bodies(sketch_)),
           body_(linkage_.links.size()),
@@ -285,7 +284,6 @@ class BalancedBodies {
         return other;
     }
 
-    const LinkagePart& part_;
     const ik::LinkageSketch& sketch_;
     const ik::Linkage& linkage_;
     std::vector<std::size_t> rigid_, body_;  ///< of each bar, and of each link
