@@ -76,9 +76,9 @@ Json save_crossings(const AlongCurve& along) {
 void load_crossings(const JsonPlace& place, ChainPart& part) {
     AlongCurve& along = part.along;
     along.memory.points = part.curve.points.size();
-    const double end = static_cast<double>(std::max<std::size_t>(along.memory.points, 1) - 1);
+    // Beyond the end they go on counting.
     place["at"].for_each("crossings", along.given.size(),
-                         [&](const JsonPlace& each) { along.memory.at.push_back(each.real(0.0, end)); });
+                         [&](const JsonPlace& each) { along.memory.at.push_back(each.real()); });
     follow_curve(part);
     if (const auto jumped = place.optional("jumped"); jumped && along.report)
         along.report->jumped = jumped->index(along.given.size() - 1);
