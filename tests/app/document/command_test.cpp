@@ -1,4 +1,4 @@
-// Arguments of commands: those that accept more than one form, and what every command refuses.
+// Arguments that accept more than one form.
 #include "app/document/command.hpp"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "app/document/json_complete.hpp"
-#include "app/labs/labs.hpp"
 #include "tests/app/support/test_part.hpp"
 #include "tests/says.hpp"
 
@@ -98,100 +97,6 @@ TEST_F(CommandArguments, ARotation) {
     refused("test.turn", {{"to", {0, 0}}});
     refused("test.turn", {{"to", {0, std::nan(""), 0}}});
     refused("test.turn", {{"to", {0, 0, 0, HUGE_VAL}}});
-}
-
-/// A value that passes the check.
-Json sound(const Argument& argument) {
-    switch (argument.type) {
-        case ArgumentType::Boolean:
-            return true;
-        case ArgumentType::Text:
-        case ArgumentType::ListOrText:
-            return argument.choices.empty() ? "name" : argument.choices.front();
-        case ArgumentType::Point:
-            return Json::array({1, 2, 3});
-        case ArgumentType::Rotation:
-            return Json::array({0, 0, 0, 1});
-        case ArgumentType::List:
-            return Json::array();
-        case ArgumentType::Any:
-            return nullptr;
-        default:
-            return argument.low > 0 || argument.high < 0 ? argument.low : 0.0;
-    }
-}
-
-/// Values of other types, beyond each end of the range, and numbers that are none.
-std::vector<Json> unsound(const Argument& argument) {
-    const std::vector<Json> no_numbers{std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300,
-                                       "1",          true,     nullptr,   Json::object()};
-    std::vector<Json> all;
-    switch (argument.type) {
-        case ArgumentType::Boolean:
-            return {0, 1, "true", nullptr, Json::array(), Json::object()};
-        case ArgumentType::Text:
-            all = {0, true, nullptr, Json::array({"a"}), Json::object()};
-            if (argument.name != "path") all.insert(all.end(), {"\xFF", "\xEF\xBF\xBD"});
-            if (!argument.choices.empty()) all.insert(all.end(), {"", "glue"});
-            return all;
-        case ArgumentType::Rotation:
-            all = {Json::array({0, 0, 0, 0}), Json::array({1, 1, 1, 1})};
-            [[fallthrough]];
-        case ArgumentType::Point:
-            all.insert(all.end(), {0, "here", nullptr, Json::array({0, 0}), Json::array({0, 0, 0, 0, 0})});
-            for (const Json& none : no_numbers) all.push_back(Json::array({0, none, 0}));
-            return all;
-        case ArgumentType::List:
-        case ArgumentType::ListOrText:
-            all = {0, true, nullptr, Json::object()};
-            if (argument.type == ArgumentType::List) all.push_back("a");
-            return all;
-        case ArgumentType::Any:
-            return {};
-        default:
-            all = no_numbers;
-            if (argument.type == ArgumentType::Integer) all.push_back(sound(argument).get<double>() + 0.5);
-            for (const double beyond : {argument.low - 1, argument.high + 1})
-                if (std::abs(beyond) < 1e15) all.push_back(beyond);
-            return all;
-    }
-}
-
-/// The program's own commands and those of all labs.
-TEST(EveryCommand, RefusesUnsoundArgumentsByName) {
-    const CommandTable commands = make_command_table(Labs());
-    std::size_t refusals = 0;
-    const auto expect_refused = [&](const Command& command, const Json& given, const std::string& says) {
-        try {
-            check_arguments(command, given);
-            ADD_FAILURE() << command.name << " accepts " << given;
-        } catch (const Refused& refusal) {
-            EXPECT_TRUE(test::says(refusal.what(), says)) << given;
-            ++refusals;
-        }
-    };
-    for (const Command& command : commands.all()) {
-        Json given = Json::object();
-        for (const Argument& argument : command.arguments)
-            if (argument.required) given[argument.name] = sound(argument);
-        EXPECT_NO_THROW(check_arguments(command, given)) << command.name;
-        for (const Argument& argument : command.arguments) {
-            Json changed = given;
-            changed[argument.name] = sound(argument);
-            EXPECT_NO_THROW(check_arguments(command, changed)) << command.name << changed;
-            for (const Json& value : unsound(argument)) {
-                changed[argument.name] = value;
-                expect_refused(command, changed, command.name + ' ' + argument.name);
-            }
-            changed.erase(argument.name);
-            if (argument.required)
-                expect_refused(command, changed, command.name + ' ' + argument.name + " missing");
-        }
-        given["moon"] = 1;
-        expect_refused(command, given, command.name + " unknown moon");
-        expect_refused(command, Json::array(), command.name + " object");
-    }
-    EXPECT_GT(refusals, 5000u);
 }
 
 }  // namespace
