@@ -9,13 +9,6 @@
 namespace tendril::app {
 namespace {
 
-TEST_F(HumanoidAttach, ComesFromAFileAsItWas) {
-    dress();
-    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
-    tick(33);
-    expect_goes_on_the_same();
-}
-
 TEST_F(HumanoidAttach, ReplaysTheSame) {
     Workspace other = make_blank_workspace(labs);
     for (Workspace* each : {&workspace, &other}) {
@@ -26,21 +19,6 @@ TEST_F(HumanoidAttach, ReplaysTheSame) {
         for (int i = 0; i < 40; ++i) lab().step(*each);
     }
     EXPECT_EQ(lab().state(other), state());
-}
-
-TEST_F(HumanoidAttach, IsUndoneAndRedone) {
-    dress();
-    const Attachments all = part().attachments;
-    run("humanoid.detach", {{"name", "ponytail"}});
-    EXPECT_EQ(state().at("attachments").size(), 2u);
-    EXPECT_EQ(world().state().bodies.size(), 2u);
-    run("undo");
-    EXPECT_TRUE(part().attachments == all);
-    run("redo");
-    EXPECT_EQ(state().at("attachments").size(), 2u);
-    for (int i = 0; i < 4; ++i) run("undo");
-    EXPECT_TRUE(part().attachments.list.empty());
-    EXPECT_EQ(world().size(), 0u);
 }
 
 TEST_F(HumanoidAttach, IsDroppedByALoad) {

@@ -266,15 +266,6 @@ TEST_F(HumanoidClips, AreTakenAlongByTheCamera) {
     EXPECT_FALSE(part().view.follow);
 }
 
-TEST_F(HumanoidClips, GoOnFromAFileAsTheyWere) {
-    run("humanoid.clip",
-        {{"name", "walk"}, {"play", true}, {"speed", 1.5}, {"time", 2.7}, {"in_place", false}});
-    run("humanoid.select", {{"node", "Head"}});
-    run("humanoid.map", {{"bone", "UpperChest"}});
-    run("humanoid.map", {{"bone", "Chest"}, {"node", "UpperChest"}});
-    expect_goes_on_the_same();
-}
-
 TEST_F(HumanoidClips, AFileThatIsWrongIsRefusedWithItsPlace) {
     const Json good = save_scene(workspace);
     const auto message = [&](auto change) -> std::string {

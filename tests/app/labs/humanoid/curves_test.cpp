@@ -114,30 +114,6 @@ TEST_F(HumanoidCurves, LetHandsReachFromABentSpine) {
     EXPECT_LT(glm::distance(bone("LeftHand"), to), 1e-3) << "it holds its target while the spine bends";
 }
 
-TEST_F(HumanoidCurves, AreSavedUndoneAndReplayedTheSame) {
-    run("humanoid.curve",
-        {{"first", "tail_1"}, {"kind", "b_spline"}, {"roll_end_deg", 30}, {"falloff", 0.5}});
-    run("humanoid.spring", {{"node", "tail_1"}});
-    move_point(2, {0.2f, 0.0f, 0.1f});
-    run("humanoid.clip", {{"index", 0}, {"play", true}});
-    tick(30);
-    expect_goes_on_the_same();
-    run("undo");
-    run("undo");
-    EXPECT_EQ(curve().at("roll_end_deg"), 30.0);
-    run("undo");
-    run("undo");
-    EXPECT_TRUE(part().curves.empty());
-    run("redo");
-    EXPECT_EQ(part().curves.size(), 1u);
-    run("humanoid.curve", {{"first", "tail_1"}, {"on", false}});
-    EXPECT_TRUE(part().curves.empty());
-    EXPECT_TRUE(state().at("curves").empty());
-    run("undo");
-    run("humanoid.load");
-    EXPECT_TRUE(part().curves.empty()) << "another character";
-}
-
 TEST_F(HumanoidCurves, RefuseWhatTheyCannotBend) {
     run("humanoid.curve", {{"first", "tail_2"}});
     expect_refused("humanoid.curve", {{"first", "wing"}}, {"no node \"wing\""});

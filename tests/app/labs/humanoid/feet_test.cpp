@@ -297,14 +297,6 @@ TEST_F(HumanoidFeet, NeedNoTimeAndLetTheWindowIdle) {
     EXPECT_EQ(state(), before);
 }
 
-TEST_F(HumanoidFeet, AreSavedAsTheyStand) {
-    run("humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.12}, {"step_depth", 0.35}});
-    run("humanoid.foot_ik", {{"on", true}, {"enter_speed", 0.25}, {"max_angle_deg", 30}});
-    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
-    tick(50);
-    expect_goes_on_the_same();
-}
-
 TEST_F(HumanoidFeet, RefuseWhatIsOutOfRange) {
     expect_refused("humanoid.foot_ik", {{"on", true}, {"enter_speed", 2}, {"leave_speed", 1}},
                    {"leave_speed must be at least"});

@@ -71,16 +71,6 @@ TEST_F(HumanoidHands, LetGoOutsideOfTheConeOfView) {
     EXPECT_GT(weight("left"), 0.99);
 }
 
-TEST_F(HumanoidHands, ComeFromAFileAsTheyWere) {
-    run("humanoid.clip", {{"name", "punch"}, {"play", true}});
-    run("humanoid.target", {{"effector", "right_hand"}, {"to", {0, 1.4, 0.5}}});
-    run("humanoid.hand_ik", {{"on", true}, {"hand", "right"}, {"curve", true}, {"view_deg", 50}});
-    run("humanoid.look_at", {{"on", true}, {"to", {1, 1.5, 1}}, {"weight", 0.7}});
-    run("humanoid.self_collision", {{"on", true}});
-    tick(33);
-    expect_goes_on_the_same();
-}
-
 TEST_F(HumanoidHands, TimesMayBeTypedInAnyOrder) {
     run("humanoid.target", {{"effector", "left_hand"}});
     run("humanoid.hand_ik", {{"on", true}, {"hand", "left"}, {"curve", true}});

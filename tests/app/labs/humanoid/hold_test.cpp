@@ -75,23 +75,6 @@ TEST_F(HumanoidHold, ReleasesAndRefusesByName) {
     EXPECT_NE(refused("humanoid.hold", {{"size", 0.0}}).find("size"), std::string::npos);
 }
 
-TEST_F(HumanoidHold, IsSavedWithWhatItRemembers) {
-    run("humanoid.hold", {{"kind", "box"}, {"size", 1.3}});
-    ask(0.3, 1.1, 0.8);
-    const Workspace other = reopened();
-    EXPECT_EQ(lab().state(other).at("hold"), hold());
-    EXPECT_EQ(humanoid_part(other), part());
-    Json scene = save_scene(workspace);
-    scene["labs"]["humanoid"]["ik"]["hold"]["size"] = -1;
-    Workspace bad = make_blank_workspace(labs);
-    try {
-        load_scene(bad, scene);
-        ADD_FAILURE() << "a negative size was read";
-    } catch (const std::exception& error) {
-        EXPECT_NE(std::string(error.what()).find("hold.size"), std::string::npos) << error.what();
-    }
-}
-
 /// The object goes on with a character that walks away, and the feet walk.
 TEST_F(HumanoidHold, GoesAlongWhileWalking) {
     run("humanoid.hold", {{"kind", "box"}});

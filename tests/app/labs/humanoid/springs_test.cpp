@@ -120,25 +120,6 @@ TEST_F(HumanoidSprings, SwingWithADragAndAreCarriedByAJump) {
     EXPECT_LT(still, 0.02);
 }
 
-TEST_F(HumanoidSprings, AreSavedUndoneAndReplayedTheSame) {
-    put_on_springs();
-    run("humanoid.spring",
-        {{"node", "tail_1"}, {"strength", 1.1}, {"critical_damping", 0.2}, {"max_angle_deg", 50}});
-    run("humanoid.clip", {{"index", 0}, {"play", true}});
-    tick(50);
-    expect_goes_on_the_same();
-    run("undo");
-    EXPECT_EQ(part().playback.clip, std::nullopt);
-    run("undo");
-    EXPECT_EQ(part().springs[2].strength, 2.0);
-    run("undo");
-    EXPECT_EQ(part().springs.size(), 2u);
-    run("redo");
-    EXPECT_EQ(part().springs.size(), 3u);
-    run("humanoid.load");
-    EXPECT_TRUE(part().springs.empty());
-}
-
 TEST_F(HumanoidSprings, RefuseWhatTheyCannotHold) {
     run("humanoid.spring", {{"node", "antenna_l_2"}});
     expect_refused("humanoid.spring", {{"node", "wing"}}, {"no node \"wing\""});

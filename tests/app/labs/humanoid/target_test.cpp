@@ -179,16 +179,6 @@ TEST_F(HumanoidTargets, AreLeftAloneWhileABoneIsMissing) {
     EXPECT_LT(residual("LeftHand"), 1e-3);
 }
 
-TEST_F(HumanoidTargets, AreSavedWithWhatTheBodyRemembers) {
-    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
-    target("left_hand", 0.4, 1.5, 0.7);
-    run("humanoid.target",
-        {{"effector", "head"}, {"to", {0, 1.5, 0.3}}, {"rotation", {0, 0, 0, 1}}, {"weight", 0.5}});
-    run("humanoid.limits", {{"from", "motion"}});
-    tick(7);
-    expect_goes_on_the_same();
-}
-
 TEST_F(HumanoidTargets, StandWhereARuntimeIsThrownAway) {
     target("left_hand", 0.4, 1.5, 0.7);
     const Json before = state();
