@@ -35,7 +35,6 @@ using Kind = DrawnItem::Kind;
 
 constexpr glm::ivec2 panel_window{1280, 6000};     ///< every panel fits without scrolling
 constexpr glm::vec2 in_the_scene{640.0f, 700.0f};  ///< in the scene
-constexpr std::size_t most_rows = 16;  ///< of a longer list, as of a figure's nodes, the first are tried
 constexpr const char* clicked_labs[] = {"chain", "rope", "signal", "rig", "humanoid", "linkage"};
 const auto of_lab = [](const auto& lab) { return std::string(lab.param); };
 
@@ -202,7 +201,9 @@ class PanelClicks : public Panels {
     }
     /// What is clicked three times at one place is one button.
     void expect_steady(const DrawnItem& button, glm::vec2 at, const std::string& name) {
-        for (int i = 0; i < 3 && app_.workspace().lab == GetParam() && !app_.workspace().ui.covered(); ++i) {
+        const Workspace& workspace = app_.workspace();
+        for (int i = 0; i < 3 && workspace.lab == GetParam() && !workspace.ui.covered() && !list_is_open();
+             ++i) {
             if (i > 0) click(at);
             for (const DrawnItem& each : frame().items)
                 if (each.kind == Kind::Button && each.box.contains(at) && each.id != button.id &&
@@ -229,7 +230,8 @@ class PanelClicks : public Panels {
     std::size_t expect_tooltips(const Wanted& wanted) {
         std::size_t found = 0;
         for (const DrawnItem& item : std::vector<DrawnItem>(frame().items)) {
-            if (!wanted(item)) continue;
+            const glm::vec2 middle = item.box.centre();
+            if (!wanted(item) || !item.window->InnerClipRect.Contains({middle.x, middle.y})) continue;
             ++found;
             if (looked_at_.insert(item.id).second) expect_tooltip(item, place_on(item));
         }
@@ -239,6 +241,7 @@ class PanelClicks : public Panels {
     Outcome try_item(const DrawnItem& item, const std::string& before) {
         const glm::vec2 at = place_on(item);
         const std::string name = name_of(item);
+        opened_list_ = false;
         expect_tooltip(item, at);
         if (item.greyed) return Outcome::Greyed;
         if (is_an_area(item)) return Outcome::Changed;
@@ -249,7 +252,8 @@ class PanelClicks : public Panels {
             click(at);
         if (item.kind == Kind::Text)
             return ImGui::GetIO().WantTextInput ? Outcome::Changed : Outcome::Nothing;
-        if (list_is_open()) return Outcome::Changed;  // its rows are tried by themselves
+        opened_list_ = list_is_open();
+        if (opened_list_) return Outcome::Changed;  // its rows are tried by themselves
         if (was_refused()) return Outcome::Refused;
         if (const DrawnItem* const now = frame().find(item.id); item.on && now != nullptr) {
             EXPECT_EQ(now->on, item.kind == Kind::Button || !*item.on) << name << " stays as it was";
@@ -322,7 +326,7 @@ class PanelClicks : public Panels {
         const std::vector<DrawnItem> rows = list_rows();
         const bool chooses =
             std::ranges::any_of(rows, [&](const DrawnItem& row) { return row.label == opener.shown; });
-        for (std::size_t i = 0; i < std::min(rows.size(), most_rows); ++i) {
+        for (std::size_t i = 0; i < std::min(rows.size(), most_rows_); ++i) {
             const std::string name = name_of(opener) + ": " + rows[i].label;
             if (rows[i].greyed) {
                 EXPECT_TRUE(has(rows[i].label, ": ")) << name << " is grey and does not say why";
@@ -353,7 +357,7 @@ class PanelClicks : public Panels {
             const DrawnItem item = *found;
             const Outcome outcome = try_item(item, before);
             note(item.id, "", outcome);
-            if (list_is_open()) try_rows(scene, item, before);
+            if (outcome == Outcome::Changed && opened_list_) try_rows(scene, item, before);
             fresh = outcome == Outcome::Greyed;
         }
     }
@@ -365,22 +369,20 @@ class PanelClicks : public Panels {
     }
     /// Tries one unit of each kind, and looks at those of the presets.
     void try_units() {
-        Shown every{"every kind", bones_and_a_control()};
-        every.commands.push_back(call("rig.curve.add", {{"name", "curve"}}));
-        every.commands.push_back(call("rig.select", {{"element", "c"}}));
+        most_rows_ = 1;  // every list has the same elements
         for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
-            set_up(every.commands);
+            Shown scene{rig::operation_name(i), bones_and_a_control()};
+            scene.commands.push_back(call("rig.curve.add", {{"name", "curve"}}));
+            scene.commands.push_back(call("rig.select", {{"element", "c"}}));
+            set_up(scene.commands);
             const UnitOffer offer = offered_unit(rig_part(app_.workspace()), i);
-            ASSERT_TRUE(offer.unit) << rig::operation_name(i) << " needs " << offer.needs;
+            ASSERT_TRUE(offer.unit) << scene.name << " needs " << offer.needs;
             ArgumentList unit;
             for (const auto& [name, value] : (**offer.unit).items())
                 unit.push_back({name, SharedJson(value)});
-            every.commands.push_back(call("rig.unit.add", unit));
-        }
-        set_up(every.commands);
-        for (const std::string& unit : units()) {
-            Shown scene{unit, every.commands};
-            scene.commands.push_back(call("rig.select", {{"element", ""}, {"unit", unit}}));
+            scene.commands.push_back(call("rig.unit.add", unit));
+            set_up(scene.commands);
+            scene.commands.push_back(call("rig.select", {{"element", ""}, {"unit", units().back()}}));
             try_scene(scene);
         }
         for (const RigPreset& preset : rig_presets()) {
@@ -398,6 +400,8 @@ class PanelClicks : public Panels {
         std::string name;
         Outcome outcome = Outcome::Nothing;
     };
+    bool opened_list_ = false;    ///< the last click that was tried
+    std::size_t most_rows_ = 16;  ///< of a longer list, as of a figure's nodes, the first are tried
     std::set<unsigned> looked_at_;
     std::map<std::pair<unsigned, std::string>, Tried> tried_;  ///< widgets, and the rows of their lists
     TempFolder folder_;
@@ -410,11 +414,9 @@ TEST_P(PanelClicks, HaveTooltipsInTheBarAtFoldedPanelsAndInSheets) {
             return item.window->RootWindow->Name == window && !FrameRecord::is_of_a_window(item);
         };
     };
-    const glm::vec2 middle = 0.5f * glm::vec2(panel_window);
-    const auto in_a_sheet = [&](const DrawnItem& item) {
-        return std::abs(item.box.centre().x - middle.x) < 320.0f &&
-               std::abs(item.box.centre().y - middle.y) < 360.0f && !FrameRecord::is_of_a_window(item) &&
-               std::string_view(item.window->RootWindow->Name) != "canvas";
+    const auto in_a_sheet = [](const DrawnItem& item) {
+        const std::string_view name = item.window->RootWindow->Name;
+        return !FrameRecord::is_of_a_window(item) && (name == "Settings" || name == "Record a video");
     };
     set_up(app_.labs().find(GetParam())->opening());
     EXPECT_GT(expect_tooltips(in("top")), 8u);
@@ -436,7 +438,9 @@ TEST_P(PanelClicks, ChangeWhatTheySayAndNothingMovesUnderTheMouse) {
     if (GetParam() == std::string(rig_lab)) try_units();
     for (const auto& [key, tried] : tried_) {
         changed += tried.outcome == Outcome::Changed;
-        EXPECT_NE(tried.outcome, Outcome::Nothing) << tried.name << " changes nothing";
+        const bool solves_again =  // a rig at rest
+            GetParam() == std::string(rig_lab) && tried.name.find("\"Forward##") != tried.name.npos;
+        EXPECT_TRUE(solves_again || tried.outcome != Outcome::Nothing) << tried.name << " changes nothing";
     }
     EXPECT_GT(changed, tried_.size() * 9 / 10) << "most are not grey";
     RecordProperty("widgets", static_cast<int>(changed));
