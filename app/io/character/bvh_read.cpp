@@ -292,6 +292,7 @@ humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, std::vector
     humanoid::Clip clip;
     clip.name = "motion";
     clip.duration = frames > 1 ? static_cast<double>(frames - 1) * step : 0.0;
+    clip.rate = frames > 1 ? 1.0 / step : 0.0;
     for (std::size_t node = 0; node < hierarchy.joints.size(); ++node) {
         const std::vector<int>& channels = hierarchy.joints[node].channels;
         if (channels.empty()) continue;
