@@ -9,6 +9,7 @@
 
 #include "humanoid_figure.hpp"
 #include "random.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -117,6 +118,23 @@ TEST(Lint, a_stretch_of_flipped_keys_is_one_finding) {
     EXPECT_EQ(report.findings[0].last, 30u);
     clip.channels[3].rotation.interpolation = Interpolation::Step;  // no interpolation between its keys
     EXPECT_TRUE(lint_of(clip).findings.empty());
+}
+
+TEST(Lint, FlipsOfAllJointsOfAClipAreOneFindingAndOneCure) {
+    Random random(5);
+    Clip clip = winding(30.0, 200);
+    for (const std::size_t node : {0u, 2u, 3u})
+        for (std::size_t i = 20; i < 190; ++i)
+            if (random.below(2) == 0) clip.channels[node].rotation.values[i] *= -1.0;
+    for (const std::size_t i : {20u, 189u})
+        clip.channels[3].rotation.values[i] = -winding(30.0, 200).channels[3].rotation.values[i];
+    const LintReport report = lint_of(clip);
+    ASSERT_EQ(report.findings.size(), 1u) << texts(report);
+    const Finding& finding = report.findings[0];
+    EXPECT_EQ(finding.first, 20u);
+    EXPECT_EQ(finding.last, 189u);
+    EXPECT_TRUE(says(finding.text, "keys times in 3 joints")) << finding.text;
+    EXPECT_EQ(cured(clip, finding), winding(30.0, 200));
 }
 
 TEST(Lint, mends_the_tangents_of_a_flipped_cubic_key_too) {

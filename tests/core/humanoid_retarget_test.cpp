@@ -182,20 +182,56 @@ TEST(HumanoidRetarget, limbs_point_where_those_of_the_source_do_and_hips_move_in
     }
 }
 
-TEST(HumanoidRetarget, on_the_same_skeleton_it_is_the_same_motion) {
+/// Also in a file that has its nodes in another order.
+TEST(HumanoidRetarget, AFigureWithTheSameNodesGetsTheClipItself) {
     RetargetDice random(3);
-    const RetargetFigure body = random_body(random, true);
-    const Clip clip = random_clip(random, body);
-    const auto made = retarget({body.skeleton, body.map}, clip, {body.skeleton, body.map});
-    ASSERT_TRUE(made);
-    EXPECT_TRUE(made->left_out.empty() && made->at_rest.empty());
-    // But for the root, which is no bone: what it does the hips do.
-    for (const double time : {0.0, 0.31, 1.0}) {
-        const auto was = body.at(clip, time), now = body.at(made->clip, time);
-        for (std::size_t i = 0; i < bone_count; ++i)
-            EXPECT_LT(glm::distance(body.of(was, static_cast<Bone>(i)).position,
-                                    body.of(now, static_cast<Bone>(i)).position),
-                      1e-6);
+    for (int i = 0; i < 10; ++i) {
+        RetargetFigure body = random_body(random, i % 2 == 0);
+        if (i % 3 == 1) body = with_loose_foot(body);
+        Clip clip = random_clip(random, body);
+        clip.channels[1].rotation.interpolation = Interpolation::Step;
+        clip.channels[2].scale = {Interpolation::Linear, {0.5}, {{1.0, 1.1, 1.0}}};
+        const auto made = retarget({body.skeleton, body.map}, clip, {body.skeleton, body.map});
+        ASSERT_TRUE(made);
+        EXPECT_TRUE(made->clip == clip && made->left_out.empty() && made->at_rest.empty());
+        const auto count = static_cast<std::int32_t>(body.skeleton.size());
+        std::vector<Node> nodes(body.skeleton.size());
+        const auto moved = [&](std::int32_t node) { return node < 0 ? node : count - 1 - node; };
+        for (std::int32_t k = 0; k < count; ++k) {
+            Node& node = nodes[static_cast<std::size_t>(moved(k))];
+            node = body.skeleton[static_cast<std::size_t>(k)];
+            node.parent = moved(node.parent);
+            if (node.keys) node.keys->parent = moved(node.keys->parent);
+        }
+        RetargetFigure other{*Skeleton::make(nodes), body.map};
+        for (BoneMatch& each : other.map.bones) each.node = moved(each.node);
+        const auto there = retarget({body.skeleton, body.map}, clip, {other.skeleton, other.map});
+        ASSERT_TRUE(there) << there.message();
+        for (std::size_t k = 0; k < clip.channels.size(); ++k) {
+            Channel expected = clip.channels[k];
+            expected.node = static_cast<std::size_t>(moved(static_cast<std::int32_t>(expected.node)));
+            EXPECT_EQ(there->clip.channels.at(k), expected);
+        }
+        // In another size it has longer steps; with a leg of another length it is another figure.
+        std::vector<Node> large = body.skeleton.nodes();
+        for (Node& each : large) {
+            each.rest.translation *= 2.0;
+            if (each.keys) each.keys->rest.translation *= 2.0;
+        }
+        const Skeleton twice = *Skeleton::make(large);
+        const auto far = retarget({body.skeleton, body.map}, clip, {twice, body.map});
+        ASSERT_TRUE(far);
+        for (std::size_t k = 0; k < clip.channels.size(); ++k) {
+            EXPECT_EQ(far->clip.channels[k].rotation, clip.channels[k].rotation);
+            for (std::size_t key = 0; key < clip.channels[k].translation.values.size(); ++key)
+                EXPECT_EQ(far->clip.channels[k].translation.values[key],
+                          2.0 * clip.channels[k].translation.values[key]);
+        }
+        nodes[static_cast<std::size_t>(other.map[Bone::LeftFoot].node)].rest.translation *= 1.001;
+        other.skeleton = *Skeleton::make(nodes);
+        const auto unlike = retarget({body.skeleton, body.map}, clip, {other.skeleton, other.map});
+        ASSERT_TRUE(unlike);
+        EXPECT_NE(unlike->scale, 1.0);
     }
 }
 
@@ -351,6 +387,64 @@ TEST(HumanoidRetarget, a_walk_stands_on_other_legs_and_its_hands_point_the_same_
     }
 }
 
+/// The first frames of the walk: none (no keys), one, and so on.
+TEST(HumanoidRetarget, AClipMayHaveAsFewFramesAsItLikes) {
+    const RetargetFigure from{make_figure({}), match_bones(make_figure({}))}, to = other_figure(0.8, 1, 1);
+    for (std::size_t frames = 0; frames < 6; ++frames)
+        for (const Bone missing : {Bone::Head, Bone::LeftFoot, Bone::RightLowerLeg}) {
+            SCOPED_TRACE(std::to_string(frames) + " frames, without " + humanoid::name(missing));
+            Clip clip = long_walk(from);
+            const auto cut = [&](auto& track) {
+                track.times.resize(std::min(frames, track.times.size()));
+                track.values.resize(track.times.size(), {});
+            };
+            for (Channel& each : clip.channels) cut(each.rotation), cut(each.translation);
+            clip.duration = frames < 2 ? 0.0 : clip.channels[0].translation.times.back();
+            BoneMap map = from.map;
+            map[missing].node = -1;
+            review(map, from.skeleton);
+            const auto made = retarget({from.skeleton, map}, clip, {to.skeleton, to.map});
+            ASSERT_TRUE(made) << made.message();
+            ASSERT_TRUE(check(made->clip, to.skeleton));
+            for (const Channel& each : made->clip.channels)
+                EXPECT_EQ(each.rotation.times.size(), std::max<std::size_t>(frames, 1));
+            for (const double rate : {0.0, 30.0, 1000.0})
+                for (const Finding& each : lint(to.skeleton, to.map, made->clip, {.rate = rate}).findings)
+                    EXPECT_TRUE(!each.has_cure || cure(to.skeleton, to.map, made->clip, each, {.rate = rate}))
+                        << each.text;
+        }
+}
+
+/// A figure that stands for a second and then lies down on its back.
+TEST(HumanoidRetarget, HowAFigureLiesSaysNothingOfHowItStands) {
+    const RetargetFigure from{make_figure({}), match_bones(make_figure({}))}, to = other_figure(0.7, 1, 1);
+    const auto clip = [&](int frames) {
+        Clip made{.name = "lie", .duration = (frames - 1) / 30.0, .channels = {{.node = 0}}};
+        Channel& hips = made.channels[0];
+        hips.node = static_cast<std::size_t>(from.map[Bone::Hips].node);
+        for (int i = 0; i < frames; ++i) {
+            const double lies = std::clamp((i - 30) / 20.0, 0.0, 1.0);
+            hips.rotation.times.push_back(i == frames - 1 ? made.duration : i / 30.0);
+            hips.rotation.values.push_back(glm::angleAxis(-glm::radians(90.0 * lies), glm::dvec3(1, 0, 0)));
+            hips.translation.values.push_back({0.0, 1.0 - 0.9 * lies, 0.0});
+        }
+        hips.translation.times = hips.rotation.times;
+        return made;
+    };
+    const auto at_first = [&](int frames) {
+        const auto made = retarget({from.skeleton, from.map}, clip(frames), {to.skeleton, to.map});
+        EXPECT_TRUE(made) << made.message();
+        return to.at(made->clip, 0.0);
+    };
+    const auto whole = at_first(300);
+    for (const int frames : {1, 2, 4, 30, 60}) {
+        const auto cut = at_first(frames);
+        for (std::size_t i = 0; i < cut.size(); ++i)
+            EXPECT_LT(glm::distance(cut[i].position, whole[i].position), 0.005)
+                << frames << ' ' << to.skeleton[i].name;
+    }
+}
+
 TEST(HumanoidRetarget, feet_stand_level_on_legs_of_unequal_length) {
     const RetargetFigure from{make_figure({}), match_bones(make_figure({}))};
     RetargetFigure to = from;
@@ -495,7 +589,9 @@ TEST(HumanoidRetarget, what_does_not_fit_is_refused) {
     EXPECT_NE(said(body.map, bad, body.map), "");
     Clip endless = clip;
     endless.duration = 1e6;
-    EXPECT_TRUE(says(said(body.map, endless, body.map), "retarget clip 100000"));
+    const RetargetFigure other = random_body(random, true);
+    EXPECT_TRUE(says(retarget({body.skeleton, body.map}, endless, {other.skeleton, other.map}).message(),
+                     "retarget clip 100000"));
 }
 
 }  // namespace

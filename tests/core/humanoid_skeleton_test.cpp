@@ -162,7 +162,7 @@ TEST(Clip, HasAsManyFramesAsKeysThoughTheirTimesAreRounded) {
     clip.duration = 4510 * 0.0333333;
     EXPECT_EQ(frames_at(clip, 30.0).count, 4511u);
     EXPECT_DOUBLE_EQ(frames_at(clip, 30.0).time(4510), clip.duration);
-    EXPECT_EQ(frames_at(clip, 60.0).count, 9020u) << "at another rate, those before its end";
+    EXPECT_EQ(frames_at(clip, 60.0).count, 9021u) << "and those between them";
     EXPECT_DOUBLE_EQ(frames_at(clip, 60.0).step, 1.0 / 60.0);
     EXPECT_EQ(frames_at(Clip{.name = "still", .duration = 0.0, .channels = {}}, 30.0).count, 1u);
 }

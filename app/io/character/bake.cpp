@@ -49,7 +49,7 @@ Clip baked(const Skeleton& skeleton, const Clip& clip, double rate, const PoseSt
     std::vector<Recording> nodes(skeleton.size());
     std::vector<rig::Transform> before(skeleton.size()), pose;
     const humanoid::Frames frames = frames_at(clip, rate);
-    const bool ends_between = clip.duration - frames.time(frames.count - 1) > 1e-5;
+    const bool ends_between = clip.duration - frames.time(frames.count - 1) > 0.06 * frames.step;
     double last = 0.0;
     for (std::size_t i = 0; i < frames.count + ends_between; ++i) {
         const double time = std::min(frames.time(i), clip.duration);
@@ -63,7 +63,7 @@ Clip baked(const Skeleton& skeleton, const Clip& clip, double rate, const PoseSt
             add_key(nodes[node].channel, time, key);
         }
     }
-    Clip result{.name = clip.name, .duration = clip.duration, .channels = {}};
+    Clip result{.name = clip.name, .duration = clip.duration, .channels = {}, .rate = clip.rate};
     for (std::size_t node = 0; node < nodes.size(); ++node) {
         const auto own = std::find_if(clip.channels.begin(), clip.channels.end(),
                                       [&](const Channel& each) { return each.node == node; });

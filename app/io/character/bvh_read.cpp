@@ -309,6 +309,7 @@ humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, std::vector
         }
     }
     clip.duration = times.size() > 1 ? times.back() : 0.0;
+    clip.rate = times.size() > 1 ? 1.0 / step : 0.0;
     for (humanoid::Channel& channel : clip.channels) {
         if (moves(hierarchy.joints[channel.node])) channel.translation.times = times;
         if (turns(hierarchy.joints[channel.node])) channel.rotation.times = times;

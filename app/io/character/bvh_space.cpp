@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tendril/humanoid/t_pose.hpp>
 #include <utility>
 
 namespace tendril::app {
@@ -96,6 +97,15 @@ UpAxis axis_at(std::size_t index) {
     return static_cast<UpAxis>(index);
 }
 
+/// The skeleton with that rest pose, turned so that the axis is Y.
+Expected<Skeleton> stood_up(const Skeleton& skeleton, std::span<const rig::Transform> rest, UpAxis up) {
+    std::vector<humanoid::Node> nodes = skeleton.nodes();
+    for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].rest = rest[i];
+    std::vector<humanoid::Clip> none;
+    normalise(nodes, none, 1.0, turn_of(up));
+    return Skeleton::make(std::move(nodes));
+}
+
 /// Finds the legs and the head in the zero pose, or else in the first frame. Shapes are recognised upright,
 /// so the figure is tried along each axis.
 std::optional<Body> find_body(const Skeleton& skeleton, const humanoid::Clip& clip) {
@@ -106,11 +116,7 @@ std::optional<Body> find_body(const Skeleton& skeleton, const humanoid::Clip& cl
     }
     for (const std::vector<rig::Transform>& pose : poses) {
         for (const UpAxis up : {UpAxis::Y, UpAxis::Z, UpAxis::X}) {
-            std::vector<humanoid::Node> nodes = skeleton.nodes();
-            for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].rest = pose[i];
-            std::vector<humanoid::Clip> none;
-            normalise(nodes, none, 1.0, turn_of(up));
-            const auto turned = Skeleton::make(std::move(nodes));
+            const auto turned = stood_up(skeleton, pose, up);
             if (!turned) continue;
             if (const auto body = body_in(*turned, humanoid::match_bones(*turned))) return body;
         }
@@ -264,6 +270,7 @@ class Judge {
         const auto best = std::ranges::max_element(looks_, {}, neutral);
         const auto index = static_cast<std::size_t>(best - looks_.begin());
         sample_frame(index);
+        stand_straight();
         for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].rest = pose_[i];
         // Above the origin, at the height that it has in the motion, or else on the floor.
         const glm::dvec3 axis = direction(up_);
@@ -272,7 +279,51 @@ class Judge {
         const bool has_floor = off_floor(up_, space_.positions) < near_floor;
         at = axis * (has_floor ? glm::dot(at, axis) + added : glm::dot(at, axis) - best->lowest(up_));
         character_.notes.push_back("The zero pose does not stand; the rest pose is frame " +
-                                   std::to_string(frame_of(index)) + " of the motion.");
+                                   std::to_string(frame_of(index)) + " of the motion, on straight legs.");
+    }
+
+    /// Makes a frame a rest pose: it faces +Z of a file with Y up, on straight legs, with feet that point
+    /// forward, 30 degrees below level, and level toes. Where a figure looks in a frame, and how it treads,
+    /// says nothing of the figure. Its lower ankle stays where it is.
+    void stand_straight() {
+        const double before = lowest_ankle();
+        const auto standing = stood_up(skeleton_, pose_, up_);
+        if (!standing) return;
+        const humanoid::BoneMap map = humanoid::match_bones(*standing);
+        const glm::dvec3 forward = facing(*standing, map).forward;
+        glm::dquat& root = pose_[body_->root].rotation;
+        root = glm::angleAxis(-std::atan2(forward.x, forward.z), direction(up_)) * root;
+        const glm::dvec3 ahead = conjugate(turn_of(up_)) * glm::dvec3(0.0, 0.0, 1.0);
+        const auto point_bone = [&](Bone from, Bone to, const glm::dvec3& way) {
+            point(map[from].node, map[to].node, way);
+        };
+        for (const bool left : {true, false}) {
+            const Bone upper = left ? Bone::LeftUpperLeg : Bone::RightUpperLeg,
+                       lower = left ? Bone::LeftLowerLeg : Bone::RightLowerLeg,
+                       foot = left ? Bone::LeftFoot : Bone::RightFoot,
+                       toes = left ? Bone::LeftToes : Bone::RightToes;
+            point_bone(upper, lower, -direction(up_)), point_bone(lower, foot, -direction(up_));
+            point_bone(foot, toes, ahead * std::sqrt(0.75) - direction(up_) * 0.5);
+            if (map[toes].node < 0) continue;
+            const auto below = skeleton_.children(static_cast<std::size_t>(map[toes].node));
+            if (!below.empty()) point(map[toes].node, below.front(), ahead);
+        }
+        pose_[body_->root].translation += direction(up_) * (before - lowest_ankle());
+    }
+    double lowest_ankle() {
+        place(skeleton_, pose_, placed_);
+        return std::min(glm::dot(placed_[body_->feet[0]].position, direction(up_)),
+                        glm::dot(placed_[body_->feet[1]].position, direction(up_)));
+    }
+    /// Turns a node so that another one below it is in that direction.
+    void point(std::int32_t node, std::int32_t end, const glm::dvec3& to) {
+        if (node < 0 || end < 0) return;
+        const auto from = static_cast<std::size_t>(node);
+        place(skeleton_, pose_, placed_);
+        const glm::dvec3 way = placed_[static_cast<std::size_t>(end)].position - placed_[from].position;
+        if (!(glm::length(way) > 0.0)) return;
+        const glm::dquat own = placed_[from].rotation(), above = own * conjugate(pose_[from].rotation);
+        pose_[from].rotation = conjugate(above) * glm::dquat(glm::normalize(way), to) * own;
     }
 
     void find_unit() {

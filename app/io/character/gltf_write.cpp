@@ -16,8 +16,6 @@ using humanoid::Channel;
 using humanoid::Interpolation;
 using humanoid::Track;
 
-constexpr double nearest_keys = 1e-5;  // seconds; a frame closer to a key gets none of its own
-
 const glm::dvec3& part_of(const rig::Transform& local, const Track<glm::dvec3>& track,
                           const Channel& channel) {
     return &track == &channel.scale ? local.scale : local.translation;
@@ -26,30 +24,16 @@ const glm::dquat& part_of(const rig::Transform& local, const Track<glm::dquat>&,
     return local.rotation;
 }
 
-/// Whether the track has a key for each frame already: times in files are rounded, and drift from the frames.
-bool is_at_rate(const std::vector<double>& times, double rate) {
-    return std::abs((times.back() - times.front()) * rate / static_cast<double>(times.size() - 1) - 1.0) <
-           1e-3;
-}
-
 /// A linear track with additional keys at each frame between its first and its last key.
 template <class T>
-Track<T> with_frames(const Channel& channel, const Track<T>& track, double rate) {
-    if (track.interpolation != Interpolation::Linear || track.times.size() < 2 || !(rate > 0.0)) return track;
-    if (is_at_rate(track.times, rate)) return track;
-    Track<T> result{track.interpolation, {}, {}};
-    auto frame = static_cast<std::size_t>(std::ceil(track.times.front() * rate));
-    for (std::size_t i = 0; i < track.times.size(); ++i) {
-        for (; static_cast<double>(frame) / rate < track.times[i] + nearest_keys; ++frame) {
-            const double time = static_cast<double>(frame) / rate;
-            if (time > track.times[i] - nearest_keys || time < result.times.back() + nearest_keys) continue;
-            rig::Transform local;
-            sample(channel, time, local);
-            result.times.push_back(time);
-            result.values.push_back(part_of(local, track, channel));
-        }
-        result.times.push_back(track.times[i]);
-        result.values.push_back(track.values[i]);
+Track<T> with_keys_at(const humanoid::Frames& frames, const Channel& channel, const Track<T>& track) {
+    if (track.interpolation != Interpolation::Linear) return track;
+    Track<T> result{track.interpolation, with_frames(track.times, frames), {}};
+    for (std::size_t key = 0; const double time : result.times) {
+        rig::Transform local;
+        sample(channel, time, local);
+        const bool is_key = time == track.times[key];
+        result.values.push_back(is_key ? track.values[key++] : part_of(local, track, channel));
     }
     return result;
 }
@@ -84,8 +68,8 @@ void set_transform(Json& node, const rig::Transform& local) {
 
 class Animation {
   public:
-    Animation(GltfFile& file, std::string name, double rate)
-        : file_(file), rate_(rate), json_{{"name", std::move(name)}} {
+    Animation(GltfFile& file, const humanoid::Clip& clip, double rate)
+        : file_(file), frames_(frames_at(clip, rate)), json_{{"name", clip.name}} {
         json_["channels"] = Json::array();
         json_["samplers"] = Json::array();
     }
@@ -108,7 +92,7 @@ class Animation {
     template <class T>
     void add(const Channel& channel, const Track<T>& from, std::size_t node, const char* path, double scale) {
         if (from.times.empty()) return;
-        Track<T> track = with_frames(channel, from, rate_);
+        Track<T> track = with_keys_at(frames_, channel, from);
         if constexpr (T::length() == 4) put_on_one_hemisphere(track);
         const std::size_t width = track.interpolation == Interpolation::Cubic ? 3 : 1;
         std::vector<float> times, numbers;
@@ -137,7 +121,7 @@ class Animation {
     }
 
     GltfFile& file_;
-    double rate_;
+    humanoid::Frames frames_;
     Json json_;
 };
 
@@ -190,7 +174,7 @@ std::string with_origin(const Character& shown, const humanoid::Clip& shown_clip
     file.json.erase("animations");
     file.normalise_weights();
 
-    Animation animation(file, clip.name, rate);
+    Animation animation(file, clip, rate);
     std::set<std::size_t> animated;
     for (const Channel& channel : clip.channels) {
         const std::size_t node = nodes[channel.node];
@@ -312,7 +296,7 @@ std::string on_its_own(const Character& character, const humanoid::Clip& clip, d
     file.json["nodes"] = std::move(nodes);
     add_skins(skeleton, file);
     if (is_written(character)) add_mesh(character, file);
-    Animation animation(file, clip.name, rate);
+    Animation animation(file, clip, rate);
     for (const Channel& channel : clip.channels) animation.add(channel, channel.node, 1.0);
     if (!animation.is_empty()) file.json["animations"] = Json::array({animation.json()});
     return file.bytes(binary);

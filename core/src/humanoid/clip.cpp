@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
+#include <optional>
 
 #include "rig/checks.hpp"
 #include "rig/math.hpp"
@@ -165,6 +167,10 @@ void sample(const Clip& clip, const Skeleton& skeleton, double time,
 
 namespace {
 
+/// Of a step, by which a key's time may be off its frame: files round times. Three decimals of a sixtieth of
+/// a second are off by 0.03.
+constexpr double rounded_frame = 0.06;
+
 /// Of the track with the most keys; null if none has two.
 const std::vector<double>* densest_times(const Clip& clip) noexcept {
     const std::vector<double>* densest = nullptr;
@@ -179,36 +185,67 @@ const std::vector<double>* densest_times(const Clip& clip) noexcept {
     return densest;
 }
 
+/// The frames of a clip whose densest track has a key at each, from 0 to the clip's end.
+std::optional<Frames> own_frames(const Clip& clip) noexcept {
+    const std::vector<double>* const own = densest_times(clip);
+    if (!own || own->front() != 0.0 || !(clip.duration - own->back() < 1e-9)) return std::nullopt;
+    const double step = clip.duration / static_cast<double>(own->size() - 1);
+    for (std::size_t i = 0; i < own->size(); ++i)
+        if (std::abs((*own)[i] - static_cast<double>(i) * step) > rounded_frame * step) return std::nullopt;
+    return Frames{.count = own->size(), .step = step};
+}
+
+/// The rate that a file means by one that it rounds: the nearest whole one or 1000/1001 of a whole one, as
+/// television has them (SMPTE 12M). Four decimals of a thirtieth of a second are 0.1 % off.
+double meant(double rate) noexcept {
+    constexpr double television = 1000.0 / 1001.0;
+    const double whole = std::floor(rate + 0.5), slow = std::floor(rate / television + 0.5) * television;
+    const double nearest = std::abs(rate - whole) <= std::abs(rate - slow) ? whole : slow;
+    return std::abs(rate - nearest) < 1.1e-3 * nearest ? nearest : rate;
+}
+
+/// The mean of the steps that are about as long as the median one: keys that are missing make some longer,
+/// keys between frames some shorter. 0 if there are no two keys.
+double usual_step(const Clip& clip) {
+    const std::vector<double>* const densest = densest_times(clip);
+    if (!densest) return 0.0;
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < densest->size(); ++i) steps.push_back((*densest)[i] - (*densest)[i - 1]);
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    const double median = *middle;
+    std::erase_if(steps,
+                  [&](double each) { return !(std::abs(each - median) < rounded_frame * median); });
+    return std::accumulate(steps.begin(), steps.end(), 0.0) / static_cast<double>(steps.size());
+}
+
 }  // namespace
 
 double frame_rate(const Clip& clip) noexcept {
-    constexpr double otherwise = 60.0;
-    if (clip.rate >= 20.0 && clip.rate <= 1000.0) return clip.rate;
-    const std::vector<double>* const densest = densest_times(clip);
-    if (!densest) return otherwise;
-    // The median step: missing keys make some longer, and a clip's end may make one shorter.
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < densest->size(); ++i) steps.push_back((*densest)[i] - (*densest)[i - 1]);
-    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
-                     steps.end());
-    double step = steps[steps.size() / 2];
-    // Times in files are rounded: the whole range gives a better step, if it is a whole number of steps.
-    const double whole = densest->back() - densest->front(), count = std::floor(whole / step + 0.5);
-    if (count > 0.0 && std::abs(whole / count - step) < 0.01 * step) step = whole / count;
-    const double rate = 1.0 / step;
-    if (!(rate > 20.0 * 0.999 && rate <= 1000.0)) return otherwise;
-    const double nearest = std::floor(rate + 0.5);
-    return std::abs(rate - nearest) < 1e-3 * nearest ? nearest : rate;
+    double rate = clip.rate;
+    if (!(rate >= 1.0 && rate <= 1000.0)) {
+        const auto own = own_frames(clip);
+        rate = 1.0 / (own ? own->step : usual_step(clip));
+        if (!(rate > 20.0 * 0.999 && rate <= 1000.0)) return 60.0;
+    }
+    const double nearest = meant(rate);
+    return nearest == std::floor(nearest) ? nearest : rate;
 }
 
 Frames frames_at(const Clip& clip, double rate) noexcept {
-    const std::vector<double>* const own = densest_times(clip);
-    constexpr double same_rate = 1e-3;
-    if (own && own->front() == 0.0 && clip.duration - own->back() < 1e-9) {
-        const double steps = static_cast<double>(own->size() - 1), step = clip.duration / steps;
-        if (std::abs(step * rate - 1.0) < same_rate) return {own->size(), step};
-    }
-    return {static_cast<std::size_t>(std::floor(clip.duration * rate + 1e-6)) + 1, 1.0 / rate};
+    if (const auto own = own_frames(clip); own && meant(1.0 / own->step) == meant(rate)) return *own;
+    return {static_cast<std::size_t>(std::floor(clip.duration * rate + rounded_frame)) + 1, 1.0 / rate};
+}
+
+std::vector<double> with_frames(const std::vector<double>& times, const Frames& frames) {
+    if (times.empty() || !(frames.step > 0.0)) return times;
+    std::vector<double> all{times.front()};
+    const double near = rounded_frame * frames.step;
+    auto frame = static_cast<std::size_t>(std::ceil(times.front() / frames.step));
+    for (std::size_t i = 1; i < times.size(); all.push_back(times[i++]))
+        for (; frame < frames.count && frames.time(frame) < times[i] - near; ++frame)
+            if (frames.time(frame) > times[i - 1] + near) all.push_back(frames.time(frame));
+    return all;
 }
 
 rig::Transform key_of(const Skeleton& skeleton, std::span<const rig::Transform> pose,

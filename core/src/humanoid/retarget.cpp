@@ -48,21 +48,58 @@ double size_for_steps(const MappedSkeleton& body) {
 
 /// Every key of the source and every frame, ascending.
 std::vector<double> moments_of(const Clip& clip) {
-    std::vector<double> times;
-    const double rate = frame_rate(clip);
-    const double frames = std::floor(clip.duration * rate + 1e-6);
-    for (double i = 0.0; i <= std::min(frames, static_cast<double>(max_retargeted_keys)); ++i)
-        times.push_back(std::min(i / rate, clip.duration));
+    const Frames frames = frames_at(clip, frame_rate(clip));
+    if (frames.count > max_retargeted_keys) return std::vector<double>(max_retargeted_keys + 1);
+    std::vector<double> times{0.0, clip.duration};
     for (const Channel& each : clip.channels)
         for (const std::vector<double>* own :
              {&each.translation.times, &each.rotation.times, &each.scale.times})
             times.insert(times.end(), own->begin(), own->end());
-    times.push_back(clip.duration);
     std::sort(times.begin(), times.end());
-    constexpr double same = 1e-6;  // seconds
-    times.erase(std::unique(times.begin(), times.end(), [](double a, double b) { return b - a < same; }),
+    const double same = 1e-3 * frames.step;  // tracks of one file differ by their rounding
+    times.erase(std::unique(times.begin(), times.end(), [&](double a, double b) { return b - a < same; }),
                 times.end());
-    return times;
+    return with_frames(times, frames);
+}
+
+/// The sum of the lengths from each node to its parent at rest.
+double extent_of(const Skeleton& skeleton) {
+    double sum = 0.0;
+    for (const Node& each : skeleton.nodes()) sum += length(each.rest.translation);
+    return sum;
+}
+
+/// Of the target's nodes, those that are the source's: of the same names, parents and rest, in one ratio of
+/// lengths, to the rounding of a file's 32-bit numbers. Empty if one has nodes that the other lacks, or if
+/// the maps name other bones.
+std::vector<std::size_t> same_nodes(const MappedSkeleton& from, const MappedSkeleton& to, double ratio) {
+    constexpr double same = 1e-5;  // of a person's metre, and of a unit quaternion
+    const double near = same * std::max(ratio, 1.0);
+    const auto alike = [&](const rig::Transform& a, const rig::Transform& b) {
+        return length(minus(times(a.translation, ratio), b.translation)) < near &&
+               std::abs(dot(a.rotation, b.rotation)) > 1.0 - same * same &&
+               length(minus(a.scale, b.scale)) < same;
+    };
+    if (from.skeleton.size() != to.skeleton.size()) return {};
+    std::vector<std::size_t> nodes(from.skeleton.size());
+    const auto corresponds = [&](std::int32_t a, std::int32_t b) {
+        return a < 0 || b < 0 ? a == b : nodes[static_cast<std::size_t>(a)] == static_cast<std::size_t>(b);
+    };
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const std::string& name = from.skeleton[i].name;
+        const auto found = to.skeleton[i].name == name ? std::optional(i) : to.skeleton.find(name);
+        if (!found) return {};
+        nodes[i] = *found;
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const Node &a = from.skeleton[i], &b = to.skeleton[nodes[i]];
+        if (!corresponds(a.parent, b.parent) || !corresponds(a.key_parent(), b.key_parent()) ||
+            !alike(a.rest, b.rest) || !alike(a.key_rest(), b.key_rest()))
+            return {};
+    }
+    for (std::size_t i = 0; i < bone_count; ++i)
+        if (!corresponds(from.map.bones[i].node, to.map.bones[i].node)) return {};
+    return nodes;
 }
 
 /// Poses the limbs first, then the feet, then what follows them.
@@ -209,9 +246,9 @@ class Retargeter {
         rate_ = report.rate;
         const lint_detail::FeetMotion motion =
             lint_detail::feet_motion({skeleton_, was_.body.map, clip_, settings, 0.0, report});
-        if (!legs_[0] || !legs_[1] || motion.feet.size() != 2 || report.frames < 4) return;
+        if (!legs_[0] || !legs_[1] || motion.feet.size() != 2) return;
         const auto stood_on = lint_detail::floor_of(motion, report.rate);
-        if (stood_on) learn_level_feet(motion);
+        if (stood_on || motion.knows_soles) learn_level_feet(motion);
         const std::array<detail::SoleTriple, 2> soles{was_.sole(true, motion.feet[0].points[0].above),
                                                       was_.sole(false, motion.feet[1].points[0].above)};
         std::vector<detail::PointedFrame> frames;
@@ -382,6 +419,13 @@ Expected<Retargeted> retarget(const MappedSkeleton& from, const Clip& clip, cons
     if (const Result bad = check(clip, from.skeleton); !bad) return bad;
     if (from.map[Bone::Hips].node < 0) return refused(operation, "from.map", "a map with Hips", "none");
     if (to.map[Bone::Hips].node < 0) return refused(operation, "to.map", "a map with Hips", "none");
+    double ratio = extent_of(to.skeleton) / extent_of(from.skeleton);
+    if (!(std::abs(ratio - 1.0) > 1e-6)) ratio = 1.0;
+    if (const std::vector<std::size_t> nodes = same_nodes(from, to, ratio); !nodes.empty()) {
+        Retargeted same{.clip = resized(clip, ratio), .scale = ratio};
+        for (Channel& each : same.clip.channels) each.node = nodes[each.node];
+        return same;
+    }
     const std::vector<double> times = moments_of(clip);
     if (times.size() > max_retargeted_keys)
         return refused(operation, "clip", "of at most 100000 keys and frames", times.size());

@@ -208,6 +208,12 @@ void RetargetBody::find_feet(bool toes_are_turned) {
     if (!found) return;
     soles = *found;
     even_soles(rest, as_it_rests);
+    // Legs that are bent at rest are straight in the T-pose, which stands on the same floor.
+    double lowest = 1e9;
+    for (const Sole& each : soles->feet)
+        lowest =
+            std::min({lowest, placed[each.foot].apply(each.heel).y, placed[each.toes].apply(each.toe).y});
+    hips.y += soles->floor - lowest;
     if (as_it_rests && std::abs(soles->floor) < 0.5 * soles->leg) ground = soles->floor;
     for (std::size_t i = 0; i < 2; ++i) {
         const std::size_t toes = soles->feet[i].toes, tip = farthest_below(body.skeleton, rest, toes);

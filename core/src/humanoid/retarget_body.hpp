@@ -27,7 +27,7 @@ struct RetargetBody {
     MappedSkeleton body;
     Facing at;
     glm::dquat frame{1.0, 0.0, 0.0, 0.0};  // takes x, y, z to left, up, forward
-    glm::dvec3 hips{0.0};                  // at rest
+    glm::dvec3 hips{0.0};                  // at rest, on straight legs
     double leg = 0.0;                      // thigh plus shin, or the hips' height over the feet; 0: no legs
     bool has_legs = false;                 // thighs, shins and feet
     std::vector<Placement> placed{};       // all nodes, in the T-pose

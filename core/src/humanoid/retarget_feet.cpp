@@ -26,19 +26,6 @@ constexpr double sole_part = 0.006;  // of a leg's length: points of the sole th
 constexpr double clear_part = 0.012;  // of a leg's length over the ground, at which a swinging foot may stay
 constexpr double same_pose = 0.01;    // of a leg's length, from a clip's begin to its end
 
-/// 1 at 0, 0 from 1 on.
-double faded(double u) noexcept {
-    return u >= 1.0 ? 0.0 : (1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u);
-}
-double level_length(const glm::dvec3& v) noexcept {
-    return std::sqrt(v.x * v.x + v.z * v.z);
-}
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 /// The frames of a clip, or three rounds of one that ends as it begins: the second round, which is the one
 /// that is used, then leads into the next.
 class Rounds {
@@ -136,7 +123,7 @@ class Planner {
             const double limit = step_speed / task_.rate;
             const glm::dvec3 ground = times(task_.motion.treadmill, 1.0 / task_.rate);
             if (surely[i - 1] == surely[i] || std::abs(its.height[i] - its.height[i - 1]) > limit ||
-                level_length(lint_detail::smallest_move(its, i, ground)) > limit)
+                lint_detail::level(lint_detail::smallest_move(its, i, ground)) > limit)
                 continue;
             stands[i - 1] = stands[i] = true;
         }
@@ -162,19 +149,26 @@ class Planner {
             std::vector<double> heights;
             for (std::size_t i = each.first; i <= each.last; ++i)
                 heights.push_back(its.height[rounds_.frame(i)] - floor);
-            const double height = median(std::move(heights));
+            const double height = lint_detail::middle_of(heights);
             if (std::abs(height) > near_floor) each.height = task_.scale * height;
         }
     }
 
-    /// Raises or lowers the whole motion so that standing feet are on the floor without bending a leg.
+    /// Raises or lowers the whole motion so that standing feet are on the floor without bending a leg. Those
+    /// of a figure that sits or lies count only if it never stands.
     void find_shift() {
+        const auto upright = [&](std::size_t foot) {
+            const std::vector<bool>& its = source(foot).upright;
+            return std::find(its.begin(), its.end(), true) != its.end();
+        };
+        const bool ever_stands = upright(0) || upright(1);
         std::vector<double> gaps;
         for (std::size_t foot = 0; foot < 2; ++foot)
             for (const Stand& each : stands_[foot])
                 for (std::size_t i = each.first; each.height == 0.0 && i <= each.last; ++i)
-                    gaps.push_back(task_.floor - pointed(foot, i).ankle.y - lowest(pointed(foot, i)));
-        shift_ = gaps.empty() ? task_.shift : median(std::move(gaps));
+                    if (!ever_stands || source(foot).upright[rounds_.frame(i)])
+                        gaps.push_back(task_.floor - pointed(foot, i).ankle.y - lowest(pointed(foot, i)));
+        shift_ = gaps.empty() ? task_.shift : lint_detail::middle_of(gaps);
     }
 
     /// Keeps the sole where it is on the ground, or moves it with the ground of a motion on the spot.
@@ -220,7 +214,7 @@ class Planner {
         }
         for (std::size_t k = 0; k < way.size(); ++k) {
             const glm::dvec3 slide = minus(way[k], times(plus(low, high), 0.5));
-            const double far = level_length(slide), kept = std::max(0.0, far - no_slide);
+            const double far = lint_detail::level(slide), kept = std::max(0.0, far - no_slide);
             const glm::dvec3 moved = times(ground, static_cast<double>(k));
             way[k] = plus(moved, far > 0.0 ? times(slide, kept / far) : glm::dvec3(0.0));
             way[k] = times(rotated(task_.turn, way[k]), task_.scale);
@@ -256,9 +250,10 @@ class Planner {
             for (std::size_t i = first; i < after; ++i) {
                 glm::dvec3 move(0.0);
                 if (before != none)
-                    move = times(moves[before], faded(static_cast<double>(i - before) / over));
+                    move = times(moves[before], lint_detail::fading(static_cast<double>(i - before) / over));
                 if (after != none)
-                    move = plus(move, times(moves[after], faded(static_cast<double>(after - i) / over)));
+                    move = plus(move, times(moves[after],
+                                            lint_detail::fading(static_cast<double>(after - i) / over)));
                 moves[i] = move;
             }
         }
@@ -299,7 +294,7 @@ class Planner {
         const PointedFoot& its = pointed(foot, i);
         const glm::dvec3 pointed_way = minus(its.ankle, its.hip), way = plus(pointed_way, moves_[foot][i]);
         const double longest = std::max(straight * its.leg, length(pointed_way) - length(moves_[foot][i]));
-        const double aside = level_length(way);
+        const double aside = lint_detail::level(way);
         if (dot(way, way) <= longest * longest || aside >= longest) return 0.0;
         return std::min(-way.y - std::sqrt(longest * longest - aside * aside), 0.2 * task_.leg);
     }

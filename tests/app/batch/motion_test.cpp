@@ -14,6 +14,8 @@
 namespace tendril::test {
 namespace {
 
+namespace fs = std::filesystem;
+
 using app::Json;
 using Strings = std::vector<std::string>;
 
@@ -171,6 +173,33 @@ TEST_F(MotionProgram, lint_and_bake_take_another_characters_motion_and_say_what_
     const Outcome unknown = run({"bake", body, "--motion", walk, "--clip", "run"});
     EXPECT_EQ(unknown.exit_code, 2);
     EXPECT_TRUE(test::says(unknown.err, "walk.bvh no clip run motion")) << unknown.err;
+}
+
+TEST_F(MotionProgram, APoseIsAMotionToo) {
+    const std::string walk = figure("walk.bvh"), body = figure("body.glb");
+    std::string text = read(folder_ / "walk.bvh");
+    const std::size_t count = text.find("Frames: "), time = text.find("\nFrame Time"),
+                      rows = text.find('\n', time + 1) + 1;
+    const std::string row = text.substr(rows, text.find('\n', rows) + 1 - rows);
+    for (const int frames : {1, 2, 3}) {
+        std::string pose =
+            text.substr(0, count) + "Frames: " + std::to_string(frames) + text.substr(time, rows - time);
+        for (int i = 0; i < frames; ++i) pose += row;
+        write(folder_ / "pose.bvh", pose);
+        ASSERT_EQ(run({"bake", path("pose.bvh"), "--out", path("pose.gltf")}).exit_code, 0);
+        fs::rename(path("pose.gltf"), path("pose.vrma"));
+        for (const char* motion : {"pose.bvh", "pose.vrma"})
+            for (const Strings& arguments :
+                 {Strings{"lint", body},
+                  {"bake", body, "--out", path("out.bvh")},
+                  {"bake", body, "--ground", "stairs", "--travel", "--out", path("out.glb")}}) {
+                Strings all = arguments;
+                all.insert(all.end(), {"--motion", path(motion)});
+                const Outcome outcome = run(all);
+                EXPECT_EQ(outcome.exit_code, 0) << motion << ", " << frames << outcome.out << outcome.err;
+            }
+        EXPECT_EQ(app::read_character(path("out.bvh")).clips.at(0).channels[0].rotation.times.size(), frames);
+    }
 }
 
 TEST_F(MotionProgram, bake_makes_a_clip_that_walks_in_place_travel) {

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <tendril/humanoid/retarget.hpp>
+#include <tendril/humanoid/t_pose.hpp>
 #include <utility>
 #include <vector>
 
@@ -78,11 +81,13 @@ struct Written {
     glm::dvec3 root{0, 90, 0};          ///< its position in the first frame
     glm::dvec3 way{0, 0, 2};            ///< that it moves in a frame
     double unit = 1.0;                  ///< times that
+    double tread = 0.0;                 ///< degrees by which the feet tilt more and less, in turn
+    int frames = 20;
 };
 
 std::string written(const Written& from) {
     std::ostringstream text;
-    std::ostringstream row;
+    std::vector<const Joint*> order;
     const auto point = [&](glm::dvec3 at) {
         if (from.rest_z_up) at = {at.x, -at.z, at.y};
         text << "OFFSET " << from.unit * at.x << ' ' << from.unit * at.y << ' ' << from.unit * at.z << '\n';
@@ -93,10 +98,7 @@ std::string written(const Written& from) {
         point(of.offset);
         text << "CHANNELS " << (is_root ? "6 Xposition Yposition Zposition" : "3")
              << " Zrotation Xrotation Yrotation\n";
-        if (is_root)
-            row << from.root_turn[0] + of.turn << ' ' << from.root_turn[1] << ' ' << from.root_turn[2];
-        else
-            row << ' ' << of.turn << " 0 0";
+        order.push_back(&of);
         bool has_children = false;
         for (const Joint& each : from.joints)
             if (std::string(each.parent) == of.name) has_children = true, self(self, each);
@@ -109,10 +111,19 @@ std::string written(const Written& from) {
     };
     text << "HIERARCHY\n";
     joint(joint, from.joints.front());
-    text << "MOTION\nFrames: 20\nFrame Time: 0.05\n";
-    for (int i = 0; i < 20; ++i) {
+    text << "MOTION\nFrames: " << from.frames << "\nFrame Time: 0.05\n";
+    for (int i = 0; i < from.frames; ++i) {
         const glm::dvec3 at = from.unit * (from.root + static_cast<double>(i) * from.way);
-        text << at.x << ' ' << at.y << ' ' << at.z << ' ' << row.str() << '\n';
+        text << at.x << ' ' << at.y << ' ' << at.z;
+        for (const Joint* each : order) {
+            const bool is_root = each == order[0];
+            double turn = each->turn + (is_root ? from.root_turn[0] : 0.0);
+            if (std::string(each->name) == "LeftFoot") turn += from.tread * std::cos(0.3 * i);
+            if (std::string(each->name) == "RightFoot") turn -= from.tread * std::cos(0.3 * i);
+            text << ' ' << turn << ' ' << (is_root ? from.root_turn[1] : 0.0) << ' '
+                 << (is_root ? from.root_turn[2] : 0.0);
+        }
+        text << '\n';
     }
     return text.str();
 }
@@ -157,6 +168,60 @@ TEST(BvhSpace, a_zero_pose_that_does_not_stand_gives_way_to_the_motion) {
     EXPECT_EQ(character.space.positions, RootPositions::Replace);
     EXPECT_TRUE(test::says(all_text(character), "positions replace its OFFSET floor"));
     EXPECT_TRUE(test::says(all_text(character), "rest pose frame of the motion"));
+}
+
+/// It walks as in its file, whichever way it looks in the frame that becomes its rest pose.
+TEST(BvhSpace, TheWayAFigureLooksInAFrameIsNotTheWayItFaces) {
+    const Character figure = stick_figure();
+    const humanoid::BoneMap map = bone_map(figure);
+    for (const double yaw : {-128.0, -18.0, 0.0, 18.0, 64.0, 90.0, 170.0}) {
+        SCOPED_TRACE(yaw);
+        const Character source =
+            parse_bvh(written({.joints = folded, .root_turn = {0, yaw, 0}, .root = {0, 90, 0}}), "it.bvh");
+        expect_standing(source);
+        EXPECT_LT(glm::distance(facing(source.skeleton, bone_map(source)).forward, {0, 0, 1}), 1e-9);
+        const humanoid::BoneMap from = bone_map(source);
+        const auto made =
+            humanoid::retarget({source.skeleton, from}, source.clips[0], {figure.skeleton, map});
+        ASSERT_TRUE(made) << made.message();
+        Character shown = figure;
+        shown.clips = {made->clip};
+        const auto ahead = [](const Character& of, const char* toes) {
+            const glm::dvec3 foot = at(of, toes) - at(of, "LeftFoot");
+            return glm::normalize(glm::dvec3(foot.x, 0.0, foot.z));
+        };
+        EXPECT_LT(glm::distance(ahead(shown, "LeftToes"), ahead(source, "LeftToe")), 1e-6);
+        const glm::dvec3 way = test_posed::at(shown, "Hips", 0, 0.95) - at(shown, "Hips");
+        EXPECT_LT(glm::distance(way, {0.0, 0.0, 0.38 * made->scale}), 1e-3);
+    }
+}
+
+/// And the feet of that frame are not how it stands: a frame is the same however many follow.
+TEST(BvhSpace, AFrameRetargetsTheSameInAFileOfAnyLength) {
+    const Character figure = stick_figure();
+    const humanoid::BoneMap map = bone_map(figure);
+    for (const int frames : {1, 2, 4, 10, 60}) {
+        const Character source = parse_bvh(
+            written(
+                {.joints = folded, .root = {0, 90, 0}, .way = {0, 0, 4}, .tread = 15.0, .frames = frames}),
+            "it.bvh");
+        const humanoid::BoneMap from = bone_map(source);
+        const auto made =
+            humanoid::retarget({source.skeleton, from}, source.clips[0], {figure.skeleton, map});
+        ASSERT_TRUE(made) << made.message();
+        Character shown = figure;
+        shown.clips = {made->clip};
+        const auto tilt = [&](const char* foot, const char* toes) {
+            const glm::dvec3 now = at(shown, toes) - at(shown, foot),
+                             rest = at(shown, toes, false) - at(shown, foot, false);
+            return glm::degrees(std::asin(rest.y / glm::length(rest)) - std::asin(now.y / glm::length(now)));
+        };
+        // At rest it points 23 degrees down in the file, and stands 30 degrees down.
+        EXPECT_NEAR(tilt("LeftFoot", "LeftToes") + tilt("RightFoot", "RightToes"), 2.0 * (23.2 - 30.0), 1.0)
+            << frames;
+        EXPECT_NEAR(std::abs(tilt("LeftFoot", "LeftToes") - tilt("RightFoot", "RightToes")), 30.0, 1.0)
+            << frames;
+    }
 }
 
 TEST(BvhSpace, root_positions_are_added_where_that_alone_puts_the_feet_on_the_floor) {

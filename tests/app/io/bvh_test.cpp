@@ -3,13 +3,8 @@
 
 #include <stdexcept>
 #include <string>
-#include <tendril/humanoid/lint.hpp>
 
 #include "app/io/character/bvh.hpp"
-#include "app/io/character/export.hpp"
-#include "app/io/character/read.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/places.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app::bvh_spelling {
@@ -91,28 +86,6 @@ TEST(Bvh, a_long_name_is_not_copied_to_thousands_of_end_sites) {
     EXPECT_TRUE(test::says(refusal(text + "}\nMOTION\nFrames: 0\nFrame Time: 1\n"), "line 2 name"));
     std::string nested = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nEnd Site\n{\nEnd Site\n{\n}\n}\n}\n";
     EXPECT_TRUE(test::says(refusal(nested + "MOTION\nFrames: 0\nFrame Time: 1\n"), "line 7 End Site"));
-}
-
-TEST(Bvh, as_many_frames_are_written_as_were_read) {
-    const test::TempFolder folder;
-    for (const char* step :
-         {"0.0333333", "0.033333", "0.03333", "0.0083333", "0.008333", "0.041667", "0.0167"}) {
-        for (const std::size_t count : {3u, 128u, 1501u}) {
-            SCOPED_TRACE(step + (", " + std::to_string(count)));
-            std::string text =
-                stalk + "MOTION\nFrames: " + std::to_string(count) + "\nFrame Time: " + step + '\n';
-            for (std::size_t i = 0; i < count; ++i)
-                text += "0 90 0 0 0 0 " + std::to_string(i % 90) + " 0 0\n";
-            const Character character = parse_bvh(text, "it.bvh");
-            const humanoid::Clip& clip = character.clips.at(0);
-            const ExportReport report =
-                export_clip({character, {}, clip, clip, humanoid::frame_rate(clip)}, folder / "out.bvh");
-            EXPECT_EQ(report.frames, count);
-            EXPECT_LT(report.worst, 1e-4);
-            const Character again = read_character(folder / "out.bvh");
-            EXPECT_EQ(again.clips.at(0).channels.at(0).rotation.times.size(), count);
-        }
-    }
 }
 
 }  // namespace

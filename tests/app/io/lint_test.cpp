@@ -184,41 +184,48 @@ TEST_F(LintTest, finds_a_knee_that_snaps_straight) {
     EXPECT_TRUE(found) << texts(report);
 }
 
-TEST_F(LintTest, finds_a_flipped_key_and_a_jump) {
-    Clip clip = walk().clip();
-    auto& keys = clip.channels[static_cast<std::size_t>(node("LeftUpperArm"))].rotation.values;
-    keys[30] = -keys[30];
-    expect_only(clip, Fault::SignFlip, "LeftUpperArm", 30, 30, 358.0, 3.0);
-    Frames frames = walk();
-    for (std::size_t k = 100; k < frames.poses.size(); ++k) frames.poses[k][0].translation.x += 0.2;
-    const LintReport report = run(frames.clip());
-    const auto jump = std::find_if(report.findings.begin(), report.findings.end(),
-                                   [](const Finding& each) { return each.fault == Fault::Jump; });
-    ASSERT_NE(jump, report.findings.end()) << texts(report);
-    EXPECT_EQ(jump->node, node("Hips"));
-    EXPECT_EQ(jump->frame, 100u);
-    EXPECT_NEAR(jump->amount, 200.0, 5.0);
+TEST_F(LintTest, finds_a_knee_and_an_elbow_that_bend_the_wrong_way) {
+    for (const double most : {40.0, 50.0, 60.0, 110.0})
+        for (const bool is_knee : {true, false}) {
+            Frames frames = walk();
+            const char* const name = is_knee ? "LeftLowerLeg" : "RightLowerArm";
+            for (std::size_t k = 0; k < frames.poses.size(); ++k) {
+                const double bend = most * ramp(k, 60, 90) * (1.0 - ramp(k, 110, 140));
+                frames.at(k, name).rotation =
+                    glm::angleAxis(glm::radians(is_knee ? -bend : bend),
+                                   is_knee ? glm::dvec3(1, 0, 0) : glm::dvec3(0, -1, 0));
+            }
+            const LintReport report = run(frames.clip());
+            const auto fault = std::find_if(report.findings.begin(), report.findings.end(),
+                                            [](const Finding& each) { return each.fault == Fault::Limit; });
+            ASSERT_NE(fault, report.findings.end()) << name << ' ' << most << ": " << texts(report);
+            EXPECT_EQ(fault->node, node(name)) << fault->text;
+            EXPECT_GE(fault->frame, 80u);
+            EXPECT_LE(fault->frame, 112u);
+            EXPECT_GT(fault->amount, 0.6 * most) << fault->text;
+            EXPECT_LT(fault->amount, most + 1.0) << fault->text;
+            EXPECT_STREQ(fault->unit, "deg");
+        }
 }
 
-TEST_F(LintTest, finds_a_knee_and_an_elbow_that_bend_the_wrong_way) {
-    for (const bool is_knee : {true, false}) {
-        Frames frames = walk();
-        const char* const name = is_knee ? "LeftLowerLeg" : "RightLowerArm";
-        for (std::size_t k = 0; k < frames.poses.size(); ++k) {
-            const double bend = 110.0 * ramp(k, 60, 90) * (1.0 - ramp(k, 110, 140));
-            frames.at(k, name).rotation = glm::angleAxis(
-                glm::radians(is_knee ? -bend : bend), is_knee ? glm::dvec3(1, 0, 0) : glm::dvec3(0, -1, 0));
+/// However the thigh is twisted on its way up: beyond a right angle that is a swing to another side.
+TEST_F(LintTest, an_amount_beyond_a_limit_is_the_least_turn_that_brings_the_joint_back) {
+    const auto about = [](const glm::dvec3& axis, double degrees) {
+        return glm::angleAxis(glm::radians(degrees), axis);
+    };
+    for (const double lift : {156.0, 170.0})
+        for (const double twist : {0.0, 20.0, -40.0, 44.0}) {
+            Frames frames = walk();
+            for (std::size_t k = 0; k < frames.poses.size(); ++k)
+                frames.at(k, "LeftUpperLeg").rotation =
+                    about({1, 0, 0}, -lift) * about({0, 1, 0}, twist) * about({0, 0, 1}, 0.3 * twist);
+            BodyLimits limits = default_limits(skeleton, map);
+            const LintReport report = lint(skeleton, map, frames.clip(), {.limits = &limits});
+            const auto fault = std::ranges::find(report.findings, node("LeftUpperLeg"), &Finding::node);
+            ASSERT_NE(fault, report.findings.end()) << texts(report);
+            EXPECT_GT(fault->amount, lift - 120.0 - 15.0) << twist << ": " << fault->text;
+            EXPECT_LT(fault->amount, lift - 120.0 + 1.0) << twist << ": " << fault->text;
         }
-        const LintReport report = run(frames.clip());
-        const auto fault = std::find_if(report.findings.begin(), report.findings.end(),
-                                        [](const Finding& each) { return each.fault == Fault::Limit; });
-        ASSERT_NE(fault, report.findings.end()) << name << ": " << texts(report);
-        EXPECT_EQ(fault->node, node(name)) << fault->text;
-        EXPECT_GE(fault->frame, 85u);
-        EXPECT_LE(fault->frame, 112u);
-        EXPECT_GT(fault->amount, 65.0) << fault->text;
-        EXPECT_STREQ(fault->unit, "deg");
-    }
 }
 
 TEST_F(LintTest, judges_by_the_limits_that_it_is_given) {
@@ -420,8 +427,8 @@ TEST(LintFiles, those_of_others_are_what_they_were_found_to_be) {
             }
         EXPECT_EQ(counts.size(), known->second.size());
         if (name == "robot.glb") {
-            EXPECT_EQ(counts[Fault::SignFlip], 15);
-            EXPECT_EQ(counts[Fault::Limit], 2) << "it falls on its chest; its arms do what arms do";
+            EXPECT_EQ(counts[Fault::SignFlip], 7) << "one in each of seven clips";
+            EXPECT_EQ(counts[Fault::Limit], 1) << "it falls on its chest; its arms do what arms do";
         }
     });
     EXPECT_EQ(files, faults_of_files().size());

@@ -13,10 +13,12 @@
 //     Floating   a foot stands still above the floor                              foot          mm
 //     Sinking    a foot is below the floor                                        foot          mm
 //     KneePop    a knee jumps, or snaps straight or out of straight               lower leg     deg
-//     SignFlip   a key's quaternion has the opposite sign of its neighbours':
-//                without the short way it turns by the amount between two keys    its node      deg
-//     Limit      a joint is beyond its range; an elbow, if it bends to a side
-//                to which no shoulder can twist it                                its node      deg
+//     SignFlip   keys' quaternions have the opposite sign of their neighbours':
+//                without the short way a joint turns by the amount between two
+//                keys; one finding for all joints of a clip                       the worst     deg
+//     Limit      a joint is beyond its range, by the least turn that brings it
+//                back; an elbow, if it bends to a side to which no shoulder can
+//                twist it                                                         its node      deg
 //     Jump       a joint departs for a few frames, or jumps for good; a key
 //                that steps on purpose is no jump                                 its node      deg or mm
 //     Scale      implausible sizes: the clip's bones are a multiple of the
@@ -95,8 +97,8 @@ struct LintReport {
     std::vector<Finding> findings{};  ///< by frame
 };
 
-/// Frames per second, as the clip's file says, or from the spacing of its keys; rounded if within 0.1 % of a
-/// whole number. 60 if there are too few keys, or if they give a rate not between 20 and 1000.
+/// Frames per second, as the clip's file says (1 to 1000), or from the spacing of its keys; rounded if within
+/// 0.1 % of a whole number. 60 if there are too few keys, or if they give a rate not between 20 and 1000.
 double frame_rate(const Clip& clip) noexcept;
 
 /// `clip` must have passed check().
@@ -107,7 +109,7 @@ LintReport lint(const Skeleton& skeleton, const BoneMap& map, const Clip& clip,
 std::vector<Finding> new_findings(const LintReport& before, const LintReport& after);
 
 /// The clip without that fault, otherwise unchanged:
-///   SignFlip: all keys of the track are brought to one hemisphere; it turns as before.
+///   SignFlip: all keys of each track are brought to one hemisphere; joints turn as before.
 ///   Skating: the foot stands still, midway along its slide. Floating, Sinking: it is moved vertically onto
 ///   the floor. They blend into the clip within 0.15 s before and after (0.6 s at most), and into the same
 ///   fault of that foot if it is as near; the hips are lowered if the leg is too short.

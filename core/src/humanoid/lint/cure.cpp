@@ -98,7 +98,7 @@ void spread(const Channel& was, Track<T>& track, double before, double after) {
     for (std::size_t i = 0; i < track.times.size(); ++i) {
         const double off = track.times[i] - middle, u = std::abs(off) / ease;
         if (u >= 1.0) continue;
-        const double weight = 0.5 * (1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u);
+        const double weight = 0.5 * lint_detail::fading(u);
         T& value = track.values[width_of(track) == 3 ? 3 * i + 1 : i];
         value = moved(value, weighted(off < 0.0 ? way_between(from, to) : way_between(to, from), weight));
     }
@@ -106,6 +106,7 @@ void spread(const Channel& was, Track<T>& track, double before, double after) {
 }
 
 void mend_signs(Track<glm::dquat>& track) {
+    if (track.interpolation == Interpolation::Step) return;
     const std::size_t width = width_of(track);
     for (std::size_t i = 1; i < track.times.size(); ++i) {
         const std::size_t middle = width == 3 ? 1 : 0;
@@ -173,7 +174,7 @@ Clip mended(const Skeleton& skeleton, const BoneMap& map, const Clip& clip, cons
     const auto node_of = [&](Bone bone) { return map[bone].node; };
     switch (finding.fault) {
         case Fault::SignFlip:
-            each_of({finding.node}, [](Channel& channel) { mend_signs(channel.rotation); });
+            for (Channel& channel : cured.channels) mend_signs(channel.rotation);
             break;
         case Fault::Jump:
             each_of({finding.node}, [&](Channel& channel) { mend_jump(clip, finding, rate, channel); });

@@ -25,11 +25,6 @@ using namespace rig::detail;
 constexpr double stands = 0.02, swings = 0.08;  // metres above the floor
 constexpr double deepest = 0.1;                 // of a leg's length: the hips are lowered by at most this
 
-/// 1 at 0, 0 from 1 on.
-double fading(double u) noexcept {
-    return u >= 1.0 ? 0.0 : (1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u);
-}
-
 /// The correction of each frame from the first to the last that change.
 struct Plan {
     std::size_t first = 0;            ///< frame

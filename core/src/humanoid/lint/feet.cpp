@@ -13,7 +13,7 @@ using namespace rig::detail;
 // that is pulled away for a moment without being lifted has not taken a step.
 constexpr double enter = 0.6, leave = 1.2, low = 0.03;  // m/s, m
 constexpr double lifted = 0.025, shortest_step = 0.1;   // m, s
-constexpr double landing = 0.05, min_stance = 0.15;     // s
+constexpr double landing = 0.05;                        // s
 
 /// A stance without its ends, in which the foot lands or leaves: from the first to the last still frame. A
 /// foot that is never still slides throughout: a fixed time is cut from both ends.
@@ -155,12 +155,14 @@ std::optional<double> floor_of(const FeetMotion& motion, double rate) {
     std::vector<double> heights, at_rest;
     for (const Foot& foot : motion.feet) {
         for (std::size_t i = 0; i < foot.height.size(); ++i) {
-            if (!foot.still[i]) continue;
+            const bool is_at_rest = std::abs(foot.height[i]) < 0.5 * width;
+            if (!foot.still[i] || (motion.rests_on_ground && !is_at_rest && !foot.carries(i))) continue;
             heights.push_back(foot.height[i]);
-            if (std::abs(foot.height[i]) < 0.5 * width) at_rest.push_back(foot.height[i]);
+            if (is_at_rest) at_rest.push_back(foot.height[i]);
         }
     }
-    if (static_cast<double>(heights.size()) < min_stance * rate) return std::nullopt;
+    if (motion.hips.size() < 4 || static_cast<double>(heights.size()) < min_stance * rate)
+        return std::nullopt;
     const bool use_rest = motion.rests_on_ground && 5 * at_rest.size() >= heights.size();
     std::vector<double>& used = use_rest ? at_rest : heights;
     std::sort(used.begin(), used.end());

@@ -11,6 +11,8 @@ namespace tendril::humanoid::lint_detail {
 
 using detail::Limb;
 
+inline constexpr double min_stance = 0.15;  // seconds
+
 /// A point of the sole: a node of the foot, lowered by its height above the ground when the foot stands flat.
 /// The offset does not turn with the foot, so that errors in the sole do not grow when the foot tilts. That
 /// is why find_soles()'s heel and toe are not used: foot IK has to turn them along, but they are guessed from
@@ -30,9 +32,11 @@ struct Foot {
     std::vector<double> speed{};          ///< of the point that moves the least, m/s
     std::vector<double> jolt{};           ///< the slower of the speeds into and out of the frame, m/s
     std::vector<bool> still{};            ///< it does not move, not even vertically
+    std::vector<bool> upright{};          ///< the hips are up: the figure neither sits nor lies
     std::vector<double> height{};         ///< of the lowest point
     std::vector<double> tilt{};           ///< from standing flat, degrees
 
+    bool carries(std::size_t frame) const { return still[frame] && upright[frame]; }
     const glm::dvec3& at(std::size_t point, std::size_t frame) const noexcept {
         return positions[frame * points.size() + point];
     }
@@ -49,7 +53,8 @@ struct FeetMotion {
 FeetMotion feet_motion(const Check& check);
 
 /// Height of the floor that feet stand on: near 0 if the figure rests on the ground and at least a fifth of
-/// the still frames are there, otherwise the most common height. nullopt if feet hardly stand.
+/// the still frames are there, otherwise the most common height. Of such a figure, feet that are still
+/// elsewhere while it sits or lies do not count. nullopt if feet hardly stand.
 std::optional<double> floor_of(const FeetMotion& motion, double rate);
 struct Stretch {
     std::size_t first, last;  // frames

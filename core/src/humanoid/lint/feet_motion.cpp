@@ -9,9 +9,10 @@ namespace {
 
 using namespace rig::detail;
 
-constexpr double slow = 0.2;         // m/s: a slower foot is still
-constexpr double never_slow = 0.6;   // the same if feet slide all the time
-constexpr double as_it_rests = 8.0;  // degrees that a standing foot may tilt from its rest
+constexpr double slow = 0.2;           // m/s: a slower foot is still
+constexpr double never_slow = 0.6;     // the same if feet slide all the time
+constexpr double as_on_ground = 15.0;  // degrees, the same if the rest pose stands on the ground
+constexpr double as_it_rests = 8.0;    // degrees that a standing foot may tilt from its rest
 constexpr glm::dvec3 up{0.0, 1.0, 0.0};
 
 struct Side {
@@ -19,11 +20,6 @@ struct Side {
 };
 constexpr Side sides[]{{Bone::LeftFoot, Bone::LeftToes}, {Bone::RightFoot, Bone::RightToes}};
 
-double middle_of(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) noexcept {
     return arctangent(length(cross(a, b)), dot(a, b)) * degrees;
 }
@@ -79,7 +75,21 @@ OnGround on_ground(const Ground* ground, const glm::dvec3& position) {
     return {{position.x, position.y - hit->height, position.z}, hit->normal};
 }
 
-void record(const Check& check, FeetMotion& motion) {
+/// Whether the hips are up over a foot, and the head over the hips: by their distances at rest.
+bool is_upright(const Check& check, std::int32_t foot, const std::vector<Placement>& rest,
+                const std::vector<Placement>& now) {
+    constexpr double risen = 0.6;  // of those; hips are up by 0.5 on a chair, a head by 0.1 if one lies
+    const auto rises = [&](std::int32_t from, std::int32_t to) {
+        if (from < 0 || to < 0) return true;
+        const auto a = static_cast<std::size_t>(from), b = static_cast<std::size_t>(to);
+        return now[b].position.y - now[a].position.y >
+               risen * length(minus(rest[b].position, rest[a].position));
+    };
+    const std::int32_t hips = check.map[Bone::Hips].node;
+    return rises(foot, hips) && rises(hips, check.map[Bone::Head].node);
+}
+
+void record(const Check& check, const std::vector<Placement>& rest, FeetMotion& motion) {
     const Skeleton& skeleton = check.skeleton;
     const auto hips = static_cast<std::size_t>(check.map[Bone::Hips].node);
     std::vector<rig::Transform> pose(skeleton.size());
@@ -94,6 +104,7 @@ void record(const Check& check, FeetMotion& motion) {
             for (const SolePoint& point : foot.points)
                 foot.positions.push_back(on(placed[point.node].position).position);
             foot.ups.push_back(rotated(conjugate(ankle.rotation()), on(ankle.position).up));
+            foot.upright.push_back(is_upright(check, foot.node, rest, placed));
         }
     }
 }
@@ -110,9 +121,11 @@ void measure_heights(Foot& foot) {
 }
 
 /// The median velocity of the lowest point of both feet, over the frames in which it is near the ground. 0
-/// for a figure that travels.
+/// for a figure that travels, and within less than half a step.
 glm::dvec3 treadmill_of(const FeetMotion& motion, double rate) {
     const std::size_t frames = motion.hips.size();
+    constexpr double half_step = 0.3;  // seconds
+    if (frames < 4 || static_cast<double>(frames) < half_step * rate) return glm::dvec3(0.0);
     std::vector<double> lowest(frames, std::numeric_limits<double>::max());
     std::vector<glm::dvec3> moves(frames, glm::dvec3(0.0));
     for (std::size_t i = 1; i < frames; ++i)
@@ -135,9 +148,10 @@ glm::dvec3 treadmill_of(const FeetMotion& motion, double rate) {
 
 void measure_speed(Foot& foot, const glm::dvec3& treadmill, double rate) {
     const std::size_t frames = foot.ups.size();
-    foot.speed.assign(frames, 0.0);
+    foot.speed.assign(frames, std::numeric_limits<double>::max());  // of a single frame it is not known
     foot.jolt.assign(frames, 0.0);
     foot.still.assign(frames, false);
+    if (frames < 2) return;
     const auto slowest_between = [&](std::size_t from, std::size_t to) {
         const double by_second = rate / static_cast<double>(to - from);
         double slowest = std::numeric_limits<double>::max();
@@ -167,16 +181,21 @@ bool find_still(std::vector<Foot>& feet, double below) {
     return any;
 }
 
-/// Whether standing feet are tilted as at rest.
-bool stands_as_it_rests(const std::vector<Foot>& feet) {
+/// Whether standing feet are tilted as at rest. A rest pose that stands on the ground is believed unless over
+/// four fifths of them are not; any other, if most are.
+bool stands_as_it_rests(const std::vector<Foot>& feet, bool rests_on_ground, double rate) {
     std::vector<double> tilts;
     for (const Foot& foot : feet)
         for (std::size_t i = 0; i < foot.still.size(); ++i)
-            if (foot.still[i]) tilts.push_back(foot.tilt[i]);
-    return !tilts.empty() && middle_of(tilts) < as_it_rests;
+            if (foot.carries(i)) tilts.push_back(foot.tilt[i]);
+    if (!rests_on_ground) return tilts.empty() || middle_of(tilts) < as_it_rests;
+    const auto alike = static_cast<std::size_t>(
+        std::count_if(tilts.begin(), tilts.end(), [](double each) { return each < as_on_ground; }));
+    return static_cast<double>(tilts.size()) < min_stance * rate || 5 * alike >= tilts.size();
 }
 
-/// Learns the points' heights above the ground, and the feet's up directions, from the still frames.
+/// Learns the points' heights above the ground, and the feet's up directions, from the frames in which they
+/// carry.
 void learn_soles(std::vector<Foot>& feet) {
     double ground = std::numeric_limits<double>::max();
     std::vector<double> heights;
@@ -184,13 +203,13 @@ void learn_soles(std::vector<Foot>& feet) {
     for (Foot& foot : feet) {
         glm::dvec3 sum(0.0);
         for (std::size_t i = 0; i < foot.still.size(); ++i)
-            if (foot.still[i]) sum = plus(sum, foot.ups[i]);
+            if (foot.carries(i)) sum = plus(sum, foot.ups[i]);
         if (const auto mean = direction_of(sum, 1e-9)) foot.flat = *mean;
         for (std::size_t k = 0; k < foot.points.size(); ++k) {
             heights.clear();
             for (const Foot& each : feet)
                 for (std::size_t i = 0; i < each.still.size() && k < each.points.size(); ++i)
-                    if (each.still[i]) heights.push_back(each.at(k, i).y);
+                    if (each.carries(i)) heights.push_back(each.at(k, i).y);
             if (heights.empty())
                 continue;  // no foot with such a point is ever still: it keeps its rest height
             std::sort(heights.begin(), heights.end());
@@ -223,7 +242,7 @@ FeetMotion feet_motion(const Check& check) {
         if (check.map[side.foot].node >= 0) motion.feet.push_back(foot_of(check, side, placed));
     if (motion.feet.empty()) return motion;
     const Rest rest = look_at_rest(motion.feet, placed[static_cast<std::size_t>(hips)].position.y);
-    record(check, motion);
+    record(check, placed, motion);
     motion.treadmill = treadmill_of(motion, check.report.rate);
     for (Foot& foot : motion.feet) {
         measure_speed(foot, motion.treadmill, check.report.rate);
@@ -231,7 +250,7 @@ FeetMotion feet_motion(const Check& check) {
     }
     motion.always_slides = !find_still(motion.feet, slow);
     if (motion.always_slides) find_still(motion.feet, never_slow);
-    motion.knows_soles = rest.is_level && stands_as_it_rests(motion.feet);
+    motion.knows_soles = rest.is_level && stands_as_it_rests(motion.feet, rest.is_ground, check.report.rate);
     motion.rests_on_ground = rest.is_ground && motion.knows_soles;
     if (!motion.knows_soles) {
         learn_soles(motion.feet);

@@ -13,29 +13,36 @@ std::size_t frame_of(const Check& check, double time) {
     return std::min(frame, check.report.frames - 1);
 }
 
-/// One finding for each run of keys in the hemisphere opposite to the first key's.
-void check_signs_of(Check& check, const Channel& channel) {
+/// Keys in the hemisphere opposite to the key's before, of all tracks.
+struct Flips {
+    std::size_t count = 0, tracks = 0, first = 0, last = 0;  // frames
+    std::size_t worst = 0;                                   // frame
+    std::int32_t node = -1;                                  // of the worst
+    double most = 0.0;                                       // degrees that it turns the long way round
+};
+
+/// Keys between two flips are on the other side, too.
+void find_flips(const Check& check, const Channel& channel, Flips& all) {
     const Track<glm::dquat>& track = channel.rotation;
     if (track.interpolation == Interpolation::Step) return;
     const bool cubic = track.interpolation == Interpolation::Cubic;
     const auto key = [&](std::size_t i) -> const glm::dquat& { return track.values[cubic ? 3 * i + 1 : i]; };
     const std::size_t count = track.times.size();
-    std::vector<std::size_t> flips;  // keys in the hemisphere opposite to the key before
-    for (std::size_t i = 1; i < count; ++i)
-        if (dot(key(i - 1), key(i)) < 0.0) flips.push_back(i);
-    for (std::size_t i = 0; i < flips.size(); i += 2) {
-        const std::size_t first = flips[i], last = i + 1 < flips.size() ? flips[i + 1] - 1 : count - 1;
-        const double way = 2.0 * half_angle_between(key(first - 1), key(first)) * degrees;
-        std::string text = first == last
-                               ? "has a rotation key that goes the long way round: "
-                               : "has rotation keys that go the long way round from one frame to the next: ";
-        text += "unless read the short way, it turns by " + shown(360.0 - way) + " degrees between two keys";
-        check
-            .add(Fault::SignFlip, static_cast<std::int32_t>(channel.node),
-                 frame_of(check, track.times[first]), frame_of(check, track.times[first]),
-                 frame_of(check, track.times[last]), 360.0 - way, "deg", text)
-            .has_cure = true;
+    bool flipped = false, any = false;
+    for (std::size_t i = 1; i < count; ++i) {
+        const bool flips = dot(key(i - 1), key(i)) < 0.0;
+        flipped ^= flips;
+        const std::size_t frame = frame_of(check, track.times[i]);
+        if (flipped) all.last = std::max(all.last, frame);
+        if (!flips || !flipped) continue;
+        const double turn = 360.0 - 2.0 * half_angle_between(key(i - 1), key(i)) * degrees;
+        all.first = all.count == 0 ? frame : std::min(all.first, frame);
+        if (turn > all.most)
+            all.most = turn, all.worst = frame, all.node = static_cast<std::int32_t>(channel.node);
+        ++all.count;
+        any = true;
     }
+    all.tracks += any;
 }
 
 /// Reports the first key that flattens the node to a plane, a line or a point, or mirrors it, relative to its
@@ -96,8 +103,19 @@ std::optional<double> size_of_clip(const Skeleton& skeleton, const Clip& clip) {
     return middle;
 }
 
+/// One finding for the whole clip: an exporter that minds no signs minds none of them.
 void check_signs(Check& check) {
-    for (const Channel& channel : check.clip.channels) check_signs_of(check, channel);
+    Flips all;
+    for (const Channel& channel : check.clip.channels) find_flips(check, channel, all);
+    if (all.count == 0) return;
+    std::string text = "has rotation keys that go the long way round: ";
+    if (all.count > 1) {
+        text = "has rotation keys that go the long way round, " + std::to_string(all.count) + " times";
+        text += all.tracks > 1 ? " in " + std::to_string(all.tracks) + " joints: " : ": ";
+    }
+    text += "unless read the short way, it turns by " + shown(all.most) + " degrees between two keys";
+    check.add(Fault::SignFlip, all.node, all.worst, all.first, all.last, all.most, "deg", text).has_cure =
+        true;
 }
 
 void check_sizes(Check& check) {

@@ -1,6 +1,7 @@
 // Shared by the checks of the lint. Not installed.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,6 +56,17 @@ std::vector<Outlier> outliers(const std::vector<glm::dvec3>& moves, double minim
 /// A factor for thresholds that are given for 60 frames per second: at fewer, more happens in each frame.
 inline double slower(double rate) noexcept {
     return (2.0 + 60.0 / rate) / 3.0;
+}
+
+/// 1 at 0, 0 from 1 on; smooth.
+inline double fading(double u) noexcept {
+    return u >= 1.0 ? 0.0 : (1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u);
+}
+/// Of at least one value, whose order changes; of two in the middle the greater.
+inline double middle_of(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
 
 /// The motion from one value to the next; for rotations a rotation vector in degrees.

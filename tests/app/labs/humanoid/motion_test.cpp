@@ -17,7 +17,8 @@ using humanoid::Bone;
 
 /// A VRM's motion, half a man's size, facing -Z, whose left arm goes up while it walks 1 m ahead in a second.
 /// `extension`: who names the bones.
-std::string vrma(const char* extension = "VRMC_vrm_animation", bool has_toes = true, bool has_pole = false) {
+std::string vrma(const char* extension = "VRMC_vrm_animation", bool has_toes = true, bool has_pole = false,
+                 bool moves = true) {
     struct Joint {
         const char* bone;
         int parent;
@@ -58,8 +59,13 @@ std::string vrma(const char* extension = "VRMC_vrm_animation", bool has_toes = t
     if (has_pole) nodes += R"(,{"name":"pole","translation":[0.1,0.3,-0.6]})";
     test_gltf::GltfText file;
     const float half = std::sqrt(0.5f);
-    const std::string times = file.scalars({0, 1}), turns = file.quaternions({0, 0, 0, 1, 0, 0, -half, half}),
-                      ways = file.vectors({0, 0.5f, 0, 0, 0.5f, -1});
+    const std::vector<float> turned{0, 0, 0, 1, 0, 0, -half, half}, at{0, 0.5f, 0, 0, 0.5f, -1};
+    const auto keys = [&](std::vector<float> of, std::size_t width) {
+        if (!moves) of.resize(width);
+        return of;
+    };
+    const std::string times = file.scalars(keys({0, 1}, 1)), turns = file.quaternions(keys(turned, 4)),
+                      ways = file.vectors(keys(at, 3));
     file.members = R"("nodes":[)" + nodes + R"(],"animations":[{"name":"wave","samplers":[{"input":)" +
                    times + R"(,"output":)" + turns + R"(},{"input":)" + times + R"(,"output":)" + ways +
                    R"(}],"channels":[{"sampler":0,"target":{"node":4,"path":"rotation"}},)"
@@ -102,6 +108,24 @@ TEST_F(HumanoidMotions, AVrmaPlaysOnAnotherCharacter) {
     EXPECT_EQ(part().clip()->name, "wave_2");
     for (int i = 0; i < 3; ++i) run("undo");
     EXPECT_EQ(part().loaded->clips().size(), clips);
+}
+
+TEST_F(HumanoidMotions, APoseOfOneKeyIsAMotionToo) {
+    for (const char* to : {"", "body.vrm"}) {
+        if (*to != '\0') run("humanoid.load", {{"path", path(to)}});
+        test::write(folder_ / "pose.vrma", vrma("VRMC_vrm_animation", true, false, false));
+        run("humanoid.motion.load", {{"path", path("pose.vrma")}});
+        run("humanoid.ground", {{"kind", "stairs"}});
+        run("humanoid.foot_ik", {{"on", true}});
+        for (const bool loops : {true, false}) {
+            run("humanoid.clip", {{"time", 0.0}, {"play", true}, {"loop", loops}});
+            tick(20);
+        }
+        EXPECT_EQ(part().clip()->duration, 0.0);
+        const glm::dvec3 arm = bone("LeftLowerArm") - bone("LeftUpperArm");
+        EXPECT_LT(std::abs(arm.y) / glm::length(arm), 1e-3);
+        run("humanoid.export", {{"path", path("pose.bvh")}});
+    }
 }
 
 TEST_F(HumanoidMotions, ItIsAClipLikeOthers) {
