@@ -48,7 +48,8 @@ std::shared_ptr<const Part> HumanoidPart::at_moment(std::shared_ptr<const Part> 
 std::vector<std::filesystem::path> HumanoidPart::files() const {
     std::vector<std::filesystem::path> all;
     if (!loaded->path.empty()) all.emplace_back(loaded->path);
-    for (const LoadedMotion& each : loaded->motions) all.emplace_back(each.path);
+    for (const ClipEdit& each : loaded->edits)
+        if (const auto* motion = std::get_if<LoadedMotion>(&each.what)) all.emplace_back(motion->path);
     return all;
 }
 
