@@ -40,7 +40,6 @@ std::unique_ptr<Window> make_window(const SessionOptions& options, glm::ivec2 si
 Outputs check_outputs(const SessionOptions& options) {
     Outputs outputs;
     outputs.force = options.force;
-    outputs.in_window = !options.headless;
     if (!options.script.empty()) outputs.inputs.emplace_back(options.script);
     std::vector<std::filesystem::path> before;
     for (const auto& [path, kind] : {std::pair{options.screenshot, OutputKind::Picture},
@@ -58,6 +57,7 @@ Outputs check_outputs(const SessionOptions& options) {
         check_writable(path);
         outputs.own(path);
     }
+    outputs.in_window = !options.headless;  // what is refused so far cannot be asked for again
     return outputs;
 }
 
@@ -126,10 +126,21 @@ void write_recording(App& app, const std::filesystem::path& path) {
     }
 }
 
+/// Writes all of them, then reports the first failure.
 void write_outputs(App& app, const SessionOptions& options) {
-    if (!options.record.empty()) write_recording(app, options.record);
-    if (!options.state.empty()) app.write_state(options.state);
-    if (!options.screenshot.empty()) app.write_screenshot(options.screenshot);
+    app.workspace().outputs.in_window = false;
+    std::exception_ptr failure;
+    const auto write = [&](const std::string& path, auto writer) {
+        try {
+            if (!path.empty()) writer();
+        } catch (const std::runtime_error&) {
+            if (!failure) failure = std::current_exception();
+        }
+    };
+    write(options.record, [&] { write_recording(app, options.record); });
+    write(options.state, [&] { app.write_state(options.state); });
+    write(options.screenshot, [&] { app.write_screenshot(options.screenshot); });
+    if (failure) std::rethrow_exception(failure);
 }
 
 void run_headless(App& app, Player& player, int frames) {

@@ -92,7 +92,7 @@ bool write_all(int fd, std::string_view bytes) {
     return true;
 }
 
-/// Opening a pipe waits for its reader: not for ever.
+/// Opening a pipe blocks until somebody reads it; this gives up after 5 s.
 int open_stream(const fs::path& path) {
     using Time = std::chrono::steady_clock;
     const auto end = Time::now() + std::chrono::seconds(5);
@@ -124,7 +124,7 @@ class AtomicFile::Beside {
             name_ = temporary_name(folder);
             fd_ = open_file(name_, O_WRONLY | O_CREAT | O_EXCL);
             if (fd_ < 0 && errno != EEXIST) break;
-            // Before the lock another program may take it for a torn file and remove it.
+            // Until it is locked, another program may mistake it for a leftover and delete it.
             struct stat made {};
             const bool taken = fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
             if (taken || (fd_ >= 0 && ::fstat(fd_, &made) == 0 && made.st_nlink == 0))

@@ -61,14 +61,14 @@ void remove_left_locks(const fs::path& folder) {
     for (const fs::path& each : locks) FileLock::take(each);  // and let go: that removes it
 }
 
-/// Renames the file to a name of this program that is free. Returns where it is.
+/// Renames the file to a free name of this program and returns it; empty if that fails.
 fs::path adopted(const fs::path& file) {
     std::error_code error;
     fs::path mine;
     for (int i = 1; i == 1 || fs::exists(mine, error); ++i)
         mine = file.parent_path() / name_for(own_stem + '.' + std::to_string(i));
     fs::rename(file, mine, error);
-    return error ? file : mine;
+    return error ? fs::path() : mine;  // another program has taken it
 }
 
 }  // namespace
@@ -183,7 +183,6 @@ void Autosave::recover(Workspace& workspace, const fs::path& file) {
     const std::vector<std::string> missing =
         load_scene(workspace, scene, {.folder = fs::path(path).parent_path(), .whole = false});
     workspace.path = path;
-    if (!path.empty()) workspace.outputs.own(path);
     workspace.saved = Document();
     workspace.recovered = adopted(file);
     for (const std::string& each : missing) workspace.toast(each, ToastKind::Refusal);

@@ -28,7 +28,7 @@ class Autosave {
     /// Call on a clean exit: removes the work's file or, with `keep_unsaved`, updates it so that the next
     /// start offers it. A program that ends without this call leaves the file too.
     void end(Workspace& workspace, bool keep_unsaved);
-    /// This program's own.
+    /// This program's own autosave file.
     std::filesystem::path file() const;
 
     /// Files of programs that no longer run, newest first.

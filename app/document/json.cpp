@@ -159,8 +159,10 @@ std::string reason_of(const std::exception& error) {
 
 std::shared_ptr<void> await_pipe(const std::filesystem::path& path) {
     std::error_code error;
-    // A shell's own pipes, /dev/fd/63, have their writer.
-    if (!std::filesystem::is_fifo(path, error) || path.string().starts_with("/dev/fd/")) return nullptr;
+    // A shell's own pipes, /dev/stdin and /dev/fd/63, have their writer.
+    const std::string name = path.string();
+    if (!std::filesystem::is_fifo(path, error) || name.starts_with("/dev/") || name.starts_with("/proc/"))
+        return nullptr;
     const auto open_end = [&](int flags) {
         return std::shared_ptr<const int>(new int(::open(path.c_str(), flags | O_NONBLOCK | O_CLOEXEC)),
                                           [](const int* fd) {
@@ -173,8 +175,11 @@ std::shared_ptr<void> await_pipe(const std::filesystem::path& path) {
     wanted.fd = *reader;
     wanted.events = POLLIN;
     constexpr int patience = 5000;  // ms
-    if (*reader >= 0 && ::poll(&wanted, 1, patience) == 0)
-        fail(path.string(), "nothing came through this pipe for 5 s");
+    int ready = 1;
+    if (*reader >= 0) do
+            ready = ::poll(&wanted, 1, patience);
+        while (ready < 0 && errno == EINTR);
+    if (ready == 0) fail(name, "nothing came through this pipe for 5 s");
     // Being a writer, too, the next one who opens it to read does not wait.
     return std::make_shared<std::pair<std::shared_ptr<const int>, std::shared_ptr<const int>>>(
         reader, open_end(O_RDWR));

@@ -74,8 +74,7 @@ Json parse_json(std::string_view text);
 /// that path that exists; 0 if none does.
 int json_line(std::string_view text, std::string_view path);
 
-/// What an exception says, but for the JSON library's own: these say in our words that a value is of another
-/// type than expected.
+/// The exception's message. The JSON library's own messages are replaced by one in our words.
 std::string reason_of(const std::exception& error);
 
 /// Opening a named pipe waits for its writer. This waits instead until something comes through it, and throws

@@ -22,7 +22,7 @@ void check_depth(std::string_view text) {
     }
 }
 
-/// In words of this program: the parser's speak of literals and last reads. One line of printable ASCII.
+/// Rewords the parser's message, which speaks of literals and the last read. One line of printable ASCII.
 std::string parse_reason(std::string_view what, std::string_view token) {
     constexpr std::size_t longest = 60;
     what = what.substr(0, what.find("; last read"));  // what the file says is not what the parser says

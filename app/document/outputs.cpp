@@ -132,8 +132,12 @@ void Outputs::check(const std::vector<fs::path>& paths, OutputKind kind, bool re
         const bool own = owned != owned_.end() && owned->second == stamp_of(path);
         if (!force && !redraws && !own) others.push_back(path);
     }
-    bool asked = true;
-    for (const fs::path& path : others) asked &= !asked_.insert(canonical_name(path)).second;
+    bool asked = in_window || others.empty();
+    for (const fs::path& path : others) {
+        Stamp& last = asked_[canonical_name(path)];
+        asked &= last == stamp_of(path);
+        last = stamp_of(path);
+    }
     if (asked) return;
     const std::string more = others.size() > 1 ? "and " + std::to_string(others.size() - 1) + " more " : "",
                       again = in_window ? ". Do the same again to replace it" : "; --force replaces it";

@@ -1,16 +1,16 @@
 // Which files this program may write over: one rule for every writer, in the window and in a terminal.
 //
-// A new or empty file, a device and a pipe are written. A file that the program reads as input, and one of
-// another kind than is written, whatever its name, are never replaced. One that this session has opened or
-// written itself is replaced, unless another program has changed it since; so is one that already holds the
-// same bytes, and, where a command line asks for it, an earlier picture or state. Any other is replaced if
-// the same is asked for once more, or with --force.
+// New or empty files, devices and pipes are always written. An input file, or a file of another kind, is
+// never replaced, whatever its name. A file that this session has opened or written is replaced, unless
+// another program has changed it since; so is one that already holds the same bytes, and, for --screenshot
+// and --state, an earlier picture or state. A window replaces any other file if it is asked once more; a
+// terminal needs
+// --force.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,7 +46,7 @@ class Outputs {
     static Stamp stamp_of(const std::filesystem::path& path);
 
     std::map<std::filesystem::path, Stamp> owned_;
-    std::set<std::filesystem::path> asked_;  ///< refused because they exist
+    std::map<std::filesystem::path, Stamp> asked_;  ///< refused because they existed like this
 };
 
 }  // namespace tendril::app

@@ -23,8 +23,8 @@ struct SceneLoading {
 };
 
 /// Converts a workspace's document, lab, camera and pause to JSON and back. Loading resets time and makes
-/// blank any lab that the scene does not mention. It throws std::runtime_error with the path and the reason (a newer
-/// version, an unknown lab, a value out of range) and then leaves the workspace unchanged.
+/// blank any lab that the scene does not mention. It throws std::runtime_error with the path and the reason
+/// (a newer version, an unknown lab, a value out of range) and then leaves the workspace unchanged.
 ///
 /// A part names each file that it reads in an object with "file", as it was given, and "path", which is
 /// absolute. One that is not at its path is looked for beside the scene. Where it is missing, or the lab

@@ -198,7 +198,7 @@ TEST(Autosave, of_two_programs_with_one_number_are_two_files) {
     EXPECT_EQ(Autosave::left_behind(folder.path()).size(), 1u) << "the second one's, which has ended";
 }
 
-TEST(Autosave, takes_away_what_killed_programs_left_in_its_folder) {
+TEST(Autosave, removes_files_left_by_killed_programs) {
     const TempFolder folder;
     const AtomicFile being_written(folder / "picture.png");
     const auto held = FileLock::take(folder / "autosave-2.lock");
@@ -311,7 +311,7 @@ TEST_F(RecoveredTwo, AreBothOnDiskUntilEachIsSaved) {
 }
 
 /// The other labs' work is there, and the file keeps what could not be read.
-TEST(Autosave, of_which_a_lab_cannot_be_read_gives_the_others) {
+TEST(Autosave, recovers_the_other_labs_when_one_cannot_be_read) {
     const TempFolder folder;
     Workspace workspace = test::make_workspace();
     change(workspace, "precious");

@@ -83,7 +83,7 @@ TEST(Outputs, AreNeverInputsByAnyName) {
     EXPECT_EQ(refusal(outputs, folder / "new.glb", OutputKind::Motion), "");
 }
 
-TEST(Outputs, AreReplacedWithoutAQuestionWhileOnlyThisSessionHasWrittenThem) {
+TEST(Outputs, AreReplacedUnaskedIfOnlyThisSessionWroteThem) {
     const TempFolder folder;
     const fs::path file = folder / "a.csv";
     Outputs outputs;
@@ -111,7 +111,10 @@ TEST(Outputs, AreAskedAboutTogether) {
     for (std::size_t i = 0; i < 3; ++i) test::write(files[i], "HIERARCHY");
     Outputs outputs;
     const auto check = [&] { return message_of([&] { outputs.check(files, OutputKind::Motion); }); };
-    EXPECT_TRUE(test::says(check(), "a.bvh and 2 more already exist"));
+    for (int i = 0; i < 2; ++i) EXPECT_TRUE(test::says(check(), "a.bvh and 2 more already exist --force"));
+    outputs.in_window = true;
+    test::write(files[1], "HIERARCHY again");
+    EXPECT_TRUE(test::says(check(), "again to replace it")) << "it has changed since";
     EXPECT_EQ(check(), "");
 }
 

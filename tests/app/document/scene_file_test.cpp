@@ -310,7 +310,7 @@ TEST_F(SceneWithAFile, FindsItWhereBothHaveMovedTogether) {
     }
 }
 
-TEST_F(SceneWithAFile, OpensWithoutItAndSavesWhatItHolds) {
+TEST_F(SceneWithAFile, OpensWithoutTheFileAndSavesTheLabUnchanged) {
     save("project/s.json", "model.glb");
     std::filesystem::remove(folder_ / "model.glb");
     const Json saved = read_json_file(folder_ / "project/s.json");

@@ -152,7 +152,10 @@ std::int64_t Record::integer(std::size_t index, std::int64_t otherwise) const {
     if (index >= properties.size()) return otherwise;
     const Property& property = properties[index];
     std::int64_t value = property.kind == 'T' ? integer_in(property.bytes, otherwise) : otherwise;
-    visit(property, [&](auto each) { value = converted<std::int64_t>(each); });
+    visit(property, [&](auto each) {
+        const bool fits = std::abs(static_cast<double>(each)) < 9e18;  // false for NaN
+        value = fits ? static_cast<std::int64_t>(each) : otherwise;
+    });
     return value;
 }
 
