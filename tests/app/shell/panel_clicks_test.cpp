@@ -124,7 +124,7 @@ TEST(WidgetIds, AreFoundWhereTwoAreAlike) {
     const std::vector<std::string> found = recorder.frame().alike();
     ASSERT_GE(found.size(), 2u);
     EXPECT_EQ(found[0], "\"alike\" in two and \"alike\" in two");
-    EXPECT_TRUE(has(found.back(), "is begun twice"));
+    EXPECT_TRUE(test::has(found.back(), "is begun twice"));
 }
 
 class PanelClicks : public Panels {
@@ -329,7 +329,7 @@ class PanelClicks : public Panels {
         for (std::size_t i = 0; i < std::min(rows.size(), most_rows_); ++i) {
             const std::string name = name_of(opener) + ": " + rows[i].label;
             if (rows[i].greyed) {
-                EXPECT_TRUE(has(rows[i].label, ": ")) << name << " is grey and does not say why";
+                EXPECT_TRUE(test::has(rows[i].label, ": ")) << name << " is grey and does not say why";
                 continue;
             }
             if (!is_due(opener.id, rows[i].label, name)) continue;
