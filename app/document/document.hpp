@@ -33,6 +33,8 @@ class Part {
     virtual std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const { return then; }
     /// Rough size in memory, for the history's bound.
     virtual std::size_t bytes() const = 0;
+    /// Those of them that `other`, a part of the same lab, holds too, such as a character.
+    virtual std::size_t shared_bytes(const Part& /*other*/) const { return 0; }
     /// Files that load() reads beside the JSON: nothing is written over them.
     virtual std::vector<std::filesystem::path> files() const { return {}; }
 

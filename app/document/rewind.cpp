@@ -13,7 +13,9 @@ void Rewind::remember(std::uint64_t tick, std::uint64_t edition, std::shared_ptr
     if (!moments_.empty() && moments_.back().tick % stride_ != 0) drop_last();
     while (!moments_.empty() && moments_.front().tick + max_ticks < tick) drop_oldest();
     while (!incidents_.empty() && incidents_.front().tick + max_ticks < tick) incidents_.pop_front();
-    const std::size_t size = part->bytes();
+    // The history counts a character that all moments share.
+    const Part& beside = moments_.empty() ? *part : *moments_.back().part;
+    const std::size_t size = part->bytes() - part->shared_bytes(beside);
     moments_.push_back({tick, edition, clock, std::move(part), size});
     bytes_ += size;
     thin();

@@ -69,12 +69,17 @@ std::size_t bytes_of(const SkinnedMesh& mesh) {
 
 /// Each retarget, cure or other unit makes a character of its own, with all clips. Meshes are shared on.
 std::size_t bytes_of(const LoadedCharacter& loaded) {
-    constexpr std::size_t a_node = 400;
+    constexpr std::size_t a_node = 400;  // with its name, placement and bone
     std::size_t bytes = loaded.skeleton().size() * a_node;
-    for (const humanoid::Clip& clip : loaded.clips())
+    const auto add = [&](const humanoid::Clip& clip) {
         for (const humanoid::Channel& channel : clip.channels)
             bytes += sizeof(channel) + bytes_of(channel.translation) + bytes_of(channel.rotation) +
                      bytes_of(channel.scale);
+    };
+    for (const humanoid::Clip& clip : loaded.clips()) add(clip);
+    for (const ClipEdit& edit : loaded.edits)
+        if (edit.clip) add(*edit.clip);
+    if (loaded.source) bytes += share_of(loaded.source, bytes_of(*loaded.source));
     const auto& mesh = loaded.character.skin.mesh;
     return bytes + (mesh ? share_of(mesh, bytes_of(*mesh)) : 0);
 }
@@ -95,6 +100,11 @@ std::size_t HumanoidPart::bytes() const {
         curved += sizeof(each) + each.shape.points.size() * sizeof(glm::vec3);
     return sizeof(*this) + swinging + curved + selection.all().size() * sizeof(std::size_t) +
            share_of(loaded, bytes_of(*loaded)) + share_of(map, sizeof(BoneMap)) + hanging;
+}
+
+std::size_t HumanoidPart::shared_bytes(const Part& other) const {
+    const auto& it = dynamic_cast<const HumanoidPart&>(other);
+    return it.loaded == loaded ? share_of(loaded, bytes_of(*loaded)) : 0;
 }
 
 bool HumanoidPart::operator==(const HumanoidPart& other) const {

@@ -90,6 +90,7 @@ struct HumanoidPart final : Part {
     std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
     std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const override;
     std::size_t bytes() const override;
+    std::size_t shared_bytes(const Part& other) const override;
     std::vector<std::filesystem::path> files() const override;
     bool operator==(const HumanoidPart& other) const;
 };

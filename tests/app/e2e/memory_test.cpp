@@ -41,6 +41,20 @@ TEST_F(CharacterMemory, OfUndoStaysWithinItsBound) {
     EXPECT_LT(heap_bytes(), before + 2 * bound);
 }
 
+/// A character that all moments share is counted by undo, not once more for each moment.
+TEST_F(CharacterMemory, OfThePastIsWhatMoves) {
+    run("humanoid.load", {{"path", source_path("tests/app/golden/antennae.bvh")}});
+    const auto part = [&] { return workspace.document.parts().at(humanoid_lab); };
+    const std::size_t all = part()->bytes(), moving = all - part()->shared_bytes(*part());
+    ASSERT_GT(all, 2 * moving);
+    Rewind past(1u << 30);
+    for (std::uint64_t tick = 0; tick < 600; ++tick) {
+        workspace.document.edit<HumanoidPart>(humanoid_lab).view.ghost ^= true;
+        past.remember(tick, tick, part());
+    }
+    EXPECT_LE(past.bytes(), 600 * moving + all);
+}
+
 TEST(Memory, OfRandomCommandsInEveryLabIsCounted) {
     constexpr std::size_t rest = 40u << 20;  // solvers, GPU buffers, glyphs, and what Dear ImGui remembers
     const TempFolder folder;
