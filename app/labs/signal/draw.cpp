@@ -208,7 +208,7 @@ void shelf_plot(const Workspace& workspace, const Palette& palette, float height
         add("the whole chain", *whole.lag, *whole.jitter, palette.text);
     plot("shelf", points,
          {.x = "lag, ms",
-          .y = "jitter left, each alone on the input",
+          .y = "jitter left, alone",
           .y_unit = "%",
           .min_y = 1.0f,
           .from_x = -0.05f * most_lag,
