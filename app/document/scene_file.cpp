@@ -211,7 +211,8 @@ struct Scene {
 /// Throws what load_scene() throws.
 Scene read_scene(const Workspace& workspace, const Json& json, const SceneLoading& loading) {
     const int version = read_version(json);
-    const Json& labs = json_member(json, "labs", "");
+    const std::string whole;
+    const Json& labs = json_member(json, "labs", whole);
     if (!labs.is_object()) throw std::runtime_error("labs: expected an object, found " + json_summary(labs));
     Scene scene{{}, workspace.lab, {}, {}, {}};
     scene.document = load_document(workspace.blank, labs, version, loading, scene.missing);

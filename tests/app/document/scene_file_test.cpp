@@ -326,7 +326,7 @@ TEST_F(SceneWithAFile, OpensWithoutTheFileAndSavesTheLabUnchanged) {
     table.run(again, "scene.open", {{"path", (folder_ / "project/s.json").string()}});
     ASSERT_FALSE(again.ui.toasts.empty());
     EXPECT_TRUE(test::says(again.ui.toasts.back().text, "labs.file.models.0.file model.glb is missing"));
-    EXPECT_EQ(again.document.get<TestPart>("arm").title, saved["labs"]["arm"]["title"]);
+    EXPECT_EQ(again.document.get<TestPart>("arm").title, saved["labs"]["arm"]["title"].get<std::string>());
 
     again.document.edit<FilePart>("file").text = "the simulation went on";
     save_scene_file(again, folder_ / "project/s.json");
