@@ -69,10 +69,10 @@ std::vector<std::string> play_motion(Character& character, const std::string& mo
     std::vector<std::string> notes = guesses_of(character, map);
     if (motion.empty()) return notes;
     const Character source = read_character(motion);
-    const Clip& first = clip_named(source, motion, clip ? *clip : std::string());
+    const Clip* const first = &clip_named(source, motion, clip ? *clip : std::string());
     character.clips.clear();
     for (const Clip& each : source.clips) {
-        if (clip && &each != &first) continue;
+        if (clip && &each != first) continue;
         RetargetedMotion made = retargeted_clip(source, motion, each, character.skeleton, map);
         if (character.clips.empty())
             notes.push_back(fs::path(motion).filename().string() + ": " + joined(made.notes));
@@ -162,8 +162,8 @@ void run_bake(const BakeOptions& options) {
     Character character = read_character(options.file);
     const std::vector<std::string> notes =
         play_motion(character, options.motion, options.all ? nullptr : &options.clip);
-    const Clip& first =
-        options.motion.empty() ? clip_named(character, options.file, options.clip) : character.clips.front();
+    const Clip* const first = options.motion.empty() ? &clip_named(character, options.file, options.clip)
+                                                     : &character.clips.front();
     const fs::path out = options.out.empty() ? place_beside(options.file) : fs::path(options.out);
     Outputs outputs;
     outputs.force = options.force;
@@ -182,9 +182,9 @@ void run_bake(const BakeOptions& options) {
                         bake_one(character, clip, options, paths[i], outputs).text() + '\n');
         }
     } else {
-        const std::string which = one_of_clips_text(character, first.name);
-        print.write(out.string() + ": " + printable(which.empty() ? first.name : which) + ", " +
-                    bake_one(character, first, options, out, outputs).text() + '\n');
+        const std::string which = one_of_clips_text(character, first->name);
+        print.write(out.string() + ": " + printable(which.empty() ? first->name : which) + ", " +
+                    bake_one(character, *first, options, out, outputs).text() + '\n');
     }
     print.finish();
 }

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "app/io/character/character.hpp"
@@ -19,8 +18,8 @@ struct RetargetedMotion {
 
 /// The clip of that name; empty: the first one. Throws std::runtime_error: "walk.bvh: has no clip "run"; it
 /// has walk".
-const humanoid::Clip& clip_named(const Character& character, std::filesystem::path file,
-                                 std::string_view name);
+const humanoid::Clip& clip_named(const Character& character, const std::filesystem::path& file,
+                                 const std::string& name);
 
 /// Throws std::runtime_error that begins with the file's name.
 RetargetedMotion retargeted_clip(const Character& source, const std::filesystem::path& file,
