@@ -41,17 +41,6 @@ bool is_finite(const RawFrame& frame) {
            std::ranges::all_of(frame.joints, [](const glm::dvec3& each) { return is_finite(each); });
 }
 
-double first_reach(std::span<const RawFrame> frames) {
-    for (const RawFrame& frame : frames) {
-        if (!is_finite(frame)) continue;
-        double reach = 0.0;
-        for (std::size_t i = 1; i < frame.joints.size(); ++i)
-            reach += glm::distance(frame.joints[i - 1], frame.joints[i]);
-        return reach;
-    }
-    return 0.0;
-}
-
 /// An arm, a leg or a tail is between a hand and a few metres long.
 Known<TraceUnit> unit_by_size(double reach) {
     const bool sure = (reach >= 0.1 && reach <= 4.0) || (reach >= 15.0 && reach <= 300.0) ||
@@ -153,6 +142,17 @@ EngineSpace engine_of(const RawTrace& trace) {
 }
 
 }  // namespace
+
+double first_reach(std::span<const RawFrame> frames) {
+    for (const RawFrame& frame : frames) {
+        if (!is_finite(frame)) continue;
+        double reach = 0.0;
+        for (std::size_t i = 1; i < frame.joints.size(); ++i)
+            reach += glm::distance(frame.joints[i - 1], frame.joints[i]);
+        return reach;
+    }
+    return 0.0;
+}
 
 double Conventions::metres() const {
     return unit.value == TraceUnit::Metres ? 1.0 : unit.value == TraceUnit::Centimetres ? 0.01 : 0.001;

@@ -40,7 +40,7 @@ struct Conventions {
     Known<TraceUnit> unit;
     Known<QuaternionOrder> rotations;
     bool has_rotations = false;
-    std::string target{};  ///< for display: whose the target is, unless it is the last joint's
+    std::string target{};  ///< for display: which joints reach for the target, unless they are the last
 
     /// Metres, right-handed, Y up. NaN stays NaN; what no float holds becomes infinite.
     glm::vec3 point(const glm::dvec3& p) const;
@@ -58,6 +58,9 @@ struct ConventionChoice {
     std::string up, handed, unit, rotations;  ///< names, as in the tables above; empty: as the file says
     std::optional<std::size_t> target_joint{};
 };
+
+/// Sum of the bones' lengths in the first frame that is finite; 0 if none is.
+double first_reach(std::span<const RawFrame> frames);
 
 /// From the header, or guessed from the first frames. Throws std::runtime_error for an unknown name.
 Conventions conventions_of(const RawTrace& trace, std::span<const RawFrame> frames,

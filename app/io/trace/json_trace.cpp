@@ -49,8 +49,9 @@ Json parse_line(std::string_view text, std::size_t line) {
     } catch (const ParseError&) {
         try {
             return parse_json(without_nan(text));
-        } catch (const ParseError&) {
-            fail_line(line, "is damaged: expected JSON such as {\"joints\": [[0, 0, 0], [1, 0, 0]]}");
+        } catch (const ParseError& error) {
+            fail_line(line, "damaged JSON; expected a frame such as {\"joints\": [[0, 0, 0], [1, 0, 0]]}: " +
+                                error.reason);
         }
     }
 }
@@ -224,7 +225,7 @@ class JsonList final : public RawTrace {
             if (done_ || !list_->next(json)) return false;
         } catch (const ParseError& error) {
             fail_line(static_cast<std::size_t>(error.line),
-                      "the list of frames is damaged, or ends too early");
+                      "the list of frames is damaged or incomplete here: " + error.reason);
         }
         line = static_cast<std::size_t>(list_->line_of(list_->place()));
         frame = {.line = line};

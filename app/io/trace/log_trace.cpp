@@ -9,8 +9,11 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <initializer_list>
+#include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -24,14 +27,116 @@ bool is_word(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c >= '0' && c <= '9');
 }
 
-enum class Meaning { Joint, Target, Pole, Other };
+enum class Meaning { Joint, Target, Pole };
+
+/// The words before a vector.
+struct Words {
+    std::string label{};  ///< "elbow" in "elbow = new Vector3", in lower case; may be empty
+    Meaning meaning = Meaning::Joint;
+    bool is_position = true;
+};
 
 /// Three or four numbers.
-struct Found {
-    std::string label;  ///< in lower case; may be empty
-    std::vector<double> numbers;
-    Meaning meaning = Meaning::Joint;
+struct Found : Words {
+    std::vector<double> numbers{};
 };
+
+enum Says : unsigned {
+    NoName = 1,     ///< a constructor, or what every name may have behind it
+    Position = 2,   ///< the numbers are one
+    NoPosition = 4  ///< they are something else
+};
+
+unsigned says(const std::string& word) {
+    static const auto words = [] {
+        std::map<std::string, unsigned> all;
+        for (const auto& [says, list] : std::initializer_list<std::pair<unsigned, const char*>>{
+                 {NoName,
+                  "fvector vector3 vector new vec3 dvec3 float3 double3 v array hou np gf vec3d vec3f "
+                  "lpoint3f lvecbase3f lvector3f tensor numpy point3 4x4 mat4"},
+                 {NoName | Position, "position pos location loc translation"},
+                 {Position, "positions point points target goal joint joints pole origin"},
+                 {NoName | NoPosition,
+                  "quat fquat quaternion matrix rotation rotations rot orientation orient rpy euler angle "
+                  "angles degree degrees deg radian radians rad scale scaling velocity vel speed angular "
+                  "linear acceleration accel normal tangent force torque covariance color colour size "
+                  "extents gravity mat3 mat3x3 basis scale3d"}}) {
+            std::istringstream in(list);
+            for (std::string each; in >> each;) all[each] = says;
+        }
+        return all;
+    }();
+    const auto found = words.find(word);
+    return found == words.end() ? 0 : found->second;
+}
+
+Meaning meaning_of(const std::string& label) {
+    const auto has = [&](const char* word) { return label.find(word) != label.npos; };
+    if (has("pole") || has("hint")) return Meaning::Pole;
+    return has("target") || has("goal") || has("effector") || has("aim") ? Meaning::Target : Meaning::Joint;
+}
+
+/// Whether a word or a part of it, PoleTarget or pole_target, the last one first, says what numbers are.
+std::optional<bool> says_position(std::string_view word) {
+    while (!word.empty()) {
+        std::size_t begin = word.size();
+        while (begin > 0 && word[begin - 1] != '_') {
+            --begin;
+            const bool capital = word[begin] >= 'A' && word[begin] <= 'Z';
+            if (capital && begin > 0 && word[begin - 1] >= 'a' && word[begin - 1] <= 'z') break;
+        }
+        if (const unsigned said = says(lower_case(word.substr(begin))) & (Position | NoPosition))
+            return said == Position;
+        word = word.substr(0, begin > 0 && word[begin - 1] == '_' ? begin - 1 : begin);
+    }
+    return std::nullopt;
+}
+
+/// Reads from the last word to the first. A number ends them, unless it is the index of a word: joint 1,
+/// joint[1].
+Words words_before(std::string_view text) {
+    Words found;
+    // quat(1.0, {0, 0, 0}): one of its numbers stands before the vector.
+    if (const std::size_t open = text.rfind('('); open != text.npos) {
+        std::string_view inside = text.substr(open + 1);
+        if (take_number(inside) && inside.starts_with(',') && inside.find_first_not_of(" ,") == inside.npos)
+            text = text.substr(0, open);
+    }
+    std::string kind, index;
+    bool named = false;
+    std::optional<bool> position;
+    for (std::size_t last = text.size(); !named || !position;) {
+        std::size_t end = last;
+        while (end > 0 && !is_word(text[end - 1])) --end;
+        if (end == 0) break;
+        std::size_t begin = end;
+        while (begin > 0 && is_word(text[begin - 1])) --begin;
+        const char* const joins = index.empty() ? " =:<([{\"'\t]." : " [#";
+        const bool joined = text.substr(end, last - end).find_first_not_of(joins) == text.npos;
+        const std::string word = lower_case(text.substr(begin, end - begin));
+        const bool number = word.find_first_not_of("0123456789_") == word.npos;
+        if (!index.empty() && !named && (number || !joined)) break;
+        if (number && (named || !joined)) break;
+        named = named || !joined;
+        if (number) {
+            index = word;
+        } else if (!named) {
+            const unsigned said = says(word);
+            if (index.empty() && (said & NoName) != 0) {
+                if ((said & Position) != 0) kind = word;
+            } else {
+                found.label = word + index;
+                named = true;
+            }
+        }
+        if (!position) position = says_position(text.substr(begin, end - begin));
+        last = begin;
+    }
+    if (found.label.empty()) found.label = kind;
+    found.meaning = meaning_of(found.label);
+    found.is_position = position.value_or(true);
+    return found;
+}
 
 bool is_number_start(char c) {
     return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
@@ -66,11 +171,12 @@ class Scanner {
                 ++at;
                 continue;
             }
-            const std::string label = label_before(at);
-            for (std::vector<double>& numbers : rows)
-                found.push_back({label, std::move(numbers),
-                                 names_no_position(text_.substr(from_, at - from_)) ? Meaning::Other
-                                                                                    : meaning_of(label)});
+            Words words = words_before(text_.substr(from_, at - from_));
+            // A rotation behind a target's position is the target's.
+            if (words.label.empty() && !found.empty() &&
+                (!words.is_position || rows[0].size() != found.back().numbers.size()))
+                words.meaning = found.back().meaning;
+            for (std::vector<double>& numbers : rows) found.push_back({words, std::move(numbers)});
             at = end;
             from_ = end;
         }
@@ -79,14 +185,6 @@ class Scanner {
     }
 
   private:
-    static Meaning meaning_of(const std::string& label) {
-        for (const char* word : {"target", "goal", "effector", "aim"})
-            if (label.find(word) != label.npos && label.find("pole") == label.npos) return Meaning::Target;
-        for (const char* word : {"pole", "hint"})
-            if (label.find(word) != label.npos) return Meaning::Pole;
-        return Meaning::Joint;
-    }
-
     /// Four rows with (0, 0, 0, 1) for the last row or column are one position; three that are at right
     /// angles and 1 long are a rotation.
     static void positions_of_matrices(std::vector<Found>& found) {
@@ -108,7 +206,7 @@ class Scanner {
                 found[at].numbers =
                     by_row ? std::vector{number(at, 3), number(at + 1, 3), number(at + 2, 3)}
                            : std::vector{number(at + 3, 0), number(at + 3, 1), number(at + 3, 2)};
-                found[at].meaning = Meaning::Joint;
+                found[at].is_position = true;
                 found.erase(found.begin() + static_cast<std::ptrdiff_t>(at + 1),
                             found.begin() + static_cast<std::ptrdiff_t>(at + 4));
             } else if (sized(at, 3, 3)) {
@@ -119,7 +217,7 @@ class Scanner {
                         for (std::size_t k = 0; k < 3; ++k) product += number(at + i, k) * number(at + j, k);
                         rotates = rotates && std::abs(product - (i == j ? 1.0 : 0.0)) < 5e-3;
                     }
-                for (std::size_t i = 0; rotates && i < 3; ++i) found[at + i].meaning = Meaning::Other;
+                for (std::size_t i = 0; rotates && i < 3; ++i) found[at + i].is_position = false;
             }
         }
     }
@@ -179,8 +277,10 @@ class Scanner {
             if (here < text_.size() && text_[here] == ',') here = skip(here + 1, " \t");
             if (here == end) break;
         }
+        const Words words = words_before(text_.substr(from_, at - from_));
         const bool fits = (numbers.size() == 3 || numbers.size() == 4) &&
-                          text_.substr(at, end - at).find('.') != text_.npos && !label_before(at).empty();
+                          text_.substr(at, end - at).find('.') != text_.npos &&
+                          !(words.label.empty() && words.is_position);
         if (!fits) numbers.clear();
         return fits;
     }
@@ -233,46 +333,43 @@ class Scanner {
         return true;
     }
 
-    /// The name in front of a vector: "elbow" in "elbow = new Vector3".
-    std::string label_before(std::size_t at) const {
-        std::size_t end = at;
-        std::string kind;
-        for (;;) {
-            while (end > from_ &&
-                   std::string_view(" =:<([{\"'\t]").find(text_[end - 1]) != std::string_view::npos)
-                --end;
-            std::size_t begin = end;
-            while (begin > from_ && is_word(text_[begin - 1])) --begin;
-            const std::string word = lower_case(text_.substr(begin, end - begin));
-            // Constructors, and words that every name may have behind it.
-            static const std::set<std::string> types{
-                "fvector", "vector3", "vector", "new",    "vec3",       "dvec3",      "float3",
-                "double3", "v",       "quat",   "fquat",  "quaternion", "array",      "hou",
-                "np",      "gf",      "vec3d",  "vec3f",  "lpoint3f",   "lvecbase3f", "lvector3f",
-                "tensor",  "numpy",   "point3", "matrix", "4x4",        "mat4"};
-            static const std::set<std::string> positions{"position", "pos", "location", "loc", "translation"};
-            if (!word.empty() && (types.contains(word) || positions.contains(word))) {
-                if (positions.contains(word)) kind = word;
-                end = begin;
-                if (end > from_ && text_[end - 1] == '.') --end;
-                continue;
-            }
-            if (word.find_first_not_of("0123456789_") != word.npos) return word;
-            // A number belongs to the word before it: joint 1, joint[1].
-            while (begin > from_ &&
-                   (text_[begin - 1] == ' ' || text_[begin - 1] == '[' || text_[begin - 1] == '#'))
-                --begin;
-            std::size_t name = begin;
-            while (name > from_ && is_word(text_[name - 1])) --name;
-            const std::string before = lower_case(text_.substr(name, begin - name));
-            const bool named = !word.empty() && before.find_first_not_of("0123456789_ [#") != before.npos;
-            return named ? before + word : kind;
-        }
-    }
-
     std::string_view text_;
     RawTrace& trace_;
     std::size_t from_ = 0;  ///< the end of the vector before
+};
+
+/// The brackets that are not closed yet, line by line.
+class OpenBrackets {
+  public:
+    void add(std::string_view line) {
+        while (!line.empty()) {
+            const char c = line[0];
+            const bool matrix = line.starts_with("<Matrix");
+            if (opened_.empty()) any_ = false, only_numbers_ = true;
+            const bool closes =
+                !opened_.empty() && (opened_.back() == '<' ? c == '>' : c == ')' || c == ']' || c == '}');
+            if (c == '(' || c == '[' || c == '{' || matrix) {
+                opened_.push_back(c);
+            } else if (closes) {
+                opened_.pop_back();
+            } else if (!opened_.empty() && only_numbers_) {
+                if (take_printed(line)) {
+                    any_ = true;
+                    continue;
+                }
+                only_numbers_ = std::string_view(" \t,;)]}").find(c) != std::string_view::npos;
+            }
+            line.remove_prefix(1);
+        }
+    }
+    /// Whether nothing but numbers follows the first of them.
+    bool hold_numbers() const {
+        return !opened_.empty() && (opened_.front() == '<' || (any_ && only_numbers_));
+    }
+
+  private:
+    std::string opened_;
+    bool any_ = false, only_numbers_ = true;
 };
 
 class LogTrace final : public RawTrace {
@@ -306,35 +403,29 @@ class LogTrace final : public RawTrace {
     bool read_joined() {
         if (!read_next()) return false;
         constexpr std::size_t longest = 1u << 20;
-        const auto join = [&](const auto& continues) {
-            std::string whole = std::move(text_);
-            bool more = false;
-            while (whole.size() < longest && continues(whole) && (more = read_next())) {
-                if (!is_part_of(whole, text_)) {
-                    waiting_ = true;
-                    break;
-                }
-                whole += ' ' + text_;
-            }
-            if (waiting_) {
-                later_.push_front(std::move(text_));
-                --line;
-                waiting_ = false;
-            }
-            text_ = std::move(whole);
-        };
-        if (component_of(text_)) {
+        const bool component = component_of(text_) != 0;
+        if (component) {
             if (!documents_) find_documents();
             text_.insert(0, before_ + ' ');
-            join([](const std::string&) { return true; });
-            // Numbers alone, as a column of Eigen: in brackets.
-            if (text_.find_first_of(":=", before_.size()) == text_.npos)
-                text_ = before_ + " (" + text_.substr(before_.size() + 1) + ')';
-            before_.clear();
-        } else {
-            join(stays_open);
-            before_ = text_.size() < 200 && text_.ends_with(':') ? text_ : std::string();
         }
+        OpenBrackets brackets;
+        brackets.add(text_);
+        std::string whole = std::move(text_);
+        while (whole.size() < longest && (component || brackets.hold_numbers()) && read_next()) {
+            const char name = component_of(text_);
+            if (name == 0 ? !brackets.hold_numbers() : name == 'x') {
+                later_.push_front(std::move(text_));
+                --line;
+                break;
+            }
+            brackets.add(text_);
+            whole += ' ' + text_;
+        }
+        text_ = std::move(whole);
+        // Numbers alone, as a column of Eigen: in brackets.
+        if (component && text_.find_first_of(":=", before_.size()) == text_.npos)
+            text_ = before_ + " (" + text_.substr(before_.size() + 1) + ')';
+        before_ = !component && text_.size() < 200 && text_.ends_with(':') ? text_ : std::string();
         return true;
     }
     /// x, y, z or w of a line such as "  x: 0.3", '#' of one that is a number alone, else 0.
@@ -352,42 +443,16 @@ class LogTrace final : public RawTrace {
         const bool number = take_printed(text) && text.find_first_not_of(" \t") == text.npos;
         return number ? name : '\0';
     }
-    static bool is_part_of(std::string_view whole, std::string_view line) {
-        const char name = component_of(line);
-        return name == 0 ? stays_open(whole) : name != 'x';
-    }
-    /// Whether a bracket with nothing but numbers behind it is not closed.
-    static bool stays_open(std::string_view text) {
-        std::vector<std::size_t> opened;
-        for (std::size_t at = 0; at < text.size(); ++at) {
-            const char c = text[at];
-            if (c == '(' || c == '[' || c == '{' || text.substr(at).starts_with("<Matrix"))
-                opened.push_back(at);
-            const bool matrix = !opened.empty() && text[opened.back()] == '<';
-            if ((c == '>' ? matrix : (c == ')' || c == ']' || c == '}') && !matrix) && !opened.empty())
-                opened.pop_back();
-        }
-        if (opened.empty()) return false;
-        std::string_view rest = text.substr(opened.front());
-        if (rest.starts_with("<Matrix")) return true;
-        bool any = false;
-        while (!rest.empty()) {
-            const auto number = take_printed(rest);
-            any = any || number;
-            if (number) continue;
-            if (std::string_view(" \t,;()[]{}").find(rest[0]) == std::string_view::npos) return false;
-            rest.remove_prefix(1);
-        }
-        return any;
-    }
-    /// Reads ahead to see whether --- parts the frames.
+    /// Reads ahead, as far as memory may grow, to see whether --- parts the frames.
     void find_documents() {
-        constexpr std::size_t farthest = 20'000;
-        documents_ = false;
+        constexpr std::size_t farthest = 1u << 20;  // bytes
+        const auto parts = [](const std::string& each) { return each.starts_with("---"); };
+        documents_ = std::ranges::any_of(later_, parts);
         std::string text;
-        std::size_t at = line;
-        while (!*documents_ && later_.size() < farthest && read_line(in_, text, at)) {
-            documents_ = text.starts_with("---");
+        std::size_t at = line + later_.size(), bytes = 0;
+        while (!*documents_ && bytes < farthest && read_line(in_, text, at)) {
+            documents_ = parts(text);
+            bytes += text.size() + 1;
             later_.push_back(std::move(text));
         }
         if (*documents_) engine = Engine::Ros;
@@ -403,7 +468,7 @@ class LogTrace final : public RawTrace {
         sort_fours(found);
         any_ = true;
         const auto joints = std::ranges::count_if(found, [](const Found& each) {
-            return each.meaning == Meaning::Joint && each.numbers.size() == 3;
+            return each.is_position && each.meaning == Meaning::Joint && each.numbers.size() == 3;
         });
         if (joints >= 2) by_line_ = true;
         const bool by_document = documents_.value_or(false);
@@ -424,27 +489,24 @@ class LogTrace final : public RawTrace {
             return std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] + n[3] * n[3]);
         };
         const auto point = [](const Found& each) {
-            return each.numbers.size() == 4 && each.numbers[3] == 1.0 && each.meaning != Meaning::Other;
+            return each.is_position && each.numbers.size() == 4 && each.numbers[3] == 1.0;
         };
         for (const Found& each : found)
             homogeneous_ = homogeneous_ || (point(each) && length(each.numbers) > 1.02);
         for (Found& each : found)
-            if (each.numbers.size() == 4) {
-                if (homogeneous_ && point(each))
-                    each.numbers.pop_back();
-                else if (std::abs(length(each.numbers) - 1.0) > 0.02)
-                    each.meaning = Meaning::Other;
-                else
-                    each.meaning = Meaning::Joint;
-            }
+            if (homogeneous_ && point(each)) each.numbers.pop_back();
+        std::erase_if(found, [&](const Found& each) {
+            return each.numbers.size() == 4 && !(std::abs(length(each.numbers) - 1.0) <= 0.02);
+        });
     }
 
     bool begins_again(const Found& each) {
-        return !each.label.empty() && each.numbers.size() == 3 && labels_.contains(each.label);
+        return each.is_position && each.numbers.size() == 3 && !each.label.empty() &&
+               labels_.contains(each.label);
     }
 
     void add(RawFrame& frame, const Found& found) {
-        if (found.meaning == Meaning::Other) return;
+        if (!found.is_position && found.numbers.size() == 3) return;
         if (frame.line == 0) frame.line = line;
         const auto& n = found.numbers;
         if (n.size() == 4) {
@@ -478,34 +540,7 @@ class LogTrace final : public RawTrace {
 }  // namespace
 
 bool names_no_position(std::string_view text) {
-    static const std::set<std::string> others{
-        "rotation", "rotations", "rot",     "orientation", "orient",       "quat",    "quaternion",
-        "fquat",    "rpy",       "euler",   "angle",       "angles",       "degree",  "degrees",
-        "deg",      "radian",    "radians", "rad",         "scale",        "scaling", "velocity",
-        "vel",      "speed",     "angular", "linear",      "acceleration", "accel",   "normal",
-        "tangent",  "force",     "torque",  "covariance",  "color",        "colour",  "size",
-        "extents",  "gravity",   "time",    "fps",         "dt",           "matrix",  "mat3",
-        "mat3x3",   "basis",     "scale3d"};
-    static const std::set<std::string> positions{"position",    "positions", "pos",    "location", "loc",
-                                                 "translation", "point",     "points", "target",   "goal",
-                                                 "joint",       "joints",    "pole",   "origin"};
-    std::size_t end = text.size();
-    while (end > 0) {
-        const auto letter = [&](std::size_t at) { return is_word(text[at]) && text[at] != '_'; };
-        while (end > 0 && !letter(end - 1)) --end;
-        std::size_t begin = end;
-        // A word ends where another begins: PoleTarget, pole_target.
-        while (begin > 0 && letter(begin - 1)) {
-            --begin;
-            const bool capital = text[begin] >= 'A' && text[begin] <= 'Z';
-            if (capital && begin > 0 && text[begin - 1] >= 'a' && text[begin - 1] <= 'z') break;
-        }
-        const std::string word = lower_case(text.substr(begin, end - begin));
-        if (others.contains(word)) return true;
-        if (positions.contains(word)) return false;
-        end = begin;
-    }
-    return false;
+    return !words_before(text).is_position;
 }
 
 std::unique_ptr<RawTrace> open_log_trace(std::istream& in, std::string first, std::size_t line) {

@@ -62,8 +62,8 @@ std::unique_ptr<RawTrace> open_raw_trace(std::istream& in);
 /// A number, from the start of `text`, as any language prints it: 1.5, 1.5f, nan, -nan(ind), inf, 1.#QNAN.
 /// Removes it from `text`.
 std::optional<double> take_number(std::string_view& text);
-/// Whether the last word that says so, in a name or in the text before a vector, means something else than a
-/// position: "elbow_rotation", "in RPY (radian)".
+/// Whether the text before a vector, or a column's name, says that the numbers are not a position:
+/// "elbow_rotation", "in RPY (radian)".
 bool names_no_position(std::string_view text);
 /// Raises `trace.decimals` to those of the numbers in `text`.
 void count_decimals(RawTrace& trace, std::string_view text);

@@ -189,7 +189,7 @@ class Table final : public RawTrace {
                 column.role = turns.contains(point->first) ? Role::Ignored : role_of(point->first);
                 if (column.role == Role::Ignored && left_out != point->first)
                     notes.push_back("the columns of \"" + printable(left_out = point->first) +
-                                    "\" were left out: they are no position");
+                                    "\" were left out: they are not positions");
                 column.axis = point->second;
                 if (column.role == Role::Joint) {
                     const auto [at, is_new] = joints.try_emplace(point->first, joints.size());

@@ -80,7 +80,8 @@ TraceReader::TraceReader(std::istream& in, const ConventionChoice& choice, std::
     if (first_.empty()) throw std::runtime_error("has no frames: expected joints");
     const std::vector<RawFrame> frames(first_.begin(), first_.end());
     conventions_ = conventions_of(*raw_, frames, choice);
-    find_end_effectors(choice);
+    given_end_ = choice.target_joint ? choice.target_joint : raw_->header.target_joint;
+    find_end_effectors();
     if (fps) {
         fps_ = *fps;
         fps_known_ = true;
@@ -97,8 +98,8 @@ bool TraceReader::next_raw(RawFrame& frame) {
             fail_line(frame.line, frame.joints.empty() ? "expected two joints or more, found none"
                                   : frame.rotations.empty()
                                       ? "expected two joints or more, found one position"
-                                      : "expected two joints or more, found one position and its rotation: "
-                                        "there is no bone, and nothing to explain");
+                                      : "expected two joints or more, found one position and its rotation, "
+                                        "which is no chain");
         const auto [chain, is_new] = joints_.try_emplace(frame.chain, frame.joints.size());
         if (is_new && joints_.size() > 1000) fail_line(frame.line, "found more than 1000 chains");
         if (chain->second != frame.joints.size())
@@ -116,15 +117,15 @@ bool TraceReader::next_raw(RawFrame& frame) {
 namespace {
 
 /// How far from the target each joint is over the frames: the median, at the best of some lags.
-std::vector<double> distances_to_target(const std::vector<const RawFrame*>& frames) {
+std::vector<double> distances_to_target(const std::vector<RawFrame>& frames) {
     constexpr std::size_t max_lag = 8;
-    std::vector<double> distances(frames.front()->joints.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> distances(frames.front().joints.size(), std::numeric_limits<double>::infinity());
     for (std::size_t joint = 0; joint < distances.size(); ++joint)
         for (std::size_t lag = 0; lag <= max_lag && 2 * lag < frames.size(); ++lag) {
             std::vector<double> all;
             for (std::size_t i = lag; i < frames.size(); ++i)
-                if (const auto& target = frames[i - lag]->target)
-                    if (const double d = glm::distance(*target, frames[i]->joints[joint]); std::isfinite(d))
+                if (const auto& target = frames[i - lag].target)
+                    if (const double d = glm::distance(*target, frames[i].joints[joint]); std::isfinite(d))
                         all.push_back(d);
             if (all.empty()) continue;
             const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
@@ -137,30 +138,29 @@ std::vector<double> distances_to_target(const std::vector<const RawFrame*>& fram
 }  // namespace
 
 // The last joint, unless another is far nearer to the target: a wrist with a hand beyond it.
-void TraceReader::find_end_effectors(const ConventionChoice& choice) {
+void TraceReader::find_end_effectors() {
     constexpr double nearer = 0.25, near = 0.02;  // times the last joint's distance; of the reach
-    const auto given = choice.target_joint ? choice.target_joint : raw_->header.target_joint;
-    std::map<std::string, std::vector<const RawFrame*>> chains;
-    for (const RawFrame& frame : first_) chains[frame.chain].push_back(&frame);
+    if (given_end_) {
+        std::size_t most = 0;
+        for (const auto& [name, joints] : joints_) most = std::max(most, joints - 1);
+        if (*given_end_ == 0 || *given_end_ > most)
+            throw std::runtime_error("target_joint: must be 1 to " + std::to_string(most) + ", got " +
+                                     std::to_string(*given_end_));
+        conventions_.target = ", joint " + std::to_string(*given_end_) + " reaches for the target (given)";
+        return;
+    }
+    std::map<std::string, std::vector<RawFrame>> chains;
+    for (const RawFrame& frame : first_) chains[frame.chain].push_back(frame);
     for (const auto& [name, frames] : chains) {
-        const auto& joints = frames.front()->joints;
-        std::size_t end = joints.size() - 1;
-        if (given) {
-            if (*given == 0 || *given > end)
-                throw std::runtime_error("target_joint: must be 1 to " + std::to_string(end) + ", got " +
-                                         std::to_string(*given));
-            end = *given;
-        } else {
-            const std::vector<double> away = distances_to_target(frames);
-            const auto nearest = static_cast<std::size_t>(std::ranges::min_element(away) - away.begin());
-            double reach = 0.0;
-            for (std::size_t i = 1; i < joints.size(); ++i) reach += glm::distance(joints[i - 1], joints[i]);
-            if (nearest > 0 && away[end] > near * reach && away[nearest] < nearer * away[end]) end = nearest;
-        }
-        if (end + 1 == joints.size()) continue;
-        ends_[name] = end;
-        conventions_.target = ", the target is that of joint " + std::to_string(end) +
-                              (given ? " (given)" : " (the nearest to it)");
+        const std::vector<double> away = distances_to_target(frames);
+        const auto nearest = static_cast<std::size_t>(std::ranges::min_element(away) - away.begin());
+        if (nearest == 0 || !(away.back() > near * first_reach(frames)) ||
+            !(away[nearest] < nearer * away.back()))
+            continue;
+        ends_[name] = nearest;
+        conventions_.target += ", joint " + std::to_string(nearest) +
+                               (name.empty() ? "" : " of " + printable(name)) +
+                               " reaches for the target (the nearest to it)";
     }
 }
 
@@ -205,8 +205,9 @@ bool TraceReader::next(TracedFrame& frame) {
     }
     frame.chain = std::move(raw.chain);
     frame.line = raw.line;
-    const auto end = ends_.find(frame.chain);
-    frame.end = end == ends_.end() ? std::nullopt : std::optional(end->second);
+    frame.end = given_end_;
+    if (const auto end = ends_.find(frame.chain); end != ends_.end()) frame.end = end->second;
+    if (frame.end && *frame.end + 1 >= raw.joints.size()) frame.end.reset();
     frame.joints.clear();
     for (const glm::dvec3& joint : raw.joints) frame.joints.push_back(conventions_.point(joint));
     const auto point = [&](const std::optional<glm::dvec3>& p) {

@@ -48,13 +48,15 @@ class TraceReader {
   private:
     bool next_raw(RawFrame& frame);
     void find_rate();
-    void find_end_effectors(const ConventionChoice& choice);
+    void find_end_effectors();
 
     std::unique_ptr<RawTrace> raw_;
     std::deque<RawFrame> first_;
     Conventions conventions_;
     std::map<std::string, std::size_t> joints_;  ///< of each chain
-    std::map<std::string, std::size_t> ends_;    ///< the end effector of a chain, unless it is the last joint
+    std::optional<std::size_t> given_end_;       ///< of the chains that have so many joints
+    std::map<std::string, std::size_t>
+        ends_;  ///< the end effector of a chain, found, unless it is the last joint
     std::vector<std::string> notes_;
     double fps_ = 60.0;
     bool fps_known_ = false, damaged_ = false;

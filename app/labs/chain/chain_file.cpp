@@ -12,7 +12,8 @@
 
 namespace {
 
-constexpr double max_steps = 1e9, max_distance = 1e10;  ///< of a report; points are at most 3.5e9 m apart
+/// Limits of a saved report: steps; metres (points are at most 3.5e9 m apart).
+constexpr double max_steps = 1e9, max_distance = 1e10;
 
 }  // namespace
 

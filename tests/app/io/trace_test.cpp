@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <sstream>
 
 #include "tests/app/io/trace_support.hpp"
@@ -291,6 +292,10 @@ TEST(Trace, PastedPosesAreRead) {
                              "0,1,0\n0.5,1,0\n1,1,0.25", "0\t1\t0\t0.5\t1\t0\t1\t1\t0.25\n",
                              "shoulder (0.0, 1.0, 0.0)\nelbow (0.5, 1.0, 0.0)\nhand (1.0, 1.0, 0.25)\n",
                              "FVector(0, 1, 0), FVector(0.5, 1, 0), FVector(1, 1, 0.25)",
+                             "[time=0.50] shoulder=(0, 1, 0) elbow=(0.5, 1, 0) hand=(1, 1, 0.25)\n",
+                             "dt=0.016 shoulder (0, 1, 0) elbow (0.5, 1, 0) hand (1, 1, 0.25)\n",
+                             "fps: 60, speed 1.5: (0, 1, 0) (0.5, 1, 0) (1, 1, 0.25)\n",
+                             "time: 3\nshoulder: (0, 1, 0)\nelbow: (0.5, 1, 0)\nhand: (1, 1, 0.25)\n",
                              "<Vector (0.0, 1.0, 0.0)> <Vector (0.5000, 1.0000, 0.0)> <Vector (1, 1, 0.25)>",
                              "[{\"x\": 0, \"y\": 1, \"z\": 0}, {\"x\": 0.5, \"y\": 1, \"z\": 0}, {\"x\": 1, "
                              "\"y\": 1, \"z\": 0.25}]"}) {
@@ -305,6 +310,20 @@ TEST(Trace, PastedPosesAreRead) {
     EXPECT_EQ(aimed.joints.size(), 3u);
     EXPECT_EQ(aimed.target, glm::vec3(1, 2, 0));
     EXPECT_EQ(aimed.pole, glm::vec3(0, 0, 1));
+    for (const char* target : {"target_rotation (0, 0, 0, 1)", "target rotation: (0, 0, 0, 1)",
+                               "target (1, 2, 0) rotation (0, 0, 0, 1)", "target (1, 2, 0) (0, 0, 0, 1)"})
+        EXPECT_EQ(joints_of(std::string(target) + " root (0, 1, 0) (1, 0, 0, 0) tip (1, 1, 0) (1, 0, 0, 0)\n")
+                      .rotations.size(),
+                  2u)
+            << target;
+}
+
+TEST(Trace, AnArrayOfManyLinesIsReadInTimeOfItsLength) {
+    const auto begin = std::chrono::steady_clock::now();
+    std::string text = "data = [0\n";
+    while (text.size() < 700'000) text += "1 2\n";
+    EXPECT_EQ(trace_refusal(text + "]\n(0, 0, 0) (1, 0, 0)\n"), "read");
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
 /// How a program prints a frame of shoulder, elbow and hand, and what it can be known to have.
@@ -478,7 +497,7 @@ TEST(Trace, OnePositionAndItsRotationHaveNothingToExplain) {
         "            in RPY (radian) [0.000, -0.000, 0.000]\n            in RPY (degree) [0.000, -0.000, "
         "0.000]\n";
     const std::string said = trace_refusal(block + block + block);
-    EXPECT_TRUE(test::says(said, "line 2 one position and its rotation nothing to explain")) << said;
+    EXPECT_TRUE(test::says(said, "line 2 one position and its rotation no chain")) << said;
 }
 
 TEST(Trace, ATargetOfTheWristIsNotMissedByTheHand) {
@@ -488,16 +507,45 @@ TEST(Trace, ATargetOfTheWristIsNotMissedByTheHand) {
         for (auto& frame : made.frames) frame.joints.push_back(frame.joints.back() + hand);
         const ReadTrace found =
             read_trace(test::made::written(made, test::made::spaces[seed % 4], Format::JsonLines));
-        EXPECT_TRUE(test::says(found.conventions.text(), "target is that of joint 2"))
+        EXPECT_TRUE(test::says(found.conventions.text(), "joint 2 reaches for the target"))
             << found.conventions.text();
         EXPECT_EQ(found.incidents().size(), seed % 2) << "seed " << seed << ":\n" << found.text();
     }
+}
+
+TEST(Trace, TheWristIsFoundBehindAFrameThatIsNotFinite) {
+    std::string text;
+    for (int i = 0; i < 30; ++i)
+        text += std::string("{\"joints\": [[0,0,0],[0.5,0.1,0],[") + (i == 0 ? "NaN" : "1") +
+                ",0,0],[1.2,0,0]], \"target\": [1,0,0]}\n";
+    EXPECT_TRUE(test::says(read_trace(text).conventions.text(), "joint 2 reaches for the target"));
+}
+
+TEST(Trace, AGivenJointReachesInEachChainThatHasIt) {
+    const auto frame = [](const char* chain, int joints) {
+        std::string text = std::string("{\"chain\": \"") + chain + "\", \"joints\": [[0,0,0]";
+        for (int i = 1; i < joints; ++i) text += ",[" + std::to_string(i) + ",0.1,0]";
+        return text + "], \"target\": [2,0.1,0]}\n";
+    };
+    std::string text;
+    for (int i = 0; i < 100; ++i) text += frame("arm", 4) + frame("neck", 2);
+    text += frame("late", 5);
+    std::istringstream in(text);
+    ConventionChoice choice;
+    choice.target_joint = 2;
+    TraceReader reader(in, choice);
+    for (TracedFrame each; reader.next(each);)
+        EXPECT_EQ(each.end.value_or(0), each.chain == "neck" ? 0u : 2u) << each.chain;
+    const std::string both = read_trace(frame("left", 4) + frame("right", 5)).conventions.text();
+    EXPECT_TRUE(test::says(both, "joint 2 of left reaches") && test::says(both, "joint 2 of right reaches"))
+        << both;
 }
 
 TEST(Trace, DamageIsRefusedByItsLineOrReadUpToIt) {
     EXPECT_NE(trace_refusal("").find("nothing"), std::string::npos);
     EXPECT_NE(trace_refusal("hello\nworld\n").find("no positions"), std::string::npos);
     EXPECT_NE(trace_refusal("{\"joints\": 3}\n").find("line 1"), std::string::npos);
+    EXPECT_TRUE(test::says(trace_refusal("{\"joints\": [[0,0,0],[1,0;0]]}\n"), "line 1 damaged found '0;'"));
     EXPECT_NE(trace_refusal("{\"tendril\": \"trace\"}\n{\"joints\": [[0,0,0]]}\n")
                   .find("line 2: expected two joints"),
               std::string::npos);

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "tendril/vec3.hpp"
@@ -80,13 +81,13 @@ struct PolePassage {
 };
 PolePassage pole_passage(const ReachPose& before, const ReachPose& after) noexcept;
 
-/// Whether the line from root to target passed along an axis of the space, in either direction, while there
-/// is no pole target: a solver that bends towards that axis, as many do towards the one that is up, has no
-/// side there. flip_cause() leaves it out, for Tendril's solvers do not.
+/// Whether the line from root to target swept past an axis of the space (in either direction) while there was
+/// no pole target. A solver that bends towards that axis, usually up, has no preferred side there.
+/// flip_cause() never returns PassedAxis, because Tendril's solvers do not bend towards an axis.
 bool passed_axis(const ReachPose& before, const ReachPose& after) noexcept;
 
-/// The distance of the joint that is furthest from the line through root and tip.
-float bend_of(const ReachPose& pose) noexcept;
+/// The distance of the joint, at least one, that is furthest from the line through the first and the last.
+float bend_of(std::span<const glm::vec3> joints) noexcept;
 /// Whether the chain was straight in either pose: every joint within a fiftieth of the reach of that line.
 bool was_straight(const ReachPose& before, const ReachPose& after) noexcept;
 /// What such a chain was: Straight, or Folded if its tip was within half its reach of the root.

@@ -13,7 +13,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "tendril/ik/flip.hpp"
@@ -25,11 +27,13 @@ namespace tendril::ik {
 
 enum class IncidentKind : std::uint8_t {
     /// A bone jumped, the chain changed the side to which it bends, or a bone rolled about itself while its
-    /// ends hardly
-    /// moved; amount: degrees that the bone turned.
+    /// ends hardly moved; amount: degrees that the bone turned.
     Flip,
-    Nan,        ///< a joint, the target or the pole target is not finite; amount: 0
-    Length,     ///< a bone's length differs from its first; amount: metres, negative if shorter
+    Nan,  ///< a joint, the target or the pole target is not finite; amount: 0
+    /// A bone's length differs from its first; amount: metres, negative if shorter. One incident, the larger,
+    /// for both bones of a joint that moved alone: they differ over the same frames, and when that began, the
+    /// distance between their outer ends changed by less than a quarter as much.
+    Length,
     Limit,      ///< a joint is beyond its limit; amount: degrees beyond it
     Missed,     ///< the tip does not arrive, though the target is within reach; amount: metres short
     Lag,        ///< the tip is where the target was some frames ago; amount: frames
@@ -142,6 +146,7 @@ class IncidentFinder {
     std::vector<float> lengths_;
     Episode nan_, missed_;
     std::vector<Episode> length_, limit_;
+    std::set<std::pair<std::uint64_t, std::size_t>> displaced_;  ///< frame and joint: moved alone
 
     // The latest consecutive finite frames, newest last.
     std::vector<ReachPose> recent_;
@@ -177,13 +182,13 @@ class IncidentFinder {
         std::array<Lagged, max_lag + 1> lags{};
         glm::dvec3 sum{0.0};
         double square = 0.0, count = 0.0;
-        std::array<double, max_lag + 1> before{};  ///< squares left by what was closed
+        std::array<double, max_lag + 1> before{};  ///< squares left by earlier fits
         std::uint64_t frames = 0;
 
         void add(const glm::dvec3& tip) noexcept;
-        /// What follows is fitted for itself.
+        /// Starts a new fit and keeps the squares that the old one left.
         void close() noexcept;
-        /// Of each lag, the squares that are left of the tip's.
+        /// For each lag, the sum of squares that the fit leaves.
         std::array<double, max_lag + 1> left() const noexcept;
     };
     std::vector<glm::vec3> targets_, followers_;  ///< and tips; relative to the root, newest last

@@ -12,7 +12,7 @@ namespace {
 
 constexpr float near_root = 0.02f, nearly_straight = 0.02f;  ///< of the reach
 constexpr float close_to_pole = 0.17f;                       ///< radians, ten degrees
-constexpr float axis_turn = 0.52f;                           ///< radians: as far as a bone that flips
+constexpr float on_axis = 1e-4f;  ///< radians: float coordinates of 500 times the reach are off by as much
 
 float distance_to_segment(glm::vec3 point, glm::vec3 a, glm::vec3 b) noexcept {
     const glm::vec3 along = b - a;
@@ -132,18 +132,19 @@ bool passed_axis(const ReachPose& before, const ReachPose& after) noexcept {
         glm::vec3 axis(0.0f);
         axis[i] = 1.0f;
         const float turned = angle_between(math::cross(from, axis), math::cross(to, axis));
-        const bool close = std::min(off_line(from, axis), off_line(to, axis)) < close_to_pole;
-        if (turned > (close ? axis_turn : static_cast<float>(0.5 * math::pi))) return true;
+        const float off = std::min(off_line(from, axis), off_line(to, axis));
+        const float passes = off < close_to_pole ? FlipRule{}.degrees : 90.0f;
+        if (off < on_axis || in_degrees(turned) > passes) return true;
     }
     return false;
 }
 
-float bend_of(const ReachPose& pose) noexcept {
-    const glm::vec3 line = pose.joints.back() - pose.root();
+float bend_of(std::span<const glm::vec3> joints) noexcept {
+    const glm::vec3 line = joints.back() - joints.front();
     const float length = math::length(line);
     float furthest = 0.0f;
-    for (const glm::vec3 joint : pose.joints) {
-        const glm::vec3 from_root = joint - pose.root();
+    for (const glm::vec3 joint : joints) {
+        const glm::vec3 from_root = joint - joints.front();
         const float off =
             length > 0.0f ? math::length(math::cross(from_root, line)) / length : math::length(from_root);
         furthest = std::max(furthest, off);
@@ -152,11 +153,11 @@ float bend_of(const ReachPose& pose) noexcept {
 }
 
 bool was_straight(const ReachPose& before, const ReachPose& after) noexcept {
-    return std::min(bend_of(before), bend_of(after)) < nearly_straight * reach_of(after);
+    return std::min(bend_of(before.joints), bend_of(after.joints)) < nearly_straight * reach_of(after);
 }
 
 FlipCause collinear_cause(const ReachPose& before, const ReachPose& after) noexcept {
-    const ReachPose& flat = bend_of(before) <= bend_of(after) ? before : after;
+    const ReachPose& flat = bend_of(before.joints) <= bend_of(after.joints) ? before : after;
     return math::distance(flat.root(), flat.joints.back()) < 0.5f * reach_of(after) ? FlipCause::Folded
                                                                                     : FlipCause::Straight;
 }

@@ -66,7 +66,8 @@ bool IncidentFinder::both_moved(const ReachPose& a, const ReachPose& b) const no
 // starts in another direction or at another speed; unless its target went on.
 bool IncidentFinder::resumes(const ReachPose& pose) const {
     const ReachPose& before = recent_.back();
-    if (held_.frames == 1 || math::distance(held_.target, *before.target) > moving_share * reach_) return true;
+    if (held_.frames == 1 || math::distance(held_.target, *before.target) > moving_share * reach_)
+        return true;
     const glm::vec3 step = pose.joints[end_] - before.joints[end_];
     const float was = math::length(held_.step), is = math::length(step);
     const float longest = resumed_faster * static_cast<float>(held_.frames + 1) * was;
@@ -153,8 +154,7 @@ void IncidentFinder::follow(const ReachPose& pose) {
 }
 
 float IncidentFinder::inner_reach() const noexcept {
-    const auto reaching = std::span(lengths_).first(end_);
-    return std::max(0.0f, 2.0f * std::ranges::max(reaching) - reach_);
+    return std::max(0.0f, 2.0f * std::ranges::max(std::span(lengths_).first(end_)) - reach_);
 }
 
 void IncidentFinder::find_jitter(const ReachPose& pose) {

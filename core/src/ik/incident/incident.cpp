@@ -158,18 +158,32 @@ bool IncidentFinder::find_nan(const TraceFrame& frame) {
 }
 
 void IncidentFinder::find_lengths(const ReachPose& pose) {
+    bool opened = false;  // the bone before began to differ in this frame
     for (std::size_t i = 0; i < lengths_.size(); ++i) {
         const float length = math::distance(pose.joints[i], pose.joints[i + 1]), off = length - lengths_[i];
         const float allowed = std::max(length_share * lengths_[i], rounding_steps * options_.resolution);
-        const bool reaching = pose.target && math::distance(*pose.target, pose.root()) > reach_;
-        last(length_[i], std::abs(off) > allowed,
+        const bool beyond = pose.target && math::distance(*pose.target, pose.root()) > reach_;
+        const bool active = std::abs(off) > allowed;
+        // Both bones of a joint change at once: it moved alone if the outer ends stayed as far apart.
+        const bool opens = active && !length_[i].open;
+        if (opens && opened && !recent_.empty() && found_.size() < max_incidents) {
+            const std::vector<glm::vec3>& was = recent_.back().joints;
+            const auto changed = [&](std::size_t from, std::size_t to) {
+                return std::abs(math::distance(pose.joints[from], pose.joints[to]) -
+                                math::distance(was[from], was[to]));
+            };
+            if (changed(i - 1, i + 1) < alone_share * std::max(changed(i - 1, i), changed(i, i + 1)))
+                displaced_.insert({frames_, i});
+        }
+        opened = opens;
+        last(length_[i], active,
              {.kind = IncidentKind::Length,
               .frame = frames_,
               .last_frame = frames_,
               .joint = i + 1,
               .amount = static_cast<double>(off),
-              .cause = reaching ? "the target is out of reach, and the bone gives way"
-                                : "nothing in the input explains it: lengths are not restored"});
+              .cause = beyond ? "the target is out of reach, and the bone gives way"
+                              : "nothing in the input explains it: lengths are not restored"});
     }
 }
 
@@ -284,7 +298,8 @@ bool IncidentFinder::changed_sides(const ReachPose& pose, bool jumped) {
     if (end_ != 2) return false;
     const glm::vec3 line = pose.joints[end_] - pose.root(), elbow = pose.joints[1] - pose.root();
     const float length = math::length(line);
-    if (bend_of(reaching(pose)) < side_bend * reach_ || !(length > side_bend * reach_)) {
+    if (bend_of(std::span(pose.joints).first(end_ + 1)) < side_bend * reach_ ||
+        !(length > side_bend * reach_)) {
         if (side_) side_->straight_since = true;
         return false;
     }
@@ -312,18 +327,18 @@ void IncidentFinder::finish() {
     for (Episode& each : limit_) last(each, false, {});
     finish_following();
     std::ranges::stable_sort(found_, {}, &ChainIncident::frame);
-    // A joint out of its place changes both its bones, over the same frames: one incident, the larger.
+    // A joint out of its place changes both its bones over the same frames: one incident, the larger.
     std::size_t kept = 0;
     bool merged = true;  // the last one is
     for (const ChainIncident& each : found_) {
-        ChainIncident* const last = kept > 0 ? &found_[kept - 1] : nullptr;
-        merged = !merged && last->kind == IncidentKind::Length && each.kind == IncidentKind::Length &&
-                 last->frame == each.frame && last->last_frame == each.last_frame &&
-                 last->joint + 1 == each.joint;
+        ChainIncident* const before = kept > 0 ? &found_[kept - 1] : nullptr;
+        merged = !merged && before->kind == IncidentKind::Length && each.kind == IncidentKind::Length &&
+                 before->frame == each.frame && before->last_frame == each.last_frame &&
+                 before->joint + 1 == each.joint && displaced_.contains({each.frame, before->joint});
         if (!merged)
             found_[kept++] = each;
-        else if (std::abs(each.amount) > std::abs(last->amount))
-            *last = each;
+        else if (std::abs(each.amount) > std::abs(before->amount))
+            *before = each;
     }
     found_.resize(kept);
 }

@@ -11,6 +11,7 @@ constexpr float in_degrees(float radians) noexcept {
 
 inline constexpr float length_share = 2e-3f;   ///< of the bone
 inline constexpr float rounding_steps = 4.0f;  ///< of the resolution: two points, in three coordinates
+inline constexpr float alone_share = 0.25f;    ///< of a bone's change: outer ends that stay; 60 arms tried
 inline constexpr float limit_degrees = 0.5f;   ///< beyond a limit
 
 inline constexpr float side_bend = 0.02f;       ///< less is straight, and has no side
@@ -33,10 +34,10 @@ inline constexpr float missed_share = 0.01f;
 inline constexpr std::size_t missed_run = 5;  ///< frames
 inline constexpr float approach = 0.98f;      ///< a tip that comes closer by more a frame is under way
 
-inline constexpr double lag_share = 1e-3;     ///< rms by which a lag fits better
-inline constexpr double lag_better = 0.5;     ///< of the squares without a lag
-inline constexpr double lag_agrees = 1.02;    ///< likewise, of each way to compare
-inline constexpr double lag_scale = 0.5;      ///< of the target's path, and no more than twice it
+inline constexpr double lag_share = 1e-3;   ///< rms by which a lag fits better
+inline constexpr double lag_better = 0.5;   ///< of the squares without a lag
+inline constexpr double lag_agrees = 1.02;  ///< likewise, of each way to compare
+inline constexpr double lag_scale = 0.5;    ///< the tip's path may be 0.5 to 2 times the size of the target's
 inline constexpr std::size_t lag_frames = 8;  ///< moving ones, at least
 
 /// A tip leaps if its step is longer than so many of the target's and so much of the reach.
