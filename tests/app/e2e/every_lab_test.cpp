@@ -81,7 +81,7 @@ void expect_goes_on_as(Workspace original, Workspace opened, const Lab& lab) {
     opened.clock = original.clock;
     opened.settings = original.settings;
     const bool slow = lab.tick_work(original) > 20'000;
-    for (const int ticks : {0, slow ? 0 : 300}) {
+    for (const int ticks : {0, slow ? 0 : 300 / sanitizer_factor}) {
         SCOPED_TRACE(std::to_string(ticks) + " ticks");
         pass_ticks(original, lab, ticks);
         pass_ticks(opened, lab, ticks);
@@ -257,7 +257,7 @@ TEST_P(EveryScene, IsRefusedWithThePathOfWhatIsWrongOrReadWhole) {
     for (const auto& [path, value] : flat.items()) paths.push_back("/labs/" + GetParam().lab + path);
     const Json others[]{nullptr, true, -1, 0, 2.5, 1e8, 3e9, 1e300, "text", Json::array(), Json::object()};
     std::mt19937 random(7);
-    for (int i = 0; i < 120 && !HasFailure(); ++i) {
+    for (int i = 0; i < 60 / sanitizer_factor && !HasFailure(); ++i) {
         const std::string& path = paths[random() % paths.size()];
         Json changed = scene;
         changed[Json::json_pointer(path)] = others[random() % std::size(others)];
