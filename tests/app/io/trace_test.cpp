@@ -455,7 +455,10 @@ const Maker makers[]{
     {"CSV prefix", [](const Joints& j, std::size_t) { return each_joint(j, "%.4f,%.4f,%.4f", ",") + "\n"; },
      2, "x1,y1,z1,x2,y2,z2,x3,y3,z3\n"},
     {"CSV unit", [](const Joints& j, std::size_t) { return each_joint(j, "%.4f,%.4f,%.4f", ",") + "\n"; }, 2,
-     "a_x [m],a_y [m],a_z [m],b_x [m],b_y [m],b_z [m],c_x [m],c_y [m],c_z [m]\n"}};
+     "a_x [m],a_y [m],a_z [m],b_x [m],b_y [m],b_z [m],c_x [m],c_y [m],c_z [m]\n"},
+    {"CSV, not axes",
+     [](const Joints& j, std::size_t) { return "7,8," + each_joint(j, "%.4f,%.4f,%.4f,1", ",") + "\n"; }, 2,
+     "z-score,x label,a_x,a_y,a_z,a_w,b_x,b_y,b_z,b_w,c_x,c_y,c_z,c_w\n"}};
 
 TEST(Trace, LogsOfManyMakersAreRead) {
     for (const Maker& maker : makers)
