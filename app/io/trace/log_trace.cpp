@@ -95,6 +95,8 @@ std::optional<bool> says_position(std::string_view word) {
 /// Reads from the last word to the first. A number ends them, unless it is the index of a word: joint 1,
 /// joint[1].
 Words words_before(std::string_view text) {
+    constexpr std::size_t farthest = 1000;  // characters; else a long line takes the square of its length
+    if (text.size() > farthest) text.remove_prefix(text.size() - farthest);
     Words found;
     // quat(1.0, {0, 0, 0}): one of its numbers stands before the vector.
     if (const std::size_t open = text.rfind('('); open != text.npos) {
@@ -115,8 +117,7 @@ Words words_before(std::string_view text) {
         const bool joined = text.substr(end, last - end).find_first_not_of(joins) == text.npos;
         const std::string word = lower_case(text.substr(begin, end - begin));
         const bool number = word.find_first_not_of("0123456789_") == word.npos;
-        if (!index.empty() && !named && (number || !joined)) break;
-        if (number && (named || !joined)) break;
+        if (number ? named || !joined || !index.empty() : !named && !joined && !index.empty()) break;
         named = named || !joined;
         if (number) {
             index = word;
@@ -277,10 +278,12 @@ class Scanner {
             if (here < text_.size() && text_[here] == ',') here = skip(here + 1, " \t");
             if (here == end) break;
         }
-        const Words words = words_before(text_.substr(from_, at - from_));
+        const auto named = [&] {
+            const Words words = words_before(text_.substr(from_, at - from_));
+            return !words.label.empty() || !words.is_position;
+        };
         const bool fits = (numbers.size() == 3 || numbers.size() == 4) &&
-                          text_.substr(at, end - at).find('.') != text_.npos &&
-                          !(words.label.empty() && words.is_position);
+                          text_.substr(at, end - at).find('.') != text_.npos && named();
         if (!fits) numbers.clear();
         return fits;
     }
@@ -475,7 +478,8 @@ class LogTrace final : public RawTrace {
         RawFrame* into = &frame;
         if (by_line_ && !by_document && joints > 0 && !frame.joints.empty()) into = &ahead_;
         for (const Found& each : found) {
-            if (!by_line_ && !by_document && begins_again(each) && !into->joints.empty()) {
+            const bool again = each.is_position && each.numbers.size() == 3 && labels_.contains(each.label);
+            if (!by_line_ && !by_document && again && !into->joints.empty()) {
                 into = &ahead_;
                 labels_.clear();
             }
@@ -498,11 +502,6 @@ class LogTrace final : public RawTrace {
         std::erase_if(found, [&](const Found& each) {
             return each.numbers.size() == 4 && !(std::abs(length(each.numbers) - 1.0) <= 0.02);
         });
-    }
-
-    bool begins_again(const Found& each) {
-        return each.is_position && each.numbers.size() == 3 && !each.label.empty() &&
-               labels_.contains(each.label);
     }
 
     void add(RawFrame& frame, const Found& found) {

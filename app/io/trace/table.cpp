@@ -1,6 +1,7 @@
 // Traces as tables: CSV, or what a spreadsheet copies.
 #include <algorithm>
 #include <array>
+#include <glm/geometric.hpp>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -60,8 +61,14 @@ struct Column {
     int axis = 0;
 };
 
-/// "Elbow_X", "elbow.x [cm]", "elbow[0]" and "x_elbow" are axis 0 of "elbow"; of a quaternion, w is axis 3.
-std::optional<std::pair<std::string, int>> point_column(std::string_view cell) {
+struct PointColumn {
+    std::string base;
+    int axis = 0;         ///< 3: w
+    bool prefix = false;  ///< "x_elbow"
+};
+
+/// "Elbow_X", "elbow.x [cm]", "elbow[0]" and "x_elbow" are axis 0 of "elbow".
+std::optional<PointColumn> point_column(std::string_view cell) {
     if (cell.find_first_of("{}=<>") != cell.npos || cell.find(": ") != cell.npos) return std::nullopt;
     std::string name = lower_case(cell);
     if (const std::size_t unit = name.find_first_of("([");
@@ -72,6 +79,7 @@ std::optional<std::pair<std::string, int>> point_column(std::string_view cell) {
     if (name.size() < 2) return std::nullopt;
     const auto axis_of = [](char c) { return c == 'w' ? 3 : c >= 'x' && c <= 'z' ? c - 'x' : -1; };
     int axis = axis_of(name.back());
+    bool prefix = false;
     const bool indexed = name.size() > 3 && name.back() == ']' && name[name.size() - 3] == '[';
     if (indexed) {
         const char index = name[name.size() - 2];
@@ -82,6 +90,7 @@ std::optional<std::pair<std::string, int>> point_column(std::string_view cell) {
     } else if (axis = axis_of(name.front());
                axis >= 0 && (is_separator(name[1]) || (name[1] >= '0' && name[1] <= '9'))) {
         name.erase(0, 1);
+        prefix = true;
     } else {
         return std::nullopt;
     }
@@ -89,7 +98,19 @@ std::optional<std::pair<std::string, int>> point_column(std::string_view cell) {
     while (!name.empty() && is_separator(name.back())) name.pop_back();
     while (!name.empty() && is_separator(name.front())) name.erase(0, 1);
     if (name.empty()) return std::nullopt;
-    return std::pair(name, axis);
+    return PointColumn{name, axis, prefix};
+}
+
+/// One a cell. "z-score" is none: there is no x and no y of it.
+std::vector<std::optional<PointColumn>> point_columns(const std::vector<std::string_view>& row) {
+    std::vector<std::optional<PointColumn>> points;
+    std::map<std::string, unsigned> axes;
+    for (const std::string_view cell : row)
+        if (const auto& point = points.emplace_back(point_column(cell)))
+            axes[point->base] |= 1u << point->axis;
+    for (auto& point : points)
+        if (point && point->prefix && (axes[point->base] & 7u) != 7u) point.reset();
+    return points;
 }
 
 Role role_of(const std::string& base) {
@@ -107,13 +128,14 @@ class Table final : public RawTrace {
     Table(std::istream& in, std::string first, std::size_t at) : in_(in), text_(std::move(first)) {
         line = at;
         separator_ = separator_of(text_);
-        const auto row = split(text_, separator_);
+        const std::string names = text_;
+        const auto row = split(names, separator_);
         if (all_numbers(row)) {
             without_names(row.size());
             return;
         }
-        read_names(row);
-        waiting_ = false;
+        waiting_ = read_line(in_, text_, line);
+        read_names(row, waiting_ ? split(text_, separator_) : row, at);
     }
 
     bool next(RawFrame& frame) override {
@@ -167,18 +189,27 @@ class Table final : public RawTrace {
         joints_ = count / 3;
     }
 
-    void read_names(const std::vector<std::string_view>& row) {
+    /// `values`: the first row of numbers.
+    void read_names(const std::vector<std::string_view>& row, const std::vector<std::string_view>& values,
+                    std::size_t at) {
+        const auto points = point_columns(row);
         std::map<std::string, std::size_t> joints;
         std::array<int, 3> axes{};
-        std::set<std::string> turns;  // points with a w are quaternions
-        for (const std::string_view cell : row)
-            if (const auto point = point_column(cell); point && point->second == 3)
-                turns.insert(point->first);
+        // Points with a w are quaternions, unless w is 1 beside other numbers.
+        std::map<std::string, glm::dvec4> fours;
+        std::set<std::string> turns;
+        for (std::size_t i = 0; i < std::min(row.size(), values.size()); ++i)
+            if (points[i]) fours[points[i]->base][points[i]->axis] = number_in(values[i]).value_or(0.0);
+        for (const auto& point : points)
+            if (point && point->axis == 3 &&
+                !(fours[point->base].w == 1.0 && glm::length(fours[point->base]) > 1.02))
+                turns.insert(point->base);
         std::string left_out;
-        for (const std::string_view cell : row) {
+        for (std::size_t i = 0; i < row.size(); ++i) {
             Column column;
+            const std::string_view cell = row[i];
             const std::string name = lower_case(cell);
-            const auto point = point_column(cell);
+            const auto& point = points[i];
             if (name == "time" || name == "t" || name == "seconds" || name == "time_s") {
                 column.role = Role::Time;
             } else if (name == "dt" || name == "delta" || name == "delta_time") {
@@ -186,15 +217,16 @@ class Table final : public RawTrace {
             } else if (name == "chain") {
                 column.role = Role::Chain;
             } else if (point) {
-                column.role = turns.contains(point->first) ? Role::Ignored : role_of(point->first);
-                if (column.role == Role::Ignored && left_out != point->first)
-                    notes.push_back("the columns of \"" + printable(left_out = point->first) +
+                column.role = turns.contains(point->base) ? Role::Ignored : role_of(point->base);
+                if (column.role == Role::Ignored && left_out != point->base)
+                    notes.push_back("the columns of \"" + printable(left_out = point->base) +
                                     "\" were left out: they are not positions");
-                column.axis = point->second;
+                if (point->axis == 3) column.role = Role::Ignored;
+                column.axis = point->axis;
                 if (column.role == Role::Joint) {
-                    const auto [at, is_new] = joints.try_emplace(point->first, joints.size());
-                    if (is_new) header.bones.push_back(point->first);
-                    column.joint = at->second;
+                    const auto [joint, is_new] = joints.try_emplace(point->base, joints.size());
+                    if (is_new) header.bones.push_back(point->base);
+                    column.joint = joint->second;
                     ++axes[static_cast<std::size_t>(column.axis)];
                 }
             } else if (!cell.empty()) {
@@ -205,8 +237,8 @@ class Table final : public RawTrace {
         joints_ = joints.size();
         for (const int count : axes)
             if (static_cast<std::size_t>(count) != joints_)
-                fail_line(line, "expected columns x, y and z of every joint: j0x, j0y, j0z, j1x and so on");
-        if (joints_ > max_trace_joints) fail_line(line, "found more than 4096 joints");
+                fail_line(at, "expected columns x, y and z of every joint: j0x, j0y, j0z, j1x and so on");
+        if (joints_ > max_trace_joints) fail_line(at, "found more than 4096 joints");
     }
 
     void take(RawFrame& frame, std::size_t index, std::string_view cell) {
@@ -257,7 +289,7 @@ class Table final : public RawTrace {
 bool begins_table(std::string_view line) {
     const auto row = split(line, separator_of(line));
     if (row.size() >= 3 && all_numbers(row)) return true;
-    const auto points = std::ranges::count_if(row, [](auto cell) { return point_column(cell).has_value(); });
+    const auto points = std::ranges::count_if(point_columns(row), &std::optional<PointColumn>::has_value);
     return points >= 3 && separator_of(line) != ' ';
 }
 

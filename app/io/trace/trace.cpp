@@ -30,36 +30,29 @@ std::string frames_of(const ik::ChainIncident& incident) {
 }
 
 std::string amount_of(const ik::ChainIncident& incident) {
-    char text[80];
+    const auto text = [](const char* format, auto... values) {
+        char all[80];
+        std::snprintf(all, sizeof all, format, values...);
+        return std::string(all);
+    };
     const double amount = incident.amount;
     switch (incident.kind) {
         case ik::IncidentKind::Flip:
-            std::snprintf(text, sizeof text, "turned %.0f degrees", amount);
-            return text;
+            return text("turned %.0f degrees", amount);
         case ik::IncidentKind::Limit:
-            std::snprintf(text, sizeof text, "%.1f degrees beyond its limit", amount);
-            return text;
+            return text("%.1f degrees beyond its limit", amount);
         case ik::IncidentKind::Length:
-            std::snprintf(text, sizeof text, "%.3g mm %s", 1000.0 * std::abs(amount),
-                          amount < 0.0 ? "shorter" : "longer");
-            return text;
+            return text("%.3g mm %s", 1000.0 * std::abs(amount), amount < 0.0 ? "shorter" : "longer");
         case ik::IncidentKind::Jitter:
-            std::snprintf(text, sizeof text, "%.3g mm to either side, %.3g Hz", 1000.0 * amount,
-                          incident.hertz);
-            return text;
+            return text("%.3g mm to either side, %.3g Hz", 1000.0 * amount, incident.hertz);
         case ik::IncidentKind::Lag:
-            std::snprintf(text, sizeof text, "%.0f frame%s late", amount, amount == 1.0 ? "" : "s");
-            return text;
+            return text("%.0f frame%s late", amount, amount == 1.0 ? "" : "s");
         case ik::IncidentKind::Missed:
-            std::snprintf(text, sizeof text, "%.3g mm short", 1000.0 * amount);
-            return text;
+            return text("%.3g mm short", 1000.0 * amount);
         case ik::IncidentKind::TargetJump:
-            std::snprintf(text, sizeof text, "%.3g m", amount);
-            return text;
+            return text("%.3g m", amount);
         case ik::IncidentKind::Repeated:
-            if (amount == 1.0) return "drawn twice";
-            std::snprintf(text, sizeof text, "drawn %.0f times", amount + 1.0);
-            return text;
+            return amount == 1.0 ? "drawn twice" : text("drawn %.0f times", amount + 1.0);
         case ik::IncidentKind::Nan:
             break;
     }

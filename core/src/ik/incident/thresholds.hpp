@@ -25,22 +25,28 @@ inline constexpr float jump_share = 0.15f;    ///< a target's step
 inline constexpr float jump_factor = 4.0f;    ///< times the steps before and after it
 inline constexpr float moving_share = 1e-3f;  ///< a step of less is still
 
+// Measured on the families of ik_incident_test.cpp and trace_test.cpp. "Arms" are those of the first.
+
 /// Of the step before: one that is shorter slows down, or starts anew. Several frames may be caught up at
-/// once.
+/// once. 120 arms that repeat 0 to 5 frames are all right, as with 0.1 to 0.95 and 1 to 4.
 inline constexpr float resumed_share = 0.6f, resumed_faster = 1.5f;
-inline constexpr float resumed_cosine = 0.5f;  ///< between the steps before and after
+/// Between the steps before and after: likewise with -0.5; some of the 120 are lost with 0.95.
+inline constexpr float resumed_cosine = 0.5f;
 
 inline constexpr float missed_share = 0.01f;
 inline constexpr std::size_t missed_run = 5;  ///< frames
 inline constexpr float approach = 0.98f;      ///< a tip that comes closer by more a frame is under way
 
-inline constexpr double lag_share = 1e-3;   ///< rms by which a lag fits better
-inline constexpr double lag_better = 0.5;   ///< of the squares without a lag
-inline constexpr double lag_agrees = 1.02;  ///< likewise, of each way to compare
-inline constexpr double lag_scale = 0.5;    ///< the tip's path may be 0.5 to 2 times the size of the target's
+// 300 arms, half of them late by 1 to 5 frames: 150 are found, none falsely.
+inline constexpr double lag_share = 1e-3;   ///< rms by which a lag fits better; with 1e-2, 147 are found
+inline constexpr double lag_better = 0.5;   ///< of the squares without a lag; 0.8 fails on planted faults
+inline constexpr double lag_agrees = 1.02;  ///< likewise, of each way to compare; with 0.9, 142 are found
+/// The tip's path may be 0.5 to 2 times the size of the target's; with 0.999, 149 are found.
+inline constexpr double lag_scale = 0.5;
 inline constexpr std::size_t lag_frames = 8;  ///< moving ones, at least
 
-/// A tip leaps if its step is longer than so many of the target's and so much of the reach.
+/// A tip leaps if its step is longer than so many of the target's and so much of the reach. With 6, or with
+/// 0.1, some of the 300 planted faults are not told; 1.5 and 0.005 do as well.
 inline constexpr float leap_steps = 3.0f, leap_share = 0.025f;
 
 inline constexpr float jitter_share = 2e-4f;
