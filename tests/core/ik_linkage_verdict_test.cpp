@@ -339,14 +339,28 @@ TEST(Linkage, AMotorBetweenBarsOfOneRigidBodyIsRefused) {
         const Expected<Linkage> made = linkage_from(sketch);
         EXPECT_EQ(made.ok(), fine) << made.message();
     }
-    EXPECT_STREQ(linkage_from(sketch).message(),
-                 "linkage_from: motor \"m\" must turn two rigid bodies, got bar \"BC\" and bar \"CF\", which "
-                 "triangles "
-                 "join into one");
+    EXPECT_STREQ(
+        linkage_from(sketch).message(),
+        "linkage_from: motor \"m\" must join two rigid bodies, but bar \"BC\" and bar \"CF\" belong to "
+        "the same one");
     sketch.motors = {{"m", 0, 7}};
     EXPECT_FALSE(linkage_from(sketch));
     sketch.motors = {{"m", 0, 0}};
     EXPECT_TRUE(linkage_from(sketch));
+}
+
+TEST(Linkage, AHeldBallBalancesLikeOneLinkWithItsParent) {
+    Linkage linkage;
+    linkage.links = {{.name = "crank"},
+                     {.name = "rod", .parent = 0, .joint = LinkJoint::Ball, .at = {1, 0, 0}}};
+    linkage.closures = {
+        {"end", ClosureKind::Point, 1, ground_link, glm::dvec3(2, 0, 0), glm::dvec3(2, 0, 0)}};
+    LinkageSolver solver = *LinkageSolver::make(linkage);
+    const std::size_t ball = 1;
+    glm::dvec3 force(0.0);
+    EXPECT_GT(solver.balance(solver.initial_state(), 0, {}, {&force, 1}), 0.4);
+    EXPECT_NEAR(solver.balance(solver.initial_state(), 0, {&ball, 1}, {&force, 1}), 0.0, 1e-12);
+    EXPECT_NEAR(std::abs(force.y), 0.5, 1e-12);
 }
 
 // ------------------------------------------------------------------------------------------- other modes

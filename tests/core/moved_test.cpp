@@ -17,6 +17,7 @@
 #include <tendril/rope/world.hpp>
 
 #include "humanoid_figure.hpp"
+#include "memory.hpp"
 
 namespace tendril::test::moved_test {
 namespace {
@@ -66,6 +67,17 @@ TEST(Moved, AChainsSolversRefuse) {
     EXPECT_EQ(batch.size() + batch.bones(), 0u);
 }
 
+TEST(Moved, ReadingAnObjectThatIsThereAllocatesNothing) {
+    const float lengths[] = {1.0f, 1.0f};
+    const auto solver = *ik::Solver::make(lengths);
+    const auto linkage = *ik::LinkageSolver::make(*linkage_from(*ik::four_bar({})));
+    const auto rig = *rig::Rig::make({});
+    std::size_t read = 0;
+    without_memory(
+        [&] { read = solver.bones() + linkage.links().size() + rig.definition().elements.size(); });
+    EXPECT_EQ(read, 2u + linkage.linkage().links.size());
+}
+
 TEST(Moved, ALinkagesSolverRefuses) {
     auto solver = *ik::LinkageSolver::make(*linkage_from(*ik::four_bar({})));
     ik::LinkageState state = solver.initial_state(), none;
@@ -78,7 +90,7 @@ TEST(Moved, ALinkagesSolverRefuses) {
     }
     EXPECT_EQ(solver.initial_state(), none);
     EXPECT_TRUE(solver.linkage().links.empty() && solver.links().empty() && solver.residuals().empty());
-    EXPECT_TRUE(solver.active().empty() && solver.open_closures().empty() && solver.size() > 0.0);
+    EXPECT_TRUE(solver.active().empty() && solver.open_closures().empty() && solver.size() == 0.0);
     EXPECT_EQ(solver.point(0) + solver.joint(0) + solver.axis(0), glm::dvec3(0.0));
     EXPECT_TRUE(solver.planar());
 }
@@ -98,7 +110,7 @@ TEST(Moved, ARopesWorkspaceRefuses) {
     EXPECT_TRUE(rope::World::from_state(world.state()));
 }
 
-TEST(Moved, ARigIsOneOfNothing) {
+TEST(Moved, AMovedFromRigIsEmpty) {
     using namespace rig;
     Definition definition;
     definition.elements.push_back({.name = "a"});

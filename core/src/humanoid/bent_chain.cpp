@@ -121,7 +121,7 @@ BentChain::BentChain(BentChain&&) noexcept = default;
 BentChain& BentChain::operator=(BentChain&&) noexcept = default;
 
 std::span<const std::size_t> BentChain::nodes() const noexcept {
-    return tendril::detail::held_or_empty(plan_).nodes;
+    return tendril::detail::held_or_empty(plan_, &Plan::nodes);
 }
 
 Placement BentChain::space(std::span<const Placement> placed) const noexcept {

@@ -118,10 +118,10 @@ Body& Body::operator=(Body&&) noexcept = default;
 Body::~Body() = default;
 
 const std::vector<Bone>& Body::bones() const noexcept {
-    return tendril::detail::held_or_empty(work_).bones;
+    return tendril::detail::held_or_empty(work_, &Work::bones);
 }
 const BodyJoints& Body::joints() const noexcept {
-    return tendril::detail::held_or_empty(work_).joints;
+    return tendril::detail::held_or_empty(work_, &Work::joints);
 }
 
 Expected<Body> Body::make(const Skeleton& skeleton, const BoneMap& map, const BodyLimits& limits,

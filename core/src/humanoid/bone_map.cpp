@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include "humanoid/input.hpp"
 #include "humanoid/names.hpp"
@@ -179,22 +180,25 @@ std::string named(const Skeleton& skeleton, std::int32_t node) {
     return text;
 }
 
+// Confidences rank the evidence: chosen, not measured.
+constexpr double by_shape_alone = 0.6, contradicted = 0.65, by_name_alone = 0.8, agreed = 0.98;
+
 /// Combines what both readers say of a bone.
 BoneMatch weigh(const Skeleton& skeleton, std::int32_t by_name, std::int32_t by_shape) {
     BoneMatch match;
     if (by_name < 0 && by_shape < 0) return match;
     match.node = by_name >= 0 ? by_name : by_shape;
     if (by_name < 0) {
-        match.confidence = 0.6;
+        match.confidence = by_shape_alone;
         match.reasons = "its position in the skeleton; its name gives no clue";
     } else if (by_shape < 0) {
-        match.confidence = 0.8;
+        match.confidence = by_name_alone;
         match.reasons = named(skeleton, by_name);
     } else if (by_name == by_shape) {
-        match.confidence = 0.98;
+        match.confidence = agreed;
         match.reasons = named(skeleton, by_name) + "; its position in the skeleton agrees";
     } else {
-        match.confidence = 0.65;
+        match.confidence = contradicted;
         match.reasons = named(skeleton, by_name) + "; by its position in the skeleton it would be " +
                         skeleton[static_cast<std::size_t>(by_shape)].name;
     }
@@ -260,7 +264,7 @@ void agree(const Skeleton& skeleton, const ShapeReading& shape, BoneMap& map) {
                 std::find(path.begin(), path.end(), map[bone(from, i)].node) - path.begin());
             BoneMatch& match = map[bone(1 - from, i)];
             if (at == path.size() || match.node == paths[1 - from][at]) return;  // a loose foot is on none
-            match = {paths[1 - from][at], 0.65, "as "};
+            match = {paths[1 - from][at], contradicted, "as "};
             match.reasons += skeleton[static_cast<std::size_t>(path[at])].name + " on the other side";
         };
         for (std::size_t i = 0; i < bones; ++i)
@@ -298,18 +302,9 @@ std::optional<Bone> bone_named(std::string_view text) noexcept {
     return std::nullopt;
 }
 bool is_needed(Bone bone) noexcept {
-    switch (bone) {
-        case Bone::Chest:
-        case Bone::UpperChest:
-        case Bone::Neck:
-        case Bone::LeftShoulder:
-        case Bone::RightShoulder:
-        case Bone::LeftToes:
-        case Bone::RightToes:
-            return false;
-        default:
-            return true;
-    }
+    constexpr Bone others[]{Bone::Chest,         Bone::UpperChest, Bone::Neck,     Bone::LeftShoulder,
+                            Bone::RightShoulder, Bone::LeftToes,   Bone::RightToes};
+    return std::ranges::find(others, bone) == std::end(others);
 }
 Bone mirrored(Bone bone) noexcept {
     const int i = static_cast<int>(bone);
@@ -376,18 +371,22 @@ bool is_in(const Skeleton& skeleton, std::int32_t node) noexcept {
     return node >= 0 && static_cast<std::size_t>(node) < skeleton.size();
 }
 
+std::optional<Bone> first_missing(const BoneMap& map) noexcept {
+    for (std::size_t i = 0; i < bone_count; ++i)
+        if (const auto bone = static_cast<Bone>(i); is_needed(bone) && map[bone].node < 0) return bone;
+    return std::nullopt;
+}
+
 }  // namespace
 
 Result detail::check_usable(std::string_view operation, const BoneMap& map) noexcept {
     using tendril::detail::refused;
-    for (std::size_t i = 0; i < bone_count; ++i)
-        if (const auto bone = static_cast<Bone>(i); is_needed(bone) && map[bone].node < 0)
-            return refused(operation, name(bone), "mapped", "none");
+    if (const auto bone = first_missing(map)) return refused(operation, name(*bone), "mapped", "none");
     return map.upright ? Result() : refused(operation, "map", "for an upright body", "one that is not");
 }
 
 bool BoneMap::is_usable() const noexcept {
-    return detail::check_usable("", *this).ok();
+    return upright && !first_missing(*this);
 }
 
 Result detail::check_map(std::string_view operation, const BoneMap& map, const Skeleton& skeleton) noexcept {

@@ -132,7 +132,7 @@ Feet::Feet(Feet&&) noexcept = default;
 Feet& Feet::operator=(Feet&&) noexcept = default;
 
 const Soles& Feet::soles() const noexcept {
-    return tendril::detail::held_or_empty(plan_).soles;
+    return tendril::detail::held_or_empty(plan_, &Plan::soles);
 }
 
 Expected<Feet> Feet::make(const Skeleton& skeleton, const BoneMap& map) {

@@ -232,7 +232,7 @@ SpringChain::SpringChain(SpringChain&&) noexcept = default;
 SpringChain& SpringChain::operator=(SpringChain&&) noexcept = default;
 
 std::span<const std::size_t> SpringChain::bones() const noexcept {
-    return tendril::detail::held_or_empty(plan_).turning;
+    return tendril::detail::held_or_empty(plan_, &Plan::turning);
 }
 
 void SpringChain::Plan::move(std::span<const rig::Transform> pose, const SpringOptions& options, Time time,

@@ -11,21 +11,26 @@ namespace {
 /// A message under construction; text that does not fit is dropped.
 class Message {
   public:
-    Message& add(std::string_view text) noexcept {
-        const std::size_t size = std::min(text.size(), sizeof buffer_ - size_);
-        if (size > 0) std::memcpy(buffer_ + size_, text.data(), size);
-        size_ += size;
-        return *this;
+    template <class... Parts>
+    explicit Message(const Parts&... parts) noexcept {
+        (add(parts), ...);
     }
-    Message& add(const Argument& argument) noexcept {
-        add(argument.name);
-        if (argument.index != no_index) add("[").add(Shown(argument.index).text()).add("]");
-        return argument.member.empty() ? *this : add(".").add(argument.member);
-    }
-    Message& add(const char* text) noexcept { return add(std::string_view(text)); }
     Result as(ErrorCode code) const noexcept { return {code, {buffer_, size_}}; }
 
   private:
+    void add(std::string_view text) noexcept {
+        const std::size_t size = std::min(text.size(), sizeof buffer_ - size_);
+        if (size > 0) std::memcpy(buffer_ + size_, text.data(), size);
+        size_ += size;
+    }
+    void add(const Shown& value) noexcept { add(value.text()); }
+    void add(const Argument& argument) noexcept {
+        add(argument.name);
+        if (argument.index != no_index) add("["), add(Shown(argument.index)), add("]");
+        if (!argument.member.empty()) add("."), add(argument.member);
+    }
+    void add(const char* text) noexcept { add(std::string_view(text)); }
+
     char buffer_[2 * Result::max_message];
     std::size_t size_ = 0;
 };
@@ -58,10 +63,9 @@ Shown::Shown(const char* before, double value) noexcept {
 
 Result refused(std::string_view operation, const Argument& argument, std::string_view requirement,
                const Shown& value) noexcept {
-    Message message;
-    if (!operation.empty()) message.add(operation).add(": ");
-    message.add(argument).add(" must be ").add(requirement).add(", got ").add(value.text());
-    return message.as(ErrorCode::InvalidArgument);
+    return Message(operation, operation.empty() ? "" : ": ", argument, " must be ", requirement, ", got ",
+                   value)
+        .as(ErrorCode::InvalidArgument);
 }
 
 Result refused_length(std::string_view operation, const Argument& argument, float value) noexcept {
@@ -73,55 +77,26 @@ Result refused_point(std::string_view operation, const Argument& argument, const
     std::size_t axis = 0;
     while (is_coordinate(value[static_cast<int>(axis)])) ++axis;
     const float found = value[static_cast<int>(axis)];
-    if (argument.member.empty()) {
-        return refused(operation, {argument.name, argument.index, axes[axis]}, coordinate_range, found);
-    }
-    Message message;
-    message.add(operation)
-        .add(": ")
-        .add(argument)
-        .add(".")
-        .add(axes[axis])
-        .add(" must be ")
-        .add(coordinate_range)
-        .add(", got ")
-        .add(Shown(found).text());
-    return message.as(ErrorCode::InvalidArgument);
+    return Message(operation, ": ", argument, ".", axes[axis], " must be ", coordinate_range, ", got ",
+                   Shown(found))
+        .as(ErrorCode::InvalidArgument);
 }
 
 Result refused_index(std::string_view operation, std::size_t index, std::size_t size, std::string_view whole,
                      std::string_view part) noexcept {
-    Message message;
-    message.add(operation)
-        .add(": index ")
-        .add(Shown(index).text())
-        .add(" is out of range, ")
-        .add(whole)
-        .add(" has ")
-        .add(Shown(size).text())
-        .add(" ")
-        .add(part)
-        .add((size == 1 ? "" : "s"));
-    return message.as(ErrorCode::OutOfRange);
+    return Message(operation, ": index ", Shown(index), " is out of range, ", whole, " has ", Shown(size),
+                   " ", part, size == 1 ? "" : "s")
+        .as(ErrorCode::OutOfRange);
 }
 
 Result refused_count(std::string_view operation, const Argument& argument, std::size_t count,
                      std::size_t wanted) noexcept {
-    Message message;
-    message.add(operation)
-        .add(": ")
-        .add(argument)
-        .add(" must be ")
-        .add(Shown(wanted).text())
-        .add(" in number, got ")
-        .add(Shown(count).text());
-    return message.as(ErrorCode::InvalidArgument);
+    return Message(operation, ": ", argument, " must be ", Shown(wanted), " in number, got ", Shown(count))
+        .as(ErrorCode::InvalidArgument);
 }
 
 Result moved_from(std::string_view operation, std::string_view what) noexcept {
-    Message message;
-    message.add(operation).add(": the ").add(what).add(" must not be moved from");
-    return message.as(ErrorCode::InvalidArgument);
+    return Message(operation, ": the ", what, " has been moved from").as(ErrorCode::InvalidArgument);
 }
 
 }  // namespace tendril::detail

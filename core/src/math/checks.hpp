@@ -84,14 +84,15 @@ Result refused_index(std::string_view operation, std::size_t index, std::size_t 
 Result refused_count(std::string_view operation, const Argument& argument, std::size_t count,
                      std::size_t wanted) noexcept;
 
-/// `solve: the solver must not be moved from`
+/// `solve: the solver has been moved from`
 Result moved_from(std::string_view operation, std::string_view what) noexcept;
 
-/// What is held, or an empty one if that was moved away.
-template <class Held>
-const typename Held::element_type& held_or_empty(const Held& held) {
-    static const typename Held::element_type empty{};
-    return held ? *held : empty;
+/// A member of `*held`, or an empty one if that was moved away.
+template <class Held, class Owner, class Member>
+const Member& held_or_empty(const Held& held, Member Owner::*member) noexcept {
+    if (held) return (*held).*member;
+    static const Member empty{};
+    return empty;
 }
 
 /// Metres, finite and 0 to max_magnitude.

@@ -1,11 +1,13 @@
-// Included first into every source of the library, by its CMakeLists.txt: GLM's functions that multiply and
-// add do not compile there, for the reason given in point.hpp. vector.hpp and rotation.hpp have them. More
-// constrained than GLM's own, these are chosen in their place. Not installed.
+// Included first into every source of the library, by its CMakeLists.txt: GLM's common functions that
+// multiply and add do not compile there, for the reason given in point.hpp; its constructors still do.
+// vector.hpp and rotation.hpp have them. More constrained than GLM's own, these are chosen in their place.
+// MSVC does not include this. Not installed.
 #pragma once
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 
 namespace glm {
 
@@ -24,6 +26,12 @@ template <class T, qualifier Q> requires true qua<T, Q> operator*(const qua<T, Q
 template <class T, qualifier Q> requires true vec<3, T, Q> operator*(const qua<T, Q>&, const vec<3, T, Q>&) = delete;
 template <class T, qualifier Q> requires true vec<3, T, Q> operator*(const mat<3, 3, T, Q>&, const vec<3, T, Q>&) = delete;
 template <class T, qualifier Q> requires true mat<3, 3, T, Q> operator*(const mat<3, 3, T, Q>&, const mat<3, 3, T, Q>&) = delete;
+template <class T, qualifier Q> requires true mat<4, 4, T, Q> operator*(const mat<4, 4, T, Q>&, const mat<4, 4, T, Q>&) = delete;
+template <class T, qualifier Q> requires true vec<4, T, Q> operator*(const mat<4, 4, T, Q>&, const vec<4, T, Q>&) = delete;
+template <class T, qualifier Q> requires true mat<3, 3, T, Q> mat3_cast(const qua<T, Q>&) = delete;
+template <class T, qualifier Q> requires true qua<T, Q> slerp(const qua<T, Q>&, const qua<T, Q>&, T) = delete;
+template <class T, qualifier Q> requires true qua<T, Q> rotate(const qua<T, Q>&, const T&, const vec<3, T, Q>&) = delete;
+template <length_t L, class T, class U, qualifier Q> requires true vec<L, T, Q> mix(const vec<L, T, Q>&, const vec<L, T, Q>&, U) = delete;
 template <length_t C, length_t R, class T, qualifier Q> requires true T determinant(const mat<C, R, T, Q>&) = delete;
 template <length_t C, length_t R, class T, qualifier Q> requires true mat<C, R, T, Q> inverse(const mat<C, R, T, Q>&) = delete;
 // clang-format on

@@ -133,8 +133,9 @@ Rig::~Rig() {
 }
 
 const detail::Plan& Rig::plan() const noexcept {
+    if (plan_) return *plan_;
     static const detail::Plan empty(Definition{}, detail::Shared(detail::Layout{}));
-    return plan_ ? *plan_ : empty;
+    return empty;
 }
 const Definition& Rig::definition() const noexcept {
     return plan().definition;
@@ -160,11 +161,12 @@ State Rig::initial_state() const {
 }
 
 State Rig::adopted(const Rig& before, State state) const {
-    if (plan().layout == before.plan().layout) return state;
-    State result = plan().layout->initial;
+    const Plan &plan = this->plan(), &last = before.plan();
+    if (plan.layout == last.layout) return state;
+    State result = plan.layout->initial;
     Hierarchy old = state.elements;  // reading computes what is pending
-    for (std::size_t i = 0; i < plan().layout->ids.size(); ++i) {
-        const Element& element = plan().definition.elements[i];
+    for (std::size_t i = 0; i < plan.layout->ids.size(); ++i) {
+        const Element& element = plan.definition.elements[i];
         const auto was = before.element(element.name);
         if (!was) continue;
         const Element& then = before.definition().elements[*was];
@@ -173,30 +175,31 @@ State Rig::adopted(const Rig& before, State state) const {
             continue;
         result.controls[i] = state.controls[*was];
         for (const Pose pose : {Pose::Input, Pose::Current})
-            result.elements.put(plan().layout->ids[i], Space::Local,
+            result.elements.put(plan.layout->ids[i], Space::Local,
                                 old.get(before.id(*was), Space::Local, pose), Propagate::Yes, pose);
     }
-    for (std::size_t i = 0; i < plan().definition.curves.size(); ++i)
-        if (const auto was = before.curve(plan().definition.curves[i].name)) {
+    for (std::size_t i = 0; i < plan.definition.curves.size(); ++i)
+        if (const auto was = before.curve(plan.definition.curves[i].name)) {
             result.curves[i] = state.curves[*was];
             result.input_curves[i] = state.input_curves[*was];
         }
-    for (std::size_t i = 0; i < plan().layout->unit_names.size(); ++i) {
-        const auto was = found(before.plan().layout->units_by_name, plan().layout->unit_names[i]);
+    for (std::size_t i = 0; i < plan.layout->unit_names.size(); ++i) {
+        const auto was = found(last.layout->units_by_name, plan.layout->unit_names[i]);
         if (!was || !same_outputs(state.units[*was], result.units[i])) continue;
         result.units[i].outputs = state.units[*was].outputs;
         result.units[i].warning = state.units[*was].warning;
-        adopt_memory(plan(), i, result.units[i], before.plan(), *was, state.units[*was]);
+        adopt_memory(plan, i, result.units[i], last, *was, state.units[*was]);
     }
     return result;
 }
 
 bool Rig::fits(const State& state) const noexcept {
-    const State& own = plan().layout->initial;
+    const Plan& plan = this->plan();
+    const State& own = plan.layout->initial;
     if (state.elements.size() != own.elements.size() || state.controls.size() != own.controls.size() ||
         state.curves.size() != own.curves.size() || state.units.size() != own.units.size())
         return false;
-    for (const ElementId id : plan().layout->ids)
+    for (const ElementId id : plan.layout->ids)
         if (!state.elements.contains(id) || state.elements.parent(id) != own.elements.parent(id))
             return false;
     for (std::size_t i = 0; i < own.controls.size(); ++i)
@@ -205,41 +208,44 @@ bool Rig::fits(const State& state) const noexcept {
 }
 
 Result Rig::set_control(State& state, std::size_t element, const Value& value) const {
-    if (element >= plan().layout->ids.size())
-        return refused_index("set_control", "element", element, plan().layout->ids.size());
-    const Element& control = plan().definition.elements[element];
+    const Plan& plan = this->plan();
+    if (element >= plan.layout->ids.size())
+        return refused_index("set_control", "element", element, plan.layout->ids.size());
+    const Element& control = plan.definition.elements[element];
     if (!control.control)
         return {ErrorCode::InvalidArgument, "set_control: \"" + control.name + "\" is not a control"};
     if (const Result bad = check_value("set_control: value", *control.control, value); !bad) return bad;
     Value& held = state.controls[element];
     held = clamped(*control.control, normalised(value));
-    const Transform& base = state.elements.get(plan().layout->ids[element], Space::Local, Pose::Input);
-    state.elements.put(plan().layout->ids[element], Space::Local, posed(*control.control, base, held));
+    const Transform& base = state.elements.get(plan.layout->ids[element], Space::Local, Pose::Input);
+    state.elements.put(plan.layout->ids[element], Space::Local, posed(*control.control, base, held));
     return {};
 }
 
 Transform Rig::start_pose(const State& state, std::size_t element) const {
+    const Plan& plan = this->plan();
     Transform global;
     for (auto at = static_cast<std::int64_t>(element); at >= 0;) {
         const auto each = static_cast<std::size_t>(at);
-        const auto base = state.elements.known(plan().layout->ids[each], Space::Local, Pose::Input);
+        const auto base = state.elements.known(plan.layout->ids[each], Space::Local, Pose::Input);
         if (!base) {
             State copy = state;  // reading computes what is pending
-            return begun_global(plan(), copy, element);
+            return begun_global(plan, copy, element);
         }
-        const std::optional<Control>& control = plan().definition.elements[each].control;
+        const std::optional<Control>& control = plan.definition.elements[each].control;
         const Transform local = control ? posed(*control, *base, state.controls[each]) : *base;
         global = each == element ? local : compose(local, global);
-        at = plan().layout->parents[each];
+        at = plan.layout->parents[each];
     }
     return global;
 }
 
 Result Rig::set_element(State& state, std::size_t element, Space space, const Transform& transform,
                         Propagate propagate) const {
-    if (element >= plan().layout->ids.size())
-        return refused_index("set_element", "element", element, plan().layout->ids.size());
-    const ElementId id = plan().layout->ids[element];
+    const Plan& plan = this->plan();
+    if (element >= plan.layout->ids.size())
+        return refused_index("set_element", "element", element, plan.layout->ids.size());
+    const ElementId id = plan.layout->ids[element];
     const auto fine = checked(transform, "set_element");
     if (!fine) return fine.error();
     Hierarchy& tree = state.elements;
@@ -248,32 +254,32 @@ Result Rig::set_element(State& state, std::size_t element, Space space, const Tr
     // value.
     std::vector<std::pair<std::size_t, Transform>> stay;
     if (propagate == Propagate::No) {
-        const Transform before = begun_global(plan(), state, element);
-        for (std::size_t i = 0; i < plan().layout->ids.size(); ++i)
-            if (tree.parent(plan().layout->ids[i]) == id)
-                stay.emplace_back(i, compose(before, begun_local(plan(), state, i)));
+        const Transform before = begun_global(plan, state, element);
+        for (std::size_t i = 0; i < plan.layout->ids.size(); ++i)
+            if (tree.parent(plan.layout->ids[i]) == id)
+                stay.emplace_back(i, compose(before, begun_local(plan, state, i)));
     }
 
     // Below a control a global pose is relative to where the control is now, not to where it was at rest.
-    const std::int64_t parent = plan().layout->parents[element];
+    const std::int64_t parent = plan.layout->parents[element];
     const bool below = space == Space::Global && parent >= 0;
     const Transform local =
-        below ? relative(begun_global(plan(), state, static_cast<std::size_t>(parent)), *fine) : *fine;
+        below ? relative(begun_global(plan, state, static_cast<std::size_t>(parent)), *fine) : *fine;
     tree.put(id, Space::Local, local, propagate, Pose::Input);
     tree.put(id, space, *fine, propagate);
-    const std::optional<Control>& control = plan().definition.elements[element].control;
+    const std::optional<Control>& control = plan.definition.elements[element].control;
     if (control) {
         take_value(*control, state, element, id);
         if (control->minimum || control->maximum)
-            tree.put(id, Space::Local, begun_local(plan(), state, element), propagate);
+            tree.put(id, Space::Local, begun_local(plan, state, element), propagate);
     }
 
     if (stay.empty()) return {};
-    const Transform after = begun_global(plan(), state, element);
+    const Transform after = begun_global(plan, state, element);
     for (const auto& [child, global] : stay) {
-        const ElementId at = plan().layout->ids[child];
+        const ElementId at = plan.layout->ids[child];
         tree.put(at, Space::Local, relative(after, global), Propagate::Yes, Pose::Input);
-        if (const auto& settings = plan().definition.elements[child].control)
+        if (const auto& settings = plan.definition.elements[child].control)
             take_value(*settings, state, child, at);
     }
     return {};

@@ -216,20 +216,22 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
     if (steps) parts.prepare(state_);                   // allocates, so before anything changes
     constexpr auto countable = std::uint64_t{1} << 53;  // exactly representable in a file's numbers
     state_.dropped = std::min(state_.dropped + done.dropped, countable);
+    const auto keep = [&] { state_.remainder = std::min(left, substep); };
+    keep();
     while (is_due()) {
         left = std::max(0.0, left - substep);
         move_colliders(state_, parts.scratch);
         parts.solve_islands(state_, !is_due());
         parts.add_up(done);
-        parts.note_contacts(state_);
         ++done.substeps;
         ++state_.substeps;
+        keep();
         detail::drift_gusts(state_);
         state_.displaced_in = substep;
+        parts.note_contacts(state_);
         const bool torn = parts.plan.tears && tear(state_), untied = tear_ties(state_);
         if (torn || untied) parts.replan(state_);
     }
-    state_.remainder = left;
     if (steps) parts.prepared = true;
     return done;
 }

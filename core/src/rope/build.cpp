@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "math/checks.hpp"
 #include "rope/geometry.hpp"
@@ -87,7 +88,7 @@ Expected<BodyId> append(State& state, const char* operation, Draft draft) {
     reserve_more(state.mass, count);
     reserve_more(state.links, draft.links.size());
     reserve_more(state.pins, draft.pins.size());
-    draft.body.id = take_slot(state.body_slots, state.bodies);
+    const BodyId id = draft.body.id = take_slot(state.body_slots, state.bodies);
     state.position.insert(state.position.end(), draft.points.begin(), draft.points.end());
     state.displacement.resize(first + count, dvec3(0.0));
     state.mass.resize(first + count, draft.mass);
@@ -100,8 +101,8 @@ Expected<BodyId> append(State& state, const char* operation, Draft draft) {
     state.pins.insert(state.pins.end(), draft.pins.begin(), draft.pins.end());
     draft.body.first = first;
     draft.body.count = count;
-    state.bodies.push_back(draft.body);
-    return draft.body.id;
+    state.bodies.push_back(std::move(draft.body));
+    return id;
 }
 
 Result draft_rope(const State& state, const RopeShape& shape, Draft& draft) {

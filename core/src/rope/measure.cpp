@@ -85,7 +85,7 @@ double World::energy() const noexcept {
     return energy;
 }
 
-double World::length(const Body& body) const noexcept {
+double World::length(const Body& body) const {
     if (body.kind == Body::Kind::Cloth) return detail::rest_grid(state_, body).length();
     double sum = 0.0;
     for (const Link& link : state_.links) {

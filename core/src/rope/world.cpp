@@ -227,14 +227,14 @@ Expected<BodyId> World::cut(BodyId rope, std::size_t segment) {
     const auto at = static_cast<std::uint32_t>(whole->first + segment);
     const auto number = whole - state_.bodies.data();
     detail::reserve_more(state_.collisions, state_.collisions.size() + 1);
-    rest.id = detail::take_slot(state_.body_slots, state_.bodies);
+    const BodyId id = rest.id = detail::take_slot(state_.body_slots, state_.bodies);
     Body& front = state_.bodies[static_cast<std::size_t>(number)];
     front.count = front.row = kept;
-    state_.bodies.insert(state_.bodies.begin() + number + 1, rest);
+    state_.bodies.insert(state_.bodies.begin() + number + 1, std::move(rest));
     std::erase_if(state_.links, [&](const Link& link) { return link.a == at && link.b == at + 1; });
     std::erase_if(state_.contacts, [&](const BodyContact& each) { return each.a == at || each.b == at; });
-    detail::collide_alike(state_, rope, rest.id);
-    return rest.id;
+    detail::collide_alike(state_, rope, id);
+    return id;
 }
 
 Result World::move(BodyId body, const glm::dvec3& by) noexcept {

@@ -61,7 +61,7 @@ Bone mirrored(Bone bone) noexcept;
 
 struct BoneMatch {
     std::int32_t node = -1;   ///< -1: none
-    double confidence = 0.0;  ///< 0 to 1
+    double confidence = 0.0;  ///< 0 to 1: ranks the evidence, no probability
     std::string reasons{};    ///< "named mixamorig:LeftArm"
     bool operator==(const BoneMatch&) const = default;
 };

@@ -44,7 +44,7 @@ struct HeightField {
 
 class Ground {
   public:
-    /// No ground: rays hit nothing. So is one that was moved from.
+    /// No ground: rays hit nothing. A moved-from Ground is the same.
     Ground() = default;
     Ground(const Ground&) = default;
     Ground(Ground&& other) noexcept : shape_(std::exchange(other.shape_, {})) {}

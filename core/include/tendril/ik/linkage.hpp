@@ -252,11 +252,11 @@ class LinkageSolver {
     /// In this pose, without drivers.
     LinkageFreedom freedom(const LinkageState& state) noexcept;
 
-    /// What balances a torque or force of 1 on a joint, in this pose, with the joints of `held` fixed: for
-    /// each closure the force on its first link, of which its second has the opposite; of frames without the
-    /// torque. N for each N m, or for each N on a slider. Returns the part that nothing balances, 0 to 1: 0
-    /// at a dead point of the joint. 1, and `forces` is unchanged, for a state, a link or a size of `forces`
-    /// that does not fit, and for a ball.
+    /// Finds the forces that balance a torque or force of 1 on a joint, in this pose, with the joints of
+    /// `held` fixed. For each closure, the force on its first link (the second gets the opposite), in N per
+    /// N m, or N per N on a slider; a frame's torque is left out. Returns the part that nothing balances, 0
+    /// to 1: 0 at a dead point of the joint. 1, and `forces` is unchanged, for a state, a link or a size of
+    /// `forces` that does not fit, and for a ball.
     double balance(const LinkageState& state, std::size_t link, std::span<const std::size_t> held,
                    std::span<glm::dvec3> forces) noexcept;
 

@@ -76,8 +76,8 @@ struct LinkageSketch {
 };
 
 /// Which bars are rigidly joined: for each the first bar of its body, or ground_link if that cannot move.
-/// Bodies that share two points, and three that share a point each with each, are one: triangles of bars,
-/// however many. O(bars^2 * points) a body found.
+/// Bodies that share two points are one, and so are three bodies of which every two share a point. O(bars^2 *
+/// points) a body found.
 std::vector<std::size_t> rigid_bodies(const LinkageSketch& sketch);
 
 /// Removes the point, the bars that would have one point left, and the motors of these; OutOfRange for an

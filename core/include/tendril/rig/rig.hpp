@@ -104,7 +104,7 @@ class Rig {
     /// change, the new rig shares everything but its definition with this one, so moving a slider costs one
     /// copy of the definition. Refused as by make(), and NotFound for an unknown name.
     Expected<Rig> with_unit(Unit unit) const;
-    /// One that was moved from is a rig of nothing.
+    /// A moved-from rig has no elements, curves or units.
     Rig(const Rig&) noexcept;
     Rig(Rig&&) noexcept;
     Rig& operator=(const Rig&) noexcept;
@@ -141,8 +141,8 @@ class Rig {
     Result set_curve(State& state, std::size_t curve, double value) const;
 
     /// dt in seconds; units with memory (springs) do not advance if it is not positive. Returns whether any
-    /// of them still moves: then solve again next frame even if nothing else changes. With a rig or workspace
-    /// that was moved from it does nothing.
+    /// of them still moves: then solve again next frame even if nothing else changes. With a moved-from
+    /// rig or workspace it does nothing.
     bool solve(State& state, double dt, Workspace& workspace, Observer* observer = nullptr) const noexcept;
 
   private:

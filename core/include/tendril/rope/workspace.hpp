@@ -1,6 +1,7 @@
 // What a rope world needs to advance: memory, threads, and a plan for solving its links. It depends only on
 // the world: any workspace gives the same bits, new or used by other worlds. Keep one for each world that is
-// advanced often, so that nothing is prepared or allocated again. One that was moved from refuses everything.
+// advanced often, so that nothing is prepared or allocated again. A moved-from workspace refuses every
+// call.
 #pragma once
 
 #include <memory>

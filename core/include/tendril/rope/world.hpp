@@ -28,7 +28,9 @@
 //
 // A refused editing call names the argument and its value, and leaves the world unchanged, as does one that
 // runs out of memory. advance() allocates nothing once the workspace has seen the world in its shape, unless
-// more colliders are near than ever before.
+// more colliders are near than ever before. If it runs out of memory, the world is sound, but the last
+// substep may be taken in part: State::substeps counts the whole ones. Of the time left, at most a substep
+// stays pending, and the rest is lost.
 //
 // Bodies that no link, tie or collision joins do not affect each other. Threads can share them, and a cloth
 // of 8 192 particles or more: Workspace::use_threads. A rope is solved on one thread. Two limits are shared
@@ -193,7 +195,7 @@ class World {
     double energy(const Body& body) const noexcept;
     double energy() const noexcept;  ///< of all bodies
     /// The sum of a body's rest lengths, metres; for cloth and hair that of one row or strand.
-    double length(const Body& body) const noexcept;
+    double length(const Body& body) const;
 
   private:
     Body* found(BodyId body) noexcept;

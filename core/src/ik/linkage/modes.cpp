@@ -21,8 +21,8 @@ int LinkageSolve::watched_mode() noexcept {
     return work_.mode;
 }
 
-/// The sign of the determinant of the closures and of what completes them, directions that they leave free: a
-/// coupler between two balls turns about itself.
+/// The sign of the determinant of the closures, completed by the directions that they leave free (a coupler
+/// between two balls spins about itself). 0 if they cannot be completed.
 int LinkageSolve::completed_mode(std::span<double> free, std::size_t& count) noexcept {
     work_.release();
     static_cast<void>(closure_rank());
@@ -37,7 +37,7 @@ int LinkageSolve::completed_mode(std::span<double> free, std::size_t& count) noe
             if (work_.basis.add(axis, 1e9 * least) == 0.0) continue;
             std::ranges::copy(axis, free.begin() + static_cast<std::ptrdiff_t>(count++ * columns));
         }
-    return work_.basis.orientation(work_.held, work_.square);
+    return work_.basis.rank() < wanted ? 0 : work_.basis.orientation(work_.held, work_.square);
 }
 
 /// Whether the last substep of a drive, which began at `kept`, jumped to another branch; it is then undone.

@@ -105,16 +105,17 @@ class SketchTree {
             if (const Result bad = check_motor(sketch_.motors[i], said("motor", sketch_.motors[i].name, i));
                 !bad)
                 return bad;
+        if (sketch_.motors.empty()) return {};
         const std::vector<std::size_t> bodies = rigid_bodies(sketch_);
         for (std::size_t i = 0; i < sketch_.motors.size(); ++i) {
             const auto& [name, point, bar, against, minimum, maximum] = sketch_.motors[i];
-            if (bodies[bar] == (against == ground_link ? ground_link : bodies[against]))
-                return sketch_refused(said("motor", name, i) + " must turn two rigid bodies, got " +
-                                      said("bar", sketch_.bars[bar].name, bar) + " and " +
-                                      (against == ground_link
-                                           ? "the ground"
-                                           : said("bar", sketch_.bars[against].name, against)) +
-                                      ", which triangles join into one");
+            const bool grounded = against == ground_link;
+            if (bodies[bar] == (grounded ? ground_link : bodies[against]))
+                return sketch_refused(
+                    said("motor", name, i) + " must join two rigid bodies, but " +
+                    said("bar", sketch_.bars[bar].name, bar) + " and " +
+                    (grounded ? "the ground" : said("bar", sketch_.bars[against].name, against)) +
+                    " belong to the same one");
         }
         return {};
     }

@@ -25,13 +25,13 @@ LinkageSolver::LinkageSolver(LinkageSolver&&) noexcept = default;
 LinkageSolver& LinkageSolver::operator=(LinkageSolver&&) noexcept = default;
 
 const Linkage& LinkageSolver::linkage() const noexcept {
-    return held_or_empty(parts_).linkage;
+    return held_or_empty(parts_, &Parts::linkage);
 }
 bool LinkageSolver::planar() const noexcept {
-    return held_or_empty(parts_).planar;
+    return !parts_ || parts_->planar;
 }
 double LinkageSolver::size() const noexcept {
-    return held_or_empty(parts_).size;
+    return parts_ ? parts_->size : 0.0;
 }
 
 LinkageState LinkageSolver::initial_state() const {
@@ -140,7 +140,9 @@ double LinkageSolver::balance(const LinkageState& state, std::size_t link, std::
     const LinkageOptions options;
     detail::LinkageSolve solve(work, none, options);
     for (const std::size_t each : held)
-        if (each < linkage().links.size() && each != link) work.driven[work.column[each]] = 1;
+        if (each < linkage().links.size() && each != link)
+            std::fill_n(&work.driven[work.column[each]],
+                        linkage().links[each].joint == LinkJoint::Ball ? 3 : 1, std::uint8_t{1});
     work.release();
     static_cast<void>(solve.closure_rank());
     std::ranges::fill(work.pull, 0.0);
@@ -162,7 +164,7 @@ bool LinkageSolver::place(const LinkageState& state) noexcept {
 }
 
 std::span<const LinkPlace> LinkageSolver::links() const noexcept {
-    return held_or_empty(parts_).places;
+    return held_or_empty(parts_, &Parts::places);
 }
 glm::dvec3 LinkageSolver::point(std::size_t index) const noexcept {
     if (index >= linkage().points.size()) return glm::dvec3(0.0);
@@ -176,13 +178,13 @@ glm::dvec3 LinkageSolver::axis(std::size_t link) const noexcept {
     return link < linkage().links.size() ? parts_->axes[link] : glm::dvec3(0.0);
 }
 std::span<const double> LinkageSolver::residuals() const noexcept {
-    return held_or_empty(parts_).residuals;
+    return held_or_empty(parts_, &Parts::residuals);
 }
 std::span<const std::size_t> LinkageSolver::active() const noexcept {
-    return held_or_empty(parts_).active;
+    return held_or_empty(parts_, &Parts::active);
 }
 std::span<const std::size_t> LinkageSolver::open_closures() const noexcept {
-    return held_or_empty(parts_).open;
+    return held_or_empty(parts_, &Parts::open);
 }
 
 }  // namespace tendril::ik

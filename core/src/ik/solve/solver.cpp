@@ -88,11 +88,11 @@ Solver::Solver(Solver&&) noexcept = default;
 Solver& Solver::operator=(Solver&&) noexcept = default;
 
 std::size_t Solver::bones() const noexcept {
-    return held_or_empty(parts_).scratch.lengths.size();
+    return parts_ ? parts_->scratch.lengths.size() : 0;
 }
 
 float Solver::reach() const noexcept {
-    return held_or_empty(parts_).scratch.reach;
+    return parts_ ? parts_->scratch.reach : 0.0f;
 }
 
 Report Solver::solve(Method method, std::span<glm::vec3> joints, State& state, glm::vec3 target,

@@ -125,11 +125,11 @@ Tree::Tree(Tree&&) noexcept = default;
 Tree& Tree::operator=(Tree&&) noexcept = default;
 
 std::size_t Tree::size() const noexcept {
-    return tendril::detail::held_or_empty(parts_).scratch.joints.size();
+    return parts_ ? parts_->scratch.joints.size() : 0;
 }
 
 double Tree::reach() const noexcept {
-    return tendril::detail::held_or_empty(parts_).scratch.reach;
+    return parts_ ? parts_->scratch.reach : 0.0;
 }
 
 TreeReport Tree::solve(std::span<glm::vec3> joints, std::span<const Effector> effectors,
