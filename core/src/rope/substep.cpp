@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <optional>
+#include <utility>
 
 #include "rope/body_contacts.hpp"
 #include "rope/build.hpp"
@@ -146,10 +148,17 @@ void Substep::measure() {
 }
 
 void Substep::stay_in_the_world() {
+    bool stopped = false;
     each_particle([&](std::size_t i) {
         dvec3& place = scratch_.place[i];
-        if (!surely_within(place, max_magnitude)) place = within_the_world(place, state_.position[i]);
+        if (surely_within(place, max_magnitude)) return;
+        const dvec3 was = std::exchange(place, within_the_world(place, state_.position[i]));
+        stopped |= was != place;
     });
+    if (!stopped) return;
+    // Energies balanced before are those of other places.
+    for (const Plan::Island& part : plan_.parts_of(island_))
+        std::fill_n(scratch_.chain_slowed.begin() + part.chains.first, part.chains.count, std::nullopt);
 }
 
 void Substep::commit() {
