@@ -47,8 +47,7 @@ bool is_png(std::string_view text) {
 }
 
 bool is_animated(std::string_view text) {
-    constexpr std::size_t after_header = 37;  // bytes: signature, IHDR and the length of the next chunk
-    return is_png(text) && text.substr(std::min(after_header, text.size()), 4) == "acTL";
+    return is_png(text) && text.substr(0, text.find("IDAT")).find("acTL") != text.npos;
 }
 
 bool is_mp4(std::string_view text) {

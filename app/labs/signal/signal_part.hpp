@@ -80,8 +80,8 @@ inline constexpr EnumNames<SignalPlot, 3> signal_plots{
     "plot",
     {{"rates", "Frame rates", "The whole chain at several frame rates, on the same input."},
      {"shelf", "Lag against jitter",
-      "Every kind of filter alone on this input, those in the chain with their settings; and the whole "
-      "chain."},
+      "Every kind of filter alone on this input, those in the list with their settings, and all of the "
+      "list in a row."},
      {"fit", "Fit", "The desired response, and the filters that come closest to it."}}};
 
 /// A response that the user performs: the input plays from its start, and the output ball follows the mouse.

@@ -26,7 +26,7 @@ std::vector<Sample> samples() {
             {OutputKind::State, "{\"mode\": \"reach\",\n \"points\": \"" + std::string(300'000, '1') +
                                     "\",\n \"handles\": [],\n \"layout\": {}}"},
             {OutputKind::Picture, png + header + "IDAT"},
-            {OutputKind::Video, png + header + "acTL"},
+            {OutputKind::Video, png + header + "sRGB0acTL"},
             {OutputKind::Video, std::string("\0\0\0\x20", 4) + "ftypisom"},
             {OutputKind::Motion, "glTF binary"},
             {OutputKind::Motion, "{\n  \"asset\": {\"version\": \"2.0\"}}"},

@@ -71,6 +71,7 @@ TEST_F(FileDialogTest, SaysWhatCanBeOpenedWhereThereIsNothingOfIt) {
 }
 
 TEST_F(FileDialogTest, AsksBeforeItReplacesAScene) {
+    app_.workspace().outputs.in_window = true;
     const std::string old = R"({"tendril_scene": 2, "labs": {}})";
     app_.run({"scene.save", Json{{"path", (folder_ / "arm.json").string()}}});
     write(folder_ / "old.json", old);

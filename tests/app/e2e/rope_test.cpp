@@ -103,7 +103,7 @@ TEST(RopeInTheWindow, ARecordingOfItAllEndsInTheSameState) {
                                     .wait(20)
                                     .command("rope.collider.move", {{"name", "head"}, {"to", {0, 1.5, 0}}})
                                     .wait(9),
-                                {.more = {scene, "--record", recording}})
+                                {.more = {scene, "--record", recording, "--force"}})
                                .state;
     EXPECT_EQ(from_file["lab"], "rope");
     EXPECT_EQ(replay(recording), from_file);

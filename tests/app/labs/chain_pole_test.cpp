@@ -200,7 +200,7 @@ TEST(PoleInTheProgram, does_not_flip_and_its_recording_plays_to_the_same_bits) {
             script.line({{"state", (folder / (std::to_string(states) + ".json")).string()}});
         }
         const std::string recording = (folder / "recording.jsonl").string();
-        const app::Json last = play(script, {.more = {"--record", recording}}).state;
+        const app::Json last = play(script, {.more = {"--record", recording, "--force"}}).state;
         app::Json before = app::parse_json(read(folder / "0.json"));
         for (int i = 1; i < states; ++i) {
             const app::Json now = app::parse_json(read(folder / (std::to_string(i) + ".json")));

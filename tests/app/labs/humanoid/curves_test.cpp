@@ -147,7 +147,8 @@ TEST_F(HumanoidCurves, AreRefusedFromAFileThatWasBroken) {
         change(scene["labs"]["humanoid"]["curves"]);
         Workspace other = make_blank_workspace(labs);
         try {
-            load_scene(other, scene);
+            const std::vector<std::string> unread = load_scene(other, scene);
+            if (!unread.empty()) return unread.front();
         } catch (const std::exception& error) {
             return std::string(error.what());
         }
