@@ -217,8 +217,8 @@ std::int32_t middle_of_palm(const Skeleton& skeleton, std::int32_t hand) {
 }
 
 using Path = std::vector<std::int32_t>;
-/// The nodes down to each, from below the last node that both have above them. The shorter path goes on to
-/// the length of the other one, as far as its nodes have one child.
+/// The nodes down to each, from below the last node that both have above them, and on from there as far as
+/// nodes have one child: paths of limbs that mirror each other are equally long, whichever nodes have bones.
 std::array<Path, 2> apart(const Skeleton& skeleton, std::int32_t a, std::int32_t b) {
     const auto index = [](std::int32_t node) { return static_cast<std::size_t>(node); };
     const auto path_to = [&](std::int32_t node, std::int32_t other) {
@@ -229,12 +229,9 @@ std::array<Path, 2> apart(const Skeleton& skeleton, std::int32_t a, std::int32_t
         return path;
     };
     std::array<Path, 2> paths{path_to(a, b), path_to(b, a)};
-    for (const std::size_t side : {0u, 1u})
-        while (!paths[side].empty() && paths[side].size() < paths[1 - side].size()) {
-            const auto children = skeleton.children(index(paths[side].back()));
-            if (children.size() != 1) break;
-            paths[side].push_back(children[0]);
-        }
+    for (Path& path : paths)
+        while (!path.empty() && skeleton.children(index(path.back())).size() == 1)
+            path.push_back(skeleton.children(index(path.back()))[0]);
     return paths;
 }
 

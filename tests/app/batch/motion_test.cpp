@@ -186,13 +186,13 @@ TEST_F(MotionProgram, APoseIsAMotionToo) {
             text.substr(0, count) + "Frames: " + std::to_string(frames) + text.substr(time, rows - time);
         for (int i = 0; i < frames; ++i) pose += row;
         write(folder_ / "pose.bvh", pose);
-        ASSERT_EQ(run({"bake", path("pose.bvh"), "--out", path("pose.gltf")}).exit_code, 0);
+        ASSERT_EQ(run({"bake", path("pose.bvh"), "--force", "--out", path("pose.gltf")}).exit_code, 0);
         fs::rename(path("pose.gltf"), path("pose.vrma"));
         for (const char* motion : {"pose.bvh", "pose.vrma"})
             for (const Strings& arguments :
                  {Strings{"lint", body},
-                  {"bake", body, "--out", path("out.bvh")},
-                  {"bake", body, "--ground", "stairs", "--travel", "--out", path("out.glb")}}) {
+                  {"bake", body, "--force", "--out", path("out.bvh")},
+                  {"bake", body, "--force", "--ground", "stairs", "--travel", "--out", path("out.glb")}}) {
                 Strings all = arguments;
                 all.insert(all.end(), {"--motion", path(motion)});
                 const Outcome outcome = run(all);

@@ -90,6 +90,7 @@ TEST(FrameCount, IsKeptThroughTenExportsAndRetargets) {
     for (const double rate : rates)
         for (const std::size_t frames : counts)
             for (const int decimals : {4, 6, 17}) {
+                if (frames == 300 && decimals != 6) continue;  // as long again for the same
                 SCOPED_TRACE(std::to_string(frames) + " frames at " + std::to_string(rate) + ", " +
                              std::to_string(decimals) + " decimals");
                 test::write(folder / "in.bvh", capture(rate, frames, decimals));
