@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "app/document/command.hpp"
 #include "tests/app/support/program.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/app/support/test_part.hpp"
