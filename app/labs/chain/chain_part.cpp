@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/labs/chain/chain_runtime.hpp"
+#include "app/labs/chain/engine_trace.hpp"
 #include "app/labs/chain/presets.hpp"
 #include "app/labs/kit/arguments.hpp"
 
