@@ -144,7 +144,7 @@ TEST(History, keeps_the_newest_of_too_many_entries) {
 }
 
 TEST(History, counts_what_entries_share_once_even_when_the_oldest_are_gone) {
-    for (const std::size_t max_entries : {10, 1000}) {
+    for (const std::size_t max_entries : {std::size_t{10}, std::size_t{1000}}) {
         History history(max_entries);
         Document document = document_of("arm");
         document.set("rope", make_part("rope", std::vector<float>(1'000'000)));
