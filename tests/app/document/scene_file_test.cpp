@@ -373,8 +373,8 @@ TEST(SceneFile, with_any_byte_changed_is_refused_or_read_whole) {
             ASSERT_EQ(snapshot(workspace), before) << error.what();
         }
     }
-    EXPECT_GT(refused, 1000 / test::sanitizer_factor);
-    EXPECT_GT(accepted, 1000 / test::sanitizer_factor);
+    EXPECT_GT(refused, 700 / test::sanitizer_factor);
+    EXPECT_GT(accepted, 700 / test::sanitizer_factor);
 }
 
 /// Replaces each value of a scene in turn by one of every type.
