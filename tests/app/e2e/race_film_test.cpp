@@ -193,7 +193,7 @@ TEST(RaceFilm, LastsFourToTwelveSecondsHoweverManyIterations) {
     ScriptText script = opened_race();
     script.command("race.record", {{"path", (folder / "a.png").string()}, {"width", 64}, {"height", 48}});
     const int last = state_after(script)["race_shown"]["iterations"].get<int>();
-    play(script);
+    play(script, {.more = {"--force"}});
     EXPECT_NEAR(static_cast<double>(read_apng(read(folder / "a.png")).frames.size()) / 30.0,
                 race_film_seconds(static_cast<std::size_t>(last)), 0.1);
 }
