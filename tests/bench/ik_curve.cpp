@@ -7,7 +7,7 @@
 // joints are up to a hundredth of a piece off, there are no rotations, and a fold between two samples is
 // missed. So it costs the more the more pieces there are, the exact way the more bones.
 //
-// Claim: 30 bones take under 10 us along 2 to 8 points, without fit.
+// Claim: 30 bones take at most 7 loops (measure.hpp) along 2 to 8 points, without fit.
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -91,6 +91,6 @@ int main(int count, char** arguments) {
                         us * seconds[1], us * seconds[2], ratio);
             if (bones == 30 && points <= 8) slowest = std::max(slowest, us * seconds[0]);
         }
-    const bool fast = claim_loops("30 bones along 2 to 8 points", 1e-6 * slowest, 9);
+    const bool fast = claim_loops("30 bones along 2 to 8 points", 1e-6 * slowest, 7);
     return fast || !has_flag(count, arguments, "--check") ? 0 : 1;
 }

@@ -4,11 +4,11 @@
 //     tendril_bench_ik_fabrik            the tables and one line per claim
 //     tendril_bench_ik_fabrik --check    the same, and exit code 1 if a claim does not hold
 //
-// Claims: 20 forced iterations of 10 bones take under 25 ns per bone and pass, at most 1.5 times a bare loop
-// measured in the same run; the cost grows linearly; an accelerated iteration costs at most twice a plain
-// one, and in a plane as much as a solid one; it needs at most 12 iterations (20 for 3 bones)
-// for 99.9 % of all targets, wherever they are, and moves the joints at most 1.05 times as far. Google
-// Benchmark's options work too.
+// Claims: 20 forced iterations of 10 bones take at most 0.012 loops (measure.hpp) per bone and pass, at
+// most 1.5 times a bare loop measured in the same run; the cost grows linearly; an accelerated iteration
+// costs at most twice a plain one, and in a plane as much as a solid one; it needs at most 12 iterations (20
+// for 3 bones) for 99.9 % of all targets, wherever they are, and moves the joints at most 1.05 times as far.
+// Google Benchmark's options work too.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -154,7 +154,7 @@ bool report_cost(const std::map<std::string, double>& seconds) {
             std::max(most, seconds.at(name_of("fabrik", bones)) / seconds.at(name_of("fabrik_plain", bones)));
     }
     std::printf("\n");
-    bool all = claim_loops("10 bones: 100 bones in a pass", plain * 100.0 / (2.0 * forced * 10.0), 2);
+    bool all = claim_loops("10 bones: 100 bones in a pass", plain * 100.0 / (2.0 * forced * 10.0), 1.2);
     all &= claim_at_most("10 bones: times the bare loop", plain / seconds.at("bare/10"), 1.5);
     all &= claim_at_most("plain: exponent of growth", exponent_of("fabrik_plain", seconds), 1.05);
     // Longer chains leave more rounding to the extra step.

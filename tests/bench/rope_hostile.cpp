@@ -8,7 +8,7 @@
 // every machine; times are processor time, the minimum of five runs of the same call.
 //
 // Claims: no substep takes more than twice the work that max_pass_work allows its passes, and no call more
-// than 100 ms (worst of 1500 worlds: 53 ms, 0.56 of the work).
+// than 80 000 loops of measure.hpp (worst of 1500 worlds: 44 000, 0.56 of the work).
 #include <cmath>
 #include <cstdlib>
 
