@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 namespace tendril::app {
 namespace {
@@ -82,8 +83,8 @@ void put_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor
     const auto count = static_cast<std::size_t>(accessor.sparse.count);
     const std::size_t size = size_of(accessor.componentType);
     const std::size_t index_size = size_of(accessor.sparse.indices.componentType);
-    const auto offset = [&](int bytes) {
-        if (bytes < 0) fail(what, "a negative offset");
+    const auto offset = [&](auto bytes) {  // an int, and in newer releases of tinygltf a size_t
+        if (!std::in_range<std::size_t>(bytes)) fail(what, "a negative offset");
         return static_cast<std::size_t>(bytes);
     };
     const Rows indices = rows_of(model, accessor.sparse.indices.bufferView,

@@ -88,7 +88,11 @@ std::string reason(std::string text) {
 
 tinygltf::Model read_json(std::string_view text) {
     tinygltf::TinyGLTF reader;
-    reader.SetFsCallbacks({no_file, as_it_is, read_nothing, nullptr, nullptr});
+    tinygltf::FsCallbacks files{};
+    files.FileExists = no_file;
+    files.ExpandFilePath = as_it_is;
+    files.ReadWholeFile = read_nothing;
+    reader.SetFsCallbacks(files);
     tinygltf::Model model;
     std::string error, warning;
     if (!reader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()),
