@@ -69,7 +69,7 @@ std::vector<std::string> play_motion(Character& character, const std::string& mo
     std::vector<std::string> notes = guesses_of(character, map);
     if (motion.empty()) return notes;
     const Character source = read_character(motion);
-    const Clip* const first = &clip_named(source, motion, clip ? *clip : std::string());
+    const Clip* const first = &clip_named(source, motion, clip ? *clip : std::string_view());
     character.clips.clear();
     for (const Clip& each : source.clips) {
         if (clip && &each != first) continue;

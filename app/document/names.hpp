@@ -5,15 +5,16 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tendril::app {
 
 /// The list's element of that name. Throws std::invalid_argument: unknown mode "flying".
-const auto& named(const auto& list, auto name_of, const std::string& name, const char* what) {
+const auto& named(const auto& list, auto name_of, std::string_view name, const char* what) {
     for (const auto& each : list)
         if (name == name_of(each)) return each;
-    throw std::invalid_argument(std::string("unknown ") + what + " \"" + name + "\"");
+    throw std::invalid_argument(std::string("unknown ") + what + " \"" + std::string(name) + "\"");
 }
 
 /// The names of a list's elements, for the choices of an argument.

@@ -53,7 +53,7 @@ std::runtime_error refusal_of(const std::filesystem::path& file, const std::stri
 }  // namespace
 
 const humanoid::Clip& clip_named(const Character& character, const std::filesystem::path& file,
-                                 const std::string& name) {
+                                 std::string_view name) {
     if (character.clips.empty()) throw refusal_of(file, "has no clips");
     if (name.empty()) return character.clips.front();
     std::string names;
@@ -61,7 +61,7 @@ const humanoid::Clip& clip_named(const Character& character, const std::filesyst
         if (each.name == name) return each;
         names += (names.empty() ? "" : ", ") + each.name;
     }
-    throw refusal_of(file, "has no clip \"" + name + "\"; it has " + names);
+    throw refusal_of(file, "has no clip \"" + std::string(name) + "\"; it has " + names);
 }
 
 RetargetedMotion retargeted_clip(const Character& source, const std::filesystem::path& file,

@@ -19,7 +19,7 @@ struct RetargetedMotion {
 /// The clip of that name; empty: the first one. Throws std::runtime_error: "walk.bvh: has no clip "run"; it
 /// has walk".
 const humanoid::Clip& clip_named(const Character& character, const std::filesystem::path& file,
-                                 const std::string& name);
+                                 std::string_view name);
 
 /// Throws std::runtime_error that begins with the file's name.
 RetargetedMotion retargeted_clip(const Character& source, const std::filesystem::path& file,

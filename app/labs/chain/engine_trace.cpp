@@ -42,7 +42,7 @@ std::unique_ptr<std::istream> open_source(const ShownTrace& trace) {
 }
 
 /// The chain with that name or, without one, the first in which something was found.
-const TraceFindings::Chain& chosen_chain(const TraceFindings& findings, const std::string& name) {
+const TraceFindings::Chain& chosen_chain(const TraceFindings& findings, std::string_view name) {
     if (name.empty()) {
         const auto found = std::ranges::find_if(
             findings.chains, [](const TraceFindings::Chain& each) { return !each.incidents.empty(); });
@@ -53,7 +53,7 @@ const TraceFindings::Chain& chosen_chain(const TraceFindings& findings, const st
         if (each.name == name) return each;
         names += (names.empty() ? "" : ", ") + each.name;
     }
-    throw Refused("chain: the trace has no \"" + name + "\"; it has " + names);
+    throw Refused("chain: the trace has no \"" + std::string(name) + "\"; it has " + names);
 }
 
 bool joints_are_finite(const TracedFrame& frame) {

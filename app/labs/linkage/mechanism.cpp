@@ -246,7 +246,7 @@ const std::vector<MechanismKind>& mechanism_kinds() {
     return list;
 }
 
-const MechanismKind& mechanism_kind(const std::string& name) {
+const MechanismKind& mechanism_kind(std::string_view name) {
     return named(
         mechanism_kinds(), [](const MechanismKind& each) { return each.name; }, name, "mechanism");
 }

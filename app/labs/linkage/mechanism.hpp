@@ -34,7 +34,7 @@ struct MechanismKind {
 /// In the order of the variant, from its second alternative on.
 const std::vector<MechanismKind>& mechanism_kinds();
 /// Throws std::invalid_argument for an unknown name.
-const MechanismKind& mechanism_kind(const std::string& name);
+const MechanismKind& mechanism_kind(std::string_view name);
 /// Null if it was drawn by hand.
 const MechanismKind* kind_of(const Mechanism& mechanism);
 

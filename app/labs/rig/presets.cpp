@@ -232,7 +232,7 @@ const std::vector<RigPreset>& rig_presets() {
     return list;
 }
 
-const RigPreset& rig_preset(const std::string& name) {
+const RigPreset& rig_preset(std::string_view name) {
     return named(
         rig_presets(), [](const RigPreset& each) { return each.name; }, name, "preset");
 }

@@ -19,6 +19,6 @@ struct RigPreset {
 /// In panel order; the lab opens with the first.
 const std::vector<RigPreset>& rig_presets();
 /// Throws std::invalid_argument for an unknown name.
-const RigPreset& rig_preset(const std::string& name);
+const RigPreset& rig_preset(std::string_view name);
 
 }  // namespace tendril::app

@@ -74,7 +74,7 @@ void check_runs(const rig::Definition& definition) {
 }
 
 /// Calls `found` with the list that contains the unit of that name, and its index there.
-bool find_unit(auto& units, const std::string& name, const auto& found) {
+bool find_unit(auto& units, std::string_view name, const auto& found) {
     for (std::size_t i = 0; i < units.size(); ++i) {
         if (units[i].name == name) {
             found(units, i);
@@ -86,9 +86,9 @@ bool find_unit(auto& units, const std::string& name, const auto& found) {
     return false;
 }
 
-void require_unit(auto& definition, const std::string& name, const auto& found) {
+void require_unit(auto& definition, std::string_view name, const auto& found) {
     if (!find_unit(definition.units, name, found))
-        throw std::invalid_argument("there is no unit " + quoted(name));
+        throw std::invalid_argument("there is no unit " + quoted(std::string(name)));
 }
 
 /// The elements of the same names, where the other rig has them.
@@ -247,7 +247,7 @@ void set_unit(RigPart& part, const std::string& name, rig::Unit unit) {
     if (!(definition == part.rig.definition())) redefine(part, std::move(definition));
 }
 
-const rig::Unit& unit_named(const RigPart& part, const std::string& name) {
+const rig::Unit& unit_named(const RigPart& part, std::string_view name) {
     const rig::Unit* result = nullptr;
     require_unit(part.rig.definition(), name,
                  [&](const std::vector<rig::Unit>& units, std::size_t at) { result = &units[at]; });

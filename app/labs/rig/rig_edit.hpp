@@ -36,7 +36,7 @@ void select_as_in(RigPart& part, RigSelection selected, const rig::Rig& other);
 /// Deselects the unit if the rig does not have it.
 void forget_missing_unit(RigPart& part);
 /// Throws std::invalid_argument if there is none: there is no unit "arm".
-const rig::Unit& unit_named(const RigPart& part, const std::string& name);
+const rig::Unit& unit_named(const RigPart& part, std::string_view name);
 
 /// Indices of all elements in the definition, parents before their children.
 std::vector<std::size_t> from_the_roots(const rig::Rig& rig, const rig::Hierarchy& tree);

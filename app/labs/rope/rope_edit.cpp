@@ -107,21 +107,21 @@ void check_work(const NamedWorld& world) {
                             std::to_string(work) + " steps; the maximum is " + std::to_string(max_lab_work));
 }
 
-const rope::Body& body_of(const NamedWorld& world, const std::string& name) {
+const rope::Body& body_of(const NamedWorld& world, std::string_view name) {
     const rope::Body* body = world.find(name);
-    if (body == nullptr) throw Refused("there is no rope \"" + name + "\"");
+    if (body == nullptr) throw Refused("there is no rope \"" + std::string(name) + "\"");
     return *body;
 }
 
-const rope::Collider& collider_of(const NamedWorld& world, const std::string& name) {
+const rope::Collider& collider_of(const NamedWorld& world, std::string_view name) {
     const rope::Collider* collider = world.find_collider(name);
-    if (collider == nullptr) throw Refused("there is no collider \"" + name + "\"");
+    if (collider == nullptr) throw Refused("there is no collider \"" + std::string(name) + "\"");
     return *collider;
 }
 
-const rope::Tie& tie_of(const NamedWorld& world, const std::string& name) {
+const rope::Tie& tie_of(const NamedWorld& world, std::string_view name) {
     const rope::Tie* tie = world.find_tie(name);
-    if (tie == nullptr) throw Refused("there is no tie \"" + name + "\"");
+    if (tie == nullptr) throw Refused("there is no tie \"" + std::string(name) + "\"");
     return *tie;
 }
 

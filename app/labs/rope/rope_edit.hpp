@@ -46,9 +46,9 @@ void check_collider_count(const NamedWorld& world);
 /// Throws std::length_error if a substep would take too long.
 void check_work(const NamedWorld& world);
 /// Throw Refused if there is none of that name.
-const rope::Body& body_of(const NamedWorld& world, const std::string& name);
-const rope::Collider& collider_of(const NamedWorld& world, const std::string& name);
-const rope::Tie& tie_of(const NamedWorld& world, const std::string& name);
+const rope::Body& body_of(const NamedWorld& world, std::string_view name);
+const rope::Collider& collider_of(const NamedWorld& world, std::string_view name);
+const rope::Tie& tie_of(const NamedWorld& world, std::string_view name);
 /// The number of the body that a particle is in, looked for from a body `near` it.
 std::size_t body_with(const rope::State& state, std::size_t particle, std::size_t near);
 /// The particle that two arguments name.

@@ -73,7 +73,7 @@ const std::vector<RopeSceneEntry>& rope_scenes() {
     return list;
 }
 
-const RopeSceneEntry& rope_scene(const std::string& name) {
+const RopeSceneEntry& rope_scene(std::string_view name) {
     return named(
         rope_scenes(), [](const RopeSceneEntry& each) { return each.name; }, name, "scene");
 }

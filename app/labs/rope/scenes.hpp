@@ -26,7 +26,7 @@ struct RopeSceneEntry {
 /// The lab opens with the first one.
 const std::vector<RopeSceneEntry>& rope_scenes();
 /// Throws std::invalid_argument for an unknown name.
-const RopeSceneEntry& rope_scene(const std::string& name);
+const RopeSceneEntry& rope_scene(std::string_view name);
 RopeScene make_rope_scene(const RopeSceneEntry& entry);
 
 RopeScene drape_scene();

@@ -32,16 +32,17 @@ std::string free_name(const LoadedCharacter& character, const std::string& wante
 
 PlayedMotion with_motion(const HumanoidPart& part, const std::string& file, const std::string& clip,
                          const std::string& named) {
-    const Character source = read_character(file);
-    const Clip& wanted = clip_named(source, file, clip);
-    RetargetedMotion motion = retargeted_clip(source, file, wanted, part.skeleton(), *part.map);
+    const std::filesystem::path path(file);
+    const Character source = read_character(path);
+    const Clip& wanted = clip_named(source, path, clip);
+    RetargetedMotion motion = retargeted_clip(source, path, wanted, part.skeleton(), *part.map);
     motion.clip.name = free_name(*part.loaded, wanted.name);
     PlayedMotion played;
-    played.text = "Clip " + motion.clip.name + " from " + std::filesystem::path(file).filename().string() +
-                  ". " + motion.notes.front();
+    played.text =
+        "Clip " + motion.clip.name + " from " + path.filename().string() + ". " + motion.notes.front();
     played.loaded =
         edited(part.loaded, {LoadedMotion{named.empty() ? file : named,
-                                          std::filesystem::absolute(file).lexically_normal().string(),
+                                          std::filesystem::absolute(path).lexically_normal().string(),
                                           wanted.name, std::move(motion.notes)},
                              reading_of(part), std::make_shared<const Clip>(std::move(motion.clip))});
     return played;
