@@ -220,10 +220,10 @@ Json read_json_file(const std::filesystem::path& path) {
     }
 }
 
-const Json& json_member(const Json& object, const char* key, const std::string& where) {
-    if (!object.is_object()) expected("an object", object, where);
+const Json& json_member(const Json& object, const char* key, std::string_view where) {
+    if (!object.is_object()) expected("an object", object, std::string(where));
     const auto found = object.find(key);
-    if (found == object.end()) fail(where, '"' + std::string(key) + "\" is missing");
+    if (found == object.end()) fail(std::string(where), '"' + std::string(key) + "\" is missing");
     return *found;
 }
 

@@ -90,7 +90,7 @@ Json read_json_file(const std::filesystem::path& path);
 /// Typed reads for files. Each throws std::runtime_error that begins with `where` (a path such as
 /// "labs.chain.target"; empty for the root) and says what was found there. Numbers must be finite and at most
 /// 1e9 in magnitude; reads with explicit bounds check only those.
-const Json& json_member(const Json& object, const char* key, const std::string& where);
+const Json& json_member(const Json& object, const char* key, std::string_view where);
 float json_number(const Json& value, const std::string& where);
 float json_number(const Json& value, const std::string& where, float low, float high);
 double json_real(const Json& value, const std::string& where);

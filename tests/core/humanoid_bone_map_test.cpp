@@ -146,6 +146,8 @@ constexpr Habit habits[]{
      "LowerTorso|UpperTorso|||Neck|Head|Head end||$UpperArm|$LowerArm|$Hand|$Hand end|$UpperLeg|$LowerLeg|"
      "$Foot||$Foot end",
      0.6},
+    {"MikuMikuDance", "左", "右",
+     "センター|上半身|上半身2||首|頭|両目|$肩|$腕|$ひじ|$手首|$中指１|$足|$ひざ|$足首|$つま先|$足先EX"},
     {"Maya, lf and rt", "lf", "rt",
      "pelvis_jnt|spine_01_jnt|spine_02_jnt|spine_03_jnt|neck_jnt|head_jnt|head_end|$_clavicle_jnt|"
      "$_shoulder_jnt|$_elbow_jnt|$_wrist_jnt|$_middle_01_jnt|$_leg_jnt|$_knee_jnt|$_ankle_jnt|$_ball_jnt|"
@@ -175,6 +177,28 @@ TEST(BoneMap, FindsTheBonesByEveryHabitOfNaming) {
         expect_all_right(skeleton, map, habit.names(), habit.confidence);
         EXPECT_EQ(map.rest, RestPose::T);
     }
+}
+
+TEST(BoneMap, ALimbInPiecesBeginsWithTheFirst) {
+    const Habit& maker = *std::find_if(std::begin(habits), std::end(habits), [](const Habit& each) {
+        return each.maker == std::string("MakeHuman");
+    });
+    const Naming names = maker.names();
+    const Skeleton whole = make_figure(names);
+    std::vector<Node> nodes(whole.nodes().begin(), whole.nodes().end());
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        const std::string& name = whole[i].name;
+        const std::size_t number = name.find("01.");
+        if (number == name.npos || whole.children(i).empty()) continue;
+        const auto below = static_cast<std::size_t>(whole.children(i)[0]);
+        Node half = nodes[below];
+        half.name = name.substr(0, number) + "02" + name.substr(number + 2);
+        half.rest.translation = nodes[below].rest.translation *= 0.5;
+        nodes[below].parent = static_cast<std::int32_t>(nodes.size());
+        nodes.push_back(half);
+    }
+    const Skeleton split = *Skeleton::make(std::move(nodes));
+    expect_all_right(split, match_bones(split), names, maker.confidence);
 }
 
 /// With names that say nothing, or another bone's, on one side only.

@@ -82,8 +82,10 @@ TEST(Lint, says_the_frame_rate_that_keys_have) {
     Clip said = winding(120.0, 40);  // reduced keys lie between frames
     said.rate = 30.0;
     EXPECT_EQ(frame_rate(said), 30.0);
-    EXPECT_EQ(frame_rate(winding(2.0, 40)), 60.0);  // too slow to be a frame rate
-    Clip rounded = winding(30.0, 100);              // as a file with three decimals stores it
+    EXPECT_EQ(frame_rate(winding(2.0, 40)), 60.0) << "too slow to be a frame rate";
+    for (const double slow : {5.0, 8.0, 12.5, 15.0, 18.0})
+        EXPECT_NEAR(frame_rate(winding(slow, 40)), slow, 1e-9);
+    Clip rounded = winding(30.0, 100);  // as a file with three decimals stores it
     for (Channel& channel : rounded.channels)
         for (double& time : channel.rotation.times) time = std::floor(time * 1000.0) / 1000.0;
     EXPECT_NEAR(frame_rate(rounded), 30.0, 0.01);

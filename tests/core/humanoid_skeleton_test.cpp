@@ -167,6 +167,25 @@ TEST(Clip, HasAsManyFramesAsKeysThoughTheirTimesAreRounded) {
     EXPECT_EQ(frames_at(Clip{.name = "still", .duration = 0.0, .channels = {}}, 30.0).count, 1u);
 }
 
+TEST(Clip, StepsComeWithTheFrameOfTheirKeyThoughFilesRoundTimes) {
+    for (const double rate : {1001.0 / 30.0, 15.0, 24.0, 30.0, 60.0, 120.0, 452.0}) {
+        Clip clip{.name = "steps", .channels = {{.node = 0}}};
+        auto& [interpolation, times, values] = clip.channels[0].translation;
+        interpolation = Interpolation::Step;
+        for (int i = 0; i < 2'000; ++i) {
+            times.push_back(static_cast<float>(i / rate));
+            values.emplace_back(i, 0.0, 0.0);
+        }
+        clip.duration = times.back();
+        for (const Frames& frames : {frames_at(clip, rate), Frames{times.size(), 1.0 / rate}})
+            for (std::size_t i = 0; i < times.size(); ++i) {
+                rig::Transform local;
+                sample(clip.channels[0], frames.time(i), local);
+                ASSERT_EQ(local.translation.x, static_cast<double>(i)) << rate;
+            }
+    }
+}
+
 TEST(Clip, RefusesWhatDoesNotFitAndSaysWhere) {
     const Skeleton skeleton = *Skeleton::make(line(2));
     const auto message = [&](const Channel& channel, double duration = 5.0) {

@@ -100,8 +100,8 @@ class Words {
         ++at_;
         return is_tight && at_ < text_.size() && is_blank(text_[at_]);
     }
-    /// Reads the numbers of a frame, which begins and ends with a line.
-    void row(std::vector<double>& numbers) {
+    /// Reads the numbers of a frame, which begins and ends with a line. False if the file is cut off in it.
+    bool row(std::vector<double>& numbers) {
         const std::size_t width = numbers.size();
         skip_blanks();
         const std::size_t begin = at_, line = line_;
@@ -116,10 +116,12 @@ class Words {
                  std::to_string(found) + (is_last ? " before the end of the file" : ""));
         };
         for (double& each : numbers) {
+            if (peek().empty() && line_ == line) return false;
             if (peek().empty()) refuse();
             each = number();
         }
         if (!at_line_end()) refuse();
+        return true;
     }
 
   private:
@@ -238,8 +240,7 @@ rig::Transform local_of(const BvhJoint& joint, const double* values) {
             position[channel] = values[i];
             has_position = true;
         } else {
-            local.rotation =
-                local.rotation * turned_about(channel - 3, std::remainder(values[i], 360.0 * 2.0));
+            local.rotation = local.rotation * turned_about(channel - 3, std::remainder(values[i], 360.0));
         }
     }
     local.rotation = rig::normalised(local.rotation);
@@ -288,6 +289,9 @@ humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, std::vector
                          : usual_frames ? "Frame Time"
                                         : "Frames and Frame Time") +
                         " are not the usual ones.");
+    if (step >= 1.0 && declared > 1)
+        notes.push_back("A frame lasts " + fixed_text(step, 4) +
+                        " s, as Frame Time says. At 30 frames per second it would be 0.0333.");
 
     humanoid::Clip clip;
     clip.name = "motion";
@@ -298,14 +302,22 @@ humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, std::vector
          times.push_back(static_cast<double>(times.size()) * step)) {
         if (times.size() % 64 == 0)
             report(progress, 0.1 + 0.8 * static_cast<double>(times.size()) / static_cast<double>(declared));
-        words.row(row);
+        if (!words.row(row)) {
+            notes.push_back("The file is cut off in row " + std::to_string(times.size() + 1) +
+                            ", which is left out.");
+            break;
+        }
         const double* values = row.data();
         for (humanoid::Channel& channel : clip.channels) {
             const BvhJoint& joint = hierarchy.joints[channel.node];
             const rig::Transform local = local_of(joint, values);
             values += joint.channels.size();
             if (moves(joint)) channel.translation.values.push_back(local.translation);
-            if (turns(joint)) channel.rotation.values.push_back(local.rotation);
+            if (!turns(joint)) continue;
+            // The file has angles: the sign of a quaternion is ours to choose.
+            std::vector<glm::dquat>& keys = channel.rotation.values;
+            const bool is_far = !keys.empty() && glm::dot(keys.back(), local.rotation) < 0.0;
+            keys.push_back(is_far ? -local.rotation : local.rotation);
         }
     }
     clip.duration = times.size() > 1 ? times.back() : 0.0;

@@ -252,7 +252,7 @@ class ScaleFit final : public FitTask {
         : problem_(problem),
           facts_(problem),
           trial_(problem),
-          kind_(signal::kind_of(signal::ScaleBiasClamp())) {}
+          kind_(&signal::kind_of(signal::ScaleBiasClamp())) {}
 
     /// One search after the other, simplest first, until one is exact.
     bool advance() override {
@@ -310,7 +310,7 @@ class ScaleFit final : public FitTask {
         return {.low = facts_.response_low - 12.0 * scale(), .high = facts_.response_high + 12.0 * scale()};
     }
     Dimension speed_dimension() const {
-        return dimension(kind_, "speed_increasing", 0.02 / facts_.duration, 1.2 / facts_.shortest,
+        return dimension(*kind_, "speed_increasing", 0.02 / facts_.duration, 1.2 / facts_.shortest,
                          Dimension::Scale::Ratio);
     }
 
@@ -438,7 +438,7 @@ class ScaleFit final : public FitTask {
     const FitProblem& problem_;
     FitFacts facts_;
     Trial trial_;
-    const signal::Kind& kind_;
+    const signal::Kind* kind_;
     std::vector<Fit> fits_;            ///< of the completed searches
     std::size_t part_ = 0;             ///< index in `parts` of the present search
     std::vector<double> bends_start_;  ///< the best point of the search with dependent levels

@@ -52,6 +52,9 @@ class Names {
     void set(Bone bone, std::int32_t node) { found[static_cast<std::size_t>(bone)] = node; }
     const NameReading& reading(std::int32_t node) const { return readings_[static_cast<std::size_t>(node)]; }
     std::int32_t parent(std::int32_t node) const { return skeleton_[static_cast<std::size_t>(node)].parent; }
+    const std::string& name_of(std::int32_t node) const {
+        return skeleton_[static_cast<std::size_t>(node)].name;
+    }
     bool below(std::int32_t node, std::int32_t above) const {
         return above < 0 ||
                skeleton_.is_below(static_cast<std::size_t>(node), static_cast<std::size_t>(above));
@@ -87,8 +90,21 @@ class Names {
         for (std::int32_t each = parent(node); each >= 0 && each != at(Bone::Hips); each = parent(each))
             if (reading(each).side == side &&
                 std::find(parts.begin(), parts.end(), reading(each).part) != parts.end())
-                return each;
+                return first_of_split(each);
         return -1;
+    }
+    /// A limb in pieces begins with the first: upperarm01, above upperarm02. "arm 1, arm 2" may be both bones
+    /// of an arm.
+    std::int32_t first_of_split(std::int32_t node) const {
+        const Part part = reading(node).part;
+        if (part == Part::Arm || part == Part::Leg || part == Part::ShoulderArm) return node;
+        for (std::int32_t next = parent(node);
+             next >= 0 && reading(next).part == part && reading(next).side == reading(node).side &&
+             skeleton_.children(static_cast<std::size_t>(next)).size() == 1 &&
+             detail::is_same_but_for_numbers(name_of(next), name_of(node));
+             next = parent(node))
+            node = next;
+        return node;
     }
     /// The first such node from the root down, with one of `parts` above it; one beside or below the hips if
     /// there is one, since a file may have several rigs.
@@ -278,6 +294,11 @@ void agree(const Skeleton& skeleton, const ShapeReading& shape, BoneMap& map) {
                 mirror(1 - better, i);
         }
     }
+    // Of two bones at one node, the one that a name told stays.
+    for (BoneMatch& match : map.bones)
+        for (BoneMatch& other : map.bones)
+            if (&match != &other && match.node >= 0 && match.node == other.node)
+                (match.confidence < other.confidence ? match : other) = {};
 }
 
 /// The shape alone cannot tell left from right if the feet point nowhere; names can.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -83,20 +84,27 @@ glm::dquat finished(const glm::dquat& value) noexcept {
     return rig::normalised(value);
 }
 
+/// The first key after `time`, by more than floats round the key's time and the clip's duration: otherwise a
+/// step would come a frame late.
+std::size_t next_key(const std::vector<double>& times, double time) noexcept {
+    constexpr double rounded = 2.0 * std::numeric_limits<float>::epsilon();
+    return static_cast<std::size_t>(
+        std::upper_bound(times.begin(), times.end(), time + rounded * std::abs(time)) - times.begin());
+}
+
 template <class T>
 void sample_track(const Track<T>& track, double time, T& value) noexcept {
     const std::vector<double>& times = track.times;
     if (times.empty()) return;
     const bool is_cubic = track.interpolation == Interpolation::Cubic;
     const auto key = [&](std::size_t i) -> const T& { return track.values[is_cubic ? 3 * i + 1 : i]; };
-    const auto next =
-        static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) - times.begin());
+    const std::size_t next = next_key(times, time);
     if (next == 0 || next == times.size() || track.interpolation == Interpolation::Step) {
         value = finished(key(next == 0 ? 0 : next - 1));
         return;
     }
     const std::size_t last = next - 1;
-    const double span = times[next] - times[last], u = (time - times[last]) / span;
+    const double span = times[next] - times[last], u = std::max(time - times[last], 0.0) / span;
     if (!is_cubic)
         value = linear(finished(key(last)), finished(key(next)), u);
     else
@@ -204,6 +212,14 @@ double meant(double rate) noexcept {
     return std::abs(rate - nearest) < 1.1e-3 * nearest ? nearest : rate;
 }
 
+bool has_curves(const Clip& clip) noexcept {
+    return std::any_of(clip.channels.begin(), clip.channels.end(), [](const Channel& each) {
+        return each.translation.interpolation == Interpolation::Cubic ||
+               each.rotation.interpolation == Interpolation::Cubic ||
+               each.scale.interpolation == Interpolation::Cubic;
+    });
+}
+
 /// The mean of the steps that are about as long as the median one: keys that are missing make some longer,
 /// keys between frames some shorter. 0 if there are no two keys.
 double usual_step(const Clip& clip) {
@@ -214,8 +230,7 @@ double usual_step(const Clip& clip) {
     const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
     std::nth_element(steps.begin(), middle, steps.end());
     const double median = *middle;
-    std::erase_if(steps,
-                  [&](double each) { return !(std::abs(each - median) < rounded_frame * median); });
+    std::erase_if(steps, [&](double each) { return !(std::abs(each - median) < rounded_frame * median); });
     return std::accumulate(steps.begin(), steps.end(), 0.0) / static_cast<double>(steps.size());
 }
 
@@ -226,7 +241,9 @@ double frame_rate(const Clip& clip) noexcept {
     if (!(rate >= 1.0 && rate <= 1000.0)) {
         const auto own = own_frames(clip);
         rate = 1.0 / (own ? own->step : usual_step(clip));
-        if (!(rate > 20.0 * 0.999 && rate <= 1000.0)) return 60.0;
+        // Slower keys are frames if all lie on even times and none is on a curve, which needs more.
+        const double slowest = own && !has_curves(clip) ? 5.0 : 20.0;
+        if (!(rate > slowest * 0.999 && rate <= 1000.0)) return 60.0;
     }
     const double nearest = meant(rate);
     return nearest == std::floor(nearest) ? nearest : rate;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <map>
 #include <utility>
 #include <vector>
@@ -19,10 +20,40 @@ bool is_digit(char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
+/// The bones of MikuMikuDance, longer names first.
+constexpr std::pair<std::string_view, std::string_view> japanese[]{
+    {"センター", "pelvis"}, {"上半身", "spine"}, {"下半身", "lower half"},
+    {"つま先", "toe"},      {"足先", "toe"},     {"手首", "wrist"},
+    {"足首", "ankle"},      {"親指", "thumb"},   {"人指", "index"},
+    {"人差指", "index"},    {"中指", "middle"},  {"薬指", "ring"},
+    {"小指", "little"},     {"ひじ", "elbow"},   {"ひざ", "knee"},
+    {"ＩＫ", "ik"},         {"左", "left"},      {"右", "right"},
+    {"腰", "pelvis"},       {"首", "neck"},      {"頭", "head"},
+    {"肩", "clavicle"},     {"腕", "upperarm"},  {"足", "upperleg"},
+    {"捩", "twist"},        {"目", "eye"},       {"髪", "hair"}};
+
+std::string in_english(std::string_view name) {
+    std::string text;
+    while (!name.empty()) {
+        const auto known = std::find_if(std::begin(japanese), std::end(japanese),
+                                        [&](const auto& each) { return name.starts_with(each.first); });
+        if (known == std::end(japanese)) {
+            text += name.front();
+            name.remove_prefix(1);
+        } else {
+            text.append(" ").append(known->second).append(" ");
+            name.remove_prefix(known->first.size());
+        }
+    }
+    return text;
+}
+
 /// Lower-case words, split at separators, capitals and digits. "LHipJoint_01": l hip joint 01
-std::vector<std::string> words_of(std::string_view name) {
-    if (const std::size_t colon = name.find_last_of(":|"); colon != name.npos && colon + 1 < name.size())
-        name.remove_prefix(colon + 1);
+std::vector<std::string> words_of(std::string_view original) {
+    if (const std::size_t colon = original.find_last_of(":|");
+        colon != original.npos && colon + 1 < original.size())
+        original.remove_prefix(colon + 1);
+    const std::string name = in_english(original);
     std::vector<std::string> words;
     bool fresh = true;
     for (std::size_t i = 0; i < name.size(); ++i) {
@@ -149,6 +180,16 @@ NameReading read_name(std::string_view name, std::string_view ignored) {
     if (text == "hip" && has_side) reading.part = Part::UpperLeg;  // but Rigify's pelvis.L is no leg
     if (reading.part == Part::None || (reading.part >= Part::Shoulder) != has_side) return {};
     return reading;
+}
+
+bool is_same_but_for_numbers(std::string_view a, std::string_view b) {
+    const auto without = [](std::string_view name) {
+        std::string all;
+        for (const std::string& word : words_of(name))
+            if (!is_digit(word.front())) all += word + ' ';
+        return all;
+    };
+    return without(a) == without(b);
 }
 
 bool is_palm_name(std::string_view name) {

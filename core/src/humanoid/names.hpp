@@ -48,6 +48,8 @@ enum class Finger : std::uint8_t { Thumb, Index, Middle, Ring, Little };
 /// "LeftHandIndex2", "thumb_01_l", "Bip01 L Finger21" (the middle finger's second bone). nullopt for bones of
 /// the palm and for ends.
 std::optional<Finger> finger_named(std::string_view name);
+/// "upperarm01.L" and "upperarm02.L"
+bool is_same_but_for_numbers(std::string_view a, std::string_view b);
 /// "palm.01.L", "index_metacarpal_l"
 bool is_palm_name(std::string_view name);
 

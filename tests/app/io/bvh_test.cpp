@@ -48,6 +48,9 @@ TEST(Bvh, spellings_of_real_exporters_are_read_as_declared_with_a_note) {
         {"fewer rows", stalk + "MOTION\nFrames: 5\nFrame Time: 0.0333333\n" + rows, "2 fewer rows than 5"},
         {"one row fewer", stalk + "MOTION\nFrames: 4\nFrame Time: 0.0333333\n" + rows + "\n ",
          "1 fewer row than 4"},
+        {"cut off in a row", stalk + "MOTION\nFrames: 4\nFrame Time: 0.0333333\n" + rows + "0 90 0 0 0",
+         "cut off in row 4"},
+        {"cut off in a row that is not declared", stalk + motion + "0 90 0 0", "1 more row"},
     };
     const Character strict = parse_bvh(stalk + motion, "it.bvh");
     for (const auto& each : loose) {
@@ -58,6 +61,16 @@ TEST(Bvh, spellings_of_real_exporters_are_read_as_declared_with_a_note) {
         EXPECT_TRUE(test::says(all_notes(read), each.note));
         EXPECT_EQ(read.notes.size(), strict.notes.size() + 1);
     }
+}
+
+TEST(Bvh, a_turn_beyond_180_degrees_goes_the_short_way) {
+    std::string text = stalk + "MOTION\nFrames: 100\nFrame Time: 0.0333333\n";
+    for (int i = 0; i < 100; ++i)
+        text += "0 90 0 0 " + std::to_string(std::remainder(31.0 * i, 360.0)) + " 0 0 0 0\n";
+    const auto channels = parse_bvh(text, "it.bvh").clips.at(0).channels;
+    for (const auto& channel : channels)
+        for (std::size_t i = 1; i < channel.rotation.values.size(); ++i)
+            EXPECT_GE(glm::dot(channel.rotation.values[i - 1], channel.rotation.values[i]), 0.0) << i;
 }
 
 TEST(Bvh, damage_is_refused_in_words_that_name_the_line) {

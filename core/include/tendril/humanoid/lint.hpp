@@ -98,7 +98,8 @@ struct LintReport {
 };
 
 /// Frames per second, as the clip's file says (1 to 1000), or from the spacing of its keys; rounded if within
-/// 0.1 % of a whole number. 60 if there are too few keys, or if they give a rate not between 20 and 1000.
+/// 0.1 % of a whole number. 60 if there are too few keys, or if they give a rate not between 20 and 1000, or 5
+/// and 1000 if a track has a key at every frame and none is on a curve.
 double frame_rate(const Clip& clip) noexcept;
 
 /// `clip` must have passed check().
