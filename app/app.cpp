@@ -65,8 +65,8 @@ App::~App() = default;
 
 void App::start_from(const RecordingStart& start) {
     replays_ = start.live;
-    if (const auto missing = load_scene(workspace_, start.scene); !missing.empty())
-        throw std::runtime_error(missing.front());
+    if (const auto unread = load_scene(workspace_, start.scene); !unread.empty())
+        throw std::runtime_error(unread.front().text);
     if (labs_.find(start.lab) == nullptr)
         throw std::runtime_error("lab: there is no lab \"" + start.lab + "\"");
     workspace_.open_lab(start.lab);

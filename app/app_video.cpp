@@ -79,8 +79,12 @@ void App::write_video(bool ends) {
         workspace_.ui.filming = video_->progress();
         if (!ends || !video_->has_all_frames()) return;
         video_->finish();
-        workspace_.outputs.own(video_->wanted().path);
-        workspace_.toast(written_text(video_->wanted().path));
+        const auto [path, refusal] =
+            workspace_.writes().place_at_end(video_->wanted().path, OutputKind::Video);
+        video_->commit(path);
+        workspace_.outputs.own(path, Outputs::stamp_of(path));
+        if (!refusal.empty()) throw std::runtime_error(refusal + ". The video is " + shown_path(path));
+        workspace_.toast(written_text(path));
         drop_video();
     } catch (const std::exception& error) {
         const std::string command = video_->wanted().command;

@@ -6,13 +6,12 @@
 #include <utility>
 
 #include "app/document/atomic_file.hpp"
-#include "app/document/drawn_sections.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/document/pace.hpp"
 
 namespace tendril::app {
 namespace {
 
-constexpr double max_credit = 0.25;   ///< after a long stall time is dropped instead of caught up
 constexpr double min_credit = -0.05;  ///< a burst of events may run this far ahead
 constexpr double max_sleep = 1.0;     ///< limits the delay of signals and autosaves
 
@@ -158,14 +157,14 @@ bool LiveLoop::take_ticks(Player& player) {
 void LiveLoop::note_pace(double elapsed, double dropped) {
     if (!(elapsed > 0.0)) return;
     double& pace = pace_of(app_.workspace().runtimes).kept;
-    pace += std::min(elapsed, max_credit) * (1.0 - dropped / elapsed - pace);
+    pace += std::min(elapsed, max_stall) * (1.0 - dropped / elapsed - pace);
 }
 
 void LiveLoop::turn(std::vector<Event> events, double elapsed, Player& player) {
     // Accumulate no time while idle, or the first event afterwards would trigger a burst of ticks.
     const bool resting = queue_.empty() && player.done() && !app_.needs_ticks();
-    note_pace(elapsed, resting ? 0.0 : std::clamp(credit_ + elapsed - max_credit, 0.0, elapsed));
-    credit_ = resting ? tick_seconds : std::min(credit_ + elapsed, max_credit);
+    note_pace(elapsed, resting ? 0.0 : std::clamp(credit_ + elapsed - max_stall, 0.0, elapsed));
+    credit_ = resting ? tick_seconds : std::min(credit_ + elapsed, max_stall);
     // A recording being replayed has its own VideoEnd.
     const auto is_end = [](const Event& event) { return std::holds_alternative<VideoEnd>(event); };
     if (app_.video_ended() && (player.done() || !app_.replays()) && std::ranges::none_of(queue_, is_end))

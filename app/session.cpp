@@ -55,7 +55,7 @@ Outputs check_outputs(const SessionOptions& options) {
         before.push_back(file);
         outputs.check({path}, kind, kind != OutputKind::Recording);
         check_writable(path);
-        outputs.own(path);
+        outputs.own(path, Outputs::stamp_of(path));
     }
     outputs.in_window = !options.headless;  // what is refused so far cannot be asked for again
     return outputs;
@@ -112,18 +112,10 @@ void start_recorded(App& app, const SessionOptions& options, const RecordingStar
 }
 
 /// Under another name if another program has put a file there meanwhile: what was done cannot be done again.
-void write_recording(App& app, const std::filesystem::path& path) {
-    try {
-        app.workspace().writes().write(path, OutputKind::Recording, app.recording());
-    } catch (const std::runtime_error& error) {
-        std::filesystem::path free = path;
-        std::error_code ignored;
-        for (int i = 2; std::filesystem::exists(free, ignored); ++i)
-            free.replace_filename(path.stem().string() + '-' + std::to_string(i) + path.extension().string());
-        if (free == path) throw;
-        write_file_atomically(free, app.recording());
-        throw std::runtime_error(error.what() + std::string("; the recording is in ") + free.string());
-    }
+void write_recording(App& app, const std::filesystem::path& wanted) {
+    const auto [path, refusal] = app.workspace().writes().place_at_end(wanted, OutputKind::Recording);
+    write_file_atomically(path, app.recording());
+    if (!refusal.empty()) throw std::runtime_error(refusal + "; the recording is in " + path.string());
 }
 
 /// Writes all of them, then reports the first failure.

@@ -34,7 +34,7 @@ Image picture_of(const Workspace& workspace, const Lab& lab, Renderer& renderer,
 /// recordings replay identically.
 int frames_a_tick(glm::ivec2 size);
 
-/// Errors are std::runtime_error. Leaves no file if destroyed before finish().
+/// Errors are std::runtime_error. Leaves no file if destroyed before commit().
 class VideoTake {
   public:
     /// `lab` and `renderer` must outlive it. The workspace's rewind must not be empty, unless the request
@@ -49,6 +49,8 @@ class VideoTake {
     bool waits() const { return file_->waits(); }
     /// Call after the last frame. Waits for that program.
     void finish() { file_->finish(); }
+    /// VideoFile::commit().
+    void commit(const std::filesystem::path& other = {}) { file_->commit(other); }
     VideoProgress progress() const;
     const VideoRequest& wanted() const { return wanted_; }
 

@@ -208,28 +208,6 @@ Row place(const Case& asked, std::vector<glm::vec3>& joints) {
     return {asked, ik::Method::Fabrik, report, taken.count(), joints, placed};
 }
 
-/// Why the library refuses a case; empty if it does not.
-std::string refusal(const Case& asked, ik::Method method) {
-    if (method == ik::Method::TwoBone && asked.lengths.size() != 2)
-        return "lengths: two_bone takes 2 bones, got " + std::to_string(asked.lengths.size());
-    const auto first_fault = [](const char* list, std::size_t count, auto fault_at) {
-        for (std::size_t i = 0; i < count; ++i)
-            if (const char* const fault = fault_at(i)) return list + std::to_string(i) + ": " + fault;
-        return std::string();
-    };
-    if (const std::string limit = first_fault("limits.", asked.limits.size(),
-                                              [&](std::size_t i) {
-                                                  const glm::vec3 rest = asked.rest_directions.empty()
-                                                                             ? glm::vec3(1, 0, 0)
-                                                                             : asked.rest_directions[i];
-                                                  return ik::fault(asked.limits[i], rest);
-                                              });
-        !limit.empty())
-        return limit;
-    return first_fault("angle_limits.", asked.angle_limits.size(),
-                       [&](std::size_t i) { return ik::fault(asked.angle_limits[i]); });
-}
-
 Row solve(const Case& asked, ik::Method method, const SolveOptions& options, std::vector<glm::vec3>& joints) {
     Expected<ik::Solver> made = ik::Solver::make(asked.lengths, asked.rest_directions);
     if (!made) throw std::invalid_argument(made.message());
@@ -245,9 +223,10 @@ Row solve(const Case& asked, ik::Method method, const SolveOptions& options, std
     const auto begin = Clock::now();
     const ik::Report report = solver.solve(method, joints, state, asked.target, told);
     const std::chrono::duration<double, std::micro> taken = Clock::now() - begin;
-    const bool invalid = report.status == ik::Status::InvalidInput;
-    return {asked,  method,       report,  taken.count(),
-            joints, std::nullopt, nullptr, invalid ? refusal(asked, method) : ""};
+    std::string reason;
+    if (report.status == ik::Status::InvalidInput)
+        reason = solver.check_input(method, joints, state, asked.target, told).message();
+    return {asked, method, report, taken.count(), joints, std::nullopt, nullptr, std::move(reason)};
 }
 
 /// One row, from where the row before left it.

@@ -1,6 +1,7 @@
 // Arguments of commands: how they are declared, and how a command reads them.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -42,6 +43,21 @@ struct Argument {
     /// Its current value.
     std::function<std::string(const Workspace&)> present{};
 };
+
+Argument choice_argument(const char* name, bool required, const char* help, std::vector<std::string> choices);
+// The next three are optional.
+Argument integer_argument(const char* name, const char* help, double low, double high);
+Argument number_argument(const char* name, const char* help, double low, double high);
+Argument switch_argument(const char* name, const char* help);
+// Optional unless `required`.
+Argument text_argument(const char* name, bool required, std::string help);
+Argument point_argument(const char* name, bool required, const char* help);
+/// A 0-based index below `count`.
+Argument index_argument(const char* name, bool required, const char* help, std::size_t count);
+/// The same argument; the palette offers the values that `known` returns.
+Argument offering(Argument argument, std::function<std::vector<std::string>(const Workspace&)> known);
+/// "0", "1", ... up to `count` - 1.
+std::vector<std::string> places(std::size_t count);
 
 /// Arguments that passed their command's check: present if required, of the right type, finite, in range.
 class Arguments {

@@ -213,9 +213,17 @@ const fs::path& AtomicFile::beside() const {
     return beside_->name();
 }
 
-void AtomicFile::commit() {
-    beside_->finish(file_);
-    beside_->move_over(file_);
+void AtomicFile::commit(const fs::path& other) {
+    const fs::path& file = other.empty() ? file_ : other;
+    beside_->finish(file);
+    beside_->move_over(file);
+}
+
+fs::path numbered_file(const fs::path& stem, const std::string& extension) {
+    std::error_code ignored;
+    for (int i = 1;; ++i)
+        if (fs::path path = stem.string() + "-" + std::to_string(i) + extension; !fs::exists(path, ignored))
+            return path;
 }
 
 void remove_torn_files(const fs::path& folder) {

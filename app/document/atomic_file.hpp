@@ -29,14 +29,17 @@ class AtomicFile {
     void append(std::string_view bytes);
     /// The temporary file, for a program that writes it instead of append().
     const std::filesystem::path& beside() const;
-    /// Syncs it and renames it over the old one.
-    void commit();
+    /// Syncs it and renames it over the old one, or to `other` in the same folder.
+    void commit(const std::filesystem::path& other = {});
 
   private:
     class Beside;
     std::filesystem::path path_, file_;  ///< as given, and with symbolic links resolved
     std::unique_ptr<Beside> beside_;
 };
+
+/// "stem-1.png", or with the next number that no file in its folder has.
+std::filesystem::path numbered_file(const std::filesystem::path& stem, const std::string& extension);
 
 /// Removes the temporary files that programs left in a folder when they were killed.
 void remove_torn_files(const std::filesystem::path& folder);

@@ -41,6 +41,10 @@ struct Command {
 class CommandTable {
   public:
     void add(Command command);
+    void add(const char* name, const char* title, std::vector<Argument> arguments, std::string help,
+             Effect effect, std::function<void(Workspace&, const Arguments&)> apply) {
+        add({name, title, std::move(arguments), std::move(help), effect, std::move(apply)});
+    }
     /// Commands added from here on belong to that lab.
     void begin_lab(std::string name) { lab_ = std::move(name); }
     const Command* find(std::string_view name) const;

@@ -38,8 +38,8 @@ class Part {
     /// Files that load() reads beside the JSON: nothing is written over them.
     virtual std::vector<std::filesystem::path> files() const { return {}; }
 
-    /// The scene's JSON for this lab if it could not be read, because a file is missing; else null. It is
-    /// saved instead of save() until a command edits the part.
+    /// The scene's JSON for this lab if it could not be read because of a file that it names; else null. It
+    /// is saved instead of save() until a command edits the part.
     std::shared_ptr<const Json> unread{};
 };
 

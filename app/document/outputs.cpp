@@ -8,6 +8,8 @@
 #include <stdexcept>
 
 #include "app/document/atomic_file.hpp"
+#include "app/document/json_complete.hpp"
+#include "app/document/outside_file.hpp"
 #include "app/document/text.hpp"
 
 namespace tendril::app {
@@ -90,12 +92,48 @@ const char* name(OutputKind kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
+/// The JSON of a glTF file, text or binary; null of any other.
+Json gltf_json(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::string text(20, '\0');  // of a binary one: magic, version, length; its JSON's length and "JSON"
+    in.read(text.data(), 20);
+    if (text.starts_with("glTF")) {
+        const auto byte = [&](std::size_t at) { return static_cast<std::uint32_t>(text[at]) & 0xff; };
+        const std::uint32_t size = byte(12) | byte(13) << 8 | byte(14) << 16 | byte(15) << 24;
+        std::error_code unknown;
+        text.resize(std::min<std::uintmax_t>(size, fs::file_size(file, unknown)));
+        in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    } else if (lower_case(file.extension().string()) == ".gltf") {
+        text = text_of(file);
+    } else {
+        return nullptr;
+    }
+    try {
+        return parse_json(text);
+    } catch (const ParseError&) {
+        return nullptr;  // nothing reads it either
+    }
+}
+
+/// Whether a "uri" in the JSON leads from the folder to that file.
+bool names(const Json& json, const fs::path& folder, const fs::path& path) {
+    if (!json.is_structured()) return false;
+    if (const auto uri = json.is_object() ? json.find("uri") : json.end();
+        uri != json.end() && uri->is_string() && !uri->get_ref<const std::string&>().starts_with("data:"))
+        for (const std::string& name : names_of_uri(uri->get<std::string>())) {
+            std::error_code error;
+            if (fs::equivalent(folder / name, path, error)) return true;
+        }
+    for (const Json& each : json)
+        if (names(each, folder, path)) return true;
+    return false;
+}
+
 /// Whether `input` is that file, or a glTF file that names it as its buffer or picture.
 bool reads(const fs::path& input, const fs::path& path) {
     std::error_code error;
     if (fs::equivalent(input, path, error)) return true;
-    return lower_case(input.extension().string()) == ".gltf" && fs::is_regular_file(input, error) &&
-           text_of(input).find(path.filename().string() + '"') != std::string::npos;
+    return fs::is_regular_file(input, error) && names(gltf_json(input), input.parent_path(), path);
 }
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
@@ -111,9 +149,9 @@ Outputs::Stamp Outputs::stamp_of(const fs::path& path) {
             found.st_mtim.tv_nsec};
 }
 
-void Outputs::own(const fs::path& path) {
+void Outputs::own(const fs::path& path, const Stamp& stamp) {
     const fs::path file = canonical_name(path);
-    owned_[file] = stamp_of(path);
+    owned_[file] = stamp;
     asked_.erase(file);
 }
 
@@ -148,13 +186,22 @@ void Outputs::check(const std::vector<fs::path>& paths, OutputKind kind, bool re
                again);
 }
 
+Outputs::Place Outputs::place_at_end(const fs::path& path, OutputKind kind) {
+    try {
+        check({path}, kind);
+        return {path};
+    } catch (const std::runtime_error& error) {
+        return {numbered_file(path.parent_path() / path.stem(), path.extension().string()), error.what()};
+    }
+}
+
 void Outputs::write(const fs::path& path, OutputKind kind, std::string_view bytes, bool redraws) {
     std::error_code error;
     const bool same = fs::is_regular_file(path, error) && fs::file_size(path, error) == bytes.size() &&
                       text_of(path) == bytes;
     if (!same) check({path}, kind, redraws);
     write_file_atomically(path, bytes);
-    own(path);
+    own(path, stamp_of(path));
 }
 
 }  // namespace tendril::app

@@ -11,20 +11,10 @@ namespace tendril::app {
 
 std::vector<Argument> picture_arguments(std::vector<Argument> first) {
     for (const char* side : {"width", "height"})
-        first.push_back({.name = side,
-                         .type = ArgumentType::Integer,
-                         .required = false,
-                         .help = "pixels; default: the view's",
-                         .low = min_picture,
-                         .high = max_picture});
-    first.push_back({.name = "transparent",
-                     .type = ArgumentType::Boolean,
-                     .required = false,
-                     .help = "with a transparent background"});
-    first.push_back({.name = "labels",
-                     .type = ArgumentType::Boolean,
-                     .required = false,
-                     .help = "draws labels, titles and the legend; default: only while a race is open"});
+        first.push_back(integer_argument(side, "pixels; default: the view's", min_picture, max_picture));
+    first.push_back(switch_argument("transparent", "with a transparent background"));
+    first.push_back(
+        switch_argument("labels", "draws labels, titles and the legend; default: only while a race is open"));
     return first;
 }
 
@@ -39,12 +29,7 @@ std::filesystem::path new_file(const Workspace& workspace, const std::string& wh
     if (!workspace.names_pictures) throw Refused("path is missing");
     std::string stem = workspace.path.empty() ? "tendril" : workspace.path.stem().string();
     if (!what.empty()) stem += "-" + what;
-    for (int i = 1;; ++i) {
-        const std::filesystem::path path =
-            workspace.path.parent_path() / (stem + "-" + std::to_string(i) + extension);
-        std::error_code ignored;
-        if (!std::filesystem::exists(path, ignored)) return path;
-    }
+    return numbered_file(workspace.path.parent_path() / stem, extension);
 }
 
 }  // namespace tendril::app

@@ -12,44 +12,32 @@ namespace tendril::app {
 namespace {
 
 void add_file_commands(CommandTable& table) {
-    table.add({.name = "scene.new",
-               .title = "Start a new scene",
-               .arguments = {},
-               .help = "Starts a new scene; undo restores the old one",
-               .effect = Effect::Edit,
-               .apply = [](Workspace& w, const Arguments&) {
-                   w.document = w.blank;
-                   w.saved = w.blank;
-                   w.path.clear();
-                   w.start_anew();
-                   w.camera = w.first_view_of(w.lab);
-               }});
-    table.add({.name = "scene.open",
-               .title = "Open a scene file",
-               .arguments = {{.name = "path", .type = ArgumentType::Text, .help = "the scene file"}},
-               .help = "Opens a scene file; undo restores the scene before it",
-               .effect = Effect::Edit,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   load_scene_file(w, a.text("path"));
-                   w.close_file_dialog();
-               }});
-    table.add({.name = "scene.save",
-               .title = "Save the scene to a file",
-               .arguments = {{.name = "path",
-                              .type = ArgumentType::Text,
-                              .required = false,
-                              .help = "file to save to; default: the scene's own"}},
-               .help = "Saves the scene; a failure leaves the old file as it was",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   const std::filesystem::path path =
-                       a.has("path") ? std::filesystem::path(a.text("path")) : w.path;
-                   if (path.empty()) throw Refused("path is missing; the scene has no file yet");
-                   save_scene_file(w, path);
-                   w.ui.quit = w.ui.quit || w.ui.file_dialog == UiState::FileDialog::SaveAndQuit;
-                   w.close_file_dialog();
-                   w.toast("Saved: " + shown_path(path));
-               }});
+    table.add("scene.new", "Start a new scene", {}, "Starts a new scene; undo restores the old one",
+              Effect::Edit, [](Workspace& w, const Arguments&) {
+                  w.document = w.blank;
+                  w.saved = w.blank;
+                  w.path.clear();
+                  w.start_anew();
+                  w.camera = w.first_view_of(w.lab);
+              });
+    table.add("scene.open", "Open a scene file", {text_argument("path", true, "the scene file")},
+              "Opens a scene file; undo restores the scene before it", Effect::Edit,
+              [](Workspace& w, const Arguments& a) {
+                  load_scene_file(w, a.text("path"));
+                  w.close_file_dialog();
+              });
+    table.add("scene.save", "Save the scene to a file",
+              {text_argument("path", false, "file to save to; default: the scene's own")},
+              "Saves the scene; a failure leaves the old file as it was", Effect::Look,
+              [](Workspace& w, const Arguments& a) {
+                  const std::filesystem::path path =
+                      a.has("path") ? std::filesystem::path(a.text("path")) : w.path;
+                  if (path.empty()) throw Refused("path is missing; the scene has no file yet");
+                  save_scene_file(w, path);
+                  w.ui.quit = w.ui.quit || w.ui.file_dialog == UiState::FileDialog::SaveAndQuit;
+                  w.close_file_dialog();
+                  w.toast("Saved: " + shown_path(path));
+              });
 }
 
 /// The path argument. Refuses a path that is not offered for recovery.
@@ -67,88 +55,60 @@ void answered(Workspace& workspace, const std::filesystem::path& file) {
 }
 
 void add_recovery_commands(CommandTable& table) {
-    const Argument path{.name = "path",
-                        .type = ArgumentType::Text,
-                        .help = "an autosave that a crash left",
-                        .known = [](const Workspace& w) {
-                            std::vector<std::string> files;
-                            for (const Recoverable& each : w.ui.recoverable)
-                                files.push_back(each.file.string());
-                            return files;
-                        }};
-    table.add({.name = "scene.recover",
-               .title = "Recover unsaved work",
-               .arguments = {path},
-               .help = "Recovers unsaved work after a crash",
-               .effect = Effect::Edit,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   const std::filesystem::path file = offered(w, a);
-                   Autosave::recover(w, file);
-                   answered(w, file);
-                   w.toast("Recovered. It is not saved yet.");
-               }});
-    table.add({.name = "scene.discard",
-               .title = "Delete unsaved work",
-               .arguments = {path},
-               .help = "Deletes unsaved work that a crash left",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   const std::filesystem::path file = offered(w, a);
-                   std::filesystem::remove(file);
-                   answered(w, file);
-               }});
-    table.add({.name = "scene.recover_later",
-               .title = "Ask about unsaved work later",
-               .arguments = {},
-               .help = "Asks again about unsaved work at the next start",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments&) { w.ui.recoverable.clear(); }});
+    const Argument path =
+        offering(text_argument("path", true, "an autosave that a crash left"), [](const Workspace& w) {
+            std::vector<std::string> files;
+            for (const Recoverable& each : w.ui.recoverable) files.push_back(each.file.string());
+            return files;
+        });
+    table.add("scene.recover", "Recover unsaved work", {path}, "Recovers unsaved work after a crash",
+              Effect::Edit, [](Workspace& w, const Arguments& a) {
+                  const std::filesystem::path file = offered(w, a);
+                  Autosave::recover(w, file);
+                  answered(w, file);
+                  w.toast("Recovered. It is not saved yet.");
+              });
+    table.add("scene.discard", "Delete unsaved work", {path}, "Deletes unsaved work that a crash left",
+              Effect::Look, [](Workspace& w, const Arguments& a) {
+                  const std::filesystem::path file = offered(w, a);
+                  std::filesystem::remove(file);
+                  answered(w, file);
+              });
+    table.add("scene.recover_later", "Ask about unsaved work later", {},
+              "Asks again about unsaved work at the next start", Effect::Look,
+              [](Workspace& w, const Arguments&) { w.ui.recoverable.clear(); });
 }
 
 void add_dialog_commands(CommandTable& table) {
-    table.add(
-        {.name = "scene.open_dialog",
-         .title = "Choose a file to open",
-         .arguments = {},
-         .help = "Shows a dialog to open a scene or a file that a lab reads",
-         .effect = Effect::Look,
-         .apply = [](Workspace& w, const Arguments&) { w.ui.file_dialog = UiState::FileDialog::Open; }});
-    table.add({.name = "scene.save_dialog",
-               .title = "Save the scene",
-               .arguments = {{.name = "ask",
-                              .type = ArgumentType::Boolean,
-                              .required = false,
-                              .help = "asks for a name even if the scene has one"}},
-               .help = "Saves the scene; asks for a name if it has no file yet",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   if (w.path.empty() || (a.has("ask") && a.boolean("ask"))) {
-                       w.ui.file_dialog = UiState::FileDialog::SaveAs;
-                   } else {
-                       save_scene_file(w, std::filesystem::path(w.path));
-                       w.toast("Saved: " + shown_path(w.path));
-                   }
-               }});
+    table.add("scene.open_dialog", "Choose a file to open", {},
+              "Shows a dialog to open a scene or a file that a lab reads", Effect::Look,
+              [](Workspace& w, const Arguments&) { w.ui.file_dialog = UiState::FileDialog::Open; });
+    table.add("scene.save_dialog", "Save the scene",
+              {switch_argument("ask", "asks for a name even if the scene has one")},
+              "Saves the scene; asks for a name if it has no file yet", Effect::Look,
+              [](Workspace& w, const Arguments& a) {
+                  if (w.path.empty() || (a.has("ask") && a.boolean("ask"))) {
+                      w.ui.file_dialog = UiState::FileDialog::SaveAs;
+                  } else {
+                      save_scene_file(w, std::filesystem::path(w.path));
+                      w.toast("Saved: " + shown_path(w.path));
+                  }
+              });
 }
 
 void add_picture_command(CommandTable& table) {
-    table.add({.name = "view.picture",
-               .title = "Save a picture of the view",
-               .arguments = picture_arguments(
-                   {{.name = "path",
-                     .type = ArgumentType::Text,
-                     .required = false,
-                     .help = "a PNG file; default, in a window: a new one beside the scene"}}),
-               .help = "Writes a picture of the scene in the view without panels, with or without its labels",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   PictureRequest wanted;
-                   wanted.path = a.has("path") ? std::filesystem::path(a.text("path")) : new_file(w);
-                   if (wanted.path.extension() != ".png")
-                       throw Refused("path must end in .png, got " + wanted.path.string());
-                   set_look(a, wanted);
-                   w.ui.picture = std::move(wanted);
-               }});
+    table.add("view.picture", "Save a picture of the view",
+              picture_arguments({text_argument(
+                  "path", false, "a PNG file; default, in a window: a new one beside the scene")}),
+              "Writes a picture of the scene in the view without panels, with or without its labels",
+              Effect::Look, [](Workspace& w, const Arguments& a) {
+                  PictureRequest wanted;
+                  wanted.path = a.has("path") ? std::filesystem::path(a.text("path")) : new_file(w);
+                  if (wanted.path.extension() != ".png")
+                      throw Refused("path must end in .png, got " + wanted.path.string());
+                  set_look(a, wanted);
+                  w.ui.picture = std::move(wanted);
+              });
 }
 
 void quit(Workspace& w, const Arguments& given) {
@@ -164,16 +124,10 @@ void quit(Workspace& w, const Arguments& given) {
 }
 
 void add_quit_command(CommandTable& table) {
-    table.add({.name = "quit",
-               .title = "Quit Tendril",
-               .arguments = {{.name = "unsaved",
-                              .type = ArgumentType::Text,
-                              .required = false,
-                              .help = "what to do with unsaved work; default: discard",
-                              .choices = {"ask", "save", "discard"}}},
-               .help = "Quits the program",
-               .effect = Effect::Look,
-               .apply = quit});
+    table.add("quit", "Quit Tendril",
+              {choice_argument("unsaved", false, "what to do with unsaved work; default: discard",
+                               {"ask", "save", "discard"})},
+              "Quits the program", Effect::Look, quit);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "app/document/atomic_file.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/document/outside_file.hpp"
 
 namespace tendril::app {
 namespace fs = std::filesystem;
@@ -29,55 +30,6 @@ int read_version(const Json& scene) {
     return json_integer(version, "tendril_scene", 1, scene_version);
 }
 
-/// Where a file that was at `path` may be now: the end of its path under the scene's folder or, with at least
-/// one folder, under the two above that. Empty if it is in none.
-fs::path moved_file(const fs::path& path, const fs::path& scene_folder) {
-    constexpr std::size_t longest = 4096;  // bytes, as systems have it
-    fs::path base = path.native().size() > longest ? fs::path() : scene_folder;
-    std::error_code error;
-    for (int up = 0; up <= 2 && !base.empty(); ++up, base /= "..") {
-        const fs::path below = path.relative_path();
-        for (auto from = below.begin(); from != below.end(); ++from) {
-            fs::path end;
-            for (auto each = from; each != below.end(); ++each) end /= *each;
-            if (up > 0 && !end.has_parent_path()) break;
-            if (fs::is_regular_file(base / end, error)) return base / end;
-        }
-    }
-    return {};
-}
-
-/// The files that a lab's part of a scene names.
-struct SceneFiles {
-    fs::path folder;        ///< the scene's
-    bool any = false;       ///< it names one
-    std::string missing{};  ///< what to say of the first that is nowhere
-
-    /// Sets the paths of those that have moved with the scene.
-    void find(Json& json, const std::string& where) {
-        const auto text = [&](const char* key) {
-            const auto found = json.find(key);
-            return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
-        };
-        if (json.is_object() && !text("file").empty() && json.contains("path")) {
-            any = true;
-            const fs::path path = text("path");
-            std::error_code error;
-            if (!fs::exists(path, error) && !fs::exists(text("file"), error)) {
-                const fs::path found = moved_file(path, folder);
-                if (!found.empty())
-                    json["path"] = fs::absolute(found, error).lexically_normal().string();
-                else if (missing.empty())
-                    missing = where + ".file: " + path.filename().string() + " is missing, at " +
-                              shown_path(path) + " and beside the scene";
-            }
-        }
-        if (!json.is_structured()) return;
-        for (const auto& item : json.items())
-            if (item.value().is_structured()) find(item.value(), where + '.' + item.key());
-    }
-};
-
 /// Calls the part, and converts any exception of it to std::runtime_error.
 template <class Call>
 auto converted(const std::string& where, const Call& call) {
@@ -90,39 +42,41 @@ auto converted(const std::string& where, const Call& call) {
     }
 }
 
-/// Adds what could not be read to `missing`.
+/// The lab's part, or a blank one that keeps the JSON, and `unread` says why.
 std::shared_ptr<const Part> load_part(const Part& blank, const Json& json, int version,
-                                      const std::string& where, const SceneLoading& loading,
-                                      std::vector<std::string>& missing) {
+                                      const std::string& lab, const SceneLoading& loading,
+                                      std::vector<UnreadLab>& unread) {
+    const std::string where = "labs." + lab;
     auto saved = std::make_shared<Json>(json);
     if (version != scene_version) converted(where, [&] { blank.upgrade(*saved, version); });
     Json found = *saved;
-    SceneFiles files{.folder = loading.folder};
-    files.find(found, where);
-    std::string why = files.missing;
+    find_moved_files(found, loading.folder);
+    std::string why;
     try {
-        if (why.empty())
-            return converted(where,
-                             [&]() -> std::shared_ptr<const Part> { return blank.load(found, where); });
-    } catch (const std::runtime_error& error) {
-        if (loading.whole && !files.any) throw;
+        return converted(where, [&] { return blank.load(found, where); });
+    } catch (const OutsideFileError& error) {
         why = error.what();
+    } catch (const std::runtime_error& error) {
+        const std::string changed = changed_file(found);
+        if (loading.whole && changed.empty()) throw;
+        why = error.what();
+        if (!changed.empty()) why += " (" + changed + " has changed since the scene was saved)";
     }
-    missing.push_back(
-        why + ". This lab starts blank, and saving keeps what the scene has of it until you change it");
+    unread.push_back({lab, why + ". This lab starts blank, and saving keeps what the scene has of it until "
+                                 "you change it"});
     const std::shared_ptr<Part> part = blank.clone();
     part->unread = std::move(saved);
     return part;
 }
 
 Document load_document(const Document& blank, const Json& labs, int version, const SceneLoading& loading,
-                       std::vector<std::string>& missing) {
+                       std::vector<UnreadLab>& unread) {
     Document document = blank;
     for (const auto& [name, json] : labs.items()) {
         const auto known = blank.parts().find(name);
         if (known == blank.parts().end())
             throw std::runtime_error("labs: there is no lab " + json_summary(Json(name)));
-        document.set(name, load_part(*known->second, json, version, "labs." + name, loading, missing));
+        document.set(name, load_part(*known->second, json, version, name, loading, unread));
     }
     return document;
 }
@@ -204,7 +158,7 @@ struct Scene {
     Document document;
     std::string lab;
     CameraPose camera;
-    std::vector<std::string> missing;
+    std::vector<UnreadLab> unread;
     std::optional<bool> paused;  ///< older scenes do not say
 };
 
@@ -215,7 +169,7 @@ Scene read_scene(const Workspace& workspace, const Json& json, const SceneLoadin
     const Json& labs = json_member(json, "labs", whole);
     if (!labs.is_object()) throw std::runtime_error("labs: expected an object, found " + json_summary(labs));
     Scene scene{{}, workspace.lab, {}, {}, {}};
-    scene.document = load_document(workspace.blank, labs, version, loading, scene.missing);
+    scene.document = load_document(workspace.blank, labs, version, loading, scene.unread);
     if (const Json* found = optional_member(json, "paused")) scene.paused = json_bool(*found, "paused");
     if (const Json* found = optional_member(json, "lab")) {
         scene.lab = json_text(*found, "lab");
@@ -227,20 +181,11 @@ Scene read_scene(const Workspace& workspace, const Json& json, const SceneLoadin
     return scene;
 }
 
-/// Why a saved scene would not open; empty if it would. A missing file is not the scene's fault.
+/// Why a saved scene would not open; empty if it would. Files that it names and that are gone are not its
+/// fault.
 std::string loading_fault(const Workspace& workspace, const std::string& text) {
     try {
-        const Scene scene = read_scene(workspace, parse_json(text), {});
-        for (const std::string& why : scene.missing) {
-            const std::string lab =
-                why.substr(5, why.find_first_of(".:", 5) - 5);  // "labs.humanoid.file: ..."
-            const Part& part = *workspace.document.parts().at(lab);
-            if (!part.unread && std::ranges::all_of(part.files(), [](const fs::path& file) {
-                    std::error_code unknown;
-                    return fs::exists(file, unknown);
-                }))
-                return why;
-        }
+        read_scene(workspace, parse_json(text), {});
         return {};
     } catch (const std::exception& error) {
         return error.what();
@@ -249,7 +194,7 @@ std::string loading_fault(const Workspace& workspace, const std::string& text) {
 
 }  // namespace
 
-std::vector<std::string> load_scene(Workspace& workspace, const Json& json, const SceneLoading& loading) {
+std::vector<UnreadLab> load_scene(Workspace& workspace, const Json& json, const SceneLoading& loading) {
     Scene scene = read_scene(workspace, json, loading);
     scene.document = sharing_equal_parts(scene.document, workspace.document);
 
@@ -263,7 +208,7 @@ std::vector<std::string> load_scene(Workspace& workspace, const Json& json, cons
         workspace.clock.held = *scene.paused;
         workspace.clock.looks_back = workspace.ui.plays_after_dialog = false;
     }
-    return std::move(scene.missing);
+    return std::move(scene.unread);
 }
 
 void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
@@ -284,22 +229,24 @@ void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
     if (!fault.empty()) workspace.toast("Saved, but the file does not open: " + fault, ToastKind::Refusal);
 }
 
-void load_scene_file(Workspace& workspace, const std::filesystem::path& path) {
+std::vector<UnreadLab> load_scene_file(Workspace& workspace, const std::filesystem::path& path) {
+    const Outputs::Stamp stamp = Outputs::stamp_of(path);  // before it is read: later changes are noticed
     const std::string text = read_text_file(path);
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    std::vector<std::string> missing;
+    std::vector<UnreadLab> unread;
     try {
-        missing = load_scene(workspace, parse_json(text), {.folder = folder});
+        unread = load_scene(workspace, parse_json(text), {.folder = folder});
     } catch (const ParseError& error) {
         throw std::runtime_error(path.string() + ": " + error.what());
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(path.string() + ": " + line_prefix(text, error.what()) + error.what());
     }
     remove_torn_files(folder);
-    workspace.outputs.own(path);
+    workspace.outputs.own(path, stamp);
     workspace.path = path;
     workspace.saved = workspace.document;
-    for (const std::string& each : missing) workspace.toast(each, ToastKind::Refusal);
+    for (const UnreadLab& each : unread) workspace.toast(each.text, ToastKind::Refusal);
+    return unread;
 }
 
 }  // namespace tendril::app

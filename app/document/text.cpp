@@ -1,5 +1,6 @@
 #include "app/document/text.hpp"
 
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -72,6 +73,19 @@ std::string message(std::string_view text) {
     while (is_continuation(shown[head])) --head;
     while (is_continuation(shown[tail])) ++tail;
     return shown.substr(0, head) + std::string(gap) + shown.substr(tail);
+}
+
+std::string percent_decoded(std::string_view uri) {
+    std::string result;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        unsigned char byte = 0;
+        const char* const hex = uri.data() + i + 1;
+        const bool coded =
+            uri[i] == '%' && i + 2 < uri.size() && std::from_chars(hex, hex + 2, byte, 16).ptr == hex + 2;
+        result += coded ? static_cast<char>(byte) : uri[i];
+        if (coded) i += 2;
+    }
+    return result;
 }
 
 void complain(std::string_view what) {

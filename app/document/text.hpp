@@ -21,6 +21,9 @@ std::string message(std::string_view text);
 /// Prints an error to stderr, as a message().
 void complain(std::string_view what);
 
+/// Decodes %20 and the like in a URI; an invalid sequence stays.
+std::string percent_decoded(std::string_view uri);
+
 /// ASCII letters only: std::tolower depends on the locale.
 inline std::string lower_case(std::string_view text) {
     std::string result(text);

@@ -55,26 +55,14 @@ void step_through(Workspace& workspace, bool back) {
 }
 
 void add_history_commands(CommandTable& table) {
-    table.add(
-        {.name = "undo",
-         .title = "Undo",
-         .arguments = {},
-         .help = "Undoes the last change; a whole drag is one change. Keeps 1000 of them, in up to 256 MB",
-         .effect = Effect::Replace,
-         .apply = [](Workspace& w, const Arguments&) { step_through(w, true); }});
-    table.add(
-        {.name = "paste",
-         .title = "Paste",
-         .arguments = {},
-         .help = "Pastes the clipboard's text into the lab. In a script, hold Ctrl and send the text instead",
-         .effect = Effect::Look,
-         .apply = [](Workspace& w, const Arguments&) { w.ui.pastes = true; }});
-    table.add({.name = "redo",
-               .title = "Redo",
-               .arguments = {},
-               .help = "Redoes what was undone",
-               .effect = Effect::Replace,
-               .apply = [](Workspace& w, const Arguments&) { step_through(w, false); }});
+    table.add("undo", "Undo", {},
+              "Undoes the last change; a whole drag is one change. Keeps 1000 of them, in up to 256 MB",
+              Effect::Replace, [](Workspace& w, const Arguments&) { step_through(w, true); });
+    table.add("paste", "Paste", {},
+              "Pastes the clipboard's text into the lab. In a script, hold Ctrl and send the text instead",
+              Effect::Look, [](Workspace& w, const Arguments&) { w.ui.pastes = true; });
+    table.add("redo", "Redo", {}, "Redoes what was undone", Effect::Replace,
+              [](Workspace& w, const Arguments&) { step_through(w, false); });
 }
 
 void seek(Workspace& w, const Arguments& given) {
@@ -112,12 +100,6 @@ void show_incident(Workspace& w, const Arguments& given) {
     w.ui.incident = incident;
 }
 
-std::vector<std::string> known_incidents(const Workspace& w) {
-    std::vector<std::string> numbers;
-    for (std::size_t i = 0; i < w.rewind.incidents().size(); ++i) numbers.push_back(std::to_string(i));
-    return numbers;
-}
-
 /// The shortest decimals, as the user would type them.
 std::string plain(float value) {
     return number(value).dump();
@@ -125,12 +107,8 @@ std::string plain(float value) {
 
 void add_time_commands(CommandTable& table) {
     const auto add = [&](const char* name, const char* title, const char* help, auto change) {
-        table.add({.name = name,
-                   .title = title,
-                   .arguments = {},
-                   .help = help,
-                   .effect = Effect::Look,
-                   .apply = [change](Workspace& w, const Arguments&) { change(w); }});
+        table.add(name, title, {}, help, Effect::Look,
+                  [change](Workspace& w, const Arguments&) { change(w); });
     };
     const auto run = [](Workspace& w, bool playing) {
         w.clock.playing = playing;
@@ -146,49 +124,31 @@ void add_time_commands(CommandTable& table) {
         run(w, false);
         ++w.clock.steps_due;
     });
-    table.add({.name = "time.speed",
-               .title = "Set the simulation's speed",
-               .arguments = {{.name = "factor",
-                              .help = "1 is real time; below 1 is slow motion",
-                              .low = slowest,
-                              .high = fastest,
-                              .present = [](const Workspace& w) { return plain(w.clock.speed); }}},
-               .help = "Sets the speed of the simulation",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) { w.clock.speed = a.number("factor"); }});
+    table.add("time.speed", "Set the simulation's speed",
+              {{.name = "factor",
+                .help = "1 is real time; below 1 is slow motion",
+                .low = slowest,
+                .high = fastest,
+                .present = [](const Workspace& w) { return plain(w.clock.speed); }}},
+              "Sets the speed of the simulation", Effect::Look,
+              [](Workspace& w, const Arguments& a) { w.clock.speed = a.number("factor"); });
     table.add(
-        {.name = "time.seek",
-         .title = "Go back in time",
-         .arguments = {{.name = "ticks_back",
-                        .type = ArgumentType::Integer,
-                        .help = "ticks of 1/60 s before the latest one",
-                        .low = 0,
-                        .high = Rewind::max_ticks}},
-         .help =
-             "Pauses and goes back to an earlier moment, from which time continues. Going back past a change "
-             "can be undone",
-         .effect = Effect::Replace,
-         .apply = seek});
-    table.add({.name = "time.replay",
-               .title = "Replay the last ten seconds",
-               .arguments = {},
-               .help =
-                   "Replays the last ten seconds, from the moment shown or, if that is the latest, from the "
-                   "start",
-               .effect = Effect::Replace,
-               .apply = [](Workspace& w, const Arguments&) { replay(w); }});
-    table.add({.name = "time.incident",
-               .title = "Show when a joint jumped",
-               .arguments = {{.name = "number",
-                              .type = ArgumentType::Integer,
-                              .required = false,
-                              .help = "which of the state's events, 0 is the oldest; default: none",
-                              .low = 0,
-                              .high = Rewind::max_incidents - 1,
-                              .known = known_incidents}},
-               .help = "Goes to a moment when a joint jumped, and shows the poses before and after it",
-               .effect = Effect::Replace,
-               .apply = show_incident});
+        "time.seek", "Go back in time",
+        {index_argument("ticks_back", true, "ticks of 1/60 s before the latest one", Rewind::max_ticks + 1)},
+        "Pauses and goes back to an earlier moment, from which time continues. Going back past a change "
+        "can be undone",
+        Effect::Replace, seek);
+    table.add("time.replay", "Replay the last ten seconds", {},
+              "Replays the last ten seconds, from the moment shown or, if that is the latest, from the "
+              "start",
+              Effect::Replace, [](Workspace& w, const Arguments&) { replay(w); });
+    table.add("time.incident", "Show when a joint jumped",
+              {offering(index_argument("number", false,
+                                       "which of the state's events, 0 is the oldest; default: none",
+                                       Rewind::max_incidents),
+                        [](const Workspace& w) { return places(w.rewind.incidents().size()); })},
+              "Goes to a moment when a joint jumped, and shows the poses before and after it",
+              Effect::Replace, show_incident);
 }
 
 /// A command for a setting with two values: sets the given one, or toggles if none is given.
@@ -196,24 +156,23 @@ template <class Choice>
 Command either(const char* name, const char* title, const char* argument, std::vector<std::string> choices,
                const char* help, Choice Settings::*setting) {
     const std::string first = choices[0], second = choices[1];
-    return {.name = name,
-            .title = title,
-            .arguments = {{.name = argument,
-                           .type = ArgumentType::Text,
-                           .required = false,
-                           .help = "default: the other one",
-                           .choices = std::move(choices),
-                           .present =
-                               [first, second, setting](const Workspace& w) {
-                                   return w.settings.*setting == Choice{0} ? first : second;
-                               }}},
-            .help = help,
-            .effect = Effect::Look,
-            .apply = [argument, second, setting](Workspace& w, const Arguments& a) {
-                Choice& value = w.settings.*setting;
-                const bool to_second = a.has(argument) ? a.text(argument) == second : value == Choice{0};
-                value = to_second ? Choice{1} : Choice{0};
-            }};
+    return {
+        name,
+        title,
+        {{.name = argument,
+          .type = ArgumentType::Text,
+          .required = false,
+          .help = "default: the other one",
+          .choices = std::move(choices),
+          .present = [first, second, setting](
+                         const Workspace& w) { return w.settings.*setting == Choice{0} ? first : second; }}},
+        help,
+        Effect::Look,
+        [argument, second, setting](Workspace& w, const Arguments& a) {
+            Choice& value = w.settings.*setting;
+            const bool to_second = a.has(argument) ? a.text(argument) == second : value == Choice{0};
+            value = to_second ? Choice{1} : Choice{0};
+        }};
 }
 
 /// The open lab, and its sections that were drawn.
@@ -226,18 +185,11 @@ std::vector<std::string> known_sections(const Workspace& w) {
 
 void add_window_commands(CommandTable& table) {
     const auto toggle = [&](const char* name, const char* title, const char* help, auto member) {
-        table.add({.name = name,
-                   .title = title,
-                   .arguments = {{.name = "open",
-                                  .type = ArgumentType::Boolean,
-                                  .required = false,
-                                  .help = "toggles if omitted"}},
-                   .help = help,
-                   .effect = Effect::Look,
-                   .apply = [member](Workspace& w, const Arguments& a) {
-                       bool& open = member(w);
-                       open = a.has("open") ? a.boolean("open") : !open;
-                   }});
+        table.add(name, title, {switch_argument("open", "toggles if omitted")}, help, Effect::Look,
+                  [member](Workspace& w, const Arguments& a) {
+                      bool& open = member(w);
+                      open = a.has("open") ? a.boolean("open") : !open;
+                  });
     };
     toggle("view.help", "Show keys and mouse", "Shows the keys and what the mouse does",
            [](Workspace& w) -> bool& { return w.ui.help; });
@@ -246,63 +198,43 @@ void add_window_commands(CommandTable& table) {
     toggle("view.settings", "Show the settings", "Shows the settings",
            [](Workspace& w) -> bool& { return w.ui.settings; });
 
-    table.add(
-        {.name = "view.panels",
-         .title = "Show or hide the side panels",
-         .arguments =
-             {{.name = "left", .type = ArgumentType::Boolean, .required = false, .help = "the lab's panel"},
-              {.name = "right", .type = ArgumentType::Boolean, .required = false, .help = "the inspector"}},
-         .help = "Shows or hides the side panels",
-         .effect = Effect::Look,
-         .apply = [](Workspace& w, const Arguments& a) {
-             Settings& s = w.settings;
-             const bool toggle_both = !a.has("left") && !a.has("right");
-             const bool open = !(s.left_open || s.right_open);
-             if (toggle_both) s.left_open = s.right_open = open;
-             if (a.has("left")) s.left_open = a.boolean("left");
-             if (a.has("right")) s.right_open = a.boolean("right");
-         }});
-    table.add({.name = "view.panel_width",
-               .title = "Set a side panel's width",
-               .arguments = {{.name = "side",
-                              .type = ArgumentType::Text,
-                              .help = "which panel",
-                              .choices = {"left", "right"}},
-                             {.name = "width", .help = "unscaled pixels", .low = 180, .high = 520}},
-               .help = "Makes a side panel wider or narrower",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   (a.text("side") == "left" ? w.settings.left_width : w.settings.right_width) =
-                       a.number("width");
-               }});
+    table.add("view.panels", "Show or hide the side panels",
+              {switch_argument("left", "the lab's panel"), switch_argument("right", "the inspector")},
+              "Shows or hides the side panels", Effect::Look, [](Workspace& w, const Arguments& a) {
+                  Settings& s = w.settings;
+                  const bool toggle_both = !a.has("left") && !a.has("right");
+                  const bool open = !(s.left_open || s.right_open);
+                  if (toggle_both) s.left_open = s.right_open = open;
+                  if (a.has("left")) s.left_open = a.boolean("left");
+                  if (a.has("right")) s.right_open = a.boolean("right");
+              });
+    table.add("view.panel_width", "Set a side panel's width",
+              {choice_argument("side", true, "which panel", {"left", "right"}),
+               {.name = "width", .help = "unscaled pixels", .low = 180, .high = 520}},
+              "Makes a side panel wider or narrower", Effect::Look, [](Workspace& w, const Arguments& a) {
+                  (a.text("side") == "left" ? w.settings.left_width : w.settings.right_width) =
+                      a.number("width");
+              });
     table.add(either("view.theme", "Switch between light and dark", "name", {"dark", "light"},
                      "Dark or light", &Settings::theme));
     table.add(either("view.labels", "Show labels always or on hover", "show", {"hover", "always"},
                      "Shows labels on hover, or always", &Settings::labels));
-    table.add({.name = "view.fold",
-               .title = "Fold or unfold a section",
-               .arguments = {{.name = "section",
-                              .type = ArgumentType::Text,
-                              .help = "lab and title; a lab alone: all of its sections",
-                              .known = known_sections},
-                             {.name = "folded",
-                              .type = ArgumentType::Boolean,
-                              .help = "true: only the title shows"}},
-               .help = "Folds a section of a panel, or unfolds it",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   set_folded(w.settings, a.text("section"), a.boolean("folded"));
-               }});
-    table.add({.name = "view.text_scale",
-               .title = "Set the text size",
-               .arguments = {{.name = "scale",
-                              .help = "1 is the system's own size",
-                              .low = 0.5,
-                              .high = 3.0,
-                              .present = [](const Workspace& w) { return plain(w.settings.text_scale); }}},
-               .help = "Size of text and widgets",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) { w.settings.text_scale = a.number("scale"); }});
+    table.add("view.fold", "Fold or unfold a section",
+              {offering(text_argument("section", true, "lab and title; a lab alone: all of its sections"),
+                        known_sections),
+               {.name = "folded", .type = ArgumentType::Boolean, .help = "true: only the title shows"}},
+              "Folds a section of a panel, or unfolds it", Effect::Look,
+              [](Workspace& w, const Arguments& a) {
+                  set_folded(w.settings, a.text("section"), a.boolean("folded"));
+              });
+    table.add("view.text_scale", "Set the text size",
+              {{.name = "scale",
+                .help = "1 is the system's own size",
+                .low = 0.5,
+                .high = 3.0,
+                .present = [](const Workspace& w) { return plain(w.settings.text_scale); }}},
+              "Size of text and widgets", Effect::Look,
+              [](Workspace& w, const Arguments& a) { w.settings.text_scale = a.number("scale"); });
 }
 
 }  // namespace
@@ -312,26 +244,22 @@ void add_workspace_commands(CommandTable& table) {
     add_scene_commands(table);
     add_time_commands(table);
     add_window_commands(table);
-    table.add({.name = "lab.open",
-               .title = "Open a lab",
-               .arguments = {{.name = "name",
-                              .type = ArgumentType::Text,
-                              .help = "a name that --list-labs prints",
-                              .known =
-                                  [](const Workspace& w) {
-                                      std::vector<std::string> names;
-                                      for (const auto& [name, part] : w.document.parts())
-                                          names.push_back(name);
-                                      return names;
-                                  },
-                              .present = [](const Workspace& w) { return w.lab; }}},
-               .help = "Opens a lab",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) {
-                   const std::string name = a.text("name");
-                   if (!w.document.parts().contains(name)) throw Refused("there is no lab \"" + name + "\"");
-                   w.open_lab(name);
-               }});
+    table.add("lab.open", "Open a lab",
+              {{.name = "name",
+                .type = ArgumentType::Text,
+                .help = "a name that --list-labs prints",
+                .known =
+                    [](const Workspace& w) {
+                        std::vector<std::string> names;
+                        for (const auto& [name, part] : w.document.parts()) names.push_back(name);
+                        return names;
+                    },
+                .present = [](const Workspace& w) { return w.lab; }}},
+              "Opens a lab", Effect::Look, [](Workspace& w, const Arguments& a) {
+                  const std::string name = a.text("name");
+                  if (!w.document.parts().contains(name)) throw Refused("there is no lab \"" + name + "\"");
+                  w.open_lab(name);
+              });
 }
 
 }  // namespace tendril::app

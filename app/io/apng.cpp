@@ -105,7 +105,7 @@ class Deflate {
 }  // namespace
 
 ApngFile::ApngFile(const std::filesystem::path& path, const VideoFormat& format)
-    : file_(path), format_(format) {
+    : VideoFile(path), format_(format) {
     write_head();
 }
 
@@ -222,7 +222,6 @@ void ApngFile::finish() {
         throw std::runtime_error("only " + std::to_string(frames_) + " of " + std::to_string(format_.frames) +
                                  " frames");
     chunk("IEND", {});
-    file_.commit();
 }
 
 }  // namespace tendril::app

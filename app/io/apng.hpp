@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "app/document/atomic_file.hpp"
 #include "app/io/video_file.hpp"
 
 namespace tendril::app {
@@ -33,7 +32,6 @@ class ApngFile final : public VideoFile {
     /// The frame's part in PNG format: each row follows the number of its filter.
     std::vector<std::uint8_t> filtered(const Image& frame, const Area& area) const;
 
-    AtomicFile file_;
     VideoFormat format_;
     Image last_;  ///< the last frame added
     int frames_ = 0;

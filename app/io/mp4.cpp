@@ -77,7 +77,7 @@ std::string why_no_mp4() {
 }
 
 Mp4File::Mp4File(const std::filesystem::path& path, const VideoFormat& format)
-    : file_(path), format_(format), ffmpeg_(command(format, file_.beside())) {}
+    : VideoFile(path), format_(format), ffmpeg_(command(format, file_.beside())) {}
 
 void Mp4File::add(const Image& frame) {
     if (frame.size != format_.size) throw std::runtime_error("a frame differs in size from the video");
@@ -113,7 +113,6 @@ void Mp4File::finish() {
     ffmpeg_.finish(seconds_left());
     begin_reading();
     reader_->finish(seconds_left());
-    file_.commit();
 }
 
 }  // namespace tendril::app

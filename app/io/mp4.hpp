@@ -6,7 +6,6 @@
 #include <chrono>
 #include <optional>
 
-#include "app/document/atomic_file.hpp"
 #include "app/io/child_process.hpp"
 #include "app/io/video_file.hpp"
 
@@ -25,9 +24,8 @@ class Mp4File final : public VideoFile {
     void finish() override;
 
   private:
-    AtomicFile file_;  ///< must outlive the process that writes it
     VideoFormat format_;
-    ChildProcess ffmpeg_;
+    ChildProcess ffmpeg_;                 ///< ends before the file that it writes goes
     std::optional<ChildProcess> reader_;  ///< once ffmpeg_ has ended well
     int frames_ = 0;
     std::optional<std::chrono::steady_clock::time_point> ends_by_;  ///< set once it has all frames

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 
+#include "app/document/atomic_file.hpp"
 #include "app/io/image.hpp"
 
 namespace tendril::app {
@@ -23,7 +24,7 @@ struct FrameTime {
 };
 FrameTime frame_time(const VideoFormat& format);
 
-/// Errors are std::runtime_error with the reason. The file exists after finish(); if destroyed before that,
+/// Errors are std::runtime_error with the reason. The file exists after commit(); if destroyed before that,
 /// it leaves no file.
 class VideoFile {
   public:
@@ -36,6 +37,12 @@ class VideoFile {
     virtual bool waits() { return false; }
     /// Call after the last frame. Waits until the file is complete. Throws if a frame is missing.
     virtual void finish() = 0;
+    /// After finish(): replaces an earlier file of that name, or takes another name in the same folder.
+    void commit(const std::filesystem::path& other = {}) { file_.commit(other); }
+
+  protected:
+    explicit VideoFile(const std::filesystem::path& path) : file_(path) {}
+    AtomicFile file_;
 };
 
 /// Why a video of this name cannot be written; empty if it can. The extension decides: .png, or .mp4 if

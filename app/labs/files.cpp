@@ -101,18 +101,17 @@ FileRoute file_route(const Labs& labs, const fs::path& file) {
 }
 
 void add_file_command(CommandTable& table, const Labs& labs) {
-    table.add(
-        {.name = "file.open",
-         .title = "Open a file in its lab",
-         .arguments = {{.name = "path", .type = ArgumentType::Text, .help = all_kinds(file_routes(labs))}},
-         .help = "Opens a file of any kind, and the lab that reads it; undo restores what was before",
-         .effect = Effect::Edit,
-         .apply = [&labs](Workspace& w, const Arguments& a) { open(labs, w, a.text("path")); },
-         .finish =
-             [&labs](Workspace& w) {
-                 for (const FileRoute& route : file_routes(labs))
-                     if (const auto finish = opener(route).finish) finish(w);
-             }});
+    table.add({.name = "file.open",
+               .title = "Open a file in its lab",
+               .arguments = {text_argument("path", true, all_kinds(file_routes(labs)))},
+               .help = "Opens a file of any kind, and the lab that reads it; undo restores what was before",
+               .effect = Effect::Edit,
+               .apply = [&labs](Workspace& w, const Arguments& a) { open(labs, w, a.text("path")); },
+               .finish =
+                   [&labs](Workspace& w) {
+                       for (const FileRoute& route : file_routes(labs))
+                           if (const auto finish = opener(route).finish) finish(w);
+                   }});
 }
 
 }  // namespace tendril::app

@@ -29,7 +29,7 @@ void set_pose(Workspace& workspace, const Arguments& given) {
 }
 
 Argument angle(const char* name, double low, double high) {
-    return {.name = name, .required = false, .help = "degrees", .low = low, .high = high};
+    return number_argument(name, "degrees", low, high);
 }
 
 /// Turns the camera to look from one of six sides.
@@ -66,58 +66,31 @@ LabSetting scroll_setting() {
 }
 
 void add_camera_commands(CommandTable& table, const Labs& labs) {
-    table.add({.name = "camera.set",
-               .title = "Place or turn the camera",
-               .arguments = {{.name = "target",
-                              .type = ArgumentType::Point,
-                              .required = false,
-                              .help = "the point it turns about"},
-                             angle("yaw_deg", -1e6, 1e6),
-                             angle("pitch_deg", -90.0, 90.0),
-                             {.name = "distance",
-                              .required = false,
-                              .help = "metres",
-                              .low = camera_range::nearest,
-                              .high = camera_range::farthest},
-                             angle("field_of_view_deg", glm::degrees(camera_range::narrowest),
-                                   glm::degrees(camera_range::widest)),
-                             {.name = "orthographic",
-                              .type = ArgumentType::Boolean,
-                              .required = false,
-                              .help = "without perspective"}},
-               .help = "Places the camera; omitted values stay",
-               .effect = Effect::Look,
-               .apply = set_pose});
-    table.add({.name = "camera.frame",
-               .title = "Frame everything or the selection",
-               .arguments = {{.name = "what",
-                              .type = ArgumentType::Text,
-                              .help = "what to bring into view",
-                              .choices = {"all", "selection"}}},
-               .help = "Brings everything, or the selection, into view",
-               .effect = Effect::Look,
-               .apply = [&labs](Workspace& w, const Arguments& a) {
-                   const Bounds bounds = labs.find(w.lab)->bounds(w, a.text("what") == "selection");
-                   w.camera = framed(w.camera, {{0.0f, 0.0f}, w.ui.view_size}, bounds.centre, bounds.radius);
-               }});
-    table.add({.name = "camera.view",
-               .title = "Look from front, side or top",
-               .arguments = {{.name = "name",
-                              .type = ArgumentType::Text,
-                              .help = "where from",
-                              .choices = {"front", "side", "top", "back", "left", "bottom"}}},
-               .help = "Looks from the front, the side (right), the top, or the opposite of one of them",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments& a) { look_from(w, a.text("name")); }});
+    table.add("camera.set", "Place or turn the camera",
+              {point_argument("target", false, "the point it turns about"), angle("yaw_deg", -1e6, 1e6),
+               angle("pitch_deg", -90.0, 90.0),
+               number_argument("distance", "metres", camera_range::nearest, camera_range::farthest),
+               angle("field_of_view_deg", glm::degrees(camera_range::narrowest),
+                     glm::degrees(camera_range::widest)),
+               switch_argument("orthographic", "without perspective")},
+              "Places the camera; omitted values stay", Effect::Look, set_pose);
+    table.add("camera.frame", "Frame everything or the selection",
+              {choice_argument("what", true, "what to bring into view", {"all", "selection"})},
+              "Brings everything, or the selection, into view", Effect::Look,
+              [&labs](Workspace& w, const Arguments& a) {
+                  const Bounds bounds = labs.find(w.lab)->bounds(w, a.text("what") == "selection");
+                  w.camera = framed(w.camera, {{0.0f, 0.0f}, w.ui.view_size}, bounds.centre, bounds.radius);
+              });
+    table.add(
+        "camera.view", "Look from front, side or top",
+        {choice_argument("name", true, "where from", {"front", "side", "top", "back", "left", "bottom"})},
+        "Looks from the front, the side (right), the top, or the opposite of one of them", Effect::Look,
+        [](Workspace& w, const Arguments& a) { look_from(w, a.text("name")); });
     table.add(setting_command(mouse_setting()));
     table.add(setting_command(scroll_setting()));
-    table.add(
-        {.name = "camera.orthographic",
-         .title = "Switch perspective off or on",
-         .arguments = {},
-         .help = "Turns perspective off, or on again",
-         .effect = Effect::Look,
-         .apply = [](Workspace& w, const Arguments&) { w.camera.orthographic = !w.camera.orthographic; }});
+    table.add("camera.orthographic", "Switch perspective off or on", {}, "Turns perspective off, or on again",
+              Effect::Look,
+              [](Workspace& w, const Arguments&) { w.camera.orthographic = !w.camera.orthographic; });
 }
 
 namespace {
@@ -134,18 +107,15 @@ void select_nothing(Workspace& workspace, const Lab& lab) {
 }  // namespace
 
 void add_closing_command(CommandTable& table, const Labs& labs) {
-    table.add({.name = "view.close",
-               .title = "Close, cancel or select nothing",
-               .arguments = {},
-               .help = "Closes the palette, help, settings or dialog; where none is open, selects nothing",
-               .effect = Effect::Look,
-               .apply = [&labs](Workspace& w, const Arguments&) {
-                   if (!w.ui.covered()) select_nothing(w, *labs.find(w.lab));
-                   w.ui.help = w.ui.palette = w.ui.settings = false;
-                   w.close_file_dialog();
-                   w.ui.asks_to_quit = false;
-                   w.ui.toasts.clear();
-               }});
+    table.add("view.close", "Close, cancel or select nothing", {},
+              "Closes the palette, help, settings or dialog; where none is open, selects nothing",
+              Effect::Look, [&labs](Workspace& w, const Arguments&) {
+                  if (!w.ui.covered()) select_nothing(w, *labs.find(w.lab));
+                  w.ui.help = w.ui.palette = w.ui.settings = false;
+                  w.close_file_dialog();
+                  w.ui.asks_to_quit = false;
+                  w.ui.toasts.clear();
+              });
 }
 
 // The view as a video of the last seconds, or as a picture on the clipboard. Requests are checked here; the
@@ -156,7 +126,7 @@ namespace {
 constexpr double longest = static_cast<double>(Rewind::max_ticks) * tick_seconds;
 
 Argument seconds_back(const char* name, const char* help) {
-    return {.name = name, .required = false, .help = help, .low = 0.0, .high = longest};
+    return number_argument(name, help, 0.0, longest);
 }
 
 std::string seconds_text(int ticks) {
@@ -208,38 +178,27 @@ void require_view(const Workspace& w, const Labs& labs) {
 
 void add_recording(CommandTable& table, const Labs& labs) {
     table.add(
-        {.name = "view.video",
-         .title = "Write a video of the past",
-         .arguments = film_arguments(
-             {seconds_back("from", "seconds back from the latest moment; default: all that is remembered"),
-              seconds_back("to", "seconds back from the latest moment; default: 0"),
-              {.name = "every",
-               .type = ArgumentType::Integer,
-               .required = false,
-               .help = "ticks of 1/60 s from frame to frame; default: 2, which is 30 frames a second",
-               .low = 1,
-               .high = 60},
-              {.name = "speed",
-               .required = false,
-               .help = "1 is real time, the default; below 1 is slow motion",
-               .low = slowest,
-               .high = fastest}}),
-         .help = "Writes a video of the last ten seconds as the view shows them now, without panels; "
-                 "labels are optional",
-         .effect = Effect::Look,
-         .apply = [&labs](Workspace& w, const Arguments& a) {
-             require_view(w, labs);
-             w.ui.video = video_request(w, a);
-         }});
-    table.add({.name = "view.end_video",
-               .title = "Stop recording the video",
-               .arguments = {},
-               .help = "Cancels the video that is being written; no file is left",
-               .effect = Effect::Look,
-               .apply = [](Workspace& w, const Arguments&) {
-                   if (!w.ui.filming) throw Refused("no video is being written");
-                   w.ui.ends_filming = true;
-               }});
+        "view.video", "Write a video of the past",
+        film_arguments(
+            {seconds_back("from", "seconds back from the latest moment; default: all that is remembered"),
+             seconds_back("to", "seconds back from the latest moment; default: 0"),
+             integer_argument("every",
+                              "ticks of 1/60 s from frame to frame; default: 2, which is 30 frames a second",
+                              1, 60),
+             number_argument("speed", "1 is real time, the default; below 1 is slow motion", slowest,
+                             fastest)}),
+        "Writes a video of the last ten seconds as the view shows them now, without panels; "
+        "labels are optional",
+        Effect::Look, [&labs](Workspace& w, const Arguments& a) {
+            require_view(w, labs);
+            w.ui.video = video_request(w, a);
+        });
+    table.add("view.end_video", "Stop recording the video", {},
+              "Cancels the video that is being written; no file is left", Effect::Look,
+              [](Workspace& w, const Arguments&) {
+                  if (!w.ui.filming) throw Refused("no video is being written");
+                  w.ui.ends_filming = true;
+              });
     table.add(
         {.name = "view.video_dialog",
          .title = "Record a video",
@@ -259,17 +218,14 @@ void add_recording(CommandTable& table, const Labs& labs) {
 }
 
 void add_copying(CommandTable& table, const Labs& labs) {
-    table.add({.name = "view.copy_picture",
-               .title = "Copy the picture",
-               .arguments = picture_arguments(),
-               .help = "Puts a picture of the scene in the view on the clipboard; needs xclip or wl-copy",
-               .effect = Effect::Look,
-               .apply = [&labs](Workspace& w, const Arguments& a) {
-                   require_view(w, labs);
-                   PictureRequest wanted;
-                   set_look(a, wanted);
-                   w.ui.picture = std::move(wanted);
-               }});
+    table.add("view.copy_picture", "Copy the picture", picture_arguments(),
+              "Puts a picture of the scene in the view on the clipboard; needs xclip or wl-copy",
+              Effect::Look, [&labs](Workspace& w, const Arguments& a) {
+                  require_view(w, labs);
+                  PictureRequest wanted;
+                  set_look(a, wanted);
+                  w.ui.picture = std::move(wanted);
+              });
 }
 
 }  // namespace

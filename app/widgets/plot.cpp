@@ -49,6 +49,7 @@ class Plot {
             low_ = min_y - room;
             high_ = max_y + room;
         }
+        if (axes.named) high_ += 0.1f * (high_ - low_);  // names at the top keep off the title
         const float text = ImGui::GetFontSize();
         from_.y = at.y + 1.2f * text;
         to_ = {at.x + size.x - 0.6f * text, at.y + size.y - 2.4f * text};

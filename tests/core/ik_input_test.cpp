@@ -16,12 +16,16 @@ using ik::Status;
 const Lengths lengths{1.0f, 0.5f};  // two bones, so that every method accepts them
 constexpr Report refused{Status::InvalidInput, 0, 0.0f};
 
-void expect_refused(const Options& options, glm::vec3 target = {0.5f, 0.5f, 0.5f},
+/// `why`: what check_input() says, as test::says() has it.
+void expect_refused(const std::string& why, const Options& options, glm::vec3 target = {0.5f, 0.5f, 0.5f},
                     Joints start = {{0, 0, 0}, {1, 0, 0}, {1, 0.5f, 0}}) {
     for (const Method method : ik::all_methods) {
         KeptSolver solver(lengths);
+        const ik::Solver checker = ik::Solver::make(lengths).value();
         Joints joints = start;
         Recorder recorder;
+        const Result reason = checker.check_input(method, joints, solver.state, target, options);
+        EXPECT_TRUE(test::says(reason.message(), "solve " + why)) << name(method);
         EXPECT_EQ(solver.solve(method, joints, target, options, &recorder), refused) << name(method);
         EXPECT_TRUE(same_bits(joints, start)) << name(method);
         EXPECT_TRUE(recorder.steps.empty() && recorder.iterations.empty()) << name(method);
@@ -33,49 +37,50 @@ TEST(IkInput, NumbersThatAreNoneOrTooLarge) {
         for (int axis = 0; axis < 3; ++axis) {
             glm::vec3 point(0.5f);
             point[axis] = bad;
-            expect_refused({}, point);
-            expect_refused({.pole = point});
+            const std::string at = std::string(".") + "xyz"[axis];
+            expect_refused("target" + at, {}, point);
+            expect_refused("pole" + at, {.pole = point});
             for (std::size_t joint = 0; joint < 3; ++joint) {
                 Joints start{{0, 0, 0}, {1, 0, 0}, {1, 0.5f, 0}};
                 start[joint][axis] = bad;
-                expect_refused({}, {1, 1, 0}, start);
+                expect_refused("joints[" + std::to_string(joint) + "]" + at, {}, {1, 1, 0}, start);
             }
         }
-        expect_refused({.tolerance = bad});
-        expect_refused({.snap_back = bad});
-        expect_refused({.soft_zone = bad});
-        expect_refused({.damping = bad});
-        expect_refused({.start_stretch_ratio = bad});
-        expect_refused({.max_stretch_scale = bad});
-        expect_refused({.twist = bad});
-        expect_refused({.tip_orientation = glm::quat(bad, 0, 0, 0)});
+        expect_refused("tolerance", {.tolerance = bad});
+        expect_refused("snap_back", {.snap_back = bad});
+        expect_refused("soft_zone", {.soft_zone = bad});
+        expect_refused("damping", {.damping = bad});
+        expect_refused("start_stretch_ratio", {.start_stretch_ratio = bad});
+        expect_refused("max_stretch_scale", {.max_stretch_scale = bad});
+        expect_refused("twist", {.twist = bad});
+        expect_refused("tip_orientation", {.tip_orientation = glm::quat(bad, 0, 0, 0)});
     }
 }
 
 TEST(IkInput, NumbersOutOfTheirRange) {
-    expect_refused({.tolerance = -1e-6f});
-    expect_refused({.max_iterations = 0});
-    expect_refused({.max_iterations = -5});
-    expect_refused({.max_iterations = 1'000'001});
-    expect_refused({.pole_turn = static_cast<ik::PoleTurn>(7)});
-    expect_refused({.snap_back = -0.01f});
-    expect_refused({.snap_back = 1.01f});
-    expect_refused({.tip_orientation = glm::quat(0, 0, 0, 0)});
-    expect_refused({.tip_orientation = glm::quat(1, 1, 0, 0)});
-    expect_refused({.soft_zone = -0.1f});
-    expect_refused({.soft_zone = 1.1f});
-    expect_refused({.damping = 0.0f});
-    expect_refused({.damping = 11.0f});
-    expect_refused({.start_stretch_ratio = 0.0f});
-    expect_refused({.start_stretch_ratio = 1.5f});
-    expect_refused({.max_stretch_scale = 0.99f});
-    expect_refused({.max_stretch_scale = 101.0f});
+    expect_refused("tolerance from 0 to 1e9 got -1e-06", {.tolerance = -1e-6f});
+    expect_refused("max_iterations 1 1000000 0", {.max_iterations = 0});
+    expect_refused("max_iterations", {.max_iterations = -5});
+    expect_refused("max_iterations", {.max_iterations = 1'000'001});
+    expect_refused("pole_turn", {.pole_turn = static_cast<ik::PoleTurn>(7)});
+    expect_refused("snap_back", {.snap_back = -0.01f});
+    expect_refused("snap_back", {.snap_back = 1.01f});
+    expect_refused("tip_orientation", {.tip_orientation = glm::quat(0, 0, 0, 0)});
+    expect_refused("tip_orientation", {.tip_orientation = glm::quat(1, 1, 0, 0)});
+    expect_refused("soft_zone", {.soft_zone = -0.1f});
+    expect_refused("soft_zone", {.soft_zone = 1.1f});
+    expect_refused("damping", {.damping = 0.0f});
+    expect_refused("damping", {.damping = 11.0f});
+    expect_refused("start_stretch_ratio", {.start_stretch_ratio = 0.0f});
+    expect_refused("start_stretch_ratio", {.start_stretch_ratio = 1.5f});
+    expect_refused("max_stretch_scale", {.max_stretch_scale = 0.99f});
+    expect_refused("max_stretch_scale", {.max_stretch_scale = 101.0f});
 }
 
 TEST(IkInput, LimitsOfAnotherNumberOrWithAFault) {
     const std::vector<Limit> good(2), one(1), three(3);
-    expect_refused({.limits = one});
-    expect_refused({.limits = three});
+    expect_refused("limits 2 in number 1", {.limits = one});
+    expect_refused("limits", {.limits = three});
     for (const auto& spoil : std::vector<std::function<void(Limit&)>>{
              [](Limit& limit) {
                  limit.axis = {0, 0, 0};
@@ -85,7 +90,7 @@ TEST(IkInput, LimitsOfAnotherNumberOrWithAFault) {
              [](Limit& limit) { limit.max = infinity; }, [](Limit& limit) { limit.min = -4.0f; }}) {
         std::vector<Limit> limits{Limit{}, Limit::hinge({0, 0, 1}, -1.0f, 1.0f)};
         spoil(limits[1]);
-        expect_refused({.limits = limits});
+        expect_refused("limits[1] valid", {.limits = limits});
     }
 }
 

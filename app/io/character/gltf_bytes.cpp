@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "app/document/outside_file.hpp"
 #include "app/document/text.hpp"
 #include "app/io/character/base64.hpp"
 #include "app/io/character/gltf_check.hpp"
@@ -33,25 +34,6 @@ std::string shown(const std::string& uri) {
     return '"' + printable(uri.size() > longest ? uri.substr(0, longest) + "..." : uri) + '"';
 }
 
-int hex_digit(char c) {
-    return c >= '0' && c <= '9'   ? c - '0'
-           : c >= 'a' && c <= 'f' ? c - 'a' + 10
-           : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                  : -1;
-}
-
-/// Decodes %20 and the like; an invalid sequence stays.
-std::string decoded(const std::string& uri) {
-    std::string result;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        const int high = uri[i] == '%' && i + 2 < uri.size() ? hex_digit(uri[i + 1]) : -1;
-        const int low = high >= 0 ? hex_digit(uri[i + 2]) : -1;
-        result += low >= 0 ? static_cast<char>(16 * high + low) : uri[i];
-        if (low >= 0) i += 2;
-    }
-    return result;
-}
-
 /// The bytes of a data URI of any type; none for other URIs.
 std::optional<std::string> data_of(const std::string& uri) {
     if (!uri.starts_with("data:")) return std::nullopt;
@@ -59,7 +41,7 @@ std::optional<std::string> data_of(const std::string& uri) {
     if (comma == uri.npos) return std::string();
     const std::string_view head = std::string_view(uri).substr(0, comma);
     return head.ends_with(";base64") ? from_base64(std::string_view(uri).substr(comma + 1))
-                                     : decoded(uri.substr(comma + 1));
+                                     : percent_decoded(uri.substr(comma + 1));
 }
 
 /// A glTF file's folder, the only place that its URIs may lead to.
@@ -72,9 +54,7 @@ class Folder {
     /// The file of a URI; none if there is no such file. Throws if the URI leads out of the folder, whether
     /// or not there is a file.
     std::optional<fs::path> find(const std::string& uri, const std::string& what) const {
-        std::string slashes = decoded(uri);
-        std::replace(slashes.begin(), slashes.end(), '\\', '/');
-        for (const std::string& name : {decoded(uri), uri, slashes}) {
+        for (const std::string& name : names_of_uri(uri)) {
             check_inside(name, uri, what);
             std::error_code unknown;
             const fs::path real = fs::canonical(folder_ / name, unknown);

@@ -377,19 +377,16 @@ std::string limit_table(const std::vector<ik::Limit>& limits) {
 // The clipboard.
 
 void add_copy_commands(CommandTable& table) {
-    table.add({.name = "chain.copy",
-               .title = "Copy the chain",
-               .arguments = {choice_argument("as", true, "a program against the library, or the scene",
-                                             {"cpp", "json"})},
-               .help = "Puts the chain on the clipboard, as code or as a scene",
-               .effect = Effect::Look,
-               .apply = [](Workspace& workspace, const Arguments& given) {
-                   const bool code = given.text("as") == "cpp";
-                   workspace.ui.copied = code ? chain_code(workspace.document.get<ChainPart>(chain_lab))
-                                              : json_to_text(save_scene(workspace));
-                   workspace.toast(code ? "The chain is on the clipboard, as C++."
-                                        : "The scene is on the clipboard, as JSON.");
-               }});
+    table.add("chain.copy", "Copy the chain",
+              {choice_argument("as", true, "a program against the library, or the scene", {"cpp", "json"})},
+              "Puts the chain on the clipboard, as code or as a scene", Effect::Look,
+              [](Workspace& workspace, const Arguments& given) {
+                  const bool code = given.text("as") == "cpp";
+                  workspace.ui.copied = code ? chain_code(workspace.document.get<ChainPart>(chain_lab))
+                                             : json_to_text(save_scene(workspace));
+                  workspace.toast(code ? "The chain is on the clipboard, as C++."
+                                       : "The scene is on the clipboard, as JSON.");
+              });
 }
 
 }  // namespace tendril::app

@@ -287,18 +287,16 @@ std::string trace_of_strip(const Workspace& workspace) {
 }  // namespace
 
 void add_save_trace_command(CommandTable& table) {
-    table.add(
-        {.name = "chain.save_trace",
-         .title = "Save the strip as a trace",
-         .arguments = {text_argument("path", false, "a JSON Lines file; default: beside the scene")},
-         .help = "Writes the last ten seconds of the chain, frame by frame, as tendril trace reads them",
-         .effect = Effect::Look,
-         .apply = [](Workspace& workspace, const Arguments& given) {
-             const std::string path =
-                 given.has("path") ? given.text("path") : new_file(workspace, "trace", ".jsonl").string();
-             workspace.writes().write(path, OutputKind::Trace, trace_of_strip(workspace));
-             workspace.toast(written_text(path));
-         }});
+    table.add("chain.save_trace", "Save the strip as a trace",
+              {text_argument("path", false, "a JSON Lines file; default: beside the scene")},
+              "Writes the last ten seconds of the chain, frame by frame, as tendril trace reads them",
+              Effect::Look, [](Workspace& workspace, const Arguments& given) {
+                  const std::string path = given.has("path")
+                                               ? given.text("path")
+                                               : new_file(workspace, "trace", ".jsonl").string();
+                  workspace.writes().write(path, OutputKind::Trace, trace_of_strip(workspace));
+                  workspace.toast(written_text(path));
+              });
 }
 
 }  // namespace tendril::app

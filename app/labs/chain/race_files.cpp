@@ -67,15 +67,13 @@ void add_race_file_commands(CommandTable& table) {
                                   .holds = "every solver's residual at each iteration",
                                   .text = open_race_csv});
     table.add(
-        {.name = "race.record",
-         .title = "Record the race",
-         .arguments = film_arguments(
-             {number_argument("pace", "iterations per second; default: so many that the film lasts 4 to 12 s",
-                              shortest_decimal(slowest_pace), shortest_decimal(fastest_pace))},
-             true),
-         .help = "Writes a video of the race from its start to its end, with names, iterations and errors",
-         .effect = Effect::Look,
-         .apply = record_race});
+        "race.record", "Record the race",
+        film_arguments(
+            {number_argument("pace", "iterations per second; default: so many that the film lasts 4 to 12 s",
+                             shortest_decimal(slowest_pace), shortest_decimal(fastest_pace))},
+            true),
+        "Writes a video of the race from its start to its end, with names, iterations and errors",
+        Effect::Look, record_race);
 }
 
 }  // namespace tendril::app

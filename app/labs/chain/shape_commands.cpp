@@ -14,10 +14,8 @@ Argument length_argument() {
 }
 
 Argument position_argument() {
-    return {.name = "position",
-            .type = ArgumentType::Point,
-            .required = false,
-            .help = "where it is placed, before its length is enforced; straight on if omitted"};
+    return point_argument("position", false,
+                          "where it is placed, before its length is enforced; straight on if omitted");
 }
 
 void check_size(const ChainPart& part) {

@@ -1,9 +1,11 @@
 // The Humanoid lab in a scene file: the character's file name and all that the user has set. Loading reads
 // the character's file again.
-#include <filesystem>
+#include <optional>
+#include <utility>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
+#include "app/io/character/read.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
 #include "app/labs/humanoid/clip/motions.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
@@ -11,21 +13,6 @@
 
 namespace tendril::app {
 namespace {
-
-/// The saved path may not exist on another machine; then tries the file name alone.
-SharedCharacter read_again(const JsonPlace& place, const std::string& file) {
-    const auto path = place.optional("path");
-    const bool elsewhere = path && !std::filesystem::exists(path->text());
-    try {
-        SharedCharacter loaded = load_character(path && !elsewhere ? path->text() : file);
-        if (loaded->file == file) return loaded;
-        auto named = std::make_shared<LoadedCharacter>(*loaded);
-        named->file = file;
-        return named;
-    } catch (const std::exception& error) {
-        place["file"].fail(error.what());
-    }
-}
 
 Json corrections_json(const Corrections& corrections, const humanoid::Skeleton& skeleton) {
     Json bones = Json::object();
@@ -121,7 +108,8 @@ Json edits_json(const LoadedCharacter& character) {
                   {"bones", corrections_json(each.as.bones, character.skeleton())},
                   {"limits", limits_from.name(each.as.limits)}};
         if (const auto* motion = std::get_if<LoadedMotion>(&each.what)) {
-            json.update({{"file", motion->file}, {"path", motion->path}, {"clip", motion->clip}});
+            json.update(save_outside_file(*motion));
+            json["clip"] = motion->clip;
         } else {
             const ClipCure& cure = std::get<ClipCure>(each.what);
             json["clip"] = cure.clip;
@@ -147,16 +135,17 @@ ClipCure read_cure(const JsonPlace& place) {
 
 void read_edit(const JsonPlace& place, HumanoidPart& part) {
     const ClipCure cure = read_cure(place);
-    const std::string file = place.has("file") ? place["file"].text() : std::string();
-    const std::string path = file.empty() ? file : place["path"].text();
+    std::optional<std::pair<Character, OutsideFile>> motion;
+    if (place.has("file"))
+        motion = read_outside_file(place, [](const std::string& path, const std::string& file) {
+            Character source = read_character(path);
+            return std::pair(std::move(source), outside_file(path, file));
+        });
     try {
-        // The path may not exist on another machine.
-        part.loaded =
-            file.empty()
-                ? cured(part, cure).loaded
-                : with_motion(part, std::filesystem::exists(path) ? path : file, cure.clip, file).loaded;
+        part.loaded = motion ? with_motion(part, motion->first, motion->second, cure.clip).loaded
+                             : cured(part, cure).loaded;
     } catch (const std::exception& error) {
-        (file.empty() ? place : place["file"]).fail(error.what());
+        place["clip"].fail(error.what());
     }
 }
 
@@ -179,9 +168,8 @@ void read_edits(const JsonPlace& place, HumanoidPart& part) {
 }  // namespace
 
 Json HumanoidPart::save() const {
-    Json json{{"file", loaded->file}};
+    Json json = save_outside_file(*loaded);
     if (!loaded->file.empty()) {
-        json["path"] = loaded->path;
         json["scale"] = loaded->character.scale;
         json["space"] = save_fields(loaded->character.space);
     }
@@ -202,8 +190,10 @@ Json HumanoidPart::save() const {
 
 std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& where) const {
     const JsonPlace place(json, where);
-    const std::string file = place["file"].text();
-    auto part = std::make_shared<HumanoidPart>(file.empty() ? load_character(file) : read_again(place, file));
+    auto part = std::make_shared<HumanoidPart>(
+        read_outside_file(place, [](const std::string& path, const std::string& file) {
+            return load_character(path, nullptr, file);
+        }));
     take(place, *part, read_reading(place, reading_of(*part), part->skeleton()));
     read_edits(place, *part);
     if (const auto clip = place.optional("clip")) part->playback = read_playback(*clip, *part->loaded);

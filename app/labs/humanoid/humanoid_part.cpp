@@ -50,6 +50,7 @@ std::vector<std::filesystem::path> HumanoidPart::files() const {
     if (!loaded->path.empty()) all.emplace_back(loaded->path);
     for (const ClipEdit& each : loaded->edits)
         if (const auto* motion = std::get_if<LoadedMotion>(&each.what)) all.emplace_back(motion->path);
+    if (ik.ground.mesh) all.emplace_back(ik.ground.mesh->path);
     return all;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -17,21 +16,6 @@
 #include "app/document/workspace.hpp"
 
 namespace tendril::app {
-
-Argument choice_argument(const char* name, bool required, const char* help, std::vector<std::string> choices);
-// The next three are optional.
-Argument integer_argument(const char* name, const char* help, double low, double high);
-Argument number_argument(const char* name, const char* help, double low, double high);
-Argument switch_argument(const char* name, const char* help);
-// Optional unless `required`.
-Argument text_argument(const char* name, bool required, const char* help);
-Argument point_argument(const char* name, bool required, const char* help);
-/// A 0-based index below `count`.
-Argument index_argument(const char* name, bool required, const char* help, std::size_t count);
-/// The same argument; the palette offers the values that `known` returns.
-Argument offering(Argument argument, std::function<std::vector<std::string>(const Workspace&)> known);
-/// "0", "1", ... up to `count` - 1.
-std::vector<std::string> places(std::size_t count);
 
 // Turn a library error into an exception whose message the user reads.
 

@@ -13,11 +13,8 @@ namespace tendril::app {
 
 std::vector<Argument> film_arguments(std::vector<Argument> more, bool may_name) {
     const std::string help = "a .png file (animated), or .mp4 if ffmpeg is installed";
-    std::vector<Argument> all = picture_arguments(
-        {{.name = "path",
-          .type = ArgumentType::Text,
-          .required = !may_name,
-          .help = help + (may_name ? "; default, in a window: a new .png beside the scene" : "")}});
+    std::vector<Argument> all = picture_arguments({text_argument(
+        "path", !may_name, help + (may_name ? "; default, in a window: a new .png beside the scene" : ""))});
     std::move(more.begin(), more.end(), std::back_inserter(all));
     return all;
 }

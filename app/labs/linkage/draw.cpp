@@ -150,7 +150,7 @@ class LinkageDrawing {
 
     void dead_point() {
         if (part_.result.report.status != ik::LinkageStatus::DeadPoint) return;
-        if (const auto found = app::dead_point(part_))
+        if (const auto found = app::dead_point(part_, runtime_))
             for (const auto& [from, to] : found->lines)
                 list_.line(at(from), at(to), px(2.0f), opaque(view_.palette.limit)).layer = Layer::Overlay;
     }

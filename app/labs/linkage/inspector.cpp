@@ -150,11 +150,12 @@ void joint_rows(const LinkagePart& part, Emit& emit) {
 void LinkageLab::inspector(const Workspace& workspace, Emit& emit) const {
     const LinkagePart& part = linkage_part(workspace);
     const Palette& colours = palette(workspace.settings.theme);
-    show_verdict(linkage_verdict(part), colours, emit, {.notes = 4, .paragraphs = 2}, [&] {
-        const std::vector<Cure> ways = ways_on(part);
-        for (const Cure& each : ways) cure_line(each.text, each, emit);
-        if (!ways.empty()) note("Or drag a joint.");
-    });
+    show_verdict(linkage_verdict(part, workspace.runtimes.of<LinkageRuntime>(linkage_lab)), colours, emit,
+                 {.notes = 4, .paragraphs = 2}, [&] {
+                     const std::vector<Cure> ways = ways_on(part);
+                     for (const Cure& each : ways) cure_line(each.text, each, emit);
+                     if (!ways.empty()) note("Or drag a joint.");
+                 });
     freedom_rows(part);
     motor_rows(workspace);
     joint_rows(part, emit);

@@ -351,7 +351,7 @@ void run_motors(LinkagePart& part, double seconds, LinkageRuntime& runtime) {
 }
 
 void add_linkage_commands(CommandTable& table) {
-    const Argument to{.name = "to", .type = ArgumentType::Point, .help = "metres"};
+    const Argument to = point_argument("to", true, "metres");
     table.add(opening_command(
         "linkage.preset", "Open a linkage preset",
         {choice_argument("name", true, "which mechanism",

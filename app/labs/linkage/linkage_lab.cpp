@@ -109,9 +109,11 @@ void LinkageLab::step(Workspace& workspace) const {
     if (!modified) workspace.saved = workspace.document;  // time does not modify the scene
 }
 
-std::vector<Incident> LinkageLab::review(const Workspace&, const Part& before, const Part& after) const {
+std::vector<Incident> LinkageLab::review(const Workspace& workspace, const Part& before,
+                                         const Part& after) const {
     return linkage_incidents(dynamic_cast<const LinkagePart&>(before),
-                             dynamic_cast<const LinkagePart&>(after));
+                             dynamic_cast<const LinkagePart&>(after),
+                             workspace.runtimes.of<LinkageRuntime>(linkage_lab));
 }
 
 bool LinkageLab::same_joints(const Part& before, const Part& after) const {
@@ -273,12 +275,13 @@ Json linkage_state(const LinkagePart& part) {
     if (const LinkageTarget* const target = jumped_target(part))
         jumped = {{"point", target->point}, {"distance", result.report.jump}};
     const ik::LinkageFreedom freedom = freedom_of(part);
+    LinkageRuntime fresh;
     return Json{{"points", std::move(points)},
                 {"closed_to", result.report.closed_to},
                 {"freedom", freedom.actual},
                 {"gruebler", freedom.counted},
                 {"status", ik::name(result.report.status)},
-                {"verdict", linkage_verdict(part).text},
+                {"verdict", linkage_verdict(part, fresh).text},
                 {"drivers", std::move(drivers)},
                 {"targets", std::move(targets)},
                 {"active", std::move(active)},

@@ -10,7 +10,7 @@ namespace tendril::app {
 /// What a linkage is doing, for --state and `tendril solve`: hinges in degrees, all else in metres.
 Json linkage_state(const LinkagePart& part);
 /// What the linkage does, or what to do next: the first text of the inspector.
-Verdict linkage_verdict(const LinkagePart& part);
+Verdict linkage_verdict(const LinkagePart& part, LinkageRuntime& runtime);
 /// What the motor does, and what a click changes: "Run", "Stop", "Stopped at 43.0 degrees: turn back".
 std::string motor_button(const LinkagePart& part);
 /// Rows for the ends of a joint's range; or a button that gives it one about where it is.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <tendril/magnitude.hpp>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
@@ -14,7 +15,9 @@
 
 namespace {
 
-constexpr double max_links = tendril::ik::max_links, any = 1e12;
+constexpr double max_links = tendril::ik::max_links;
+/// Metres from one end of so many links to the other and back, each as long as may be. Angles are far less.
+constexpr double farthest = 2.0 * max_links * tendril::max_magnitude;
 
 }  // namespace
 
@@ -25,15 +28,15 @@ std::span<const tendril::Field> tendril::fields<tendril::ik::LinkageReport>() no
     static const Field rows[] = {
         field<&LinkageReport::status>("status", statuses),
         field<&LinkageReport::iterations>("iterations", {0, 1e6}),
-        field<&LinkageReport::closed_to>("closed_to", {0, any}, "m"),
-        field<&LinkageReport::residual>("residual", {0, any}, "m"),
-        field<&LinkageReport::driver_residual>("driver_residual", {0, any}),  // radians or metres
+        field<&LinkageReport::closed_to>("closed_to", {0, farthest}, "m"),
+        field<&LinkageReport::residual>("residual", {0, farthest}, "m"),
+        field<&LinkageReport::driver_residual>("driver_residual", {0, farthest}),  // radians or metres
         field<&LinkageReport::freedom>("freedom", {-1e6, 1e6}),
         field<&LinkageReport::stopped>("stopped", {0, max_links}),
-        field<&LinkageReport::stopped_at>("stopped_at", {-any, any}),  // likewise
+        field<&LinkageReport::stopped_at>("stopped_at", {-farthest, farthest}),  // likewise
         field<&LinkageReport::passed_dead_point>("passed_dead_point"),
         field<&LinkageReport::jumped>("jumped", {0, app::max_linkage_points}),
-        field<&LinkageReport::jump>("jump", {0, any}, "m")};
+        field<&LinkageReport::jump>("jump", {0, farthest}, "m")};
     return rows;
 }
 

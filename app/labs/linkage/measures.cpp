@@ -16,6 +16,7 @@
 namespace tendril::app {
 namespace {
 
+constexpr double length_step = 0.01;  ///< metres: lengths that are offered are whole centimetres
 constexpr double no_angle = std::numeric_limits<double>::quiet_NaN();
 
 glm::dvec2 way(const LinkagePart& part, std::size_t from, std::size_t to) {
@@ -159,7 +160,7 @@ namespace {
 /// What the joints of a linkage's bodies exert on each other while something balances its motor.
 class BalancedBodies {
   public:
-    BalancedBodies(const LinkagePart& part, std::size_t driver)
+    BalancedBodies(const LinkagePart& part, std::size_t driver, ik::LinkageSolver& solver)
         : sketch_(part.shape->sketch),
           linkage_(part.linkage()),
           rigid_(ik::rigid_bodies(sketch_)),
@@ -171,12 +172,11 @@ class BalancedBodies {
         std::vector<std::size_t> held;
         for (const LinkageDrive& each : part.drives)
             if (each.held) held.push_back(*linkage_.find_link(each.joint));
-        ik::LinkageSolver solver = require_value(ik::LinkageSolver::make(linkage_));
         loose_ = solver.balance(part.state, driver, held, forces_);
         add_up();
         turned_ = {body_of(driver), body_of(linkage_.links[driver].parent), ik::ground_link};
     }
-    /// The part of the motor's torque that nothing balances.
+    /// The part of the motor's torque that nothing balances; 1 if a joint is not of the sketch.
     double loose() const { return loose_; }
 
     /// Two bars, each held by two joints, are in line where they balance each other.
@@ -215,7 +215,7 @@ class BalancedBodies {
             const auto apart = [&](std::size_t a, std::size_t b) {
                 return std::abs(ways[a].x * ways[b].y - ways[a].y * ways[b].x);
             };
-            constexpr double parallel = 0.01;
+            constexpr double parallel = 0.01;  // sine of an angle: they meet 100 bars' lengths away
             const bool meet = std::max(apart(0, 1), apart(0, 2)) > parallel;
             found.text = "the lines " + lines[0] + ", " + lines[1] + " and " + lines[2] +
                          (meet ? " meet in one point" : " are parallel");
@@ -230,8 +230,8 @@ class BalancedBodies {
     std::size_t body_of(std::size_t link) const { return link == ik::ground_link ? link : body_[link]; }
     const std::string& name(std::size_t point) const { return sketch_.points[point].name; }
     /// A point of the sketch by where it is drawn.
-    std::size_t point_at(const glm::dvec3& drawn, const std::string& called) const {
-        std::size_t found = 0;
+    std::optional<std::size_t> point_at(const glm::dvec3& drawn, const std::string& called) const {
+        std::optional<std::size_t> found;
         for (std::size_t i = sketch_.points.size(); i-- > 0;)
             if (sketch_.points[i].at == glm::dvec2(drawn)) {
                 found = i;
@@ -241,19 +241,22 @@ class BalancedBodies {
     }
     void add_up() {
         std::vector<glm::dvec2> on_link(body_.size(), glm::dvec2(0.0));
-        const auto exert = [&](std::size_t link, std::size_t point, const glm::dvec2& force) {
-            at_[body_of(link)].try_emplace(point, glm::dvec2(0.0)).first->second += force;
+        const auto exert = [&](std::size_t link, std::optional<std::size_t> point, const glm::dvec2& force) {
+            if (point)
+                at_[body_of(link)].try_emplace(*point, glm::dvec2(0.0)).first->second += force;
+            else
+                loose_ = 1.0;
             if (link != ik::ground_link) on_link[link] += force;
         };
         for (std::size_t i = 0; i < forces_.size(); ++i) {
             const ik::Closure& closure = linkage_.closures[i];
-            const std::size_t point = point_at(closure.first_at, closure.name);
+            const auto point = point_at(closure.first_at, closure.name);
             exert(closure.first, point, glm::dvec2(forces_[i]));
             exert(closure.second, point, -glm::dvec2(forces_[i]));
         }
         for (std::size_t i = body_.size(); i-- > 0;) {
             const glm::dvec2 passed_on = on_link[i];
-            const std::size_t point = point_at(linkage_.links[i].at, linkage_.links[i].name);
+            const auto point = point_at(linkage_.links[i].at, linkage_.links[i].name);
             exert(i, point, -passed_on);
             exert(linkage_.links[i].parent, point, passed_on);
         }
@@ -261,7 +264,8 @@ class BalancedBodies {
         for (const auto& [body, points] : at_)
             for (const auto& [point, force] : points) largest = std::max(largest, glm::length(force));
         // Near a dead point other loops have a part of what is not balanced there.
-        const double minimum = std::max(0.01, 3.0 * loose_) * largest;
+        constexpr double none = 0.01;  // of the largest force: its line is off a joint by 0.6 degrees
+        const double minimum = std::max(none, 3.0 * loose_) * largest;
         for (auto& [body, points] : at_)
             std::erase_if(points, [&](const auto& each) { return glm::length(each.second) <= minimum; });
     }
@@ -295,19 +299,19 @@ class BalancedBodies {
 
 }  // namespace
 
-std::optional<DeadPoint> dead_point(const LinkagePart& part, double within) {
+std::optional<DeadPoint> dead_point(const LinkagePart& part, LinkageRuntime& runtime, double within) {
     if (part.shape->sketch.points.empty()) return std::nullopt;
     std::optional<std::size_t> driver = part.result.report.stopped;
     if (!driver && !part.drives.empty()) driver = part.linkage().find_link(part.drives.front().joint);
     if (!driver) return std::nullopt;
-    const BalancedBodies bodies(part, *driver);
+    const BalancedBodies bodies(part, *driver, runtime.solver(part.shape));
     if (bodies.loose() > std::sin(glm::radians(within))) return std::nullopt;
     if (auto found = bodies.bars_in_line()) return found;
     return bodies.forces_that_meet();
 }
 
-std::string dead_point_reason(const LinkagePart& part, double within) {
-    const auto found = dead_point(part, within);
+std::string dead_point_reason(const LinkagePart& part, LinkageRuntime& runtime, double within) {
+    const auto found = dead_point(part, runtime, within);
     return found ? found->text : std::string();
 }
 
@@ -351,7 +355,7 @@ std::optional<RoundCranks> shorter_round_cranks(const LinkagePart& part) {
         longest = glm::length(way(part, loop->tip, loop->end)) -
                   std::abs(to_line.x * std::sin(guide) - to_line.y * std::cos(guide));
     }
-    return longest > 0.01 ? std::optional(RoundCranks{shortest, longest}) : std::nullopt;
+    return longest > length_step ? std::optional(RoundCranks{shortest, longest}) : std::nullopt;
 }
 
 std::vector<Cure> ways_on(const LinkagePart& part) {
@@ -381,7 +385,8 @@ std::vector<Cure> ways_on(const LinkagePart& part) {
     if (const auto round = shorter_round_cranks(part)) {
         const ik::LinkageSketch& sketch = part.shape->sketch;
         const ik::SketchBar& crank = sketch.bars[driven_loop(sketch)->motor->bar];
-        double shorter = std::floor(95.0 * round->longest) / 100.0;  // short of the folded linkage
+        // Short of the folded linkage by a twentieth.
+        double shorter = length_step * std::floor(0.95 * round->longest / length_step);
         if (shorter <= round->shortest) shorter = 0.5 * (round->shortest + round->longest);
         const std::string from =
             round->shortest > 0.0 ? "from " + fixed_text(round->shortest, 2) + " m " : "";

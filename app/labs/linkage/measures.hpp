@@ -66,9 +66,9 @@ struct DeadPoint {
 };
 /// `within`: degrees of a joint off the dead point, roughly. None in space, and where more than three forces
 /// balance.
-std::optional<DeadPoint> dead_point(const LinkagePart& part, double within = 4.0);
+std::optional<DeadPoint> dead_point(const LinkagePart& part, LinkageRuntime& runtime, double within = 4.0);
 /// Its text, or empty.
-std::string dead_point_reason(const LinkagePart& part, double within = 4.0);
+std::string dead_point_reason(const LinkagePart& part, LinkageRuntime& runtime, double within = 4.0);
 /// "Crank at 43.0 degrees"
 std::string stop_text(const LinkagePart& part);
 /// What a four-bar with a motor is by Grashof's rule: "crank-rocker", "drag link", "double rocker"... Empty:

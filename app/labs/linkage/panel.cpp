@@ -56,7 +56,7 @@ Verdict drawing_verdict(const LinkagePart& part) {
 
 }  // namespace
 
-Verdict linkage_verdict(const LinkagePart& part) {
+Verdict linkage_verdict(const LinkagePart& part, LinkageRuntime& runtime) {
     using enum ik::LinkageStatus;
     const ik::LinkageReport& report = part.result.report;
     if (part.shape->in_plane())
@@ -66,7 +66,7 @@ Verdict linkage_verdict(const LinkagePart& part) {
             return {"Does not close: " + length_text(report.closed_to) + " apart", Verdict::Kind::Bad,
                     "No pose was found with these lengths. Apart: " + closure_names(part) + "."};
         case DeadPoint: {
-            const std::string reason = dead_point_reason(part);
+            const std::string reason = dead_point_reason(part, runtime);
             return {"Dead point", Verdict::Kind::Bad,
                     stop_text(part) + " cannot go on" + (reason.empty() ? "." : ": " + reason + ".")};
         }

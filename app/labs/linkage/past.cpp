@@ -161,18 +161,18 @@ const LinkageTarget* jumped_target(const LinkagePart& part) {
     return *index < part.targets.size() ? &part.targets[*index] : nullptr;
 }
 
-std::vector<Incident> linkage_incidents(const LinkagePart& before, const LinkagePart& after) {
+std::vector<Incident> linkage_incidents(const LinkagePart& before, const LinkagePart& after,
+                                        LinkageRuntime& runtime) {
     using enum ik::LinkageStatus;
     if (before.shape != after.shape) return {};
     const ik::LinkageReport &was = before.result.report, &is = after.result.report;
     std::vector<Incident> incidents;
-    const std::string reason = dead_point_reason(after);
     const bool moved = before.state != after.state;  // else it is the same solve
     if (moved)
         if (auto jump = jump_incident(before, after)) incidents.push_back(std::move(*jump));
     if (moved && is.passed_dead_point) {
         constexpr double about_in_line = 20.0;  // a tick later
-        const std::string line = dead_point_reason(after, about_in_line);
+        const std::string line = dead_point_reason(after, runtime, about_in_line);
         incidents.push_back({.kind = Incident::Kind::Limit,
                              .joint = 0,
                              .name = after.drives.empty() ? "linkage" : after.drives.front().joint,
@@ -185,6 +185,7 @@ std::vector<Incident> linkage_incidents(const LinkagePart& before, const Linkage
     if (is.stopped && is.stopped != was.stopped) {
         const std::string& joint = after.linkage().links[*is.stopped].name;
         const bool dead = is.status == DeadPoint;
+        const std::string reason = dead ? dead_point_reason(after, runtime) : std::string();
         incidents.push_back(
             {.kind = Incident::Kind::Limit,
              .joint = *is.stopped,
@@ -192,7 +193,7 @@ std::vector<Incident> linkage_incidents(const LinkagePart& before, const Linkage
              .degrees = turns(after, joint) ? static_cast<float>(glm::degrees(is.stopped_at)) : 0.0f,
              .cause = joint + (dead ? " is at a dead point: " : " is stopped by a range: ") +
                       "it cannot go on beyond " + value_text(after, joint, is.stopped_at) +
-                      (dead && !reason.empty() ? ", for " + reason : ""),
+                      (reason.empty() ? "" : ", for " + reason),
              .buttons = ways_on(after)});
     } else if (is.status == Open && was.status != Open) {
         incidents.push_back({.kind = Incident::Kind::Status,

@@ -17,7 +17,8 @@ std::vector<Curve> linkage_turn_curves(const Workspace& workspace, const PastCur
 PoseLines linkage_lines(const SharedPart& part);
 
 /// Dead points, ranges, points that jumped, and bars that do not meet, between two ticks.
-std::vector<Incident> linkage_incidents(const LinkagePart& before, const LinkagePart& after);
+std::vector<Incident> linkage_incidents(const LinkagePart& before, const LinkagePart& after,
+                                        LinkageRuntime& runtime);
 /// The target whose point jumped in the last solve; the mouse's while it drags. Null: none did.
 const LinkageTarget* jumped_target(const LinkagePart& part);
 }  // namespace tendril::app

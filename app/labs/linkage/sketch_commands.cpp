@@ -263,7 +263,7 @@ Command sketch_command(const char* name, const char* title, std::vector<Argument
 }
 
 Argument place_argument(const char* name) {
-    return {.name = name, .type = ArgumentType::Point, .help = "[x, y, 0], metres"};
+    return point_argument(name, true, "[x, y, 0], metres");
 }
 
 Argument bar_argument(bool required, const char* help, const char* name = "bar") {

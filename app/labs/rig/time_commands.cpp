@@ -176,34 +176,19 @@ void add_solve_commands(CommandTable& table) {
              "add",
              "true: adds to the selection, or with element toggles it; the unit stays selected if omitted")},
         "Selects elements, a unit, or both", select, Effect::Look));
-    table.add({.name = "rig.read",
-               .title = "Read the pose of elements",
-               .arguments = {element_argument("name", false, "of the element"),
-                             name_list_argument("names", "name")},
-               .help = "Reads the poses of elements, and says how many transforms had to be worked out",
-               .effect = Effect::Look,
-               .apply = read});
-    table.add({.name = "rig.copy",
-               .title = "Copy the rig as C++",
-               .arguments = {},
-               .help = "Copies the rig to the clipboard as a C++ program that uses the library",
-               .effect = Effect::Look,
-               .apply = copy});
-    table.add(
-        {.name = "rig.preset",
-         .title = "Open a rig preset",
-         .arguments = {choice_argument("name", true, "which scene",
-                                       names(rig_presets(), [](const auto& each) { return each.name; }))},
-         .help = "Opens a preset",
-         .effect = Effect::Edit,
-         .apply = take_preset});
-    table.add(
-        {.name = "rig.solve",
-         .title = "Solve the rig",
-         .arguments = {choice_argument("direction", false, "default: forward", {"forward", "backward"})},
-         .help = "Runs the units, or sets the controls to match the bones; no time passes",
-         .effect = Effect::Edit,
-         .apply = solve});
+    table.add("rig.read", "Read the pose of elements",
+              {element_argument("name", false, "of the element"), name_list_argument("names", "name")},
+              "Reads the poses of elements, and says how many transforms had to be worked out", Effect::Look,
+              read);
+    table.add("rig.copy", "Copy the rig as C++", {},
+              "Copies the rig to the clipboard as a C++ program that uses the library", Effect::Look, copy);
+    table.add("rig.preset", "Open a rig preset",
+              {choice_argument("name", true, "which scene",
+                               names(rig_presets(), [](const auto& each) { return each.name; }))},
+              "Opens a preset", Effect::Edit, take_preset);
+    table.add("rig.solve", "Solve the rig",
+              {choice_argument("direction", false, "default: forward", {"forward", "backward"})},
+              "Runs the units, or sets the controls to match the bones; no time passes", Effect::Edit, solve);
 }
 
 // Time: walks, going to a tick, clips, frame rates.
@@ -352,13 +337,11 @@ void cancel_rates(RigPart& part, const Arguments&) {
 }
 
 void add_clip_commands(CommandTable& table) {
-    table.add({.name = "rig.clip.record",
-               .title = "Record the take as a clip",
-               .arguments = {number_argument("seconds", "from the take's start; default: what was played",
-                                             tick_seconds, max_clip)},
-               .help = "Records the bones of the take as a clip, one pose per frame, 60 per second",
-               .effect = Effect::Edit,
-               .apply = record});
+    table.add("rig.clip.record", "Record the take as a clip",
+              {number_argument("seconds", "from the take's start; default: what was played", tick_seconds,
+                               max_clip)},
+              "Records the bones of the take as a clip, one pose per frame, 60 per second", Effect::Edit,
+              record);
     table.add(rig_command("rig.clip.clear", "Remove the clip", {}, "Removes the clip", clear_clip));
     table.add(rig_command("rig.clip.solve", "Solve the clip backward", {},
                           "Solves the clip backward, frame by frame, and shows on the timeline what the rig "
@@ -383,14 +366,12 @@ void add_time_commands(CommandTable& table) {
                                      shortest_decimal(max_period)),
                      switch_argument("turn", "a transform control points its z axis along the path")},
                     "Moves controls along a path while the simulation runs", set_motions));
-    table.add({.name = "rig.time",
-               .title = "Show a moment of the take",
-               .arguments = {number_argument("seconds", "as the clock shows them", 0, 1e9),
-                             integer_argument("tick", "of 1/60 s, instead of seconds", 0, 1e9)},
-               .help = "Pauses and goes to a moment of the take, earlier or later: exactly what playing "
-                       "would show there",
-               .effect = Effect::Look,
-               .apply = go});
+    table.add("rig.time", "Show a moment of the take",
+              {number_argument("seconds", "as the clock shows them", 0, 1e9),
+               integer_argument("tick", "of 1/60 s, instead of seconds", 0, 1e9)},
+              "Pauses and goes to a moment of the take, earlier or later: exactly what playing "
+              "would show there",
+              Effect::Look, go);
     table.add(
         {.name = "rig.rates",
          .title = "Compare frame rates",

@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
-#include "app/document/drawn_sections.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/document/pace.hpp"
 #include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/labs/kit/panel_rows.hpp"

@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/document/drawn_sections.hpp"
+#include "app/document/pace.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rope/body_commands.hpp"
@@ -298,7 +298,7 @@ Verdict rope_verdict(const RopePart& part) {
 }
 
 Verdict paced_verdict(Verdict said, const Workspace& workspace) {
-    constexpr double slow = 0.75;  // one stall takes it no lower
+    constexpr double slow = 1.0 - max_stall;  // a single stall takes the share no lower
     const double kept = pace_of(workspace.runtimes).kept;
     if (!workspace.clock.playing || kept >= slow) return said;
     said.text += ", at " + fixed_text(5.0 * std::round(20.0 * kept), 0) + " % of real time";

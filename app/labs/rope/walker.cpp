@@ -43,11 +43,10 @@ glm::vec3 within(const glm::dvec3& point, const glm::vec3& at) {
 
 }  // namespace
 
-std::shared_ptr<const WalkerFigure> read_walker(const std::string& file) {
+std::shared_ptr<const WalkerFigure> read_walker(const std::string& path, const std::string& file) {
     auto figure = std::make_shared<WalkerFigure>();
-    figure->file = file;
-    if (!file.empty()) figure->path = std::filesystem::absolute(file).lexically_normal().string();
-    figure->character = file.empty() ? stick_figure() : read_character(file);
+    figure->character = path.empty() ? stick_figure() : read_character(path);
+    static_cast<OutsideFile&>(*figure) = outside_file(path, file);
     const humanoid::Skeleton& skeleton = figure->character.skeleton;
     figure->map = bone_map(figure->character);
     const Skin& skin = figure->character.skin;
@@ -58,7 +57,7 @@ std::shared_ptr<const WalkerFigure> read_walker(const std::string& file) {
     } else {
         figure->capsules = humanoid::default_capsules(skeleton, figure->map);
     }
-    if (figure->capsules.empty()) throw std::runtime_error(file + ": no bone of a body was found in it");
+    if (figure->capsules.empty()) throw std::runtime_error(path + ": no bone of a body was found in it");
     return figure;
 }
 
@@ -96,33 +95,18 @@ void aim_walker(const Walker& walker, NamedWorld& world, double now, double next
 
 Json save_walker(const Walker& walker) {
     if (!walker.figure) return nullptr;
-    Json json{{"file", walker.figure->file},
-              {"clip", walker.clip},
-              {"at", point(walker.at)},
-              {"began", walker.began}};
-    if (!walker.figure->path.empty()) json["path"] = walker.figure->path;
+    Json json = save_outside_file(*walker.figure);
+    json.update({{"clip", walker.clip}, {"at", point(walker.at)}, {"began", walker.began}});
     return json;
 }
 
 Walker load_walker(const JsonPlace& place) {
     if (place.json().is_null()) return {};
-    const std::string file = place["file"].text();
-    const auto path = place.optional("path");
     Walker walker;
-    try {  // the saved path may not exist on another machine
-        const bool there = path && std::filesystem::exists(path->text());
-        walker.figure = read_walker(there ? path->text() : file);
-    } catch (const std::exception& error) {
-        place["file"].fail(error.what());
-    }
-    if (walker.figure->file != file) {
-        auto named = std::make_shared<WalkerFigure>(*walker.figure);
-        named->file = file;
-        walker.figure = std::move(named);
-    }
+    walker.figure = read_outside_file(place, read_walker);
     walker.clip = place["clip"].text();
     if (!walker.clip.empty() && clip_of(walker) == nullptr)
-        place["clip"].fail("the character has no such clip");
+        place["clip"].fail("the character has no clip \"" + walker.clip + "\"");
     walker.at = place["at"].point();
     walker.began = place["began"].real(0.0, 1e9);
     return walker;

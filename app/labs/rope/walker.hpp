@@ -8,25 +8,23 @@
 #include <tendril/rope/collider.hpp>
 #include <vector>
 
-#include "app/document/json.hpp"
+#include "app/document/outside_file.hpp"
 #include "app/io/character/character.hpp"
 
 namespace tendril::app {
 
 class CommandTable;
-class JsonPlace;
 class NamedWorld;
 
-/// Read from a file; copies of the document share it.
-struct WalkerFigure {
-    std::string file;  ///< as given; empty: the stick figure
-    std::string path;  ///< absolute; empty for the stick figure
+/// Read from a file, or the stick figure; copies of the document share it.
+struct WalkerFigure : OutsideFile {
     Character character;
     humanoid::BoneMap map;
     std::vector<humanoid::BodyCapsule> capsules;
 };
-/// Throws std::runtime_error if the file cannot be read, or has no body.
-std::shared_ptr<const WalkerFigure> read_walker(const std::string& file);
+/// An empty path gives the stick figure; `file`: what the user called it, if that is something else. Throws
+/// std::runtime_error if the file cannot be read, or has no body.
+std::shared_ptr<const WalkerFigure> read_walker(const std::string& path, const std::string& file = {});
 
 struct Walker {
     std::shared_ptr<const WalkerFigure> figure;  ///< null: there is none

@@ -86,23 +86,16 @@ void add_world_commands(CommandTable& table) {
                            "Removes every rope and collider", clear));
     table.add(
         rope_command("rope.reset", "Reset the Rope lab", {}, "Resets this lab to its first state", reset));
-    table.add(
-        {.name = "rope.preset",
-         .title = "Open a rope preset",
-         .arguments = {choice_argument("name", true, "which scene",
-                                       names(rope_scenes(), [](const auto& each) { return each.name; }))},
-         .help = "Opens a preset",
-         .effect = Effect::Edit,
-         .apply = take_scene});
-    table.add({.name = "rope.copy",
-               .title = "Copy the ropes as C++",
-               .arguments = {},
-               .help = "Copies ropes and colliders to the clipboard as a C++ program that uses the library",
-               .effect = Effect::Look,
-               .apply = [](Workspace& workspace, const Arguments&) {
-                   workspace.ui.copied = rope_code(rope_part(workspace));
-                   workspace.toast("The ropes are on the clipboard as C++");
-               }});
+    table.add("rope.preset", "Open a rope preset",
+              {choice_argument("name", true, "which scene",
+                               names(rope_scenes(), [](const auto& each) { return each.name; }))},
+              "Opens a preset", Effect::Edit, take_scene);
+    table.add("rope.copy", "Copy the ropes as C++", {},
+              "Copies ropes and colliders to the clipboard as a C++ program that uses the library",
+              Effect::Look, [](Workspace& workspace, const Arguments&) {
+                  workspace.ui.copied = rope_code(rope_part(workspace));
+                  workspace.toast("The ropes are on the clipboard as C++");
+              });
     table.add(rope_command("rope.settings", "Set how ropes are simulated", settings_arguments(),
                            "Sets how ropes are simulated; omitted settings are kept", settings));
     table.add(rope_command("rope.wind", "Set the wind",

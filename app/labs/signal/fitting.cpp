@@ -236,12 +236,10 @@ void add_fit_commands(CommandTable& table) {
         {number("from", "seconds", 1e3), number("from_value", "the response there", max_amplitude),
          number("to", "seconds", 1e3), number("to_value", "the response there", max_amplitude)},
         "Draws a stroke of the desired response", draw));
-    table.add({.name = "signal.fit.record",
-               .title = "Record the desired response",
-               .arguments = {},
-               .help = "Plays the input from its start, once the output ball is dragged, and records the "
-                       "drag as the desired response",
-               .apply = begin});
+    table.add("signal.fit.record", "Record the desired response", {},
+              "Plays the input from its start, once the output ball is dragged, and records the "
+              "drag as the desired response",
+              Effect::Edit, begin);
     table.add(part_command<SignalPart>(signal_lab, "signal.fit.hand", "Move the recorded output",
                                        {number("value", "where the output should be now", max_amplitude)},
                                        "Moves the output while a response is being recorded", show));
@@ -253,12 +251,9 @@ void add_fit_commands(CommandTable& table) {
         "Replaces the chain with a fitted filter", use_fit));
     table.add(part_command<SignalPart>(signal_lab, "signal.fit.clear", "Forget the desired response", {},
                                        "Forgets the desired response", forget));
-    table.add({.name = "signal.copy",
-               .title = "Copy filters or recent samples",
-               .arguments = {choice_argument("as", true, "what", {"cpp", "csv"})},
-               .help = "Puts the filters on the clipboard as C++, or the last ten seconds as CSV",
-               .effect = Effect::Look,
-               .apply = copy});
+    table.add("signal.copy", "Copy filters or recent samples",
+              {choice_argument("as", true, "what", {"cpp", "csv"})},
+              "Puts the filters on the clipboard as C++, or the last ten seconds as CSV", Effect::Look, copy);
 }
 
 }  // namespace tendril::app

@@ -66,20 +66,27 @@ TEST(Outputs, ReplaceOnlyTheirOwnKind) {
 TEST(Outputs, AreNeverInputsByAnyName) {
     const TempFolder folder;
     test::write(folder / "walk.glb", "glTF");
-    test::write(folder / "skin.png", samples()[3].bytes);
-    test::write(folder / "hero.gltf", R"({"asset": {}, "images": [{"uri": "skin.png"}]})");
-    fs::create_directory(folder / "sub");
+    fs::create_directories(folder / "sub/a b");
+    for (const char* name : {"skin.png", "sub/a b/\xC3\xA4.png", "sub/in_binary.png", "other.png"})
+        test::write(folder / name, samples()[3].bytes);
+    test::write(folder / "hero.gltf", R"({"asset": {}, "buffers": [{"uri": "data:,other.png"}],
+        "images": [{"name": "other.png", "uri": "skin.png"}, {"uri": "sub/a%20b/%C3%a4.png"}, {"uri": 7}]})");
+    const std::string json = R"({"images": [{"uri": "sub\\in_binary.png"}]})";
+    test::write(folder / "hero.vrm", "glTF" + std::string(8, '\2') + static_cast<char>(json.size()) +
+                                         std::string(3, '\0') + "JSON" + json + std::string(9, '\1'));
     fs::create_symlink(folder / "walk.glb", folder / "symbolic.glb");
     fs::create_hard_link(folder / "walk.glb", folder / "hard.glb");
     Outputs outputs;
     outputs.force = true;
     outputs.inputs = {folder / "walk.glb"};
-    outputs.in_use = {folder / "hero.gltf"};
+    outputs.in_use = {folder / "hero.gltf", folder / "hero.vrm"};
     for (const char* name : {"walk.glb", "sub/../walk.glb", "symbolic.glb", "hard.glb", "hero.gltf"})
         EXPECT_TRUE(test::says(refusal(outputs, folder / name, OutputKind::Motion), "in use as input"))
             << name;
-    EXPECT_TRUE(
-        test::says(refusal(outputs, folder / "skin.png", OutputKind::Picture, true), "in use as input"));
+    for (const char* name : {"skin.png", "sub/a b/\xC3\xA4.png", "sub/in_binary.png"})
+        EXPECT_TRUE(test::says(refusal(outputs, folder / name, OutputKind::Picture, true), "in use as input"))
+            << name;
+    EXPECT_EQ(refusal(outputs, folder / "other.png", OutputKind::Picture, true), "");
     EXPECT_EQ(refusal(outputs, folder / "new.glb", OutputKind::Motion), "");
 }
 
@@ -102,6 +109,18 @@ TEST(Outputs, AreReplacedUnaskedIfOnlyThisSessionWroteThem) {
     EXPECT_EQ(test::read(file), "a,b\n");
     test::write(file, "");
     EXPECT_EQ(write("a,b\n"), "") << "an empty file has nothing to lose";
+}
+
+/// Long work is not lost when another program has put something in its place meanwhile.
+TEST(Outputs, TakeAnotherNameAtTheEndOfLongWork) {
+    const TempFolder folder;
+    Outputs outputs;
+    const auto place = [&] { return outputs.place_at_end(folder / "a.mp4", OutputKind::Video); };
+    EXPECT_EQ(place().path, folder / "a.mp4");
+    test::write(folder / "a.mp4", "Dear diary");
+    test::write(folder / "a-1.mp4", "");
+    EXPECT_EQ(place().path, folder / "a-2.mp4");
+    EXPECT_TRUE(test::says(place().refusal, "a.mp4 is not replaced it is not a video"));
 }
 
 TEST(Outputs, AreAskedAboutTogether) {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "app/document/command.hpp"
+#include "app/document/outside_file.hpp"
 #include "tests/app/support/program.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/app/support/test_part.hpp"
@@ -250,20 +251,47 @@ TEST(SceneFile, errors_on_disk_name_the_file_and_the_line) {
     EXPECT_EQ(workspace.path, "old.json");
 }
 
+TEST(SceneFile, ThatAnotherProgramChangesWhileItIsOpenedIsNotOverwritten) {
+    struct Racing : TestPart {
+        std::filesystem::path file;
+        std::shared_ptr<Part> load(const Json& json, const std::string& where) const override {
+            test::write(file, test::read(file) + "\n");
+            return TestPart::load(json, where);
+        }
+    };
+    const TempFolder folder;
+    Workspace workspace = make_busy_workspace();
+    save_scene_file(workspace, folder / "s.json");
+    auto racing = std::make_shared<Racing>();
+    racing->file = folder / "s.json";
+    workspace.blank.set("arm", racing);
+    load_scene_file(workspace, folder / "s.json");
+    workspace.blank.set("arm", make_part("blank arm"));
+    const std::string there = test::read(folder / "s.json");
+    workspace.document.edit<TestPart>("arm").title = "mine";
+    EXPECT_TRUE(test::says(message_of([&] { save_scene_file(workspace, folder / "s.json"); }),
+                           "s.json was changed by another program"));
+    EXPECT_EQ(test::read(folder / "s.json"), there);
+}
+
 /// A part that reads a file beside the JSON, as a character's.
 struct FilePart : Part {
-    std::string file, path, text;
-    int edits = 0;
+    OutsideFile model;
+    std::string text;
+    int edits = 0;  ///< at most as many as the file has characters
     std::shared_ptr<Part> clone() const override { return std::make_shared<FilePart>(*this); }
     Json save() const override {
-        return {{"models", Json::array({{{"file", file}, {"path", path}}})}, {"edits", edits}};
+        return {{"models", Json::array({save_outside_file(model)})}, {"edits", edits}};
     }
-    std::shared_ptr<Part> load(const Json& json, const std::string&) const override {
+    std::shared_ptr<Part> load(const Json& json, const std::string& where) const override {
+        const JsonPlace place(json, where);
         auto part = std::make_shared<FilePart>();
-        part->file = json["models"][0]["file"].get<std::string>();
-        part->path = json["models"][0]["path"].get<std::string>();
-        part->edits = json["edits"].get<int>();
-        if (!part->file.empty()) part->text = test::read(part->path);
+        part->text = read_outside_file(place["models"].element(0),
+                                       [&](const std::string& path, const std::string& file) {
+                                           part->model = outside_file(path, file);
+                                           return path.empty() ? "blank" : read_text_file(path);
+                                       });
+        part->edits = place["edits"].integer(0, static_cast<int>(part->text.size()));
         return part;
     }
     std::size_t bytes() const override { return sizeof(FilePart); }
@@ -287,8 +315,7 @@ class SceneWithAFile : public testing::Test {
         std::filesystem::remove(folder_ / scene);
         Workspace saved = workspace();
         auto& part = saved.document.edit<FilePart>("file");
-        part.file = "model.glb";
-        part.path = (folder_ / model).string();
+        part.model = outside_file((folder_ / model).string(), "model.glb");
         part.edits = 7;
         save_scene_file(saved, folder_ / scene);
     }
@@ -336,6 +363,33 @@ TEST_F(SceneWithAFile, OpensWithoutTheFileAndSavesTheLabUnchanged) {
     EXPECT_EQ(save_scene(again)["labs"]["file"]["edits"], 1) << "it was edited as it is now";
     table.run(again, "undo", Json::object());
     EXPECT_EQ(save_scene(again)["labs"], saved["labs"]);
+}
+
+/// A wrong value is refused, unless the file explains it.
+TEST_F(SceneWithAFile, StartsBlankOnlyWhereItsFileIsAtFault) {
+    save("s.json", "model.glb");
+    const Json scene = read_json_file(folder_ / "s.json");
+    const auto opened = [&](const Json& edits) {
+        Json changed = scene;
+        changed["labs"]["file"]["edits"] = edits;
+        std::string blank;
+        const std::string refused = message_of([&] {
+            Workspace again = workspace();
+            for (const UnreadLab& each : load_scene(again, changed)) blank += each.lab + ": " + each.text;
+        });
+        return blank.empty() ? refused : "blank: " + blank;
+    };
+    for (const Json& wrong : {Json(10), Json(-1), Json("seven"), Json(nullptr)})
+        EXPECT_TRUE(opened(wrong).starts_with("labs.file.edits: expected a whole number")) << wrong;
+    test::write(folder_ / "model.glb", "another model");
+    EXPECT_EQ(opened(10), "");
+    test::write(folder_ / "model.glb", "short");
+    EXPECT_TRUE(opened(7).starts_with("blank: file: labs.file.edits: expected")) << opened(7);
+    EXPECT_TRUE(test::says(opened(7), "(model.glb has changed since the scene was saved)"));
+    std::filesystem::remove(folder_ / "model.glb");
+    EXPECT_TRUE(test::says(opened(7), "blank: file: labs.file.models.0.file model.glb is missing"));
+    std::filesystem::create_directory(folder_ / "model.glb");
+    EXPECT_TRUE(test::says(opened(7), "blank: file: labs.file.models.0.file is a folder"));
 }
 
 TEST(SceneFile, cut_off_anywhere_is_refused) {

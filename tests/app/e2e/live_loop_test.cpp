@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "app/document/drawn_sections.hpp"
+#include "app/document/pace.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"

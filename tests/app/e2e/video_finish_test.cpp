@@ -84,6 +84,17 @@ TEST_F(VideoFinish, GoesOnWhileTheWindowDoes) {
     EXPECT_EQ(read(folder_ / "a.mp4").size(), 11u * 64 * 64 * 4);
 }
 
+TEST_F(VideoFinish, TakesAnotherNameIfAnotherProgramHasWrittenItsFileMeanwhile) {
+    film_with("sleep 0.3\n");
+    write_frames();
+    write(folder_ / "a.mp4", "another program's");
+    for (int i = 0; i < 3000 && filming(); ++i) tick();
+    EXPECT_TRUE(test::says(toast(), "a.mp4 is not replaced The video is a-1.mp4")) << toast();
+    EXPECT_EQ(folder_.names(), (std::vector<std::string>{"a-1.mp4", "a.mp4"}));
+    EXPECT_EQ(read(folder_ / "a.mp4"), "another program's");
+    EXPECT_EQ(read(folder_ / "a-1.mp4").size(), 11u * 64 * 64 * 4);
+}
+
 TEST_F(VideoFinish, IsCancelledByEscapeAndLeavesNoFile) {
     film_with("exec sleep 30\n");
     write_frames();

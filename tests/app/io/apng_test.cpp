@@ -38,6 +38,7 @@ std::string written(const std::vector<Image>& frames, app::VideoFormat format) {
     ApngFile file(folder / "a.png", format);
     for (const Image& frame : frames) file.add(frame);
     file.finish();
+    file.commit();
     EXPECT_EQ(folder.names(), std::vector<std::string>{"a.png"});
     return read(folder / "a.png");
 }

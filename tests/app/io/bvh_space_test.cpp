@@ -170,47 +170,43 @@ TEST(BvhSpace, a_zero_pose_that_does_not_stand_gives_way_to_the_motion) {
     EXPECT_TRUE(test::says(all_text(character), "rest pose frame of the motion"));
 }
 
+/// The stick figure with the clip of a file, carried over, and their scale.
+std::pair<Character, double> on_the_figure(const Character& source) {
+    Character figure = stick_figure();
+    const humanoid::BoneMap map = bone_map(figure), from = bone_map(source);
+    const auto made = humanoid::retarget({source.skeleton, from}, source.clips[0], {figure.skeleton, map});
+    EXPECT_TRUE(made) << made.message();
+    figure.clips = {made->clip};
+    return {std::move(figure), made->scale};
+}
+
 /// It walks as in its file, whichever way it looks in the frame that becomes its rest pose.
 TEST(BvhSpace, TheWayAFigureLooksInAFrameIsNotTheWayItFaces) {
-    const Character figure = stick_figure();
-    const humanoid::BoneMap map = bone_map(figure);
     for (const double yaw : {-128.0, -18.0, 0.0, 18.0, 64.0, 90.0, 170.0}) {
         SCOPED_TRACE(yaw);
         const Character source =
             parse_bvh(written({.joints = folded, .root_turn = {0, yaw, 0}, .root = {0, 90, 0}}), "it.bvh");
         expect_standing(source);
         EXPECT_LT(glm::distance(facing(source.skeleton, bone_map(source)).forward, {0, 0, 1}), 1e-9);
-        const humanoid::BoneMap from = bone_map(source);
-        const auto made =
-            humanoid::retarget({source.skeleton, from}, source.clips[0], {figure.skeleton, map});
-        ASSERT_TRUE(made) << made.message();
-        Character shown = figure;
-        shown.clips = {made->clip};
+        const auto [shown, scale] = on_the_figure(source);
         const auto ahead = [](const Character& of, const char* toes) {
             const glm::dvec3 foot = at(of, toes) - at(of, "LeftFoot");
             return glm::normalize(glm::dvec3(foot.x, 0.0, foot.z));
         };
         EXPECT_LT(glm::distance(ahead(shown, "LeftToes"), ahead(source, "LeftToe")), 1e-6);
         const glm::dvec3 way = test_posed::at(shown, "Hips", 0, 0.95) - at(shown, "Hips");
-        EXPECT_LT(glm::distance(way, {0.0, 0.0, 0.38 * made->scale}), 1e-3);
+        EXPECT_LT(glm::distance(way, {0.0, 0.0, 0.38 * scale}), 1e-3);
     }
 }
 
 /// And the feet of that frame are not how it stands: a frame is the same however many follow.
 TEST(BvhSpace, AFrameRetargetsTheSameInAFileOfAnyLength) {
-    const Character figure = stick_figure();
-    const humanoid::BoneMap map = bone_map(figure);
     for (const int frames : {1, 2, 4, 10, 60}) {
         const Character source = parse_bvh(
             written(
                 {.joints = folded, .root = {0, 90, 0}, .way = {0, 0, 4}, .tread = 15.0, .frames = frames}),
             "it.bvh");
-        const humanoid::BoneMap from = bone_map(source);
-        const auto made =
-            humanoid::retarget({source.skeleton, from}, source.clips[0], {figure.skeleton, map});
-        ASSERT_TRUE(made) << made.message();
-        Character shown = figure;
-        shown.clips = {made->clip};
+        const Character shown = on_the_figure(source).first;
         const auto tilt = [&](const char* foot, const char* toes) {
             const glm::dvec3 now = at(shown, toes) - at(shown, foot),
                              rest = at(shown, toes, false) - at(shown, foot, false);

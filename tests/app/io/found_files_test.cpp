@@ -57,6 +57,18 @@ auto noted(std::size_t nodes, const char* words) {
     };
 }
 
+/// Its bones are matched, these to nodes of those names.
+auto usable(std::map<humanoid::Bone, std::string> names) {
+    return [names = std::move(names)](const Character& character) {
+        const humanoid::BoneMap map = bone_map(character);
+        EXPECT_TRUE(map.is_usable());
+        for (const auto& [bone, name] : names) {
+            ASSERT_GE(map[bone].node, 0) << name;
+            EXPECT_EQ(character.skeleton[static_cast<std::size_t>(map[bone].node)].name, name);
+        }
+    };
+}
+
 const std::vector<FoundFile>& found_files() {
     static const std::vector<FoundFile> files{
         {"fbx_mesh_only.fbx", {}, "no skeleton"},
@@ -144,31 +156,14 @@ const std::vector<FoundFile>& found_files() {
              read_as(lying, lying.scale, {.up = UpAxis::Y, .positions = lying.space.positions});
              EXPECT_TRUE(lying.guesses.up.empty());
          }},
-        {"bvh_walk_folded.bvh",
-         [](const Character& character) { EXPECT_TRUE(bone_map(character).is_usable()); }},
-        {"bvh_walk_folded_yaw.bvh",
-         [](const Character& character) { EXPECT_TRUE(bone_map(character).is_usable()); }},
+        {"bvh_walk_folded.bvh", usable({})},
+        {"bvh_walk_folded_yaw.bvh", usable({})},
         {"bvh_walk_60hz_300.bvh", [](const Character& character) { EXPECT_EQ(keys_of(character), 300u); }},
         {"bvh_walk_30hz_61.bvh", [](const Character& character) { EXPECT_EQ(keys_of(character), 61u); }},
         {"bvh_acclaim_names.bvh",
-         [](const Character& character) {
-             const humanoid::BoneMap map = bone_map(character);
-             EXPECT_TRUE(map.is_usable());
-             EXPECT_EQ(
-                 character.skeleton[static_cast<std::size_t>(map[humanoid::Bone::LeftLowerArm].node)].name,
-                 "lradius");
-         }},
+         usable({{humanoid::Bone::LeftLowerArm, "lradius"}, {humanoid::Bone::RightLowerArm, "rradius"}})},
         {"bvh_left_right_differ.bvh",
-         [](const Character& character) {
-             const humanoid::BoneMap map = bone_map(character);
-             EXPECT_TRUE(map.is_usable());
-             EXPECT_EQ(
-                 character.skeleton[static_cast<std::size_t>(map[humanoid::Bone::LeftUpperArm].node)].name,
-                 "LUArm");
-             EXPECT_EQ(
-                 character.skeleton[static_cast<std::size_t>(map[humanoid::Bone::RightUpperArm].node)].name,
-                 "RUArm");
-         }},
+         usable({{humanoid::Bone::LeftUpperArm, "LUArm"}, {humanoid::Bone::RightUpperArm, "RUArm"}})},
         {"gltf_animation_pointer.gltf",
          [](const Character& character) {
              EXPECT_NEAR(character.clips.at(0).duration, 0.2, 1e-6);

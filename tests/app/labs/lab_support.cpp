@@ -28,6 +28,12 @@ void LabTest::run_in(Workspace& other, const char* name, const Json& arguments) 
     table.run(other, name, arguments);
 }
 
+Workspace LabTest::reopened() const {
+    Workspace other = make_blank_workspace(labs);
+    load_scene(other, save_scene(workspace));
+    return other;
+}
+
 std::string LabTest::refused(const char* name, const Json& arguments) {
     const Document before = workspace.document;
     const Json scene = save_scene(workspace);
@@ -48,6 +54,28 @@ void LabTest::expect_refused(const char* name, const Json& arguments, const std:
     const std::string message = refused(name, arguments);
     for (const std::string& each : says)
         EXPECT_NE(message.find(each), std::string::npos) << message << "\n  does not say " << each;
+}
+
+std::string LabTest::opened_with(const char* pointer, const Json& value) const {
+    Json scene = save_scene(workspace);
+    scene["labs"][lab_][Json::json_pointer(pointer)] = value;
+    Workspace other = make_blank_workspace(labs);
+    const Document before = other.document;
+    try {
+        std::string why;
+        for (const UnreadLab& each : load_scene(other, scene)) why += "blank: " + each.text;
+        EXPECT_TRUE(why.empty() || save_scene(other).at("labs") == scene.at("labs")) << "its JSON is kept";
+        return why;
+    } catch (const std::runtime_error& error) {
+        EXPECT_TRUE(other.document == before);
+        return error.what();
+    }
+}
+
+void LabTest::expect_scene_refused(const char* pointer, const Json& value, const std::string& says) const {
+    const std::string message = opened_with(pointer, value);
+    EXPECT_TRUE(message.starts_with("labs.") && message.find(says) != std::string::npos)
+        << message << "\n  does not say " << says;
 }
 
 }  // namespace tendril::app

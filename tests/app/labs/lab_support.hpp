@@ -31,6 +31,10 @@ class LabTest : public testing::Test {
 
     const Lab& lab() const { return *labs.find(lab_); }
     Json state() const { return lab().state(workspace); }
+    /// The lab in a scene file.
+    Json saved() const { return save_scene(workspace).at("labs").at(lab_); }
+    /// The workspace after saving and loading.
+    Workspace reopened() const;
     /// As in a script: long work is completed.
     void run(const char* name, const Json& arguments = Json::object(), Gesture gesture = 0);
     /// As in the window: long work continues in ticks.
@@ -40,6 +44,10 @@ class LabTest : public testing::Test {
     std::string refused(const char* name, const Json& arguments = Json::object());
     /// The same, with a message that says each of these in any order.
     void expect_refused(const char* name, const Json& arguments, const std::vector<std::string>& says);
+    /// Opens the scene with this value in the lab's JSON. Returns what refuses it; "blank: " and why, if the
+    /// lab starts blank; or nothing.
+    std::string opened_with(const char* pointer, const Json& value) const;
+    void expect_scene_refused(const char* pointer, const Json& value, const std::string& says) const;
 
   private:
     const char* lab_;

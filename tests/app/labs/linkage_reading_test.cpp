@@ -235,7 +235,7 @@ TEST_F(LinkageReading, ADeadPointNamesTheJointsThatMatterBesideAnyTriangles) {
         for (int k = 0; k < 40 && state().at("status") == "Reached"; ++k)
             run("linkage.drive", {{"joint", "m"}, {"angle_deg", driver("m") + (i % 4 < 2 ? 10.0 : -10.0)}});
         if (state().at("status") != "DeadPoint") continue;
-        const std::string reason = dead_point_reason(part());
+        const std::string reason = dead_point_reason(part(), runtime());
         const auto off_line = [&](const char* a, const char* b, const char* c) {
             const glm::dvec3 u = glm::normalize(at(b) - at(a)), v = glm::normalize(at(c) - at(b));
             return std::abs(u.x * v.y - u.y * v.x);
@@ -322,9 +322,9 @@ TEST_F(LinkageReading, AnglesAreShownWithinATurn) {
     EXPECT_EQ(value_text(part(), "S", 1.25), "1.250 m");
     run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", -360}});
     wait(130);
-    EXPECT_TRUE(test::says(linkage_verdict(part()).why, "motor runs 2 whole turns backwards") ||
-                test::says(linkage_verdict(part()).why, "motor runs 3 whole turns backwards"))
-        << linkage_verdict(part()).why;
+    EXPECT_TRUE(test::says(linkage_verdict(part(), runtime()).why, "motor runs 2 whole turns backwards") ||
+                test::says(linkage_verdict(part(), runtime()).why, "motor runs 3 whole turns backwards"))
+        << linkage_verdict(part(), runtime()).why;
 }
 
 TEST_F(LinkageReading, WhatFloatsHasThreeDegreesOfFreedomMore) {
@@ -332,7 +332,7 @@ TEST_F(LinkageReading, WhatFloatsHasThreeDegreesOfFreedomMore) {
     run("linkage.bar", {{"from", {0, 0, 0}}, {"to", {0, 1, 0}}});
     EXPECT_EQ(state().at("freedom"), 3);
     EXPECT_EQ(state().at("gruebler"), 3);
-    EXPECT_TRUE(test::says(linkage_verdict(part()).why, "floats 3 degrees of freedom Pin"));
+    EXPECT_TRUE(test::says(linkage_verdict(part(), runtime()).why, "floats 3 degrees of freedom Pin"));
     run("linkage.bar", {{"from", "B"}, {"to", {2, 2, 0}}});
     EXPECT_EQ(state().at("freedom"), 4) << "two bars with a joint";
     run("linkage.bar", {{"from", "C"}, {"to", {3, 0, 0}}});
@@ -345,7 +345,7 @@ TEST_F(LinkageReading, WhatFloatsHasThreeDegreesOfFreedomMore) {
     EXPECT_EQ(state().at("freedom"), 1);
     run("linkage.bar", {{"from", {5, 5, 0}}, {"to", {6, 5, 0}}});
     EXPECT_EQ(state().at("freedom"), 4) << "another that is loose";
-    EXPECT_TRUE(test::says(linkage_verdict(part()).why, "floats 3 degrees"));
+    EXPECT_TRUE(test::says(linkage_verdict(part(), runtime()).why, "floats 3 degrees"));
 }
 
 TEST_F(LinkageReading, AnElbowIsDrivenAgainstTheUpperArm) {

@@ -14,6 +14,7 @@ class LinkageTest : public LabTest {
   protected:
     LinkageTest() : LabTest(linkage_lab) { workspace.lab = linkage_lab; }
     const LinkagePart& part() const { return linkage_part(workspace); }
+    LinkageRuntime& runtime() const { return workspace.runtimes.of<LinkageRuntime>(linkage_lab); }
     void wait(int ticks) {
         for (int i = 0; i < ticks; ++i) lab().step(workspace);
     }

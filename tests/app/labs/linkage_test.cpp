@@ -313,7 +313,7 @@ TEST_F(LinkageTest, ADeadPointThatNamesNoDriverIsSaidToo) {
     LinkagePart stuck = part();
     stuck.result.report.status = ik::LinkageStatus::DeadPoint;
     stuck.result.report.stopped.reset();
-    EXPECT_EQ(linkage_verdict(stuck).text, "Dead point");
+    EXPECT_EQ(linkage_verdict(stuck, runtime()).text, "Dead point");
 }
 
 TEST_F(LinkageTest, OnePointHasOneTargetInAFile) {

@@ -108,10 +108,7 @@ TEST_F(RopeRace, APastMomentIsRacedToo) {
 }
 
 TEST_F(RopeRace, OfOneSolverTwiceIsNotOpened) {
-    Json twice = save_scene(workspace);
-    Json& rivals = twice["labs"]["rope"]["rivals"];
-    rivals[1] = rivals[0];
-    EXPECT_THROW(load_scene(workspace, twice), std::runtime_error);
+    expect_scene_refused("/rivals/1", saved()["rivals"][0], "rivals");
 }
 
 TEST_F(RopeRace, APaneIsPickedInItsOwnWorld) {

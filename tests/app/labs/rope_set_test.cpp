@@ -82,8 +82,7 @@ TEST_F(RopeSet, EveryPropertyOfEveryKind) {
             run("redo");
             EXPECT_EQ(made_of(each.body), set);
         }
-    Workspace opened = make_blank_workspace(labs);
-    load_scene(opened, save_scene(workspace));
+    const Workspace opened = reopened();
     for (const auto& each : cases) {
         const NamedWorld& loaded = *rope_part(opened).world;
         EXPECT_EQ(settings_of(loaded, *loaded.find(each.body)), made_of(each.body)) << each.body;

@@ -149,24 +149,13 @@ Command keeping(Command command) {
 }
 
 void add_kept_map_commands(CommandTable& table) {
-    table.add({.name = "humanoid.map.keep",
-               .title = "Keep the bone map",
-               .arguments = {},
-               .help = "Keeps the bone map, to be offered for characters with the same node names",
-               .effect = Effect::Look,
-               .apply = keep_told});
-    table.add({.name = "humanoid.map.use",
-               .title = "Use the kept bone map",
-               .arguments = {},
-               .help = "Uses the bone map that was kept for these node names",
-               .effect = Effect::Edit,
-               .apply = use});
-    table.add({.name = "humanoid.map.forget",
-               .title = "Forget the kept bone map",
-               .arguments = {},
-               .help = "Removes the bone map that was kept for these node names",
-               .effect = Effect::Look,
-               .apply = forget});
+    table.add("humanoid.map.keep", "Keep the bone map", {},
+              "Keeps the bone map, to be offered for characters with the same node names", Effect::Look,
+              keep_told);
+    table.add("humanoid.map.use", "Use the kept bone map", {},
+              "Uses the bone map that was kept for these node names", Effect::Edit, use);
+    table.add("humanoid.map.forget", "Forget the kept bone map", {},
+              "Removes the bone map that was kept for these node names", Effect::Look, forget);
 }
 
 // Commands on the character and its bone map.
@@ -403,26 +392,17 @@ void add_character_commands(CommandTable& table) {
          .effect = Effect::Edit,
          .apply = load,
          .finish = finish_loading});
-    table.add({.name = "humanoid.load.cancel",
-               .title = "Stop loading or fixing",
-               .arguments = {},
-               .help = "Stops loading a large file or fixing a long clip; the current character stays",
-               .effect = Effect::Look,
-               .apply = [](Workspace& workspace, const Arguments&) {
-                   humanoid_runtime(workspace).loading.cancel();
-               }});
+    table.add("humanoid.load.cancel", "Stop loading or fixing", {},
+              "Stops loading a large file or fixing a long clip; the current character stays", Effect::Look,
+              [](Workspace& workspace, const Arguments&) { humanoid_runtime(workspace).loading.cancel(); });
     table.add(keeping(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.map", "Map a bone to a node",
         {choice_argument("bone", true, "which", bone_names()),
          node_argument("node", false, "of the skeleton, by name; none if omitted")},
         "Sets which node of the character a bone is", map)));
-    table.add(
-        {.name = "humanoid.scale",
-         .title = "Correct the character's scale",
-         .arguments = {{.name = "metres", .help = "per unit of the file", .low = min_unit, .high = max_unit}},
-         .help = "Corrects the unit of the character's file",
-         .effect = Effect::Edit,
-         .apply = rescale});
+    table.add("humanoid.scale", "Correct the character's scale",
+              {{.name = "metres", .help = "per unit of the file", .low = min_unit, .high = max_unit}},
+              "Corrects the unit of the character's file", Effect::Edit, rescale);
     table.add(space_command("humanoid.up", "Correct the character's up axis", 0,
                             "Sets which axis of the character's file points up"));
     table.add(space_command("humanoid.root", "Correct the character's root positions", 1,
@@ -545,28 +525,21 @@ std::optional<Fault> fault_named(const std::string& name) {
 }
 
 void add_humanoid_file_commands(CommandTable& table) {
-    table.add({.name = "humanoid.map.save",
-               .title = "Save the bone map",
-               .arguments = {text_argument("path", true, "a JSON file to write")},
-               .help = "Writes which node is which bone",
-               .effect = Effect::Look,
-               .apply = save_map});
+    table.add("humanoid.map.save", "Save the bone map", {text_argument("path", true, "a JSON file to write")},
+              "Writes which node is which bone", Effect::Look, save_map);
     table.add(keeping(
         part_command<HumanoidPart>(humanoid_lab, "humanoid.map.load", "Load a bone map",
                                    {text_argument("path", true, "a JSON file that humanoid.map.save wrote")},
                                    "Applies a saved bone map", load_map)));
     add_kept_map_commands(table);
-    table.add({.name = "humanoid.export",
-               .title = "Export a clip",
-               .arguments = {text_argument("path", true, "a .gltf, .glb or .bvh file to write"),
-                             clip_argument("clip", "which one; default: the chosen one, or the first"),
-                             switch_argument("all", "writes every clip, each to a file with its name added"),
-                             number_argument("fps", "frames per second; default: the clip's own", min_rate,
-                                             largest_rate)},
-               .help = "Writes a clip with everything that IK does to it; says how close the file comes, and "
-                       "what Motion lint finds in it",
-               .effect = Effect::Look,
-               .apply = export_shown});
+    table.add("humanoid.export", "Export a clip",
+              {text_argument("path", true, "a .gltf, .glb or .bvh file to write"),
+               clip_argument("clip", "which one; default: the chosen one, or the first"),
+               switch_argument("all", "writes every clip, each to a file with its name added"),
+               number_argument("fps", "frames per second; default: the clip's own", min_rate, largest_rate)},
+              "Writes a clip with everything that IK does to it; says how close the file comes, and "
+              "what Motion lint finds in it",
+              Effect::Look, export_shown);
     table.add(
         {.name = "humanoid.cure",
          .title = "Fix faults in a clip",

@@ -10,10 +10,9 @@
 namespace tendril::app {
 namespace {
 
-SharedCharacter shared(std::string file, std::string path, Character character) {
+SharedCharacter shared(const OutsideFile& file, Character character) {
     auto loaded = std::make_shared<LoadedCharacter>();
-    loaded->file = std::move(file);
-    loaded->path = std::move(path);
+    static_cast<OutsideFile&>(*loaded) = file;
     loaded->character = std::move(character);
     const humanoid::Skeleton& skeleton = loaded->skeleton();
     loaded->matched = bone_map(loaded->character);
@@ -43,13 +42,13 @@ void apply(const ClipEdit& edit, Character& character, std::size_t own_clips) {
 
 }  // namespace
 
-SharedCharacter load_character(const std::string& file, LoadProgress* progress) {
-    if (file.empty()) {
-        static const SharedCharacter figure = shared({}, {}, stick_figure());
+SharedCharacter load_character(const std::string& path, LoadProgress* progress, const std::string& file) {
+    if (path.empty()) {
+        static const SharedCharacter figure = shared({}, stick_figure());
         return figure;
     }
-    return shared(file, std::filesystem::absolute(file).lexically_normal().string(),
-                  read_character(file, progress));
+    Character character = read_character(path, progress);
+    return shared(outside_file(path, file), std::move(character));
 }
 
 SharedCharacter read_as(const SharedCharacter& character, double metres, const FileSpace& space) {
@@ -58,7 +57,7 @@ SharedCharacter read_as(const SharedCharacter& character, double metres, const F
     Character copy = source->character;
     read_as(copy, metres, space);
     for (const ClipEdit& each : character->edits) apply(each, copy, source->clips().size());
-    auto loaded = std::make_shared<LoadedCharacter>(*shared(source->file, source->path, std::move(copy)));
+    auto loaded = std::make_shared<LoadedCharacter>(*shared(*source, std::move(copy)));
     loaded->edits = character->edits;
     loaded->source = source;
     return loaded;

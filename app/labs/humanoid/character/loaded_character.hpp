@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/document/outside_file.hpp"
 #include "app/document/workspace.hpp"
 #include "app/io/character/character.hpp"
 #include "app/io/character/progress.hpp"
@@ -31,9 +32,7 @@ struct ClipCure {
 };
 
 /// A clip of another file that was carried over.
-struct LoadedMotion {
-    std::string file;                  ///< as given
-    std::string path;                  ///< absolute
+struct LoadedMotion : OutsideFile {
     std::string clip;                  ///< its name there
     std::vector<std::string> notes{};  ///< RetargetedMotion::notes
     bool operator==(const LoadedMotion&) const = default;
@@ -57,9 +56,8 @@ struct ClipEdit {
     std::shared_ptr<const humanoid::Clip> clip;  ///< in the metres and axes of `as`
 };
 
-struct LoadedCharacter {
-    std::string file;  ///< as given; empty: the stick figure
-    std::string path;  ///< absolute path; empty for the stick figure
+/// Without a file it is the stick figure.
+struct LoadedCharacter : OutsideFile {
     Character character;
     std::vector<ClipEdit> edits{};                    ///< of its clips, in the order in which they were made
     std::shared_ptr<const LoadedCharacter> source{};  ///< as the file was first read; null: this is it
@@ -75,8 +73,10 @@ struct LoadedCharacter {
 };
 using SharedCharacter = std::shared_ptr<const LoadedCharacter>;
 
-/// An empty file name gives the stick figure. Throws std::runtime_error that begins with the file name.
-SharedCharacter load_character(const std::string& file, LoadProgress* progress = nullptr);
+/// An empty path gives the stick figure; `file`: what the user called it, if that is something else. Throws
+/// std::runtime_error that begins with the file name.
+SharedCharacter load_character(const std::string& path, LoadProgress* progress = nullptr,
+                               const std::string& file = {});
 /// The same character with a unit of `metres` and other axes. The result does not depend on those that it had
 /// in between. Throws std::runtime_error.
 SharedCharacter read_as(const SharedCharacter& character, double metres, const FileSpace& space);

@@ -30,10 +30,9 @@ std::string free_name(const LoadedCharacter& character, const std::string& wante
 
 }  // namespace
 
-PlayedMotion with_motion(const HumanoidPart& part, const std::string& file, const std::string& clip,
-                         const std::string& named) {
-    const std::filesystem::path path(file);
-    const Character source = read_character(path);
+PlayedMotion with_motion(const HumanoidPart& part, const Character& source, const OutsideFile& file,
+                         const std::string& clip) {
+    const std::filesystem::path path(file.path);
     const Clip& wanted = clip_named(source, path, clip);
     RetargetedMotion motion = retargeted_clip(source, path, wanted, part.skeleton(), *part.map);
     motion.clip.name = free_name(*part.loaded, wanted.name);
@@ -41,10 +40,8 @@ PlayedMotion with_motion(const HumanoidPart& part, const std::string& file, cons
     played.text =
         "Clip " + motion.clip.name + " from " + path.filename().string() + ". " + motion.notes.front();
     played.loaded =
-        edited(part.loaded, {LoadedMotion{named.empty() ? file : named,
-                                          std::filesystem::absolute(path).lexically_normal().string(),
-                                          wanted.name, std::move(motion.notes)},
-                             reading_of(part), std::make_shared<const Clip>(std::move(motion.clip))});
+        edited(part.loaded, {LoadedMotion{file, wanted.name, std::move(motion.notes)}, reading_of(part),
+                             std::make_shared<const Clip>(std::move(motion.clip))});
     return played;
 }
 
@@ -61,7 +58,9 @@ const LoadedMotion* motion_of(const LoadedCharacter& character, std::size_t clip
 namespace {
 
 void load_motion(Workspace& workspace, const Arguments& given) {
-    PlayedMotion played = with_motion(humanoid_part(workspace), given.text("path"),
+    const std::string path = given.text("path");
+    const Character source = read_character(path);
+    PlayedMotion played = with_motion(humanoid_part(workspace), source, outside_file(path),
                                       given.has("clip") ? given.text("clip") : std::string());
     HumanoidPart& part = workspace.document.edit<HumanoidPart>(humanoid_lab);
     part.loaded = std::move(played.loaded);
@@ -95,18 +94,13 @@ void motion_rows(const HumanoidPanel& panel, MoreRows& more) {
 }
 
 void add_motion_commands(CommandTable& table) {
-    table.add(
-        {.name = "humanoid.motion.load",
-         .title = "Load another character's motion",
-         .arguments = {text_argument("path", true,
-                                     "a .vrma, .vrm, .gltf, .glb, .fbx or .bvh file with a clip"),
-                       text_argument("clip", false, "which one, by name; default: the first")},
-         .help =
-             "Plays a clip of another character on this one, by the two bone maps: limbs, hands and fingers "
-             "point in the same directions, feet stand where the other's do, and the hips move in "
-             "proportion to the legs",
-         .effect = Effect::Edit,
-         .apply = load_motion});
+    table.add("humanoid.motion.load", "Load another character's motion",
+              {text_argument("path", true, "a .vrma, .vrm, .gltf, .glb, .fbx or .bvh file with a clip"),
+               text_argument("clip", false, "which one, by name; default: the first")},
+              "Plays a clip of another character on this one, by the two bone maps: limbs, hands and fingers "
+              "point in the same directions, feet stand where the other's do, and the hips move in "
+              "proportion to the legs",
+              Effect::Edit, load_motion);
 }
 
 }  // namespace tendril::app

@@ -14,10 +14,10 @@ struct PlayedMotion {
     std::string text;        ///< for the user: its name, and what could not be carried over
 };
 
-/// Reads the clip of that name from a file of any kind; empty: the first one. `named`: what the user called
-/// the file, if it was found elsewhere. Throws std::runtime_error that begins with the file's name.
-PlayedMotion with_motion(const HumanoidPart& part, const std::string& file, const std::string& clip,
-                         const std::string& named = {});
+/// Carries over the clip of that name, empty: the first one, of a character read from `file`. Throws
+/// std::runtime_error that begins with the file's name.
+PlayedMotion with_motion(const HumanoidPart& part, const Character& source, const OutsideFile& file,
+                         const std::string& clip);
 
 /// The motion that this clip is; null: a clip of the character's own.
 const LoadedMotion* motion_of(const LoadedCharacter& character, std::size_t clip);

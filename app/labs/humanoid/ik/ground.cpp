@@ -31,10 +31,10 @@ humanoid::HeightField hills() {
     return field;
 }
 
-std::shared_ptr<const GroundMesh> read_ground_mesh(const std::string& path) {
+std::shared_ptr<const GroundMesh> read_ground_mesh(const std::string& path, const std::string& file) {
     auto mesh = std::make_shared<GroundMesh>();
-    mesh->path = path;
     mesh->triangles = read_triangles(path);
+    static_cast<OutsideFile&>(*mesh) = outside_file(path, file);
     mesh->ground = require_value(Ground::mesh(mesh->triangles.vertices, mesh->triangles.triangles));
     return mesh;
 }

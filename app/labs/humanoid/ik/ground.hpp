@@ -6,6 +6,7 @@
 #include <tendril/humanoid/ground.hpp>
 
 #include "app/document/names.hpp"
+#include "app/document/outside_file.hpp"
 #include "app/io/character/gltf_triangles.hpp"
 #include "app/labs/lab.hpp"
 
@@ -23,13 +24,13 @@ inline constexpr EnumNames<humanoid::GroundKind, 6> ground_kinds{
 inline constexpr double steepest_deg = 80.0, highest_step = 2.0, shortest_step = 0.05, longest_step = 10.0;
 
 /// The triangles of a file. Immutable; copies share it.
-struct GroundMesh {
-    std::string path;
+struct GroundMesh : OutsideFile {
     TriangleMesh triangles;
     humanoid::Ground ground;
 };
-/// Throws std::runtime_error that begins with the file name.
-std::shared_ptr<const GroundMesh> read_ground_mesh(const std::string& path);
+/// `file`: what the user called it, if that is not its path. Throws std::runtime_error that begins with the
+/// file name.
+std::shared_ptr<const GroundMesh> read_ground_mesh(const std::string& path, const std::string& file = {});
 
 /// Values that belong to other kinds are kept.
 struct GroundSetting {

@@ -125,19 +125,13 @@ Release read_release(const JsonPlace& place, const humanoid::Skeleton& skeleton)
 
 Json ground_json(const GroundSetting& ground) {
     Json json = save_fields(ground);
-    if (ground.mesh) json["path"] = ground.mesh->path;
+    if (ground.mesh) json.update(save_outside_file(*ground.mesh));
     return json;
 }
 
 void read_ground(const JsonPlace& place, GroundSetting& ground) {
     load_fields(place, ground);
-    if (const auto path = place.optional("path")) {
-        try {
-            ground.mesh = read_ground_mesh(path->text());
-        } catch (const std::exception& error) {
-            path->fail(error.what());
-        }
-    }
+    if (place.has("path")) ground.mesh = read_outside_file(place, read_ground_mesh);
     if (ground.kind == humanoid::GroundKind::Mesh && !ground.mesh) place.fail("a mesh needs its path");
 }
 

@@ -65,6 +65,11 @@ class Solver {
     /// change and the status is InvalidInput.
     Report solve(Method method, Chain& chain, State& state, glm::vec3 target, const Options& options = {},
                  Observer* observer = nullptr) noexcept;
+    /// Why solve() gives InvalidInput for these, with the argument and its value; success if it does not:
+    /// "solve: limits[1] must be a valid limit, got the hinge's axis lies along the bone". For messages: it
+    /// repeats what solve() checks, without allocating.
+    Result check_input(Method method, std::span<const glm::vec3> joints, const State& state, glm::vec3 target,
+                       const Options& options = {}) const noexcept;
 
     /// After a solve that ended Limited: which joint stops the tip, that is, the one that brings the tip
     /// nearest to the target if it alone is freed. `joints` and `state` are those that the solve left. None

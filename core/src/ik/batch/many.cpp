@@ -327,8 +327,7 @@ ManySummary Batch::Parts::solve(Parts& parts, std::span<const glm::vec3> targets
     scalar.plane = options.plane;
     if (parts.limits) scalar.limits = parts.limits->limits;
     const bool fits = targets.size() == parts.chains && (reports.empty() || reports.size() == parts.chains);
-    if (!fits || unit == nullptr || !are_valid(scalar, parts.bones))
-        return refused_many(reports, parts.chains);
+    if (!fits || unit == nullptr || !check(scalar, parts.bones)) return refused_many(reports, parts.chains);
     Work work({parts.blocks.get(), parts.chains, parts.bones, targets, joints, reports, scalar, *unit,
                parts.limits.get(), parts.rotations.get()});
     const std::size_t useful = std::min(parts.block_count(), parts.chains * parts.bones / bones_a_thread);

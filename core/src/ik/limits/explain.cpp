@@ -195,7 +195,7 @@ std::optional<ActiveLimit> Solver::explain(std::span<const glm::vec3> joints, co
     const bool limited = !(options.plane ? options.plane->limits.empty() : options.limits.empty());
     if (!limited || bones() == 0 || joints.size() != bones() + 1) return std::nullopt;
     if (!are_points(joints) || !are_points({&target, 1}) || !is_valid(state, bones())) return std::nullopt;
-    if (!are_valid(options, bones())) return std::nullopt;
+    if (!check(options, bones())) return std::nullopt;
     if (options.plane) {
         std::copy(joints.begin(), joints.end(), scratch.joints.begin());
         scratch.saved = state;

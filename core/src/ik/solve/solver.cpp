@@ -60,6 +60,20 @@ void fill(Workspace& scratch, std::span<const float> lengths, std::span<const gl
     }
 }
 
+/// load_limits() checks the joint limits, those that have changed.
+Result check_all_but_limits(std::size_t bones, Method method, std::span<const glm::vec3> joints,
+                            const State& state, const glm::vec3& target, const Options& options) noexcept {
+    // With a tip orientation the last bone is placed separately.
+    if (!takes(method, bones) && !(options.tip_orientation && takes(method, bones - 1)))
+        return check_takes(method, bones);
+    if (const Result bad = check_count("solve", "joints", joints.size(), bones + 1); !bad) return bad;
+    for (std::size_t i = 0; i < joints.size(); ++i)
+        if (!is_point(joints[i])) return refused_point("solve", {"joints", i}, joints[i]);
+    if (const Result bad = check_point("solve", "target", target); !bad) return bad;
+    if (const Result bad = check(options, bones); !bad) return bad;
+    return is_valid(state, bones) ? Result() : ik::check(state, bones);
+}
+
 /// Whether a solve could move a joint further out than a Chain accepts.
 bool may_leave_range(const Chain& chain, float reach) noexcept {
     const glm::vec3& root = chain.segments()[0].position;
@@ -95,14 +109,21 @@ float Solver::reach() const noexcept {
     return parts_ ? parts_->scratch.reach : 0.0f;
 }
 
+Result Solver::check_input(Method method, std::span<const glm::vec3> joints, const State& state,
+                           glm::vec3 target, const Options& options) const noexcept {
+    if (!parts_) return moved_from("solve", "solver");
+    if (const Result bad = check_all_but_limits(bones(), method, joints, state, target, options); !bad)
+        return bad;
+    for (std::size_t i = 0; i < options.limits.size(); ++i)
+        if (const char* const wrong = fault(options.limits[i], parts_->scratch.rest_directions[i]))
+            return refused("solve", {"limits", i}, "a valid limit", wrong);
+    return {};
+}
+
 Report Solver::solve(Method method, std::span<glm::vec3> joints, State& state, glm::vec3 target,
                      const Options& options, Observer* observer) noexcept {
-    // With a tip orientation the last bone is placed separately.
-    const bool taken = takes(method, bones()) || (options.tip_orientation && takes(method, bones() - 1));
-    if (!parts_ || joints.size() != bones() + 1 || !taken) return invalid_input;
-    if (!are_points(joints) || !are_points({&target, 1}) || !are_valid(options, bones()))
+    if (!parts_ || !check_all_but_limits(bones(), method, joints, state, target, options))
         return invalid_input;
-    if (!is_valid(state, bones())) return invalid_input;
     if (options.plane && bones() > 0)
         return PlaneProblem(parts_->scratch, joints, state, target, options).solve(method, observer);
     if (!load_limits(parts_->scratch, options.limits)) return invalid_input;
@@ -120,7 +141,7 @@ Report Solver::solve(Method method, Chain& chain, State& state, glm::vec3 target
     for (std::size_t i = 0; i < joints.size(); ++i) joints[i] = chain.segments()[i].position;
     Options saved = options;
     // Checked first, so that overriding it does not hide an invalid value.
-    if (are_valid(options, bones())) saved.max_stretch_scale = 1.0f;
+    if (check(options, bones())) saved.max_stretch_scale = 1.0f;
     const bool risky = may_leave_range(chain, reach()) && state.bones() == bones();
     if (risky) parts_->scratch.saved = state;
     const Report report = solve(method, joints, state, target, saved, observer);

@@ -29,10 +29,10 @@ inline bool is_unit(const glm::quat& q) noexcept {
     return within(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 0.998f, 1.002f);
 }
 
-/// Whether every option is in the range given in options.hpp, for a chain of so many bones.
-bool are_valid(const Options& options, std::size_t bones) noexcept;
-
-bool is_valid(const Plane& plane, std::size_t bones) noexcept;
+/// Refuses the first option that is out of the range given in options.hpp, for a chain of so many bones; but
+/// for joint limits, of which it only counts how many there are.
+Result check(const Options& options, std::size_t bones) noexcept;
+Result check(const Plane& plane, std::size_t bones) noexcept;
 
 /// Whether the state has the right sizes and unit quaternions. Other numbers are only checked if pole.valid.
 bool is_valid(const State& state, std::size_t bones) noexcept;

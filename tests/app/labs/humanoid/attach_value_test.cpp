@@ -30,29 +30,16 @@ TEST_F(HumanoidAttach, IsDroppedByALoad) {
 
 TEST_F(HumanoidAttach, IsRefusedFromAFileThatWasBroken) {
     dress();
-    const Json whole = save_scene(workspace);
-    const auto broken = [&](auto change) {
-        Json scene = whole;
-        change(scene["labs"]["humanoid"]["attachments"]);
-        Workspace other = make_blank_workspace(labs);
-        try {
-            load_scene(other, scene);
-        } catch (const std::exception& error) {
-            return std::string(error.what());
-        }
-        return std::string("accepted");
-    };
-    const auto says = [](const std::string& message, const char* text) {
-        EXPECT_NE(message.find(text), std::string::npos) << message;
-    };
-    says(broken([](Json& at) { at["list"][0]["node"] = "Wing"; }), "no node \"Wing\"");
-    says(broken([](Json& at) { at["list"][0]["name"] = "tail"; }), "another attachment has the name");
-    says(broken([](Json& at) { at["list"].erase(0); }), "one body for each");
-    says(broken([](Json& at) { at["list"][2]["pins"][0]["particle"] = 21; }), "attachments.list");
-    says(broken([](Json& at) { at["list"][2]["frame"]["turn"] = {0, 0, 0, 0}; }), "quaternion");
-    says(broken([](Json& at) { at["list"][2]["shape"]["length"] = -1; }), "length");
-    says(broken([](Json& at) { at["world"]["particles"].erase(0); }), "attachments.world");
-    says(broken([](Json&) {}), "accepted");
+    Json fewer = saved()["attachments"]["list"], particles = saved()["attachments"]["world"]["particles"];
+    fewer.erase(0), particles.erase(0);
+    expect_scene_refused("/attachments/list/0/node", "Wing", "no node \"Wing\"");
+    expect_scene_refused("/attachments/list/0/name", "tail", "another attachment has the name");
+    expect_scene_refused("/attachments/list", fewer, "one body for each");
+    expect_scene_refused("/attachments/list/2/pins/0/particle", 21, "attachments.list");
+    expect_scene_refused("/attachments/list/2/frame/turn", {0, 0, 0, 0}, "quaternion");
+    expect_scene_refused("/attachments/list/2/shape/length", -1, "length");
+    expect_scene_refused("/attachments/world/particles", particles, "attachments.world");
+    EXPECT_EQ(opened_with("/attachments", saved()["attachments"]), "");
 }
 
 /// After scrubbing, or choosing another clip, everything is where it was relative to its bone.

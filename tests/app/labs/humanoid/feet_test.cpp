@@ -167,6 +167,11 @@ TEST_F(HumanoidFeet, WalkOnAMeshFromAFile) {
     EXPECT_EQ(state().at("ground"), (Json{{"kind", "mesh"}, {"path", path}}));
     expect_walks_on([](double z) { return 0.1 + 0.2 * (z + 20.0) / 40.0; });
     EXPECT_EQ(lab().state(reopened()), state());
+    EXPECT_EQ(opened_with("/ik/ground/file", nullptr), "") << "older scenes have the path alone";
+    EXPECT_EQ(part().files(), std::vector<std::filesystem::path>{path});
+    expect_scene_refused("/ik/ground/angle_deg", 99, "labs.humanoid.ik.ground.angle_deg");
+    std::filesystem::remove(path);
+    EXPECT_TRUE(test::says(opened_with("/t_pose", false), "blank: ik.ground.file ramp.gltf is missing"));
     run("humanoid.ground", {{"kind", "none"}});
     expect_refused("humanoid.ground", {{"kind", "mesh"}, {"path", "nowhere.glb"}},
                    {"nowhere.glb", "no such"});

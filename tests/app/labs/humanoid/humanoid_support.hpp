@@ -36,13 +36,6 @@ class HumanoidTest : public LabTest {
         return {};
     }
 
-    Json saved() const { return save_scene(workspace).at("labs").at(humanoid_lab); }
-    /// The lab after saving and loading, in a new workspace.
-    Workspace reopened() const {
-        Workspace other = make_blank_workspace(labs);
-        load_scene(other, save_scene(workspace));
-        return other;
-    }
     /// Saved and loaded, the lab is the same to the bit, then and after `ticks`.
     void expect_goes_on_the_same(int ticks = 30) {
         Workspace other = reopened();

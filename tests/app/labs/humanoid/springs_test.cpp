@@ -188,32 +188,24 @@ TEST_F(HumanoidSprings, AreRefusedFromAFileThatWasBroken) {
     put_on_springs();
     dance();
     tick(9);
-    const Json whole = save_scene(workspace);
-    const auto broken = [&](auto change) {
-        Json scene = whole;
-        change(scene["labs"]["humanoid"]["springs"]);
+    expect_scene_refused("/springs/0/node", "wing", "no node \"wing\"");
+    expect_scene_refused("/springs/1/node", "antenna_l_3", "springs.1.node");
+    expect_scene_refused("/springs/1/strength", 1e9, "springs.1.strength");
+    expect_scene_refused("/springs/1/masses/0/target", nullptr, "target");
+    const Json scene = save_scene(workspace);
+    for (const char* thrown : {"velocity", "position", ""}) {
+        Json changed = scene;
+        Json& masses = changed["labs"]["humanoid"]["springs"][1]["masses"];
+        if (*thrown == '\0')
+            masses.erase(0);
+        else
+            masses[1][thrown] = {1e9, -1e9, 0};
         Workspace other = make_blank_workspace(labs);
-        try {
-            const std::vector<std::string> unread = load_scene(other, scene);
-            if (!unread.empty()) return unread.front();
-        } catch (const std::exception& error) {
-            return std::string(error.what());
-        }
+        load_scene(other, changed);
         for (int i = 0; i < 20; ++i) lab().step(other);
         for (const humanoid::Placement& each : shown_pose(other).placed)
             EXPECT_TRUE(std::isfinite(glm::dot(each.position, each.position)));
-        return std::string("accepted");
-    };
-    const auto says = [](const std::string& message, const char* text) {
-        EXPECT_NE(message.find(text), std::string::npos) << message;
-    };
-    says(broken([](Json& at) { at[0]["node"] = "wing"; }), "no node \"wing\"");
-    says(broken([](Json& at) { at[1]["node"] = "antenna_l_3"; }), "springs.1.node");
-    says(broken([](Json& at) { at[1]["strength"] = 1e9; }), "springs.1.strength");
-    says(broken([](Json& at) { at[1]["masses"][0].erase("target"); }), "target");
-    EXPECT_EQ(broken([](Json& at) { at[1]["masses"].erase(0); }), "accepted");
-    EXPECT_EQ(broken([](Json& at) { at[1]["masses"][1]["velocity"] = {1e9, -1e9, 0}; }), "accepted");
-    EXPECT_EQ(broken([](Json& at) { at[1]["masses"][1]["position"] = {1e9, -1e9, 0}; }), "accepted");
+    }
 }
 
 TEST_F(HumanoidSprings, AreBakedIntoAClip) {

@@ -188,31 +188,14 @@ TEST_F(HumanoidTargets, StandWhereARuntimeIsThrownAway) {
 
 TEST_F(HumanoidTargets, AFileThatIsWrongIsRefusedWithItsPlace) {
     target("left_hand", 0.4, 1.5, 0.7);
-    const Json good = save_scene(workspace);
-    const auto refusal = [&](auto change) -> std::string {
-        Json scene = good;
-        change(scene["labs"][humanoid_lab]["ik"]);
-        Workspace other = make_blank_workspace(labs);
-        try {
-            load_scene(other, scene);
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "was read";
-    };
-    const auto says = [](const std::string& text, const char* what) {
-        EXPECT_NE(text.find(what), std::string::npos) << text << " does not say " << what;
-    };
-    says(refusal([](Json& ik) { ik["targets"]["tail"] = 1; }), "no effector \"tail\"");
-    says(refusal([](Json& ik) {
-             ik["targets"]["head"] = {{"position", {0, 1}}};
-         }),
-         "labs.humanoid.ik.targets.head.position");
-    says(refusal([](Json& ik) { ik["targets"]["left_hand"]["rotation"] = {0, 0, 0, 0}; }), "length 1");
-    says(refusal([](Json& ik) { ik["limits"] = "dreams"; }), "unknown source of limits \"dreams\"");
-    says(refusal([](Json& ik) { ik["body"]["turns"][0] = {0, 0, 0}; }), "labs.humanoid.ik.body.turns");
+    expect_scene_refused("/ik/targets/tail", 1, "no effector \"tail\"");
+    expect_scene_refused("/ik/targets/head", {{"position", {0, 1}}},
+                         "labs.humanoid.ik.targets.head.position");
+    expect_scene_refused("/ik/targets/left_hand/rotation", {0, 0, 0, 0}, "length 1");
+    expect_scene_refused("/ik/limits", "dreams", "unknown source of limits \"dreams\"");
+    expect_scene_refused("/ik/body/turns/0", {0, 0, 0}, "labs.humanoid.ik.body.turns");
     // State of another body is ignored.
-    Json scene = good;
+    Json scene = save_scene(workspace);
     scene["labs"][humanoid_lab]["ik"]["body"]["turns"].erase(0);
     Workspace other = make_blank_workspace(labs);
     load_scene(other, scene);

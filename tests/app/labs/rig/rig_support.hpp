@@ -55,13 +55,6 @@ class RigTest : public LabTest {
     Json output(const std::string& unit, const char* output = "result") const {
         return named("units", unit).at("outputs").at(output);
     }
-    Json saved() const { return save_scene(workspace).at("labs").at(rig_lab); }
-    /// The lab after saving and loading, in a new workspace.
-    Workspace reopened() const {
-        Workspace other = make_blank_workspace(labs);
-        load_scene(other, save_scene(workspace));
-        return other;
-    }
 };
 
 }  // namespace tendril::app

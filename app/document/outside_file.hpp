@@ -1,0 +1,58 @@
+// A file that a part of a scene reads besides the JSON, such as a character. The scene has its name, its
+// absolute path and a checksum: {"file": "hero.glb", "path": "/home/ann/hero.glb", "crc32": 907060870}. So a
+// lab that cannot be read because of its file is told from one with a wrong value.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "app/document/json_place.hpp"
+
+namespace tendril::app {
+
+struct OutsideFile {
+    std::string file{};                    ///< as the user gave it; empty: there is none
+    std::string path{};                    ///< absolute
+    std::optional<std::uint32_t> crc32{};  ///< of its bytes
+    bool operator==(const OutsideFile&) const = default;
+};
+
+/// The file at `path`, which was just read; `file`: what the user called it, if that is something else.
+OutsideFile outside_file(const std::string& path, const std::string& file = {});
+/// Its members of the scene.
+Json save_outside_file(const OutsideFile& file);
+
+/// A file that a scene names is missing or unreadable. what() begins with the JSON path.
+class OutsideFileError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Where such a file is: at its path or, on another machine, at the name that the user gave it. Throws
+/// OutsideFileError if it is in neither place.
+OutsideFile named_file(const JsonPlace& place);
+
+/// read(path, file) for the file that `place` names, with that function's exceptions as OutsideFileError.
+auto read_outside_file(const JsonPlace& place, const auto& read) {
+    const OutsideFile from = named_file(place);
+    try {
+        return read(from.path, from.file);
+    } catch (const std::exception& error) {
+        throw OutsideFileError(place.where() + ".file: " + error.what());
+    }
+}
+
+/// Sets the paths of files in a part that have moved with the scene: those that are not at their path but,
+/// with the end of it, under the scene's folder or, with at least one folder, under the two above that.
+void find_moved_files(Json& part, const std::filesystem::path& scene_folder);
+/// The name of a file in the part whose bytes differ from when the scene was saved; empty if none's do.
+std::string changed_file(const Json& part);
+
+/// The names that a glTF's URI may stand for, the likeliest first: "%20" decoded, as it is, and with slashes.
+std::vector<std::string> names_of_uri(const std::string& uri);
+
+}  // namespace tendril::app
