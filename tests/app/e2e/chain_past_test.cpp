@@ -195,22 +195,5 @@ TEST(ChainsPast, AnotherSceneHasAPastOfItsOwn) {
     EXPECT_EQ(play(ScriptText(script).command("time.seek", {{"ticks_back", 1}}, true)).outcome.exit_code, 0);
 }
 
-TEST(ChainsPast, ARecordingOfItAllEndsInTheSameState) {
-    const TempFolder folder;
-    const std::string recording = (folder / "r.jsonl").string(), state = (folder / "s.json").string();
-    ScriptText script = through_the_root();
-    script.command("time.seek", {{"ticks_back", 12}})
-        .command("time.replay")
-        .wait(5)
-        .command("time.incident", {{"number", 0}})
-        .wait(2)
-        .command("chain.target", {{"to", {1, 1, 0}}})
-        .wait(3)
-        .command("undo");
-    const Json recorded = play(script, {.more = {"--record", recording}}).state;
-    ASSERT_TRUE(succeeded(run_program({"--headless", "--script", recording, "--state", state})));
-    EXPECT_EQ(app::parse_json(read(state)), recorded);
-}
-
 }  // namespace
 }  // namespace tendril::test

@@ -96,17 +96,6 @@ TEST(PastViews, ChangeNothingOfWhatIsShownBesides) {
     }
 }
 
-TEST(PastViews, ComeOutTheSameFromARecording) {
-    for (const PlottedLab& lab : plotted_labs()) {
-        const TempFolder folder;
-        const std::string recording = (folder / "r.jsonl").string(), state = (folder / "s.json").string();
-        const ScriptText script = shown(lab).wait(40).command("time.seek", {{"ticks_back", 11}}).wait(2);
-        const Json recorded = play(script, {.more = {"--record", recording}}).state;
-        ASSERT_TRUE(succeeded(run_program({"--headless", "--script", recording, "--state", state})));
-        EXPECT_EQ(app::parse_json(read(state)), recorded) << lab.lab;
-    }
-}
-
 ScriptText& press_at(ScriptText& script, glm::vec2 at) {
     return script.move(at).wait(1).down().wait(2);
 }

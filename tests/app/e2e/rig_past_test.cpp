@@ -84,60 +84,11 @@ TEST(RigsPast, APausedDragIsRememberedAndMarkedToo) {
     EXPECT_EQ(flips[0]["name"], "head");
 }
 
-TEST(RigsPast, ItIsShownAgainAtAnySpeedUpToItsEnd) {
-    const ScriptText script = tilt_past_the_look();
-    const Json end = state_after(script);
-    ScriptText again = script;
-    again.command("time.speed", {{"factor", 0.5}}).command("time.replay").wait(20);
-    const Json shown = state_after(again);
-    EXPECT_GT(shown["time"]["ticks_back"].get<int>(), 20);
-    EXPECT_NE(element(shown, "tilt"), element(end, "tilt"));
-    const Json whole = state_after(again.wait(240));
-    EXPECT_EQ(whole["time"]["ticks_back"], 0) << "it has come to its end";
-    EXPECT_EQ(whole["elements"], end["elements"]);
-    EXPECT_EQ(whole["take"], end["take"]);
-    EXPECT_EQ(whole["events"], end["events"]);
-}
-
 TEST(RigsPast, WhatIsSelectedDoesNotGoBackInTime) {
     const ScriptText script = tilt_past_the_look(10)
                                   .command("rig.select", {{"element", "nose"}})
                                   .command("time.seek", {{"ticks_back", 8}});
     EXPECT_EQ(state_after(script)["selected"]["element"], "nose");
-}
-
-TEST(RigsPast, WhatIsDoneAfterGoingBackTakesThePlaceOfWhatWas) {
-    const Json state = state_after(tilt_past_the_look());
-    ASSERT_GE(rig_flips(state).size(), 1u);
-    const ScriptText script = tilt_past_the_look()
-                                  .command("time.seek", {{"ticks_back", 75}})
-                                  .command("rig.control.set", {{"name", "tilt"}, {"value", {0.5, 0.8, 0}}})
-                                  .command("time.play")
-                                  .wait(2);
-    const std::size_t before = rig_flips(state_after(tilt_past_the_look(0))).size();
-    EXPECT_LT(before, rig_flips(state).size());
-    EXPECT_EQ(rig_flips(state_after(script)).size(), before) << "it never came to the others";
-}
-
-TEST(RigsPast, ARecordingOfItAllEndsInTheSameState) {
-    const TempFolder folder;
-    const std::string recording = (folder / "r.jsonl").string(), state = (folder / "s.json").string();
-    ScriptText script = tilt_past_the_look();
-    script.command("time.seek", {{"ticks_back", 12}})
-        .command("time.replay")
-        .wait(5)
-        .command("time.incident", {{"number", 0}})
-        .wait(2)
-        .command("view.rig_strip", {{"of", "past"}})
-        .command("rig.time", {{"tick", 20}})
-        .command("rig.flips", {{"degrees", 20}})
-        .command("time.play")
-        .wait(30)
-        .command("undo")
-        .wait(3);
-    const Json recorded = play(script, {.more = {"--record", recording}}).state;
-    ASSERT_TRUE(succeeded(run_program({"--headless", "--script", recording, "--state", state})));
-    EXPECT_EQ(app::parse_json(read(state)), recorded);
 }
 
 }  // namespace
