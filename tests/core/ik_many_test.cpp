@@ -176,6 +176,27 @@ TEST(SolveMany, TheSummaryCountsWhatTheReportsSay) {
     }
 }
 
+TEST(SolveMany, JointsThatArePutBackGoOnWithTheSameBits) {
+    Random random(23);
+    const Crowd crowd = some_crowd(500, 7, random, 0.0f, 1.1f);
+    Batch batch = batch_of(crowd);
+    std::vector<std::vector<glm::vec3>> path(100, crowd.targets);
+    for (std::size_t tick = 1; tick < path.size(); ++tick) {
+        for (std::size_t i = 0; i < crowd.size(); ++i)
+            path[tick][i] = path[tick - 1][i] + random.point(0.05f);
+    }
+    ik::solve_many(batch, crowd.targets);  // a pose in mid-simulation
+    Joints before(crowd.size() * 8), first(before.size()), second(before.size());
+    ASSERT_TRUE(batch.copy_joints(before));
+    for (const auto& targets : path) ik::solve_many(batch, targets);
+    ASSERT_TRUE(batch.copy_joints(first));
+    ASSERT_TRUE(batch.set_joints(before));
+    for (const auto& targets : path) ik::solve_many(batch, targets);
+    ASSERT_TRUE(batch.copy_joints(second));
+    EXPECT_TRUE(same_bits(first, second));
+    EXPECT_FALSE(same_bits(before, first));
+}
+
 TEST(SolveMany, AWholeCrowdOfStragglersIsSolved) {
     Random random(7);
     const Crowd crowd = some_crowd(1000, 10, random, 0.99f, 0.999f);
