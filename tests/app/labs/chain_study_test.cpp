@@ -323,19 +323,10 @@ TEST_F(ChainStudy, what_cannot_be_studied_is_refused) {
     EXPECT_NE(refused("race.open").find("no bone"), std::string::npos);
 }
 
-TEST_F(ChainStudy, hostile_scenes_say_where_they_are_wrong) {
+TEST_F(ChainStudy, HostileScenesSayWhereTheyAreWrong) {
     run("microscope.open", {{"start", "straight"}});
-    const Json scene = save_scene(workspace);
-    const auto says = [&](const char* key, const Json& value) {
-        Json broken = scene;
-        broken["labs"]["chain"]["study"][key] = value;
-        try {
-            load_scene(workspace, broken);
-            ADD_FAILURE() << key << " " << value << " was accepted";
-        } catch (const std::runtime_error& error) {
-            EXPECT_NE(std::string(error.what()).find(std::string("study.") + key), std::string::npos)
-                << error.what();
-        }
+    const auto says = [&](const std::string& key, const Json& value) {
+        expect_scene_refused("/study/" + key, value, "study." + key);
     };
     says("kind", "telescope");
     says("start", Json::array());

@@ -50,4 +50,20 @@ void LabTest::expect_refused(const char* name, const Json& arguments, const std:
         EXPECT_NE(message.find(each), std::string::npos) << message << "\n  does not say " << each;
 }
 
+void LabTest::expect_scene_refused(const std::string& at, const Json& value, const std::string& says) const {
+    Json scene = save_scene(workspace);
+    scene["labs"][lab_][Json::json_pointer(at)] = value;
+    Workspace other = make_blank_workspace(labs);
+    const Document before = other.document;
+    std::string message = "nothing: it was read";
+    try {
+        const std::vector<std::string> unread = load_scene(other, scene);
+        if (!unread.empty()) message = unread.front();
+    } catch (const std::runtime_error& error) {
+        message = error.what();
+        EXPECT_TRUE(other.document == before);
+    }
+    EXPECT_NE(message.find(says), std::string::npos) << at << " as " << value << " says " << message;
+}
+
 }  // namespace tendril::app

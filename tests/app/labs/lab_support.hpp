@@ -40,6 +40,9 @@ class LabTest : public testing::Test {
     std::string refused(const char* name, const Json& arguments = Json::object());
     /// The same, with a message that says each of these in any order.
     void expect_refused(const char* name, const Json& arguments, const std::vector<std::string>& says);
+    /// With that value in the lab's part of the scene, it must not open and say this; a lab that reads files
+    /// may start blank instead.
+    void expect_scene_refused(const std::string& at, const Json& value, const std::string& says) const;
 
   private:
     const char* lab_;

@@ -188,26 +188,9 @@ TEST_F(HumanoidRelease, AFileWithAReleaseThatIsWrongIsRefusedWithItsPlace) {
     begin_anew(true);
     reach_with_both_hands();
     let_go("right_hand");
-    const Json good = save_scene(workspace);
-    const auto refusal = [&](auto change) -> std::string {
-        Json scene = good;
-        change(scene["labs"][humanoid_lab]["ik"]["release"]);
-        Workspace other = make_blank_workspace(labs);
-        try {
-            load_scene(other, scene);
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "was read";
-    };
-    EXPECT_NE(refusal([](Json& release) { release["left"] = 1e9; }).find("ik.release.left"),
-              std::string::npos);
-    EXPECT_NE(refusal([](Json& release) {
-                  release["turns"]["tail"] = {0, 0, 0, 1};
-              }).find("no node \"tail\""),
-              std::string::npos);
-    EXPECT_NE(refusal([](Json& release) { release["turns"] = 3; }).find("ik.release.turns"),
-              std::string::npos);
+    expect_scene_refused("/ik/release/left", 1e9, "ik.release.left");
+    expect_scene_refused("/ik/release/turns/tail", {0, 0, 0, 1}, "no node \"tail\"");
+    expect_scene_refused("/ik/release/turns", 3, "ik.release.turns");
 }
 
 }  // namespace
