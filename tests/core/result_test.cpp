@@ -1,12 +1,15 @@
 // Result and Expected: how calls are refused, and their messages.
-#include "tendril/result.hpp"
-
 #include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
+
+#include "ik_many_support.hpp"
+#include "jobs.hpp"
+#include "tendril/result.hpp"
+#include "tendril/tasks.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -65,6 +68,48 @@ TEST(Expected, holds_a_value_or_the_reason_why_not) {
 TEST(ExpectedDeathTest, ends_the_program_where_a_value_is_read_that_is_not_there) {
     const Expected<int> none(Result(ErrorCode::AlreadyExists, "twice"));
     EXPECT_DEATH(static_cast<void>(*none), "a value was read where there is none: twice");
+}
+
+TEST(Says, NamesAndValuesInTheirOrderWhateverIsBetween) {
+    const std::string message = "rope.pin: particle must be 0 to 99999, got -1";
+    EXPECT_TRUE(says(message, "rope.pin particle 0 99999 -1"));
+    EXPECT_TRUE(says(message, "-1"));
+    EXPECT_FALSE(says(message, "particle rope.pin"));
+    EXPECT_FALSE(says(message, "rope.pin particle 0 99999 2"));
+    EXPECT_FALSE(says(message, "1")) << "it is -1";
+    EXPECT_FALSE(says(message, "9999"));
+    EXPECT_FALSE(says(message, "part"));
+    EXPECT_FALSE(says("1.5", "1"));
+    EXPECT_FALSE(says("-1.5", "-1"));
+    EXPECT_FALSE(says("1.5", "5"));
+    EXPECT_TRUE(says("from 1 to 5.", "1 5")) << "a full stop is no decimal point";
+    EXPECT_TRUE(says("joints[3].length", "joints[3].length"));
+    EXPECT_FALSE(says(message, "")) << "names nothing";
+}
+
+// The task callback: every piece runs once, on the program's workers if any, with the same bits in any order.
+
+TEST(Tasks, SolveManyRunsOnTheProgramsOwnWorkersAndGivesTheSameBits) {
+    Random random(41);
+    const Crowd crowd = some_crowd(5000, 10, random, 0.05f, 1.1f);
+    const Answer expected = solve_many(crowd, {});
+    for (const bool backwards : {false, true}) {
+        for (const bool aside : {false, true}) {
+            Jobs jobs{.backwards = backwards, .aside = aside};
+            const Answer answer = solve_many(crowd, {.tasks = {run_on_jobs, &jobs}}, 4);
+            EXPECT_EQ(jobs.calls, 1u);
+            EXPECT_EQ(jobs.pieces, 4u);
+            EXPECT_EQ(difference(answer, expected), "");
+        }
+    }
+}
+
+TEST(Tasks, ASingleThreadNeedsNoCallback) {
+    Random random(42);
+    const Crowd crowd = some_crowd(500, 10, random);
+    Jobs jobs;
+    solve_many(crowd, {.tasks = {run_on_jobs, &jobs}});
+    EXPECT_EQ(jobs.calls, 0u);
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 // What Rig::make refuses, and its messages.
 #include <gtest/gtest.h>
-
 #include <limits>
 #include <string>
 
+#include "rig_line.hpp"
+#include "rig_maker.hpp"
 #include "rig_rigs.hpp"
+#include "tendril/rig/workspace.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::rig {
@@ -170,5 +172,191 @@ TEST(RigMake, RefusesChainsThatAreNone) {
         test::says(refusal(with(TwoBone{.root = "root", .tip = "hand"})), "unit first two root hand 1"));
 }
 
+// Rig::with_unit gives the rig that Rig::make would, or the same refusal.
+
+/// All units in the order of Rig::unit_names.
+std::vector<Unit*> all_units(Definition& definition) {
+    std::vector<Unit*> all;
+    for (Unit& unit : definition.units) {
+        all.push_back(&unit);
+        if (auto* loop = std::get_if<ForEach>(&unit.operation))
+            for (Unit& inner : loop->body.units()) all.push_back(&inner);
+    }
+    return all;
+}
+
+void expect_same(const Rig& rig, const Rig& made, const Rig& before, const State& state) {
+    EXPECT_EQ(rig.definition(), made.definition());
+    EXPECT_EQ(rig.initial_state(), made.initial_state());
+    EXPECT_EQ(rig.work(), made.work());
+    EXPECT_TRUE(std::ranges::equal(rig.unit_names(), made.unit_names()));
+    State one = rig.adopted(before, state), other = made.adopted(before, state);
+    EXPECT_EQ(one.units, other.units);
+    EXPECT_EQ(one.controls, other.controls);
+    Workspace first(rig), second(made);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_EQ(rig.solve(one, 1.0 / 60, first), made.solve(other, 1.0 / 60, second));
+    EXPECT_EQ(one, other);
+}
+
+TEST(RigWithUnit, IsTheRigThatMakeReturns) {
+    int taken = 0, refused = 0, loops = 0;
+    for (std::uint64_t seed = 0; seed < 4500; ++seed) {
+        const Definition definition = Maker(seed, true).definition();
+        const Rig rig = *Rig::make(definition);
+        State state = rig.initial_state();
+        Workspace workspace(rig);
+        rig.solve(state, 1.0 / 60, workspace);
+
+        Definition changed = definition, others = Maker(seed + 1'000'000, true).definition();
+        std::vector<Unit*> units = all_units(changed), donors = all_units(others);
+        test::Random random(seed);
+        if (units.empty() || donors.empty()) continue;
+        Unit& unit = *units[random.below(units.size())];
+        const std::string name = unit.name;
+        if (random.chance(2))
+            unit.weight = static_cast<double>(random.around(1.5f));
+        else
+            unit = *donors[random.below(donors.size())];
+        unit.name = name;
+        loops += std::holds_alternative<ForEach>(unit.operation);
+
+        const Expected<Rig> quick = rig.with_unit(unit), made = Rig::make(changed);
+        ASSERT_EQ(static_cast<bool>(quick), static_cast<bool>(made)) << seed << ": " << quick.message();
+        (made ? taken : refused) += 1;
+        if (made)
+            expect_same(*quick, *made, rig, state);
+        else
+            EXPECT_STREQ(quick.message(), made.message()) << seed;
+        EXPECT_EQ(rig.definition(), Rig::make(definition)->definition());
+    }
+    EXPECT_GT(taken, 900);
+    EXPECT_GT(refused, 500);
+    EXPECT_GT(loops, 5);
+}
+
+TEST(RigWithUnit, ABodyDoesNotReadItsOwnForEach) {
+    Definition definition = loop_rig();
+    auto& loop = std::get<ForEach>(definition.units.front().operation);
+    loop.body.units().push_back({.name = "own", .operation = AlphaInterpolate{}});
+    const Rig rig = *Rig::make(definition);
+    Unit own = loop.body.units().back();
+    std::get<AlphaInterpolate>(own.operation).value = FromUnit{definition.units.front().name};
+    EXPECT_TRUE(test::says(rig.with_unit(own).message(), "no unit runs before"));
+    loop.body.units().back() = own;
+    EXPECT_TRUE(test::says(Rig::make(definition).message(), "no unit runs before"));
+}
+
+TEST(RigWithUnit, RefusesAnUnknownName) {
+    const Rig rig = *Rig::make(aim_rig());
+    Unit unit = rig.definition().units.front();
+    unit.name = "nobody";
+    const Expected<Rig> quick = rig.with_unit(unit);
+    EXPECT_EQ(quick.code(), ErrorCode::NotFound);
+    EXPECT_TRUE(test::says(quick.message(), "nobody"));
+}
+
 }  // namespace
 }  // namespace tendril::rig
+
+namespace tendril::test {
+namespace {
+
+// The tree itself: order, handles, reparenting, and refusals.
+
+using namespace rig;
+using enum Space;
+
+TEST(RigElements, ElementsAreFoundInTheOrderOfAdding) {
+    RigLine line;
+    const Hierarchy& tree = line.tree;
+    EXPECT_EQ(tree.first_child({}), line.root);
+    EXPECT_EQ(tree.last_child({}), line.root);
+    EXPECT_EQ(tree.first_child(line.middle), line.tip);
+    EXPECT_EQ(tree.last_child(line.middle), line.other);
+    EXPECT_EQ(tree.next_sibling(line.tip), line.other);
+    EXPECT_EQ(tree.previous_sibling(line.other), line.tip);
+    EXPECT_FALSE(tree.next_sibling(line.other));
+    EXPECT_EQ(tree.child_count(line.middle), 2u);
+    EXPECT_EQ(tree.child_count({}), 1u);
+    EXPECT_EQ(tree.parent(line.tip), line.middle);
+    EXPECT_FALSE(tree.parent(line.root));
+    std::vector<ElementId> walked;
+    for (ElementId at = line.root; at; at = tree.next_depth_first(at, line.root)) walked.push_back(at);
+    EXPECT_EQ(walked, (std::vector{line.root, line.middle, line.tip, line.other}));
+    EXPECT_FALSE(tree.next_depth_first(line.tip, line.tip));
+}
+
+TEST(RigElements, AHandleOfWhatIsGoneFindsNothing) {
+    RigLine line;
+    ASSERT_TRUE(line.tree.remove(line.middle).ok());
+    EXPECT_EQ(line.tree.size(), 1u);
+    EXPECT_EQ(line.tree.child_count(line.root), 0u);
+    for (const ElementId gone : {line.middle, line.tip, line.other}) EXPECT_FALSE(line.tree.contains(gone));
+    const ElementId next = *line.tree.add(ElementKind::Control, line.root, {});
+    EXPECT_EQ(line.tree.kind(next), ElementKind::Control);
+    EXPECT_FALSE(line.tree.contains(line.middle));
+    EXPECT_TRUE(test::says(line.tree.remove(line.tip).message(), "remove element handle slot 2"));
+    EXPECT_EQ(line.tree.set(line.tip, Local, {}).code(), ErrorCode::OutOfRange);
+    line.tree.clear();
+    EXPECT_EQ(line.tree.size(), 0u);
+    EXPECT_FALSE(line.tree.contains(line.root));
+}
+
+TEST(RigElements, RefusesWithoutChangingAnything) {
+    RigLine line;
+    const Hierarchy before = line.tree;
+    const auto refused = [&](const Result& result, const char* message) {
+        EXPECT_STREQ(result.message(), message);
+        EXPECT_TRUE(line.tree == before);
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    Transform bad;
+    bad.scale.y = 0.0;
+    refused(line.tree.set(line.tip, Global, bad), "set: transform.scale.y must be non-zero, got 0");
+    refused(line.tree.add(ElementKind::Bone, line.tip, bad).error(),
+            "add: local.scale.y must be non-zero, got 0");
+    bad = moved(0, nan, 0);
+    refused(line.tree.set(line.tip, Local, bad),
+            "set: transform.translation.y must be finite and at most 1e9 in magnitude, got nan");
+    bad = moved(2e9, 0, 0);
+    refused(line.tree.set(line.tip, Local, bad),
+            "set: transform.translation.x must be finite and at most 1e9 in magnitude, got 2e+09");
+    bad = {};
+    bad.rotation = {0.0, 0.0, 0.0, 0.0};
+    refused(line.tree.set(line.tip, Local, bad),
+            "set: transform.rotation must be of length 1e-6 or more, got 0");
+    refused(line.tree.set_parent(line.middle, line.tip),
+            "set_parent: parent must be neither the element itself nor below it, got slot 2");
+    refused(line.tree.set_parent(line.middle, line.middle),
+            "set_parent: parent must be neither the element itself nor below it, got slot 1");
+    refused(line.tree.set_parent(line.middle, {9, 1}),
+            "set_parent: parent must be the handle of an existing element, got slot 9");
+    refused(line.tree.add(ElementKind::Bone, {9, 1}, {}).error(),
+            "add: parent must be the handle of an existing element, got slot 9");
+    refused(line.tree.remove({}),
+            "remove: element must be the handle of an existing element, got an empty handle");
+}
+
+TEST(RigElements, AnotherParentKeepsThePlaceOrTheLocal) {
+    for (const Space keep : {Local, Global}) {
+        RigLine line;
+        line.expect_set(line.other, Global, moved(4, 4, 4), Propagate::Yes);
+        const Transform local = line.tree.get(line.tip, Local), global = line.tree.get(line.tip, Global);
+        ASSERT_TRUE(line.tree.set_parent(line.tip, line.other, keep).ok());
+        EXPECT_TRUE(same_bits(line.tree.get(line.tip, keep), keep == Local ? local : global));
+        EXPECT_EQ(line.at(line.tip), keep == Local ? glm::dvec3(4, 5, 4) : glm::dvec3(0, 3, 0));
+        EXPECT_EQ(line.tree.first_child(line.other), line.tip);
+        ASSERT_TRUE(line.tree.set_parent(line.tip, {}, keep).ok());
+        EXPECT_EQ(line.tree.last_child({}), line.tip);
+        EXPECT_EQ(line.tree.get(line.tip, Local), line.tree.get(line.tip, Global));
+    }
+}
+
+TEST(RigElementsDeathTest, ReadingWhatIsNotThereEndsTheProgramWithAMessage) {
+    RigLine line;
+    EXPECT_DEATH(line.tree.get({}, Local), "get: element must be the handle of an existing element");
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -263,25 +263,6 @@ TEST(RigState, AllocatesNothing) {
     }
 }
 
-TEST(RigState, StatesCanBePutBack) {
-    Definition definition = aim_rig();
-    std::get<Aim>(definition.units[0].operation).max_speed = 60.0;
-    definition.units.push_back(
-        {.name = "spring",
-         .operation = SpringInterpolate{.target = FromElement{"look"}, .critical_damping = 0.3}});
-    Held rig(definition);
-    rig.solve(0.01);
-    ASSERT_TRUE(rig.control("look", glm::dvec3(1, 1, 0)));
-    for (int i = 0; i < 10; ++i) rig.solve(0.01);
-    const State kept = rig.state;
-    std::vector<State> first, second;
-    for (int i = 0; i < 100; ++i) rig.solve(0.01), first.push_back(rig.state);
-    rig.state = kept;
-    rig.workspace = Workspace(rig.rig);
-    for (int i = 0; i < 100; ++i) rig.solve(0.01), second.push_back(rig.state);
-    EXPECT_TRUE(first == second);
-}
-
 /// A switch that a unit inverts works without time; easing waits for time.
 TEST(RigState, WhatDoesNotEaseFollowsWithoutTime) {
     Definition definition;

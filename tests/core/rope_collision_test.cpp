@@ -257,16 +257,6 @@ TEST(RopeCollision, ThreadsGiveTheSameBits) {
     EXPECT_TRUE(same_bits(alone.state(), shared.state()));
 }
 
-TEST(RopeCollision, ACopyContinuesTheSame) {
-    World world = crossed(64);
-    run(world, 0.5);
-    ASSERT_FALSE(world.state().contacts.empty());
-    World copy(world.state());
-    run(world, 0.5);
-    run(copy, 0.5);
-    EXPECT_TRUE(same_bits(world.state(), copy.state()));
-}
-
 TEST(RopeCollision, WhatIsNearIsFoundWhateverTheWorkspaceRemembers) {
     World world = crossed(48, 0.3);
     collide(world, on_top, on_top);

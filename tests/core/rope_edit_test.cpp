@@ -260,62 +260,6 @@ TEST(RopeEdit, ClearLeavesOnlySettings) {
     EXPECT_EQ(world.add_rope({}), "rope");
 }
 
-/// Any sequence of edits leaves a valid world that still runs.
-TEST(RopeEdit, RandomEditsLeaveASoundWorld) {
-    Random random(81);
-    for (int round = 0; round < 20; ++round) {
-        World world = world_with({.solver = all_solvers[random.below(3)]});
-        for (int i = 0; i < 60; ++i) {
-            const auto& bodies = world.state().bodies;
-            const std::string body = bodies.empty() ? "" : world.name(bodies[random.below(bodies.size())]);
-            const std::string ball = "ball " + std::to_string(random.below(3));
-            const bool is_there = world.find_collider(ball) != nullptr;
-            const std::size_t particle = world.size() > 0 ? random.below(world.size()) : 0;
-            switch (random.below(9)) {
-                case 0:
-                    world.add_rope({.from = random.point(1),
-                                    .to = random.point(1),
-                                    .segments = 1 + static_cast<int>(random.below(9)),
-                                    .pin_start = random.chance(2)});
-                    break;
-                case 1:
-                    if (random.chance(3))
-                        world.add_cloth({.corner = random.point(1), .columns = 3, .rows = 4, .tear = 0.05f});
-                    break;
-                case 2:
-                    if (!body.empty()) world.remove(body);
-                    break;
-                case 3:
-                    if (!body.empty() && world.find(body)->kind == Body::Kind::Rope &&
-                        world.find(body)->count > 1)
-                        world.cut(body, random.below(world.find(body)->count - 1));
-                    break;
-                case 4:
-                    if (world.size() > 0) {
-                        const glm::vec3 goal = random.point(1);
-                        world.pin(particle, goal, random.chance(2) ? 0.1 : 0.0);
-                    }
-                    break;
-                case 5:
-                    if (world.size() > 0 && world.pinned(particle)) world.unpin(particle);
-                    break;
-                case 6:
-                    is_there ? world.remove_collider(ball)
-                             : world.add_collider(ball, Sphere{random.point(1), 0.2f});
-                    break;
-                case 7:
-                    if (is_there && world.size() > 0) world.attach(particle, ball);
-                    break;
-                default:
-                    if (is_there) world.move_collider(ball, random.point(1), 0.05);
-            }
-            world.advance(0.01);
-            ASSERT_NO_THROW(World{world.state()}) << round << ' ' << i;
-            ASSERT_TRUE(all_finite(world)) << round << ' ' << i;
-        }
-    }
-}
-
 /// Several pins dragged while the simulation is paused: all arrive, or none moves.
 TEST(RopeEdit, DragPinsMovesAllOrNone) {
     World world = three_ropes();

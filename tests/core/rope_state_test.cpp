@@ -20,36 +20,6 @@ World busy_world(rope::Solver solver) {
     return world;
 }
 
-TEST(RopeState, ARoundTripGoesOnBitForBit) {
-    for (const rope::Solver solver : all_solvers) {
-        World world = busy_world(solver);
-        for (int turn = 0; turn < 4; ++turn) {
-            world.advance(0.1234);
-            World again(world.state());
-            EXPECT_TRUE(same_bits(world.state(), again.state()));
-            for (World* each : {&world, &again}) each->advance(0.2), each->advance(0.0007);
-            EXPECT_TRUE(same_bits(world.state(), again.state())) << name(solver) << ' ' << turn;
-        }
-    }
-}
-
-TEST(RopeState, CopiesAreOfTheirOwn) {
-    World world = busy_world(rope::Solver::Direct);
-    world.advance(0.2);
-    const World kept = world;
-    World copy = world, moved = std::move(copy);
-    world.advance(0.2), moved.advance(0.2);
-    EXPECT_TRUE(same_bits(world.state(), moved.state()));
-    EXPECT_FALSE(same_bits(world.state(), kept.state()));
-    world = kept;
-    world.advance(0.2);
-    EXPECT_TRUE(same_bits(world.state(), moved.state()));
-    copy = World();  // a moved-from world can be reused
-    copy.add_rope({});
-    copy.advance(0.1);
-    EXPECT_TRUE(all_finite(copy));
-}
-
 /// Everything that two states can differ in; one generation stands for all handles.
 TEST(RopeState, EveryFieldCountsWhenStatesAreCompared) {
     const World world = busy_world(rope::Solver::Direct);

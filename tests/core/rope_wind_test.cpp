@@ -126,33 +126,6 @@ TEST(RopeWind, AChangeMovesNoGust) {
     }
 }
 
-/// Where the gusts are is part of the state.
-TEST(RopeWind, IsTheSameAgainFromAnyStateOfBefore) {
-    World world = world_with({.wind = {5, 0, 1}, .gusts = 1.0f});
-    raise_flag(world, 1.0f, 8);
-    const auto blow = [](World& any) {
-        rope::Settings settings = any.settings();
-        for (const float wind : {-3.0f, 8.0f}) {
-            settings.wind.x = wind;
-            settings.substep *= 0.9;
-            any.set_settings(settings);
-            run(any, 0.5);
-        }
-    };
-    blow(world);
-    EXPECT_GT(glm::length(world.state().drift), 0.5);
-    World again(world.state());
-    blow(world);
-    blow(again);
-    EXPECT_TRUE(same_bits(world.state(), again.state()));
-    rope::State lost = world.state();
-    lost.drift = glm::dvec3(1.0, 2.0, 3.0);
-    World other(lost);
-    run(world, 0.2);
-    run(other, 0.2);
-    EXPECT_FALSE(world.state().position == other.state().position) << "the drift says where the gusts are";
-}
-
 /// At rest there is nothing to see: a flag without wind hangs.
 TEST(RopeWind, AFlagHangsWithoutWind) {
     World world = world_with({.damping = 2.0f});

@@ -3,6 +3,13 @@ set(prefix ${work}/moved)  # the final folder of the installed library
 set(consumer ${CMAKE_CURRENT_LIST_DIR}/consumer)
 set(expected "tendril ${version}: 3 segments, reach 2, head at 1 2 3, tail at 1 2 1\n8 of 8 tips arrived\nsprings at 0.715 and 0.715\n")
 
+find_program(ccache ccache)
+if(ccache)
+    set(ENV{CMAKE_CXX_COMPILER_LAUNCHER} ${ccache})
+    set(ENV{CCACHE_BASEDIR} ${source})
+    set(ENV{CCACHE_NOHASHDIR} 1)
+endif()
+
 # Runs a command and stores its output in `output`; stops and prints it if the command fails.
 function(run)
     execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)

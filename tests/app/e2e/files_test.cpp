@@ -71,7 +71,8 @@ TEST_F(Files, DroppedOrOpenedGoToTheirLabAndComeBackByUndo) {
             SCOPED_TRACE(file.path + " in " + lab);
             ScriptText dropped = in(lab).line({{"drop", app::Json::array({file.path})}}).wait(2);
             expect_opened(state_after(dropped), file);
-            expect_opened(state_after(in(lab).command("file.open", {{"path", file.path}})), file);
+            if (lab == labs().front())
+                expect_opened(state_after(in(lab).command("file.open", {{"path", file.path}})), file);
             if (file.member == "lab") continue;  // the stick figure's own map changes nothing
             const app::Json undone = state_after(dropped.command("undo").wait(2));
             EXPECT_EQ(undone.at("lab"), lab);
@@ -130,6 +131,7 @@ TEST_F(Files, ThatNoLabReadsAreRefusedAndChangeNothing) {
     for (const std::string& lab : labs()) {
         const app::Json before = state_after(in(lab).wait(4));
         for (const auto& [file, told] : junk) {
+            if (lab != labs().front() && file != junk.front().first) continue;
             SCOPED_TRACE(file + " in " + lab);
             write(folder_ / "drop.jsonl", in(lab).line({{"drop", app::Json::array({file})}}).wait(3).text());
             const Outcome dropped =

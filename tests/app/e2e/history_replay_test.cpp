@@ -86,15 +86,6 @@ TEST(HistoryReplay, ANewSceneThatIsAsBlankAsTheOldOneLeavesNothingToUndo) {
     });
 }
 
-TEST(HistoryReplay, OfAScriptWithARefusedUndo) {
-    const TempFolder folder;
-    write(folder / "script.jsonl", ScriptText().key("ctrl+n").command("undo", Json::object(), true).text());
-    const std::string recording = (folder / "recording.jsonl").string();
-    ASSERT_TRUE(succeeded(
-        run_program({"--headless", "--script", (folder / "script.jsonl").string(), "--record", recording})));
-    EXPECT_TRUE(succeeded(run_program({"--headless", "--script", recording})));
-}
-
 TEST(HistoryReplay, ASceneThatMentionsOneLabLeavesTheOthersAlone) {
     const TempFolder folder;
     const auto window = open_offscreen({1280, 720});

@@ -1,10 +1,15 @@
 // The plot and the past poses of the last ten seconds in the running program, in every lab that has joints.
 #include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/live_loop.hpp"
+#include "tests/app/support/panel_places.hpp"
 #include "tests/app/support/play.hpp"
 #include "tests/places.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -93,17 +98,6 @@ TEST(PastViews, ChangeNothingOfWhatIsShownBesides) {
         for (Json* each : {&with, &without})
             for (const char* const seen : {"past", "handles", "view", "layout"}) each->erase(seen);
         EXPECT_EQ(with, without) << lab.lab;
-    }
-}
-
-TEST(PastViews, ComeOutTheSameFromARecording) {
-    for (const PlottedLab& lab : plotted_labs()) {
-        const TempFolder folder;
-        const std::string recording = (folder / "r.jsonl").string(), state = (folder / "s.json").string();
-        const ScriptText script = shown(lab).wait(40).command("time.seek", {{"ticks_back", 11}}).wait(2);
-        const Json recorded = play(script, {.more = {"--record", recording}}).state;
-        ASSERT_TRUE(succeeded(run_program({"--headless", "--script", recording, "--state", state})));
-        EXPECT_EQ(app::parse_json(read(state)), recorded) << lab.lab;
     }
 }
 
@@ -255,6 +249,276 @@ TEST_F(LivePlot, IsWholeInAPictureAndInTheState) {
     EXPECT_EQ(app_.state()["past"]["plot"]["values"].size(), moments());
     turns(100);
     EXPECT_EQ(app_.screenshot().rgba, at_once.rgba);
+}
+
+// The Chain lab's last ten seconds in the running program: drags, flips, and returning to them.
+
+/// Plays in a window, where a refusal does not end the script.
+Json play_refused(const ScriptText& script) {
+    const TempFolder folder;
+    write(folder / "script.jsonl", script.text());
+    const std::string state = (folder / "state.json").string();
+    const Outcome outcome =
+        run_program({"--headless", "--script", (folder / "script.jsonl").string(), "--state", state});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return app::parse_json(read(state));
+}
+
+/// Two bones in mode Reach whose target then passes through the root, a hundredth of the reach per tick.
+ScriptText through_the_root() {
+    ScriptText script;
+    script.command("chain.preset", {{"name", "start"}, {"count", 3}})
+        .command("chain.mode", {{"mode", "reach"}})
+        .command("chain.target", {{"to", {0.4, 0.004, 0}}})
+        .wait(1);
+    for (int i = 0; i < 40; ++i)
+        script.command("chain.target", {{"to", {0.4 - 0.02 * (i + 1), 0.004, 0}}}).wait(1);
+    return script;
+}
+
+constexpr const char* straight = "the chain was straight (collinear)";
+
+/// All flips but the first, in which the straight chain bends.
+std::vector<Json> flips_of(const Json& state) {
+    std::vector<Json> flips;
+    for (const Json& event : state.at("events"))
+        if (event.at("kind") == "flip" && event.at("cause") != straight) flips.push_back(event);
+    return flips;
+}
+
+/// The index of the last moment.
+int newest_of(ScriptText script) {
+    const Json time = state_after(script.command("time.seek", {{"ticks_back", 1}}))["time"];
+    return time["moment"].get<int>() + 1;
+}
+
+TEST(ChainsPast, AFlipIsMarkedAtItsTickWithItsCause) {
+    const Json state = state_after(through_the_root());
+    const std::vector<Json> flips = flips_of(state);
+    ASSERT_GE(flips.size(), 1u) << state["events"].dump(2);
+    for (const Json& flip : flips) EXPECT_TRUE(test::says(flip["cause"], "target root"));
+    EXPECT_EQ(state["events"][0]["cause"], straight);
+    EXPECT_GT(flips[0]["degrees"].get<double>(), 30.0);
+    // The poses before and after it differ that much.
+    const auto tick = flips[0]["tick"].get<int>(), now = newest_of(through_the_root());
+    const auto pose_at = [&](int at) {
+        return state_after(through_the_root().command("time.seek", {{"ticks_back", now - at}}));
+    };
+    EXPECT_EQ(flips[0]["joint"], 1) << "the elbow";
+    const auto bone = [&](const Json& at, std::size_t to) {
+        return glm::normalize(point_of(at["segments"][to]["position"]) -
+                              point_of(at["segments"][to - 1]["position"]));
+    };
+    const Json before = pose_at(tick), after = pose_at(tick + 1);
+    float turned = 0.0f;
+    for (const std::size_t to : {1u, 2u})
+        turned = std::max(turned, glm::degrees(std::acos(glm::dot(bone(before, to), bone(after, to)))));
+    EXPECT_NEAR(turned, flips[0]["degrees"].get<float>(), 0.1f);
+}
+
+TEST(ChainsPast, ADragIsRememberedTickByTickAndTakenBackBySeeking) {
+    const ScriptText reach = ScriptText().command("chain.mode", {{"mode", "reach"}});
+    const glm::vec2 at = handle(state_after(reach), "target");
+    ScriptText script = reach;
+    script.move(at).down();
+    for (int i = 1; i <= 20; ++i) script.move(at - glm::vec2(6.0f * static_cast<float>(i), 0.0f));
+    ScriptText half = script;
+    script.up();
+    const Json end = state_after(script);
+    EXPECT_EQ(newest_of(script), 21) << "one for the mode, and one for each move of the mouse";
+    script.command("time.seek", {{"ticks_back", 20}});
+    const Json begin = state_after(script);
+    EXPECT_EQ(begin["segments"], state_after(reach)["segments"]);
+    EXPECT_EQ(begin["target"], state_after(reach)["target"]);
+    // Undo works, and a replay shows it again up to its end, at any speed.
+    EXPECT_EQ(state_after(ScriptText(script).command("undo"))["segments"], end["segments"]);
+    ScriptText again = script;
+    again.command("time.speed", {{"factor", 0.5}}).command("time.replay").wait(20);
+    EXPECT_EQ(state_after(again)["time"]["ticks_back"], 10);
+    const Json whole = state_after(again.wait(20));
+    EXPECT_FALSE(whole["time"].contains("ticks_back")) << "it has come to its end";
+    EXPECT_EQ(whole["segments"], end["segments"]);
+    EXPECT_EQ(whole["target"], end["target"]);
+}
+
+TEST(ChainsPast, AnIncidentIsGoneToByItsNumber) {
+    const Json state = state_after(through_the_root());
+    int number = 0;
+    while (state["events"].at(static_cast<std::size_t>(number)) != flips_of(state).front()) ++number;
+    const ScriptText script = through_the_root().command("time.incident", {{"number", number}});
+    const Json there = state_after(script);
+    const int newest = newest_of(through_the_root());
+    EXPECT_EQ(there["time"]["ticks_back"],
+              newest - state["events"][static_cast<std::size_t>(number)]["tick"].get<int>() - 1);
+    EXPECT_EQ(there["events"], state["events"]) << "looking back forgets nothing";
+    // A change there replaces what came after it.
+    const Json other = state_after(ScriptText(script).command("chain.target", {{"to", {1, 1, 0}}}).wait(1));
+    EXPECT_EQ(flips_of(other).size(), 1u) << "those that came after it are forgotten";
+    ASSERT_GT(flips_of(state).size(), 1u);
+    const ScriptText before = through_the_root().command("time.seek", {{"ticks_back", 30}});
+    EXPECT_EQ(
+        flips_of(state_after(ScriptText(before).command("chain.target", {{"to", {1, 1, 0}}}).wait(1))).size(),
+        0u)
+        << "it never came to the flip";
+    EXPECT_EQ(play(ScriptText().command("time.incident", {{"number", 0}}, true)).outcome.exit_code, 0);
+}
+
+TEST(ChainsPast, ARefusedNumberIsAMarkAndNoFlip) {
+    // Typed into the panel; a refused script command leaves no event.
+    const ScriptText reach = ScriptText()
+                                 .command("chain.mode", {{"mode", "reach"}})
+                                 .command("view.fold", chain_panel::unfolded())
+                                 .wait(3);
+    const Json typed =
+        play_refused(ScriptText(reach).click(chain_panel::iterations).wait(2).text("0").key("enter").wait(2));
+    ASSERT_EQ(typed["events"].size(), 1u);
+    EXPECT_EQ(typed["events"][0]["kind"], "status");
+    EXPECT_TRUE(test::says(typed["events"][0]["cause"].get<std::string>(), "iterations 1"))
+        << typed["events"][0]["cause"];
+    const Json told =
+        state_after(ScriptText(reach).command("chain.target", {{"to", {1e30, 0, 0}}}, true).wait(1));
+    EXPECT_TRUE(told["events"].empty());
+}
+
+TEST(ChainsPast, AnAnalysisBeginsWhereTheLastDragBegan) {
+    const ScriptText reach = ScriptText().command("chain.mode", {{"mode", "reach"}});
+    const Json start = state_after(reach);
+    const glm::vec2 at = handle(start, "target");
+    ScriptText script = reach;
+    script.move(at).down();
+    for (int i = 1; i <= 12; ++i) script.move(at + glm::vec2(-25.0f * static_cast<float>(i), -8.0f));
+    script.up().command("microscope.open").command("microscope.seek", {{"step", 0}});
+    const Json positions = state_after(script)["microscope"]["positions"];
+    ASSERT_EQ(positions.size(), start["segments"].size());
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        EXPECT_EQ(positions[i], start["segments"][i]["position"]) << i;
+}
+
+TEST(ChainsPast, AReplayEndsWithThePastItShows) {
+    // Another lab, another scene, or undo ends it while it runs.
+    for (const char* other : {"lab.open", "scene.new", "undo"}) {
+        ScriptText script = through_the_root().command("time.replay").wait(2);
+        const Json arguments = std::string(other) == "lab.open" ? Json{{"name", "rope"}} : Json::object();
+        EXPECT_EQ(play(script.command(other, arguments).wait(30)).outcome.exit_code, 0) << other;
+    }
+}
+
+TEST(ChainsPast, AReplayGoesOnWhereOnlySomeMomentsAreKept) {
+    // Of a chain this large, every fourth moment is kept.
+    ScriptText script = ScriptText().command("chain.preset", {{"name", "start"}, {"count", 100000}});
+    for (int i = 1; i <= 90; ++i) script.command("chain.target", {{"to", {100, i, 0}}});
+    const Json shown = state_after(script.command("time.replay").wait(100));
+    EXPECT_FALSE(shown["time"].contains("ticks_back")) << shown["time"];
+    EXPECT_EQ(shown["target"], Json::array({100.0, 90.0, 0.0}));
+}
+
+TEST(ChainsPast, WhatWasUndoneIsStillRemembered) {
+    const ScriptText script = ScriptText()
+                                  .command("chain.target", {{"to", {5, 1, 0}}})
+                                  .command("chain.target", {{"to", {4, 2, 0}}})
+                                  .command("undo")
+                                  .command("time.seek", {{"ticks_back", 1}});
+    EXPECT_EQ(state_after(script)["target"], Json::array({4.0, 2.0, 0.0}));
+}
+
+TEST(ChainsPast, LookingIsNothingToUndo) {
+    ScriptText script = ScriptText();
+    for (int i = 1; i <= 5; ++i) script.command("chain.target", {{"to", {7 - i, i, 0}}}).wait(1);
+    const Json end = state_after(script);
+    const Json back = state_after(ScriptText(script).command("time.replay").wait(30).command("undo"));
+    EXPECT_EQ(back["target"], Json::array({3.0, 4.0, 0.0})) << "the last change, and not the way back";
+    EXPECT_EQ(end["target"], Json::array({2.0, 5.0, 0.0}));
+}
+
+TEST(ChainsPast, AnotherSceneHasAPastOfItsOwn) {
+    const ScriptText script = through_the_root().command("scene.new").wait(3);
+    const Json state = state_after(script);
+    EXPECT_TRUE(state["events"].empty());
+    EXPECT_EQ(play(ScriptText(script).command("time.seek", {{"ticks_back", 1}}, true)).outcome.exit_code, 0);
+}
+
+// The Rig lab's last ten seconds in the running program: flips of bones, and returning to them.
+
+/// The head looks up; then the control for its up direction crosses its line of sight.
+ScriptText tilt_past_the_look(int steps = 40) {
+    ScriptText script;
+    script.command("lab.open", {{"name", "rig"}})
+        .command("rig.preset", {{"name", "aim"}})
+        .command("rig.control.set", {{"name", "look"}, {"value", {0, 1}}})
+        .wait(2)
+        .command("rig.control.set", {{"name", "tilt"}, {"value", {0.303, 0.3145, 0.5}}})
+        .wait(3);
+    for (int i = 1; i <= steps; ++i)
+        script.command("rig.control.set", {{"name", "tilt"}, {"value", {0.303 - 0.015 * i, 0.3145, 0.5}}})
+            .wait(1);
+    return script;
+}
+
+std::vector<Json> rig_flips(const Json& state) {
+    std::vector<Json> flips;
+    for (const Json& event : state.at("events"))
+        if (event.at("kind") == "flip") flips.push_back(event);
+    return flips;
+}
+
+const Json& element(const Json& state, const std::string& name) {
+    for (const Json& each : state.at("elements"))
+        if (each.at("name") == name) return each;
+    throw std::runtime_error("there is no element " + name);
+}
+
+std::size_t number_of(const Json& state, const Json& event) {
+    std::size_t number = 0;
+    while (state.at("events").at(number) != event) ++number;
+    return number;
+}
+
+TEST(RigsPast, AFlipIsMarkedAtItsTickWithBoneUnitAndCause) {
+    const Json state = state_after(tilt_past_the_look());
+    const std::vector<Json> flips = rig_flips(state);
+    ASSERT_GE(flips.size(), 1u) << state["events"].dump(2);
+    double turned = 0.0;
+    for (const Json& flip : flips) {
+        EXPECT_EQ(flip["name"], "head");
+        EXPECT_EQ(state["elements"].at(flip["joint"].get<std::size_t>())["name"], "head");
+        EXPECT_TRUE(test::says(flip["cause"].get<std::string>(), "unit aim second target"));
+        turned += flip["degrees"].get<double>();
+    }
+    EXPECT_GT(turned, 60.0);
+    // The poses before and after it differ by as much as it says.
+    const std::size_t number = number_of(state, flips[0]);
+    const ScriptText there = tilt_past_the_look().command("time.incident", {{"number", number}});
+    const Json after = state_after(there);
+    const int back = after["time"]["ticks_back"].get<int>();
+    EXPECT_EQ(after["time"]["moment"].get<int>(), flips[0]["tick"].get<int>() + 1);
+    const Json before = state_after(ScriptText(there).command("time.seek", {{"ticks_back", back + 1}}));
+    const Json &a = element(before, "head")["global"]["rotation"],
+               &b = element(after, "head")["global"]["rotation"];
+    double dot = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) dot += a[i].get<double>() * b[i].get<double>();
+    EXPECT_NEAR(2.0 * std::acos(std::min(1.0, std::abs(dot))) * 180.0 / 3.14159265,
+                flips[0]["degrees"].get<double>(), 0.1);
+    EXPECT_EQ(after["events"], state["events"]) << "looking back forgets nothing";
+}
+
+TEST(RigsPast, APausedDragIsRememberedAndMarkedToo) {
+    ScriptText script;
+    script.command("lab.open", {{"name", "rig"}}).command("rig.preset", {{"name", "aim"}});
+    script.command("rig.control.set", {{"name", "look"}, {"value", {0, 1}}}).wait(3).command("time.pause");
+    for (int i = 0; i <= 40; ++i)
+        script.command("rig.control.set", {{"name", "tilt"}, {"value", {0.303 - 0.015 * i, 0.3145, 0.5}}})
+            .command("rig.solve")
+            .wait(1);
+    const std::vector<Json> flips = rig_flips(state_after(script));
+    ASSERT_GE(flips.size(), 1u);
+    EXPECT_EQ(flips[0]["name"], "head");
+}
+
+TEST(RigsPast, WhatIsSelectedDoesNotGoBackInTime) {
+    const ScriptText script = tilt_past_the_look(10)
+                                  .command("rig.select", {{"element", "nose"}})
+                                  .command("time.seek", {{"ticks_back", 8}});
+    EXPECT_EQ(state_after(script)["selected"]["element"], "nose");
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ TEST(Picture, IsRefusedInWords) {
         ScriptText script;
         script.command("view.picture", arguments);
         write(folder / "script.jsonl", script.text());
-        return run_program({"--headless", "--script", (folder / "script.jsonl").string()}).err;
+        return run_here({"--headless", "--script", (folder / "script.jsonl").string()}).err;
     };
     EXPECT_TRUE(has(refusal({{"path", "a.jpg"}}), "path must end in .png, got a.jpg"));
     EXPECT_TRUE(has(refusal({{"path", "/nowhere/a.png"}}), "/nowhere/a.png"));

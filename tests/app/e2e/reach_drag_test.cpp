@@ -126,19 +126,6 @@ TEST(ReachDrag, limits_hold_on_both_sides_of_the_hand) {
     }
 }
 
-TEST(ReachDrag, a_recording_of_it_plays_to_the_same_bits) {
-    const Json before = state_after(reaching());
-    ScriptText script = reaching();
-    drag_joint(script, handle(before, "segment.3"), {-35, 60});
-    const TempFolder folder;
-    const std::string recording = (folder / "recording.jsonl").string();
-    const Json recorded = play(script, {.more = {"--record", recording}}).state;
-    write(folder / "again.jsonl", read(recording));
-    EXPECT_TRUE(succeeded(
-        run_program({"--headless", "--script", recording, "--state", (folder / "again.json").string()})));
-    EXPECT_EQ(app::parse_json(read(folder / "again.json")), recorded);
-}
-
 TEST(DeleteInMidDrag, does_nothing_in_the_chain_lab) {
     for (const char* mode : {"backward", "reach"}) {
         ScriptText script;

@@ -50,22 +50,6 @@ const Json& start_state() {
     return state;
 }
 
-TEST_F(Recording, holds_drags_and_commands) {
-    const glm::vec2 target = handle(start_state(), "target");
-    ScriptText script;
-    script.drag({target, {700.5f, 250.25f}, {600.125f, 200}})
-        .command("chain.mode", {{"mode", "fixed"}, {"iterations", 7}})
-        .drag({{600.125f, 200}, {520, 260}})
-        .command("chain.set_length", {{"index", 2}, {"length", 0.1}})
-        .command("chain.remove", {{"index", 77}}, true)
-        .key("ctrl+z")
-        .drag({{640, 660}, {600, 610}}, "right")
-        .wheel(1.5f);
-    const Json state = state_of(record_and_replay(script));
-    EXPECT_NE(state["segments"], start_state()["segments"]);
-    EXPECT_EQ(state["mode"], "fixed");
-}
-
 // Everything in the window that is not the scene: panels, palette, help, keys, wheel over a list, resizing.
 TEST_F(Recording, holds_the_use_of_panels) {
     const glm::vec2 forward_radio = chain_panel::forward, target = handle(start_state(), "target");
@@ -92,17 +76,6 @@ TEST_F(Recording, holds_the_use_of_panels) {
     EXPECT_EQ(state["mode"], "forward");
     EXPECT_EQ(state["segments"].size(), 9u);
     EXPECT_EQ(state["segments"][8]["length"], 0.75);
-}
-
-TEST_F(Recording, holds_several_that_one_gizmo_drags) {
-    ScriptText script;
-    script.command("lab.open", {{"name", "humanoid"}}).command("time.pause");
-    script.command("humanoid.select", {{"nodes", {"LeftHand", "RightHand"}}}).wait(2);
-    const glm::vec2 arrow = handle(state_after(script), "right_hand.move_y");
-    script.drag({arrow, arrow + glm::vec2(0, -12), arrow + glm::vec2(0, -30)}).key("escape").wait(2);
-    const Json state = state_of(record_and_replay(script));
-    EXPECT_EQ(state["body"]["targets"].size(), 2u);
-    EXPECT_EQ(state["selection"], Json::array());
 }
 
 TEST_F(Recording, holds_text_typed_into_a_field) {

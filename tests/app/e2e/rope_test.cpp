@@ -67,48 +67,6 @@ TEST(RopeInTheWindow, AParticleThatIsDraggedIsHeldUntilItIsDropped) {
     EXPECT_NEAR(high, was, 0.02) << "the whole drag is one step";
 }
 
-TEST(RopeInTheWindow, ARecordingOfItAllEndsInTheSameState) {
-    const TempFolder folder;
-    const ScriptText begin = rope_lab("hair").wait(30);
-    const glm::vec2 head = handle(state_after(begin), "collider.head");
-    ScriptText script = begin;
-    script.command("rope.jitter", {{"dial", 0.8}}).command("time.speed", {{"factor", 0.7}});
-    slowly(script, head, head + glm::vec2(60, -30), 25).up();
-    script.wait(30)
-        .command("time.seek", {{"ticks_back", 20}})
-        .command("time.play")
-        .wait(12)
-        .command("rope.settings", {{"solver", "xpbd"}, {"gravity", {1, -5, 0}}})
-        .wait(10)
-        .command("undo")
-        .wait(3)
-        .command("lab.open", {{"name", "chain"}})
-        .command("lab.open", {{"name", "rope"}})
-        .wait(3);
-    const std::string recording = (folder / "r.jsonl").string();
-    const Json recorded = play(script, {.more = {"--record", recording}}).state;
-    const auto replay = [&](const std::string& path) {
-        const std::string state = (folder / "s.json").string();
-        EXPECT_TRUE(succeeded(run_program({"--headless", "--script", path, "--state", state})));
-        return app::parse_json(read(state));
-    };
-    EXPECT_EQ(replay(recording), recorded);
-    // And a recording that starts in the middle, from a scene file.
-    const std::string scene = (folder / "scene.json").string();
-    state_after(ScriptText(begin)
-                    .command("rope.jitter", {{"dial", 0.5}})
-                    .wait(7)
-                    .command("scene.save", {{"path", scene}}));
-    const Json from_file = play(ScriptText()
-                                    .wait(20)
-                                    .command("rope.collider.move", {{"name", "head"}, {"to", {0, 1.5, 0}}})
-                                    .wait(9),
-                                {.more = {scene, "--record", recording, "--force"}})
-                               .state;
-    EXPECT_EQ(from_file["lab"], "rope");
-    EXPECT_EQ(replay(recording), from_file);
-}
-
 TEST(RopeInTheWindow, TimeGoesBackAndOnFromThere) {
     ScriptText script = rope_lab("cloth").wait(100);
     const Json then = state_after(script);

@@ -93,7 +93,6 @@ TEST(SelectByMouse, EscapeSelectsNothingInEveryLab) {
         EXPECT_NE(before, none) << each.lab << each.arguments;
         // Escape first closes what is over the scene.
         EXPECT_EQ(selected(state_after(ScriptText(script).key("?").key("escape"))), before) << each.lab;
-        EXPECT_EQ(selected(state_after(ScriptText(script).key("ctrl+k").key("escape"))), before) << each.lab;
         EXPECT_EQ(selected(state_after(ScriptText(script).key("?").key("escape").wait(2).key("escape"))),
                   none);
         EXPECT_EQ(selected(state_after(script.key("escape"))), none) << each.lab << each.arguments;

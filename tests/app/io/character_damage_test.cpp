@@ -66,8 +66,7 @@ void edit_text(const std::string& bytes, const Edit& use) {
 /// Each four bytes as a number that is too large, too small or negative.
 void edit_numbers(const std::string& bytes, const Edit& use) {
     for (std::size_t at = 0; at + 4 <= bytes.size(); ++at)
-        for (const std::uint32_t number :
-             {0u, 1u, 0x100u, 0x10000u, 0x1000000u, 0x7fffffffu, 0x80000000u, 0xfffffff0u}) {
+        for (const std::uint32_t number : {1u, 0x10000u, 0x7fffffffu, 0xfffffff0u}) {
             std::string edited = bytes;
             std::memcpy(edited.data() + at, &number, sizeof number);
             use(edited);
@@ -256,7 +255,7 @@ TEST_P(CharacterDamage, any_byte_may_be_changed_cut_off_or_left_out) {
     EXPECT_EQ(test_sound::fault_of(undamaged), nullptr);
     EXPECT_EQ(undamaged.clips.size(), 1u);
     for (std::size_t i = 0; i < whole.size() && !HasFatalFailure(); ++i) {
-        for (const int flip : {0x01, 0x20, 0x80, 0xff}) {
+        for (const int flip : {0x20, 0xff}) {
             std::string changed = whole;
             changed[i] = static_cast<char>(changed[i] ^ flip);
             attempt(changed);

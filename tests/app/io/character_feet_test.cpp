@@ -30,24 +30,6 @@ void expect_stands(const Measured& all) {
     EXPECT_LE(all.stretch, 0.995 + 1e-6);
 }
 
-TEST(CharacterFeet, TheFiguresOwnWalkStandsWhereItIsPlanted) {
-    const Character figure = stick_figure();
-    for (const humanoid::Ground& ground : grounds()) {
-        Walker walker(figure.skeleton, figure.clips[0]);
-        Measured all;
-        for (const double heading : {0.0, pi}) {
-            Stroll stroll{.seconds = 11.0, .heading = heading};
-            stroll.from.z = heading > 0.0 ? 8.0 : 0.0;
-            all.add(walker.walk(ground, stroll));
-        }
-        SCOPED_TRACE(name(ground.kind()));
-        expect_stands(all);
-        EXPECT_LT(all.beyond, 0.05);
-        EXPECT_GT(all.planted, all.feet / 2);
-        EXPECT_EQ(all.alone, 0);
-    }
-}
-
 TEST(CharacterFeet, TheFiguresSolesAreWhereItsMakerHasThem) {
     const Character figure = stick_figure();
     const auto soles = humanoid::find_soles(figure.skeleton, humanoid::match_bones(figure.skeleton));

@@ -95,33 +95,5 @@ TEST(CapsulesOfCharacters, hold_their_skins_and_let_them_rest) {
     }
 }
 
-TEST(CapsulesOfCharacters, keep_a_hand_out_of_the_waist) {
-    for (const auto& file : character_files()) {
-        SCOPED_TRACE(file);
-        const Worn worn(file);
-        if (!worn.is_body()) continue;
-        const Skeleton& skeleton = worn.character.skeleton;
-        Body body = *Body::make(skeleton, worn.map, default_limits(skeleton, worn.map), worn.capsules);
-        const auto at = [&](Bone bone) {
-            return worn.placed[static_cast<std::size_t>(worn.map[bone].node)].position;
-        };
-        // A third of the way from the hips to the head, from front to back.
-        const glm::dvec3 waist = glm::mix(at(Bone::Hips), at(Bone::Head), 0.33);
-        const double size = glm::distance(at(Bone::Hips), at(Bone::Head)) / 0.6;
-        const glm::dvec3 ahead = facing(skeleton, worn.map).forward;
-        BodyState state;
-        double deepest = 0.0;
-        for (int frame = 0; frame <= 100; ++frame) {
-            auto pose = rest_pose(skeleton);
-            const std::vector<BodyTarget> targets{
-                {Effector::LeftHand, waist + size * (0.5 - 0.01 * frame) * ahead}};
-            const auto report = body.solve(pose, targets, state);
-            ASSERT_TRUE(report) << report.message();
-            deepest = std::max(deepest, report->penetration);
-        }
-        EXPECT_LT(deepest, 5e-3 * size);
-    }
-}
-
 }  // namespace
 }  // namespace tendril::app

@@ -90,7 +90,9 @@ TEST(FrameCount, IsKeptThroughTenExportsAndRetargets) {
     for (const double rate : rates)
         for (const std::size_t frames : counts)
             for (const int decimals : {4, 6, 17}) {
-                if (frames == 300 && decimals != 6) continue;  // as long again for the same
+                // The longest drift the furthest, and take the longest: two rates that no unit of time
+                // divides.
+                if (frames == 300 && (decimals != 6 || (rate != 29.97 && rate != 120.0))) continue;
                 SCOPED_TRACE(std::to_string(frames) + " frames at " + std::to_string(rate) + ", " +
                              std::to_string(decimals) + " decimals");
                 test::write(folder / "in.bvh", capture(rate, frames, decimals));
@@ -131,8 +133,8 @@ TEST(FrameCount, OfAnFbxIsKeptThroughTenExports) {
 TEST(FrameCount, IsKeptWhereKeysLieBetweenFrames) {
     const test::TempFolder folder;
     const Character figure = other_figure();
-    for (const double rate : {24.0, 29.97, 60.0, 120.0})
-        for (const double end : {0.2, 0.5, 0.9}) {
+    for (const double rate : {29.97, 120.0})
+        for (const double end : {0.2, 0.9}) {
             SCOPED_TRACE(std::to_string(rate) + ", ends at " + std::to_string(end) + " of a frame");
             Character from = parse_bvh(capture(rate, 524, 17), "it.bvh");
             Clip& clip = from.clips[0];

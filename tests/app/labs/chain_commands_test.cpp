@@ -192,18 +192,6 @@ TEST_F(ChainCommands, ResetIsOfThisLabAndKeepsTheFile) {
     EXPECT_EQ(workspace.path, "walk.json");
 }
 
-TEST_F(ChainCommands, UndoOfANewSceneBringsItsFileBackToo) {
-    workspace.path = "walk.json";
-    run("chain.add", {{"length", 1}});
-    run("scene.new");
-    EXPECT_TRUE(workspace.path.empty());
-    run("undo");
-    EXPECT_EQ(workspace.path, "walk.json");
-    EXPECT_EQ(part().chain.size(), 9u);
-    run("redo");
-    EXPECT_TRUE(workspace.path.empty());
-}
-
 TEST_F(ChainCommands, UndoAndRedoNameTheLabThatWasNotOpen) {
     const auto told = [&] { return workspace.ui.toasts.empty() ? "" : workspace.ui.toasts.back().text; };
     run("chain.preset", {{"name", "arm"}});

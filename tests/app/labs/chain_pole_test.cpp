@@ -104,24 +104,6 @@ TEST_F(ChainPole, goes_on_from_a_saved_scene_to_the_same_bits) {
     }
 }
 
-TEST_F(ChainPole, goes_on_after_undo_and_redo_to_the_same_bits) {
-    start(6);
-    const std::vector<glm::vec3> path = arc(0.025f);
-    std::vector<Json> scenes;
-    for (const glm::vec3& target : path) {
-        reach(target);
-        scenes.push_back(save_scene(workspace));
-    }
-    for (std::size_t i = 0; i < 20; ++i) run("undo");
-    EXPECT_EQ(save_scene(workspace), scenes[path.size() - 21]);
-    for (std::size_t i = 0; i < 10; ++i) run("redo");
-    EXPECT_EQ(save_scene(workspace), scenes[path.size() - 11]);
-    for (std::size_t i = path.size() - 10; i < path.size(); ++i) {
-        reach(path[i]);
-        ASSERT_EQ(save_scene(workspace), scenes[i]) << "step " << i;
-    }
-}
-
 /// A typical session in mode Reach, with and without limits, with dragged joints and studies.
 void play_session(const CommandTable& table, Workspace& workspace, const Labs& labs,
                   const std::function<void()>& after_each) {
@@ -184,40 +166,6 @@ TEST_F(ChainPole, solvers_are_made_once_per_chain) {
 
 namespace tendril::test {
 namespace {
-
-/// The same in the built program: its output after each step, and the replay of a recording.
-TEST(PoleInTheProgram, does_not_flip_and_its_recording_plays_to_the_same_bits) {
-    const TempFolder folder;
-    for (const float step : {0.025f, 0.005f}) {
-        ScriptText script;
-        script.command("chain.preset", {{"name", "start"}, {"count", 6}});
-        script.command("chain.mode", {{"mode", "reach"}});
-        int states = 0;
-        for (float angle = 0.2f; angle < 0.7f; angle += step / 3.0f, ++states) {
-            const app::Json to = {3.0f * std::cos(angle), 3.0f * std::sin(angle), 0.0f};
-            script.command("chain.target", {{"to", to}});
-            if (states == 0) script.command("chain.pole", {{"to", {2, 1, 0}}});
-            script.line({{"state", (folder / (std::to_string(states) + ".json")).string()}});
-        }
-        const std::string recording = (folder / "recording.jsonl").string();
-        const app::Json last = play(script, {.more = {"--record", recording, "--force"}}).state;
-        app::Json before = app::parse_json(read(folder / "0.json"));
-        for (int i = 1; i < states; ++i) {
-            const app::Json now = app::parse_json(read(folder / (std::to_string(i) + ".json")));
-            const float moved = glm::distance(point_of(now["target"]), point_of(before["target"]));
-            for (std::size_t j = 0; j < now["segments"].size(); ++j) {
-                EXPECT_LT(glm::distance(point_of(now["segments"][j]["position"]),
-                                        point_of(before["segments"][j]["position"])),
-                          50.0f * moved)
-                    << "joint " << j << " at step " << i << " of " << step << " m";
-            }
-            before = now;
-        }
-        EXPECT_TRUE(succeeded(
-            run_program({"--headless", "--script", recording, "--state", (folder / "again.json").string()})));
-        EXPECT_EQ(app::parse_json(read(folder / "again.json")), last);
-    }
-}
 
 }  // namespace
 }  // namespace tendril::test

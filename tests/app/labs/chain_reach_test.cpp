@@ -129,18 +129,6 @@ TEST_F(ChainReach, limits_stay_with_their_segments) {
     EXPECT_TRUE(part().reach.limits.empty());
 }
 
-TEST_F(ChainReach, the_pole_turns_the_chain_to_face_it) {
-    reach_with(2);
-    run("chain.target", {{"to", {1.4, 0, 0}}});
-    run("chain.pole", {{"to", {0.7, 0, 3}}});
-    EXPECT_GT(part().chain.position(1).z, 0.5f);
-    run("chain.pole", {{"to", {0.7, -3, 0}}});
-    EXPECT_LT(part().chain.position(1).y, -0.5f);
-    EXPECT_LE(tip_distance(), 2e-3f);
-    run("chain.pole", {{"off", true}});
-    EXPECT_FALSE(part().reach.pole);
-}
-
 TEST_F(ChainReach, a_scene_from_before_there_was_reach_opens) {
     Json scene = save_scene(workspace);
     scene["labs"]["chain"].erase("reach");

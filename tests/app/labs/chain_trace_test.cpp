@@ -138,14 +138,6 @@ TEST_F(ChainTrace, TheStripIsSavedAsATraceThatIsReadBack) {
     EXPECT_NE(refused("chain.save_trace", {{"path", saved}}).find("no bone"), std::string::npos);
 }
 
-TEST_F(ChainTrace, UndoBringsBackTheChainFromBefore) {
-    const Chain before = part().chain;
-    run("chain.trace", {{"path", file("arm.log", Plant::None, Format::Unreal)}});
-    EXPECT_NE(part().chain, before);
-    run("undo");
-    EXPECT_EQ(part().chain, before);
-}
-
 TEST_F(ChainTrace, AFrameThatIsNotFiniteHoldsThePoseBefore) {
     const MadeTrace made = test::made::TraceMaker(6).make(Plant::NanForNothing);
     run("chain.trace", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
@@ -209,14 +201,6 @@ TEST_F(ChainTrace, PastedTextIsTakenAsATraceIfItIsOne) {
     EXPECT_EQ(part().chain.size(), 3u);
     for (const char* points : {"1 2 3", "0 0 0\n1 0 0\n2 0 0\n", "[[0,0,0],[1,0,0]]"})
         EXPECT_EQ(ChainLab().takes_text(points).command->name, "chain.paste") << points;
-}
-
-TEST_F(ChainTrace, SignalsStillOpenInTheirLab) {
-    tendril::test::write(folder_ / "signal.csv", "dt,input\n0.1,1\n0.1,2\n");
-    run("file.open", {{"path", (folder_ / "signal.csv").string()}});
-    EXPECT_EQ(workspace.lab, "signal");
-    run("file.open", {{"path", file("arm.csv", Plant::None, Format::Csv)}});
-    EXPECT_EQ(workspace.lab, chain_lab);
 }
 
 TEST_F(ChainTrace, WhatCannotBeShownIsRefusedAndNothingIsLost) {

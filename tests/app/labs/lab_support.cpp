@@ -56,7 +56,7 @@ void LabTest::expect_refused(const char* name, const Json& arguments, const std:
         EXPECT_NE(message.find(each), std::string::npos) << message << "\n  does not say " << each;
 }
 
-std::string LabTest::opened_with(const char* pointer, const Json& value) const {
+std::string LabTest::opened_with(const std::string& pointer, const Json& value) const {
     Json scene = save_scene(workspace);
     scene["labs"][lab_][Json::json_pointer(pointer)] = value;
     Workspace other = make_blank_workspace(labs);
@@ -72,10 +72,11 @@ std::string LabTest::opened_with(const char* pointer, const Json& value) const {
     }
 }
 
-void LabTest::expect_scene_refused(const char* pointer, const Json& value, const std::string& says) const {
+void LabTest::expect_scene_refused(const std::string& pointer, const Json& value,
+                                   const std::string& says) const {
     const std::string message = opened_with(pointer, value);
     EXPECT_TRUE(message.starts_with("labs.") && message.find(says) != std::string::npos)
-        << message << "\n  does not say " << says;
+        << pointer << " as " << value << ": " << message << "\n  does not say " << says;
 }
 
 }  // namespace tendril::app

@@ -46,8 +46,8 @@ class LabTest : public testing::Test {
     void expect_refused(const char* name, const Json& arguments, const std::vector<std::string>& says);
     /// Opens the scene with this value in the lab's JSON. Returns what refuses it; "blank: " and why, if the
     /// lab starts blank; or nothing.
-    std::string opened_with(const char* pointer, const Json& value) const;
-    void expect_scene_refused(const char* pointer, const Json& value, const std::string& says) const;
+    std::string opened_with(const std::string& pointer, const Json& value) const;
+    void expect_scene_refused(const std::string& pointer, const Json& value, const std::string& says) const;
 
   private:
     const char* lab_;

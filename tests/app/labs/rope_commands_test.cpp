@@ -50,32 +50,6 @@ TEST_F(RopeCommands, AddLaysARopeStraightOrHanging) {
     EXPECT_TRUE(ropes[0].contains("stretch") && ropes[0].contains("energy"));
 }
 
-TEST_F(RopeCommands, StateIsTheSpecsAndMore) {
-    const Json now = state();
-    for (const char* member : {"lab", "ropes", "cloths", "hair", "colliders", "substeps_dropped", "settings",
-                               "seconds", "speed", "tool", "selected", "held"})
-        EXPECT_TRUE(now.contains(member)) << member;
-    EXPECT_EQ(now["lab"], "rope");
-    run("rope.clear");
-    run("rope.collider.add", {{"name", "b"},
-                              {"kind", "box"},
-                              {"centre", {1, 2, 3}},
-                              {"half_extents", {1, 2, 3}},
-                              {"rotation", {0, 0, 90}}});
-    run("rope.collider.add",
-        {{"name", "c"}, {"kind", "capsule"}, {"a", {0, 0, 0}}, {"b", {2, 0, 0}}, {"radius", 0.5}});
-    run("rope.collider.add", {{"name", "p"}, {"kind", "plane"}, {"point", {0, 0, 0}}, {"normal", {0, 2, 0}}});
-    run("rope.collider.add", {{"name", "s"}, {"kind", "sphere"}, {"centre", {0, 1, 0}}, {"radius", 0.25}});
-    const Json colliders = state().at("colliders");
-    ASSERT_EQ(colliders.size(), 4u);
-    EXPECT_EQ(colliders[0]["kind"], "box");
-    EXPECT_NEAR(colliders[0]["rotation"][2].get<double>(), std::sqrt(0.5), 1e-6);
-    EXPECT_NEAR(colliders[0]["rotation"][3].get<double>(), std::sqrt(0.5), 1e-6);
-    EXPECT_EQ(colliders[1]["centre"], Json::array({1.0, 0.0, 0.0}));
-    EXPECT_EQ(colliders[2]["normal"], Json::array({0.0, 2.0, 0.0}));
-    EXPECT_EQ(colliders[3]["radius"], 0.25);
-}
-
 TEST_F(RopeCommands, PinTakesAParticleThereInOneTickAndUnpinLetsItFall) {
     single_rope();
     run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
@@ -185,20 +159,6 @@ TEST_F(RopeCommands, AColliderSwingsAboutItsMiddleAndNeverJumps) {
     last = centre();
     wait(30);
     EXPECT_EQ(centre(), last);
-}
-
-TEST_F(RopeCommands, SettingsKeepWhatIsLeftOut) {
-    run("rope.settings", {{"solver", "xpbd"}, {"iterations", 7}, {"substep", 0.001}, {"gravity", 1.5}});
-    run("rope.settings", {{"friction", 0.25}});
-    const Json settings = state().at("settings");
-    EXPECT_EQ(settings["solver"], "xpbd");
-    EXPECT_EQ(settings["iterations"], 7);
-    EXPECT_EQ(settings["substep"], 0.001) << "the very number, not a float's";
-    EXPECT_EQ(settings["gravity"], Json::array({0.0, -1.5, 0.0}));
-    const std::size_t history = workspace.history.size();
-    run("rope.settings", {{"friction", 0.25}});
-    run("rope.settings");
-    EXPECT_EQ(workspace.history.size(), history);
 }
 
 TEST_F(RopeCommands, WindFluttersTheFlag) {

@@ -40,12 +40,6 @@ TEST_F(RopeDrive, ABoxThatTurnsIsShownTurned) {
     EXPECT_TRUE(world().find_collider("box")->drive.any());
 }
 
-TEST_F(RopeDrive, RefusesWhatItCannotDrive) {
-    lie_on_the_ground();
-    expect_refused("rope.collider.drive", {{"name", "sea"}, {"spin_deg", 1}}, {"sea"});
-    expect_refused("rope.collider.drive", {{"name", "ground"}, {"velocity", {1e5, 0, 0}}}, {"velocity"});
-}
-
 TEST_F(RopeDrive, HairLeansInTheWind) {
     run("rope.clear");
     run("rope.hair.add", {{"centre", {0, 2, 0}}, {"strands", 1}, {"spread", 0}, {"length", 0.5}});

@@ -38,22 +38,6 @@ class RopeMove : public RopeTest {
     }
 };
 
-TEST_F(RopeMove, MovesParticlesAndPinsAndKeepsVelocities) {
-    const rope::State was = world().state();
-    run("rope.move", {{"rope", "sheet"}, {"by", {0.5, 0.25, -1}}});
-    const rope::State& now = world().state();
-    const glm::dvec3 by(0.5, 0.25, -1);
-    for (std::size_t i = 0; i < now.position.size(); ++i)
-        EXPECT_LT(glm::distance(now.position[i], was.position[i] + by), 1e-12);
-    EXPECT_EQ(now.displacement, was.displacement);
-    ASSERT_EQ(now.pins.size(), 2u);
-    for (std::size_t i = 0; i < 2; ++i)
-        EXPECT_LT(glm::distance(now.pins[i].goal, was.pins[i].goal + by), 1e-12);
-    run("undo");
-    EXPECT_EQ(world().state().position, was.position);
-    EXPECT_EQ(world().state().pins, was.pins);
-}
-
 TEST_F(RopeMove, ADoubleClickSelectsAllOfItAndItsArrowsMoveIt) {
     EXPECT_FALSE(lab().gizmo(workspace));
     const PickId pick = particle_pick(body("sheet").first + 14);

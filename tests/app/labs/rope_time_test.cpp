@@ -95,20 +95,6 @@ TEST_F(RopeTime, TheDialTurnedBackOwesNothing) {
     EXPECT_EQ(world().state().substeps + world().state().dropped, 34u * 4u);
 }
 
-TEST_F(RopeTime, SlowMotionIsTheSameMotion) {
-    run("rope.preset", {{"name", "hair"}});
-    wait(40);
-    const NamedWorld full = world();
-    run("rope.preset", {{"name", "hair"}});
-    run("time.speed", {{"factor", 0.25}});
-    wait(160);
-    EXPECT_EQ(world().state().substeps, full.state().substeps);
-    EXPECT_LT(farthest(full, world()), 1e-6);
-    EXPECT_EQ(state().at("speed"), 0.25);
-    refused("time.speed", {{"factor", 0.01}});
-    refused("time.speed", {{"factor", 3}});
-}
-
 TEST_F(RopeTime, WhatLiesStillLetsTheWindowIdleUntilACommandComes) {
     run("rope.clear");
     run("rope.collider.add",

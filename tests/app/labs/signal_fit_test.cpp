@@ -1,15 +1,20 @@
 // Fitting filters to responses: responses of each kind of filter are matched, with the original parameters.
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
+#include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/fit.hpp"
 #include "app/labs/signal/fit_space.hpp"
 #include "app/labs/signal/signal_part.hpp"
 #include "tests/app/labs/fit_support.hpp"
+#include "tests/app/labs/lab_support.hpp"
+#include "tests/app/support/panel_text.hpp"
+#include "tests/app/support/temp_folder.hpp"
 #include "tests/core/random.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -261,6 +266,359 @@ TEST(Fit, BeginsFromWhatItIsGivenToo) {
     const signal::Filter other = signal::DeadZone{};  // of another kind: ignored
     EXPECT_EQ(fit_kind(signal::kind_of(truth), {samples, response}, &other).filter,
               fit_kind(signal::kind_of(truth), {samples, response}).filter);
+}
+
+// The Signal lab must play and fit the same rows.
+
+class SignalFitRows : public LabTest {
+  protected:
+    SignalFitRows() : LabTest(signal_lab) {}
+    const SignalPart& part() const { return signal_part(workspace); }
+    void wait(int ticks) {
+        for (int i = 0; i < ticks; ++i) lab().step(workspace);
+    }
+};
+
+TEST_F(SignalFitRows, AreThoseThatAreTicked) {
+    const test::TempFolder folder;
+    std::string samples = "dt,input\n", response = "output\n";
+    for (int i = 0; i < 150; ++i)
+        samples += "0.016666666666666666," + std::to_string(std::sin(0.21 * i) + (i / 40) % 2) + "\n";
+    test::write(folder / "in.csv", samples);
+    const Json inputs[] = {{{"kind", "square"}, {"period", 1}},
+                           {{"kind", "noise"}, {"period", 1}},
+                           {{"kind", "csv"}, {"path", (folder / "in.csv").string()}}};
+    const Json filters[] = {{{"kind", "spring"}, {"strength", 2.3}, {"critical_damping", 0.4}},
+                            {{"kind", "rate_limit"}, {"rise", 2.0}, {"fall", 3.5}}};
+    for (const Json& input : inputs) {
+        for (const Json& filter : filters) {
+            run("signal.reset");
+            run("signal.clear");
+            run("signal.input", input);
+            run("signal.filter.add", filter);
+            std::vector<double> played, wanted;
+            for (int i = 0; i < 150; ++i) {
+                wait(1);
+                played.push_back(state().at("input").get<double>());
+                wanted.push_back(state().at("output").get<double>());
+            }
+            run("signal.clear");
+            run("signal.fit", {{"to", wanted}});
+            ASSERT_EQ(part().fit_input.size(), played.size());
+            for (std::size_t i = 0; i < played.size(); ++i)
+                ASSERT_NEAR(part().fit_input[i].input, played[i], 1e-12) << input << ", row " << i;
+            EXPECT_EQ(signal::kind(part().fits.front().filter), filter.at("kind").get<std::string>())
+                << input;
+            EXPECT_LT(part().fits.front().residual, 1e-6) << input << filter;
+            response = "output\n";
+            for (const double value : wanted) response += Json(value).dump() + "\n";
+        }
+    }
+    test::write(folder / "out.csv", response);
+    run("signal.fit", {{"to", (folder / "out.csv").string()}});
+    EXPECT_STREQ(signal::kind(part().fits.front().filter), "rate_limit") << "a row of the file for each tick";
+    EXPECT_LT(part().fits.front().residual, 1e-6);
+}
+
+// Filters with unusual parameters are found too: very slow ones, clamps that cut off most of a line,
+// thresholds that the input never crosses.
+
+using Samples = std::vector<signal::Sample>;
+
+double even(test::Random& random, double low, double high) {
+    return low + (high - low) * (0.5 + 0.5 * static_cast<double>(random.around(1.0f)));
+}
+double by_ratio(test::Random& random, double low, double high) {
+    return low * std::pow(high / low, even(random, 0.0, 1.0));
+}
+
+enum class Wave { Square, TwoSines, Jumps };
+
+Samples wide_input(Wave wave, test::Random& random) {
+    Samples samples;
+    double level = 0.0;
+    for (int i = 0; i < 300; ++i) {
+        const double time = i / 60.0, turns = 2.0 * std::numbers::pi * time;
+        if (wave == Wave::Square) level = (i / 48) % 2;
+        if (wave == Wave::TwoSines) level = std::sin(0.7 * turns) + 0.4 * std::sin(2.3 * turns + 1.0);
+        if (wave == Wave::Jumps) {
+            if (i % 37 == 0) level = even(random, -1.5, 1.5);
+            level += even(random, -0.02, 0.02);
+        }
+        samples.push_back({1.0 / 60.0, level});
+    }
+    return samples;
+}
+
+signal::Filter wide_filter(const signal::Kind& kind, test::Random& random) {
+    signal::Filter filter = kind.blank();
+    const auto set = [&](const char* name, double low, double high) {
+        const double value = by_ratio(random, low, high);
+        if (const Field* const field = find_field(kind.fields, name))
+            field->set_number(signal::fields_in(filter), value);
+    };
+    set("speed", 0.3, 40.0);
+    set("halflife", 0.01, 1.0);
+    set("rise", 0.3, 30.0);
+    set("fall", 0.3, 30.0);
+    set("smooth_time", 0.02, 1.0);
+    set("max_speed", 0.3, 8.0);
+    set("strength", 0.3, 5.0);
+    const bool semi_implicit = std::holds_alternative<signal::SpringSemiImplicit>(filter);
+    set("critical_damping", 0.05, semi_implicit ? 1.5 : 40.0);
+    set("target_velocity_amount", 0.1, 1.0);
+    set("min_cutoff", 0.1, 10.0);
+    set("beta", 0.01, 3.0);
+    set("derivative_cutoff", 0.3, 5.0);
+    set("window", 0.03, 1.0);
+    set("width", 0.05, 0.8);
+    set("threshold", 0.1, 1.0);
+    if (auto* hysteresis = std::get_if<signal::Hysteresis>(&filter)) {
+        hysteresis->low = even(random, -1.6, 0.4);
+        hysteresis->high = hysteresis->low + even(random, 0.05, 0.8);
+    }
+    if (auto* scale = std::get_if<signal::ScaleBiasClamp>(&filter)) {
+        const double sign = random.chance(2) ? -1.0 : 1.0;
+        scale->scale = sign * by_ratio(random, 0.3, 3.0);
+        scale->bias = even(random, -0.5, 0.5);
+        scale->clamp = scale->interp = true;
+        scale->clamp_min = even(random, -1.0, 0.0);
+        scale->clamp_max = scale->clamp_min + even(random, 0.1, 1.5);
+        scale->speed_increasing = by_ratio(random, 1.0, 25.0);
+        scale->speed_decreasing = by_ratio(random, 1.0, 25.0);
+    }
+    return filter;
+}
+
+void expect_found(const signal::Filter& truth, const Samples& samples, bool parameters) {
+    const std::vector<double> response = signal::run({&truth, 1}, samples);
+    const FitProblem problem{samples, response};
+    const signal::Kind& kind = signal::kind_of(truth);
+    const Fit fit = fit_kind(kind, problem);
+    EXPECT_LT(fit.residual, 1e-3) << kind.name;
+    EXPECT_TRUE(signal::check(fit.filter)) << kind.name;
+    if (!parameters) return;
+    for (const Field& field : kind.fields)
+        for (int axis = 0; axis < field.size(); ++axis) {
+            if (!test::excited(truth, field, axis, problem, 1e-3)) continue;
+            const double wanted = field.number(signal::fields_in(truth), axis);
+            EXPECT_NEAR(field.number(signal::fields_in(fit.filter), axis), wanted, 0.02 * std::abs(wanted))
+                << kind.name << " " << field.name;
+        }
+}
+
+class FitOfAWideRange : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(FitOfAWideRange, FindsWhatMadeTheResponse) {
+    const signal::Kind& kind = signal::kinds()[GetParam()];
+    test::Random random(31);
+    for (int draw = 0; draw < 4; ++draw) {
+        for (const Wave wave : {Wave::Square, Wave::TwoSines, Wave::Jumps}) {
+            SCOPED_TRACE(testing::Message() << "draw " << draw << ", wave " << static_cast<int>(wave));
+            const Samples samples = wide_input(wave, random);
+            const signal::Filter truth = wide_filter(kind, random);
+            // With two levels, other lines and clamps give the same response.
+            const bool line = std::holds_alternative<signal::ScaleBiasClamp>(truth);
+            const bool curve = std::holds_alternative<signal::Curve>(truth);
+            const bool hysteresis = std::holds_alternative<signal::Hysteresis>(truth);
+            expect_found(truth, samples, !curve && !hysteresis && !(line && wave == Wave::Square));
+        }
+    }
+}
+INSTANTIATE_TEST_SUITE_P(EveryKind, FitOfAWideRange, testing::Range<std::size_t>(0, signal::kinds().size()),
+                         [](const auto& each) { return std::string(signal::kinds()[each.param].name); });
+
+TEST(FitOfExtremes, SmoothDampThatIsHeldBackMostOfTheTime) {
+    test::Random random(1);
+    for (const double most : {0.5, 0.56, 0.31}) {
+        const signal::Filter truth = signal::SmoothDamp{.smooth_time = 0.035, .max_speed = most};
+        for (const Wave wave : {Wave::Square, Wave::TwoSines})
+            expect_found(truth, wide_input(wave, random), true);
+    }
+}
+
+TEST(FitOfExtremes, HysteresisThatNeverSwitchesOff) {
+    test::Random random(1);
+    const Samples square = wide_input(Wave::Square, random);
+    expect_found(signal::Hysteresis{.low = -0.05, .high = 0.6}, square, false);
+    const Samples sines = wide_input(Wave::TwoSines, random);
+    expect_found(signal::Hysteresis{.low = -1.5, .high = 1.2}, sines, false);
+}
+
+TEST(FitOfExtremes, ClampsThatLeaveLittleOfALine) {
+    test::Random random(1);
+    const Samples samples = wide_input(Wave::TwoSines, random);
+    signal::ScaleBiasClamp truth;
+    truth.clamp = truth.interp = true;
+    const auto expect = [&](double scale, double bias, double low, double high, double up, double down) {
+        truth.scale = scale, truth.bias = bias;
+        truth.clamp_min = low, truth.clamp_max = high;
+        truth.speed_increasing = up, truth.speed_decreasing = down;
+        expect_found(truth, samples, true);
+    };
+    expect(1.7, 0.35, -0.9, -0.8, 0.75, 39.0);
+    expect(1.68, 0.353, -0.8955, -0.7952, 0.7445, 38.9);
+    expect(13.8, 12.4, -0.33, 1.944, 1.17, 5.6);
+    expect(-2.0, 0.0, -0.35, 1.9, 1.2, 5.6);
+}
+
+TEST(FitOfExtremes, SpringsThatAreDampedThirtyTimesOver) {
+    test::Random random(1);
+    for (const Wave wave : {Wave::Square, Wave::TwoSines, Wave::Jumps}) {
+        const Samples samples = wide_input(wave, random);
+        expect_found(signal::Spring<>{.strength = 2.0, .critical_damping = 30.0}, samples, true);
+        // A stronger one shows little more than its rate of decay.
+        for (const double strength : {8.0, 20.0}) {
+            const signal::Filter truth = signal::Spring<>{.strength = strength, .critical_damping = 30.0};
+            expect_found(truth, samples, false);
+            const std::vector<double> response = signal::run({&truth, 1}, samples);
+            const Fit fit = fit_kind(signal::kind_of(truth), {samples, response});
+            const auto& found = std::get<signal::Spring<>>(fit.filter);
+            EXPECT_NEAR(found.strength / found.critical_damping, strength / 30.0, 0.01 * strength / 30.0);
+        }
+    }
+}
+
+// A fit computed in shares, one per tick, as in the window.
+
+class SignalFitting : public LabTest {
+  protected:
+    SignalFitting() : LabTest(signal_lab) {
+        run("signal.input", {{"kind", "square"}, {"period", 2}});
+        run("signal.filter.add", {{"kind", "rate_limit"}, {"rise", 4}});
+        draw();
+    }
+    const SignalPart& part() const { return signal_part(workspace); }
+    void draw() {
+        run("signal.fit.draw", {{"from", 0.2}, {"from_value", -0.5}, {"to", 0.6}, {"to_value", 0.7}});
+    }
+    /// Runs up to `most` ticks, or to the end; returns how many there were.
+    int work(int most = 10'000) {
+        int ticks = 0;
+        for (; ticks < most && lab().working(workspace); ++ticks) lab().work(workspace);
+        return ticks;
+    }
+    static void expect_same(const std::vector<Fit>& a, const std::vector<Fit>& b) {
+        ASSERT_EQ(a.size(), b.size());
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            EXPECT_EQ(a[i].filter, b[i].filter) << i;
+            EXPECT_EQ(a[i].residual, b[i].residual) << i;
+        }
+    }
+};
+
+TEST_F(SignalFitting, InSharesItIsWhatItIsAtOnce) {
+    Workspace other = workspace;
+    run("signal.fit");
+    EXPECT_FALSE(lab().working(workspace)) << "a script's next line finds it done";
+    const std::vector<Fit> at_once = part().fits;
+    ASSERT_EQ(at_once.size(), signal::kinds().size());
+
+    workspace = other;
+    begin("signal.fit");
+    EXPECT_TRUE(lab().working(workspace));
+    EXPECT_TRUE(part().fits.empty());
+    EXPECT_GT(work(), 2 * static_cast<int>(signal::kinds().size()));
+    expect_same(part().fits, at_once);
+    EXPECT_FALSE(part().fitting);
+
+    // Discarding the search, or saving and loading it half way, loses nothing.
+    workspace = other;
+    begin("signal.fit");
+    int ticks = 0;
+    for (; lab().working(workspace); ++ticks) {
+        if (ticks % 3 == 1) workspace.runtimes.clear();
+        if (ticks % 7 == 2) {
+            const auto loaded = part().load(part().save(), "labs.signal");
+            ASSERT_TRUE(dynamic_cast<const SignalPart&>(*loaded) == part()) << ticks;
+            workspace.document.set(signal_lab, loaded);
+        }
+        lab().work(workspace);
+    }
+    expect_same(part().fits, at_once);
+}
+
+TEST_F(SignalFitting, SearchesBeginWithTheChainAsItWas) {
+    run("signal.fit");
+    const std::vector<Fit> at_once = part().fits;
+    begin("signal.fit");
+    work(5);
+    run("signal.filter.set", {{"at", 1}, {"rise", 900}});
+    run("signal.filter.remove", {{"at", 0}});
+    work();
+    expect_same(part().fits, at_once);
+}
+
+TEST_F(SignalFitting, IsCancelledAndWhatIsFittedStays) {
+    EXPECT_NE(refused("signal.fit.cancel").find("no fit is running"), std::string::npos);
+    begin("signal.fit");
+    while (part().fits.size() < 4) lab().work(workspace);
+    run("signal.fit.cancel");
+    EXPECT_FALSE(lab().working(workspace));
+    EXPECT_EQ(part().fits.size(), 4u);
+    for (std::size_t i = 1; i < part().fits.size(); ++i)
+        EXPECT_LE(part().fits[i - 1].residual, part().fits[i].residual) << "ranked";
+    run("signal.fit.use", {{"rank", 0}});
+    EXPECT_EQ(part().stages.size(), 1u);
+}
+
+TEST_F(SignalFitting, EndsWhereItsResponseChanges) {
+    const std::pair<const char*, Json> changes[] = {
+        {"signal.fit.draw", {{"from", 0}, {"from_value", 0}, {"to", 0.1}, {"to_value", 1}}},
+        {"signal.fit.clear", Json::object()},
+        {"signal.fit.record", Json::object()},
+        {"signal.preset", {{"name", "spring"}}}};
+    for (const auto& [command, arguments] : changes) {
+        draw();
+        begin("signal.fit");
+        work(3);
+        ASSERT_TRUE(lab().working(workspace));
+        run(command, arguments);
+        EXPECT_FALSE(lab().working(workspace)) << command;
+        run("undo");
+        EXPECT_TRUE(lab().working(workspace)) << command << " is undone, and the fit goes on";
+        work();
+        EXPECT_EQ(part().fits.size(), signal::kinds().size());
+    }
+}
+
+TEST_F(SignalFitting, ItsProgressIsTold) {
+    test::PanelReader reader;
+    begin("signal.fit");
+    while (part().fits.size() < 2) lab().work(workspace);
+    EXPECT_EQ(state().at("fitting"), true);
+    const std::string running = reader.inspector(lab(), workspace);
+    EXPECT_TRUE(test::says(running, "2 14")) << running;
+    EXPECT_NE(running.find("Cancel"), std::string::npos) << running;
+    work();
+    EXPECT_EQ(state().at("fitting"), false);
+    const std::string done = reader.inspector(lab(), workspace);
+    EXPECT_EQ(done.find("kinds of filter fitted"), std::string::npos) << done;
+    EXPECT_EQ(done.find("Cancel"), std::string::npos) << done;
+}
+
+TEST_F(SignalFitting, FilesThatCannotGoOnAreRefused) {
+    begin("signal.fit");
+    work(3);
+    const Json saved = part().save();
+    const auto expect_place = [&](const char* pointer, const Json& value, const char* says) {
+        Json broken = saved;
+        broken[Json::json_pointer(pointer)] = value;
+        try {
+            part().load(broken, "labs.signal");
+            ADD_FAILURE() << pointer << " was read";
+        } catch (const std::runtime_error& error) {
+            EXPECT_TRUE(std::string(error.what()).starts_with(says)) << error.what();
+        }
+    };
+    expect_place("/fit/fitting/shares", -1, "labs.signal.fit.fitting.shares");
+    expect_place("/fit/fitting/shares", 1e6, "labs.signal.fit.fitting.shares");
+    expect_place("/fit/fitting/from", 3, "labs.signal.fit.fitting.from");
+    expect_place("/fit/fitting/from/0/kind", "sponge", "labs.signal.fit.fitting.from.0.kind");
+    Json rank = Json::array();
+    for (const signal::Kind& kind : signal::kinds())
+        rank.push_back({{"filter", {{"kind", kind.name}}}, {"residual", 1}});
+    expect_place("/fit/ranking", rank, "labs.signal.fit.fitting");
 }
 
 }  // namespace

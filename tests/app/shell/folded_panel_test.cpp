@@ -1,7 +1,22 @@
 // A folded side panel and the strip that remains of it.
 #include <gtest/gtest.h>
+#include <imgui_internal.h>  // the item under the mouse, and the windows
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "app/app.hpp"
+#include "app/document/command.hpp"
+#include "app/document/json_complete.hpp"
 #include "app/shell/layout.hpp"
+#include "tests/app/support/frame_record.hpp"
+#include "tests/app/support/play.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -40,3 +55,268 @@ TEST(FoldedPanel, OneFoldsByItselfWhereLargeTextLeavesRoomForOne) {
 
 }  // namespace
 }  // namespace tendril::app
+
+namespace tendril::test {
+namespace {
+
+// A drag along an axis tells how far it has gone, above all along the view, where the picture does not.
+
+using namespace app;
+
+class HeldAxis : public testing::Test {
+  protected:
+    void send(const Event& event) { app_.tick(&event); }
+    void catch_handle(const char* name) {
+        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+        at_ = handle(app_.state(), name);
+        send(MouseMove{at_});
+        send(MousePress{MouseButton::Left, true});
+    }
+    void move(glm::vec2 by) { send(MouseMove{at_ += by}); }
+    std::vector<std::string> texts_with(const std::string& what) {
+        app_.tick(nullptr);
+        std::vector<std::string> found;
+        for (const DrawnText& each : recorder_.frame().texts)
+            if (each.text.find(what) != std::string::npos) found.push_back(each.text);
+        return found;
+    }
+
+    std::unique_ptr<Window> window_ = open_offscreen({1280, 800});
+    App app_{*window_};
+    FrameRecorder recorder_;
+    glm::vec2 at_{0.0f};
+};
+
+TEST_F(HeldAxis, SaysHowFarAndHowMuchNearer) {
+    app_.run({"chain.preset", Json{{"name", "reaching_arm"}}});
+    app_.run({"camera.set",
+              Json{{"target", {0.85, 1.05, 0.2}}, {"yaw_deg", -8}, {"pitch_deg", 15}, {"distance", 7}}});
+    app_.run({"time.pause", Json::object()});
+    const auto z = [&] { return app_.state().at("solve").at("pole").at(2).get<double>(); };
+    const double before = z();
+    catch_handle("pole");
+    send(KeyChange{.key = Key::Z, .down = true});
+    move({-6, 16});
+    move({-6, 16});
+    const double by = z() - before;
+    ASSERT_GT(std::abs(by), 0.2);
+    char said[32];
+    std::snprintf(said, sizeof said, "%.2f m along Z", std::abs(by));
+    const auto texts = texts_with(said);
+    ASSERT_EQ(texts.size(), 2u) << "at the ball and in the status line: " << said;
+    for (const std::string& text : texts) EXPECT_TRUE(says(text, by > 0 ? "m nearer" : "m farther")) << text;
+    // Released, the drag goes on in the plane of the view.
+    send(KeyChange{.key = Key::Z, .down = false});
+    EXPECT_TRUE(texts_with("along Z").empty());
+}
+
+TEST_F(HeldAxis, AcrossTheViewSaysOnlyHowFar) {
+    app_.run({"chain.preset", Json{{"name", "start"}}});
+    app_.run({"camera.set", Json{{"yaw_deg", 0}, {"pitch_deg", 10}}});
+    catch_handle("target");
+    send(KeyChange{.key = Key::X, .down = true});
+    move({-40, 0});
+    move({-40, 0});
+    const auto texts = texts_with("m along X");
+    ASSERT_EQ(texts.size(), 2u);
+    for (const std::string& text : texts) EXPECT_EQ(text.find("nearer"), text.npos) << text;
+}
+
+// A tooltip hides nothing that the mouse goes to next: it is beside the panel, bar or sheet that it is about.
+
+Rect rect_of(const ImGuiWindow& window) {
+    return {{window.Pos.x, window.Pos.y}, {window.Pos.x + window.Size.x, window.Pos.y + window.Size.y}};
+}
+
+bool meet(const Rect& a, const Rect& b) {
+    constexpr float slack = 1.5f;
+    return std::min(a.max.x, b.max.x) - std::max(a.min.x, b.min.x) > slack &&
+           std::min(a.max.y, b.max.y) - std::max(a.min.y, b.min.y) > slack;
+}
+
+const ImGuiWindow* shown_tooltip() {
+    const ImGuiWindow* found = nullptr;
+    for (const ImGuiWindow* const each : ImGui::GetCurrentContext()->Windows)
+        if (each->Active && !each->Hidden && (each->Flags & ImGuiWindowFlags_Tooltip) != 0) found = each;
+    return found;
+}
+
+class TooltipPlaces : public testing::TestWithParam<const char*> {
+  protected:
+    void open(glm::ivec2 size, double text_scale) {
+        window_ = open_offscreen(size);
+        app_ = std::make_unique<App>(*window_);
+        size_ = size;
+        app_->run({"lab.open", Json{{"name", GetParam()}}});
+        app_->run({"view.text_scale", Json{{"scale", text_scale}}});
+        app_->run({"view.fold", Json{{"section", GetParam()}, {"folded", false}}});  // all of its sections
+        for (int i = 0; i < 60; ++i) app_->tick(nullptr);
+        app_->run({"time.pause", Json::object()});
+        app_->settle();
+    }
+    /// Moves the mouse to each item that is shown.
+    void look() {
+        std::vector<glm::vec2> places;
+        for (const DrawnItem& item : recorder_.frame().items) {
+            const ImRect& seen = item.window->InnerClipRect;
+            const Rect part{{std::max(item.box.min.x, seen.Min.x), std::max(item.box.min.y, seen.Min.y)},
+                            {std::min(item.box.max.x, seen.Max.x), std::min(item.box.max.y, seen.Max.y)}};
+            if (part.size().x < 1.0f || part.size().y < 1.0f) continue;
+            for (const float share : {0.3f, 0.7f})  // the halves of a plot
+                places.push_back({part.min.x + share * part.size().x, part.centre().y});
+        }
+        for (const glm::vec2 place : places) {
+            const Event move = MouseMove{place};
+            app_->tick(&move);
+            for (int i = 0; i < 2; ++i) app_->tick(nullptr);
+            if (const ImGuiWindow* const told = shown_tooltip()) check(rect_of(*told), place);
+        }
+    }
+    void check(const Rect& tooltip, glm::vec2 mouse) {
+        const ImGuiContext& context = *ImGui::GetCurrentContext();
+        ASSERT_NE(context.HoveredWindow, nullptr);
+        const ImGuiWindow& root = *context.HoveredWindow->RootWindow;
+        const std::string where = std::string(GetParam()) + ", " + root.Name + " at " +
+                                  std::to_string(mouse.x) + ", " + std::to_string(mouse.y) + " of " +
+                                  std::to_string(size_.x);
+        ++seen_;
+        const glm::vec2 size(size_);
+        EXPECT_TRUE(tooltip.min.x >= 0.0f && tooltip.min.y >= 0.0f && tooltip.max.x <= size.x &&
+                    tooltip.max.y <= size.y)
+            << "is beyond the window: " << where;
+        const std::string name = root.Name;
+        if (name != "canvas" && !name.starts_with("axis ")) {
+            EXPECT_FALSE(meet(tooltip, rect_of(root))) << "lies on its panel: " << where;
+            return;
+        }
+        EXPECT_FALSE(tooltip.contains(mouse)) << "lies under the mouse: " << where;
+        const float plot = 6.0f * ImGui::GetFontSize();  // its tooltip is in its corner
+        for (const DrawnItem& item : recorder_.frame().items)
+            if (item.id == context.HoveredId && item.box.size().y < plot) {
+                EXPECT_FALSE(meet(tooltip, item.box)) << "lies on its item: " << where;
+            }
+    }
+
+    FrameRecorder recorder_;
+    std::unique_ptr<Window> window_;
+    std::unique_ptr<App> app_;
+    glm::ivec2 size_{0};
+    int seen_ = 0;
+};
+
+TEST_P(TooltipPlaces, HideNothingOfWhatTheyAreAbout) {
+    open({1280, 720}, 1.0);
+    look();
+    app_->run({"view.settings", Json{{"open", true}}});
+    app_->settle();
+    look();
+    EXPECT_GT(seen_, 60);
+}
+
+TEST_P(TooltipPlaces, HideNothingBesideLargeText) {
+    open({1024, 640}, 1.5);
+    look();
+    EXPECT_GT(seen_, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Labs, TooltipPlaces,
+                         testing::Values("chain", "rope", "signal", "rig", "humanoid", "linkage"),
+                         [](const auto& lab) { return std::string(lab.param); });
+
+// The button beside an explanation that names a cure runs it, as one step to undo.
+
+class CureButton : public testing::Test {
+  protected:
+    void run(const std::string& command, Json arguments = Json::object()) {
+        app_.run({command, std::move(arguments)});
+    }
+    void wait(int ticks) {
+        for (int i = 0; i < ticks; ++i) app_.tick(nullptr);
+    }
+    /// The middle of a text that is on the screen, not scrolled out of view.
+    std::optional<glm::vec2> seen(const std::string& text) {
+        wait(4);
+        for (const DrawnText& each : recorder_.frame().texts) {
+            const glm::vec2 middle = 0.5f * (each.box.min + each.box.max);
+            if (each.text == text && each.clip.contains(middle)) return middle;
+        }
+        return std::nullopt;
+    }
+    void click(const std::string& text) {
+        const auto at = seen(text);
+        ASSERT_TRUE(at) << text;
+        const Event events[] = {MouseMove{*at}, MousePress{MouseButton::Left, true},
+                                MousePress{MouseButton::Left, false}};
+        for (const Event& event : events) app_.tick(&event);
+        wait(3);
+    }
+    std::string verdict() { return app_.state().at("verdict"); }
+
+    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
+    App app_{*window_};
+    FrameRecorder recorder_;
+};
+
+TEST_F(CureButton, BendsAStraightChain) {
+    run("chain.preset", {{"name", "straight"}});
+    EXPECT_EQ(verdict(), "Stalled: 0.75 m short");
+    click("Add a pole target");
+    EXPECT_EQ(verdict(), "Reached");
+    EXPECT_FALSE(seen("Add a pole target"));
+    run("undo");
+    EXPECT_EQ(verdict(), "Stalled: 0.75 m short");
+    // Two commands, one step.
+    run("chain.target", {{"to", {2.5, 1.5, 0}}});
+    run("chain.solver", {{"name", "jacobian_transpose"}, {"iterations", 1}});
+    run("chain.target", {{"to", {0.5, 2.5, 1}}});
+    const std::string before = verdict();
+    EXPECT_EQ(before.find("Not there yet"), 0u) << before;
+    click("More iterations");
+    EXPECT_NE(verdict(), before);
+    run("undo");
+    EXPECT_EQ(verdict(), before);
+}
+
+TEST_F(CureButton, HalvesTheSubstepOfARopeThatIsNotHeld) {
+    run("lab.open", {{"name", "rope"}});
+    run("rope.preset", {{"name", "bridge"}});
+    const auto still = seen("Selection");
+    ASSERT_TRUE(still);
+    run("rope.settings", {{"solver", "relaxation"}, {"iterations", 1}});
+    run("time.play");
+    wait(90);
+    run("time.pause");
+    const auto heading = seen("Selection");
+    ASSERT_TRUE(heading);
+    EXPECT_EQ(heading->y, still->y) << "the rows below keep still";
+    const auto substep = [&] { return app_.state().at("settings").at("substep").get<double>(); };
+    const double before = substep();
+    click("Halve the substep");
+    EXPECT_NEAR(substep(), 0.5 * before, 1e-12);
+}
+
+/// Also with a joint selected, whose rows would push it out of a small window.
+TEST_F(CureButton, OfAFlipIsInViewOnceItsMarkIsClicked) {
+    run("chain.preset", {{"name", "reaching_arm"}});
+    run("chain.select", {{"index", 1}});
+    for (int i = 0; i <= 60; ++i) {
+        const double x = 1.6 - 2.6 * i / 60.0;
+        run("chain.target", {{"to", {x, 2.95 - 0.3 * std::abs(x - 0.3), -0.605}}});
+        wait(1);
+    }
+    wait(60);
+    const Json events = app_.state().at("events");
+    std::size_t flip = 0;
+    while (flip < events.size() && events[flip].at("kind") != "flip") ++flip;
+    ASSERT_LT(flip, events.size());
+    EXPECT_FALSE(seen("Move the pole"));
+    run("time.incident", {{"number", flip}});
+    EXPECT_TRUE(seen("Move the pole"));
+    click("Move the pole");
+    EXPECT_NE(app_.state().at("solve").at("pole").at(2).get<double>(), -0.5);
+    run("undo");
+    EXPECT_GT(app_.workspace().later_ticks(), 20u) << "what came after is back";
+}
+
+}  // namespace
+}  // namespace tendril::test

@@ -9,18 +9,6 @@
 namespace tendril::app {
 namespace {
 
-TEST_F(HumanoidAttach, ReplaysTheSame) {
-    Workspace other = make_blank_workspace(labs);
-    for (Workspace* each : {&workspace, &other}) {
-        run_in(*each, "humanoid.attach", {{"bone", "UpperChest"}, {"kind", "cloth"}});
-        run_in(*each, "humanoid.clip", {{"name", "punch"}, {"play", true}});
-        for (int i = 0; i < 40; ++i) lab().step(*each);
-        run_in(*each, "humanoid.clip", {{"time", 0.1}});
-        for (int i = 0; i < 40; ++i) lab().step(*each);
-    }
-    EXPECT_EQ(lab().state(other), state());
-}
-
 TEST_F(HumanoidAttach, IsDroppedByALoad) {
     dress();
     run("humanoid.load");

@@ -62,24 +62,6 @@ TEST_F(HumanoidBalanceLab, ThePanelSaysWhereTheCentreOfMassIs) {
     EXPECT_TRUE(test::says(where({-4.0, 0.0, 0.0}), "m right of the feet"));
 }
 
-TEST_F(HumanoidBalanceLab, HipsGoBackAsAHandIsDraggedAhead) {
-    const glm::dvec3 to(-0.2, 1.1, 0.95);
-    drag("right_hand", to);
-    const double without = shown_pose(workspace).placed[*part().node_of(humanoid::Bone::Hips)].position.z;
-    run("humanoid.target", {{"effector", "right_hand"}, {"weight", 0}});
-    run("humanoid.balance", {{"on", true}});
-    drag("right_hand", to);
-    EXPECT_LT(shown_pose(workspace).placed[*part().node_of(humanoid::Bone::Hips)].position.z, without - 0.08);
-    EXPECT_TRUE(test::says(text(), "cm inside the feet"));
-    EXPECT_LT(shown_pose(workspace).residual(humanoid::Effector::RightHand).value(), 1e-3);
-}
-
-TEST_F(HumanoidBalanceLab, SwitchedOnItRightsABodyThatLeans) {
-    drag("right_hand", {-0.2, 1.1, 0.95});
-    run("humanoid.balance", {{"on", true}});
-    EXPECT_GT(balance().at("margin").get<double>(), 0.0);
-}
-
 TEST_F(HumanoidBalanceLab, OffIsAsIfItHadNeverBeenOn) {
     run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.3, 1.3, 0.4}}});
     const Json before = state();

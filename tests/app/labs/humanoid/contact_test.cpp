@@ -36,34 +36,6 @@ class HumanoidContacts : public HumanoidTest {
     }
 };
 
-TEST_F(HumanoidContacts, APunchWhoseFistPassesTheWaistSlidesAroundIt) {
-    run("humanoid.hand_ik", {{"on", true}});
-    run("humanoid.target", {{"effector", "right_hand"}, {"to", {0.05, 1.12, 0.02}}});
-    run("humanoid.clip", {{"name", "punch"}, {"play", true}});
-    double without = 0.0, with = 0.0;
-    for (int i = 0; i < 72; ++i) {
-        tick();
-        without = std::max(without, penetration());
-    }
-    EXPECT_GT(without, 0.05);  // without it, they pass through
-    run("humanoid.self_collision", {{"on", true}});
-    for (int i = 0; i < 144; ++i) {
-        tick();
-        with = std::max(with, penetration());
-        ASSERT_LT(with, 5e-3) << i;
-    }
-    EXPECT_NEAR(state().at("body").at("penetration").get<double>(), 0.0, 5e-3);
-}
-
-TEST_F(HumanoidContacts, AHandDraggedIntoTheBodyStaysOutOfItWhereTheBodyIsHeld) {
-    run("humanoid.self_collision", {{"on", true}});
-    for (const char* held : {"hips", "head", "right_hand"}) run("humanoid.target", {{"effector", held}});
-    for (int i = 0; i <= 60; ++i) {
-        run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.1, 1.15, 0.5 - 0.01 * i}}});
-        ASSERT_LT(penetration(), 5e-3) << i;
-    }
-}
-
 TEST_F(HumanoidContacts, WhatACharacterWearsIsKeptApart) {
     run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/body.glb")}});
     run("humanoid.self_collision", {{"on", true}});

@@ -49,7 +49,7 @@ class HumanoidFeetHistory : public HumanoidTest {
 TEST_F(HumanoidFeetHistory, LooksScrubbedAsItWasPlayed) {
     for (const Json& ground : grounds)
         for (const char* clip : {"walk", "punch"})
-            for (const double speed : {1.0, 0.37, 1.7}) {
+            for (const double speed : {0.37, 1.7}) {
                 put_on(ground, clip, speed);
                 const auto moments = played(200);
                 for (std::size_t i = 0; i < moments.size(); i += 7) {

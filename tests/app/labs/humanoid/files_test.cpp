@@ -80,33 +80,6 @@ TEST_F(HumanoidFiles, AClipIsExportedAsItCame) {
     expect_refused("humanoid.export", {{"path", path("a.glb")}, {"clip", "run"}}, {"run"});
 }
 
-TEST_F(HumanoidFiles, AClipIsExportedWithWhatIkDoesToIt) {
-    run("humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.15}, {"step_depth", 0.3}});
-    run("humanoid.foot_ik", {{"on", true}});
-    run("humanoid.clip", {{"name", "walk"}, {"play", false}});
-    run("humanoid.export", {{"path", path("stairs.glb")}});
-    // Played from the start, the lab shows the file's poses frame by frame.
-    const Character read = read_character(path("stairs.glb"));
-    const humanoid::Clip& clip = read.clips.at(0);
-    std::vector<rig::Transform> pose(read.skeleton.size());
-    std::vector<humanoid::Placement> placed(read.skeleton.size());
-    HumanoidPart shown = part();
-    shown.playback = {.clip = 0, .loop = false};
-    IkState state;
-    double climbed = 0.0;
-    for (int frame = 0; frame <= 66; ++frame) {
-        shown.playback.time = std::min(frame / 60.0, clip.duration);
-        const ShownPose seen =
-            solve_pose(shown, humanoid_runtime(workspace).solvers, frame == 0 ? 0.0 : 1.0 / 60.0, state);
-        sample(clip, read.skeleton, shown.playback.time, pose);
-        place(read.skeleton, pose, placed);
-        for (std::size_t i = 0; i < placed.size(); ++i)
-            EXPECT_LT(glm::distance(placed[i].position, seen.placed[i].position), 1e-4) << frame;
-        climbed = placed[0].position.y;
-    }
-    EXPECT_GT(climbed, 1.2);
-}
-
 /// The faults of the clip, those of the result, and those that an export tells of.
 TEST_F(HumanoidFiles, TheResultIsJudgedAndAnExportTellsWhatIsNewInIt) {
     run("humanoid.clip", {{"name", "walk"}, {"time", 0}});
@@ -285,18 +258,6 @@ TEST_F(HumanoidFiles, FaultsAreFoundAndMended) {
     EXPECT_EQ(report().findings.size(), 1u);
 }
 
-TEST_F(HumanoidFiles, AFootThatSlidesStandsAfterTheClick) {
-    run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/faulty_walk.bvh")}});
-    run("humanoid.clip", {{"name", "motion"}});
-    ASSERT_EQ(report().findings.size(), 2u);
-    EXPECT_EQ(report().findings[0].fault, humanoid::Fault::Skating);
-    EXPECT_GT(report().skating, 0.05);
-    run("humanoid.cure", {{"kind", "skating"}, {"node", "LeftFoot"}, {"frame", 7}});
-    EXPECT_LT(report().skating, 0.02);
-    run("humanoid.cure", {{"kind", "knee_pop"}});
-    EXPECT_TRUE(report().findings.empty());
-}
-
 TEST_F(HumanoidFiles, AllFaultsAreFixedInOneStep) {
     run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/faulty_walk.bvh")}});
     run("humanoid.clip", {{"name", "motion"}});
@@ -333,13 +294,6 @@ TEST_F(HumanoidFiles, FindingsCallANodeByItsBone) {
     const std::string text = test::PanelReader().panel(lab(), workspace);
     EXPECT_NE(text.find(", RightLowerLeg"), text.npos) << text;
     EXPECT_EQ(text.find(", Node_"), text.npos) << text;
-}
-
-TEST_F(HumanoidFiles, CleanClipsHaveNoFindings) {
-    for (const char* name : {"walk", "punch"}) {
-        run("humanoid.clip", {{"name", name}});
-        EXPECT_TRUE(report().findings.empty()) << name;
-    }
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ TEST_F(FootDepth, OfAPlantedSoleIsNone) {
     stairs(0.15, 0.3);
     double deepest = 0.0;
     int planted = 0;
-    for (int i = 0; i < 9 * 262; ++i) {
+    for (int i = 0; i < 5 * 262; ++i) {
         tick();
         if (!shown().feet) continue;
         for (std::size_t side = 0; side < 2; ++side)

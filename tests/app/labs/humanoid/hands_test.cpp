@@ -144,16 +144,5 @@ class HumanoidSelfCollision : public HumanoidTest {
     }
 };
 
-TEST_F(HumanoidSelfCollision, KeepsAHandOutOfTheTrunk) {
-    run("humanoid.target", {{"effector", "hips"}, {"to", {0, 1, 0}}});
-    run("humanoid.target", {{"effector", "right_hand"}, {"to", {-0.02, 1.15, 0.0}}});
-    EXPECT_GT(depth(), 0.03);
-    run("humanoid.self_collision", {{"on", true}});
-    EXPECT_LT(depth(), 0.005);
-    EXPECT_TRUE(state().at("body").at("self_collision").get<bool>());
-    run("humanoid.self_collision", {{"on", false}});
-    EXPECT_GT(depth(), 0.03);
-}
-
 }  // namespace
 }  // namespace tendril::app

@@ -47,16 +47,6 @@ TEST_F(HumanoidHold, GivesWayOutOfReachAndSaysWhy) {
     EXPECT_EQ(hold(), held);
 }
 
-TEST_F(HumanoidHold, HandsFollowTheTurnedWheel) {
-    run("humanoid.hold");
-    const glm::dvec3 left = bone("LeftHand");
-    const glm::dquat turn = glm::angleAxis(glm::radians(60.0), glm::dvec3(0, 0, 1));
-    run("humanoid.hold_move", {{"rotation", {turn.x, turn.y, turn.z, turn.w}}});
-    EXPECT_TRUE(hold().at("closed").get<bool>());
-    EXPECT_LT(number("turned_deg"), 5.0);
-    EXPECT_GT(bone("LeftHand").y, left.y + 0.1);
-}
-
 TEST_F(HumanoidHold, ReleasesAndRefusesByName) {
     run("humanoid.target", {{"effector", "left_hand"}});
     run("humanoid.hold", {{"hands", "left"}});

@@ -119,7 +119,7 @@ TEST_F(HumanoidIncidents, NothingThatMovesAsItShouldIsAFlip) {
         workspace = make_blank_workspace(labs);
         for (const CommandCall& call : scene.commands) run(call.name.c_str(), to_json(call.arguments));
         std::size_t others = 0;
-        for (int i = 0; i < 600; ++i) {
+        for (int i = 0; i < 300; ++i) {
             const auto marks = ticked();
             EXPECT_TRUE(only(Kind::Flip, marks).empty()) << scene.name << ", tick " << i;
             others += marks.size();

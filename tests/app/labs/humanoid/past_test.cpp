@@ -155,12 +155,6 @@ TEST_F(HumanoidPast, NothingIsWorkedOutWhileNothingIsShown) {
     EXPECT_EQ(humanoid_runtime(workspace).past.size(), 0u);
 }
 
-TEST_F(HumanoidPast, WhatIsNotThereIsRefusedInWords) {
-    expect_refused("view.humanoid_plot", {{"of", "speed"}}, {"of", "speed", "error", "swing", "twist"});
-    expect_refused("view.humanoid_ghosts", {{"of", "future"}}, {"of", "future", "past"});
-    expect_refused("humanoid.select", {{"node", "Wing"}}, {"Wing"});
-}
-
 TEST_F(HumanoidPast, WithoutATargetThereIsNoError) {
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
     run("view.humanoid_plot", {{"of", "error"}});

@@ -76,14 +76,6 @@ TEST_F(HumanoidRelease, WithTimePausedMovesTheLimbThatWasLetGoAndNothingElse) {
     }
 }
 
-TEST_F(HumanoidRelease, OfAHandLeavesTheTrunkWhereOnlyAFootIsHeld) {
-    target("left_foot", {0.15, 0.3, 0.2});
-    target("right_hand", {-0.2, 0.8, 0.9});
-    const Places before = places();
-    let_go("right_hand");
-    EXPECT_LT(leap(before, places(), "RightUpperArm"), 5e-3);
-}
-
 TEST_F(HumanoidRelease, LetsTheRestOfTheBodyComeBackWhileTimeRuns) {
     target("left_hand", {0.3, 1.2, 0.4});
     const glm::dvec3 alone = bone("Head");
@@ -149,34 +141,6 @@ TEST_F(HumanoidRelease, OfOneHandKeepsTheOtherOneOnItsTargetMeanwhile) {
             tick();
             EXPECT_LT(glm::distance(bone("LeftHand"), held), 2e-3) << i << ' ' << k;
         }
-    }
-}
-
-TEST_F(HumanoidRelease, AWeightDraggedSlowlyMovesTheBodySlowly) {
-    for (const bool walking : {false, true}) {
-        for (int i = 0; i < 15; ++i) {
-            begin_anew(walking);
-            target("left_hand", near({0.9, 0.3, 0.4}, 0.5));
-            target("right_hand", near({-0.9, 0.1, 0.5}, 0.5));
-            for (int k = 1; k <= 100; ++k) {
-                const Places before = places();
-                const double weight = k <= 50 ? 1.0 - 0.01 * k : 0.01 * k;
-                run("humanoid.target", {{"effector", "right_hand"}, {"weight", weight}});
-                ASSERT_LT(leap(before, places()), 0.025) << i << ' ' << k;
-            }
-        }
-    }
-}
-
-TEST_F(HumanoidRelease, ARotationTurnsTheHandAlone) {
-    for (int i = 0; i < 10; ++i) {
-        begin_anew(i % 2 == 0);
-        reach_with_both_hands();
-        const Places before = places();
-        const double s = std::sin(any(-1.0, 1.0));
-        run("humanoid.target",
-            {{"effector", "right_hand"}, {"rotation", {0.0, s, 0.0, std::sqrt(1.0 - s * s)}}});
-        EXPECT_LT(leap(before, places(), "RightHand"), 2e-3) << i;
     }
 }
 

@@ -279,37 +279,5 @@ TEST_F(HumanoidSelection, StaysOverTheSecondsAndThroughOtherCharacters) {
     EXPECT_EQ(names_of(figure.selection, figure.skeleton()), Names{"Head"});
 }
 
-/// Compared with a plain list that follows the commands' documentation.
-TEST_F(HumanoidSelection, AnyOrderOfCommandsComesToWhatTheySay) {
-    std::mt19937 random(7);
-    const auto below = [&](std::size_t n) {
-        return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
-    };
-    const std::size_t count = part().skeleton().size();
-    Names wanted;
-    for (int round = 0; round < 300; ++round) {
-        Names nodes;
-        for (std::size_t i = below(4); i-- > 0;) nodes.push_back(part().skeleton()[below(count)].name);
-        const bool add = below(3) > 0, one = nodes.size() == 1 && below(2) == 0;
-        const auto there = one && add ? std::find(wanted.begin(), wanted.end(), nodes[0]) : wanted.end();
-        if (one)
-            run("humanoid.select", {{"node", nodes[0]}, {"add", add}});
-        else
-            run("humanoid.select", {{"nodes", nodes}, {"add", add}});
-        if (!add) wanted.clear();
-        if (add && there != wanted.end())
-            wanted.erase(there);
-        else
-            for (const std::string& each : nodes)
-                if (std::find(wanted.begin(), wanted.end(), each) == wanted.end()) wanted.push_back(each);
-        std::sort(wanted.begin(), wanted.end());
-        ASSERT_EQ(selected(), wanted) << round;
-        ASSERT_EQ(active().empty(), wanted.empty());
-        if (round % 50 == 0) {
-            ASSERT_EQ(humanoid_part(reopened()).selection, part().selection);
-        }
-    }
-}
-
 }  // namespace
 }  // namespace tendril::app

@@ -164,14 +164,6 @@ TEST_F(HumanoidSprings, SwingOnUnderCommands) {
     EXPECT_GT(angle, 0.02);
 }
 
-TEST_F(HumanoidSprings, ThatAreSlowComeToRestToo) {
-    run("humanoid.spring", {{"node", "tail_1"}, {"strength", 0.05}, {"critical_damping", 0.5}});
-    run("humanoid.clip", {{"index", 0}, {"play", true}, {"loop", false}});
-    for (int i = 0; i < 60 * 120 && lab().moving(workspace); ++i) lab().step(workspace);
-    EXPECT_FALSE(lab().moving(workspace));
-    EXPECT_LT(aside("tail_6"), 2e-3);
-}
-
 TEST_F(HumanoidSprings, AreNotThrownAboutByAnotherUnit) {
     put_on_springs();
     dance();

@@ -47,19 +47,6 @@ class RigApp : public testing::Test {
     App app_{*window_, false};
 };
 
-TEST_F(RigApp, AControlThatIsDraggedPastItsRectangleStopsThere) {
-    const Json head = element("head");
-    drag("look", {900.0f, -700.0f});
-    const Json value = element("look").at("value");
-    const double beyond = std::max(std::abs(value[0].get<double>()), std::abs(value[1].get<double>()));
-    EXPECT_EQ(beyond, 1.0) << value;
-    EXPECT_NE(element("head").at("global"), head.at("global")) << "bones follow though time stands still";
-    EXPECT_EQ(app_.workspace().history.size(), 1u) << "one drag, one step";
-    app_.run({"undo"});
-    EXPECT_EQ(element("head"), head);
-    EXPECT_EQ(element("look").at("value"), (Json{0.0, 0.0}));
-}
-
 TEST_F(RigApp, ADragInItsRectangleGoesWhereThePointerGoes) {
     const glm::vec2 by(40.0f, 25.0f), from = handle(app_.state(), "look");
     drag("look", by);
@@ -185,90 +172,6 @@ TEST_F(RigApp, AUnitIsRenamedInItsPanel) {
         app_.run({"rig.preset", Json{{"name", "aim"}}});
         app_.run({"rig.select", Json{{"element", "head"}, {"unit", "aim"}}});
         for (int i = 0; i < 3; ++i) app_.tick(nullptr);
-    }
-}
-
-/// Opens its field, types part of a name, and clicks the remaining row.
-TEST_F(RigApp, AnInputIsChosenFromElementsThatAreFoundByName) {
-    app_.run({"rig.select", Json{{"element", "head"}, {"unit", "aim"}}});
-    for (int i = 0; i < 3; ++i) app_.tick(nullptr);
-    const auto target = [&] {
-        const RigPart& part = rig_part(app_.workspace());
-        const auto& aim = std::get<rig::Aim>(part.rig.definition().units[1].operation);
-        return std::get<rig::FromElement>(aim.primary.target.source);
-    };
-    ASSERT_EQ(std::get<std::string>(target().element.which), "look");
-    const rig::FromElement before = target();
-    const std::size_t steps = app_.workspace().history.size();
-    const auto click = [&](glm::vec2 at) {
-        send(MouseMove{at});
-        send(MousePress{MouseButton::Left, true});
-        send(MousePress{MouseButton::Left, false});
-        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
-    };
-    click({1190.0f, 413.0f});
-    send(TextInput{"TILT, tr"});
-    click({1000.0f, 477.0f});
-    EXPECT_EQ(std::get<std::string>(target().element.which), "tilt");
-    EXPECT_EQ(target().of, rig::Of::Translation);
-    EXPECT_EQ(target().space, rig::Space::Global);
-    EXPECT_EQ(app_.workspace().history.size(), steps + 1) << "one choice, one step, though time is paused";
-    app_.run({"undo"});
-    EXPECT_EQ(target(), before);
-    // Escape leaves it unchanged.
-    click({1190.0f, 413.0f});
-    send(KeyTap{*chord_from_name("escape")});
-    click({1000.0f, 477.0f});
-    EXPECT_EQ(target(), before);
-}
-
-TEST_F(RigApp, DeleteRemovesWhatWasSelectedLast) {
-    const auto press = [&] { send(KeyTap{*chord_from_name("delete")}); };
-    const auto& units = [&]() -> const auto& {
-        return rig_part(app_.workspace()).rig.definition().units;
-    };
-    const std::size_t all = units().size();
-    app_.run({"rig.element.add", Json{{"name", "ear"}, {"parent", "head"}}});
-    app_.run({"rig.select", Json{{"element", "ear"}}});
-    app_.run({"rig.select", Json{{"element", "ear"}, {"unit", "aim"}}});
-    press();
-    EXPECT_EQ(units().size(), all - 1) << "the unit";
-    press();
-    EXPECT_TRUE(element("ear").is_null());
-    app_.run({"undo"});
-    EXPECT_FALSE(element("ear").is_null());
-    app_.run({"undo"});
-    EXPECT_EQ(units().size(), all);
-    app_.run({"rig.select", Json{{"element", "head"}}});
-    press();
-    EXPECT_FALSE(element("head").is_null()) << "it has children: refused";
-    EXPECT_EQ(app_.workspace().ui.toasts.back().kind, ToastKind::Refusal);
-}
-
-/// In any order, bitwise: the springs' states are remembered too.
-TEST_F(RigApp, GoingBackInTimeShowsWhatPlayingShowed) {
-    app_.run({"rig.preset", Json{{"name", "secondary"}}});
-    for (int i = 0; i < 5; ++i) app_.run({"time.step"}), app_.tick(nullptr);
-    app_.run({"rig.control.set", Json{{"name", "head"}, {"value", {{"translation", {0.4, 1.0, 0.2}}}}}});
-    std::vector<Json> states;
-    for (int i = 0; i < 60; ++i) {
-        states.push_back(now());
-        app_.run({"time.step"});
-        app_.tick(nullptr);
-    }
-    const Json last = now();
-    const auto total = states.size();
-    for (const std::size_t back : {1u, 40u, 7u, 59u, 23u, 60u, 2u}) {
-        app_.run({"time.seek", Json{{"ticks_back", back}}});
-        EXPECT_EQ(now(), states[total - back]) << back;
-    }
-    app_.run({"time.seek", Json{{"ticks_back", 0}}});
-    EXPECT_EQ(now(), last);
-    app_.run({"time.seek", Json{{"ticks_back", 40}}});
-    for (std::size_t i = total - 40; i < total; ++i) {
-        EXPECT_EQ(now(), states[i]) << "played again from there: " << i;
-        app_.run({"time.step"});
-        app_.tick(nullptr);
     }
 }
 

@@ -240,13 +240,6 @@ TEST_F(RigCommands, SolvingPassesNoTimeAndTwiceIsAsOnce) {
     EXPECT_TRUE(lab().moving(workspace));
 }
 
-TEST_F(RigCommands, WhatIsLeftOutOfATransformStays) {
-    element("bone", "", {{"translation", {1, 2, 3}}, {"rotation", {0, 0, 0.6, 0.8}}, {"scale", {1, 2, 1}}});
-    run("rig.element.set", {{"name", "bone"}, {"space", "global"}, {"transform", {{"scale", {3, 3, 3}}}}});
-    expect_near(translation("bone"), {1, 2, 3});
-    EXPECT_EQ(rotation("bone"), glm::dquat(0.8, 0, 0, 0.6));
-}
-
 /// The children stay in place. So do controls, whose values change.
 TEST_F(RigCommands, WithoutPropagationChildrenStayAfterASolveToo) {
     element("parent");
@@ -279,23 +272,6 @@ TEST_F(RigCommands, WithoutPropagationChildrenStayAfterASolveToo) {
     run("rig.element.set", {{"name", "transform"}, {"propagate", false}, {"transform", transform(9, 9, 9)}});
     tick();
     expect_near(translation("on a control"), places["on a control"]);
-}
-
-TEST_F(RigCommands, UnitsRunInTheirOrder) {
-    element("bone");
-    unit(
-        {{"unit", "set_transform"}, {"name", "second"}, {"item", "bone"}, {"transform", transform(2, 0, 0)}});
-    unit({{"unit", "set_transform"},
-          {"name", "first"},
-          {"at", 0},
-          {"item", "bone"},
-          {"transform", transform(1, 0, 0)}});
-    solve();
-    expect_near(translation("bone"), {2, 0, 0});
-    EXPECT_EQ(state().at("units")[0].at("name"), "first");
-    run("rig.unit.remove", {{"name", "second"}});
-    solve();
-    expect_near(translation("bone"), {1, 0, 0});
 }
 
 TEST_F(RigCommands, CurvesAreWrittenByUnitsAndStandAgainBeforeThem) {
@@ -344,43 +320,6 @@ TEST_F(RigCommands, BackwardFindsTheControlsAndSaysWhatIsLeft) {
     EXPECT_EQ(state().at("backward"), backward) << "until something is changed";
     set("dial", 0.5);
     EXPECT_TRUE(state().at("backward").is_null());
-}
-
-/// Runs every command once, undoes all of them step by step, and redoes them.
-TEST_F(RigCommands, EverythingIsUndoneStepByStep) {
-    workspace.history.clear();
-    std::vector<Json> states{saved()};
-    const auto step = [&](const char* name, const Json& arguments) {
-        SCOPED_TRACE(name);
-        run(name, arguments);
-        EXPECT_NE(saved(), states.back());
-        states.push_back(saved());
-    };
-    step("rig.element.add", {{"name", "arm"}, {"kind", "bone"}});
-    step("rig.element.add", {{"name", "dial"}, {"kind", "control"}, {"control", "float"}});
-    step("rig.curve.add", {{"name", "smile"}});
-    step("rig.unit.add", {{"unit", "evaluate_curve"}, {"value", "dial"}});
-    step("rig.control.set", {{"name", "dial"}, {"value", 0.5}});
-    step("rig.solve", {{"direction", "forward"}});
-    step("rig.curve.set", {{"name", "smile"}, {"value", 1}});
-    step("rig.element.set", {{"name", "arm"}, {"transform", transform(1, 2, 3)}});
-    step("rig.unit.enable", {{"name", "evaluate_curve"}, {"on", false}});
-    step("rig.solve", {{"direction", "backward"}});
-    step("rig.unit.remove", {{"name", "evaluate_curve"}});
-    step("rig.element.remove", {{"name", "arm"}});
-    step("rig.preset", {{"name", "loop"}});
-    step("rig.clear", Json::object());
-    step("rig.reset", Json::object());
-    EXPECT_EQ(workspace.history.size(), states.size() - 1);
-    for (std::size_t i = states.size() - 1; i-- > 0;) {
-        run("undo");
-        EXPECT_EQ(saved(), states[i]) << i;
-    }
-    EXPECT_FALSE(workspace.history.can_undo());
-    for (std::size_t i = 1; i < states.size(); ++i) {
-        run("redo");
-        EXPECT_EQ(saved(), states[i]) << i;
-    }
 }
 
 TEST_F(RigCommands, WhatWasSelectedLastIsRemoved) {

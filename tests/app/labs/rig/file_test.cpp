@@ -254,21 +254,5 @@ TEST_F(RigFile, ARigThatWasWrittenByHandBeginsAtRest) {
     EXPECT_NE(output("from_two_vectors")[2], 0.0) << "it has been solved";
 }
 
-/// The runtime is derived from the document: discarding it changes no result.
-TEST_F(RigFile, TheRuntimeCanBeThrownAwayAtAnyTime) {
-    for (const Json& each : one_of_each()) unit(each);
-    run("rig.unit.enable", {{"name", "fabrik"}, {"on", true}});
-    Workspace other = workspace;
-    for (int i = 0; i < 60; ++i) {
-        const Json arguments{{"name", "position"}, {"value", {std::sin(0.1 * i), 1.0, std::cos(0.13 * i)}}};
-        run("rig.control.set", arguments);
-        run_in(other, "rig.control.set", arguments);
-        tick();
-        lab().step(other);
-        other.runtimes.clear();
-        ASSERT_TRUE(rig_part(other) == part()) << "tick " << i;
-    }
-}
-
 }  // namespace
 }  // namespace tendril::app

@@ -146,14 +146,6 @@ TEST_F(RigPast, WithoutASelectionItIsTheFirstBoneBelowAnother) {
     EXPECT_TRUE(test::says(rig_past_curve(workspace)->missing, "look swing twist bone"));
 }
 
-TEST_F(RigPast, WhatIsNotThereIsRefusedInWords) {
-    element("arm");
-    expect_refused("view.rig_plot", {{"of", "speed"}}, {"of", "speed", "swing", "twist", "angle"});
-    expect_refused("view.rig_ghosts", {{"of", "future"}}, {"of", "future", "past"});
-    expect_refused("rig.select", {{"element", "leg"}}, {"leg"});
-    EXPECT_FALSE(rig_past_curve(workspace)) << "nothing is plotted";
-}
-
 TEST_F(RigPast, StateHasWhatIsShown) {
     element("arm");
     remember();

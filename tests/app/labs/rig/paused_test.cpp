@@ -77,43 +77,6 @@ class RigPaused : public RigTest {
     std::map<std::uint64_t, rig::State> shown_;  ///< by tick
 };
 
-TEST_F(RigPaused, ADragGivesAMomentAndKeepsThoseBeforeIt) {
-    run("rig.preset", {{"name", "secondary"}});
-    see();
-    play(40);
-    const glm::dvec3 skull = translation("skull");
-    for (int i = 1; i <= 20; ++i) head_at(0.02 * i);
-    EXPECT_GT(glm::distance(translation("skull"), skull), 0.3) << "the bones follow though it is paused";
-    EXPECT_EQ(part().take.began, 0u);
-    EXPECT_EQ(part().take.last, 40u);
-    ASSERT_TRUE(part().take.keys);
-    EXPECT_EQ(part().take.keys->size(), 2u) << "where it was put, and that the rig was solved then";
-    expect_scrubs(30, 1);
-    go(40);
-    play(40);
-    expect_scrubs(60, 2);
-    go(80);
-    EXPECT_EQ(part().take.began, 0u);
-}
-
-TEST_F(RigPaused, InTheMiddleItForgetsWhatCameLater) {
-    run("rig.preset", {{"name", "secondary"}});
-    see();
-    play(20);
-    head_at(0.4);
-    play(40);
-    go(30);
-    for (int i = 0; i < 5; ++i) head_at(-0.1 * i, 0.2);
-    EXPECT_EQ(part().take.last, 30u);
-    ASSERT_TRUE(part().take.keys);
-    EXPECT_EQ(part().take.keys->size(), 4u);
-    play(20);
-    expect_scrubs(60, 2);
-    workspace = reopened();
-    expect_scrubs(60, 3);
-    expect_scrubs(20, 4, true);
-}
-
 /// The intermediate values of a drag must not reach anything with memory.
 TEST_F(RigPaused, ADragComesOutAsIfAllHadBeenSetAtOnce) {
     arm();
@@ -135,18 +98,6 @@ TEST_F(RigPaused, ADragComesOutAsIfAllHadBeenSetAtOnce) {
     EXPECT_EQ(part().state, dragged.state);
     EXPECT_EQ(part().take.keys->size(), dragged.take.keys->size());
     EXPECT_EQ(part().moving, dragged.moving);
-}
-
-TEST_F(RigPaused, SolvingAgainChangesNothing) {
-    arm();
-    play(30);
-    drag("target", {1.0, 0.5, 0.3});
-    const Document before = workspace.document;
-    const std::size_t steps = workspace.history.size();
-    solve();
-    solve();
-    EXPECT_EQ(workspace.history.size(), steps);
-    EXPECT_TRUE(part() == before.get<RigPart>(rig_lab));
 }
 
 /// Playing, dragging, setting, solving and seeking, in any order.

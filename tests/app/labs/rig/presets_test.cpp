@@ -50,13 +50,6 @@ TEST_F(RigPresets, AllSolveWithoutWarningsAndComeToRest) {
     }
 }
 
-TEST_F(RigPresets, AreDataThatAFileCouldHold) {
-    for (const RigPreset& each : rig_presets()) {
-        open(each.name.c_str());
-        EXPECT_EQ(rig_part(reopened()).rig.definition(), each.make()) << each.name;
-    }
-}
-
 TEST_F(RigPresets, TheHeadLooksAtItsControlInBothForms) {
     open("aim");
     for (const Json& look : {Json{0.8, -0.6}, Json{-1, 1}, Json{5, 0}}) {
@@ -202,59 +195,6 @@ TEST_F(RigPresets, TheAntennaeTrailTheHeadTheirTipsMost) {
             glm::length(translation(numbered("left", i)) - rest[static_cast<std::size_t>(i - 1)] - step),
             1e-6)
             << i;
-}
-
-/// Backward then forward restores the pose if the rig can express it.
-TEST_F(RigPresets, BackwardFindsThePosesOfTheScenes) {
-    const std::vector<std::pair<const char*, Json>> poses{
-        {"aim", {{"look", {0.7, -0.4}}, {"tilt", {0.3, 0.9, 0.2}}}},
-        {"fk", {{"dial", 0.35}, {"control 2", {0, 0.2, 0.1, 0.97}}, {"control 5", {0.3, 0, 0, 0.95}}}},
-        {"loop", {{"dial", 0.8}}}};
-    for (const auto& [name, values] : poses) {
-        SCOPED_TRACE(name);
-        open(name);
-        const Json rest = saved().at("state").at("controls");
-        for (const auto& [control, value] : values.items()) set(control.c_str(), value);
-        solve();
-        const Json posed = state().at("elements");
-        // The bones keep their pose while the controls are reset.
-        for (const auto& [control, value] : values.items()) set(control.c_str(), rest.at(control));
-        for (const Json& each : posed) {
-            if (each.at("kind") != "bone") continue;
-
-            EXPECT_EQ(named("elements", each.at("name")).at("global"), each.at("global"));
-        }
-        solve("backward");
-        EXPECT_LT(state().at("backward").at("worst_mm"), 0.1);
-        EXPECT_LT(state().at("backward").at("worst_degrees"), 0.006);
-        for (const Json& each : posed) {
-            if (each.at("kind") != "bone") continue;
-            const Json& at = each.at("global").at("translation");
-            const glm::dvec3 wanted(at[0].get<double>(), at[1].get<double>(), at[2].get<double>());
-            EXPECT_LE(glm::length(translation(each.at("name")) - wanted), 1e-4) << each.at("name");
-        }
-    }
-}
-
-/// Constraints tie every bone to its control, so no control can move a single bone aside.
-TEST_F(RigPresets, APoseThatARigCannotExpressIsReportedWithItsBone) {
-    open("fk");
-    set("dial", 0.5);
-    solve();
-    glm::dvec3 at = translation("bone 4");
-    at.z += 0.05;
-    run("rig.element.set", {{"name", "bone 4"},
-                            {"space", "global"},
-                            {"propagate", false},
-                            {"transform",
-                             {{"translation", dpoint(at)},
-                              {"rotation", named("elements", "bone 4").at("global").at("rotation")}}}});
-    solve("backward");
-    const Json backward = state().at("backward");
-    EXPECT_EQ(backward.at("bone"), "bone 4");
-    EXPECT_GT(backward.at("worst_mm"), 30.0);
-    EXPECT_LT(backward.at("worst_mm"), 50.0 + 1e-6);
-    EXPECT_EQ(rig_part(reopened()).backward, part().backward);
 }
 
 }  // namespace

@@ -87,18 +87,6 @@ TEST_F(RigRename, of_everything_in_every_preset_keeps_every_bit) {
     }
 }
 
-TEST_F(RigRename, is_undone_one_by_one) {
-    run("rig.preset", {{"name", "aim"}});
-    const Document first = workspace.document;
-    const std::vector<Thing> before = things();
-    for (std::size_t i = 0; i < before.size(); ++i) rename(before[i], odd_name(i));
-    const Document last = workspace.document;
-    for (std::size_t i = 0; i < before.size(); ++i) run("undo");
-    EXPECT_TRUE(workspace.document == first);
-    for (std::size_t i = 0; i < before.size(); ++i) run("redo");
-    EXPECT_TRUE(workspace.document == last);
-}
-
 TEST_F(RigRename, selection_walk_and_clip_follow) {
     control("guide", "position");
     element("arm");

@@ -131,25 +131,5 @@ TEST_F(RigTimeApp, AClipIsSolvedThoughTimeIsPausedAndStaysResponsive) {
     EXPECT_EQ(part_of(app_).clip_left, nullptr);
 }
 
-TEST(RigTimeRecording, AllOfItIsReplayed) {
-    expect_replay_ends_the_same([](App& app) {
-        walking_head(app);
-        app.workspace().history.clear();
-        app.workspace().cameras.clear();
-        app.start_recording();
-        for (int i = 0; i < 50; ++i) app.tick(nullptr);
-        scrub(app, {0.2f, 0.6f, 0.3f});
-        app.run({"rig.clip.record", Json{{"seconds", 0.5}}});
-        app.run({"rig.clip.solve"});
-        for (int i = 0; i < 4; ++i) app.tick(nullptr);
-        scrub(app, {0.5f, 5.0f});
-        app.run({"rig.rates"});
-        app.run({"time.play"});
-        app.run({"rig.control.set", Json{{"name", "head"}, {"value", {{"translation", {0, 1, 1}}}}}});
-        for (int i = 0; i < 30; ++i) app.tick(nullptr);
-        app.run({"undo"});
-    });
-}
-
 }  // namespace
 }  // namespace tendril::test

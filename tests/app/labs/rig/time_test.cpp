@@ -124,19 +124,6 @@ TEST_F(RigTime, AnyTickInAnyOrderIsWhatPlayingShowed) {
     EXPECT_EQ(part().state, on[20]);
 }
 
-/// Caches can be discarded at any moment.
-TEST_F(RigTime, TheSameWithoutSnapshots) {
-    secondary();
-    const auto states = play(300);
-    std::mt19937 random(2);
-    for (int i = 0; i < 60; ++i) {
-        if (random() % 2 == 0) workspace.runtimes.clear();
-        const std::size_t tick = random() % states.size();
-        go(tick);
-        ASSERT_EQ(part().state, states[tick]) << tick;
-    }
-}
-
 TEST_F(RigTime, TheSameWhereNobodyPlayedYet) {
     secondary();
     const Document before = workspace.document;
@@ -149,16 +136,6 @@ TEST_F(RigTime, TheSameWhereNobodyPlayedYet) {
     }
 }
 
-TEST_F(RigTime, TheSameAfterSavingAndOpening) {
-    secondary();
-    const auto states = play(240);
-    go(131);
-    workspace = reopened();
-    EXPECT_EQ(part().state, states[131]);
-    EXPECT_EQ(part().take.last, 240u);
-    expect_scrubs(states, 50, 3);
-}
-
 TEST_F(RigTime, TheSameAfterUndo) {
     secondary();
     const auto states = play(200);
@@ -169,50 +146,6 @@ TEST_F(RigTime, TheSameAfterUndo) {
     expect_scrubs(states, 50, 4);
     run("redo");
     EXPECT_EQ(part().take.began, 200u);
-}
-
-/// Drags are replayed at their ticks.
-TEST_F(RigTime, WhatWasDraggedIsPartOfTheTake) {
-    run("rig.preset", {{"name", "secondary"}});
-    std::vector<rig::State> states = play(10);
-    for (int i = 1; i <= 90; ++i) {
-        if (i % 2 == 0) set("head", at(0.01 * i, 1.0, 0.3 * std::sin(0.1 * i)));
-        lab().step(workspace);
-        states.push_back(part().state);
-    }
-    EXPECT_EQ(part().take.began, 0u);
-    EXPECT_EQ(part().take.keys->size(), 45u);
-    expect_scrubs(states, 60, 5);
-    workspace.runtimes.clear();
-    workspace = reopened();
-    expect_scrubs(states, 60, 6);
-    go(20);
-    EXPECT_TRUE(lab().moving(workspace)) << "there is more to come";
-    for (std::size_t i = 21; i < states.size(); ++i) {
-        lab().step(workspace);
-        ASSERT_EQ(part().state, states[i]) << "played again: " << i;
-    }
-}
-
-TEST_F(RigTime, SettingAControlForgetsWhatCameLater) {
-    run("rig.preset", {{"name", "secondary"}});
-    play(10);
-    set("head", at(0.5, 1, 0));
-    play(30);
-    set("head", at(-0.5, 1, 0));
-    play(10);
-    go(25);
-    set("head", at(0, 1.5, 0));
-    EXPECT_EQ(part().take.last, 25u);
-    EXPECT_EQ(part().take.keys->size(), 2u);
-    const auto states = play(40);
-    go(60);
-    EXPECT_EQ(part().state, states[35]);
-    go(30);
-    go(64);
-    EXPECT_TRUE(part().moving) << "it still swings, and plays on from here";
-    run("undo");
-    EXPECT_EQ(part().take.last, 50u) << "undo brings it back";
 }
 
 TEST_F(RigTime, SettingWhatIsShownMidwayForgetsWhatWasSetThereLater) {

@@ -1,0 +1,672 @@
+// Several selected elements: by Shift, by a box, in a file, and as elements are added and removed.
+#include <algorithm>
+#include <glm/gtc/quaternion.hpp>
+#include <random>
+#include <set>
+
+#include "app/labs/rig/definition_json.hpp"
+#include "app/labs/rig/rig_edit.hpp"
+#include "several_support.hpp"
+#include "tests/app/e2e/monkey.hpp"
+#include "tests/app/support/panel_text.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::app {
+namespace {
+
+class SeveralSelected : public SeveralElements {};
+
+TEST_F(SeveralSelected, ShiftAddsAndTakesOutAndTheLastOneIsActive) {
+    controls_and_bones();
+    run("rig.select", {{"element", "b"}});
+    add("left");
+    EXPECT_EQ(selected(), (Names{"left", "b"})) << "in the order of the definition";
+    EXPECT_EQ(active(), "left");
+    add("left");
+    EXPECT_EQ(selected(), Names{"b"});
+    EXPECT_EQ(active(), "b");
+    select({"c", "a"}, true);
+    EXPECT_EQ(selected(), (Names{"a", "b", "c"}));
+    EXPECT_EQ(active(), "a");
+    add("c");
+    EXPECT_EQ(active(), "a") << "another that goes leaves it";
+    select({"dial"});
+    EXPECT_EQ(selected(), Names{"dial"});
+    run("rig.select");
+    EXPECT_EQ(selected(), Names());
+    select({"a", "b"});
+    select({});
+    EXPECT_EQ(selected(), Names());
+}
+
+TEST_F(SeveralSelected, TheUnitStaysWhereElementsAreAdded) {
+    controls_and_bones();
+    unit({{"unit", "offset_transform"}, {"name", "lift"}, {"item", "a"}});
+    run("rig.select", {{"unit", "lift"}});
+    add("b");
+    add("c");
+    EXPECT_EQ(part().selected.unit, "lift");
+    EXPECT_FALSE(part().selected.unit_last);
+    run("rig.select", {{"unit", "lift"}, {"add", true}});
+    EXPECT_EQ(selected(), (Names{"b", "c"}));
+    EXPECT_TRUE(part().selected.unit_last) << "selected again, it is what Delete removes";
+    run("rig.select", {{"add", true}});
+    EXPECT_TRUE(part().selected.unit_last) << "nothing was added";
+    add("b");
+    EXPECT_FALSE(part().selected.unit_last);
+    run("rig.select", {{"unit", ""}, {"add", true}});
+    EXPECT_EQ(part().selected.unit, "");
+    EXPECT_EQ(selected(), Names{"c"});
+}
+
+/// Compared with a list of names, as elements and the selection change.
+TEST_F(SeveralSelected, TheSelectionFollowsWhatComesAndGoes) {
+    std::mt19937 random(7);
+    std::vector<std::string> there;
+    std::set<std::string> wanted;
+    std::string last;
+    int next = 0;
+    for (int step = 0; step < 400; ++step) {
+        const std::size_t at = there.empty() ? 0 : random() % there.size();
+        switch (there.empty() ? 0 : random() % 4) {
+            case 0:
+                there.push_back("e" + std::to_string(next++));
+                element(there.back().c_str());
+                break;
+            case 1:
+                run("rig.element.remove", {{"name", there[at]}});
+                wanted.erase(there[at]);
+                if (last == there[at]) last = wanted.empty() ? "" : "?";
+                there.erase(there.begin() + static_cast<std::ptrdiff_t>(at));
+                break;
+            case 2:
+                add(there[at]);
+                if (wanted.insert(there[at]).second)
+                    last = there[at];
+                else if (wanted.erase(there[at]); last == there[at])
+                    last = wanted.empty() ? "" : "?";
+                break;
+            default:
+                run("undo");
+                run("redo");
+        }
+        if (last == "?") last = active();
+        const Names names = selected();
+        ASSERT_EQ(std::set(names.begin(), names.end()), wanted) << step;
+        ASSERT_EQ(active(), last) << step;
+        if (!names.empty()) {
+            ASSERT_TRUE(wanted.contains(active())) << step;
+        }
+        if (step % 10 == 0) {
+            ASSERT_EQ(rig_part(reopened()).selected, part().selected) << step;
+        }
+    }
+}
+
+TEST_F(SeveralSelected, ComesBackFromAFileAndAnOlderOneIsRead) {
+    controls_and_bones();
+    select({"c", "left", "b"});
+    Json file = saved();
+    EXPECT_EQ(file["state"]["selected"]["element"], "b");
+    EXPECT_EQ(file["state"]["selected"]["elements"], (Json{"left", "b", "c"}));
+    EXPECT_EQ(rig_part(reopened()).selected, part().selected);
+    const auto opened = [&](const Json& selection) {
+        Json scene = save_scene(workspace);
+        scene["labs"]["rig"]["state"]["selected"] = selection;
+        Workspace other = make_blank_workspace(labs);
+        load_scene(other, scene);
+        return rig_part(other).selected_element() + "/" +
+               std::to_string(rig_part(other).selected.elements.all().size());
+    };
+    EXPECT_EQ(opened({{"element", "b"}, {"unit", ""}}), "b/1");
+    EXPECT_EQ(opened({{"element", ""}, {"unit", ""}}), "/0");
+    EXPECT_EQ(opened({{"element", "nobody"}, {"unit", ""}}), "/0");
+    const auto says = [&](const Json& selection, const std::string& what) {
+        try {
+            opened(selection);
+            ADD_FAILURE() << selection << " was accepted";
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+        }
+    };
+    says({{"element", "a"}, {"elements", {"b", "c"}}, {"unit", ""}}, "selected.element");
+    says({{"element", "b"}, {"elements", {"b", "nobody"}}, {"unit", ""}}, "there is no element \"nobody\"");
+    says({{"element", "b"}, {"elements", {"b", 7}}, {"unit", ""}}, "selected.elements");
+    says({{"element", "b"}, {"elements", "b"}, {"unit", ""}}, "selected.elements");
+    says({{"element", ""}, {"elements", {"b", "c"}}, {"unit", ""}}, "selected.element");
+}
+
+TEST_F(SeveralSelected, ABoxSelectsWhatIsInItBesideTheUnit) {
+    controls_and_bones();
+    unit({{"unit", "offset_transform"}, {"name", "lift"}, {"item", "a"}});
+    run("rig.select", {{"unit", "lift"}});
+    EXPECT_TRUE(lab().selects_by_box());
+    const std::vector<Handle> all = lab().selectable(workspace, 0);
+    ASSERT_EQ(all.size(), 7u);
+    const auto box = [&](const Names& names, bool add) {
+        std::vector<PickId> picks;
+        for (const Handle& each : all)
+            if (std::ranges::find(names, each.name) != names.end()) picks.push_back(each.pick);
+        Emit emit;
+        lab().select(workspace, picks, add, emit);
+        for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
+    };
+    box({"a", "dial"}, false);
+    EXPECT_EQ(selected(), (Names{"dial", "a"}));
+    EXPECT_EQ(part().selected.unit, "lift");
+    box({"b"}, true);
+    EXPECT_EQ(selected(), (Names{"dial", "a", "b"}));
+    box({}, true);
+    EXPECT_EQ(selected().size(), 3u);
+    EXPECT_EQ(lab().gizmo(workspace)->name, "b") << "of several, on the last one";
+    box({"c"}, false);
+    EXPECT_EQ(lab().gizmo(workspace)->name, "c");
+    box({}, false);
+    EXPECT_EQ(selected(), Names());
+    EXPECT_EQ(part().selected.unit, "lift");
+}
+
+TEST_F(SeveralSelected, AllAreInViewWhereTheSelectionIsFramed) {
+    controls_and_bones();
+    set("right", {8, 0, 0});
+    solve();
+    select({"a", "c", "right"});
+    const Bounds around = lab().bounds(workspace, true);
+    for (const char* name : {"a", "c", "right"})
+        EXPECT_LT(glm::distance(around.centre, glm::vec3(translation(name))), around.radius) << name;
+}
+
+TEST_F(SeveralSelected, UnitsAreOfferedForAll) {
+    controls_and_bones();
+    const auto offered = [&](const std::string& kind) {
+        for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i)
+            if (rig::operation_name(i) == kind) return **offered_unit(part(), i).unit;
+        return Json();
+    };
+    select({"right", "c", "a", "b"});
+    EXPECT_EQ(offered("for_each").at("roots"), (Json{"right", "a"})) << "b and c are below a";
+    Json parents = Json::array();
+    for (const char* name : {"right", "a", "c"}) parents.push_back({{"item", name}});
+    EXPECT_EQ(offered("parent_constraint").at("item"), "b");
+    EXPECT_EQ(offered("parent_constraint").at("parents"), parents);
+    EXPECT_EQ(offered("aim").at("primary").at("target"), "right");
+    for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i)
+        if (const UnitOffer offer = offered_unit(part(), i); offer.unit) run("rig.unit.add", **offer.unit);
+    tick(2);
+}
+
+TEST_F(SeveralSelected, AControlIsFollowedAndDoesNotFollow) {
+    controls_and_bones();
+    const auto constrained = [&](const Names& names) {
+        select(names);
+        for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i)
+            if (rig::operation_name(i) == std::string_view("parent_constraint"))
+                return **offered_unit(part(), i).unit;
+        return Json();
+    };
+    for (const Names& names : {Names{"b", "right"}, Names{"right", "b"}}) {
+        const Json unit = constrained(names);
+        EXPECT_EQ(unit.at("item"), "b");
+        EXPECT_EQ(unit.at("parents"), Json::array({{{"item", "right"}}}));
+    }
+    const Json alone = constrained({"right"});
+    EXPECT_EQ(alone.at("item"), "a") << "the first bone";
+    EXPECT_EQ(alone.at("parents"), Json::array({{{"item", "right"}}}));
+    run("rig.unit.add", alone);
+    EXPECT_EQ(part().selected.unit, "parent_constraint") << "a new unit is unfolded";
+}
+
+TEST_F(SeveralSelected, TheInspectorSaysHowManyAndWhatIsSetOnWhich) {
+    controls_and_bones();
+    solve();
+    test::PanelReader reader;
+    const auto expect = [&](const Names& names, const Names& said) {
+        select(names);
+        const std::string text = reader.inspector(lab(), workspace);
+        for (const std::string& each : said)
+            EXPECT_NE(text.find(each), std::string::npos) << each << " is not in:\n" << text;
+    };
+    expect({"a", "left", "right"}, {"3 elements, right is shown", "position control",
+                                    "apply to 2 of them: those that are position controls"});
+    expect({"left", "right"}, {"2 elements, right is shown", "Changes apply to all of them."});
+    expect({"left", "a", "dial"}, {"3 elements, dial is shown", "apply to this one only"});
+    expect({"left", "a", "c"},
+           {"3 elements, c is shown", "bone", "those that are bones or nulls", "Read them"});
+    select({"left"});
+    const std::string one = reader.inspector(lab(), workspace);
+    EXPECT_EQ(one.find("Changes apply"), std::string::npos) << one;
+    EXPECT_EQ(one.find("is shown"), std::string::npos) << one;
+}
+
+// Editing several elements at once: set, reset, moved along a path, removed; in one step, or not at all.
+
+class SeveralSet : public SeveralElements {
+  protected:
+    /// A rig of these elements alone, from a file.
+    void open(const Json& elements) {
+        Json scene = save_scene(workspace);
+        scene["labs"]["rig"] = {{"elements", elements}, {"curves", Json::array()}, {"units", Json::array()}};
+        load_scene(workspace, scene);
+    }
+};
+
+TEST_F(SeveralSet, AValueGoesOnAllAndEachKeepsWhatIsNotTold) {
+    controls_and_bones();
+    set("left", {0.1, 0.2, 0.3});
+    set("right", {5, 6, 7});
+    const std::size_t before = steps();
+    set_all({"right", "left"}, {nullptr, 2.5, nullptr});
+    EXPECT_EQ(value("right"), (Json{5.0, 2.5, 7.0}));
+    EXPECT_EQ(value("left"), (Json{0.1, 1.0, 0.3})) << "within its limits";
+    EXPECT_EQ(steps(), before + 1);
+    set_all({"dial", "knob"}, 0.75);
+    EXPECT_EQ(value("dial"), 0.75);
+    EXPECT_EQ(value("knob"), 0.75);
+    run("undo");
+    EXPECT_EQ(value("dial"), 0.0);
+    EXPECT_EQ(value("knob"), 0.0);
+    run("redo");
+    run("rig.control.reset", {{"names", {"left", "knob", "dial", "right"}}});
+    EXPECT_EQ(value("right"), (Json{0.0, 0.0, 0.0}));
+    EXPECT_EQ(value("knob"), 0.0);
+    run("undo");
+    EXPECT_EQ(value("knob"), 0.75) << "one step for all";
+    EXPECT_EQ(value("left"), (Json{0.1, 1.0, 0.3}));
+}
+
+TEST_F(SeveralSet, OneThatHasTheValueIsLeftAlone) {
+    controls_and_bones();
+    set_all({"dial", "knob"}, 0.5);
+    const std::size_t before = steps();
+    set_all({"dial", "knob"}, 0.5);
+    EXPECT_EQ(steps(), before) << "nothing changes";
+    set("right", {5, 6, 7});
+    unit({{"unit", "offset_transform"}, {"item", "left"}, {"offset", transform(0, 0.5, 0)}});
+    solve();
+    const Json moved = local("left");
+    EXPECT_NE(moved, (Json{0.0, 0.0, 0.0}));
+    set_all({"left", "right"}, {0, 0, 0});
+    EXPECT_EQ(local("left"), moved) << "a unit has moved it since";
+    EXPECT_EQ(local("right"), (Json{0.0, 0.0, 0.0}));
+}
+
+TEST_F(SeveralSet, PosesOfBonesGoOnAll) {
+    controls_and_bones();
+    run("rig.element.set",
+        {{"names", {"c", "a"}}, {"transform", {{"translation", {0.5, nullptr, nullptr}}}}});
+    solve();
+    EXPECT_EQ(local("a"), (Json{0.5, 1.0, 0.0}));
+    EXPECT_EQ(local("b"), (Json{0.0, 2.0, 0.0}));
+    EXPECT_EQ(local("c"), (Json{0.5, 3.0, 0.0}));
+    // In global space the order does not matter: an element that moves with its parent is set after it.
+    for (const Names& names : {Names{"a", "b", "c"}, {"c", "b", "a"}}) {
+        run("rig.element.set",
+            {{"names", names},
+             {"space", "global"},
+             {"transform", {{"translation", {names.front() == "a" ? 1 : 2, nullptr, 4}}}}});
+        const double x = names.front() == "a" ? 1.0 : 2.0;
+        for (const char* name : {"a", "b", "c"}) {
+            EXPECT_NEAR(translation(name).x, x, 1e-9) << name;
+            EXPECT_NEAR(translation(name).z, 4.0, 1e-9) << name;
+        }
+    }
+    run("undo");
+    EXPECT_NEAR(translation("b").x, 1.0, 1e-9);
+}
+
+TEST_F(SeveralSet, AParentThatStandsAfterItsChildIsSetBeforeIt) {
+    open({{{"name", "b"}, {"kind", "bone"}, {"parent", "a"}, {"local", transform(0, 2, 0)}},
+          {{"name", "a"}, {"kind", "bone"}, {"local", transform(0, 1, 0)}}});
+    run("rig.element.set",
+        {{"names", {"a", "b"}}, {"space", "global"}, {"transform", {{"translation", {1, nullptr, 4}}}}});
+    for (const char* name : {"a", "b"}) {
+        EXPECT_NEAR(translation(name).x, 1.0, 1e-9) << name;
+        EXPECT_NEAR(translation(name).z, 4.0, 1e-9) << name;
+    }
+}
+
+TEST_F(SeveralSet, ParentsAreRemovedTogetherWithTheirChildren) {
+    controls_and_bones();
+    select({"a", "b"});
+    EXPECT_TRUE(test::says(refused("rig.remove_selected"), "b parent c"));
+    select({"c", "a", "left", "b"});
+    const std::size_t before = steps();
+    run("rig.remove_selected");
+    EXPECT_EQ(steps(), before + 1);
+    EXPECT_EQ(list("elements").size(), 3u);
+    EXPECT_EQ(selected(), Names());
+    EXPECT_NE(refused("rig.remove_selected").find("nothing is selected"), std::string::npos);
+    run("undo");
+    EXPECT_EQ(list("elements").size(), 7u);
+    EXPECT_EQ(selected(), (Names{"left", "a", "b", "c"})) << "as it was";
+    unit({{"unit", "offset_transform"}, {"name", "lift"}, {"item", "c"}});
+    select({"right", "c", "knob"});
+    EXPECT_TRUE(test::says(refused("rig.remove_selected"), "unit lift c item"));
+    run("rig.element.remove", {{"names", {"right", "knob"}}});
+    EXPECT_EQ(selected(), Names{"c"});
+}
+
+TEST_F(SeveralSet, WhatIsNoElementIsRefusedAndChangesNothing) {
+    controls_and_bones();
+    select({"left", "right"});
+    const Json none = Json::array({{"a", "nobody"}, {1}, {nullptr}, {{"a"}}, {""}, {true}, {Json::object()}});
+    for (const Json& names : none) {
+        EXPECT_FALSE(refused("rig.select", {{"elements", names}}).empty()) << names;
+        for (const char* command : {"rig.element.set", "rig.element.remove", "rig.control.set",
+                                    "rig.control.reset", "rig.motion", "rig.read"}) {
+            Json arguments{{"names", names}};
+            if (std::string(command) == "rig.element.set") arguments["transform"] = Json::object();
+            if (std::string(command) == "rig.control.set") arguments["value"] = 1;
+            if (std::string(command) == "rig.motion") arguments["path"] = "circle";
+            EXPECT_NE(refused(command, arguments).find("names: "), std::string::npos) << command << names;
+        }
+    }
+    const auto expect = [&](const char* command, const Json& arguments, const char* what) {
+        const std::string why = refused(command, arguments);
+        EXPECT_NE(why.find(what), std::string::npos) << why;
+    };
+    expect("rig.select", {{"element", "a"}, {"elements", {"b"}}}, "either element or elements");
+    expect("rig.element.remove", {{"names", Json::array()}}, "names: []");
+    expect("rig.element.remove", Json::object(), "either name or names");
+    expect("rig.control.reset", {{"name", "left"}, {"names", {"right"}}}, "either name or names");
+    expect("rig.control.reset", {{"names", {"left", "a"}}}, "\"a\" is not a control");
+    expect("rig.control.set", {{"names", {"dial", "left"}}, {"value", 1}},
+           "\"left\" is a position control, \"dial\" a float control");
+    expect("rig.control.set", {{"names", {"left", "right"}}, {"value", {1, 2}}}, "value");
+    expect("rig.control.set", {{"names", {"left", "right"}}, {"value", {1, nullptr, "x"}}}, "value");
+    expect("rig.control.set", {{"names", {"dial", "knob"}}, {"value", nullptr}}, "value");
+    expect("rig.element.set", {{"names", {"a", "b"}}, {"transform", {{"rotation", {0, nullptr, 0, 1}}}}},
+           "rotation");
+    expect("rig.element.set", {{"names", {"a", "b"}}, {"transform", {{"scale", {0, 1, 1}}}}}, "scale");
+    expect("rig.motion", {{"names", {"left", "dial"}}, {"path", "circle"}}, "\"dial\" is a float control");
+    EXPECT_EQ(selected(), (Names{"left", "right"}));
+}
+
+TEST_F(SeveralSet, SeveralWalkAndOneThatIsSetWalksNoMore) {
+    controls_and_bones();
+    set("right", {3, 1, 0});
+    run("rig.motion", {{"names", {"left", "right"}}, {"path", "circle"}, {"radius", 0.25}});
+    EXPECT_EQ(part().walks.size(), 2u);
+    tick(30);
+    EXPECT_NEAR(translation("left").x - translation("right").x, -3.0, 1e-6) << "each around its own centre";
+    EXPECT_GT(glm::distance(translation("right"), glm::dvec3(3, 1, 0)), 0.01);
+    run("rig.motion", {{"names", {"left", "right"}}, {"path", "circle"}, {"radius", 0.5}});
+    EXPECT_EQ(part().walks.size(), 2u);
+    for (const RigWalk& each : part().walks) EXPECT_FLOAT_EQ(each.motion.radius, 0.5f);
+    set_all({"right", "left"}, {nullptr, 0.5, nullptr});
+    EXPECT_TRUE(part().walks.empty());
+}
+
+TEST_F(SeveralSet, AMomentOfTheTakeIsTheSameAfterSeveralWereSetInIt) {
+    for (const int count : {5, 100}) {  // beyond some dozens a new take begins
+        run("rig.clear");
+        control("round", "position");
+        Names names;
+        for (int i = 0; i < count; ++i) control(names.emplace_back("c" + std::to_string(i)).c_str(), "float");
+        run("rig.motion", {{"name", "round"}, {"path", "circle"}});
+        tick(5);
+        set_all(names, 0.75);
+        EXPECT_EQ(part().take.began, count == 5 ? 0u : 5u);
+        tick(5);
+        const Json then = list("elements");
+        const std::uint64_t end = part().take.now();
+        EXPECT_EQ(end, 10u);
+        run("rig.time", {{"tick", part().take.began + 2}});
+        EXPECT_EQ(value("c0"), count == 5 ? 0.0 : 0.75);
+        run("rig.time", {{"tick", end}});
+        EXPECT_EQ(list("elements"), then) << count;
+    }
+}
+
+TEST_F(SeveralSet, ReadingWorksAllOut) {
+    controls_and_bones();
+    run("rig.read", {{"names", {"a", "b", "c"}}});
+    EXPECT_EQ(workspace.ui.toasts.back().text.find("Reading 3 elements: "), 0u);
+}
+
+/// One by one this would take minutes and run out of time.
+TEST_F(SeveralSet, ThousandsAreDoneAtOnce) {
+    Json elements = Json::array();
+    for (std::size_t i = 0; i < max_lab_elements; ++i) {
+        Json each{{"name", "e" + std::to_string(i)}, {"kind", i % 2 == 0 ? "control" : "bone"}};
+        if (i % 2 == 0) each["control"] = "position";
+        if (i > 2 && i % 2 != 0) each["parent"] = "e" + std::to_string(i - 2);  // a chain of all bones
+        elements.push_back(std::move(each));
+    }
+    open(elements);
+    std::vector<PickId> picks;
+    for (const Handle& each : lab().selectable(workspace, 0)) picks.push_back(each.pick);
+    ASSERT_EQ(picks.size(), max_lab_elements);
+    Emit emit;
+    lab().select(workspace, picks, false, emit);
+    for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
+    Names controls, bones;
+    for (std::size_t i = 0; i < max_lab_elements; ++i)
+        (i % 2 == 0 ? controls : bones).push_back("e" + std::to_string(i));
+    for (int drag = 1; drag <= 10; ++drag) {
+        set_all(controls, {0.1 * drag, nullptr, nullptr});
+        tick();
+    }
+    EXPECT_EQ(value("e4998")[0], 1.0);
+    run("rig.element.set", {{"names", bones}, {"transform", {{"translation", {nullptr, 0.01, nullptr}}}}});
+    run("rig.element.set",
+        {{"names", bones}, {"space", "global"}, {"transform", {{"translation", {nullptr, nullptr, 1}}}}});
+    solve();
+    EXPECT_NEAR(translation("e4999").z, 1.0, 1e-6);
+    EXPECT_NEAR(translation("e4999").y, 25.0, 1e-3);
+    run("rig.motion", {{"names", controls}, {"path", "circle"}});
+    run("rig.motion", {{"names", controls}, {"path", "circle"}, {"radius", 0.25}});
+    tick(3);
+    run("rig.control.reset", {{"names", controls}});
+    EXPECT_TRUE(part().walks.empty());
+    run("rig.remove_selected");
+    EXPECT_TRUE(part().rig.definition().elements.empty());
+    run("undo");
+    EXPECT_EQ(part().selected.elements.all().size(), max_lab_elements);
+}
+
+// Several elements dragged by one gizmo: each gets a value of its own, in one undo step.
+
+class SeveralValues : public SeveralElements {};
+
+TEST_F(SeveralValues, EachGetsItsOwnInWhateverOrderTheyStand) {
+    controls_and_bones();
+    const std::size_t before = steps();
+    run("rig.control.set",
+        {{"names", {"dial", "right", "left"}}, {"values", {0.25, {4, nullptr, 6}, {0, 5, 0.5}}}});
+    EXPECT_EQ(steps(), before + 1);
+    EXPECT_EQ(value("dial"), 0.25);
+    EXPECT_EQ(value("right"), (Json{4.0, 0.0, 6.0})) << "of more than one kind";
+    EXPECT_EQ(value("left"), (Json{0.0, 1.0, 0.5})) << "within its limits";
+    for (const bool parent_first : {true, false}) {
+        const double z = parent_first ? 1.0 : 2.0;
+        const Json a = transform(1, 2, z), b = transform(3, 4, z + 0.5);
+        const Json names = parent_first ? Json{"a", "b"} : Json{"b", "a"};
+        run("rig.element.set",
+            {{"names", names}, {"space", "global"}, {"transforms", parent_first ? Json{a, b} : Json{b, a}}});
+        EXPECT_NEAR(glm::distance(translation("a"), {1, 2, z}), 0.0, 1e-9);
+        EXPECT_NEAR(glm::distance(translation("b"), {3, 4, z + 0.5}), 0.0, 1e-9);
+    }
+    run("undo");
+    EXPECT_NEAR(translation("b").z, 1.5, 1e-9);
+}
+
+TEST_F(SeveralValues, WhatDoesNotFitIsRefusedAndChangesNothing) {
+    controls_and_bones();
+    const Json at{0, 0, 0};
+    const auto controls = [&](const Json& names, const Json& values) {
+        return Json{{"names", names}, {"values", values}};
+    };
+    expect_refused("rig.control.set", controls({"left", "right"}, Json::array({at})),
+                   {"values", "2 values, one for each of names"});
+    expect_refused("rig.control.set", controls({"left", "left"}, {at, at}), {"names: list each once"});
+    expect_refused("rig.control.set", controls({"left", "dial"}, {at, at}), {"values.1"});
+    expect_refused("rig.control.set", controls({"left", "a"}, {at, at}), {"\"a\" is not a control"});
+    expect_refused("rig.control.set", controls({"left", "nobody"}, {at, at}), {"names: ", "nobody"});
+    expect_refused("rig.control.set", {{"name", "left"}, {"values", Json::array({at})}},
+                   {"values is for names"});
+    expect_refused("rig.control.set", {{"names", {"left", "right"}}, {"value", at}, {"values", {at, at}}},
+                   {"needs either value or values"});
+    expect_refused("rig.element.set", {{"names", {"a", "b"}}}, {"needs either transform or transforms"});
+    expect_refused("rig.element.set", {{"names", {"a", "b"}}, {"transforms", {Json::object(), 3}}},
+                   {"transforms.1", "3"});
+    for (const Json& bad : {Json(nullptr), Json("all"), Json(7), Json::object(), Json{"x", "y"}})
+        EXPECT_FALSE(refused("rig.control.set", controls({"left", "right"}, bad)).empty()) << bad;
+}
+
+/// In the running program: the mouse on the gizmo, with picking.
+class SeveralDragged : public testing::Test {
+  protected:
+    SeveralDragged() {
+        for (const auto& [name, arguments] :
+             std::initializer_list<std::pair<const char*, Json>>{{"lab.open", {{"name", rig_lab}}},
+                                                                 {"time.pause", Json::object()},
+                                                                 {"rig.clear", Json::object()},
+                                                                 {"camera.set",
+                                                                  {{"target", {0, 0, 0}},
+                                                                   {"yaw_deg", 30},
+                                                                   {"pitch_deg", 25},
+                                                                   {"distance", 6},
+                                                                   {"orthographic", true}}}})
+            app_.run({name, arguments});
+        add("whole", "transform", -1.0);
+        add("place", "position", 0.0, {{"maximum", {9, 0.3, 9}}, {"minimum", {-9, -9, -9}}});
+        add("turn", "rotation", 1.0);
+        add("dial", "float", -0.5);
+        app_.run({"rig.element.add", Json{{"name", "bone"}, {"local", transform(0.5, 0.5, 0)}}});
+        app_.run({"rig.element.add",
+                  Json{{"name", "below"}, {"parent", "bone"}, {"local", transform(0.2, 0.2, 0)}}});
+    }
+    void add(const char* name, const char* kind, double x, const Json& more = Json::object()) {
+        Json arguments{{"name", name}, {"kind", "control"}, {"control", kind}, {"local", transform(x, 0, 0)}};
+        arguments.update(more);
+        app_.run({"rig.element.add", arguments});
+    }
+    void select(const Names& names) { app_.run({"rig.select", Json{{"elements", names}}}); }
+    void drag(const std::string& part, const std::vector<glm::vec2>& way, bool drop = true) {
+        const glm::vec2 from = test::handle(app_.state(), part);
+        send(MouseMove{from});
+        send(MousePress{MouseButton::Left, true});
+        for (const glm::vec2 by : way) send(MouseMove{from + by});
+        if (drop) send(MousePress{MouseButton::Left, false});
+    }
+    void send(const Event& event) { app_.tick(&event); }
+    glm::dvec3 at(const std::string& name) {
+        const Json t = element(name)["global"]["translation"];
+        return {t[0].get<double>(), t[1].get<double>(), t[2].get<double>()};
+    }
+    Json element(const std::string& name) {
+        const Json state = app_.state();
+        for (const Json& each : state.at("elements"))
+            if (each.at("name") == name) return each;
+        return nullptr;
+    }
+    bool has_handle(const std::string& name) {
+        const Json state = app_.state();
+        const Json& all = state.at("handles");
+        return std::any_of(all.begin(), all.end(), [&](const Json& each) { return each.at("name") == name; });
+    }
+    std::size_t steps() { return app_.workspace().history.size(); }
+
+    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
+    App app_{*window_, false};
+};
+
+const Names all_of_them{"whole", "turn", "dial", "bone", "below", "place"};
+
+TEST_F(SeveralDragged, AllGoTheSameWayInOneStep) {
+    select(all_of_them);
+    EXPECT_TRUE(has_handle("place.move_x")) << "it stands on the one selected last";
+    EXPECT_FALSE(has_handle("place.scale_x"));
+    std::vector<glm::dvec3> before;
+    for (const std::string& name : all_of_them) before.push_back(at(name));
+    const std::size_t history = steps();
+    drag("place.move_x", {{10, 5}, {30, 10}, {50, 15}});
+    const glm::dvec3 by = at("place") - before.back();
+    EXPECT_GT(by.x, 0.1);
+    EXPECT_NEAR(by.y, 0.0, 1e-6);
+    for (std::size_t i = 0; i < all_of_them.size(); ++i) {
+        const bool stays = all_of_them[i] == "turn" || all_of_them[i] == "dial";
+        EXPECT_NEAR(glm::distance(at(all_of_them[i]), before[i] + (stays ? glm::dvec3(0) : by)), 0.0, 1e-5)
+            << all_of_them[i];
+    }
+    EXPECT_EQ(element("dial")["value"], 0.0);
+    EXPECT_EQ(steps(), history + 1);
+    app_.run({"undo"});
+    for (std::size_t i = 0; i < all_of_them.size(); ++i)
+        EXPECT_NEAR(glm::distance(at(all_of_them[i]), before[i]), 0.0, 1e-9) << all_of_them[i];
+}
+
+/// Undo and removal can happen during a drag.
+TEST_F(SeveralDragged, WhatGoesInMidDragIsLeftOut) {
+    select({"whole", "place"});
+    drag("place.move_x", {{20, 5}}, false);
+    const double x = at("whole").x;
+    app_.run({"rig.element.remove", Json{{"name", "place"}}});
+    for (const char* name : {"dial", "turn", "below", "bone"})
+        app_.run({"rig.element.remove", Json{{"name", name}}});
+    for (int i = 0; i < 3; ++i) send(MouseMove{{600.0f + 10.0f * static_cast<float>(i), 300.0f}});
+    send(MousePress{MouseButton::Left, false});
+    EXPECT_EQ(app_.state().at("elements").size(), 1u);
+    EXPECT_TRUE(std::isfinite(at("whole").x)) << x;
+}
+
+TEST_F(SeveralDragged, WhatStaysIsSaid) {
+    select(all_of_them);
+    const Lab& lab = *app_.labs().find(rig_lab);
+    const Together moved = lab.together(app_.workspace(), Drag::Position);
+    EXPECT_EQ(moved.handles.size(), 3u) << "what is below the bone goes with it";
+    EXPECT_TRUE(test::says(moved.staying, "turn dial"));
+    EXPECT_TRUE(test::says(lab.together(app_.workspace(), Drag::Rotation).staying, "dial"));
+    select({"place"});
+    EXPECT_TRUE(lab.together(app_.workspace(), Drag::Position).handles.empty());
+    select({"place", "dial"});
+    EXPECT_EQ(lab.gizmo(app_.workspace())->name, "place") << "the last one that it can drag";
+    select({"dial"});
+    EXPECT_FALSE(lab.gizmo(app_.workspace()));
+}
+
+TEST_F(SeveralDragged, OneThatStopsAtItsLimitIsInItsPlaceWhenAllComeBack) {
+    select({"whole", "bone", "place"});
+    const glm::dvec3 whole = at("whole"), place = at("place");
+    drag("place.move_y", {{0, -30}, {0, -100}}, false);
+    EXPECT_NEAR(at("place").y, 0.3, 1e-9);
+    EXPECT_GT(at("whole").y, 0.4);
+    const glm::dvec3 there = at("whole");
+    for (int i = 0; i < 5; ++i) app_.tick(nullptr);
+    EXPECT_EQ(at("whole"), there) << "while the hand is still, so are they";
+    send(MouseMove{test::handle(app_.state(), "place") + glm::vec2(0, 0)});
+    send(KeyTap{*chord_from_name("escape")});
+    EXPECT_NEAR(glm::distance(at("whole"), whole), 0.0, 1e-9);
+    EXPECT_NEAR(glm::distance(at("place"), place), 0.0, 1e-9);
+    const glm::vec2 grip = test::handle(app_.state(), "place.move_y");
+    send(MouseMove{grip});
+    send(MousePress{MouseButton::Left, true});
+    for (const float y : {-40.0f, -140.0f, -30.0f, -1.0f, 0.0f}) send(MouseMove{grip + glm::vec2(0, y)});
+    send(MousePress{MouseButton::Left, false});
+    EXPECT_NEAR(glm::distance(at("whole"), whole), 0.0, 1e-5);
+    EXPECT_NEAR(glm::distance(at("place"), place), 0.0, 1e-5);
+}
+
+TEST_F(SeveralDragged, ARingTurnsAllAboutTheOneSelectedLast) {
+    select(all_of_them);
+    std::vector<glm::dvec3> before;
+    for (const std::string& name : all_of_them) before.push_back(at(name));
+    const std::size_t history = steps();
+    drag("place.rotate_y", {{12, 0}, {30, 2}, {45, 3}});
+    EXPECT_EQ(steps(), history + 1);
+    const Json q = element("whole")["value"]["rotation"];
+    const glm::dquat turn(q[3].get<double>(), q[0].get<double>(), q[1].get<double>(), q[2].get<double>());
+    EXPECT_GT(std::abs(turn.y), 0.05);
+    const glm::dvec3 pivot = before.back();
+    EXPECT_NEAR(glm::distance(at("place"), pivot), 0.0, 1e-6);
+    for (const std::size_t i : {std::size_t{0}, std::size_t{3}, std::size_t{4}})
+        EXPECT_NEAR(glm::distance(at(all_of_them[i]), pivot + turn * (before[i] - pivot)), 0.0, 1e-4)
+            << all_of_them[i];
+    EXPECT_NEAR(glm::distance(at("turn"), before[1]), 0.0, 1e-6) << "it has no place of its own";
+    const Json turned = element("turn")["value"];
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(turned[i].get<double>(), q[i].get<double>(), 1e-5);
+}
+
+}  // namespace
+}  // namespace tendril::app
