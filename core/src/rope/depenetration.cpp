@@ -29,6 +29,7 @@ struct Neighbours {
     const Scratch& scratch;
     std::span<const IslandScratch::Near> near;
     dvec3 low, high;                 ///< the chunk's box
+    double longest_link;             ///< that begins in the chunk
     std::uint64_t& searches;         ///< distances that searches may still take
     std::uint64_t& distances_taken;  ///< counts all distances
 
@@ -136,14 +137,21 @@ bool search(const Neighbours& neighbours, const dvec3& from, double thickness, d
 }
 
 /// Brings a ball out of every collider, or at least its centre if the ball does not fit. Stays close if that
-/// is easily found. False, and unmoved, if no way is found.
-bool bring_out(const Neighbours& neighbours, dvec3& place, double radius) {
+/// is easily found. False, and unmoved, if no way is found. Of cloth a way that would stretch links much is only
+/// begun: it yields where surfaces close on it, and comes out with its neighbours.
+bool bring_out(const Neighbours& neighbours, dvec3& place, double radius, bool cloth) {
     for (const double thickness : {radius, 0.0}) {
         dvec3 at = place;
         bool out = neighbours.depth(at, thickness) <= depth_tolerance;
         for (int i = 0; i < rounds && !out; ++i) {
             at += smallest_displacement(neighbours, at, thickness);
             out = neighbours.depth(at, thickness) <= depth_tolerance;
+        }
+        if (cloth) {
+            const double far = detail::length(at - place), most = yield_strain * neighbours.longest_link;
+            if (far <= most) place = at;
+            else place += most / far * (at - place);
+            return out && far <= most;
         }
         if (!out && !search(neighbours, place, thickness, at)) continue;
         place = at;
@@ -173,6 +181,7 @@ void Substep::each_near(std::size_t begin, std::size_t end, Visit visit) {
                                     near.subspan(first, last - first),
                                     scratch_.chunk_low[near[first].chunk],
                                     scratch_.chunk_high[near[first].chunk],
+                                    chunk.reach,
                                     searches,
                                     report_.work};
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i)
@@ -190,7 +199,7 @@ void Substep::depenetrate() {
                   dvec3& place = scratch_.place[i];
                   const dvec3 was = place;
                   if (neighbours.depth(place, of.radius) <= harmless) return;
-                  if (!bring_out(neighbours, place, of.radius)) ++report_.unresolved;
+                  if (!bring_out(neighbours, place, of.radius, of.kind == Body::Kind::Cloth)) ++report_.unresolved;
                   strike(body, detail::length(place - was));
               });
 }

@@ -78,6 +78,7 @@ void ImplicitStep::keep(ClothContact contact, const SurfaceDistance& surface, do
     contact.gap = surface.distance - radius;
     contact.normal = surface.normal;
     double depth = -contact.gap;
+    contact.stiffness = depth > deepest_hard_ ? stiffness_ * deepest_hard_ / depth : stiffness_;
     if (first) {
         const dvec3 further = between(contact, scratch_.base) - between(contact, scratch_.place);
         depth = std::max(depth, depth - detail::dot(contact.normal, further));
@@ -104,7 +105,7 @@ double ImplicitStep::potential_of(const ClothContact& contact) const {
     const dvec3 by = between(contact, scratch_.place) - contact.at;
     const double along = detail::dot(by, contact.normal), gap = contact.gap + along;
     const dvec3 slip = contact.slip + by - along * contact.normal;
-    return stiffness_ * gap * gap + contact.drag * detail::dot(slip, slip);
+    return contact.stiffness * gap * gap + contact.drag * detail::dot(slip, slip);
 }
 
 }  // namespace tendril::rope

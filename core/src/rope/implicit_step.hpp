@@ -32,6 +32,7 @@ class ImplicitStep : protected IslandStep {
     }
 
     double mass_ = 0.0;       ///< mean mass of a particle, kg
+    double deepest_hard_ = 1e30;  ///< metres; a contact that is deeper presses no harder, so that cloth yields
     double stiffness_ = 0.0;  ///< of contacts and of the stiffest links, times h^2 over that mass
 };
 
