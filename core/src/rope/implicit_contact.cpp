@@ -78,7 +78,12 @@ void ImplicitStep::keep(ClothContact contact, const SurfaceDistance& surface, do
     contact.gap = surface.distance - radius;
     contact.normal = surface.normal;
     double depth = -contact.gap;
-    contact.stiffness = depth > deepest_hard_ ? stiffness_ * deepest_hard_ / depth : stiffness_;
+    contact.stiffness = stiffness_;
+    const auto same_chunk = [&](std::uint32_t n) {
+        return n < local_.near.size() && local_.near[n].chunk == local_.near[contact.near].chunk;
+    };
+    if (depth > deepest_hard_ && (same_chunk(contact.near - 1) || same_chunk(contact.near + 1)))
+        contact.stiffness *= deepest_hard_ / depth;
     if (first) {
         const dvec3 further = between(contact, scratch_.base) - between(contact, scratch_.place);
         depth = std::max(depth, depth - detail::dot(contact.normal, further));

@@ -134,7 +134,8 @@ std::size_t torn_edges(const Attachments& attachments, const Attachment& attachm
     const rope::State& state = attachments.world->state();
     return static_cast<std::size_t>(std::ranges::count_if(state.links, [&](const rope::Link& link) {
         return link.kind == rope::Link::Kind::Stretch && link.a - body.first < body.count &&
-               glm::distance(state.position[link.a], state.position[link.b]) > (1.0 + torn_strain) * link.rest;
+               glm::distance(state.position[link.a], state.position[link.b]) >
+                   (1.0 + torn_strain) * link.rest;
     }));
 }
 
