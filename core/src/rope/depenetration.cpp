@@ -1,4 +1,4 @@
-// After the last pass: brings what is still inside a collider out, whatever that does to lengths.
+// After the last pass: brings what is still inside a collider out, as far as that does not tear it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,6 +22,8 @@ constexpr int rounds = 12;
 /// between two surfaces takes some hundred; in 10^5 random scenes no substep took more than 1300 in total.
 constexpr std::uint64_t searches_per_particle = 128, shared_searches = 8192;
 constexpr int newton_steps = 16;
+/// Of a way out, relative to the depth. Out of a right-angled corner it is 1.7.
+constexpr double farthest_way = 2.0;
 
 /// The colliders that one particle can reach. The list of its chunk is complete within the chunk's box. A way
 /// out of a large collider may lead beyond the box; there every collider of the world is tested.
@@ -29,6 +31,7 @@ struct Neighbours {
     const Scratch& scratch;
     std::span<const IslandScratch::Near> near;
     dvec3 low, high;                 ///< the chunk's box
+    double longest_link;             ///< that begins in the chunk
     std::uint64_t& searches;         ///< distances that searches may still take
     std::uint64_t& distances_taken;  ///< counts all distances
 
@@ -136,18 +139,22 @@ bool search(const Neighbours& neighbours, const dvec3& from, double thickness, d
 }
 
 /// Brings a ball out of every collider, or at least its centre if the ball does not fit. Stays close if that
-/// is easily found. False, and unmoved, if no way is found.
-bool bring_out(const Neighbours& neighbours, dvec3& place, double radius) {
+/// is easily found. False if no way is found, or one is only begun because it would tear the body: surfaces
+/// that close on it make ways long, and cloth comes out with its neighbours only.
+bool bring_out(const Neighbours& neighbours, dvec3& place, double radius, bool cloth) {
     for (const double thickness : {radius, 0.0}) {
         dvec3 at = place;
-        bool out = neighbours.depth(at, thickness) <= depth_tolerance;
+        const double depth = neighbours.depth(at, thickness), most = yield_strain * neighbours.longest_link;
+        bool out = depth <= depth_tolerance;
         for (int i = 0; i < rounds && !out; ++i) {
             at += smallest_displacement(neighbours, at, thickness);
             out = neighbours.depth(at, thickness) <= depth_tolerance;
         }
-        if (!out && !search(neighbours, place, thickness, at)) continue;
-        place = at;
-        return true;
+        if (!out && !cloth && !search(neighbours, place, thickness, at)) continue;
+        const double far = detail::length(at - place);
+        const bool yields = far > std::max(most, cloth ? 0.0 : farthest_way * depth);
+        place = yields ? place + (most / far) * (at - place) : at;
+        return (out || !cloth) && !yields;
     }
     return false;
 }
@@ -173,6 +180,7 @@ void Substep::each_near(std::size_t begin, std::size_t end, Visit visit) {
                                     near.subspan(first, last - first),
                                     scratch_.chunk_low[near[first].chunk],
                                     scratch_.chunk_high[near[first].chunk],
+                                    chunk.reach,
                                     searches,
                                     report_.work};
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i)
@@ -190,7 +198,8 @@ void Substep::depenetrate() {
                   dvec3& place = scratch_.place[i];
                   const dvec3 was = place;
                   if (neighbours.depth(place, of.radius) <= harmless) return;
-                  if (!bring_out(neighbours, place, of.radius)) ++report_.unresolved;
+                  const bool cloth = of.kind == Body::Kind::Cloth && neighbours.near.size() > 1;
+                  if (!bring_out(neighbours, place, of.radius, cloth)) ++report_.unresolved;
                   strike(body, detail::length(place - was));
               });
 }

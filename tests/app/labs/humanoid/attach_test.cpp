@@ -1,6 +1,8 @@
 // Attachments of a character: their initial pose, their distance from the body, and how they come to rest.
+#include "app/labs/humanoid/panel.hpp"
 #include "attach_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -90,6 +92,39 @@ TEST_F(HumanoidAttach, StaysOffTheBody) {
         for (std::size_t r = 0; r < 8; ++r)
             EXPECT_LT(particle("cape", r * row + middle).z, bone("UpperChest").z) << which << ", row " << r;
     }
+}
+
+/// Arms that take hold of a rifle close on the cape, and walk with it: it yields.
+TEST_F(HumanoidAttach, IsNotTornByArmsThatHoldARifle) {
+    for (const char* file : {"robot.glb", "mixed_orders.bvh"}) {
+        const auto path = test::characters_folder() / file;
+        if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+        run("humanoid.load", {{"path", path.string()}});
+        run("humanoid.attach", {{"bone", "Chest"}, {"kind", "cloth"}, {"name", "cape"}});
+        run("humanoid.clip", {{"index", 0}, {"play", true}, {"loop", true}});
+        tick(30);
+        run("humanoid.hold", {{"kind", "rifle"}});
+        std::size_t torn = 0;
+        for (int i = 0; i < 120; ++i) {
+            torn += torn_edges(part().attachments, part().attachments.list[0]);
+            tick();
+        }
+        EXPECT_EQ(torn, 0u) << file;
+        EXPECT_LT(particle_depth(), 0.03) << file;
+    }
+}
+
+TEST_F(HumanoidAttach, ThatIsTornIsTheVerdict) {
+    run("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}});
+    run("humanoid.hold", {{"kind", "rifle"}});
+    EXPECT_EQ(humanoid_verdict(workspace).text, "Holds the rifle");
+    rope::State state = world().state();
+    for (const std::size_t i : {15, 16}) state.position[i].y -= 0.2;
+    auto torn = std::make_shared<NamedWorld>(world());
+    torn->put(state);
+    workspace.document.edit<HumanoidPart>(humanoid_lab).attachments.world = torn;
+    EXPECT_EQ(humanoid_verdict(workspace).text, "\"tail\" is torn at 2 edges");
+    EXPECT_EQ(this->state().at("attachments")[0].at("torn_edges"), 2);
 }
 
 TEST_F(HumanoidAttach, MovesWithItsBone) {
