@@ -47,7 +47,7 @@ Outputs check_outputs(const SessionOptions& options) {
                                      {options.record, OutputKind::Recording}}) {
         if (path.empty()) continue;
         std::error_code error;
-        const auto file = std::filesystem::weakly_canonical(path, error);
+        const auto file = std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
         const bool is_file =
             !std::filesystem::exists(file, error) || std::filesystem::is_regular_file(file, error);
         if (is_file && std::ranges::find(before, file) != before.end())

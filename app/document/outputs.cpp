@@ -19,7 +19,8 @@ namespace {
 /// The same for all names of a file but hard links.
 fs::path canonical_name(const fs::path& path) {
     std::error_code error;
-    fs::path name = fs::weakly_canonical(path, error);
+    // A relative path of which nothing exists would stay as it is spelled.
+    fs::path name = fs::weakly_canonical(fs::absolute(path, error), error);
     return error ? path : name;
 }
 

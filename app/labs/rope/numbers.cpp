@@ -69,6 +69,8 @@ RopeReport last_second(const std::vector<RopeSample>& samples) {
         sum.inside = tick.inside;
         sum.unconverged += tick.unconverged;
         sum.suspended += tick.suspended;
+        sum.substeps += tick.substeps;
+        sum.dropped += tick.dropped;
         sum.contact_loss += tick.contact_loss;
     }
     return sum;

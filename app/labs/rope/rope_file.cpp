@@ -31,6 +31,8 @@ std::span<const tendril::Field> tendril::fields<tendril::app::RopeReport>() noex
         field<&RopeReport::inside>("inside", {0, max_count}),
         field<&RopeReport::unconverged>("unconverged", {0, max_count}),
         field<&RopeReport::suspended>("suspended", {0, max_count}),
+        field<&RopeReport::substeps>("substeps", {0, max_count}),
+        field<&RopeReport::dropped>("dropped", {0, max_count}),
         field<&RopeReport::contact_loss>("contact_loss", {-max_value, max_value}, "J")};
     return rows;
 }

@@ -229,6 +229,12 @@ std::optional<Cure> shorter_substeps(const RopePart& part) {
                 {{"rope.settings", {{"substep", half}}}}};
 }
 
+constexpr double slow_share = 1.0 - max_stall;  ///< a single stall takes the share of real time no lower
+constexpr const char* real_time = " % of real time";
+std::string at_pace(double kept) {
+    return ", at " + fixed_text(5.0 * std::round(20.0 * kept), 0) + real_time;
+}
+
 /// Whether the pins are the two ends of a tie.
 bool is_a_tie(const OverPulled& pulled, const rope::State& state) {
     return pulled.way.size() == 2 && std::ranges::any_of(state.ties, [&](const rope::Tie& tie) {
@@ -292,16 +298,23 @@ Verdict rope_verdict(const RopePart& part) {
         const std::string& name = part.world->name(body);
         return body.kind == rope::Body::Kind::Cloth && !part.world->collides(name, name);
     });
+    if (const double all = static_cast<double>(report.substeps + report.dropped); report.dropped > 0) {
+        const double kept = static_cast<double>(report.substeps) / all;
+        if (kept < slow_share)
+            return {"Lengths hold" + at_pace(kept), Verdict::Kind::Open,
+                    "Frames are longer than the longest frame, " +
+                        fixed_text(1e3 * static_cast<double>(part.world->settings().longest_frame), 1) +
+                        " ms, or need more work than a tick allows: the rest of their time is dropped."};
+    }
     return {
         "Lengths hold", Verdict::Kind::Good,
         "The worst link is off by " + percent + "." + (passes ? " Cloth does not collide with itself." : "")};
 }
 
 Verdict paced_verdict(Verdict said, const Workspace& workspace) {
-    constexpr double slow = 1.0 - max_stall;  // a single stall takes the share no lower
     const double kept = pace_of(workspace.runtimes).kept;
-    if (!workspace.clock.playing || kept >= slow) return said;
-    said.text += ", at " + fixed_text(5.0 * std::round(20.0 * kept), 0) + " % of real time";
+    if (!workspace.clock.playing || kept >= slow_share || said.text.ends_with(real_time)) return said;
+    said.text += at_pace(kept);
     if (said.kind != Verdict::Kind::Good) return said;
     said.kind = Verdict::Kind::Open;
     said.why = "A tick takes longer than its 16.7 ms: fewer particles or substeps are faster.";

@@ -75,6 +75,8 @@ struct RopeReport {
     std::uint64_t inside = 0;       ///< particles left inside colliders
     std::uint64_t unconverged = 0;  ///< solves that did not converge or were only applied in part
     std::uint64_t suspended = 0;    ///< unsupported bodies that nevertheless do not fall
+    std::uint64_t substeps = 0;     ///< simulated
+    std::uint64_t dropped = 0;      ///< substeps that were not simulated: the frame was too long for them
     float contact_loss = 0.0f;      ///< energy lost to contact, joules
     bool operator==(const RopeReport&) const = default;
 };

@@ -52,6 +52,8 @@ void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, Tick
         std::max(report.inside, done.unresolved / static_cast<std::uint64_t>(std::max(done.substeps, 1)));
     report.unconverged += done.fallbacks + done.unconverged;
     report.suspended += done.suspended;
+    report.substeps += static_cast<std::uint64_t>(done.substeps);
+    report.dropped += done.dropped;
     report.contact_loss += static_cast<float>(done.contact_loss);
 }
 

@@ -141,6 +141,16 @@ TEST_F(RopeVerdict, NamesThePinsWhateverTheSolverAndHoweverSlightTheError) {
     }
 }
 
+TEST_F(RopeVerdict, SaysHowMuchTimeIsDropped) {
+    run("rope.preset", {{"name", "pendulum"}});
+    run("rope.settings", {{"longest_frame", 0.5 * tick_seconds}});
+    wait(120);
+    EXPECT_EQ(said(), "Lengths hold, at 50 % of real time");
+    run("rope.settings", {{"longest_frame", 0.25}});
+    wait(61);
+    EXPECT_EQ(said(), "Lengths hold");
+}
+
 TEST_F(RopeVerdict, SaysWhatIsNeitherHeldNorFallsOrInsideOrUnsolved) {
     RopePart part = rope_part(workspace);
     part.samples = {RopeSample{.report = {.suspended = 1}}};
