@@ -149,6 +149,7 @@ Json save_scene(const Workspace& workspace) {
                 {"lab", workspace.lab},
                 {"camera", save_camera(workspace.camera)},
                 {"paused", !workspace.clock.playing && !workspace.ui.plays_after_dialog},
+                {"speed", workspace.clock.speed},
                 {"labs", std::move(labs)}};
 }
 
@@ -160,6 +161,7 @@ struct Scene {
     CameraPose camera;
     std::vector<UnreadLab> unread;
     std::optional<bool> paused;  ///< older scenes do not say
+    std::optional<float> speed;
 };
 
 /// Throws what load_scene() throws.
@@ -168,9 +170,11 @@ Scene read_scene(const Workspace& workspace, const Json& json, const SceneLoadin
     const std::string whole;
     const Json& labs = json_member(json, "labs", whole);
     if (!labs.is_object()) throw std::runtime_error("labs: expected an object, found " + json_summary(labs));
-    Scene scene{{}, workspace.lab, {}, {}, {}};
+    Scene scene{{}, workspace.lab, {}, {}, {}, {}};
     scene.document = load_document(workspace.blank, labs, version, loading, scene.unread);
     if (const Json* found = optional_member(json, "paused")) scene.paused = json_bool(*found, "paused");
+    if (const Json* found = optional_member(json, "speed"))
+        scene.speed = json_number(*found, "speed", static_cast<float>(slowest), static_cast<float>(fastest));
     if (const Json* found = optional_member(json, "lab")) {
         scene.lab = json_text(*found, "lab");
         if (!scene.document.parts().contains(scene.lab))
@@ -208,6 +212,7 @@ std::vector<UnreadLab> load_scene(Workspace& workspace, const Json& json, const 
         workspace.clock.held = *scene.paused;
         workspace.clock.looks_back = workspace.ui.plays_after_dialog = false;
     }
+    if (scene.speed) workspace.clock.speed = *scene.speed;
     return std::move(scene.unread);
 }
 

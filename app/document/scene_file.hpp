@@ -1,6 +1,7 @@
 // Scenes on disk: versioned JSON holding every lab's part, which lab was open, and the camera.
 //
-//   {"tendril_scene": 2, "lab": "chain", "camera": {...}, "paused": false, "labs": {"chain": {...}}}
+//   {"tendril_scene": 2, "lab": "chain", "camera": {...}, "paused": false, "speed": 1,
+//    "labs": {"chain": {...}}}
 //
 // Version 2 writes every rotation as [x, y, z, w]; version 1 wrote the chain's as [w, x, y, z]. Part::upgrade
 // converts older versions.

@@ -77,6 +77,7 @@ void pass_ticks(Workspace& workspace, const Lab& lab, int ticks) {
 /// cheap.
 void expect_goes_on_as(Workspace original, Workspace opened, const Lab& lab) {
     EXPECT_EQ(opened.clock.playing, original.clock.playing);
+    EXPECT_EQ(opened.clock.speed, original.clock.speed);
     original.forget_pasts();
     opened.clock = original.clock;
     opened.settings = original.settings;
