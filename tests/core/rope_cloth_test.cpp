@@ -128,7 +128,7 @@ TEST(RopeCloth, YieldsBetweenSurfacesThatCloseOnIt) {
         }
         double stretch = 0.0;
         const auto seen = [&] { stretch = std::max(stretch, world.length_error()); };
-        run_substeps(world, 144, seen);
+        run_substeps(world, 120, seen);
         const float up = random.around(0.25f);
         for (const float apart : {0.0f, 0.3f}) {
             for (const std::string& name : names) {

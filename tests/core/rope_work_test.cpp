@@ -4,8 +4,8 @@
 namespace tendril::test {
 namespace {
 
-/// The maximum number of links and contacts that a substep may visit: passes over everything, the searches
-/// for ways out, and links near thin colliders.
+/// The maximum number of links and contacts that a substep may visit: passes over everything, ways out, and
+/// links near thin colliders.
 std::uint64_t max_work(const World& world) {
     const std::size_t particles = world.size(), links = world.state().links.size();
     const std::size_t pairs = world.state().colliders.size() * (particles + 14 * links);

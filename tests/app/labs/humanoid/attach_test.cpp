@@ -118,13 +118,12 @@ TEST_F(HumanoidAttach, ThatIsTornIsTheVerdict) {
     run("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}});
     run("humanoid.hold", {{"kind", "rifle"}});
     EXPECT_EQ(humanoid_verdict(workspace).text, "Holds the rifle");
-    rope::State state = world().state();
-    for (const std::size_t i : {15, 16}) state.position[i].y -= 0.2;
+    rope::State pulled = world().state();
+    for (const std::size_t i : {15, 16}) pulled.position[i].y -= 0.2;
     auto torn = std::make_shared<NamedWorld>(world());
-    torn->put(state);
+    torn->put(pulled);
     workspace.document.edit<HumanoidPart>(humanoid_lab).attachments.world = torn;
     EXPECT_EQ(humanoid_verdict(workspace).text, "\"tail\" is torn at 2 edges");
-    EXPECT_EQ(this->state().at("attachments")[0].at("torn_edges"), 2);
 }
 
 TEST_F(HumanoidAttach, MovesWithItsBone) {
@@ -211,8 +210,6 @@ TEST_F(HumanoidAttach, RefusesWhatDoesNotFit) {
     expect_refused("humanoid.attach", {{"bone", "Head"}, {"kind", "chain"}}, {"kind must be one of"});
     expect_refused("humanoid.attach", {{"bone", "Head"}, {"kind", "rope"}, {"direction", {0, 0, 0}}},
                    {"direction must be longer than 0"});
-    expect_refused("humanoid.attach", {{"bone", "Head"}, {"kind", "rope"}, {"length", 0}},
-                   {"length must be"});
     expect_refused("humanoid.attach",
                    {{"bone", "Head"}, {"kind", "hair"}, {"strands", 200}, {"segments", 200}},
                    {"40200 particles", "more than 4000"});
