@@ -326,7 +326,7 @@ TEST_F(ChainStudy, what_cannot_be_studied_is_refused) {
 TEST_F(ChainStudy, hostile_scenes_say_where_they_are_wrong) {
     run("microscope.open", {{"start", "straight"}});
     const auto says = [&](const std::string& key, const Json& value) {
-        expect_scene_refused(("/study/" + key).c_str(), value, "study." + key);
+        expect_scene_refused("/study/" + key, value, "study." + key);
     };
     says("kind", "telescope");
     says("start", Json::array());

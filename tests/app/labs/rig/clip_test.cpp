@@ -158,7 +158,7 @@ TEST_F(RigClips, FilesThatAreNoClipsAreRefused) {
     run("rig.clip.solve");
     lab().work(workspace);
     const auto expect_place = [&](const std::string& at, const Json& value, const std::string& place) {
-        expect_scene_refused(("/state" + at).c_str(), value, "labs.rig.state." + place);
+        expect_scene_refused("/state" + at, value, "labs.rig.state." + place);
     };
     expect_place("/take/tick", 6, "take.tick");
     expect_place("/take/last", 1e9, "take.last");

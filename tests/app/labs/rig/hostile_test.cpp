@@ -327,7 +327,7 @@ TEST_F(RigHostile, StatesThatAreNone) {
     unit({{"unit", "spring_interpolate"}, {"target", "root"}});
     tick();
     const auto expect_place = [&](const std::string& at, const Json& value, const std::string& place) {
-        expect_scene_refused(("/state" + at).c_str(), value, "labs.rig.state." + place);
+        expect_scene_refused("/state" + at, value, "labs.rig.state." + place);
     };
     expect_place("/moving", 1, "moving");
     expect_place("/controls/dial", "x", "controls.dial");
