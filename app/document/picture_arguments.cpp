@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include "app/document/atomic_file.hpp"
 #include "app/document/refused.hpp"
 #include "app/document/workspace.hpp"
 

@@ -292,7 +292,7 @@ TEST_P(EveryField, IsRefusedInAFileWithItsPlace) {
     std::string place = std::string("labs.") + of().lab + of().path + "." + file_name(field());
     std::ranges::replace(place, '/', '.');
     const std::string pointer = std::string(of().path) + "/" + file_name(field());
-    for (const Json& value : bad(field())) expect_scene_refused(pointer.c_str(), value, place);
+    for (const Json& value : bad(field())) expect_scene_refused(pointer, value, place);
 }
 
 /// Tables that a command takes whole: what it makes does not keep them.

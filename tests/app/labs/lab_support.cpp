@@ -56,9 +56,9 @@ void LabTest::expect_refused(const char* name, const Json& arguments, const std:
         EXPECT_NE(message.find(each), std::string::npos) << message << "\n  does not say " << each;
 }
 
-std::string LabTest::opened_with(const std::string& pointer, const Json& value) const {
+std::string LabTest::opened_with(const std::string& at, const Json& value) const {
     Json scene = save_scene(workspace);
-    scene["labs"][lab_][Json::json_pointer(pointer)] = value;
+    scene["labs"][lab_][Json::json_pointer(at)] = value;
     Workspace other = make_blank_workspace(labs);
     const Document before = other.document;
     try {
@@ -72,11 +72,10 @@ std::string LabTest::opened_with(const std::string& pointer, const Json& value) 
     }
 }
 
-void LabTest::expect_scene_refused(const std::string& pointer, const Json& value,
-                                   const std::string& says) const {
-    const std::string message = opened_with(pointer, value);
+void LabTest::expect_scene_refused(const std::string& at, const Json& value, const std::string& says) const {
+    const std::string message = opened_with(at, value);
     EXPECT_TRUE(message.starts_with("labs.") && message.find(says) != std::string::npos)
-        << pointer << " as " << value << ": " << message << "\n  does not say " << says;
+        << at << " as " << value << ": " << message << "\n  does not say " << says;
 }
 
 }  // namespace tendril::app

@@ -44,10 +44,10 @@ class LabTest : public testing::Test {
     std::string refused(const char* name, const Json& arguments = Json::object());
     /// The same, with a message that says each of these in any order.
     void expect_refused(const char* name, const Json& arguments, const std::vector<std::string>& says);
-    /// Opens the scene with this value in the lab's JSON. Returns what refuses it; "blank: " and why, if the
-    /// lab starts blank; or nothing.
-    std::string opened_with(const std::string& pointer, const Json& value) const;
-    void expect_scene_refused(const std::string& pointer, const Json& value, const std::string& says) const;
+    /// Opens the scene with this value at a JSON pointer in the lab. Returns what refuses it; "blank: " and
+    /// why, if the lab starts blank; or nothing.
+    std::string opened_with(const std::string& at, const Json& value) const;
+    void expect_scene_refused(const std::string& at, const Json& value, const std::string& says) const;
 
   private:
     const char* lab_;

@@ -27,14 +27,6 @@ class LinkageTest : public LabTest {
         run("linkage.preset", {{"name", "four_bar"}});
         run("linkage.set", {{"lengths", {{"ground", 3}, {"crank", 1}, {"coupler", 2.5}, {"rocker", 2}}}});
     }
-    void expect_load_refused(const Json& json, const char* words) const {
-        try {
-            static_cast<void>(part().load(json, "labs.linkage"));
-            ADD_FAILURE() << words << ": was opened";
-        } catch (const std::runtime_error& error) {
-            EXPECT_TRUE(test::says(error.what(), words)) << error.what();
-        }
-    }
     /// By hand: A and D are pinned, bars A-B, B-C, C-D, a motor at A.
     void draw_four_bar() {
         run("linkage.clear");
