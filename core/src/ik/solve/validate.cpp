@@ -1,46 +1,95 @@
+// The tables of Options and Plane, and the checks of what a solve is given.
 #include "ik/solve/validate.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "math/checks.hpp"
+#include "math/ranges.hpp"
 #include "math/vector.hpp"
 #include "tendril/ik/options.hpp"
 
-namespace tendril::ik::detail {
+namespace tendril::ik {
 namespace {
 
-bool over_zero(float value, float maximum) noexcept {
-    return value > 0.0f && value <= maximum;
+constexpr const char *turns[] = {"whole_chain", "each_joint"}, *sides[] = {"free", "left", "right"};
+constexpr FieldRange anywhere{-max_magnitude, max_magnitude};
+
+constexpr std::uint16_t bit(Method method) noexcept {
+    return static_cast<std::uint16_t>(1u << static_cast<unsigned>(method));
 }
+constexpr std::uint16_t none = 0, fabrik = bit(Method::Fabrik), two_bone = bit(Method::TwoBone),
+                        damped = bit(Method::Dls) | bit(Method::SvdDls), damped_or_two = damped | two_bone,
+                        all = bit(Method::TwoBone) * 2 - 1, iterating = all - two_bone;
+
+constexpr Field option_rows[] = {
+    field<&Options::tolerance>("tolerance", {0.0, max_magnitude}, "m"),
+    field<&Options::max_iterations>("max_iterations", {1, 1'000'000}).by(iterating, all),
+    field<&Options::every_iteration>("every_iteration").by(iterating, all),
+    list<&Options::limits>("limits"),
+    nested<&Options::plane>("plane"),
+    field<&Options::pole>("pole", anywhere, "m"),
+    field<&Options::pole_turn>("pole_turn", turns).by(iterating, none),
+    field<&Options::snap_back>("snap_back").by(iterating, all),
+    field<&Options::tip_orientation>("tip_orientation", unit_length),
+    field<&Options::soft_zone>("soft_zone"),
+    field<&Options::damping>("damping", {0.0, 10.0}).over().by(damped, damped_or_two),
+    field<&Options::start_stretch_ratio>("start_stretch_ratio").over().by(two_bone, none),
+    field<&Options::max_stretch_scale>("max_stretch_scale", {1.0, 100.0}).by(two_bone, none),
+    field<&Options::twist>("twist", anywhere, "rad").by(two_bone, two_bone),
+    field<&Options::weight>("weight"),
+    field<&Options::restarts>("restarts", {0, 1000}).by(none, fabrik),
+    field<&Options::rotations>("rotations").by(all, none),
+    list<&Options::residuals>("residuals", {0.0, max_magnitude}, "m")};
+constexpr Field plane_rows[] = {field<&Plane::normal>("normal", anywhere), field<&Plane::bend>("bend", sides),
+                                list<&Plane::limits>("limits")};
 
 }  // namespace
+
+const char* name(Side side) noexcept {
+    return sides[static_cast<std::size_t>(side)];
+}
+
+bool honours(Method method, const Field& option, bool within_limits) noexcept {
+    return ((within_limits ? option.within_limits : option.without_limits) & bit(method)) != 0;
+}
+
+Result check_takes(Method method, std::size_t bones) noexcept {
+    using namespace tendril::detail;
+    if (method > Method::TwoBone)
+        return refused("solve", "method", "one of all_methods", static_cast<int>(method));
+    if (method != Method::TwoBone || bones == 2) return {};
+    return {ErrorCode::InvalidArgument, "Two-bone needs exactly two bones"};
+}
+
+}  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Options>() noexcept {
+    return ik::option_rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Plane>() noexcept {
+    return ik::plane_rows;
+}
+
+namespace tendril::ik::detail {
 
 bool are_points(std::span<const glm::vec3> points) noexcept {
     return std::all_of(points.begin(), points.end(), tendril::detail::is_point);
 }
 
 bool are_valid(const Options& options, std::size_t bones) noexcept {
-    if (options.tolerance && !within(*options.tolerance, 0.0f, max_magnitude)) return false;
-    if (options.max_iterations < 1 || options.max_iterations > 1'000'000) return false;
+    if (!tendril::detail::are_in_range<option_rows>(&options)) return false;
     if (!options.limits.empty() && options.limits.size() != bones) return false;
-    if (options.pole && !tendril::detail::is_point(*options.pole)) return false;
-    if (options.pole_turn > PoleTurn::EachJoint) return false;
-    if (!within(options.snap_back, 0.0f, 1.0f)) return false;
-    if (options.tip_orientation && !is_unit(*options.tip_orientation)) return false;
-    if (!within(options.soft_zone, 0.0f, 1.0f)) return false;
-    if (!over_zero(options.damping, 10.0f)) return false;
-    if (!over_zero(options.start_stretch_ratio, 1.0f)) return false;
-    if (!within(options.max_stretch_scale, 1.0f, 100.0f)) return false;
-    if (!within(options.weight, 0.0f, 1.0f)) return false;
-    if (options.restarts && (*options.restarts < 0 || *options.restarts > 1000)) return false;
-    if (options.plane && (!options.limits.empty() || !is_valid(*options.plane, bones))) return false;
-    return within(options.twist, -max_magnitude, max_magnitude);
+    return !options.plane || (options.limits.empty() && is_valid(*options.plane, bones));
 }
 
 bool is_valid(const Plane& plane, std::size_t bones) noexcept {
-    if (!tendril::detail::is_point(plane.normal) || !(math::length(plane.normal) > 1e-6f)) return false;
-    if (plane.bend > Side::Right || (!plane.limits.empty() && plane.limits.size() != bones)) return false;
+    if (!tendril::detail::are_in_range<plane_rows>(&plane)) return false;
+    if (!(math::length(plane.normal) > 1e-6f)) return false;
+    if (!plane.limits.empty() && plane.limits.size() != bones) return false;
     return std::none_of(plane.limits.begin(), plane.limits.end(),
                         [](const AngleLimit& limit) { return fault(limit) != nullptr; });
 }
