@@ -1,5 +1,6 @@
 #include "app/fields/fields.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/document/json_complete.hpp"
@@ -31,8 +32,10 @@ Json saved(const Field& field, const FieldValue& value) {
                        ? Json{value[0], value[1]}
                        : Json{number(static_cast<float>(value[0])), number(static_cast<float>(value[1]))};
         case FieldType::Rotation:
-            return quaternion(rotation_of(value));
+            return field.exact ? dquaternion({value[3], value[0], value[1], value[2]})
+                               : quaternion(rotation_of(value));
         case FieldType::Point:
+        case FieldType::Struct:
             break;
     }
     return field.exact ? dpoint({value[0], value[1], value[2]}) : point({value[0], value[1], value[2]});
@@ -74,8 +77,9 @@ FieldValue loaded(const JsonPlace& place, const Field& field) {
             place.check_size(2, "numbers");
             return {number_in_range(place.element(0), field), number_in_range(place.element(1), field)};
         case FieldType::Rotation:
-            return detail::to_field(place.rotation());
+            return field.exact ? detail::to_field(place.drotation()) : detail::to_field(place.rotation());
         case FieldType::Point:
+        case FieldType::Struct:
             break;
     }
     place.check_size(3, "coordinates");
@@ -124,6 +128,8 @@ Argument argument(const Field& field, const FieldText& text) {
             result.type = ArgumentType::Text;
             result.choices.assign(field.choices.begin(), field.choices.end());
             break;
+        case FieldType::Struct:
+            break;
     }
     return result;
 }
@@ -143,26 +149,112 @@ FieldRange file_range(const Field& field) {
     return {file_end(field, field.range.low), file_end(field, field.range.high)};
 }
 
+namespace {
+
+/// `at`: what the field's accessors take; of a struct, its address.
+Json saved_at(const Field& field, const void* at) {
+    return field.type == FieldType::Struct ? save_fields({field.table(), at}) : saved(field, field.get(at));
+}
+
+void save_list(Json& json, const Field& field, const void* object) {
+    Json list = field.names.empty() ? Json::array() : Json::object();
+    for (std::size_t i = 0; i < field.count(object); ++i) {
+        const void* const element = field.address(object, i);
+        if (field.names.empty())
+            list.push_back(saved_at(field, element));
+        else if (field.empty == nullptr || !field.empty(element))
+            list[field.names[i]] = saved_at(field, element);
+    }
+    if (field.in_line)
+        json.update(list);
+    else
+        json[field.name] = std::move(list);
+}
+
+class Loader {
+  public:
+    explicit Loader(bool all, std::span<const std::string_view> newer = {}) : all_(all), newer_(newer) {}
+
+    void fields(const JsonPlace& place, FieldsIn in) const {
+        if (!place.json().is_object()) place.fail("expected an object, found " + json_summary(place.json()));
+        for (const Field& field : in.table) {
+            if (field.in_line) {
+                list(place, field, in.object);
+                continue;
+            }
+            const std::string name = file_name(field);
+            if (!place.has(name.c_str()) && (!all_ || std::ranges::find(newer_, name) != newer_.end()))
+                continue;
+            const JsonPlace member = place[name.c_str()];
+            if (field.count != nullptr)
+                list(member, field, in.object);
+            else if (field.type == FieldType::Struct)
+                nested(member, field, in.object);
+            else
+                value(member, field, in.object);
+        }
+    }
+
+  private:
+    void value(const JsonPlace& place, const Field& field, void* at) const {
+        const bool nothing = field.optional && place.json().is_null();
+        field.set(at, nothing ? FieldValue{std::nan("")} : loaded(place, field));
+    }
+    void nested(const JsonPlace& place, const Field& field, void* object) const {
+        const bool nothing = field.optional && place.json().is_null();
+        if (field.optional) field.resize(object, nothing ? 0 : 1);
+        if (!nothing) fields(place, {field.table(), field.address_in(object)});
+    }
+    void element(const JsonPlace& place, const Field& field, void* at) const {
+        if (field.type == FieldType::Struct)
+            fields(place, {field.table(), at});
+        else
+            value(place, field, at);
+    }
+    void list(const JsonPlace& place, const Field& field, void* object) const {
+        if (!field.names.empty() && !place.json().is_object())
+            place.fail("expected an object, found " + json_summary(place.json()));
+        for (std::size_t i = 0; i < field.names.size(); ++i) {
+            const char* const name = field.names[i];
+            if (place.has(name) || !(field.optional || (field.in_line && !all_)))
+                element(place[name], field, field.address_in(object, i));
+        }
+        if (!field.names.empty()) return;
+        if (field.resize != nullptr)
+            field.resize(object, place.list_size(field.name, field.most));
+        else
+            place.check_size(field.most, "elements");
+        for (std::size_t i = 0; i < field.count(object); ++i)
+            element(place.element(i), field, field.address_in(object, i));
+    }
+
+    bool all_;
+    std::span<const std::string_view> newer_;
+};
+
+}  // namespace
+
 Json save_fields(FieldsOf of) {
     Json json = Json::object();
-    for (const Field& field : of.table) json[file_name(field)] = saved(field, field.get(of.object));
+    for (const Field& field : of.table) {
+        if (field.count != nullptr)
+            save_list(json, field, of.object);
+        else if (field.type == FieldType::Struct)
+            json[field.name] = field.address(of.object, 0) == nullptr
+                                   ? Json(nullptr)
+                                   : saved_at(field, field.address(of.object, 0));
+        else
+            json[file_name(field)] = saved(field, field.get(of.object));
+    }
     return json;
 }
 
-void load_all_fields(const JsonPlace& place, FieldsIn in) {
-    for (const Field& field : in.table) static_cast<void>(place[file_name(field).c_str()]);
-    load_fields(place, in);
+void load_all_fields(const JsonPlace& place, FieldsIn in, std::span<const std::string_view> newer) {
+    Loader(true, newer).fields(place, in);
 }
 
 void load_fields(const JsonPlace& place, FieldsIn in) {
-    if (!place.json().is_object()) place.fail("expected an object, found " + json_summary(place.json()));
-    for (const Field& field : in.table) {
-        const std::string name = file_name(field);
-        if (!place.has(name.c_str())) continue;
-        const JsonPlace member = place[name.c_str()];
-        const bool nothing = field.optional && member.json().is_null();
-        field.set(in.object, nothing ? FieldValue{std::nan("")} : loaded(member, field));
-    }
+    Loader(false).fields(place, in);
 }
 
 std::vector<Argument> field_arguments(std::span<const Field> table, std::span<const FieldText> texts) {

@@ -63,12 +63,13 @@ struct FieldsIn {
     void* object;
 };
 
+/// With its structs and lists. Of a list with names, elements that are empty are left out.
 Json save_fields(FieldsOf of);
 /// Missing fields keep their values, so that older scenes open. Throws std::runtime_error that begins with
 /// the JSON path of the error.
 void load_fields(const JsonPlace& place, FieldsIn in);
-/// The same, but a missing field is an error.
-void load_all_fields(const JsonPlace& place, FieldsIn in);
+/// The same, but a missing field is an error, other than one of `newer`, which old files do not have.
+void load_all_fields(const JsonPlace& place, FieldsIn in, std::span<const std::string_view> newer = {});
 
 /// An optional argument for each field that has a text.
 std::vector<Argument> field_arguments(std::span<const Field> table, std::span<const FieldText> texts);

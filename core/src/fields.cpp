@@ -9,31 +9,26 @@
 namespace tendril {
 namespace {
 
-/// "0 to 1000 1/s", or "one of relaxation, xpbd, direct".
-class Requirement {
+/// A text of bounded length: what does not fit is cut.
+class Text {
   public:
-    explicit Requirement(const Field& field) noexcept {
-        if (field.type == FieldType::Choice) {
-            add("one of ");
-            for (std::size_t i = 0; i < field.choices.size(); ++i)
-                add(i > 0 ? ", " : "").add(field.choices[i]);
-            return;
-        }
-        if (field.whole()) add("a whole number, ");
-        add(field.range.low).add(" to ").add(field.range.high);
-        if (field.unit[0] != '\0') add(" ").add(field.unit);
-    }
-    std::string_view text() const noexcept { return {buffer_, size_}; }
-
-  private:
-    Requirement& add(std::string_view text) noexcept {
+    Text& add(std::string_view text) noexcept {
         const std::size_t fits = std::min(text.size(), sizeof buffer_ - size_);
         std::memcpy(buffer_ + size_, text.data(), fits);
         size_ += fits;
         return *this;
     }
+    /// Range bounds are often floats: shows the shortest decimals, 0.1 and not 0.10000000149.
+    Text& add(double number) noexcept {
+        const auto single = static_cast<float>(number);
+        return add_plain(static_cast<double>(single) == number ? detail::Shown(single).text()
+                                                               : detail::Shown(number).text());
+    }
+    std::string_view text() const noexcept { return {buffer_, size_}; }
+
+  private:
     /// Shortens 1e+09 to 1e9.
-    Requirement& add_plain(std::string_view text) noexcept {
+    Text& add_plain(std::string_view text) noexcept {
         for (const char& c : text) {
             const bool after_e =
                 size_ > 0 && (buffer_[size_ - 1] == 'e' ||
@@ -42,35 +37,103 @@ class Requirement {
         }
         return *this;
     }
-    /// Range bounds are often floats: shows the shortest decimals, 0.1 and not 0.10000000149.
-    Requirement& add(double number) noexcept {
-        const auto single = static_cast<float>(number);
-        return add_plain(static_cast<double>(single) == number ? detail::Shown(single).text()
-                                                               : detail::Shown(number).text());
-    }
 
     char buffer_[128];
     std::size_t size_ = 0;
 };
 
-/// False for NaN.
-bool in_range(const Field& field, double value) noexcept {
-    const bool inside = value >= field.range.low && value <= field.range.high;
-    return inside && (!field.whole() || value == std::floor(value));
+/// "0 to 1000 1/s", or "one of relaxation, xpbd, direct".
+Text requirement(const Field& field) noexcept {
+    Text text;
+    if (field.type == FieldType::Rotation) return text.add("a quaternion of length 1");
+    if (field.type == FieldType::Choice) {
+        text.add("one of ");
+        for (std::size_t i = 0; i < field.choices.size(); ++i)
+            text.add(i > 0 ? ", " : "").add(field.choices[i]);
+        return text;
+    }
+    text.add(field.whole() ? "a whole number, " : "").add(field.over_low ? "over " : "");
+    text.add(field.range.low).add(" to ").add(field.range.high);
+    if (field.unit[0] != '\0') text.add(" ").add(field.unit);
+    return text;
 }
 
-Result refuse(const char* operation, const Field& field, int axis, double value) noexcept {
-    constexpr std::string_view axes[] = {"x", "y", "z", "w"};
-    const auto at = static_cast<std::size_t>(axis);
-    const bool pair = field.type == FieldType::Pair, axis_named = !pair && field.size() > 1;
-    const detail::Argument argument(field.name, pair ? at : detail::no_index,
-                                    axis_named ? axes[at] : std::string_view());
-    const Requirement requirement(field);
-    if (field.whole() && value == std::floor(value) && std::abs(value) <= 2147483647.0)
-        return detail::refused(operation, argument, requirement.text(), static_cast<int>(value));
-    if (field.exact || field.whole()) return detail::refused(operation, argument, requirement.text(), value);
-    return detail::refused(operation, argument, requirement.text(), static_cast<float>(value));
-}
+/// A field, or an element of a list, and what it is in: "options.feet[1].lift".
+struct Place {
+    const Place* above;
+    const char* name;
+    const Field* list = nullptr;
+    std::size_t index = 0;
+
+    void write(Text& text) const noexcept {
+        if (above != nullptr) above->write(text);
+        if (name[0] == '\0') return;
+        text.add(text.text().empty() || name[0] == '[' ? "" : ".").add(name);
+        if (list == nullptr) return;
+        if (index < list->names.size())
+            text.add(".").add(list->names[index]);
+        else
+            text.add("[").add(detail::Shown(index).text()).add("]");
+    }
+};
+
+/// Sets `refusal` to the first thing that does not fit. Solvers check in every step, so plain values come
+/// first and places are made only where they are needed.
+class Check {
+  public:
+    Check(const char* operation, Result& refusal) noexcept : operation_(operation), refusal_(refusal) {}
+
+    bool passes(std::span<const Field> table, const void* object, const Place& above) const noexcept {
+        for (const Field& field : table) {
+            if (field.address == nullptr) {
+                if (field.type != FieldType::Flag && !field.fits(field, object))
+                    return refuse(field, object, {&above, field.name});
+                continue;
+            }
+            const bool list = field.count != nullptr;
+            const std::size_t count = list ? field.count(object) : 1;
+            if (list && count > field.most)
+                return refuse({&above, field.name}, Text().add("at most ").add(double(field.most)), count);
+            for (std::size_t i = 0; i < count; ++i) {
+                const void* const at = field.address(object, i);
+                const Place place{&above, field.name, list ? &field : nullptr, i};
+                if (field.type != FieldType::Struct && !field.fits(field, at))
+                    return refuse(field, at, place);
+                if (field.type == FieldType::Struct && at != nullptr && !passes(field.table(), at, place))
+                    return false;
+            }
+        }
+        return true;
+    }
+
+  private:
+    /// `at`: what the field's accessors take.
+    bool refuse(const Field& field, const void* at, const Place& place) const noexcept {
+        constexpr const char *axes[] = {"x", "y", "z"}, *ends[] = {"[0]", "[1]"};
+        const FieldValue all = field.get(at);
+        const Text wanted = requirement(field);
+        if (field.type == FieldType::Rotation)
+            return refuse(place, wanted,
+                          {"one of length",
+                           std::sqrt(all[0] * all[0] + all[1] * all[1] + all[2] * all[2] + all[3] * all[3])});
+        std::size_t axis = 0;
+        while (static_cast<int>(axis) + 1 < field.size() && field.in_range(all[axis])) ++axis;
+        const bool pair = field.type == FieldType::Pair;
+        const Place part{&place, pair ? ends[axis] : field.size() > 1 ? axes[axis] : ""};
+        if (field.whole()) return refuse(part, wanted, static_cast<int>(all[axis]));
+        if (field.exact) return refuse(part, wanted, all[axis]);
+        return refuse(part, wanted, static_cast<float>(all[axis]));
+    }
+    bool refuse(const Place& place, const Text& wanted, const detail::Shown& value) const noexcept {
+        Text name;
+        place.write(name);
+        refusal_ = detail::refused(operation_, name.text(), wanted.text(), value);
+        return false;
+    }
+
+    const char* operation_;
+    Result& refusal_;
+};
 
 }  // namespace
 
@@ -80,16 +143,11 @@ const Field* find_field(std::span<const Field> table, std::string_view name) noe
     return nullptr;
 }
 
-Result check_fields(const char* operation, std::span<const Field> table, const void* object) noexcept {
-    for (const Field& field : table) {
-        if (field.empty != nullptr && field.empty(object)) continue;
-        const FieldValue value = field.get(object);
-        for (int axis = 0; axis < field.size(); ++axis) {
-            const double each = value[static_cast<std::size_t>(axis)];
-            if (!in_range(field, each)) return refuse(operation, field, axis, each);
-        }
-    }
-    return {};
+Result check_fields(const char* operation, std::span<const Field> table, const void* object,
+                    const char* place) noexcept {
+    Result refusal;
+    Check(operation, refusal).passes(table, object, {nullptr, place});
+    return refusal;
 }
 
 }  // namespace tendril

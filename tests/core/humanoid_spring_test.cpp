@@ -424,8 +424,6 @@ TEST(SpringChain, StandsAnythingWithoutMemory) {
     };
     const double nan = std::numeric_limits<double>::quiet_NaN();
     Antenna antenna(5);
-    EXPECT_TRUE(test::says(check(SpringOptions{.weight = nan}).message(), "SpringOptions weight 0 1 nan"));
-    EXPECT_FALSE(check(SpringOptions{.strength = 0.0}));
     antenna.step({0, 1, 0}, {}, 0.1);
     for (int round = 0; round < 20000; ++round) {
         std::vector<rig::Transform> pose = rest_pose(antenna.skeleton);

@@ -7,8 +7,6 @@
 namespace tendril::test {
 namespace {
 
-using rope::Settings;
-
 World some_world() {
     World world;
     world.add_rope("rope", {.from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 4, .pin_start = true});
@@ -38,34 +36,7 @@ void expect_refused(World& world, const std::function<void()>& call,
 
 TEST(RopeRefusals, OfSettings) {
     World world = some_world();
-    const auto bad = [&](auto change, const char* what, const char* value) {
-        Settings settings;
-        change(settings);
-        expect_refused(world, [&] { world.set_settings(settings); }, {"set_settings", what, value});
-    };
-    for (const auto& [value, text] : {std::pair{0.0, "0"},
-                                      {-1.0, "-1"},
-                                      {1e-6, "e-"},
-                                      {0.2, "0.2"},
-                                      {double{nan}, "nan"},
-                                      {double{infinity}, "inf"}})
-        bad([v = value](Settings& s) { s.substep = v; }, "substep", text);
-    for (const int value : {0, -5, rope::max_iterations + 1, std::numeric_limits<int>::max()})
-        bad([&](Settings& s) { s.iterations = value; }, "iterations", std::to_string(value).c_str());
-    bad([](Settings& s) { s.solver = static_cast<rope::Solver>(7); }, "solver", "7");
-    for (const auto& [value, text] : {std::pair{-1.0f, "-1"}, {1e9f, "e"}, {nan, "nan"}, {infinity, "inf"}}) {
-        bad([v = value](Settings& s) { s.damping = v; }, "damping", text);
-        bad([v = value](Settings& s) { s.compliance = v; }, "compliance", text);
-        bad([v = value](Settings& s) { s.friction = v; }, "friction", text);
-        bad([v = value](Settings& s) { s.longest_frame = v; }, "longest_frame", text);
-        if (value == -1.0f) continue;  // these may be negative
-        bad([v = value](Settings& s) { s.gravity.y = v; }, "gravity", text);
-        bad([v = value](Settings& s) { s.external.z = v; }, "external", text);
-        bad([v = value](Settings& s) { s.wind.x = v; }, "wind", text);
-        bad([v = value](Settings& s) { s.gusts = v; }, "gusts", text);
-        bad([v = value](Settings& s) { s.gravity_scale = v; }, "gravity_scale", text);
-    }
-    bad([](Settings& s) { s.longest_frame = 0.0f; }, "longest_frame", "0");
+    expect_refused(world, [&] { world.set_settings({.substep = 0.2}); }, {"set_settings", "substep", "0.2"});
     EXPECT_NO_THROW(world.set_settings(
         {.substep = 0.1, .iterations = 10'000, .damping = 1e3f, .friction = 100.0f, .longest_frame = 10.0f}));
 }
@@ -76,19 +47,7 @@ TEST(RopeRefusals, OfRopes) {
         expect_refused(world, [&] { world.add_rope(shape); }, {"add_rope", what, value});
     };
     bad({.from = {nan, 0, 0}}, "from", "nan");
-    bad({.to = {0, infinity, 0}}, "to", "inf");
-    bad({.to = {0, 0, -2e9f}}, "to", "-2e+09");
-    bad({.segments = 0}, "segments", "0");
-    bad({.segments = -3}, "segments", "-3");
-    bad({.segments = 10'000'000}, "segments", "10000000");
     bad({.segments = 999'999}, "particles", "1000000");  // and the present ones
-    bad({.segments = std::numeric_limits<int>::max()}, "segments", "2147483647");
-    for (const auto& [value, text] : {std::pair{-1.0f, "-1"}, {nan, "nan"}, {infinity, "inf"}}) {
-        bad({.length = value}, "length", text);
-        bad({.radius = value}, "radius", text);
-        bad({.density = value}, "density", text);
-    }
-    bad({.density = 0.0f}, "density", "0");
 }
 
 TEST(RopeRefusals, OfClothAndHair) {
@@ -97,16 +56,8 @@ TEST(RopeRefusals, OfClothAndHair) {
         expect_refused(world, [&] { world.add_cloth(shape); }, {"add_cloth", what, value});
     };
     cloth({.corner = {0, nan, 0}}, "corner", "nan");
-    cloth({.along = {infinity, 0, 0}}, "along", "inf");
-    cloth({.down = {0, 0, nan}}, "down", "nan");
-    cloth({.columns = 1}, "columns", "1");
-    cloth({.rows = 0}, "rows", "0");
     cloth({.columns = 2000, .rows = 2000}, "particles", "1000000");
     cloth({.columns = 2'000'000'000, .rows = 2'000'000'000}, "columns", "2000000000");
-    cloth({.density = 0.0f}, "density", "0");
-    cloth({.shear = -1.0f}, "shear", "-1");
-    cloth({.bend = nan}, "bend", "nan");
-    cloth({.tear = -0.5f}, "tear", "-0.5");
     const auto hair = [&](const rope::HairShape& shape, const char* what, const char* value) {
         expect_refused(world, [&] { world.add_hair(shape); }, {"add_hair", what, value});
     };
@@ -115,15 +66,9 @@ TEST(RopeRefusals, OfClothAndHair) {
     hair({.roots = {{{nan, 0, 0}, {0, 1, 0}}}}, "position", "nan");
     hair({.roots = {{{0, 0, 0}, {0, 0, 0}}}}, "direction", "0");
     hair({.roots = one, .length = 0.0f}, "length", "0");
-    hair({.roots = one, .segments = 1}, "segments", "1");
-    hair({.roots = one, .segments = 2'000'000'000}, "segments", "2000000000");
-    hair({.roots = one, .bend = -1.0f}, "bend", "-1");
-    for (const rope::HairPatch& patch :
-         {rope::HairPatch{.strands = -1}, rope::HairPatch{.strands = 2'000'000},
-          rope::HairPatch{.spread = nan}, rope::HairPatch{.centre = {infinity, 0, 0}}}) {
-        EXPECT_FALSE(rope::roots_around(patch));
-        EXPECT_FALSE(rope::roots_on(rope::Sphere{}, patch, 0.0f));
-    }
+    const rope::HairPatch none{.strands = -1};
+    EXPECT_FALSE(rope::roots_around(none));
+    EXPECT_FALSE(rope::roots_on(rope::Sphere{}, none, 0.0f));
     hair({.roots = one, .attach = {7, 3}}, "attach", "7");
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
-#include <tendril/ik/method.hpp>
+#include <tendril/ik/options.hpp>
 #include <utility>
 #include <vector>
 
@@ -86,7 +86,7 @@ std::optional<Cure> reach_cure(const ChainPart& part) {
                           std::string("Runs chain.solver: ") + solver_title(ik::Method::Fabrik),
                           {"name", ik::name(ik::Method::Fabrik)});
     const int restarts = reach.restarts.value_or(default_restarts);
-    if (!ik::honours(reach.method, ik::Option::Restarts, limited) || restarts >= max_restarts)
+    if (!ik::honours(reach.method, field_of<&ik::Options::restarts>(), limited) || restarts >= max_restarts)
         return std::nullopt;
     const int more = std::clamp(2 * restarts, default_restarts, max_restarts);
     return solve_with(part, "More restarts", "Runs chain.solver: up to " + std::to_string(more),

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 #include <string_view>
+#include <tendril/ik/options.hpp>
 
 #include "app/document/text.hpp"
 #include "app/document/units.hpp"
@@ -324,7 +325,7 @@ std::string stalled_text(const ChainPart& part) {
                                                               : "Folded onto the line to the target") +
                ": bend it" + (reach.pole ? "." : ", or add a pole target.");
     }
-    const bool restarts = ik::honours(part.result->method, ik::Option::Restarts, limited);
+    const bool restarts = ik::honours(part.result->method, field_of<&ik::Options::restarts>(), limited);
     return std::string("No closer from here. Try another solver") + (restarts ? ", or more restarts." : ".");
 }
 
@@ -397,9 +398,10 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
 namespace {
 
 /// Why the method ignores an option, as its row says; empty if it does not.
-std::string why_unused(const ReachSettings& reach, ik::Option option) {
+std::string why_unused(const ReachSettings& reach, const Field& option) {
     const bool limited = is_limited(reach);
-    const bool turns = option == ik::Option::PoleTurn || option == ik::Option::Twist;
+    const std::string_view name = option.name;
+    const bool turns = name == "pole_turn" || name == "twist";
     if (reach.plane && turns) return "A chain in a plane does not use this.";
     if (ik::honours(reach.method, option, limited)) return {};
     const bool otherwise = ik::honours(reach.method, option, !limited);
@@ -408,26 +410,25 @@ std::string why_unused(const ReachSettings& reach, ik::Option option) {
 }
 
 /// A row of the solver's settings, greyed where the method ignores it.
-void solver_row(const ReachSettings& reach, const char* name, ik::Option option, MoreRows& more, Emit& emit,
+template <auto option>
+void solver_row(const ReachSettings& reach, const char* name, MoreRows& more, Emit& emit,
                 std::optional<double> otherwise = {}) {
     FieldRows(reach, "chain.solver", emit)
         .under(more)
-        .row(name, {.otherwise = otherwise, .why_not = why_unused(reach, option)});
+        .row(name, {.otherwise = otherwise, .why_not = why_unused(reach, field_of<option>())});
 }
 
 void option_rows(const ReachSettings& reach, float length, MoreRows& more, Emit& emit) {
-    const auto row = [&](const char* name, ik::Option option, std::optional<double> otherwise = {}) {
-        solver_row(reach, name, option, more, emit, otherwise);
-    };
-    row("iterations", ik::Option::MaxIterations);
+    using ik::Options;
+    solver_row<&Options::max_iterations>(reach, "iterations", more, emit);
     FieldRows(reach, "chain.solver", emit)
         .under(more)
         .row("tolerance", {.otherwise = reach_tolerance(reach, length)});
-    row("snap_back", ik::Option::SnapBack);
-    row("soft_zone", ik::Option::SoftZone);
-    row("damping", ik::Option::Damping);
-    row("twist_deg", ik::Option::Twist);
-    row("restarts", ik::Option::Restarts, default_restarts);
+    solver_row<&Options::snap_back>(reach, "snap_back", more, emit);
+    solver_row<&Options::soft_zone>(reach, "soft_zone", more, emit);
+    solver_row<&Options::damping>(reach, "damping", more, emit);
+    solver_row<&Options::twist>(reach, "twist_deg", more, emit);
+    solver_row<&Options::restarts>(reach, "restarts", more, emit, default_restarts);
     more.add("", {"chain.solver", {"default_tolerance", "default_restarts"}}, false, [&reach, &emit] {
         if (row_button("Default tolerance", 1, reach.tolerance.has_value(), "A thousandth of the reach"))
             emit("chain.solver", {{"default_tolerance", true}});
@@ -454,7 +455,7 @@ void pole_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
         if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});
         explain("Where the pole target is. Drag the pink ball to move it.");
     });
-    solver_row(part.reach, "pole_turn", ik::Option::PoleTurn, more, emit);
+    solver_row<&ik::Options::pole_turn>(part.reach, "pole_turn", more, emit);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "app/document/json_complete.hpp"
-#include "app/labs/humanoid/ik/ik_members.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "app/labs/kit/code_text.hpp"
@@ -17,10 +16,6 @@ namespace {
 using humanoid::Bone;
 
 constexpr std::size_t max_line = 110;
-
-std::string flag_text(bool value) {
-    return value ? "true" : "false";
-}
 
 std::string bone_text(std::size_t bone) {
     return std::string("humanoid::Bone::") + humanoid::name(static_cast<Bone>(bone));
@@ -44,27 +39,6 @@ constexpr const char* hills_text =
         }
     const humanoid::Ground ground = *humanoid::Ground::terrain(field);
 )";
-
-/// A state of each_number() as an initialiser, member by member.
-template <class T>
-std::string state_text(const T& value) {
-    if constexpr (std::is_same_v<T, glm::dvec3> || std::is_same_v<T, glm::dquat>) {
-        return braced(value);
-    } else if constexpr (std::is_same_v<T, bool>) {
-        return flag_text(value);
-    } else if constexpr (std::is_enum_v<T>) {
-        return "humanoid::FootAlone{" + std::to_string(static_cast<int>(value)) + '}';
-    } else if constexpr (std::is_arithmetic_v<T>) {
-        return double_text(value);
-    } else {
-        std::vector<std::string> members;
-        each_number(value, [&](std::string_view name, const auto& member) {
-            const std::string text = state_text(member);
-            members.push_back(name == "left" ? "{{" + text : name == "right" ? text + "}}" : text);
-        });
-        return '{' + joined(members) + '}';
-    }
-}
 
 class HumanoidProgram {
   public:
@@ -244,7 +218,8 @@ class HumanoidProgram {
                                           {".max_turn", options.max_turn}})
             members.push_back(name + (" = " + double_text(value)));
         list("const humanoid::FeetOptions feet_options{", members, "};");
-        say("humanoid::FeetState feet_state" + state_text(feet_state()) + ';');
+        const humanoid::FeetState state = feet_state();
+        say("humanoid::FeetState feet_state{" + joined(initialisers(state, "humanoid::FootAlone::")) + "};");
     }
 
     void limits() {
@@ -342,22 +317,19 @@ class HumanoidProgram {
     void body_state(const humanoid::BodyState& state) {
         if (state == humanoid::BodyState()) return;
         say("// Where the last solve ended.");
-        const auto points = [&](const char* name, const auto& all) {
-            std::vector<std::string> texts;
-            for (const auto& each : all) texts.push_back("glm::dvec3" + braced(each));
-            list(std::string("body_state.") + name + " = {", texts, "};");
-        };
-        std::vector<std::string> turns, weights;
-        for (const glm::dquat& each : state.turns) turns.push_back("glm::dquat" + braced(each));
-        for (const double each : state.weights) weights.push_back(double_text(each));
-        list("body_state.turns = {", turns, "};");
-        say("body_state.shift = " + braced(state.shift) + ';');
-        points("clip", state.clip);
-        say("body_state.deepest = " + double_text(state.deepest) + ';');
-        points("left", state.left);
-        list("body_state.weights = {", weights, "};");
-        if (state.outside != 0.0) say("body_state.outside = " + double_text(state.outside) + ';');
-        say("body_state.pace = " + double_text(state.pace) + ';');
+        for (const Field& field : fields<humanoid::BodyState>()) {
+            const std::string set = std::string("body_state.") + field.name + " = ";
+            if (field.count == nullptr) {
+                say(set + initialisers({{&field, 1}, &state}).front() + ';');
+                continue;
+            }
+            const char* const type = field.type == FieldType::Point      ? "glm::dvec3"
+                                     : field.type == FieldType::Rotation ? "glm::dquat"
+                                                                         : "";
+            std::vector<std::string> elements = element_texts(field, &state);
+            for (std::string& each : elements) each = type + each;
+            list(set + '{', elements, "};");
+        }
     }
 
     void gaze() {
@@ -374,7 +346,7 @@ class HumanoidProgram {
             members.push_back(".neck_part = " + double_text(options.neck_part));
         members.push_back(".view = " + double_text(options.view));
         list("const humanoid::LookAtOptions look_options{", members, "};");
-        say("humanoid::LookAtState look_state" + state_text(part_.ik_state.look) + ';');
+        say("humanoid::LookAtState look_state{" + joined(initialisers(part_.ik_state.look)) + "};");
     }
 
     void hands() {
@@ -393,7 +365,7 @@ class HumanoidProgram {
         }
         say("const humanoid::HandsOptions hands_options{.view = " +
             double_text(glm::radians(part_.ik.hand_ik.view_deg)) + "};");
-        say("humanoid::HandsState hands_state" + state_text(part_.ik_state.hands) + ';');
+        say("humanoid::HandsState hands_state{" + joined(initialisers(part_.ik_state.hands)) + "};");
     }
 
     void curves() {
@@ -448,10 +420,7 @@ class HumanoidProgram {
             say("humanoid::SpringChainState " + name + "_state;");
             if (i >= part_.ik_state.springs.size()) continue;
             for (const humanoid::SpringMass& mass : part_.ik_state.springs[i].masses)
-                list(name + "_state.masses.push_back({",
-                     {braced(mass.position), braced(mass.velocity), braced(mass.target),
-                      flag_text(mass.started), flag_text(mass.has_velocity)},
-                     "});");
+                list(name + "_state.masses.push_back({", initialisers(mass), "});");
         }
     }
 

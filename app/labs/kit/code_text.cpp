@@ -95,6 +95,7 @@ std::string field_text(const Field& field, const FieldValue& value, const std::s
             return '{' + digits(value[3]) + ", " + digits(value[0]) + ", " + digits(value[1]) + ", " +
                    digits(value[2]) + '}';
         case FieldType::Choice:
+        case FieldType::Struct:
             break;
     }
     return scope + pascal_text(field.choices[static_cast<std::size_t>(value[0])]);
@@ -108,6 +109,35 @@ std::vector<std::string> member_texts(FieldsOf of, const std::string& scope) {
         const FieldValue value = field.get(of.object);
         if (!std::isnan(value[0]))
             texts.push_back('.' + std::string(field.name) + " = " + field_text(field, value, scope));
+    }
+    return texts;
+}
+
+namespace {
+
+/// `at`: what the field's accessors take; of a struct, its address.
+std::string text_at(const Field& field, const void* at, const std::string& scope) {
+    return field.type == FieldType::Struct ? '{' + joined(initialisers({field.table(), at}, scope)) + '}'
+                                           : field_text(field, field.get(at), scope);
+}
+
+}  // namespace
+
+std::vector<std::string> element_texts(const Field& field, const void* object, const std::string& scope) {
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < field.count(object); ++i)
+        texts.push_back(text_at(field, field.address(object, i), scope));
+    return texts;
+}
+
+std::vector<std::string> initialisers(FieldsOf of, const std::string& scope) {
+    std::vector<std::string> texts;
+    for (const Field& field : of.table) {
+        if (field.count != nullptr)
+            texts.push_back("{{" + joined(element_texts(field, of.object, scope)) + "}}");
+        else
+            texts.push_back(text_at(
+                field, field.type == FieldType::Struct ? field.address(of.object, 0) : of.object, scope));
     }
     return texts;
 }

@@ -161,9 +161,7 @@ ik::State load_ik_state(const JsonPlace& place, std::size_t bones, const std::ve
         for (std::size_t i = 0; i < bones; ++i) state.rotations[i] = list->element(i).rotation();
     }
     if (const auto limits = place.optional("limits")) {
-        for (const Field& field : fields<ik::LimitMemory>())
-            (*limits)[field.name];  // throws if one is missing
-        load_fields(*limits, state.limits);
+        load_all_fields(*limits, state.limits);
         state.limits.valid = true;
     }
     if (const auto side = place.optional("side")) state.side = side->choice(bend_sides);

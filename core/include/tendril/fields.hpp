@@ -1,9 +1,9 @@
-// The fields of a struct of settings, described once: name, unit and range. Checks, files, commands, panels
-// and exported code read the same rows. So can an engine's editor, which can then show settings that it does
-// not know:
+// The fields of a struct of settings or of a state, described once: name, unit and range, and the structs and
+// lists in it. Checks, files, commands, panels and exported code read the same rows. So can an engine's
+// editor, which can then show settings that it does not know:
 //
 //     for (const Field& field : fields<rope::Settings>())
-//         if (field.type == FieldType::Number) slider(field.name, field.slider(), field.unit);
+//         if (field.type == FieldType::Number && !field.count) slider(field.name, field.slider());
 //
 // A table is a constant array: reading a row costs nothing and allocates nothing.
 #pragma once
@@ -14,11 +14,13 @@
 #include <glm/ext/quaternion_double.hpp>
 #include <glm/ext/quaternion_float.hpp>
 #include <glm/ext/vector_double2.hpp>
+#include <glm/ext/vector_double3.hpp>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "tendril/result.hpp"
 #include "tendril/vec3.hpp"
@@ -32,7 +34,8 @@ enum class FieldType : std::uint8_t {
     Pair,      ///< two numbers, such as {low, high}
     Point,     ///< three numbers
     Rotation,  ///< a quaternion: x, y, z, w
-    Choice     ///< an index into `choices`
+    Choice,    ///< an index into `choices`
+    Struct     ///< has a table of its own
 };
 
 /// A field of any type, as up to four numbers.
@@ -43,14 +46,19 @@ inline glm::quat rotation_of(const FieldValue& value) noexcept {
                      static_cast<float>(value[2]));
 }
 
-/// The range of a number, or of each number of a pair or a point; both ends included.
+/// The range of a number, of each number of a pair or a point, or of a rotation's length; both ends included.
 struct FieldRange {
     double low = 0.0, high = 0.0;
 };
+/// Of a quaternion that counts as a rotation.
+inline constexpr FieldRange unit_length{0.999, 1.001};
 
 enum class FieldScale : std::uint8_t { Linear, Logarithmic };
 
-/// One field of a struct. `get` and `set` take the struct; `set` checks nothing.
+/// One field of a struct. `get`, `set` and `empty` take the struct; `set` checks nothing.
+///
+/// A list of values or structs has a `count`. Its type, range and unit are those of an element, and `get`,
+/// `set` and `empty` take the address of one.
 struct Field {
     const char* name;       ///< as in files and commands: "gravity_scale"
     const char* unit = "";  ///< "m/s^2", "rad"; empty for none
@@ -58,6 +66,7 @@ struct Field {
     bool exact = false;     ///< stored in double precision; otherwise float
     bool optional = false;  ///< may be empty, which reads as NaN
     FieldRange range{};     ///< of a flag 0 to 1, of a choice 0 to the last index
+    bool over_low = false;  ///< range.low itself is out of range
     std::span<const char* const> choices{};
     FieldRange usual{};                     ///< for sliders and random tests; empty: `range`
     FieldScale scale = FieldScale::Linear;  ///< how sliders map it
@@ -65,6 +74,23 @@ struct Field {
     void (*set)(void* object, const FieldValue& value) noexcept = nullptr;
     /// Of an optional field; null for others.
     bool (*empty)(const void* object) noexcept = nullptr;
+    /// Whether the value is in the range of `row`, or empty.
+    bool (*fits)(const Field& row, const void* object) noexcept = nullptr;
+
+    /// Of a struct: its table.
+    std::span<const Field> (*table)() noexcept = nullptr;
+    /// The address of a struct, null while an optional one is empty, or of a list's element.
+    const void* (*address)(const void* object, std::size_t index) noexcept = nullptr;
+    std::size_t (*count)(const void* object) noexcept = nullptr;
+    /// Of a list, or 0 or 1 of an optional struct. Null if the number is fixed or the list is not the
+    /// struct's own.
+    void (*resize)(void* object, std::size_t count) noexcept = nullptr;
+    std::size_t most = static_cast<std::size_t>(-1);  ///< elements of a list
+    std::span<const char* const> names{};             ///< of the elements: "left", "right"
+    bool in_line = false;  ///< in files the named elements are members of the struct itself
+
+    /// Bit i: method i honours it, without and within joint limits. See honours() in ik/method.hpp.
+    std::uint16_t without_limits = 0xffff, within_limits = 0xffff;
 
     /// How many numbers of a FieldValue are used.
     int size() const noexcept {
@@ -86,6 +112,36 @@ struct Field {
         set(object, changed);
     }
     FieldRange slider() const noexcept { return usual.low < usual.high ? usual : range; }
+    /// False for NaN.
+    constexpr bool in_range(double value) const noexcept {
+        return (over_low ? value > range.low : value >= range.low) && value <= range.high;
+    }
+    void* address_in(void* object, std::size_t index = 0) const noexcept {
+        return const_cast<void*>(address(object, index));
+    }
+
+    // Changes of a row of a table: field<&Options::damping>("damping", {0.0, 10.0}).over().
+    constexpr Field over() const noexcept {
+        Field row = *this;
+        row.over_low = true;
+        return row;
+    }
+    constexpr Field by(std::uint16_t without, std::uint16_t within) const noexcept {
+        Field row = *this;
+        row.without_limits = without, row.within_limits = within;
+        return row;
+    }
+    constexpr Field up_to(std::size_t elements) const noexcept {
+        Field row = *this;
+        row.most = elements;
+        return row;
+    }
+    constexpr Field with_names(std::span<const char* const> of_elements,
+                               bool members = false) const noexcept {
+        Field row = *this;
+        row.names = of_elements, row.in_line = members;
+        return row;
+    }
 };
 
 /// The table of a struct, in the order of its members; declared next to the struct.
@@ -95,13 +151,15 @@ std::span<const Field> fields() noexcept;
 /// Null for an unknown name.
 const Field* find_field(std::span<const Field> table, std::string_view name) noexcept;
 
-/// Refuses the first field of `object` that is out of its range. The message names `operation`, the field,
-/// its range and the value. `object` is a struct of the table's type.
-Result check_fields(const char* operation, std::span<const Field> table, const void* object) noexcept;
+/// Refuses the first number of `object`, its structs and its lists that is out of its range. The message
+/// names `operation`, the field, its range and the value: "Body::solve: options.feet.left.lift must be ...",
+/// where `place` is "options". `object` is a struct of the table's type.
+Result check_fields(const char* operation, std::span<const Field> table, const void* object,
+                    const char* place = "") noexcept;
 
 template <class Struct>
-Result check_fields(const char* operation, const Struct& object) noexcept {
-    return check_fields(operation, fields<Struct>(), &object);
+Result check_fields(const char* operation, const Struct& object, const char* place = "") noexcept {
+    return check_fields(operation, fields<Struct>(), &object, place);
 }
 
 namespace detail {
@@ -130,13 +188,22 @@ struct FieldPair<std::array<Value, 2>> : std::true_type {};
 template <>
 struct FieldPair<glm::dvec2> : std::true_type {};
 
+/// Whether a list's element is a struct with a table, and not a value.
+template <class Value>
+inline constexpr bool has_table =
+    std::is_class_v<Value> && !FieldOptional<Value>::value && !FieldPair<Value>::value && !requires(Value v) {
+    v.x, v.y, v.z;
+};
+template <class Value>
+inline constexpr bool is_rotation = std::is_same_v<Value, glm::quat> || std::is_same_v<Value, glm::dquat>;
+
 template <class Value>
 FieldValue to_field(const Value& value) noexcept {
     if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>)
         return {static_cast<double>(value)};
     else if constexpr (FieldPair<Value>::value)
         return {static_cast<double>(value[0]), static_cast<double>(value[1])};
-    else if constexpr (std::is_same_v<Value, glm::quat>)
+    else if constexpr (is_rotation<Value>)
         return {value.x, value.y, value.z, value.w};
     else
         return {value.x, value.y, value.z};
@@ -155,53 +222,142 @@ Value from_field(const FieldValue& given) noexcept {
                 static_cast<typename Value::value_type>(given[1])};
     else if constexpr (std::is_same_v<Value, glm::quat>)
         return rotation_of(given);
+    else if constexpr (std::is_same_v<Value, glm::dquat>)
+        return {given[3], given[0], given[1], given[2]};
     else
         return Value(given[0], given[1], given[2]);
 }
 
-template <auto member>
-FieldValue get_field(const void* object) noexcept {
-    using Of = FieldMember<decltype(member)>;
-    const auto& value = static_cast<const typename Of::struct_type*>(object)->*member;
-    if constexpr (FieldOptional<typename Of::value_type>::value)
+template <class Value>
+FieldValue get_value(const void* at) noexcept {
+    const Value& value = *static_cast<const Value*>(at);
+    if constexpr (FieldOptional<Value>::value)
         return value ? to_field(*value) : FieldValue{std::numeric_limits<double>::quiet_NaN()};
     else
         return to_field(value);
 }
 
-template <auto member>
-void set_field(void* object, const FieldValue& given) noexcept {
-    using Of = FieldMember<decltype(member)>;
-    using Value = typename Of::value_type;
-    auto& value = static_cast<typename Of::struct_type*>(object)->*member;
+template <class Value>
+void set_value(void* at, const FieldValue& given) noexcept {
+    Value& value = *static_cast<Value*>(at);
     if constexpr (FieldOptional<Value>::value)
         value = given[0] == given[0] ? Value(from_field<typename Value::value_type>(given)) : std::nullopt;
     else
         value = from_field<Value>(given);
 }
 
-template <auto member>
-bool is_empty_field(const void* object) noexcept {
-    return !(static_cast<const typename FieldMember<decltype(member)>::struct_type*>(object)->*member);
+template <class Value>
+bool is_empty(const void* at) noexcept {
+    return !*static_cast<const Value*>(at);
+}
+
+template <class Value>
+bool fits(const Field& row, const Value& value) noexcept {
+    if constexpr (FieldOptional<Value>::value) {
+        return !value || fits(row, *value);
+    } else if constexpr (std::is_same_v<Value, bool>) {
+        return true;
+    } else if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>) {
+        return row.in_range(static_cast<double>(value));
+    } else if constexpr (is_rotation<Value>) {
+        const FieldValue q = to_field(value);
+        const double squared = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+        return squared >= row.range.low * row.range.low && squared <= row.range.high * row.range.high;
+    } else {
+        const bool first = row.in_range(static_cast<double>(value[0]));
+        if constexpr (FieldPair<Value>::value)
+            return first && row.in_range(static_cast<double>(value[1]));
+        else
+            return first && row.in_range(static_cast<double>(value[1])) &&
+                   row.in_range(static_cast<double>(value[2]));
+    }
+}
+template <class Value>
+bool fits_value(const Field& row, const void* at) noexcept {
+    return fits(row, *static_cast<const Value*>(at));
 }
 
 template <auto member>
-constexpr auto empty_check() noexcept -> bool (*)(const void*) noexcept {
-    if constexpr (FieldOptional<typename FieldMember<decltype(member)>::value_type>::value)
-        return is_empty_field<member>;
+using StructOf = typename FieldMember<decltype(member)>::struct_type;
+template <auto member>
+using ValueOf = typename FieldMember<decltype(member)>::value_type;
+
+template <auto member>
+const ValueOf<member>& member_of(const void* object) noexcept {
+    return static_cast<const StructOf<member>*>(object)->*member;
+}
+template <auto member>
+ValueOf<member>& member_of(void* object) noexcept {
+    return static_cast<StructOf<member>*>(object)->*member;
+}
+template <auto member>
+FieldValue get_field(const void* object) noexcept {
+    return get_value<ValueOf<member>>(&member_of<member>(object));
+}
+template <auto member>
+void set_field(void* object, const FieldValue& given) noexcept {
+    set_value<ValueOf<member>>(&member_of<member>(object), given);
+}
+template <auto member>
+bool is_empty_field(const void* object) noexcept {
+    return !member_of<member>(object);
+}
+template <auto member>
+bool fits_field(const Field& row, const void* object) noexcept {
+    return fits(row, member_of<member>(object));
+}
+
+template <auto member>
+const void* struct_address(const void* object, std::size_t) noexcept {
+    const auto& value = member_of<member>(object);
+    if constexpr (FieldOptional<ValueOf<member>>::value)
+        return value ? &*value : nullptr;
     else
-        return nullptr;
+        return &value;
+}
+template <auto member>
+void resize_struct(void* object, std::size_t count) noexcept {
+    auto& value = member_of<member>(object);
+    if (count == 0)
+        value.reset();
+    else if (!value)
+        value.emplace();
+}
+template <auto member>
+const void* element_address(const void* object, std::size_t index) noexcept {
+    return &member_of<member>(object)[index];
+}
+template <auto member>
+std::size_t count_elements(const void* object) noexcept {
+    return member_of<member>(object).size();
+}
+template <auto member>
+void resize_list(void* object, std::size_t count) noexcept {
+    member_of<member>(object).resize(count);
 }
 
 template <class Value>
 constexpr FieldType field_type() noexcept {
-    static_assert(!std::is_same_v<Value, glm::dquat>, "rotations are floats in tables");
     if (std::is_same_v<Value, bool>) return FieldType::Flag;
     if (std::is_enum_v<Value>) return FieldType::Choice;
     if (std::is_integral_v<Value>) return FieldType::Integer;
     if (FieldPair<Value>::value) return FieldType::Pair;
-    if (std::is_same_v<Value, glm::quat>) return FieldType::Rotation;
+    if (is_rotation<Value>) return FieldType::Rotation;
     return std::is_arithmetic_v<Value> ? FieldType::Number : FieldType::Point;
+}
+
+/// A row for values of this type, without accessors.
+template <class Member>
+constexpr Field value_row(const char* name, FieldRange range, const char* unit) noexcept {
+    using Value = typename FieldOptional<Member>::type;
+    return {.name = name,
+            .unit = unit,
+            .type = field_type<Value>(),
+            .exact = std::is_same_v<Value, double> || std::is_same_v<Value, glm::dvec3> ||
+                     std::is_same_v<Value, glm::dvec2> || std::is_same_v<Value, std::array<double, 2>> ||
+                     std::is_same_v<Value, glm::dquat>,
+            .optional = FieldOptional<Member>::value,
+            .range = range};
 }
 
 }  // namespace detail
@@ -209,18 +365,12 @@ constexpr FieldType field_type() noexcept {
 /// A row of a table: field<&Settings::damping>("damping", {0.0, max_rate}, "1/s").
 template <auto member>
 constexpr Field field(const char* name, FieldRange range = {0.0, 1.0}, const char* unit = "") noexcept {
-    using Member = typename detail::FieldMember<decltype(member)>::value_type;
-    using Value = typename detail::FieldOptional<Member>::type;
-    return {.name = name,
-            .unit = unit,
-            .type = detail::field_type<Value>(),
-            .exact = std::is_same_v<Value, double> || std::is_same_v<Value, glm::dvec3> ||
-                     std::is_same_v<Value, glm::dvec2> || std::is_same_v<Value, std::array<double, 2>>,
-            .optional = detail::FieldOptional<Member>::value,
-            .range = range,
-            .get = detail::get_field<member>,
-            .set = detail::set_field<member>,
-            .empty = detail::empty_check<member>()};
+    Field row = detail::value_row<detail::ValueOf<member>>(name, range, unit);
+    row.get = detail::get_field<member>, row.set = detail::set_field<member>;
+    row.fits = detail::fits_field<member>;
+    if constexpr (detail::FieldOptional<detail::ValueOf<member>>::value)
+        row.empty = detail::is_empty_field<member>;
+    return row;
 }
 
 /// A row for an enumeration whose enumerators count from 0; `choices` are their names, in order.
@@ -229,6 +379,47 @@ constexpr Field field(const char* name, std::span<const char* const> choices) no
     Field row = field<member>(name, {0.0, static_cast<double>(choices.size()) - 1.0});
     row.choices = choices;
     return row;
+}
+
+/// A row for a struct with a table, or an optional one.
+template <auto member>
+constexpr Field nested(const char* name) noexcept {
+    using Member = detail::ValueOf<member>;
+    Field row{.name = name, .type = FieldType::Struct, .optional = detail::FieldOptional<Member>::value};
+    row.table = fields<typename detail::FieldOptional<Member>::type>;
+    row.address = detail::struct_address<member>;
+    if constexpr (detail::FieldOptional<Member>::value) row.resize = detail::resize_struct<member>;
+    return row;
+}
+
+/// A row for an array of structs with a table, or of values. For a vector or a span: .up_to() so many.
+template <auto member>
+constexpr Field list(const char* name, FieldRange range = {0.0, 1.0}, const char* unit = "") noexcept {
+    using List = detail::ValueOf<member>;
+    using Element = std::remove_cvref_t<decltype(std::declval<List&>()[0])>;
+    Field row{.name = name, .type = FieldType::Struct};
+    if constexpr (detail::has_table<Element>) {
+        row.table = fields<Element>;
+    } else {
+        row = detail::value_row<Element>(name, range, unit);
+        row.get = detail::get_value<Element>, row.set = detail::set_value<Element>;
+        row.fits = detail::fits_value<Element>;
+        if constexpr (detail::FieldOptional<Element>::value) row.empty = detail::is_empty<Element>;
+    }
+    row.address = detail::element_address<member>;
+    row.count = detail::count_elements<member>;
+    if constexpr (requires(List & all) { all.resize(1); }) row.resize = detail::resize_list<member>;
+    if constexpr (requires { std::tuple_size<List>::value; }) row.most = std::tuple_size<List>::value;
+    return row;
+}
+
+/// The row of a member that is a value: field_of<&Settings::damping>().
+template <auto member>
+const Field& field_of() noexcept {
+    const std::span<const Field> table = fields<detail::StructOf<member>>();
+    std::size_t at = 0;
+    while (table[at].get != detail::get_field<member>) ++at;
+    return table[at];
 }
 
 }  // namespace tendril

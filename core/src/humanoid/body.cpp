@@ -76,22 +76,7 @@ Result check_state(const BodyState& state, std::size_t links) noexcept {
     if (state.turns.empty()) return {};
     if (state.turns.size() != links)
         return tendril::detail::refused_count("Body::solve", "state.turns", state.turns.size(), links);
-    for (std::size_t i = 0; i < links; ++i) {
-        const double size = dot(state.turns[i], state.turns[i]);
-        if (!(std::abs(size - 1.0) < 1e-3))
-            return refused("Body::solve", Argument("state.turns", i), "a unit quaternion",
-                           tendril::detail::Shown("one of length ", std::sqrt(size)));
-    }
-    for (const glm::dvec3& left : state.left)
-        if (const Result bad = check_vector("Body::solve", "state.left", left); !bad) return bad;
-    for (const glm::dvec3& clip : state.clip)
-        if (const Result bad = check_vector("Body::solve", "state.clip", clip); !bad) return bad;
-    if (const Result bad = check_number("Body::solve", "state.deepest", state.deepest); !bad) return bad;
-    if (const Result bad = check_number("Body::solve", "state.outside", state.outside); !bad) return bad;
-    if (const Result bad = check_number("Body::solve", "state.pace", state.pace); !bad) return bad;
-    for (const double weight : state.weights)
-        if (const Result bad = check_number("Body::solve", "state.weights", weight); !bad) return bad;
-    return check_vector("Body::solve", "state.shift", state.shift);
+    return check_fields("Body::solve", state, "state");
 }
 
 }  // namespace
@@ -221,21 +206,7 @@ Expected<BodyReport> Body::solve(std::span<rig::Transform> pose, std::span<const
                        "one that is not");
     if (const Result bad = check_targets(targets); !bad) return bad;
     if (const Result bad = check_state(state, work_->links.size()); !bad) return bad;
-    if (options.max_iterations < 1 || options.max_iterations > 1000)
-        return refused("Body::solve", "options.max_iterations", "from 1 to 1000", options.max_iterations);
-    if (!(options.tolerance > 0.0 && options.tolerance <= 1.0))
-        return refused("Body::solve", "options.tolerance", "above 0 and at most 1", options.tolerance);
-    if (!(options.twist_share >= 0.0 && options.twist_share <= 1.0))
-        return refused("Body::solve", "options.twist_share", "from 0 to 1", options.twist_share);
-    if (!(options.settle >= 0.0 && options.settle <= 1.0))
-        return refused("Body::solve", "options.settle", "from 0 to 1 m", options.settle);
-    if (!(options.reserve >= 0.0 && options.reserve <= 0.9))
-        return refused("Body::solve", "options.reserve", "from 0 to 0.9", options.reserve);
-    for (const FootShift& foot : options.feet) {
-        if (const Result bad = check_vector("Body::solve", "options.feet.stand", foot.stand); !bad)
-            return bad;
-        if (const Result bad = check_number("Body::solve", "options.feet.lift", foot.lift); !bad) return bad;
-    }
+    if (const Result bad = check_fields("Body::solve", options, "options"); !bad) return bad;
     const bool moves_feet = options.feet_stay && options.feet != BodyOptions{}.feet;
     const bool touches = options.self_collision && !work_->pairs.empty();
     if (!touches && !moves_feet && std::none_of(targets.begin(), targets.end(), [](const BodyTarget& each) {

@@ -4,7 +4,6 @@
 
 #include "humanoid/feet.hpp"
 #include "humanoid/input.hpp"
-#include "humanoid/option_ranges.hpp"
 #include "rig/checks.hpp"
 
 namespace tendril::humanoid {
@@ -14,28 +13,6 @@ using tendril::detail::refused;
 
 constexpr Bone upper_legs[]{Bone::LeftUpperLeg, Bone::RightUpperLeg},
     lower_legs[]{Bone::LeftLowerLeg, Bone::RightLowerLeg};
-
-constexpr double small = 1e-6;
-constexpr detail::OptionRange<FeetOptions> ranges[]{
-    {"weight", &FeetOptions::weight, 0.0, 1.0, "from 0 to 1"},
-    {"enter_speed", &FeetOptions::enter_speed, 0.0, 1e3, "from 0 to 1e3 m/s"},
-    {"leave_speed", &FeetOptions::leave_speed, 0.0, 1e3, "from 0 to 1e3 m/s"},
-    {"low", &FeetOptions::low, 0.0, 1e3, "from 0 to 1e3 m"},
-    {"break_distance", &FeetOptions::break_distance, 0.0, 1e3, "from 0 to 1e3 m"},
-    {"half_life", &FeetOptions::half_life, small, 10.0, "from 1e-6 to 10 s"},
-    {"ray_start", &FeetOptions::ray_start, 0.0, 1e3, "from 0 to 1e3 m"},
-    {"max_turn", &FeetOptions::max_turn, 0.0, 1.5, "from 0 to 1.5 radians"},
-    {"max_slope", &FeetOptions::max_slope, 0.0, 1.5, "from 0 to 1.5 radians"},
-    {"edge", &FeetOptions::edge, 0.0, 0.1, "from 0 to 0.1 m"},
-    {"max_step", &FeetOptions::max_step, 0.0, 1e3, "from 0 to 1e3 m"},
-    {"root_radius", &FeetOptions::root_radius, 0.0, 1e3, "from 0 to 1e3 m"},
-    {"root_half_life", &FeetOptions::root_half_life, small, 10.0, "from 1e-6 to 10 s"},
-    {"pelvis_drop", &FeetOptions::pelvis_drop, 0.0, 1e3, "from 0 to 1e3 m"},
-    {"pelvis_half_life", &FeetOptions::pelvis_half_life, small, 10.0, "from 1e-6 to 10 s"},
-    {"straightest", &FeetOptions::straightest, 0.5, 1.0, "from 0.5 to 1"},
-    {"lift_half_life", &FeetOptions::lift_half_life, small, 10.0, "from 1e-6 to 10 s"},
-    {"max_speed", &FeetOptions::max_speed, small, 1e3, "from 1e-6 to 1e3 m/s"},
-};
 
 /// Points spread evenly over a disc (H. Vogel, "A better way to construct the sunflower head", Mathematical
 /// Biosciences 44, 1979): no two of them cross an edge at once, whichever way the character walks.
@@ -68,46 +45,11 @@ glm::dvec3 ball_of(const Sole& sole, std::span<const Placement> rest) noexcept {
 
 Result check(const FeetOptions& options) noexcept {
     constexpr const char* operation = "feet";
-    if (const Result bad = detail::check_ranges<FeetOptions>(operation, options, ranges); !bad) return bad;
+    if (const Result bad = check_fields(operation, options); !bad) return bad;
     if (options.leave_speed < options.enter_speed)
         return refused(operation, "leave_speed", "at least enter_speed", options.leave_speed);
-    if (options.floor)
-        if (const Result bad = rig::detail::check_number(operation, "floor", *options.floor); !bad)
-            return bad;
-    if (const Result bad = rig::detail::check_vector(operation, "root_velocity", options.root_velocity); !bad)
-        return bad;
     const Expected<rig::Transform> root = rig::checked(options.root, operation, "root");
     return root ? Result() : root.error();
-}
-
-Result check(const FeetState& state) noexcept {
-    constexpr const char* operation = "feet";
-    const auto check_all = [&](const tendril::detail::Argument& argument,
-                               std::initializer_list<double> numbers) {
-        for (const double number : numbers)
-            if (const Result bad = rig::detail::check_number(operation, argument, number); !bad) return bad;
-        return Result();
-    };
-    if (const Result bad =
-            check_all("the root", {state.hips.x, state.hips.y, state.hips.z, state.base, state.drop,
-                                   state.root.value, state.root.velocity, state.root.previous_target,
-                                   state.pelvis.value, state.pelvis.velocity, state.pelvis.previous_target});
-        !bad)
-        return bad;
-    for (std::size_t i = 0; i < state.feet.size(); ++i) {
-        const FootState& f = state.feet[i];
-        if (const Result bad = check_all(
-                {"feet", i}, {f.heel.x, f.heel.y,     f.heel.z,     f.toe.x,         f.toe.y,
-                              f.toe.z,  f.velocity.x, f.velocity.y, f.velocity.z,    f.lock_x,
-                              f.lock_z, f.shift_x,    f.shift_z,    f.offset_x,      f.offset_z,
-                              f.lift,   f.goal,       f.ease.value, f.ease.velocity, f.ease.previous_target,
-                              f.knee.x, f.knee.y,     f.knee.z,     f.planting});
-            !bad)
-            return bad;
-        if (!(std::abs(rig::detail::dot(f.turn, f.turn) - 1.0) <= 1e-6))
-            return refused(operation, {"feet", i, "turn"}, "a unit quaternion", "one of another length");
-    }
-    return {};
 }
 
 const char* name(FootAlone why) noexcept {

@@ -67,13 +67,7 @@ bool begin(Footstep& step, const glm::dvec3& to) noexcept {
 }  // namespace
 
 Result check(const FootstepsState& state) noexcept {
-    for (const Footstep& each : state.feet) {
-        if (const Result bad = check_vector("footsteps", "feet.from", each.from); !bad) return bad;
-        if (const Result bad = check_vector("footsteps", "feet.to", each.to); !bad) return bad;
-        if (!(each.part >= 0.0 && each.part <= 1.0))
-            return tendril::detail::refused("footsteps", "feet.part", "from 0 to 1", each.part);
-    }
-    return {};
+    return check_fields("footsteps", state);
 }
 
 std::array<FootShift, 2> advance_steps(FootstepsState& state, const Soles& soles, double dt,

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "humanoid/input.hpp"
-#include "humanoid/option_ranges.hpp"
 #include "humanoid/view.hpp"
 #include "rig/checks.hpp"
 #include "tendril/humanoid/twist.hpp"
@@ -120,11 +119,7 @@ struct Hands::Plan {
 
 Result check(const HandsOptions& options) noexcept {
     constexpr const char* operation = "hands";
-    constexpr detail::OptionRange<HandsOptions> ranges[]{
-        {"view", &HandsOptions::view, 0.0, 3.15, "from 0 to 3.15 radians"},
-        {"half_life", &HandsOptions::half_life, 1e-6, 10.0, "from 1e-6 to 10 s"},
-        {"shoulder", &HandsOptions::shoulder, 0.0, 1.5, "from 0 to 1.5 radians"}};
-    if (const Result bad = detail::check_ranges<HandsOptions>(operation, options, ranges); !bad) return bad;
+    if (const Result bad = check_fields(operation, options); !bad) return bad;
     const Expected<rig::Transform> root = rig::checked(options.root, operation, "root");
     return root ? Result() : root.error();
 }

@@ -60,18 +60,6 @@ Result check_held_object(const HeldObject& object) noexcept {
     return {};
 }
 
-Result check_hold_state(const HoldState& state) noexcept {
-    for (const auto& each : state.grips)
-        if (const Result bad = check_vector("hold", "state.grips", each.value_or(glm::dvec3(0.0))); !bad)
-            return bad;
-    for (const auto& [argument, joints] : {std::pair("state.shoulders", &state.shoulders),
-                                           {"state.elbows", &state.elbows},
-                                           {"state.hands", &state.hands}})
-        for (const glm::dvec3& each : *joints)
-            if (const Result bad = check_vector("hold", argument, each); !bad) return bad;
-    return {};
-}
-
 }  // namespace
 
 bool HoldReport::closed() const noexcept {
@@ -84,11 +72,8 @@ Expected<HoldReport> hold(Body& body, std::span<rig::Transform> pose, std::span<
                           const HeldObject& object, BodyState& body_state, HoldState& state,
                           const HoldOptions& options) {
     if (const Result bad = check_held_object(object); !bad) return bad;
-    if (!(options.turn_length >= 0.05 && options.turn_length <= 1e3))
-        return refused("hold", "options.turn_length", "from 0.05 to 1e3 m", options.turn_length);
-    if (options.max_iterations < 1 || options.max_iterations > 1000)
-        return refused("hold", "options.max_iterations", "from 1 to 1000", options.max_iterations);
-    if (const Result bad = check_hold_state(state); !bad) return bad;
+    if (const Result bad = check_fields("hold", options, "options"); !bad) return bad;
+    if (const Result bad = check_fields("hold", state, "state"); !bad) return bad;
     std::array<BodyTarget, effector_count> all{};
     std::size_t count = 0;
     for (std::size_t i = 0; i < targets.size(); ++i) {

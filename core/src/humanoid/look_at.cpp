@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "humanoid/input.hpp"
-#include "humanoid/option_ranges.hpp"
 #include "humanoid/view.hpp"
 #include "rig/checks.hpp"
 #include "tendril/rig/aim.hpp"
@@ -87,20 +86,9 @@ void LookAt::Plan::turn(detail::Pose pose, const Placement& root, const glm::dve
 
 Result check(const LookAtOptions& options) noexcept {
     constexpr const char* operation = "look_at";
-    constexpr detail::OptionRange<LookAtOptions> ranges[]{
-        {"weight", &LookAtOptions::weight, 0.0, 1.0, "from 0 to 1"},
-        {"spine_part", &LookAtOptions::spine_part, 0.0, 1.0, "from 0 to 1"},
-        {"neck_part", &LookAtOptions::neck_part, 0.0, 1.0, "from 0 to 1"},
-        {"spine_limit", &LookAtOptions::spine_limit, 0.0, 3.15, "from 0 to 3.15 radians"},
-        {"neck_limit", &LookAtOptions::neck_limit, 0.0, 3.15, "from 0 to 3.15 radians"},
-        {"head_limit", &LookAtOptions::head_limit, 0.0, 3.15, "from 0 to 3.15 radians"},
-        {"view", &LookAtOptions::view, 0.0, 3.15, "from 0 to 3.15 radians"},
-        {"half_life", &LookAtOptions::half_life, 1e-6, 10.0, "from 1e-6 to 10 s"},
-        {"max_speed", &LookAtOptions::max_speed, 1e-6, 1e3, "from 1e-6 to 1e3 radians/s"}};
-    if (const Result bad = detail::check_ranges<LookAtOptions>(operation, options, ranges); !bad) return bad;
+    if (const Result bad = check_fields(operation, options); !bad) return bad;
     if (options.spine_part + options.neck_part > 1.0)
         return refused(operation, "neck_part", "at most 1 together with spine_part", options.neck_part);
-    if (const Result bad = rig::detail::check_vector(operation, "target", options.target); !bad) return bad;
     const Expected<rig::Transform> root = rig::checked(options.root, operation, "root");
     return root ? Result() : root.error();
 }

@@ -7,7 +7,6 @@
 #include "humanoid/direction.hpp"
 #include "humanoid/input.hpp"
 #include "humanoid/limb.hpp"
-#include "humanoid/option_ranges.hpp"
 #include "rig/checks.hpp"
 #include "signal/stepped.hpp"
 
@@ -163,13 +162,7 @@ struct SpringChain::Plan {
 
 Result check(const SpringOptions& options) noexcept {
     constexpr const char* operation = "SpringOptions";
-    constexpr detail::OptionRange<SpringOptions> ranges[]{
-        {"strength", &SpringOptions::strength, 0.01, 100.0, "from 0.01 to 100 Hz"},
-        {"critical_damping", &SpringOptions::critical_damping, 0.0, 10.0, "from 0 to 10"},
-        {"weight", &SpringOptions::weight, 0.0, 1.0, "from 0 to 1"},
-        {"max_angle", &SpringOptions::max_angle, 0.0, 3.14, "from 0 to 3.14 radians"},
-        {"hit_radius", &SpringOptions::hit_radius, 0.0, 1000.0, "from 0 to 1000 m"}};
-    if (const Result bad = detail::check_ranges<SpringOptions>(operation, options, ranges); !bad) return bad;
+    if (const Result bad = check_fields(operation, options); !bad) return bad;
     const Expected<rig::Transform> root = rig::checked(options.root, operation, "root");
     return root ? Result() : root.error();
 }

@@ -56,25 +56,6 @@ SurfaceDistance of(const Box& box, const dvec3& point) {
     return {inside, axes.to_world(normal)};
 }
 
-/// What the ranges of fields cannot express.
-Result check_more(const char*, const Sphere&) {
-    return {};
-}
-Result check_more(const char*, const Capsule&) {
-    return {};
-}
-Result check_more(const char* operation, const Plane& plane) {
-    if (detail::length(dvec3(plane.normal)) > 1e-12) return {};
-    return refused(operation, "normal", "longer than 0", "0");
-}
-Result check_more(const char* operation, const Box& box) {
-    const glm::quat& q = box.rotation;
-    const double squared = static_cast<double>(q.x) * q.x + static_cast<double>(q.y) * q.y +
-                           static_cast<double>(q.z) * q.z + static_cast<double>(q.w) * q.w;
-    if (squared > 1e-12 && squared < 1e12) return {};
-    return refused(operation, "rotation", "a quaternion of length 1", static_cast<float>(std::sqrt(squared)));
-}
-
 }  // namespace
 
 SurfaceDistance surface_distance(const Shape& shape, const dvec3& point) noexcept {
@@ -117,8 +98,11 @@ float size(const Shape& shape) noexcept {
 
 Result check(const char* operation, const Shape& shape) noexcept {
     const auto check_one = [&](const auto& each) {
-        const Result fields_fine = check_fields(operation, each);
-        return fields_fine ? check_more(operation, each) : fields_fine;
+        const Result checked = check_fields(operation, each);
+        if constexpr (std::is_same_v<std::decay_t<decltype(each)>, Plane>)
+            if (checked && !(detail::length(dvec3(each.normal)) > 1e-12))
+                return refused(operation, "normal", "longer than 0", "0");
+        return checked;
     };
     return std::visit(check_one, shape);
 }

@@ -138,7 +138,7 @@ std::span<const Field> fields<rope::Box>() noexcept {
     using rope::Box;
     static constexpr Field rows[] = {field<&Box::centre>("centre", anywhere, "m"),
                                      field<&Box::half_extents>("half_extents", any_size, "m"),
-                                     field<&Box::rotation>("rotation", anywhere)};
+                                     field<&Box::rotation>("rotation", {1e-6, 1e6})};
     return rows;
 }
 

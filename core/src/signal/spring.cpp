@@ -4,7 +4,13 @@
 
 #include "math/checks.hpp"
 #include "signal/motion.hpp"
+#include "signal/spring_rows.hpp"
 #include "signal/stepped.hpp"
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::SpringState<double>>() noexcept {
+    return signal::detail::spring_rows;
+}
 
 namespace tendril::signal {
 namespace {

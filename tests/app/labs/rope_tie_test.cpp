@@ -211,7 +211,6 @@ TEST_F(RopeTieTest, Refusals) {
     for (int at = 0; at < 180; ++at) run("rope.tie", sewn(at));
     expect_refused("rope.tie", sewn(180), {"steps", "maximum"});
     expect_refused("rope.untie", {{"name", "knot"}}, {"knot"});
-    expect_refused("rope.tie.set", {{"name", "tie"}, {"strength", -1}}, {"strength", "-1"});
     expect_refused("rope.select", {{"tie", "tie"}, {"rope", "above"}, {"particle", 0}}, {"both"});
 }
 

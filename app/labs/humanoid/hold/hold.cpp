@@ -150,40 +150,6 @@ HoldSetting read_hold(const JsonPlace& place) {
     return setting;
 }
 
-namespace {
-
-constexpr const char* hold_joint_names[]{"shoulders", "elbows", "hands"};
-
-auto hold_joints(auto& state) {
-    return std::array{&state.shoulders, &state.elbows, &state.hands};
-}
-
-}  // namespace
-
-Json hold_memory_json(const humanoid::HoldState& state) {
-    Json json{{"grips", Json::object()}};
-    for (std::size_t hand = 0; hand < 2; ++hand)
-        if (state.grips[hand]) json["grips"][humanoid::name(both_hands[hand])] = dpoint(*state.grips[hand]);
-    for (std::size_t i = 0; i < 3; ++i)
-        for (const glm::dvec3& each : *hold_joints(state)[i])
-            json[hold_joint_names[i]].push_back(dpoint(each));
-    return json;
-}
-
-humanoid::HoldState read_hold_memory(const JsonPlace& place) {
-    humanoid::HoldState state;
-    for (std::size_t hand = 0; hand < 2; ++hand)
-        if (const auto grip = place["grips"].optional(humanoid::name(both_hands[hand])))
-            state.grips[hand] = grip->dpoint();
-    for (std::size_t i = 0; i < 3; ++i) {
-        const JsonPlace joints = place[hold_joint_names[i]];
-        joints.check_size(2, "points: left, right");
-        for (std::size_t hand = 0; hand < 2; ++hand)
-            (*hold_joints(state)[i])[hand] = joints.element(hand).dpoint();
-    }
-    return state;
-}
-
 // Commands.
 
 namespace {

@@ -37,8 +37,6 @@ Json hold_state(const HumanoidPart& part, const ShownPose& shown);
 
 Json hold_json(const HoldSetting& setting);
 HoldSetting read_hold(const JsonPlace& place);
-Json hold_memory_json(const humanoid::HoldState& state);
-humanoid::HoldState read_hold_memory(const JsonPlace& place);
 
 void draw_hold(const View& view, DrawList& list, const HumanoidPart& part, const ShownPose& shown);
 /// Rows of the section Hands and gaze.

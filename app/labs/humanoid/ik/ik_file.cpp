@@ -2,7 +2,6 @@
 #include "app/document/json_place.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
-#include "app/labs/humanoid/ik/ik_members.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 
 namespace tendril::app {
@@ -35,73 +34,6 @@ void read_targets(const JsonPlace& place, IkSettings& ik) {
         if (const auto rotation = at.optional("rotation")) target.rotation = rotation->drotation();
         if (const auto weight = at.optional("weight")) target.weight = weight->real(1e-9, heaviest_target);
         ik.target(*effector) = target;
-    }
-}
-
-Json body_json(const humanoid::BodyState& state) {
-    Json turns = Json::array();
-    for (const glm::dquat& turn : state.turns) turns.push_back(dquaternion(turn));
-    Json left = Json::array(), clip = Json::array();
-    for (const glm::dvec3& each : state.left) left.push_back(dpoint(each));
-    for (const glm::dvec3& each : state.clip) clip.push_back(dpoint(each));
-    return Json{{"turns", std::move(turns)}, {"shift", dpoint(state.shift)}, {"clip", std::move(clip)},
-                {"deepest", state.deepest},  {"left", std::move(left)},      {"weights", state.weights},
-                {"pace", state.pace},        {"outside", state.outside}};
-}
-
-humanoid::BodyState read_body(const JsonPlace& place) {
-    humanoid::BodyState state;
-    place["turns"].for_each("turns", humanoid::bone_count,
-                            [&](const JsonPlace& each) { state.turns.push_back(each.drotation()); });
-    state.shift = place["shift"].dpoint();
-    place["left"].check_size(state.left.size(), "points, one for each effector");
-    place["clip"].check_size(state.clip.size(), "points, one for each effector");
-    for (std::size_t i = 0; i < state.left.size(); ++i) {
-        state.left[i] = place["left"].element(i).dpoint();
-        state.clip[i] = place["clip"].element(i).dpoint();
-    }
-    if (const auto weights = place.optional("weights")) {
-        weights->check_size(state.weights.size(), "numbers, one for each effector");
-        for (std::size_t i = 0; i < state.weights.size(); ++i)
-            state.weights[i] = weights->element(i).real(0.0, heaviest_target);
-    }
-    state.deepest = place["deepest"].real(0.0, 1e9);
-    state.pace = place["pace"].real(0.0, 1e9);
-    if (const auto outside = place.optional("outside")) state.outside = outside->real(0.0, 1e9);
-    return state;
-}
-
-template <class T>
-Json written(const T& value) {
-    if constexpr (std::is_same_v<T, glm::dvec3>) {
-        return dpoint(value);
-    } else if constexpr (std::is_same_v<T, glm::dquat>) {
-        return dquaternion(value);
-    } else if constexpr (std::is_enum_v<T>) {
-        return static_cast<int>(value);
-    } else if constexpr (std::is_arithmetic_v<T>) {
-        return value;
-    } else {
-        Json json = Json::object();
-        each_number(value, [&](const char* name, const auto& member) { json[name] = written(member); });
-        return json;
-    }
-}
-
-template <class T>
-void read_number(const JsonPlace& place, T& value) {
-    if constexpr (std::is_same_v<T, glm::dvec3>) {
-        value = place.dpoint();
-    } else if constexpr (std::is_same_v<T, glm::dquat>) {
-        value = place.drotation();
-    } else if constexpr (std::is_same_v<T, bool>) {
-        value = place.flag();
-    } else if constexpr (std::is_same_v<T, humanoid::FootAlone>) {
-        value = static_cast<T>(place.integer(0, static_cast<int>(humanoid::FootAlone::CannotReach)));
-    } else if constexpr (std::is_arithmetic_v<T>) {
-        value = place.real();
-    } else {
-        each_number(value, [&](const char* name, auto& member) { read_number(place[name], member); });
     }
 }
 
@@ -191,13 +123,13 @@ Json ik_json(const HumanoidPart& part) {
     json["hand_ik"] = hand_ik_json(part.ik.hand_ik);
     json["look_at"] = save_fields(part.ik.look_at);
     if (part.ik.hold) json["hold"] = hold_json(*part.ik.hold);
-    if (part.ik_state.hold != humanoid::HoldState()) json["held"] = hold_memory_json(part.ik_state.hold);
-    if (!(part.ik_state.hands == humanoid::HandsState())) json["hands"] = written(part.ik_state.hands);
-    if (!(part.ik_state.look == humanoid::LookAtState())) json["look"] = written(part.ik_state.look);
-    if (part.ik_state.steps.away()) json["steps"] = written(part.ik_state.steps);
+    if (part.ik_state.hold != humanoid::HoldState()) json["held"] = save_fields(part.ik_state.hold);
+    if (!(part.ik_state.hands == humanoid::HandsState())) json["hands"] = save_fields(part.ik_state.hands);
+    if (!(part.ik_state.look == humanoid::LookAtState())) json["look"] = save_fields(part.ik_state.look);
+    if (part.ik_state.steps.away()) json["steps"] = save_fields(part.ik_state.steps);
     if (!(part.ik_state.release == Release()))
         json["release"] = release_json(part.ik_state.release, part.skeleton());
-    if (!(part.ik_state.body == humanoid::BodyState())) json["body"] = body_json(part.ik_state.body);
+    if (!(part.ik_state.body == humanoid::BodyState())) json["body"] = save_fields(part.ik_state.body);
     return json;
 }
 
@@ -216,17 +148,15 @@ void read_ik(const JsonPlace& place, HumanoidPart& part) {
         for (const humanoid::Effector hand : both_hands)
             if (part.ik.hold->holds(hand) && part.ik.target(hand))
                 place["targets"][humanoid::name(hand)].fail("this hand holds the object: remove its target");
-        if (const auto held = place.optional("held")) part.ik_state.hold = read_hold_memory(*held);
+        if (const auto held = place.optional("held")) load_all_fields(*held, part.ik_state.hold);
     }
-    if (const auto hands = place.optional("hands")) read_number(*hands, part.ik_state.hands);
-    if (const auto look = place.optional("look")) read_number(*look, part.ik_state.look);
-    if (const auto steps = place.optional("steps")) {
-        read_number(*steps, part.ik_state.steps);
-        if (const Result bad = humanoid::check(part.ik_state.steps); !bad) steps->fail(bad.message());
-    }
+    if (const auto hands = place.optional("hands")) load_all_fields(*hands, part.ik_state.hands);
+    if (const auto look = place.optional("look")) load_all_fields(*look, part.ik_state.look);
+    if (const auto steps = place.optional("steps")) load_all_fields(*steps, part.ik_state.steps);
     if (const auto release = place.optional("release"))
         part.ik_state.release = read_release(*release, part.skeleton());
-    if (const auto body = place.optional("body")) part.ik_state.body = read_body(*body);
+    constexpr std::string_view newer[] = {"weights", "outside"};
+    if (const auto body = place.optional("body")) load_all_fields(*body, part.ik_state.body, newer);
 }
 
 }  // namespace tendril::app

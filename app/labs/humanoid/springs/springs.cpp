@@ -55,21 +55,6 @@ std::string overlap(const HumanoidPart& part, std::size_t node) {
     return {};
 }
 
-Json mass_json(const humanoid::SpringMass& mass) {
-    return Json{{"position", dpoint(mass.position)}, {"velocity", dpoint(mass.velocity)},
-                {"target", dpoint(mass.target)},     {"started", mass.started},
-                {"has_velocity", mass.has_velocity}, {"held", mass.held}};
-}
-
-humanoid::SpringMass read_mass(const JsonPlace& place) {
-    return {.position = place["position"].dpoint(),
-            .velocity = place["velocity"].dpoint(),
-            .target = place["target"].dpoint(),
-            .started = place["started"].flag(),
-            .has_velocity = place["has_velocity"].flag(),
-            .held = place.optional("held") && place["held"].flag()};
-}
-
 }  // namespace
 
 humanoid::SpringOptions SpringSetting::options() const {
@@ -138,15 +123,12 @@ std::vector<std::size_t> selected_springs(const HumanoidPart& part) {
 
 Json springs_json(const HumanoidPart& part) {
     Json list = Json::array();
+    const humanoid::SpringChainState none;
     for (std::size_t i = 0; i < part.springs.size(); ++i) {
         const SpringSetting& each = part.springs[i];
-        Json masses = Json::array();
-        if (i < part.ik_state.springs.size())
-            for (const humanoid::SpringMass& mass : part.ik_state.springs[i].masses)
-                masses.push_back(mass_json(mass));
         Json json{{"node", each.node}};
         json.update(save_fields(each));
-        json["masses"] = std::move(masses);
+        json.update(save_fields(i < part.ik_state.springs.size() ? part.ik_state.springs[i] : none));
         list.push_back(std::move(json));
     }
     return list;
@@ -161,9 +143,8 @@ void read_springs(const JsonPlace& place, HumanoidPart& part) {
         if (const std::string why = overlap(part, *node); !why.empty()) each["node"].fail(why);
         load_fields(each, spring);
         humanoid::SpringChainState state;
-        if (const auto masses = each.optional("masses"))
-            masses->for_each("masses", humanoid::Skeleton::max_nodes,
-                             [&](const JsonPlace& mass) { state.masses.push_back(read_mass(mass)); });
+        constexpr std::string_view newer[] = {"masses", "held"};
+        load_all_fields(each, state, newer);
         part.springs.push_back(std::move(spring));
         part.ik_state.springs.push_back(std::move(state));
     });

@@ -155,3 +155,10 @@ class Body {
 };
 
 }  // namespace tendril::humanoid
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::FootShift>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::BodyOptions>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::BodyState>() noexcept;

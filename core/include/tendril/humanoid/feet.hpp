@@ -84,7 +84,7 @@ struct FeetOptions {
     double lift_half_life = 0.03;    ///< of the ease when the ground below a foot jumps; 1e-6 to 10
     double max_speed = 2.2;          ///< m/s; 1e-6 to 1e3
 };
-/// Names the member that is out of range: "feet: low must be from 0 to 1e3 m, got nan".
+/// Names the member that is out of range: "feet: low must be 0 to 1000 m, got nan".
 Result check(const FeetOptions& options) noexcept;
 
 /// Why a leg keeps the clip's pose.
@@ -124,7 +124,7 @@ struct FeetState {
 };
 
 /// For a state read from a file: refuses numbers that are not finite or over 1e9, and turns that are not unit
-/// quaternions. "feet: feet[1] must be finite and at most 1e9 in magnitude, got nan"
+/// quaternions (to 1e-3). "feet: feet.right.lift must be -1e9 to 1e9 m, got nan"
 Result check(const FeetState& state) noexcept;
 
 struct FootReport {
@@ -171,3 +171,10 @@ class Feet {
 };
 
 }  // namespace tendril::humanoid
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::FeetOptions>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::FootState>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::FeetState>() noexcept;

@@ -69,3 +69,10 @@ bool plan_step(FootstepsState& state, const Soles& soles, const glm::dvec3& cent
                const Ground* ground = nullptr) noexcept;
 
 }  // namespace tendril::humanoid
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::FootstepOptions>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::Footstep>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::FootstepsState>() noexcept;

@@ -94,3 +94,10 @@ class Hands {
 };
 
 }  // namespace tendril::humanoid
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::HandsOptions>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::HandState>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::HandsState>() noexcept;

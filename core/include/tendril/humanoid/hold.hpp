@@ -118,3 +118,8 @@ Expected<HoldReport> hold(Body& body, std::span<rig::Transform> pose, std::span<
                           const HoldOptions& options = {});
 
 }  // namespace tendril::humanoid
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::HoldOptions>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::HoldState>() noexcept;

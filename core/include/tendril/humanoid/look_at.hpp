@@ -75,3 +75,8 @@ class LookAt {
 };
 
 }  // namespace tendril::humanoid
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::LookAtOptions>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::LookAtState>() noexcept;

@@ -104,3 +104,10 @@ class SpringChain {
 };
 
 }  // namespace tendril::humanoid
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::SpringOptions>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::SpringMass>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::SpringChainState>() noexcept;

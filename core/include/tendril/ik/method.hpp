@@ -1,7 +1,8 @@
 // The methods that solve a chain, and which options each of them honours.
 //
 // An option that a method does not honour changes neither pose nor report. `without` and `within` mean
-// without and within joint limits. This is the table of honours(), verified by a test:
+// without and within joint limits. honours() reads this from the rows of fields<Options>(), and a test
+// verifies it:
 //
 //     option           fabrik       plain     ccd       transpose dls, svd  two_bone
 //     tolerance        both         both      both      both      both      both (1)
@@ -41,6 +42,7 @@
 #include <optional>
 #include <string_view>
 
+#include "tendril/fields.hpp"
 #include "tendril/result.hpp"
 
 namespace tendril::ik {
@@ -66,36 +68,9 @@ std::optional<Method> method_named(std::string_view name) noexcept;
 /// orientation Solver::solve also takes three.)
 Result check_takes(Method method, std::size_t bones) noexcept;
 
-/// The members of Options, in the order of the table above.
-enum class Option : std::uint8_t {
-    Tolerance,
-    MaxIterations,
-    EveryIteration,
-    Limits,
-    Plane,
-    Pole,
-    PoleTurn,
-    SnapBack,
-    TipOrientation,
-    SoftZone,
-    Damping,
-    Stretch,  ///< start_stretch_ratio and max_stretch_scale
-    Twist,
-    Weight,
-    Restarts,
-    Rotations,
-    Residuals
-};
-inline constexpr std::array all_options{Option::Tolerance, Option::MaxIterations, Option::EveryIteration,
-                                        Option::Limits,    Option::Plane,         Option::Pole,
-                                        Option::PoleTurn,  Option::SnapBack,      Option::TipOrientation,
-                                        Option::SoftZone,  Option::Damping,       Option::Stretch,
-                                        Option::Twist,     Option::Weight,        Option::Restarts,
-                                        Option::Rotations, Option::Residuals};
-/// The name of the member: "snap_back". For Stretch it is "start_stretch_ratio".
-const char* name(Option option) noexcept;
-
-/// Looks up the table. `within_limits`: whether joint limits are set as well.
-bool honours(Method method, Option option, bool within_limits) noexcept;
+/// Whether the method honours the option, which is a row of fields<Options>():
+/// honours(Method::Ccd, field_of<&Options::damping>(), limited). `within_limits`: whether joint limits are
+/// set as well.
+bool honours(Method method, const Field& option, bool within_limits) noexcept;
 
 }  // namespace tendril::ik

@@ -17,7 +17,7 @@
 
 namespace tendril::ik {
 
-/// The table in method.hpp shows which method honours which option.
+/// The table in method.hpp shows which method honours which option, as do the rows of fields<Options>().
 struct Options {
     /// Metres, 0 to max_magnitude; by default 1e-3 of the reach.
     std::optional<float> tolerance{};
@@ -88,3 +88,6 @@ struct Options {
 };
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Options>() noexcept;

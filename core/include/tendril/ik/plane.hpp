@@ -71,3 +71,5 @@ struct Plane {
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::ik::AngleLimit>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Plane>() noexcept;

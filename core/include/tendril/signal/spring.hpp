@@ -20,6 +20,7 @@
 
 #include <type_traits>
 
+#include "tendril/fields.hpp"
 #include "tendril/result.hpp"
 #include "tendril/signal/input.hpp"
 
@@ -112,3 +113,6 @@ Expected<SpringShape> of_half_life(double half_life, double critical_damping) no
 Expected<SpringShape> of_duration(double duration, double bounce) noexcept;
 
 }  // namespace tendril::signal
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::SpringState<double>>() noexcept;

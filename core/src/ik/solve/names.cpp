@@ -22,14 +22,6 @@ std::optional<Method> method_named(std::string_view text) noexcept {
     return std::nullopt;
 }
 
-const char* name(Option option) noexcept {
-    constexpr const char* names[] = {
-        "tolerance", "max_iterations", "every_iteration", "limits",    "plane",    "pole",
-        "pole_turn", "snap_back",      "tip_orientation", "soft_zone", "damping",  "start_stretch_ratio",
-        "twist",     "weight",         "restarts",        "rotations", "residuals"};
-    return names[static_cast<std::size_t>(option)];
-}
-
 const char* name(Status status) noexcept {
     constexpr const char* names[] = {"Converged", "Stretched",      "TooClose",    "Limited",
                                      "Stalled",   "IterationLimit", "InvalidInput"};
@@ -39,11 +31,6 @@ const char* name(Status status) noexcept {
 const char* name(Bound bound) noexcept {
     constexpr const char* names[] = {"min", "max", "up", "down", "left", "right", "twist_min", "twist_max"};
     return names[static_cast<std::size_t>(bound)];
-}
-
-const char* name(Side side) noexcept {
-    constexpr const char* names[] = {"free", "left", "right"};
-    return names[static_cast<std::size_t>(side)];
 }
 
 const char* name(AngleFrom from) noexcept {

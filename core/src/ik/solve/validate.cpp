@@ -1,54 +1,89 @@
+// The tables of Options and Plane, and the checks of what a solve is given.
 #include "ik/solve/validate.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "math/checks.hpp"
+#include "math/ranges.hpp"
 #include "math/vector.hpp"
 #include "tendril/ik/options.hpp"
 
-namespace tendril::ik::detail {
+namespace tendril::ik {
 namespace {
 
-using namespace tendril::detail;
+constexpr const char *turns[] = {"whole_chain", "each_joint"}, *sides[] = {"free", "left", "right"};
+constexpr FieldRange anywhere{-max_magnitude, max_magnitude};
 
-constexpr float over_zero = std::numeric_limits<float>::denorm_min();
+constexpr std::uint16_t bit(Method method) noexcept {
+    return static_cast<std::uint16_t>(1u << static_cast<unsigned>(method));
+}
+constexpr std::uint16_t none = 0, fabrik = bit(Method::Fabrik), two_bone = bit(Method::TwoBone),
+                        damped = bit(Method::Dls) | bit(Method::SvdDls), damped_or_two = damped | two_bone,
+                        all = bit(Method::TwoBone) * 2 - 1, iterating = all - two_bone;
 
-constexpr struct {
-    const char* name;
-    float Options::*member;
-    float low, high;
-    const char* range;
-} numbers[]{{"snap_back", &Options::snap_back, 0.0f, 1.0f, "from 0 to 1"},
-            {"soft_zone", &Options::soft_zone, 0.0f, 1.0f, "from 0 to 1"},
-            {"damping", &Options::damping, over_zero, 10.0f, "over 0 to 10"},
-            {"start_stretch_ratio", &Options::start_stretch_ratio, over_zero, 1.0f, "over 0 to 1"},
-            {"max_stretch_scale", &Options::max_stretch_scale, 1.0f, 100.0f, "from 1 to 100"},
-            {"weight", &Options::weight, 0.0f, 1.0f, "from 0 to 1"},
-            {"twist", &Options::twist, -max_magnitude, max_magnitude, "at most 1e9 in magnitude"}};
+constexpr Field option_rows[] = {
+    field<&Options::tolerance>("tolerance", {0.0, max_magnitude}, "m"),
+    field<&Options::max_iterations>("max_iterations", {1, 1'000'000}).by(iterating, all),
+    field<&Options::every_iteration>("every_iteration").by(iterating, all),
+    list<&Options::limits>("limits"),
+    nested<&Options::plane>("plane"),
+    field<&Options::pole>("pole", anywhere, "m"),
+    field<&Options::pole_turn>("pole_turn", turns).by(iterating, none),
+    field<&Options::snap_back>("snap_back").by(iterating, all),
+    field<&Options::tip_orientation>("tip_orientation", unit_length),
+    field<&Options::soft_zone>("soft_zone"),
+    field<&Options::damping>("damping", {0.0, 10.0}).over().by(damped, damped_or_two),
+    field<&Options::start_stretch_ratio>("start_stretch_ratio").over().by(two_bone, none),
+    field<&Options::max_stretch_scale>("max_stretch_scale", {1.0, 100.0}).by(two_bone, none),
+    field<&Options::twist>("twist", anywhere, "rad").by(two_bone, two_bone),
+    field<&Options::weight>("weight"),
+    field<&Options::restarts>("restarts", {0, 1000}).by(none, fabrik),
+    field<&Options::rotations>("rotations").by(all, none),
+    list<&Options::residuals>("residuals", {0.0, max_magnitude}, "m")};
+constexpr Field plane_rows[] = {field<&Plane::normal>("normal", anywhere), field<&Plane::bend>("bend", sides),
+                                list<&Plane::limits>("limits")};
 
 }  // namespace
+
+const char* name(Side side) noexcept {
+    return sides[static_cast<std::size_t>(side)];
+}
+
+bool honours(Method method, const Field& option, bool within_limits) noexcept {
+    return ((within_limits ? option.within_limits : option.without_limits) & bit(method)) != 0;
+}
+
+Result check_takes(Method method, std::size_t bones) noexcept {
+    using namespace tendril::detail;
+    if (method > Method::TwoBone)
+        return refused("solve", "method", "one of all_methods", static_cast<int>(method));
+    if (method != Method::TwoBone || bones == 2) return {};
+    return {ErrorCode::InvalidArgument, "Two-bone needs exactly two bones"};
+}
+
+}  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Options>() noexcept {
+    return ik::option_rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Plane>() noexcept {
+    return ik::plane_rows;
+}
+
+namespace tendril::ik::detail {
+
+using namespace tendril::detail;
 
 bool are_points(std::span<const glm::vec3> points) noexcept {
     return std::all_of(points.begin(), points.end(), is_point);
 }
 
 Result check(const Options& options, std::size_t bones) noexcept {
-    if (const float tolerance = options.tolerance.value_or(0.0f); !within(tolerance, 0.0f, max_magnitude))
-        return refused("solve", "tolerance", "from 0 to 1e9", tolerance);
-    for (const auto& [name, member, low, high, range] : numbers)
-        if (!within(options.*member, low, high)) return refused("solve", name, range, options.*member);
-    if (options.max_iterations < 1 || options.max_iterations > 1'000'000)
-        return refused("solve", "max_iterations", "from 1 to 1000000", options.max_iterations);
-    if (options.restarts && (*options.restarts < 0 || *options.restarts > 1000))
-        return refused("solve", "restarts", "from 0 to 1000", *options.restarts);
-    if (options.pole_turn > PoleTurn::EachJoint)
-        return refused("solve", "pole_turn", "0 or 1", static_cast<int>(options.pole_turn));
-    if (options.pole && !is_point(*options.pole)) return refused_point("solve", "pole", *options.pole);
-    if (const auto& q = options.tip_orientation; q && !is_unit(*q))
-        return refused("solve", "tip_orientation", "of length 1",
-                       std::sqrt(q->w * q->w + q->x * q->x + q->y * q->y + q->z * q->z));
+    if (!are_in_range<option_rows>(&options)) return check_fields("solve", options);
     if (!options.limits.empty() && options.limits.size() != bones)
         return refused_count("solve", "limits", options.limits.size(), bones);
     if (!options.plane) return {};
@@ -58,11 +93,9 @@ Result check(const Options& options, std::size_t bones) noexcept {
 }
 
 Result check(const Plane& plane, std::size_t bones) noexcept {
-    if (!is_point(plane.normal)) return refused_point("solve", "plane.normal", plane.normal);
+    if (!are_in_range<plane_rows>(&plane)) return check_fields("solve: plane", plane);
     if (const float size = math::length(plane.normal); !(size > 1e-6f))
         return refused("solve", "plane.normal", "longer than 1e-6", size);
-    if (plane.bend > Side::Right)
-        return refused("solve", "plane.bend", "0 to 2", static_cast<int>(plane.bend));
     if (!plane.limits.empty() && plane.limits.size() != bones)
         return refused_count("solve", "plane.limits", plane.limits.size(), bones);
     for (std::size_t i = 0; i < plane.limits.size(); ++i)

@@ -1,0 +1,78 @@
+// Values for the rows of any table of fields: in range, and out of it.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <tendril/fields.hpp>
+#include <vector>
+
+namespace tendril::test {
+
+/// A value of a struct: `at` is what the field's accessors take, `path` how an error names it.
+struct FieldSpot {
+    const Field* field;
+    void* at;
+    std::string path;
+};
+
+/// The values of a struct, its structs and its lists. Fills what is empty: optional structs, and lists with
+/// two elements, but for those that are not the struct's own.
+inline void collect_spots(std::span<const Field> table, void* object, const std::string& above,
+                          std::vector<FieldSpot>& spots) {
+    for (const Field& field : table) {
+        std::string path = above.empty() ? field.name : above + '.' + field.name;
+        const bool list = field.count != nullptr, nested = field.type == FieldType::Struct;
+        if (!list && !nested) {
+            spots.push_back({&field, object, path});
+            continue;
+        }
+        if (field.resize != nullptr) field.resize(object, list ? 2 : 1);
+        for (std::size_t i = 0; i < (list ? field.count(object) : 1); ++i) {
+            if (field.type == FieldType::Rotation)
+                field.set(field.address_in(object, i), {0.0, 0.0, 0.0, 1.0});
+            const std::string place = !list                    ? path
+                                      : i < field.names.size() ? path + '.' + field.names[i]
+                                                               : path + '[' + std::to_string(i) + ']';
+            if (nested)
+                collect_spots(field.table(), field.address_in(object, i), place, spots);
+            else
+                spots.push_back({&field, field.address_in(object, i), place});
+        }
+    }
+}
+
+/// At that part of each range, from 0 to 1.
+inline FieldValue value_in_range(const Field& field, double part) {
+    if (field.type == FieldType::Rotation) return {0.6, 0.0, 0.0, 0.8};
+    const double value = field.range.low + part * (field.range.high - field.range.low);
+    FieldValue all{};
+    for (int axis = 0; axis < field.size(); ++axis)
+        all[static_cast<std::size_t>(axis)] = field.whole() ? std::floor(value) : value;
+    return all;
+}
+
+/// Values of which one number, any of them, is out of range.
+inline std::vector<FieldValue> values_out_of_range(const Field& field) {
+    std::vector<FieldValue> all;
+    if (field.type == FieldType::Flag) return all;
+    const auto [low, high] = field.range;
+    const double by = field.whole() ? 1.0 : std::max(1e-3, 1e-3 * (high - low));
+    std::vector<double> numbers{field.type == FieldType::Rotation ? 0.0 : low - by, high + by};
+    if (!field.whole()) numbers.insert(numbers.end(), {INFINITY, -INFINITY});
+    if (field.over_low) numbers.push_back(low);
+    for (int axis = 0; axis < field.size(); ++axis) {
+        // Of an optional field, NaN is none; a whole number cannot be NaN.
+        if (!field.whole() && !(field.optional && axis == 0)) numbers.push_back(std::nan(""));
+        for (const double each : numbers) {
+            FieldValue value = value_in_range(field, 0.5);
+            if (field.type == FieldType::Rotation) value = {};
+            value[static_cast<std::size_t>(axis)] = each;
+            all.push_back(value);
+        }
+    }
+    return all;
+}
+
+}  // namespace tendril::test

@@ -1,0 +1,166 @@
+// Every row of every table of the library.
+#include "tendril/fields.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <functional>
+#include <memory>
+#include <set>
+#include <tendril/humanoid/feet.hpp>
+#include <tendril/humanoid/footsteps.hpp>
+#include <tendril/humanoid/hands.hpp>
+#include <tendril/humanoid/hold.hpp>
+#include <tendril/humanoid/look_at.hpp>
+#include <tendril/humanoid/spring_chain.hpp>
+#include <tendril/ik/options.hpp>
+#include <tendril/rope/body.hpp>
+#include <tendril/rope/collider.hpp>
+#include <tendril/rope/hair_roots.hpp>
+#include <tendril/rope/settings.hpp>
+#include <tendril/rope/tie.hpp>
+#include <tendril/signal/filter.hpp>
+
+#include "field_values.hpp"
+#include "tests/says.hpp"
+
+namespace tendril::test {
+namespace {
+
+struct Table {
+    const char* name;
+    std::span<const Field> rows;
+    std::function<std::shared_ptr<void>()> make;
+
+    friend std::ostream& operator<<(std::ostream& out, const Table& table) { return out << table.name; }
+};
+
+template <class Struct>
+Table table(const char* name) {
+    return {name, fields<Struct>(), [] { return std::shared_ptr<void>(std::make_shared<Struct>()); }};
+}
+
+std::vector<Table> tables() {
+    using namespace humanoid;
+    std::vector<Table> all{table<BodyOptions>("BodyOptions"),
+                           table<BodyState>("BodyState"),
+                           table<FeetOptions>("FeetOptions"),
+                           table<FeetState>("FeetState"),
+                           table<FootstepOptions>("FootstepOptions"),
+                           table<FootstepsState>("FootstepsState"),
+                           table<HandsOptions>("HandsOptions"),
+                           table<HandsState>("HandsState"),
+                           table<HoldOptions>("HoldOptions"),
+                           table<HoldState>("HoldState"),
+                           table<LookAtOptions>("LookAtOptions"),
+                           table<LookAtState>("LookAtState"),
+                           table<SpringOptions>("SpringOptions"),
+                           table<SpringChainState>("SpringChainState"),
+                           table<ik::AngleLimit>("AngleLimit"),
+                           table<ik::Limit>("Limit"),
+                           table<ik::Options>("Options"),
+                           table<rope::Settings>("Settings"),
+                           table<rope::TieShape>("TieShape"),
+                           table<rope::RopeShape>("RopeShape"),
+                           table<rope::ClothShape>("ClothShape"),
+                           table<rope::HairShape>("HairShape"),
+                           table<rope::HairPatch>("HairPatch"),
+                           table<rope::Sphere>("Sphere"),
+                           table<rope::Capsule>("Capsule"),
+                           table<rope::Plane>("Plane"),
+                           table<rope::Box>("Box"),
+                           table<rope::Drive>("Drive")};
+    for (const signal::Kind& kind : signal::kinds())
+        all.push_back({kind.name, kind.fields, [&kind] {
+                           const auto filter = std::make_shared<signal::Filter>(kind.blank());
+                           return std::shared_ptr<void>(filter, signal::fields_in(*filter));
+                       }});
+    return all;
+}
+
+class EveryTable : public testing::TestWithParam<Table> {
+  protected:
+    EveryTable() { collect_spots(of.rows, object.get(), "", spots); }
+    std::string refusal() const { return check_fields("call", of.rows, object.get(), "it").message(); }
+
+    const Table& of = GetParam();
+    std::shared_ptr<void> object = of.make();
+    std::vector<FieldSpot> spots;
+};
+
+TEST_P(EveryTable, HasNamesInLowerCaseAndSlidersWithinTheRange) {
+    std::set<std::string> names;
+    for (const Field& row : of.rows) {
+        EXPECT_TRUE(names.insert(row.name).second) << row.name;
+        for (const char c : std::string(row.name))
+            EXPECT_TRUE(std::islower(c) || std::isdigit(c) || c == '_');
+        if (row.type == FieldType::Struct || row.usual.low == row.usual.high) continue;
+        EXPECT_LE(row.range.low, row.usual.low) << row.name;
+        EXPECT_LE(row.usual.high, row.range.high) << row.name;
+        EXPECT_TRUE(row.scale == FieldScale::Linear || row.usual.low > 0.0) << row.name;
+    }
+}
+
+TEST_P(EveryTable, DefaultsAreInRange) {
+    EXPECT_EQ(std::string(check_fields("call", of.rows, of.make().get()).message()), "");
+    EXPECT_EQ(refusal(), "") << "with its lists filled";
+}
+
+TEST_P(EveryTable, ANumberOutOfRangeIsRefusedByNameAndValue) {
+    for (const FieldSpot& spot : spots) {
+        const FieldValue before = spot.field->get(spot.at);
+        for (const FieldValue& bad : values_out_of_range(*spot.field)) {
+            spot.field->set(spot.at, bad);
+            EXPECT_TRUE(says(refusal(), "call it." + spot.path + " must be got"));
+        }
+        spot.field->set(spot.at, before);
+        ASSERT_EQ(refusal(), "") << spot.path;
+    }
+}
+
+TEST_P(EveryTable, AValueThatIsSetIsRead) {
+    for (const FieldSpot& spot : spots) {
+        std::vector<FieldValue> others;
+        for (const FieldSpot& each : spots) others.push_back(each.field->get(each.at));
+        const FieldValue wanted = value_in_range(*spot.field, 0.75);
+        spot.field->set(spot.at, wanted);
+        EXPECT_EQ(refusal(), "") << spot.path;
+        for (std::size_t i = 0; i < spots.size(); ++i) {
+            const bool same = &spots[i] == &spot;
+            const FieldValue now = spots[i].field->get(spots[i].at);
+            for (std::size_t axis = 0; axis < 4; ++axis) {
+                const double expected = same ? wanted[axis] : others[i][axis];
+                if (std::isnan(expected)) continue;
+                EXPECT_NEAR(now[axis], expected, same ? 1e-6 * std::abs(expected) : 0.0) << spots[i].path;
+            }
+        }
+        if (!spot.field->optional) continue;
+        EXPECT_FALSE(spot.field->empty(spot.at));
+        spot.field->set(spot.at, {std::nan("")});
+        EXPECT_TRUE(spot.field->empty(spot.at));
+        EXPECT_EQ(refusal(), "") << "nothing is in range: " << spot.path;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Library, EveryTable, testing::ValuesIn(tables()),
+                         [](const auto& given) { return std::string(given.param.name); });
+
+TEST(Fields, AListThatIsTooLongIsRefused) {
+    humanoid::BodyState state;
+    state.turns.resize(humanoid::bone_count + 1, {1.0, 0.0, 0.0, 0.0});
+    EXPECT_TRUE(says(check_fields("solve", state, "state").message(), "solve state.turns at most 22"));
+}
+
+TEST(Fields, AnOptionalStructCanBeEmptied) {
+    ik::Options options;
+    const Field& plane = *find_field(fields<ik::Options>(), "plane");
+    EXPECT_EQ(plane.address(&options, 0), nullptr);
+    plane.resize(&options, 1);
+    ASSERT_TRUE(options.plane);
+    EXPECT_EQ(plane.address(&options, 0), &*options.plane);
+    plane.resize(&options, 0);
+    EXPECT_FALSE(options.plane);
+}
+
+}  // namespace
+}  // namespace tendril::test
