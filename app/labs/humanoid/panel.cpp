@@ -458,6 +458,10 @@ Verdict humanoid_verdict(const Workspace& workspace) {
     HumanoidRuntime& runtime = humanoid_runtime(workspace);
     if (runtime.solvers.body(part) == nullptr)
         return {"Incomplete body", Verdict::Kind::Bad, runtime.solvers.why_no_body(part) + '.'};
+    for (const Attachment& each : part.attachments.list)
+        if (const std::size_t torn = torn_edges(part.attachments, each); torn > 0)
+            return {'"' + each.name + "\" is torn at " + count_text(torn, "edge"), Verdict::Kind::Bad,
+                    "The body holds it, and moves on. Remove it, and attach it anew."};
     const auto mapped =
         std::ranges::count_if(part.map->bones, [](const auto& each) { return each.node >= 0; });
     const bool all = mapped == static_cast<std::ptrdiff_t>(humanoid::bone_count);

@@ -265,6 +265,7 @@ Json attachments_state(const HumanoidPart& part) {
                         {"node", each.node},
                         {"row", body.row},
                         {"positions", std::move(positions)},
+                        {"torn_edges", torn_edges(part.attachments, each)},
                         {"length_error", world.length_error(body)}});
     }
     return list;

@@ -1,6 +1,8 @@
 // Attachments of a character: their initial pose, their distance from the body, and how they come to rest.
+#include "app/labs/humanoid/panel.hpp"
 #include "attach_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -92,6 +94,37 @@ TEST_F(HumanoidAttach, StaysOffTheBody) {
     }
 }
 
+/// Arms that take hold of a rifle close on the cape, and walk with it: it yields.
+TEST_F(HumanoidAttach, IsNotTornByArmsThatHoldARifle) {
+    for (const char* file : {"robot.glb", "mixed_orders.bvh"}) {
+        const auto path = test::characters_folder() / file;
+        if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+        run("humanoid.load", {{"path", path.string()}});
+        run("humanoid.attach", {{"bone", "Chest"}, {"kind", "cloth"}, {"name", "cape"}});
+        run("humanoid.clip", {{"index", 0}, {"play", true}, {"loop", true}});
+        tick(30);
+        run("humanoid.hold", {{"kind", "rifle"}});
+        std::size_t torn = 0;
+        for (int i = 0; i < 120; ++i) {
+            torn += torn_edges(part().attachments, part().attachments.list[0]);
+            tick();
+        }
+        EXPECT_EQ(torn, 0u) << file;
+    }
+}
+
+TEST_F(HumanoidAttach, ThatIsTornIsTheVerdict) {
+    run("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}});
+    run("humanoid.hold", {{"kind", "rifle"}});
+    EXPECT_EQ(humanoid_verdict(workspace).text, "Holds the rifle");
+    rope::State pulled = world().state();
+    for (const std::size_t i : {15, 16}) pulled.position[i].y -= 0.2;
+    auto torn = std::make_shared<NamedWorld>(world());
+    torn->put(pulled);
+    workspace.document.edit<HumanoidPart>(humanoid_lab).attachments.world = torn;
+    EXPECT_EQ(humanoid_verdict(workspace).text, "\"tail\" is torn at 2 edges");
+}
+
 TEST_F(HumanoidAttach, MovesWithItsBone) {
     dress();
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
@@ -164,7 +197,6 @@ TEST_F(HumanoidAttach, TakesWhatIsGivenOfItsShape) {
     EXPECT_LT(glm::distance(particle("rope", 0), glm::dvec3(0, 1.9, 0)), 1e-6);
     EXPECT_LT(glm::distance(last("rope"), glm::dvec3(0.5, 1.9, 0)), 1e-5);
     run("humanoid.attach", {{"bone", "HeadTop_End"}, {"kind", "hair"}, {"strands", 3}, {"segments", 4}});
-    EXPECT_EQ(body("hair").count, 15u);
     EXPECT_TRUE(state().at("attachments")[1].at("bone").is_null());
     EXPECT_EQ(state().at("attachments")[1].at("node"), "HeadTop_End");
     run("humanoid.attach", {{"bone", "Head"}, {"kind", "rope"}});
@@ -173,11 +205,8 @@ TEST_F(HumanoidAttach, TakesWhatIsGivenOfItsShape) {
 
 TEST_F(HumanoidAttach, RefusesWhatDoesNotFit) {
     expect_refused("humanoid.attach", {{"bone", "Wing"}, {"kind", "rope"}}, {"no bone and no node \"Wing\""});
-    expect_refused("humanoid.attach", {{"bone", "Head"}, {"kind", "chain"}}, {"kind must be one of"});
     expect_refused("humanoid.attach", {{"bone", "Head"}, {"kind", "rope"}, {"direction", {0, 0, 0}}},
                    {"direction must be longer than 0"});
-    expect_refused("humanoid.attach", {{"bone", "Head"}, {"kind", "rope"}, {"length", 0}},
-                   {"length must be"});
     expect_refused("humanoid.attach",
                    {{"bone", "Head"}, {"kind", "hair"}, {"strands", 200}, {"segments", 200}},
                    {"40200 particles", "more than 4000"});
