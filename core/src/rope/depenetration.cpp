@@ -79,7 +79,7 @@ dvec3 smallest_displacement(const Neighbours& neighbours, const dvec3& at, doubl
 }
 
 /// Brings a ball out of every collider. False if that would tear its body, and is only begun: surfaces that
-/// close on it leave no room, or make the way long, and cloth comes out with its neighbours only.
+/// close on it leave no way, or a long one, and cloth comes out with its neighbours only.
 bool bring_out(const Neighbours& neighbours, dvec3& place, double radius, bool cloth) {
     const double depth = neighbours.depth(place, radius), most = yield_strain * neighbours.longest_link;
     dvec3 at = place;
