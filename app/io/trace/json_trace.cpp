@@ -174,7 +174,6 @@ class JsonLines final : public RawTrace {
             } while (text_.find_first_not_of(" \t") == text_.npos);
         }
         waiting_ = false;
-        count_decimals(*this, text_);
         const Json json = parse_line(text_, line);
         frame = {.line = line};
         at_json([&] { read_frame(frame, header, JsonPlace(json, "")); });
@@ -209,7 +208,6 @@ class JsonList final : public RawTrace {
         if (text_.size() >= max_file_bytes)
             throw std::runtime_error("is a JSON list of over 64 MiB: write one frame a line instead");
         text_.insert(0, at - 1, '\n');
-        count_decimals(*this, std::string_view(text_).substr(0, 1u << 20));
         try {
             parse_json(std::string_view(text_));
         } catch (const ParseError&) {

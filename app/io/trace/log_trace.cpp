@@ -467,7 +467,6 @@ class LogTrace final : public RawTrace {
         const bool ends =
             documents_.value_or(false) ? text_.starts_with("---") : labels_.empty() && !by_line_;
         if (found.empty()) return ends && frame.joints.size() >= (documents_ ? 1u : 2u);
-        count_decimals(*this, text_);
         sort_fours(found);
         any_ = true;
         const auto joints = std::ranges::count_if(found, [](const Found& each) {

@@ -76,18 +76,6 @@ std::optional<double> take_number(std::string_view& text) {
     return negative ? -value : value;
 }
 
-void count_decimals(RawTrace& trace, std::string_view text) {
-    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-    for (std::size_t at = text.find('.'); at != text.npos; at = text.find('.', at + 1)) {
-        std::size_t end = at + 1;
-        while (end < text.size() && is_digit(text[end])) ++end;
-        if (at == 0 || !is_digit(text[at - 1])) continue;
-        const bool exponent = end < text.size() && (text[end] == 'e' || text[end] == 'E');
-        if (exponent) trace.decimals = -1;
-        if (trace.decimals >= 0) trace.decimals = std::max(trace.decimals, static_cast<int>(end - at - 1));
-    }
-}
-
 namespace {
 
 /// Whether a line can be JSON, as far as it goes: NumPy, MATLAB and Python print brackets, too.

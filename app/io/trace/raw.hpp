@@ -47,7 +47,6 @@ class RawTrace {
 
     TraceHeader header;
     Engine engine = Engine::Unknown;  ///< as far as it can be told from what was read
-    int decimals = 0;                 ///< the most that a number was written with; -1: with an exponent
     std::vector<std::string> notes;   ///< for display: what was left out
     std::size_t line = 0;             ///< of what was read
 };
@@ -65,8 +64,6 @@ std::optional<double> take_number(std::string_view& text);
 /// Whether the text before a vector, or a column's name, says that the numbers are not a position:
 /// "elbow_rotation", "in RPY (radian)".
 bool names_no_position(std::string_view text);
-/// Raises `trace.decimals` to those of the numbers in `text`.
-void count_decimals(RawTrace& trace, std::string_view text);
 /// Reads a line without its end; false at the end. Refuses one of over 16 MiB.
 bool read_line(std::istream& in, std::string& text, std::size_t& line);
 

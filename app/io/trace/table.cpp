@@ -145,7 +145,6 @@ class Table final : public RawTrace {
             if (!waiting_ && !read_line(in_, text_, line)) return false;
             waiting_ = false;
         } while (text_.find_first_not_of(" \t,;") == text_.npos);
-        count_decimals(*this, text_);
         frame.line = line;
         frame.joints.assign(joints_, glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
         auto row = split(text_, separator_);
@@ -165,7 +164,6 @@ class Table final : public RawTrace {
         frame.line = line;
         do {
             if (text_.find_first_not_of(" \t,;") == text_.npos) continue;
-            count_decimals(*this, text_);
             const auto row = split(text_, separator_);
             if (row.size() != 3 || !all_numbers(row)) fail_line(line, "expected three numbers, x, y and z");
             if (frame.joints.size() == max_trace_joints) fail_line(line, "found more than 4096 joints");

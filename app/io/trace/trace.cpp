@@ -1,6 +1,7 @@
 #include "app/io/trace/trace.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
@@ -83,6 +84,18 @@ TraceReader::TraceReader(std::istream& in, const ConventionChoice& choice, std::
     }
 }
 
+namespace {
+
+/// In the shortest text that reads back as this number.
+int decimals_of(double value) {
+    char text[32];
+    const auto [end, error] = std::to_chars(text, std::end(text), value, std::chars_format::fixed);
+    if (error != std::errc()) return std::abs(value) < 1.0 ? std::numeric_limits<double>::digits10 : 0;
+    return static_cast<int>(std::max<std::ptrdiff_t>(0, end - std::find(text, end, '.') - 1));
+}
+
+}  // namespace
+
 bool TraceReader::next_raw(RawFrame& frame) {
     if (damaged_) return false;
     try {
@@ -98,9 +111,11 @@ bool TraceReader::next_raw(RawFrame& frame) {
         if (chain->second != frame.joints.size())
             fail_line(frame.line, "expected " + std::to_string(chain->second) + " joints, as before, found " +
                                       std::to_string(frame.joints.size()));
+        for (const glm::dvec3& joint : frame.joints)
+            for (int axis = 0; axis < 3; ++axis) decimals_ = std::max(decimals_, decimals_of(joint[axis]));
         return true;
     } catch (const std::runtime_error& error) {
-        if (first_.empty()) throw;
+        if (joints_.empty()) throw;
         notes_.push_back(printable(error.what()) + "; what comes before it was read");
         damaged_ = true;
         return false;
@@ -181,8 +196,7 @@ void TraceReader::find_rate() {
 }
 
 float TraceReader::resolution() const {
-    if (raw_->decimals < 0) return 0.0f;
-    return static_cast<float>(0.5 * std::pow(10.0, -raw_->decimals) * conventions_.metres());
+    return static_cast<float>(0.5 * std::pow(10.0, -decimals_) * conventions_.metres());
 }
 
 bool TraceReader::next(TracedFrame& frame) {
