@@ -61,6 +61,9 @@ std::unique_ptr<RawTrace> open_raw_trace(std::istream& in);
 /// A number, from the start of `text`, as any language prints it: 1.5, 1.5f, nan, -nan(ind), inf, 1.#QNAN.
 /// Removes it from `text`.
 std::optional<double> take_number(std::string_view& text);
+enum class Meaning { Joint, Target, Pole };
+/// Of what has this name, in lower case: "ik_target", "pole vector".
+Meaning meaning_of(std::string_view name);
 /// Whether the text before a vector, or a column's name, says that the numbers are not a position:
 /// "elbow_rotation", "in RPY (radian)".
 bool names_no_position(std::string_view text);

@@ -1,6 +1,7 @@
 // Traces as tables: CSV, or what a spreadsheet copies.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <glm/geometric.hpp>
 #include <map>
 #include <set>
@@ -69,8 +70,12 @@ struct PointColumn {
 
 /// "Elbow_X", "elbow.x [cm]", "elbow[0]" and "x_elbow" are axis 0 of "elbow".
 std::optional<PointColumn> point_column(std::string_view cell) {
-    if (cell.find_first_of("{}=<>") != cell.npos || cell.find(": ") != cell.npos) return std::nullopt;
+    if (cell.find_first_of("{}=<>") != cell.npos || cell.find(": ") != cell.npos ||
+        std::ranges::count(cell, '(') != std::ranges::count(cell, ')'))
+        return std::nullopt;
     std::string name = lower_case(cell);
+    for (const char* axis : {"(x)", "(y)", "(z)", "(w)"})
+        if (name.ends_with(axis)) name.replace(name.size() - 3, 3, 1, axis[1]);
     if (const std::size_t unit = name.find_first_of("([");
         unit != name.npos && unit > 0 && name[unit - 1] == ' ')
         name.resize(unit);
@@ -101,7 +106,7 @@ std::optional<PointColumn> point_column(std::string_view cell) {
     return PointColumn{name, axis, prefix};
 }
 
-/// One a cell. "z-score" is none: there is no x and no y of it.
+/// One a cell. "z-score" and "velocity" are none: there is no x of them.
 std::vector<std::optional<PointColumn>> point_columns(const std::vector<std::string_view>& row) {
     std::vector<std::optional<PointColumn>> points;
     std::map<std::string, unsigned> axes;
@@ -109,18 +114,19 @@ std::vector<std::optional<PointColumn>> point_columns(const std::vector<std::str
         if (const auto& point = points.emplace_back(point_column(cell)))
             axes[point->base] |= 1u << point->axis;
     for (auto& point : points)
-        if (point && point->prefix && (axes[point->base] & 7u) != 7u) point.reset();
+        if (point &&
+            (point->prefix ? (axes[point->base] & 7u) != 7u : std::has_single_bit(axes[point->base])))
+            point.reset();
     return points;
 }
 
 Role role_of(const std::string& base) {
-    if (names_no_position(base) || base == "q" || base.ends_with("_q") || base.ends_with(".q"))
-        return Role::Ignored;
-    for (const char* word : {"t", "target", "goal", "effector_target"})
-        if (base == word) return Role::Target;
-    for (const char* word : {"p", "pole", "pole_target", "hint"})
-        if (base == word) return Role::Pole;
-    return Role::Joint;
+    if (base == "t") return Role::Target;
+    if (base == "p") return Role::Pole;
+    const bool other = base.size() > 1 && names_no_position(base);
+    if (other || base == "q" || base.ends_with("_q") || base.ends_with(".q")) return Role::Ignored;
+    constexpr std::array roles{Role::Joint, Role::Target, Role::Pole};
+    return roles[static_cast<std::size_t>(meaning_of(base))];
 }
 
 class Table final : public RawTrace {
@@ -203,6 +209,7 @@ class Table final : public RawTrace {
                 !(fours[point->base].w == 1.0 && glm::length(fours[point->base]) > 1.02))
                 turns.insert(point->base);
         std::string left_out;
+        std::map<Role, std::string> aims;
         for (std::size_t i = 0; i < row.size(); ++i) {
             Column column;
             const std::string_view cell = row[i];
@@ -216,9 +223,14 @@ class Table final : public RawTrace {
                 column.role = Role::Chain;
             } else if (point) {
                 column.role = turns.contains(point->base) ? Role::Ignored : role_of(point->base);
+                const bool aim = column.role == Role::Target || column.role == Role::Pole;
+                const bool second =
+                    aim && aims.try_emplace(column.role, point->base).first->second != point->base;
+                if (second) column.role = Role::Ignored;
                 if (column.role == Role::Ignored && left_out != point->base)
                     notes.push_back("the columns of \"" + printable(left_out = point->base) +
-                                    "\" were left out: they are not positions");
+                                    "\" were left out: they are " +
+                                    (second ? "a second target" : "not positions"));
                 if (point->axis == 3) column.role = Role::Ignored;
                 column.axis = point->axis;
                 if (column.role == Role::Joint) {

@@ -126,7 +126,7 @@ namespace {
 
 /// How far from the target each joint is over the frames: the median, at the best of some lags.
 std::vector<double> distances_to_target(const std::vector<RawFrame>& frames) {
-    constexpr std::size_t max_lag = 8;
+    constexpr std::size_t max_lag = 30;
     std::vector<double> distances(frames.front().joints.size(), std::numeric_limits<double>::infinity());
     for (std::size_t joint = 0; joint < distances.size(); ++joint)
         for (std::size_t lag = 0; lag <= max_lag && 2 * lag < frames.size(); ++lag) {

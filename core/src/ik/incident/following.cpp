@@ -258,7 +258,11 @@ std::size_t IncidentFinder::find_lag() const {
     std::ranges::transform(paths_, left.begin(), &Following::left);
     for (std::size_t i = 0; i < spans.size(); ++i) {
         const auto frames = static_cast<double>(paths_[i].frames);
-        const auto lag = static_cast<std::size_t>(std::ranges::min_element(left[i]) - left[i].begin());
+        const double least = std::ranges::min(left[i]), same = frames * std::pow(0.1 * least_rms, 2.0);
+        // The first of those that fit alike: a target that circles is there again later.
+        const auto lag = static_cast<std::size_t>(
+            std::ranges::find_if(left[i], [&](double each) { return each <= least + same; }) -
+            left[i].begin());
         const double gained = std::sqrt((left[i][0] - left[i][lag]) / frames);
         const bool fits =
             frames >= lag_frames && lag > 0 && left[i][lag] < best_ratio * left[i][0] && gained > least_rms;
@@ -276,6 +280,11 @@ void IncidentFinder::finish_following() {
     judge_jitter();
     const std::size_t best = find_lag();
     if (best == 0) return;
+    // Where the target was before the first frame is unknown.
+    std::erase_if(found_, [&](const ChainIncident& each) {
+        return each.kind == IncidentKind::Missed && each.frame == 0 &&
+               each.last_frame <= first_move_.value_or(0) + best;
+    });
     note({.kind = IncidentKind::Lag,
           .frame = first_move_.value_or(0),
           .last_frame = frames_ > 0 ? frames_ - 1 : 0,
