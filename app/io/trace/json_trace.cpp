@@ -70,6 +70,9 @@ double loose_number(const JsonPlace& place) {
 }
 
 glm::dvec3 loose_point(const JsonPlace& place) {
+    for (const char* key : {"position", "translation"})
+        if (const auto at = place.json().is_object() ? place.optional(key) : std::nullopt)
+            return loose_point(*at);
     if (place.json().is_object())
         return {loose_number(place["x"]), loose_number(place["y"]), loose_number(place["z"])};
     place.check_size(3, "x, y and z");

@@ -116,7 +116,11 @@ std::unique_ptr<RawTrace> open_raw_trace(std::istream& in) {
     std::size_t line = 0;
     do {
         if (!read_line(in, first, line)) throw std::runtime_error("has nothing in it");
-    } while (first.find_first_not_of(" \t") == first.npos);
+        if (first.starts_with("\xff\xfe") || first.starts_with("\xfe\xff"))
+            throw std::runtime_error("is UTF-16 text: save it as UTF-8");
+        if (first.starts_with('#') && begins_table(std::string_view(first).substr(1))) first.erase(0, 1);
+    } while (first.find_first_not_of(" \t") == first.npos || first.starts_with("sep=") ||
+             (first.starts_with('#') && first.find_first_of("([{<:=") == first.npos));
     const char begin = first[first.find_first_not_of(" \t")];
     const bool named = first.find("\"joints\"") != first.npos || first.find("\"tendril\"") != first.npos;
     if ((begin == '{' || begin == '[') && (named || can_be_json(first)))

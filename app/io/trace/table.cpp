@@ -60,6 +60,7 @@ struct Column {
     Role role = Role::Ignored;
     std::size_t joint = 0;
     int axis = 0;
+    double unit = 1.0;  ///< seconds, of a time
 };
 
 struct PointColumn {
@@ -129,6 +130,30 @@ Role role_of(const std::string& base) {
     return roles[static_cast<std::size_t>(meaning_of(base))];
 }
 
+/// Seconds that one of a column counts: 1e-3 of "time_ms" and "Time [ms]"; 0 if it is no time.
+double time_unit(std::string_view name) {
+    double unit = 1.0;
+    bool time = false;
+    while (!name.empty()) {
+        std::size_t end = 0;
+        while (end < name.size() && name[end] >= 'a' && name[end] <= 'z') ++end;
+        const std::string_view word = name.substr(0, end);
+        name.remove_prefix(std::max<std::size_t>(end, 1));
+        const auto is = [&](auto... words) { return ((word == words) || ...); };
+        if (is("time", "t", "timestamp", "stamp", "seconds", "elapsed"))
+            time = true;
+        else if (is("ms", "msec", "milliseconds"))
+            unit = 1e-3;
+        else if (is("us", "usec", "microseconds"))
+            unit = 1e-6;
+        else if (is("ns", "nsec", "nanoseconds"))
+            unit = 1e-9;
+        else if (!is("", "s", "sec", "secs", "header", "field"))
+            return 0.0;
+    }
+    return time ? unit : 0.0;
+}
+
 class Table final : public RawTrace {
   public:
     Table(std::istream& in, std::string first, std::size_t at) : in_(in), text_(std::move(first)) {
@@ -150,7 +175,7 @@ class Table final : public RawTrace {
         do {
             if (!waiting_ && !read_line(in_, text_, line)) return false;
             waiting_ = false;
-        } while (text_.find_first_not_of(" \t,;") == text_.npos);
+        } while (text_.find_first_not_of(" \t,;") == text_.npos || text_.starts_with('#'));
         frame.line = line;
         frame.joints.assign(joints_, glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
         auto row = split(text_, separator_);
@@ -215,8 +240,9 @@ class Table final : public RawTrace {
             const std::string_view cell = row[i];
             const std::string name = lower_case(cell);
             const auto& point = points[i];
-            if (name == "time" || name == "t" || name == "seconds" || name == "time_s") {
+            if (const double unit = time_unit(name); unit > 0.0) {
                 column.role = Role::Time;
+                column.unit = unit;
             } else if (name == "dt" || name == "delta" || name == "delta_time") {
                 column.role = Role::Dt;
             } else if (name == "chain") {
@@ -258,7 +284,10 @@ class Table final : public RawTrace {
             frame.chain = std::string(cell);
             return;
         }
-        const auto number = number_in(cell);
+        std::string decimal(cell);
+        if (separator_ != ',') std::ranges::replace(decimal, ',', '.');
+        const auto number = number_in(decimal);
+        if (!number && column.role == Role::Time) return;  // a date
         const bool point = column.role == Role::Target || column.role == Role::Pole;
         if (!number && cell.empty() && point) return;  // a frame without a target
         if (!number)
@@ -270,7 +299,7 @@ class Table final : public RawTrace {
         };
         switch (column.role) {
             case Role::Time:
-                frame.time = *number;
+                frame.time = *number * column.unit;
                 break;
             case Role::Dt:
                 frame.dt = *number;
@@ -300,7 +329,8 @@ bool begins_table(std::string_view line) {
     const auto row = split(line, separator_of(line));
     if (row.size() >= 3 && all_numbers(row)) return true;
     const auto points = std::ranges::count_if(point_columns(row), &std::optional<PointColumn>::has_value);
-    return points >= 3 && separator_of(line) != ' ';
+    if (separator_of(line) != ' ') return points >= 3;
+    return points >= 6 && static_cast<std::size_t>(points) + 1 >= row.size();
 }
 
 std::unique_ptr<RawTrace> open_table_trace(std::istream& in, std::string first, std::size_t line) {

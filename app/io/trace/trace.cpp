@@ -189,7 +189,14 @@ void TraceReader::find_rate() {
     }
     if (steps.empty()) return;
     std::ranges::nth_element(steps, steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2));
-    const double step = steps[steps.size() / 2];
+    const double median = steps[steps.size() / 2];
+    if (median == 1.0) return;  // numbers of frames
+    // Times are rounded: the mean of the steps is nearer than any of them.
+    double sum = 0.0, count = 0.0;
+    for (const double each : steps)
+        if (std::abs(each - median) <= 0.25 * median) sum += each, count += 1.0;
+    double step = sum / count;
+    while (step >= 1.0 && step < 1e12) step /= 1000.0;  // milliseconds, or less
     if (!(step > 1e-6 && step < 1e3)) return;
     fps_ = 1.0 / step;
     fps_known_ = true;

@@ -615,6 +615,74 @@ TEST(Trace, WithoutATargetNothingIsSaidOfOne) {
     }
 }
 
+TEST(Trace, TablesAndTheirTimesAreReadHoweverTheyAreWritten) {
+    for (const auto& [time, unit] :
+         std::initializer_list<std::pair<const char*, double>>{{"timestamp", 1},
+                                                               {"stamp", 1},
+                                                               {"time_ms", 1e3},
+                                                               {"time_us", 1e6},
+                                                               {"t_ns", 1e9},
+                                                               {"Time (s)", 1},
+                                                               {"time [s]", 1},
+                                                               {"elapsed", 1},
+                                                               {"%time", 1},
+                                                               {"field.header.stamp", 1e9},
+                                                               {"time", 1e3}})
+        for (const int style : {0, 1, 2, 3, 4}) {
+            const char separator = ",; ,\t"[style];
+            if (separator == ' ' && std::string(time).find(' ') != std::string::npos) continue;
+            std::string text = style == 3 ? "# logged\n# by arm 1.2\nsep=,\n" : style == 2 ? "# " : "";
+            text += time;
+            for (const char* name : {"ax", "ay", "az", "bx", "by", "bz"})
+                text += separator + std::string(name);
+            for (int i = 0; i < 80; ++i) {
+                std::string row =
+                    test::made::number_text(std::round(i / 30.0 * 1e4) / 1e4 * unit, unit > 1 ? 0 : 4);
+                for (const char* number : {"0.0", "1.5", "0.0", "0.25", "1.0", "0.0"})
+                    row += ' ' + std::string(number);
+                if (separator == ';' || separator == '\t') std::ranges::replace(row, '.', ',');
+                std::ranges::replace(row, ' ', separator);
+                text += '\n' + row;
+            }
+            std::istringstream in(text);
+            TraceReader reader(in);
+            EXPECT_TRUE(reader.fps_known()) << text.substr(0, 200);
+            EXPECT_NEAR(reader.fps(), 30.0, 0.02) << text.substr(0, 200);
+            TracedFrame frame;
+            ASSERT_TRUE(reader.next(frame));
+            EXPECT_EQ(frame.joints.at(1), glm::vec3(0.25f, 1, 0)) << text.substr(0, 200);
+        }
+    EXPECT_TRUE(test::says(trace_refusal(std::string("\xff\xfet\0i\0", 6)), "UTF-16"));
+    EXPECT_EQ(trace_refusal("{\"joints\": [{\"position\": {\"x\": 0, \"y\": 1, \"z\": 0}}, [1, 1, 0]]}\n"),
+              "read");
+}
+
+TEST(Trace, TheWholeChainScaledOrUnwrittenOrFrozenIsOneIncident) {
+    for (unsigned seed = 0; seed < 20; ++seed)
+        for (const double scale : {1.1, 0.9, 100.0, 0.01, 0.0, 1.0}) {  // 1: frozen
+            MadeTrace made = TraceMaker(seed).make(Plant::None);
+            for (std::size_t i = 60; i < (scale == 1.0 ? 120u : scale == 0.0 ? 61u : 63u); ++i)
+                for (std::size_t j = 0; j < 3; ++j)
+                    made.frames[i].joints[j] =
+                        scale == 1.0 ? made.frames[59].joints[j] : scale * made.frames[i].joints[j];
+            std::size_t lengths = 0, repeats = 0;
+            const ReadTrace found =
+                read_trace(test::made::written(made, test::made::spaces[2], Format::JsonLines));
+            for (const TracedIncident& each : found.incidents()) {
+                lengths += each.kind == ik::IncidentKind::Length;
+                repeats += each.kind == ik::IncidentKind::Repeated;
+                EXPECT_NE(each.kind, ik::IncidentKind::Missed) << seed << ' ' << scale << '\n'
+                                                               << found.text();
+                if (each.kind != ik::IncidentKind::Length) continue;
+                EXPECT_TRUE(test::says(each.cause, scale == 0.0 ? "at one point" : "scale or unit"))
+                    << each.cause;
+                EXPECT_EQ(each.frame, 60u);
+            }
+            EXPECT_EQ(lengths, scale == 1.0 ? 0u : 1u) << seed << ' ' << scale << '\n' << found.text();
+            EXPECT_EQ(repeats, scale == 1.0 ? 1u : 0u) << seed << ' ' << scale << '\n' << found.text();
+        }
+}
+
 TEST(Trace, OnePositionAndItsRotationHaveNothingToExplain) {
     const std::string block =
         "At time 100.000\n- Translation: [0.300, 0.100, 0.200]\n- Rotation: in Quaternion [0.000, 0.000, "

@@ -32,7 +32,7 @@ enum class IncidentKind : std::uint8_t {
     Nan,  ///< a joint, the target or the pole target is not finite; amount: 0
     /// A bone's length differs from its first; amount: metres, negative if shorter. One incident, the larger,
     /// for both bones of a joint that moved alone: they differ over the same frames, and when that began, the
-    /// distance between their outer ends changed by less than a quarter as much.
+    /// distance between their outer ends changed by less than a quarter as much; one for bones of one factor.
     Length,
     Limit,      ///< a joint is beyond its limit; amount: degrees beyond it
     Missed,     ///< the tip does not arrive, though the target is within reach; amount: metres short

@@ -278,6 +278,23 @@ std::size_t IncidentFinder::find_lag() const {
 void IncidentFinder::finish_following() {
     last(missed_, false, {});
     judge_jitter();
+    // Held to the end, while the target goes on within reach.
+    const bool limited = std::ranges::any_of(limit_, &Episode::open);
+    if (held_.frames > 1 && held_.moved && !limited && !recent_.empty()) {
+        const glm::vec3 target = *recent_.back().target;
+        const std::uint64_t first = frames_ - held_.frames;
+        if (math::distance(held_.target, target) > moving_share * reach_ &&
+            math::distance(target, recent_.back().root()) < reach_) {
+            std::erase_if(found_, [&](const ChainIncident& each) {
+                return each.kind == IncidentKind::Missed && each.frame >= first;
+            });
+            note({.kind = IncidentKind::Repeated,
+                  .frame = first,
+                  .last_frame = frames_ - 1,
+                  .amount = static_cast<double>(held_.frames),
+                  .cause = "all joints stay where they are to the end, and the target goes on"});
+        }
+    }
     const std::size_t best = find_lag();
     if (best == 0) return;
     // Where the target was before the first frame is unknown.

@@ -23,6 +23,34 @@ glm::vec3 transported(glm::vec3 v, glm::vec3 from, glm::vec3 to) noexcept {
     return v + math::cross(axis, v) + math::cross(axis, math::cross(axis, v)) / (1.0f + cosine);
 }
 
+/// All bones that change by one factor over the same frames are one incident. `found`: sorted by frame.
+void merge_scaled(std::vector<ChainIncident>& found, const std::vector<float>& lengths) {
+    constexpr double equal = 0.02;  // of the factor
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const ChainIncident first = found[i];
+        const auto share = [&](const ChainIncident& each) {
+            return 1.0 + each.amount / static_cast<double>(lengths[each.joint - 1]);
+        };
+        const auto alike = [&](const ChainIncident& each) {
+            return each.kind == IncidentKind::Length && each.joint != no_joint && each.frame == first.frame &&
+                   each.last_frame == first.last_frame &&
+                   std::abs(share(each) - share(first)) <= equal * std::max(share(first), equal);
+        };
+        if (first.kind != IncidentKind::Length || lengths.size() < 2) continue;
+        std::size_t bones = 0;
+        double amount = 0.0;
+        for (std::size_t j = i; j < found.size() && found[j].frame == first.frame; ++j)
+            if (alike(found[j])) ++bones, amount += found[j].amount;
+        if (bones != lengths.size()) continue;
+        const bool point = share(first) < equal * equal;
+        std::erase_if(found, [&](const ChainIncident& each) { return &each > &found[i] && alike(each); });
+        found[i].joint = no_joint;
+        found[i].amount = amount;
+        found[i].cause = point ? "all joints are at one point: a frame that was never written"
+                               : "all bones by one factor: a scale or a unit changed";
+    }
+}
+
 }  // namespace
 
 const char* name(IncidentKind kind) noexcept {
@@ -331,6 +359,7 @@ void IncidentFinder::finish() {
     for (Episode& each : limit_) last(each, false, {});
     finish_following();
     std::ranges::stable_sort(found_, {}, &ChainIncident::frame);
+    merge_scaled(found_, lengths_);
     // A joint out of its place changes both its bones over the same frames: one incident, the larger.
     std::size_t kept = 0;
     bool merged = true;  // the last one is
