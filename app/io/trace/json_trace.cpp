@@ -70,6 +70,9 @@ double loose_number(const JsonPlace& place) {
 }
 
 glm::dvec3 loose_point(const JsonPlace& place) {
+    for (const char* key : {"position", "translation"})
+        if (const auto at = place.json().is_object() ? place.optional(key) : std::nullopt)
+            return loose_point(*at);
     if (place.json().is_object())
         return {loose_number(place["x"]), loose_number(place["y"]), loose_number(place["z"])};
     place.check_size(3, "x, y and z");
@@ -174,7 +177,6 @@ class JsonLines final : public RawTrace {
             } while (text_.find_first_not_of(" \t") == text_.npos);
         }
         waiting_ = false;
-        count_decimals(*this, text_);
         const Json json = parse_line(text_, line);
         frame = {.line = line};
         at_json([&] { read_frame(frame, header, JsonPlace(json, "")); });
@@ -209,7 +211,6 @@ class JsonList final : public RawTrace {
         if (text_.size() >= max_file_bytes)
             throw std::runtime_error("is a JSON list of over 64 MiB: write one frame a line instead");
         text_.insert(0, at - 1, '\n');
-        count_decimals(*this, std::string_view(text_).substr(0, 1u << 20));
         try {
             parse_json(std::string_view(text_));
         } catch (const ParseError&) {

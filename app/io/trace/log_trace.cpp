@@ -27,8 +27,6 @@ bool is_word(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c >= '0' && c <= '9');
 }
 
-enum class Meaning { Joint, Target, Pole };
-
 /// The words before a vector.
 struct Words {
     std::string label{};  ///< "elbow" in "elbow = new Vector3", in lower case; may be empty
@@ -41,10 +39,15 @@ struct Found : Words {
     std::vector<double> numbers{};
 };
 
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
 enum Says : unsigned {
-    NoName = 1,     ///< a constructor, or what every name may have behind it
-    Position = 2,   ///< the numbers are one
-    NoPosition = 4  ///< they are something else
+    NoName = 1,      ///< a constructor, or what every name may have behind it
+    Position = 2,    ///< the numbers are one
+    NoPosition = 4,  ///< they are something else
+    Alone = 8        ///< only if it is a word of its own: "r", and not "hand_r"
 };
 
 unsigned says(const std::string& word) {
@@ -53,14 +56,17 @@ unsigned says(const std::string& word) {
         for (const auto& [says, list] : std::initializer_list<std::pair<unsigned, const char*>>{
                  {NoName,
                   "fvector vector3 vector new vec3 dvec3 float3 double3 v array hou np gf vec3d vec3f "
-                  "lpoint3f lvecbase3f lvector3f tensor numpy point3 4x4 mat4"},
+                  "lpoint3f lvecbase3f lvector3f tensor numpy point3 4x4 mat4 at is was now to set world "
+                  "global xyz"},
+                 {NoName | Position | Alone, "p t"},
+                 {NoName | NoPosition | Alone, "r s q v w up"},
                  {NoName | Position, "position pos location loc translation"},
                  {Position, "positions point points target goal joint joints pole origin"},
                  {NoName | NoPosition,
                   "quat fquat quaternion matrix rotation rotations rot orientation orient rpy euler angle "
                   "angles degree degrees deg radian radians rad scale scaling velocity vel speed angular "
                   "linear acceleration accel normal tangent force torque covariance color colour size "
-                  "extents gravity mat3 mat3x3 basis scale3d"}}) {
+                  "extents gravity mat3 mat3x3 basis scale3d fwd forward dir direction axis omega local"}}) {
             std::istringstream in(list);
             for (std::string each; in >> each;) all[each] = says;
         }
@@ -70,23 +76,18 @@ unsigned says(const std::string& word) {
     return found == words.end() ? 0 : found->second;
 }
 
-Meaning meaning_of(const std::string& label) {
-    const auto has = [&](const char* word) { return label.find(word) != label.npos; };
-    if (has("pole") || has("hint")) return Meaning::Pole;
-    return has("target") || has("goal") || has("effector") || has("aim") ? Meaning::Target : Meaning::Joint;
-}
-
 /// Whether a word or a part of it, PoleTarget or pole_target, the last one first, says what numbers are.
 std::optional<bool> says_position(std::string_view word) {
-    while (!word.empty()) {
+    for (bool whole = true; !word.empty(); whole = false) {
         std::size_t begin = word.size();
         while (begin > 0 && word[begin - 1] != '_') {
             --begin;
             const bool capital = word[begin] >= 'A' && word[begin] <= 'Z';
             if (capital && begin > 0 && word[begin - 1] >= 'a' && word[begin - 1] <= 'z') break;
         }
-        if (const unsigned said = says(lower_case(word.substr(begin))) & (Position | NoPosition))
-            return said == Position;
+        const unsigned said = says(lower_case(word.substr(begin)));
+        const bool counts = (said & Alone) == 0 || (begin == 0 && whole);
+        if (counts && (said & (Position | NoPosition)) != 0) return (said & Position) != 0;
         word = word.substr(0, begin > 0 && word[begin - 1] == '_' ? begin - 1 : begin);
     }
     return std::nullopt;
@@ -114,7 +115,11 @@ Words words_before(std::string_view text) {
         std::size_t begin = end;
         while (begin > 0 && is_word(text[begin - 1])) --begin;
         const char* const joins = index.empty() ? " =:<([{\"'\t]." : " [#";
-        const bool joined = text.substr(end, last - end).find_first_not_of(joins) == text.npos;
+        std::string_view between = text.substr(end, last - end);
+        if (between.starts_with("()")) between.remove_prefix(2);  // GetTarget()
+        const bool joined = between.find_first_not_of(joins) == between.npos;
+        if (end - begin == 1 && begin > 1 && text[begin - 1] == '.' && !is_digit(text[begin]))
+            for (--begin; begin > 0 && is_word(text[begin - 1]);) --begin;  // hand.R
         const std::string word = lower_case(text.substr(begin, end - begin));
         const bool number = word.find_first_not_of("0123456789_") == word.npos;
         if (number ? named || !joined || !index.empty() : !named && !joined && !index.empty()) break;
@@ -177,7 +182,11 @@ class Scanner {
             if (words.label.empty() && !found.empty() &&
                 (!words.is_position || rows[0].size() != found.back().numbers.size()))
                 words.meaning = found.back().meaning;
+            const std::vector<double> pose = rows[0].size() > 4 ? rows[0] : std::vector<double>();
+            if (!pose.empty()) rows[0].resize(3);
             for (std::vector<double>& numbers : rows) found.push_back({words, std::move(numbers)});
+            words.is_position = false;
+            if (pose.size() == 7) found.push_back({words, {pose.begin() + 3, pose.end()}});
             at = end;
             from_ = end;
         }
@@ -228,10 +237,11 @@ class Scanner {
         return at;
     }
 
-    /// X=1.0 Y=2.0 Z=3.0 [W=1.0]
+    /// X=1.0 Y=2.0 Z=3.0 [W=1.0], or W first.
     bool named(std::size_t at, std::size_t& end, std::vector<double>& numbers) {
         if (at > 0 && is_word(text_[at - 1])) return false;
-        constexpr std::string_view lower = "xyzw", upper = "XYZW";
+        const bool w_first = text_[at] == 'w' || text_[at] == 'W';
+        const std::string_view lower = w_first ? "wxyz" : "xyzw", upper = w_first ? "WXYZ" : "XYZW";
         std::size_t here = at;
         bool equals = false, tight = false;
         for (std::size_t i = 0; i < 4; ++i) {
@@ -250,10 +260,11 @@ class Scanner {
             numbers.push_back(*number);
             here = text_.size() - rest.size();
         }
-        if (numbers.size() < 3) {
+        if (numbers.size() < (w_first ? 4 : 3)) {
             numbers.clear();
             return false;
         }
+        if (w_first) std::ranges::rotate(numbers, numbers.begin() + 1);
         const std::size_t before = at > 0 ? text_.find_last_not_of(' ', at - 1) : text_.npos;
         const bool braced = before != text_.npos && text_[before] == '{';
         if (text_[at] == 'X' && equals && tight && !braced) trace_.engine = Engine::Unreal;
@@ -288,6 +299,12 @@ class Scanner {
         return fits;
     }
 
+    /// A position and a unit quaternion, or p[...] as Universal Robots prints it: and a rotation vector.
+    bool is_pose(std::size_t at, const std::vector<double>& n) const {
+        if (n.size() == 6) return at > 0 && text_[at - 1] == 'p' && text_[at] == '[';
+        return n.size() == 7 && std::abs(n[3] * n[3] + n[4] * n[4] + n[5] * n[5] + n[6] * n[6] - 1.0) < 0.02;
+    }
+
     /// (1, 2, 3), [1, 2, 3], {1, 2, 3} or <1, 2, 3>, of three or four numbers; or rows of them, [1 2 3; 4 5
     /// 6].
     bool bracketed(std::size_t at, std::size_t& end, std::vector<std::vector<double>>& rows) {
@@ -315,7 +332,8 @@ class Scanner {
             }
         }
         const bool fit =
-            std::ranges::all_of(rows, [](const auto& row) { return row.size() == 3 || row.size() == 4; });
+            std::ranges::all_of(rows, [](const auto& row) { return row.size() == 3 || row.size() == 4; }) ||
+            (rows.size() == 1 && is_pose(at, rows[0]));
         if (here >= text_.size() || text_[here] != close[kind] || !fit) {
             rows.assign(1, {});
             return false;
@@ -406,7 +424,8 @@ class LogTrace final : public RawTrace {
     bool read_joined() {
         if (!read_next()) return false;
         constexpr std::size_t longest = 1u << 20;
-        const bool component = component_of(text_) != 0;
+        const char begun = component_of(text_);
+        const bool component = begun != 0;
         if (component) {
             if (!documents_) find_documents();
             text_.insert(0, before_ + ' ');
@@ -416,7 +435,7 @@ class LogTrace final : public RawTrace {
         std::string whole = std::move(text_);
         while (whole.size() < longest && (component || brackets.hold_numbers()) && read_next()) {
             const char name = component_of(text_);
-            if (name == 0 ? !brackets.hold_numbers() : name == 'x') {
+            if (name == 0 ? !brackets.hold_numbers() : name == begun && name != '#') {
                 later_.push_front(std::move(text_));
                 --line;
                 break;
@@ -467,12 +486,10 @@ class LogTrace final : public RawTrace {
         const bool ends =
             documents_.value_or(false) ? text_.starts_with("---") : labels_.empty() && !by_line_;
         if (found.empty()) return ends && frame.joints.size() >= (documents_ ? 1u : 2u);
-        count_decimals(*this, text_);
         sort_fours(found);
         any_ = true;
-        const auto joints = std::ranges::count_if(found, [](const Found& each) {
-            return each.is_position && each.meaning == Meaning::Joint && each.numbers.size() == 3;
-        });
+        leave_out_attributes(found);
+        const auto joints = std::ranges::count_if(found, is_joint);
         if (joints >= 2) by_line_ = true;
         const bool by_document = documents_.value_or(false);
         RawFrame* into = &frame;
@@ -486,6 +503,31 @@ class LogTrace final : public RawTrace {
             add(*into, each);
         }
         return into == &ahead_;
+    }
+    static bool is_joint(const Found& found) {
+        return found.is_position && found.meaning == Meaning::Joint && found.numbers.size() == 3;
+    }
+    /// A label that comes again in a line, beside two joints or more that have a name of their own, is of
+    /// what each of them has: "elbow (...) side (...) hand (...) side (...)". Where labels take turns, "a
+    /// (...) b (...) a (...) b (...)", the first is of the positions.
+    void leave_out_attributes(std::vector<Found>& found) {
+        std::map<std::string, std::size_t> counts;
+        std::vector<std::string> labels;
+        for (const Found& each : found)
+            if (is_joint(each)) ++counts[labels.emplace_back(each.label)];
+        const auto own = std::ranges::count_if(
+            counts, [](const auto& each) { return each.second == 1 && !each.first.empty(); });
+        const std::size_t turn = counts.size();
+        bool turns = turn > 1 && labels.size() >= 2 * turn && labels.size() % turn == 0;
+        for (std::size_t i = turn; turns && i < labels.size(); ++i) turns = labels[i] == labels[i - turn];
+        std::erase_if(found, [&](const Found& each) {
+            if (!is_joint(each) || each.label.empty()) return false;
+            const bool out = turns ? each.label != labels.front() : own >= 2 && counts[each.label] >= 2;
+            if (out && left_out_.insert(each.label).second)
+                notes.push_back("the vectors of \"" + printable(each.label) +
+                                "\" were left out: every joint has one");
+            return out;
+        });
     }
     /// Four numbers are a quaternion if they are 1 long, or a point if the last is 1: in all of them, then.
     void sort_fours(std::vector<Found>& found) {
@@ -528,15 +570,25 @@ class LogTrace final : public RawTrace {
     std::istream& in_;
     std::string text_;
     RawFrame ahead_;
-    std::set<std::string> labels_;   ///< of the present frame
-    std::string before_;             ///< the line before, if it ends with a colon
-    std::deque<std::string> later_;  ///< lines that were read ahead
+    std::set<std::string> labels_;    ///< of the present frame
+    std::set<std::string> left_out_;  ///< labels
+    std::string before_;              ///< the line before, if it ends with a colon
+    std::deque<std::string> later_;   ///< lines that were read ahead
     std::optional<bool>
         documents_{};  ///< whether --- parts the frames; unknown before the first x: on a line
     bool waiting_ = true, by_line_ = false, any_ = false, homogeneous_ = false;
 };
 
 }  // namespace
+
+Meaning meaning_of(std::string_view name) {
+    const auto has = [&](auto... words) { return ((name.find(words) != name.npos) || ...); };
+    if (has("pole", "hint")) return Meaning::Pole;
+    if (has("target", "tgt", "goal", "aim", "cmd", "command", "desired", "setpoint", "moving"))
+        return Meaning::Target;
+    const bool tip = has("endeffector", "end_effector", "end effector", "end-effector");
+    return has("effector") && !tip ? Meaning::Target : Meaning::Joint;
+}
 
 bool names_no_position(std::string_view text) {
     return !words_before(text).is_position;

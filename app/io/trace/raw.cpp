@@ -76,18 +76,6 @@ std::optional<double> take_number(std::string_view& text) {
     return negative ? -value : value;
 }
 
-void count_decimals(RawTrace& trace, std::string_view text) {
-    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-    for (std::size_t at = text.find('.'); at != text.npos; at = text.find('.', at + 1)) {
-        std::size_t end = at + 1;
-        while (end < text.size() && is_digit(text[end])) ++end;
-        if (at == 0 || !is_digit(text[at - 1])) continue;
-        const bool exponent = end < text.size() && (text[end] == 'e' || text[end] == 'E');
-        if (exponent) trace.decimals = -1;
-        if (trace.decimals >= 0) trace.decimals = std::max(trace.decimals, static_cast<int>(end - at - 1));
-    }
-}
-
 namespace {
 
 /// Whether a line can be JSON, as far as it goes: NumPy, MATLAB and Python print brackets, too.
@@ -128,7 +116,11 @@ std::unique_ptr<RawTrace> open_raw_trace(std::istream& in) {
     std::size_t line = 0;
     do {
         if (!read_line(in, first, line)) throw std::runtime_error("has nothing in it");
-    } while (first.find_first_not_of(" \t") == first.npos);
+        if (first.starts_with("\xff\xfe") || first.starts_with("\xfe\xff"))
+            throw std::runtime_error("is UTF-16 text: save it as UTF-8");
+        if (first.starts_with('#') && begins_table(std::string_view(first).substr(1))) first.erase(0, 1);
+    } while (first.find_first_not_of(" \t") == first.npos || first.starts_with("sep=") ||
+             (first.starts_with('#') && first.find_first_of("([{<:=") == first.npos));
     const char begin = first[first.find_first_not_of(" \t")];
     const bool named = first.find("\"joints\"") != first.npos || first.find("\"tendril\"") != first.npos;
     if ((begin == '{' || begin == '[') && (named || can_be_json(first)))

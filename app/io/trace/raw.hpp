@@ -47,7 +47,6 @@ class RawTrace {
 
     TraceHeader header;
     Engine engine = Engine::Unknown;  ///< as far as it can be told from what was read
-    int decimals = 0;                 ///< the most that a number was written with; -1: with an exponent
     std::vector<std::string> notes;   ///< for display: what was left out
     std::size_t line = 0;             ///< of what was read
 };
@@ -62,11 +61,12 @@ std::unique_ptr<RawTrace> open_raw_trace(std::istream& in);
 /// A number, from the start of `text`, as any language prints it: 1.5, 1.5f, nan, -nan(ind), inf, 1.#QNAN.
 /// Removes it from `text`.
 std::optional<double> take_number(std::string_view& text);
+enum class Meaning { Joint, Target, Pole };
+/// Of what has this name, in lower case: "ik_target", "pole vector".
+Meaning meaning_of(std::string_view name);
 /// Whether the text before a vector, or a column's name, says that the numbers are not a position:
 /// "elbow_rotation", "in RPY (radian)".
 bool names_no_position(std::string_view text);
-/// Raises `trace.decimals` to those of the numbers in `text`.
-void count_decimals(RawTrace& trace, std::string_view text);
 /// Reads a line without its end; false at the end. Refuses one of over 16 MiB.
 bool read_line(std::istream& in, std::string& text, std::size_t& line);
 

@@ -1,6 +1,7 @@
 // Traces as tables: CSV, or what a spreadsheet copies.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <glm/geometric.hpp>
 #include <map>
 #include <set>
@@ -59,6 +60,7 @@ struct Column {
     Role role = Role::Ignored;
     std::size_t joint = 0;
     int axis = 0;
+    double unit = 1.0;  ///< seconds, of a time
 };
 
 struct PointColumn {
@@ -69,8 +71,12 @@ struct PointColumn {
 
 /// "Elbow_X", "elbow.x [cm]", "elbow[0]" and "x_elbow" are axis 0 of "elbow".
 std::optional<PointColumn> point_column(std::string_view cell) {
-    if (cell.find_first_of("{}=<>") != cell.npos || cell.find(": ") != cell.npos) return std::nullopt;
+    if (cell.find_first_of("{}=<>") != cell.npos || cell.find(": ") != cell.npos ||
+        std::ranges::count(cell, '(') != std::ranges::count(cell, ')'))
+        return std::nullopt;
     std::string name = lower_case(cell);
+    for (const char* axis : {"(x)", "(y)", "(z)", "(w)"})
+        if (name.ends_with(axis)) name.replace(name.size() - 3, 3, 1, axis[1]);
     if (const std::size_t unit = name.find_first_of("([");
         unit != name.npos && unit > 0 && name[unit - 1] == ' ')
         name.resize(unit);
@@ -101,7 +107,7 @@ std::optional<PointColumn> point_column(std::string_view cell) {
     return PointColumn{name, axis, prefix};
 }
 
-/// One a cell. "z-score" is none: there is no x and no y of it.
+/// One a cell. "z-score" and "velocity" are none: there is no x of them.
 std::vector<std::optional<PointColumn>> point_columns(const std::vector<std::string_view>& row) {
     std::vector<std::optional<PointColumn>> points;
     std::map<std::string, unsigned> axes;
@@ -109,18 +115,43 @@ std::vector<std::optional<PointColumn>> point_columns(const std::vector<std::str
         if (const auto& point = points.emplace_back(point_column(cell)))
             axes[point->base] |= 1u << point->axis;
     for (auto& point : points)
-        if (point && point->prefix && (axes[point->base] & 7u) != 7u) point.reset();
+        if (point &&
+            (point->prefix ? (axes[point->base] & 7u) != 7u : std::has_single_bit(axes[point->base])))
+            point.reset();
     return points;
 }
 
 Role role_of(const std::string& base) {
-    if (names_no_position(base) || base == "q" || base.ends_with("_q") || base.ends_with(".q"))
-        return Role::Ignored;
-    for (const char* word : {"t", "target", "goal", "effector_target"})
-        if (base == word) return Role::Target;
-    for (const char* word : {"p", "pole", "pole_target", "hint"})
-        if (base == word) return Role::Pole;
-    return Role::Joint;
+    if (base == "t") return Role::Target;
+    if (base == "p") return Role::Pole;
+    const bool other = base.size() > 1 && names_no_position(base);
+    if (other || base == "q" || base.ends_with("_q") || base.ends_with(".q")) return Role::Ignored;
+    constexpr std::array roles{Role::Joint, Role::Target, Role::Pole};
+    return roles[static_cast<std::size_t>(meaning_of(base))];
+}
+
+/// Seconds that one of a column counts: 1e-3 of "time_ms" and "Time [ms]"; 0 if it is no time.
+double time_unit(std::string_view name) {
+    double unit = 1.0;
+    bool time = false;
+    while (!name.empty()) {
+        std::size_t end = 0;
+        while (end < name.size() && name[end] >= 'a' && name[end] <= 'z') ++end;
+        const std::string_view word = name.substr(0, end);
+        name.remove_prefix(std::max<std::size_t>(end, 1));
+        const auto is = [&](auto... words) { return ((word == words) || ...); };
+        if (is("time", "t", "timestamp", "stamp", "seconds", "elapsed"))
+            time = true;
+        else if (is("ms", "msec", "milliseconds"))
+            unit = 1e-3;
+        else if (is("us", "usec", "microseconds"))
+            unit = 1e-6;
+        else if (is("ns", "nsec", "nanoseconds"))
+            unit = 1e-9;
+        else if (!is("", "s", "sec", "secs", "header", "field"))
+            return 0.0;
+    }
+    return time ? unit : 0.0;
 }
 
 class Table final : public RawTrace {
@@ -144,8 +175,7 @@ class Table final : public RawTrace {
         do {
             if (!waiting_ && !read_line(in_, text_, line)) return false;
             waiting_ = false;
-        } while (text_.find_first_not_of(" \t,;") == text_.npos);
-        count_decimals(*this, text_);
+        } while (text_.find_first_not_of(" \t,;") == text_.npos || text_.starts_with('#'));
         frame.line = line;
         frame.joints.assign(joints_, glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
         auto row = split(text_, separator_);
@@ -165,7 +195,6 @@ class Table final : public RawTrace {
         frame.line = line;
         do {
             if (text_.find_first_not_of(" \t,;") == text_.npos) continue;
-            count_decimals(*this, text_);
             const auto row = split(text_, separator_);
             if (row.size() != 3 || !all_numbers(row)) fail_line(line, "expected three numbers, x, y and z");
             if (frame.joints.size() == max_trace_joints) fail_line(line, "found more than 4096 joints");
@@ -205,22 +234,29 @@ class Table final : public RawTrace {
                 !(fours[point->base].w == 1.0 && glm::length(fours[point->base]) > 1.02))
                 turns.insert(point->base);
         std::string left_out;
+        std::map<Role, std::string> aims;
         for (std::size_t i = 0; i < row.size(); ++i) {
             Column column;
             const std::string_view cell = row[i];
             const std::string name = lower_case(cell);
             const auto& point = points[i];
-            if (name == "time" || name == "t" || name == "seconds" || name == "time_s") {
+            if (const double unit = time_unit(name); unit > 0.0) {
                 column.role = Role::Time;
+                column.unit = unit;
             } else if (name == "dt" || name == "delta" || name == "delta_time") {
                 column.role = Role::Dt;
             } else if (name == "chain") {
                 column.role = Role::Chain;
             } else if (point) {
                 column.role = turns.contains(point->base) ? Role::Ignored : role_of(point->base);
+                const bool aim = column.role == Role::Target || column.role == Role::Pole;
+                const bool second =
+                    aim && aims.try_emplace(column.role, point->base).first->second != point->base;
+                if (second) column.role = Role::Ignored;
                 if (column.role == Role::Ignored && left_out != point->base)
                     notes.push_back("the columns of \"" + printable(left_out = point->base) +
-                                    "\" were left out: they are not positions");
+                                    "\" were left out: they are " +
+                                    (second ? "a second target" : "not positions"));
                 if (point->axis == 3) column.role = Role::Ignored;
                 column.axis = point->axis;
                 if (column.role == Role::Joint) {
@@ -248,7 +284,10 @@ class Table final : public RawTrace {
             frame.chain = std::string(cell);
             return;
         }
-        const auto number = number_in(cell);
+        std::string decimal(cell);
+        if (separator_ != ',') std::ranges::replace(decimal, ',', '.');
+        const auto number = number_in(decimal);
+        if (!number && column.role == Role::Time) return;  // a date
         const bool point = column.role == Role::Target || column.role == Role::Pole;
         if (!number && cell.empty() && point) return;  // a frame without a target
         if (!number)
@@ -260,7 +299,7 @@ class Table final : public RawTrace {
         };
         switch (column.role) {
             case Role::Time:
-                frame.time = *number;
+                frame.time = *number * column.unit;
                 break;
             case Role::Dt:
                 frame.dt = *number;
@@ -290,7 +329,8 @@ bool begins_table(std::string_view line) {
     const auto row = split(line, separator_of(line));
     if (row.size() >= 3 && all_numbers(row)) return true;
     const auto points = std::ranges::count_if(point_columns(row), &std::optional<PointColumn>::has_value);
-    return points >= 3 && separator_of(line) != ' ';
+    if (separator_of(line) != ' ') return points >= 3;
+    return points >= 6 && static_cast<std::size_t>(points) + 1 >= row.size();
 }
 
 std::unique_ptr<RawTrace> open_table_trace(std::istream& in, std::string first, std::size_t line) {

@@ -1,6 +1,7 @@
 #include "app/io/trace/trace.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
@@ -83,6 +84,18 @@ TraceReader::TraceReader(std::istream& in, const ConventionChoice& choice, std::
     }
 }
 
+namespace {
+
+/// In the shortest text that reads back as this number.
+int decimals_of(double value) {
+    char text[32];
+    const auto [end, error] = std::to_chars(text, std::end(text), value, std::chars_format::fixed);
+    if (error != std::errc()) return std::abs(value) < 1.0 ? std::numeric_limits<double>::digits10 : 0;
+    return static_cast<int>(std::max<std::ptrdiff_t>(0, end - std::find(text, end, '.') - 1));
+}
+
+}  // namespace
+
 bool TraceReader::next_raw(RawFrame& frame) {
     if (damaged_) return false;
     try {
@@ -98,9 +111,11 @@ bool TraceReader::next_raw(RawFrame& frame) {
         if (chain->second != frame.joints.size())
             fail_line(frame.line, "expected " + std::to_string(chain->second) + " joints, as before, found " +
                                       std::to_string(frame.joints.size()));
+        for (const glm::dvec3& joint : frame.joints)
+            for (int axis = 0; axis < 3; ++axis) decimals_ = std::max(decimals_, decimals_of(joint[axis]));
         return true;
     } catch (const std::runtime_error& error) {
-        if (first_.empty()) throw;
+        if (joints_.empty()) throw;
         notes_.push_back(printable(error.what()) + "; what comes before it was read");
         damaged_ = true;
         return false;
@@ -111,7 +126,7 @@ namespace {
 
 /// How far from the target each joint is over the frames: the median, at the best of some lags.
 std::vector<double> distances_to_target(const std::vector<RawFrame>& frames) {
-    constexpr std::size_t max_lag = 8;
+    constexpr std::size_t max_lag = 30;
     std::vector<double> distances(frames.front().joints.size(), std::numeric_limits<double>::infinity());
     for (std::size_t joint = 0; joint < distances.size(); ++joint)
         for (std::size_t lag = 0; lag <= max_lag && 2 * lag < frames.size(); ++lag) {
@@ -174,15 +189,21 @@ void TraceReader::find_rate() {
     }
     if (steps.empty()) return;
     std::ranges::nth_element(steps, steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2));
-    const double step = steps[steps.size() / 2];
+    const double median = steps[steps.size() / 2];
+    if (median == 1.0) return;  // numbers of frames
+    // Times are rounded: the mean of the steps is nearer than any of them.
+    double sum = 0.0, count = 0.0;
+    for (const double each : steps)
+        if (std::abs(each - median) <= 0.25 * median) sum += each, count += 1.0;
+    double step = sum / count;
+    while (step >= 1.0 && step < 1e12) step /= 1000.0;  // milliseconds, or less
     if (!(step > 1e-6 && step < 1e3)) return;
     fps_ = 1.0 / step;
     fps_known_ = true;
 }
 
 float TraceReader::resolution() const {
-    if (raw_->decimals < 0) return 0.0f;
-    return static_cast<float>(0.5 * std::pow(10.0, -raw_->decimals) * conventions_.metres());
+    return static_cast<float>(0.5 * std::pow(10.0, -decimals_) * conventions_.metres());
 }
 
 bool TraceReader::next(TracedFrame& frame) {

@@ -59,6 +59,7 @@ class TraceReader {
         ends_;  ///< the end effector of a chain, found, unless it is the last joint
     std::vector<std::string> notes_;
     double fps_ = 60.0;
+    int decimals_ = 0;  ///< the most that a joint's coordinate was written with
     bool fps_known_ = false, damaged_ = false;
 };
 

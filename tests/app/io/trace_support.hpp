@@ -327,9 +327,10 @@ inline std::string number_text(double value, int decimals) {
     return text;
 }
 
-inline std::string written(const MadeTrace& trace, const Space& space, Format format) {
+/// `rounded`: positions to the millimetre, times as before.
+inline std::string written(const MadeTrace& trace, const Space& space, Format format, bool rounded = false) {
     // A log has few digits, but enough of them.
-    const int decimals = space.unit[0] == 'm' && space.unit[1] == 0 ? 5 : 3;
+    const int decimals = (space.scale == 1.0 ? 5 : 3) - (rounded ? space.scale == 1000.0 ? 3 : 2 : 0);
     const auto points = [&](const glm::dvec3& p, const char* open, const char* between, const char* close,
                             const char* suffix = "") {
         const glm::dvec3 q = space.of(p);

@@ -215,7 +215,9 @@ TEST(Trace, NothingIsFoundInCleanOnes) {
     for (unsigned seed = 1000; seed < 1200; ++seed) {
         const auto format = static_cast<Format>(seed % test::made::formats);
         const MadeTrace made = TraceMaker(seed).make(Plant::None);
-        const ReadTrace found = read_trace(test::made::written(made, space_for(format, seed / 10), format));
+        const bool rounded = seed % 3 == 0;
+        const ReadTrace found =
+            read_trace(test::made::written(made, space_for(format, seed / 10), format, rounded));
         EXPECT_EQ(found.text(), "") << "seed " << seed;
         EXPECT_EQ(found.notes.size(), 0u);
     }
@@ -434,6 +436,58 @@ const Maker makers[]{
      [](const Joints& j, std::size_t) {
          return labelled(j, " position (%.4f, %.4f, %.4f) rotation (0.00, 90.00, 0.00) scale (1, 1, 1)\n");
      }},
+    {"quaternions, w first",
+     [](const Joints& j, std::size_t) {
+         return labelled(j, " (%.4f, %.4f, %.4f) <Quaternion (w=0.9888, x=0.0338, y=0.0846, z=0.1184)> ") +
+                "\n";
+     }},
+    {"named quaternions",
+     [](const Joints& j, std::size_t) {
+         return each_joint(j, "{pos: {x: %.4f, y: %.4f, z: %.4f}, rot: {w: 1.0, x: 0.0, y: 0.0, z: 0.0}}") +
+                "\n";
+     }},
+    {"t r s",
+     [](const Joints& j, std::size_t) {
+         return labelled(j, " t=[%.4f, %.4f, %.4f] r=[10.0, 20.0, 30.0] s=[1.0, 1.0, 1.0] ") + "\n";
+     }},
+    {"p w v",
+     [](const Joints& j, std::size_t) {
+         return labelled(j, ": p=(%.4f, %.4f, %.4f) w=(0.0, 0.0, 0.3) v=(0.1, 0.2, 0.3) ") + "\n";
+     }},
+    {"forward, up",
+     [](const Joints& j, std::size_t) {
+         return labelled(j, " pos (%.4f, %.4f, %.4f) fwd (0.0, 0.0, 1.0) up (0.0, 1.0, 0.0)\n");
+     }},
+    {"axis, angle",
+     [](const Joints& j, std::size_t) {
+         return labelled(j, " (%.4f, %.4f, %.4f) axis=(0.0, 1.0, 0.0) angle=10.0 ") + "\n";
+     }},
+    {"world, local",
+     [](const Joints& j, std::size_t) {
+         return labelled(j, " world (%.4f, %.4f, %.4f) local (0.3, 0.0, 0.0) ") + "\n";
+     }},
+    {"velocities",
+     [](const Joints& j, std::size_t) {
+         return labelled(j, ": position (%.4f, %.4f, %.4f) velocity (0.1, 0.0, 0.3) ") + "\n";
+     }},
+    {"a label that each has",
+     [](const Joints& j, std::size_t) {
+         return labelled(j, " (%.4f, %.4f, %.4f) bulge (0.1, 0.2, 0.3) ") + "\n";
+     }},
+    {"labels in turn",
+     [](const Joints& j, std::size_t) {
+         return each_joint(j, "here (%.4f, %.4f, %.4f) bulge (0.1, 0.2, 0.3)") + "\n";
+     }},
+    {"poses of seven",
+     [](const Joints& j, std::size_t) {
+         return labelled(j, " [%.4f, %.4f, %.4f, 0.0338, 0.0846, 0.1184, 0.9888] ") + "\n";
+     }},
+    {"Universal Robots",
+     [](const Joints& j, std::size_t) { return each_joint(j, "p[%.4f, %.4f, %.4f, 0.1, 0.2, 0.3]") + "\n"; }},
+    {"hand.R",
+     [](const Joints& j, std::size_t) {
+         return "arm.R" + printed(j[0]) + "\nfore.R" + printed(j[1]) + "\nhand.R" + printed(j[2]) + "\n";
+     }},
     {"with matrices",
      [](const Joints& j, std::size_t) {
          return each_joint(j, "(%.4f, %.4f, %.4f)") + " [[0.6 -0.8 0.0] [0.8 0.6 0.0] [0.0 0.0 1.0]]\n";
@@ -492,6 +546,140 @@ TEST(Trace, LogsOfManyMakersAreRead) {
             EXPECT_EQ(found.incidents()[0].frame, made.frame) << maker.name;
             EXPECT_EQ(found.incidents()[0].joint, static_cast<std::size_t>(made.joint)) << maker.name;
             EXPECT_NEAR(found.incidents()[0].amount, made.amount, 5e-3) << maker.name;
+        }
+}
+
+TEST(Trace, ATargetIsKnownByItsName) {
+    const auto check = [](const std::string& text, bool pole) {
+        std::istringstream in(text);
+        TraceReader reader(in, {.up = "y", .handed = "right", .unit = "m", .rotations = ""});
+        TracedFrame frame;
+        ASSERT_TRUE(reader.next(frame)) << text;
+        EXPECT_EQ(frame.joints.size(), 3u) << text;
+        EXPECT_EQ(pole ? frame.pole : frame.target, glm::vec3(1, 2, 0)) << text;
+    };
+    for (const std::string name :
+         {"target p=", "target at ", "target world position: ", "GetTarget()=", "moving to ", "tgt ",
+          "cmd: ", "desired=", "EffectorLocation: ", "EndEffectorTarget=", "Target.Position "})
+        check("shoulder=(0, 1, 0) elbow=(0.5, 1, 0) EndEffector=(1, 1, 0) " + name + "(1, 2, 0)\n", false);
+    for (const std::string name :
+         {"t", "target_pos_", "target_position_", "target.position.", "Target Position ", "TargetPosition",
+          "ik_target.", "ee_target_", "hand_target_", "goal_pos_", "effector_", "tgt_", "cmd_", "desired_",
+          "IK Target ", "pole_vector_", "elbow_hint_"}) {
+        std::string header;
+        for (const std::string& each :
+             {std::string("a_"), std::string("hand_r_"), std::string("end_effector_"), name})
+            for (const char* axis : {"x", "y", "z"}) header += (header.empty() ? "" : ",") + each + axis;
+        check(header + "\n0,1,0,0.5,1,0,1,1,0,1,2,0\n", name == "pole_vector_" || name == "elbow_hint_");
+    }
+    check(
+        "a (x),a (y),a (z),b (x),b (y),b (z),c (x),c (y),c (z),target (x),target (y),target (z),body\n"
+        "0,1,0,0.5,1,0,1,1,0,1,2,0,7\n",
+        false);
+    const ReadTrace two = read_trace(
+        "a_x,a_y,a_z,b_x,b_y,b_z,target_x,target_y,target_z,goal_x,goal_y,goal_z\n"
+        "0,1,0,0.5,1,0,1,1,0,1,2,0\n");
+    EXPECT_TRUE(test::says(two.notes.at(0), "goal second target")) << two.notes[0];
+}
+
+TEST(Trace, ALagOfAnyLengthIsFoundAlone) {
+    for (const std::size_t by : {1u, 4u, 8u, 9u, 12u, 20u, 30u})
+        for (unsigned seed = 0; seed < 6; ++seed) {
+            MadeTrace made = TraceMaker(seed).make(Plant::None);
+            for (std::size_t i = made.frames.size(); i-- > by;)
+                made.frames[i].joints = made.frames[i - by].joints;
+            made.frames.erase(made.frames.begin(), made.frames.begin() + static_cast<std::ptrdiff_t>(by));
+            const ReadTrace found =
+                read_trace(test::made::written(made, test::made::spaces[2], Format::JsonLines));
+            ASSERT_EQ(found.incidents().size(), 1u) << by << " frames, seed " << seed << '\n' << found.text();
+            EXPECT_EQ(found.incidents()[0].kind, ik::IncidentKind::Lag);
+            EXPECT_EQ(found.incidents()[0].amount, static_cast<double>(by));
+        }
+}
+
+TEST(Trace, WithoutATargetNothingIsSaidOfOne) {
+    for (unsigned seed = 0; seed < 60; ++seed) {
+        const MadeTrace made = TraceMaker(seed).make(static_cast<Plant>(seed % (test::made::plants + 1)));
+        std::string text =
+            "{\"tendril\": \"trace\", \"up\": \"y\", \"handed\": \"right\", \"unit\": \"m\"}\n";
+        for (std::size_t i = 0; i < made.frames.size(); ++i) {
+            const double scale = seed >= 30 && i >= 60 && i < 65 ? 1.6 : 1.0;
+            text += "{\"joints\": [";
+            for (std::size_t j = 0; j < 3; ++j)
+                text += (j > 0 ? "," : "") + printed(scale * made.frames[i].joints[j], "[%.5f,%.5f,%.5f]");
+            text += "]}\n";
+        }
+        for (const TracedIncident& each : read_trace(text).incidents())
+            EXPECT_TRUE(each.kind != ik::IncidentKind::TargetJump && !test::says(each.cause, "target"))
+                << "seed " << seed << ": " << each.text({});
+    }
+}
+
+TEST(Trace, TablesAndTheirTimesAreReadHoweverTheyAreWritten) {
+    for (const auto& [time, unit] :
+         std::initializer_list<std::pair<const char*, double>>{{"timestamp", 1},
+                                                               {"stamp", 1},
+                                                               {"time_ms", 1e3},
+                                                               {"time_us", 1e6},
+                                                               {"t_ns", 1e9},
+                                                               {"Time (s)", 1},
+                                                               {"time [s]", 1},
+                                                               {"elapsed", 1},
+                                                               {"%time", 1},
+                                                               {"field.header.stamp", 1e9},
+                                                               {"time", 1e3}})
+        for (const int style : {0, 1, 2, 3, 4}) {
+            const char separator = ",; ,\t"[style];
+            if (separator == ' ' && std::string(time).find(' ') != std::string::npos) continue;
+            std::string text = style == 3 ? "# logged\n# by arm 1.2\nsep=,\n" : style == 2 ? "# " : "";
+            text += time;
+            for (const char* name : {"ax", "ay", "az", "bx", "by", "bz"})
+                text += separator + std::string(name);
+            for (int i = 0; i < 80; ++i) {
+                std::string row =
+                    test::made::number_text(std::round(i / 30.0 * 1e4) / 1e4 * unit, unit > 1 ? 0 : 4);
+                for (const char* number : {"0.0", "1.5", "0.0", "0.25", "1.0", "0.0"})
+                    row += ' ' + std::string(number);
+                if (separator == ';' || separator == '\t') std::ranges::replace(row, '.', ',');
+                std::ranges::replace(row, ' ', separator);
+                text += '\n' + row;
+            }
+            std::istringstream in(text);
+            TraceReader reader(in);
+            EXPECT_TRUE(reader.fps_known()) << text.substr(0, 200);
+            EXPECT_NEAR(reader.fps(), 30.0, 0.02) << text.substr(0, 200);
+            TracedFrame frame;
+            ASSERT_TRUE(reader.next(frame));
+            EXPECT_EQ(frame.joints.at(1), glm::vec3(0.25f, 1, 0)) << text.substr(0, 200);
+        }
+    EXPECT_TRUE(test::says(trace_refusal(std::string("\xff\xfet\0i\0", 6)), "UTF-16"));
+    EXPECT_EQ(trace_refusal("{\"joints\": [{\"position\": {\"x\": 0, \"y\": 1, \"z\": 0}}, [1, 1, 0]]}\n"),
+              "read");
+}
+
+TEST(Trace, TheWholeChainScaledOrUnwrittenOrFrozenIsOneIncident) {
+    for (unsigned seed = 0; seed < 20; ++seed)
+        for (const double scale : {1.1, 0.9, 100.0, 0.01, 0.0, 1.0}) {  // 1: frozen
+            MadeTrace made = TraceMaker(seed).make(Plant::None);
+            for (std::size_t i = 60; i < (scale == 1.0 ? 120u : scale == 0.0 ? 61u : 63u); ++i)
+                for (std::size_t j = 0; j < 3; ++j)
+                    made.frames[i].joints[j] =
+                        scale == 1.0 ? made.frames[59].joints[j] : scale * made.frames[i].joints[j];
+            std::size_t lengths = 0, repeats = 0;
+            const ReadTrace found =
+                read_trace(test::made::written(made, test::made::spaces[2], Format::JsonLines));
+            for (const TracedIncident& each : found.incidents()) {
+                lengths += each.kind == ik::IncidentKind::Length;
+                repeats += each.kind == ik::IncidentKind::Repeated;
+                EXPECT_NE(each.kind, ik::IncidentKind::Missed) << seed << ' ' << scale << '\n'
+                                                               << found.text();
+                if (each.kind != ik::IncidentKind::Length) continue;
+                EXPECT_TRUE(test::says(each.cause, scale == 0.0 ? "at one point" : "scale or unit"))
+                    << each.cause;
+                EXPECT_EQ(each.frame, 60u);
+            }
+            EXPECT_EQ(lengths, scale == 1.0 ? 0u : 1u) << seed << ' ' << scale << '\n' << found.text();
+            EXPECT_EQ(repeats, scale == 1.0 ? 1u : 0u) << seed << ' ' << scale << '\n' << found.text();
         }
 }
 
@@ -557,10 +745,14 @@ TEST(Trace, DamageIsRefusedByItsLineOrReadUpToIt) {
              {"{\"up\": \"w\"}\n{\"joints\": [[0,0,0],[1,0,0]]}\n", "\"w\""}})
         EXPECT_TRUE(test::says(trace_refusal(text), words)) << text;
     const std::string frame = "{\"joints\": [[0,0,0],[1,0,0]], \"target\": [1,0,0]}\n";
-    const ReadTrace cut = read_trace(frame + frame + "{\"joints\": [[0,0,0],[1,0");
-    ASSERT_EQ(cut.notes.size(), 1u);
-    EXPECT_NE(cut.notes[0].find("line 3"), std::string::npos);
-    EXPECT_EQ(cut.findings.chains[0].frames, 2u);
+    for (const std::size_t frames : {2u, 64u, 300u}) {
+        std::string whole;
+        for (std::size_t i = 0; i < frames; ++i) whole += frame;
+        const ReadTrace cut = read_trace(whole + "{\"joints\": [[0,0,0],[1,0");
+        ASSERT_EQ(cut.notes.size(), 1u);
+        EXPECT_NE(cut.notes[0].find("line " + std::to_string(frames + 1)), std::string::npos);
+        EXPECT_EQ(cut.findings.chains[0].frames, frames);
+    }
     const ReadTrace other = read_trace(frame + "{\"joints\": [[0,0,0],[1,0,0],[2,0,0]]}\n");
     EXPECT_NE(other.notes.at(0).find("expected 2 joints"), std::string::npos);
 }

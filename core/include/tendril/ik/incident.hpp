@@ -4,7 +4,7 @@
 //
 // Frames are added one by one; memory is bounded by the number of joints and of incidents, not of frames.
 // What lasts is one incident, from its first frame to its last. Where a frame has no target, the tip stands
-// in for it: flips, NaN, lengths and limits are still found.
+// in for it: flips, NaN, lengths, limits and repeats are still found, and no cause is sought in the target.
 //
 // Cost: O(joints) a frame. Nothing throws.
 #pragma once
@@ -32,11 +32,11 @@ enum class IncidentKind : std::uint8_t {
     Nan,  ///< a joint, the target or the pole target is not finite; amount: 0
     /// A bone's length differs from its first; amount: metres, negative if shorter. One incident, the larger,
     /// for both bones of a joint that moved alone: they differ over the same frames, and when that began, the
-    /// distance between their outer ends changed by less than a quarter as much.
+    /// distance between their outer ends changed by less than a quarter as much; one for bones of one factor.
     Length,
     Limit,      ///< a joint is beyond its limit; amount: degrees beyond it
     Missed,     ///< the tip does not arrive, though the target is within reach; amount: metres short
-    Lag,        ///< the tip is where the target was some frames ago; amount: frames
+    Lag,        ///< the tip is where the target was some frames ago, 30 at most; amount: frames
     Jitter,     ///< the tip swings while the target is still; amount: metres to either side
     Repeated,   ///< frames equal the one before them, in the middle of a motion; amount: frames
     TargetJump  ///< amount: metres
@@ -100,7 +100,7 @@ class IncidentFinder {
     static constexpr std::size_t max_incidents = 100'000;
 
   private:
-    static constexpr std::size_t max_lag = 8, still_window = 64;
+    static constexpr std::size_t max_lag = 30, still_window = 64;
     /// Paths are compared by position (0), and by steps of so many frames.
     static constexpr std::array<std::size_t, 3> spans{0, 1, 16};
 
@@ -114,10 +114,10 @@ class IncidentFinder {
     void last(Episode& episode, bool active, const ChainIncident& now);
     bool find_nan(const TraceFrame& frame);
     const char* nan_cause(const TraceFrame& frame) const noexcept;
-    void find_lengths(const ReachPose& pose);
+    void find_lengths(const ReachPose& pose, bool aimed);
     void find_limits(const ReachPose& pose);
-    void find_flips(const ReachPose& pose, bool jumped);
-    FlipCause cause_of_flip(const ReachPose& before, const ReachPose& after) const;
+    void find_flips(const ReachPose& pose, bool jumped, bool aimed);
+    FlipCause cause_of_flip(const ReachPose& before, const ReachPose& after, bool aimed) const;
     void find_rolls(const ReachPose& pose, std::span<const glm::quat> rotations);
     bool changed_sides(const ReachPose& pose, bool jumped);
     bool find_jump(const ReachPose& pose);

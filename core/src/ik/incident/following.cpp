@@ -258,7 +258,11 @@ std::size_t IncidentFinder::find_lag() const {
     std::ranges::transform(paths_, left.begin(), &Following::left);
     for (std::size_t i = 0; i < spans.size(); ++i) {
         const auto frames = static_cast<double>(paths_[i].frames);
-        const auto lag = static_cast<std::size_t>(std::ranges::min_element(left[i]) - left[i].begin());
+        const double least = std::ranges::min(left[i]), same = frames * std::pow(0.1 * least_rms, 2.0);
+        // The first of those that fit alike: a target that circles is there again later.
+        const auto lag = static_cast<std::size_t>(
+            std::ranges::find_if(left[i], [&](double each) { return each <= least + same; }) -
+            left[i].begin());
         const double gained = std::sqrt((left[i][0] - left[i][lag]) / frames);
         const bool fits =
             frames >= lag_frames && lag > 0 && left[i][lag] < best_ratio * left[i][0] && gained > least_rms;
@@ -274,8 +278,30 @@ std::size_t IncidentFinder::find_lag() const {
 void IncidentFinder::finish_following() {
     last(missed_, false, {});
     judge_jitter();
+    // Held to the end, while the target goes on within reach.
+    const bool limited = std::ranges::any_of(limit_, &Episode::open);
+    if (held_.frames > 1 && held_.moved && !limited && !recent_.empty()) {
+        const glm::vec3 target = *recent_.back().target;
+        const std::uint64_t first = frames_ - held_.frames;
+        if (math::distance(held_.target, target) > moving_share * reach_ &&
+            math::distance(target, recent_.back().root()) < reach_) {
+            std::erase_if(found_, [&](const ChainIncident& each) {
+                return each.kind == IncidentKind::Missed && each.frame >= first;
+            });
+            note({.kind = IncidentKind::Repeated,
+                  .frame = first,
+                  .last_frame = frames_ - 1,
+                  .amount = static_cast<double>(held_.frames),
+                  .cause = "all joints stay where they are to the end, and the target goes on"});
+        }
+    }
     const std::size_t best = find_lag();
     if (best == 0) return;
+    // Where the target was before the first frame is unknown.
+    std::erase_if(found_, [&](const ChainIncident& each) {
+        return each.kind == IncidentKind::Missed && each.frame == 0 &&
+               each.last_frame <= first_move_.value_or(0) + best;
+    });
     note({.kind = IncidentKind::Lag,
           .frame = first_move_.value_or(0),
           .last_frame = frames_ > 0 ? frames_ - 1 : 0,

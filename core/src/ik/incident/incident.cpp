@@ -23,6 +23,34 @@ glm::vec3 transported(glm::vec3 v, glm::vec3 from, glm::vec3 to) noexcept {
     return v + math::cross(axis, v) + math::cross(axis, math::cross(axis, v)) / (1.0f + cosine);
 }
 
+/// All bones that change by one factor over the same frames are one incident. `found`: sorted by frame.
+void merge_scaled(std::vector<ChainIncident>& found, const std::vector<float>& lengths) {
+    constexpr double equal = 0.02;  // of the factor
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const ChainIncident first = found[i];
+        const auto share = [&](const ChainIncident& each) {
+            return 1.0 + each.amount / static_cast<double>(lengths[each.joint - 1]);
+        };
+        const auto alike = [&](const ChainIncident& each) {
+            return each.kind == IncidentKind::Length && each.joint != no_joint && each.frame == first.frame &&
+                   each.last_frame == first.last_frame &&
+                   std::abs(share(each) - share(first)) <= equal * std::max(share(first), equal);
+        };
+        if (first.kind != IncidentKind::Length || lengths.size() < 2) continue;
+        std::size_t bones = 0;
+        double amount = 0.0;
+        for (std::size_t j = i; j < found.size() && found[j].frame == first.frame; ++j)
+            if (alike(found[j])) ++bones, amount += found[j].amount;
+        if (bones != lengths.size()) continue;
+        const bool point = share(first) < equal * equal;
+        std::erase_if(found, [&](const ChainIncident& each) { return &each > &found[i] && alike(each); });
+        found[i].joint = no_joint;
+        found[i].amount = amount;
+        found[i].cause = point ? "all joints are at one point: a frame that was never written"
+                               : "all bones by one factor: a scale or a unit changed";
+    }
+}
+
 }  // namespace
 
 const char* name(IncidentKind kind) noexcept {
@@ -89,13 +117,15 @@ void IncidentFinder::add(const TraceFrame& frame) {
         length_.resize(lengths_.size());
         limit_.resize(options_.limits.size());
     }
-    find_lengths(pose);
+    const bool aimed = frame.target.has_value();
+    if (!aimed) steps_ = 0;
+    find_lengths(pose, aimed);
     find_limits(pose);
-    const bool jumped = find_jump(pose);
-    find_flips(pose, jumped);
+    const bool jumped = aimed && find_jump(pose);
+    find_flips(pose, jumped, aimed);
     find_rolls(pose, frame.rotations);
     find_repeated(pose);
-    if (frame.target) {
+    if (aimed) {
         find_missed(pose);
         follow(pose);
         find_jitter(pose);
@@ -157,12 +187,12 @@ bool IncidentFinder::find_nan(const TraceFrame& frame) {
     return active;
 }
 
-void IncidentFinder::find_lengths(const ReachPose& pose) {
+void IncidentFinder::find_lengths(const ReachPose& pose, bool aimed) {
     bool opened = false;  // the bone before began to differ in this frame
     for (std::size_t i = 0; i < lengths_.size(); ++i) {
         const float length = math::distance(pose.joints[i], pose.joints[i + 1]), off = length - lengths_[i];
         const float allowed = std::max(length_share * lengths_[i], rounding_steps * options_.resolution);
-        const bool beyond = pose.target && math::distance(*pose.target, pose.root()) > reach_;
+        const bool beyond = aimed && off > 0.0f && math::distance(*pose.target, pose.root()) > reach_;
         const bool active = std::abs(off) > allowed;
         // Both bones of a joint change at once: it moved alone if the outer ends stayed as far apart.
         const bool opens = active && !length_[i].open;
@@ -206,7 +236,7 @@ void IncidentFinder::find_limits(const ReachPose& pose) {
     }
 }
 
-void IncidentFinder::find_flips(const ReachPose& pose, bool jumped) {
+void IncidentFinder::find_flips(const ReachPose& pose, bool jumped, bool aimed) {
     const auto flip = [&](const BoneTurn& turn, FlipCause cause) {
         note({.kind = IncidentKind::Flip,
               .frame = frames_,
@@ -223,7 +253,7 @@ void IncidentFinder::find_flips(const ReachPose& pose, bool jumped) {
     if (recent_.empty()) return;
     const ReachPose& before = recent_.back();
     const auto cause = [&](const ReachPose& was) {
-        return jumped ? FlipCause::TargetJump : cause_of_flip(was, pose);
+        return jumped ? FlipCause::TargetJump : cause_of_flip(was, pose, aimed);
     };
     // What turns far, and moves so much further than what drives it, flips whatever angle the target
     // describes: close to the root that is any. A damped solver takes some frames for it.
@@ -244,10 +274,12 @@ void IncidentFinder::find_flips(const ReachPose& pose, bool jumped) {
         flip(*turn, cause(first));
 }
 
-FlipCause IncidentFinder::cause_of_flip(const ReachPose& before, const ReachPose& after) const {
-    const FlipCause cause = flip_cause(reaching(before), reaching(after));
+FlipCause IncidentFinder::cause_of_flip(const ReachPose& before, const ReachPose& after, bool aimed) const {
+    ReachPose from = reaching(before);
+    if (!aimed) from.target.reset();
+    const FlipCause cause = flip_cause(from, reaching(after));
     const bool axis =
-        cause == FlipCause::Unexplained &&
+        aimed && cause == FlipCause::Unexplained &&
         std::ranges::any_of(recent_, [&](const ReachPose& was) { return passed_axis(was, after); });
     return axis ? FlipCause::PassedAxis : cause;
 }
@@ -327,6 +359,7 @@ void IncidentFinder::finish() {
     for (Episode& each : limit_) last(each, false, {});
     finish_following();
     std::ranges::stable_sort(found_, {}, &ChainIncident::frame);
+    merge_scaled(found_, lengths_);
     // A joint out of its place changes both its bones over the same frames: one incident, the larger.
     std::size_t kept = 0;
     bool merged = true;  // the last one is
