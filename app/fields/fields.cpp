@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
 
@@ -15,9 +16,19 @@ double file_end(const Field& field, double end) {
     return static_cast<double>(single) == end ? shortest_decimal(single) : end;
 }
 
+/// Degrees that give an angle of double precision again, short ones if they do. Some radians have none; those
+/// that were given in degrees have.
+Json exact_degrees(double radians) {
+    const double degrees = glm::degrees(radians);
+    for (const double near : {shortest_decimal(static_cast<float>(degrees)), degrees,
+                              std::nextafter(degrees, 0.0), std::nextafter(degrees, 2.0 * degrees)})
+        if (glm::radians(near) == radians) return near;
+    return degrees;
+}
+
 Json saved(const Field& field, const FieldValue& value) {
     if (field.optional && std::isnan(value[0])) return nullptr;
-    if (is_angle(field)) return degrees(static_cast<float>(value[0]));
+    if (is_angle(field)) return field.exact ? exact_degrees(value[0]) : degrees(static_cast<float>(value[0]));
     switch (field.type) {
         case FieldType::Flag:
             return value[0] != 0.0;
@@ -44,8 +55,8 @@ Json saved(const Field& field, const FieldValue& value) {
 double number_in_range(const JsonPlace& place, const Field& field) {
     if (is_angle(field)) {
         const auto [low, high] = file_range(field);
-        static_cast<void>(place.real(low, high));
-        return static_cast<double>(place.degrees());
+        const double given = place.real(low, high);
+        return field.exact ? glm::radians(given) : static_cast<double>(place.degrees());
     }
     const auto [low, high] = field.range;
     if (field.exact) return place.real(low, high);

@@ -498,6 +498,8 @@ TEST(Linkage, counts_freedom_as_gruebler_does_and_as_it_is) {
     }
     // A truss: nothing moves, and a target is only missed.
     sketch.points[5].at.x = 2.2;
+    EXPECT_FALSE(linkage_from(sketch)) << "its motor could not turn";
+    sketch.motors.clear();
     Machine truss{Expected<LinkageSketch>(sketch)};
     EXPECT_EQ(truss.solver.freedom(truss.state).actual, 0);
     EXPECT_EQ(truss.reach("P", {5, 5, 0}).status, LinkageStatus::TargetMissed);

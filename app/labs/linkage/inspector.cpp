@@ -86,9 +86,11 @@ void bar_rows(const LinkagePart& part, std::size_t at, Emit& emit) {
     }
 }
 
-/// A motor between two bars at the joint, or its end.
-void pair_motor_row(const ik::LinkageSketch& sketch, std::size_t at, std::size_t bar, std::size_t against,
+/// A motor between two bars at the joint, or its end. Not between parts of one rigid body.
+void pair_motor_row(const LinkageShape& shape, std::size_t at, std::size_t bar, std::size_t against,
                     Emit& emit) {
+    if (shape.bodies[bar] == shape.bodies[against]) return;
+    const ik::LinkageSketch& sketch = shape.sketch;
     const std::string &first = sketch.bars[bar].name, &second = sketch.bars[against].name;
     const auto motor = std::ranges::find_if(sketch.motors, [&](const ik::SketchMotor& each) {
         return each.point == at && std::minmax(each.bar, each.against) == std::minmax(bar, against);
@@ -102,11 +104,11 @@ void pair_motor_row(const ik::LinkageSketch& sketch, std::size_t at, std::size_t
     }
 }
 
-void pair_motor_rows(const ik::LinkageSketch& sketch, std::size_t at, Emit& emit) {
-    if (!chooses_pair(sketch, at)) return;
-    const std::vector<std::size_t> here = bars_at(sketch, at);
+void pair_motor_rows(const LinkageShape& shape, std::size_t at, Emit& emit) {
+    if (!chooses_pair(shape.sketch, at)) return;
+    const std::vector<std::size_t> here = bars_at(shape.sketch, at);
     for (std::size_t i = 0; i < here.size(); ++i)
-        for (std::size_t k = i + 1; k < here.size(); ++k) pair_motor_row(sketch, at, here[i], here[k], emit);
+        for (std::size_t k = i + 1; k < here.size(); ++k) pair_motor_row(shape, at, here[i], here[k], emit);
     end_row();
 }
 
@@ -135,7 +137,7 @@ void joint_rows(const LinkagePart& part, Emit& emit) {
     if (row_option("Slides", 3, guided, "It slides on a line through where it is"))
         emit("linkage.guide", {{"point", part.selected}});
     end_row();
-    pair_motor_rows(part.shape->sketch, *at, emit);
+    pair_motor_rows(*part.shape, *at, emit);
     if (guided) {
         auto along = static_cast<float>(glm::degrees(part.shape->sketch.points[*at].guide));
         if (number_field("line", along, 0.5f, -360.0f, 360.0f, "%.1f deg"))

@@ -60,10 +60,11 @@ std::size_t LinkagePart::bytes() const {
     const ik::LinkageSketch& sketch = shape->sketch;
     std::size_t ends = 0;
     for (const ik::SketchBar& each : sketch.bars) ends += each.points.size();
-    const std::size_t drawn = sizeof(LinkageShape) + sketch.points.size() * sizeof(ik::SketchPoint) +
-                              sketch.bars.size() * sizeof(ik::SketchBar) + ends * sizeof(std::size_t) +
-                              sketch.motors.size() * sizeof(ik::SketchMotor) +
-                              shape->ranges.size() * sizeof(LinkageRange);
+    const std::size_t drawn =
+        sizeof(LinkageShape) + sketch.points.size() * sizeof(ik::SketchPoint) +
+        sketch.bars.size() * sizeof(ik::SketchBar) + ends * sizeof(std::size_t) +
+        sketch.motors.size() * sizeof(ik::SketchMotor) + shape->bodies.size() * sizeof(std::size_t) +
+        shape->driven.size() * sizeof(DrivenLoop) + shape->ranges.size() * sizeof(LinkageRange);
     const std::size_t made = linkage().links.size() * sizeof(ik::Link) +
                              linkage().closures.size() * sizeof(ik::Closure) +
                              linkage().points.size() * sizeof(ik::LinkPoint);

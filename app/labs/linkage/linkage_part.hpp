@@ -41,11 +41,24 @@ struct LinkageRange {
     bool operator==(const LinkageRange&) const = default;
 };
 
+/// A motor's crank, the coupler on it, and what the coupler drives: a rocker on a pin, or a slider. Each is a
+/// rigid body of any bars. Indices of the sketch.
+struct DrivenLoop {
+    std::size_t motor = 0;
+    std::size_t tip = 0;                ///< of the crank, where the coupler is
+    std::size_t end = 0;                ///< of the coupler
+    std::size_t pin = ik::ground_link;  ///< of the rocker; a slider has none
+    bool has_rocker() const { return pin != ik::ground_link; }
+};
+
 /// A linkage as drawn. Never changed in place: parts and their history share it.
 struct LinkageShape {
     Mechanism mechanism{};               ///< what it was made from; none once it is edited by hand
     ik::LinkageSketch sketch{};          ///< empty for a mechanism in space
     std::vector<bool> floating{};        ///< of the sketch's bars: nothing holds it yet
+    std::vector<std::size_t> bodies{};   ///< of the sketch's bars: ik::rigid_bodies()
+    std::vector<DrivenLoop> driven{};    ///< all by motors against the ground
+    std::size_t loops = 0;               ///< of its bodies; what floats has none
     std::vector<LinkageRange> ranges{};  ///< set by hand; the mechanism may have its own
     ik::Linkage linkage{};               ///< of the bars that are held, with all ranges
     ik::LinkageFreedom loose{};          ///< of the bars that float

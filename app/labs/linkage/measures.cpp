@@ -28,56 +28,27 @@ double between(const glm::dvec2& a, const glm::dvec2& b) {
     return glm::degrees(std::atan2(std::abs(a.x * b.y - a.y * b.x), glm::dot(a, b)));
 }
 
-/// A motor's crank, the coupler on it, and what the coupler drives: a rocker on a pin, or a slider.
-struct DrivenLoop {
-    const ik::SketchMotor* motor = nullptr;
-    std::size_t tip = 0;       ///< of the crank, where the coupler is
-    std::size_t end = 0;       ///< of the coupler
-    std::size_t pin = no_pin;  ///< of the rocker
-    static constexpr std::size_t no_pin = ik::ground_link;
-};
-
-std::optional<DrivenLoop> loop_of(const ik::LinkageSketch& sketch, const ik::SketchMotor& motor,
-                                  std::size_t tip, const ik::SketchBar& coupler) {
-    for (const std::size_t end : coupler.points) {
-        if (end == tip) continue;
-        if (sketch.points[end].hold == ik::SketchHold::Guided) return DrivenLoop{&motor, tip, end};
-        for (const ik::SketchBar& rocker : sketch.bars)
-            for (const std::size_t pin : rocker.points)
-                if (&rocker != &coupler && is_on_bar(rocker, end) && pin != end &&
-                    sketch.points[pin].hold == ik::SketchHold::Pinned)
-                    return DrivenLoop{&motor, tip, end, pin};
-    }
-    return std::nullopt;
-}
-
-std::optional<DrivenLoop> driven_loop(const ik::LinkageSketch& sketch) {
-    for (const ik::SketchMotor& motor : sketch.motors) {
-        if (motor.against != ik::ground_link) continue;
-        const ik::SketchBar& crank = sketch.bars[motor.bar];
-        for (const std::size_t tip : crank.points)
-            for (const ik::SketchBar& coupler : sketch.bars) {
-                if (tip == motor.point || &coupler == &crank || !is_on_bar(coupler, tip)) continue;
-                if (const auto found = loop_of(sketch, motor, tip, coupler)) return found;
-            }
-    }
-    return std::nullopt;
-}
-
 double transmission_in(const LinkagePart& part, const DrivenLoop& loop) {
     const auto fold = [](double degrees) { return std::min(degrees, 180.0 - degrees); };
     const glm::dvec2 coupler = way(part, loop.end, loop.tip);
-    if (loop.pin != DrivenLoop::no_pin) return fold(between(coupler, way(part, loop.end, loop.pin)));
+    if (loop.has_rocker()) return fold(between(coupler, way(part, loop.end, loop.pin)));
     const double guide = part.shape->sketch.points[loop.end].guide;
     return 90.0 - fold(between(coupler, {std::cos(guide), std::sin(guide)}));
 }
 
+/// Null if there is another loop beside the driven one.
+const DrivenLoop* only_loop(const LinkagePart& part) {
+    const LinkageShape& shape = *part.shape;
+    return shape.loops == 1 && shape.driven.size() == 1 ? &shape.driven.front() : nullptr;
+}
+
 /// None if it is another linkage.
 std::optional<ik::FourBar> four_bar_lengths(const LinkagePart& part) {
-    const auto loop = driven_loop(part.shape->sketch);
-    if (!loop || loop->pin == DrivenLoop::no_pin || part.linkage().closures.size() != 1) return std::nullopt;
-    return ik::FourBar{.ground = glm::length(way(part, loop->motor->point, loop->pin)),
-                       .crank = glm::length(way(part, loop->motor->point, loop->tip)),
+    const DrivenLoop* const loop = only_loop(part);
+    if (loop == nullptr || !loop->has_rocker()) return std::nullopt;
+    const std::size_t motor = part.shape->sketch.motors[loop->motor].point;
+    return ik::FourBar{.ground = glm::length(way(part, motor, loop->pin)),
+                       .crank = glm::length(way(part, motor, loop->tip)),
                        .coupler = glm::length(way(part, loop->tip, loop->end)),
                        .rocker = glm::length(way(part, loop->end, loop->pin))};
 }
@@ -114,28 +85,33 @@ double angle_at(const LinkagePart& part, std::string_view point) {
     const ik::LinkageSketch& sketch = part.shape->sketch;
     const auto at = sketch.find_point(point);
     if (!at) return no_angle;
-    std::vector<glm::dvec2> ways;
-    for (const ik::SketchBar& bar : sketch.bars)
-        if (is_on_bar(bar, *at) && ways.size() < 2)
-            ways.push_back(way(part, *at, bar.points[0] == *at ? bar.points[1] : bar.points[0]));
-    if (ways.empty()) return no_angle;
-    if (ways.size() == 1) ways.insert(ways.begin(), {1.0, 0.0});
-    return between(ways[0], ways[1]);
+    const std::vector<std::size_t> here = bars_at(sketch, *at);
+    if (here.empty()) return no_angle;
+    const auto along = [&](std::size_t bar) {
+        const std::vector<std::size_t>& points = sketch.bars[bar].points;
+        return way(part, *at, points[0] == *at ? points[1] : points[0]);
+    };
+    const std::vector<std::size_t>& bodies = part.shape->bodies;
+    auto other = std::ranges::find_if(here, [&](auto bar) { return bodies[bar] != bodies[here[0]]; });
+    if (other == here.end() && sketch.points[*at].hold != ik::SketchHold::Pinned && here.size() > 1)
+        other = here.begin() + 1;
+    return between(along(here[0]), other == here.end() ? glm::dvec2(1.0, 0.0) : along(*other));
 }
 
 double transmission_angle(const LinkagePart& part) {
-    const auto loop = driven_loop(part.shape->sketch);
-    return loop ? transmission_in(part, *loop) : no_angle;
+    double smallest = no_angle;
+    for (const DrivenLoop& each : part.shape->driven)
+        smallest = std::fmin(smallest, transmission_in(part, each));
+    return smallest;
 }
 
 std::optional<WorstTransmission> worst_transmission(const LinkagePart& part, const LinkageTurn& turn) {
-    const auto loop = driven_loop(part.shape->sketch);
-    if (!loop || turn.poses.empty()) return std::nullopt;
+    if (part.shape->driven.empty() || turn.poses.empty()) return std::nullopt;
     PartInTurn in_turn(part);
     const std::vector<LinkageTurn::Pose>& poses = turn.poses;
     const std::size_t count = poses.size();
     std::vector<double> angles;
-    for (const LinkageTurn::Pose& each : poses) angles.push_back(transmission_in(*in_turn.at(each), *loop));
+    for (const LinkageTurn::Pose& each : poses) angles.push_back(transmission_angle(*in_turn.at(each)));
     const auto at = static_cast<std::size_t>(std::ranges::min_element(angles) - angles.begin());
     WorstTransmission worst{angles[at], poses[at].value};
     if (count < 3 || (!turn.whole && (at == 0 || at + 1 == count))) return worst;
@@ -347,11 +323,10 @@ std::optional<RoundCranks> shorter_round_cranks(const LinkagePart& part) {
         const bool drag_link = reach > bars->ground + gap && bars->crank > reach;
         shortest = drag_link ? bars->ground + gap : 0.0;
         longest = drag_link ? reach : std::min(reach, bars->ground - gap);
-    } else if (const auto loop = driven_loop(part.shape->sketch);
-               loop && loop->pin == DrivenLoop::no_pin && part.linkage().closures.size() == 1) {
+    } else if (const DrivenLoop* const loop = only_loop(part)) {
         // The coupler reaches the slider's line from everywhere on the crank's circle.
         const double guide = part.shape->sketch.points[loop->end].guide;
-        const glm::dvec2 to_line = way(part, loop->motor->point, loop->end);
+        const glm::dvec2 to_line = way(part, part.shape->sketch.motors[loop->motor].point, loop->end);
         longest = glm::length(way(part, loop->tip, loop->end)) -
                   std::abs(to_line.x * std::sin(guide) - to_line.y * std::cos(guide));
     }
@@ -384,13 +359,15 @@ std::vector<Cure> ways_on(const LinkagePart& part) {
     }
     if (const auto round = shorter_round_cranks(part)) {
         const ik::LinkageSketch& sketch = part.shape->sketch;
-        const ik::SketchBar& crank = sketch.bars[driven_loop(sketch)->motor->bar];
+        const std::size_t bar = sketch.motors[only_loop(part)->motor].bar;
+        const ik::SketchBar& crank = sketch.bars[bar];
         // Short of the folded linkage by a twentieth.
         double shorter = length_step * std::floor(0.95 * round->longest / length_step);
         if (shorter <= round->shortest) shorter = 0.5 * (round->shortest + round->longest);
         const std::string from =
             round->shortest > 0.0 ? "from " + fixed_text(round->shortest, 2) + " m " : "";
-        if (crank.points.size() == 2 && shorter > 0.0)
+        const bool alone = std::ranges::count(part.shape->bodies, part.shape->bodies[bar]) == 1;
+        if (alone && crank.points.size() == 2 && shorter > 0.0)
             ways.push_back({"Shorten",
                             "Makes the crank " + fixed_text(shorter, 2) + " m long: it turns all round " +
                                 from + (from.empty() ? "up " : "") + "to " + fixed_text(round->longest, 2) +

@@ -26,14 +26,14 @@ ShownValue shown_value(const LinkagePart& part, std::string_view joint, double v
 /// "43.0 degrees", "0.250 m"
 std::string value_text(const LinkagePart& part, std::string_view joint, double value);
 
-/// The angle between two bars at a point of the sketch, degrees, 0 to 180; of a pinned bar alone from +X.
-/// NaN: there is none.
+/// The angle between two bars at a point of the sketch, of two rigid bodies if two meet there: degrees, 0 to
+/// 180. That of a single bar, or of one body on a pin, is from +X. NaN: there is none.
 double angle_at(const LinkagePart& part, std::string_view point);
 
 /// Below this a coupler pushes poorly: the usual limit in books on mechanisms.
 inline constexpr double poor_transmission = 40.0;
-/// Between the coupler and what it drives, 0 to 90 degrees: the nearer to 90, the better it pushes. NaN if
-/// no motor drives a four-bar or slider-crank.
+/// Between the coupler and what it drives, 0 to 90 degrees: the nearer to 90, the better it pushes. The
+/// smallest if a crank drives several. NaN if no motor drives a four-bar or slider-crank.
 double transmission_angle(const LinkagePart& part);
 /// The smallest through a turn, and at which value of the joint that leads it. None where there is no turn.
 struct WorstTransmission {

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include "app/document/refused.hpp"
 #include "app/document/units.hpp"
@@ -178,12 +180,61 @@ void solve_linkage(LinkagePart& part, LinkageRuntime& runtime, ik::LinkageOption
     }
 }
 
+namespace {
+
+void find_loops(LinkageShape& shape) {
+    const ik::LinkageSketch& sketch = shape.sketch;
+    const auto hold = [&](std::size_t point) { return sketch.points[point].hold; };
+    std::map<std::size_t, std::set<std::size_t>> points_of, bodies_at;  // of bodies, at points
+    std::set<std::pair<std::size_t, std::size_t>> joints;
+    for (std::size_t bar = 0; bar < sketch.bars.size(); ++bar) {
+        if (shape.floating[bar]) continue;
+        const std::size_t body = shape.bodies[bar];
+        for (const std::size_t point : sketch.bars[bar].points) {
+            points_of[body].insert(point);
+            bodies_at[point].insert(body);
+            joints.insert({point, body});
+            if (hold(point) != ik::SketchHold::Free) joints.insert({point, ik::ground_link});
+        }
+    }
+    shape.loops = joints.size() + points_of.count(ik::ground_link) - points_of.size() - bodies_at.size();
+    for (std::size_t motor = 0; motor < sketch.motors.size(); ++motor) {
+        const std::size_t at = sketch.motors[motor].point, crank = shape.bodies[sketch.motors[motor].bar];
+        if (sketch.motors[motor].against != ik::ground_link) continue;
+        const auto each_joint = [&](std::size_t body, std::size_t from, auto visit) {
+            for (const std::size_t point : points_of[body])
+                for (const std::size_t next : bodies_at[point])
+                    if (point != from && next != body && next != crank && next != ik::ground_link)
+                        visit(point, next);
+        };
+        each_joint(crank, at, [&](std::size_t tip, std::size_t coupler) {
+            for (const std::size_t end : points_of[coupler])
+                if (end != tip && hold(end) == ik::SketchHold::Guided)
+                    shape.driven.push_back({motor, tip, end});
+            each_joint(coupler, tip, [&](std::size_t end, std::size_t rocker) {
+                for (const std::size_t pin : points_of[rocker])
+                    if (pin != at && hold(pin) == ik::SketchHold::Pinned)
+                        shape.driven.push_back({motor, tip, end, pin});
+            });
+        });
+    }
+}
+
+}  // namespace
+
 LinkageShape shape_of(ik::LinkageSketch sketch) {
     LinkageShape shape;
     shape.floating = floating_bars(sketch);
-    shape.linkage = require_value(ik::linkage_from(held_part(sketch, shape.floating)));
+    shape.bodies = ik::rigid_bodies(sketch);
+    Expected<ik::Linkage> made = ik::linkage_from(held_part(sketch, shape.floating));
+    if (!made) {
+        const std::string message = made.message();
+        throw std::invalid_argument(message.substr(message.find(": ") + 2));  // without the function's name
+    }
+    shape.linkage = std::move(made).value();
     shape.loose = freedom_of_loose(sketch, shape.floating);
     shape.sketch = std::move(sketch);
+    find_loops(shape);
     return shape;
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <map>
+#include <random>
 
 #include "app/labs/linkage/draw.hpp"
 #include "app/labs/linkage/measures.hpp"
@@ -171,6 +173,60 @@ TEST_F(LinkageReading, TheMinimumOfTheTransmissionAngleIsTheLawOfCosines) {
     EXPECT_GT(checked, 20);
     stall();
     EXPECT_NEAR(worst_transmission(part(), turn())->degrees, 0.0, 0.1) << "at its dead point";
+}
+
+/// A rigid triangle, or two, may ride on any bar of a four-bar, and the bars may be drawn in any order.
+TEST_F(LinkageReading, TheTransmissionAngleIsThatOfTheFourBarUnderAnyTriangles) {
+    test::RandomNumbers random(41);
+    int dead_points = 0;
+    for (int i = 0; i < 60; ++i) {
+        const auto near = [&](double x, double y) {
+            return glm::dvec3(x + random.uniform(-0.6, 0.6), y + random.uniform(-0.6, 0.6), 0.0);
+        };
+        std::map<std::string, glm::dvec3> joints{
+            {"A", near(0, 0)}, {"B", near(0, 2)}, {"C", near(3, 2)}, {"D", near(3, 0)}};
+        std::vector<std::string> bars{"AB", "BC", "CD"};
+        for (const auto& [name, on] : {std::pair("E", "AB"), {"F", "BC"}, {"G", "CD"}})
+            if (random.uniform(0, 1) < 0.6) {
+                joints[name] = near(1.5, 4);
+                bars.push_back(name + std::string(1, on[0]));
+                bars.push_back(name + std::string(1, on[1]));
+            }
+        std::shuffle(bars.begin(), bars.end(), random.random);
+        run("linkage.clear");
+        std::vector<std::string> names{"A", "B", "C", "D", "E", "F", "G"};
+        std::shuffle(names.begin(), names.end(), random.random);
+        for (const std::string& name : names)
+            if (joints.contains(name))
+                run("linkage.joint", {{"at", {joints[name].x, joints[name].y, 0}}, {"name", name}});
+        for (const std::string& bar : bars)
+            run("linkage.bar", {{"from", bar.substr(0, 1)}, {"to", bar.substr(1)}, {"name", bar}});
+        for (const char* pin : {"A", "D"}) run("linkage.pin", {{"point", pin}});
+        run("linkage.motor.add", {{"point", "A"}, {"bar", "AB"}, {"name", "m"}});
+        const auto apart = [&](const char* a, const char* b) { return glm::distance(joints[a], joints[b]); };
+        const double g = apart("A", "D"), a = apart("A", "B"), b = apart("B", "C"), c = apart("C", "D");
+        LinkageRuntime runtime;
+        LinkagePart plain;
+        open_mechanism(plain, ik::FourBar{.ground = g, .crank = a, .coupler = b, .rocker = c}, runtime);
+        EXPECT_EQ(four_bar_kind(part()), four_bar_kind(plain)) << i;
+        const auto find = [&](const char* name) { return *part().linkage().find_point(name); };
+        const auto status = [&] { return part().result.report.status; };
+        const auto expect_law_of_cosines = [&] {
+            const double d = glm::distance(part().at(find("B")), part().at(find("D")));
+            const double cosine = std::clamp((b * b + c * c - d * d) / (2.0 * b * c), -1.0, 1.0);
+            const double angle = glm::degrees(std::acos(cosine));
+            EXPECT_NEAR(transmission_angle(part()), std::min(angle, 180.0 - angle), 0.01) << i;
+        };
+        for (int k = 0; k < 40 && status() == ik::LinkageStatus::Reached; ++k) {
+            expect_law_of_cosines();
+            run("linkage.drive", {{"joint", "m"}, {"angle_deg", glm::degrees(part().value_of("m")) + 10.0}});
+        }
+        if (status() != ik::LinkageStatus::DeadPoint) continue;
+        EXPECT_NEAR(transmission_angle(part()), 0.0, 0.2) << i;
+        EXPECT_NEAR(worst_transmission(part(), turn())->degrees, 0.0, 0.2) << i;
+        ++dead_points;
+    }
+    EXPECT_GT(dead_points, 10);
 }
 
 TEST_F(LinkageReading, AFourBarsKindSaysWhetherItsCrankGoesRound) {
@@ -376,6 +432,15 @@ TEST_F(LinkageReading, AnElbowIsDrivenAgainstTheUpperArm) {
     const auto emitted = emit.take();
     ASSERT_EQ(emitted.size(), 2u);
     EXPECT_EQ(emitted[1].name, "linkage.motor.add");
+}
+
+TEST_F(LinkageReading, NeitherABarNorAPinLeavesAMotorInsideOneBody) {
+    draw_arm();
+    run("linkage.move", {{"point", "B"}, {"to", {1, 1, 0}}});
+    run("linkage.motor.add", {{"point", "A"}, {"name", "elbow"}});
+    const char* const words = "motor \"elbow\" could not turn";
+    expect_refused("linkage.bar", {{"from", "B"}, {"to", "C"}}, {std::string("linkage.bar: ") + words});
+    expect_refused("linkage.pin", {{"point", "B"}}, {std::string("linkage.pin: ") + words});
 }
 
 TEST_F(LinkageReading, WhereMoreBarsMeetTwoOfThemAreChosen) {

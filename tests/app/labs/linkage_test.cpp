@@ -97,6 +97,9 @@ TEST_F(LinkageTest, TheLibrarysMechanismsStandAsTheyAreNamed) {
     for (const MechanismKind& kind : mechanism_kinds()) {
         run("linkage.preset", {{"name", kind.name}});
         EXPECT_EQ(state().at("status"), "Reached") << kind.name;
+        const std::shared_ptr<Part> reopened = part().load(part().save(), "labs.linkage");
+        EXPECT_EQ(linkage_state(dynamic_cast<const LinkagePart&>(*reopened)), linkage_state(part()))
+            << kind.name;
         EXPECT_LT(state().at("closed_to").get<double>(), 1e-6) << kind.name;
         EXPECT_TRUE(*kind.traced == '\0' || state().at("points").contains(kind.traced)) << kind.name;
         const std::string maker = kind.name == std::string("walker") ? "jansen" : kind.name;

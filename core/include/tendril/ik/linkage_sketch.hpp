@@ -11,7 +11,7 @@
 // plain value; edit its lists, or use the functions below, which keep the indices right.
 //
 // Method: a spanning tree over the bars, from the ground, breadth first; motors' hinges are in it. The other
-// hinges become closures. Cost: O(bars * points).
+// hinges become closures. Cost: O(bars * points), with motors O(bars^3).
 #pragma once
 
 #include <cstddef>
@@ -75,9 +75,11 @@ struct LinkageSketch {
     bool operator==(const LinkageSketch&) const = default;
 };
 
-/// Which bars are rigidly joined: for each the first bar of its body, or ground_link if that cannot move.
-/// Bodies that share two points are one, and so are three bodies of which every two share a point. O(bars^2 *
-/// points) a body found.
+/// Which bars are rigidly joined: for each the first bar of its body, or ground_link if that cannot move. A
+/// body is a set of bars, with or without the ground, that by itself leaves none of them free to turn against
+/// another: by the rank of its closures as drawn. So three bars in one line are not found to be one body. A
+/// bar that linkage_from refuses is a body of its own. O(bars^3) for each time that a set of bars comes
+/// apart.
 std::vector<std::size_t> rigid_bodies(const LinkageSketch& sketch);
 
 /// Removes the point, the bars that would have one point left, and the motors of these; OutOfRange for an

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "ik/linkage/solve.hpp"
 #include "ik/math.hpp"
 #include "math/checks.hpp"
 #include "math/elementary.hpp"
@@ -72,6 +73,46 @@ class SketchTree {
         return std::move(linkage_);
     }
 
+    /// Of each bar's turning, and last of the ground's, what the closures leave free, by the joints' columns.
+    /// Pieces that float hang on any of their points.
+    std::vector<std::vector<double>> free_turning() {
+        place_holds();
+        for (std::size_t i = 0; i < sketch_.bars.size(); ++i) {
+            while (place_next_bar()) {
+            }
+            if (link_of_bar_[i] == unplaced) owner_[sketch_.bars[i].points.front()] = ground_link;
+        }
+        while (place_next_bar()) {
+        }
+        detail::LinkageWork work(linkage_);
+        const LinkageGoals none;
+        const LinkageOptions options;
+        static_cast<void>(detail::LinkageSolve(work, none, options).closure_rank());
+        link_of_bar_.push_back(ground_link);
+        std::vector<std::vector<double>> free;
+        for (std::size_t link : link_of_bar_) {
+            std::vector<double>& turning = free.emplace_back(work.columns);
+            for (; link != ground_link; link = linkage_.links[link].parent)
+                if (linkage_.links[link].joint == LinkJoint::Hinge) turning[work.column[link]] = 1.0;
+            work.basis.remove_from(turning);
+        }
+        return free;
+    }
+
+    Result check_bar(const SketchBar& bar, const std::string& who) const {
+        if (bar.points.size() < 2 || bar.points.size() > max_links)
+            return sketch_refused(who + " must have 2 to 512 points, got " +
+                                  std::to_string(bar.points.size()));
+        for (const std::size_t each : bar.points)
+            if (each >= sketch_.points.size())
+                return sketch_refused(who + " must join points of the sketch, got " + std::to_string(each));
+        for (std::size_t i = 0; i < bar.points.size(); ++i)
+            for (std::size_t k = i + 1; k < bar.points.size(); ++k)
+                if (!apart(bar.points[i], bar.points[k]))
+                    return sketch_refused(who + " must have a length, got two points in one place");
+        return {};
+    }
+
   private:
     static constexpr std::size_t unplaced = ground_link - 1;
 
@@ -112,24 +153,10 @@ class SketchTree {
             const bool grounded = against == ground_link;
             if (bodies[bar] == (grounded ? ground_link : bodies[against]))
                 return sketch_refused(
-                    said("motor", name, i) + " must join two rigid bodies, but " +
-                    said("bar", sketch_.bars[bar].name, bar) + " and " +
-                    (grounded ? "the ground" : said("bar", sketch_.bars[against].name, against)) +
-                    " belong to the same one");
+                    said("motor", name, i) + " could not turn: " + said("bar", sketch_.bars[bar].name, bar) +
+                    " and " + (grounded ? "the ground" : said("bar", sketch_.bars[against].name, against)) +
+                    " would be one rigid body");
         }
-        return {};
-    }
-    Result check_bar(const SketchBar& bar, const std::string& who) const {
-        if (bar.points.size() < 2 || bar.points.size() > max_links)
-            return sketch_refused(who + " must have 2 to 512 points, got " +
-                                  std::to_string(bar.points.size()));
-        for (const std::size_t each : bar.points)
-            if (each >= sketch_.points.size())
-                return sketch_refused(who + " must join points of the sketch, got " + std::to_string(each));
-        for (std::size_t i = 0; i < bar.points.size(); ++i)
-            for (std::size_t k = i + 1; k < bar.points.size(); ++k)
-                if (!apart(bar.points[i], bar.points[k]))
-                    return sketch_refused(who + " must have a length, got two points in one place");
         return {};
     }
     Result check_motor(const SketchMotor& motor, const std::string& who) const {
@@ -278,51 +305,60 @@ class SketchTree {
     std::vector<std::size_t> driven_;  ///< motors whose hinges are in the tree
 };
 
+using Bars = std::vector<std::size_t>;  ///< in order; the ground is the bar after the sketch's last
+
+/// Splits bars that are joined into those that turn alike in every motion that this set has by itself.
+std::vector<Bars> turning_alike(const LinkageSketch& sketch, const Bars& set) {
+    LinkageSketch alone{.points = sketch.points, .bars = {}, .motors = {}};
+    for (const std::size_t bar : set)
+        if (bar < sketch.bars.size()) alone.bars.push_back(sketch.bars[bar]);
+    if (set.back() != sketch.bars.size())
+        for (SketchPoint& each : alone.points) each.hold = SketchHold::Free;
+    const std::vector<std::vector<double>> free = SketchTree(alone).free_turning();
+    const auto alike = [&](std::size_t a, std::size_t b) {
+        constexpr double rounding = 1e-6;  // for rows to whose rank 1e-9 of one counts
+        return std::ranges::equal(free[a], free[b],
+                                  [](double x, double y) { return std::abs(x - y) < rounding; });
+    };
+    std::vector<std::size_t> part(set.size());
+    for (std::size_t i = 0; i < part.size(); ++i) part[i] = i;
+    for (std::size_t point = 0; point < alone.points.size(); ++point) {
+        Bars here;
+        for (std::size_t i = 0; i < alone.bars.size(); ++i)
+            if (joins(alone.bars[i], point)) here.push_back(i);
+        if (alone.points[point].hold == SketchHold::Pinned) here.push_back(alone.bars.size());
+        for (const std::size_t a : here)
+            for (const std::size_t b : here)
+                if (part[a] < part[b] && alike(a, b)) std::ranges::replace(part, Bars(part)[b], part[a]);
+    }
+    std::vector<Bars> parts(set.size());
+    for (std::size_t i = 0; i < part.size(); ++i) parts[part[i]].push_back(set[i]);
+    std::erase(parts, Bars());
+    return parts;
+}
+
 }  // namespace
 
 std::vector<std::size_t> rigid_bodies(const LinkageSketch& sketch) {
-    const std::size_t count = sketch.bars.size();
-    // The points of each body; the ground's is the first. Those that became part of another are empty.
-    std::vector<std::vector<std::size_t>> points(count + 1);
-    std::vector<std::size_t> body(count + 1);
-    for (std::size_t i = 0; i < sketch.points.size(); ++i)
-        if (sketch.points[i].hold == SketchHold::Pinned) points[0].push_back(i);
-    for (std::size_t i = 0; i <= count; ++i) {
-        body[i] = i;
-        if (i > 0) points[i] = sketch.bars[i - 1].points;
-        std::ranges::sort(points[i]);
+    const std::size_t ground = sketch.bars.size();
+    std::vector<std::size_t> bodies;
+    std::vector<Bars> sets(1);
+    for (std::size_t i = 0; i < ground; ++i) {
+        bodies.push_back(i);
+        if (SketchTree(sketch).check_bar(sketch.bars[i], {})) sets.front().push_back(i);
     }
-    std::vector<std::size_t> shared;
-    const auto share = [&](std::size_t a, std::size_t b) -> const std::vector<std::size_t>& {
-        shared.clear();
-        std::ranges::set_intersection(points[a], points[b], std::back_inserter(shared));
-        return shared;
-    };
-    const auto join = [&](std::size_t a, std::size_t b) {
-        std::vector<std::size_t> both;
-        std::ranges::set_union(points[a], points[b], std::back_inserter(both));
-        points[a] = std::move(both);
-        points[b].clear();
-        std::ranges::replace(body, b, a);
-    };
-    const auto joined = [&](std::size_t a) {
-        std::vector<std::pair<std::size_t, std::size_t>> neighbours;  // and the point
-        for (std::size_t b = 0; b <= count; ++b) {
-            if (b == a || share(a, b).empty()) continue;
-            const std::size_t point = shared.front();
-            if (shared.size() > 1) return join(std::min(a, b), std::max(a, b)), true;
-            for (const auto& [c, other] : neighbours)
-                if (other != point && !share(b, c).empty() && shared.front() != point &&
-                    shared.front() != other)
-                    return join(std::min(a, b), std::max(a, b)), true;
-            neighbours.emplace_back(b, point);
-        }
-        return false;
-    };
-    for (std::size_t a = 0; a <= count;) a = joined(a) ? 0 : a + 1;
-    std::vector<std::size_t> of_bars;
-    for (std::size_t i = 1; i <= count; ++i) of_bars.push_back(body[i] == 0 ? ground_link : body[i] - 1);
-    return of_bars;
+    sets.front().push_back(ground);
+    while (!sets.empty()) {
+        const Bars set = std::move(sets.back());
+        sets.pop_back();
+        std::vector<Bars> parts = turning_alike(sketch, set);
+        if (parts.size() > 1)
+            std::ranges::move(parts, std::back_inserter(sets));
+        else
+            for (const std::size_t bar : set)
+                if (bar != ground) bodies[bar] = set.back() == ground ? ground_link : set.front();
+    }
+    return bodies;
 }
 
 std::optional<std::size_t> LinkageSketch::find_point(std::string_view name) const noexcept {
