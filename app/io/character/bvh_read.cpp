@@ -100,8 +100,9 @@ class Words {
         ++at_;
         return is_tight && at_ < text_.size() && is_blank(text_[at_]);
     }
-    /// Reads the numbers of a frame, which begins and ends with a line. False if the file is cut off in it.
-    bool row(std::vector<double>& numbers) {
+    /// Reads the numbers of a frame, which begins and ends with a line. False if the file is cut off in it
+    /// and `may_be_cut`.
+    bool row(std::vector<double>& numbers, bool may_be_cut) {
         const std::size_t width = numbers.size();
         skip_blanks();
         const std::size_t begin = at_, line = line_;
@@ -116,8 +117,10 @@ class Words {
                  std::to_string(found) + (is_last ? " before the end of the file" : ""));
         };
         for (double& each : numbers) {
-            if (peek().empty() && line_ == line) return false;
-            if (peek().empty()) refuse();
+            if (peek().empty()) {
+                if (may_be_cut && text_.find_first_of("\r\n", at_) == text_.npos) return false;
+                refuse();
+            }
             each = number();
         }
         if (!at_line_end()) refuse();
@@ -260,7 +263,7 @@ bool turns(const BvhJoint& joint) {
 void compare_rows(Words& words, std::size_t frames, std::size_t declared, std::vector<double>& row,
                   std::vector<std::string>& notes) {
     std::size_t found = row.empty() ? declared : frames;
-    for (; !row.empty() && !words.peek().empty(); ++found) words.row(row);
+    for (; !row.empty() && !words.peek().empty(); ++found) words.row(row, true);
     if (const std::string_view rest = words.next(); !rest.empty())
         words.fail("expected the end of the file after " + std::to_string(frames) + " frames, found " +
                    Words::shown(rest));
@@ -298,15 +301,13 @@ humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, std::vector
     for (std::size_t node = 0; node < hierarchy.joints.size(); ++node)
         if (!hierarchy.joints[node].channels.empty()) clip.channels.push_back({.node = node});
     std::vector<double> row(hierarchy.channels), times;
+    bool is_cut = false;
     for (; times.size() < declared && !row.empty() && !words.peek().empty();
          times.push_back(static_cast<double>(times.size()) * step)) {
         if (times.size() % 64 == 0)
             report(progress, 0.1 + 0.8 * static_cast<double>(times.size()) / static_cast<double>(declared));
-        if (!words.row(row)) {
-            notes.push_back("The file is cut off in row " + std::to_string(times.size() + 1) +
-                            ", which is left out.");
-            break;
-        }
+        is_cut = !words.row(row, !times.empty());
+        if (is_cut) break;
         const double* values = row.data();
         for (humanoid::Channel& channel : clip.channels) {
             const BvhJoint& joint = hierarchy.joints[channel.node];
@@ -326,7 +327,11 @@ humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, std::vector
         if (moves(hierarchy.joints[channel.node])) channel.translation.times = times;
         if (turns(hierarchy.joints[channel.node])) channel.rotation.times = times;
     }
-    compare_rows(words, times.size(), declared, row, notes);
+    if (is_cut)
+        notes.push_back("The file is cut off in row " + std::to_string(times.size() + 1) + " of " +
+                        std::to_string(declared) + ", which is left out.");
+    else
+        compare_rows(words, times.size(), declared, row, notes);
     return clip;
 }
 

@@ -49,7 +49,7 @@ TEST(Bvh, spellings_of_real_exporters_are_read_as_declared_with_a_note) {
         {"one row fewer", stalk + "MOTION\nFrames: 4\nFrame Time: 0.0333333\n" + rows + "\n ",
          "1 fewer row than 4"},
         {"cut off in a row", stalk + "MOTION\nFrames: 4\nFrame Time: 0.0333333\n" + rows + "0 90 0 0 0",
-         "cut off in row 4"},
+         "cut off in row 4 of 4"},
         {"cut off in a row that is not declared", stalk + motion + "0 90 0 0", "1 more row"},
     };
     const Character strict = parse_bvh(stalk + motion, "it.bvh");
