@@ -76,6 +76,13 @@ TEST(RopeClothCollision, FoldedInFourItKeepsTheThicknessOfItsLayers) {
         EXPECT_LT(glm::length(world.state().position[i] - were[i]), 2e-3) << "it creeps at " << i;
 }
 
+TEST(RopeClothCollision, WithoutCollisionTheLayersFallThroughEachOther) {
+    World world = folded(16, 0.006f);
+    allow(world.set_collides(world.id("cloth"), world.id("cloth"), false));
+    run(world, 2.0);
+    EXPECT_GT(pierced(world), 0);
+}
+
 /// A cloth held by its four corners, and a rope and a smaller cloth above it.
 World hammock() {
     World world;
@@ -121,6 +128,14 @@ TEST(RopeClothCollision, ARopeAndAClothLieOnAnother) {
     world.remove("small");
     run(world, 3.0);
     EXPECT_GT(lowest(world), loaded + 0.003);
+}
+
+TEST(RopeClothCollision, WithoutCollisionTheyFallThroughIt) {
+    World world = hammock();
+    for (const char* each : {"rope", "small"})
+        allow(world.set_collides(world.id("hammock"), world.id(each), false));
+    run(world, 2.0);
+    EXPECT_LT(lowest(world), 0.0);
 }
 
 TEST(RopeClothCollision, ThreadsAndCopiesGiveTheSameBits) {

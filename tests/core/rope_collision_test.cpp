@@ -177,6 +177,13 @@ TEST(RopeCollision, AKnotPulledTightStaysOne) {
     }
 }
 
+TEST(RopeCollision, WithoutCollisionTheKnotComesUndone) {
+    World world = knotted(128, 0.015f);
+    allow(world.set_collides(world.id("rope"), world.id("rope"), false));
+    run(world, 8.0);
+    EXPECT_EQ(knot_determinant(points_of(world, "rope")), 1);
+}
+
 TEST(RopeCollision, ContactNeverAddsEnergy) {
     for (const int segments : {16, 64}) {
         World world = crossed(segments, 0.3);

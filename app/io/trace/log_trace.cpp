@@ -264,7 +264,7 @@ class Scanner {
             numbers.clear();
             return false;
         }
-        if (w_first) std::ranges::rotate(numbers, numbers.begin() + 1);
+        if (w_first) std::rotate(numbers.begin(), numbers.begin() + 1, numbers.end());
         const std::size_t before = at > 0 ? text_.find_last_not_of(' ', at - 1) : text_.npos;
         const bool braced = before != text_.npos && text_[before] == '{';
         if (text_[at] == 'X' && equals && tight && !braced) trace_.engine = Engine::Unreal;

@@ -43,8 +43,8 @@ void ClothSolver::add_contacts() {
 void ClothSolver::add_contact(const ClothContact& contact) {
     const dvec3& n = contact.normal;
     const double to_b = contact.t, to_a = 1.0 - to_b;
-    const std::array<double, 6> stiff = block(n, contact.stiffness, contact.drag);
-    const dvec3 force = -contact.stiffness * contact.gap * n - contact.drag * contact.slip;
+    const std::array<double, 6> stiff = block(n, stiffness_, contact.drag);
+    const dvec3 force = -stiffness_ * contact.gap * n - contact.drag * contact.slip;
     const std::size_t cell_a = cell_of(contact.a);
     add(level_.diagonal, cell_a, to_a * to_a, stiff);
     add(level_.right, cell_a, to_a * force);
@@ -100,7 +100,7 @@ double ClothSolver::potential_of_presses() const {
 void ClothSolver::note_forces() {
     for (ClothContact& each : local_.cloth_contacts) {
         const dvec3 moved = between(each, scratch_.place) - each.at;
-        each.force = -each.stiffness * (each.gap + detail::dot(each.normal, moved));
+        each.force = -stiffness_ * (each.gap + detail::dot(each.normal, moved));
     }
 }
 

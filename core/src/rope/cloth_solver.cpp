@@ -73,7 +73,6 @@ ClothSolver::ClothSolver(const IslandStep& step) : ClothSolver(step, 0) {
     const double weight = whole * detail::length(detail::acceleration(state_.settings)) +
                           area * detail::wind_pressure(state_.settings);
     stiffness_ = link_stiffness(weight, shortest_, unit_);
-    deepest_hard_ = yield_strain * shortest_;
 }
 
 double ClothSolver::link_stiffness(double weight, double shortest, double unit) {

@@ -78,12 +78,6 @@ void ImplicitStep::keep(ClothContact contact, const SurfaceDistance& surface, do
     contact.gap = surface.distance - radius;
     contact.normal = surface.normal;
     double depth = -contact.gap;
-    contact.stiffness = stiffness_;
-    const auto same_chunk = [&](std::uint32_t n) {
-        return n < local_.near.size() && local_.near[n].chunk == local_.near[contact.near].chunk;
-    };
-    if (depth > deepest_hard_ && (same_chunk(contact.near - 1) || same_chunk(contact.near + 1)))
-        contact.stiffness *= deepest_hard_ / depth;
     if (first) {
         const dvec3 further = between(contact, scratch_.base) - between(contact, scratch_.place);
         depth = std::max(depth, depth - detail::dot(contact.normal, further));
@@ -110,7 +104,7 @@ double ImplicitStep::potential_of(const ClothContact& contact) const {
     const dvec3 by = between(contact, scratch_.place) - contact.at;
     const double along = detail::dot(by, contact.normal), gap = contact.gap + along;
     const dvec3 slip = contact.slip + by - along * contact.normal;
-    return contact.stiffness * gap * gap + contact.drag * detail::dot(slip, slip);
+    return stiffness_ * gap * gap + contact.drag * detail::dot(slip, slip);
 }
 
 }  // namespace tendril::rope

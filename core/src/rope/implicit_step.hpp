@@ -31,10 +31,7 @@ class ImplicitStep : protected IslandStep {
         return (1.0 - contact.t) * all[contact.a] + contact.t * all[contact.b];
     }
 
-    double mass_ = 0.0;  ///< mean mass of a particle, kg
-    /// Metres. A contact that is deeper presses no harder where two colliders may close on a cloth: it
-    /// yields.
-    double deepest_hard_ = 1e30;
+    double mass_ = 0.0;       ///< mean mass of a particle, kg
     double stiffness_ = 0.0;  ///< of contacts and of the stiffest links, times h^2 over that mass
 };
 

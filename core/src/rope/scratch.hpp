@@ -18,9 +18,6 @@
 
 namespace tendril::rope {
 
-/// Of a link of cloth that alone bears a contact's hardest push, and by what is brought out in a substep.
-inline constexpr double yield_strain = 0.05;
-
 /// A particle's contact with a collider in one substep.
 struct Touch {
     glm::dvec3 normal{0.0};
@@ -232,7 +229,6 @@ struct ClothContact {
     std::uint32_t link = 0;      ///< of a link: its index
     double t = 0.0;              ///< position between them, 0: at a
     double force = 0.0;          ///< in the last solve; positive: presses
-    double stiffness = 0.0;      ///< in the unit of link stiffness
     double gap = 0.0;            ///< from the collider's surface, less the radius of the cloth
     glm::dvec3 normal{0.0};
     glm::dvec3 at{0.0};    ///< where it was found

@@ -217,8 +217,8 @@ void TiedSolver::add_contacts() {
         }
         const dvec3& n = each.normal;
         const double to_b = each.t, to_a = 1.0 - to_b;
-        const Symmetric3 stiff = stiffness_along(n, each.stiffness, each.drag);
-        const dvec3 force = -each.stiffness * each.gap * n - each.drag * each.slip;
+        const Symmetric3 stiff = stiffness_along(n, stiffness_, each.drag);
+        const dvec3 force = -stiffness_ * each.gap * n - each.drag * each.slip;
         add(each.a, scaled(stiff, to_a * to_a), to_a * force);
         if (!each.is_link()) continue;
         add(each.b, scaled(stiff, to_b * to_b), to_b * force);
@@ -414,7 +414,7 @@ int TiedSolver::solve(int iterations) {
         step(taken == 0, iterations, enough);
         for (ClothContact& each : local_.cloth_contacts) {
             const dvec3 moved = between(each, scratch_.place) - each.at;
-            each.force = -each.stiffness * (each.gap + detail::dot(each.normal, moved));
+            each.force = -stiffness_ * (each.gap + detail::dot(each.normal, moved));
         }
         ++taken;
         converged_ = taken >= least && turned_ <= (taken < few_steps ? turned_enough : turned_little) &&

@@ -194,6 +194,22 @@ void push_aside(NamedWorld& world, const std::vector<NamedShape>& colliders, rop
     place_colliders(world, colliders);
 }
 
+/// Resets attachments that are caught in the body and badly stretched to their initial shape.
+void untangle(NamedWorld& world, const Attachments& attachments, const Wearer& wearer) {
+    constexpr double largest_error = 0.5;
+    for (const Attachment& each : attachments.list) {
+        const rope::Body body = *world.find(each.name);
+        if (world.length_error(body) < largest_error) continue;
+        const std::vector<dvec3> offsets = made_offsets(each, wearer);
+        rope::State state = world.state();
+        for (std::size_t i = 0; i < body.count && i < offsets.size(); ++i) {
+            state.position[body.first + i] = kept_in(each.frame.apply(offsets[i]));
+            state.displacement[body.first + i] = dvec3(0.0);
+        }
+        world.put(std::move(state));
+    }
+}
+
 }  // namespace
 
 void carry(Attachments& attachments, const Wearer& wearer, rope::Workspace& workspace) {
@@ -218,6 +234,7 @@ void carry(Attachments& attachments, const Wearer& wearer, rope::Workspace& work
                                   glm::vec3(carriers.front().point(dvec3(capsule->b))), capsule->radius});
     }
     push_aside(*world, colliders, workspace);
+    untangle(*world, attachments, wearer);
     attachments.world = std::move(world);
 }
 
@@ -237,6 +254,7 @@ void advance(Attachments& attachments, const Wearer& wearer, rope::Workspace& wo
     }
     move_colliders(*world, colliders, seconds);
     world->advance(seconds, workspace, static_cast<std::uint64_t>(substeps));
+    untangle(*world, attachments, wearer);
     attachments.world = std::move(world);
 }
 

@@ -129,6 +129,14 @@ std::string free_name(const Attachments& attachments, AttachmentKind kind) {
 
 }  // namespace
 
+std::vector<glm::dvec3> made_offsets(const Attachment& attachment, const Wearer& wearer) {
+    const std::size_t node = *wearer.loaded.skeleton().find(attachment.node);
+    const glm::dvec3 rest = wearer.loaded.rest[node].position;
+    std::vector<glm::dvec3> offsets = make(attachment, wearer, rest).world.state().position;
+    for (glm::dvec3& each : offsets) each -= rest;
+    return offsets;
+}
+
 std::size_t torn_edges(const Attachments& attachments, const Attachment& attachment) {
     const rope::Body& body = *attachments.world->find(attachment.name);
     const rope::State& state = attachments.world->state();

@@ -97,6 +97,8 @@ AttachmentShape default_shape(const Wearer& wearer, AttachmentKind kind, std::si
 void add_attachment(Attachments& attachments, const Wearer& wearer, Attachment wanted);
 /// Throws std::invalid_argument if there is none of that name.
 void remove_attachment(Attachments& attachments, const std::string& name);
+/// The initial positions of its particles, relative to the node at rest.
+std::vector<glm::dvec3> made_offsets(const Attachment& attachment, const Wearer& wearer);
 /// An edge longer than its rest length by more than this part is torn. Walking and punching at double speed
 /// stretch none by over 8 %.
 inline constexpr double torn_strain = 0.25;

@@ -53,8 +53,8 @@ struct Advance {
                      ///< may solve a single chain more often
     std::uint64_t work = 0;         ///< links solved and distances to colliders computed: where the time goes
     int shortened = 0;              ///< substeps in which max_pass_work cut passes
-    std::uint64_t unresolved = 0;   ///< times a particle was left inside colliders: surfaces close on it, and
-                                    ///< the way out would tear its body
+    std::uint64_t unresolved = 0;   ///< times a particle was left inside colliders: no way out exists, or the
+                                    ///< search for one took too long
     std::uint64_t unconverged = 0;  ///< times lengths and contacts of a rope did not converge to 0.1 % in the
                                     ///< available steps; what has no solution is stretched, and does not
                                     ///< count

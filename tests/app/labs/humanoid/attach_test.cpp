@@ -2,7 +2,6 @@
 #include "app/labs/humanoid/panel.hpp"
 #include "attach_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
-#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -91,25 +90,6 @@ TEST_F(HumanoidAttach, StaysOffTheBody) {
         const std::size_t row = body("cape").row, middle = row / 2;
         for (std::size_t r = 0; r < 8; ++r)
             EXPECT_LT(particle("cape", r * row + middle).z, bone("UpperChest").z) << which << ", row " << r;
-    }
-}
-
-/// Arms that take hold of a rifle close on the cape, and walk with it: it yields.
-TEST_F(HumanoidAttach, IsNotTornByArmsThatHoldARifle) {
-    for (const char* file : {"robot.glb", "mixed_orders.bvh"}) {
-        const auto path = test::characters_folder() / file;
-        if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-        run("humanoid.load", {{"path", path.string()}});
-        run("humanoid.attach", {{"bone", "Chest"}, {"kind", "cloth"}, {"name", "cape"}});
-        run("humanoid.clip", {{"index", 0}, {"play", true}, {"loop", true}});
-        tick(30);
-        run("humanoid.hold", {{"kind", "rifle"}});
-        std::size_t torn = 0;
-        for (int i = 0; i < 120; ++i) {
-            torn += torn_edges(part().attachments, part().attachments.list[0]);
-            tick();
-        }
-        EXPECT_EQ(torn, 0u) << file;
     }
 }
 
