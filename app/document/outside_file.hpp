@@ -49,10 +49,10 @@ auto read_outside_file(const JsonPlace& place, const auto& read) {
 /// Sets the paths of files in a part that have moved with the scene: those that are not at their path but,
 /// with the end of it, under the scene's folder or, with at least one folder, under the two above that.
 void find_moved_files(Json& part, const std::filesystem::path& scene_folder);
-/// The name of a file in the part whose bytes differ from when the scene was saved; empty if none's do.
+/// The name of a file in the part that has changed since the scene was saved; empty if none has.
 std::string changed_file(const Json& part);
 
-/// The names that a glTF's URI may stand for, the likeliest first: "%20" decoded, as it is, and with slashes.
+/// The file names that a glTF URI may mean, the likeliest first: decoded ("%20"), as written, with slashes.
 std::vector<std::string> names_of_uri(const std::string& uri);
 
 }  // namespace tendril::app

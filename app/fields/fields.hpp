@@ -63,7 +63,7 @@ struct FieldsIn {
     void* object;
 };
 
-/// With its structs and lists. Of a list with names, elements that are empty are left out.
+/// Includes nested structs and lists. A list with names leaves out its empty elements.
 Json save_fields(FieldsOf of);
 /// Missing fields keep their values, so that older scenes open. Throws std::runtime_error that begins with
 /// the JSON path of the error.

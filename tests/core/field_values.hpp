@@ -63,7 +63,7 @@ inline std::vector<FieldValue> values_out_of_range(const Field& field) {
     if (!field.whole()) numbers.insert(numbers.end(), {INFINITY, -INFINITY});
     if (field.over_low) numbers.push_back(low);
     for (int axis = 0; axis < field.size(); ++axis) {
-        // Of an optional field, NaN is none; a whole number cannot be NaN.
+        // NaN means empty in an optional field; a whole number cannot be NaN.
         if (!field.whole() && !(field.optional && axis == 0)) numbers.push_back(std::nan(""));
         for (const double each : numbers) {
             FieldValue value = value_in_range(field, 0.5);

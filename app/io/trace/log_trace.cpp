@@ -507,9 +507,9 @@ class LogTrace final : public RawTrace {
     static bool is_joint(const Found& found) {
         return found.is_position && found.meaning == Meaning::Joint && found.numbers.size() == 3;
     }
-    /// A label that comes again in a line, beside two joints or more that have a name of their own, is of
-    /// what each of them has: "elbow (...) side (...) hand (...) side (...)". Where labels take turns, "a
-    /// (...) b (...) a (...) b (...)", the first is of the positions.
+    /// A label that repeats in a line beside two or more named joints is an attribute of each joint: "elbow
+    /// (...) side (...) hand (...) side (...)". Where labels alternate, "a (...) b (...) a (...) b (...)",
+    /// the first one labels the positions.
     void leave_out_attributes(std::vector<Found>& found) {
         std::map<std::string, std::size_t> counts;
         std::vector<std::string> labels;

@@ -62,7 +62,7 @@ std::unique_ptr<RawTrace> open_raw_trace(std::istream& in);
 /// Removes it from `text`.
 std::optional<double> take_number(std::string_view& text);
 enum class Meaning { Joint, Target, Pole };
-/// Of what has this name, in lower case: "ik_target", "pole vector".
+/// The meaning of a name in lower case: "ik_target", "pole vector".
 Meaning meaning_of(std::string_view name);
 /// Whether the text before a vector, or a column's name, says that the numbers are not a position:
 /// "elbow_rotation", "in RPY (radian)".

@@ -41,8 +41,8 @@ struct LinkageRange {
     bool operator==(const LinkageRange&) const = default;
 };
 
-/// A motor's crank, the coupler on it, and what the coupler drives: a rocker on a pin, or a slider. Each is a
-/// rigid body of any bars. Indices of the sketch.
+/// A motor's crank, its coupler, and the rocker or slider that the coupler drives. Each is a rigid body of
+/// one or more bars. Indices into the sketch.
 struct DrivenLoop {
     std::size_t motor = 0;
     std::size_t tip = 0;                ///< of the crank, where the coupler is

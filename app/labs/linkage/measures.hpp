@@ -27,7 +27,7 @@ ShownValue shown_value(const LinkagePart& part, std::string_view joint, double v
 std::string value_text(const LinkagePart& part, std::string_view joint, double value);
 
 /// The angle between two bars at a point of the sketch, of two rigid bodies if two meet there: degrees, 0 to
-/// 180. That of a single bar, or of one body on a pin, is from +X. NaN: there is none.
+/// 180. A single bar, or one body on a pin, is measured from +X. NaN if there is no angle.
 double angle_at(const LinkagePart& part, std::string_view point);
 
 /// Below this a coupler pushes poorly: the usual limit in books on mechanisms.

@@ -50,7 +50,7 @@ inline glm::quat rotation_of(const FieldValue& value) noexcept {
 struct FieldRange {
     double low = 0.0, high = 0.0;
 };
-/// Of a quaternion that counts as a rotation.
+/// Lengths at which a quaternion counts as a rotation.
 inline constexpr FieldRange unit_length{0.999, 1.001};
 
 enum class FieldScale : std::uint8_t { Linear, Logarithmic };
@@ -72,18 +72,18 @@ struct Field {
     FieldScale scale = FieldScale::Linear;  ///< how sliders map it
     FieldValue (*get)(const void* object) noexcept = nullptr;
     void (*set)(void* object, const FieldValue& value) noexcept = nullptr;
-    /// Of an optional field; null for others.
+    /// Null unless the field is optional.
     bool (*empty)(const void* object) noexcept = nullptr;
     /// Whether the value is in the range of `row`, or empty.
     bool (*fits)(const Field& row, const void* object) noexcept = nullptr;
 
-    /// Of a struct: its table.
+    /// The table of a nested struct; null for values.
     std::span<const Field> (*table)() noexcept = nullptr;
     /// The address of a struct, null while an optional one is empty, or of a list's element.
     const void* (*address)(const void* object, std::size_t index) noexcept = nullptr;
     std::size_t (*count)(const void* object) noexcept = nullptr;
-    /// Of a list, or 0 or 1 of an optional struct. Null if the number is fixed or the list is not the
-    /// struct's own.
+    /// Resizes a list, or an optional struct to 0 or 1. Null if the number of elements is fixed, or if the
+    /// struct does not own the list.
     void (*resize)(void* object, std::size_t count) noexcept = nullptr;
     std::size_t most = static_cast<std::size_t>(-1);  ///< elements of a list
     std::span<const char* const> names{};             ///< of the elements: "left", "right"
@@ -120,7 +120,7 @@ struct Field {
         return const_cast<void*>(address(object, index));
     }
 
-    // Changes of a row of a table: field<&Options::damping>("damping", {0.0, 10.0}).over().
+    // Variations of a row: field<&Options::damping>("damping", {0.0, 10.0}).over().
     constexpr Field over() const noexcept {
         Field row = *this;
         row.over_low = true;

@@ -294,7 +294,7 @@ void agree(const Skeleton& skeleton, const ShapeReading& shape, BoneMap& map) {
                 mirror(1 - better, i);
         }
     }
-    // Of two bones at one node, the one that a name told stays.
+    // Where two bones share a node, the better-founded one keeps it.
     for (BoneMatch& match : map.bones)
         for (BoneMatch& other : map.bones)
             if (&match != &other && match.node >= 0 && match.node == other.node)

@@ -404,7 +404,7 @@ TEST(ChainsPast, AReplayEndsWithThePastItShows) {
 }
 
 TEST(ChainsPast, AReplayGoesOnWhereOnlySomeMomentsAreKept) {
-    // Of a chain this large, every fourth moment is kept.
+    // A chain this large keeps every fourth moment.
     ScriptText script = ScriptText().command("chain.preset", {{"name", "start"}, {"count", 100000}});
     for (int i = 1; i <= 90; ++i) script.command("chain.target", {{"to", {100, i, 0}}});
     const Json shown = state_after(script.command("time.replay").wait(100));

@@ -75,11 +75,10 @@ struct LinkageSketch {
     bool operator==(const LinkageSketch&) const = default;
 };
 
-/// Which bars are rigidly joined: for each the first bar of its body, or ground_link if that cannot move. A
-/// body is a set of bars, with or without the ground, that by itself leaves none of them free to turn against
-/// another: by the rank of its closures as drawn. So three bars in one line are not found to be one body. A
-/// bar that linkage_from refuses is a body of its own. O(bars^3) for each time that a set of bars comes
-/// apart.
+/// The first bar of each bar's rigid body, or ground_link for bars that cannot move. The bars of a body
+/// cannot turn against each other. Judged by the rank of the closures as drawn, so three bars in one line are
+/// not recognised as one body. A bar that linkage_from() refuses is a body of its own. Costs O(bars^3) for
+/// each set of bars that is split.
 std::vector<std::size_t> rigid_bodies(const LinkageSketch& sketch);
 
 /// Removes the point, the bars that would have one point left, and the motors of these; OutOfRange for an
