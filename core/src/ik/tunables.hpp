@@ -51,19 +51,19 @@ inline constexpr std::size_t few_bones = 8;
 /// Spans evaluated per family of shapes (regula falsi). 1 or 3: 0.04 to 0.24 more iterations, or 0.02 to 0.13
 /// fewer; the same chains arrive.
 inline constexpr int tries = 2;
-/// Values of t^2: where the bones of a bent chain point sideways; and where the faintest bend has become that
-/// strong.
+/// Values of t^2 at which the bones of a bent chain point sideways, and at which even the faintest bend has
+/// become that strong.
 inline constexpr float strong_bend = 1e6f, max_bend = 1e10f;
 
 }  // namespace chain
 
 namespace jacobian {
 
-/// Fraction of the reach to which the error is clamped (after Buss 2004), because the tip follows J only
-/// nearby. Without: DLS takes 7.7 instead of 6.4 iterations with 10 bones, 5.0 instead of 4.8 with 4.
+/// Fraction of the reach to which the error is clamped (after Buss 2004), because J predicts the tip's move
+/// only nearby. Without: DLS takes 7.7 instead of 6.4 iterations with 10 bones, 5.0 instead of 4.8 with 4.
 inline constexpr double max_error = 0.5;
-/// Radians per iteration, for the same reason. Without: 6.0 instead of 5.4 iterations from a straight pose,
-/// otherwise the same.
+/// Maximum rotation, radians per iteration, for the same reason. Without: 6.0 instead of 5.4 iterations from
+/// a straight pose, otherwise the same.
 inline constexpr double max_rotation = 1.0;
 /// Fraction of the reach: singular values below this are damped by the SVD method (jacobian.cpp).
 inline constexpr double small_singular = 0.4;
@@ -78,8 +78,8 @@ namespace limits {
 /// axis.
 inline constexpr float singular = 5e-3f;
 /// Bending a singular pose: minimum fraction of the angle, for a joint before a short bone; and the
-/// difference, as a fraction of the reach, below which the errors of two ways of bending count as equal. A
-/// chain is bent once per solve, the best of four ways. Without bending, no arm that starts straight with the
+/// difference, as a fraction of the reach, below which the errors of two ways of bending are a tie. A chain
+/// is bent once per solve, the best of four ways. Without bending, no arm that starts straight with the
 /// target ahead arrives by DLS (49 percent of all kinds do with it; the others are out of the limits' reach),
 /// and 4 instead of 49 by CCD; FABRIK's restarts compensate, but there are none while a target is dragged.
 /// With the first way only, DLS brings 39 instead of 47 percent of those arms there. Up to three more bends,
@@ -127,9 +127,9 @@ namespace explain {
 
 inline constexpr int iterations = 60;
 inline constexpr std::size_t max_candidates = 4;  ///< joints to free
-inline constexpr int halvings = 8;                ///< of the range that the best joint needs: to 0.4 % of it
-inline constexpr float fine = 1e-4f;              ///< of the reach: counts as arrived
-inline constexpr float noticeable = 1e-3f;        ///< of the remaining distance: counts as nearer
+inline constexpr int halvings = 8;                ///< bisections of the best joint's range: to 0.4 % of it
+inline constexpr float fine = 1e-4f;              ///< fraction of the reach: a smaller error has arrived
+inline constexpr float noticeable = 1e-3f;        ///< of the remaining distance: a smaller gain is ignored
 
 }  // namespace explain
 
@@ -140,7 +140,7 @@ namespace pole {
 /// How far a joint may move to face its pole: `free_part` of the reach in each solve, plus `follow` times
 /// what target, pole and joints have moved since the last one.
 inline constexpr double free_part = 5e-4, follow = 20.0;
-/// Fraction of the reach: a larger change is a jump, and nothing is limited then.
+/// A change larger than this fraction of the reach is a jump, after which nothing is limited.
 inline constexpr double jump = 0.02;
 /// PoleTurn::EachJoint: maximum sweeps, and the angle in radians below which they have converged.
 inline constexpr int max_sweeps = 64;
@@ -159,14 +159,14 @@ namespace tree {
 inline constexpr int newton_from = 3;
 inline constexpr double first_damping = 1e-3, min_damping = 1e-9, max_damping = 1e3;
 inline constexpr double damping_falls = 0.25, damping_grows = 8.0;
-/// Iterations without convergence that count as a stall. 2 or 8: the same trees arrive; if their effectors
-/// conflict, 0.6 iterations sooner or 0.9 later.
+/// Iterations without convergence before a stall. 2 or 8: the same trees arrive; if their effectors conflict,
+/// 0.6 iterations sooner or 0.9 later.
 inline constexpr int stall_window = 4;
 /// Perturbations before a stall is accepted, and their size as a fraction of a bone's length. With none, 93.8
 /// instead of 99.1 percent of trees with straight limbs and targets ahead arrive.
 inline constexpr int max_perturbations = 1;
 inline constexpr float bend = 0.3f;
-/// Fraction of the heaviest weight: a lighter effector counts as this heavy.
+/// Minimum weight of an effector, as a fraction of the heaviest.
 inline constexpr double min_weight = 1e-4;
 
 }  // namespace tree

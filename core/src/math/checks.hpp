@@ -33,7 +33,7 @@ inline bool is_point(const glm::vec3& point) noexcept {
 
 inline constexpr std::size_t no_index = static_cast<std::size_t>(-1);
 
-/// Of the first in the list with this name.
+/// Index of the first element with this name.
 template <class Named>
 std::optional<std::size_t> index_of_name(const std::vector<Named>& list, std::string_view name) noexcept {
     for (std::size_t i = 0; i < list.size(); ++i)
@@ -87,7 +87,7 @@ Result refused_count(std::string_view operation, const Argument& argument, std::
 /// `solve: the solver has been moved from`
 Result moved_from(std::string_view operation, std::string_view what) noexcept;
 
-/// A member of `*held`, or an empty one if that was moved away.
+/// A member of `*held`, or an empty one if `held` was moved away.
 template <class Held, class Owner, class Member>
 const Member& held_or_empty(const Held& held, Member Owner::*member) noexcept {
     if (held) return (*held).*member;

@@ -1,8 +1,8 @@
 // Vector units (Highway calls them targets) and the functions that Highway compiled for each of them. Include
 // this before <hwy/foreach_target.h>, because it also disables some units. Not installed.
 //
-// A file with such functions begins with math/each_target-inl.hpp. At its end, under HWY_ONCE, HWY_EXPORT(f) lists
-// the compiled versions of f, and TENDRIL_COMPILED_FOR(f, target) is the one for a unit.
+// A file with such functions begins with math/each_target-inl.hpp. At its end, under HWY_ONCE, HWY_EXPORT(f)
+// lists the compiled versions of f, and TENDRIL_COMPILED_FOR(f, target) is the one for a unit.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ void for_each_target(Call call) {
     for (; targets != 0; targets &= targets - 1) call(targets & -targets);  // a lower bit is a better target
 }
 
-/// The widest of those units, or the one of that name; 0 for a unit that is not there.
+/// The unit with this name, or the widest one if the name is empty; 0 if there is none.
 inline std::int64_t target_named(std::string_view name) {
     std::int64_t found = 0;
     for_each_target([&](std::int64_t target) {

@@ -42,8 +42,8 @@ static inline std::uint64_t random_bits(std::uint64_t& state) noexcept {
 struct SineCosine {
     double sine, cosine;
 };
-/// Of an angle in full turns; whole turns are removed exactly. From 1e14 turns on (and for NaN) the angle
-/// counts as 0.
+/// Sine and cosine of an angle in full turns; whole turns are removed exactly. From 1e14 turns on, and for
+/// NaN, the angle is taken as 0.
 static inline SineCosine sine_cosine(double turns) noexcept {
     if (!(std::abs(turns) < 1e14)) return {0.0, 1.0};
     const double quarters = (4.0 * turns + detail::rounder) - detail::rounder;

@@ -1,4 +1,4 @@
-// Loops that one thread shares with others while these are idle. Not installed.
+// A loop whose parts one thread shares with idle threads. Not installed.
 //
 //     ForkJoin loops;
 //     loops.begin();                                     // one thread, the owner of the work

@@ -1,7 +1,7 @@
-// Included first into every source of the library, by its CMakeLists.txt: GLM's common functions that
-// multiply and add do not compile there, for the reason given in point.hpp; its constructors still do.
-// vector.hpp and rotation.hpp have them. More constrained than GLM's own, these are chosen in their place.
-// MSVC does not include this. Not installed.
+// Included first into every source of the library, by its CMakeLists.txt. It deletes GLM's common functions
+// that multiply and add, for the reason given in point.hpp; GLM's constructors still work. Use vector.hpp and
+// rotation.hpp instead. These overloads are more constrained than GLM's own, so the compiler picks them. MSVC
+// does not include this. Not installed.
 #pragma once
 
 #include <glm/geometric.hpp>

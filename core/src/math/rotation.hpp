@@ -1,5 +1,5 @@
-// Unit quaternions in plain arithmetic, for the reason given in point.hpp; of floats or doubles, like
-// vector.hpp. Not installed.
+// Unit quaternions of floats or doubles in plain arithmetic, for the reason given in point.hpp. Not
+// installed.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -23,7 +23,7 @@ static inline glm::quat narrow(const glm::dquat& q) noexcept {
     return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
             static_cast<float>(q.z)};
 }
-/// As unit, which a float quaternion is only to 1e-7.
+/// Normalises in double: a float quaternion has unit length only to 1e-7.
 static inline glm::dquat wide(const glm::quat& q) noexcept {
     return unit_quaternion(static_cast<double>(q.w), static_cast<double>(q.x), static_cast<double>(q.y),
                            static_cast<double>(q.z));
@@ -44,7 +44,7 @@ static inline Vec<T> rotated(const Quat<T>& q, const Vec<std::type_identity_t<T>
     const Vec<T> t = times(cross(axis, v), T(2));
     return plus(plus(v, times(t, q.w)), cross(axis, t));
 }
-/// About a unit axis, radians.
+/// Rotation about a unit axis, radians.
 static inline glm::quat rotation_about(const glm::vec3& axis, float angle) noexcept {
     const float s = std::sin(0.5f * angle);
     return {std::cos(0.5f * angle), axis.x * s, axis.y * s, axis.z * s};
@@ -68,7 +68,7 @@ static inline glm::quat slerp(const glm::quat& from, const glm::quat& to, float 
     return unit_quaternion(a * from.w + b * to.w, a * from.x + b * to.x, a * from.y + b * to.y,
                            a * from.z + b * to.z);
 }
-/// Threshold for 1 + cosine of the angle between two unit vectors, under which they count as opposite.
+/// Two unit vectors are treated as opposite if 1 + the cosine of their angle is below this.
 template <class T>
 inline constexpr T nearly_opposite = std::is_same_v<T, float> ? T(1e-6) : T(1e-14);
 /// The minimal rotation that takes one unit vector to another; half a turn about `perpendicular(from)` if

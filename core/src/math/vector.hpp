@@ -1,5 +1,5 @@
-// Vectors in plain arithmetic, for the reason given in point.hpp; of floats, and of doubles for the few sums
-// and closed forms in which floats would lose too much precision. Not installed.
+// Vectors of floats in plain arithmetic, for the reason given in point.hpp; of doubles for the few sums and
+// closed forms in which floats would lose too much precision. Not installed.
 #pragma once
 
 #include <algorithm>

@@ -36,18 +36,18 @@ enum class Row : std::size_t {
     Iterations,     ///< whole numbers up to 1 000 000, which a float holds
     Activity,
     Class,
-    Side  ///< of a chain in a plane: an ik::Side
+    Side  ///< the ik::Side of a chain in a plane
 };
 inline constexpr std::size_t state_rows = 16;
 
-/// In Row::Activity.
+/// Values of Row::Activity.
 enum class Activity : std::uint8_t {
     Done,     ///< finished
     Active,   ///< iterates
     Perturb,  ///< to be perturbed, then iterates
 };
 
-/// In Row::Class: the result of classifying a chain before its first iteration.
+/// Values of Row::Class: the result of classifying a chain before its first iteration.
 enum class Class : std::uint8_t {
     Reachable,  ///< iterates
     Straight,   ///< out of reach, already straightened
@@ -62,12 +62,12 @@ class Block {
   public:
     Block(float* joints, float* lengths, float* state, std::size_t bones) noexcept
         : joints_(joints), lengths_(lengths), state_(state), bones_(bones) {}
-    /// With the rows of joints and lengths contiguous.
+    /// For rows of joints and lengths that are contiguous.
     Block(float* rows, float* state, std::size_t bones) noexcept
         : Block(rows, rows + joint_rows(bones) * block_lanes, state, bones) {}
 
     static std::size_t joint_rows(std::size_t bones) noexcept { return 3 * (bones + 1); }
-    /// Lengths, reach and longest bone.
+    /// Rows of lengths, reach and longest bone.
     static std::size_t length_rows(std::size_t bones) noexcept { return bones + 2; }
     static std::size_t joint_floats(std::size_t bones) noexcept { return joint_rows(bones) * block_lanes; }
     static std::size_t chain_floats(std::size_t bones) noexcept {

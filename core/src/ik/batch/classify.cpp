@@ -202,7 +202,7 @@ void classify(const Block& block, std::size_t lanes) {
     }
 }
 
-/// Whether the tip may be at the root, as pole.cpp has it.
+/// Whether the tip may be at the root, by the rule of pole.cpp.
 HWY_INLINE Mask may_be_closed(const Block& block, std::size_t i) {
     const Lanes near =
         hn::Mul(load(block.reach() + i), all(1.1f * static_cast<float>(tune::pole::closed_tip)));

@@ -152,7 +152,7 @@ HWY_INLINE void reshape_around_longest(const Gathered& second, const Block& to, 
 
 /// The chains of a block that take the accelerated step in this iteration.
 struct Takers {
-    std::array<Mask, block_lanes> lanes;  ///< of each active register
+    std::array<Mask, block_lanes> lanes;  ///< one per active register
     std::size_t count = 0, registers = 0;
 };
 

@@ -56,7 +56,7 @@ struct Pose {
           ends(outward.after(3 * bones)),
           joints(ends.after(2 * bones)),
           world(joints.after(3 * (bones + 1))) {}
-    /// All of it: full_pose_rows registers, of which the first pose_rows are independent.
+    /// The whole pose: full_pose_rows registers, of which the first pose_rows are independent.
     const Column& rows() const { return local; }
 
     void set(std::size_t bone, const Rotations& turn, const Standing& standing) const {
@@ -222,7 +222,7 @@ HWY_INLINE void linearize(const Limb& limb) {
         limb.axes.set(bone, rotated(parent, axis));
         if (!hinge) limb.bones.set(bone, rotated(world, all(limit.bone)));
         limb.stopped.set(2 * bone, zero());
-        // Without any range: stopped both ways.
+        // A bone without any range is stopped both ways.
         limb.stopped.set(2 * bone + 1,
                          hn::Mul(limb.pose.ends.lanes(2 * bone), limb.pose.ends.lanes(2 * bone + 1)));
         parent = world;

@@ -104,7 +104,7 @@ HWY_INLINE Swings clamp(const BatchLimit& limit, const Swings& swing, Standing& 
     constexpr float pi = 3.14159265f;
     const Mask surely_inside = hn::Lt(hn::Mul(outside, all(pi * pi)), all(1.0f));
     if (hn::AllTrue(Floats(), surely_inside)) return swing;
-    // The rim is at the angle sine / sqrt(outside); scale is the sine of half of it over that of the swing.
+    // The rim is at the angle sine / sqrt(outside); scale is the sine of half that angle over the swing's.
     const Lanes squared = hn::Add(up2, left2);
     const Lanes inverse = hn::Div(all(0.25f), hn::Max(outside, all(1e-20f)));
     const Lanes scale = hn::Mul(sinc_of(hn::Mul(squared, inverse)), hn::Sqrt(inverse));
@@ -125,7 +125,7 @@ HWY_INLINE Swings clamp(const BatchLimit& limit, const Swings& swing, Standing& 
     return clamped;
 }
 
-/// Clamps the rotation of a bone relative to its parent, a unit quaternion. A cone's is split as in
+/// Clamps the rotation of a bone relative to its parent, a unit quaternion. For a cone it is split as in
 /// LimitedJoint: first the twist about the bone, then the swing.
 HWY_INLINE Rotations clamp(const BatchLimit& limit, const Rotations& turn, Standing& standing) {
     if (limit.kind == BatchLimit::Kind::Free) return turn;

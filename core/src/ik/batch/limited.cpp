@@ -1,10 +1,10 @@
 // Chains within limits: damped least squares over the joints' rotations, a register of chains at a time.
 //
 // The scalar solver alternates FABRIK's passes with such steps and restarts elsewhere if both stall; usually
-// the steps are what converges. Here there are only steps: from a chain's given pose, the tip moves to its
-// target by Levenberg's method (K. Levenberg 1944; damping by whether the last step brought the tip nearer),
-// with the directions that a limit stops removed from the matrix, and every joint clamped. A chain that does
-// not converge this way is left unchanged, for the scalar solver.
+// the steps converge. Here there are only steps: from a chain's given pose, the tip moves to its target by
+// Levenberg's method (K. Levenberg 1944; the damping falls if the last step brought the tip nearer and grows
+// otherwise), with the directions that a limit stops removed from the matrix, and every joint clamped. A
+// chain that does not converge this way is left unchanged, for the scalar solver.
 #include <algorithm>
 
 #include "ik/batch/vector.hpp"

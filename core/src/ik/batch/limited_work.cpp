@@ -87,7 +87,7 @@ void Work::move_limited(std::size_t from, std::size_t to, Scratch& scratch) cons
     tile.block.set_activity(from, Activity::Done);
 }
 
-/// Writes back a chain of the tile: its result, or what the scalar solver makes of its original pose.
+/// Writes back a chain of the tile: its result, or the scalar solver's from its original pose.
 void Work::end_limited(std::size_t lane, Scratch& scratch) noexcept {
     const Tile& tile = scratch.tile;
     const std::size_t chain = tile.chains[lane];

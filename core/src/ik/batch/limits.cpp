@@ -8,7 +8,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-/// With smaller half-angles the cone counts as flat and is left to the scalar solver.
+/// A cone with a smaller half-angle is treated as flat and left to the scalar solver.
 constexpr float min_half_angle = 1e-3f;
 
 HalfRange half_range(float min, float max) noexcept {

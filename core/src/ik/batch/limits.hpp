@@ -13,7 +13,7 @@
 
 namespace tendril::ik::detail {
 
-/// The range from the sine of half of min to that of half of max.
+/// A range of angles, as the sines of half of min and max.
 struct HalfRange {
     float min = -1.0f, max = 1.0f;
     bool whole = true;  ///< full circle: never clamped
@@ -22,7 +22,7 @@ struct HalfRange {
 struct BatchLimit {
     enum class Kind { Free, Hinge, Cone } kind = Kind::Free;
     glm::vec3 bone{1, 0, 0}, axis{0, 0, 1}, side{0, 1, 0};  ///< as in LimitedJoint
-    HalfRange range;                                        ///< of the hinge's angle, or of the twist
+    HalfRange range;                                        ///< of the hinge's angle or the twist
     float up = 0, down = 0, left = 0, right = 0;            ///< 1 / half-angle^2
 };
 

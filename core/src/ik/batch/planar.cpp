@@ -1,6 +1,6 @@
-// The part of work.cpp for chains in a plane: as plane.cpp, they are solved in the plane's coordinates, where
-// the iterations for solid chains keep them flat. What is done once per solve, coordinates and sides, is
-// scalar, in double; the iterations are not. With limits of angles the scalar solver takes every chain.
+// The part of work.cpp for chains in a plane. Like plane.cpp, solves them in the plane's coordinates, where
+// the iterations for chains in space keep them flat. Coordinates and sides, found once per solve, are scalar
+// and in double; the iterations are not. With limits of angles the scalar solver takes every chain.
 #include <algorithm>
 #include <cmath>
 
@@ -25,7 +25,7 @@ Home Work::home(std::size_t chain) const noexcept {
             3 * block_lanes, block_lanes};
 }
 
-/// Joints and targets in the plane's coordinates, and the side of each chain.
+/// Converts joints and targets to the plane's coordinates, and chooses the side of each chain.
 void Work::take_into_plane(const Block& block, std::size_t first, std::size_t lanes,
                            Scratch& scratch) const noexcept {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -44,12 +44,12 @@ void Work::take_into_plane(const Block& block, std::size_t first, std::size_t la
     }
 }
 
-/// After lengths were enforced: turns chains within reach to their targets, on their sides.
+/// Called once lengths are enforced: turns chains within reach to their targets, on their sides.
 void Work::turn_to_targets(const Block& block, std::size_t first, std::size_t lanes,
                            Scratch& scratch) const noexcept {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         const glm::vec3 root = home(first + lane).joint(0);
-        // Too far from the origin to tell from coordinates seen from the root whether all are in range.
+        // So far from the origin, coordinates relative to the root do not show whether all are in range.
         float* const found = block.row(Row::Class) + lane;
         if (!(largest_coordinate(root) <= far_away) || block.class_of(lane) == Class::Invalid)
             *found = static_cast<float>(Class::Scalar);
@@ -60,8 +60,8 @@ void Work::turn_to_targets(const Block& block, std::size_t first, std::size_t la
     }
 }
 
-/// A chain that is done: faces its side, and goes back to where it came from. What has not moved keeps its
-/// bits.
+/// Finishes a chain: turns it to its side and writes it back to the caller or the batch. Joints that have not
+/// moved keep their bits.
 void Work::return_from_plane(const Block& block, std::size_t lane, std::size_t chain,
                              Scratch& scratch) const noexcept {
     if (block.class_of(lane) == Class::Invalid) return;

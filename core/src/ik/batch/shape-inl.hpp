@@ -59,7 +59,7 @@ class LongestBone {
     Mask passed_;
 };
 
-/// Writes the bones of a shape and returns their span. `keeps_longest`: does not change the longest bone.
+/// Writes the bones of a shape and returns their span. `keeps_longest`: leaves the longest bone as it is.
 template <bool keeps_longest>
 HWY_INLINE Points write_shape(const Block& block, std::size_t i, const Family& family, Lanes t,
                               const Shape& out) {

@@ -126,7 +126,7 @@ struct StepRows {
     const float* before = nullptr;
 };
 
-/// In all lanes of a register, or (`some`) only in active ones.
+/// Steps in all lanes of a register, or (`some`) only in active ones.
 template <bool some>
 HWY_INLINE void step(const StepRows& rows, const float* activity, std::size_t i) {
     const Lanes coincidence = all(math::coincidence);

@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// Four floats of every fourth list (or row): 0, 4, 8 and so on, until a register is full.
+/// Loads four floats of every fourth list (or row): 0, 4, 8 and so on, until a register is full.
 template <class D>
 HWY_INLINE hn::Vec<D> load_quads(D d, const float* from, std::size_t stride) {
     if constexpr (hn::MaxLanes(D()) <= 4) {
@@ -61,7 +61,7 @@ HWY_INLINE void quads_out(D d, const float* from, std::size_t stride, float* to)
     hn::StoreU(quads.c, d, to + 2 * stride), hn::StoreU(quads.e, d, to + 3 * stride);
 }
 
-/// Four lists, from `done` floats on. At the end, some floats are written twice rather than one by one.
+/// Writes four lists, from `done` floats on. At the end, some floats are written twice, not one by one.
 template <class D>
 HWY_INLINE void lists_out(D d, const float* rows, std::size_t count, float* lists, std::size_t done = 0) {
     const auto out = [&](std::size_t i) { quads_out(d, rows + i * block_lanes, count, lists + i); };
@@ -84,7 +84,7 @@ HWY_INLINE void for_each_quad(std::size_t count, Quad quad) {
 
 #endif
 
-/// From `lanes` lists of `count` floats to rows.
+/// Copies `lanes` lists of `count` floats to rows.
 void copy_in(const float* lists, std::size_t lanes, std::size_t count, float* rows) {
     std::size_t lane = 0;
 #if HWY_TARGET != HWY_SCALAR
@@ -102,7 +102,7 @@ void copy_in(const float* lists, std::size_t lanes, std::size_t count, float* ro
     }
 }
 
-/// From rows to `lanes` lists of `count` floats.
+/// Copies rows to `lanes` lists of `count` floats.
 void copy_out(const float* rows, std::size_t lanes, std::size_t count, float* lists) {
     std::size_t lane = 0;
 #if HWY_TARGET != HWY_SCALAR

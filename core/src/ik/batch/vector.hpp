@@ -37,7 +37,7 @@ struct Order {
 inline std::size_t pose_rows(std::size_t bones) noexcept {
     return (4 + 3 + 2) * bones;
 }
-/// Including the dependent data: joints and world rotations.
+/// Rows of all data, including the dependent: joints and world rotations.
 inline std::size_t full_pose_rows(std::size_t bones) noexcept {
     return pose_rows(bones) + 3 * (bones + 1) + 4 * bones;
 }
@@ -51,7 +51,7 @@ struct LimitedOrder {
     float* scratch;    ///< limited_floats
 };
 
-/// With no more active chains than this in a register of `width`, they move to the tile.
+/// A register of `width` with at most this many active chains moves them to the tile.
 inline constexpr std::size_t late_lanes(std::size_t width) noexcept {
     return static_cast<std::size_t>(static_cast<double>(width) * tune::batch::register_part);
 }
@@ -73,8 +73,8 @@ struct Left {
 /// Reads joints, lengths and targets. Enforces lengths, straightens chains out of reach and folds those too
 /// close; writes Row::Class.
 using Classify = void(const Block& block, std::size_t lanes);
-/// Writes the rest of the state, from Row::Residual on. In a plane, all that bend_to_pole may bend count as
-/// Class::Collinear too.
+/// Writes the rest of the state, from Row::Residual on. In a plane, all chains that bend_to_pole may bend
+/// become Class::Collinear too.
 using Begin = Left(const Block& block, std::size_t lanes, bool every, bool planar);
 /// The same for chains within limits: any chain not certainly reachable is left to the scalar solver
 /// unchanged.

@@ -108,8 +108,7 @@ void Work::return_joints(const Block& block, std::size_t index, std::size_t lane
     in_.unit.copy_out(block.joint(0), lanes, 3 * each, &in_.joints[index * block_lanes * each].x);
 }
 
-/// If only a few chains are still active, leaves them so: they continue in the tile, with those of other
-/// blocks.
+/// Stops once only a few chains are active: they continue in the tile, with those of other blocks.
 void Work::iterate_block(const Block& block, std::size_t lanes, Scratch& scratch) const noexcept {
     const bool alone = in_.options.every_iteration || in_.chains <= block_lanes;
     const int burst =
@@ -149,7 +148,7 @@ Problem Work::take_out(const Block& block, std::size_t lane, Scratch& scratch) c
             scalar.saved};
 }
 
-/// Same as loop.cpp does with a stalled chain.
+/// Does what loop.cpp does with a stalled chain.
 void Work::perturb(const Block& block, std::size_t lane, Scratch& scratch) const noexcept {
     Problem problem = take_out(block, lane, scratch);
     float& count = block.at(Row::Perturbations, lane);
@@ -159,7 +158,7 @@ void Work::perturb(const Block& block, std::size_t lane, Scratch& scratch) const
     block.set_activity(lane, Activity::Active);
 }
 
-/// Same as loop.cpp does before the first iteration with a chain collinear with its target.
+/// Does what loop.cpp does before the first iteration with a chain collinear with its target.
 void Work::leave_line(const Block& block, std::size_t lane, Scratch& scratch) const noexcept {
     Problem problem = take_out(block, lane, scratch);
     if (!bend_to_pole(problem, Unwatched())) {

@@ -43,7 +43,7 @@ struct Scratch {
     Options options;                 ///< of the chain there
 };
 
-/// A chain's joints where the caller, or the batch, has them.
+/// Access to a chain's joints, in the caller's memory or the batch's.
 class Home {
   public:
     Home(float* first, std::size_t joint_stride, std::size_t coordinate_stride) noexcept
@@ -104,7 +104,7 @@ class Work {
     void solve_scalar(const Block& block, std::size_t lane, std::size_t chain, Scratch& scratch) noexcept;
     void solve_scalar_limited(const Block& block, std::size_t lane, std::size_t chain,
                               Scratch& scratch) noexcept;
-    // In a plane (planar.cpp).
+    // Chains in a plane (planar.cpp).
     void solve_angled_block(std::size_t index, std::size_t lanes, Scratch& scratch) noexcept;
     void take_into_plane(const Block& block, std::size_t first, std::size_t lanes,
                          Scratch& scratch) const noexcept;

@@ -62,7 +62,7 @@ Sextic split(Sextic& all) noexcept {
 /// crosses it: Newton's steps, bisection where they leave the bracket.
 double crossing(const Powers& cubic, double radius, double low, double high) noexcept {
     const double square = radius * radius;
-    // The first step is that of a straight line along the slope at `low`.
+    // The first step treats the cubic as a straight line along its slope at `low`.
     const glm::dvec3 from = cubic.at(low), along = cubic.slope(low);
     const double a = dot(along, along), b = dot(from, along), c = dot(from, from) - square;
     double t = low + (std::sqrt(std::max(0.0, b * b - a * c)) - b) / a;
@@ -92,8 +92,8 @@ int sign_changes(const Sextic& c) noexcept {
     return changes;
 }
 
-/// Where the cubic first leaves the sphere about the origin, in which it begins; negative if it does not.
-/// Touching the sphere from inside, within rounding, counts as staying.
+/// Where the cubic first leaves the sphere about the origin, in which it begins; negative if it does not. A
+/// cubic that touches the sphere from inside, within rounding, stays in it.
 double first_crossing(const Cubic& cubic, double radius) noexcept {
     const double square = radius * radius;
     const auto inside = [&](std::size_t i) { return dot(cubic[i], cubic[i]) < square; };
@@ -103,7 +103,7 @@ double first_crossing(const Cubic& cubic, double radius) noexcept {
         Sextic c;
         double from, size;
     };
-    std::array<Interval, deepest + 2> waiting;  // of each depth at most one right half waits
+    std::array<Interval, deepest + 2> waiting;  // at most one right half waits per depth
     std::size_t count = 0;
     waiting[count++] = {distance_excess(cubic, square), 0.0, 1.0};
     while (count > 0) {
@@ -124,7 +124,7 @@ double first_crossing(const Cubic& cubic, double radius) noexcept {
     return -1.0;
 }
 
-/// Whether the distance rises all the way; by the signs of its slope's Bernstein coefficients.
+/// Whether the distance rises all the way, judged by the signs of its slope's Bernstein coefficients.
 bool rises(Sextic c, double ignored, int splits = 0) noexcept {
     constexpr int most = 24;
     bool all = true;
@@ -192,7 +192,7 @@ PathPoint Path::sample(const Place& place, const glm::dvec3& before) noexcept {
     const Piece& p = piece(place.piece);
     const glm::dvec3 at = p.powers.at(place.t), slope = p.powers.slope(place.t);
     const double squared = dot(slope, slope);
-    // Where the curve halts, as at a cusp, its direction is that from the nearer half of the piece.
+    // Where the slope vanishes, as at a cusp, a short chord into the longer part of the piece replaces it.
     if (squared > 1e-18 * p.speed * p.speed) return {at, times(slope, 1.0 / std::sqrt(squared))};
     const glm::dvec3 chord =
         place.t < 0.5 ? minus(p.powers.at(place.t + 1e-3), at) : minus(at, p.powers.at(place.t - 1e-3));

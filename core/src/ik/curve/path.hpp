@@ -56,8 +56,8 @@ class Path {
     PathPoint sample(const Place& place, const glm::dvec3& before) noexcept;
     /// The first place after `from` that is `length` metres from `joint`, which is the point at `from`.
     Place next(const Place& from, const glm::dvec3& joint, double length) noexcept;
-    /// Whether the path, from one place on to another, gets further from `centre` all the way. One of them is
-    /// `length` metres from it. Dips of the squared distance by less than 1e-9 of length^2 do not count.
+    /// Whether the distance from `centre` grows all the way from one place to the other, one of which is
+    /// `length` metres from it. Ignores dips of the squared distance by less than 1e-9 of length^2.
     bool recedes(const Place& from, const Place& to, const glm::dvec3& centre, double length) noexcept;
 
   private:

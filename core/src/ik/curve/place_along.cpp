@@ -56,8 +56,8 @@ double overshoot(Path& path, std::span<const float> lengths, double factor) noex
 }
 
 /// The factor at which the tip lies on the end of the path, or the nearer bound: regula falsi (Illinois: M.
-/// Dowell, P. Jarratt, 1971), every fourth time halving. Where the tip jumps over the end, the better side of
-/// the jump.
+/// Dowell, P. Jarratt, 1971), every fourth time halving. Where the tip jumps over the end, returns the better
+/// side of the jump.
 double fitted_factor(Path& path, std::span<const float> lengths, double most) noexcept {
     struct Fit {
         double factor, overshoot;
@@ -89,7 +89,7 @@ double fitted_factor(Path& path, std::span<const float> lengths, double most) no
 struct Frame {
     glm::dvec3 at, tangent, normal;
 
-    /// Double reflection. A point too near to give a direction is passed over.
+    /// Double reflection. Skips a point too near to give a direction.
     void move_to(const PathPoint& next) noexcept {
         const glm::dvec3 step = minus(next.at, at);
         const double squared = dot(step, step);
@@ -104,7 +104,7 @@ struct Frame {
         }
         at = next.at, tangent = next.tangent;
     }
-    /// Takes rounding out of the normal.
+    /// Removes rounding from the normal.
     void straighten() noexcept {
         const auto kept = direction_of(across(normal, tangent), 0.0);
         normal = kept ? *kept : perpendicular(tangent);
@@ -136,7 +136,7 @@ glm::dvec3 turned_along(const glm::dvec3& side, const glm::dvec3& from, const gl
     if (w < nearly_opposite<double>) return rotated(minimal_rotation(from, to), side);
     return minus(side, times(plus(from, to), dot(side, to) / w));
 }
-/// The rotation that takes a unit vector to another one, `axis`, and the side perpendicular to it to `side`.
+/// The rotation that takes the unit vector `from` to `axis`, and `from_side`, perpendicular to it, to `side`.
 glm::dquat rotation_to(const glm::dvec3& axis, const glm::dvec3& side, const glm::dvec3& from,
                        const glm::dvec3& from_side) noexcept {
     // The minimal rotation, then a twist about the axis; both by half their angles, and scaled at the end.

@@ -50,7 +50,7 @@ class Explanation {
     LimitedJoint limit_of(std::size_t joint) const noexcept {
         return limited_joint(options_.limits[joint], scratch_.rest_directions[joint]);
     }
-    /// Errors up to this count as arrived.
+    /// Errors up to this have arrived.
     float there() const noexcept { return fine * scratch_.reach; }
 
     Workspace& scratch_;
@@ -113,7 +113,7 @@ float Explanation::stopped(std::size_t joint) const noexcept {
     const glm::vec3 tip = pose.joints.back();
     const std::size_t end = end_of(limited_, joint, options_.limits.size());
     glm::vec3 torque = cross(minus(pose.joints[end], pose.joints[joint]), minus(target_, tip));
-    if (options_.tip_orientation && end == options_.limits.size()) {  // as error_of has it
+    if (options_.tip_orientation && end == options_.limits.size()) {  // as in error_of
         const float arm = tune::limits::orientation_arm * scratch_.reach;
         const glm::quat missing = compose(unit(*options_.tip_orientation), conjugate(pose.rotations.back()));
         torque = plus(torque, times(rotation_vector(missing), arm * arm));

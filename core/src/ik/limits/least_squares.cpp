@@ -106,7 +106,7 @@ Wanted wanted_of(const Problem& problem) noexcept {
     const LimitedPose& pose = problem.scratch.limited.pose;
     const float unit_length = 1.0f / problem.scratch.reach;
     wanted.move = times(minus(problem.target, pose.joints[problem.bones()]), unit_length);
-    // Of a target far out of reach only the direction matters.
+    // Only the direction of a target far out of reach matters.
     if (const float far = length(wanted.move); far > 1.0f) wanted.move = times(wanted.move, 1.0f / far);
     if (const std::optional<glm::vec3> error = orientation_error(problem, pose)) {
         wanted.rotation = times(*error, unit_length);
@@ -130,7 +130,7 @@ Normal linearize(Problem& problem, const Wanted& wanted) noexcept {
     if (scratch.linearized) return release_limits(scratch);
     Normal normal;
     scratch.at_bounds = 0;
-    std::size_t end = 0;  // of what the joint turns
+    std::size_t end = 0;  // of the bones that the joint turns
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         const LimitedJoint& joint = scratch.limits[i];
         JointFreedom& freedom = scratch.freedoms[i];

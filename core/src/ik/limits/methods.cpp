@@ -19,8 +19,8 @@ void place(const Problem& problem, Phase phase, std::size_t joint, std::size_t n
     place = to;
 }
 
-/// In scratch.trial: turns a bone so that the next one, which is placed, is within its limit; one that is
-/// limited from the base, into its own limit. Returns whether it had to turn.
+/// In scratch.trial: turns a bone so that the next one, already placed, is within its limit. A bone limited
+/// from the base turns into its own limit instead. Returns whether the bone had to turn.
 bool clamp_against_next(Problem& problem, std::size_t bone) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     std::vector<glm::quat>& rotations = scratch.trial.rotations;
@@ -118,7 +118,7 @@ void ccd_sweep(Problem& problem, Watch watch) noexcept {
         const glm::quat by = unit(compose(compose(parent, local[i]), conjugate(old)));
         tip = plus(at, rotated(by, minus(tip, at)));
         if (i == 0 || !is_from_base(scratch, i)) continue;
-        // Beyond here nothing turns with the bones before, it only moves along.
+        // A bone from the base does not turn with the bones before it, it only moves along.
         target = plus(target, minus(at, tip));
         tip = at;
     }

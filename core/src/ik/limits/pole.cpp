@@ -56,7 +56,7 @@ bool mirrors(const Problem& problem, const glm::vec3& line) noexcept {
     return true;
 }
 
-/// Forward kinematics moves the tip by rounding; a turn must not cost more than that.
+/// Accepts the turn unless it costs more than rounding, by which forward kinematics moves the tip.
 template <class Watch>
 bool take_turned(Problem& problem, Watch watch) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;

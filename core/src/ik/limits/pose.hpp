@@ -23,12 +23,12 @@ static inline glm::quat nearly_unit(const glm::quat& q) noexcept {
     return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
 }
 
-/// Whether a bone's rotation is measured in the world: the root's, and of a chain in a plane those whose
+/// Whether a bone's rotation is measured in the world: for the root's bone, and in a plane for bones whose
 /// limits are. Such a bone does not turn with the bones before it.
 static inline bool is_from_base(const LimitedScratch& scratch, std::size_t bone) noexcept {
     return bone == 0 || scratch.limits[bone].from_base;
 }
-/// The first joint that does not move with a bone's rotation as if it were fixed to it: that of the next bone
+/// The first joint that a bone's rotation does not carry along rigidly: the joint of the next bone measured
 /// from the base, or one past the tip's bone.
 static inline std::size_t end_of(const LimitedScratch& scratch, std::size_t bone,
                                  std::size_t bones) noexcept {
@@ -37,7 +37,7 @@ static inline std::size_t end_of(const LimitedScratch& scratch, std::size_t bone
     return end;
 }
 
-/// What a bone's rotation is measured from: the world rotation of the parent bone, or identity.
+/// The rotation that a bone's is relative to: the parent bone's world rotation, or identity.
 static inline glm::quat parent_of(const LimitedScratch& scratch, const std::vector<glm::quat>& rotations,
                                   std::size_t bone) noexcept {
     return is_from_base(scratch, bone) ? glm::quat(1.0f, 0.0f, 0.0f, 0.0f) : rotations[bone - 1];
@@ -69,8 +69,8 @@ static inline glm::vec3 bone_direction(const Problem& problem, const glm::quat& 
 /// The rotation's unit axis times its angle, the shorter way round.
 glm::vec3 rotation_vector(const glm::quat& rotation) noexcept;
 
-/// Distance of the pose from the request, metres: that of the tip and, with a tip orientation, also the angle
-/// of the last bone times a quarter of the reach.
+/// Error of the pose, metres: root of the squared distance of the tip from the target plus, with a tip
+/// orientation, the square of the last bone's angle times a quarter of the reach.
 float error_of(const Problem& problem, const LimitedPose& pose) noexcept;
 /// The requested tip orientation, normalised; none without one.
 std::optional<glm::quat> asked_orientation(const Problem& problem) noexcept;

@@ -50,7 +50,7 @@ float bend_in_arc(const Problem& problem, const glm::vec3& about) noexcept {
     return error_of(problem, scratch.trial);
 }
 
-/// In [0, 1).
+/// A random number in [0, 1).
 float random_unit(std::uint64_t& state) noexcept {
     return static_cast<float>(math::random_bits(state) >> 40) * (1.0f / 16777216.0f);
 }

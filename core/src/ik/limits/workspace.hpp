@@ -55,7 +55,7 @@ struct LimitedScratch {
     std::vector<std::size_t> bounded;    ///< n: joints at a bound; the first `at_bounds` are used
     std::size_t at_bounds = 0;
     Normal normal;            ///< with no one-sided bound active
-    bool linearized = false;  ///< whether these four match `pose`
+    bool linearized = false;  ///< whether `freedoms` to `normal` match `pose`
     bool planar = false;      ///< whether `limits` are those of a chain in a plane
     bool made = false;        ///< whether `limits` has been filled, for these rest directions
     LimitedPose pose;         ///< the current one

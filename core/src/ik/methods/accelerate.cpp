@@ -2,7 +2,7 @@
 //
 // A pass hands a bend on from joint to joint and removes little of it, so a chain whose tip falls short by
 // one in a thousand needs hundreds of passes to straighten that much. This step keeps the shape that the
-// passes found and scales its bend as a whole. With u a bone's direction and l that of the line from root to
+// passes found and scales its bend as a whole. With u a bone's direction and l the direction from root to
 // tip, every bone gets the direction of
 //
 // l + t (u - l)

@@ -15,9 +15,9 @@
 // O(n). Joint i then turns by r x f, with r from the joint to the tip and f a vector that is the same for all
 // joints. Rotations are applied as exponentials, from root to tip.
 //
-// The transpose uses the optimal step if the tip moved as J says (S. R. Buss, "Introduction to inverse
-// kinematics with Jacobian transpose, pseudoinverse and damped least squares methods", 2004): a = e . JJ'e /
-// |JJ'e|^2. It takes hundreds of iterations near full reach.
+// The transpose takes the step that is optimal if the tip moves as J predicts (S. R. Buss, "Introduction to
+// inverse kinematics with Jacobian transpose, pseudoinverse and damped least squares methods", 2004): a = e .
+// JJ'e / |JJ'e|^2. It takes hundreds of iterations near full reach.
 //
 // Damping of the others: l^2 = damping^2 * reach * |e|. So l is at most damping * reach, and fades as the tip
 // approaches. That makes it a Levenberg-Marquardt method whose damping is a power of the residual, which
@@ -32,8 +32,8 @@
 // least-squares inverse kinematics with experiments on an industrial robot manipulator", IEEE Transactions on
 // Control Systems Technology 2(2), 1994).
 //
-// Far from the target the tip does not move as J says. So e is clamped to half the reach (after Buss 2004),
-// and all rotations are scaled by one factor so that none exceeds 1 radian.
+// Far from the target the tip does not move as J predicts. So e is clamped to half the reach (after Buss
+// 2004), and all rotations are scaled by one factor so that none exceeds 1 radian.
 #include "ik/methods/methods.hpp"
 
 #include <algorithm>

@@ -13,14 +13,14 @@ namespace tendril::ik::detail {
 /// Forward reaching (from the tip), then backward reaching (from the root).
 template <class Watch>
 void fabrik_iteration(Problem& problem, Watch watch) noexcept;
-/// The same, plus a step that fits the span from root to tip.
+/// fabrik_iteration, plus a step that fits the span from root to tip.
 template <class Watch>
 void accelerated_fabrik_iteration(Problem& problem, Watch watch) noexcept;
 
 // accelerate.cpp
 
-/// That step, after a pair of passes that left the tip `residual` from the target. Moves nothing unless it
-/// reduces the residual.
+/// The step that fits the span, after a pair of passes that left the tip `residual` from the target. Moves
+/// nothing unless it reduces the residual.
 template <class Watch>
 void accelerate(Problem& problem, float residual, Watch watch) noexcept;
 
@@ -37,7 +37,7 @@ glm::quat rotation_towards(const Problem& problem, const glm::vec3& at, const gl
 
 template <class Watch>
 void jacobian_transpose_iteration(Problem& problem, Watch watch) noexcept;
-/// `damping` is that of the options, as a fraction of the reach.
+/// `damping`: the options' damping, a fraction of the reach.
 template <class Watch>
 void dls_iteration(Problem& problem, float damping, Watch watch) noexcept;
 template <class Watch>
@@ -45,7 +45,7 @@ void svd_dls_iteration(Problem& problem, float damping, Watch watch) noexcept;
 
 // two_bone.cpp; the closed form itself is in tendril/ik/two_bone.hpp
 
-/// The pole of the closed form: that of the options, or in a plane one on the chosen side.
+/// The pole of the closed form: the options' pole, or in a plane one on the chosen side.
 std::optional<glm::vec3> pole_of_limb(const Problem& problem) noexcept;
 /// For two bones only, otherwise InvalidInput. Faces the pole itself, no faster than pole.hpp allows, and
 /// remembers the pose as face_pole does. Does not call iteration_done: the loop does.

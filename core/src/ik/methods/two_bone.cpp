@@ -36,8 +36,8 @@ Triangle triangle(double upper, double lower, double distance, const TwoBoneOpti
     const double start = static_cast<double>(options.start_stretch_ratio) * reach;
     if (distance > start && start > 0.0) {
         t.scale = std::min(distance / start, static_cast<double>(options.max_stretch_scale));
-        // Bones of different lengths grow in difference too: limits the scale so that they still fold to the
-        // target.
+        // Scaling bones of different lengths scales their difference too: limits the scale so that they still
+        // fold to the target.
         const double folded = std::abs(upper - lower);
         if (folded <= distance && folded * t.scale > distance) t.scale = distance / folded;
     }
@@ -100,7 +100,7 @@ glm::dvec3 side_of(const Given& given, const glm::dvec3& line, const TwoBoneOpti
         const glm::dvec3 arm = minus(wide(*options.pole), root);
         pole = direction_of(across(arm, line), no_side * std::max(given.reach, length(arm)));
     }
-    // A pole on the line shows no side: keep the current one, which already includes the twist.
+    // A pole on the line gives no side: keep the current one, which already includes the twist.
     if (options.pole && !pole && present) return *present;
     const glm::dvec3 start = pole ? *pole : present ? *present : perpendicular(line);
     const glm::dvec3 wanted = twist != 0.0 ? turned(start, line, twist) : start;

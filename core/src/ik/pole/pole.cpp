@@ -44,9 +44,9 @@ bool lies_along(const Problem& problem, const std::optional<glm::dvec3>& line) n
 }
 
 /// Whether the chain lies on the line to its target. In a plane also if it is folded up on any other line,
-/// its tip at its root: it then was not turned to its target, and would zigzag all the way there. Its offsets
-/// from the line from root to tip cancel out, so rounding would decide its side and mirror it again and
-/// again.
+/// its tip at its root: such a chain was not turned to its target and would zigzag all the way there. Its
+/// offsets from the line from root to tip cancel out, so rounding would decide its side and mirror it again
+/// and again.
 bool is_on_line(const Problem& problem, const glm::dvec3& to_target) noexcept {
     if (lies_along(problem, to_target)) return true;
     const glm::vec3 root = problem.root(), tip = minus(problem.joints.back(), root);

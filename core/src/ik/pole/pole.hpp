@@ -1,4 +1,4 @@
-// The pole: a point that the bend of a chain faces. Not installed.
+// The pole: a point that the elbow or knee of a chain points at. Not installed.
 //
 // A chain's bend is the sum of the joints' offsets from the line through root and tip, each weighted by the
 // lengths of the adjacent bones; so it points to the side on which the chain has its area.

@@ -8,7 +8,7 @@
 namespace tendril::ik::detail {
 
 /// A loop has stalled after `window` iterations in which the error neither moved nor fell below its last mark
-/// by both of these amounts.
+/// by the larger of these amounts.
 struct StallRule {
     int window;
     float relative = 0.0f;  ///< fraction of the error, or of a tenth of the reach if that is less

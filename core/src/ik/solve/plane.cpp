@@ -127,7 +127,7 @@ PlaneProblem::~PlaneProblem() {
     std::swap(scratch_.rest_directions, scratch_.plane.rest_directions);
 }
 
-/// The options in the plane's coordinates, but for the side.
+/// The options in the plane's coordinates, except the side.
 Options PlaneProblem::local_options() noexcept {
     Options options = given_;
     options.plane->normal = {0.0f, 1.0f, 0.0f};
@@ -152,8 +152,8 @@ Options PlaneProblem::local_options() noexcept {
     return options;
 }
 
-/// The pole's side of the line from root to target; without one, the side asked for; without that, the one
-/// that the chain is on, or was on.
+/// Chooses the pole's side of the line from root to target; without a pole, the requested side; without one,
+/// the side that the chain is on, or was on.
 void PlaneProblem::choose_side() noexcept {
     Side& side = options_.plane->bend;
     if (given_.pole) {

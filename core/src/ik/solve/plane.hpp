@@ -1,10 +1,10 @@
 // A solve in a plane (tendril/ik/plane.hpp) is a solve in the plane's coordinates: the root at the origin,
 // the base direction along +X, the normal along +Y. Not installed.
 //
-// Of all coordinates, these keep what is in the plane exactly in it: where any axis perpendicular to a vector
-// will do, for half a turn, `perpendicular` takes +Y for every vector without a Y of its own. What knows of
-// the plane is little: the pole, which is a side (pole/pole.hpp), perturbations, and limits, which are hinges
-// about the normal, of which some are measured from the base (LimitedJoint::from_base).
+// In these coordinates a flat chain stays exactly flat: where a half turn may use any axis perpendicular to a
+// vector, `perpendicular` takes +Y for every vector without a Y of its own. Only three parts know about the
+// plane: the pole, which is a side (pole/pole.hpp), perturbations, and limits, which are hinges about the
+// normal, some of them measured from the base (LimitedJoint::from_base).
 #pragma once
 
 #include "ik/solve/problem.hpp"
@@ -21,13 +21,12 @@ class PlaneFrame {
     /// The same plane through another root.
     PlaneFrame at(const glm::vec3& root) const noexcept;
 
-    /// Dropped onto the plane.
+    /// Projects the point onto the plane.
     glm::vec3 local(const glm::vec3& point) const noexcept;
     glm::vec3 world(const glm::vec3& point) const noexcept;
     glm::vec3 local_vector(const glm::vec3& vector) const noexcept;
     glm::vec3 world_vector(const glm::vec3& vector) const noexcept;
-    /// Where a joint that was at `was` is, from its coordinates: where it was, to the bit, if it has not
-    /// moved.
+    /// World position of a joint with these coordinates; bit for bit `was`, its old one, if it has not moved.
     glm::vec3 returned(const glm::vec3& local, const glm::vec3& was, float reach) const noexcept;
     /// Signed distance from the plane, metres.
     double off(const glm::vec3& point) const noexcept;
@@ -38,8 +37,8 @@ class PlaneFrame {
     glm::dvec3 root_, along_, normal_, across_;
 };
 
-/// A validated solve in the plane of its options, for as long as this lives. The workspace then is the
-/// plane's.
+/// A validated solve in the plane of its options. While this lives, the workspace describes the chain in the
+/// plane's coordinates.
 class PlaneProblem {
   public:
     PlaneProblem(Workspace& scratch, std::span<glm::vec3> joints, State& state, const glm::vec3& target,

@@ -82,7 +82,7 @@ struct Problem {
     glm::vec3 goal = target;  ///< the requested target; with a soft zone `target` is nearer
     int iteration = 0;        ///< current, from 1
 
-    float stretch = 1.0f;  ///< of the bones, by Method::TwoBone
+    float stretch = 1.0f;  ///< scale of the bones, set by Method::TwoBone
 
     // For the report.
     bool closed_form = false;

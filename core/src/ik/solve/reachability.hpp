@@ -13,7 +13,7 @@ namespace tendril::ik::detail {
 
 /// The range of distances that a tip can have from the root, metres.
 struct Reachability {
-    double nearest = 0.0;   ///< the others folded back along the longest bone; 0 if they are longer
+    double nearest = 0.0;   ///< the other bones folded back along the longest; 0 if they are longer
     double furthest = 0.0;  ///< sum of the lengths
 
     static Reachability of(double reach, double longest) noexcept {
@@ -91,8 +91,8 @@ void fold(std::span<const glm::vec3> joints, const glm::vec3& target, double nea
 Reachability reachability_of(const Problem& problem) noexcept;
 
 /// If the target is out of reach, straightens the chain towards it (Stretched) or folds it (TooClose).
-/// Otherwise returns nothing and moves nothing. Distances within a millionth of the reach count as equal:
-/// that is the precision of the sums in floats.
+/// Otherwise returns nothing and moves nothing. Distances within a millionth of the reach are equal: that is
+/// the precision of the sums in floats.
 template <class Watch>
 std::optional<Report> answer_beyond_reach(Problem& problem, Watch watch) noexcept;
 

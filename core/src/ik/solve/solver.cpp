@@ -60,7 +60,7 @@ void fill(Workspace& scratch, std::span<const float> lengths, std::span<const gl
     }
 }
 
-/// load_limits() checks the joint limits, those that have changed.
+/// Leaves the joint limits to load_limits(), which checks those that have changed.
 Result check_all_but_limits(std::size_t bones, Method method, std::span<const glm::vec3> joints,
                             const State& state, const glm::vec3& target, const Options& options) noexcept {
     // With a tip orientation the last bone is placed separately.

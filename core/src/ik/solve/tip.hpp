@@ -9,8 +9,8 @@
 
 namespace tendril::ik::detail {
 
-/// Requires options.tip_orientation and no limits. The status is that of the chain without its last bone, the
-/// residual that of the tip. A two-bone solver takes three bones here, or two, of which one is left.
+/// Requires options.tip_orientation and no limits. Reports the status of the chain without its last bone, and
+/// the tip's residual. A two-bone solver takes three bones here, or two, which leave one to solve.
 template <class Watch>
 Report run_with_tip_orientation(Method method, Problem& problem, Watch watch) noexcept;
 

@@ -1,4 +1,4 @@
-// The tables of Options and Plane, and the checks of what a solve is given.
+// The tables of Options and Plane, and the checks of a solve's input.
 #include "ik/solve/validate.hpp"
 
 #include <algorithm>

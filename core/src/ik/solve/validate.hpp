@@ -29,8 +29,8 @@ inline bool is_unit(const glm::quat& q) noexcept {
     return within(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 0.998f, 1.002f);
 }
 
-/// Refuses the first option that is out of the range given in options.hpp, for a chain of so many bones; but
-/// for joint limits, of which it only counts how many there are.
+/// Refuses the first option that is out of the range given in options.hpp, for a chain of so many bones.
+/// Checks only the number of joint limits.
 Result check(const Options& options, std::size_t bones) noexcept;
 Result check(const Plane& plane, std::size_t bones) noexcept;
 

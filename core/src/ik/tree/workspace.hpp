@@ -25,8 +25,8 @@ struct Node {
     std::size_t parent = 0;  ///< index of an earlier node
     std::size_t joint = 0;   ///< the joint at the end of the node's bone
     float length = 0.0f;
-    float own_weight = 0.0f;       ///< of its own goal, in the mean of its proposals
-    float centroid_weight = 0.0f;  ///< of its proposal, in the mean at its parent
+    float own_weight = 0.0f;       ///< weight of its own goal in the mean of its proposals
+    float centroid_weight = 0.0f;  ///< weight of its proposal in the mean at its parent
     glm::vec3 goal{0.0f};          ///< reachable point nearest to the target (mean if several)
     double weight = 0.0;           ///< of the effectors here, relative to the heaviest effector
     double branch_weight = 0.0;    ///< the same, including all effectors beyond
@@ -40,13 +40,13 @@ struct Response {
     glm::dvec3 force;              ///< force from its goal and branches
     glm::dvec3 along;              ///< unit vector along the bone
     glm::dvec3 free, per_tension;  ///< move without the bone; added move per unit of tension
-    double stiffness, wish;        ///< the branch's parabola, as its parent feels it; see newton.cpp
+    double stiffness, wish;        ///< the branch's parabola, as seen from its parent; see newton.cpp
 };
 
 struct TreeScratch {
-    // Of the tree.
+    // Per tree.
     std::vector<TreeJoint> joints;
-    std::vector<Reachability> path;  ///< of each joint, along the bones from the root
+    std::vector<Reachability> path;  ///< per joint, along the bones from the root
     double reach = 0.0;
 
     // Per solve, by joint.
@@ -105,7 +105,7 @@ void transport_rotations(const TreeScratch& scratch, std::span<const glm::vec3> 
 /// Writes the positions of nodes, and of branches without effectors, to the caller's joints.
 void finish(TreeScratch& scratch, std::span<glm::vec3> joints) noexcept;
 
-/// In double, so that a residual within tolerance here is within tolerance for every caller.
+/// Distance in double, so that a residual within tolerance here is within tolerance for every caller.
 static inline double gap(const glm::vec3& a, const glm::vec3& b) noexcept {
     return length(between(a, b));
 }
