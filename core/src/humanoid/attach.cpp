@@ -39,14 +39,14 @@ class LooseFootFinder {
 
   private:
     const glm::dvec3& at(std::size_t node) const { return places_[node].position; }
-    /// One that fits; of several, one of the leg's own rig, and then the nearest.
+    /// Prefers a foot that fits, then one of the leg's own rig, then the nearest.
     bool is_better(const LooseFoot& a, const LooseFoot& b) const {
         if (a.fits != b.fits) return a.fits;
         const std::size_t shared_a = shared(a.foot, a.leg), shared_b = shared(b.foot, b.leg);
         if (shared_a != shared_b) return shared_a > shared_b;
         return length(minus(at(a.foot), at(a.leg))) < length(minus(at(b.foot), at(b.leg)));
     }
-    /// The number of nodes above both.
+    /// The number of common ancestors.
     std::size_t shared(std::size_t a, std::size_t b) const {
         std::size_t count = 0;
         for (std::int32_t above = skeleton_[a].parent; above >= 0;

@@ -14,8 +14,8 @@ namespace {
 
 using namespace rig::detail;
 
-// De Leva's table 4, males: part of the body's mass, and of the segment's length from its upper end. Heights
-// of the trunk's three parts and of the head are parts of the line from the middle of the hips to the neck.
+// De Leva's table 4, males: share of the body's mass, and centre, as a part of the segment's length from its
+// upper end. Heights of the trunk's three parts and the head: parts of the line from mid hips to neck.
 
 struct LimbMass {
     Bone bone, end;
@@ -230,7 +230,7 @@ Support find_support(const Soles& soles, const std::array<SolePoints, 2>& at,
         const glm::dvec3 centre = mix(other.heel, other.toe, 0.5);
         const glm::dvec3 ahead = seen_from_above(minus(at[side].toe, at[side].heel));
         const glm::dvec3 aside{ahead.z, 0.0, -ahead.x};
-        // The tip lifts with the toes, and shrinks with the foot.
+        // The tip draws back as the toes lift, and as the foot tilts, which shortens `ahead`.
         const double part = support.standing[side] / most;
         const double toes = standing_at(over[side].toe, soles.leg) / std::max(support.standing[side], 1e-300);
         const glm::dvec3 tip = plus(own.toe, times(ahead, tip_part * soles.leg * std::min(toes, 1.0)));

@@ -5,7 +5,7 @@
 
 namespace tendril::humanoid::detail {
 
-/// Over the ground, metres; max_magnitude where there is none.
+/// Heights over the ground, metres; max_magnitude where there is none.
 struct SoleHeights {
     double heel = 0.0, toe = 0.0;
 };

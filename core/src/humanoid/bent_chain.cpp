@@ -18,7 +18,7 @@ using tendril::detail::refused;
 
 constexpr double shortest_bone = 1e-9;
 
-/// The parent of a chain, seen from the space of the control points: there it is not turned.
+/// The parent of a chain in the space of the control points, where it has no rotation.
 Placement seen_from_points(const Placement& above) noexcept {
     return placement(rig::Transform{.rotation = conjugate(above.rotation())}) *
            Placement{above.axes, glm::dvec3(0.0)};
@@ -34,7 +34,7 @@ struct BentChain::Plan {
     std::size_t count = 0;             // of the skeleton's nodes
     std::vector<std::int32_t> path{};  // from the root to the parent of the chain
     std::vector<std::size_t> nodes{};
-    // Of each bone at rest, in the space of the points.
+    // Per bone at rest, in the space of the points.
     std::vector<glm::dvec3> directions{};
     std::vector<glm::dquat> rotations{};
     // Scratch. Joints and points are relative to the first joint.
@@ -162,7 +162,7 @@ ik::CurveReport BentChain::Plan::bend(std::span<rig::Transform> pose, std::span<
         lengths[i] = static_cast<float>(bone);
         reach += bone;
     }
-    // A point that was put on the first joint is a rounding away from it, which gives no direction.
+    // A point meant to be on the first joint may be off by rounding, which gives no direction.
     const double nothing = 1e-6 * reach + 1e-7 * length(root);
     const std::span<glm::vec3> curve = std::span(points).first(given.size() + 1);
     curve[0] = glm::vec3(0.0f);
@@ -186,7 +186,7 @@ ik::CurveReport BentChain::Plan::bend(std::span<rig::Transform> pose, std::span<
                                               .roll_end = options.roll_end,
                                               .weight = options.weight,
                                               .weights = options.weights});
-    // A tip on the last control point may be a rounding past it.
+    // A tip on the last control point may be past it by rounding.
     if (report.status == ik::Status::Converged) report.bones_past_end = 0, report.past_end = 0.0f;
     if (report.status != refusal) lay(pose, at, swing, options, static_cast<double>(report.factor));
     return report;

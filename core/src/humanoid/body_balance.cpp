@@ -31,7 +31,7 @@ glm::dvec3 BodySolve::centre_of_mass() const noexcept {
 
 namespace {
 
-/// Where a foot's sole is if the foot is at `position`, turned by `turn` from the clip's pose `was`.
+/// The sole of a foot that is at `position` and turned by `turn` from the clip's pose `was`.
 SolePoints moved_sole(const SolePoints& clip, const glm::dvec3& was, const glm::dvec3& position,
                       const glm::dquat& turn) noexcept {
     return {plus(position, rotated(turn, minus(clip.heel, was))),
@@ -80,8 +80,8 @@ BodySolve::FootPlace BodySolve::foot_at(const Goal& goal, std::size_t side,
     return place;
 }
 
-/// The safe part of the support. A foot in the middle of a step belongs to it as if it did not rise; a target
-/// may take a foot anywhere over the ground.
+/// The safe part of the support. A foot in the middle of a step supports as if it were not lifted. With a
+/// foot's target, heights are measured over the ground, because it may take the foot anywhere.
 Support BodySolve::safe_support(const std::array<SolePoints, 2>& soles,
                                 const std::array<SoleHeights, 2>& over) const noexcept {
     return find_support(*work_.soles, soles, foot_target_ ? sole_heights(soles, options_.ground) : over)
@@ -110,7 +110,7 @@ void BodySolve::roll_feet() noexcept {
     safe_ = safe_support(soles_, over_);
 }
 
-/// What the clip's pose is out of balance by is allowed.
+/// Allows the imbalance that the clip's pose already has.
 void BodySolve::start_balance() noexcept {
     balances_ = false;
     if (!options_.balance || !work_.soles) return;
@@ -135,8 +135,7 @@ double BodySolve::measure_balance() noexcept {
     return 0.5 * balance_weight * outside_ * outside_;
 }
 
-/// Of a row that moves the centre of mass along `out_`: what each link's turn moves. A limb without a goal is
-/// no counterweight.
+/// Finds mass_arms_: the mass that each link's turn moves. A limb without a goal is no counterweight.
 void BodySolve::find_mass_arms() noexcept {
     std::array<double, bone_count> mass{};
     std::array<glm::dvec3, bone_count> moment{};
@@ -179,9 +178,9 @@ void BodySolve::add_balance_row(const glm::dvec3& out, double by) noexcept {
     ++row_count_;
 }
 
-/// The support moves with the feet: a foot that follows a target takes its part along, and one that rolls
-/// lifts its heel or its toes off the ground. Adds to the row of balance how that moves the safe part's point
-/// nearest to the centre of mass along `out`.
+/// The support moves with the feet: a foot that follows a target moves its part along, and one that rolls
+/// lifts its heel or its toes off the ground. Adds to the row of balance how this moves the point of the safe
+/// part nearest to the centre of mass along `out`.
 void BodySolve::add_support_columns(std::size_t goal_index, std::size_t side,
                                     const glm::dvec3& out) noexcept {
     constexpr double step = 1e-3;  // radians, and parts of the leg

@@ -54,7 +54,7 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
         const double part = std::min(1.0, max_step_turn / size), travelled = travel();
         apply(part);
         const double next = measure();
-        // The turn back is exact to first order: its square may cost as much.
+        // The turn back is exact only to first order: its square may cost as much.
         if (next <= cost + back_ * back_ * back_ * back_) {
             if (const double now = travel(); now > limit) {
                 cut_to(limit, part * std::max(limit - travelled, 0.0) / (now - travelled));

@@ -28,7 +28,7 @@ class BodySolve {
     std::optional<BodyReport> run(std::span<rig::Transform> pose, BodyState& state) noexcept;
 
   private:
-    /// What an effector has to reach: a target, or the clip's position of a foot.
+    /// The goal of an effector: a target, or the clip's position of a foot.
     struct Goal {
         std::size_t effector;
         glm::dvec3 position;
@@ -36,7 +36,7 @@ class BodySolve {
         const BodyTarget* target;  ///< null: a foot that stays
         const BodyLimb* limb;      ///< null: the head, the hips
         glm::dvec3 error{0.0};     ///< from effector to position, metres, corrected by BodyLimb::beyond()
-        glm::dvec3 stalled{0.0};   ///< the part of it that the last step failed to reduce
+        glm::dvec3 stalled{0.0};   ///< the part of `error` that the last step failed to reduce
     };
     /// Two capsules near each other.
     struct Contact {
@@ -45,7 +45,7 @@ class BodySolve {
         glm::dvec3 apart;          ///< unit, from the second to the first
         double gap;                ///< metres; negative: too near
         int row = -1;              ///< its equation; -1: inactive in this step
-        bool released = false;     ///< released: its row would have pulled the two together
+        bool released = false;     ///< its row would have pulled the two together
     };
     struct Row {
         glm::dvec3 shift;  ///< gradient with respect to the hips' position
@@ -55,14 +55,14 @@ class BodySolve {
     struct Step {
         unsigned rows = 0;        ///< a bit for each equation that its turn affects
         glm::dvec3 turn{0.0};     ///< a rotation vector in the character's space
-        glm::dvec3 back{0.0};     ///< its part towards the clip's pose
+        glm::dvec3 back{0.0};     ///< the part of `turn` towards the clip's pose
         double compliance = 0.0;  ///< radians per unit torque
         TurnFreedom freedom{};
     };
 
     struct FootPlace {
         glm::dquat turn;  ///< Link::turn
-        glm::dvec3 goal;  ///< of a foot that stays, moved along as it rolls
+        glm::dvec3 goal;  ///< for a foot that stays: moves along as it rolls
         SolePoints sole;
         SoleHeights over;
     };
@@ -95,7 +95,7 @@ class BodySolve {
     void find_mass_arms() noexcept;
     void start_balance_step() noexcept;
     void add_balance_row(const glm::dvec3& out, double by) noexcept;
-    static std::optional<std::size_t> side_of(const Goal& goal) noexcept;  ///< of a foot: 0 is left
+    static std::optional<std::size_t> side_of(const Goal& goal) noexcept;  ///< 0: left foot, 1: right
     FootPlace foot_at(const Goal& goal, std::size_t side, const glm::dquat& above) const noexcept;
     Support safe_support(const std::array<SolePoints, 2>& soles,
                          const std::array<SoleHeights, 2>& over) const noexcept;
@@ -108,7 +108,7 @@ class BodySolve {
     double deepest() const noexcept;
     void add_goal_rows() noexcept;
     void add_contact_row(Contact& contact) noexcept;
-    /// Gradient of the gap with respect to a link's turn; zero if that moves both capsules or neither.
+    /// Gradient of the gap with respect to a link's turn; zero if the turn moves both capsules or neither.
     glm::dvec3 contact_column(const Contact& contact, std::size_t link) const noexcept;
     glm::dvec3 allowed_torque(std::size_t link, const glm::dvec3& torque) const noexcept;
     double step_size() const noexcept;
@@ -129,7 +129,7 @@ class BodySolve {
     bool touches_;  ///< keep capsules apart
     std::array<Goal, effector_count> goals_{};
     std::size_t count_ = 0;
-    std::array<glm::dvec3, effector_count> clip_{};  ///< where the clip has the effectors
+    std::array<glm::dvec3, effector_count> clip_{};  ///< the effectors' positions in the clip
     bool hips_given_ = false;                        ///< a target sets the hips' rotation
     double back_ = 0.0;                              ///< the step's maximum turn back, radians
     glm::dvec3 shift_{0.0}, shift_step_{0.0}, shift_back_{0.0};
@@ -146,8 +146,8 @@ class BodySolve {
     std::array<SoleHeights, 2> over_{};
     bool foot_target_ = false;           ///< a foot has a target
     Support safe_{};                     ///< where the centre of mass should be
-    double allowed_ = 0.0;               ///< how far outside of it the clip has it, metres
-    double outside_ = 0.0;               ///< how much farther it is now
+    double allowed_ = 0.0;               ///< the clip's distance outside of it, metres
+    double outside_ = 0.0;               ///< the distance outside beyond that, metres
     glm::dvec3 centre_{0.0}, out_{0.0};  ///< the centre of mass; unit, horizontal, away from the safe part
     int balance_row_ = -1;               ///< its equation; -1: inactive in this step
     bool balance_released_ = false;

@@ -7,34 +7,34 @@ namespace tendril::humanoid::detail {
 
 // Weights, relative to a target of weight 1.
 
-/// Of a foot that stays where the clip has it.
+/// A foot that stays where the clip has it.
 inline constexpr double planted_foot_weight = 30.0;
-/// A target 0.5 m out of reach presses capsules 2 mm into each other.
+/// A contact: a target 0.5 m out of reach presses capsules 2 mm into each other.
 inline constexpr double contact_weight = 250.0;
-/// Of the centre of mass, once it leaves the safe part of the support.
+/// The centre of mass, once it leaves the safe part of the support.
 inline constexpr double balance_weight = 100.0;
-/// Part of the leg's length: a tilted foot that would sink this deep rolls over the end that would sink.
+/// A tilted foot that would sink this deep, in leg lengths, rolls over the end that would sink.
 inline constexpr double rolling_part = 0.01;
-/// Of a contact that would pull: almost none, so that its equation stays solvable.
+/// A contact that would pull: almost none, so that its equation stays solvable.
 inline constexpr double released_contact_weight = 1e-9;
 
 // The step: damped least squares.
 
 /// How easily the hips move: square metres, relative to the square radians of an upper arm.
 inline constexpr double hips_mobility = 0.004;
-/// Metres. A step ignores capsules that are farther apart.
+/// A step ignores capsules that are farther apart than this, metres.
 inline constexpr double contact_range = 0.15;
 /// A residual that does not shrink straightens a limb. That is a stiffness: the second derivative, which
 /// Gauss-Newton drops. More than 1, because the joints of a limb turn together.
 inline constexpr double residual_stiffness = 2.0;
-/// Of limits and contacts, per step.
+/// Maximum changes of the active limits and contacts, per step.
 inline constexpr int max_active_set_changes = 3;
 
 // The trust region (Levenberg and Marquardt): damping is `caution` times the residual times `damping_length`.
 
 inline constexpr double first_caution = 0.25, min_caution = 0.01, max_caution = 1e6;
 inline constexpr double caution_after_success = 0.5, caution_after_failure = 8.0;  ///< factors
-/// Metres, about half a limb: as far as a linear step holds good.
+/// As far as a linear step holds good: about half a limb, metres.
 inline constexpr double damping_length = 0.5;
 inline constexpr double min_damping = 1e-8;
 inline constexpr double max_step_turn = 0.5;  ///< radians per joint and step
@@ -44,8 +44,8 @@ inline constexpr double stalled_share = 1e-5, min_stalled_cost = 1e-6;
 
 // Relaxation: the joints turn back towards the clip's pose in the null space of the targets.
 
-/// Radians in a solve per metre that the goals have moved: a pose approaches the clip's while its targets
-/// move, and does not jump there.
+/// Maximum turn back in a solve, radians per metre that the goals have moved: a pose approaches the clip's
+/// while its targets move, and does not jump there.
 inline constexpr double relaxation_per_metre = 3.0;
 /// The largest share of the way back to the clip's pose that a step takes. Halved by a step that fails,
 /// doubled by one that succeeds.
@@ -55,7 +55,7 @@ inline constexpr double relaxing_damping = 1e-3;
 
 // The speed limit: joints travel at most so far in a solve.
 
-/// Metres per metre that the goals have moved since the last solve.
+/// Maximum travel, metres per metre that the goals have moved since the last solve.
 inline constexpr double travel_per_metre = 12.0;
 /// Share of the limit that the next solve keeps: it may have to catch up.
 inline constexpr double travel_kept = 0.5;

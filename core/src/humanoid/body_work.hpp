@@ -87,7 +87,7 @@ struct LinkMass {
 };
 
 inline constexpr std::size_t max_contacts = 12;
-inline constexpr std::size_t max_rows = 3 * effector_count + 1 + max_contacts;  ///< one of balance
+inline constexpr std::size_t max_rows = 3 * effector_count + 1 + max_contacts;  ///< one for balance
 
 }  // namespace detail
 

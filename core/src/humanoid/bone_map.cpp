@@ -29,7 +29,7 @@ using Nodes = std::array<std::int32_t, bone_count>;
 /// Finds bones by name, one after the other; those found before restrict where the next may be.
 class Names {
   public:
-    /// For the spine, hips and head without a telling name are taken from the shape.
+    /// Where names give no hips or head, takes them from the shape to find the spine.
     Names(const Skeleton& skeleton, const ShapeReading& shape)
         : skeleton_(skeleton), readings_(skeleton.size()) {
         const std::string ignored = detail::common_word(skeleton);
@@ -45,7 +45,7 @@ class Names {
         column(or_shape(Bone::Hips), or_shape(Bone::Head));
     }
     Nodes found;
-    bool raised = false;  ///< the hips are not the node of that name
+    bool raised = false;  ///< the hips are not the node named hips
 
   private:
     std::int32_t at(Bone bone) const { return found[static_cast<std::size_t>(bone)]; }
@@ -60,7 +60,7 @@ class Names {
                skeleton_.is_below(static_cast<std::size_t>(node), static_cast<std::size_t>(above));
     }
 
-    /// The first node of that part and side from the root down, below `above`.
+    /// The first node with this part and side from the root down, below `above`.
     std::int32_t topmost(Part part, Side side, std::int32_t above) const {
         for (const std::int32_t node : skeleton_.order())
             if (reading(node).part == part && reading(node).side == side && node != above &&
@@ -68,8 +68,8 @@ class Names {
                 return node;
         return -1;
     }
-    /// Of several candidates, the one with the most left and right nodes below it; among equals, one that is
-    /// called hips, or else the one nearest to the limbs.
+    /// The candidate with the most left and right nodes below it; among equals, one that is called hips, or
+    /// else the one nearest to the limbs.
     std::int32_t find_hips() const {
         std::int32_t best = -1;
         std::size_t most = 0;
@@ -85,7 +85,7 @@ class Names {
         }
         return best;
     }
-    /// The nearest node above that is one of these parts; searches up to the hips.
+    /// The nearest ancestor that is one of these parts on this side; searches up to the hips.
     std::int32_t above(std::int32_t node, Side side, std::initializer_list<Part> parts) const {
         for (std::int32_t each = parent(node); each >= 0 && each != at(Bone::Hips); each = parent(each))
             if (reading(each).side == side &&
@@ -93,8 +93,8 @@ class Names {
                 return first_of_split(each);
         return -1;
     }
-    /// A limb in pieces begins with the first: upperarm01, above upperarm02. "arm 1, arm 2" may be both bones
-    /// of an arm.
+    /// The first piece of a limb bone in pieces: upperarm01, above upperarm02. "arm 1, arm 2" may be both
+    /// bones of an arm.
     std::int32_t first_of_split(std::int32_t node) const {
         const Part part = reading(node).part;
         if (part == Part::Arm || part == Part::Leg || part == Part::ShoulderArm) return node;
@@ -106,7 +106,7 @@ class Names {
             node = next;
         return node;
     }
-    /// The first such node from the root down, with one of `parts` above it; one beside or below the hips if
+    /// The first such node from the root down with one of `parts` above it; one beside or below the hips if
     /// there is one, since a file may have several rigs.
     std::int32_t leg_node(Part part, Side side, std::initializer_list<Part> parts) const {
         const std::int32_t hips = at(Bone::Hips);
@@ -144,7 +144,7 @@ class Names {
         if (foot >= 0) set(next(upper_leg, 3), topmost(Part::Toes, side, foot));
     }
     /// A node named hips may be the first of the spine, with the legs beside it. The body's hips are then the
-    /// node above both, if it is where the legs begin and no root on the floor.
+    /// node above both, unless it is a thigh's length or more from the legs, like a root on the floor.
     void raise_hips() {
         const std::int32_t left = at(Bone::LeftUpperLeg), right = at(Bone::RightUpperLeg);
         const std::int32_t knee = at(Bone::LeftLowerLeg), named = at(Bone::Hips);
@@ -163,7 +163,7 @@ class Names {
         set(Bone::Hips, node);
         raised = true;
     }
-    /// Between the hips and the head: a neck, and below it one to three bones of the spine.
+    /// Finds the bones between the hips and the head: a neck, and below it one to three bones of the spine.
     void column(std::int32_t hips, std::int32_t head) {
         if (hips < 0 || head < 0 || !below(head, hips)) return;
         std::vector<std::int32_t> spine;
@@ -199,7 +199,7 @@ std::string named(const Skeleton& skeleton, std::int32_t node) {
 // Confidences rank the evidence: chosen, not measured.
 constexpr double by_shape_alone = 0.6, contradicted = 0.65, by_name_alone = 0.8, agreed = 0.98;
 
-/// Combines what both readers say of a bone.
+/// Combines the answers of both readers for a bone.
 BoneMatch weigh(const Skeleton& skeleton, std::int32_t by_name, std::int32_t by_shape) {
     BoneMatch match;
     if (by_name < 0 && by_shape < 0) return match;
@@ -221,7 +221,7 @@ BoneMatch weigh(const Skeleton& skeleton, std::int32_t by_name, std::int32_t by_
     return match;
 }
 
-/// Where bones of the palm begin beside each other at the wrist, the one with the middle finger is the hand.
+/// If bones of the palm begin side by side at the wrist, the one with the middle finger is the hand.
 std::int32_t middle_of_palm(const Skeleton& skeleton, std::int32_t hand) {
     const auto node = [&](std::int32_t i) -> const Node& { return skeleton[static_cast<std::size_t>(i)]; };
     if (hand < 0 || node(hand).parent < 0 || !detail::is_palm_name(node(hand).name)) return hand;
@@ -233,8 +233,8 @@ std::int32_t middle_of_palm(const Skeleton& skeleton, std::int32_t hand) {
 }
 
 using Path = std::vector<std::int32_t>;
-/// The nodes down to each, from below the last node that both have above them, and on from there as far as
-/// nodes have one child: paths of limbs that mirror each other are equally long, whichever nodes have bones.
+/// The paths from below the last common ancestor down to each node, and on from there as long as nodes have
+/// one child. Mirrored limbs give equally long paths, whichever of their nodes have bones.
 std::array<Path, 2> apart(const Skeleton& skeleton, std::int32_t a, std::int32_t b) {
     const auto index = [](std::int32_t node) { return static_cast<std::size_t>(node); };
     const auto path_to = [&](std::int32_t node, std::int32_t other) {
@@ -251,8 +251,8 @@ std::array<Path, 2> apart(const Skeleton& skeleton, std::int32_t a, std::int32_t
     return paths;
 }
 
-/// Limbs of as many nodes on both sides have their bones at the same ones: where the sides differ, the one
-/// that the shape agrees with more is right.
+/// Limbs with equally many nodes on both sides have their bones at the same ones. Where they differ, the side
+/// that agrees more with the shape is right.
 void agree(const Skeleton& skeleton, const ShapeReading& shape, BoneMap& map) {
     constexpr std::size_t bones = 4;
     for (const Bone first : {Bone::LeftShoulder, Bone::LeftUpperLeg}) {
@@ -276,7 +276,7 @@ void agree(const Skeleton& skeleton, const ShapeReading& shape, BoneMap& map) {
             const auto at = static_cast<std::size_t>(
                 std::find(path.begin(), path.end(), map[bone(from, i)].node) - path.begin());
             BoneMatch& match = map[bone(1 - from, i)];
-            if (at == path.size() || match.node == paths[1 - from][at]) return;  // a loose foot is on none
+            if (at == path.size() || match.node == paths[1 - from][at]) return;  // a loose foot is on neither
             match = {paths[1 - from][at], contradicted, "as "};
             match.reasons += skeleton[static_cast<std::size_t>(path[at])].name + " on the other side";
         };
@@ -369,7 +369,7 @@ BoneMap match_bones(const Skeleton& skeleton) {
 
 namespace {
 
-/// The parent in a body with all bones; that of the hips is the hips.
+/// The parent in a body with all bones; the hips are their own parent.
 Bone parent_of(Bone bone) noexcept {
     switch (bone) {
         case Bone::Hips:

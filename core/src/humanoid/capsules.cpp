@@ -56,11 +56,11 @@ class DefaultCapsules {
         add(upper, lower, radius);
         add(lower, *detail::limb_child(lower), lower_radius);
     }
-    /// From one bone's joint to another's.
+    /// Adds a capsule from one bone's joint to another's.
     void add(Bone bone, Bone next, double radius) {
         if (has(bone) && has(next)) put(bone, at(bone).position, at(next).position, radius);
     }
-    /// From `start` to `end` past a bone's joint, in the direction from `before`.
+    /// Adds a capsule from `start` to `end` past a bone's joint, in the direction from `before`.
     void beyond(Bone bone, Bone before, double start, double end, double radius) {
         if (!has(bone)) return;
         glm::dvec3 along{0.0, 1.0, 0.0};

@@ -84,8 +84,8 @@ glm::dquat finished(const glm::dquat& value) noexcept {
     return rig::normalised(value);
 }
 
-/// The first key after `time`, by more than floats round the key's time and the clip's duration: otherwise a
-/// step would come a frame late.
+/// The first key after `time` by more than the float rounding of the key's time and the clip's duration:
+/// otherwise a step would come a frame late.
 std::size_t next_key(const std::vector<double>& times, double time) noexcept {
     constexpr double rounded = 2.0 * std::numeric_limits<float>::epsilon();
     return static_cast<std::size_t>(
@@ -175,11 +175,11 @@ void sample(const Clip& clip, const Skeleton& skeleton, double time,
 
 namespace {
 
-/// Of a step, by which a key's time may be off its frame: files round times. Three decimals of a sixtieth of
-/// a second are off by 0.03.
+/// How far a key's time may be off its frame, as a part of a step: files round times. Three decimals of a
+/// sixtieth of a second are off by 0.03.
 constexpr double rounded_frame = 0.06;
 
-/// Of the track with the most keys; null if none has two.
+/// Key times of the track with the most keys; null if none has two.
 const std::vector<double>* densest_times(const Clip& clip) noexcept {
     const std::vector<double>* densest = nullptr;
     const auto look_at = [&](const std::vector<double>& times) {
@@ -203,8 +203,8 @@ std::optional<Frames> own_frames(const Clip& clip) noexcept {
     return Frames{.count = own->size(), .step = step};
 }
 
-/// The rate that a file means by one that it rounds: the nearest whole one or 1000/1001 of a whole one, as
-/// television has them (SMPTE 12M). Four decimals of a thirtieth of a second are 0.1 % off.
+/// The exact rate for one that a file has rounded: the nearest whole number, or 1000/1001 of one as in
+/// television (SMPTE 12M). Four decimals of a thirtieth of a second are 0.1 % off.
 double meant(double rate) noexcept {
     constexpr double television = 1000.0 / 1001.0;
     const double whole = std::floor(rate + 0.5), slow = std::floor(rate / television + 0.5) * television;
@@ -220,8 +220,8 @@ bool has_curves(const Clip& clip) noexcept {
     });
 }
 
-/// The mean of the steps that are about as long as the median one: keys that are missing make some longer,
-/// keys between frames some shorter. 0 if there are no two keys.
+/// The mean of the steps that are about as long as the median one: missing keys make some longer, keys
+/// between frames some shorter. 0 if there are no two keys.
 double usual_step(const Clip& clip) {
     const std::vector<double>* const densest = densest_times(clip);
     if (!densest) return 0.0;
@@ -241,7 +241,7 @@ double frame_rate(const Clip& clip) noexcept {
     if (!(rate >= 1.0 && rate <= 1000.0)) {
         const auto own = own_frames(clip);
         rate = 1.0 / (own ? own->step : usual_step(clip));
-        // Slower keys are frames if all lie on even times and none is on a curve, which needs more.
+        // Slower keys are frames if they are evenly spaced and none is on a curve, which needs more frames.
         const double slowest = own && !has_curves(clip) ? 5.0 : 20.0;
         if (!(rate > slowest * 0.999 && rate <= 1000.0)) return 60.0;
     }

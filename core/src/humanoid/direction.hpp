@@ -5,7 +5,7 @@
 
 namespace tendril::humanoid::detail {
 
-/// Radians; the vectors may have any length but 0.
+/// The angle in radians; the vectors may have any length but 0.
 inline double angle_between(const glm::dvec3& a, const glm::dvec3& b) noexcept {
     using namespace rig::detail;
     return arctangent(length(cross(a, b)), dot(a, b));

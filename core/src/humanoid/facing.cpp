@@ -16,14 +16,14 @@ namespace {
 constexpr Bone legs[2][3]{{Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot},
                           {Bone::RightUpperLeg, Bone::RightLowerLeg, Bone::RightFoot}};
 
-/// From one bone to another; 0 if either is not mapped.
+/// The vector from one bone to another; 0 if either is not mapped.
 glm::dvec3 way(const BoneMap& map, std::span<const Placement> rest, Bone from, Bone to) {
     const std::int32_t a = map[from].node, b = map[to].node;
     if (a < 0 || b < 0) return glm::dvec3(0.0);
     return minus(rest[static_cast<std::size_t>(b)].position, rest[static_cast<std::size_t>(a)].position);
 }
 
-/// Whether feet point clearly backwards: an ankle slightly in front of the tip of its toes does not count.
+/// Whether feet point clearly backwards: an ankle slightly in front of the tip of its toes is not enough.
 bool feet_point_back(const Skeleton& skeleton, const BoneMap& map, std::span<const Placement> rest,
                      const glm::dvec3& forward) {
     double ahead = 0.0, leg = 0.0;

@@ -8,7 +8,7 @@
 
 namespace tendril::humanoid::detail {
 
-/// As facing(), but nullopt if neither legs nor arms are side by side. `rest`: placements of the rest pose.
+/// Like facing(), but nullopt if neither legs nor arms are side by side. `rest`: placements of the rest pose.
 std::optional<Facing> find_facing(const Skeleton& skeleton, const BoneMap& map,
                                   std::span<const Placement> rest);
 

@@ -28,7 +28,7 @@ std::array<glm::dvec3, count> disc_of() noexcept {
     return disc;
 }
 
-/// In the toes' space: between heel and toe, below where the toes begin; without toes, at three quarters.
+/// The ball in the toes' space: between heel and toe, below where the toes begin; without toes, at 3/4.
 glm::dvec3 ball_of(const Sole& sole, std::span<const Placement> rest) noexcept {
     using namespace rig::detail;
     const Placement &foot = rest[sole.foot], &toes = rest[sole.toes];

@@ -101,8 +101,8 @@ bool FeetStep::is_ground(const std::optional<GroundHit>& hit, double around) con
     return hit && hit->normal.y >= steepest_ && std::abs(hit->height - around) <= options_.max_step;
 }
 
-/// The ground below the hips; failing that, the highest ground, if it is above the clip's floor: nobody
-/// starts underground.
+/// The ground below the hips; failing that, the highest ground, if it is above the clip's floor, so that no
+/// character starts underground.
 double FeetStep::first_base() const noexcept {
     const glm::dvec3& at = hips_.position;
     const auto near = ground_.below({at.x, at.y + options_.ray_start, at.z});

@@ -17,12 +17,12 @@ constexpr std::size_t fewest = 16;  // points
 constexpr double inside = 0.8;      // of them, within the radius
 /// Part of the points ignored at each end of the line, and at each side when centring it.
 constexpr double at_ends = 0.02, at_sides = 0.15;
-/// In radii of the default: how thin and thick a fit may be, and how far from the bone.
+/// How thin and thick a fit may be, and how far from the bone, in radii of the default.
 constexpr double thinnest = 0.4, thickest = 3.0, farthest_aside = 0.75;
-/// In radii of the default: how far before and beyond it the line of a head or a hand may extend.
+/// How far before and beyond the bone the line of a head or a hand may extend, in radii of the default.
 constexpr double before = 2.0, beyond = 4.0;
 
-/// The value below which `part` of them lie. Reorders them.
+/// The value below which `part` of the values lie. Reorders them.
 double quantile(std::vector<double>& values, double part) {
     const auto place = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), values.begin() + place, values.end());

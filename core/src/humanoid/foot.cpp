@@ -19,7 +19,7 @@ constexpr double lock_again = 0.25;
 constexpr double turn_speed = 3.0;
 /// m/s. Higher speeds come from a tiny dt, not from motion.
 constexpr double fastest = 1e3;
-/// m/s, and as part of max_speed, of a foot that goes to its foothold.
+/// The slowest speed of a foot that goes to its foothold, m/s, and the fastest, as a part of max_speed.
 constexpr double slowest_shift = 0.4, fastest_shift = 0.6;
 /// A foot that the clip brakes so hard that it stops within this time, this near to its floor, is about to be
 /// put down; seconds, metres.
@@ -67,7 +67,7 @@ struct Footing {
     }
 };
 
-/// From straight up to the normal, by at most `most` radians.
+/// The turn from straight up to the normal, by at most `most` radians.
 glm::dquat turn_to(const glm::dvec3& normal, double most) noexcept {
     const glm::dquat whole = minimal_rotation(up, normal);
     const double angle = 2.0 * half_angle_between({1.0, 0.0, 0.0, 0.0}, whole);
@@ -118,7 +118,7 @@ bool is_over_foothold(const FootState& foot, const FeetOptions& options) noexcep
     return foot.shift_x * foot.shift_x + foot.shift_z * foot.shift_z <= far * far;
 }
 
-/// Of the toe, horizontal, m/s.
+/// Velocity of the toe, horizontal, m/s.
 glm::dvec3 velocity_of(const FootState& foot, const FootClip& clip, const FootContext& context) noexcept {
     if (context.fresh || !(context.dt > 0.0)) return foot.velocity;
     const glm::dvec3 v =
@@ -127,7 +127,7 @@ glm::dvec3 velocity_of(const FootState& foot, const FootClip& clip, const FootCo
     return {v.x * part, 0.0, v.z * part};
 }
 
-/// How far the clip still moves a foot that it is about to put down; nullopt if it is not about to.
+/// How far the clip still moves a foot that is about to land or has landed; nullopt for any other.
 std::optional<glm::dvec3> landing_in(const FootState& foot, const FootClip& clip, const glm::dvec3& before,
                                      const FootContext& context) noexcept {
     if (foot.locked) return glm::dvec3(0.0);
@@ -145,8 +145,8 @@ glm::dvec3 shift_of(const FootState& foot) noexcept {
     return {foot.shift_x, 0.0, foot.shift_z};
 }
 
-/// Where a foot that is about to land, or has just been locked, shall stand; one in the air goes back to the
-/// clip.
+/// Chooses where a foot that is about to land, or has just been locked, stands; one in the air goes back to
+/// the clip.
 void choose_foothold(FootState& foot, const FootClip& clip, const std::optional<glm::dvec3>& landing,
                      double from, const FootContext& context) noexcept {
     const glm::dvec3 offset{foot.offset_x, 0.0, foot.offset_z}, last = plus(offset, shift_of(foot));
@@ -166,8 +166,8 @@ void choose_foothold(FootState& foot, const FootClip& clip, const std::optional<
     foot.shift_x = foot.shift_z = 0.0;
 }
 
-/// Takes a foot back on its way, so that it gets to a riser once it is above it. A foot that is already far
-/// behind keeps that distance: it would fall further behind at each stair.
+/// Holds a foot back on its way, so that it is above a riser before it gets there. A foot that is already far
+/// behind keeps its distance: otherwise it would fall further behind at each stair.
 glm::dvec3 hold_back(FootState& foot, const glm::dvec3& by, const glm::dvec3& eased,
                      const FootContext& context) noexcept {
     const auto back = direction_of(times(by, -1.0), 1e-9);
@@ -182,8 +182,8 @@ glm::dvec3 hold_back(FootState& foot, const glm::dvec3& by, const glm::dvec3& ea
     return held;
 }
 
-/// A foot comes down on its foothold from above: it is kept over the step that it is still to cross, and its
-/// heel over one behind it until it is clear of the edge, for a stretched leg lands it slightly short.
+/// A foot comes down on its foothold from above: it is kept over the step that it has yet to cross, and its
+/// heel over a step behind it until it is clear of the edge, because a stretched leg lands it slightly short.
 double lift_over_landing(const FootClip& clip, const Turned& turned, const Footing& footing,
                          const glm::dvec3& way, double from, const FootContext& context) noexcept {
     const glm::dvec3 ankle = plus(clip.ankle, turned.slip);
@@ -257,7 +257,7 @@ FootGoal find_goal(FootState& foot, const FootClip& clip, const glm::dvec3& ease
                    const FootContext& context) noexcept {
     const double from = clip.ankle.y + context.base + context.options.ray_start;
     const glm::dvec3 before = foot.velocity;
-    foot.velocity = velocity_of(foot, clip, context);  // without ground too: no foot brakes from what it was
+    foot.velocity = velocity_of(foot, clip, context);  // even without ground: braking is measured from it
     const auto footing_of = [&](const Turned& turned) {
         const glm::dvec3 ankle = plus(clip.ankle, turned.slip);
         return Footing(plus(ankle, turned.heel), plus(ankle, turned.toe), from, context);

@@ -35,7 +35,7 @@ struct FootGoal {
     double shifted = 0.0;  // horizontal, in this step, relative to the clip
 };
 
-/// Locks or releases the foot, and moves the offset of one in the air towards its foothold. Returns that
+/// Locks or releases the foot, and moves the offset of a foot in the air towards its foothold. Returns the
 /// move.
 glm::dvec3 update_lock(FootState& foot, const FootClip& clip, const FootContext& context) noexcept;
 
@@ -43,7 +43,7 @@ glm::dvec3 update_lock(FootState& foot, const FootClip& clip, const FootContext&
 FootGoal find_goal(FootState& foot, const FootClip& clip, const glm::dvec3& eased,
                    const FootContext& context) noexcept;
 
-// Where it can stand with its whole sole on the ground (foothold.cpp).
+// Where a foot can stand with its whole sole on the ground (foothold.cpp).
 
 /// Height differences up to this are no step, metres.
 inline constexpr double step_over_plane = 0.02;
@@ -52,17 +52,17 @@ inline double height_of_plane(const GroundHit& hit, double x, double z) noexcept
     return hit.height - (hit.normal.x * x + hit.normal.z * z) / hit.normal.y;
 }
 
-/// Why no foot can stand on what a ray found; No if one can.
+/// Why a foot cannot stand on what a ray found; No if it can.
 FootAlone judge(const std::optional<GroundHit>& hit, const FootContext& context) noexcept;
 
-/// The shift, horizontal, that takes a sole from where the clip puts it down to where it stands: whole on
+/// The horizontal shift that takes a sole from where the clip puts it down to where it can stand: whole on
 /// ground without a step in it, or, where treads are too short for that, with one end over the edge of the
 /// highest. 0 if it stands so already, or nowhere within reach. The shortest shift wins, but one near to
 /// `before` is preferred.
 glm::dvec3 find_foothold(const glm::dvec3& heel, const glm::dvec3& toe, double from, const glm::dvec3& before,
                          const FootContext& context) noexcept;
 
-// How high it must be in the air to pass over the ground along its way (swing.cpp).
+// How high a foot in the air must be to pass over the ground along its way (swing.cpp).
 
 /// A sole in the air, in the ground's space, and its way in this step.
 struct SoleInAir {
@@ -80,7 +80,7 @@ struct OverWay {
     double part = 1.0;
 };
 
-/// Both change continuously as the foot moves.
+/// `raise` and `part` change continuously as the foot moves.
 OverWay over_way(const SoleInAir& sole, double from, const FootContext& context) noexcept;
 
 }  // namespace tendril::humanoid::detail

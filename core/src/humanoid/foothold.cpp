@@ -9,12 +9,12 @@ namespace {
 
 using namespace rig::detail;
 
-/// Where the ground below the sole is sampled, as parts of its length. It must have ground below the two in
-/// the middle.
+/// Where the ground below the sole is sampled, as parts of its length. The two in the middle must have ground
+/// below them.
 constexpr std::array<double, 4> looks_along{0.0, 0.4, 0.75, 1.0};
 /// The distance of the farthest foothold, as a part of break_distance.
 constexpr double farthest_foothold = 0.75;
-/// How much the distance from the previous foothold counts, relative to that from where the clip stands.
+/// Weight of the distance from the previous foothold, relative to the distance from the clip's.
 constexpr double staying = 0.5;
 /// Shifts to the side to try, metres, for a sole that lies along an edge.
 constexpr double aside[]{0.02, -0.02, 0.05, -0.05};
@@ -34,7 +34,7 @@ class SoleOver {
     double size() const noexcept { return size_; }
 
     enum class Stand { Nowhere, Hanging, Whole };
-    /// How it stands when shifted; a margin is ground to spare before the toe and behind the heel.
+    /// How the sole stands when shifted; a margin is ground to spare before the toe and behind the heel.
     Stand stand(const glm::dvec3& shift, double margin) const noexcept {
         std::array<double, looks_along.size()> heights;
         std::optional<GroundHit> first;

@@ -43,8 +43,8 @@ glm::dvec3 pull_of(const BodyState& body) noexcept {
     return pull;
 }
 
-/// How much higher the ground is at the sole shifted to `to` than below the clip's; nullopt where there is
-/// none, or where it is too high a step from where the sole stands, shifted by `from`.
+/// How much higher the ground is below the sole shifted by `to` than below the clip's; nullopt where there is
+/// none, or where the step from the sole shifted by `from` is too high.
 std::optional<double> climb(const SolePoints& sole, const glm::dvec3& from, const glm::dvec3& to,
                             const Ground* ground, double leg) noexcept {
     if (ground == nullptr) return 0.0;
@@ -98,7 +98,7 @@ bool plan_step(FootstepsState& state, const Soles& soles, const glm::dvec3& cent
         return begin(state.feet[left >= right ? 0 : 1], glm::dvec3(0.0));
     }
     const glm::dvec3 pull = pull_of(body);
-    double hold = body.outside;  // by balance, or by a leg that is stretched as far as it goes
+    double hold = body.outside;  // by balance, or by a fully stretched leg
     for (const Effector foot : {Effector::LeftFoot, Effector::RightFoot})
         hold = std::max(hold, length(body.left[static_cast<std::size_t>(foot)]));
     if (!(hold > least_hold * leg && length(pull) > no_step_within * leg)) return false;

@@ -18,7 +18,7 @@ using tendril::detail::refused;
 constexpr Bone arms[2][4]{{Bone::LeftShoulder, Bone::LeftUpperArm, Bone::LeftLowerArm, Bone::LeftHand},
                           {Bone::RightShoulder, Bone::RightUpperArm, Bone::RightLowerArm, Bone::RightHand}};
 constexpr double off = 0.01;
-/// Of an arm's length: about a millimetre short of it, since a straight elbow has no side.
+/// The arm's maximum reach, as a part of its length: a millimetre short, since a straight elbow has no side.
 constexpr double straightest = 0.998;
 
 struct Arm {

@@ -14,7 +14,7 @@ using namespace rig::detail;
 
 namespace {
 
-/// Metres, radians: closed for the eye and a game.
+/// Metres and radians: below these a grip looks closed.
 constexpr double closed_gap = 1e-5, closed_off = 5e-4;
 
 Result check_hand(std::string_view operation, const Argument& argument, Effector hand) noexcept {
@@ -23,7 +23,7 @@ Result check_hand(std::string_view operation, const Argument& argument, Effector
                    static_cast<std::size_t>(hand) < effector_count ? name(hand) : "no effector");
 }
 
-/// In the character's space.
+/// The grip's position in the character's space.
 glm::dvec3 place_of(const Grip& grip, const ObjectPose& object) noexcept {
     return plus(object.position, rotated(rig::normalised(object.rotation), grip.position));
 }

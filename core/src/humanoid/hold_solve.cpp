@@ -13,35 +13,35 @@ using namespace rig::detail;
 
 namespace {
 
-// Tuned by the tests of tests/core/humanoid_hold_test.cpp; relative to a square metre of the object's way.
+// Tuned by tests/core/humanoid_hold_test.cpp. Costs are relative to a square metre of the object's way.
 
-/// Of a radian of an upper arm in one step: larger, and the object takes more steps to where it is asked to
-/// be.
+/// Cost of a radian of an upper arm in one step. If larger, the object takes more steps to where it is asked
+/// to be.
 constexpr double joint_damping = 0.02;
-/// From step to step it falls to this part of the last step's size: large steps are careful, small ones
-/// exact.
+/// From step to step the damping falls to this part of the last step's size: large steps are careful, small
+/// ones exact.
 constexpr double damping_part = 0.1, min_joint_damping = 1e-6;
-/// How far a grip gives in one step, before its force has grown: larger, and grips close in more steps.
+/// How far a grip gives in one step, before its force has grown. If larger, grips take more steps to close.
 constexpr double grip_give = 0.01;
-/// Metres, and per metre that the object has given way: the largest force of a grip that the next step begins
-/// with.
+/// Largest force of a grip that the next step begins with: this, and this per metre that the object has given
+/// way.
 constexpr double force_kept = 2.0;
-/// The second derivative of the grips, along their forces: as BodySolve's residual_stiffness.
+/// The second derivative of the grips, along their forces, like BodySolve's residual_stiffness.
 constexpr double force_stiffness = 2.0;
-/// Part of a step by which it may pass a limit.
+/// A step may pass a limit by this part of itself.
 constexpr double limit_tolerance = 0.01;
-/// After those that did not settle: steps that only close the grips.
+/// Steps that only close the grips, after those that did not settle.
 constexpr int closing_steps = 20;
 constexpr int max_hold_changes = 6;  ///< of the set of limits, per step
-/// Radians, metres: of one step.
+/// Maximum size of one step, radians and metres.
 constexpr double max_hold_step = 0.4;
 /// A smaller step ends the solve, if the grips are closed as well as they can be.
 constexpr double hold_tolerance = 1e-7;
-/// Metres that an elbow or hand may move per metre of the asked grips and the shoulders, and on top of that.
+/// Maximum move of an elbow or hand: metres per metre of the requested grips and the shoulders, plus metres.
 constexpr double jump_per_metre = 20.0, jump_slack = 1e-3;
-/// A joint is at a limit if a force over this would turn it by this much, radians, and it cannot.
+/// A joint is at a limit if a force over the first would turn it by the second, radians, but it cannot turn.
 constexpr double told_force = 1e-5, told_turn = 1e-3;
-/// Radians that a bend may be over its least for the arm to count as straight.
+/// An arm is straight if its bend is at most this much over its least, radians.
 constexpr double straight_slack = 0.03;
 
 }  // namespace
@@ -84,13 +84,13 @@ double HoldSolve::bend(const Arm& arm, glm::dvec3& about) const noexcept {
     return arctangent(sine, dot(first, second));
 }
 
-/// The hand's rotation, as a link, on its grip.
+/// The rotation of the hand's link that puts the hand on its grip.
 glm::dquat HoldSolve::wanted(const Arm& arm) const noexcept {
     return math::compose(math::compose(at_.rotation, rig::normalised(*arm.grip->rotation)),
                          conjugate(link(arm.end).rest));
 }
 
-/// Turns the hands as the grips want them, within their limits, before anything else moves.
+/// Turns the hands to their grips, within their limits, before anything else moves.
 void HoldSolve::face_grips() noexcept {
     for (std::size_t i = 0; i < arm_count_; ++i) {
         const Arm& arm = arms_[i];
@@ -182,8 +182,8 @@ glm::dvec3 HoldSolve::object_column(const Row& row) const noexcept {
     return cross(row.along, arms_[row.arm].from);
 }
 
-/// A step that closes the grips and takes the object towards where it is asked to be. Its size: radians,
-/// metres. Sets `failed_` if there is none.
+/// Finds a step that closes the grips and takes the object towards its requested pose. Returns its size:
+/// radians, metres. Sets `failed_` if there is none.
 double HoldSolve::find_step() noexcept {
     double object_stiffness = options_.turn_length * options_.turn_length;
     for (std::size_t i = 0; i < arm_count_; ++i)
@@ -212,7 +212,7 @@ bool HoldSolve::solve_rows() noexcept {
     const glm::dvec3 way = times(minus(asked_.position, at_.position), pull_);
     const glm::dvec3 round = times(logarithm(math::compose(asked_.rotation, conjugate(at_.rotation))),
                                    pull_ * options_.turn_length * options_.turn_length * object_turns_);
-    // Where the grips cannot close, forces that are all kept would grow without end.
+    // Where the grips cannot close, forces kept in full would grow without end.
     const double most = force_kept + force_kept * length(way);
     const auto kept = [](const glm::dvec3& value, double largest) {
         const double size = length(value);
@@ -283,7 +283,7 @@ bool HoldSolve::block_bounds(Joint& joint, const glm::dquat& turn, const glm::dv
     Link& at = link(joint.link);
     const Arm& arm = arms_[joint.arm];
     if (joint.link != arm.end) return joint.freedom.block_limit(at, turn, before(at), step);
-    // What the lower arm takes of the twist is not the hand's.
+    // The lower arm's share of the twist is not the hand's.
     const glm::dquat was = std::exchange(at.turn, turn);
     const glm::dquat share = rotation_about(arm.forearm, shared_twist(arm));
     at.turn = was;
@@ -380,7 +380,7 @@ void HoldSolve::run(std::span<rig::Transform> pose, HoldReport& report, HoldStat
     report.settled = false;
     while (iterations_ < options_.max_iterations && !report.settled && !failed_) report.settled = step();
     for (Arm& arm : arms_) arm.pull = arm.force, arm.twist = arm.torque;
-    // What limits keep from settling is closed, if it can be, from where it is.
+    // If limits keep the solve from settling, closes the grips from where they are, if that is possible.
     if (!report.settled && !failed_ && apart() > hold_tolerance) {
         pull_ = 0.0;
         for (Arm& arm : arms_) arm.force = arm.torque = glm::dvec3(0.0);

@@ -25,7 +25,7 @@ class HoldSolve {
         TurnFreedom freedom{};
         double compliance = 0.0;
         glm::dvec3 turn{0.0};
-        glm::dvec3 held{0.0};  ///< the part of it that ends at a limit
+        glm::dvec3 held{0.0};  ///< the part of `turn` that ends at a limit
     };
     struct Arm {
         const Grip* grip = nullptr;
@@ -44,7 +44,7 @@ class HoldSolve {
         bool turns;
         glm::dvec3 along;
     };
-    /// A joint's or the object's part of a row: what a turn of it does to that.
+    /// How a turn of the joint, or of the object, changes a row.
     glm::dvec3 column(const Row& row, const Joint& joint) const noexcept;
     glm::dvec3 object_column(const Row& row) const noexcept;
     double row_length(const Row& row) const noexcept { return row.turns ? options_.turn_length : 1.0; }

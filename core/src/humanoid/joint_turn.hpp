@@ -1,5 +1,5 @@
-// Rotations of one joint: rotation vectors, a hinge's angle, the limit and what it leaves of a step. Not
-// installed.
+// Rotations of one joint: rotation vectors, a hinge's angle, the limit and the part of a step that it allows.
+// Not installed.
 #pragma once
 
 #include "humanoid/body_work.hpp"
@@ -22,7 +22,7 @@ bool clamp_turn(Link& link, float slack = ik::detail::at_bound) noexcept;
 /// Widens the limit to contain the clip's pose.
 void widen(Link& link) noexcept;
 
-/// What a joint's limit leaves of its turn in one step. Vectors are in the character's space.
+/// The part of a joint's turn in one step that its limit allows. Vectors are in the character's space.
 struct TurnFreedom {
     glm::dvec3 hinge{0.0};  ///< axis, if the joint is a hinge
     int blocked = 0;

@@ -67,7 +67,7 @@ struct Pole {
     bool always;  // the joint is never on the opposite side
 };
 /// Brings the limb's end to `target`, or as near as it may come. The middle joint keeps its side; the
-/// straighter the limb, the more the pole counts.
+/// straighter the limb, the stronger the pole.
 Bend bend_to(const LimbPlacement& at, const glm::dvec3& target, const Pole& pole,
              double straightest) noexcept;
 /// Applies the bend to the pose, and turns the end by `end_turn` relative to how it was. Updates `at`.

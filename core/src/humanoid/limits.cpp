@@ -98,7 +98,7 @@ class DefaultLimits {
         at(Bone::LeftFoot) = ball(ik::JointKind::Gliding, lifts, {30.0, 50.0, 25.0, 25.0, 25.0}, lies_left);
         at(Bone::LeftToes) = ik::Limit::hinge(axis(lifts), radians(-40.0), radians(70.0));
     }
-    /// `range`: up, down, left, right and twist of a left limb; a right limb has left and right swapped.
+    /// `range.out` is to the left for a left limb, to the right for a right one.
     static ik::Limit ball(ik::JointKind kind, const glm::dvec3& about, const Ball& range, bool left) {
         ik::Limit limit;
         limit.kind = kind;

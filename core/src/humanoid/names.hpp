@@ -38,7 +38,7 @@ struct NameReading {
     bool is_plain = false;  ///< exactly "hips", not "pelvis" or "hip"
 };
 
-/// Ignores prefixes of programs and characters, case and separators. Part::None for nodes that are no bones
+/// Ignores prefixes of programs and characters, case and separators. Part::None for nodes that are not bones
 /// of the body: twist and roll bones, IK targets, end joints, fingers, faces, hair. Skips the word `ignored`.
 NameReading read_name(std::string_view name, std::string_view ignored = {});
 /// The word that begins more than half of the names, a character's or an asset's; "" if there is none.

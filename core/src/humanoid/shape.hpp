@@ -15,8 +15,8 @@ struct ShapeReading {
     std::int32_t operator[](Bone bone) const noexcept { return nodes[static_cast<std::size_t>(bone)]; }
 };
 
-/// The node from which two equal limbs go down and a column goes up; on that column the node from which two
-/// equal limbs branch; above it the head. The two longest consecutive bones are a limb's upper and lower one.
+/// The hips are the node from which two equal limbs go down and a column goes up; on the column, two equal
+/// limbs branch; above that is the head. The two longest consecutive bones are a limb's upper and lower.
 ShapeReading read_shape(const Skeleton& skeleton);
 
 }  // namespace tendril::humanoid::detail

@@ -98,7 +98,7 @@ class Finder {
     std::vector<Placement> at_;
 };
 
-/// Heel and toe of a foot that stands on its points, which are that high above the ground.
+/// Heel and toe of a foot that stands on its points, given their heights above the ground.
 Sole stood_sole(const Sole& sole, const lint_detail::Foot& foot, std::span<const Placement> rest) {
     const auto above = [&](std::size_t node) {
         const auto point = std::ranges::find(foot.points, node, &lint_detail::SolePoint::node);

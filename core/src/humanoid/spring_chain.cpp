@@ -108,7 +108,7 @@ glm::dvec3 outside(std::span<const PlacedCapsule> colliders, double margin, cons
     }
     return points;
 }
-/// What is left of a tip's velocity when a collider turned its bone: nothing along the bone or back inside.
+/// A tip's remaining velocity after a collider turned its bone: nothing along the bone or back inside.
 glm::dvec3 kept(const glm::dvec3& velocity, const glm::dvec3& inside, const glm::dvec3& free) noexcept {
     const glm::dvec3 left = across(velocity, free);
     const auto out = direction_of(across(minus(free, inside), free), 0.0);
@@ -194,7 +194,7 @@ Expected<SpringChain> SpringChain::make(const Skeleton& skeleton, const BoneMap&
         const ChainNode* const above = node == root ? nullptr : &plan->chain[place_of[parent]];
         const std::span<const std::int32_t> children = skeleton.children(node);
         const glm::dvec3 way = minus(rest[node].position, rest[parent].position);
-        // A leaf is as long as the way from its parent to it.
+        // A leaf's length is its distance from its parent.
         ChainNode added{.node = node,
                         .above = above == nullptr ? no_place : place_of[parent],
                         .ends = {children.begin(), children.end()},

@@ -15,7 +15,7 @@ constexpr int looks = 8;
 /// A foot rises for what is ahead at this part of max_speed, and aims to be up this many seconds before the
 /// edge, because its lift lags behind its goal by as much.
 constexpr double rising = 0.6, early = 0.04;
-/// Seconds for which a foot that speeds up is taken to go on doing so.
+/// A foot that speeds up is assumed to do so for this many more seconds.
 constexpr double gaining = 0.1;
 
 /// Predicts when a foot gets to a point along its way, from its speed and acceleration.
@@ -28,7 +28,7 @@ class Pace {
     }
     const glm::dvec3& along() const noexcept { return along_; }
     bool moves() const noexcept { return speed_ > 1e-9; }
-    /// Seconds; 1e9 if it stops short of it.
+    /// Seconds until the foot has gone `way`; 1e9 if it stops short of it.
     double until(double way) const noexcept {
         if (!(way > 0.0)) return 0.0;
         if (!(speed_ > 1e-9)) return 1e9;

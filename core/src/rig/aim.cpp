@@ -48,7 +48,7 @@ glm::dquat roll_between(const glm::dvec3& from, const glm::dvec3& to, const glm:
     return unit_quaternion(w, about.x * sine, about.y * sine, about.z * sine);
 }
 
-/// Rolls about `about`, the primary axis after the primary part.
+/// Rolls the rotation about `about`, the primary axis after the primary part.
 AimWarning roll_secondary(glm::dquat& rotation, const glm::dvec3& axis, const Target& target,
                           const glm::dvec3& about) noexcept {
     const Direction along = direction_of(rotated(rotation, axis), shortest);
@@ -64,7 +64,7 @@ AimWarning roll_secondary(glm::dquat& rotation, const glm::dvec3& axis, const Ta
     return AimWarning::None;
 }
 
-/// Does not turn if `radians` is negative or NaN.
+/// `from` turned towards `to` by at most `radians`; `from` if that is negative or NaN.
 glm::dquat limited(const glm::dquat& from, const glm::dquat& to, double radians) noexcept {
     const double angle = 2.0 * half_angle_between(from, to);
     return angle <= radians ? to : blend(from, to, radians / angle);

@@ -13,7 +13,7 @@ namespace tendril::rig {
 namespace {
 
 constexpr int parts = 9;  ///< residuals per bone: three each of translation, rotation, scale
-// In steps of about 30 ns, as in Rig::work.
+// Work, in steps of about 30 ns, as in Rig::work.
 constexpr std::uint64_t work_a_solved_bone = 4, multiplications_a_step = 48;
 
 /// The rotation vector from one rotation to another, the short way round.
@@ -40,7 +40,7 @@ double mean_length(const Rig& rig, State& state) {
     return count > 0 && sum > 1e-9 ? sum / count : 1.0;
 }
 
-/// Clears all memory. A cleared spring starts at its target, as one that has come to rest.
+/// Clears all memory. A cleared spring starts at its target, like one at rest.
 void forget(State& state) {
     for (UnitState& unit : state.units)
         for (UnitMemory& memory : unit.memory) memory.held = std::monostate();

@@ -1,4 +1,4 @@
-// Checks of what comes into a rig from outside. Not installed.
+// Checks of a rig's input. Not installed.
 #pragma once
 
 #include <cmath>

@@ -19,7 +19,7 @@ using detail::quoted;
 using detail::Shared;
 using detail::UnitPlan;
 
-/// In steps of about 30 ns. A bone of a chain takes ten if the chain follows, twice that if it has to be bent
+/// Work, in steps of about 30 ns. A bone of a chain takes 10 if the chain follows, 20 if it has to be bent
 /// anew.
 constexpr std::uint64_t work_a_unit = 10, work_a_bone = 20;
 
@@ -159,7 +159,7 @@ class Builder {
         if (const auto* fabrik = std::get_if<Fabrik>(&unit.operation))
             return add_chain(unit, fabrik->root, fabrik->tip, 0, times, layout_.units[index]);
         if (const auto* spline = std::get_if<Spline>(&unit.operation)) {
-            constexpr std::size_t most = 4096;  // of ik::place_along
+            constexpr std::size_t most = 4096;  // the maximum of ik::place_along
             if (spline->points.size() < 2 || spline->points.size() > most)
                 return invalid(place + ": points takes 2 to 4096 elements, got " +
                                std::to_string(spline->points.size()));
@@ -245,7 +245,7 @@ Unit& unit_at(std::vector<Unit>& units, std::size_t index) {
     return units.back();  // not reached
 }
 
-/// Whether two units of the same operation lay the same elements, as far as the layout knows them.
+/// Whether two units of the same operation place the same elements, as far as the layout knows.
 bool same_elements(const Unit& one, const Unit& other) {
     return std::visit(
         [&]<class Op>(const Op& op) {

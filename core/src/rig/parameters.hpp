@@ -13,7 +13,7 @@ namespace tendril::rig {
 
 class Parameters {
   public:
-    /// Of these control values; bools have no number.
+    /// The numbers of these control values; bools have none.
     Parameters(const Definition& definition, std::vector<Value> start);
 
     std::size_t size() const noexcept { return parts_.size(); }

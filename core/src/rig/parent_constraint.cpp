@@ -34,7 +34,7 @@ glm::dquat chosen(const glm::dquat& from, const glm::dquat& to, const Axes& axes
     return choose_angles(from, to, axes);
 }
 
-/// Bounded, so that the sum of all stays finite.
+/// The weight, bounded so that the sum of all stays finite.
 double relative_weight(const ConstraintParent& parent) noexcept {
     return parent.weight > 0.0 ? std::min(parent.weight, static_cast<double>(max_magnitude)) : 0.0;
 }

@@ -52,7 +52,7 @@ class Shared {
     Counted* counted_;
 };
 
-/// What does not change with the value of an input. Rigs that differ only in values share it.
+/// The data that does not depend on the values of inputs. Rigs that differ only in values share it.
 struct Layout {
     Names elements, curves, units_by_name;
     std::vector<std::int64_t> parents;  ///< per element: the index of its parent, or -1

@@ -1,4 +1,4 @@
-// What is pending, and when it is computed. hierarchy.hpp describes what each write does.
+// Pending values, and when they are computed. hierarchy.hpp describes what each write does.
 //
 // Three invariants between calls, for each pose:
 //  1. A stored global is valid if and only if its parent's is and parent_version is the parent's version.

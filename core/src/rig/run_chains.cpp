@@ -38,8 +38,8 @@ glm::dvec3 Runner::bone_place(std::size_t bone) noexcept {
     return state_.elements.get(plan_.layout->ids[element], Space::Global).translation;
 }
 
-/// In metres. From quantities that do not change with the pose: unless a scale changes, the length keeps its
-/// bits, and the solver made for it can be reused.
+/// Length in metres, from quantities that do not change with the pose: unless a scale changes, the length
+/// keeps its bits, and the solver made for it can be reused.
 float Runner::bone_length(std::size_t bone) noexcept {
     const std::vector<std::uint32_t>& elements = plan_.layout->units[unit_].bones;
     const glm::dvec3 scale = state_.elements.get(plan_.layout->ids[elements[bone]], Space::Global).scale;
@@ -49,7 +49,7 @@ float Runner::bone_length(std::size_t bone) noexcept {
     return static_cast<float>(detail::length(scaled));
 }
 
-/// Whether the lengths are those of the last time.
+/// Measures joints and bones. True if the lengths are the same as last time.
 bool Runner::measure_chain(ChainScratch& chain) {
     const std::size_t bones = plan_.layout->units[unit_].bones.size() - 1;
     const glm::dvec3 origin = bone_place(0);
@@ -142,7 +142,7 @@ void Runner::measure_rest(ChainScratch& chain) {
 }
 
 /// The root goes to the first joint, the bones turn from their initial poses, and their lengths are scaled by
-/// the factor; all of it by the weight.
+/// the factor, each blended by the weight.
 void Runner::lay(const ChainScratch& chain, const glm::dvec3& first, double factor) noexcept {
     Hierarchy& tree = state_.elements;
     const std::vector<std::uint32_t>& elements = plan_.layout->units[unit_].bones;

@@ -19,7 +19,7 @@ class Runner {
     Runner(const detail::Plan& plan, State& state, double dt, Workspace::Parts& workspace) noexcept
         : plan_(plan), state_(state), dt_(dt), workspace_(workspace) {}
 
-    /// Whether anything with memory still moves.
+    /// True while anything with memory still moves.
     bool run(Observer* observer) noexcept;
 
     void operator()(const Aim& op) noexcept;

@@ -5,14 +5,14 @@
 
 namespace tendril::rig {
 
-/// False, 0, the zero vector, the identity.
+/// The neutral value: false, 0, the zero vector, the identity.
 Value neutral(Type type) noexcept;
 
-/// Refused: numbers that are not finite or over max_magnitude, rotations of length 0, scales of 0. `what`
+/// Refuses numbers that are not finite or over max_magnitude, rotations of length 0, scales of 0. `what`
 /// begins the message.
 Result check(const char* what, const Value& value) noexcept;
 
-/// With rotations normalised.
+/// The value with its rotations normalised.
 Value normalised(const Value& value) noexcept;
 
 /// Whether a unit may output it: finite and within max_magnitude.

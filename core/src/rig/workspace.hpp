@@ -10,13 +10,13 @@
 
 namespace tendril::rig {
 
-/// Of a unit that solves or places a chain.
+/// Scratch of a unit that solves or places a chain.
 struct ChainScratch {
     std::optional<ik::Solver> solver;
-    std::vector<float> lengths;  ///< that the solver was made for
+    std::vector<float> lengths;  ///< the lengths that the solver was made for
     std::vector<glm::vec3> joints;
     std::vector<glm::dquat> before;  ///< local rotations
-    // of a spline
+    // for splines
     std::vector<glm::vec3> points, rest;  ///< from the first point; the bones' initial directions
     ik::State placed;
     ik::CurveMemory none;

@@ -65,8 +65,8 @@ std::optional<Poses> poses_of(const Skeleton& skeleton, const BoneMap& map, cons
 
 constexpr double aligned = 0.9;  // cosine of 26 degrees
 
-/// Whether the clip carries its figure upright, on average within 45 degrees: then it is only the rest pose
-/// that lies, as files have it that store their motion relative to an arbitrary pose.
+/// Whether the clip carries its figure upright, on average within 45 degrees: then only the rest pose lies,
+/// as in files that store their motion relative to an arbitrary pose.
 bool stands_in(const Poses& poses) {
     glm::dvec3 sum(0.0);
     for (const Stance& each : poses.stances) sum = plus(sum, plus(each.torso, each.legs));

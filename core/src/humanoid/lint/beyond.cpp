@@ -10,8 +10,8 @@ namespace {
 
 using namespace rig::detail;
 
-/// Degrees by which decent clips exceed the default limits: captured heads that are mapped to the end of the
-/// neck. Knees exceed them the least, and elbows by less than they bend backwards: 40.
+/// Degrees by which decent clips exceed the default limits: most for captured heads mapped to the end of the
+/// neck, least for knees; for elbows less than the 40 by which they bend backwards.
 double tolerance(Bone bone) noexcept {
     switch (bone) {
         case Bone::LeftLowerLeg:
@@ -34,8 +34,8 @@ constexpr Arm arms[]{{Bone::LeftShoulder, Bone::LeftUpperArm, Bone::LeftLowerArm
                      {Bone::RightShoulder, Bone::RightUpperArm, Bone::RightLowerArm}};
 
 /// Radians by which an elbow is beyond what an arm can do. Rigs divide an arm's twist between collar bone,
-/// upper arm and forearm as they like, so only the sum of them counts: the elbow may bend to any side to
-/// which the upper arm can twist it, seen from the chest.
+/// upper arm and forearm as they like, so only the sum matters: the elbow may bend to any side to which the
+/// upper arm can twist it, seen from the chest.
 double elbow_excess(const BodyJoints& joints, const Arm& arm, const std::vector<Placement>& placed) {
     const ik::Limit &shoulder = joints.limit(arm.upper), &elbow = joints.limit(arm.lower);
     const glm::dvec3 along = joints.direction(arm.upper);
@@ -59,9 +59,9 @@ double elbow_excess(const BodyJoints& joints, const Arm& arm, const std::vector<
     return std::max(backwards, bend - static_cast<double>(elbow.max));
 }
 
-/// The least turn that brings a ball joint within its limit, radians. Cone and twist by themselves say more
-/// where the bone points nearly against its rest, and any twist is a swing to another side. By compass search
-/// (T. Kolda, R. Lewis, V. Torczon, SIAM Review 45(3), 2003).
+/// The least turn that brings a ball joint within its limit, radians. The excesses of cone and twist are too
+/// large where the bone points nearly against its rest, since any twist is a swing to another side there. By
+/// compass search (T. Kolda, R. Lewis, V. Torczon, SIAM Review 45(3), 2003).
 double least_turn(const ik::Limit& limit, const glm::dvec3& along, const glm::dquat& turn) {
     const ik::detail::LimitedJoint joint = ik::detail::limited_joint(limit, math::narrow(along));
     const glm::quat wanted(static_cast<float>(turn.w), static_cast<float>(turn.x), static_cast<float>(turn.y),
@@ -89,7 +89,7 @@ double least_turn(const ik::Limit& limit, const glm::dvec3& along, const glm::dq
     return least;
 }
 
-/// Beyond the limit, radians, if that is more than `most`.
+/// How far a joint is beyond its limit, radians; for a ball joint the least turn if that is over `most`.
 double excess_of(const BodyJoints& joints, Bone bone, const std::vector<Placement>& placed, bool by_default,
                  double most) {
     for (const Arm& arm : arms)
@@ -100,7 +100,7 @@ double excess_of(const BodyJoints& joints, Bone bone, const std::vector<Placemen
     return least_turn(joints.limit(bone), joints.direction(bone), joints.turn(bone, placed));
 }
 
-/// Since when a joint is beyond its limit, and the worst frame.
+/// The first and the worst frame of a joint's stay beyond its limit.
 struct Stay {
     bool is_beyond = false;
     std::size_t first = 0, worst = 0;

@@ -236,14 +236,14 @@ bool turns_faster(const BoneMap& map, const Clip& before, const Clip& after, con
     return false;
 }
 
-/// What is tried in turn, until nothing new is wrong with the clip and no joint turns faster.
+/// Cures to try in turn, until nothing new is wrong with the clip and no joint turns faster.
 constexpr lint_detail::FootCure foot_cures[]{{.ease = 0.15, .nearer = 0.005},
                                              {.ease = 0.3, .nearer = 0.005},
                                              {.ease = 0.15, .nearer = 0.0025},
                                              {.ease = 0.3, .nearer = 0.0025},
                                              {.ease = 0.6, .nearer = 0.0025}};
-/// How many faults that a cure makes are cured with it: a foot that is brought down to the floor may slide
-/// there.
+/// Maximum number of further faults cured along with the first: a foot that is brought down to the floor may
+/// slide there.
 constexpr std::size_t most_more = 4;
 
 bool is_same(const Finding& a, const Finding& b, double rate) {

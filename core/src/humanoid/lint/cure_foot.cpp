@@ -2,11 +2,10 @@
 // blends into the clip's motion before and after. Faults of one foot that follow each other closely are cured
 // together. If the leg is too short, the hips are lowered, and the other foot stays where it is.
 //
-// And of a leg that snaps straight. Near its full length a knee turns by any angle for the smallest way of
-// the foot. Soft IK (A. Nicholas, "Soft IK", 2009) keeps it from there: over the last part of the leg's
-// length, the way of the foot that it follows decays exponentially. That is so for every leg that is solved
-// here, from the first frame in which it is that long to the last: a leg that is soft in one frame and
-// straight in the next would snap there.
+// Also cures a leg that snaps straight. Near its full length, the smallest move of the foot turns the knee by
+// any angle. Soft IK (A. Nicholas, "Soft IK", 2009) avoids that: over the last part, the distance from hip to
+// foot approaches the leg's full length exponentially. Every leg solved here is soft, from the first frame in
+// which it is that long to the last: a leg soft in one frame and straight in the next would snap.
 #include "humanoid/lint/lint.hpp"
 
 #include <algorithm>
@@ -25,7 +24,7 @@ using namespace rig::detail;
 constexpr double stands = 0.02, swings = 0.08;  // metres above the floor
 constexpr double deepest = 0.1;                 // of a leg's length: the hips are lowered by at most this
 
-/// The correction of each frame from the first to the last that change.
+/// The corrections, from the first frame that changes to the last.
 struct Plan {
     std::size_t first = 0;            ///< frame
     std::vector<glm::dvec3> moves{};  ///< of the foot, metres
@@ -49,7 +48,7 @@ std::vector<glm::dvec3> moves_of(const Foot& foot, const Finding& finding, const
         }
         moves.push_back({-slid.x, 0.0, -slid.z});
     }
-    // A foot that slid stands in the middle of its way, which keeps the correction small.
+    // A foot that slid stands in the middle of its path, which keeps the correction small.
     for (glm::dvec3& move : moves) move = plus(move, times(plus(low, high), 0.5));
     return moves;
 }
@@ -78,15 +77,15 @@ class CuredLeg {
     }
     /// Whether the leg is so long in the clip that soft IK shortens it.
     bool is_soft(std::size_t frame) const { return lengths_[frame] > hard(); }
-    /// What soft IK makes of a distance from hip to foot, metres.
+    /// The distance from hip to foot after soft IK, metres.
     double softened(double far) const {
         if (!(far > hard() && hard() > 0.0)) return far;
         return hard() + soft_ * (1.0 - math::decay((far - hard()) / soft_));
     }
 
     /// Brings the leg's end to a position, or as near as `longest` lets it; the end keeps its rotation. The
-    /// knee keeps its side. The further it must bend, the more its side is the one to which it bends in the
-    /// whole clip, because of a straight leg nothing else is known.
+    /// knee keeps its side; but the further it must bend, the more it takes the side to which it bends in the
+    /// whole clip, because a straight leg shows none.
     void bring(const glm::dvec3& to, double longest, std::vector<rig::Transform>& pose) const {
         detail::LimbPlacement at = placed(pose);
         const glm::dvec3 way = minus(to, at.upper.position);

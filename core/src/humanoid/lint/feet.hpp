@@ -53,8 +53,8 @@ struct FeetMotion {
 FeetMotion feet_motion(const Check& check);
 
 /// Height of the floor that feet stand on: near 0 if the figure rests on the ground and at least a fifth of
-/// the still frames are there, otherwise the most common height. Of such a figure, feet that are still
-/// elsewhere while it sits or lies do not count. nullopt if feet hardly stand.
+/// the still frames are there, otherwise the most common height. If it rests on the ground, still feet
+/// elsewhere are ignored while it sits or lies. nullopt if feet hardly stand.
 std::optional<double> floor_of(const FeetMotion& motion, double rate);
 struct Stretch {
     std::size_t first, last;  // frames

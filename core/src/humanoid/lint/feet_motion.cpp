@@ -75,7 +75,7 @@ OnGround on_ground(const Ground* ground, const glm::dvec3& position) {
     return {{position.x, position.y - hit->height, position.z}, hit->normal};
 }
 
-/// Whether the hips are up over a foot, and the head over the hips: by their distances at rest.
+/// Whether the hips are up over a foot, and the head over the hips, relative to their distances at rest.
 bool is_upright(const Check& check, std::int32_t foot, const std::vector<Placement>& rest,
                 const std::vector<Placement>& now) {
     constexpr double risen = 0.6;  // of those; hips are up by 0.5 on a chair, a head by 0.1 if one lies
@@ -148,7 +148,7 @@ glm::dvec3 treadmill_of(const FeetMotion& motion, double rate) {
 
 void measure_speed(Foot& foot, const glm::dvec3& treadmill, double rate) {
     const std::size_t frames = foot.ups.size();
-    foot.speed.assign(frames, std::numeric_limits<double>::max());  // of a single frame it is not known
+    foot.speed.assign(frames, std::numeric_limits<double>::max());  // unknown for a single frame
     foot.jolt.assign(frames, 0.0);
     foot.still.assign(frames, false);
     if (frames < 2) return;
@@ -181,8 +181,8 @@ bool find_still(std::vector<Foot>& feet, double below) {
     return any;
 }
 
-/// Whether standing feet are tilted as at rest. A rest pose that stands on the ground is believed unless over
-/// four fifths of them are not; any other, if most are.
+/// Whether standing feet are tilted as at rest. If the rest pose stands on the ground, it is believed if a
+/// fifth of them are; otherwise, if most are.
 bool stands_as_it_rests(const std::vector<Foot>& feet, bool rests_on_ground, double rate) {
     std::vector<double> tilts;
     for (const Foot& foot : feet)

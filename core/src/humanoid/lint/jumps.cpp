@@ -64,20 +64,20 @@ double step(const Moves& moves, std::ptrdiff_t i, double minimum) {
     return far > times_the_change * change ? far : 0.0;
 }
 
-/// A track that steps does so on purpose: all of it, or where two keys stand at one moment, as files have
-/// them whose curves are held and interpolated in turn.
+/// Whether to judge a track. One that steps does so on purpose: all of it, or (skip_steps) where two keys are
+/// at one time, as in files whose curves are held and interpolated in turn.
 template <class T>
 bool is_judged(const Track<T>& track) {
     return track.times.size() > 2 && track.interpolation != Interpolation::Step;
 }
 
-/// Takes the steps out of a track's moves: the motion goes on there as in the frame before.
+/// Removes the steps from a track's moves: the motion continues there as in the frame before.
 template <class T>
 void skip_steps(const Check& check, const Track<T>& track, std::vector<glm::dvec3>& moves) {
     const double rate = check.report.rate, one_moment = 1e-3 / rate;
     for (std::size_t k = 1; k < track.times.size(); ++k) {
         if (track.times[k] - track.times[k - 1] > one_moment) continue;
-        // The first frame at or after the second key; a time is rounded in files.
+        // The first frame at or after the second key; files round times.
         const auto frame = static_cast<std::size_t>(std::ceil(track.times[k] * rate - 2e-3));
         for (const std::size_t i : {frame, frame + 1}) {
             const bool between = i > 0 && i < moves.size() && check.time_of(i) > track.times[k - 1] &&

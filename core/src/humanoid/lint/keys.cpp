@@ -13,7 +13,7 @@ std::size_t frame_of(const Check& check, double time) {
     return std::min(frame, check.report.frames - 1);
 }
 
-/// Keys in the hemisphere opposite to the key's before, of all tracks.
+/// Keys in the hemisphere opposite to the previous key's, in all tracks.
 struct Flips {
     std::size_t count = 0, tracks = 0, first = 0, last = 0;  // frames
     std::size_t worst = 0;                                   // frame
@@ -103,7 +103,7 @@ std::optional<double> size_of_clip(const Skeleton& skeleton, const Clip& clip) {
     return middle;
 }
 
-/// One finding for the whole clip: an exporter that minds no signs minds none of them.
+/// One finding for the whole clip: an exporter that ignores signs ignores all of them.
 void check_signs(Check& check) {
     Flips all;
     for (const Channel& channel : check.clip.channels) find_flips(check, channel, all);

@@ -62,7 +62,7 @@ inline double slower(double rate) noexcept {
 inline double fading(double u) noexcept {
     return u >= 1.0 ? 0.0 : (1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u);
 }
-/// Of at least one value, whose order changes; of two in the middle the greater.
+/// The median of at least one value, the greater of two in the middle. Reorders the values.
 inline double middle_of(std::vector<double>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());

@@ -23,7 +23,7 @@ inline glm::dquat value_at(const Channel& channel, double time, const Track<glm:
 
 namespace tracks_detail {
 
-/// Of a rotation's two quaternions, the one nearer to `other`; a vector is returned unchanged.
+/// The quaternion of a rotation that is nearer to `other`; a vector is returned unchanged.
 inline glm::dvec3 near_to(const glm::dvec3&, const glm::dvec3& value) noexcept {
     return value;
 }
