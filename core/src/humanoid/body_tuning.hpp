@@ -7,15 +7,15 @@ namespace tendril::humanoid::detail {
 
 // Weights, relative to a target of weight 1.
 
-/// A foot that stays where the clip has it.
+/// Weight of a foot that stays where the clip has it.
 inline constexpr double planted_foot_weight = 30.0;
-/// A contact: a target 0.5 m out of reach presses capsules 2 mm into each other.
+/// Weight of a contact: a target 0.5 m out of reach presses capsules 2 mm into each other.
 inline constexpr double contact_weight = 250.0;
-/// The centre of mass, once it leaves the safe part of the support.
+/// Weight of the centre of mass, once it leaves the safe part of the support.
 inline constexpr double balance_weight = 100.0;
 /// A tilted foot that would sink this deep, in leg lengths, rolls over the end that would sink.
 inline constexpr double rolling_part = 0.01;
-/// A contact that would pull: almost none, so that its equation stays solvable.
+/// Weight of a contact that would pull: almost none, so that its equation stays solvable.
 inline constexpr double released_contact_weight = 1e-9;
 
 // The step: damped least squares.

@@ -81,7 +81,7 @@ std::optional<PlacedCapsule> fitted(const PlacedCapsule& usual, const Facing& fa
                          plus(line.from, times(line.direction, high)), radius};
 }
 
-/// For each node its bone, or that of its nearest mapped ancestor.
+/// For each node its bone, or its nearest mapped ancestor's.
 std::vector<std::optional<Bone>> bones_of_nodes(const Skeleton& skeleton, const BoneMap& map) {
     std::vector<std::optional<Bone>> bones(skeleton.size());
     for (const std::int32_t each : skeleton.order()) {

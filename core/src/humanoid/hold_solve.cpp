@@ -28,7 +28,7 @@ constexpr double grip_give = 0.01;
 constexpr double force_kept = 2.0;
 /// The second derivative of the grips, along their forces, like BodySolve's residual_stiffness.
 constexpr double force_stiffness = 2.0;
-/// A step may pass a limit by this part of itself.
+/// Part of a step by which it may pass a limit.
 constexpr double limit_tolerance = 0.01;
 /// Steps that only close the grips, after those that did not settle.
 constexpr int closing_steps = 20;

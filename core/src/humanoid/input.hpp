@@ -1,4 +1,4 @@
-// Checks of what callers pass to a body's solvers: maps and poses. Not installed.
+// Checks of the input of a body's solvers: maps and poses. Not installed.
 #pragma once
 
 #include <cmath>

@@ -7,8 +7,8 @@
 
 namespace tendril::rig::detail {
 
-/// The rotation whose Euler angles (euler.hpp) are those of `to` on the chosen axes and those of `from` on
-/// the others. Equals from_euler() of the mixed to_euler() angles, to rounding, at a third of the cost.
+/// The rotation that has `to`'s Euler angles (euler.hpp) on the chosen axes and `from`'s on the others.
+/// Equals from_euler() of the mixed to_euler() angles, to rounding, at a third of the cost.
 glm::dquat choose_angles(const glm::dquat& from, const glm::dquat& to,
                          const std::array<bool, 3>& chosen) noexcept;
 

@@ -1,4 +1,4 @@
-// What Rig::make compiles from a definition. Not installed.
+// The data that Rig::make compiles from a definition. Not installed.
 #pragma once
 
 #include <atomic>

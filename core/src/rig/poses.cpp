@@ -130,7 +130,7 @@ void Hierarchy::resolve_all() noexcept {
     }
 }
 
-// Queries of what is pending, which compute nothing.
+// Queries of pending values, which compute nothing.
 
 bool Hierarchy::up_to_date(const Values& pose, Index at) const noexcept {
     for (; at != none && pose.stamps[at].verified != pose.change; at = nodes_[at].parent)

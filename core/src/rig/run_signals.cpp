@@ -10,7 +10,7 @@
 namespace tendril::rig {
 namespace {
 
-/// Changes below this count as rest, in metres, radians or plain numbers.
+/// Smaller changes are rest, in metres, radians or plain numbers.
 constexpr double still = 1e-9;
 
 double blended(double from, double to, double weight) noexcept {

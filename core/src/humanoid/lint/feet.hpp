@@ -71,7 +71,7 @@ std::optional<Limb> leg_of(const Skeleton& skeleton, const BoneMap& map, std::in
 inline double level(const glm::dvec3& v) noexcept {
     return std::sqrt(v.x * v.x + v.z * v.z);
 }
-/// The middle value of the densest range of `width` in sorted values, of which there must be one.
+/// The middle value of the densest range of `width` in sorted values, at least one.
 double densest(const std::vector<double>& sorted, double width);
 
 }  // namespace tendril::humanoid::lint_detail

@@ -182,7 +182,7 @@ std::vector<Outlier> outliers(const std::vector<glm::dvec3>& list, double minimu
     if (count < 6) return found;
     const Moves moves(list);
     for (std::ptrdiff_t i = 1; i < count; ++i) {
-        // Look for departures of one to three frames first: they would also count as two jumps.
+        // Look for departures of one to three frames first: they would also look like two jumps.
         double amount = 0.0;
         std::ptrdiff_t until = count;
         for (std::ptrdiff_t held = 1; held <= 3 && amount == 0.0 && i + held < count; ++held) {

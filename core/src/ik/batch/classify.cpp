@@ -191,7 +191,7 @@ void classify(const Block& block, std::size_t lanes) {
     const Floats d;
     bool out_of_reach = false;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
-        const Mask used = hn::FirstN(d, lanes - i);  // lanes beyond count as invalid
+        const Mask used = hn::FirstN(d, lanes - i);  // lanes beyond are invalid
         if (classify_register(block, i, used)) enforce_lengths(block, i);
         out_of_reach = out_of_reach || any(equals(block.row(Row::Class) + i, Class::Straight));
     }

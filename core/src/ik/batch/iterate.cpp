@@ -222,7 +222,7 @@ HWY_INLINE void save_best(const Block& block, std::size_t i) {
     store(hn::IfThenElse(lanes, all(1.0f), load(saved)), saved);
 }
 
-/// What the chains of a register do after an iteration.
+/// How the chains of a register continue after an iteration.
 struct Verdict {
     Mask goes_on, perturb;
 };

@@ -8,7 +8,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr float min_freedom = 1e-5f;  ///< half-angles under this count as no range
+constexpr float min_freedom = 1e-5f;  ///< smaller half-angles are no range
 
 HalfAngle half_of(float angle) noexcept {
     return {std::max(std::cos(0.5f * angle), 0.0f), std::sin(0.5f * angle)};

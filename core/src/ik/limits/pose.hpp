@@ -91,7 +91,7 @@ static inline void place_bone(const Problem& problem, LimitedPose& pose, std::si
     pose.joints[bone + 1] = moved(pose.joints[bone], pose.directions[bone], problem.lengths()[bone]);
 }
 
-/// Before a solve: prepares the limits that differ from those of the last one. One per bone, or none; false
+/// Before a solve: prepares the limits that have changed since the last one. One per bone, or none; false
 /// if a limit is invalid for its bone. In a plane a joint keeps LimitedJoint::from_base.
 bool load_limits(Workspace& scratch, std::span<const Limit> limits, bool planar = false) noexcept;
 

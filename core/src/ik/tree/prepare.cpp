@@ -69,7 +69,7 @@ glm::dvec3 reachable(const TreeScratch& scratch, const Effector& effector) noexc
     glm::dvec3 way = between(root, effector.target);
     const double far = length(way), wanted = scratch.path[effector.joint].clamped(far);
     if (wanted == far) return wide(effector.target);
-    // A target at the root has no direction: uses that of the joint.
+    // A target at the root has no direction: uses the joint's.
     if (far < 1e-6 * wanted) way = between(root, scratch.start[effector.joint]);
     const glm::dvec3 along = direction_of(way, 1e-6 * wanted).value_or(glm::dvec3(1.0, 0.0, 0.0));
     return plus(wide(root), times(along, wanted));

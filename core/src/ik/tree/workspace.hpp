@@ -34,7 +34,7 @@ struct Node {
     std::size_t branches = 0;      ///< number of child nodes
 };
 
-/// What the Newton step stores at a node on its inward pass for the outward pass.
+/// Data that the Newton step stores at a node on its inward pass for the outward pass.
 struct Response {
     Symmetric3 branches;           ///< stiffness of its branches
     glm::dvec3 force;              ///< force from its goal and branches
