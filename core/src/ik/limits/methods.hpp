@@ -1,4 +1,4 @@
-// The methods within limits: each elementary step is followed by a clamp of the joints that moved. Not installed.
+// The methods within limits: after each elementary step, a clamp of the joints that moved. Not installed.
 #pragma once
 
 #include "ik/solve/problem.hpp"
