@@ -31,7 +31,7 @@ float weight_of(const BendOptions& options, std::size_t bone) noexcept {
 }  // namespace
 
 struct BentChain::Plan {
-    std::size_t count = 0;             // of the skeleton's nodes
+    std::size_t count = 0;             // number of the skeleton's nodes
     std::vector<std::int32_t> path{};  // from the root to the parent of the chain
     std::vector<std::size_t> nodes{};
     // Per bone at rest, in the space of the points.

@@ -1,4 +1,4 @@
-// One solve of a body: steps of damped least squares, joints kept within their limits. Not installed.
+// One solve of a body: steps of damped least squares, with joints kept within their limits. Not installed.
 #pragma once
 
 #include <optional>

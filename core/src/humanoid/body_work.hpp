@@ -43,7 +43,7 @@ struct Link {
 /// `beyond(angle)`, so that it shortens linearly from the start.
 struct BodyLimb {
     int upper = -1, lower = -1, end = -1;  ///< links
-    glm::dvec3 axis{0.0};                  ///< of the bend, in the upper link's frame
+    glm::dvec3 axis{0.0};                  ///< axis of the bend, in the upper link's frame
     double square = 0.0;                   ///< shortening, metres per square radian
     double even = 0.0;                     ///< the linear shortening near straight, metres per radian
     double start = 0.0;                    ///< beyond() of the clip's pose

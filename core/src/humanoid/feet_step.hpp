@@ -76,7 +76,7 @@ class FeetStep {
     std::array<LimbPlacement, 2> legs_;
     std::array<FootClip, 2> clips_;
     std::array<FootGoal, 2> goals_;
-    std::array<glm::dvec3, 2> knees_, poles_;  // of the clip; directions in which knees point
+    std::array<glm::dvec3, 2> knees_, poles_;  // the clip's knees; the directions in which knees point
     double along_ = 0.0;                       // how far the hips were raised before the step
     std::array<double, 2> lifts_{};            // before the step
     std::array<double, 2> short_of_{};         // how far the leg's end is from its target

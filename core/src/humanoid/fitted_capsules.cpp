@@ -14,7 +14,7 @@ namespace {
 using namespace rig::detail;
 
 constexpr std::size_t fewest = 16;  // points
-constexpr double inside = 0.8;      // of them, within the radius
+constexpr double inside = 0.8;      // part of the points that must be within the radius
 /// Part of the points ignored at each end of the line, and at each side when centring it.
 constexpr double at_ends = 0.02, at_sides = 0.15;
 /// How thin and thick a fit may be, and how far from the bone, in radii of the default.

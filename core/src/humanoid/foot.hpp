@@ -15,7 +15,7 @@ struct FootContext {
     const FeetOptions& options;
     double dt;        // seconds; 0: no time passes
     bool fresh;       // the first step: nothing eases
-    double floor;     // of the clip, in the ground's space
+    double floor;     // height of the clip's floor, in the ground's space
     double base;      // how far the root is raised
     double eased;     // the factor by which an offset decays in this step
     double steepest;  // cosine of max_slope
@@ -68,7 +68,7 @@ glm::dvec3 find_foothold(const glm::dvec3& heel, const glm::dvec3& toe, double f
 struct SoleInAir {
     std::array<glm::dvec3, 3> points;  // heel, ball, toe, as high as they are now
     glm::dvec3 moved;                  // horizontal, in this step, to where the points are now
-    glm::dvec3 velocity, before;       // of the clip, in this step and the one before, m/s
+    glm::dvec3 velocity, before;       // the clip's, in this step and the one before, m/s
     double left = 1e9;                 // how far it still goes, if it is about to land
 };
 

@@ -32,7 +32,7 @@ constexpr double force_stiffness = 2.0;
 constexpr double limit_tolerance = 0.01;
 /// Steps that only close the grips, after those that did not settle.
 constexpr int closing_steps = 20;
-constexpr int max_hold_changes = 6;  ///< of the set of limits, per step
+constexpr int max_hold_changes = 6;  ///< maximum changes of the set of limits, per step
 /// Maximum size of one step, radians and metres.
 constexpr double max_hold_step = 0.4;
 /// A smaller step ends the solve, if the grips are closed as well as they can be.

@@ -36,7 +36,7 @@ class HoldSolve {
         glm::dvec3 axis{0.0};                ///< Grip::axis in the character's space, unit or zero
         glm::dvec3 from{0.0};                ///< from the object's origin to the grip
         glm::dvec3 gap{0.0}, off{0.0};       ///< from the hand to its grip
-        glm::dvec3 force{0.0}, torque{0.0};  ///< that the grip puts on the hand
+        glm::dvec3 force{0.0}, torque{0.0};  ///< the grip's on the hand
         glm::dvec3 pull{0.0}, twist{0.0};    ///< the same while the object pulls, for the report
     };
     struct Row {

@@ -19,8 +19,8 @@ struct Limb {
     std::vector<std::int32_t> path{};                     // nodes, each the parent of the next
     std::size_t upper = 0, lower = 0, end = 0, tail = 0;  // indices into the path; the tail is its last
 
-    /// From the root to `tail`, through the others. nullopt unless each is below the one before; only `end`
-    /// and `tail` may be the same node.
+    /// Makes the limb from the root to `tail`, through the others. nullopt unless each is below the one
+    /// before; only `end` and `tail` may be the same node.
     static std::optional<Limb> make(const Skeleton& skeleton, std::int32_t upper, std::int32_t lower,
                                     std::int32_t end, std::int32_t tail);
     std::size_t node(std::size_t place) const noexcept { return static_cast<std::size_t>(path[place]); }
@@ -39,7 +39,7 @@ LimbPlacement place(const Limb& limb, const Placement& root, Pose pose) noexcept
 /// Updates everything below `above_upper`.
 void place_below(const Limb& limb, LimbPlacement& at, Pose pose) noexcept;
 
-/// No number over 1e12.
+/// Whether no number exceeds 1e12.
 bool is_moderate(const Placement& placement) noexcept;
 
 /// `vector` in the local space of `at`: multiplied by the inverse of at.axes; 0 if their volume is

@@ -14,7 +14,7 @@ using Path = std::vector<std::size_t>;
 
 struct Pair {
     std::size_t a, b;
-    double reach;  // of the shorter one
+    double reach;  // the shorter one's
 };
 
 class Shape {
@@ -204,7 +204,7 @@ class Shape {
 
     const Skeleton& skeleton_;
     std::vector<Placement> places_;
-    std::vector<double> reach_, top_;  // of each node: length of its longest path down; highest y below it
+    std::vector<double> reach_, top_;  // per node: length of its longest path down; highest y below it
     std::vector<std::size_t> end_;     // the last node of that path
     double height_ = 0.0;
     std::optional<Pair> arms_{};

@@ -26,7 +26,7 @@ enum class Time : std::uint8_t { Passes, Stands, Jumps };
 struct ChainNode {
     std::size_t node = 0;
     std::size_t above = no_place;     // index in the chain of its parent; none for the first
-    std::size_t mass = no_place;      // of its tip; none for a node without length
+    std::size_t mass = no_place;      // index of its tip's mass; none for a node without length
     double length = 0.0;              // from the base to its tip, along the chain at rest
     std::vector<std::size_t> ends{};  // its children
     glm::dvec3 beyond{0.0};           // its tip if it has no children, in its own space

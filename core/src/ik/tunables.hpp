@@ -116,7 +116,7 @@ inline constexpr float orientation_arm = 0.25f;
 /// Limits are to blame if they remove at least this fraction of the descent.
 inline constexpr float blamed_part = 0.01f;
 /// Descent steps before a limit is blamed. Without them, of 730 straight arms whose target ahead is
-/// reachable, 338 more that plain FABRIK leaves on the line would blame a limit; of the others' 40 000
+/// reachable, 338 more that FABRIK (2011) leaves on the line would blame a limit; of the others' 40 000
 /// verdicts they change 60.
 inline constexpr int blame_steps = 40;
 
@@ -155,7 +155,7 @@ inline constexpr double closed_tip = 0.01;
 namespace tree {
 
 /// The first iteration with a Newton step: reaching alone finds the rough shape and moves the joints least.
-/// From the first iteration on: 1.9 instead of 3.2 iterations; from the fifth: 4.2.
+/// From the first iteration on it takes 1.9 instead of 3.2 iterations; from the fifth on 4.2.
 inline constexpr int newton_from = 3;
 inline constexpr double first_damping = 1e-3, min_damping = 1e-9, max_damping = 1e3;
 inline constexpr double damping_falls = 0.25, damping_grows = 8.0;
@@ -181,7 +181,7 @@ namespace batch {
 inline constexpr int first_burst = 1, first_burst_few_bones = 2;
 /// Iterations of the remaining chains between two checks for finished ones. 1 to 4: the same to 3 %.
 inline constexpr int next_burst = 2;
-/// With fewer active chains than this fraction of a block, they leave it.
+/// Active chains leave a block that has fewer of them than this fraction.
 inline constexpr double block_part = 0.5;
 
 /// With fewer active chains within limits than this fraction of a register, they leave it. 3/8: a twentieth

@@ -19,7 +19,7 @@ inline std::string quoted(std::string_view name) {
     result += '"';
     return result;
 }
-/// Finite and at most max_magnitude in magnitude.
+/// Checks that a number is finite and at most max_magnitude in magnitude.
 inline Result check_number(std::string_view operation, const Argument& argument, double value) noexcept {
     if (std::abs(value) <= static_cast<double>(max_magnitude)) return {};
     return refused(operation, argument, "finite and at most 1e9 in magnitude", value);

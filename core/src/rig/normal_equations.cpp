@@ -71,7 +71,7 @@ bool NormalEquations::solve(double damping, const std::vector<bool>& still, std:
     if (!(largest > 0.0)) return false;
     matrix_ = normal_;
     step = gradient_;
-    // The same damping for all: scaled per column, the least influential parameters would move furthest.
+    // All parameters get the same damping: scaled per column, the least influential would move furthest.
     for (std::size_t i = 0; i < count_; ++i) matrix_[i * count_ + i] += damping * largest;
     for (std::size_t i = 0; i < count_; ++i) {
         if (!still[i]) continue;

@@ -36,7 +36,7 @@ class NormalEquations {
     std::size_t count_ = 0;
     std::vector<double> normal_, matrix_, gradient_;  ///< matrices: lower triangle only
     std::vector<std::size_t> first_;                  ///< per matrix row: first column that can be nonzero
-    std::vector<std::uint32_t> rows_;                 ///< of the current column: its nonzero rows
+    std::vector<std::uint32_t> rows_;                 ///< nonzero rows of the current column
     std::uint64_t assembling_ = 0, solving_ = 0;
 };
 

@@ -60,7 +60,7 @@ struct Layout {
     std::vector<std::string> unit_names;
     std::vector<UnitPlan> units;  ///< one per name
     State initial;
-    std::uint64_t work = 0;  ///< of one solve, see Rig::work
+    std::uint64_t work = 0;  ///< work of one solve, see Rig::work
 };
 
 struct Plan {

@@ -62,7 +62,7 @@ class Resolver {
     const detail::Layout& layout_;
     std::size_t index_ = 0;
     std::optional<std::size_t> for_each_;
-    std::vector<Type> any_types_;  ///< of the unit's inputs that take any type: a spring's target and force
+    std::vector<Type> any_types_;  ///< types of the inputs that take any type: a spring's target and force
     std::string place_;            ///< `unit "look"`
     Result refusal_;
 };

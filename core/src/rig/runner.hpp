@@ -89,7 +89,7 @@ class Runner {
     const detail::Visit* visit_ = nullptr;
     std::size_t place_in_for_each_ = 0;
     double weight_ = 1.0;
-    double for_each_weight_ = 1.0;  ///< of the surrounding for-each
+    double for_each_weight_ = 1.0;  ///< weight of the surrounding for-each
     bool skipped_ = false;          ///< then its weight is 0 and its memory does not advance
     bool moving_ = false;
 };

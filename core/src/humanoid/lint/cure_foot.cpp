@@ -27,8 +27,8 @@ constexpr double deepest = 0.1;                 // of a leg's length: the hips a
 /// The corrections, from the first frame that changes to the last.
 struct Plan {
     std::size_t first = 0;            ///< frame
-    std::vector<glm::dvec3> moves{};  ///< of the foot, metres
-    std::vector<double> drops{};      ///< of the hips, metres
+    std::vector<glm::dvec3> moves{};  ///< the foot's, metres
+    std::vector<double> drops{};      ///< the hips', metres
 };
 
 /// The foot's correction for each frame of the finding.
@@ -170,7 +170,7 @@ class CuredLegs {
   private:
     struct Goal {
         glm::dvec3 at;
-        double longest;  ///< of the leg, metres: by soft IK, from where the hip is in the clip
+        double longest;  ///< length of the leg, metres: by soft IK, from where the hip is in the clip
     };
     Goal goal(const CuredLeg& leg, const glm::dvec3& move) {
         const detail::LimbPlacement at = leg.placed(pose_);

@@ -27,13 +27,13 @@ struct Foot {
     std::vector<SolePoint> points{};  ///< ankle, ball and tip, if present
     glm::dvec3 flat{0.0, 1.0, 0.0};   ///< up, in the foot's own space, when it stands flat
     // By frame:
-    std::vector<glm::dvec3> positions{};  ///< of all points
+    std::vector<glm::dvec3> positions{};  ///< positions of all points
     std::vector<glm::dvec3> ups{};        ///< up, in the foot's own space
-    std::vector<double> speed{};          ///< of the point that moves the least, m/s
+    std::vector<double> speed{};          ///< speed of the point that moves the least, m/s
     std::vector<double> jolt{};           ///< the slower of the speeds into and out of the frame, m/s
     std::vector<bool> still{};            ///< it does not move, not even vertically
     std::vector<bool> upright{};          ///< the hips are up: the figure neither sits nor lies
-    std::vector<double> height{};         ///< of the lowest point
+    std::vector<double> height{};         ///< height of the lowest point
     std::vector<double> tilt{};           ///< from standing flat, degrees
 
     bool carries(std::size_t frame) const { return still[frame] && upright[frame]; }

@@ -17,7 +17,7 @@ std::size_t frame_of(const Check& check, double time) {
 struct Flips {
     std::size_t count = 0, tracks = 0, first = 0, last = 0;  // frames
     std::size_t worst = 0;                                   // frame
-    std::int32_t node = -1;                                  // of the worst
+    std::int32_t node = -1;                                  // the worst key's
     double most = 0.0;                                       // degrees that it turns the long way round
 };
 

@@ -22,7 +22,7 @@ struct Check {
     const BoneMap& map;
     const Clip& clip;
     const LintSettings& settings;
-    double height;  ///< of the figure at rest, metres
+    double height;  ///< the figure's height at rest, metres
     LintReport& report;
 
     double time_of(std::size_t frame) const noexcept;

@@ -146,7 +146,7 @@ inline void Block::save_best(std::size_t lane) const noexcept {
         copy_lane(joint(1) + lane, best(1) + lane, 3 * bones_);
 }
 
-/// Lanes of a block, usually ascending.
+/// The lanes of a block, usually ascending.
 struct LaneList {
     std::array<std::uint8_t, block_lanes> lanes;
     std::size_t count = 0;

@@ -181,7 +181,7 @@ HWY_INLINE bool pays_to_gather(const Takers& takers) {
     return 8 * saved > takers.count;
 }
 
-/// Also sets Row::Residual of active chains, after the passes and before this step.
+/// Takes the step. Also sets Row::Residual of active chains, after the passes and before this step.
 HWY_INLINE Takers take_step(const Block& block, const Registers& registers, const StepScratch& scratch) {
     const Takers takers = find_takers(block, registers);
     if (takers.count == 0) return takers;

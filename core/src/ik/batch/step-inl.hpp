@@ -122,7 +122,7 @@ HWY_INLINE Points straight_on(const float* before, const Points& from, Mask clos
 struct StepRows {
     const float* from;    ///< the joint already placed
     float* to;            ///< the joint to place
-    const float* length;  ///< of the bone between them
+    const float* length;  ///< length of the bone between them
     const float* before = nullptr;
 };
 

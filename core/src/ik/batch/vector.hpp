@@ -18,7 +18,7 @@ namespace tendril::ik::detail {
 struct StepScratch {
     float* shapes;   ///< shape_floats
     Block gathered;  ///< chains of a block that take the step, side by side
-    Block second;    ///< those of them that try the second family of shapes
+    Block second;    ///< the gathered chains that try the second family of shapes
 };
 /// Size of the bones of two shapes of one register of chains.
 inline std::size_t shape_floats(std::size_t bones) noexcept {
@@ -47,7 +47,7 @@ struct LimitedOrder {
     int max_iterations;
     Block tile;        ///< the chains that take long; only the root of its joints is read
     float* poses;      ///< pose_rows of the tile
-    float* rotations;  ///< of the tile, as in SolveLimited; only written
+    float* rotations;  ///< rotations of the tile, as in SolveLimited; only written
     float* scratch;    ///< limited_floats
 };
 
@@ -76,7 +76,7 @@ using Classify = void(const Block& block, std::size_t lanes);
 /// Writes the rest of the state, from Row::Residual on. In a plane, all chains that bend_to_pole may bend
 /// become Class::Collinear too.
 using Begin = Left(const Block& block, std::size_t lanes, bool every, bool planar);
-/// The same for chains within limits: any chain not certainly reachable is left to the scalar solver
+/// Classify for chains within limits: any chain not certainly reachable is left to the scalar solver
 /// unchanged.
 using ClassifyLimited = void(const Block& block, std::size_t lanes);
 /// Solves the reachable chains from their joints and four rows of rotations per bone, in the order of

@@ -25,7 +25,7 @@ void gather_chains(const Block& from, const LaneList& lanes, const Block& to, st
     }
 }
 
-/// After a perturbation: like Convergence::restart (convergence.hpp).
+/// Called after a perturbation; like Convergence::restart (convergence.hpp).
 void restart(const Block& block, std::size_t lane, const Problem& problem) noexcept {
     const float residual = problem.residual();
     block.save_best(lane);

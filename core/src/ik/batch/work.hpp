@@ -33,14 +33,14 @@ struct Tile {
 struct Scratch {
     explicit Scratch(std::size_t bones);
 
-    Rows joints;  ///< of the current block, if the caller owns the joints, or in the plane's coordinates
-    Rows state;   ///< of the current block
+    Rows joints;  ///< the current block's, if the caller owns the joints, or in the plane's coordinates
+    Rows state;   ///< the current block's
     Rows shapes;  ///< shapes, gathered and second: see StepScratch
     Tile gathered, second;
     Tile tile;
     Rows poses, rotations, limited;  ///< see LimitedOrder; allocated with limits
     Workspace scalar;                ///< for the scalar code
-    Options options;                 ///< of the chain there
+    Options options;                 ///< options of the chain in `scalar`
 };
 
 /// Access to a chain's joints, in the caller's memory or the batch's.
@@ -134,7 +134,7 @@ class Work {
 
     Input in_;
     bool planar_;       ///< in a plane without limits
-    PlaneFrame frame_;  ///< of that plane, at the origin
+    PlaneFrame frame_;  ///< frame of that plane, at the origin
     std::atomic<std::size_t> next_block_{0}, invalid_{0}, scalar_fallbacks_{0};
 };
 

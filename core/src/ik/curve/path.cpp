@@ -28,7 +28,7 @@ Cubic beginning_of(Cubic cubic, double t) noexcept {
     return cubic;
 }
 
-/// As seen from a centre.
+/// The cubic relative to a centre.
 Cubic seen_from(const glm::dvec3& centre, const Cubic& cubic) noexcept {
     return {minus(cubic[0], centre), minus(cubic[1], centre), minus(cubic[2], centre),
             minus(cubic[3], centre)};

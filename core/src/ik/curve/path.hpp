@@ -43,7 +43,7 @@ struct PathPoint {
 
 class Path {
   public:
-    /// At least two points. `fallback`: unit, the direction of the ray if all points coincide.
+    /// `points`: two or more. `fallback`: unit, the direction of the ray if all points coincide.
     Path(std::span<const glm::vec3> points, CurveKind kind, const glm::dvec3& fallback) noexcept;
 
     std::size_t pieces() const noexcept { return points_.size() - 1; }

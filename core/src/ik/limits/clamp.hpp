@@ -56,7 +56,7 @@ static inline bool is_inside(const LimitedJoint& joint, const glm::quat& rotatio
     return x * x + y * y <= joint.round;
 }
 
-/// For a joint other than a hinge, if is_inside is false.
+/// Clamps a joint other than a hinge, if is_inside is false.
 bool clamp_cone(const LimitedJoint& joint, glm::quat& rotation, float slack) noexcept;
 
 /// The part of a turn from one rotation to another that a joint's mobility lets through.

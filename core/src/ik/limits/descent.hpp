@@ -43,9 +43,9 @@ class LimitedDescent {
     void step(Problem& problem, Watch watch) noexcept;
 
     float damping_ = tune::limits::first_damping;  ///< in reach squared
-    float error_;                                  ///< of the current pose
+    float error_;                                  ///< the current pose's
     float allowance_;
-    Convergence convergence_;  ///< of the least-squares steps
+    Convergence convergence_;  ///< convergence of the least-squares steps
     bool reaches_ = true;      ///< whether FABRIK's passes still at least halve the error
     bool exceeds_allowance_ = false;
 };

@@ -1,6 +1,6 @@
-// Which joint limit stops the tip. From the best pose within all limits, frees in turn the few joints whose
-// limits stop most of the descent towards the target. For the one that helps most, bisects the range that it
-// needs.
+// Finds the joint limit that stops the tip. From the best pose within all limits, frees in turn the few
+// joints whose limits stop most of the descent towards the target. For the one that helps most, bisects the
+// range that it needs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -126,7 +126,7 @@ float Explanation::stopped(std::size_t joint) const noexcept {
     return size * excess_of(limit, angles_of(limit, turned)) / small_turn;
 }
 
-/// Of equal joints, the one nearer to the root comes first.
+/// Among equal joints, the one nearer to the root comes first.
 void Explanation::find_candidates() noexcept {
     for (std::size_t joint = 0; joint < options_.limits.size(); ++joint) {
         const Candidate next{joint, stopped(joint)};

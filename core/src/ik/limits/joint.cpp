@@ -19,7 +19,7 @@ HalfAngle half_of(float angle) noexcept {
 struct Split {
     HalfAngle about;
     float first, second;  ///< axis of the second rotation times the sine of its half-angle
-    float cosine;         ///< of the half-angle
+    float cosine;         ///< cosine of the half-angle
 };
 
 Split split(const LimitedJoint& joint, const glm::quat& rotation) noexcept {

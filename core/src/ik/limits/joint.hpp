@@ -33,10 +33,10 @@ struct LimitedJoint {
     float min = 0, max = 0;
     float up = 0, down = 0, left = 0, right = 0;
     float twist_min = 0, twist_max = 0;
-    HalfAngle low, high;  ///< of the hinge's angle, or the twist
+    HalfAngle low, high;  ///< bounds of the hinge's angle, or the twist
     bool from_base =
         false;           ///< measured in the world instead of relative to the parent bone: AngleFrom::Base
-    float mobility = 1;  ///< fraction of a full turn that the joint makes in each step
+    float mobility = 1;  ///< fraction of the wanted rotation that the joint makes in each step
     float round = 0;     ///< sin^2 of half the swing up to which it is certainly within
 
     bool hinge() const noexcept { return kind == JointKind::Hinge; }
@@ -49,8 +49,8 @@ glm::vec3 across_of(const Limit& limit, const glm::vec3& bone) noexcept;
 
 /// The limit must be valid for this bone.
 LimitedJoint limited_joint(const Limit& limit, const glm::vec3& rest_direction) noexcept;
-/// The same for a solve: the cone stays a little short of straight back, where neither the twist nor the side
-/// of the swing is defined. A cone that limits nothing becomes Free.
+/// limited_joint() for a solve: the cone stays a little short of straight back, where neither the twist nor
+/// the side of the swing is defined. A cone that limits nothing becomes Free.
 LimitedJoint solvable_joint(const Limit& limit, const glm::vec3& rest_direction) noexcept;
 
 JointAngles angles_of(const LimitedJoint& joint, const glm::quat& rotation) noexcept;

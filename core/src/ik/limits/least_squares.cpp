@@ -130,7 +130,7 @@ Normal linearize(Problem& problem, const Wanted& wanted) noexcept {
     if (scratch.linearized) return release_limits(scratch);
     Normal normal;
     scratch.at_bounds = 0;
-    std::size_t end = 0;  // of the bones that the joint turns
+    std::size_t end = 0;  // end of the bones that the joint turns
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         const LimitedJoint& joint = scratch.limits[i];
         JointFreedom& freedom = scratch.freedoms[i];

@@ -32,7 +32,7 @@ bool clamp_against_next(Problem& problem, std::size_t bone) noexcept {
     return true;
 }
 
-/// From the tip, which moves to the target, to the root, which leaves its position.
+/// Forward reaching: from the tip, which moves to the target, to the root, which leaves its position.
 template <class Watch>
 void limited_forward_reaching(Problem& problem, Watch watch) noexcept {
     const LimitedPose& from = problem.scratch.limited.pose;
@@ -104,7 +104,7 @@ void ccd_sweep(Problem& problem, Watch watch) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     std::vector<glm::quat>& local = scratch.trial.local;
     glm::vec3 target = problem.target;
-    glm::vec3 tip = scratch.pose.joints[problem.bones()];  // the end of what the joint turns
+    glm::vec3 tip = scratch.pose.joints[problem.bones()];  // the end of the bones that the joint turns
     for (std::size_t i = problem.bones(); i-- > 0;) {
         const glm::vec3 at = scratch.pose.joints[i];
         const glm::quat parent = parent_of(scratch, scratch.pose.rotations, i),

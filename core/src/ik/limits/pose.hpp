@@ -17,7 +17,7 @@ namespace tendril::ik::detail {
 static inline glm::quat unit(const glm::quat& q) noexcept {
     return unit_quaternion(q.w, q.x, q.y, q.z);
 }
-/// The same after only a few products: one Newton step for the inverse root.
+/// unit() after only a few products: one Newton step for the inverse root.
 static inline glm::quat nearly_unit(const glm::quat& q) noexcept {
     const float scale = 1.5f - 0.5f * (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};

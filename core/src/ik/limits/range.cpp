@@ -14,7 +14,7 @@ ActiveLimit exceeded_range(Bound low, Bound high, float min, float max, float an
     return active;
 }
 
-/// For half-angles, which are reported without a sign.
+/// The exceeded bound among half-angles, which are reported without a sign.
 ActiveLimit exceeded_half_angle(Bound positive, Bound negative, float inside, float angle) noexcept {
     ActiveLimit active;
     active.bound = angle > inside ? positive : negative;

@@ -17,7 +17,7 @@ bool has_no_range(const Limit& limit) noexcept;
 /// Widens the limit towards these angles: fully for `part` = 1, not at all for 0.
 Limit widened(Limit limit, const JointAngles& angles, float part) noexcept;
 
-/// Which bound the angles exceed most. Fills in bound, limit and needed.
+/// Finds the bound that the angles exceed most. Fills in bound, limit and needed.
 ActiveLimit exceeded_bound(const LimitedJoint& joint, const JointAngles& angles) noexcept;
 
 }  // namespace tendril::ik::detail

@@ -90,7 +90,7 @@ void bend_within_limits(Problem& problem, Watch watch) noexcept {
     std::size_t best = 0;
     float minimum = bend_in_arc(problem, abouts[0]);
     for (std::size_t way = 1; way < 4; ++way) {
-        // Of equally good ways, the first is taken: rounding must not choose the side.
+        // Among equally good ways, the first is taken: rounding must not choose the side.
         const float error = bend_in_arc(problem, abouts[way]);
         if (error < minimum - alike * problem.scratch.reach) best = way, minimum = error;
     }

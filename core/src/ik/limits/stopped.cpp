@@ -30,9 +30,9 @@ float descend_to_stall(Problem& problem, float there) noexcept {
     return descent.error();
 }
 
-/// The same, but if it ends in a singular pose, bends the chain and continues. Of 730 straight arms whose
-/// target ahead is reachable, 338 more that plain FABRIK leaves on the line would blame a limit without this;
-/// for the other methods it changes nothing.
+/// Like descend_to_stall, but bends the chain out of a singular pose. Of 730 straight arms whose target ahead
+/// is reachable, 338 more that FABRIK (2011) leaves on the line would blame a limit without this; for the
+/// other methods it changes nothing.
 float descend_past_singularity(Problem& problem, float there) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     const float error = descend_to_stall(problem, there);

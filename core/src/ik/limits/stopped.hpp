@@ -5,11 +5,11 @@
 
 namespace tendril::ik::detail {
 
-/// For a pose at which a method stalled. Continues a descent within the limits for a few steps, bending out
-/// of singular poses, so that no limit is blamed for a method that gave up too early. The limits stop the tip
-/// if it still has not arrived and they remove a good part of the rotations that ball joints would make
-/// towards the target. Restores the pose, bit for bit. `there`: the error up to which the tip has arrived,
-/// metres. O(n).
+/// Whether the limits stop the tip at a pose where a method stalled. Continues a descent within the limits
+/// for a few steps, bending out of singular poses, so that no limit is blamed for a method that gave up too
+/// early. The limits stop the tip if it still has not arrived and they remove a good part of the rotations
+/// that ball joints would make towards the target. Restores the pose, bit for bit. `there`: the error up to
+/// which the tip has arrived, metres. O(n).
 ///
 /// This cannot detect a distant pose within the limits that reaches the target: a descent into another
 /// minimum is reported as stopped all the same.

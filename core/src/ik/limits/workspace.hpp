@@ -16,9 +16,9 @@ namespace tendril::ik::detail {
 /// A pose: joint positions and bone rotations.
 struct LimitedPose {
     std::vector<glm::vec3> joints;      ///< n + 1
-    std::vector<glm::quat> rotations;   ///< n: of the bones, in the world
+    std::vector<glm::quat> rotations;   ///< n: the bones' rotations in the world
     std::vector<glm::quat> local;       ///< n: relative to the parent bones, within the limits
-    std::vector<glm::vec3> directions;  ///< n: of the bones, unit vectors
+    std::vector<glm::vec3> directions;  ///< n: unit vectors along the bones
 
     void resize(std::size_t bones) {
         joints.resize(bones + 1);
@@ -30,7 +30,7 @@ struct LimitedPose {
 
 /// The world axes about which a joint may rotate.
 struct JointFreedom {
-    glm::vec3 arm{0.0f};              ///< from the joint to the end of what it turns, in reaches
+    glm::vec3 arm{0.0f};              ///< from the joint to the end of the bones that it turns, in reaches
     bool turns_tip = true;            ///< whether the tip's bone turns with it
     bool ball = true;                 ///< true: all axes but those listed; false: only those listed
     int count = 0;                    ///< number of axes
@@ -54,7 +54,7 @@ struct LimitedScratch {
     std::vector<JointFreedom> freedoms;  ///< n
     std::vector<std::size_t> bounded;    ///< n: joints at a bound; the first `at_bounds` are used
     std::size_t at_bounds = 0;
-    Normal normal;            ///< with no one-sided bound active
+    Normal normal;            ///< the matrix with no one-sided bound active
     bool linearized = false;  ///< whether `freedoms` to `normal` match `pose`
     bool planar = false;      ///< whether `limits` are those of a chain in a plane
     bool made = false;        ///< whether `limits` has been filled, for these rest directions

@@ -51,10 +51,10 @@ using namespace tune::jacobian;
 
 constexpr double min_damping = 1e-12;  ///< fraction of the trace of J J', to keep it invertible
 
-/// All in units of the reach, so that no size of chain overflows.
+/// The linear system, in units of the reach, so that no size of chain overflows.
 struct Linear {
     Symmetric3 jj;     ///< J J', the sum of |r|^2 I - r r' over the joints
-    glm::dvec3 error;  ///< from tip to target, clamped
+    glm::dvec3 error;  ///< vector from tip to target, clamped
     double damping;    ///< l^2
 };
 

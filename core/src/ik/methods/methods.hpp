@@ -47,7 +47,7 @@ void svd_dls_iteration(Problem& problem, float damping, Watch watch) noexcept;
 
 /// The pole of the closed form: the options' pole, or in a plane one on the chosen side.
 std::optional<glm::vec3> pole_of_limb(const Problem& problem) noexcept;
-/// For two bones only, otherwise InvalidInput. Faces the pole itself, no faster than pole.hpp allows, and
+/// Takes two bones; otherwise InvalidInput. Faces the pole itself, no faster than pole.hpp allows, and
 /// remembers the pose as face_pole does. Does not call iteration_done: the loop does.
 template <class Watch>
 Report two_bone_solve(Problem& problem, Watch watch) noexcept;

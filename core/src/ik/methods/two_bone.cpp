@@ -22,9 +22,9 @@ constexpr double no_side = 1e-6;  ///< fraction of the reach: smaller offsets ar
 
 /// The triangle of root, mid and tip, in metres.
 struct Triangle {
-    double scale = 1.0;   ///< of both bones
+    double scale = 1.0;   ///< factor of both bones
     double along = 0.0;   ///< from root to mid, on the line to the target
-    double height = 0.0;  ///< of mid above that line
+    double height = 0.0;  ///< height of mid above that line
     double span = 0.0;    ///< from root to tip, along that line
     bool reaches = true;  ///< whether the tip is exactly at the target
     Status status = Status::Converged;

@@ -72,7 +72,7 @@ void face_pole(Problem& problem, Watch watch) noexcept;
 /// or if the last solve had no pole or another PoleTurn.
 double pole_allowance(const Problem& problem) noexcept;
 
-/// For methods that face the pole themselves. Without a pole, clears the memory.
+/// Stores the pose, for methods that face the pole themselves. Without a pole, clears the memory.
 void remember_pose(Problem& problem) noexcept;
 
 }  // namespace tendril::ik::detail

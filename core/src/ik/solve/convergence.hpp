@@ -23,7 +23,7 @@ class Convergence {
     Convergence(const StallRule& rule, float error, float reach) noexcept
         : rule_(rule), scale_(0.1f * reach), best_(error), mark_(error), last_(error) {}
 
-    /// After a perturbation: forgets everything but `best`.
+    /// Called after a perturbation: forgets everything but `best`.
     void restart(float error) noexcept {
         mark_ = last_ = error;
         idle_ = 0;

@@ -23,7 +23,7 @@ bool is_collinear(const Problem& problem) noexcept;
 template <class Watch>
 void bend_collinear_chain(Problem& problem, Watch watch) noexcept;
 
-/// For a chain that stalled in another way: turns every bone a little, each in its own direction.
+/// Perturbs a chain that stalled in another way: turns every bone a little, each in its own direction.
 /// Deterministic: `number` selects the directions.
 template <class Watch>
 void perturb(Problem& problem, int number, Watch watch) noexcept;

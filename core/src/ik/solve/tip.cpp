@@ -40,7 +40,7 @@ glm::vec3 last_bone(const Problem& problem, const glm::quat& orientation) noexce
     return times(along, problem.lengths()[last] / length(along));
 }
 
-/// For chains with nothing left to solve: only one bone, or the others have no length.
+/// Solves chains with nothing left to solve: only one bone, or the others have no length.
 template <class Watch>
 Report only_last(Problem& rest, Watch watch) noexcept {
     enforce_lengths(rest, watch);

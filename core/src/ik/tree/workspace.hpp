@@ -28,7 +28,7 @@ struct Node {
     float own_weight = 0.0f;       ///< weight of its own goal in the mean of its proposals
     float centroid_weight = 0.0f;  ///< weight of its proposal in the mean at its parent
     glm::vec3 goal{0.0f};          ///< reachable point nearest to the target (mean if several)
-    double weight = 0.0;           ///< of the effectors here, relative to the heaviest effector
+    double weight = 0.0;           ///< weight of the effectors here, relative to the heaviest
     double branch_weight = 0.0;    ///< the same, including all effectors beyond
     glm::dvec3 goal_sum{0.0};      ///< sum of weight times goal, temporary
     std::size_t branches = 0;      ///< number of child nodes
@@ -53,7 +53,7 @@ struct TreeScratch {
     std::vector<glm::vec3> start;          ///< the given pose, at the bones' lengths
     std::vector<std::size_t> node_of;      ///< or no_node
     std::vector<std::size_t> effector_at;  ///< index into the caller's list, or no_joint
-    std::vector<glm::quat> rotations;      ///< of the bones in branches without effectors
+    std::vector<glm::quat> rotations;      ///< rotations of the bones in branches without effectors
 
     // Per solve, by node: sized for all joints, `used` of them in use.
     std::size_t used = 0;
@@ -75,9 +75,9 @@ struct Fit {
 void prepare(TreeScratch& scratch, std::span<const glm::vec3> joints,
              std::span<const Effector> effectors) noexcept;
 
-/// From the effectors inward: `at` to `proposed`.
+/// Forward reaching, from the effectors inward: `at` to `proposed`.
 void forward_reaching(TreeScratch& scratch) noexcept;
-/// From the root outward: `proposed` to `next`, every bone at its length.
+/// Backward reaching, from the root outward: `proposed` to `next`, every bone at its length.
 void backward_reaching(TreeScratch& scratch) noexcept;
 /// From the positions `from` to `trial`, every bone at its length. `damping`: over 0, relative to weights of
 /// 1.
