@@ -53,7 +53,7 @@ inline constexpr double max_relaxed_share = 0.5;
 /// Above this damping the targets come first and relaxation shrinks in proportion.
 inline constexpr double relaxing_damping = 1e-3;
 
-// The speed limit: joints travel at most so far in a solve.
+// The speed limit: joints travel only so far in a solve.
 
 /// Maximum travel, metres per metre that the goals have moved since the last solve.
 inline constexpr double travel_per_metre = 12.0;

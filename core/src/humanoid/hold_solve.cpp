@@ -41,7 +41,7 @@ constexpr double hold_tolerance = 1e-7;
 constexpr double jump_per_metre = 20.0, jump_slack = 1e-3;
 /// A joint is at a limit if a force over the first would turn it by the second, radians, but it cannot turn.
 constexpr double told_force = 1e-5, told_turn = 1e-3;
-/// An arm is straight if its bend is at most this much over its least, radians.
+/// An arm is straight if its bend is at most this much over its minimum, radians.
 constexpr double straight_slack = 0.03;
 
 }  // namespace

@@ -59,9 +59,9 @@ double elbow_excess(const BodyJoints& joints, const Arm& arm, const std::vector<
     return std::max(backwards, bend - static_cast<double>(elbow.max));
 }
 
-/// The least turn that brings a ball joint within its limit, radians. The excesses of cone and twist are too
-/// large where the bone points nearly against its rest, since any twist is a swing to another side there. By
-/// compass search (T. Kolda, R. Lewis, V. Torczon, SIAM Review 45(3), 2003).
+/// The smallest turn that brings a ball joint within its limit, radians. The excesses of cone and twist are
+/// too large where the bone points nearly against its rest, since any twist is a swing to another side there.
+/// By compass search (T. Kolda, R. Lewis, V. Torczon, SIAM Review 45(3), 2003).
 double least_turn(const ik::Limit& limit, const glm::dvec3& along, const glm::dquat& turn) {
     const ik::detail::LimitedJoint joint = ik::detail::limited_joint(limit, math::narrow(along));
     const glm::quat wanted(static_cast<float>(turn.w), static_cast<float>(turn.x), static_cast<float>(turn.y),
@@ -89,7 +89,7 @@ double least_turn(const ik::Limit& limit, const glm::dvec3& along, const glm::dq
     return least;
 }
 
-/// How far a joint is beyond its limit, radians; for a ball joint the least turn if that is over `most`.
+/// How far a joint is beyond its limit, radians; for a ball joint the smallest turn if that is over `most`.
 double excess_of(const BodyJoints& joints, Bone bone, const std::vector<Placement>& placed, bool by_default,
                  double most) {
     for (const Arm& arm : arms)

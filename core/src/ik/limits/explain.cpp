@@ -138,8 +138,8 @@ void Explanation::find_candidates() noexcept {
     }
 }
 
-/// The joint that brings the tip nearest when freed; if several let it arrive, the one that needs the least
-/// range.
+/// The joint that brings the tip nearest when freed; if several let it arrive, the one that needs the
+/// smallest range.
 Outcome Explanation::best_freed() noexcept {
     Outcome best;
     for (const Candidate& each : candidates_) {

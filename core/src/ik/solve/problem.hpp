@@ -56,7 +56,7 @@ struct Workspace {
     float reach = 0.0f;
     float longest = 0.0f;
 
-    /// Sizes everything for so many bones, at rest along +X with identity rotations.
+    /// Sizes everything for this many bones, at rest along +X with identity rotations.
     void resize(std::size_t bones) {
         lengths.resize(bones);
         rest_directions.resize(bones, glm::vec3(1.0f, 0.0f, 0.0f));

@@ -29,7 +29,7 @@ inline bool is_unit(const glm::quat& q) noexcept {
     return within(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 0.998f, 1.002f);
 }
 
-/// Refuses the first option that is out of the range given in options.hpp, for a chain of so many bones.
+/// Refuses the first option that is out of the range given in options.hpp, for a chain of this many bones.
 /// Checks only the number of joint limits.
 Result check(const Options& options, std::size_t bones) noexcept;
 Result check(const Plane& plane, std::size_t bones) noexcept;
@@ -37,7 +37,7 @@ Result check(const Plane& plane, std::size_t bones) noexcept;
 /// Whether the state has the right sizes and unit quaternions. Other numbers are only checked if pole.valid.
 bool is_valid(const State& state, std::size_t bones) noexcept;
 
-/// Whether the method exists and takes so many bones.
+/// Whether the method exists and takes this many bones.
 bool takes(Method method, std::size_t bones) noexcept;
 
 }  // namespace tendril::ik::detail
