@@ -58,7 +58,7 @@ struct Limit {
 
     bool operator==(const Limit&) const = default;
 
-    /// Each kind with typical human angles. Change what differs.
+    /// A limit of this kind with typical human angles, to be adjusted.
     static Limit of(JointKind kind) noexcept;
     static Limit hinge(glm::vec3 axis, float min, float max) noexcept;
 };
@@ -66,7 +66,7 @@ struct Limit {
 /// The fields that a limit of this kind uses, in the order of its members.
 std::span<const Field> limit_fields(JointKind kind) noexcept;
 
-/// What is wrong with a limit, as a constant text ("the hinge's axis has no length"). Null if it is valid.
+/// The fault of an invalid limit, as a constant text ("the hinge's axis has no length"). Null if it is valid.
 const char* fault(const Limit& limit) noexcept;
 /// Also checks the limit against a bone's rest direction: "the hinge's axis lies along the bone".
 const char* fault(const Limit& limit, glm::vec3 rest_direction) noexcept;

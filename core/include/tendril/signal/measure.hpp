@@ -20,7 +20,7 @@ struct Response {
     std::span<const double> output;
 };
 
-/// Whether the output follows what is wanted, and so can be measured.
+/// Whether the output follows `wanted`, and so can be measured.
 enum class Following {
     Unknown,        ///< `wanted` does not change, or there are fewer than 3 rows
     Follows,        ///< lag() finds a shift
@@ -61,8 +61,8 @@ std::optional<double> overshoot(const Response& response);
 std::optional<double> settling_time(const Response& response);
 
 /// The remaining part of the input's jitter: the root mean square of the changes of slope of `output` over
-/// that of `input`. Slopes rather than differences, so that uneven times are handled. Empty if the input has
-/// none.
+/// that of `input`. Slopes rather than differences, to allow for uneven times. Empty if the input has no
+/// jitter.
 std::optional<double> jitter(std::span<const double> time, std::span<const double> input,
                              std::span<const double> output);
 
@@ -75,7 +75,7 @@ struct Measures {
     std::optional<double> jitter;         ///< relative to the input's
     double rate_difference = 0.0;         ///< compare_rates()
 };
-/// For existing rows; `input` is that of jitter(). Leaves rate_difference at 0.
+/// Measures existing rows; `input` as in jitter(). Leaves rate_difference at 0.
 Measures measure(const Response& response, std::span<const double> input);
 /// All measures of a list of filters on one input. Cost: 0.2 to 0.4 ms for 600 rows, most of it for lag and
 /// the frame rates.
