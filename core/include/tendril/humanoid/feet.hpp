@@ -75,7 +75,7 @@ struct FeetOptions {
     double max_slope = 0.785398163397448;  ///< 45 degrees: steeper ground is ignored; 0 to 1.5
     double edge = 0.012;    ///< a sole keeps this distance to the edges of the step that it stands on; 0: it
                             ///< stays where the clip puts it; 0 to 0.1
-    double max_step = 0.5;  ///< ground this far above or below that under the root is ignored; 0 to 1e3
+    double max_step = 0.5;  ///< ground this far above or below the root's is ignored; 0 to 1e3
     double root_radius = 0.3;        ///< of the disc whose mean height the root follows; 0 to 1e3
     double root_half_life = 0.05;    ///< 1e-6 to 10
     double pelvis_drop = 0.4;        ///< the pelvis is lowered by at most this; 0 to 1e3

@@ -30,7 +30,7 @@ namespace tendril::humanoid {
 
 struct HandTarget {
     glm::dvec3 position{0.0};  ///< of the hand's joint, in the space of `root`
-    /// Of the hand's node, in that space; unset: the hand turns with the forearm.
+    /// Rotation of the hand's node, in that space; unset: the hand turns with the forearm.
     std::optional<glm::dquat> rotation{};
     double weight = 0.0;  ///< clamped to 0 to 1
 };

@@ -28,7 +28,7 @@ struct LookAtOptions {
 
     double spine_part = 0.2;    ///< of the way, for the mapped bones from Spine to UpperChest; 0 to 1
     double neck_part = 0.3;     ///< of the way, for the neck; 0 to 1; with spine_part at most 1
-    double spine_limit = 0.35;  ///< maximum turn of those spine bones together; 0 to 3.15
+    double spine_limit = 0.35;  ///< maximum turn of these spine bones together; 0 to 3.15
     double neck_limit = 0.5;
     double head_limit = 0.9;
 

@@ -25,10 +25,10 @@
 
 namespace tendril::humanoid {
 
-/// What a clip's keys of a node are local to, if not to its parent.
+/// The space of a clip's keys of a node, if it is not the parent's.
 struct KeySpace {
     std::int32_t parent = -1;  ///< index into the list; -1: the character's space
-    rig::Transform rest{};     ///< of the node, in this space
+    rig::Transform rest{};     ///< the node's, in this space
     bool operator==(const KeySpace&) const = default;
 };
 
@@ -92,8 +92,8 @@ struct Placement {
 Placement operator*(const Placement& parent, const Placement& child) noexcept;
 Placement placement(const rig::Transform& transform) noexcept;
 
-/// The transform whose placement in `parent` is `global`; its shear is lost, and an axis without length stays
-/// one.
+/// The transform whose placement in `parent` is `global`; its shear is lost, and an axis of length 0 gets
+/// scale 0.
 rig::Transform relative(const Placement& parent, const Placement& global) noexcept;
 
 std::vector<rig::Transform> rest_pose(const Skeleton& skeleton);

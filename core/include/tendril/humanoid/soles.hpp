@@ -43,8 +43,7 @@ Expected<Soles> find_soles(const Skeleton& skeleton, const BoneMap& map);
 
 /// The soles of a clip whose feet do not stand as they rest, learned from the frames in which they stand
 /// still, as the lint does (lint.hpp); `soles` unchanged if they do, or never stand still. `soles` must be
-/// find_soles()'s, and the clip must have passed check(). At most its first 10 000
-/// frames are sampled.
+/// find_soles()'s, and the clip must have passed check(). At most its first 10 000 frames are sampled.
 Soles clip_soles(const Skeleton& skeleton, const BoneMap& map, const Soles& soles, const Clip& clip);
 
 /// The clip's own floor: the median height of its soles while they are nearly still (toe under 0.3 m/s) and
