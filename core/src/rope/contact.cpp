@@ -1,10 +1,10 @@
-// Keeps particles and links out of colliders while the solver works: those of cloth and hair, and of all
-// bodies with a solver that takes one link after the other. Ropes that are solved directly have contacts of
-// their own (chain_contact.cpp).
+// Keeps particles and links out of colliders during the solve: for cloth and hair, and for all bodies with a
+// solver that takes one link after the other. Ropes solved directly have their own contacts
+// (chain_contact.cpp).
 //
 // Contacts remember how far a collider has displaced a particle in the substep: the part along the normal
-// bounds friction (Coulomb's law, as displacements). It includes what tension has drawn into the collider, so
-// the tauter a rope around a post, the more friction it has.
+// bounds friction (Coulomb's law, as displacements). It includes the depth to which tension draws a particle
+// in, so the tauter a rope around a post, the more friction it has.
 #include <algorithm>
 #include <limits>
 #include <optional>

@@ -174,7 +174,7 @@ void TieForces::solve() {
 
 namespace {
 
-constexpr double max_compliance_across = 1e3;  ///< of a slack tie, which resists nothing sideways
+constexpr double max_compliance_across = 1e3;  ///< of a slack tie, which has no sideways resistance
 
 }  // namespace
 
@@ -214,7 +214,7 @@ void TiedSolver::load_ties() {
     }
 }
 
-/// Adds how far the force of each tie moves the ends of all.
+/// Adds the moves of all ties' ends by the force of each tie.
 void TiedSolver::add_responses() {
     TieForces& forces = scratch_.tie_forces[island_.tied - 1];
     using Of = TieForces::End::Of;

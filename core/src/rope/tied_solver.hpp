@@ -1,5 +1,5 @@
-// Solves bodies that ties join as a whole, together with their contacts, in one implicit step: ropes, hair
-// and cloth, their links and their ties are one system. Not installed.
+// Solves tied bodies (ropes, hair and cloth) as one system of links, ties and contacts, in one implicit step.
+// Not installed.
 //
 // As for a cloth (cloth_grid.hpp) Newton's method minimises an incremental potential, but each of its steps
 // is solved exactly (elimination.hpp), in double precision. Links and ties are springs too stiff to stretch
@@ -46,7 +46,7 @@ class TiedSolver : ImplicitStep {
     void each_grid(Visit visit) const {
         for (std::uint32_t g = 1; g <= tied_.grids.count; ++g) visit(tied_.grids.first + g);
     }
-    std::uint32_t grid_with(std::uint32_t particle) const;  ///< its number, or 0
+    std::uint32_t grid_with(std::uint32_t particle) const;  ///< the grid's number, or 0
     void measure_grids();
     void evaluate_grids();
     void start();

@@ -57,7 +57,7 @@ class HeldInput {
     double slowest_ = 1e4;
 };
 
-/// 0 to 1: the same frames everywhere.
+/// Random numbers from 0 to 1, the same in every run.
 class Unit {
   public:
     double next() { return static_cast<double>(math::random_bits(state_) >> 11) * 0x1p-53; }

@@ -30,9 +30,8 @@
 // A figure with the same nodes and rest pose, even in another size, gets the clip itself.
 //
 // Feet turn from how they stand at rest, whatever the clip does later. If the source's rest pose does not
-// stand on level ground, as a zero pose or a bind pose in mid-run, the feet's stand is learned from the
-// frames in which a foot carries the figure, which neither sits nor lies; without such frames t_pose() gives
-// it.
+// stand on level ground, as a zero pose or a bind pose in mid-run, the stand is learned from frames in which
+// a foot carries the figure, which neither sits nor lies; without any, t_pose() gives it.
 //
 // The target stands on its floor at rest, or on height 0 if its rest pose is far from there, as a BVH's often
 // is.
