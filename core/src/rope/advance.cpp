@@ -200,7 +200,7 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
     if (done.refused) return done;
     const double substep = state_.settings.substep;
     // Only whole substeps are dropped. A remainder is kept, as dropping it would not be counted.
-    constexpr double rounding = 1e-6;  // of a substep
+    constexpr double rounding = 1e-6;  // relative to a substep
     const double over = std::max(0.0, seconds - static_cast<double>(state_.settings.longest_frame));
     done.dropped = static_cast<std::uint64_t>(over / substep + rounding);
     double left = state_.remainder + std::max(0.0, seconds - static_cast<double>(done.dropped) * substep);

@@ -24,7 +24,7 @@ struct Draft {
     void link(std::uint32_t a, std::uint32_t b, Link::Kind kind, float compliance);
 };
 
-// Each drafts a body for a state, or refuses and names what is out of range.
+// Each drafts a body for a state, or refuses and names the value out of range.
 Result draft_rope(const State& state, const RopeShape& shape, Draft& draft);
 Result draft_cloth(const State& state, const ClothShape& shape, Draft& draft);
 Result draft_hair(const State& state, const HairShape& shape, Draft& draft);

@@ -156,7 +156,7 @@ void ChainNewton::begin_plane(ContactScratch::Contact& contact, ContactScratch::
     const std::uint32_t i = particle(contact.node);
     const Scratch::Moving& moving = collider(plane.collider);
     plane.by = moving.by_at(state_.position[i]);
-    dvec3 at = state_.position[i] + plane.by;  // as the collider sees it
+    dvec3 at = state_.position[i] + plane.by;  // relative to the collider
     const dvec3 from = at, way = scratch_.base[i] - from;
     const double far = detail::length(way), step = 0.5 * moving.size + radius_;
     SurfaceDistance surface = surface_distance(*moving.shape, at);
@@ -207,8 +207,8 @@ void ChainNewton::measure_planes(const ContactScratch::Contact& contact) {
     }
 }
 
-/// Of new contacts so near to each other that bending makes their nodes move alike, only the deepest counts
-/// in a step: a stiff rope bent round a ball in one would be flung off it in the next.
+/// Among new contacts so near that bending makes their nodes move alike, keeps only the deepest in a step: a
+/// stiff rope bent round a ball in one step would be flung off it in the next.
 void ChainNewton::choose_deepest() {
     ContactScratch::Contact* kept = nullptr;
     double deepest = 0.0;
@@ -278,7 +278,7 @@ void ChainNewton::rub(ContactScratch::Contact& contact) {
         slip = beside(slip, hold.normal[p]);
     }
     double slipped = detail::length(slip);
-    if (!s_.progress.moved) {  // as far as it slipped before, or as it would freely
+    if (!s_.progress.moved) {  // its earlier slip, or its free one
         const double before = detail::length(state_.displacement[particle(contact.node)] - by);
         const double alone = detail::length(slip + (1.0 / node.mass) * force) - friction * normal / node.mass;
         slipped = std::max(before, alone);
@@ -363,7 +363,7 @@ void ChainNewton::rub_link(const ContactScratch::LinkContact& contact) {
     const double drag = friction * normal / std::max(slipped, creep);
     const auto share = [&](const detail::ChainNode& node, double part, const dvec3& slip) {
         detail::NodeContact& end = s_.holds[static_cast<std::size_t>(node.contact)];
-        if (end.planes > 0) return;  // it has its own
+        if (end.planes > 0) return;  // it has its own friction
         end.drag = part * drag;
         end.slip = slip;
     };

@@ -27,7 +27,7 @@ class ChainNewton {
                 IslandScratch& local, ContactScratch& own)
         : state_(state), plan_(plan), island_(island), scratch_(scratch), local_(local), s_(own) {}
 
-    /// Finds what a chain may touch in this substep; false if there is nothing.
+    /// Finds the colliders that a chain may touch in this substep; false if there are none.
     bool find(std::uint32_t chain);
     /// Whether the chain touches a collider at the start of the substep, or would on a free path.
     bool touches() const;

@@ -104,7 +104,7 @@ struct ChainBond {
 /// The effect of contacts on a node.
 struct NodeContact {
     static constexpr int most = 3;
-    dvec3 normal[most];  ///< of the planes that hold it
+    dvec3 normal[most];  ///< planes that hold the node
     double gap[most];    ///< metres above each
     int planes = 0;
     double drag = 0.0;  ///< friction, times h^2, over the slip distance
@@ -129,10 +129,10 @@ struct BondContact {
 struct ChainBend {
     double stiffness = 0.0;            ///< N m^2 over the mean length of its links, times h^2; 0 at the ends
     double before = 0.0, after = 0.0;  ///< over the length of each link, 1/m
-    dvec3 earlier{0.0};                ///< the part of the moment that is known
-    dvec3 direction{0.0};              ///< of its link one substep before the last, unit; 0: unknown
-    double own = 0.0;                  ///< what it adds to the matrix of its node,
-    double to_next = 0.0, to_second = 0.0;  ///< and to those that lead to the next node and the next but one
+    dvec3 earlier{0.0};                ///< known part of the moment
+    dvec3 direction{0.0};              ///< link direction one substep before the last, unit; 0: unknown
+    double own = 0.0;                  ///< added to the matrix of its node,
+    double to_next = 0.0, to_second = 0.0;  ///< and to the matrices to the next node and next but one
     // Within a step: the matrix that leads to the next node in elimination order; the rows of multipliers for
     // the next but one.
     Matrix3 across;
@@ -159,7 +159,7 @@ struct ChainSystem {
     void evaluate(double stiffer) noexcept;
     /// Moves nodes and changes multipliers by one step, after evaluate().
     void step() noexcept;
-    double largest_error() const noexcept;  ///< of a link's length, relative to its rest length
+    double largest_error() const noexcept;  ///< length error of a link, relative to its rest length
 
   private:
     template <bool bent>

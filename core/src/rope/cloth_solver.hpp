@@ -63,14 +63,14 @@ class ClothSolver : protected ImplicitStep {
     const Plan::Grid& grid_;
     detail::Cloth& cloth_;
     const detail::GridLevel& level_;
-    std::span<const std::uint32_t> cells_;  ///< of its particles
+    std::span<const std::uint32_t> cells_;  ///< cells of the particles
     std::size_t first_;
     double unit_ = 0.0;  ///< mean mass of a particle, over h^2
     float lightest_ = 1.0f;
     double taken_ = 1.0;
-    double shortest_ = 1e30;  ///< rest length of a stretch link
-    double strain_ = 0.0;     ///< maximum of a stretch link
-    double potential_ = 0.0;  ///< of inertia and links
+    double shortest_ = 1e30;  ///< minimum rest length of stretch links
+    double strain_ = 0.0;     ///< maximum over stretch links
+    double potential_ = 0.0;  ///< inertia plus links
     bool converged_ = true;
 };
 

@@ -58,7 +58,7 @@ dvec3 Scratch::Moving::by_at(const dvec3& at) const {
 SurfaceDistance Scratch::Moving::entered(const dvec3& was, dvec3& at, double radius,
                                          std::uint64_t& work) const {
     const SurfaceDistance surface = surface_distance(*shape, at);
-    // As the collider sees it.
+    // Relative to the collider.
     const dvec3 from = was + by_at(at), way = at - from;
     const double far = detail::length(way), stride = 0.5 * size + radius;
     if (!(far > stride && surface.distance < far + radius)) return surface;

@@ -36,15 +36,15 @@ constexpr double length_tolerance = 1e-7;       ///< relative length error that 
 constexpr double accepted_error = 1e-4;         ///< a chain with more is solved again
 constexpr double accepted_shared_error = 1e-3;  ///< the same if chains share particles
 constexpr double fallback_error = 0.02;         ///< a chain that ends with more: its body is relaxed
-constexpr double accepted_gain = 1e-3;          ///< of energy: a result that gains more is rejected
+constexpr double accepted_gain = 1e-3;          ///< energy gain; a result that gains more is rejected
 constexpr int max_restarts = 6, fallback_passes = 16, max_step_halvings = 10;
 /// Minimum passes of chains that share particles, while near a collider.
 constexpr int min_contact_passes = 4;
 /// Rounds in which contacts are projected, and their accepted error, relative to the thickness.
 constexpr int contact_passes = 8;
 constexpr double projected_enough = 1e-3;
-/// A chain that shares particles may be asked for impossible lengths, straight between two pins: its system
-/// is damped (Levenberg, Marquardt), or it would fling its particles about.
+/// A chain that shares particles may have impossible lengths, straight between two pins: its system is damped
+/// (Levenberg, Marquardt), or it would fling its particles about.
 constexpr double shared_damping = 2e-2;
 /// The part of tension that acts along the new direction rather than the mean. It damps the jitter of single
 /// particles within a second, and takes a few percent of the energy of a pendulum with a period of one second

@@ -286,14 +286,14 @@ class Resampling {
         const std::vector<double> columns = detail::shares(coordinates(grid_.along, column_)),
                                   rows = detail::shares(coordinates(grid_.down, row_));
         const std::vector<double> was = detail::shares(grid_.along);
-        double all = 0.0;  // of the cells that are filled, or of a strand
+        double all = 0.0;  // sum over all filled cells, or over a strand
         for (std::size_t r = 0; r < to_.rows && cloth; ++r)
             for (std::size_t c = 0; c < to_.columns; ++c)
                 if (filled(c, r)) all += columns[c] * rows[r];
         if (!cloth)
             for (const double each : was) all += each;
         for (std::size_t r = 0; r < to_.rows; ++r) {
-            double mass = 0.0;  // of all rows of a cloth, or of this strand
+            double mass = 0.0;  // kg in all rows of a cloth, or in this strand
             for (std::size_t i = 0; i < body_.count; ++i)
                 if (cloth || i / was_.columns == r) mass += state_.mass[body_.first + i];
             const double unit = mass / all;

@@ -36,7 +36,7 @@ struct GridStep {
 };
 inline constexpr std::array<GridStep, 6> grid_steps{{{1, 0}, {0, 1}, {1, 1}, {-1, 1}, {2, 0}, {0, 2}}};
 inline constexpr std::size_t fine_steps = grid_steps.size(), coarse_steps = 4;
-inline constexpr float grid_damping = 0.6f;  ///< of the smoother
+inline constexpr float grid_damping = 0.6f;  ///< damping of the smoother
 
 /// Rows and arrays are padded to a multiple of this.
 inline constexpr std::size_t grid_lanes = 8;
@@ -58,7 +58,7 @@ struct GridLevel {
     std::size_t columns = 0, rows = 0, stride = 0, steps = fine_steps;
     float* free = nullptr;  ///< 1: a cell that moves; 0: pinned, or no cell
     GridBlocks diagonal{};
-    GridBlocks factor{};  ///< of the diagonal: 1 / d of L d L^T, and L below its diagonal
+    GridBlocks factor{};  ///< factors of the diagonal: 1 / d of L d L^T, and L below its diagonal
     std::array<GridBlocks, fine_steps> links{};
     GridVector right{}, x{}, product{};
 
@@ -134,7 +134,7 @@ GridUnit grid_unit(std::string_view name) noexcept;
 
 class GridSystem {
   public:
-    /// Allocates a grid, all zero, and `others`: arrays like those of its finest level.
+    /// Allocates a grid, all zero, and `others`: arrays like its finest level's.
     void resize(std::size_t columns, std::size_t rows, std::span<float*> others = {});
     /// The caller fills `free`, the diagonal, the blocks of links and the right side. For a cell that is not
     /// free the diagonal is 1 and everything else 0, including the blocks of its links. solve() changes the

@@ -66,7 +66,7 @@ struct Plan {
         float reach = 0.0f;                       ///< rest length of the longest of them
     };
 
-    /// A cloth with no links other than those of its grid.
+    /// A cloth with no links outside its grid.
     struct Grid {
         std::uint32_t body = 0, columns = 0, rows = 0;
         Range links{};  ///< in `grid_links`
@@ -106,12 +106,12 @@ struct Plan {
     std::vector<Chunk> chunks;
     std::vector<Grid> grids;
     std::vector<GridLink> grid_links;
-    std::vector<std::uint32_t> grid_cells;  ///< of each particle, in the arrays of its grid's system
+    std::vector<std::uint32_t> grid_cells;  ///< cell of each particle in its grid's system
 
     std::vector<std::uint32_t> ties;
     std::vector<Tied> tied;
-    std::vector<std::uint32_t> places;   ///< of each tied particle, in the order of its system, or its cell
-    std::vector<std::uint32_t> grid_of;  ///< of each body: 1-based index in `grids`; 0: none
+    std::vector<std::uint32_t> places;   ///< of each tied particle: place in its system's order, or cell
+    std::vector<std::uint32_t> grid_of;  ///< 1-based index of each body in `grids`; 0: none
 
     /// For each body the bodies, from itself on, with which it collides: ascending, in `meets` from
     /// meets_first on. Empty, as the next four, if nothing collides.
@@ -120,16 +120,16 @@ struct Plan {
     enum class Collides : std::uint8_t { None, Solved, Projected };
     std::vector<Collides> collides;
     std::vector<std::uint8_t> meets_cloth;  ///< whether each body collides with a cloth
-    std::vector<std::uint32_t> chain_of;    ///< of each link; unused for soft links
+    std::vector<std::uint32_t> chain_of;    ///< chain of each link; unused for soft links
     std::vector<glm::dvec3> rest_at;        ///< unstrained position of each particle in its body
     std::uint32_t colliding = 0;            ///< islands with collisions
     bool collide(std::uint32_t body_a, std::uint32_t body_b) const noexcept;
 
     std::vector<std::uint32_t> nodes;
     std::vector<std::uint32_t> chunk_links;
-    /// What the air meets. Of each particle: where a cell of a cloth, of two triangles, or a segment of a
-    /// rope or hair that has all its stretch links begins, the particle below it or the next, else 0; and in
-    /// how many such triangles or segments the particle is.
+    /// Faces for the air, by particle. `below`: if a cell of a cloth (two triangles), or a segment of a rope
+    /// or hair, with all its stretch links begins there, the particle below or the next one, else 0. `faces`:
+    /// the number of such triangles or segments with the particle.
     std::vector<std::uint32_t> below;
     std::vector<std::uint8_t> faces;
     std::uint32_t longest = 0;  ///< links in the longest chain
@@ -144,7 +144,7 @@ struct Plan {
     void note_collisions(const State& state);
     void number_chains(std::size_t count);
 
-    // The inputs that it depends on.
+    // The inputs of the plan.
     struct Joined {
         std::uint32_t a, b;
         float rest;

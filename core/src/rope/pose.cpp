@@ -97,7 +97,7 @@ class PosedParticles {
 }  // namespace
 
 double World::pending() const noexcept {
-    constexpr double rounding = 1e-6;  // of a substep, as in advance()
+    constexpr double rounding = 1e-6;  // relative to a substep, as in advance()
     return state_.remainder > rounding * state_.settings.substep ? state_.remainder : 0.0;
 }
 

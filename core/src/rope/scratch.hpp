@@ -22,7 +22,7 @@ namespace tendril::rope {
 struct Touch {
     glm::dvec3 normal{0.0};
     glm::dvec3 displacement{0.0};           ///< by the collider so far, metres
-    glm::dvec3 collider_displacement{0.0};  ///< of the collider itself, in the substep
+    glm::dvec3 collider_displacement{0.0};  ///< displacement of the collider in the substep
     bool touching = false;
 };
 
@@ -81,11 +81,11 @@ struct TieForces {
         std::uint32_t at = 0;    ///< a cell, or a place in the order of elimination
         double sign = 1.0;       ///< of this end's displacement in the tie's
     };
-    std::vector<std::array<End, 2>> ends;                ///< of each tie
-    std::vector<glm::dvec3> gap, now, direction, total;  ///< of each tie: metres; the others are forces
+    std::vector<std::array<End, 2>> ends;                ///< by tie
+    std::vector<glm::dvec3> gap, now, direction, total;  ///< by tie: metres; the others are forces
     detail::DenseSystem system;                          ///< how far forces move the ends
-    std::vector<double> flat;                            ///< its right side
-    std::vector<glm::dvec3> local;                       ///< of each place in the order of elimination
+    std::vector<double> flat;                            ///< the system's right side
+    std::vector<glm::dvec3> local;                       ///< by place in the order of elimination
 
     void resize(std::size_t ties, std::size_t nodes);
     void solve();  ///< turns `now` from displacements into forces
@@ -133,7 +133,7 @@ struct BodyContactScratch {
     glm::dvec3 mean{0.0};  ///< mean way of all particles
     // The lists stay until a particle roams too far (Scratch::Listed).
     bool listed = false;
-    std::vector<float> radii;  ///< of the island's bodies
+    std::vector<float> radii;  ///< radii of the island's bodies
     std::vector<Candidate> candidates;
     std::vector<Feature> features;
     struct Chunk {
@@ -159,7 +159,7 @@ struct Scratch {
     std::vector<glm::dvec3> base;    ///< position without links and colliders
     std::vector<glm::dvec3> blown;   ///< displacement by the wind in `base`; empty without wind
     std::vector<double> weight;      ///< inverse mass; 0: pinned
-    std::vector<double> multiplier;  ///< of each link: tension times h^2
+    std::vector<double> multiplier;  ///< by link: tension times h^2
     std::vector<Touch> touch;
     /// The colliders near a body. Struck: a resting collider displaced it faster than correction_speed.
     enum class Nearest : std::uint8_t { None, Resting, Struck, Moving };
@@ -191,7 +191,7 @@ struct Scratch {
     };
     std::vector<Moving> colliders;
     std::vector<std::uint8_t> chain_solved;  ///< whether a chain is solved with its contacts
-    std::vector<double> chain_error;         ///< of each chain: relative length error after its last pass
+    std::vector<double> chain_error;         ///< by chain: relative length error after its last pass
     /// Factors on the mean velocity of some particles, on the deviations from it, and on the tension of
     /// links.
     struct Slowed {
@@ -201,7 +201,7 @@ struct Scratch {
         bool any() const { return whole != 1.0 || apart != 1.0 || tension != 1.0; }
     };
     std::vector<std::optional<Slowed>> chain_slowed;  ///< empty until its energy is balanced
-    std::vector<BodyContactScratch> body_contacts;    ///< of the plan's islands with collisions
+    std::vector<BodyContactScratch> body_contacts;    ///< by island of the plan with collisions
     /// A particle that may collide: its position when candidates were listed, how far it may roam from there
     /// before they are listed again, and how far it may go in a substep. Squared: how far it has roamed, its
     /// free way in this substep, and how far the solver has moved it so far.
@@ -209,14 +209,14 @@ struct Scratch {
         glm::dvec3 at{0.0};
         double roam = 0.0, reach = 0.0, roamed = 0.0, way = 0.0, moved = 0.0;
     };
-    std::vector<Listed> listed;                   ///< of each particle; empty if nothing collides
-    std::vector<ContactScratch> chain_contacts;   ///< of each chain; empty if nothing collides
+    std::vector<Listed> listed;                   ///< by particle; empty if nothing collides
+    std::vector<ContactScratch> chain_contacts;   ///< by chain; empty if nothing collides
     std::vector<std::uint32_t> collider_at;       ///< list index by slot
-    std::vector<detail::Cloth> cloths;            ///< of the plan's grids
-    std::vector<detail::EliminationSystem> tied;  ///< of the plan's tied bodies
-    std::vector<TieForces> tie_forces;            ///< of the plan's tied bodies
-    std::vector<glm::dvec3> tied_by;              ///< of each particle: a step of the tied solver; else empty
-    std::vector<double> tie_multiplier;           ///< of each tie: tension times h^2
+    std::vector<detail::Cloth> cloths;            ///< by grid of the plan
+    std::vector<detail::EliminationSystem> tied;  ///< by tied bodies of the plan
+    std::vector<TieForces> tie_forces;            ///< by tied bodies of the plan
+    std::vector<glm::dvec3> tied_by;              ///< by particle: a step of the tied solver; else empty
+    std::vector<double> tie_multiplier;           ///< by tie: tension times h^2
     detail::VectorUnit unit;
     detail::GridUnit grid_unit;
     detail::ClothUnit cloth_unit;
@@ -262,7 +262,7 @@ struct IslandScratch {
     ContactScratch contact;
     std::vector<ClothContact> cloth_contacts, earlier_contacts;
     std::vector<ClothPress> presses;
-    std::vector<Scratch::Slowed> part_slowed;  ///< of the island's parts
+    std::vector<Scratch::Slowed> part_slowed;  ///< by part of the island
     tendril::detail::ForkJoin loops;           ///< over a cloth; idle threads help
     Advance done;                              ///< in this substep; `passes`: maximum over the islands
 };
@@ -318,7 +318,7 @@ struct Workspace::Parts {
     // advance.cpp
     /// The rest of a substep after colliders have moved: threads take islands until none is left.
     void solve_islands(State& state, bool measures);
-    /// Adds what the threads did in the substep to the report of the call.
+    /// Adds the threads' work in the substep to the report of the call.
     void add_up(Advance& done);
     void note_contacts(State& state);
 };

@@ -121,7 +121,7 @@ class Substep : IslandStep {
     Advance& report_;
     bool measures_ = false;
     double before_ = 1.0;   ///< length of the previous substep relative to this one
-    double damping_ = 1.0;  ///< of velocity, in the substep
+    double damping_ = 1.0;  ///< factor on velocity, in the substep
     glm::dvec3 acceleration_;
     bool blows_;  ///< whether there is air
 };

@@ -73,9 +73,9 @@ class TiedSolver : ImplicitStep {
     const Plan::Tied& tied_;
     detail::EliminationSystem& system_;
     double taken_ = 1.0;
-    double turned_ = 0.0;     ///< in the last step: of a stiff link, relative to its length
-    double strain_ = 0.0;     ///< of grids: maximum of a stretch link
-    double shortest_ = 1e30;  ///< of grids: rest length of a stretch link
+    double turned_ = 0.0;     ///< by a stiff link in the last step, relative to its length
+    double strain_ = 0.0;     ///< in grids: maximum over stretch links
+    double shortest_ = 1e30;  ///< in grids: minimum rest length of stretch links
     float lightest_ = 1.0f;
     bool converged_ = true;
 };

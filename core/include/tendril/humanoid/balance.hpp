@@ -36,7 +36,7 @@ namespace tendril::humanoid {
 struct MassPoint {
     std::size_t node = 0;  ///< the node that moves it
     glm::dvec3 at{0.0};    ///< in the node's space
-    double share = 0.0;    ///< of the body's mass; all sum up to 1
+    double share = 0.0;    ///< fraction of the body's mass; all sum up to 1
     bool operator==(const MassPoint&) const = default;
 };
 

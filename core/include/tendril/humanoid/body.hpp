@@ -22,8 +22,8 @@
 // speed. There the solver overestimates the bend slightly and stops up to 0.7 mm short (of a 1.8 m body), so
 // that elbows and knees move at most some 13 times as fast as the target.
 //
-// Why not FABRIK over layered chains: it solves for positions and derives rotations afterwards, which loses
-// the twist, and it has to apply limits in every pass.
+// FABRIK over layered chains is not used: it solves for positions and derives rotations afterwards, which
+// loses the twist, and it has to apply limits in every pass.
 //
 // Cost: an iteration of 22 bones and 5 targets takes 2 to 3 microseconds; following a target that moves by a
 // millimetre takes some 5 to 10 iterations. Measured by tests/bench/humanoid_body.cpp.
@@ -88,15 +88,15 @@ struct BodyOptions {
         nullptr;  ///< decides which feet stand, for balance; null: the lowest sole is on the ground
 };
 
-/// Where the last solve ended, for the next one to start from. If empty, it starts from the clip's pose.
+/// The end of the last solve, from which the next one starts. If empty, it starts from the clip's pose.
 struct BodyState {
     /// Each bone's rotation from the clip's pose, in its parent bone's frame, in the order of Body::bones().
     std::vector<glm::dquat> turns{};
-    glm::dvec3 shift{0.0};                          ///< of the hips from the clip's, metres
+    glm::dvec3 shift{0.0};                          ///< offset of the hips from the clip's, metres
     std::array<glm::dvec3, effector_count> clip{};  ///< where the clip had the effectors, metres
     double deepest = 0.0;                           ///< deepest overlap of two capsules, metres
     std::array<glm::dvec3, effector_count> left{};  ///< from each effector to its target, metres
-    std::array<double, effector_count> weights{};   ///< of the targets; 0: no target
+    std::array<double, effector_count> weights{};   ///< weights of the targets; 0: no target
     double outside = 0.0;                           ///< BodyReport::outside
     double pace = 0.0;                              ///< limit on a joint's movement in that solve, metres
     bool operator==(const BodyState&) const = default;

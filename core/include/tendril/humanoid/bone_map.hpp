@@ -1,4 +1,4 @@
-// Which node of a skeleton is which bone of a human body.
+// Maps the nodes of a skeleton to the bones of a human body.
 //
 // Two independent readers examine a skeleton. One knows common names: Mixamo, Unreal's mannequin, VRM, Unity,
 // Rigify, 3ds Max's Biped, Acclaim, Motive and other captures. The other ignores names: it looks for a node

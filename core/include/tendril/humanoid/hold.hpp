@@ -34,10 +34,10 @@
 
 namespace tendril::humanoid {
 
-/// Where a hand holds an object, in the frame of the object.
+/// A hand's grip on an object, in the object's frame.
 struct Grip {
     Effector hand = Effector::LeftHand;  ///< LeftHand or RightHand
-    glm::dvec3 position{0.0};            ///< of the hand's joint, metres
+    glm::dvec3 position{0.0};            ///< the hand's joint, metres
     /// Rotation of the hand's node. Unset: the hand turns with the forearm.
     std::optional<glm::dquat> rotation{};
     /// The hand may turn about this axis in its grip, as round a bar; longer than 1e-9. Shorter: no axis.
@@ -45,10 +45,10 @@ struct Grip {
     bool operator==(const Grip&) const = default;
 };
 
-/// How a palm lies on an object, in the frame of the object. Directions are longer than 1e-9.
+/// A palm on an object, in the object's frame. Directions are longer than 1e-9.
 struct Palm {
     Effector hand = Effector::LeftHand;
-    glm::dvec3 middle{0.0};             ///< of the palm, metres
+    glm::dvec3 middle{0.0};             ///< middle of the palm, metres
     glm::dvec3 fingers{0.0, 0.0, 1.0};  ///< where they point
     glm::dvec3 faces{0.0, -1.0, 0.0};   ///< where the palm faces; only the part across the fingers counts
     glm::dvec3 axis{0.0};               ///< Grip::axis
@@ -58,7 +58,7 @@ struct Palm {
 /// face down.
 Expected<Grip> grip_of(const Body& body, const Palm& palm, double reach);
 
-/// Where an object is, in the character's space.
+/// An object's pose, in the character's space.
 struct ObjectPose {
     glm::dvec3 position{0.0};                 ///< metres
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< unit
@@ -94,10 +94,10 @@ struct GripReport {
 };
 
 struct HoldReport {
-    BodyReport body{};    ///< of the reach; `at_limit` has the arms' joints as they hold the object
+    BodyReport body{};    ///< the reach; `at_limit` has the arms' joints as they hold the object
     ObjectPose object{};  ///< where the object is held
-    double moved = 0.0;   ///< metres from where it was asked to be
-    double turned = 0.0;  ///< radians from how it was asked to be turned
+    double moved = 0.0;   ///< metres from the asked position
+    double turned = 0.0;  ///< radians from the asked rotation
     std::array<GripReport, 2> grips{};  ///< left, right
     int iterations = 0;
     bool settled = true;  ///< false: max_iterations stopped it, or it found no finite pose

@@ -5,9 +5,9 @@
 //     joints->measure(Bone::LeftLowerArm, placements);  // in the axes of its limit
 //     joints->excess(Bone::LeftLowerArm, placements);   // radians beyond the limit; 0: within it
 //
-// A joint's angles are those of its bone relative to its parent bone, measured from the T-pose (t_pose.hpp);
-// axes are in the character's space. Limits work as for a chain (tendril/ik/limit.hpp), except that a hinge
-// does not restrict turns about other axes: they come from clips and are left alone.
+// A joint's angles are its bone's, relative to its parent bone, measured from the T-pose (t_pose.hpp); axes
+// are in the character's space. Limits work as for a chain (tendril/ik/limit.hpp), except that a hinge does
+// not restrict turns about other axes: they come from clips and are left alone.
 //
 // Source of the default angles: W. Greene, J. Heckman (eds.), "The Clinical Measurement of Joint Motion",
 // American Academy of Orthopaedic Surgeons, 1994, rounded; the spine's are divided among its bones.

@@ -8,7 +8,7 @@
 // A decent clip should have no findings: speeds are compared with the motion around them, heights with the
 // clip's own floor, and if a foot's sole is not known, the tolerances are wider.
 //
-//     kind       what                                                             node          unit
+//     kind       fault                                                            node          unit
 //     Skating    no point of a standing foot stays where it is                    foot          mm
 //     Floating   a foot stands still above the floor                              foot          mm
 //     Sinking    a foot is below the floor                                        foot          mm
@@ -56,7 +56,7 @@ struct Finding {
     std::size_t frame = 0;   ///< the worst one; 0 is time 0
     std::size_t first = 0;   ///< the first frame affected
     std::size_t last = 0;    ///< the last frame affected
-    double time = 0.0;       ///< of `frame`, seconds
+    double time = 0.0;       ///< time of `frame`, seconds
     double amount = 0.0;     ///< see the table above
     const char* unit = "";   ///< "mm", "deg", "m" or "times"
     bool goes_on = false;    ///< a jump from which the motion does not come back
@@ -72,9 +72,9 @@ struct LintSettings {
     double sinking = 0.02;    ///< metres that a foot may be below it
     double knee = 6.0;        ///< degrees that a knee may jump, at 60 frames per second
     double turn = 15.0;       ///< the same for other joints
-    double shift = 0.02;      ///< that positions may jump, times the figure's height at rest
+    double shift = 0.02;      ///< maximum jump of positions, times the figure's height at rest
     /// Joint limits, owned by the caller. Null: the default limits with wide tolerances, which report only
-    /// what no clip of a human should do, above all knees that bend the wrong way.
+    /// poses that no human clip should have, above all knees that bend the wrong way.
     const BodyLimits* limits = nullptr;
     double beyond = 2.0;  ///< degrees that a joint may exceed `limits`
     /// The ground under the feet, owned by the caller: heights are measured from it. Null, or no ground: a

@@ -53,8 +53,8 @@ struct MappedSkeleton {
 };
 
 struct Retargeted {
-    Clip clip{};                   ///< of the target; has the source's name, duration and rate
-    double scale = 1.0;            ///< of the hips' translation: the ratio of the legs' lengths
+    Clip clip{};                   ///< for the target; has the source's name, duration and rate
+    double scale = 1.0;            ///< scale of the hips' translation: the ratio of the legs' lengths
     std::vector<Bone> left_out{};  ///< bones of the source that the target lacks
     std::vector<Bone> at_rest{};   ///< bones of the target that the source lacks
     /// Nodes of the target that are neither above nor below its hips, and follow no bone.

@@ -72,12 +72,12 @@ class Skeleton {
   private:
     std::vector<Node> nodes_;
     std::vector<std::int32_t> order_;
-    std::vector<std::int32_t> children_;  // of all nodes, node by node
+    std::vector<std::int32_t> children_;  // all nodes' children, node by node
     std::vector<std::size_t> moved_;
     std::vector<std::uint32_t> first_;  // where a node's children begin in children_; size() + 1 elements
 };
 
-/// Where a node is in the character's space: its local point p is at axes * p + position.
+/// A node's place in the character's space: its local point p is at axes * p + position.
 struct Placement {
     glm::dmat3 axes{1.0};
     glm::dvec3 position{0.0};

@@ -1,4 +1,4 @@
-// Where a character's feet touch the ground: a heel and a toe each, derived from skeleton and bone map.
+// The points where a character's feet touch the ground: a heel and a toe each, from skeleton and bone map.
 //
 // No mesh is needed. In the rest pose both points lie on the floor: the toe below the joint of the toes, over
 // which the foot rolls, and the heel behind the ankle by a third of the distance from ankle to toe. Without a

@@ -166,7 +166,7 @@ class IncidentFinder {
     /// Frames that equal the one before them, up to the latest.
     struct Held {
         std::uint64_t frames = 0;
-        float earlier_step = 0.0f;  ///< of the tip, before the last step
+        float earlier_step = 0.0f;  ///< the tip's step before the last one
         glm::vec3 step{0.0f};       ///< the last step of the tip
         bool moved = false;         ///< tip and target did in it
         glm::vec3 target{0.0f};     ///< at the beginning

@@ -1,10 +1,10 @@
 // Joint limits: how far a joint may swing (where its bone points) and twist (how the bone turns about
 // itself).
 //
-// A joint's angles are those of its bone relative to the parent bone (the root's: to the world), measured
-// from the rest pose. Swing is measured about two axes perpendicular to the bone at rest: about `axis`, where
-// a positive angle is *up*, and about `axis x bone`, where a positive angle is *left*. With a bone along +X
-// and the axis +Z, up is +Y and left is -Z. Twist is about the bone itself, right-handed.
+// A joint's angles are its bone's, relative to the parent bone (for the root: to the world), measured from
+// the rest pose. Swing is measured about two axes perpendicular to the bone at rest: about `axis`, where a
+// positive angle is *up*, and about `axis x bone`, where a positive angle is *left*. With a bone along +X and
+// the axis +Z, up is +Y and left is -Z. Twist is about the bone itself, right-handed.
 //
 // Source of the decomposition: F. S. Grassia, "Practical parameterization of rotations using the exponential
 // map", Journal of Graphics Tools 3(3), 1998. Joint kinds after Aristidou, Chrysanthou, Lasenby, "Extending

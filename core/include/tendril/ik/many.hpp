@@ -10,12 +10,12 @@
 // division, so several registers of chains take the same step side by side. Chains that take long are
 // gathered and solved together.
 //
-// Results: bit for bit those of Solver with Method::Fabrik, whatever the vector unit, the number of threads
-// and the other chains. The exception is targets out of reach or too close, which are solved in float where
-// Solver uses double (equal to 1e-4 of the reach). If a target is so close to the limit of reach that floats
-// cannot decide, the scalar solver takes the chain: ManyReport::scalar_fallback. In a plane, sides are
-// decided from float coordinates: a converged chain may differ in its last bits (tests: 1 % of chains; all
-// within 1e-4 of the reach).
+// Results: bit for bit as Solver with Method::Fabrik, whatever the vector unit, the number of threads and the
+// other chains. The exception is targets out of reach or too close, which are solved in float where Solver
+// uses double (equal to 1e-4 of the reach). If a target is so close to the limit of reach that floats cannot
+// decide, the scalar solver takes the chain: ManyReport::scalar_fallback. In a plane, sides are decided from
+// float coordinates: a converged chain may differ in its last bits (tests: 1 % of chains; all within 1e-4 of
+// the reach).
 //
 // With limits, one per bone and shared by all chains, the vector units take damped least-squares steps over
 // the joint rotations, with every joint clamped to its limit (K. Levenberg, "A method for the solution of

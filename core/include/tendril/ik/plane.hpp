@@ -28,7 +28,7 @@
 namespace tendril::ik {
 
 enum class Side : std::uint8_t {
-    Free,  ///< as it is; a straight chain that never had a side bends to the left
+    Free,  ///< keeps its side; a straight chain that never had one bends to the left
     Left,
     Right
 };

@@ -38,7 +38,7 @@ struct LimitMemory {
     bool valid = false;      ///< whether there was such a solve; if not, the rest is unused
     bool limited = false;    ///< whether it ended Limited or Stalled: then every step must gain
     glm::vec3 target{0.0f};  ///< metres from the root
-    float damping = 0.0f;    ///< of its last least-squares step, in reach squared; 0 to 100
+    float damping = 0.0f;    ///< in its last least-squares step, in reach squared; 0 to 100
 
     bool operator==(const LimitMemory&) const = default;
 };

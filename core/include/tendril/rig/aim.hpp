@@ -41,7 +41,7 @@ struct AimPart {
 struct AimOptions {
     AimPart primary{};
     AimPart secondary{.axis = {0.0, 1.0, 0.0}, .weight = 0.0};
-    double weight = 1.0;  ///< of both parts; 0: returns the input transform, bit for bit
+    double weight = 1.0;  ///< for both parts; 0: returns the input transform, bit for bit
     /// Maximum turn in radians per second; 0: it does not turn. (For a rig's Aim unit, in degrees, 0 means no
     /// limit.)
     double max_speed = std::numeric_limits<double>::infinity();

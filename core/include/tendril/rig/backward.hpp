@@ -42,7 +42,7 @@ struct BackwardReport {
     std::vector<Residual> elements{};  ///< in the order of Definition::elements; 0 for non-bones
     /// The bone with the largest residual, weighted as in the solve; none in a rig without bones.
     std::optional<std::size_t> worst{};
-    int iterations = 0;  ///< of the last descent
+    int iterations = 0;  ///< in the last descent
     int solves = 0;      ///< forward solves in total
     /// max_iterations or max_work ended the solve: better values may exist. With 0 iterations the controls
     /// are unchanged.

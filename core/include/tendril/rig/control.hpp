@@ -1,6 +1,6 @@
 // Controls: elements that a user drags, and the limits of dragging.
 //
-//     kind         value       what it moves
+//     kind         value       effect
 //     Transform    transform   its pose, within its parent
 //     Position     vector      its translation, within its parent, metres
 //     Rotation     rotation    its rotation, within its parent

@@ -20,7 +20,7 @@
 // recomposes from the first that differs. A pending local transform is computed before the parent's stored
 // global is overwritten. So *reading changes no result*: it only computes earlier what would be computed
 // anyway, to the same bits. get() stores what it computes and is therefore not const; known() is const, and
-// pending() tells which of the two transforms would have to be computed.
+// pending() names the transform that would have to be computed.
 //
 // Cost: reading a local transform is O(1). Reading a global one is O(1) if nothing was written since it or a
 // descendant was last read, otherwise O(depth). Writing is O(depth), or O(depth + children) without
@@ -109,9 +109,9 @@ class Hierarchy {
 
     // Poses.
 
-    /// Computes what is pending and stores it. The reference is valid until an element is added or removed,
-    /// and its value is unchanged until the next write: other reads do not affect it, and it may be passed to
-    /// a write.
+    /// Computes pending transforms and stores them. The reference is valid until an element is added or
+    /// removed, and its value is unchanged until the next write: other reads do not affect it, and it may be
+    /// passed to a write.
     const Transform& get(ElementId element, Space space, Pose pose = Pose::Current) noexcept;
     /// Refused: a stale handle, a transform that checked() refuses. Normalises the rotation.
     Result set(ElementId element, Space space, const Transform& transform,
@@ -132,8 +132,7 @@ class Hierarchy {
     void copy_pose(Pose from, Pose to) noexcept;
     /// Computes everything pending, in every pose. O(n).
     void resolve_all() noexcept;
-    /// How many transforms were computed from others since this hierarchy was made; a copy continues the
-    /// count.
+    /// Number of transforms computed from others since this hierarchy was made; a copy continues the count.
     std::uint64_t recomputations() const noexcept { return recomputations_; }
 
     /// The same elements under the same handles, in the same order, with the same transforms in every pose
@@ -155,7 +154,7 @@ class Hierarchy {
     };
     /// The bookkeeping of one element in one pose.
     struct Stamp {
-        std::uint64_t version = 0;         ///< of the stored global; unique
+        std::uint64_t version = 0;         ///< version of the stored global; unique
         std::uint64_t parent_version = 0;  ///< with which the stored global was composed or set
         std::uint64_t verified = 0;        ///< `change` at which the stored global was last valid
         Index first_pending = none;        ///< head of the list of children whose local is pending

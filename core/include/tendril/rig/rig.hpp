@@ -64,7 +64,7 @@ struct UnitMemory {
 };
 struct UnitState {
     std::vector<UnitMemory> memory{};  ///< one; in the body of a for-each one per visited element
-    std::vector<Value> outputs;        ///< of the last solve, in the order of outputs()
+    std::vector<Value> outputs;        ///< from the last solve, in the order of outputs()
     Warning warning = Warning::None;
     bool operator==(const UnitState&) const = default;
 };

@@ -22,8 +22,8 @@
 //                          the bones (ik/curve.hpp); "bones_past_end", metres "past_end", fit's "factor"
 //
 // Every unit has a weight in [0, 1]. At 0 the item is unchanged, bit for bit; an operation without an item
-// outputs its input unchanged (FromTwoVectors: the identity). A for-each's weight multiplies those of its
-// body.
+// outputs its input unchanged (FromTwoVectors: the identity). A for-each's weight multiplies its body's
+// weights.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ struct AimInputs {
     Input<glm::dvec3> axis = glm::dvec3(1, 0, 0);  ///< in the item's own space, not zero
     Input<glm::dvec3> target = glm::dvec3(0);      ///< global: a point, or a direction
     AimTarget kind = AimTarget::Location;
-    Input<double> weight = 1.0;  ///< of this part, in [0, 1]
+    Input<double> weight = 1.0;  ///< weight of this part, in [0, 1]
     bool operator==(const AimInputs&) const = default;
 };
 struct Aim {

@@ -14,7 +14,7 @@ namespace tendril::rope {
 /// "A better way to construct the sunflower head", 1979).
 struct HairPatch {
     glm::vec3 centre{0.0f};                ///< for a free patch
-    std::optional<glm::vec3> direction{};  ///< of growth; default: down; on colliders up, on planes outward
+    std::optional<glm::vec3> direction{};  ///< growth; default: down; on colliders up, on planes outward
     int strands = 32;
     float spread = 0.1f;  ///< radius of the patch, metres
 };

@@ -1,4 +1,4 @@
-// How a rope world is simulated.
+// Settings of a rope world's simulation.
 //
 // Time advances in fixed substeps, so a second has the same result however it is divided into frames. In each
 // substep every free particle moves by Verlet integration, and is then corrected to satisfy distances, pins
@@ -7,8 +7,8 @@
 // * Relaxation satisfies one distance after the other, `iterations` times (T. Jakobsen, "Advanced Character
 //   Physics", GDC 2001; M. Mueller et al., "Position Based Dynamics", 2007). How far a rope stretches then
 //   depends on the iterations and on the substep.
-// * Xpbd does the same with compliance: with enough iterations the stretch is that of a material (M. Macklin,
-//   M. Mueller, N. Chentanez, "XPBD", 2016).
+// * Xpbd does the same with compliance: with enough iterations the stretch is a material's (M. Macklin, M.
+//   Mueller, N. Chentanez, "XPBD", 2016).
 // * Direct solves all distances along a rope at once: their linearisation is tridiagonal, O(n) per pass. The
 //   tension of the previous substep is applied implicitly, because it makes a fine rope stiff sideways (M.
 //   Tournier et al., "Stable Constrained Dynamics", 2015), and it acts along the mean of the directions

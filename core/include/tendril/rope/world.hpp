@@ -134,13 +134,13 @@ class World {
     /// strain per newton, 1/N, of a rope, a strand, or a strip of cloth a metre wide. Shear and bend: m/N of
     /// each link.
     Result set_compliance(BodyId body, Link::Kind kind, double compliance);
-    double compliance(const Body& body, Link::Kind kind) const;  ///< of the first such link
+    double compliance(const Body& body, Link::Kind kind) const;  ///< from the first such link
     /// Length of a rope, a row of a cloth, or a strand of hair, metres: all its links and its mass change in
     /// proportion. Refused for a body of length 0.
     Result set_length(BodyId body, float metres);
     /// The same across the rows of a cloth.
     Result set_width(BodyId cloth, float metres);
-    double width(const Body& body) const;  ///< of a cloth, metres; 0 for others
+    double width(const Body& body) const;  ///< metres; 0 unless a cloth
 
     /// Ties two particles, of one body or of two. A tie is gone once it tears or one of its bodies is
     /// removed; after a cut it stays on its particles. Refuses a particle tied to itself.
@@ -156,7 +156,7 @@ class World {
 
     Expected<ColliderId> add_collider(const Shape& shape);
     /// Moves a collider evenly to `to` in the next `seconds` of simulated time, 0: within the next substep.
-    /// It pushes what it meets.
+    /// It pushes bodies in its way.
     Result move_collider(ColliderId collider, const glm::vec3& to, double seconds = 0.0) noexcept;
     /// The same for both ends of a capsule, each along a straight line, so that it turns. It takes the radius
     /// of `to` at once.
@@ -165,7 +165,7 @@ class World {
     /// where it is, and its surface moves along itself: a conveyor belt, a ground that passes by.
     Result drive_collider(ColliderId collider, const Drive& drive) noexcept;
     Result set_collider(ColliderId collider, const Shape& shape) noexcept;  ///< takes effect at once
-    /// Unpins what is attached to it.
+    /// Unpins the particles attached to it.
     Result remove_collider(ColliderId collider) noexcept;
     const Collider* find(ColliderId collider) const noexcept;
 
@@ -188,11 +188,11 @@ class World {
     /// Maximum relative length error of a body's stretch links as they are now. Includes the effect of
     /// depenetration, which Body::stretch does not.
     double length_error(const Body& body) const noexcept;
-    double length_error() const noexcept;  ///< of all bodies
+    double length_error() const noexcept;  ///< maximum over all bodies
     /// Kinetic, potential and elastic energy, joules, halfway through the last substep, where a leapfrog step
     /// conserves it. Potential energy is 0 at the origin.
     double energy(const Body& body) const noexcept;
-    double energy() const noexcept;  ///< of all bodies
+    double energy() const noexcept;  ///< sum over all bodies
     /// The sum of a body's rest lengths, metres; for cloth and hair, of one row or strand.
     double length(const Body& body) const;
 
