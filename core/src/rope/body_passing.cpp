@@ -13,7 +13,7 @@ using glm::dvec3;
 
 constexpr int max_halvings_of_way = 6;  ///< of a pair's way, to check its parts
 constexpr int max_partings = 8;         ///< rounds
-constexpr double parted = 0.1;          ///< how far, relative to the thickness
+constexpr double parted = 0.1;          ///< distance to restore, relative to the thickness
 constexpr int max_shortenings = 12;
 
 /// Whether a plane with this normal separates a pair's features.

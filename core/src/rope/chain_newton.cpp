@@ -18,9 +18,9 @@ constexpr int max_steps = 16;
 constexpr int few_steps = 4;        ///< after these a larger error is accepted
 constexpr int steps_to_let_go = 8;  ///< in these contacts may be dropped
 constexpr int max_rejected = 3;     ///< consecutive steps that may be repeated
-/// Link compliance over h^2, relative to the inverse mass of its ends. A link that cannot reach its length
-/// stretches just enough to keep its tension finite. A metre of rope, 64 segments, carrying a hundred times
-/// its weight stretches by a millionth.
+/// Minimum link compliance over h^2, relative to the inverse mass of its ends. A link that cannot reach its
+/// length stretches just enough to keep its tension finite. A metre of rope, 64 segments, carrying a hundred
+/// times its weight stretches by a millionth.
 constexpr double min_compliance = 1e-8;
 constexpr double accepted = 1e-5;  ///< relative length error
 /// Number of times that steps may diverge before links keep their resistance to turning: a fold that

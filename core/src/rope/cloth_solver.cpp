@@ -15,7 +15,7 @@ using glm::dvec3;
 
 /// Strain of a link that carries the weight of the whole cloth.
 constexpr double strain_by_weight = 2e-3;
-/// Stiffness of a link, in m / h^2.
+/// Range of a link's stiffness, in m / h^2.
 constexpr double min_stiffness = 1e4, max_stiffness = 1e6;
 /// Steps of Newton's method; more are only taken until the strain of every stretch link and the depth in
 /// colliders are accepted. No step needs an exact solution: its system is linear, and lengths are not.

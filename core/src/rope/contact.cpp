@@ -44,7 +44,7 @@ dvec3 Scratch::Moving::by_at(const dvec3& at) const {
         const dvec3 from = at - middle, all = by + (from - math::rotated(unspin, from));
         const auto* const plane = std::get_if<Plane>(shape);
         if (plane == nullptr) return all;
-        const dvec3 normal = detail::unit(dvec3(plane->normal));  // along which it stays
+        const dvec3 normal = detail::unit(dvec3(plane->normal));  // a plane does not move along it
         return all - detail::dot(all, normal) * normal;
     }
     if (turn == dvec3(0.0)) return by;

@@ -93,7 +93,7 @@ int Substep::direct_alone() {
     return 1;
 }
 
-/// Shortens the steps of chains that resist bending. Chains that others touch gain from them.
+/// Shortens the steps of chains that resist bending, except in contact with others, from which they may gain.
 void Substep::shorten_steps() {
     std::span<const std::uint32_t> together;
     if (island_.contacts != 0) together = scratch_.body_contacts[island_.contacts - 1].chains;

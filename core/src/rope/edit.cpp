@@ -46,7 +46,7 @@ std::vector<std::size_t> share_out(const std::vector<double>& lengths, std::size
     double whole = 0.0;
     for (const double length : lengths) whole += length;
     std::vector<std::size_t> counts;
-    std::vector<std::pair<double, std::size_t>> missing;  // how much more each should have
+    std::vector<std::pair<double, std::size_t>> missing;  // shortfall of each span
     std::size_t given = 0;
     for (std::size_t i = 0; i < lengths.size(); ++i) {
         const double wanted = static_cast<double>(segments) * lengths[i] / whole;
@@ -373,7 +373,7 @@ class Resampling {
     Resolution was_, to_;
     detail::RestGrid grid_;
     // For each cell of its grid.
-    std::vector<std::size_t> particle_;      ///< numbered in the body; its count: none
+    std::vector<std::size_t> particle_;      ///< numbered in the body; body_.count: none
     std::vector<const Pin*> pin_;            ///< null: none
     std::vector<const Link*> along_, down_;  ///< the stretch links that begin there
     const Link* has_[3] = {};                ///< a link of each kind

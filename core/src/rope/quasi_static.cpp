@@ -12,7 +12,7 @@
 namespace tendril::rope {
 namespace {
 
-constexpr double substeps = 8.0;  ///< one does not absorb a large move
+constexpr double substeps = 8.0;  ///< a single one cannot absorb a large move
 /// A stiff link further off its length than contacts leave it gets its length back.
 constexpr double max_error = 0.05;
 

@@ -12,8 +12,8 @@ namespace {
 using detail::Symmetric3;
 using glm::dvec3;
 
-/// Stiffness of a link or tie, relative to the mean mass of its ends, over h^2. A metre of rope, 64 segments,
-/// carrying a hundred times its weight stretches by some millionths.
+/// Maximum stiffness of a link or tie, relative to the mean mass of its ends, over h^2. A metre of rope, 64
+/// segments, carrying a hundred times its weight stretches by some millionths.
 constexpr double max_stiffness_between = 1e7;
 /// Stiffness of a contact, relative to the mean mass of a particle.
 constexpr double contact_stiffness = 1e6;
