@@ -33,8 +33,8 @@ bool tear(State& state) {
     return std::erase_if(state.links, torn) > 0;
 }
 
-/// Removes the ties that pull harder than they may, but for those still drawing their particles together;
-/// returns whether there were any.
+/// Removes the ties that pull harder than their strength, except those still drawing their particles
+/// together; returns whether there were any.
 bool tear_ties(State& state) {
     return detail::erase_ties(state, [](const Tie& tie) {
                return tie.strength > 0.0f && tie.now == tie.length && tie.tension > tie.strength;
@@ -60,7 +60,7 @@ void turn(Collider& collider, double part, Scratch::Moving& moving) {
     collider.goal = dvec3(centre(collider.shape));
 }
 
-/// Adds a steady motion to that of the substep. What a spinning body sweeps is within a ball.
+/// Adds a steady motion to the substep's. A spinning body sweeps a volume within a ball.
 void drive(State& state, Collider& collider, Scratch::Moving& moving) {
     const double h = state.settings.substep;
     const dvec3 was(centre(collider.shape));
@@ -111,7 +111,7 @@ void move_colliders(State& state, Scratch& scratch) {
     }
 }
 
-/// Less work than this, about 60 us on one thread, is not worth another thread.
+/// Less work than this, about 60 µs on one thread, is not worth another thread.
 constexpr std::size_t links_a_thread = 1024;
 /// Whether idle threads help with this island: it has a large cloth.
 bool is_shared(const Plan& plan, const Plan::Island& island) {
@@ -123,7 +123,7 @@ bool is_shared(const Plan& plan, const Plan::Island& island) {
     return is_large(island) || std::ranges::any_of(plan.parts_of(island), is_large);
 }
 
-/// How many threads have work.
+/// The number of threads that have work.
 std::size_t useful_threads(const State& state, const Plan& plan) {
     std::size_t useful = plan.islands.size();
     for (const Plan::Island& island : plan.islands)
@@ -200,7 +200,7 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
     if (done.refused) return done;
     const double substep = state_.settings.substep;
     // Only whole substeps are dropped. A remainder is kept, as dropping it would not be counted.
-    constexpr double rounding = 1e-6;  // of a substep
+    constexpr double rounding = 1e-6;  // relative to a substep
     const double over = std::max(0.0, seconds - static_cast<double>(state_.settings.longest_frame));
     done.dropped = static_cast<std::uint64_t>(over / substep + rounding);
     double left = state_.remainder + std::max(0.0, seconds - static_cast<double>(done.dropped) * substep);

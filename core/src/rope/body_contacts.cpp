@@ -14,17 +14,17 @@ namespace {
 using glm::dvec3;
 
 constexpr int max_rounds = 6, min_rounds = 3;
-/// What a contact may be off, relative to the thickness.
+/// Accepted error of a contact, relative to the thickness.
 constexpr double enough_apart = 1e-3;
-/// Of a contact, relative to what its two chains offer.
+/// Stiffness of a contact, relative to the effective mass of its two chains.
 constexpr double stiffer_than_offered = 50.0;
 
-/// Metres that projections move something in a substep.
+/// Metres that projections may move a particle in a substep.
 constexpr double nearby = 1e-3;
 
 }  // namespace
 
-/// The force of a contact whose segments are there.
+/// The response of a contact whose points are at `to`.
 BodyContacts::Response BodyContacts::respond(const Contact& contact, const Points& to) const {
     const Nearest nearest = nearest_of(contact, to);
     Response response{.shares = nearest.shares};
@@ -53,7 +53,7 @@ BodyContacts::Response BodyContacts::respond(const Contact& contact, const Point
     return response;
 }
 
-/// Where a node is, or will be if nothing presses on it.
+/// The position of a node, or the expected one if nothing presses on it.
 dvec3 BodyContacts::expected(std::uint32_t number, std::uint32_t node) const {
     const ContactScratch& chain = memory(number);
     return chain.progress.moved ? chain.nodes[node].x : chain.nodes[node].base;
@@ -94,8 +94,8 @@ std::span<const BodyContacts::Side> BodyContacts::sides_of(std::uint32_t chain) 
     return {first, std::upper_bound(first, s_.sides.end(), chain, after)};
 }
 
-/// The mass that a chain offers to a contact: that of a node, and of its neighbours as far as tension makes
-/// them follow. Other contacts nearer than that share it.
+/// The effective mass of a chain at a contact: a node's, and its neighbours' as far as tension makes them
+/// follow. Other contacts within that distance share it.
 double BodyContacts::offered(std::size_t number) const {
     const Side& side = s_.sides[number];
     const Plan::Chain& chain = plan_.chains[side.chain];
@@ -125,7 +125,7 @@ void BodyContacts::choose_stiffness() {
         contact.stiffness = contact.stiffness > 0.0 ? stiffer_than_offered / contact.stiffness : 0.0;
 }
 
-/// Sets what presses on the nodes of a chain.
+/// Sets the pushes on the nodes of a chain.
 void BodyContacts::press(std::uint32_t number, std::span<const Side> sides) {
     ContactScratch& chain = memory(number);
     for (detail::NodePush& push : chain.pushes)
@@ -133,7 +133,7 @@ void BodyContacts::press(std::uint32_t number, std::span<const Side> sides) {
     for (const Side& side : sides) {
         const Contact& contact = s_.contacts[side.contact];
         const Response response = respond(contact);
-        // If both segments are of this chain, both move in its step, as if they would not.
+        // If both segments are of this chain, both move in its step, but each is taken as still.
         const bool own = plan_.chain_of[contact.a] == plan_.chain_of[contact.b];
         const double sign = side.is_b ? 1.0 : -1.0, times = own ? 2.0 : 1.0;
         const double t = std::abs(response.shares[side.is_b ? 3 : 1]);
@@ -224,8 +224,8 @@ void BodyContacts::find_presses(const Body& cloth, double stiffness, std::vector
     }
 }
 
-/// Leaves out what projections in this substep will not bring together, unless it takes `all`. The deepest
-/// come first.
+/// Drops contacts too far apart for projections to bring together in this substep, unless it takes `all`. The
+/// deepest come first.
 void BodyContacts::begin_projection(bool all) {
     note_moves();
     const auto distant = [&](const Contact& contact) {

@@ -2,15 +2,15 @@
 // installed.
 //
 // 1. find() finds pairs that may come near each other in the substep: two segments, or a particle and a
-//    triangle of a cloth. A pair of segments is a contact if it is nearer than its neighbours, and presses or
-//    would.
+//    triangle of a cloth. A pair of segments is a contact if it is nearer than its neighbours and presses, or
+//    would press.
 // 2. solve(): every chain with a contact takes a step of Newton's method (chain_newton.hpp) in turn, with the
-//    others where they are now, or will be if nothing presses; then each contact adds what is left of its
-//    gap, times a stiffness, to its multiplier. With the stiffness of about what the chains themselves offer
-//    sideways both converge within a few rounds.
-// 3. find_presses() are the contacts within a cloth, for each step of its own solve.
-// 4. project() goes through the contacts of cloth and tied bodies, once these are solved, and what is left of
-//    those within a cloth.
+//    others where they are now, or will be if nothing presses; then each contact adds its remaining gap,
+//    times a stiffness, to its multiplier. With about the chains' own sideways stiffness both converge within
+//    a few rounds.
+// 3. find_presses() finds the contacts within a cloth, for each step of its own solve.
+// 4. project() goes through the contacts of cloth and tied bodies, once these are solved, and the remaining
+//    ones within a cloth.
 // 5. keep_apart() makes sure that nothing crosses on the straight way from the start of the substep to the
 //    solver's result.
 #pragma once
@@ -24,16 +24,16 @@ namespace tendril::rope {
 
 class BodyContacts : IslandStep {
   public:
-    /// Of an island with collisions.
+    /// For an island with collisions.
     explicit BodyContacts(const IslandStep& step)
         : IslandStep(step), s_(scratch_.body_contacts[island_.contacts - 1]) {}
 
-    void find();  ///< once particles have moved freely
+    void find();  ///< call once particles have moved freely
     /// Solves chains in contact; Scratch::chain_solved says which.
     void solve();
-    /// What presses within a cloth now, for its own solve. `stiffness`: of a contact, times h^2.
+    /// The contacts that press within a cloth now, for its own solve. `stiffness`: per contact, times h^2.
     void find_presses(const Body& cloth, double stiffness, std::vector<ClothPress>& presses);
-    /// Once through the contacts left to it; `all`: through all, for solvers that take one link after the
+    /// One pass over the contacts to project; `all`: over all, for solvers that take one link after the
     /// other. Returns the largest correction, relative to the thickness.
     double project(bool all);
     void begin_projection(bool all);
@@ -46,7 +46,7 @@ class BodyContacts : IslandStep {
     using Side = BodyContactScratch::Side;
     using Points = std::array<glm::dvec3, 4>;
     using Shares = std::array<double, 4>;
-    /// Of a contact, with its features somewhere.
+    /// Response of a contact for given positions of its features.
     struct Response {
         glm::dvec3 force{0.0};                        ///< on b
         glm::dvec3 normal{0.0};                       ///< from a to b

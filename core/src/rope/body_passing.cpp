@@ -1,4 +1,4 @@
-// The last check: nothing crosses in a substep.
+// The final check: nothing crosses in a substep.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,12 +11,12 @@ namespace {
 
 using glm::dvec3;
 
-constexpr int max_halvings_of_way = 6;  ///< of the way of a pair, in which it is checked
+constexpr int max_halvings_of_way = 6;  ///< of a pair's way, to check its parts
 constexpr int max_partings = 8;         ///< rounds
-constexpr double parted = 0.1;          ///< how far, relative to the thickness
+constexpr double parted = 0.1;          ///< distance to restore, relative to the thickness
 constexpr int max_shortenings = 12;
 
-/// Whether a plane with this normal has a pair's features on its two sides.
+/// Whether a plane with this normal separates a pair's features.
 bool separates(const BodyContactScratch::Candidate& pair, const dvec3& n, const std::array<dvec3, 4>& at) {
     double a = -std::numeric_limits<double>::infinity(), b = -a;
     for (std::uint32_t k = 0; k < 4; ++k) {
@@ -31,8 +31,8 @@ bool separates(const BodyContactScratch::Candidate& pair, const dvec3& n, const 
 
 }  // namespace
 
-/// Whether a pair crosses on a straight way. It does not if one plane has each feature on its own side at
-/// both ends of it; if one has not, its halves are checked.
+/// Whether a pair crosses on a straight way. It does not if one plane separates the features at both ends of
+/// the way; otherwise its halves are checked.
 bool BodyContacts::crosses(const Candidate& pair, const Points& from, const Points& to, const dvec3& n,
                            int depth, Shares& where) const {
     if (separates(pair, n, to)) return false;
@@ -47,7 +47,7 @@ bool BodyContacts::crosses(const Candidate& pair, const Points& from, const Poin
 }
 
 bool BodyContacts::crosses(const Pair& pair, Shares& where) const {
-    if (!(pair.apart > 1e-9 * pair.thickness)) return false;  // it began like that: either side will do
+    if (!(pair.apart > 1e-9 * pair.thickness)) return false;  // crossing from the start: either side will do
     const Points to = points_of(pair, scratch_.place);
     return !separates(pair, pair.normal, to) &&
            crosses(pair, points_of(pair, state_.position), to, pair.normal, max_halvings_of_way, where);
@@ -82,7 +82,7 @@ void BodyContacts::keep_apart() {
         if (any && outran()) search(scratch_.place);
     }
     if (!any) return;
-    // All together go only a part of the way: what did not cross on the whole of it does not on a part.
+    // All bodies go only a part of the way: pairs that did not cross on the whole way do not on a part.
     for (int i = 0; i <= max_shortenings; ++i) {
         const double left = i < max_shortenings ? 0.5 : 0.0;
         each_particle([&](std::size_t k) {

@@ -1,8 +1,7 @@
-// Finds what may come near each other, and what of it is a contact.
+// Finds pairs that may come near each other, and chooses the contacts among them.
 //
-// Candidates are listed with a margin, and stay listed until a particle has roamed from where it was then (L.
-// Verlet, 1967). In a substep only they are looked at, so the pairs found are the same whenever the list was
-// made.
+// Candidates are listed with a margin, and stay listed until a particle has roamed too far from its position
+// then (L. Verlet, 1967). A substep looks only at them, and finds the same pairs whenever the list was made.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -17,16 +16,16 @@ namespace {
 
 using glm::dvec3;
 
-/// How far a particle may be pulled off its free path, metres: the collider's search allows the same.
+/// How far a particle may be pulled off its free path, metres; the search for colliders allows the same.
 constexpr double off_path = 1e-3;
-/// Until candidates are listed again a particle may roam that many of its ways, and parts of its radius; and
-/// its way may grow likewise.
+/// Until candidates are listed again, a particle may roam by these multiples of its way and of its radius,
+/// and its way may grow by these multiples.
 constexpr double roamed_ways = 4.0, roamed_radii = 0.3, grown_way = 2.0, grown_radii = 0.2;
-/// Parts of a body nearer along it, in thicknesses, cannot touch: pi times the radius.
+/// Parts of a body nearer than this along it, in thicknesses, cannot touch: pi times the radius.
 constexpr double min_arc = 1.5707963267948966;
 /// Metres above a surface that count as touching.
 constexpr double nearly = 1e-5;
-/// How fast what is pressed into each other comes out: a part per substep, and m/s.
+/// How fast overlapping bodies separate: part per substep, and m/s.
 constexpr double recovered = 0.2, recovery_speed = 0.5;
 /// Particles that a contact may slide along in a substep and still continue.
 constexpr std::uint32_t max_slide = 3;
@@ -48,7 +47,7 @@ void BodyContacts::each_listed(Visit visit) const {
     }
 }
 
-/// Where two features are nearest: what its particles contribute.
+/// The nearest points of two features, as the shares of their particles.
 BodyContacts::Nearest BodyContacts::nearest_of(const Candidate& pair, const std::array<dvec3, 4>& at) {
     if (pair.split == 2) {
         const auto found = detail::nearest_of_segments(at[0], at[1], at[2], at[3]);
@@ -62,7 +61,7 @@ void BodyContacts::find() {
     search(scratch_.base);
     choose_contacts();
     continue_forces();
-    // What neither presses nor would needs no contact.
+    // A pair that neither presses nor would press needs no contact.
     std::erase_if(s_.contacts, [&](const Contact& contact) {
         return contact.force == dvec3(0.0) &&
                respond(contact, points_of(contact, scratch_.base)).gap > nearly;
@@ -77,7 +76,7 @@ void BodyContacts::search(const std::vector<dvec3>& ends) {
     for (const Candidate& each : s_.candidates) {
         const double radii = static_cast<double>(state_.bodies[each.body_a].radius) +
                              static_cast<double>(state_.bodies[each.body_b].radius);
-        // Diagonals never touch: they only must not be crossed.
+        // Diagonals do not touch; they must only not be crossed.
         const bool touches = std::max(each.a, each.b) < state_.links.size();
         const double near = both(each, &Scratch::Listed::way) + 2.0 * off_path + (touches ? radii : 0.0);
         if (each.listed - both(each, &Scratch::Listed::roamed) > near) continue;
@@ -99,7 +98,7 @@ void BodyContacts::search(const std::vector<dvec3>& ends) {
     }
 }
 
-/// How much the farthest particles of a pair's two features have gone together.
+/// The sum of the largest moves in each of a pair's two features.
 double BodyContacts::both(const Candidate& pair, double Scratch::Listed::*way) const {
     double a = 0.0, b = 0.0;
     for (std::uint32_t k = 0; k < 4; ++k) {
@@ -116,7 +115,7 @@ bool BodyContacts::stay_listed(const std::vector<dvec3>& ends) {
         mean += ends[i] - state_.position[i];
         drift += state_.position[i] - scratch_.listed[i].at;
     });
-    // What all do together brings nothing nearer.
+    // Common motion brings nothing nearer.
     s_.mean = (1.0 / island_.particles) * mean;
     drift = (1.0 / island_.particles) * drift;
     const std::span<const std::uint32_t> bodies = Plan::part(plan_.bodies, island_.bodies);
@@ -184,8 +183,8 @@ void BodyContacts::list_candidates() {
     });
 }
 
-/// The segments that begin in a chunk, if it meets cloth its particles, and of a cloth the triangles and
-/// their diagonals.
+/// Adds the segments that begin in a chunk; if it meets cloth, its particles; and for a cloth, the triangles
+/// and their diagonals.
 void BodyContacts::add_features(const Plan::Chunk& chunk) {
     const Body& body = state_.bodies[chunk.body];
     BodyContactScratch::Chunk box{.low = dvec3(std::numeric_limits<double>::infinity()),
@@ -303,8 +302,8 @@ bool BodyContacts::lowest(const Pair& pair) const {
     return lowest_at(pair.a, -pair.shares[1], pair.normal) && lowest_at(pair.b, pair.shares[3], -pair.normal);
 }
 
-/// Segments of two ropes touch where they are nearest. At cloth the ends of segments are left to particles
-/// and triangles, which also keep diagonals apart.
+/// Segments of two ropes touch at their nearest points. On cloth, particles and triangles handle the ends of
+/// segments, and keep diagonals apart.
 void BodyContacts::choose_contacts() {
     s_.contacts.clear();
     s_.projected.clear();
@@ -315,7 +314,7 @@ void BodyContacts::choose_contacts() {
         const bool inside =
             std::none_of(pair.shares.begin(), pair.shares.end(), [](double share) { return share == 0.0; });
         const bool cloth = is_cloth(pair.body_a) || is_cloth(pair.body_b);
-        if (std::max(pair.a, pair.b) >= state_.links.size()) continue;  // a diagonal only must not be crossed
+        if (std::max(pair.a, pair.b) >= state_.links.size()) continue;  // a diagonal must only not be crossed
         if (pair.split == 2 && !(cloth ? inside : lowest(pair))) continue;
         const bool solved = !cloth && plan_.collides[pair.body_a] == Plan::Collides::Solved &&
                             plan_.collides[pair.body_b] == Plan::Collides::Solved;
@@ -325,7 +324,8 @@ void BodyContacts::choose_contacts() {
     }
 }
 
-/// Takes over the forces of the previous substep: of the same two segments, or of neighbours if it has slid.
+/// Takes over each contact's force from the previous substep: of the same two segments, or of neighbours if
+/// it has slid.
 void BodyContacts::continue_forces() {
     const std::vector<BodyContact>& before = state_.contacts;
     s_.taken.assign(before.size(), 0);

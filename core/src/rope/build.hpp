@@ -13,18 +13,18 @@ namespace tendril::rope::detail {
 /// A body that is not in a state yet: its particles are numbered from 0.
 struct Draft {
     Body body;
-    std::vector<glm::dvec3> points;  ///< at rest
-    double mass = 0.0;               ///< kg, of each particle
+    std::vector<glm::dvec3> points;  ///< at rest, metres
+    double mass = 0.0;               ///< kg per particle
     std::vector<Link> links;
     std::vector<Pin> pins;
 
     void pin(std::size_t particle);
     void link(std::uint32_t a, std::uint32_t b, double rest, Link::Kind kind, float compliance);
-    /// Its rest length is the particles' distance.
+    /// With the particles' distance as rest length.
     void link(std::uint32_t a, std::uint32_t b, Link::Kind kind, float compliance);
 };
 
-// Each drafts a body for a state, or refuses and names what is out of range.
+// Each drafts a body for a state, or refuses and names the value out of range.
 Result draft_rope(const State& state, const RopeShape& shape, Draft& draft);
 Result draft_cloth(const State& state, const ClothShape& shape, Draft& draft);
 Result draft_hair(const State& state, const HairShape& shape, Draft& draft);
@@ -36,11 +36,11 @@ Expected<BodyId> append(State& state, const char* operation, Draft draft);
 glm::dvec3 down(const Settings& settings) noexcept;
 /// Gravity plus external acceleration, m/s^2.
 glm::dvec3 acceleration(const Settings& settings) noexcept;
-/// Whether anything resists or pushes.
+/// Whether there is wind or still air.
 inline bool has_air(const Settings& settings) noexcept {
     return settings.wind != glm::vec3(0.0f) || settings.still_air;
 }
-/// Of the wind on a cloth that faces it, in a gust, N/m^2.
+/// Pressure of the wind in a gust on a cloth that faces it, N/m^2.
 double wind_pressure(const Settings& settings) noexcept;
 /// Carries the gusts along for a substep.
 void drift_gusts(State& state) noexcept;
@@ -51,11 +51,11 @@ inline double compliance(const Settings& settings, const Link& link) noexcept {
     return static_cast<double>(settings.compliance) * link.rest + link.compliance;
 }
 
-/// Whether a body resists bending. Only the direct solver knows it.
+/// Whether a body resists bending. Only the direct solver supports it.
 inline bool bends(const State& state, const Body& body) noexcept {
     return body.bending > 0.0f && state.settings.solver == Solver::Direct;
 }
-/// How a rope resists bending where one link follows another.
+/// The bending resistance of a rope between two consecutive links.
 ChainBend bend_between(const State& state, const Body& body, const Link& before, const Link& after) noexcept;
 /// Whether a link continues a chain. Shear and bend links form none.
 inline bool follows(const Link& before, const Link& link) noexcept {
@@ -65,7 +65,7 @@ inline bool follows(const Link& before, const Link& link) noexcept {
 /// The relative length error of a stretch link, or its length if its rest is 0; 0 for other links.
 double length_error(const State& state, const Link& link) noexcept;
 
-/// Coulomb's coefficient of a body.
+/// Coulomb's friction coefficient of a body.
 inline double friction(const State& state, const Body& body) noexcept {
     return static_cast<double>(body.friction.value_or(state.settings.friction));
 }
@@ -73,20 +73,20 @@ inline double friction(const State& state, const Body& body) noexcept {
 /// The distance that a tie keeps in a substep of h seconds, metres.
 double distance_kept(const Tie& tie, double h) noexcept;
 
-// Energy in joules, halfway through a substep: Verlet's velocity is the one at that time, so what a leapfrog
-// step conserves is conserved.
+// Energy in joules, halfway through a substep: Verlet's velocity refers to that time, and a leapfrog step
+// conserves that energy.
 
-/// Of a particle that moved by `by` in h seconds.
+/// Energy of a particle that moved by `by` in h seconds.
 inline double kinetic_energy(double mass, const glm::dvec3& by, double h) noexcept {
     return h > 0.0 ? 0.5 * mass * dot(by, by) / (h * h) : 0.0;
 }
-/// Of a link under `tension`. Its ends are `now` apart, a distance that changed by `by` in the substep. A
-/// solver that fell short leaves a link longer than its tension implies; its length halfway is taken to be
-/// off by the same factor. Shear and bend links are so stiff that rotation alone falsifies their length
-/// halfway, so theirs is the energy at the end.
+/// Energy of a link under `tension`. Its ends are `now` apart, a distance that changed by `by` in the
+/// substep. A solver that fell short leaves a link longer than its tension implies; its length halfway is
+/// taken to be off by the same factor. Shear and bend links are so stiff that rotation alone falsifies their
+/// length halfway, so their energy is taken at the end.
 double elastic_energy(const Link& link, double compliance, double tension, const glm::dvec3& now,
                       const glm::dvec3& by) noexcept;
-/// Of a body that resists bending where one link follows another; `at`: the position of a particle.
+/// Bending energy of a body between consecutive links; `at`: the position of a particle.
 template <class At>
 double bending_energy(const State& state, const Body& body, const Link& before, const Link& after, At at) {
     const ChainBend bend = bend_between(state, body, before, after);

@@ -1,4 +1,4 @@
-// The contacts of a chain: which planes hold which particle, and how friction drags on it.
+// The contacts of a chain: the planes that hold each particle, and the drag of friction.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +18,7 @@ constexpr double touching = 1e-5;      ///< metres above a surface
 constexpr double depth = 1e-7;         ///< metres inside that are harmless
 constexpr double harmful = 1e-6;       ///< metres inside that require another step
 constexpr double harmful_late = 1e-5;  ///< the same after many steps
-constexpr double far_away = 1e30;      ///< metres, of what is not measured
+constexpr double far_away = 1e30;      ///< metres, if not measured
 /// Slip per substep of a particle that friction holds, metres.
 constexpr double creep = 1e-7;
 
@@ -28,7 +28,7 @@ dvec3 beside(const dvec3& v, const dvec3& normal) {
 
 }  // namespace
 
-/// What is near the chunk of particle `i`; the search for the chunk starts at `chunk`.
+/// The colliders near the chunk of particle `i`; the search for the chunk starts at `chunk`.
 std::span<const IslandScratch::Near> ChainNewton::near_of(std::uint32_t i, std::uint32_t& chunk) const {
     while (plan_.chunks[chunk].first > i) --chunk;
     while (i - plan_.chunks[chunk].first >= plan_.chunks[chunk].count) ++chunk;
@@ -156,7 +156,7 @@ void ChainNewton::begin_plane(ContactScratch::Contact& contact, ContactScratch::
     const std::uint32_t i = particle(contact.node);
     const Scratch::Moving& moving = collider(plane.collider);
     plane.by = moving.by_at(state_.position[i]);
-    dvec3 at = state_.position[i] + plane.by;  // as the collider sees it
+    dvec3 at = state_.position[i] + plane.by;  // relative to the collider
     const dvec3 from = at, way = scratch_.base[i] - from;
     const double far = detail::length(way), step = 0.5 * moving.size + radius_;
     SurfaceDistance surface = surface_distance(*moving.shape, at);
@@ -196,7 +196,7 @@ void ChainNewton::measure_planes(const ContactScratch::Contact& contact) {
         plane.gap = far_away;
         if (s_.progress.moved && !plane.active && moving.far_from(node.x, radius_)) continue;
         plane.gap = dot(plane.normal, node.x - plane.point);
-        // A particle far behind a plane that it touched has come through it: the surface nearest to it now is
+        // A particle far behind a plane that it touched has passed through: the surface now nearest is
         // another one. If it did not touch the plane, it may have gone round.
         if (s_.progress.moved && (!plane.active || plane.gap > -0.5 * moving.size - radius_)) {
             const SurfaceDistance surface = surface_distance(*moving.shape, node.x);
@@ -207,8 +207,8 @@ void ChainNewton::measure_planes(const ContactScratch::Contact& contact) {
     }
 }
 
-/// Of new contacts so near to each other that bending makes their nodes move alike, only the deepest counts
-/// in a step: a stiff rope bent round a ball in one would be flung off it in the next.
+/// Among new contacts so near that bending makes their nodes move alike, keeps only the deepest in a step: a
+/// stiff rope bent round a ball in one step would be flung off it in the next.
 void ChainNewton::choose_deepest() {
     ContactScratch::Contact* kept = nullptr;
     double deepest = 0.0;
@@ -241,7 +241,7 @@ bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
             plane.active = was || !contact.waits;
             changed |= plane.gap < (s_.progress.may_go ? -harmful : -harmful_late);
         } else if (was && s_.progress.may_go) {
-            // The force that the contact has to bear: what is out of balance without it.
+            // The force that the contact has to bear: the imbalance without it.
             plane.active = dot(node.force, plane.normal) + node.mass * plane.gap <= 0.0;
         }
         changed |= s_.progress.may_go && plane.active != was;
@@ -278,7 +278,7 @@ void ChainNewton::rub(ContactScratch::Contact& contact) {
         slip = beside(slip, hold.normal[p]);
     }
     double slipped = detail::length(slip);
-    if (!s_.progress.moved) {  // as far as it slipped before, or as it would freely
+    if (!s_.progress.moved) {  // its earlier slip, or its free one
         const double before = detail::length(state_.displacement[particle(contact.node)] - by);
         const double alone = detail::length(slip + (1.0 / node.mass) * force) - friction * normal / node.mass;
         slipped = std::max(before, alone);
@@ -295,7 +295,7 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
     if (was) {
         const double thick = 0.5 * collider(contact.collider).size + radius_;
         hold.gap = dot(hold.normal, a + hold.at * (b - a) - contact.point);
-        if (hold.gap < -thick) return true;  // it has come through
+        if (hold.gap < -thick) return true;  // it has passed through
     }
     double deepest = was && (!s_.progress.may_go || hold.multiplier >= 0.0) ? touching : -depth;
     std::uint32_t touched = ~0u;
@@ -363,7 +363,7 @@ void ChainNewton::rub_link(const ContactScratch::LinkContact& contact) {
     const double drag = friction * normal / std::max(slipped, creep);
     const auto share = [&](const detail::ChainNode& node, double part, const dvec3& slip) {
         detail::NodeContact& end = s_.holds[static_cast<std::size_t>(node.contact)];
-        if (end.planes > 0) return;  // it has its own
+        if (end.planes > 0) return;  // it has its own friction
         end.drag = part * drag;
         end.slip = slip;
     };

@@ -18,13 +18,13 @@ constexpr int max_steps = 16;
 constexpr int few_steps = 4;        ///< after these a larger error is accepted
 constexpr int steps_to_let_go = 8;  ///< in these contacts may be dropped
 constexpr int max_rejected = 3;     ///< consecutive steps that may be repeated
-/// Of a link, over h^2, relative to the inverse mass of its ends. A link that cannot reach its length
-/// stretches just enough to keep its tension finite. A metre of rope, 64 segments, carrying a hundred times
-/// its weight stretches by a millionth.
+/// Minimum link compliance over h^2, relative to the inverse mass of its ends. A link that cannot reach its
+/// length stretches just enough to keep its tension finite. A metre of rope, 64 segments, carrying a hundred
+/// times its weight stretches by a millionth.
 constexpr double min_compliance = 1e-8;
 constexpr double accepted = 1e-5;  ///< relative length error
-/// So often steps become wild before links keep their resistance to turning: a fold that
-/// runs along a rope would have them go wild again and again, and end so.
+/// Number of times that steps may diverge before links keep their resistance to turning: a fold that
+/// runs along a rope would otherwise make them diverge again and again, to the end.
 constexpr int max_relapses = 2;
 constexpr double first_stiffer = 10.0;
 constexpr double grown_too_far = 0.25, turned_too_far = 0.5;
@@ -119,7 +119,7 @@ void ChainNewton::keep() {
     for (std::size_t c = 0; c < s_.bond_holds.size(); ++c) s_.kept_contacts[c] = s_.bond_holds[c].multiplier;
 }
 
-/// Goes back to a part of the last step.
+/// Reduces the last step to a part.
 void ChainNewton::go_back(double part) {
     // NaN must not survive: part 0 assigns.
     const auto back = [&](auto& to, const auto& from) { to = part > 0.0 ? from + part * (to - from) : from; };
@@ -166,7 +166,7 @@ bool ChainNewton::step(bool presses, bool more) {
     const bool done =
         p.moved && !changed && p.worst <= enough && (p.used == 0.0 || p.relapses == max_relapses);
     if ((done && !more) || p.taken == steps) return false;
-    if (++p.taken == few_steps)  // too fast for the mean of directions: the last one alone converges
+    if (++p.taken == few_steps)  // too fast for the mean of directions: the latest alone converges
         for (detail::ChainBend& bend : s_.bends) bend.direction = dvec3(0.0);
     keep();
     system.step();

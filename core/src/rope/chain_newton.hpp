@@ -8,7 +8,7 @@
 //
 // A step that lengthens a link too much, or turns it too far for its linearisation, is repeated with links
 // that resist turning (K. Levenberg, 1944), and finally taken only in part. If that helps only for a while,
-// they resist until lengths hold.
+// links keep this resistance until lengths hold.
 #pragma once
 
 #include <cstdint>
@@ -27,21 +27,20 @@ class ChainNewton {
                 IslandScratch& local, ContactScratch& own)
         : state_(state), plan_(plan), island_(island), scratch_(scratch), local_(local), s_(own) {}
 
-    /// Finds what a chain may touch in this substep; false if there is nothing.
+    /// Finds the colliders that a chain may touch in this substep; false if there are none.
     bool find(std::uint32_t chain);
-    /// Whether it touches any of that at the start of the substep, or would on a free path.
+    /// Whether the chain touches a collider at the start of the substep, or would on a free path.
     bool touches() const;
-    /// Whether it is inside any of that at the solver's result.
+    /// Whether the solver's result is inside a collider.
     bool inside() const;
     /// Solves the chain that was found last, starting at the beginning of the substep; without contacts if
     /// there are none.
     void solve();
 
-    // The same in parts. Between steps the caller sets what presses on nodes from other chains.
-    void open(std::uint32_t chain);  ///< of a chain that was found earlier
+    // The same in parts. Between steps the caller sets the pushes of other chains on nodes.
+    void open(std::uint32_t chain);  ///< a chain that was found earlier
     void begin();
-    /// `presses`: what does has changed since the last step. `more`: a step is wanted in any case. False if
-    /// none was taken.
+    /// `presses`: pushes have changed since the last step. `more`: forces a step. False if none was taken.
     bool step(bool presses, bool more);
     void finish();
 

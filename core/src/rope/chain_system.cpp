@@ -12,13 +12,13 @@ constexpr double max_stiffness = 1e9;   ///< relative to the mass
 constexpr double max_multiplier = 1e9;  ///< relative to mass and rest
 constexpr double enough_freedom = 0.05;
 
-/// What eliminated nodes pass on to the next.
+/// Terms that eliminated nodes pass on to the next node.
 struct Sweep {
     Symmetric3 matrix;
     dvec3 right{0.0};
     double stiffness = 0.0;
 };
-/// What they pass on to the next but one, if the chain resists bending.
+/// Terms for the next node but one, if the chain resists bending.
 struct Beyond {
     Matrix3 across;  ///< the matrix that leads there from the next
     Symmetric3 matrix;
@@ -108,8 +108,8 @@ inline Sweep eliminate(const ChainNode& node, ChainBond& bond, const dvec3& alon
     return next;
 }
 
-/// The same if bending leads to the next node, and by `to_second` to the next but one. `beyond`: what nodes
-/// before have passed on to the next; then what this one passes on to the next but one.
+/// The same if bending leads to the next node, and by `to_second` to the next but one. `beyond`: in, the
+/// terms from earlier nodes for the next; out, the terms for the next but one.
 Sweep eliminate(const ChainNode& node, ChainBond& bond, ChainBend& bend, double to_second, const dvec3& along,
                 double weights, Beyond& beyond) noexcept {
     Sweep next = eliminate(node, bond, along, weights);
@@ -259,7 +259,7 @@ void ChainSystem::solve() noexcept {
         double stiffness = before.stiffness + bond.stiffness, to_second = 0.0;
         if constexpr (bent) {
             stiffness += bend->own;
-            // The right side has eliminated what is beyond the middle.
+            // The right side has eliminated the nodes beyond the middle.
             to_second = forward ? (next < middle ? bend->to_second : 0.0) : bends[k - 2].to_second;
             bend->across = beyond.across;
             const double to_next = bends[forward ? k : next].to_next - bond.stiffness;
@@ -304,7 +304,7 @@ void ChainSystem::solve() noexcept {
     const double own = bent ? bends[middle].own : 0.0;
     solve_node(node, both, left.stiffness + right.stiffness + own, contacts, pushes);
     node.x += node.offset;
-    /// How far node `k` moves, by how far the next, and the next but one, move.
+    /// The move of node `k`, from the moves of the next node and the next but one.
     const auto substitute = [&](const dvec3& next_by, const dvec3& second_by, std::size_t k,
                                 std::size_t next) {
         const bool forward = next > k;

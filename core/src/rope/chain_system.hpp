@@ -72,18 +72,18 @@ struct ChainNode {
     std::int32_t contact = -1;  ///< index of its NodeContact; negative: none
     std::int32_t push = -1;     ///< index of its NodePush; negative: none
     bool pinned = false;
-    dvec3 force{0.0};  ///< out of balance, times h^2; without contact
+    dvec3 force{0.0};  ///< residual force, times h^2; without contact
     // Within a step: moves by `offset`, plus `mobility` times any further force.
     dvec3 offset{0.0};
     Symmetric3 mobility;
 };
 
-/// What presses on a node from other segments.
+/// The force of other segments on a node.
 struct NodePush {
     std::uint32_t node = 0;
     dvec3 at{0.0};         ///< where the node was expected
     dvec3 force{0.0};      ///< there, times h^2
-    Symmetric3 stiffness;  ///< how much it falls as the node moves, times h^2
+    Symmetric3 stiffness;  ///< decrease of the force per move of the node, times h^2
 };
 
 /// A link, from its node to the next.
@@ -95,7 +95,7 @@ struct ChainBond {
     dvec3 along{0.0};           ///< unit
     double error = 0.0;         ///< metres too long
     double stiffness = 0.0;     ///< sideways, times h^2
-    double pliant = 1.0;        ///< the part of the stiffness along it that compliance leaves
+    double pliant = 1.0;        ///< part of the stiffness along it left by compliance
     // Within a step: expresses the multiplier by the displacement of the next node in elimination order.
     dvec3 row{0.0};
     double right = 0.0, inverse = 0.0;
@@ -104,7 +104,7 @@ struct ChainBond {
 /// The effect of contacts on a node.
 struct NodeContact {
     static constexpr int most = 3;
-    dvec3 normal[most];  ///< of the planes that it stays on
+    dvec3 normal[most];  ///< planes that hold the node
     double gap[most];    ///< metres above each
     int planes = 0;
     double drag = 0.0;  ///< friction, times h^2, over the slip distance
@@ -129,10 +129,10 @@ struct BondContact {
 struct ChainBend {
     double stiffness = 0.0;            ///< N m^2 over the mean length of its links, times h^2; 0 at the ends
     double before = 0.0, after = 0.0;  ///< over the length of each link, 1/m
-    dvec3 earlier{0.0};                ///< the part of the moment that is known
-    dvec3 direction{0.0};              ///< of its link one substep before the last, unit; 0: unknown
-    double own = 0.0;                  ///< what it adds to the matrix of its node,
-    double to_next = 0.0, to_second = 0.0;  ///< and to those that lead to the next node and the next but one
+    dvec3 earlier{0.0};                ///< known part of the moment
+    dvec3 direction{0.0};              ///< link direction one substep before the last, unit; 0: unknown
+    double own = 0.0;                  ///< added to the matrix of its node,
+    double to_next = 0.0, to_second = 0.0;  ///< and to the matrices to the next node and next but one
     // Within a step: the matrix that leads to the next node in elimination order; the rows of multipliers for
     // the next but one.
     Matrix3 across;
@@ -142,8 +142,8 @@ struct ChainBend {
         return before * (previous - x) + after * (next - x);
     }
 };
-/// The part of curvatures, and of directions of tension, that is taken at the end of a substep, the rest one
-/// substep before the last. At 0.5 nothing would be lost, and a stiff rope ring for ever.
+/// Curvatures and directions of tension are taken by this part at the end of a substep, the rest one substep
+/// before the last. At 0.5 no energy would be lost, and a stiff rope would ring for ever.
 inline constexpr double bend_ahead = 0.6, tension_ahead = 0.51;
 
 struct ChainSystem {
@@ -159,7 +159,7 @@ struct ChainSystem {
     void evaluate(double stiffer) noexcept;
     /// Moves nodes and changes multipliers by one step, after evaluate().
     void step() noexcept;
-    double largest_error() const noexcept;  ///< of a length, relative to its rest
+    double largest_error() const noexcept;  ///< length error of a link, relative to its rest length
 
   private:
     template <bool bent>

@@ -76,7 +76,7 @@ Result check_handles(const List& list, const std::vector<std::uint32_t>& slots, 
     return {};
 }
 
-/// Of a cloth with gaps.
+/// For a cloth with gaps.
 Result check_cells(std::size_t number, const Body& body) {
     const std::vector<std::uint32_t>& cells = body.cells;
     if (cells.empty()) return {};

@@ -11,8 +11,8 @@ namespace {
 
 using glm::dvec3;
 
-/// Of a contact within the cloth, in m / h^2: it carries a hundred times the weight of a particle with a gap
-/// of a few micrometres.
+/// Stiffness of a contact within the cloth, in m / h^2: it carries a hundred times the weight of a particle
+/// with a gap of a few micrometres.
 constexpr double press_stiffness = 300.0;
 
 /// along n n^T + across (I - n n^T), in the order of GridBlocks.
@@ -104,7 +104,7 @@ void ClothSolver::note_forces() {
     }
 }
 
-/// How far the deepest contact is inside a collider.
+/// The depth of the deepest contact in a collider.
 double ClothSolver::deepest() const {
     double depth = 0.0;
     for (const ClothContact& each : local_.cloth_contacts) depth = std::max(depth, -each.gap);

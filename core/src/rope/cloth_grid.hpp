@@ -8,7 +8,7 @@
 // This is the backward Euler method (D. Baraff, A. Witkin, "Large Steps in Cloth Simulation", 1998). One step
 // of Newton's method from x0 comes close enough. With f = k (length - rest), n the direction of a link and g
 // = max(f, 0) / length, the block of a link is (k - g) n n^T + g I. The sideways stiffness of tension keeps a
-// taut cloth smooth; the negative one of compression is left out, so the system stays positive definite.
+// taut cloth smooth; compression's negative stiffness is left out, so the system stays positive definite.
 //
 // Stiffness and force are in units of m / h^2, with m the mean mass of the cloth: numbers stay in range at
 // any scale.
@@ -26,17 +26,17 @@ inline constexpr std::size_t stretch_steps = 2;
 
 /// All in the layout of the finest level.
 struct ClothArrays {
-    std::array<float*, fine_steps> rest{}, stiffness{};  ///< of links, by the cell they begin in; 0: no link
+    std::array<float*, fine_steps> rest{}, stiffness{};  ///< per link, by the cell it begins in; 0: no link
     std::array<float*, fine_steps> pull{};               ///< force over length
     GridVector place{};                                  ///< relative to any particle of the cloth, metres
     GridVector lag{};                                    ///< x0 - x
     float* mass = nullptr;
 };
 
-/// Of dot_cells cells.
+/// Results over dot_cells cells.
 struct ClothPart {
     float strain = 0.0f;     ///< maximum of their stretch links
-    double potential = 0.0;  ///< twice that of inertia and links
+    double potential = 0.0;  ///< of inertia and links, doubled
 };
 
 /// The data of one cloth's solve.
@@ -45,7 +45,7 @@ struct Cloth {
     ClothArrays arrays;
     std::vector<ClothPart> parts;
     std::vector<double> sums;  ///< partial sums over links
-    /// Of the last solve: the approximate length, metres, the energy in links and its gain, joules.
+    /// Results of the last solve: the approximate length, metres; the energy in links and its gain, joules.
     struct {
         double length = 0.0, elastic = 0.0, gained = 0.0;
     } energy;
@@ -55,8 +55,8 @@ struct Cloth {
 
 /// Compiled for each vector unit.
 struct ClothUnit {
-    /// Computes the blocks of links, without contacts, and their pull; and the parts, whose strain is that of
-    /// links of a stiffness.
+    /// Computes the blocks of links, without contacts, and their pull; and the parts, whose strain counts
+    /// only links of this stiffness.
     void (*links)(const GridLevel&, const ClothArrays&, float stiffness, ClothPart*,
                   GridRange cells) = nullptr;
     /// Computes the diagonal and the right side.

@@ -57,11 +57,11 @@ bool fill_grid(const State& state, const Plan::Island& island, std::uint32_t num
     return true;
 }
 
-/// What ties of grids cost grows with the cube of their number; elimination, of the side of a cloth. From
-/// this many a side, elimination costs less.
+/// The cost of grids' ties grows with the cube of their number, the cost of elimination with the cube of a
+/// cloth's side. From this many ties per side on, elimination costs less.
 constexpr std::size_t max_ties_a_side = 4;
 
-/// Adds the grids of bodies that ties join, unless there are so many ties that elimination costs less.
+/// Adds the grids of tied bodies, unless there are so many ties that elimination costs less.
 void fill_tied_grids(const State& state, Plan::Island& island, Plan& plan) {
     Plan::Range& grids = plan.tied.emplace_back().grids;
     island.tied = static_cast<std::uint32_t>(plan.tied.size());

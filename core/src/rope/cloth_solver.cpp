@@ -15,18 +15,18 @@ using glm::dvec3;
 
 /// Strain of a link that carries the weight of the whole cloth.
 constexpr double strain_by_weight = 2e-3;
-/// Of a link, in m / h^2.
+/// Range of a link's stiffness, in m / h^2.
 constexpr double min_stiffness = 1e4, max_stiffness = 1e6;
-/// Steps of Newton's method; more are only taken until every stretch link, and how deep particles are in
-/// colliders, is accepted. None needs to be solved well: its system is linear, and lengths are not.
+/// Steps of Newton's method; more are only taken until the strain of every stretch link and the depth in
+/// colliders are accepted. No step needs an exact solution: its system is linear, and lengths are not.
 constexpr int min_newton_steps = 2, max_newton_steps = 8;
 constexpr double accepted_strain = 0.007;
 constexpr double accepted_depth = 0.01;  ///< relative to the shortest stretch link
-/// The residual at which a step is solved: relative to its initial value; or, in later ones, to the forces
-/// that act on free particles, but less than it takes to strain a single link.
+/// The residual at which a step is solved: relative to its initial value; in later steps, to the forces on
+/// free particles, but less than strains a single link.
 constexpr double usual_residual = 0.1, driven_residual = 0.1;
 constexpr double residual_strain = 1e-3;
-constexpr double far_driven = 0.05;  ///< by forces in a substep, relative to a link
+constexpr double far_driven = 0.05;  ///< displacement by forces in a substep, relative to a link
 constexpr int max_halvings = 6;
 constexpr std::size_t links_summed = 4096;  ///< by a thread at a time
 
@@ -107,7 +107,7 @@ double ClothSolver::stiffness_of(const Link& link) const {
     return compliance * stiffness_ > 1.0 ? 1.0 / compliance : stiffness_;
 }
 
-/// Loads what does not change between solves.
+/// Loads the data that do not change between solves.
 void ClothSolver::load() {
     detail::ClothArrays& to = cloth_.arrays;
     const std::size_t cells = level_.cells();
@@ -169,8 +169,8 @@ void ClothSolver::pin() {
     }
 }
 
-/// A step of Newton's method. If it strains links, it is halved until the potential does not rise. What is
-/// left of the first one is free motion.
+/// A step of Newton's method. If it strains links, it is halved until the potential does not rise, the first
+/// one towards free motion.
 int ClothSolver::step(int iterations, bool first, double enough) {
     const detail::GridSystem::Tolerance tolerance{first ? 0.0 : enough, usual_residual};
     in_cells([&](detail::GridRange cells) { scratch_.cloth_unit.cells(level_, cloth_.arrays, cells); });

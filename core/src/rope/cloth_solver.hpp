@@ -18,7 +18,7 @@ class ClothSolver : protected ImplicitStep {
     double taken() const { return taken_; }  ///< the part of the last step that was taken
 
   protected:
-    /// Of any grid of the plan, 1-based, or the island's; measures nothing.
+    /// For any grid of the plan, 1-based, or the island's; measures nothing.
     ClothSolver(const IslandStep& step, std::uint32_t grid);
 
     // cloth_solver.cpp
@@ -27,7 +27,7 @@ class ClothSolver : protected ImplicitStep {
     void pin();
     int step(int iterations, bool first, double enough);
     double potential() const;
-    double add_links(double sum) const;  ///< their share of the potential
+    double add_links(double sum) const;  ///< adds the links' potential
     void finish();
 
     // cloth_contact.cpp
@@ -52,8 +52,8 @@ class ClothSolver : protected ImplicitStep {
     }
     static double link_stiffness(double weight, double shortest, double unit);
     /// Starts as if nothing had changed since the previous substep: links and contacts then push as they did.
-    /// Where forces move particles by as much as a link that is no guide, and it starts from free motion.
-    /// Returns the residual at which a later step is solved.
+    /// If forces move particles by as much as a link, it starts from free motion instead. Returns the
+    /// residual at which a later step is solved.
     double start();
     template <class Visit>
     void each_cell(Visit visit) const;
@@ -63,14 +63,14 @@ class ClothSolver : protected ImplicitStep {
     const Plan::Grid& grid_;
     detail::Cloth& cloth_;
     const detail::GridLevel& level_;
-    std::span<const std::uint32_t> cells_;  ///< of its particles
+    std::span<const std::uint32_t> cells_;  ///< cells of the particles
     std::size_t first_;
     double unit_ = 0.0;  ///< mean mass of a particle, over h^2
     float lightest_ = 1.0f;
     double taken_ = 1.0;
-    double shortest_ = 1e30;  ///< rest length of a stretch link
-    double strain_ = 0.0;     ///< maximum of a stretch link
-    double potential_ = 0.0;  ///< of inertia and links
+    double shortest_ = 1e30;  ///< minimum rest length of stretch links
+    double strain_ = 0.0;     ///< maximum over stretch links
+    double potential_ = 0.0;  ///< inertia plus links
     bool converged_ = true;
 };
 

@@ -1,10 +1,10 @@
-// Keeps particles and links out of colliders while the solver works: those of cloth and hair, and of all
-// bodies with a solver that takes one link after the other. Ropes that are solved directly have contacts of
-// their own (chain_contact.cpp).
+// Keeps particles and links out of colliders during the solve: for cloth and hair, and for all bodies with a
+// solver that takes one link after the other. Ropes solved directly have their own contacts
+// (chain_contact.cpp).
 //
 // Contacts remember how far a collider has displaced a particle in the substep: the part along the normal
-// bounds friction (Coulomb's law, as displacements). It includes what tension has drawn into the collider, so
-// the tauter a rope around a post, the more friction it has.
+// bounds friction (Coulomb's law, as displacements). It includes the depth to which tension draws a particle
+// in, so the tauter a rope around a post, the more friction it has.
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -44,7 +44,7 @@ dvec3 Scratch::Moving::by_at(const dvec3& at) const {
         const dvec3 from = at - middle, all = by + (from - math::rotated(unspin, from));
         const auto* const plane = std::get_if<Plane>(shape);
         if (plane == nullptr) return all;
-        const dvec3 normal = detail::unit(dvec3(plane->normal));  // along which it stays
+        const dvec3 normal = detail::unit(dvec3(plane->normal));  // a plane does not move along it
         return all - detail::dot(all, normal) * normal;
     }
     if (turn == dvec3(0.0)) return by;
@@ -58,7 +58,7 @@ dvec3 Scratch::Moving::by_at(const dvec3& at) const {
 SurfaceDistance Scratch::Moving::entered(const dvec3& was, dvec3& at, double radius,
                                          std::uint64_t& work) const {
     const SurfaceDistance surface = surface_distance(*shape, at);
-    // As the collider sees it.
+    // Relative to the collider.
     const dvec3 from = was + by_at(at), way = at - from;
     const double far = detail::length(way), stride = 0.5 * size + radius;
     if (!(far > stride && surface.distance < far + radius)) return surface;

@@ -13,7 +13,7 @@ namespace tendril::rope::detail {
 /// plane.
 void bounds(const Shape& shape, const glm::dvec3& by, glm::dvec3& low, glm::dvec3& high) noexcept;
 
-/// Whether an axis-aligned box is entirely outside; only for shapes whose bounds say little (planes).
+/// Whether an axis-aligned box is entirely outside; only for shapes without useful bounds (planes).
 bool beyond(const Shape& shape, const glm::dvec3& low, const glm::dvec3& high) noexcept;
 
 inline constexpr int max_line_samples = 14;
@@ -24,7 +24,7 @@ std::optional<double> nearest_between(const Shape& shape, const glm::dvec3& a, c
 
 /// Half the vector from a to b.
 glm::dvec3 half_of(const Capsule& capsule) noexcept;
-/// A collider's shape after that part of the way to its goal.
+/// A collider's shape after this part of the way to its goal.
 Shape on_the_way(const Collider& collider, double part) noexcept;
 /// The rotation by a steady spin.
 glm::dquat turn_by(const Drive& drive, double seconds) noexcept;

@@ -53,7 +53,7 @@ struct BodyPiece {
     std::size_t pins = 0;
 };
 
-/// In the order of their first particles.
+/// The pieces of a body, in the order of their first particles.
 std::vector<BodyPiece> pieces_of(const State& state, const Body& body, std::vector<std::size_t>& piece_of) {
     std::vector<std::size_t> parent(body.count);  // union-find; each set is known by its first particle
     std::iota(parent.begin(), parent.end(), std::size_t{0});

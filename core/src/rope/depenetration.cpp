@@ -1,4 +1,4 @@
-// After the last pass: brings what is still inside a collider out, whatever that does to lengths.
+// After the last pass: moves particles out of colliders, whatever that does to lengths.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,10 +14,10 @@ namespace {
 
 using glm::dvec3;
 
-/// How deep inside a particle may stay, metres: far less than anyone relies on.
+/// Depth at which a particle may stay inside, metres: negligible.
 constexpr double depth_tolerance = 1e-6;
 constexpr int rounds = 12;
-/// Distances that searches for a way out may take in a substep; a particle not out by then is left inside and
+/// Distances that searches for a way out may take in a substep; a particle not out then stays in, and is
 /// counted. Each island has a budget per particle, and its share, by particles, of a common one. A particle
 /// between two surfaces takes some hundred; in 10^5 random scenes no substep took more than 1300 in total.
 constexpr std::uint64_t searches_per_particle = 128, shared_searches = 8192;
@@ -88,9 +88,9 @@ dvec3 smallest_displacement(const Neighbours& neighbours, const dvec3& at, doubl
     return first > 0.0 ? first * normal[0] + second * normal[1] : depth[1] * normal[1];
 }
 
-/// How far a ball must move along a line until it no longer touches a shape that it is in; `limit` if that is
-/// farther. The distance to a convex shape is convex along a line, so Newton's method approaches from the
-/// limit without overshooting.
+/// The distance that a ball must move along a line to leave a shape; `limit` if that is farther. The distance
+/// to a convex shape is convex along a line, so Newton's method approaches from the limit without
+/// overshooting.
 double way_out_of(const Shape& shape, const dvec3& from, const dvec3& along, double radius, double limit,
                   std::uint64_t& distances_taken) {
     double way = limit;
@@ -104,8 +104,8 @@ double way_out_of(const Shape& shape, const dvec3& from, const dvec3& along, dou
     return way;
 }
 
-/// Out of every collider along a line; `limit` if that is farther, or the search has taken too long. A line
-/// never leads back into a convex shape, so each collider is left only once.
+/// The way out of every collider along a line; `limit` if that is farther, or the search has taken too long.
+/// A line never leads back into a convex shape, so each collider is left only once.
 double way_out(const Neighbours& neighbours, const dvec3& from, const dvec3& along, double thickness,
                double limit) {
     double way = 0.0;
@@ -195,7 +195,7 @@ void Substep::depenetrate() {
               });
 }
 
-/// How deep the deepest particle of a chain would be in a collider; 0 if none is.
+/// The depth of a chain's deepest particle in a collider; 0 if none is inside.
 double Substep::depth_of(const Plan::Chain& chain, const std::vector<dvec3>& at) {
     double deepest = 0.0;
     const std::uint32_t first = plan_.nodes[chain.first_node];

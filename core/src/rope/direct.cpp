@@ -1,15 +1,15 @@
 // The direct solver: whole chains at once, as many side by side as a vector register has lanes.
 //
-// A chain that nothing else is linked to first moves by its previous tension, applied implicitly; then one or
-// two passes correct its lengths. If it moves too fast for that (a whip cracks), or would gain energy, it is
-// solved again from the tension that was found, which now acts along the links' new directions: that
-// converges, and costs energy.
+// A chain without other links first moves by its previous tension, applied implicitly; then one or two passes
+// correct its lengths. If it moves too fast for that (a whip cracks), or would gain energy, it is solved
+// again from the tension that was found, which now acts along the links' new directions: that converges, and
+// costs energy.
 //
 // A chain that touches colliders is solved with its contacts, by Newton's method (chain_newton.hpp). A cloth
 // that is a grid is one system with its contacts (cloth_solver.hpp), and so are bodies that ties join
-// (tied_solver.hpp). If chains share particles otherwise, as
-// in hair, contacts are resolved last: what tension draws into a collider shows as depth, and bounds
-// friction. The resulting length errors are corrected in the next substep.
+// (tied_solver.hpp). If chains share particles otherwise, as in hair, contacts are resolved last: the depth
+// to which tension draws a particle in bounds friction. The resulting length errors are corrected in the next
+// substep.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,17 +36,17 @@ constexpr double length_tolerance = 1e-7;       ///< relative length error that 
 constexpr double accepted_error = 1e-4;         ///< a chain with more is solved again
 constexpr double accepted_shared_error = 1e-3;  ///< the same if chains share particles
 constexpr double fallback_error = 0.02;         ///< a chain that ends with more: its body is relaxed
-constexpr double accepted_gain = 1e-3;          ///< of energy; a result that gains more is not accepted
+constexpr double accepted_gain = 1e-3;          ///< energy gain; a result that gains more is rejected
 constexpr int max_restarts = 6, fallback_passes = 16, max_step_halvings = 10;
 /// Minimum passes of chains that share particles, while near a collider.
 constexpr int min_contact_passes = 4;
-/// In which contacts are projected, and what they may be off then, relative to the thickness.
+/// Rounds in which contacts are projected, and their accepted error, relative to the thickness.
 constexpr int contact_passes = 8;
 constexpr double projected_enough = 1e-3;
-/// A chain that shares particles may be asked for impossible lengths, straight between two pins: its system
-/// is damped (Levenberg, Marquardt), or it would fling its particles about.
+/// A chain that shares particles may have impossible lengths, straight between two pins: its system is damped
+/// (Levenberg, Marquardt), or it would fling its particles about.
 constexpr double shared_damping = 2e-2;
-/// How much tension acts along the new direction rather than the mean. It damps the jitter of single
+/// The part of tension that acts along the new direction rather than the mean. It damps the jitter of single
 /// particles within a second, and takes a few percent of the energy of a pendulum with a period of one second
 /// in a minute.
 constexpr double min_backward = 0.01;
@@ -60,7 +60,7 @@ struct Substep::Batch {
 };
 
 /// Solves chains that share nothing. A chain that touches something is solved with its contacts, any other as
-/// if in the air; if that one then ends inside a collider, or fails, it is solved again with contacts.
+/// if in the air; if it then ends inside a collider, or fails, it is solved again with contacts.
 int Substep::direct_alone() {
     ChainNewton newton(state_, plan_, island_, scratch_, local_);
     const std::uint32_t first = island_.chains.first, end = first + island_.chains.count;
@@ -93,7 +93,7 @@ int Substep::direct_alone() {
     return 1;
 }
 
-/// Shortens the steps of chains that resist bending. Chains that others touch gain from them.
+/// Shortens the steps of chains that resist bending, except in contact with others, from which they may gain.
 void Substep::shorten_steps() {
     std::span<const std::uint32_t> together;
     if (island_.contacts != 0) together = scratch_.body_contacts[island_.contacts - 1].chains;
@@ -108,8 +108,8 @@ void Substep::shorten_steps() {
     }
 }
 
-/// Shortens a step that gains energy, ends in a collider, or did not converge: what it gains by bending a
-/// chain, slowing it down would not remove. The last resort is a step back, which gains nothing.
+/// Shortens a step that gains energy, ends in a collider, or did not converge: slowing the chain down would
+/// not remove a gain by bending. The last resort is a step back, which gains nothing.
 void Substep::shorten_step(std::uint32_t number) {
     const Plan::Chain& chain = plan_.chains[number];
     const bool failed = !(scratch_.chain_error[number] <= fallback_error);
@@ -151,7 +151,7 @@ void Substep::shorten_step(std::uint32_t number) {
     }
 }
 
-/// The part of a chain's correction that throws nothing: none is corrected faster than the maximum of the
+/// The part of a chain's correction that throws no particle: none is corrected faster than the maximum of the
 /// speed of its fastest particle and correction_speed.
 double Substep::bounded_correction(const Plan::Chain& chain) const {
     double farthest = 0.0, most = correction_speed * h_;
@@ -213,7 +213,7 @@ int Substep::direct() {
     return passes;
 }
 
-/// The contacts that were not solved with lengths, in turns with colliders and lengths.
+/// Projects the contacts that were not solved with lengths, alternating with colliders and lengths.
 void Substep::project_contacts() {
     BodyContacts(*this).begin_projection(false);
     for (int pass = 0; pass < contact_passes; ++pass) {
@@ -255,7 +255,7 @@ int Substep::direct_part() {
     return passes;
 }
 
-/// The fallback if chains share particles: a body that could not be solved (or cannot be, being asked for the
+/// The fallback if chains share particles: a body that could not be solved (or cannot be, as its lengths are
 /// impossible) is relaxed, which always gives a sensible result.
 void Substep::relax_failed_bodies() {
     bool any = false;
@@ -287,7 +287,7 @@ void Substep::relax_failed_bodies() {
         for (const Plan::Chain& chain : Plan::part(plan_.chains, island_.chains)) {
             if (scratch_.body_failed[chain.body] == 0) continue;
             for (std::uint32_t k = chain.first_link; k < chain.first_link + chain.links; ++k) {
-                scratch_.multiplier[k] = 0.0;  // whatever it was, it did not solve the chain
+                scratch_.multiplier[k] = 0.0;  // its value did not solve the chain
                 satisfy(k, 0.0);
             }
         }

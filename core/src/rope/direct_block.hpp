@@ -18,14 +18,14 @@ enum Row : std::size_t {
     OldY,
     OldZ,        ///< position one substep before the last; then the unit direction of its link there
     Weight,      ///< inverse mass; 0: pinned
-    Rest,        ///< of its link: length
-    Compliance,  ///< compliance, m/N, over h^2
+    Rest,        ///< rest length of its link
+    Compliance,  ///< of its link, m/N, over h^2
     Multiplier,  ///< tension times h^2
     DirectionX,
     DirectionY,
-    DirectionZ,  ///< the direction that its tension acts in
+    DirectionZ,  ///< direction in which its tension acts
     Upper,
-    Right,  ///< of the tridiagonal system
+    Right,  ///< rows of the tridiagonal system
     rows
 };
 

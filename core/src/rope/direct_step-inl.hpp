@@ -122,8 +122,8 @@ class BlockSolver {
         return larger(hn::Add(load(k, Rest), longer), set(1e-9));
     }
 
-    /// Half of the current tension over the length: the force per metre between the nodes. Its bound keeps a
-    /// rope that cannot be as short as its pins ask from drowning all other digits.
+    /// Half of the current tension over the length: the force per metre between the nodes. It is bounded: a
+    /// rope that cannot be as short as its pins require would drown all other digits.
     V stiffness(std::size_t k) const {
         const V both = hn::Add(load(k, Weight), load(k + 1, Weight));
         const V half = hn::Div(hn::Mul(set(0.5), larger(load(k, Multiplier), hn::Zero(d_))), stretched(k));
@@ -152,7 +152,7 @@ class BlockSolver {
             upper = hn::Neg(hn::Mul(up, inverse));
             store(upper, k, Upper);
             store3(right, k, X);
-            // From here on the tension that was applied counts.
+            // From here on only the applied tension counts.
             if (!last) store(hn::Mul(hn::Mul(set(2.0), stiff), length), k, Multiplier);
             stiff_before = stiff;
             old_before = old;

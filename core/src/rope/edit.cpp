@@ -41,12 +41,12 @@ struct Between {
     std::size_t nearest() const noexcept { return part < 0.5 ? before : before + 1; }
 };
 
-/// How many of `segments` each span gets, in proportion to its length and at least one.
+/// The number of `segments` for each span, in proportion to its length and at least one.
 std::vector<std::size_t> share_out(const std::vector<double>& lengths, std::size_t segments) {
     double whole = 0.0;
     for (const double length : lengths) whole += length;
     std::vector<std::size_t> counts;
-    std::vector<std::pair<double, std::size_t>> missing;  // how much more each should have
+    std::vector<std::pair<double, std::size_t>> missing;  // shortfall of each span
     std::size_t given = 0;
     for (std::size_t i = 0; i < lengths.size(); ++i) {
         const double wanted = static_cast<double>(segments) * lengths[i] / whole;
@@ -67,8 +67,8 @@ std::vector<std::size_t> share_out(const std::vector<double>& lengths, std::size
     return counts;
 }
 
-/// Where the particles of a row come from. `rest`: the coordinates of its particles; `kept`: particles that
-/// stay, sorted, both ends among them.
+/// The sources of a row's particles. `rest`: the coordinates of its particles; `kept`: particles that stay,
+/// sorted, both ends among them.
 std::vector<Between> divide(const std::vector<double>& rest, const std::vector<std::size_t>& kept,
                             std::size_t segments) {
     std::vector<double> lengths;
@@ -175,7 +175,7 @@ class Resampling {
         }
     }
 
-    /// Which stretch links there are. Only cloth lacks some.
+    /// Finds the stretch links. Only cloth may lack some.
     void find_threads() {
         along_.assign(pin_.size(), nullptr), down_.assign(pin_.size(), nullptr);
         for (const Link& link : state_.links) {
@@ -216,7 +216,7 @@ class Resampling {
 
     std::size_t old(std::size_t column, std::size_t row) const { return row * was_.columns + column; }
 
-    /// Whether there is a new particle: where the nearest of the old cells is no gap, and threads lead to it.
+    /// Whether a cell gets a new particle: the nearest old cell is no gap, and threads lead to it.
     bool filled(std::size_t c, std::size_t r) const {
         if (body_.cells.empty()) return true;
         return particle_[old(column_[c].nearest(), row_[r].nearest())] < body_.count &&
@@ -286,14 +286,14 @@ class Resampling {
         const std::vector<double> columns = detail::shares(coordinates(grid_.along, column_)),
                                   rows = detail::shares(coordinates(grid_.down, row_));
         const std::vector<double> was = detail::shares(grid_.along);
-        double all = 0.0;  // of the cells that are filled, or of a strand
+        double all = 0.0;  // sum over all filled cells, or over a strand
         for (std::size_t r = 0; r < to_.rows && cloth; ++r)
             for (std::size_t c = 0; c < to_.columns; ++c)
                 if (filled(c, r)) all += columns[c] * rows[r];
         if (!cloth)
             for (const double each : was) all += each;
         for (std::size_t r = 0; r < to_.rows; ++r) {
-            double mass = 0.0;  // of all rows of a cloth, or of this strand
+            double mass = 0.0;  // kg in all rows of a cloth, or in this strand
             for (std::size_t i = 0; i < body_.count; ++i)
                 if (cloth || i / was_.columns == r) mass += state_.mass[body_.first + i];
             const double unit = mass / all;
@@ -349,7 +349,7 @@ class Resampling {
         detail::each_link(body_.kind, columns, rows, add);
     }
 
-    /// Adds the same velocity to all free particles, so that their momentum is what it was.
+    /// Adds the same velocity to all free particles, so that their momentum stays the same.
     void keep_momentum(Taken& made) const {
         dvec3 missing(0.0);
         for (std::size_t i = 0; i < body_.count; ++i)
@@ -372,8 +372,8 @@ class Resampling {
     const Body& body_;
     Resolution was_, to_;
     detail::RestGrid grid_;
-    // Of each cell of its grid.
-    std::vector<std::size_t> particle_;      ///< numbered in the body; its count: none
+    // For each cell of its grid.
+    std::vector<std::size_t> particle_;      ///< numbered in the body; body_.count: none
     std::vector<const Pin*> pin_;            ///< null: none
     std::vector<const Link*> along_, down_;  ///< the stretch links that begin there
     const Link* has_[3] = {};                ///< a link of each kind

@@ -155,7 +155,7 @@ void DenseSystem::factorize(std::size_t n) noexcept {
 double DenseSystem::factorize_row(std::size_t i) noexcept {
     double* const row = matrix.data() + i * size;
     const double diagonal = row[i];
-    for (std::size_t k = 0; k < i; ++k) {  // first what L has, times D
+    for (std::size_t k = 0; k < i; ++k) {  // first the entries of L, times D
         const double by = row[k], *const above = matrix.data() + k * size;
         for (std::size_t j = k + 1; j < i; ++j) row[j] -= by * above[j];
     }

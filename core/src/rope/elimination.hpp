@@ -3,7 +3,7 @@
 //
 // Particles are eliminated in the order of fewest neighbours (A. George, J. Liu, "The Evolution of the
 // Minimum Degree Ordering Algorithm", 1989): those between the ties of a rope first, each with two
-// neighbours, so that what ropes cost grows with their segments, and only the few tied particles fill in.
+// neighbours, so that the cost of ropes is linear in their segments, and only the few tied particles fill in.
 #pragma once
 
 #include <cstdint>
@@ -15,24 +15,24 @@
 
 namespace tendril::rope::detail {
 
-/// The order, and where each block is. Depends on the graph alone.
+/// The order of elimination, and the index of each block. Depends on the graph alone.
 struct Elimination {
     using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
     Elimination() = default;
-    /// Of nodes numbered from 0. Edges may repeat. `late`: of each node, whether it is among the last.
+    /// Nodes are numbered from 0; edges may repeat. `late`: for each node, whether it is among the last.
     Elimination(std::span<const std::uint8_t> late, std::span<const Edge> edges);
     /// The block between two nodes that an edge joins, given by their places in the order.
     std::uint32_t block(std::uint32_t a, std::uint32_t b) const noexcept;
 
-    std::vector<std::uint32_t> place;  ///< of each node, in the order
-    std::vector<std::uint32_t> first;  ///< of each place: its first block; one more at the end
-    std::vector<std::uint32_t> row;    ///< of each block: the later of its two places; ascending in a column
-    std::vector<std::uint32_t> fill;   ///< of each pair of blocks of a column: the block that it changes
+    std::vector<std::uint32_t> place;  ///< place of each node in the order
+    std::vector<std::uint32_t> first;  ///< first block of each place; one more at the end
+    std::vector<std::uint32_t> row;    ///< later place of each block; ascending in a column
+    std::vector<std::uint32_t> fill;   ///< block changed by each pair of blocks of a column
     std::uint32_t late = 0;            ///< the first place of the last nodes
 };
 
-/// Its numbers. Blocks and places are those of the elimination.
+/// The numbers of a system. Blocks and places as in its Elimination.
 struct EliminationSystem {
     std::vector<Symmetric3> diagonal;
     std::vector<Matrix3> blocks;  ///< the part of the row `row` in the column of the place
@@ -42,8 +42,8 @@ struct EliminationSystem {
     void clear();
     /// Replaces the blocks by their factors and eliminates in x; substitute() then gives the solution.
     void factorize(const Elimination& order) noexcept;
-    /// With factors and any right side: eliminates in it, where it is 0 before a place; then computes the
-    /// solution, down to a place.
+    /// For factors and any right side: eliminate() starts at place `from`, before which the right side is 0;
+    /// substitute() computes the solution down to place `to`.
     void eliminate(const Elimination& order, std::vector<dvec3>& right, std::uint32_t from) const noexcept;
     void substitute(const Elimination& order, std::vector<dvec3>& right, std::uint32_t to) const noexcept;
 };
@@ -51,11 +51,11 @@ struct EliminationSystem {
 /// A small dense system. Every loop runs along a row, over numbers that do not depend on each other.
 struct DenseSystem {
     std::size_t size = 0;
-    std::vector<double> matrix;  ///< by rows; what lies above the diagonal is overwritten
+    std::vector<double> matrix;  ///< by rows; the part above the diagonal is overwritten
 
     void resize(std::size_t numbers);
-    /// Of the first `n` numbers. A row can be added to their factor: it is then factorized, with what
-    /// precedes its diagonal; returns the pivot over the diagonal. One with a small pivot can be dropped.
+    /// Factorizes the first `n` rows. factorize_row() adds a row to that factor, up to its diagonal, and
+    /// returns the pivot relative to the diagonal. A row with a small pivot can be dropped.
     void factorize(std::size_t n) noexcept;
     double factorize_row(std::size_t row) noexcept;
     void drop_row(std::size_t row) noexcept;

@@ -1,7 +1,7 @@
 // The energy bound. A solve that falls short, or depenetration, can leave a body with more energy than it
 // had; its velocity is then scaled down until the gain is gone. The direct solver always keeps the bound; the
-// others keep it near a collider that strikes the body, or while its links hold their lengths. What a chain
-// would gain by bending cannot be removed so; its step is shortened (direct.cpp).
+// others keep it near a collider that strikes the body, or while its links hold their lengths. A gain by
+// bending cannot be removed so; its step is shortened (direct.cpp).
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -64,7 +64,7 @@ inline void Substep::Ledger::add_particle(std::size_t i) {
     fallen_ += half;
     const double moved = detail::kinetic_energy(mass, then, it_->h_);
     gained_ += moving - moved - half - it_->before_ * 0.5 * mass * detail::dot(it_->acceleration_, then);
-    if (it_->blows_)  // what the wind did is no gain
+    if (it_->blows_)  // work of the wind is no gain
         gained_ -= detail::dot(it_->scratch_.blown[i], now + then) * (0.5 * mass / (it_->h_ * it_->h_));
     kinetic_before_ += moved;
     damped_ += (1.0 - it_->damping_ * it_->damping_) * moved;
@@ -90,7 +90,7 @@ inline void Substep::Ledger::add_link(std::uint32_t number) {
     released_ += half - detail::elastic_energy(link, compliance, tension, now, dvec3(0.0));
 }
 
-/// The mean at both ends of a substep is what a solver bounds that takes curvatures there.
+/// A solver that takes curvatures at both ends of a substep bounds their mean energy.
 void Substep::Ledger::add_bending(const Plan::Chain& chain) {
     const State& state = it_->state_;
     const Body& body = state.bodies[chain.body];
@@ -200,7 +200,7 @@ Substep::Ledger Substep::ledger_of(const Plan::Island& part) const {
     return ledger;
 }
 
-/// Reports what a body lost and limits what it gained.
+/// Reports a body's loss and limits its gain.
 Substep::Slowed Substep::balance(const Ledger& ledger) {
     report_.contact_loss += ledger.contact_loss();
     if (ledger.suspended()) ++report_.suspended;
@@ -208,8 +208,8 @@ Substep::Slowed Substep::balance(const Ledger& ledger) {
                                                                                   : Slowed{};
 }
 
-/// Parts of an island are balanced one by one: if one is slowed, the others still fall. What a cloth gains
-/// from a rope that falls on it is then lost.
+/// Parts of an island are balanced one by one: if one is slowed, the others still fall. A cloth's gain from a
+/// rope that falls on it is then lost.
 void Substep::balance_energy() {
     const std::span<const Plan::Island> parts = plan_.parts_of(island_);
     local_.part_slowed.assign(parts.size(), {});
@@ -219,7 +219,7 @@ void Substep::balance_energy() {
         alone |= parts[k].alone;
     }
     if (!alone) return;
-    // What one chain gains from another through a contact, the other loses.
+    // A chain gains through a contact the energy that the other chain loses.
     std::span<const std::uint32_t> together;
     if (island_.contacts != 0) together = scratch_.body_contacts[island_.contacts - 1].chains;
     if (!together.empty()) {

@@ -9,7 +9,7 @@ namespace {
 
 /// Size of the coarsest level, which is solved exactly.
 constexpr std::size_t coarsest = 4;
-/// Of a rotation: relative to its diagonal.
+/// Minimum pivot of a rotation, relative to its diagonal.
 constexpr double min_pivot = 1e-3;
 
 /// Distributes one block of memory over the arrays of levels; with null it only counts.
@@ -94,7 +94,7 @@ class GridSystem::Loops {
     tendril::detail::ForkJoin& loops_;
 };
 
-/// Its rows continue with those of the rotations, which balance() fills.
+/// Its rows continue with the rotations' rows, which balance() fills.
 void GridSystem::factorize_coarsest() {
     const GridLevel& level = levels_.back();
     const std::size_t columns = level.columns, cells = columns * level.rows, n = 3 * cells + rotations;
@@ -200,7 +200,7 @@ void GridSystem::balance(const Loops& loops, const GridVector* place) {
     const std::size_t n = coarsest_.size, first = translations();
     for (const GridLevel& level : levels_)
         for (float* each : level.product) std::fill_n(each, level.cells(), 0.0f);
-    // From the middle of the grid, and the opposite.
+    // Positions relative to the middle of the grid, and their negatives.
     const GridVector &from = direction_, &opposite = fine.x;
     float* const none = fine.product[0];
     const GridVector about[rotations] = {

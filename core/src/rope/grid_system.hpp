@@ -2,16 +2,16 @@
 //
 //     (D_i x_i) - sum over links ij of H_ij x_j = r_i
 //
-// H_ij is symmetric and positive semidefinite, and D_i is the sum of the H_ij of its links plus something
-// positive definite. Links lead to a particle's neighbours, and to the next but one in its row and column.
-// The preconditioner is one multigrid cycle, V(1,1), with damped block Jacobi as smoother. 2 x 2 particles
-// form one of the next level, whose blocks are sums of theirs, so the number of iterations hardly grows with
-// the grid (W. Briggs, V. Henson, S. McCormick, "A Multigrid Tutorial", 2000; Y. Notay, "An aggregation-based
+// H_ij is symmetric and positive semidefinite, and D_i is the sum of the H_ij of its links plus a positive
+// definite block. Links lead to a particle's neighbours, and to the next but one in its row and column. The
+// preconditioner is one multigrid cycle, V(1,1), with damped block Jacobi as smoother. 2 x 2 particles form
+// one of the next level, whose blocks are sums of theirs, so the number of iterations hardly grows with the
+// grid (W. Briggs, V. Henson, S. McCormick, "A Multigrid Tutorial", 2000; Y. Notay, "An aggregation-based
 // algebraic multigrid method", 2010).
 //
-// What an early end leaves is balanced: its residual is made orthogonal to the translations of large parts
-// and to the rotations of the whole (deflation by rigid modes: T. Jonsthovel, M. van Gijzen, S. MacLachlan,
-// C. Vuik, A. Scarpas, "Comparison of the deflated preconditioned conjugate gradient method and algebraic
+// The residual after an early end is balanced: it is made orthogonal to the translations of large parts and
+// to the rotations of the whole (deflation by rigid modes: T. Jonsthovel, M. van Gijzen, S. MacLachlan, C.
+// Vuik, A. Scarpas, "Comparison of the deflated preconditioned conjugate gradient method and algebraic
 // multigrid for composite materials", 2012). Otherwise small errors of the same sign add up to a turn.
 //
 // Numbers are in single precision, each component of a block in an array of its own. Every vector unit gives
@@ -36,7 +36,7 @@ struct GridStep {
 };
 inline constexpr std::array<GridStep, 6> grid_steps{{{1, 0}, {0, 1}, {1, 1}, {-1, 1}, {2, 0}, {0, 2}}};
 inline constexpr std::size_t fine_steps = grid_steps.size(), coarse_steps = 4;
-inline constexpr float grid_damping = 0.6f;  ///< of the smoother
+inline constexpr float grid_damping = 0.6f;  ///< damping of the smoother
 
 /// Rows and arrays are padded to a multiple of this.
 inline constexpr std::size_t grid_lanes = 8;
@@ -58,7 +58,7 @@ struct GridLevel {
     std::size_t columns = 0, rows = 0, stride = 0, steps = fine_steps;
     float* free = nullptr;  ///< 1: a cell that moves; 0: pinned, or no cell
     GridBlocks diagonal{};
-    GridBlocks factor{};  ///< of the diagonal: 1 / d of L d L^T, and L below its diagonal
+    GridBlocks factor{};  ///< factors of the diagonal: 1 / d of L d L^T, and L below its diagonal
     std::array<GridBlocks, fine_steps> links{};
     GridVector right{}, x{}, product{};
 
@@ -68,8 +68,8 @@ struct GridLevel {
     }
 };
 
-/// Couples four cells anywhere, of which some may have no share: a spring between two of their means, as
-/// stiff along its direction as `along`, and sideways as `across`.
+/// Couples up to four cells anywhere: a spring between two of their means, with stiffness `along` in its
+/// direction and `across` sideways.
 struct GridPress {
     std::array<std::uint32_t, 4> cells{};
     std::array<float, 4> shares{};  ///< 0 for a cell that is not free
@@ -91,8 +91,8 @@ inline constexpr std::size_t min_shared_cells = 8192;
 /// The unit of work that threads share in a loop.
 inline constexpr std::size_t part_cells = 16 * dot_cells;
 
-/// Calls `work` with ranges of up to `size` out of `count`, in parallel if they are of a large level and
-/// threads help.
+/// Calls `work` with ranges of up to `size` out of `count`, in parallel if the level is large and threads
+/// help.
 template <class Work>
 void in_parts(tendril::detail::ForkJoin& loops, std::size_t count, std::size_t size, bool large, Work work) {
     constexpr std::size_t most = tendril::detail::ForkJoin::max_parts;
@@ -134,21 +134,21 @@ GridUnit grid_unit(std::string_view name) noexcept;
 
 class GridSystem {
   public:
-    /// Allocates a grid, all zero, and `others`: arrays like those of its finest level.
+    /// Allocates a grid, all zero, and `others`: arrays like its finest level's.
     void resize(std::size_t columns, std::size_t rows, std::span<float*> others = {});
     /// The caller fills `free`, the diagonal, the blocks of links and the right side. For a cell that is not
     /// free the diagonal is 1 and everything else 0, including the blocks of its links. solve() changes the
     /// right side.
     GridLevel& finest() { return levels_.front(); }
-    /// What solve() adds to the blocks. The preconditioner has it on the coarsest level alone, so its
-    /// stiffness should not exceed some hundred times the smallest on the diagonal.
+    /// Couplings that solve() adds to the blocks. The preconditioner has them only on the coarsest level, so
+    /// their stiffness should not exceed some hundred times the smallest on the diagonal.
     std::vector<GridPress>& presses() { return presses_; }
 
     struct Solved {
         int iterations = 0;
         bool converged = false;
     };
-    /// Of the residual in the preconditioner's norm: its square, or relative to its initial value.
+    /// Residual in the preconditioner's norm: its square, or relative to its initial value.
     struct Tolerance {
         double square = 0.0, relative = 0.0;
     };
@@ -159,9 +159,9 @@ class GridSystem {
                  const GridVector* place, tendril::detail::ForkJoin& loops);
     const GridVector& solution() const { return solution_; }
 
-    // For what solves several grids, and what ties join them to, together (tied_grids.cpp). Its
-    // preconditioner is the sum of the inverse blocks of all levels (J. Bramble, J. Pasciak, J. Xu, "Parallel
-    // Multilevel Preconditioners", 1990), of which the part between two cells is known.
+    // For solving several grids together with the bodies tied to them (tied_grids.cpp). Its preconditioner is
+    // the sum of the inverse blocks of all levels (J. Bramble, J. Pasciak, J. Xu, "Parallel Multilevel
+    // Preconditioners", 1990), of which the part between two cells is known.
     void factorize(const GridUnit& unit, float floor);
     void spread(const GridUnit& unit);                ///< computes x of each level from the residual, `right`
     dvec3 spread_at(std::size_t cell) const;          ///< the sum over the levels, after spread()
@@ -173,9 +173,9 @@ class GridSystem {
     void add_to_product(std::size_t cell, const dvec3& force);
     double residual_dot_x(const GridUnit& unit) { return dot(unit, finest().right, finest().x); }
     double direction_dot_product(const GridUnit& unit) { return dot(unit, direction_, product_); }
-    /// Adds a part of the direction to the solution and subtracts that of the product from the residual.
+    /// solution += part * direction, residual -= part * product
     void advance(const GridUnit& unit, float part);
-    void add_x(const GridUnit& unit);  ///< to the solution
+    void add_x(const GridUnit& unit);  ///< adds to the solution
 
   private:
     class Loops;
@@ -201,7 +201,7 @@ class GridSystem {
     std::vector<double> sums_;  ///< partial sums of a dot product
     std::vector<GridLevel> levels_;
     std::vector<GridPress> presses_;
-    /// Of the coarsest level, then of the rotations: the factor, and the solution.
+    /// Factor and solution of the coarsest level, then of the rotations.
     DenseSystem coarsest_;
     std::vector<double> coarsest_x_;
     // The inverse of the coarsest level: columns, and by cell, whether they are known.

@@ -48,7 +48,7 @@ struct Parabola {
 /// Down along a line and up again: a rope without horizontal extent.
 std::vector<dvec3> folded(const dvec3& from, const dvec3& to, double length_, std::size_t segments,
                           const dvec3& down) {
-    const double lower = dot(to - from, down);  // how far `to` is below `from`
+    const double lower = dot(to - from, down);  // height of `from` above `to`
     const double turn = 0.5 * (length_ + lower);
     std::vector<dvec3> points;
     points.reserve(segments + 1);

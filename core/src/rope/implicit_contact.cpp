@@ -14,7 +14,7 @@ using glm::dvec3;
 
 }  // namespace
 
-/// Finds what is inside a collider, and what pressed in the previous solve. Always in the same order.
+/// Finds contacts inside a collider, or that pressed in the previous solve. Always in the same order.
 void ImplicitStep::find_contacts(bool first) {
     std::vector<ClothContact>&found = local_.cloth_contacts, &before = local_.earlier_contacts;
     std::swap(found, before);
@@ -72,8 +72,8 @@ void ImplicitStep::find_at_link(ClothContact contact, double radius, bool first)
     keep(contact, surface_distance(*collider.shape, a + *t * along), radius, first);
 }
 
-/// At first a contact is also one that would be without links, and presses as much as it takes to prevent
-/// that.
+/// In the first solve, keeps also contacts that would arise without links; each presses as much as it takes
+/// to prevent that.
 void ImplicitStep::keep(ClothContact contact, const SurfaceDistance& surface, double radius, bool first) {
     contact.gap = surface.distance - radius;
     contact.normal = surface.normal;

@@ -1,5 +1,5 @@
-// What the implicit solvers share: of a cloth (cloth_solver.hpp) and of tied bodies (tied_solver.hpp). Each
-// minimises an incremental potential by Newton's method, in which a contact is a stiff spring along the
+// The common part of the implicit solvers of a cloth (cloth_solver.hpp) and of tied bodies (tied_solver.hpp).
+// Each minimises an incremental potential by Newton's method, in which a contact is a stiff spring along the
 // normal of a surface. Friction is a drag along it (Coulomb's law, with the force and the slip of the
 // previous solve: M. Li et al., "Incremental Potential Contact", 2020). Not installed.
 #pragma once
@@ -32,7 +32,7 @@ class ImplicitStep : protected IslandStep {
     }
 
     double mass_ = 0.0;       ///< mean mass of a particle, kg
-    double stiffness_ = 0.0;  ///< of contacts and of the stiffest links, times h^2 over that mass
+    double stiffness_ = 0.0;  ///< of contacts and the stiffest links, times h^2 over that mass
 };
 
 }  // namespace tendril::rope

@@ -82,7 +82,7 @@ std::vector<std::uint32_t> make_islands(const State& state, const std::vector<st
     });
 
     std::vector<std::uint32_t> island_of(bodies, 0);
-    std::uint32_t open = 0, open_links = island_links;  // the island that lone bodies go to
+    std::uint32_t open = 0, open_links = island_links;  // the island that takes lone bodies
     for (std::uint32_t b = 0; b < bodies; ++b) {
         const std::uint32_t first = joined.first_of(b);
         if (first != b) {
@@ -100,8 +100,8 @@ std::vector<std::uint32_t> make_islands(const State& state, const std::vector<st
     return island_of;
 }
 
-/// Numbers islands anew, so that those that collisions with cloth join follow each other. Returns for each
-/// the first that it is joined to.
+/// Renumbers islands, so that islands joined by collisions with cloth follow each other. Returns for each the
+/// first one that it is joined to.
 std::vector<std::uint32_t> put_side_by_side(Plan& plan, std::vector<std::uint32_t>& island_of) {
     const std::size_t count = plan.islands.size();
     JoinedBodies joined(count);
@@ -122,7 +122,7 @@ std::vector<std::uint32_t> put_side_by_side(Plan& plan, std::vector<std::uint32_
     return first;
 }
 
-/// Makes one island of those that are joined, which become its parts.
+/// Merges joined islands into one, of which they become the parts.
 void join_parts(Plan& plan, const std::vector<std::uint32_t>& first,
                 const std::vector<std::uint32_t>& island_of) {
     const std::vector<Plan::Island> all = std::move(plan.islands);

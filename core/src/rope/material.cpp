@@ -1,4 +1,4 @@
-// Changes of a body's material while it hangs.
+// Changes of a body's material.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -147,7 +147,7 @@ Result World::scale(BodyId body, const char* operation, float metres, bool rows)
     const double factor = metres / now;
     detail::RestGrid grid = was;
     for (double& each : rows ? grid.along : grid.down) each *= factor;
-    // Diagonals follow both sides; what leads along one side keeps its own proportion.
+    // Diagonals follow both sides; links along one side keep their own proportion.
     const auto new_rest = [&](const Link& link) -> double {
         const detail::LinkWay way = detail::way_of(*changed, link);
         const bool diagonal = way.columns != 0 && way.rows != 0 && changed->kind == Body::Kind::Cloth;

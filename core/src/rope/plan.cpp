@@ -13,14 +13,14 @@ namespace {
 
 constexpr std::uint32_t chunk_size = 32;
 
-/// How many links touch each particle.
+/// The number of links at each particle.
 std::vector<std::uint32_t> count_links(const State& state) {
     std::vector<std::uint32_t> touching(state.position.size(), 0);
     for (const Link& link : state.links) ++touching[link.a], ++touching[link.b];
     return touching;
 }
 
-/// Of a cloth; 0 for others.
+/// Particles per row of a cloth; 0 for others.
 std::size_t row_of(const Body& body) {
     return body.kind == Body::Kind::Cloth ? body.row : 0;
 }
@@ -85,7 +85,7 @@ void Plan::find_faces(const State& state) {
     const std::size_t particles = state.position.size();
     below.assign(particles, 0), faces.assign(particles, 0);
     std::vector<std::uint8_t> linked(particles, 0);  // to the next in its row
-    std::vector<std::uint32_t> under(particles, 0);  // the one that it is linked to in the next row
+    std::vector<std::uint32_t> under(particles, 0);  // its linked particle in the next row
     const std::vector<std::uint32_t> body_of = detail::bodies_of_particles(state);
     for (const Link& link : state.links) {
         const Body& of = state.bodies[body_of[link.a]];
@@ -184,7 +184,7 @@ void Plan::note_collisions(const State& state) {
     }
 }
 
-/// Once the chains are in the order of their islands.
+/// Call once the chains are in the order of their islands.
 void Plan::number_chains(std::size_t count) {
     if (meets_first.empty()) return;
     chain_of.assign(count, 0);

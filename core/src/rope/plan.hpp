@@ -1,5 +1,5 @@
-// How the links of a world are solved: which bodies together, which links as chains, and which chains side by
-// side. Depends on bodies and links alone. Not installed.
+// The plan for solving a world's links: which bodies together, which links as chains, and which chains side
+// by side. Depends on bodies and links alone. Not installed.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ struct Plan {
     /// are merged to fill registers.
     struct Island {
         Range bodies{}, links{}, soft{}, chains{}, groups{}, chunks{}, ties{};
-        /// In `parts`: what only collisions with cloth join is solved one after the other. Empty: all at
-        /// once.
+        /// In `parts`: parts joined only by collisions with cloth are solved one after the other. Empty: all
+        /// at once.
         Range parts{};
         std::uint32_t particles = 0;
         bool alone = false;      ///< every chain is alone, and there are no soft links
@@ -32,11 +32,11 @@ struct Plan {
         /// 1-based index in Scratch::body_contacts if its bodies collide with each other; 0: none
         std::uint32_t contacts = 0;
     };
-    /// Bodies that ties join: the order in which their system is solved, but for those that are grids.
+    /// Tied bodies: the order in which their system is solved, without those that are grids.
     struct Tied {
         Range grids{};
         detail::Elimination order;
-        std::vector<std::uint32_t> link_blocks, tie_blocks;  ///< of the island's links and ties, or no_block
+        std::vector<std::uint32_t> link_blocks, tie_blocks;  ///< per link and tie of the island, or no_block
         std::vector<std::uint32_t> across;                   ///< ties of a grid to anything
         /// Where a rope resists bending: three particles, the link between the last two, and the blocks of
         /// each with the next: ab, bc, ca.
@@ -66,7 +66,7 @@ struct Plan {
         float reach = 0.0f;                       ///< rest length of the longest of them
     };
 
-    /// A cloth with no links other than those of its grid.
+    /// A cloth with no links outside its grid.
     struct Grid {
         std::uint32_t body = 0, columns = 0, rows = 0;
         Range links{};  ///< in `grid_links`
@@ -85,11 +85,11 @@ struct Plan {
     static std::span<const T> part(const std::vector<T>& list, const Range& range) {
         return std::span<const T>(list).subspan(range.first, range.count);
     }
-    /// The parts of an island, or itself.
+    /// The parts of an island, or the island itself.
     std::span<const Island> parts_of(const Island& island) const {
         return island.parts.count == 0 ? std::span(&island, 1) : part(parts, island.parts);
     }
-    /// Calls `visit` with all that is solved at once.
+    /// Calls `visit` with each part or island that is solved at once.
     template <class Visit>
     void each_part(Visit visit) {
         for (Island& island : islands)
@@ -106,30 +106,30 @@ struct Plan {
     std::vector<Chunk> chunks;
     std::vector<Grid> grids;
     std::vector<GridLink> grid_links;
-    std::vector<std::uint32_t> grid_cells;  ///< of each particle, in the arrays of its grid's system
+    std::vector<std::uint32_t> grid_cells;  ///< cell of each particle in its grid's system
 
     std::vector<std::uint32_t> ties;
     std::vector<Tied> tied;
-    std::vector<std::uint32_t> places;   ///< of each tied particle, in the order of its system, or its cell
-    std::vector<std::uint32_t> grid_of;  ///< of each body: 1-based index in `grids`; 0: none
+    std::vector<std::uint32_t> places;   ///< of each tied particle: place in its system's order, or cell
+    std::vector<std::uint32_t> grid_of;  ///< 1-based index of each body in `grids`; 0: none
 
-    /// Of each body the ones, from itself on, that it collides with: ascending, `meets` from meets_first on.
-    /// Empty, as the next four, if nothing collides.
+    /// For each body the bodies, from itself on, with which it collides: ascending, in `meets` from
+    /// meets_first on. Empty, as the next four, if nothing collides.
     std::vector<std::uint32_t> meets_first, meets;
-    /// Of each body: whether its contacts are solved with its lengths, or projected afterwards.
+    /// For each body, whether its contacts are solved with its lengths or projected afterwards.
     enum class Collides : std::uint8_t { None, Solved, Projected };
     std::vector<Collides> collides;
-    std::vector<std::uint8_t> meets_cloth;  ///< of each body: whether it collides with a cloth
-    std::vector<std::uint32_t> chain_of;    ///< of each link; that of a soft link means nothing
-    std::vector<glm::dvec3> rest_at;        ///< of each particle: its place in its body, unstrained
+    std::vector<std::uint8_t> meets_cloth;  ///< whether each body collides with a cloth
+    std::vector<std::uint32_t> chain_of;    ///< chain of each link; unused for soft links
+    std::vector<glm::dvec3> rest_at;        ///< unstrained position of each particle in its body
     std::uint32_t colliding = 0;            ///< islands with collisions
     bool collide(std::uint32_t body_a, std::uint32_t body_b) const noexcept;
 
     std::vector<std::uint32_t> nodes;
     std::vector<std::uint32_t> chunk_links;
-    /// What the air meets. Of each particle: where a cell of a cloth, of two triangles, or a segment of a
-    /// rope or hair that has all its stretch links begins, the particle below it or the next, else 0; and in
-    /// how many such triangles or segments the particle is.
+    /// Faces for the air, by particle. `below`: if a cell of a cloth (two triangles), or a segment of a rope
+    /// or hair, with all its stretch links begins there, the particle below or the next one, else 0. `faces`:
+    /// the number of such triangles or segments with the particle.
     std::vector<std::uint32_t> below;
     std::vector<std::uint8_t> faces;
     std::uint32_t longest = 0;  ///< links in the longest chain
@@ -144,7 +144,7 @@ struct Plan {
     void note_collisions(const State& state);
     void number_chains(std::size_t count);
 
-    // The inputs that it depends on.
+    // The inputs of the plan.
     struct Joined {
         std::uint32_t a, b;
         float rest;

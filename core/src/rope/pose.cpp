@@ -1,4 +1,4 @@
-// Where particles and colliders are between two substeps.
+// The positions of particles and colliders between two substeps.
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -39,7 +39,7 @@ class PosedParticles {
     }
 
   private:
-    /// Each goes on as in the last substep.
+    /// Each particle goes on as in the last substep.
     void carry_on() {
         const double rate = state_.displaced_in > 0.0 ? pending_ / state_.displaced_in : 0.0;
         constexpr double edge = max_magnitude;
@@ -51,7 +51,7 @@ class PosedParticles {
         }
     }
 
-    /// Nothing comes deeper into a collider than it was after the last substep.
+    /// No particle gets deeper into a collider than it was after the last substep.
     void keep_out(const Collider& collider) {
         const Shape shape = world_.pose(collider);
         dvec3 low, high;
@@ -97,7 +97,7 @@ class PosedParticles {
 }  // namespace
 
 double World::pending() const noexcept {
-    constexpr double rounding = 1e-6;  // of a substep, as in advance()
+    constexpr double rounding = 1e-6;  // relative to a substep, as in advance()
     return state_.remainder > rounding * state_.settings.substep ? state_.remainder : 0.0;
 }
 

@@ -12,7 +12,7 @@
 namespace tendril::rope {
 namespace {
 
-constexpr double substeps = 8.0;  ///< a large move is not made good in one
+constexpr double substeps = 8.0;  ///< a single one cannot absorb a large move
 /// A stiff link further off its length than contacts leave it gets its length back.
 constexpr double max_error = 0.05;
 
@@ -20,8 +20,7 @@ bool is_stiff(const Settings& settings) {
     return settings.solver == Solver::Direct && settings.compliance == 0.0f;
 }
 
-/// A world in which nothing would happen: no weight, no motion, no moves under way, every link at its current
-/// length.
+/// A world at rest: no weight, no motion, no moves in progress, every link at its current length.
 State frozen(const World& world) {
     const State& was = world.state();
     State still = was;
@@ -71,7 +70,7 @@ void send_on(State& now, const State& still, const State& was) {
     }
 }
 
-/// `send` moves what is dragged in a world within the given seconds.
+/// `send` moves the dragged pins or colliders of a world within the given seconds.
 template <class Send>
 Result drag(World& world, Workspace& workspace, Send send) {
     const State& was = world.state();

@@ -51,13 +51,13 @@ RestGrid rest_grid(const State& state, const Body& body) {
     const double a = grid.along[left + 1] - grid.along[left], b = grid.down[way.row + 1] - grid.down[way.row];
     const double rest = shear->rest, product = 2.0 * static_cast<double>(way.columns) * a * b;
     if (product != 0.0) grid.cosine = std::clamp((rest * rest - a * a - b * b) / product, -0.999, 0.999);
-    if (std::abs(grid.cosine) < 1e-6) grid.cosine = 0.0;  // of rounding
+    if (std::abs(grid.cosine) < 1e-6) grid.cosine = 0.0;  // rounding
     return grid;
 }
 
 double link_per_material(const Body& body, const RestGrid& grid, const Link& link) noexcept {
     if (body.kind != Body::Kind::Cloth) return link.rest;
-    // A thread stands for an equal share of the cloth beside it.
+    // A thread carries an equal share of the cloth beside it.
     const bool in_row = way_of(body, link).rows == 0;
     const double beside = in_row ? grid.width() / static_cast<double>(grid.down.size())
                                  : grid.length() / static_cast<double>(grid.along.size());

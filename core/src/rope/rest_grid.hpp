@@ -1,4 +1,4 @@
-// What a body is like unstrained: where its particles would lie in a plane. Not installed.
+// The unstrained shape of a body: its particles laid out in a plane. Not installed.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace tendril::rope::detail {
 /// A row of a body is `along` long; ropes and hair have no extent across it.
 struct RestGrid {
     std::vector<double> along, down;  ///< metres from the first column, and from the first row
-    double cosine = 0.0;              ///< of the angle between rows and columns
+    double cosine = 0.0;              ///< cosine of the angle between rows and columns
 
     double length() const noexcept { return along.back(); }
     double width() const noexcept { return down.back(); }
@@ -20,21 +20,21 @@ struct RestGrid {
     }
 };
 
-/// Which way a link leads, in columns and rows.
+/// The start of a link and its way, in columns and rows.
 struct LinkWay {
-    std::size_t column = 0, row = 0;  ///< where it begins
+    std::size_t column = 0, row = 0;  ///< start
     std::ptrdiff_t columns = 0, rows = 0;
 };
 LinkWay way_of(const Body& body, const Link& link) noexcept;
 
-/// Torn links of a cloth count as those that are left.
+/// Torn links of a cloth take their lengths from those that are left.
 RestGrid rest_grid(const State& state, const Body& body);
 
-/// The compliance of a stretch link of a material that strains by 1 per newton: a rope's or strand's, or
-/// that of a strip of cloth a metre wide. Metres.
+/// The compliance of a stretch link of a material that strains by 1 per newton: a rope's, a strand's, or a
+/// strip of cloth's, a metre wide. Metres.
 double link_per_material(const Body& body, const RestGrid& grid, const Link& link) noexcept;
 
-/// How much of a body's mass each of these points has, in metres: half of what is on either side, and at the
+/// Each point's share of a body's mass, as a length in metres: half the distance to each neighbour; at the
 /// ends all of it.
 std::vector<double> shares(const std::vector<double>& at);
 

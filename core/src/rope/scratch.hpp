@@ -1,5 +1,5 @@
-// The contents of a workspace. Of it only the lists of candidates outlast a substep, and no result depends on
-// them. Not installed.
+// The contents of a workspace. Only the lists of candidates outlast a substep, and no result depends on them.
+// Not installed.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ namespace tendril::rope {
 struct Touch {
     glm::dvec3 normal{0.0};
     glm::dvec3 displacement{0.0};           ///< by the collider so far, metres
-    glm::dvec3 collider_displacement{0.0};  ///< of the collider itself, in the substep
+    glm::dvec3 collider_displacement{0.0};  ///< displacement of the collider in the substep
     bool touching = false;
 };
 
@@ -39,9 +39,9 @@ struct ContactScratch {
     struct Contact {
         std::uint32_t node = 0;
         std::uint32_t first = 0, count = 0;  ///< in `planes`
-        bool waits = false;                  ///< for what a deeper one nearby does
+        bool waits = false;                  ///< for a deeper contact nearby
     };
-    /// With colliders so small that a link can touch them between its ends.
+    /// A contact with colliders so small that a link can touch them between its ends.
     struct LinkContact {
         std::uint32_t bond = 0;
         std::uint32_t first = 0, count = 0;    ///< in `link_colliders`
@@ -63,8 +63,8 @@ struct ContactScratch {
     std::vector<detail::ChainBend> bends;  ///< by node; empty if the body does not resist bending
     std::vector<Kept> kept;                ///< nodes and bonds before a step
     std::vector<double> kept_contacts;
-    std::vector<detail::NodePush> pushes;  ///< of contacts with other segments
-    /// Of the solve so far.
+    std::vector<detail::NodePush> pushes;  ///< by contacts with other segments
+    /// Progress of the solve.
     struct {
         double stiffer = 0.0, used = 0.0, turned = 1.0, worst = 0.0;
         int taken = 0, rejected = 0, relapses = 0;
@@ -79,16 +79,16 @@ struct TieForces {
         enum class Of : std::uint8_t { Nothing, Grid, Rest } of = Of::Nothing;  ///< nothing: pinned
         std::uint32_t grid = 0;  ///< index in the island's grids
         std::uint32_t at = 0;    ///< a cell, or a place in the order of elimination
-        double sign = 1.0;       ///< of the way of this end in the tie's
+        double sign = 1.0;       ///< of this end's displacement in the tie's
     };
-    std::vector<std::array<End, 2>> ends;                ///< of each tie
-    std::vector<glm::dvec3> gap, now, direction, total;  ///< of each tie: metres; the others are forces
+    std::vector<std::array<End, 2>> ends;                ///< by tie
+    std::vector<glm::dvec3> gap, now, direction, total;  ///< by tie: metres; the others are forces
     detail::DenseSystem system;                          ///< how far forces move the ends
-    std::vector<double> flat;                            ///< its right side
-    std::vector<glm::dvec3> local;                       ///< of each place in the order of elimination
+    std::vector<double> flat;                            ///< the system's right side
+    std::vector<glm::dvec3> local;                       ///< by place in the order of elimination
 
     void resize(std::size_t ties, std::size_t nodes);
-    void solve();  ///< turns `now` from ways into forces
+    void solve();  ///< turns `now` from displacements into forces
 };
 
 /// Contacts between the bodies of an island.
@@ -97,27 +97,27 @@ struct BodyContactScratch {
     struct Feature {
         glm::dvec3 middle{0.0};
         double radius = 0.0;
-        double reach = 0.0;  ///< the part of it beyond the feature as listed
+        double reach = 0.0;  ///< part of the radius beyond the feature as listed
         std::uint32_t body = 0;
-        std::uint32_t link = 0;  ///< of a segment; of a diagonal, a number beyond all links
+        std::uint32_t link = 0;  ///< a segment's; for a diagonal, a number beyond all links
         std::uint32_t count = 0;
         std::array<std::uint32_t, 3> points{};
     };
-    /// What may meet: two segments, or a particle and a triangle.
+    /// Two features that may meet: two segments, or a particle and a triangle.
     struct Candidate {
-        std::uint32_t a = 0, b = 0;             ///< of segments: links, a < b
+        std::uint32_t a = 0, b = 0;             ///< links, for segments; a < b
         std::array<std::uint32_t, 4> points{};  ///< particles: two of a and two of b, or one and three
-        std::uint32_t split = 2;                ///< how many are of a
+        std::uint32_t split = 2;                ///< how many belong to a
         std::uint32_t body_a = 0, body_b = 0;
         double least = 0.0;   ///< thickness, metres
-        double listed = 0.0;  ///< how far apart when listed
+        double listed = 0.0;  ///< distance when listed, metres
     };
     /// Candidates that may come near each other in the substep.
     struct Pair : Candidate {
         glm::dvec3 normal{0.0};  ///< from a to b where they are nearest, at the start of the substep
-        double apart = 0.0;      ///< then, between centre lines, metres
+        double apart = 0.0;      ///< distance of centre lines there, metres
         double thickness = 0.0;
-        std::array<double, 4> shares{};  ///< of the points, where they are nearest; those of a negative
+        std::array<double, 4> shares{};  ///< of the points, where they are nearest; negative for a
     };
     /// A pair that is nearer than its neighbours are.
     struct Contact : Pair {
@@ -130,10 +130,10 @@ struct BodyContactScratch {
         std::uint32_t chain = 0, bond = 0, contact = 0;
         bool is_b = false;
     };
-    glm::dvec3 mean{0.0};  ///< of all particles' ways
-    // What is listed stays until a particle leaves its place in the list (Scratch::Listed).
+    glm::dvec3 mean{0.0};  ///< mean way of all particles
+    // The lists stay until a particle roams too far (Scratch::Listed).
     bool listed = false;
-    std::vector<float> radii;  ///< of the island's bodies
+    std::vector<float> radii;  ///< radii of the island's bodies
     std::vector<Candidate> candidates;
     std::vector<Feature> features;
     struct Chunk {
@@ -142,26 +142,26 @@ struct BodyContactScratch {
         std::array<std::uint32_t, 4>
             first{};  ///< of its particles, segments, triangles in `features`; the end
     };
-    std::vector<Chunk> chunks;                ///< of bodies that collide, by `low.x`
+    std::vector<Chunk> chunks;                ///< of colliding bodies, by `low.x`
     std::vector<std::uint32_t> few_a, few_b;  ///< features of two chunks that are in both boxes
     std::vector<Pair> pairs;
     std::vector<Contact> contacts;      ///< solved with the chains
     std::vector<Contact> projected;     ///< by depth
     std::vector<Side> sides;            ///< sorted by chain and bond
-    std::vector<std::uint32_t> chains;  ///< that are solved together
-    std::vector<std::uint8_t> taken;    ///< of State::contacts: continued by a contact
+    std::vector<std::uint32_t> chains;  ///< solved together
+    std::vector<std::uint8_t> taken;    ///< whether a contact continues each State::contacts
 };
 
-/// Shared by the islands: each writes only what belongs to its own bodies, links, chains and chunks.
-/// Colliders have moved before islands are solved.
+/// Shared by the islands: each writes only data of its own bodies, links, chains and chunks. Colliders have
+/// moved before islands are solved.
 struct Scratch {
     std::vector<glm::dvec3> place;   ///< current position of each particle
     std::vector<glm::dvec3> base;    ///< position without links and colliders
-    std::vector<glm::dvec3> blown;   ///< what the wind adds to `base`; empty without one
+    std::vector<glm::dvec3> blown;   ///< displacement by the wind in `base`; empty without wind
     std::vector<double> weight;      ///< inverse mass; 0: pinned
-    std::vector<double> multiplier;  ///< of each link: tension times h^2
+    std::vector<double> multiplier;  ///< by link: tension times h^2
     std::vector<Touch> touch;
-    /// What is near a body. Struck: a resting collider displaced it faster than correction_speed.
+    /// The colliders near a body. Struck: a resting collider displaced it faster than correction_speed.
     enum class Nearest : std::uint8_t { None, Resting, Struck, Moving };
     std::vector<Nearest> body_near;
     std::vector<std::uint8_t> body_failed;  ///< whether a body could not be solved
@@ -171,10 +171,10 @@ struct Scratch {
         glm::dvec3 by{0.0};            ///< displacement in the substep
         glm::dvec3 low{0.0}, high{0.0};
         double size = 0.0;
-        glm::dvec3 turn{0.0};  ///< of a capsule: how far end b moves beyond `by`; end a moves oppositely
+        glm::dvec3 turn{0.0};  ///< a capsule's: end b moves this much beyond `by`, end a the opposite
         bool spins = false;
-        glm::dquat unspin{1.0, 0.0, 0.0, 0.0};  ///< back to before the substep
-        glm::dvec3 middle{0.0};                 ///< that it spins about, at the end of the substep
+        glm::dquat unspin{1.0, 0.0, 0.0, 0.0};  ///< rotates back to the start of the substep
+        glm::dvec3 middle{0.0};                 ///< centre of the spin at the end of the substep
 
         /// The displacement of the shape at its point nearest to `at`.
         glm::dvec3 by_at(const glm::dvec3& at) const;
@@ -191,32 +191,32 @@ struct Scratch {
     };
     std::vector<Moving> colliders;
     std::vector<std::uint8_t> chain_solved;  ///< whether a chain is solved with its contacts
-    std::vector<double> chain_error;         ///< of each chain: relative length error after its last pass
+    std::vector<double> chain_error;         ///< by chain: relative length error after its last pass
     /// Factors on the mean velocity of some particles, on the deviations from it, and on the tension of
     /// links.
     struct Slowed {
-        glm::dvec3 mean{0.0};  ///< of their displacements
+        glm::dvec3 mean{0.0};  ///< mean displacement
         double whole = 1.0, apart = 1.0, tension = 1.0;
         double left = 0.0;  ///< joules of gain that slowing leaves
         bool any() const { return whole != 1.0 || apart != 1.0 || tension != 1.0; }
     };
     std::vector<std::optional<Slowed>> chain_slowed;  ///< empty until its energy is balanced
-    std::vector<BodyContactScratch> body_contacts;    ///< of the plan's islands with collisions
-    /// A particle that may collide: where it was when candidates were listed, how far it may roam from there
-    /// until they are listed again, and how far it may go in a substep. Squared: how far it has roamed, how
-    /// far it goes in this one, and how far the solver has moved it so far.
+    std::vector<BodyContactScratch> body_contacts;    ///< by island of the plan with collisions
+    /// A particle that may collide: its position when candidates were listed, how far it may roam from there
+    /// before they are listed again, and how far it may go in a substep. Squared: how far it has roamed, its
+    /// free way in this substep, and how far the solver has moved it so far.
     struct Listed {
         glm::dvec3 at{0.0};
         double roam = 0.0, reach = 0.0, roamed = 0.0, way = 0.0, moved = 0.0;
     };
-    std::vector<Listed> listed;                   ///< of each particle; empty if nothing collides
-    std::vector<ContactScratch> chain_contacts;   ///< of each chain; empty if nothing collides
+    std::vector<Listed> listed;                   ///< by particle; empty if nothing collides
+    std::vector<ContactScratch> chain_contacts;   ///< by chain; empty if nothing collides
     std::vector<std::uint32_t> collider_at;       ///< list index by slot
-    std::vector<detail::Cloth> cloths;            ///< of the plan's grids
-    std::vector<detail::EliminationSystem> tied;  ///< of the plan's tied bodies
-    std::vector<TieForces> tie_forces;            ///< of the plan's tied bodies
-    std::vector<glm::dvec3> tied_by;              ///< of each particle: a step of the tied solver; else empty
-    std::vector<double> tie_multiplier;           ///< of each tie: tension times h^2
+    std::vector<detail::Cloth> cloths;            ///< by grid of the plan
+    std::vector<detail::EliminationSystem> tied;  ///< by tied bodies of the plan
+    std::vector<TieForces> tie_forces;            ///< by tied bodies of the plan
+    std::vector<glm::dvec3> tied_by;              ///< by particle: a step of the tied solver; else empty
+    std::vector<double> tie_multiplier;           ///< by tie: tension times h^2
     detail::VectorUnit unit;
     detail::GridUnit grid_unit;
     detail::ClothUnit cloth_unit;
@@ -226,7 +226,7 @@ struct Scratch {
 struct ClothContact {
     std::uint32_t near = 0;      ///< index in IslandScratch::near
     std::uint32_t a = 0, b = 0;  ///< particles: the same one twice, or a link's ends
-    std::uint32_t link = 0;      ///< of a link: its index
+    std::uint32_t link = 0;      ///< a link's index
     double t = 0.0;              ///< position between them, 0: at a
     double force = 0.0;          ///< in the last solve; positive: presses
     double gap = 0.0;            ///< from the collider's surface, less the radius of the cloth
@@ -244,7 +244,7 @@ struct ClothPress {
     std::array<double, 4> shares{};
     glm::dvec3 normal{0.0};
     double along = 0.0, across = 0.0;  ///< stiffness along the normal, and along the surface
-    double gap = 0.0;                  ///< beyond the one to reach, metres
+    double gap = 0.0;                  ///< beyond the target gap, metres
     glm::dvec3 at{0.0};                ///< from a to b, where it was found
     glm::dvec3 slip{0.0};              ///< along the surface, since the substep began
 };
@@ -262,12 +262,12 @@ struct IslandScratch {
     ContactScratch contact;
     std::vector<ClothContact> cloth_contacts, earlier_contacts;
     std::vector<ClothPress> presses;
-    std::vector<Scratch::Slowed> part_slowed;  ///< of the island's parts
-    tendril::detail::ForkJoin loops;           ///< of a cloth; idle threads help
+    std::vector<Scratch::Slowed> part_slowed;  ///< by part of the island
+    tendril::detail::ForkJoin loops;           ///< over a cloth; idle threads help
     Advance done;                              ///< in this substep; `passes`: maximum over the islands
 };
 
-/// What the solvers of an island share in one fixed substep. They write only what belongs to the island, so
+/// The data that an island's solvers share in one fixed substep. They write only the island's own data, so
 /// that others can be solved at the same time.
 class IslandStep {
   protected:
@@ -318,7 +318,7 @@ struct Workspace::Parts {
     // advance.cpp
     /// The rest of a substep after colliders have moved: threads take islands until none is left.
     void solve_islands(State& state, bool measures);
-    /// Adds what the threads did in the substep to the report of the call.
+    /// Adds the threads' work in the substep to the report of the call.
     void add_up(Advance& done);
     void note_contacts(State& state);
 };

@@ -1,4 +1,4 @@
-// Where two segments, or a point and a triangle, are nearest. Not installed.
+// Nearest points of two segments, and of a point and a triangle. Not installed.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ inline NearestOfSegments nearest_of_segments(const dvec3& a0, const dvec3& a1, c
     return {s, t, (b0 + t * v) - (a0 + s * u)};
 }
 
-/// What its corners contribute to the point of a triangle that is nearest to `p` (Ericson, 5.1.5).
+/// Barycentric coordinates of the point of a triangle nearest to `p` (Ericson, 5.1.5).
 inline std::array<double, 3> nearest_of_triangle(const dvec3& p, const dvec3& a, const dvec3& b,
                                                  const dvec3& c) noexcept {
     const dvec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;

@@ -11,15 +11,15 @@
 
 namespace tendril::rope::detail {
 
-/// Capacity for `more` elements. An edit reserves all that it needs before it changes anything: if memory
-/// runs out, the world is as it was.
+/// Capacity for `more` elements. An edit reserves all memory before it changes anything: if memory runs out,
+/// the world is unchanged.
 template <class T>
 void reserve_more(std::vector<T>& list, std::size_t more) {
     if (list.size() + more > list.capacity()) list.reserve(std::max(list.size() + more, 2 * list.capacity()));
 }
 
-/// Takes the first free slot, so that the same calls give the same handles, for an element that is added to
-/// `list` next; that needs no more memory.
+/// Takes the first free slot, so that the same calls give the same handles, for the next element of `list`;
+/// adding that needs no more memory.
 template <class T>
 auto take_slot(std::vector<std::uint32_t>& slots, std::vector<T>& list) {
     reserve_more(list, 1);
@@ -37,7 +37,7 @@ void free_slot(std::vector<std::uint32_t>& slots, Id id) noexcept {
     ++slots[id.index];
 }
 
-/// Null if there is none. Most lists are in slot order; then it is found at once.
+/// Null if there is none. O(1) if the list is in slot order, as most are.
 template <class List, class Id>
 auto* find_in(List& list, const Id& id) noexcept {
     if (id.index < list.size() && list[id.index].id == id) return &list[id.index];
@@ -61,13 +61,13 @@ inline Collision ordered(BodyId a, BodyId b) noexcept {
 inline bool before(const Collision& a, const Collision& b) noexcept {
     return a.a.index != b.a.index ? a.a.index < b.a.index : a.b.index < b.b.index;
 }
-/// Once, at its place.
+/// Inserts in order; no duplicates.
 inline void insert_collision(std::vector<Collision>& list, const Collision& each) {
     const auto at = std::lower_bound(list.begin(), list.end(), each, before);
     if (at == list.end() || !(*at == each)) list.insert(at, each);
 }
 
-/// A new body collides with what the one that it came off does. Adds at most one more than there are.
+/// Makes `rest`, split off `whole`, collide with the same bodies. Adds at most one more than there are.
 inline void collide_alike(State& state, BodyId whole, BodyId rest) {
     for (std::size_t i = 0, count = state.collisions.size(); i < count; ++i) {
         const Collision each = state.collisions[i];

@@ -156,7 +156,7 @@ void Substep::stay_in_the_world() {
         stopped |= was != place;
     });
     if (!stopped) return;
-    // Energies balanced before are those of other places.
+    // Energies balanced before refer to other positions.
     for (const Plan::Island& part : plan_.parts_of(island_))
         std::fill_n(scratch_.chain_slowed.begin() + part.chains.first, part.chains.count, std::nullopt);
 }

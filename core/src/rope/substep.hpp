@@ -34,8 +34,8 @@ class Substep : IslandStep {
 
     /// A contact that displaces a body faster than this, m/s, would throw it.
     static constexpr double correction_speed = 2.0;
-    /// How deep in a collider a particle of a chain that resists bending may stay, metres: to be brought out
-    /// alone it would have to bend the chain.
+    /// Depth in a collider, metres, at which a particle of a chain that resists bending may stay: bringing it
+    /// out alone would bend the chain.
     static constexpr double harmless_depth = 5e-5;
 
     // substep.cpp
@@ -54,7 +54,7 @@ class Substep : IslandStep {
     /// A triangle of a cloth, or a segment of a rope or hair.
     struct Face {
         double mass = 0.0;
-        glm::dvec3 past{0.0};  ///< how far the air moves past it in the substep
+        glm::dvec3 past{0.0};  ///< displacement of the air past it in the substep
     };
     Face face_of(std::span<const std::size_t> corners, const Air& air) const;
     void blow_on_cloth(const Body& body, const Air& air);
@@ -63,7 +63,7 @@ class Substep : IslandStep {
     void blow_on_segment(const std::array<std::size_t, 2>& ends, double thickness, const Air& air);
     void push(std::span<const std::size_t> corners, const glm::dvec3& by);
 
-    // contact.cpp: finds what is near, and keeps what is not solved with its contacts out of colliders
+    // contact.cpp: finds near colliders, and keeps bodies that are not solved with their contacts out of them
     void find_near();
     void resolve_contacts(bool first);
     void resolve_particle(std::uint32_t i, std::uint32_t collider, std::uint32_t body, bool first);
@@ -72,7 +72,7 @@ class Substep : IslandStep {
     void apply_friction(std::uint32_t i, std::uint32_t body);  ///< Coulomb's friction
     Touch& touch(std::uint32_t i, std::uint32_t collider, const glm::dvec3& normal);
 
-    // depenetration.cpp: what is still inside after the last pass
+    // depenetration.cpp: particles still inside after the last pass
     void depenetrate();
     template <class Visit>
     void each_near(std::size_t first, std::size_t end, Visit visit);
@@ -121,7 +121,7 @@ class Substep : IslandStep {
     Advance& report_;
     bool measures_ = false;
     double before_ = 1.0;   ///< length of the previous substep relative to this one
-    double damping_ = 1.0;  ///< of velocity, in the substep
+    double damping_ = 1.0;  ///< factor on velocity, in the substep
     glm::dvec3 acceleration_;
     bool blows_;  ///< whether there is air
 };
@@ -140,8 +140,8 @@ class Substep::Ledger {
     double gained() const { return worked_on_ ? 0.0 : gained_; }
     /// Whether the gain exceeds this part of their weight times their length.
     bool gains(double part) const;
-    /// Whether slowed() leaves a gain of more than this part of their weight times their length, or of the
-    /// kinetic energy that they had.
+    /// Whether slowed() leaves a gain of more than this part of their weight times their length, or of their
+    /// earlier kinetic energy.
     bool keeps(double part) const;
     Slowed slowed() const;
     /// Joules lost to contact. The work of moving colliders cannot be separated from it.
@@ -150,7 +150,7 @@ class Substep::Ledger {
     bool bounds_relaxation() const {
         return near_ == Scratch::Nearest::Struck || (near_ != Scratch::Nearest::None && !strained_);
     }
-    /// Nothing holds or touches it, but it does not fall freely.
+    /// Whether it does not fall freely, though nothing holds or touches it.
     bool suspended() const;
 
   private:

@@ -8,7 +8,7 @@
 
 namespace tendril::rope::detail {
 
-/// Its particles are numbered from 0.
+/// Particles are numbered from 0.
 struct Taken {
     std::size_t row = 1;
     std::vector<std::uint32_t> cells{};  ///< as in Body
@@ -18,7 +18,7 @@ struct Taken {
     std::vector<Pin> pins{};  ///< sorted by particle
 };
 
-/// Puts a body in the place of the one that it was, of which each particle `becomes` another.
+/// Replaces a body by its edited form. `becomes`: the new particle of each old one.
 void put_back(State& state, BodyId id, const Taken& taken, const std::vector<std::size_t>& becomes);
 
 /// Leaves out rows and columns without particles, and the cells of a grid without gaps.

@@ -174,7 +174,7 @@ void TieForces::solve() {
 
 namespace {
 
-constexpr double max_compliance_across = 1e3;  ///< of a slack tie, which resists nothing sideways
+constexpr double max_compliance_across = 1e3;  ///< for a slack tie: no sideways resistance
 
 }  // namespace
 
@@ -214,7 +214,7 @@ void TiedSolver::load_ties() {
     }
 }
 
-/// Adds how far the force of each tie moves the ends of all.
+/// Adds the moves of all ties' ends by the force of each tie.
 void TiedSolver::add_responses() {
     TieForces& forces = scratch_.tie_forces[island_.tied - 1];
     using Of = TieForces::End::Of;
@@ -308,7 +308,7 @@ void TiedSolver::solve_with_grids(const detail::GridSystem::Tolerance& tolerance
             forces.total[i] += static_cast<double>(part) * forces.direction[i];
     };
     precondition();
-    double size = 0.0;  // of the residual, less the ties' part
+    double size = 0.0;  // size of the residual, less the ties' part
     each_grid([&](detail::GridSystem& grid) { size += grid.residual_dot_x(unit); });
     each_end(Of::Grid, [&](std::size_t i, const TieForces::End& end) {
         size -= end.sign * detail::dot(forces.now[i], detail::value_at(grid_of(end).finest().x, end.at));

@@ -12,24 +12,24 @@ namespace {
 using detail::Symmetric3;
 using glm::dvec3;
 
-/// Of a link or tie, relative to the mean mass of its ends, over h^2. A metre of rope, 64 segments, carrying
-/// a hundred times its weight stretches by some millionths.
+/// Maximum stiffness of a link or tie, relative to the mean mass of its ends, over h^2. A metre of rope, 64
+/// segments, carrying a hundred times its weight stretches by some millionths.
 constexpr double max_stiffness_between = 1e7;
-/// Of a contact, relative to the mean mass of a particle.
+/// Stiffness of a contact, relative to the mean mass of a particle.
 constexpr double contact_stiffness = 1e6;
 constexpr int max_steps = 16, steps_near_colliders = 3;
-constexpr double turned_enough = 1e-3;  ///< then the next step would change lengths by less than a millionth
-/// After that many steps a larger turn is accepted, which leaves lengths right to 0.05 %.
+constexpr double turned_enough = 1e-3;  ///< below it, the next step changes lengths by under a millionth
+/// After this many steps a larger turn is accepted, which leaves lengths right to 0.05 %.
 constexpr int few_steps = 3;
 constexpr double turned_little = 0.03;
-constexpr double turned_far = 0.05;  ///< then the step is checked
+constexpr double turned_far = 0.05;  ///< above it, the step is checked
 constexpr int max_halvings = 8;
-/// Of cloth that is a grid, as in cloth_solver.cpp.
+/// For cloth that is a grid, as in cloth_solver.cpp.
 constexpr double accepted_strain = 0.007, usual_residual = 0.1;
 constexpr int min_grid_steps = 2, max_grid_steps = 8;
-/// What nothing holds goes on turning, and each step's error with it.
+/// A free body goes on turning, and each step's error with it.
 constexpr int min_free_steps = 4;
-constexpr double single_rounding = 1e-6;  ///< of a potential: grids are in single precision
+constexpr double single_rounding = 1e-6;  ///< error of a potential: grids are in single precision
 
 /// along n n^T + across (I - n n^T)
 Symmetric3 stiffness_along(const dvec3& n, double along, double across) {
@@ -60,7 +60,7 @@ TiedSolver::Cloth::Cloth(const TiedSolver& island, std::uint32_t grid) : ClothSo
     shortest_ = island.shortest_;
 }
 
-/// Grids, and contacts, are as stiff as one cloth with the weight of all.
+/// Grids and contacts are as stiff as a single cloth of the total weight.
 void TiedSolver::measure_grids() {
     double weight = mass_ * island_.particles * detail::length(detail::acceleration(state_.settings));
     for (const Plan::Grid& grid : Plan::part(plan_.grids, tied_.grids)) {
@@ -135,8 +135,8 @@ void TiedSolver::add(std::uint32_t particle, const Symmetric3& matrix, const dve
     system_.x[place] += force;
 }
 
-/// Builds the system at the current positions. In the first step tension is that of the previous substep:
-/// particles that fell together show none yet.
+/// Builds the system at the current positions. The first step takes the previous substep's tension: particles
+/// that fell together show none yet.
 void TiedSolver::assemble(bool first) {
     system_.clear();
     for (const std::uint32_t number : Plan::part(plan_.bodies, island_.bodies)) {

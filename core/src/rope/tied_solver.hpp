@@ -1,5 +1,5 @@
-// Solves bodies that ties join as a whole, together with their contacts, in one implicit step: ropes, hair
-// and cloth, their links and their ties are one system. Not installed.
+// Solves tied bodies (ropes, hair and cloth) as one system of links, ties and contacts, in one implicit step.
+// Not installed.
 //
 // As for a cloth (cloth_grid.hpp) Newton's method minimises an incremental potential, but each of its steps
 // is solved exactly (elimination.hpp), in double precision. Links and ties are springs too stiff to stretch
@@ -46,7 +46,7 @@ class TiedSolver : ImplicitStep {
     void each_grid(Visit visit) const {
         for (std::uint32_t g = 1; g <= tied_.grids.count; ++g) visit(tied_.grids.first + g);
     }
-    std::uint32_t grid_with(std::uint32_t particle) const;  ///< its number, or 0
+    std::uint32_t grid_with(std::uint32_t particle) const;  ///< the grid's number, or 0
     void measure_grids();
     void evaluate_grids();
     void start();
@@ -73,9 +73,9 @@ class TiedSolver : ImplicitStep {
     const Plan::Tied& tied_;
     detail::EliminationSystem& system_;
     double taken_ = 1.0;
-    double turned_ = 0.0;     ///< in the last step: of a stiff link, relative to its length
-    double strain_ = 0.0;     ///< of grids: maximum of a stretch link
-    double shortest_ = 1e30;  ///< of grids: rest length of a stretch link
+    double turned_ = 0.0;     ///< by a stiff link in the last step, relative to its length
+    double strain_ = 0.0;     ///< in grids: maximum over stretch links
+    double shortest_ = 1e30;  ///< in grids: minimum rest length of stretch links
     float lightest_ = 1.0f;
     bool converged_ = true;
 };

@@ -3,10 +3,10 @@
 // it too, and a little along its surface. A wave that runs down a flag slower than the wind is then driven by
 // it, so that a flag flutters; gusts start the waves. A segment of a rope or hair is a cylinder.
 //
-// The air's force is a drag on the motion relative to it, applied implicitly: in a substep a face covers a
-// part of the difference, never more. Added up over the faces of a body without pins, this cannot raise its
-// kinetic energy as seen by the air, in however strong a wind. The ledger counts the work of the wind
-// (energy.cpp).
+// The air's force is a drag on the motion relative to it, applied implicitly: in a substep a face takes on
+// part of the difference, never more than all of it. Added up over the faces of a body without pins, this
+// cannot raise its kinetic energy as seen by the air, in however strong a wind. The ledger counts the work of
+// the wind (energy.cpp).
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -22,14 +22,14 @@ namespace {
 using glm::dvec3;
 
 constexpr double air_density = 1.2;  // kg/m^3
-/// Coefficients of the force on a plate, of dynamic pressure times area, along its normal and along itself.
+/// Force on a plate over dynamic pressure times area, along its normal and along its surface.
 constexpr double across_plate = 2.0, along_plate = 0.1;
-/// The same for a cylinder, of its thickness times its length.
+/// The same for a cylinder; its area is thickness times length.
 constexpr double across_thread = 1.2, along_thread = 0.03;
 constexpr double eddy = 1.0;                              // metres: the distance over which gusts differ
 constexpr std::uint64_t period = std::uint64_t{1} << 20;  // eddies after which the gusts repeat
 
-/// The part of the difference that is covered at a rate per substep.
+/// The part of a difference covered at this rate per substep.
 double reached(double rate) {
     return rate < 1e12 ? rate / (1.0 + rate) : 1.0;
 }
@@ -81,7 +81,7 @@ void detail::drift_gusts(State& state) noexcept {
     for (int c = 0; c < 3; ++c) state.drift[c] = std::fmod(state.drift[c], lap);
 }
 
-/// Adds what the air moves bodies by to `base`.
+/// Adds the air's displacement of bodies to `base`.
 void Substep::blow() {
     const dvec3 wind(state_.settings.wind);
     const Air air{.by = h_ * wind,
@@ -143,7 +143,7 @@ void Substep::blow_on_triangle(const std::array<std::size_t, 3>& corners, const 
     push(corners, reached(across_plate * grip) * facing + reached(along_plate * grip) * (face.past - facing));
 }
 
-/// Across it only the flow across counts, however fast it is along (S. Hoerner, "Fluid-Dynamic Drag", 1965).
+/// The force across depends on the flow across alone, not along (S. Hoerner, "Fluid-Dynamic Drag", 1965).
 void Substep::blow_on_segment(const std::array<std::size_t, 2>& ends, double thickness, const Air& air) {
     const dvec3 along = state_.position[ends[1]] - state_.position[ends[0]];
     const double square = detail::dot(along, along);

@@ -64,7 +64,7 @@ HWY_INLINE Lanes decay(Lanes x) {
 struct SineCosine {
     Lanes sine, cosine;
 };
-/// Of an angle in full turns, at least 0; from 2^20 turns on it counts as 0.
+/// Sine and cosine of an angle in full turns, at least 0; from 2^20 turns on it counts as 0.
 HWY_INLINE SineCosine sine_cosine(Lanes turns) {
     turns = hn::IfThenElseZero(hn::Lt(turns, all(1048576.0f)), turns);
     const Lanes quarters = rounded(times(turns, 4.0f));
@@ -76,7 +76,7 @@ HWY_INLINE SineCosine sine_cosine(Lanes turns) {
     const auto quarter = hn::ConvertTo(Ints(), quarters);
     const auto one = hn::Set(Ints(), 1), two = hn::Set(Ints(), 2);
     const Mask swapped = hn::RebindMask(Floats(), hn::TestBit(quarter, one));
-    // The second bit of the quarter is the sine's sign, that of the next quarter the cosine's.
+    // The second bit of the quarter is the sine's sign, the next quarter's the cosine's.
     const auto sign = [&](auto bits) { return hn::BitCast(Floats(), hn::ShiftLeft<30>(hn::And(bits, two))); };
     return {hn::Xor(hn::IfThenElse(swapped, cosine, sine), sign(quarter)),
             hn::Xor(hn::IfThenElse(swapped, sine, cosine), sign(hn::Add(quarter, one)))};

@@ -8,7 +8,7 @@ namespace {
 
 using enum FieldScale;
 
-/// A number or a pair: `range` is what check() accepts.
+/// A number or a pair. `range`: accepted by check().
 template <auto member>
 constexpr Field number(const char* name, const char* unit, FieldRange range, FieldRange usual,
                        FieldScale scale = Linear) noexcept {

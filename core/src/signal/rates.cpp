@@ -57,7 +57,7 @@ class HeldInput {
     double slowest_ = 1e4;
 };
 
-/// 0 to 1: the same frames everywhere.
+/// Random numbers from 0 to 1, the same in every run.
 class Unit {
   public:
     double next() { return static_cast<double>(math::random_bits(state_) >> 11) * 0x1p-53; }
@@ -66,7 +66,7 @@ class Unit {
     std::uint64_t state_ = 1;
 };
 
-/// The ends of a rate's frames, split at those of the slowest rate.
+/// The ends of a rate's frames, split at the slowest rate's.
 std::vector<double> frame_ends(const FrameRate& rate, const HeldInput& input) {
     const double hz = hz_of(rate), end = input.end();
     std::vector<double> times;
@@ -100,7 +100,7 @@ class Reader {
 
   private:
     const HeldInput& input_;
-    double held_ = 0.0, held_until_ = 0.0;  ///< of the frame of the slowest rate that was read last
+    double held_ = 0.0, held_until_ = 0.0;  ///< in the frame of the slowest rate read last
 };
 
 /// Filters that run frame by frame.

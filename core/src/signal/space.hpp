@@ -40,7 +40,7 @@ static inline dvec3 wide(const dvec3& x) noexcept {
 static inline dvec3 wide(const glm::vec3& x) noexcept {
     return math::wide(x);
 }
-/// Normalised.
+/// Also normalises.
 static inline dquat wide(const dquat& q) noexcept {
     const double scale = 1.0 / std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};

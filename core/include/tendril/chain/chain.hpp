@@ -22,7 +22,7 @@
 //
 // Errors: InvalidArgument for a number that is NaN, infinite or out of range, OutOfRange for a bad index; the
 // message names the operation, the argument and its value. Arguments are checked before anything changes: a
-// call that fails leaves the chain bit for bit as it was, also if it runs out of memory.
+// call that fails leaves the chain bit for bit as it was, even if it runs out of memory.
 //
 // Units are metres. Input coordinates may be at most max_magnitude (1e9) in magnitude, lengths 0 to 1e9. The
 // same calls give the same bits under every compiler and optimisation that keeps IEEE arithmetic.
@@ -65,10 +65,10 @@ class Chain {
 
     /// Loads many segments at once, in O(n), for example a saved chain. Positions are kept bit for bit up to
     /// the first segment that is not at its length from the previous one; from there on they are
-    /// recalculated. (The allowed error is that of the invariant plus, beyond 1e3 m, the spacing of floats
-    /// there, so every chain that this class made is restored exactly.) In the recalculated part, a segment
-    /// at the given position of its predecessor has no direction of its own and continues straight on, as in
-    /// add(length). InvalidArgument for a bad length, coordinate or direction.
+    /// recalculated. (The allowed error is the invariant's plus, beyond 1e3 m, the spacing of floats there,
+    /// so every chain that this class made is restored exactly.) In the recalculated part, a segment given at
+    /// its predecessor's position has no direction of its own and continues straight on, as in add(length).
+    /// InvalidArgument for a bad length, coordinate or direction.
     static Expected<Chain> from_segments(std::vector<Segment> segments,
                                          glm::vec3 default_direction = {1.0f, 0.0f, 0.0f});
 
@@ -95,8 +95,8 @@ class Chain {
     /// is finite and its length within 1e-3 of 1; it is then normalised.
     Result set_default_direction(glm::vec3 direction);
 
-    /// Appends a segment straight on: in the direction of the last bone, or default_direction() if that has
-    /// none. The first segment is placed at the origin. InvalidArgument.
+    /// Appends a segment straight on: in the direction of the last bone, or default_direction() if that bone
+    /// has none. The first segment is placed at the origin. InvalidArgument.
     Result add(float length);
     /// Appends a segment from the tail towards `segment.position`, at distance `segment.length`. The first
     /// segment is placed exactly there. InvalidArgument.

@@ -7,9 +7,9 @@
 //             if (auto moved = attached(skeleton, each.foot, each.leg)) skeleton = std::move(*moved);
 //
 // Clips need no change. Their keys of such a node stay local to its old parent (Node::keys), and sample()
-// converts them: at any time every node is where it was before, to rounding. Only where the leg is scaled
-// unevenly, other than along the foot's own axes, the foot would be sheared: it keeps its position but not
-// its axes, and is_same_place() tells. key_of() converts back.
+// converts them: at any time every node is where it was before, to rounding. The exception is a leg scaled
+// unevenly, other than along the foot's own axes, which would shear the foot: it keeps its position but not
+// its axes, and is_same_place() detects that. key_of() converts back.
 #pragma once
 
 #include <vector>
@@ -22,15 +22,15 @@ struct LooseFoot {
     Bone bone = Bone::LeftFoot;
     std::size_t foot = 0;  ///< a node named as the foot of this side, not below the leg
     std::size_t leg = 0;   ///< node of the lower leg
-    bool fits = false;     ///< at rest the lower leg may end where the foot is
+    bool fits = false;     ///< at rest the foot is where the lower leg may end
 };
 
-/// At most one for each side whose lower leg the map has and has no named foot below it. The foot fits where
+/// At most one per side, if the map has its lower leg and no named foot is below that. The foot fits where
 /// the last node below the lower leg is; without such a node, if it continues the leg at a usual length.
 std::vector<LooseFoot> loose_feet(const Skeleton& skeleton, const BoneMap& map);
 
-/// The skeleton with the node below `to`. It stays where it is, at rest and in clips. Refuses a node that is
-/// above `to` or was moved already, and one that would be sheared there.
+/// The skeleton with the node moved below `to`; it stays where it is, at rest and in clips. Refuses a node
+/// that is above `to` or was moved already, and one that would be sheared there.
 Expected<Skeleton> attached(const Skeleton& skeleton, std::size_t node, std::size_t to);
 /// The skeleton as it was before attached().
 Skeleton detached(const Skeleton& skeleton);

@@ -17,7 +17,7 @@
 // long and 0.055 wide, thigh and shin together are 0.491). A sole pitched by more than 60 degrees narrows, to
 // a point when it is vertical: from above it then has no direction.
 //
-// A pose is not a motion: who walks or runs is out of balance for half of each step and does not fall.
+// A pose is not a motion: a walker or runner is out of balance for half of each step and does not fall.
 //
 // Cost: half a microsecond for both.
 #pragma once
@@ -34,9 +34,9 @@ namespace tendril::humanoid {
 
 /// A part of the body's mass.
 struct MassPoint {
-    std::size_t node = 0;  ///< moves it
+    std::size_t node = 0;  ///< the node that moves it
     glm::dvec3 at{0.0};    ///< in the node's space
-    double share = 0.0;    ///< of the body's mass; all sum up to 1
+    double share = 0.0;    ///< fraction of the body's mass; all sum up to 1
     bool operator==(const MassPoint&) const = default;
 };
 
@@ -47,8 +47,8 @@ struct Masses {
     bool operator==(const Masses&) const = default;
 };
 
-/// Needs what Body needs. Refuses a map that is not usable, is not upright or fails check(), and legs that
-/// find_soles() refuses.
+/// Needs the bones that Body needs. Refuses a map that is not usable, is not upright or fails check(), and
+/// legs that find_soles() refuses.
 Expected<Masses> find_masses(const Skeleton& skeleton, const BoneMap& map);
 
 /// The convex hull of the soles that stand, seen from above.
@@ -59,8 +59,8 @@ struct Support {
     std::array<double, 2> standing{};               ///< left, right: 0 is in the air, 1 stands
     glm::dvec3 middle{0.0};                         ///< mean of the soles' points, inside the hull
 
-    /// Horizontal distance of a point from the hull's edge, metres: positive inside. Without a foot that
-    /// stands -max_magnitude. Continuous in the point and in the soles.
+    /// Horizontal distance of a point from the hull's edge, metres: positive inside; -max_magnitude if no
+    /// foot stands. Continuous in the point and in the soles.
     double margin(const glm::dvec3& point) const noexcept;
     /// The hull's point nearest to `point`, at `point`'s height; `point` itself if inside.
     glm::dvec3 nearest(const glm::dvec3& point) const noexcept;
@@ -68,9 +68,9 @@ struct Support {
     Support shrunk(double part) const noexcept;
 };
 
-/// Heel and ball stand up to 0.02 of the leg's length above the ground, and from 0.08 on no more. In between
-/// their part of the hull shrinks towards what still stands, so that nothing jumps. Without a ground, the
-/// lowest of them is on it.
+/// Heel and ball stand up to 0.02 of the leg's length above the ground, and not from 0.08 on. In between,
+/// their part of the hull shrinks towards the points that still stand, so that nothing jumps. Without a
+/// ground, the lowest of them is on it.
 Support find_support(const Soles& soles, const std::array<SolePoints, 2>& at,
                      const Ground* ground = nullptr) noexcept;
 Support find_support(const Soles& soles, std::span<const Placement> placements,

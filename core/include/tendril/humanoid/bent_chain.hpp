@@ -1,8 +1,8 @@
 // Bends a tail, a spine or a tentacle of a character along a curve.
 //
-//     Expected<BentChain> tail = BentChain::make(skeleton, *skeleton.find("tail_1"),
-//     *skeleton.find("tail_8")); std::vector<glm::vec3> points = tail->points_through(pose, 4);  // or your
-//     own
+//     const auto first = skeleton.find("tail_1"), last = skeleton.find("tail_8");
+//     Expected<BentChain> tail = BentChain::make(skeleton, *first, *last);
+//     std::vector<glm::vec3> points = tail->points_through(pose, 4);  // or your own
 //     ... each frame, after the animation and before IK:
 //     const ik::CurveReport report = tail->bend(pose, points, {.weight = 0.5f});
 //
@@ -12,12 +12,12 @@
 // bend it first, then hands and feet still reach their targets.
 //
 // Method: ik::place_along() (tendril/ik/curve.hpp) in the space of the points. The bones turn from the rest
-// pose as little as leads to the curve: first all of them by the shortest arc from the first bone to the
+// pose no further than the curve requires: first all of them by the shortest arc from the first bone to the
 // curve's beginning, then each with the curve's rotation-minimising frame. Rest twist stays, and a curve that
 // moves a little rolls a little, unless it begins straight against the first bone's rest direction.
 //
-// Only rotations change, and with `fit` lengths. What hangs on the chain follows. With a weight of 0 the pose
-// stays bit-identical.
+// Only rotations change, and with `fit` lengths. Nodes that hang on the chain follow. With a weight of 0 the
+// pose stays bit-identical.
 //
 // Cost: O(bones + control points + nodes of the skeleton). bend() does not allocate or throw.
 #pragma once
@@ -55,8 +55,8 @@ class BentChain {
     /// From first to last.
     std::span<const std::size_t> nodes() const noexcept;
     std::size_t bones() const noexcept { return nodes().empty() ? 0 : nodes().size() - 1; }
-    /// The space of the control points: where the chain's parent is, turned as it is, in metres. `placed`: of
-    /// all nodes.
+    /// The space of the control points, in metres: the position and rotation of the chain's parent. `placed`:
+    /// of all nodes.
     Placement space(std::span<const Placement> placed) const noexcept;
     /// At most `count` control points through the chain's joints, evenly spread along it. Empty if the pose
     /// is not finite or of another skeleton. Allocates.
@@ -64,8 +64,8 @@ class BentChain {
 
     /// `pose` holds the local transforms of all nodes; the chain's come back along the curve. `points`: 1 to
     /// max_points, those after the first node. `memory`, for bones() bones, is only needed to report jumps.
-    /// Status::InvalidInput for a pose, points or options that are not
-    /// finite or out of range: nothing has changed.
+    /// Status::InvalidInput for a pose, points or options that are not finite or out of range: nothing has
+    /// changed.
     ik::CurveReport bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,
                          const BendOptions& options, ik::CurveMemory& memory) noexcept;
     ik::CurveReport bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,

@@ -22,8 +22,8 @@
 // speed. There the solver overestimates the bend slightly and stops up to 0.7 mm short (of a 1.8 m body), so
 // that elbows and knees move at most some 13 times as fast as the target.
 //
-// Why not FABRIK over layered chains: it solves for positions and derives rotations afterwards, which loses
-// the twist, and it has to apply limits in every pass.
+// FABRIK over layered chains is not used: it solves for positions and derives rotations afterwards, which
+// loses the twist, and it has to apply limits in every pass.
 //
 // Cost: an iteration of 22 bones and 5 targets takes 2 to 3 microseconds; following a target that moves by a
 // millimetre takes some 5 to 10 iterations. Measured by tests/bench/humanoid_body.cpp.
@@ -51,17 +51,17 @@ Bone bone_of(Effector effector) noexcept;
 struct BodyTarget {
     Effector effector = Effector::LeftHand;
     glm::dvec3 position{0.0};  ///< metres, of the bone's joint, in the character's space
-    /// Of the bone, in the character's space; blended in by `weight` (up to 1) and clamped to the joint's
-    /// limit. Without one a foot keeps the clip's rotation, so that it stays level, and a hand or the head
-    /// turns with its parent bone.
+    /// Rotation of the bone, in the character's space; blended in by `weight` (up to 1) and clamped to the
+    /// joint's limit. Without one a foot keeps the clip's rotation, so that it stays level, and a hand or the
+    /// head turns with its parent bone.
     std::optional<glm::dquat> rotation{};
     double weight = 1.0;  ///< 0 to 1e3, relative to other targets; 0: ignored
 };
 
-/// Where a foot without a target stays: away from the clip's place, as footsteps.hpp moves it.
+/// The shift of a foot without a target from its place in the clip, as footsteps.hpp sets it.
 struct FootShift {
     glm::dvec3 stand{0.0};  ///< metres
-    double lift = 0.0;      ///< metres on top of it, upwards; for balance the foot stands even so
+    double lift = 0.0;      ///< metres above that; for balance the foot still counts as standing
     bool operator==(const FootShift&) const = default;
 };
 
@@ -78,26 +78,25 @@ struct BodyOptions {
     double settle = 0.0;
     /// Keeps the centre of mass (balance.hpp) over the standing feet: hips and trunk move so that it stays in
     /// the support, while the targets are reached as nearly as that allows. Arms without a target are no
-    /// counterweight. As far as the clip is out of balance, the pose may be. Without effect if the legs allow
-    /// no soles.
+    /// counterweight. The pose may be as far out of balance as the clip. No effect if find_soles() refuses
+    /// the legs.
     bool balance = false;
     /// Part of the support, from its edge to its middle, that the centre of mass keeps clear of: 0 to 0.9.
     double reserve = 0.25;
     std::array<FootShift, 2> feet{};  ///< left, right; only feet that stay
     const Ground* ground =
-        nullptr;  ///< which feet stand, for balance; null: the lowest sole is on the ground
+        nullptr;  ///< decides which feet stand, for balance; null: the lowest sole is on the ground
 };
 
-/// Where the last solve ended, for the next one to start from. If empty, it starts from the clip's pose.
+/// The end of the last solve, from which the next one starts. If empty, it starts from the clip's pose.
 struct BodyState {
-    /// Of each bone in the order of Body::bones(): its rotation from the clip's pose, in the frame of its
-    /// parent bone.
+    /// Each bone's rotation from the clip's pose, in its parent bone's frame, in the order of Body::bones().
     std::vector<glm::dquat> turns{};
-    glm::dvec3 shift{0.0};                          ///< of the hips from the clip's, metres
+    glm::dvec3 shift{0.0};                          ///< offset of the hips from the clip's, metres
     std::array<glm::dvec3, effector_count> clip{};  ///< where the clip had the effectors, metres
     double deepest = 0.0;                           ///< deepest overlap of two capsules, metres
     std::array<glm::dvec3, effector_count> left{};  ///< from each effector to its target, metres
-    std::array<double, effector_count> weights{};   ///< of the targets; 0: no target
+    std::array<double, effector_count> weights{};   ///< weights of the targets; 0: no target
     double outside = 0.0;                           ///< BodyReport::outside
     double pace = 0.0;                              ///< limit on a joint's movement in that solve, metres
     bool operator==(const BodyState&) const = default;
@@ -108,10 +107,10 @@ struct BodyReport {
     bool settled = true;                             ///< false: stopped by max_iterations or the speed limit
     double residual = 0.0;                           ///< metres, the largest
     std::array<double, effector_count> residuals{};  ///< metres; 0: no target
-    std::array<bool, bone_count> at_limit{};         ///< joints that their limits hold back
+    std::array<bool, bone_count> at_limit{};         ///< joints stopped by their limits
     double penetration = 0.0;                        ///< deepest overlap of two capsules, metres
     /// Metres by which the centre of mass leaves the safe part of the support although `balance` is on,
-    /// beyond what the clip does. While targets hold it there, above 0 but small.
+    /// beyond the clip's own. Small but over 0 while targets hold it there.
     double outside = 0.0;
 };
 
@@ -122,8 +121,8 @@ class HoldSolve;
 
 class Body {
   public:
-    /// Refuses an unusable map, bones that do not descend from the hips, and invalid limits or capsules. Of
-    /// `capsules`, hands and lower arms are kept out of trunk, head, legs and the other arm, and lower legs
+    /// Refuses an unusable map, bones that do not descend from the hips, and invalid limits or capsules.
+    /// `capsules`: hands and lower arms are kept out of trunk, head, legs and the other arm, and lower legs
     /// out of each other. Capsules that overlap at rest may overlap as deeply in a pose.
     static Expected<Body> make(const Skeleton& skeleton, const BoneMap& map,
                                const BodyLimits& limits = no_limits(),

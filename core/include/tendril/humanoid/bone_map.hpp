@@ -1,11 +1,11 @@
-// Which node of a skeleton is which bone of a human body.
+// Maps the nodes of a skeleton to the bones of a human body.
 //
 // Two independent readers examine a skeleton. One knows common names: Mixamo, Unreal's mannequin, VRM, Unity,
 // Rigify, 3ds Max's Biped, Acclaim, Motive and other captures. The other ignores names: it looks for a node
 // from which two equal limbs go down and a column goes up, for two equal limbs at the top of the column, and
 // for a head above them. If both agree, the match is nearly certain; if they differ, or only one finds the
 // bone, the confidence is lower. Where a limb has as many nodes as the one on the other side, both have their
-// bones at the same ones. The reasons say why in words.
+// bones at the same nodes. The reasons are in words.
 //
 //     const BoneMap map = match_bones(skeleton);
 //     if (!map.is_usable()) ...  // map.missing lists the missing bones, or the map is not upright
@@ -61,7 +61,7 @@ Bone mirrored(Bone bone) noexcept;
 
 struct BoneMatch {
     std::int32_t node = -1;   ///< -1: none
-    double confidence = 0.0;  ///< 0 to 1: ranks the evidence, no probability
+    double confidence = 0.0;  ///< 0 to 1: ranks the evidence; not a probability
     std::string reasons{};    ///< "named mixamorig:LeftArm"
     bool operator==(const BoneMatch&) const = default;
 };
@@ -83,15 +83,15 @@ struct BoneMap {
     bool operator==(const BoneMap&) const = default;
 };
 
-/// Y is up.
+/// Finds the bones of a skeleton; Y is up.
 BoneMap match_bones(const Skeleton& skeleton);
 /// Updates `missing`, `upright` and `rest` after `bones` has been edited.
 void review(BoneMap& map, const Skeleton& skeleton);
 
 /// Whether the map fits the skeleton. Refuses a node that is not in the skeleton, a node that is two bones,
-/// and a bone whose node is above that of one of its parent bones: "bone map: LeftHand must be a node of the
-/// skeleton, got 77". Functions that take a map refuse what this refuses; those that cannot fail treat such a
-/// map as empty.
+/// and a bone whose node is above the node of one of its parent bones: "bone map: LeftHand must be a node of
+/// the skeleton, got 77". Functions that take a map refuse what this refuses; those that cannot fail treat
+/// such a map as empty.
 Result check(const BoneMap& map, const Skeleton& skeleton) noexcept;
 
 }  // namespace tendril::humanoid

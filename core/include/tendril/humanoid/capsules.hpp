@@ -1,12 +1,11 @@
-// The volume of a body, one capsule per bone: what its hands must not pass through, and the colliders of
-// ropes and cloth.
+// The volume of a body, one capsule per bone: obstacles for its hands, and colliders for ropes and cloth.
 //
 //     const std::vector<BodyCapsule> capsules = default_capsules(skeleton, map);
 //     Expected<Body> body = Body::make(skeleton, map, limits, capsules);  // keeps them apart
 //     const PlacedCapsule there = place(capsules[0], map, placements);    // as a collider, or to draw it
 //
-// The default sizes are those of an adult of average build, scaled by the lengths of legs and spine. If the
-// character has a skin, the capsules can be fitted to it:
+// The default sizes fit an adult of average build, scaled by the lengths of legs and spine. If the character
+// has a skin, the capsules can be fitted to it:
 //
 //     std::vector<SkinPoint> points;  // vertices of the mesh at rest, each with its most influential node
 //     const std::vector<BodyCapsule> capsules = fitted_capsules(skeleton, map, points);

@@ -76,8 +76,8 @@ struct Frames {
 };
 /// The clip at `rate` frames per second. If that is its own rate, the frames are its keys, all of them: files
 /// round the time between frames, and 127 steps of 0.0333333 s are a little less than 127 thirtieths. Own
-/// frames are the keys of a track, each within 0.06 steps of even times from 0 to the clip's end. Of 30 and
-/// 29.97, which differ by 0.1 %, the nearer one is its own.
+/// frames are the keys of a track, each within 0.06 steps of even times from 0 to the clip's end. Of two
+/// rates that differ by 0.1 %, as 30 and 29.97, the nearer one is its own.
 Frames frames_at(const Clip& clip, double rate) noexcept;
 /// Times of keys, increasing, and the frames between the first and the last. A frame within 0.06 steps of a
 /// key is that key: a second call adds nothing.

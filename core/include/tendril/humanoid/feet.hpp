@@ -68,20 +68,20 @@ struct FeetOptions {
     double leave_speed = 1.0;     ///< m/s: a faster foot is released; from enter_speed to 1e3
     double low = 0.05;            ///< maximum height of the sole over the clip's floor in stance; 0 to 1e3
     double break_distance = 0.2;  ///< a lock this far from the clip, horizontally, is released; 0 to 1e3
-    double half_life = 0.05;      ///< of a released lock's offset, and of the foot's turn; 1e-6 to 10
+    double half_life = 0.05;      ///< for a released lock's offset and the foot's turn; 1e-6 to 10
 
     double ray_start = 0.5;                ///< above the ankle; 0 to 1e3
     double max_turn = 0.610865238198015;   ///< 35 degrees: the ground turns a foot by at most this; 0 to 1.5
     double max_slope = 0.785398163397448;  ///< 45 degrees: steeper ground is ignored; 0 to 1.5
     double edge = 0.012;    ///< a sole keeps this distance to the edges of the step that it stands on; 0: it
                             ///< stays where the clip puts it; 0 to 0.1
-    double max_step = 0.5;  ///< ground this far above or below that under the root is ignored; 0 to 1e3
-    double root_radius = 0.3;        ///< of the disc whose mean height the root follows; 0 to 1e3
+    double max_step = 0.5;  ///< ground this far above or below the root's is ignored; 0 to 1e3
+    double root_radius = 0.3;        ///< radius of the disc whose mean height the root follows; 0 to 1e3
     double root_half_life = 0.05;    ///< 1e-6 to 10
     double pelvis_drop = 0.4;        ///< the pelvis is lowered by at most this; 0 to 1e3
     double pelvis_half_life = 0.05;  ///< 1e-6 to 10
-    double straightest = 0.995;      ///< of a leg's full length; 0.5 to 1
-    double lift_half_life = 0.03;    ///< of the ease when the ground below a foot jumps; 1e-6 to 10
+    double straightest = 0.995;      ///< maximum part of a leg's full length; 0.5 to 1
+    double lift_half_life = 0.03;    ///< for easing when the ground below a foot jumps; 1e-6 to 10
     double max_speed = 2.2;          ///< m/s; 1e-6 to 1e3
 };
 /// Names the member that is out of range: "feet: low must be 0 to 1000 m, got nan".
@@ -96,15 +96,15 @@ struct FootState {
     bool locked = false;
     bool speed_known = false;               ///< measured since the foot was locked
     bool standing = false;                  ///< locked, and on the ground
-    glm::dvec3 heel{0.0}, toe{0.0};         ///< of the clip, in the ground's space
-    glm::dvec3 velocity{0.0};               ///< of the clip's toe, horizontal
+    glm::dvec3 heel{0.0}, toe{0.0};         ///< in the clip, in the ground's space
+    glm::dvec3 velocity{0.0};               ///< of the toe in the clip, horizontal
     double lock_x = 0.0, lock_z = 0.0;      ///< where the toe is locked
     double shift_x = 0.0, shift_z = 0.0;    ///< remaining shift to where the whole sole stands
-    bool edges_known = false;               ///< that place was looked for since the foot was locked
-    double offset_x = 0.0, offset_z = 0.0;  ///< of the toe from the clip
-    double lift = 0.0;                      ///< of the ankle from the clip
+    bool edges_known = false;               ///< that place was searched for since the foot was locked
+    double offset_x = 0.0, offset_z = 0.0;  ///< offset of the toe from the clip
+    double lift = 0.0;                      ///< lift of the ankle from the clip
     double goal = 0.0;                      ///< the lift without the ease
-    signal::SpringState<double> ease{};     ///< of the lift, from the goal
+    signal::SpringState<double> ease{};     ///< offset of the lift from the goal; eases to 0
     glm::dvec3 knee{0.0};                   ///< offset of the knee from the clip
     double planting = 0.0;                  ///< 0: as high over the ground as in the clip; 1: on it
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};    ///< by the ground
@@ -115,7 +115,7 @@ struct FootState {
 /// Persists from frame to frame. A default-constructed state puts the feet on the ground at once.
 struct FeetState {
     bool started = false;
-    glm::dvec3 hips{0.0};  ///< of the clip, in the ground's space
+    glm::dvec3 hips{0.0};  ///< in the clip, in the ground's space
     double base = 0.0;     ///< how far the root is raised
     double drop = 0.0;     ///< how far the pelvis is lowered from there
     signal::SpringState<double> root{}, pelvis{};
@@ -130,7 +130,7 @@ Result check(const FeetState& state) noexcept;
 struct FootReport {
     bool planted = false;  ///< locked, and standing on the ground
     FootAlone alone = FootAlone::No;
-    glm::dvec3 heel{0.0}, toe{0.0};  ///< of the corrected pose, in the ground's space
+    glm::dvec3 heel{0.0}, toe{0.0};  ///< in the corrected pose, in the ground's space
     double depth = 0.0;  ///< how far heel, ball or toe is below the ground, metres; at full weight
     double late = 0.0;   ///< how far the foot still has to rise: max_speed allows no more. Metres
 };

@@ -7,7 +7,7 @@
 //
 // The results are bit-identical to separate calls of Feet::step(), on any number of threads.
 //
-// Cost: that of the steps; 1 000 characters walking on stairs take 4 ms on one core.
+// Cost: the sum of the steps; 1 000 characters walking on stairs take 4 ms on one core.
 #pragma once
 
 #include "tendril/humanoid/feet.hpp"

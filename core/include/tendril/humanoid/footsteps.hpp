@@ -7,14 +7,14 @@
 //     place(skeleton, pose, solved);
 //     plan_step(steps, *soles, masses->centre(solved), placed, body_state, options.ground);
 //
-// The body falls towards its catching point: its centre of mass, and as far on as the hand that pulls most is
-// from its target, but no less than half the leg's length. (The capture point of J. Pratt et al., "Capture
+// The body falls towards its catching point: its centre of mass, moved by the largest miss of a target
+// (hands, head, hips), but by 0.5 to 0.9 of the leg's length. (The capture point of J. Pratt et al., "Capture
 // point: a step toward humanoid push recovery", 2006, of a body that moves slowly.) The foot nearer to that
-// point steps under it, at most 0.9 of the leg's length from the other foot, and never across it; the other
-// one follows if one step is not enough. Without targets, the feet step back to where the clip has them.
+// point steps under it, at most 0.9 of the leg's length from the other foot, and never across; the other one
+// follows if one step is not enough. Without targets, the feet step back to where the clip has them.
 //
-// A target that a hand gets to at 1 m/s, anywhere within 1.9 m, takes no more than two steps in most cases
-// and four in nearly all.
+// A hand that goes to a target within 1.9 m at 1 m/s takes no more than two steps in most cases and four in
+// nearly all.
 //
 // Needs a clip that stands: while the clip lifts a foot, no step begins.
 //
@@ -29,18 +29,18 @@
 
 namespace tendril::humanoid {
 
-/// Part of the leg's length: a hand nearer than this to its target needs no step.
+/// Part of the leg's length: targets missed by less than this need no step.
 inline constexpr double no_step_within = 0.02;
 
 struct FootstepOptions {
-    double seconds = 0.3;  ///< that a step takes: 0.05 to 5
+    double seconds = 0.3;  ///< duration of a step: 0.05 to 5
     double lift = 0.1;     ///< height of its arc, part of the leg's length: 0 to 1
 };
 
-/// Shifts from the clip's place, metres.
+/// A foot's shift from its place in the clip, metres.
 struct Footstep {
     glm::dvec3 from{0.0}, to{0.0};
-    double part = 1.0;  ///< of the way from one to the other: 0 to 1
+    double part = 1.0;  ///< of the way from `from` to `to`: 0 to 1
     bool operator==(const Footstep&) const = default;
 };
 
@@ -48,15 +48,15 @@ struct FootstepsState {
     std::array<Footstep, 2> feet{};  ///< left, right
     /// Whether a foot is in the air.
     bool stepping() const noexcept { return feet[0].part < 1.0 || feet[1].part < 1.0; }
-    /// Whether a foot is, or goes, elsewhere than in the clip.
+    /// Whether a foot is, or goes, away from its place in the clip.
     bool away() const noexcept { return *this != FootstepsState(); }
     bool operator==(const FootstepsState&) const = default;
 };
 /// For a state read from a file: refuses numbers that are not finite, over 1e9, or parts outside 0 to 1.
 Result check(const FootstepsState& state) noexcept;
 
-/// Moves the foot that steps on by `dt` seconds; without time it stays. Returns BodyOptions::feet. Options
-/// out of range are clamped, and a state that check() refuses is reset.
+/// Moves the stepping foot on by `dt` seconds; it stays if dt is not over 0. Returns BodyOptions::feet.
+/// Options out of range are clamped, and a state that check() refuses is reset.
 std::array<FootShift, 2> advance_steps(FootstepsState& state, const Soles& soles, double dt,
                                        const FootstepOptions& options = {}) noexcept;
 

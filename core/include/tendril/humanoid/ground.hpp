@@ -35,7 +35,7 @@ struct GroundHit {
 
 /// Heights at the corners of a grid of squares, bilinear between them. Outside the grid there is no ground.
 struct HeightField {
-    double x = 0.0, z = 0.0;        ///< of the first corner
+    double x = 0.0, z = 0.0;        ///< the first corner
     double cell = 0.5;              ///< width of a square, 0.001 to 1e6 m
     std::size_t columns = 0;        ///< corners along X, at least 2
     std::vector<double> heights{};  ///< row by row, along Z; at least 2 rows

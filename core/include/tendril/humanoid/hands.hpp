@@ -29,8 +29,8 @@
 namespace tendril::humanoid {
 
 struct HandTarget {
-    glm::dvec3 position{0.0};  ///< of the hand's joint, in the space of `root`
-    /// Of the hand's node, in that space; unset: the hand turns with the forearm.
+    glm::dvec3 position{0.0};  ///< the hand's joint, in the space of `root`
+    /// Rotation of the hand's node, in that space; unset: the hand turns with the forearm.
     std::optional<glm::dquat> rotation{};
     double weight = 0.0;  ///< clamped to 0 to 1
 };
@@ -40,7 +40,7 @@ using HandTargets = std::array<HandTarget, 2>;  ///< left, right
 struct HandsOptions {
     rig::Transform root{};   ///< where the character stands, as FeetOptions::root
     double view = 2.0;       ///< half-angle of the view cone of the head; 0 to 3.15, which sees everything
-    double half_life = 0.1;  ///< of the ease when a target enters or leaves the view; 1e-6 to 10
+    double half_life = 0.1;  ///< for easing when a target enters or leaves the view; 1e-6 to 10
     double shoulder = 0.5;   ///< a shoulder turns by at most this; 0 to 1.5
 };
 /// Names the member that is out of range.
@@ -60,7 +60,7 @@ struct HandReport {
     double weight = 0.0;  ///< applied; 0: the hand is off
     bool in_view = false;
     double residual = 0.0;     ///< metres from the hand to its target
-    glm::dvec3 position{0.0};  ///< of the hand
+    glm::dvec3 position{0.0};  ///< position of the hand
 };
 struct HandsReport {
     /// False: a pose, a target or options that are not finite or out of range; nothing has changed.

@@ -7,11 +7,11 @@
 //     draw(report->object);  // where the hands hold it
 //
 // The grips close first: each hand is on its grip, turned as the grip says, within the limits of the arm's
-// joints. The object goes where it was asked to be only as far as that allows. If the arms cannot follow, it
-// gives way, to a pose nearby that the hands can hold with the trunk where it is: the nearest if no joint is
-// at its limit. The report says by how much, which arm is straight and which joint is at its limit. If no
-// pose is found that closes the grips (an object longer than both arms, a joint at its limit), the hands
-// share what is left.
+// joints. The object follows the asked pose only as far as that allows. If the arms cannot follow, it moves
+// to a pose nearby that the hands can hold with the trunk where it is: the nearest if no joint is at its
+// limit. The report says by how much, which arm is straight and which joint is at its limit. If no pose is
+// found that closes the grips (an object longer than both arms, a joint at its limit), the hands share the
+// remaining error.
 //
 // Method: Body::solve() reaches for the grips with hips and trunk. Then the arms and the object are solved
 // together, with the trunk where it is: sequential quadratic programming, in which the grips are equality
@@ -26,30 +26,29 @@
 // degrees from rest. A hand without a limit that is turned past 180 degrees jumps to -180, and its lower arm
 // with it; HoldReport::jumped does not see that, for no joint moves.
 //
-// Cost: under 4 times Body::solve() with the same targets, under 6 where the object gives way in every frame
-// (tests/bench/humanoid_body.cpp).
+// Cost: under 4 times Body::solve() with the same targets, under 6 where the object leaves the asked pose in
+// every frame (tests/bench/humanoid_body.cpp).
 #pragma once
 
 #include "tendril/humanoid/body.hpp"
 
 namespace tendril::humanoid {
 
-/// Where a hand holds an object, in the frame of the object.
+/// A hand's grip on an object, in the object's frame.
 struct Grip {
     Effector hand = Effector::LeftHand;  ///< LeftHand or RightHand
-    glm::dvec3 position{0.0};            ///< of the hand's joint, metres
-    /// Of the hand's node. Unset: the hand turns with the forearm.
+    glm::dvec3 position{0.0};            ///< the hand's joint, metres
+    /// Rotation of the hand's node. Unset: the hand turns with the forearm.
     std::optional<glm::dquat> rotation{};
-    /// The hand may turn about this axis in its grip, as round a bar; longer than 1e-9. Shorter: it may
-    /// not.
+    /// The hand may turn about this axis in its grip, as round a bar; longer than 1e-9. Shorter: no axis.
     glm::dvec3 axis{0.0};
     bool operator==(const Grip&) const = default;
 };
 
-/// How a palm lies on an object, in the frame of the object. Directions are longer than 1e-9.
+/// A palm on an object, in the object's frame. Directions are longer than 1e-9.
 struct Palm {
     Effector hand = Effector::LeftHand;
-    glm::dvec3 middle{0.0};             ///< of the palm, metres
+    glm::dvec3 middle{0.0};             ///< middle of the palm, metres
     glm::dvec3 fingers{0.0, 0.0, 1.0};  ///< where they point
     glm::dvec3 faces{0.0, -1.0, 0.0};   ///< where the palm faces; only the part across the fingers counts
     glm::dvec3 axis{0.0};               ///< Grip::axis
@@ -59,7 +58,7 @@ struct Palm {
 /// face down.
 Expected<Grip> grip_of(const Body& body, const Palm& palm, double reach);
 
-/// Where an object is, in the character's space.
+/// An object's pose, in the character's space.
 struct ObjectPose {
     glm::dvec3 position{0.0};                 ///< metres
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< unit
@@ -73,14 +72,14 @@ struct HeldObject {
 
 struct HoldOptions {
     BodyOptions body{};
-    /// Metres, from 0.05 to 1e3: turning the object by a radian counts as much as moving it so far.
+    /// Metres, from 0.05 to 1e3: turning the object by a radian counts as much as moving it this far.
     double turn_length = 0.3;
     int max_iterations = 80;  ///< 1 to 1000; up to 20 more close the grips if it has not settled
 };
 
-/// Where the last solve ended, to tell jumps. Empty: there was none.
+/// Where the last solve ended, to detect jumps. Empty: there was none.
 struct HoldState {
-    /// Where they were asked to be, of each hand that held; left, right.
+    /// The asked grip of each hand that held; left, right.
     std::array<std::optional<glm::dvec3>, 2> grips{};
     std::array<glm::dvec3, 2> shoulders{};  ///< joints of the upper arms
     std::array<glm::dvec3, 2> elbows{}, hands{};
@@ -95,10 +94,10 @@ struct GripReport {
 };
 
 struct HoldReport {
-    BodyReport body{};    ///< of the reach; `at_limit` has the arms' joints as they hold the object
-    ObjectPose object{};  ///< where it is held
-    double moved = 0.0;   ///< metres from where it was asked to be
-    double turned = 0.0;  ///< radians from how it was asked to be turned
+    BodyReport body{};    ///< the reach; `at_limit` has the arms' joints as they hold the object
+    ObjectPose object{};  ///< where the object is held
+    double moved = 0.0;   ///< metres from the asked position
+    double turned = 0.0;  ///< radians from the asked rotation
     std::array<GripReport, 2> grips{};  ///< left, right
     int iterations = 0;
     bool settled = true;  ///< false: max_iterations stopped it, or it found no finite pose
@@ -109,10 +108,10 @@ struct HoldReport {
     bool closed() const noexcept;
 };
 
-/// `pose`, `targets` and `body_state` are those of Body::solve(); `targets` may have none of a hand that
-/// holds. What that refuses is refused, and so are grips: none, more than two, of the same hand, of an
-/// effector that is no hand, and numbers that are not finite or out of range. Nothing changes then. Allocates
-/// nothing once `body_state` has been used.
+/// `pose`, `targets` and `body_state` as in Body::solve(); `targets` may have none of a hand that holds.
+/// Refuses what Body::solve() refuses, no grip, more than two, two of one hand, one of an effector that is no
+/// hand, and numbers that are not finite or out of range; then nothing changes. Allocates nothing once
+/// `body_state` has been used.
 Expected<HoldReport> hold(Body& body, std::span<rig::Transform> pose, std::span<const BodyTarget> targets,
                           const HeldObject& object, BodyState& body_state, HoldState& state,
                           const HoldOptions& options = {});

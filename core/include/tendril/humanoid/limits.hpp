@@ -5,12 +5,12 @@
 //     joints->measure(Bone::LeftLowerArm, placements);  // in the axes of its limit
 //     joints->excess(Bone::LeftLowerArm, placements);   // radians beyond the limit; 0: within it
 //
-// A joint's angles are those of its bone relative to its parent bone, measured from the T-pose (t_pose.hpp);
-// axes are in the character's space. Limits work as those of a chain (tendril/ik/limit.hpp), except that a
-// hinge does not restrict turns about other axes: they come from clips and are left alone.
+// A joint's angles are its bone's, relative to its parent bone, measured from the T-pose (t_pose.hpp); axes
+// are in the character's space. Limits work as for a chain (tendril/ik/limit.hpp), except that a hinge does
+// not restrict turns about other axes: they come from clips and are left alone.
 //
 // Source of the default angles: W. Greene, J. Heckman (eds.), "The Clinical Measurement of Joint Motion",
-// American Academy of Orthopaedic Surgeons, 1994, rounded; those of the spine are divided among its bones.
+// American Academy of Orthopaedic Surgeons, 1994, rounded; the spine's are divided among its bones.
 #pragma once
 
 #include "tendril/humanoid/clip.hpp"
@@ -24,13 +24,13 @@ using BodyLimits = std::array<ik::Limit, bone_count>;
 
 /// All free.
 BodyLimits no_limits() noexcept;
-/// Of an adult. Elbows and knees are hinges; if bent by more than 5 degrees at rest, about the axis of that
-/// bend, unless it is an overstretch of under 15 degrees. A shoulder shorter than a tenth of its arm is no
-/// collar bone and turns as far as the arm.
+/// The limits of an adult. Elbows and knees are hinges; one bent by more than 5 degrees at rest turns about
+/// the axis of that bend, unless it is overstretched by under 15 degrees. A shoulder shorter than a tenth of
+/// its arm is no collar bone and turns as far as the arm.
 BodyLimits default_limits(const Skeleton& skeleton, const BoneMap& map);
 /// The range over which the clips turn each joint, sampled 60 times a second, plus a degree. Kinds and axes
-/// are those of `like`; a bone that no clip turns, or that is not mapped, keeps its limit from `like`. Clips
-/// must have passed check().
+/// are taken from `like`; a bone that no clip turns, or that is not mapped, keeps its limit from `like`.
+/// Clips must have passed check().
 BodyLimits learned_limits(const Skeleton& skeleton, const BoneMap& map, std::span<const Clip> clips,
                           const BodyLimits& like);
 
@@ -40,8 +40,8 @@ class BodyJoints {
     /// Refuses an invalid limit, with the bone's name: "LeftLowerArm: the hinge's min is over its max".
     static Expected<BodyJoints> make(const Skeleton& skeleton, const BoneMap& map, const BodyLimits& limits);
 
-    /// From the T-pose, in the parent bone's frame. `placements`: of all nodes. The identity if the bone is
-    /// not mapped.
+    /// The joint's rotation from the T-pose, in the parent bone's frame. `placements`: of all nodes. The
+    /// identity if the bone is not mapped.
     glm::dquat turn(Bone bone, std::span<const Placement> placements) const noexcept;
     ik::JointAngles measure(Bone bone, std::span<const Placement> placements) const noexcept;
     /// Radians beyond the limit; 0 within it, and for a bone that is free or not mapped.

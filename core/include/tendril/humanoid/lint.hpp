@@ -8,7 +8,7 @@
 // A decent clip should have no findings: speeds are compared with the motion around them, heights with the
 // clip's own floor, and if a foot's sole is not known, the tolerances are wider.
 //
-//     kind       what                                                             node          unit
+//     kind       fault                                                            node          unit
 //     Skating    no point of a standing foot stays where it is                    foot          mm
 //     Floating   a foot stands still above the floor                              foot          mm
 //     Sinking    a foot is below the floor                                        foot          mm
@@ -16,8 +16,8 @@
 //     SignFlip   keys' quaternions have the opposite sign of their neighbours':
 //                without the short way a joint turns by the amount between two
 //                keys; one finding for all joints of a clip                       the worst     deg
-//     Limit      a joint is beyond its range, by the least turn that brings it
-//                back; an elbow, if it bends to a side to which no shoulder can
+//     Limit      a joint is beyond its range, by the smallest turn that brings
+//                it back; an elbow, if it bends to a side to which no shoulder can
 //                twist it                                                         its node      deg
 //     Jump       a joint departs for a few frames, or jumps for good; a key
 //                that steps on purpose is no jump                                 its node      deg or mm
@@ -25,11 +25,11 @@
 //                skeleton's, no human is that tall, scale keys are 0 or mirror    its node      times or m
 //     Axis       the figure lies on its side, in the clip and not only at rest    hips          deg
 //
-// Feet and knees need a map with a leg; without one only the rest is judged. Stances are found from the
-// foot's own speed and height, after L. Kovar, J. Schreiner, M. Gleicher, "Footskate Cleanup for Motion
-// Capture Editing" (SCA 2002). The cure follows the same paper: the leg is solved in closed form and the
-// correction blended out. A standing foot slides as far as the point of its sole that moves the least, so
-// that rolling from heel to toe and turning on the ball do not count.
+// Feet and knees need a map with a leg; without one they are not judged. Stances are found from the foot's
+// own speed and height, after L. Kovar, J. Schreiner, M. Gleicher, "Footskate Cleanup for Motion Capture
+// Editing" (SCA 2002). The cure follows the same paper: the leg is solved in closed form and the correction
+// blended out. A standing foot slides as far as the point of its sole that moves the least, so that rolling
+// from heel to toe and turning on the ball do not count.
 //
 // Cost: O(frames * nodes), 0.5 to 1 µs for each; measured by tests/bench/humanoid_lint.cpp.
 #pragma once
@@ -56,7 +56,7 @@ struct Finding {
     std::size_t frame = 0;   ///< the worst one; 0 is time 0
     std::size_t first = 0;   ///< the first frame affected
     std::size_t last = 0;    ///< the last frame affected
-    double time = 0.0;       ///< of `frame`, seconds
+    double time = 0.0;       ///< time of `frame`, seconds
     double amount = 0.0;     ///< see the table above
     const char* unit = "";   ///< "mm", "deg", "m" or "times"
     bool goes_on = false;    ///< a jump from which the motion does not come back
@@ -72,12 +72,12 @@ struct LintSettings {
     double sinking = 0.02;    ///< metres that a foot may be below it
     double knee = 6.0;        ///< degrees that a knee may jump, at 60 frames per second
     double turn = 15.0;       ///< the same for other joints
-    double shift = 0.02;      ///< that positions may jump, times the figure's height at rest
+    double shift = 0.02;      ///< maximum jump of positions, times the figure's height at rest
     /// Joint limits, owned by the caller. Null: the default limits with wide tolerances, which report only
-    /// what no clip of a human should do, above all knees that bend the wrong way.
+    /// poses that no human clip should have, above all knees that bend the wrong way.
     const BodyLimits* limits = nullptr;
     double beyond = 2.0;  ///< degrees that a joint may exceed `limits`
-    /// What the feet stand on, owned by the caller: heights are measured from there. Null, or no ground: a
+    /// The ground under the feet, owned by the caller: heights are measured from it. Null, or no ground: a
     /// level floor, found in the clip.
     const Ground* ground = nullptr;
 };
@@ -98,15 +98,15 @@ struct LintReport {
 };
 
 /// Frames per second, as the clip's file says (1 to 1000), or from the spacing of its keys; rounded if within
-/// 0.1 % of a whole number. 60 if there are too few keys, or if they give a rate not between 20 and 1000, or 5
-/// and 1000 if a track has a key at every frame and none is on a curve.
+/// 0.1 % of a whole number. 60 if there are too few keys, or if they give a rate outside 20 to 1000 (5 to
+/// 1000 if a track has a key at every frame and none is on a curve).
 double frame_rate(const Clip& clip) noexcept;
 
 /// `clip` must have passed check().
 LintReport lint(const Skeleton& skeleton, const BoneMap& map, const Clip& clip,
                 const LintSettings& settings = {});
 
-/// The findings of `after` that are not among those of `before`: of another kind or node, or elsewhere.
+/// The findings of `after` that `before` lacks: of another kind or node, or elsewhere.
 std::vector<Finding> new_findings(const LintReport& before, const LintReport& after);
 
 /// The clip without that fault, otherwise unchanged:
@@ -119,9 +119,9 @@ std::vector<Finding> new_findings(const LintReport& before, const LintReport& af
 ///   Jump, other KneePops: keys that depart for a few frames are interpolated from their neighbours; a jump
 ///   that does not come back is spread over a quarter of a second. Scale of a clip: its translations are
 ///   scaled to the skeleton's size. Axis of a clip: its roots are turned upright.
-/// The result has fewer findings than the clip, and none that is new: what the cure itself makes wrong is
-/// cured with it. Refuses a finding that has no such cure, or of another clip. Cost: that of two to twenty
-/// times lint().
+/// The result has fewer findings than the clip, and no new ones: faults that the cure itself causes are cured
+/// with it. Refuses a finding that has no such cure, or of another clip. Cost: two to twenty calls of
+/// lint().
 Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& clip, const Finding& finding,
                     const LintSettings& settings = {});
 

@@ -27,11 +27,11 @@
 // Retargetting", Pacific Graphics 1999.) Both figures need whole legs for that; otherwise, or if no foot of
 // the source ever stands, the hips keep their height over the ground.
 //
-// A figure of the same nodes and rest, if in another size, gets the clip itself.
+// A figure with the same nodes and rest pose, even in another size, gets the clip itself.
 //
-// Feet turn from how they stand at rest, whatever the clip does later. Where the source's rest pose does not
-// stand on level ground, as a zero pose or a bind pose in mid-run, that is learned from the frames in which a
-// foot carries the figure, which neither sits nor lies; a clip without any leaves what t_pose() makes of it.
+// Feet turn from how they stand at rest, whatever the clip does later. If the source's rest pose does not
+// stand on level ground, as a zero pose or a bind pose in mid-run, the stand is learned from frames in which
+// a foot carries the figure, which neither sits nor lies; without any, t_pose() gives it.
 //
 // The target stands on its floor at rest, or on height 0 if its rest pose is far from there, as a BVH's often
 // is.
@@ -53,8 +53,8 @@ struct MappedSkeleton {
 };
 
 struct Retargeted {
-    Clip clip{};                   ///< of the target; has the source's name, duration and rate
-    double scale = 1.0;            ///< of the hips' translation: the ratio of the legs' lengths
+    Clip clip{};                   ///< for the target; has the source's name, duration and rate
+    double scale = 1.0;            ///< scale of the hips' translation: the ratio of the legs' lengths
     std::vector<Bone> left_out{};  ///< bones of the source that the target lacks
     std::vector<Bone> at_rest{};   ///< bones of the target that the source lacks
     /// Nodes of the target that are neither above nor below its hips, and follow no bone.

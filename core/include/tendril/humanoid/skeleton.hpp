@@ -25,10 +25,10 @@
 
 namespace tendril::humanoid {
 
-/// What a clip's keys of a node are local to, if not to its parent.
+/// The space of a clip's keys of a node, if it is not the parent's.
 struct KeySpace {
     std::int32_t parent = -1;  ///< index into the list; -1: the character's space
-    rig::Transform rest{};     ///< of the node, in this space
+    rig::Transform rest{};     ///< the node's, in this space
     bool operator==(const KeySpace&) const = default;
 };
 
@@ -72,12 +72,12 @@ class Skeleton {
   private:
     std::vector<Node> nodes_;
     std::vector<std::int32_t> order_;
-    std::vector<std::int32_t> children_;  // of all nodes, node by node
+    std::vector<std::int32_t> children_;  // all nodes' children, node by node
     std::vector<std::size_t> moved_;
     std::vector<std::uint32_t> first_;  // where a node's children begin in children_; size() + 1 elements
 };
 
-/// Where a node is in the character's space: its local point p is at axes * p + position.
+/// A node's place in the character's space: its local point p is at axes * p + position.
 struct Placement {
     glm::dmat3 axes{1.0};
     glm::dvec3 position{0.0};
@@ -92,8 +92,8 @@ struct Placement {
 Placement operator*(const Placement& parent, const Placement& child) noexcept;
 Placement placement(const rig::Transform& transform) noexcept;
 
-/// The transform whose placement in `parent` is `global`; its shear is lost, and an axis without length stays
-/// one.
+/// The transform whose placement in `parent` is `global`; its shear is lost, and an axis of length 0 gets
+/// scale 0.
 rig::Transform relative(const Placement& parent, const Placement& global) noexcept;
 
 std::vector<rig::Transform> rest_pose(const Skeleton& skeleton);

@@ -1,4 +1,4 @@
-// Where a character's feet touch the ground: a heel and a toe each, derived from skeleton and bone map.
+// The points where a character's feet touch the ground: a heel and a toe each, from skeleton and bone map.
 //
 // No mesh is needed. In the rest pose both points lie on the floor: the toe below the joint of the toes, over
 // which the foot rolls, and the heel behind the ankle by a third of the distance from ankle to toe. Without a
@@ -43,8 +43,7 @@ Expected<Soles> find_soles(const Skeleton& skeleton, const BoneMap& map);
 
 /// The soles of a clip whose feet do not stand as they rest, learned from the frames in which they stand
 /// still, as the lint does (lint.hpp); `soles` unchanged if they do, or never stand still. `soles` must be
-/// find_soles()'s, and the clip must have passed check(). At most its first 10 000
-/// frames are sampled.
+/// find_soles()'s, and the clip must have passed check(). At most its first 10 000 frames are sampled.
 Soles clip_soles(const Skeleton& skeleton, const BoneMap& map, const Soles& soles, const Clip& clip);
 
 /// The clip's own floor: the median height of its soles while they are nearly still (toe under 0.3 m/s) and

@@ -37,7 +37,7 @@ struct SpringOptions {
     double strength = 2.0;
     double critical_damping = 0.3;  ///< 0 swings for ever, 1 is the fastest without overshoot; 0 to 10
     double weight = 1.0;            ///< 0 to 1: how much of its swing the chain shows
-    /// Radians a bone may turn from its pose; 0 to 3.14. Only colliders turn it farther.
+    /// Maximum radians that a bone turns from its pose; 0 to 3.14. Only colliders turn it farther.
     double max_angle = 1.0471975511965976;
     double hit_radius = 0.0;  ///< metres between tips and colliders, in the character's space; 0 to 1000
     rig::Transform root{};    ///< where the character stands, as FeetOptions::root
@@ -52,7 +52,7 @@ struct SpringMass {
     glm::dvec3 target{0.0};     ///< its position in the pose of the last step
     bool started = false;       ///< false: the next step moves it to its target
     bool has_velocity = false;  ///< false: the next step gives it its target's velocity
-    bool held = false;          ///< by a collider, in the last step
+    bool held = false;          ///< kept out by a collider in the last step
     bool operator==(const SpringMass&) const = default;
 };
 struct SpringChainState {

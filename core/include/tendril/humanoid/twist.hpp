@@ -9,8 +9,8 @@
 //
 // Method: swing-twist decomposition of each joint, and linear interpolation of the twist along the bone (A.
 // Jacobson, O. Sorkine, "Stretchable and twistable bones for skeletal shape deformation", ACM Transactions on
-// Graphics 30(6), 2011). The twist between upper and lower arm, and that between lower arm and hand, is
-// spread along the lower arm; the upper arm's twist in the shoulder is spread along the upper arm.
+// Graphics 30(6), 2011). The twists between upper and lower arm, and between lower arm and hand, are spread
+// along the lower arm; the upper arm's twist in the shoulder is spread along the upper arm.
 //
 // If a character has nodes for this (Unreal's lowerarm_twist_01_l), TwistNodes turns them; Body and Hands
 // call it. If not, the skinning has to do it, as the program's does.
@@ -39,7 +39,7 @@ struct TwistBone {
 /// The mapped upper and lower arms between two mapped bones.
 std::vector<TwistBone> twist_bones(const Skeleton& skeleton, const BoneMap& map);
 
-/// How far flesh is twisted about the bone, relative to the bone; radians.
+/// The twist of flesh about the bone, relative to the bone; radians.
 struct BoneTwist {
     double near = 0.0, far = 0.0;  ///< at its joint, where it undoes the bone's own twist; at the next joint
     double at(double part) const noexcept { return near + (far - near) * part; }
@@ -77,7 +77,7 @@ class TwistNodes {
     };
     struct Helper {
         std::size_t arm, node;
-        double part, part_above;  // position along the bone; that of the twist node above it
+        double part, part_above;  // positions along the bone: its own, and of the twist node above it
         bool hangs_on_twist;
         glm::dquat above;  // rest rotation of its parent, in the bone's frame
     };

@@ -10,7 +10,7 @@
 // D. Zheng, Y. Liu, "Computation of rotation minimizing frames", 2008): a loop causes no roll, and a curve
 // that moves a little rolls a little.
 //
-// Cost: O(bones + control points); 30 bones along 8 points take about 9 us. Does not allocate or throw; same
+// Cost: O(bones + control points); 30 bones along 8 points take about 9 µs. Does not allocate or throw; same
 // input, same bits.
 #pragma once
 
@@ -38,12 +38,12 @@ struct CurveOptions {
     CurveKind kind = CurveKind::Hermite;
     /// Scales all bones by one factor, so that the tip lies on the last control point. The factor stays
     /// between 1 / max_factor and max_factor; over 1 to 100. Where the curve folds more tightly than a bone,
-    /// the tip may jump over its end, and no factor fits: the report has what is left. Costs two to seven
-    /// times as much.
+    /// the tip may jump over its end, and no factor fits: the report has the remaining distance. Costs two to
+    /// seven times as much.
     bool fit = false;
     float max_factor = 2.0f;
-    /// Which way the bones' upper side faces where the curve begins. Parallel to the curve, or zero: a fixed
-    /// perpendicular.
+    /// The direction that the bones' upper side faces where the curve begins. Parallel to the curve, or zero:
+    /// a fixed perpendicular.
     glm::vec3 up{0.0f, 1.0f, 0.0f};
     /// Roll about the first and the last bone, radians, right-handed; between them in proportion to length.
     float roll_start = 0.0f, roll_end = 0.0f;
@@ -68,13 +68,13 @@ struct CurveReport {
     /// Converged: the whole chain is on the curve. Stretched: its tip is beyond the end. InvalidInput:
     /// nothing was changed.
     Status status = Status::Converged;
-    std::size_t bones_past_end = 0;  ///< whose far joint lies beyond the last control point
+    std::size_t bones_past_end = 0;  ///< bones whose far joint is beyond the last control point
     float past_end = 0.0f;           ///< metres from the last control point to the tip, if it is beyond
     float short_of_end = 0.0f;       ///< metres from the tip to the last control point, if it is before
-    float factor = 1.0f;             ///< by which the bones were scaled
+    float factor = 1.0f;             ///< scale of the bones
     /// The first joint that is at another crossing than after the last call. It is at the same one if, from
-    /// its old place on the curve to its new one, the curve only moves away from the previous joint: then no
-    /// other crossing lies between. How far the joint moved does not matter, so a fast drag hides no jump,
+    /// its old position on the curve to its new one, the curve only moves away from the previous joint: then
+    /// no other crossing lies between. How far the joint moved does not matter, so a fast drag hides no jump,
     /// and a joint that a flat curve sweeps along has not jumped.
     std::optional<std::size_t> jumped{};
     /// All control points coincide: the curve has no direction. The chain lies along its first rest
@@ -83,18 +83,18 @@ struct CurveReport {
     bool operator==(const CurveReport&) const = default;
 };
 
-/// What is placed along the curve.
+/// The chain to place along the curve.
 struct CurveChain {
     std::span<const float> lengths{};              ///< metres, 0 to max_magnitude; at least one
     std::span<const glm::vec3> rest_directions{};  ///< unit, one per bone; empty: all along +X
 };
 
 /// `points`: control points, metres, 2 to 4096. `joints` (lengths.size() + 1) and `state` come back on the
-/// curve; with a weight under 1 they are also the pose to start from. `memory` needs as many joints, or none:
-/// then no jump is reported.
+/// curve; with a weight under 1 they are also the start pose. `memory` needs as many joints, or none: then no
+/// jump is reported.
 ///
-/// At rest the bones' upper sides are those that `up` gives along the rest directions. The rotations turn
-/// these into the sides along the curve, so the twist of the rest pose stays.
+/// The bones' upper sides at rest follow from `up` along the rest directions. The rotations turn these into
+/// the sides along the curve, so the twist of the rest pose stays.
 CurveReport place_along(std::span<const glm::vec3> points, const CurveChain& chain,
                         std::span<glm::vec3> joints, State& state, CurveMemory& memory,
                         const CurveOptions& options = {}) noexcept;

@@ -1,8 +1,8 @@
-// Flips: a bone that turns far in one frame while its target hardly moves, and why. Judged from positions
-// alone, so it works for the chain of any solver, in any engine.
+// Finds flips and their causes: a bone turns far in one frame while its target hardly moves. Judged from
+// positions alone, so it works for any solver in any engine.
 //
 // A bone's turn is explained if the target turned enough, as seen from the root, or the pole target did about
-// the line from root to target. What is left is a flip.
+// the line from root to target. Otherwise it is a flip.
 //
 // Cost: O(joints). Nothing here throws; only copies of a pose allocate.
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace tendril::ik {
 
-/// A bone turned by more than `degrees` while the target (in a rig, each moved control) turned, as seen from
+/// Flip: a bone turned by over `degrees` while the target (in a rig, each moved control) turned, as seen from
 /// the bone's root, by less than `angle_share` of that, or moved by less than `reach_share` of the reach.
 struct FlipRule {
     float degrees = 30.0f;      ///< 1 to 180
@@ -67,7 +67,7 @@ std::optional<BoneTurn> find_flip(const ReachPose& before, const ReachPose& afte
 /// Straight or Folded, ClosePole, Unexplained.
 FlipCause flip_cause(const ReachPose& before, const ReachPose& after) noexcept;
 
-// The parts of that judgement.
+// The single tests behind these judgements.
 
 /// Sum of the bones' lengths.
 float reach_of(const ReachPose& pose) noexcept;
@@ -90,7 +90,7 @@ bool passed_axis(const ReachPose& before, const ReachPose& after) noexcept;
 float bend_of(std::span<const glm::vec3> joints) noexcept;
 /// Whether the chain was straight in either pose: every joint within a fiftieth of the reach of that line.
 bool was_straight(const ReachPose& before, const ReachPose& after) noexcept;
-/// What such a chain was: Straight, or Folded if its tip was within half its reach of the root.
+/// The cause for such a chain: Straight, or Folded if its tip was within half its reach of the root.
 FlipCause collinear_cause(const ReachPose& before, const ReachPose& after) noexcept;
 
 /// Radians, 0 to pi; 0 if either has no length.

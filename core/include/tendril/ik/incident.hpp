@@ -1,10 +1,10 @@
-// What went wrong in a chain's recorded motion, frame by frame: flips, NaN, bones that change length, joints
+// Finds faults in a chain's recorded motion, frame by frame: flips, NaN, bones that change length, joints
 // beyond their limits, tips that do not arrive, lag, jitter, repeated frames and jumps of the target. Judged
 // from joint positions and inputs alone, so the motion may come from any solver in any engine.
 //
-// Frames are added one by one; memory is bounded by the number of joints and of incidents, not of frames.
-// What lasts is one incident, from its first frame to its last. Where a frame has no target, the tip stands
-// in for it: flips, NaN, lengths, limits and repeats are still found, and no cause is sought in the target.
+// Frames are added one by one; memory is bounded by the number of joints and of incidents, not of frames. A
+// lasting fault is one incident, from first frame to last. If a frame has no target, the tip is taken as the
+// target: flips, NaN, lengths, limits and repeats are still found, but never blamed on the target.
 //
 // Cost: O(joints) a frame. Nothing throws.
 #pragma once
@@ -30,9 +30,9 @@ enum class IncidentKind : std::uint8_t {
     /// ends hardly moved; amount: degrees that the bone turned.
     Flip,
     Nan,  ///< a joint, the target or the pole target is not finite; amount: 0
-    /// A bone's length differs from its first; amount: metres, negative if shorter. One incident, the larger,
-    /// for both bones of a joint that moved alone: they differ over the same frames, and when that began, the
-    /// distance between their outer ends changed by less than a quarter as much; one for bones of one factor.
+    /// A bone's length differs from its first; amount: metres, negative if shorter. If a joint moved
+    /// alone, its two bones are one incident, the larger: they differ over the same frames, and at first the
+    /// distance of their outer ends changed less than a quarter as much. Bones of one factor: one incident.
     Length,
     Limit,      ///< a joint is beyond its limit; amount: degrees beyond it
     Missed,     ///< the tip does not arrive, though the target is within reach; amount: metres short
@@ -49,8 +49,8 @@ const char* unit(IncidentKind kind) noexcept;
 struct ChainIncident {
     IncidentKind kind = IncidentKind::Flip;
     std::uint64_t frame = 0, last_frame = 0;  ///< from 0
-    /// From 0 at the root. A flip's is the end of the bone that turned most which moved further; a length's
-    /// the end of the bone further from the root; no_joint for a target's jump or a repeated frame.
+    /// From 0 at the root. Flip: of the bone that turned most, the end that moved further. Length: the end of
+    /// the bone further from the root. no_joint for a target's jump or a repeated frame.
     std::size_t joint = no_joint;
     double amount = 0.0;
     double hertz = 0.0;                       ///< a jitter's frequency, else 0
@@ -66,21 +66,21 @@ struct BendLimit {
 
 struct IncidentOptions {
     float flip_degrees = 30.0f;  ///< a bone that turns by more in a frame, ahead of its inputs, flips
-    /// How far a coordinate may be off by rounding, metres: half the last digit that was written.
+    /// Rounding error of a coordinate, metres: half a unit of the last digit written.
     float resolution = 0.0f;
     float fps = 60.0f;  ///< for frequencies
     std::vector<BendLimit> limits{};
-    /// The joint that reaches for the target, from 1; without it, or beyond the last, the last. The joints
-    /// after it are carried along: they may flip and change length, and neither arrive nor miss.
+    /// The joint that reaches for the target, from 1; empty or beyond the last: the last. The joints after it
+    /// are carried along: they may flip and change length, but neither arrive nor miss.
     std::optional<std::size_t> end_effector{};
 };
 
-/// At least two joints, and as many in every frame. Values may be NaN or infinite.
+/// At least two joints, the same number in every frame. Values may be NaN or infinite.
 struct TraceFrame {
     std::span<const glm::vec3> joints;  ///< from the root on, metres
     std::optional<glm::vec3> target{}, pole{};
     std::span<const glm::quat> rotations{};  ///< unit, in the space of the joints, not of the
-                                             ///< parent bone; empty, or at least one a bone
+                                             ///< parent bone; empty, or at least one per bone
     std::optional<float> dt{};               ///< seconds since the frame before
 };
 
@@ -89,10 +89,10 @@ class IncidentFinder {
     explicit IncidentFinder(IncidentOptions options = {});
 
     void add(const TraceFrame& frame);
-    /// After the last frame: closes what still lasts. Nothing may be added then.
+    /// Call after the last frame: closes open incidents. Add nothing afterwards.
     void finish();
 
-    /// Complete, and sorted by frame, after finish(). At most max_incidents; those beyond are counted.
+    /// Complete, and sorted by frame, after finish(). At most max_incidents; further ones are only counted.
     const std::vector<ChainIncident>& incidents() const noexcept { return found_; }
     std::uint64_t left_off() const noexcept { return left_off_; }
     std::uint64_t frames() const noexcept { return frames_; }
@@ -101,10 +101,10 @@ class IncidentFinder {
 
   private:
     static constexpr std::size_t max_lag = 30, still_window = 64;
-    /// Paths are compared by position (0), and by steps of so many frames.
+    /// Paths are compared by position (0), and by steps over this many frames.
     static constexpr std::array<std::size_t, 3> spans{0, 1, 16};
 
-    /// What lasts over some frames, while `open`.
+    /// A fault that lasts some frames, while `open`.
     struct Episode {
         bool open = false;
         ChainIncident worst{};
@@ -127,7 +127,7 @@ class IncidentFinder {
     float inner_reach() const noexcept;
     /// The pose without the joints beyond the end effector.
     ReachPose reaching(const ReachPose& pose) const;
-    /// Whether the joint moved more than this many times as far as target and pole target did.
+    /// Whether the joint moved more than `times` as far as target and pole target did.
     static bool leads(const ReachPose& before, const ReachPose& after, std::size_t joint,
                       float times) noexcept;
     void find_missed(const ReachPose& pose);
@@ -150,7 +150,7 @@ class IncidentFinder {
 
     // The latest consecutive finite frames, newest last.
     std::vector<ReachPose> recent_;
-    std::vector<glm::quat> rotations_;  ///< of the latest of them
+    std::vector<glm::quat> rotations_;  ///< of the latest frame
     std::uint64_t flipped_at_ = 0;
     bool flipped_ = false;
     /// The side to which a chain of two bones last bent.
@@ -160,13 +160,13 @@ class IncidentFinder {
         bool straight_since = false;
     };
     std::optional<Side> side_;
-    // A jump is only sure one frame later.
+    // A jump is confirmed one frame later.
     float step_ = 0.0f, step_before_ = 0.0f;
     std::size_t steps_ = 0;
     /// Frames that equal the one before them, up to the latest.
     struct Held {
         std::uint64_t frames = 0;
-        float earlier_step = 0.0f;  ///< of the tip, before the last step
+        float earlier_step = 0.0f;  ///< the tip's step before the last one
         glm::vec3 step{0.0f};       ///< the last step of the tip
         bool moved = false;         ///< tip and target did in it
         glm::vec3 target{0.0f};     ///< at the beginning
@@ -197,7 +197,7 @@ class IncidentFinder {
     std::optional<std::uint64_t> first_move_;
     float missed_before_ = 0.0f;
     std::size_t missed_frames_ = 0;
-    // Tips since the target stands still.
+    // Tip positions since the target stands still.
     std::vector<glm::vec3> tips_;
     std::uint64_t still_since_ = 0;
     bool jitter_judged_ = false;

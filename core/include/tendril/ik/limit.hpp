@@ -1,10 +1,10 @@
 // Joint limits: how far a joint may swing (where its bone points) and twist (how the bone turns about
 // itself).
 //
-// A joint's angles are those of its bone relative to the parent bone (the root's: to the world), measured
-// from the rest pose. Swing is measured about two axes perpendicular to the bone at rest: about `axis`, where
-// a positive angle is *up*, and about `axis x bone`, where a positive angle is *left*. With a bone along +X
-// and the axis +Z, up is +Y and left is -Z. Twist is about the bone itself, right-handed.
+// A joint's angles are its bone's, relative to the parent bone (for the root: to the world), measured from
+// the rest pose. Swing is measured about two axes perpendicular to the bone at rest: about `axis`, where a
+// positive angle is *up*, and about `axis x bone`, where a positive angle is *left*. With a bone along +X and
+// the axis +Z, up is +Y and left is -Z. Twist is about the bone itself, right-handed.
 //
 // Source of the decomposition: F. S. Grassia, "Practical parameterization of rotations using the exponential
 // map", Journal of Graphics Tools 3(3), 1998. Joint kinds after Aristidou, Chrysanthou, Lasenby, "Extending
@@ -58,7 +58,7 @@ struct Limit {
 
     bool operator==(const Limit&) const = default;
 
-    /// Each kind with typical human angles. Change what differs.
+    /// A limit of this kind with typical human angles, to be adjusted.
     static Limit of(JointKind kind) noexcept;
     static Limit hinge(glm::vec3 axis, float min, float max) noexcept;
 };
@@ -66,7 +66,7 @@ struct Limit {
 /// The fields that a limit of this kind uses, in the order of its members.
 std::span<const Field> limit_fields(JointKind kind) noexcept;
 
-/// What is wrong with a limit, as a constant text ("the hinge's axis has no length"). Null if it is valid.
+/// The fault of an invalid limit, as a constant text ("the hinge's axis has no length"). Null if it is valid.
 const char* fault(const Limit& limit) noexcept;
 /// Also checks the limit against a bone's rest direction: "the hinge's axis lies along the bone".
 const char* fault(const Limit& limit, glm::vec3 rest_direction) noexcept;

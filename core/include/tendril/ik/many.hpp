@@ -4,18 +4,18 @@
 // same coordinate of many chains. solve_many iterates them all at once. Each chain has its own lengths, root
 // and target, and gets its own report.
 //
-// Method: that of Method::Fabrik, which is FABRIK (A. Aristidou, J. Lasenby, Graphical Models 73(5), 2011)
-// with an extra step that fits the root-tip span (core/src/ik/methods/accelerate.cpp). It uses the widest
-// vector unit of this machine, chosen by Highway at run time. A pass is bound by the latency of a square root
-// and a division, so several registers of chains take the same step side by side. Chains that take long are
+// Method: as Method::Fabrik, which is FABRIK (A. Aristidou, J. Lasenby, Graphical Models 73(5), 2011) with an
+// extra step that fits the root-tip span (core/src/ik/methods/accelerate.cpp). It uses the widest vector unit
+// of this machine, chosen by Highway at run time. A pass is bound by the latency of a square root and a
+// division, so several registers of chains take the same step side by side. Chains that take long are
 // gathered and solved together.
 //
-// Results: bit for bit those of Solver with Method::Fabrik, whatever the vector unit, the number of threads
-// and the other chains. The exception is targets out of reach or too close, which are solved in float where
-// Solver uses double (equal to 1e-4 of the reach). If a target is so close to the limit of reach that floats
-// cannot decide, the scalar solver takes the chain: ManyReport::scalar_fallback. In a plane, sides are told
-// from float coordinates: a converged chain may differ in its last bits (tests: 1 % of chains; all within
-// 1e-4 of the reach).
+// Results: bit for bit as Solver with Method::Fabrik, whatever the vector unit, the number of threads and the
+// other chains. The exception is targets out of reach or too close, which are solved in float where Solver
+// uses double (equal to 1e-4 of the reach). If a target is so close to the limit of reach that floats cannot
+// decide, the scalar solver takes the chain: ManyReport::scalar_fallback. In a plane, sides are decided from
+// float coordinates: a converged chain may differ in its last bits (tests: 1 % of chains; all within 1e-4 of
+// the reach).
 //
 // With limits, one per bone and shared by all chains, the vector units take damped least-squares steps over
 // the joint rotations, with every joint clamped to its limit (K. Levenberg, "A method for the solution of
@@ -25,12 +25,12 @@
 // flat cone (a suture).
 // Poses differ from the scalar solver's: both converge, each within the limits to 0.1 degrees.
 //
-// Cost: O(bones) per iteration and chain. Compared with calling Solver::solve per chain, to tolerance, with 1
-// 000 chains and copying all joints in and out (tests/bench/ik_many.cpp), throughput is 8 to 18 times higher
+// Cost: O(bones) per iteration and chain. Compared with calling Solver::solve per chain, to tolerance, with
+// 1000 chains and copying all joints in and out (tests/bench/ik_many.cpp), throughput is 8 to 18 times higher
 // with AVX-512 and 6 to 15 times with AVX2, best near full reach. Within limits it is 3 to 20 and 2 to 16
 // times, best for hinges and worst for long chains of cones far from full reach. In a plane it is 1.4 to 2.1
-// times: most of a solve there is coordinates and sides, which are scalar. It pays off from four chains
-// on, but hardly if most targets fall back to the scalar solver.
+// times: most of a solve there is coordinates and sides, which are scalar. It pays off from four chains on,
+// but hardly if most targets fall back to the scalar solver.
 #pragma once
 
 #include <cstddef>
@@ -60,10 +60,10 @@ struct ManyOptions {
     /// For the scalar solver within limits, as Options::restarts.
     std::optional<int> restarts{};
     /// Keeps every chain in a plane of this normal through its own root, as Options::plane. No state is kept:
-    /// with Side::Free a chain stays on the side that its joints are on. Not in a batch with limits: it has
-    /// its own. Rotations are not maintained. Which code does what:
+    /// with Side::Free a chain stays on the side that its joints are on. Not in a batch with limits: a plane
+    /// has its own. Rotations are not maintained. The work is divided as follows:
     ///
-    ///   iterations                       vector units, the same as for solid chains
+    ///   iterations                       vector units, as for chains in space
     ///   coordinates and sides, once      scalar, in double: bounds the gain, see above
     ///   with limits of angles            scalar, all of it: ManyReport::scalar_fallback
     std::optional<Plane> plane{};
@@ -135,9 +135,9 @@ class Batch {
     Result set_rotations(std::span<const glm::quat> rotations);
     Result copy_rotations(std::span<glm::quat> out) const;
 
-    /// Writes the bones() + 1 joints of one chain, or those of all chains, chain after chain. Setting copied
-    /// joints again gives bitwise the same solves, so the joints, and with limits the rotations, are all that
-    /// a rollback has to save.
+    /// Writes the bones() + 1 joints of one chain, or the joints of all chains, chain after chain. Setting
+    /// copied joints again gives bitwise the same solves, so the joints, and with limits the rotations, are
+    /// all that a rollback has to save.
     Result copy_joints(std::size_t chain, std::span<glm::vec3> out) const;
     Result copy_joints(std::span<glm::vec3> out) const;
 
@@ -167,10 +167,10 @@ class Batch {
 ManySummary solve_many(Batch& batch, std::span<const glm::vec3> targets, std::span<ManyReport> reports = {},
                        const ManyOptions& options = {}) noexcept;
 
-/// The same for joints that the caller owns: those of all chains, root first, chain after chain. The solve
-/// starts from them and writes them back. The batch's own joints do not change; lengths, limits and rotations
-/// are the batch's. Bitwise equal to set_joints, solve_many and copy_joints, but faster, because the joints
-/// only pass through the nearest cache. A chain with a joint that set_joints would refuse gets
+/// The same for joints that the caller owns: of all chains, root first, chain after chain. The solve starts
+/// from them and writes them back. The batch's own joints do not change; lengths, limits and rotations are
+/// the batch's. Bitwise equal to set_joints, solve_many and copy_joints, but faster, because the joints only
+/// pass through the nearest cache. A chain with a joint that set_joints would refuse gets
 /// Status::InvalidInput and keeps its pose.
 ManySummary solve_many(Batch& batch, std::span<glm::vec3> joints, std::span<const glm::vec3> targets,
                        std::span<ManyReport> reports, const ManyOptions& options = {}) noexcept;

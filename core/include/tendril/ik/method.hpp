@@ -32,7 +32,7 @@
 //     left to solve. Within limits it is damped least squares from the start, without twist.
 // (5) Not if a tendril::Chain is solved, which keeps its lengths.
 // (6) Within limits the rotations are always kept up to date, because limits are defined on them.
-// (7) A chain in a plane has limits of its own (Plane::limits) and then counts as within limits, but its
+// (7) A chain in a plane has limits of its own (Plane::limits); with them it counts as within limits, but its
 //     rotations are kept up to date only as without. It has no use for pole_turn and twist.
 #pragma once
 

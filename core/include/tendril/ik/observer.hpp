@@ -42,7 +42,7 @@ class Observer {
     virtual ~Observer() = default;
     /// Must not throw; may allocate.
     virtual void step(const Step& step) noexcept = 0;
-    /// After each iteration, and with iteration 0 before the first.
+    /// Called after each iteration, and with iteration 0 before the first.
     virtual void iteration_done(int iteration, float residual) noexcept = 0;
 };
 

@@ -28,9 +28,9 @@ struct Options {
     bool every_iteration = false;
     /// One per bone, at the joint where the bone starts; or empty.
     std::span<const Limit> limits{};
-    /// Keeps the chain in a plane, see plane.hpp. It has limits of its own: with `limits` as well the input
-    /// is invalid. `pole` chooses the side, a tip orientation gives the direction of the last bone; pole_turn
-    /// and twist have no effect, and the rest pose is straight along the base direction.
+    /// Keeps the chain in a plane, see plane.hpp. A plane has limits of its own: with `limits` as well the
+    /// input is invalid. `pole` chooses the side, a tip orientation gives the direction of the last bone;
+    /// pole_turn and twist have no effect, and the rest pose is straight along the base direction.
     std::optional<Plane> plane{};
     /// Pole target, metres: the point that the elbow or knee faces.
     std::optional<glm::vec3> pole{};
@@ -59,8 +59,8 @@ struct Options {
     /// each bone takes the shortest rotation in the world. Within limits the joint angles are blended in the
     /// axes of each limit (the swing as a vector, and the twist; a free joint takes the shortest rotation
     /// relative to its parent bone), so every intermediate pose is within the limits. The length of a
-    /// stretched bone is blended too. Report and residuals are those of the solve itself, as with a weight of
-    /// 1. With a weight under 1 the rotations are always kept up to date.
+    /// stretched bone is blended too. Report and residuals refer to the solve itself, as with a weight of 1.
+    /// With a weight under 1 the rotations are always kept up to date.
     float weight = 1.0f;
     /// Within limits, if descent ends short of the target: how many other poses to restart from, 0 to 1000,
     /// as far as max_iterations allows. By default 8, but none while the target is dragged, that is, if the
@@ -75,7 +75,7 @@ struct Options {
     ///     restarts            0      1      2      4      8      16     40
     ///     arrive, percent     93.3   98.4   99.2   99.9   99.99  100    100
     ///     residual, R         0.243  0.191  0.183  0.178  0.176  0.175  0.175
-    ///     us a solve          22     28     35     64     95     169    243
+    ///     µs per solve        22     28     35     64     95     169    243
     std::optional<int> restarts{};
     /// Keeps the state's rotations up to date in every solve. Limits, a tip orientation and a weight under 1
     /// always do. Otherwise it costs about 15 ns per bone, which is a fifth to a third of a FABRIK solve that

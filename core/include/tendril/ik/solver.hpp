@@ -8,8 +8,8 @@
 // the joints. Solving does not allocate or throw, and gives the same bits for the same joints, state, target
 // and options, whatever the solver did before.
 //
-// Before iterating, in O(n): targets out of reach or too close are answered in closed form, and a chain that
-// is collinear with its target, which no method would bend, gets a small deterministic bend (except for
+// Before iterating, in O(n): targets out of reach or too close are solved in closed form, and a chain that is
+// collinear with its target, which no method would bend, gets a small deterministic bend (except for
 // Method::FabrikPlain, which stalls there). Within limits it bends to a side that its joints allow, and also
 // later if it stalls on a line. A solve that would end worse than it began, or than its best pose, ends with
 // that best pose.
@@ -56,7 +56,7 @@ class Solver {
     State initial_state() const { return State(bones()); }
 
     /// Moves all joints but the first (bones() + 1 of them, metres) so that the last reaches the target. If
-    /// the joints do not match the bones' lengths, they are corrected first. `state` belongs to the joints
+    /// the joints do not match the bones' lengths, they are corrected first. Keep `state` with the joints
     /// from solve to solve. InvalidInput changes neither.
     Report solve(Method method, std::span<glm::vec3> joints, State& state, glm::vec3 target,
                  const Options& options = {}, Observer* observer = nullptr) noexcept;
@@ -65,16 +65,16 @@ class Solver {
     /// change and the status is InvalidInput.
     Report solve(Method method, Chain& chain, State& state, glm::vec3 target, const Options& options = {},
                  Observer* observer = nullptr) noexcept;
-    /// Why solve() gives InvalidInput for these, with the argument and its value; success if it does not:
+    /// Why solve() would return InvalidInput, with the argument and its value; success if it would not:
     /// "solve: limits[1] must be a valid limit, got the hinge's axis lies along the bone". For messages: it
     /// repeats what solve() checks, without allocating.
     Result check_input(Method method, std::span<const glm::vec3> joints, const State& state, glm::vec3 target,
                        const Options& options = {}) const noexcept;
 
-    /// After a solve that ended Limited: which joint stops the tip, that is, the one that brings the tip
-    /// nearest to the target if it alone is freed. `joints` and `state` are those that the solve left. None
-    /// if freeing no single joint brings it nearer, or if the input is invalid. Of all joints at their
-    /// limits, it tries the four whose limits stop most of the descent to the target.
+    /// After a solve that ended Limited: the joint that stops the tip, that is, the one that brings the tip
+    /// nearest to the target if it alone is freed. `joints` and `state` as the solve left them. None if
+    /// freeing no single joint brings it nearer, or if the input is invalid. Of all joints at their limits,
+    /// it tries the four whose limits stop most of the descent to the target.
     ///
     /// Cost: at most 17 further solves of at most 60 iterations each, whatever the number of bones: one to
     /// find where the limits stop the tip, one or two for each of the four joints, eight to find the angle.

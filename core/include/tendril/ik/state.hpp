@@ -1,5 +1,5 @@
-// What a solver remembers from one solve to the next: a plain value. Copy it, compare it, save it, restore
-// it: the next solve then gives the same bits as it did the first time. Rollback is a copy and an assignment.
+// The memory of a solver from one solve to the next: a plain value. Copy it, compare it, save it, restore it:
+// the next solve then gives the same bits as it did the first time. Rollback is a copy and an assignment.
 //
 // The joints are not part of it: the caller owns them. Everything else that a Solver holds is scratch.
 //
@@ -26,7 +26,7 @@ struct PoleMemory {
     PoleTurn turn = PoleTurn::WholeChain;  ///< how the chain was turned to face it
     glm::vec3 pole{0.0f};                  ///< metres
     glm::vec3 target{0.0f};                ///< metres
-    float twist = 0.0f;                    ///< radians; of Method::TwoBone
+    float twist = 0.0f;                    ///< radians; Method::TwoBone only
     std::vector<glm::vec3> joints{};       ///< metres, bones + 1: where the solve left them
 
     bool operator==(const PoleMemory&) const = default;
@@ -35,10 +35,10 @@ struct PoleMemory {
 /// How the last solve by Method::Fabrik within limits went, so that the next one can continue from there
 /// while the target is dragged (Options::restarts).
 struct LimitMemory {
-    bool valid = false;      ///< whether there was one; if not, the rest is unused
+    bool valid = false;      ///< whether there was such a solve; if not, the rest is unused
     bool limited = false;    ///< whether it ended Limited or Stalled: then every step must gain
     glm::vec3 target{0.0f};  ///< metres from the root
-    float damping = 0.0f;    ///< of its last least-squares step, in reach squared; 0 to 100
+    float damping = 0.0f;    ///< in its last least-squares step, in reach squared; 0 to 100
 
     bool operator==(const LimitMemory&) const = default;
 };
@@ -54,7 +54,7 @@ struct State {
     std::vector<glm::quat> rotations{};
     PoleMemory pole{};
     LimitMemory limits{};
-    Side side = Side::Free;  ///< of a chain in a plane: where the last solve left it; Free before the first
+    Side side = Side::Free;  ///< in a plane: where the last solve left the chain; Free before the first
 
     std::size_t bones() const noexcept { return rotations.size(); }
     /// Back to the initial state, for a chain that returns to its rest pose. Does not allocate.

@@ -55,7 +55,7 @@ struct Effector {
     glm::vec3 target{0.0f};  ///< metres, at most max_magnitude
     /// 0 to max_magnitude; 0 is ignored. Only the ratios of weights matter, and only if the effectors cannot
     /// all reach their targets: then the sum of weight times squared distance is minimised. A weight under
-    /// 1e-4 of the heaviest counts as that.
+    /// 1e-4 of the largest is raised to 1e-4 of it.
     float weight = 1.0f;
 };
 
@@ -64,8 +64,8 @@ struct TreeOptions {
     std::optional<float> tolerance{};
     /// 1 to 1 000 000.
     int max_iterations = 100;
-    /// Runs all max_iterations even after converging; for measuring. Not if a single effector is out of
-    /// reach: then there is nothing to iterate.
+    /// Runs all max_iterations even after converging; for measuring. A single effector out of reach still
+    /// takes no iterations.
     bool every_iteration = false;
     /// Only the two passes, as published, for study: slower, and a straight branch stays on its line.
     bool plain = false;

@@ -19,7 +19,7 @@
 
 namespace tendril::ik {
 
-/// The limb's current pose, metres. The lengths are those of the unstretched bones; 0 to max_magnitude.
+/// The limb's current pose, metres. The lengths are unstretched, 0 to max_magnitude.
 struct TwoBone {
     glm::vec3 root{0.0f}, mid{0.0f}, tip{0.0f};
     float upper = 0.0f;  ///< root to mid

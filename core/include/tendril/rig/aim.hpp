@@ -27,7 +27,7 @@
 namespace tendril::rig {
 
 enum class AimTarget : std::uint8_t {
-    Location,  ///< a point in global space; the direction to it from the transform counts
+    Location,  ///< a point in global space, seen from the transform
     Direction  ///< in global space, of any length but 0
 };
 
@@ -41,7 +41,7 @@ struct AimPart {
 struct AimOptions {
     AimPart primary{};
     AimPart secondary{.axis = {0.0, 1.0, 0.0}, .weight = 0.0};
-    double weight = 1.0;  ///< of both parts; 0: returns the input transform, bit for bit
+    double weight = 1.0;  ///< for both parts; 0: returns the input transform, bit for bit
     /// Maximum turn in radians per second; 0: it does not turn. (For a rig's Aim unit, in degrees, 0 means no
     /// limit.)
     double max_speed = std::numeric_limits<double>::infinity();
@@ -55,7 +55,7 @@ enum class AimWarning : std::uint8_t {
     TargetOnAxis,  ///< secondary only: its target is on the primary axis, within 1e-6 radians
     AxesParallel   ///< secondary only: its axis is parallel to the primary one, within 1e-6 radians
 };
-/// A sentence for people: "the second target is on the primary axis"; empty for None.
+/// Text for users: "the second target is on the primary axis"; empty for None.
 const char* name(AimWarning warning) noexcept;
 
 struct AimResult {
@@ -63,8 +63,8 @@ struct AimResult {
     AimWarning primary = AimWarning::None, secondary = AimWarning::None;
 };
 
-/// Checks options from outside. Refused: numbers that are not finite or over max_magnitude, zero axes,
-/// weights outside 0 to 1, a negative max_speed. aim() itself checks nothing.
+/// Checks options from untrusted input. Refused: numbers that are not finite or over max_magnitude, zero
+/// axes, weights outside 0 to 1, a negative max_speed. aim() itself checks nothing.
 Result check(const AimOptions& options, std::string_view operation = "aim") noexcept;
 
 /// `item` is a global transform. `dt` in seconds matters only with max_speed: at 0, less or NaN no time

@@ -1,5 +1,5 @@
-// Backward solve: which control values give the pose that the bones have now, such as one from an imported
-// animation.
+// Backward solve: finds the control values that give the bones' current pose, such as an imported
+// animation's.
 //
 // Minimises, over the values of all controls within their limits, the squared differences between each bone's
 // global pose and the wanted one, starting from the current control values. Method: Levenberg-Marquardt (D.
@@ -7,7 +7,7 @@
 // derivatives from finite differences of forward solves, so no unit needs an inverse. Bool controls are tried
 // both ways, one after the other. Springs count as at rest.
 //
-// What a rig cannot express remains as a residual of each bone.
+// A difference that the rig cannot express remains as the residual of a bone.
 //
 // Cost: some ten iterations. Each takes one forward solve per number of the controls (a transform has nine)
 // and factors a square matrix of that size. Milliseconds for ten transform controls; seconds for a chain of
@@ -24,7 +24,7 @@ namespace tendril::rig {
 
 struct BackwardOptions {
     int max_iterations = 100;  ///< per descent, of which each bool control adds one; clamped to 1 to 10 000
-    /// How many metres weigh as much as one radian, or as a scale difference of 1; 0 or less: the mean bone
+    /// Metres that weigh as much as one radian, or as a scale difference of 1; 0 or less: the mean bone
     /// length of the rig.
     double metres_per_radian = 0.0;
     /// Maximum work over all descents, in the steps of Rig::work; 0: no limit. Counted, not timed, so that a
@@ -42,7 +42,7 @@ struct BackwardReport {
     std::vector<Residual> elements{};  ///< in the order of Definition::elements; 0 for non-bones
     /// The bone with the largest residual, weighted as in the solve; none in a rig without bones.
     std::optional<std::size_t> worst{};
-    int iterations = 0;  ///< of the last descent
+    int iterations = 0;  ///< in the last descent
     int solves = 0;      ///< forward solves in total
     /// max_iterations or max_work ended the solve: better values may exist. With 0 iterations the controls
     /// are unchanged.
@@ -53,7 +53,7 @@ struct BackwardReport {
 std::vector<Residual> residuals(const Rig& rig, State& state, State& wanted);
 
 /// Sets the controls so that a forward solve gives the current pose of the bones as closely as possible, and
-/// solves. The bones then follow the controls. Clears what units remember.
+/// solves. The bones then follow the controls. Clears the units' memory.
 BackwardReport solve_backward(const Rig& rig, State& state, Workspace& workspace,
                               const BackwardOptions& options = {});
 

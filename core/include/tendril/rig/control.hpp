@@ -1,6 +1,6 @@
-// Controls: elements that a person drags, and the limits of dragging.
+// Controls: elements that a user drags, and the limits of dragging.
 //
-//     kind         value       what it moves
+//     kind         value       effect
 //     Transform    transform   its pose, within its parent
 //     Position     vector      its translation, within its parent, metres
 //     Rotation     rotation    its rotation, within its parent
@@ -49,8 +49,8 @@ Value rest_value(const Control& control, const Transform& initial) noexcept;
 /// Clamps every bounded component. `value` has the type of the kind.
 Value clamped(const Control& control, const Value& value) noexcept;
 
-/// The pose, within its parent, of a control with this value. `base` is its pose at rest: it provides
-/// whatever the value does not, and the frame in which a Vector2d moves.
+/// The pose, within its parent, of a control with this value. `base` is its pose at rest: it provides the
+/// parts that the value lacks, and the frame in which a Vector2d moves.
 Transform posed(const Control& control, const Transform& base, const Value& value) noexcept;
 
 /// Refused: a type that the kind does not have, a number that is not finite or over max_magnitude, a rotation

@@ -15,7 +15,7 @@ namespace tendril::rig {
 /// line: z is 0 and x holds the whole angle. `rotation` is unit.
 glm::dvec3 to_euler(const glm::dquat& rotation) noexcept;
 
-/// Unit. from_euler(to_euler(q)) is q or its negative to 1e-15, at the poles to 1e-9.
+/// A unit quaternion. from_euler(to_euler(q)) is q or its negative to 1e-15, at the poles to 1e-9.
 glm::dquat from_euler(const glm::dvec3& angles) noexcept;
 
 }  // namespace tendril::rig

@@ -1,4 +1,4 @@
-// Why an element is where it is: what each unit did to its pose in a forward solve, in order.
+// Explains an element's pose: the change that each unit made in a forward solve, in order.
 #pragma once
 
 #include <cstddef>

@@ -20,7 +20,7 @@
 // recomposes from the first that differs. A pending local transform is computed before the parent's stored
 // global is overwritten. So *reading changes no result*: it only computes earlier what would be computed
 // anyway, to the same bits. get() stores what it computes and is therefore not const; known() is const, and
-// pending() tells which of the two transforms would have to be computed.
+// pending() names the transform that would have to be computed.
 //
 // Cost: reading a local transform is O(1). Reading a global one is O(1) if nothing was written since it or a
 // descendant was last read, otherwise O(depth). Writing is O(depth), or O(depth + children) without
@@ -29,7 +29,6 @@
 // A hierarchy is a value: a copy behaves like the original, bit for bit. About 750 bytes per element.
 // Elements have no names; names belong to the document. Functions that return a Result refuse a stale handle;
 // passing one to any other function is a bug in the calling program, which ends with a message.
-// message.
 #pragma once
 
 #include <cstddef>
@@ -45,7 +44,7 @@
 namespace tendril::rig {
 
 enum class ElementKind : std::uint8_t { Bone, Null, Control };
-/// At rest; at the start of a solve; and now.
+/// The pose at rest, at the start of a solve, and now.
 enum class Pose : std::uint8_t { Initial, Input, Current };
 enum class Space : std::uint8_t { Local, Global };
 /// Whether the children of a written element move with it (and keep their local transform) or stay.
@@ -97,11 +96,11 @@ class Hierarchy {
     ElementKind kind(ElementId element) const noexcept;
     /// An empty handle if there is none, here and in the next four.
     ElementId parent(ElementId element) const noexcept;
-    ElementId first_child(ElementId parent) const noexcept;  ///< of an empty handle: the first root
-    ElementId last_child(ElementId parent) const noexcept;   ///< of an empty handle: the last root
+    ElementId first_child(ElementId parent) const noexcept;  ///< for an empty handle: the first root
+    ElementId last_child(ElementId parent) const noexcept;   ///< for an empty handle: the last root
     ElementId next_sibling(ElementId element) const noexcept;
     ElementId previous_sibling(ElementId element) const noexcept;
-    std::size_t child_count(ElementId parent) const noexcept;  ///< of an empty handle: the number of roots
+    std::size_t child_count(ElementId parent) const noexcept;  ///< for an empty handle: the number of roots
     /// Whether `element` is `ancestor` or below it. O(depth).
     bool is_within(ElementId element, ElementId ancestor) const noexcept;
     /// The next element in a depth-first walk through everything below `top`; empty at its end. Start with
@@ -110,9 +109,9 @@ class Hierarchy {
 
     // Poses.
 
-    /// Computes what is pending and stores it. The reference is valid until an element is added or removed,
-    /// and its value is unchanged until the next write: other reads do not affect it, and it may be passed to
-    /// a write.
+    /// Computes pending transforms and stores them. The reference is valid until an element is added or
+    /// removed, and its value is unchanged until the next write: other reads do not affect it, and it may be
+    /// passed to a write.
     const Transform& get(ElementId element, Space space, Pose pose = Pose::Current) noexcept;
     /// Refused: a stale handle, a transform that checked() refuses. Normalises the rotation.
     Result set(ElementId element, Space space, const Transform& transform,
@@ -122,19 +121,18 @@ class Hierarchy {
     void put(ElementId element, Space space, const Transform& transform, Propagate propagate = Propagate::Yes,
              Pose pose = Pose::Current) noexcept;
 
-    /// What get() would have to compute; changes nothing. A pending local transform below an ancestor that
-    /// has moved since counts as global: the ancestor's global comes first. O(1) if get() is, otherwise
-    /// O(depth).
+    /// The transform that get() would have to compute; changes nothing. A pending local transform below an
+    /// ancestor that has moved since counts as global: the ancestor's global comes first. O(1) if get() is,
+    /// otherwise O(depth).
     Pending pending(ElementId element, Pose pose = Pose::Current) const noexcept;
-    /// What get() would return; nullopt if pending() names that space. Changes nothing.
+    /// The transform that get() would return; nullopt if pending() names that space. Changes nothing.
     std::optional<Transform> known(ElementId element, Space space, Pose pose = Pose::Current) const noexcept;
     /// Copies all transforms of one pose to another, including which are pending. O(n), a plain copy of
     /// memory.
     void copy_pose(Pose from, Pose to) noexcept;
     /// Computes everything pending, in every pose. O(n).
     void resolve_all() noexcept;
-    /// How many transforms were computed from others since this hierarchy was made; a copy continues the
-    /// count.
+    /// Number of transforms computed from others since this hierarchy was made; a copy continues the count.
     std::uint64_t recomputations() const noexcept { return recomputations_; }
 
     /// The same elements under the same handles, in the same order, with the same transforms in every pose
@@ -149,15 +147,15 @@ class Hierarchy {
     struct Node {
         Index generation = 0;  ///< odd while the slot is taken
         Index parent = none, first_child = none, last_child = none, previous = none;
-        Index next = none;  ///< sibling; of a free slot: the next free one
+        Index next = none;  ///< sibling; for a free slot: the next free one
         Index children = 0;
         ElementKind kind = ElementKind::Bone;
         bool operator==(const Node&) const = default;
     };
     /// The bookkeeping of one element in one pose.
     struct Stamp {
-        std::uint64_t version = 0;         ///< of the stored global; unique
-        std::uint64_t parent_version = 0;  ///< that the stored global was composed with, or set against
+        std::uint64_t version = 0;         ///< version of the stored global; unique
+        std::uint64_t parent_version = 0;  ///< with which the stored global was composed or set
         std::uint64_t verified = 0;        ///< `change` at which the stored global was last valid
         Index first_pending = none;        ///< head of the list of children whose local is pending
         Index previous_pending = none, next_pending = none;  ///< its neighbours in the parent's list

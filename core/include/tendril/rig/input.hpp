@@ -1,4 +1,4 @@
-// Where a unit takes a value from: a literal, another unit's output, an element of the rig, or the current
+// The source of a unit's input: a literal, another unit's output, an element of the rig, or the current
 // element of a for-each.
 //
 //     Input<glm::dvec3> target = glm::dvec3(0, 1, 2);                               // a literal
@@ -75,8 +75,8 @@ struct FromUnit {
     bool operator==(const FromUnit&) const = default;
 };
 
-/// Of the current element in a for-each: its index, from 0 to count - 1; and index / (count - 1), or 0 if
-/// count is 1.
+/// For the current element of a for-each: index / (count - 1), or 0 if count is 1; its index, from 0; and the
+/// count.
 enum class Each : std::uint8_t { Ratio, Index, Count };
 
 /// T is bool, double, glm::dvec3, glm::dquat, Transform, or Value, which takes any type.

@@ -30,7 +30,7 @@ struct ConstraintParent {
     double weight = 1.0;         ///< 0 or more, relative to the others'; less, or NaN, counts as 0
 };
 
-/// What passes, per axis.
+/// The axes that the filter lets through.
 struct TransformFilter {
     std::array<bool, 3> translation{true, true, true};
     std::array<bool, 3> rotation{true, true, true};

@@ -8,11 +8,11 @@
 //     Transform hand = state.elements.get(rig->id(*rig->element("hand")), Space::Global);
 //
 // A solve first resets bones and nulls to their input pose (the initial one, until set_element changes it)
-// and then runs the units, so solving twice gives the same as solving once. What persists from frame to frame
+// and then runs the units, so solving twice gives the same as solving once. Memory from frame to frame
 // (springs) is in the state and changes only with dt. The same state and dt give the same bits. Nothing is
 // thrown; memory is allocated only if an IK chain is new or one of its bones has a new length.
 //
-// What cannot be computed as asked (an aim whose target is at the item) is skipped with a Warning and leaves
+// A unit that cannot be computed (an aim whose target is at the item) is skipped with a Warning and leaves
 // the item unchanged. All results are finite.
 #pragma once
 
@@ -34,7 +34,7 @@
 
 namespace tendril::rig {
 
-/// Why a unit, or a part of it, was skipped. The first one of a solve.
+/// Why a unit, or a part of it, was skipped: the first reason in a solve.
 enum class Warning : std::uint8_t {
     None,
     TargetAtItem,        ///< aim: the target is at the item, so there is no direction to it
@@ -45,7 +45,7 @@ enum class Warning : std::uint8_t {
     WeightOutOfRange,    ///< a weight from another unit or a control is not in [0, 1]; clamped
     OutOfRange,          ///< the result is not finite, or over max_magnitude
     CannotSolve,         ///< IK: a bone has length 0 or is out of range
-    ParameterOutOfRange  ///< of a spring, from another unit or a control: clamped
+    ParameterOutOfRange  ///< a spring's, from another unit or a control: clamped
 };
 /// "all weights are 0"; empty for None.
 const char* message(Warning warning) noexcept;
@@ -55,7 +55,7 @@ struct Turned {
     glm::dquat rotation{1, 0, 0, 0};
     bool operator==(const Turned&) const = default;
 };
-/// What a unit remembers of one element from solve to solve.
+/// A unit's memory of one element from solve to solve.
 struct UnitMemory {
     std::variant<std::monostate, Turned, signal::OutputState, signal::SpringState<double>,
                  signal::SpringState<glm::dvec3>, signal::SpringState<glm::dquat>, ik::State>
@@ -64,7 +64,7 @@ struct UnitMemory {
 };
 struct UnitState {
     std::vector<UnitMemory> memory{};  ///< one; in the body of a for-each one per visited element
-    std::vector<Value> outputs;        ///< of the last solve, in the order of outputs()
+    std::vector<Value> outputs;        ///< from the last solve, in the order of outputs()
     Warning warning = Warning::None;
     bool operator==(const UnitState&) const = default;
 };
@@ -114,9 +114,9 @@ class Rig {
     const Definition& definition() const noexcept;
 
     State initial_state() const;
-    /// After an edit: initial_state() with what still applies of `state`, a state of the rig `before`.
-    /// Matched by name: elements whose kind, initial transform and control settings are unchanged; curves;
-    /// units whose output types are unchanged, with what they remember of each element.
+    /// After an edit: initial_state() with the parts that still apply of `state`, a state of the rig
+    /// `before`. Matched by name: elements whose kind, initial transform and control settings are unchanged;
+    /// curves; units whose output types are unchanged, with their memory of each element.
     State adopted(const Rig& before, State state) const;
     /// Whether `state` belongs to this rig, by its sizes and types; solve() requires it.
     bool fits(const State& state) const noexcept;

@@ -29,8 +29,8 @@ Transform project_to_parent(const Transform& child, const Transform& old_parent,
 Transform project_to_parent(const Transform& item, const Transform& child, const Transform& old_parent,
                             const Transform& new_parent, double weight) noexcept;
 
-/// The shortest arc from the direction of `from` to that of `to`. If they are opposite: half a turn about
-/// some perpendicular axis, always the same one. The identity if one of them is shorter than 1e-9.
+/// The shortest arc from the direction of `from` to the direction of `to`. If they are opposite: half a turn
+/// about some perpendicular axis, always the same one. The identity if one of them is shorter than 1e-9.
 glm::dquat from_two_vectors(const glm::dvec3& from, const glm::dvec3& to) noexcept;
 
 /// A point from the transform's own space to the space around it: scaled, rotated, translated.

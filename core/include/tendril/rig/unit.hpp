@@ -12,18 +12,18 @@
 //     FromTwoVectors       the shortest rotation from one direction to another; the identity if one is zero
 //     TransformLocation    vector: a point out of a transform's space
 //     TransformDirection   vector: a direction out of it, rotated but not moved
-//     ForEach              runs a body of units on each element of a list of children. Their number
+//     ForEach              number of elements in a list of children; runs a body of units on each
 //     AlphaInterpolate     number; see signal/scale_bias_clamp.hpp
 //     SpringInterpolate    number, vector or rotation, and its `velocity`; see signal/spring.hpp
 //     EvaluateCurve        number; see signal/curve.hpp
 //     SetCurve             number written to a named curve: a morph weight, a material parameter
-//     TwoBone, Fabrik      rotate the bones from `root` to `tip`. Metres from the tip to the target
-//     Spline               lays them along a curve through `points`; see ik/curve.hpp. Metres from the tip to
-//                          the curve's end; "bones_past_end" and metres "past_end"; the "factor" of a fit
+//     TwoBone, Fabrik      metres from the tip to the target; rotate the bones from `root` to `tip`
+//     Spline               metres from the tip to the end of a curve through `points`, along which it places
+//                          the bones (ik/curve.hpp); "bones_past_end", metres "past_end", fit's "factor"
 //
 // Every unit has a weight in [0, 1]. At 0 the item is unchanged, bit for bit; an operation without an item
-// outputs its input unchanged (FromTwoVectors: the identity). A for-each's weight multiplies those of its
-// body.
+// outputs its input unchanged (FromTwoVectors: the identity). A for-each's weight multiplies its body's
+// weights.
 #pragma once
 
 #include <array>
@@ -42,10 +42,10 @@
 namespace tendril::rig {
 
 struct AimInputs {
-    Input<glm::dvec3> axis = glm::dvec3(1, 0, 0);  ///< of the item, not zero
+    Input<glm::dvec3> axis = glm::dvec3(1, 0, 0);  ///< in the item's own space, not zero
     Input<glm::dvec3> target = glm::dvec3(0);      ///< global: a point, or a direction
     AimTarget kind = AimTarget::Location;
-    Input<double> weight = 1.0;  ///< of this part, in [0, 1]
+    Input<double> weight = 1.0;  ///< weight of this part, in [0, 1]
     bool operator==(const AimInputs&) const = default;
 };
 struct Aim {
@@ -190,14 +190,14 @@ struct Spline {
     std::vector<std::string> points{};  ///< elements, such as controls; at least two
     Input<bool> b_spline = false;       ///< CurveKind::BSpline instead of Hermite
     Input<bool> fit = false;            ///< scales the lengths by one factor, so that the tip is on the end
-    Input<double> max_factor = 2.0;     ///< of fit, in either direction; 0 to 100, below 1 as 1
+    Input<double> max_factor = 2.0;  ///< limit of `fit`, in either direction; 0 to 100, below 1 counts as 1
     Input<glm::dvec3> up = glm::dvec3(0, 1, 0);
     Input<double> roll_start_deg = 0.0, roll_end_deg = 0.0;
     bool operator==(const Spline&) const = default;
 };
 
-/// A variant of all of them. Its copying, comparing and destroying is compiled once, in the library: for
-/// eighteen structs that would slow down every file that uses a Unit.
+/// A variant of all operations. Its copying, comparing and destroying are compiled once, in the library: for
+/// eighteen structs they would slow down every file that uses a Unit.
 struct Operation
     : std::variant<Aim, AimMath, ParentConstraint, OffsetTransform, SetTransform, SetRotation,
                    ProjectToParent, FromTwoVectors, TransformLocation, TransformDirection, ForEach,
@@ -213,7 +213,7 @@ struct Operation
     ~Operation();
     bool operator==(const Operation& other) const;
 };
-/// "parent_constraint", as in scene files; `index` is that of the Operation variant.
+/// "parent_constraint", as in scene files; `index` is the index in the Operation variant.
 const char* operation_name(std::size_t index) noexcept;
 
 struct Unit {

@@ -1,5 +1,5 @@
-// What a rig works in: solvers of its chains and scratch memory. Keep it beside the rig from frame to frame.
-// It holds no state: discarding it at any time changes no bit of any result.
+// A rig's scratch memory and the solvers of its chains. Keep it beside the rig from frame to frame. It holds
+// no state: discarding it at any time changes no result.
 #pragma once
 
 #include <memory>

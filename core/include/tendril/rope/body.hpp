@@ -14,11 +14,11 @@
 
 namespace tendril::rope {
 
-inline constexpr std::size_t max_particles = 1000000;  ///< in a world
+inline constexpr std::size_t max_particles = 1000000;  ///< per world
 inline constexpr float min_density = 1e-9f;            ///< kg/m, kg/m^2
 inline constexpr float min_hair_length = 1e-6f;        ///< metres
 
-/// Its particles are numbered from `first`.
+/// A rope, cloth or hair: `count` particles from `first` on.
 struct Body {
     enum class Kind : std::uint8_t { Rope, Cloth, Hair };
     BodyId id;
@@ -26,27 +26,27 @@ struct Body {
     std::size_t first = 0, count = 0;  ///< particles
     /// Particles per row of a cloth or per strand of hair; `count` for a rope.
     std::size_t row = 0;
-    /// Of a piece of a cloth whose grid has gaps: the cell of each particle, row * `row` + column, ascending.
+    /// For a piece of cloth whose grid has gaps: each particle's cell, row * `row` + column, ascending.
     /// Empty: the grid is full.
     std::vector<std::uint32_t> cells{};
-    float radius = 0.02f;  ///< metres: half of its thickness, the distance of its particles from colliders
+    float radius = 0.02f;  ///< metres: half the thickness; particles keep this far from colliders
     /// Strain at which a stretch link tears, 0.1 for 10 % over its rest; 0: never. Shear and bend links tear
-    /// at 0.5 more. A torn body is one until part_body().
+    /// at 0.5 more. A torn body stays one body until part_body().
     float tear = 0.0f;
-    /// Of a rope: bending stiffness, N m^2 (Young's modulus times the second moment of its cross-section); 0:
-    /// none. At rest it is straight. Only the direct solver bends.
+    /// Bending stiffness of a rope, N m^2 (Young's modulus times the second moment of its cross-section); 0:
+    /// none. A rope at rest is straight. Only the direct solver uses it.
     float bending = 0.0f;
-    /// Coulomb's coefficient between it and colliders, 0 to max_friction; empty: the settings'.
+    /// Coulomb's friction coefficient with colliders, 0 to max_friction; empty: the settings'.
     std::optional<float> friction{};
-    /// Maximum relative length error of its stretch links, |length / rest - 1| (or the length if rest is 0),
-    /// as the solver last left it; for hair before contact. World::length_error() includes contact.
+    /// Maximum relative length error of the stretch links, |length / rest - 1| (or the length if rest is 0),
+    /// after the last solve; for hair before contact. World::length_error() includes contact.
     float stretch = 0.0f;
 
-    /// The cell of a particle; both numbered in the body.
+    /// The cell of a particle; both are numbered within the body.
     std::size_t cell(std::size_t particle) const noexcept {
         return cells.empty() ? particle : cells[particle];
     }
-    /// The particle in a cell; `count`: it is a gap.
+    /// The particle in a cell; `count` if the cell is a gap.
     std::size_t particle_in(std::size_t cell) const noexcept;
     std::size_t rows() const noexcept { return count == 0 ? 0 : cell(count - 1) / row + 1; }
     bool operator==(const Body&) const = default;
@@ -90,10 +90,10 @@ struct ClothShape {
     /// a ball strains by 1.5 % instead of 20 %.
     float shear = 0.3f, bend = 0.3f;
     float tear = 0.0f;  ///< strain at which links tear; 0: never
-    enum class Pins : std::uint8_t { None, Corners, Row } pins = Pins::None;  ///< of the first row
+    enum class Pins : std::uint8_t { None, Corners, Row } pins = Pins::None;  ///< in the first row
 };
 
-/// Presets for ClothShape. The first is its default.
+/// Presets for ClothShape. The first one is the default.
 struct ClothMaterial {
     std::string_view name;
     float density, shear, bend;
@@ -106,7 +106,7 @@ inline constexpr ClothMaterial cloth_materials[] = {{"cotton", 0.2f, 0.3f, 0.3f}
 /// The root of a strand of hair.
 struct HairRoot {
     glm::vec3 position{0.0f};
-    glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< of any length but 0
+    glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< any length but 0
 };
 
 /// Hair: strands of equal length, each pinned at its root, where it keeps its direction.
@@ -126,6 +126,6 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::rope::RopeShape>() noexcept;
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::rope::ClothShape>() noexcept;
-/// Without `roots` and `attach`.
+/// All fields but `roots` and `attach`.
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::rope::HairShape>() noexcept;

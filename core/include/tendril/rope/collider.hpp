@@ -1,4 +1,4 @@
-// Bodies that ropes cannot enter.
+// Colliders: solid shapes that ropes, cloth and hair cannot enter.
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@ struct Capsule {
 /// The half space behind a plane.
 struct Plane {
     glm::vec3 point{0.0f};
-    glm::vec3 normal{0.0f, 1.0f, 0.0f};  ///< of any length but 0
+    glm::vec3 normal{0.0f, 1.0f, 0.0f};  ///< any length but 0
     bool operator==(const Plane&) const = default;
 };
 struct Box {
@@ -40,15 +40,14 @@ using Shape = std::variant<Sphere, Capsule, Plane, Box>;
 /// The nearest point of a surface, as seen from a point.
 struct SurfaceDistance {
     double distance = 0.0;             ///< metres, below zero inside
-    glm::dvec3 normal{0.0, 1.0, 0.0};  ///< unit, outward; a fixed one at a centre or on an axis
+    glm::dvec3 normal{0.0, 1.0, 0.0};  ///< unit, outward; arbitrary but fixed at a centre or on an axis
 };
 /// For any point and any shape that check() accepts; never NaN.
 SurfaceDistance surface_distance(const Shape& shape, const glm::dvec3& point) noexcept;
 
-/// The point that moves with a shape: the centre of a sphere or box, the middle of a capsule, a plane's
-/// point.
+/// The reference point of a shape: the centre of a sphere or box, the middle of a capsule, a plane's point.
 glm::vec3 centre(const Shape& shape) noexcept;
-/// The same shape with that point moved to `centre`.
+/// The same shape with its reference point at `centre`.
 Shape moved(const Shape& shape, const glm::vec3& centre) noexcept;
 /// "sphere", "capsule", "plane", "box"
 const char* kind(const Shape& shape) noexcept;
@@ -62,10 +61,10 @@ float size(const Shape& shape) noexcept;
 /// length 0. The message names `operation`, the member and its value.
 Result check(const char* operation, const Shape& shape) noexcept;
 
-/// A steady motion. Friction carries what lies on it, and what it meets is pushed.
+/// A collider's steady motion. It carries bodies by friction and pushes those in its way.
 struct Drive {
     glm::vec3 velocity{0.0f};          ///< m/s
-    glm::vec3 axis{0.0f, 1.0f, 0.0f};  ///< through its centre, of any length; (0, 0, 0) is upright too
+    glm::vec3 axis{0.0f, 1.0f, 0.0f};  ///< through the centre, any length; (0, 0, 0): upright
     float spin = 0.0f;                 ///< rad/s about the axis
     bool any() const noexcept { return velocity != glm::vec3(0.0f) || spin != 0.0f; }
     bool operator==(const Drive&) const = default;
@@ -75,8 +74,8 @@ inline constexpr float max_drive = 1e4f, max_spin = 1e3f;  ///< m/s along each a
 struct Collider {
     ColliderId id;
     Shape shape;           ///< current
-    glm::dvec3 goal{0.0};  ///< where its centre is going
-    double seconds = 0.0;  ///< of simulated time until it arrives; 0: within the next substep
+    glm::dvec3 goal{0.0};  ///< where the centre is going
+    double seconds = 0.0;  ///< simulated time until it arrives; 0: within the next substep
     /// For a capsule that turns as it moves: half the vector from `a` to `b` at its goal.
     std::optional<glm::dvec3> half_goal{};
     Drive drive{};

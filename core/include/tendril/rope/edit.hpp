@@ -1,9 +1,9 @@
-// How finely a body is divided, in which direction it runs, and where a cloth is cut, while it moves.
+// Edits of a moving body: its resolution, its direction, and cuts in cloth.
 //
 //     Expected<rope::Edited> finer = rope::resample(world, line, {.columns = 65});
 //     if (finer) world = std::move(finer->world);
 //
-// The world is a value, and so is the edited one: nothing changes if an edit is refused. All handles stay.
+// The world is a value, and so is the edited one: nothing changes if an edit is refused. Handles stay valid.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@
 
 namespace tendril::rope {
 
-/// Particles in a row of a body, and its rows. A rope is one row; each strand of hair is a row, and strands
-/// stay as many as they are.
+/// Particles per row of a body, and number of rows. A rope is one row. Each strand of hair is a row, and the
+/// number of strands does not change.
 struct Resolution {
     std::size_t columns = 2, rows = 1;
     bool operator==(const Resolution&) const = default;
@@ -25,35 +25,35 @@ struct Resolution {
 
 struct Edited {
     World world;
-    /// The particle that each particle of the body has become, or the nearest to it; both numbered from the
-    /// body's first, on into what came off it.
+    /// For each old particle of the body: the new one that it became, or the nearest. Both are numbered from
+    /// the body's first particle; the pieces that came off follow.
     std::vector<std::size_t> becomes;
     std::vector<BodyId> pieces{};  ///< bodies that came off it, in the order of particles
 };
 
 Resolution resolution(const Body& body) noexcept;
 
-/// Divides a body more or less finely. Its particles move to other points of the same shape, with the
-/// velocities there; its free particles keep their total momentum, and its material its density and
-/// compliance. Ends, ties and single pins stay where they are, each on a particle of its own: refuses fewer
-/// particles than that takes. Between them the segments of a rope or strand are of equal length. What lies
-/// within a row of pins is pinned. A torn cloth stays torn.
+/// Changes a body's resolution. New particles lie on the same shape and take the velocities there; the total
+/// momentum of free particles, the density and the compliance stay the same. Ends, ties and single pins stay
+/// where they are, each on its own particle: refuses fewer particles than these need. Between them the
+/// segments of a rope or strand are of equal length. New particles within a row of pins are pinned. A torn
+/// cloth stays torn.
 Expected<Edited> resample(const World& world, BodyId body, const Resolution& to);
 
 /// Swaps the ends of a rope. Pins, ties and motion stay where they are.
 Expected<Edited> reverse(const World& world, BodyId rope);
 
-/// Makes each piece of a cloth or rope that no link joins to the others a body of its own, with its particles
-/// and what belongs to them: velocities, pins and ties. The one with most pins, or else most particles, stays
-/// the body that it was. Costs as much as a copy of the world, even if nothing has come apart.
+/// Splits a torn cloth or rope: each piece that no link joins to the others becomes a body of its own, with
+/// its velocities, pins and ties. The piece with most pins (if equal, most particles) keeps the body's
+/// handle. Costs as much as a copy of the world, even if nothing has come apart.
 Expected<Edited> part_body(const World& world, BodyId body);
 
-/// A line through points of a cloth's own grid, each {column, row}, up to one beyond its edge.
+/// A polyline in the coordinates of a cloth's grid: {column, row}, at most one beyond the edge.
 using ClothLine = std::vector<glm::vec2>;
 
-/// Cuts a cloth along lines: removes the links that cross them, and parts what comes apart. What is on a line
-/// belongs to its left, with columns to the right and rows upwards.
-/// Refuses lines that cross no link.
+/// Cuts a cloth along lines: removes the links that cross them, and splits off what comes apart. A particle
+/// on a line counts as left of it, with columns to the right and rows upwards. Refuses lines that cross no
+/// link.
 Expected<Edited> cut_cloth(const World& world, BodyId cloth, std::span<const ClothLine> lines);
 
 }  // namespace tendril::rope

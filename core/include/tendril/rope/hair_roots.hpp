@@ -13,17 +13,17 @@ namespace tendril::rope {
 /// A round patch of strands, arranged like the seeds of a sunflower, which is even for any number (H. Vogel,
 /// "A better way to construct the sunflower head", 1979).
 struct HairPatch {
-    glm::vec3 centre{0.0f};                ///< of a free patch
-    std::optional<glm::vec3> direction{};  ///< of growth; default: down, on colliders up, on planes outward
+    glm::vec3 centre{0.0f};                ///< for a free patch
+    std::optional<glm::vec3> direction{};  ///< growth; default: down; on colliders up, on planes outward
     int strands = 32;
     float spread = 0.1f;  ///< radius of the patch, metres
 };
 
-/// In a plane, all in one direction. Refuses a field out of its range and a direction of length 0.
+/// Roots in a plane, all in one direction. Refuses a field out of its range and a direction of length 0.
 Expected<std::vector<HairRoot>> roots_around(const HairPatch& patch);
 
-/// On the surface of a collider, on the side that `direction` points to, each along the surface's normal and
-/// `lift` metres off it. Refuses a field out of its range and a direction of length 0.
+/// Roots on the surface of a collider, on the side that `direction` points to, each along the surface's
+/// normal and `lift` metres off it. Refuses a field out of its range and a direction of length 0.
 Expected<std::vector<HairRoot>> roots_on(const Shape& shape, const HairPatch& patch, float lift);
 
 }  // namespace tendril::rope

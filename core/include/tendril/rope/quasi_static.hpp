@@ -1,10 +1,10 @@
-// Quasi-static drag: moves a pin or a collider while the simulation is paused, and displaces what it meets as
-// if nothing had weight or speed. Nothing else moves, no time passes, and moves under way resume with time.
+// Quasi-static drag: moves a pin or a collider while the simulation is paused, and displaces bodies in its
+// way as if they had no weight or speed. Nothing else moves; moves in progress resume with time.
 //
 // Method: in a copy of the world gravity is 0, damping is full, and every link's rest length is its current
 // length, except for stiff links (direct solver, no compliance) that are over 5 % off. Eight substeps move
-// what is dragged to its goal; the resulting positions become the world's. Costs a copy of the state and
-// eight substeps.
+// the dragged pins or collider to their goal; the resulting positions become the world's. Costs a copy of the
+// state and eight substeps.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@
 
 namespace tendril::rope {
 
-/// Where a particle is to be pinned, metres.
+/// A particle, and where to pin it, metres.
 struct PinPlace {
     std::size_t particle = 0;
     glm::dvec3 to{0.0};

@@ -19,8 +19,8 @@ namespace tendril::rope {
 struct Pin {
     std::size_t particle = 0;
     glm::dvec3 goal{0.0};  ///< where it is going; if attached: relative to the collider's centre
-    double seconds = 0.0;  ///< of simulated time until it arrives; 0: within the next substep
-    ColliderId collider;   ///< that it moves with; empty: none
+    double seconds = 0.0;  ///< simulated time until it arrives; 0: within the next substep
+    ColliderId collider;   ///< moves the pin; empty: none
     bool operator==(const Pin&) const = default;
 };
 
@@ -33,7 +33,7 @@ struct State {
     std::vector<double> mass;              ///< kg, over 0
     std::vector<Pin> pins;                 ///< sorted by particle
     std::vector<Collider> colliders;
-    /// How often each slot was taken and freed: odd while it is taken.
+    /// Generation of each slot: how often it was taken and freed; odd while taken.
     std::vector<std::uint32_t> body_slots, collider_slots;
     std::vector<Tie> ties;
     std::vector<std::uint32_t> tie_slots;

@@ -1,5 +1,5 @@
-// Ties: particles of any bodies of a rope world, held together or at a distance. The hangers of a bridge, a
-// rope sewn to a cloth, a net.
+// Ties hold two particles of a rope world, of any bodies, together or at a distance: the hangers of a bridge,
+// a rope sewn to a cloth, a net.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace tendril::rope {
 
-/// How a tie is made.
+/// Length and strength of a tie.
 struct TieShape {
     float length = 0.0f;    ///< metres; 0: the particles coincide
     float strength = 0.0f;  ///< newtons; a tie that pulls harder tears. 0: never
@@ -22,11 +22,11 @@ struct Tie {
     std::uint32_t a = 0, b = 0;  ///< particles
     float length = 0.0f;         ///< metres; 0: the particles coincide
     float strength = 0.0f;       ///< newtons at which it tears; 0: never
-    /// The distance that it keeps now, metres. A tie made between particles too far apart, or too close,
+    /// The distance that it enforces now, metres. A tie made between particles too far apart, or too close,
     /// draws them to its length at tie_speed.
     float now = 0.0f;
     /// Newtons, from the last solve; negative in compression, never if length is 0. A load only once `now` is
-    /// `length`: before, it is what draws the ends together at that speed.
+    /// `length`; until then the force that draws the ends together at tie_speed.
     float tension = 0.0f;
     bool operator==(const Tie&) const = default;
 };

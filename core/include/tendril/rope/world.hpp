@@ -13,10 +13,10 @@
 //         draw(pose);
 //     }
 //
-// Frames are rarely a whole number of substeps long. The state is then up to one substep behind the frame,
-// by a different time in each: at 144 Hz, what moves at 10 m/s by up to 28 mm. Draw pose(), which is where
-// things are at the frame's own time, and add pending() to the seconds of what you move, so that it arrives
-// just then: what you hold and what hangs from it moves as evenly as your hand.
+// Frames are rarely a whole number of substeps long. The state is then up to one substep behind the frame, by
+// a different time in each: at 144 Hz up to 28 mm for a body at 10 m/s. Draw pose(), which gives positions at
+// the frame's own time, and add pending() to the seconds of each move, so that it arrives just then: a rope
+// in a hand then moves as evenly as the hand.
 //
 // A world is a value: a copy behaves like the original, bit for bit, so rollback is a copy and an assignment.
 // Scratch memory is in the workspace, on which no result depends.
@@ -27,14 +27,14 @@
 // and any number of threads.
 //
 // A refused editing call names the argument and its value, and leaves the world unchanged, as does one that
-// runs out of memory. advance() allocates nothing once the workspace has seen the world in its shape, unless
-// more colliders are near than ever before. If it runs out of memory, the world is sound, but the last
-// substep may be taken in part: State::substeps counts the whole ones. Of the time left, at most a substep
-// stays pending, and the rest is lost.
+// runs out of memory. advance() allocates nothing once the workspace has seen the world in its current shape,
+// unless more colliders are near than ever before. If it runs out of memory, the world stays valid, but the
+// last substep may be incomplete: State::substeps counts complete ones. At most a substep of the time left
+// stays pending; the rest is lost.
 //
-// Bodies that no link, tie or collision joins do not affect each other. Threads can share them, and a cloth
-// of 8 192 particles or more: Workspace::use_threads. A rope is solved on one thread. Two limits are shared
-// by such bodies in proportion to size: max_pass_work, and that on searches for a way out of colliders.
+// Bodies that no link, tie or collision joins do not affect each other, so threads can share them, and also a
+// cloth of 8 192 particles or more: Workspace::use_threads. A rope is solved on one thread. Such bodies share
+// two limits in proportion to size: max_pass_work, and the one on searches for a way out of colliders.
 #pragma once
 
 #include <span>
@@ -45,24 +45,24 @@
 
 namespace tendril::rope {
 
-/// What one call of advance() did.
+/// Report of one call of advance().
 struct Advance {
     int substeps = 0;
     std::uint64_t dropped = 0;  ///< substeps over longest_frame or max_substeps, not simulated
-    int passes = 0;  ///< of the solver over the linked bodies that took most, summed over substeps; Direct
+    int passes = 0;  ///< solver passes over the linked bodies that took most, summed over substeps; Direct
                      ///< may solve a single chain more often
     std::uint64_t work = 0;         ///< links solved and distances to colliders computed: where the time goes
     int shortened = 0;              ///< substeps in which max_pass_work cut passes
     std::uint64_t unresolved = 0;   ///< times a particle was left inside colliders: no way out exists, or the
                                     ///< search for one took too long
     std::uint64_t unconverged = 0;  ///< times lengths and contacts of a rope did not converge to 0.1 % in the
-                                    ///< available steps; what has no solution is stretched, and does not
-                                    ///< count
+                                    ///< available steps; a rope without a solution is stretched, and
+                                    ///< not counted
     std::uint64_t fallbacks = 0;    ///< times a body used the fallback, or a step was taken only in part
     std::uint64_t suspended = 0;    ///< times a body that nothing holds or touches did not fall freely: it is
                                     ///< at the edge of the world, or the solver held it
     std::uint64_t held_back = 0;    ///< times two segments, or a particle and a triangle, would have
-                                    ///< crossed, and were held back
+                                    ///< crossed and were held back
     double contact_loss = 0.0;      ///< joules that bodies near resting colliders lost beyond damping: to
                                     ///< contact, friction and the solver. Its rounding depends on threads
     bool refused = false;           ///< `seconds` was not a number from 0 to 1e9, or the workspace was moved
@@ -95,9 +95,8 @@ class World {
     Expected<BodyId> add_cloth(const ClothShape& shape);
     Expected<BodyId> add_hair(const HairShape& shape);
     Result remove(BodyId body) noexcept;
-    /// Moves a body by that much as it is, with its pins; velocities and tensions stay. Ties to other bodies
-    /// draw it back to them, and a collider that it is moved into pushes it out. Refuses a body that is
-    /// attached to a collider, which moves it.
+    /// Translates a body with its pins; velocities and tensions stay. Ties draw it back to other bodies, and
+    /// a collider that it is moved into pushes it out. Refuses a body that is attached to a collider.
     Result move(BodyId body, const glm::dvec3& by) noexcept;
 
     /// Null if there is none. The pointer is valid until a body is added or removed.
@@ -108,7 +107,7 @@ class World {
     /// Pins a particle and moves it evenly to `at` in the next `seconds` of simulated time; 0: within the
     /// next substep.
     Result pin(std::size_t particle, const glm::dvec3& at, double seconds = 0.0);
-    /// Pins a particle where it is to a collider, with which it then moves.
+    /// Pins a particle where it is; it then moves with the collider.
     Result attach(std::size_t particle, ColliderId collider);
     Result unpin(std::size_t particle) noexcept;
     bool pinned(std::size_t particle) const noexcept;
@@ -117,66 +116,66 @@ class World {
     /// returned.
     Expected<BodyId> cut(BodyId rope, std::size_t segment);
 
-    // A body's material can change while it hangs; it continues from its current state. For how finely it is
-    // divided see tendril/rope/edit.hpp.
+    // A body's material can change at any time; the body continues from its current state. For its resolution
+    // see tendril/rope/edit.hpp.
     Result set_radius(BodyId body, float metres) noexcept;
-    /// The sum of its particles' masses, which change in proportion. Kilograms, over 0 to 1e18.
+    /// Scales the particles' masses so that their sum is `kilograms`, over 0 to 1e18.
     Result set_mass(BodyId body, double kilograms) noexcept;
     double mass(const Body& body) const noexcept;
-    /// Of its material, min_density to 1e9: kg/m of a rope or strand, kg/m^2 of a cloth.
+    /// Density of its material, min_density to 1e9: kg/m of a rope or strand, kg/m^2 of a cloth.
     Result set_density(BodyId body, double density);
     double density(const Body& body) const;                                    ///< 0 for a body of length 0
     Result set_friction(BodyId body, std::optional<float> friction) noexcept;  ///< empty: the settings'
     /// Bending stiffness of a rope, N m^2, 0 to max_magnitude.
     Result set_bending(BodyId rope, float stiffness) noexcept;
-    /// Strain at which its links tear; 0: never.
+    /// Strain at which the body's links tear; 0: never.
     Result set_tear(BodyId body, float tear) noexcept;
-    /// Of its links of that kind, 0 to 1e9. Of stretch links that of its material, in addition to the
-    /// settings': strain per newton, 1/N, of a rope, a strand, or a strip of cloth a metre wide. Of the
-    /// others m/N of each link.
+    /// Compliance of its links of one kind, 0 to 1e9. Stretch: the material's, in addition to the settings':
+    /// strain per newton, 1/N, of a rope, a strand, or a strip of cloth a metre wide. Shear and bend: m/N of
+    /// each link.
     Result set_compliance(BodyId body, Link::Kind kind, double compliance);
-    double compliance(const Body& body, Link::Kind kind) const;  ///< of the first such link
-    /// Of a rope, a row of a cloth, a strand of hair: all of its links change in proportion, and its mass
-    /// with them. Metres; refused for a body of length 0.
+    double compliance(const Body& body, Link::Kind kind) const;  ///< from the first such link
+    /// Length of a rope, a row of a cloth, or a strand of hair, metres: all its links and its mass change in
+    /// proportion. Refused for a body of length 0.
     Result set_length(BodyId body, float metres);
     /// The same across the rows of a cloth.
     Result set_width(BodyId cloth, float metres);
-    double width(const Body& body) const;  ///< of a cloth, metres; 0 for others
+    double width(const Body& body) const;  ///< metres; 0 unless a cloth
 
-    /// Ties two particles, of one body or of two. Torn or with one of their bodies removed, ties are gone; a
-    /// cut leaves each on its particle. Refuses a particle tied to itself.
+    /// Ties two particles, of one body or of two. A tie is gone once it tears or one of its bodies is
+    /// removed; after a cut it stays on its particles. Refuses a particle tied to itself.
     Expected<TieId> tie(std::size_t a, std::size_t b, const TieShape& shape = {});
     Result set_tie(TieId tie, const TieShape& shape) noexcept;
     Result untie(TieId tie) noexcept;
     const Tie* find(TieId tie) const noexcept;
 
-    /// Whether two bodies, ropes or cloth, pass through each other, or one through itself. Initially they do.
-    /// See collision.hpp.
+    /// Sets whether two bodies, ropes or cloth, collide, or one with itself. By default they do not. See
+    /// collision.hpp.
     Result set_collides(BodyId a, BodyId b, bool on);
     bool collides(BodyId a, BodyId b) const noexcept;
 
     Expected<ColliderId> add_collider(const Shape& shape);
     /// Moves a collider evenly to `to` in the next `seconds` of simulated time, 0: within the next substep.
-    /// It pushes what it meets.
+    /// It pushes bodies in its way.
     Result move_collider(ColliderId collider, const glm::vec3& to, double seconds = 0.0) noexcept;
-    /// The same for both ends of a capsule, each along a straight line, so that it turns. Its radius becomes
-    /// that of `to` at once.
+    /// The same for both ends of a capsule, each along a straight line, so that it turns. It takes the radius
+    /// of `to` at once.
     Result move_capsule(ColliderId capsule, const Capsule& to, double seconds = 0.0) noexcept;
-    /// Moves and turns a collider steadily, in addition to the above, until it is told otherwise. A plane
-    /// stays where it is, and its surface moves along itself: a conveyor belt, a ground that passes by.
+    /// Moves and turns a collider steadily, in addition to the above, until the next call. A plane stays
+    /// where it is, and its surface moves along itself: a conveyor belt, a ground that passes by.
     Result drive_collider(ColliderId collider, const Drive& drive) noexcept;
     Result set_collider(ColliderId collider, const Shape& shape) noexcept;  ///< takes effect at once
-    /// Unpins what is attached to it.
+    /// Unpins the particles attached to it.
     Result remove_collider(ColliderId collider) noexcept;
     const Collider* find(ColliderId collider) const noexcept;
 
     /// Lets `seconds` pass, 0 to 1e9; time over settings().longest_frame is dropped and counted.
     Advance advance(double seconds, Workspace& workspace, const AdvanceOptions& options = {});
 
-    /// Seconds that have passed since the last substep: 0, or more and less than a substep.
+    /// Seconds that have passed since the last substep: at least 0, less than a substep.
     double pending() const noexcept;
-    /// Where the particles from `first` on are at the end of the frame, pending() after the last substep.
-    /// Fills `particles` as far as there are any. Pins are exactly where they were told to be then; free
+    /// Positions of the particles from `first` on at the end of the frame, pending() after the last substep.
+    /// Fills `particles` as far as there are any. Pins are exactly where their moves have them then; free
     /// particles go on as in the last substep, but no deeper into colliders. Without pending time these are
     /// the state's positions. O(particles x colliders).
     void pose(std::span<glm::dvec3> particles, std::size_t first = 0) const noexcept;
@@ -189,12 +188,12 @@ class World {
     /// Maximum relative length error of a body's stretch links as they are now. Includes the effect of
     /// depenetration, which Body::stretch does not.
     double length_error(const Body& body) const noexcept;
-    double length_error() const noexcept;  ///< of all bodies
+    double length_error() const noexcept;  ///< maximum over all bodies
     /// Kinetic, potential and elastic energy, joules, halfway through the last substep, where a leapfrog step
     /// conserves it. Potential energy is 0 at the origin.
     double energy(const Body& body) const noexcept;
-    double energy() const noexcept;  ///< of all bodies
-    /// The sum of a body's rest lengths, metres; for cloth and hair that of one row or strand.
+    double energy() const noexcept;  ///< sum over all bodies
+    /// The sum of a body's rest lengths, metres; for cloth and hair, of one row or strand.
     double length(const Body& body) const;
 
   private:

@@ -20,8 +20,6 @@
 // system can pass subspans. Compared with a loop of `step`, for 1e3 to 1e6 springs on one thread, minimum
 // over all kinds of damping (tests/bench/signal.cpp): 10 times the throughput with AVX-512, 6 times with
 // AVX2, 3.5 times with SSE4; interp_to at least 13 times, limited by memory.
-// kinds of damping (tests/bench/signal.cpp): 10 times the throughput with AVX-512, 6 times with AVX2, 3.5
-// times with SSE4; interp_to 13 times and more, where memory is the limit.
 #pragma once
 
 #include <span>

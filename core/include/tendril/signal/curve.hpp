@@ -39,7 +39,7 @@ struct CurveKey {
 struct Curve {
     /// Sorted by time, all different; at least one.
     std::vector<CurveKey> keys{{.time = 0.0, .value = 0.0}, {.time = 1.0, .value = 1.0}};
-    double source_min = 0.0, source_max = 1.0;  ///< equal: every value counts as source_min
+    double source_min = 0.0, source_max = 1.0;  ///< if equal, every value is taken as source_min
     double target_min = 0.0, target_max = 1.0;  ///< may be reversed
     bool operator==(const Curve&) const = default;
 };
@@ -54,7 +54,7 @@ Result check(const Curve& curve) noexcept;
 double evaluate_keys(const Curve& curve, double time) noexcept;
 
 /// Maps the source range to 0..1 (extrapolating), evaluates the keys, and maps 0..1 to the target range. A
-/// value that input.hpp refuses counts as source_min.
+/// value that input.hpp refuses is taken as source_min.
 double evaluate(const Curve& curve, double value) noexcept;
 
 /// As a filter: every step, including the first, returns evaluate(input).

@@ -39,7 +39,7 @@ using FilterState =
 /// See input.hpp. Does not check that parameters are in range: check() does.
 double step(const Filter& filter, FilterState& state, double input, double dt) noexcept;
 
-/// The first output after a reset: what the input alone gives, without any memory. 0 for a refused input.
+/// The first output after a reset: depends on the input alone. 0 for a refused input.
 double immediate(const Filter& filter, double input) noexcept;
 
 /// The last output; 0 before the first step.
@@ -52,8 +52,8 @@ Result check(const Filter& filter) noexcept;
 
 struct Kind {
     const char* name;            ///< "one_euro"
-    Filter (*blank)() noexcept;  ///< with every parameter's default
-    /// Of the struct that a filter of this kind holds; without the keys of a curve.
+    Filter (*blank)() noexcept;  ///< makes one with default parameters
+    /// The fields of the struct that a filter of this kind holds, without a curve's keys.
     std::span<const Field> fields;
 };
 
@@ -66,7 +66,7 @@ const Kind& kind_of(const Filter& filter) noexcept;
 /// memory out of bounds.
 void* fields_in(Filter& filter) noexcept;
 const void* fields_in(const Filter& filter) noexcept;
-/// The name of its kind.
+/// The name of the filter's kind.
 const char* kind(const Filter& filter) noexcept;
 
 }  // namespace tendril::signal

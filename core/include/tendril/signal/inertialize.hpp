@@ -23,9 +23,9 @@ struct Inertialize {
 
 struct InertializeState {
     double value = 0.0;     ///< the last output
-    double velocity = 0.0;  ///< of the output in the last step, 1/s
+    double velocity = 0.0;  ///< output velocity in the last step, 1/s
     double input = 0.0;     ///< the last input
-    double offset = 0.0;    ///< of the output from the input
+    double offset = 0.0;    ///< output minus input
     double offset_velocity = 0.0;
     bool jumped = false;  ///< in the last step: the input's velocity is not known yet
     bool started = false;

@@ -1,13 +1,13 @@
-// What every filter accepts, and what it does with anything else: one rule for the whole module.
+// The inputs that every filter accepts, and how it treats others: one rule for the whole module.
 //
 // A filter is a struct of parameters and a struct of state. `step(parameters, state, input, dt)` lets `dt`
 // seconds pass with that input and returns the output, which the state keeps as `value`.
 //
 // - A refused input (not finite, or over max_magnitude in magnitude) changes nothing: the step returns the
-//   last output. A caller that must know asks is_input first; it is the only criterion.
-// - A dt that is not finite, 0 or negative changes nothing either. Others are clamped to min_dt to max_dt.
-// - The first step after a reset (a fresh state) returns what the input alone gives, as each filter
-//   describes. With a refused dt it returns the same, but the filter has not started.
+//   last output. To know beforehand, call is_input; it is the only criterion.
+// - A dt that is not finite, 0 or negative changes nothing either. Others are clamped to [min_dt, max_dt].
+// - The output of the first step after a reset (a fresh state) depends on the input alone, as each filter
+//   describes. With a refused dt it is the same, but the filter has not started.
 // - Outputs are finite, and at most max_output in magnitude, for any parameters within their ranges (listed
 //   and checked by filter.hpp) and any inputs and times.
 //
@@ -28,8 +28,8 @@ inline constexpr double min_dt = 1e-9, max_dt = 1e9;
 /// spring.
 inline constexpr double max_output = 1e30;
 
-/// Whether filters accept it: finite, and at most max_magnitude (1e9) in magnitude. Rotations: finite, with a
-/// length between 1e-3 and 1e3; they need not be normalised.
+/// Whether filters accept a value: finite, and at most max_magnitude (1e9) in magnitude. Rotations: finite,
+/// with a length between 1e-3 and 1e3; they need not be normalised.
 bool is_input(double value) noexcept;
 bool is_input(float value) noexcept;
 bool is_input(const glm::vec3& value) noexcept;
@@ -37,7 +37,7 @@ bool is_input(const glm::dvec3& value) noexcept;
 bool is_input(const glm::quat& value) noexcept;
 bool is_input(const glm::dquat& value) noexcept;
 
-/// Whether time passes: finite and over 0.
+/// Whether time passes in a step: `dt` is finite and over 0.
 bool is_step(double dt) noexcept;
 
 /// The state of a filter that remembers only its output.

@@ -1,8 +1,8 @@
 // The costs and benefits of a filter, measured on a given input: lag, overshoot, settling time, jitter. Pure
 // functions over rows. A measure that the input cannot determine is empty.
 //
-// Lag, overshoot and settling time compare the output with what the filters return without memory
-// (immediate(), run.hpp), so a filter that scales or bends is not penalised for that.
+// Lag, overshoot and settling time compare the output with the filters' output without memory (immediate(),
+// run.hpp), so a filter that scales or bends is not penalised for that.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ struct Response {
     std::span<const double> output;
 };
 
-/// Whether the output follows what is wanted, and so can be measured.
+/// Whether the output follows `wanted`, and so can be measured.
 enum class Following {
     Unknown,        ///< `wanted` does not change, or there are fewer than 3 rows
     Follows,        ///< lag() finds a shift
@@ -52,17 +52,17 @@ struct Step {
 /// thousandth of the span for at least two more rows.
 std::vector<Step> steps_of(const Response& response);
 
-/// How far the output goes beyond a step, relative to the step: the maximum over all steps, 0 without
-/// overshoot. Empty without steps.
+/// Overshoot of the output, relative to the step: the maximum over all steps, 0 without overshoot. Empty
+/// without steps.
 std::optional<double> overshoot(const Response& response);
 
 /// Seconds from a step until the output stays within 2 % of it: the maximum over all steps. Empty without
 /// steps, or if the output has not settled when the input moves on.
 std::optional<double> settling_time(const Response& response);
 
-/// The remaining part of the input's jitter: the root mean square of the changes of slope of `output` over
-/// that of `input`. Slopes rather than differences, so that uneven times are handled. Empty if the input has
-/// none.
+/// The remaining part of the input's jitter: the root mean square of the changes of slope of `output`, over
+/// the same for `input`. Slopes rather than differences, to allow for uneven times. Empty if the input has no
+/// jitter.
 std::optional<double> jitter(std::span<const double> time, std::span<const double> input,
                              std::span<const double> output);
 
@@ -75,7 +75,7 @@ struct Measures {
     std::optional<double> jitter;         ///< relative to the input's
     double rate_difference = 0.0;         ///< compare_rates()
 };
-/// For existing rows; `input` is that of jitter(). Leaves rate_difference at 0.
+/// Measures existing rows; `input` as in jitter(). Leaves rate_difference at 0.
 Measures measure(const Response& response, std::span<const double> input);
 /// All measures of a list of filters on one input. Cost: 0.2 to 0.4 ms for 600 rows, most of it for lag and
 /// the frame rates.

@@ -1,6 +1,6 @@
 // Maps a number to another range, clamps it and eases to it: the node Alpha Interpolate of animation graphs.
 //
-// In this order: map_range, scale and bias, clamp, interp. Cost: a few ns.
+// The stages, in order: map_range, scale and bias, clamp, interp. Cost: a few ns.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct ScaleBiasClamp {
     /// 2. Always: `value * scale + bias`.
     double scale = 1.0;
     double bias = 0.0;
-    /// 3. To [clamp_min, clamp_max]; clamp_min must not exceed clamp_max.
+    /// 3. Clamps to [clamp_min, clamp_max]; clamp_min must not exceed clamp_max.
     bool clamp = false;
     double clamp_min = 0.0;
     double clamp_max = 1.0;

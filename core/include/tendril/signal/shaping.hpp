@@ -6,14 +6,14 @@
 
 namespace tendril::signal {
 
-/// 0 within `width` of 0, `sign(x) (|x| - width)` outside: the play of a stick.
+/// 0 within `width` of 0, `sign(x) (|x| - width)` outside. Hides the play of a joystick.
 struct DeadZone {
     double width = 0.1;  ///< 0 to 1e9
     bool operator==(const DeadZone&) const = default;
 };
 double step(const DeadZone& parameters, OutputState& state, double input, double dt) noexcept;
 
-/// 1 from `high` up, 0 from `low` down, unchanged in between; 0 at first: a switch that does not flicker.
+/// 1 from `high` up, 0 from `low` down, unchanged in between, and 0 at first: a switch that does not flicker.
 /// `low` must not exceed `high`; if they are equal, that value gives 1.
 struct Hysteresis {
     double low = 0.4;   ///< -1e9 to 1e9

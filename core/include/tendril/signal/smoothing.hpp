@@ -1,5 +1,5 @@
-// The filters that smooth: what games put between a noisy or jumping number and the screen. Springs,
-// interp_to and inertialize have files of their own.
+// Smoothing filters, which games put between a noisy or jumping number and the screen. Springs, interp_to and
+// inertialize have files of their own.
 //
 // The first step of each returns the input. Cost: 5 to 30 ns each.
 #pragma once
@@ -41,15 +41,15 @@ struct MotionState {
 /// there, velocity 0. Not exact: one step of 0.5 s with smooth_time 0.1 s goes 0.9626 of the way, a spring
 /// 0.9995.
 struct SmoothDamp {
-    double smooth_time = 0.1;  ///< s, 0 to 1e4; under 1e-4 counts as that
+    double smooth_time = 0.1;  ///< s, 0 to 1e4; under 1e-4 counts as 1e-4
     double max_speed = 1e6;    ///< 1/s, 0 to 1e9
     bool operator==(const SmoothDamp&) const = default;
 };
 double step(const SmoothDamp& parameters, MotionState& state, double input, double dt) noexcept;
 
-/// The spring that most games write: velocity first, then position (semi-implicit Euler). Unstable if (w
-/// dt)^2 + 4 z w dt is over 4: at 8 Hz and damping 1 under 60.7 frames per second. Its output then oscillates
-/// ever wider, up to max_output.
+/// The spring found in most games: velocity first, then position (semi-implicit Euler). Unstable if (w dt)^2
+/// + 4 z w dt is over 4: at 8 Hz and damping 1 under 60.7 frames per second. Its output then oscillates ever
+/// wider, up to max_output.
 struct SpringSemiImplicit {
     double strength = 4.0;          ///< Hz, 0 to 1e4
     double critical_damping = 1.0;  ///< 0 to 1e3
@@ -87,8 +87,8 @@ struct MovingAverageState {
     bool started = false;
     // A queue with a running sum, as two stacks: nothing is ever subtracted, so no rounding error remains.
     std::vector<Entry> entries{};           ///< oldest first
-    std::size_t first = 0;                  ///< entries before it have left the window
-    std::size_t split = 0;                  ///< entries before it have their sums
+    std::size_t first = 0;                  ///< entries before this one have left the window
+    std::size_t split = 0;                  ///< entries before this one have their sums
     double new_time = 0.0, new_area = 0.0;  ///< sums of the entries from `split` on
     bool operator==(const MovingAverageState&) const = default;
 };

@@ -10,7 +10,7 @@
 // the result is continuous across critical damping.
 //
 // A target in steady motion is followed with a lag of 2 z (1 - target_velocity_amount) / w - dt / 2: the
-// target counts as still within a step, which gains half a frame.
+// target is taken as still within a step, which gains half a frame.
 //
 // Rotations: the spring acts on the rotation vector (axis times angle) from target to value, the short way
 // round. Velocity and force are rotation vectors too (rad/s, rad/s^2), in the space of the values.
@@ -42,7 +42,7 @@ struct RateOf<glm::dquat> {
 template <class T>
 using Rate = typename RateOf<T>::type;
 
-/// Limits of Hz and damping ratio. Under no_strength there is neither spring nor damping.
+/// Limits of strength (Hz) and damping ratio. Under no_strength there is neither spring nor damping.
 inline constexpr double max_strength = 1e4, max_damping = 1e3, no_strength = 1e-5;
 
 /// T: double, float, glm::dvec3, glm::vec3, glm::dquat or glm::quat. A parameter out of range leaves the
@@ -54,7 +54,7 @@ struct Spring {
     double strength = 4.0;
     /// Damping ratio, 0 to 1e3: 0 oscillates for ever, 1 is the fastest without overshoot.
     double critical_damping = 1.0;
-    /// On a mass of 1, at most max_magnitude: shifts the target by force / w^2.
+    /// Force on a mass of 1, at most max_magnitude: shifts the target by force / w^2.
     Rate<T> force{};
     /// 0 to 1, how much the target's velocity is anticipated: at 1 steady motion is followed without lag, and
     /// jumps overshoot.
@@ -105,10 +105,10 @@ SpringFeel feel_of(double strength, double critical_damping) noexcept;
 struct SpringShape {
     double strength = 4.0, critical_damping = 1.0;
 };
-/// The spring with that half-life at that damping, which is kept. InvalidArgument if the damping is not over
-/// 0 and at most 1000, the half-life is not over 0, or the strength would be over 1e4 Hz.
+/// The spring with this half-life at the given damping. InvalidArgument if the damping is not over 0 and at
+/// most 1000, the half-life is not over 0, or the strength would be over 1e4 Hz.
 Expected<SpringShape> of_half_life(double half_life, double critical_damping) noexcept;
-/// The spring with that duration and bounce. InvalidArgument if the duration is not from 1e-4 to 1e9 s, or
+/// The spring with this duration and bounce. InvalidArgument if the duration is not from 1e-4 to 1e9 s, or
 /// the bounce not from -0.999 to 1.
 Expected<SpringShape> of_duration(double duration, double bounce) noexcept;
 
