@@ -2,6 +2,7 @@
 // scenes break nothing, and replaying them gives the same result.
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <random>
 
 #include "app/document/command.hpp"
@@ -151,6 +152,7 @@ TEST_P(EveryScene, OpensAsItWasSavedAndGoesOnWhateverWasDoneToIt) {
         for (int i = 0; i < 20; ++i) monkey.edit(), monkey.act();
         const Event release = MousePress{MouseButton::Left, false};
         app.tick(&release);
+        app.run({"time.speed", Json{{"factor", seed % 2 == 0 ? 1.0 : 0.5}}});
         expect_opens_again(app.workspace(), true);
     }
 }
@@ -242,20 +244,36 @@ TEST_P(EveryScene, IsUndoneToWhereItBegan) {
     EXPECT_EQ(save_scene(app.workspace()).at("labs"), blank);
 }
 
-/// Values of a saved scene, chosen at random, become one of another type or size: the scene is refused with
-/// the path of what is wrong, or read whole.
+/// The values of a saved scene by kind: their path without indices, so that a cloth's thousand coordinates
+/// are chosen as seldom as its one radius.
+std::vector<std::vector<std::string>> paths_by_kind(const Json& scene, const std::string& lab) {
+    std::map<std::string, std::vector<std::string>> kinds;
+    const Json flat = scene.at("labs").at(lab).flatten();
+    for (const auto& [path, value] : flat.items()) {
+        std::string kind;
+        for (const char letter : path)
+            if (letter < '0' || letter > '9') kind += letter;
+        kinds[kind].push_back("/labs/" + lab + path);
+    }
+    std::vector<std::vector<std::string>> all;
+    for (auto& [kind, paths] : kinds) all.push_back(std::move(paths));
+    return all;
+}
+
+/// Random values of a saved scene get another type or size: the scene is refused with the value's path, or
+/// read whole.
 TEST_P(EveryScene, IsRefusedWithThePathOfWhatIsWrongOrReadWhole) {
     const Labs labs = all_labs();
     const auto window = open_offscreen({640, 480});
     App app(*window, false, all_labs());
     set_up(app, GetParam());
     for (int i = 0; i < 3; ++i) app.tick(nullptr);
-    const Json scene = save_scene(app.workspace()), flat = scene.at("labs").at(GetParam().lab).flatten();
-    std::vector<std::string> paths;
-    for (const auto& [path, value] : flat.items()) paths.push_back("/labs/" + GetParam().lab + path);
+    const Json scene = save_scene(app.workspace());
+    const auto kinds = paths_by_kind(scene, GetParam().lab);
     const Json others[]{nullptr, true, -1, 0, 2.5, 1e8, 3e9, 1e300, "text", Json::array(), Json::object()};
     std::mt19937 random(7);
-    for (int i = 0; i < 60 / sanitizer_factor && !HasFailure(); ++i) {
+    for (int i = 0; i < 30 / sanitizer_factor && !HasFailure(); ++i) {
+        const std::vector<std::string>& paths = kinds[random() % kinds.size()];
         const std::string& path = paths[random() % paths.size()];
         Json changed = scene;
         changed[Json::json_pointer(path)] = others[random() % std::size(others)];

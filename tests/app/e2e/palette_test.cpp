@@ -9,6 +9,7 @@
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/shell/ui.hpp"
 #include "tests/app/support/play.hpp"
+#include "tests/app/support/program.hpp"
 
 namespace tendril::test {
 namespace {
@@ -187,7 +188,7 @@ TEST_F(PaletteTest, HostileLinesCrashNothing) {
                           "name", "mode=", "length=", "index=", "%s%n", "999999999999999999"};
     const char* keys[] = {"tab", "enter", "up", "down", "backspace", "left", "home", "end"};
     const auto& all = app_.commands().all();
-    for (int i = 0; i < 600; ++i) {
+    for (int i = 0; i < 600 / sanitizer_factor; ++i) {
         if (!is_open()) open();
         std::string line = below(2) == 0 ? all[below(all.size())].name + " " : "";
         for (std::size_t n = below(8); n > 0; --n) line += bits[below(std::size(bits))];
