@@ -86,7 +86,7 @@ void LiveLoop::run(Player& player, std::optional<int> frames) {
         last = now;
         keep_house();
     }
-    // A user who quits was asked about unsaved work; if the program was ended from outside, keep it.
+    // Keep unsaved work if the program was ended from outside; a user who quits was already asked.
     const bool keeps = options_.ending || (!app_.quit() && !app_.workspace().path.empty());
     if (autosave_) autosave_->end(app_.workspace(), keeps);
 }

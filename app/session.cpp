@@ -57,7 +57,7 @@ Outputs check_outputs(const SessionOptions& options) {
         check_writable(path);
         outputs.own(path, Outputs::stamp_of(path));
     }
-    outputs.in_window = !options.headless;  // what is refused so far cannot be asked for again
+    outputs.in_window = !options.headless;  // refusals so far cannot be asked for again
     return outputs;
 }
 
@@ -71,12 +71,12 @@ Script read_script(const SessionOptions& options, const CommandTable& commands) 
     }
 }
 
-/// Nothing to undo or to save: the file is where the session starts.
+/// Leaves nothing to undo or to save: the session starts with the file.
 void open_given(App& app, const std::string& file) {
     Workspace& workspace = app.workspace();
     if (file_route(app.labs(), file).lab == nullptr) {
         load_scene_file(workspace, file);
-        for (const Toast& each : workspace.ui.toasts)  // what it starts without
+        for (const Toast& each : workspace.ui.toasts)  // the labs that start blank
             if (!workspace.outputs.in_window) complain(each.text);
         return;
     }
@@ -85,7 +85,7 @@ void open_given(App& app, const std::string& file) {
     app.commands().find("file.open")->finish(workspace);
     workspace.saved = workspace.document;
     workspace.history.clear();
-    if (workspace.beginnings == beginnings) workspace.start_anew();  // else the file has a past of its own
+    if (workspace.beginnings == beginnings) workspace.start_anew();  // else opening it began a new scene
 }
 
 void open_scene(App& app, const SessionOptions& options) {
@@ -101,7 +101,7 @@ void open_scene(App& app, const SessionOptions& options) {
     app.settle();
 }
 
-/// The start is the first line of its recording.
+/// Starts from the state in the recording's first line.
 void start_recorded(App& app, const SessionOptions& options, const RecordingStart& start) {
     try {
         app.start_from(start);
@@ -111,14 +111,14 @@ void start_recorded(App& app, const SessionOptions& options, const RecordingStar
     }
 }
 
-/// Under another name if another program has put a file there meanwhile: what was done cannot be done again.
+/// Takes another name if another program has put a file there meanwhile: the session cannot be repeated.
 void write_recording(App& app, const std::filesystem::path& wanted) {
     const auto [path, refusal] = app.workspace().writes().place_at_end(wanted, OutputKind::Recording);
     write_file_atomically(path, app.recording());
     if (!refusal.empty()) throw std::runtime_error(refusal + "; the recording is in " + path.string());
 }
 
-/// Writes all of them, then reports the first failure.
+/// Writes all outputs, then reports the first failure.
 void write_outputs(App& app, const SessionOptions& options) {
     app.workspace().outputs.in_window = false;
     std::exception_ptr failure;

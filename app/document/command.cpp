@@ -8,8 +8,8 @@
 namespace tendril::app {
 namespace {
 
-/// "chain.remove: index 9 is out of range": omits the operation's name with which the library's messages
-/// begin if the command's name already contains it.
+/// "chain.remove: index 9 is out of range". The library's messages begin with the operation's name; it is
+/// omitted if the command's name already contains it.
 std::string refusal_text(const std::string& command, std::string what) {
     const std::string operation = what.substr(0, what.find(": "));
     if (operation.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") != std::string::npos ||
@@ -31,7 +31,7 @@ void remember(Workspace& workspace, const Document& changed, const Command& comm
     workspace.history.push(changed, command.name, gesture, from, to);
 }
 
-/// A scene's JSON that could not be read is kept only while its lab is left alone.
+/// Drops the kept JSON of a lab that could not be read once a command edits that lab.
 void forget_unread(Workspace& workspace, const Document& before) {
     const Document edited_document = workspace.document;
     for (const auto& [lab, part] : edited_document.parts()) {
@@ -85,7 +85,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     if (command == nullptr) throw UnknownCommand("unknown command \"" + std::string(name) + "\"");
     check_arguments(*command, arguments);
 
-    const Document before = workspace.document;  // parts are shared: a few pointers
+    const Document before = workspace.document;  // copies pointers only: parts are shared
     const Place from = workspace.place();
     workspace.gesture_begins = !workspace.history.is_open(gesture);
     const bool modified = workspace.modified();
@@ -101,7 +101,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     if (command->effect == Effect::Replace) return;
     if (command->effect == Effect::Edit) {
         forget_unread(workspace, before);
-        if (beginnings == workspace.beginnings) {  // else the command has made the past itself
+        if (beginnings == workspace.beginnings) {  // else the command has set up the past itself
             const auto& part = before.parts().at(workspace.lab);
             workspace.discard_later(part);
             if (part != workspace.document.parts().at(workspace.lab))

@@ -30,7 +30,7 @@ struct SkinJoint {
 
 /// Weights of morphs over a clip's time.
 struct MorphTrack {
-    std::size_t first = 0, count = 0;  ///< of the mesh's morphs
+    std::size_t first = 0, count = 0;  ///< a range of the mesh's morphs
     humanoid::Interpolation interpolation = humanoid::Interpolation::Linear;
     std::vector<double> times{};   ///< as a clip's
     std::vector<double> values{};  ///< `count` per key; cubic: three times that, as in a clip
