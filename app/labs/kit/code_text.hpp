@@ -14,7 +14,7 @@
 
 namespace tendril::app {
 
-/// The shortest decimal that reads back as this very number: "0.1", "0.1f". Must be finite.
+/// The shortest decimal that reads back as exactly this number: "0.1", "0.1f". Must be finite.
 std::string double_text(double value);
 std::string literal(float value);
 /// "{1.0f, 2.0f, 3.0f}", "{1.0, 2.0, 3.0}"
@@ -31,12 +31,12 @@ std::string pascal_text(std::string_view name);
 /// ".damping = 0.5" for each field that is not NaN, in table order. Members must be named like their fields.
 /// Choices are enumerators of `scope`: "rope::Solver::".
 std::vector<std::string> member_texts(FieldsOf of, const std::string& scope = {});
-/// "true", "{1.0, 0.0, 0.0}": an initialiser of every member, by position. So the table must have all of
-/// them, in the order of their declaration; its lists are std::array.
+/// "true", "{1.0, 0.0, 0.0}": an initialiser of every member, by position. The table must list all members,
+/// in the order of their declaration; its lists are std::array.
 std::vector<std::string> initialisers(FieldsOf of, const std::string& scope = {});
-/// The same of each element of a list.
+/// The same for each element of a list.
 std::vector<std::string> element_texts(const Field& field, const void* object, const std::string& scope = {});
-/// Separated by ", ".
+/// The texts, separated by ", ".
 std::string joined(const std::vector<std::string>& texts);
 
 /// ".kind = ik::JointKind::Hinge, ...": the members that are not at their default.

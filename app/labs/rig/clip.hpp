@@ -40,7 +40,7 @@ std::string left_text(double mm, double degrees, double scale);
 // that the window stays responsive; the part stores the progress.
 
 inline constexpr double max_rate_seconds = 10.0;
-inline constexpr std::size_t max_rate_frames = 1000;  ///< of the slowest rate
+inline constexpr std::size_t max_rate_frames = 1000;  ///< at the slowest rate
 
 /// Starts comparing the first `ticks` ticks of the take. Throws std::invalid_argument if that takes too long.
 void start_rates(RigPart& part, std::uint32_t ticks);

@@ -1,7 +1,7 @@
 // The nodes of an FBX file that form the skeleton, and their transforms in it.
 //
-// The skeleton is what skins are bound to (without a skin: limbs and what is animated), what is above, and
-// what hangs on it. Cameras, lights, their targets, and nodes that only hold meshes are omitted.
+// The skeleton: the nodes that skins are bound to (without a skin: limbs and animated nodes), their
+// ancestors, and what hangs on them. Cameras, lights, their targets and nodes with meshes only are omitted.
 //
 // A skeleton's nodes inherit all of their parent's scale. A node with another InheritType has its scale
 // divided by the parent's. Where that would need shear, because the parent's scale is not uniform, the parent
