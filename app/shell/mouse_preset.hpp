@@ -13,7 +13,7 @@ namespace tendril::app {
 enum class MousePreset { Tendril, Blender, Maya };
 MousePreset mouse_preset(const Settings& settings);
 
-/// What the wheel, or two fingers on a touchpad, do in the view. If they pan, they zoom while Ctrl is held.
+/// The effect of the wheel, or two fingers on a touchpad, in the view. Pan: they zoom while Ctrl is held.
 enum class Scroll { Zoom, Pan };
 Scroll scroll_action(const Settings& settings);
 
