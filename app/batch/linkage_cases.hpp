@@ -4,7 +4,7 @@
 //    "drivers": {"crank": {"from": 0, "to": 360, "step": 15}}}
 //   {"linkage": "delta", "targets": {"platform": [[0, 0, -0.5], [0.1, 0, -0.5]]}}
 //
-// "linkage" is a preset, with "lengths" for the links that differ, or a linkage as in a scene file. A
+// "linkage" is a preset, with "lengths" where they differ from it, or a linkage as in a scene file. A
 // driver's value is a number (degrees or metres), a list of them or a range; a target's is a point or a list.
 // A list gives a row per element, each from the pose before; all lists of a case are equally long.
 #pragma once
