@@ -107,7 +107,7 @@ void LiveLoop::sample(std::vector<Event> events) {
                 continue;
             }
         }
-        // Of several moves between two ticks only the last counts.
+        // If several moves arrive between two ticks, only the last counts.
         if (is_move(event) && !queue_.empty() && is_move(queue_.back())) queue_.pop_back();
         queue_.push_back(std::move(event));
     }

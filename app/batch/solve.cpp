@@ -29,7 +29,7 @@ struct Row {
     ik::Report report;
     double microseconds;
     const std::vector<glm::vec3>& joints;
-    std::optional<ik::CurveReport> curve{};  ///< of a case that places a chain along a curve
+    std::optional<ik::CurveReport> curve{};  ///< the curve report, if the case places a chain along a curve
     const LinkageCase* linkage = nullptr;    ///< the linkage in its present pose, if the case is one
     std::string reason{};                    ///< for InvalidInput: what the library refuses, and where
 

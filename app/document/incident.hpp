@@ -32,7 +32,7 @@ struct Incident {
     Kind kind = Kind::Status;
     std::uint64_t tick = 0;        ///< happened between this tick's moment and the next
     std::size_t joint = no_joint;  ///< no_joint for a refusal
-    std::string name{};            ///< of the affected bone, control or unit, if it has one
+    std::string name{};            ///< name of the affected bone, control or unit, if it has one
     float degrees = 0.0f;          ///< a flip: how far a bone at the joint turned; a limit: its angle; else 0
     std::string cause;             ///< for display: "the chain was straight (collinear)"
     std::string cure{};            ///< for display, a sentence; empty if there is none

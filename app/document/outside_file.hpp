@@ -17,7 +17,7 @@ namespace tendril::app {
 struct OutsideFile {
     std::string file{};                    ///< as the user gave it; empty: there is none
     std::string path{};                    ///< absolute
-    std::optional<std::uint32_t> crc32{};  ///< of the file's bytes
+    std::optional<std::uint32_t> crc32{};  ///< checksum of the file's bytes
     bool operator==(const OutsideFile&) const = default;
 };
 

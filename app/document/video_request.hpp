@@ -30,7 +30,7 @@ struct VideoRequest : PictureLook {
     int from = 0;                        ///< ticks of 1/60 s before the newest moment in Rewind
     int to = 0;                          ///< likewise, less than `from`
     int every = 2;                       ///< ticks from one frame to the next
-    double speed = 1.0;                  ///< of playback; 0.5 is slow motion
+    double speed = 1.0;                  ///< playback speed; 0.5 is slow motion
 
     /// Set for frames that a lab shows instead of the last seconds: their number, and the function that shows
     /// one in a copy of the workspace. It returns false if the frame looks like the one before.

@@ -1,5 +1,5 @@
-// Finds the lab that opens a file. Each lab lists what it reads (Lab::files()); file.open finds the lab by
-// the file's ending, or by its text if that does not decide, and opens the file there.
+// Finds the lab that opens a file. Each lab lists its kinds of file (Lab::files()); file.open finds the lab
+// by the file's ending, or by its text if that does not decide, and opens the file there.
 #pragma once
 
 #include <filesystem>

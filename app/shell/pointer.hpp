@@ -23,7 +23,7 @@ class Pointer {
         const Workspace& workspace;
         const Lab& lab;
         const Camera& camera;
-        const DrawList& drawn;    ///< the last picture: the user picks what is visible
+        const DrawList& drawn;    ///< the last picture: the user picks among the visible objects
         bool over_panel = false;  ///< the mouse belongs to a panel
         float scale = 1.0f;       ///< multiplies all sizes in pixels
         std::size_t pane = 0;     ///< the pane that the mouse is in

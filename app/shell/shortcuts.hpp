@@ -1,5 +1,5 @@
-// The single table of keys and mouse gestures: the shell's rows and those of every lab. The handlers, the
-// menu, the help overlay, the tooltips and the README's list all come from it.
+// The single table of keys and mouse gestures: the shell's rows and every lab's. The handlers, the menu, the
+// help overlay, the tooltips and the README's list all come from it.
 #pragma once
 
 #include <optional>

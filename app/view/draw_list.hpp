@@ -59,7 +59,7 @@ struct DrawList {
     std::vector<Label> labels;
     Mesh mesh{};
     std::vector<SkinDraw> skins{};  ///< drawn with the mesh, or over the scene's strokes if transparent
-    Mesh veil{};                    ///< of the scene, transparent: everything behind it shows
+    Mesh veil{};                    ///< transparent surfaces of the scene: everything behind them shows
     Mesh overlay{};                 ///< over the scene, under the overlay strokes
 
     void clear() {

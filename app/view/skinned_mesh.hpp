@@ -34,7 +34,7 @@ struct Picture {
 
 /// Triangles with one material.
 struct SkinPart {
-    std::uint32_t first = 0, count = 0;  ///< of the indices
+    std::uint32_t first = 0, count = 0;  ///< range of the indices
     glm::vec4 colour{0.8f, 0.8f, 0.8f, 1.0f};
     std::int32_t picture = -1;  ///< multiplies the colour; -1: none
     float cutoff = 0.0f;        ///< fragments with a smaller alpha are discarded

@@ -23,7 +23,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr float name_share = 0.38f;  ///< of the row's width, if name and field are side by side
+constexpr float name_share = 0.38f;  ///< fraction of the row's width, if name and field are side by side
 
 /// Too narrow for a name and a field side by side at the current text size.
 bool narrow() {

@@ -125,7 +125,7 @@ LengthUnit guess_unit(double height);
 /// An implausible height of a person at rest, and the unit that corrects it.
 struct UnitDoubt {
     double height;    ///< metres
-    LengthUnit unit;  ///< of the common units, or a nameless one that makes the person 1.75 m tall
+    LengthUnit unit;  ///< one of the common units, or a nameless one that makes the person 1.75 m tall
     double then;      ///< the height with that unit
 };
 /// A character with a usable bone map is a person; a height under 0.5 m or over 3 m is in doubt. `scale`:

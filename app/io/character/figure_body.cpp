@@ -24,7 +24,7 @@ constexpr float lowered = 0.7f;  // radians; the arms of the bind pose against t
 
 /// A cross-section: between two joints, or at one of them, and offset from it.
 struct FigureSection {
-    Bone from, to;  ///< of the left side
+    Bone from, to;  ///< joints of the left side
     float along;    ///< 0: at `from`; 1: at `to`
     vec3 beside;    ///< metres on a figure of 1.8 m; x: away from the middle
     float width, depth;

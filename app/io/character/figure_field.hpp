@@ -23,7 +23,7 @@ class BodyField {
     using Distances = std::array<float, max_groups>;
 
     float blend = 0.03f;  ///< cones closer than this melt into one
-    float floor = -1e9f;  ///< cuts off what is lower
+    float floor = -1e9f;  ///< cuts off everything lower
 
     /// Adds a smooth tube through the sections. Chains of one group must be added one after the other.
     void add_chain(std::size_t group, std::span<const BodySection> sections);

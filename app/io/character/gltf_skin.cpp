@@ -89,7 +89,7 @@ class GltfSkinReader {
     }
 
   private:
-    /// The joints that move a mesh: those of its skin, from `first` in the builder's list, or a single one.
+    /// The joints that move a mesh: its skin's, from `first` in the builder's list, or a single one.
     struct Binding {
         std::size_t first = 0, count = 1;
     };

@@ -12,7 +12,7 @@
 namespace tendril::app {
 
 struct GltfNodes {
-    std::vector<std::int32_t> parents;  ///< of the file's nodes
+    std::vector<std::int32_t> parents;  ///< parents of the file's nodes
     std::vector<std::int32_t> place;    ///< index in the skeleton of each of the file's nodes; -1: not in it
 };
 

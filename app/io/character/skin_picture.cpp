@@ -18,7 +18,7 @@ namespace tendril::app {
 namespace {
 
 constexpr int longest_side = 2048;
-constexpr std::size_t max_pixels = std::size_t{1} << 26;  // of one picture, before it is halved: 256 MB
+constexpr std::size_t max_pixels = std::size_t{1} << 26;  // one picture's, before it is halved: 256 MB
 /// A byte of a PNG is at most 1032 bytes of rows (zlib, RFC 1951) of eight pixels each; of a JPEG it is less.
 constexpr std::size_t max_pixels_of_byte = 8 * 1032;
 

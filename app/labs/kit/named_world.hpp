@@ -126,7 +126,7 @@ class NamedWorld {
     std::size_t size() const { return world_.size(); }
     // In single precision, for drawing: where things are at the frame's own time (rope::World::pose).
     glm::vec3 position(std::size_t particle) const;
-    std::vector<glm::vec3> positions() const;  ///< of all particles
+    std::vector<glm::vec3> positions() const;  ///< all particles'
     rope::Shape shape(const rope::Collider& collider) const { return world_.pose(collider); }
     glm::vec3 velocity(std::size_t particle) const { return glm::vec3(world_.velocity(particle)); }
     double length_error(const rope::Body& body) const { return world_.length_error(body); }
@@ -146,7 +146,7 @@ class NamedWorld {
 
     rope::World world_;
     std::vector<std::string> bodies_, colliders_, ties_;  ///< by slot
-    std::vector<BodyColour> colours_;                     ///< of bodies, by slot
+    std::vector<BodyColour> colours_;                     ///< bodies' colours, by slot
 };
 
 }  // namespace tendril::app

@@ -13,8 +13,8 @@ namespace tendril::app {
 /// bones, or if the clip would be too large or take too long.
 RigClip record_clip(const RigPart& part, std::size_t frames, rig::Workspace& scratch);
 
-/// Starts a backward solve of the clip. Throws std::invalid_argument if there is no clip, if its bones are
-/// not those of the rig, or if a single frame would take too long.
+/// Starts a backward solve of the clip. Throws std::invalid_argument if there is no clip, if its bones differ
+/// from the rig's, or if a single frame would take too long.
 void start_clip_solve(RigPart& part);
 /// Throws what start_clip_solve would throw.
 void check_clip_solve(const RigPart& part);

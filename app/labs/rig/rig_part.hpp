@@ -65,7 +65,7 @@ struct FrameLeft {
 struct ClipSolve {
     bool running = true;
     std::vector<FrameLeft> left;       ///< one per frame so far
-    std::vector<rig::Value> controls;  ///< of the last frame solved; the next one starts there
+    std::vector<rig::Value> controls;  ///< values in the last frame solved; the next one starts there
     std::size_t done() const { return left.size(); }
     bool operator==(const ClipSolve&) const = default;
 };
@@ -165,7 +165,7 @@ struct RigPart final : Part {
     bool moving = false;
     std::optional<BackwardLeft> backward;
     RigTake take;                ///< `state` is its state at `take.tick`
-    std::vector<RigWalk> walks;  ///< of existing controls only
+    std::vector<RigWalk> walks;  ///< walks of existing controls only
     std::optional<RateDifference> rates;
     std::shared_ptr<const RigClip> clip;         ///< null if none was recorded
     std::shared_ptr<const ClipSolve> clip_left;  ///< null if it was not solved

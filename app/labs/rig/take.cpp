@@ -87,7 +87,7 @@ std::shared_ptr<const std::vector<TakeKey>> shared(std::vector<TakeKey> keys) {
     return keys.empty() ? nullptr : std::make_shared<const std::vector<TakeKey>>(std::move(keys));
 }
 
-/// The keys that have taken effect. Excludes those of the current tick that are not applied yet.
+/// The keys that have taken effect. Excludes keys of the current tick that are not applied yet.
 std::vector<TakeKey> keys_so_far(const RigPart& part) {
     const RigTake& take = part.take;
     if (!take.keys) return {};
@@ -119,7 +119,7 @@ bool go_from_known(RigPart& part, std::uint32_t tick, RigRuntime& runtime) {
     return true;
 }
 
-/// Undoes the keys of the current tick. `keys`: those of earlier ticks.
+/// Undoes the keys of the current tick. `keys`: the earlier ticks' keys.
 bool undo_keys_here(RigPart& part, std::vector<TakeKey> keys, RigRuntime& runtime) {
     part.take.keys = shared(std::move(keys));
     if (!go_from_known(part, part.take.tick, runtime)) return false;

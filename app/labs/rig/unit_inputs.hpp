@@ -47,7 +47,7 @@ struct UnitInput {
         value;
     bool count = false;  ///< a whole number, such as a number of elements
 
-    /// What input_offers() can replace it with. For values: of `type`, or of any type if that is empty.
+    /// Replacements that input_offers() lists. For values: of `type`, or of any type if that is empty.
     enum class Takes : std::uint8_t { Nothing, Value, Element, Bone, Names, Curve } takes = Takes::Nothing;
     std::optional<rig::Type> type{};
 

@@ -293,7 +293,7 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
         const bool pinned = world.pinned(place->body->first + place->index);
         emit(pinned ? "rope.unpin" : "rope.pin", of_particle(world, *place));
     } else if (part.tool == RopeTool::Cut &&
-               place->body->kind != rope::Body::Kind::Cloth) {  // the command refuses what cannot be cut
+               place->body->kind != rope::Body::Kind::Cloth) {  // the command refuses uncuttable bodies
         const std::size_t segment = std::min(place->index, std::max<std::size_t>(place->body->count, 2) - 2);
         emit("rope.cut", {{"rope", world.name(*place->body)}, {"segment", segment}});
     }

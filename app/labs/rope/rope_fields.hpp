@@ -15,7 +15,7 @@ class Arguments;
 struct BodySettings {
     float length = 1.0f;                   ///< metres; a row's of a cloth, a strand's of hair
     std::optional<float> width{};          ///< metres, across the rows of a cloth
-    std::optional<int> segments{};         ///< of a rope or of each strand
+    std::optional<int> segments{};         ///< segments of a rope or of each strand
     std::optional<int> columns{}, rows{};  ///< particles of a cloth
     double mass = 1.0;                     ///< kilograms, of the whole body
     std::optional<double> density{};       ///< kg/m, for cloth kg/m^2; none for a body without length

@@ -45,7 +45,7 @@ struct Hold {
 /// The selection: particles of a body, a collider or a tie.
 struct RopeSelection {
     std::string body;
-    Selection particles;   ///< of the body; at least one
+    Selection particles;   ///< selected particles of the body; at least one
     std::string collider;  ///< if not empty, the collider is selected instead of particles
     std::string tie;       ///< the same for a tie
     bool of_particles() const { return collider.empty() && tie.empty(); }
@@ -84,7 +84,7 @@ struct RopeReport {
 /// The results of a tick, for the curves.
 struct RopeSample {
     float stretch = 0.0f;  ///< the largest relative length error of all ropes, after the solver
-    float error = 0.0f;    ///< the same after contact, with what depenetration added
+    float error = 0.0f;    ///< the same after contact, including depenetration
     float energy = 0.0f;   ///< joules, of all bodies
     float frame = 0.0f;    ///< length of the frame that the tick ends in, milliseconds
     float cost = 0.0f;  ///< time to simulate it, microseconds; only measured in a live window and in a race
@@ -113,7 +113,7 @@ struct RopePart final : Part {
     Jitter jitter;
     RopeView view;
     int quiet_ticks = 0;              ///< consecutive ticks without noticeable motion
-    std::vector<RopeSample> samples;  ///< of the last ticks
+    std::vector<RopeSample> samples;  ///< samples of the last ticks
     std::vector<Rival> rivals;        ///< in a race (race.hpp)
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<RopePart>(*this); }

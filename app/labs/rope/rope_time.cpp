@@ -60,7 +60,7 @@ void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, Tick
 /// Advances by a frame. If anything swings or walks, the frame is split at the lab's ticks, where its next
 /// motion starts, so that the result does not depend on how time is divided.
 void pass_frame(RopePart& part, NamedWorld& world, double seconds, rope::Workspace& workspace, Tick& tick) {
-    constexpr double rounding = 1e-6;  // of a tick
+    constexpr double rounding = 1e-6;  // fraction of a tick
     if (part.swings.empty() && !part.walker.figure) {
         advance(world, seconds, workspace, tick);
         part.time += seconds;

@@ -190,7 +190,7 @@ class KnifeStroke {
 
     const NamedWorld& world_;
     glm::vec2 from_, way_;
-    std::vector<std::optional<glm::vec2>> pixels_;  ///< of each particle
+    std::vector<std::optional<glm::vec2>> pixels_;  ///< each particle's pixel
 };
 
 }  // namespace

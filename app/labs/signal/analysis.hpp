@@ -21,10 +21,10 @@ using StageMeasures = signal::Measures;
 /// of a second. Cost: 1.5 ms for eight filters; for the hand, at most four times a second.
 struct ChainAnalysis {
     std::vector<double> time, input;
-    std::vector<std::vector<double>> outputs;  ///< of each stage
+    std::vector<std::vector<double>> outputs;  ///< each stage's output
     std::vector<StageMeasures> stages;         ///< a disabled stage is measured as passing its input through
     StageMeasures whole;
-    signal::RateComparison rates;  ///< of the whole chain
+    signal::RateComparison rates;  ///< the whole chain's
 };
 
 /// A kind of filter, measured on the lab's input.

@@ -183,7 +183,7 @@ class CurveFit final : public FitTask {
     const FitProblem& problem_;
     FitFacts facts_;
     Trial trial_;
-    std::vector<double> times_;       ///< of each row: its input, scaled to 0 to 1
+    std::vector<double> times_;       ///< each row's input, scaled to 0 to 1
     std::vector<std::size_t> order_;  ///< rows in order of time
     std::vector<double> keys_{0.0, 1.0};
     double left_ = 0.0;  ///< the residual with those keys
@@ -439,10 +439,10 @@ class ScaleFit final : public FitTask {
     FitFacts facts_;
     Trial trial_;
     const signal::Kind* kind_;
-    std::vector<Fit> fits_;            ///< of the completed searches
+    std::vector<Fit> fits_;            ///< the completed searches' fits
     std::size_t part_ = 0;             ///< index in `parts` of the present search
     std::vector<double> bends_start_;  ///< the best point of the search with dependent levels
-    int evaluations_ = 0;              ///< of searches that only provided a start
+    int evaluations_ = 0;              ///< evaluations of searches that only provided a start
     std::optional<Minimiser> minimiser_;
 };
 

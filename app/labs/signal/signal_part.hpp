@@ -37,7 +37,7 @@ using InputRows = std::vector<signal::Sample>;
 
 struct SignalInput {
     InputKind kind = InputKind::Square;
-    double amplitude = 1.0;  ///< of square, sine and noise waves, to either side of 0
+    double amplitude = 1.0;  ///< amplitude of square, sine and noise waves, to either side of 0
     double period = 2.0;     ///< seconds, of the same waves
     double hand = 0.0;
     /// The rows of Recorded and Csv. Shared between copies, and immutable.

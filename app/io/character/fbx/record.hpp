@@ -77,7 +77,7 @@ class RecordReader {
     [[noreturn]] void fail(const std::string& what) const;
     void open(Record record, std::size_t end = 0);
     bool inside() const { return !open_.empty(); }
-    std::size_t end() const { return open_.back().end; }  ///< of the innermost record
+    std::size_t end() const { return open_.back().end; }  ///< end of the innermost record
     void close();
     File finish();
 
