@@ -127,8 +127,8 @@ class Lab {
     /// Commands that turn the blank part into the scene that a new window opens on, preferably one that
     /// moves by itself. Those that change a setting are skipped if the user has already chosen it.
     virtual std::vector<CommandCall> opening() const { return {}; }
-    /// Commands that stop the opening's motions that would compete with the user. Run once, before the first
-    /// change in the lab or the first press on something in it; not an undo step.
+    /// Commands that stop motions of the opening that would interfere with the user. Run once, before the
+    /// first change in the lab or the first press on something in it; not an undo step.
     virtual std::vector<CommandCall> calm() const { return {}; }
 
     // time

@@ -30,7 +30,7 @@ class Shortcuts {
     std::string keys_for(std::string_view command) const;
     /// "Ctrl+Shift+Z, Ctrl+Y": every key that does the same.
     std::string all_keys_for(const Shortcut& wanted) const;
-    /// Mouse gestures of all labs, then of the lab of that name; if that is empty, of every lab.
+    /// Mouse gestures common to all labs, then of the lab of that name; if that is empty, of every lab.
     std::vector<MouseHelp> mouse_help(std::string_view lab = {}, MousePreset preset = MousePreset::Tendril,
                                       Scroll scroll = Scroll::Zoom) const;
     /// Both lists as Markdown tables, for the README.

@@ -28,7 +28,7 @@ class ShadowPass {
   private:
     struct Shadow {
         glm::vec4 ends;     ///< projected on the ground: a.x, a.z, b.x, b.z
-        glm::vec4 heights;  ///< the axis's at a, at b; radius at a, at b
+        glm::vec4 heights;  ///< of the axis at a, at b; then the radius at a, at b
         float darkest;      ///< 0 to 1; unused by the shader
     };
     void collect(const DrawList& list, const Camera& camera, float darkness);

@@ -279,8 +279,8 @@ std::vector<NamedSpring> named_springs(const std::vector<VrmSpring>& springs, co
             continue;
         }
         const SpringRate rate = spring_rate(each, shape.first, shape.direction);
-        // SpringChain's strength is the tip's; its first bone, at a fraction s of the chain, is stiffer by 1
-        // / sqrt(s^2 (6 - 4 s + s^2) / 3). That bone swings as VRM's does.
+        // SpringChain's strength is the tip's; its first bone, at a fraction s of the chain, is stiffer by
+        // 1 / sqrt(s^2 (6 - 4 s + s^2) / 3). That bone swings as VRM's does.
         const double s = std::clamp(shape.first / shape.whole, 0.01, 1.0);
         result.push_back(
             {node, std::clamp(rate.strength * s * std::sqrt((6.0 - 4.0 * s + s * s) / 3.0), 0.01, 100.0),

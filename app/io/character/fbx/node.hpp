@@ -54,7 +54,7 @@ std::vector<Node> read_nodes(const Objects& objects, std::vector<std::string>& n
 /// The nodes' indices, parents first.
 std::vector<std::size_t> parents_first(const std::vector<Node>& nodes);
 
-/// The axis of the first letter of `order` rotates first. Degrees.
+/// Rotates about the axis of the first letter of `order` first. Degrees.
 glm::dquat from_euler(const glm::dvec3& degrees, int order);
 /// Translation, rotation and scale of the node's local matrix.
 rig::Transform local_of(const Node& node, const Values& values);
