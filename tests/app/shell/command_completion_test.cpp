@@ -1,4 +1,4 @@
-// The palette's finds, offers and messages while a line is typed, without a window.
+// The palette's results, offers and messages while a line is typed, without a window.
 #include "app/shell/command_completion.hpp"
 
 #include <algorithm>
