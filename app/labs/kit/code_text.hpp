@@ -31,8 +31,8 @@ std::string pascal_text(std::string_view name);
 /// ".damping = 0.5" for each field that is not NaN, in table order. Members must be named like their fields.
 /// Choices are enumerators of `scope`: "rope::Solver::".
 std::vector<std::string> member_texts(FieldsOf of, const std::string& scope = {});
-/// "true", "{1.0, 0.0, 0.0}": an initialiser of every member, by position. The table must list all members,
-/// in the order of their declaration; its lists are std::array.
+/// "true", "{1.0, 0.0, 0.0}": an initialiser of every member, by position. So the table must have all of
+/// them, in the order of their declaration; its lists are std::array.
 std::vector<std::string> initialisers(FieldsOf of, const std::string& scope = {});
 /// The same for each element of a list.
 std::vector<std::string> element_texts(const Field& field, const void* object, const std::string& scope = {});

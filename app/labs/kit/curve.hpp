@@ -26,7 +26,7 @@ struct CurveShape {
     std::vector<glm::vec3> points;  ///< metres
     ik::CurveKind kind = ik::CurveKind::Hermite;
     bool fit = false;
-    float max_factor = 2.0f;  ///< fit scales the bones by 1 / max_factor to max_factor
+    float max_factor = 2.0f;  ///< of fit
     float weight = 1.0f;      ///< 0: the given pose, 1: the curve
     /// -1 to 1: by how much less the first bones follow the curve than the last; negative: the last bones.
     float falloff = 0.0f;
