@@ -71,12 +71,12 @@ Script read_script(const SessionOptions& options, const CommandTable& commands) 
     }
 }
 
-/// Leaves nothing to undo or to save: the session starts with the file.
+/// Nothing to undo or to save: the file is where the session starts.
 void open_given(App& app, const std::string& file) {
     Workspace& workspace = app.workspace();
     if (file_route(app.labs(), file).lab == nullptr) {
         load_scene_file(workspace, file);
-        for (const Toast& each : workspace.ui.toasts)  // the labs that start blank
+        for (const Toast& each : workspace.ui.toasts)  // what it starts without
             if (!workspace.outputs.in_window) complain(each.text);
         return;
     }
@@ -85,7 +85,7 @@ void open_given(App& app, const std::string& file) {
     app.commands().find("file.open")->finish(workspace);
     workspace.saved = workspace.document;
     workspace.history.clear();
-    if (workspace.beginnings == beginnings) workspace.start_anew();  // else opening it began a new scene
+    if (workspace.beginnings == beginnings) workspace.start_anew();  // else the file has a past of its own
 }
 
 void open_scene(App& app, const SessionOptions& options) {
@@ -101,7 +101,7 @@ void open_scene(App& app, const SessionOptions& options) {
     app.settle();
 }
 
-/// Starts from the state in the recording's first line.
+/// The start is the first line of its recording.
 void start_recorded(App& app, const SessionOptions& options, const RecordingStart& start) {
     try {
         app.start_from(start);

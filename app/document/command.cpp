@@ -8,8 +8,8 @@
 namespace tendril::app {
 namespace {
 
-/// "chain.remove: index 9 is out of range". The library's messages begin with the operation's name; it is
-/// omitted if the command's name already contains it.
+/// "chain.remove: index 9 is out of range": omits the operation's name with which the library's messages
+/// begin if the command's name already contains it.
 std::string refusal_text(const std::string& command, std::string what) {
     const std::string operation = what.substr(0, what.find(": "));
     if (operation.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") != std::string::npos ||
@@ -31,7 +31,7 @@ void remember(Workspace& workspace, const Document& changed, const Command& comm
     workspace.history.push(changed, command.name, gesture, from, to);
 }
 
-/// Drops the kept JSON of a lab that could not be read once a command edits that lab.
+/// A scene's JSON that could not be read is kept only while its lab is left alone.
 void forget_unread(Workspace& workspace, const Document& before) {
     const Document edited_document = workspace.document;
     for (const auto& [lab, part] : edited_document.parts()) {

@@ -52,7 +52,7 @@ class Outputs {
 
   private:
     std::map<std::filesystem::path, Stamp> owned_;
-    std::map<std::filesystem::path, Stamp> asked_;  ///< files refused once, as they were then
+    std::map<std::filesystem::path, Stamp> asked_;  ///< refused because they existed like this
 };
 
 }  // namespace tendril::app

@@ -115,7 +115,7 @@ std::vector<std::string> member_texts(FieldsOf of, const std::string& scope) {
 
 namespace {
 
-/// `at`: the object that the field's accessors take; for a struct, its address.
+/// `at`: what the field's accessors take; of a struct, its address.
 std::string text_at(const Field& field, const void* at, const std::string& scope) {
     return field.type == FieldType::Struct ? '{' + joined(initialisers({field.table(), at}, scope)) + '}'
                                            : field_text(field, field.get(at), scope);

@@ -34,7 +34,7 @@ std::vector<std::string> member_texts(FieldsOf of, const std::string& scope = {}
 /// "true", "{1.0, 0.0, 0.0}": an initialiser of every member, by position. So the table must have all of
 /// them, in the order of their declaration; its lists are std::array.
 std::vector<std::string> initialisers(FieldsOf of, const std::string& scope = {});
-/// The same for each element of a list.
+/// The same of each element of a list.
 std::vector<std::string> element_texts(const Field& field, const void* object, const std::string& scope = {});
 /// The texts, separated by ", ".
 std::string joined(const std::vector<std::string>& texts);
