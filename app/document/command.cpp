@@ -101,7 +101,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     if (command->effect == Effect::Replace) return;
     if (command->effect == Effect::Edit) {
         forget_unread(workspace, before);
-        if (beginnings == workspace.beginnings) {  // else the command has set up the past itself
+        if (beginnings == workspace.beginnings) {  // else the command has made the past itself
             const auto& part = before.parts().at(workspace.lab);
             workspace.discard_later(part);
             if (part != workspace.document.parts().at(workspace.lab))

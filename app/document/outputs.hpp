@@ -36,8 +36,8 @@ class Outputs {
     /// Throws std::runtime_error if one of the files must not be written over. `redraws`: a command line asks
     /// for a picture or a state, which replaces an earlier one.
     void check(const std::vector<std::filesystem::path>& paths, OutputKind kind, bool redraws = false);
-    /// Where to write the result of long work, which must not be lost: the path or, if check() now refuses
-    /// it, a free name beside it and the reason.
+    /// At the end of long work, which must not be lost: the path and no refusal or, where check() now refuses
+    /// it, a free name beside it and why.
     struct Place {
         std::filesystem::path path;
         std::string refusal{};
@@ -47,7 +47,7 @@ class Outputs {
     /// was.
     void write(const std::filesystem::path& path, OutputKind kind, std::string_view bytes,
                bool redraws = false);
-    /// Records that the session opened or wrote this file when it had that stamp, so that it may replace it.
+    /// The session has opened or written this file when its stamp was that: it may replace it.
     void own(const std::filesystem::path& path, const Stamp& stamp);
 
   private:

@@ -36,7 +36,7 @@ std::vector<std::string> member_texts(FieldsOf of, const std::string& scope = {}
 std::vector<std::string> initialisers(FieldsOf of, const std::string& scope = {});
 /// The same of each element of a list.
 std::vector<std::string> element_texts(const Field& field, const void* object, const std::string& scope = {});
-/// The texts, separated by ", ".
+/// Separated by ", ".
 std::string joined(const std::vector<std::string>& texts);
 
 /// ".kind = ik::JointKind::Hinge, ...": the members that are not at their default.
