@@ -87,8 +87,7 @@ void App::settle() {
 }
 
 void App::start_recording(bool live) {
-    // A player has no past to rewind to, and only as much of the open lab as a scene saves: start from the
-    // same.
+    // A player has no past to rewind to, and only the saved state of the open lab: start from the same.
     const std::shared_ptr<const Part> part = workspace_.document.parts().at(workspace_.lab);
     if (part != workspace_.blank.parts().at(workspace_.lab)) {
         const bool modified = workspace_.modified();
@@ -98,7 +97,7 @@ void App::start_recording(bool live) {
         if (!modified) workspace_.saved = workspace_.document;
     }
     workspace_.forget_pasts();
-    workspace_.openings.clear();  // what moves is part of the recorded scene
+    workspace_.openings.clear();  // the opening's motion is part of the recorded scene
     recorder_.emplace(RecordingStart{.version = version_string,
                                      .size = size_,
                                      .lab = workspace_.lab,
@@ -116,12 +115,11 @@ void App::tick(const Event* event) {
     const bool active = lab().working(workspace_) || moves();
     compose(event, Pass::Tick);
     input_.end_tap();
-    // A window that the event opened can only have the keyboard after a second pass; run it before the next
-    // event.
+    // A window that the event opened gets the keyboard only in a second pass; run it before the next event.
     if (event != nullptr && !std::holds_alternative<MouseMove>(*event)) compose(nullptr, Pass::Settle);
     const bool pressed = event != nullptr && std::holds_alternative<MousePress>(*event);
     settling_ = pressed ? double_click_ticks : std::max(event != nullptr ? settling_ticks : 0, settling_ - 1);
-    if (active) settling_ = std::max(settling_, 1);  // the panels have yet to show the end of work or motion
+    if (active) settling_ = std::max(settling_, 1);  // the panels must still show the end of work or motion
     update_window();
 }
 
@@ -161,7 +159,7 @@ void App::compose(const Event* event, Pass pass) {
         refuse(why);
         note_refusal(why);
     }
-    // Each typed number is a change of its own, as each drag is.
+    // Each typed number is a separate change, as each drag is.
     if (std::exchange(ui_.numbers().entered, false)) ++gesture_;
     if (pass == Pass::Picture) emit.take();
     run_emitted(emit, From::Panel);
@@ -276,7 +274,7 @@ void App::run_command(const std::string& name, const Json& arguments, Gesture ge
         if (ended) resume(std::move(*ended));
         throw;
     }
-    // What was changed in a lab that was not open is no opening any more, unless undo made it one again.
+    // A changed lab is no longer an opening, even if it was not open, unless undo made it one again.
     if (workspace_.openings == openings)
         std::erase_if(workspace_.openings, [&](const std::string& lab) {
             return workspace_.document.parts().at(lab) != all.at(lab);

@@ -38,8 +38,8 @@ class App final : public Stage {
     const CommandTable& commands() const { return *commands_; }
     const Labs& labs() const { return labs_; }
 
-    /// Updates the layout as a tick would, after opening something without a command, so that the state's
-    /// handles match the picture.
+    /// Updates the layout as a tick would. Call it after opening something without a command, so that the
+    /// state's handles match the picture.
     void settle();
     /// Takes over the state that a recording starts from.
     void start_from(const RecordingStart& start);
@@ -62,11 +62,11 @@ class App final : public Stage {
     /// Whether the next tick may change the picture without an event.
     bool needs_ticks() const;
     bool quit() const { return workspace_.ui.quit; }
-    /// It replays a recording made in a window.
+    /// Whether it replays a recording made in a window.
     bool replays() const { return replays_; }
     /// Whether it is time for a VideoEnd.
     bool video_ended() const;
-    /// The user is dragging something.
+    /// Whether the user is dragging something.
     bool busy() const;
     int draw_calls() const { return renderer_.draw_calls(); }
 
@@ -74,8 +74,8 @@ class App final : public Stage {
     const Lab& lab() const { return *labs_.find(workspace_.lab); }
     float ui_scale() const { return base_scale_ * workspace_.settings.text_scale; }
     bool moves() const;
-    /// A pass of the user interface. Tick: takes an event and advances time. Settle: a second pass, for what
-    /// the event opened. Picture: draws the present state and changes nothing.
+    /// One pass of the user interface. Tick: takes an event and advances time. Settle: a second pass, for
+    /// windows that the event opened. Picture: draws the present state and changes nothing.
     enum class Pass { Tick, Settle, Picture };
     /// Runs the user interface once and builds the picture.
     void compose(const Event* event, Pass pass);
@@ -89,7 +89,7 @@ class App final : public Stage {
     void take_paste(const std::string& text, Emit& emit);
     void take_shortcut(Emit& emit);
     void refuse(const std::string& why);
-    /// Panel: the panels and the palette emitted it. View: the rest, such as handles, keys and scripts.
+    /// The source of a command. Panel: the panels and the palette. View: handles, keys, scripts and the rest.
     enum class From { View, Panel };
     void run_emitted(Emit& emit, From from);
     void run_command(const std::string& name, const Json& arguments, Gesture gesture, From from);
@@ -103,7 +103,7 @@ class App final : public Stage {
     /// The user takes over: stops the open lab's opening where it is. This is not an undo step, and the
     /// opening does not resume.
     std::optional<Opening> end_opening();
-    /// Unless what the user wanted was refused.
+    /// Resumes the opening because the user's command was refused.
     void resume(Opening opening);
     void drop_incidents(const Part& before);
     void review(const std::shared_ptr<const Part>& before, std::uint64_t moment);
@@ -144,13 +144,13 @@ class App final : public Stage {
     Shell shell_;
     Input input_;
     Pointer pointer_;
-    std::vector<Pane> panes_;  ///< of the last picture; at least one
+    std::vector<Pane> panes_;  ///< the last picture's; at least one
     std::size_t pane_ = 0;     ///< index of the pane last used by the mouse
     Layout layout_;
     std::optional<Recorder> recorder_;
     bool replays_ = false;
     std::unique_ptr<VideoTake> video_;  ///< the video being written
-    glm::ivec2 size_{0};       ///< the window's; only changed by events, so that a recording has every change
+    glm::ivec2 size_{0};       ///< the window's; changed only by events, so that a recording has every change
     float base_scale_ = 1.0f;  ///< the window's scale for text and widgets
     Gesture gesture_ = 1;
     int settling_ = 0;  ///< remaining ticks in which the panels may change after the last event

@@ -8,7 +8,7 @@
 
 namespace tendril::app {
 
-/// Drops the incidents of a chain or rig that is there no more.
+/// Drops the incidents of a chain or rig that no longer exists.
 void App::drop_incidents(const Part& before) {
     if (workspace_.rewind.incidents().empty() ||
         lab().same_joints(before, *workspace_.document.parts().at(workspace_.lab)))
@@ -27,7 +27,7 @@ void App::review(const std::shared_ptr<const Part>& before, std::uint64_t moment
     }
 }
 
-/// Only for the user's actions: a script knows what it requested.
+/// Called only for the user's actions: a script knows what it requested.
 void App::note_refusal(const std::string& why) {
     workspace_.rewind.note({.tick = workspace_.moment, .cause = "refused: " + why});
 }
@@ -42,7 +42,7 @@ std::optional<App::Opening> App::end_opening() {
         try {
             commands_->run(workspace_, call.name, to_json(call.arguments));
         } catch (const Refused&) {
-            continue;  // there is nothing to stop any more
+            continue;  // there is nothing left to stop
         }
     }
     workspace_.history = history;

@@ -102,8 +102,8 @@ bool App::video_ended() const {
     return video_ && video_->has_all_frames() && !video_->waits();
 }
 
-/// When an encoder ends is not deterministic: in a window, and when replaying a recording made in one, its
-/// end is an event. Other scripts wait for the file.
+/// The time when an encoder ends is not deterministic, so in a window, and when replaying a recording made in
+/// one, its end is an event. Other scripts wait for the file.
 void App::pass_video(bool ended) {
     if (!video_) return;
     const bool by_event = video_->by_another_program() && (workspace_.clock.measured || replays_);

@@ -325,7 +325,7 @@ class BatchLine {
     std::string scene_;
 };
 
-/// Or the version.
+/// Prints the help or the version.
 int print_help(const CLI::App& line, const CLI::ParseError& error) {
     std::ostringstream text;
     const int exit_code = line.exit(error, text);

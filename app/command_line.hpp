@@ -3,7 +3,7 @@
 
 namespace tendril::app {
 
-/// Returns the program's exit code: that of run_session or the subcommand, or 2 for an invalid command line.
+/// Returns the program's exit code: run_session's or the subcommand's, or 2 for an invalid command line.
 /// Errors are printed to stderr, in one line.
 int run_command_line(int argc, const char* const* argv);
 

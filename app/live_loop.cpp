@@ -86,7 +86,7 @@ void LiveLoop::run(Player& player, std::optional<int> frames) {
         last = now;
         keep_house();
     }
-    // A user who quits was asked about unsaved work; if the program was ended from outside, keep it.
+    // Keep unsaved work if the program was ended from outside; a user who quits was already asked.
     const bool keeps = options_.ending || (!app_.quit() && !app_.workspace().path.empty());
     if (autosave_) autosave_->end(app_.workspace(), keeps);
 }
@@ -107,7 +107,7 @@ void LiveLoop::sample(std::vector<Event> events) {
                 continue;
             }
         }
-        // Of several moves between two ticks only the last counts.
+        // If several moves arrive between two ticks, only the last counts.
         if (is_move(event) && !queue_.empty() && is_move(queue_.back())) queue_.pop_back();
         queue_.push_back(std::move(event));
     }

@@ -1,4 +1,4 @@
-// What a window shows by default: a moving scene, and the cards of things to try.
+// The view that a window opens with: a moving scene, and the cards of things to try.
 #pragma once
 
 #include "app/app.hpp"

@@ -57,7 +57,7 @@ Outputs check_outputs(const SessionOptions& options) {
         check_writable(path);
         outputs.own(path, Outputs::stamp_of(path));
     }
-    outputs.in_window = !options.headless;  // what is refused so far cannot be asked for again
+    outputs.in_window = !options.headless;  // refusals so far cannot be asked for again
     return outputs;
 }
 
@@ -111,14 +111,14 @@ void start_recorded(App& app, const SessionOptions& options, const RecordingStar
     }
 }
 
-/// Under another name if another program has put a file there meanwhile: what was done cannot be done again.
+/// Takes another name if another program has put a file there meanwhile: the session cannot be repeated.
 void write_recording(App& app, const std::filesystem::path& wanted) {
     const auto [path, refusal] = app.workspace().writes().place_at_end(wanted, OutputKind::Recording);
     write_file_atomically(path, app.recording());
     if (!refusal.empty()) throw std::runtime_error(refusal + "; the recording is in " + path.string());
 }
 
-/// Writes all of them, then reports the first failure.
+/// Writes all outputs, then reports the first failure.
 void write_outputs(App& app, const SessionOptions& options) {
     app.workspace().outputs.in_window = false;
     std::exception_ptr failure;

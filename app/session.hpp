@@ -32,7 +32,7 @@ int run_session(const SessionOptions& options);
 
 /// Makes SIGINT, SIGTERM and SIGHUP end the session cleanly, with all outputs written.
 void end_session_on_signals();
-/// Makes them end the program at once, for commands that write all they have at their end.
+/// Makes them end the program at once, for commands that write all their output at their end.
 void end_at_once_on_signals();
 /// True after a signal that ends the session, for code other than a session.
 const std::atomic<bool>& session_ending();

@@ -70,7 +70,7 @@ VideoTake::VideoTake(const VideoRequest& wanted, const Workspace& workspace, con
     if (text_) find_room();
 }
 
-/// For the legend: it must not cover what moves under it later.
+/// Finds room for the legend where nothing will move under it later.
 void VideoTake::find_room() {
     constexpr int max_looks = 16;
     Workspace ahead = workspace_;

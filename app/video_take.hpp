@@ -21,7 +21,7 @@ struct PictureView {
     float scale = 1.0f;
 };
 
-/// The text of such pictures, or null if `look` and the lab want none.
+/// The text of such a picture, or null if `look` and the lab want none.
 std::unique_ptr<PictureText> picture_text(const Workspace& workspace, const Lab& lab, const PictureView& view,
                                           const PictureLook& look);
 
@@ -30,7 +30,7 @@ std::unique_ptr<PictureText> picture_text(const Workspace& workspace, const Lab&
 Image picture_of(const Workspace& workspace, const Lab& lab, Renderer& renderer, const PictureView& view,
                  bool transparent, PictureText* text);
 
-/// How many frames of that size, in pixels, fit in a tick. A count instead of a measured time, so that
+/// The number of frames of that size, in pixels, drawn per tick. A count instead of a measured time, so that
 /// recordings replay identically.
 int frames_a_tick(glm::ivec2 size);
 
@@ -41,13 +41,13 @@ class VideoTake {
     /// shows frames of its own.
     VideoTake(const VideoRequest& wanted, const Workspace& workspace, const Lab& lab, Renderer& renderer,
               const PictureView& view, int frames_a_tick);
-    /// Writes one tick's share of frames.
+    /// Writes one tick's frames.
     void work();
     bool has_all_frames() const { return written_ == wanted_.frames(); }
     bool by_another_program() const { return file_->by_another_program(); }
-    /// After the last frame: whether that program is still writing.
+    /// After the last frame: whether the other program is still writing.
     bool waits() const { return file_->waits(); }
-    /// Call after the last frame. Waits for that program.
+    /// Call after the last frame. Waits for the other program.
     void finish() { file_->finish(); }
     /// VideoFile::commit().
     void commit(const std::filesystem::path& other = {}) { file_->commit(other); }

@@ -105,7 +105,7 @@ std::vector<ik::AngleLimit> read_angle_limits(const Json& json, std::size_t bone
     return limits;
 }
 
-/// The plane, and what is only for one.
+/// Reads the plane, and the members that only a plane case may have.
 void read_plane(const Json& json, const std::string& where, Case& read) {
     const JsonPlace place(json, where);
     const auto normal = place.optional("plane");

@@ -30,10 +30,10 @@ struct Case {
     glm::vec3 target{0.0f};
     std::optional<glm::vec3> pole;
     std::vector<ik::Limit> limits;    ///< one per bone, or empty
-    std::optional<glm::vec3> normal;  ///< of the plane
+    std::optional<glm::vec3> normal;  ///< the plane's
     ik::Side bend = ik::Side::Free;
     std::vector<ik::AngleLimit> angle_limits;  ///< one per bone, or empty
-    std::vector<glm::vec3> curve;              ///< control points; empty: it reaches for the target
+    std::vector<glm::vec3> curve;              ///< control points; empty: the chain reaches for the target
     std::optional<LinkageCase> linkage;        ///< instead of all these
 };
 

@@ -18,7 +18,7 @@ constexpr const char* drive_form = "JOINT=VALUE or JOINT=FROM:TO:STEP";
 constexpr const char* target_form = "POINT=X,Y,Z";
 constexpr double furthest = 1e6;  ///< degrees or metres, as in linkage.drive
 
-/// From the first value to the last that does not pass the end, or at rounding does.
+/// The values from the first to the last, which may pass the end by rounding only.
 std::vector<double> range_values(const JsonPlace& place) {
     const double from = place["from"].real(-furthest, furthest), to = place["to"].real(-furthest, furthest),
                  step = place["step"].real(-furthest, furthest);
@@ -62,7 +62,7 @@ const auto& value_at(const Values& values, std::size_t row) {
     return values[std::min(row, values.size() - 1)];
 }
 
-/// A refusal has the place.
+/// Prefixes a refusal with the place.
 void at_place(const JsonPlace& place, auto require) {
     try {
         require();
@@ -144,7 +144,7 @@ std::vector<double> LinkageCase::column_values() const {
 
 namespace {
 
-/// Each is at `before` and its name.
+/// Each driver's place is `before` and its name.
 void read_drivers(const Json& drivers, const std::string& before, LinkageCase& to) {
     for (const auto& each : drivers.items()) {
         const std::string& joint = each.key();
@@ -187,7 +187,7 @@ void take_linkage_goals(const Json& goals, LinkageCase& to) {
     const Json none = Json::object();
     const Json &drivers = goals.contains("drivers") ? goals["drivers"] : none,
                &targets = goals.contains("targets") ? goals["targets"] : none;
-    // What they stand in for goes first: it may have other numbers of values.
+    // Erase the replaced ones first: they may have another number of values.
     std::erase_if(to.drivers, [&](const auto& each) { return drivers.contains(each.first); });
     std::erase_if(to.targets, [&](const auto& each) { return targets.contains(each.first); });
     read_drivers(drivers, "--drive ", to);

@@ -4,9 +4,9 @@
 //    "drivers": {"crank": {"from": 0, "to": 360, "step": 15}}}
 //   {"linkage": "delta", "targets": {"platform": [[0, 0, -0.5], [0.1, 0, -0.5]]}}
 //
-// "linkage" is a preset's name, its "lengths" those that differ, or a linkage as a scene file has it. A
-// driver's value is a number, degrees or metres, a list of them or a range; a target's a point or a list of
-// points. A list is a row for each, from the pose of the row before; all lists of a case are equally long.
+// "linkage" is a preset, with "lengths" where they differ from it, or a linkage as in a scene file. A
+// driver's value is a number (degrees or metres), a list of them or a range; a target's is a point or a list.
+// A list gives a row per element, each from the pose before; all lists of a case are equally long.
 #pragma once
 
 #include <string>
@@ -20,14 +20,14 @@ namespace tendril::app {
 
 struct LinkageCase {
     LinkagePart part;
-    /// By the names of joints and points; radians, metres. One value, or one for each row.
+    /// By the names of joints and points; radians or metres. One value, or one for each row.
     std::vector<std::pair<std::string, std::vector<double>>> drivers{};
     std::vector<std::pair<std::string, std::vector<glm::dvec3>>> targets{};
 
     std::size_t rows() const;
     /// Moves the part to a row's values.
     void solve(std::size_t row, LinkageRuntime& runtime, const ik::LinkageOptions& options);
-    /// Of CSV, beyond those that all cases have: drivers by name, points by name and axis.
+    /// CSV columns beyond the common ones: drivers by name, points by name and axis.
     std::vector<std::string> columns() const;
     std::vector<double> column_values() const;
 };
@@ -35,13 +35,13 @@ inline constexpr std::size_t max_linkage_rows = 100'000;
 
 /// Throws std::runtime_error that begins with the JSON path of the error.
 LinkageCase linkage_case_from_json(const JsonPlace& place);
-/// Takes "drivers" and "targets" in place of those of the same names that the case has. Throws
-/// std::runtime_error that begins with the argument: "--drive crank".
+/// Replaces the case's "drivers" and "targets" of the same names. Throws std::runtime_error that begins with
+/// the argument: "--drive crank".
 void take_linkage_goals(const Json& goals, LinkageCase& to);
 /// Such goals from arguments: "crank=30", "crank=0:360:15", "P=1,2,0". Throws std::runtime_error.
 Json linkage_goals_from_arguments(const std::vector<std::string>& drivers,
                                   const std::vector<std::string>& targets);
-/// What a row says: as --state, with what only a solve has.
+/// A row as JSON: as --state, with the members that only a solve has.
 Json linkage_row_json(const LinkagePart& part);
 
 }  // namespace tendril::app

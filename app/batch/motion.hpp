@@ -9,7 +9,7 @@ namespace tendril::app {
 
 struct LintOptions {
     std::string file;    ///< path of the character
-    std::string motion;  ///< path of a file with motions of another; empty: the character's own clips
+    std::string motion;  ///< path of a file with motions of another; empty: its own clips
     bool json = false;   ///< one JSON object instead of lines
 };
 /// Prints the faults of each of the file's clips. Returns the number of findings. Throws std::runtime_error
@@ -18,7 +18,7 @@ std::size_t run_lint(const LintOptions& options);
 
 struct BakeOptions {
     std::string file;    ///< path of the character
-    std::string motion;  ///< path of a file with the clips of another; empty: the character's own
+    std::string motion;  ///< path of a file with another character's clips; empty: the character's own
     std::string clip;    ///< by name; empty: the first
     bool all = false;    ///< every clip, each to a file of its own
     std::string ground = "none";

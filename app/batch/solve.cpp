@@ -29,9 +29,9 @@ struct Row {
     ik::Report report;
     double microseconds;
     const std::vector<glm::vec3>& joints;
-    std::optional<ik::CurveReport> curve{};  ///< of a case that lies along a curve
-    const LinkageCase* linkage = nullptr;    ///< of one that is a linkage: where it is now
-    std::string reason{};                    ///< of InvalidInput: what the library refuses, and where
+    std::optional<ik::CurveReport> curve{};  ///< the curve report, if the case places a chain along a curve
+    const LinkageCase* linkage = nullptr;    ///< the linkage in its present pose, if the case is one
+    std::string reason{};                    ///< for InvalidInput: what the library refuses, and where
 
     const char* solver() const { return linkage ? "linkage" : curve ? "curve" : ik::name(method); }
     /// "solver", "status", "iterations", "residual" and more.
@@ -48,7 +48,7 @@ Json microseconds_json(double value) {
     return std::round(value * 1000.0) / 1000.0;
 }
 
-/// Writes rows, and what a format needs before the first and after the last.
+/// Writes rows, and the text before the first and after the last.
 class Rows {
   public:
     virtual ~Rows() = default;
@@ -85,7 +85,7 @@ class JsonRows final : public Rows {
 
 class CsvRows final : public Rows {
   public:
-    /// Columns that all cases have beyond the usual ones.
+    /// `more`: columns that all cases have beyond the usual ones.
     explicit CsvRows(std::vector<std::string> more) : more_(std::move(more)) {}
     void begin(Output& out) override {
         std::string line = "name,solver,status,iterations,residual,microseconds";
@@ -142,13 +142,13 @@ class TableRows final : public Rows {
 
 struct Survey {
     std::size_t cases = 0;
-    std::size_t name_width = 4;  // of "name"
-    /// Of CSV: what all cases have, if all are linkages with the same drivers and points.
+    std::size_t name_width = 4;  // at least the header's, "name"
+    /// CSV columns that all cases have, if all are linkages with the same drivers and points.
     std::optional<std::vector<std::string>> columns{};
 };
 
-/// Calls `take` with each case of a list, or with the one that an object is: a linkage, or a scene with one.
-/// The goals, of arguments, stand in for those of linkages.
+/// Calls `take` with each case of a list, or with the single case of an object: a linkage, or a scene with
+/// one. The goals from the arguments replace the linkages' own.
 void read_all(std::string_view text, const Json& goals, const std::function<bool(Case&, double)>& take) {
     const auto with_goals = [&](Case read, double done) {
         if (!goals.empty() && !read.linkage)
@@ -194,7 +194,7 @@ Survey check(std::string_view text, const Json& goals, Progress& progress, const
     return survey;
 }
 
-/// Its residual is what the tip is off the curve's end.
+/// Its residual is the distance by which the tip misses the curve's end.
 Row place(const Case& asked, std::vector<glm::vec3>& joints) {
     joints = asked.start;
     ik::State state(asked.lengths.size());
@@ -229,7 +229,7 @@ Row solve(const Case& asked, ik::Method method, const SolveOptions& options, std
     return {asked, method, report, taken.count(), joints, std::nullopt, nullptr, std::move(reason)};
 }
 
-/// One row, from where the row before left it.
+/// Solves one row, starting from the pose of the row before.
 Row move_linkage(Case& asked, std::size_t index, LinkageRuntime& runtime, const SolveOptions& options,
                  const std::vector<glm::vec3>& joints) {
     ik::LinkageOptions told;
@@ -291,7 +291,7 @@ void solve_cases(const SolveOptions& options, const std::atomic<bool>& ending) {
             if (ending) return false;
             if (!asked.curve.empty()) {
                 rows->add(out, place(asked, joints));
-                break;  // no solver takes part
+                break;  // the method does not apply
             }
             rows->add(out, solve(asked, method, options, joints));
         }

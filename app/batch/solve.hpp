@@ -14,9 +14,9 @@ enum class RowFormat { Table, Csv, Json };
 struct SolveOptions {
     std::string cases;                          ///< path: a list of cases, one linkage, or a scene with one
     std::vector<ik::Method> methods;            ///< each case is solved by each of them
-    std::optional<int> max_iterations;          ///< 1 to 1 000 000; if left out 100, or 1000 of a linkage
+    std::optional<int> max_iterations;          ///< 1 to 1 000 000; if left out 100, or 1000 for a linkage
     std::optional<float> tolerance;             ///< metres; 1e-3 of the reach if left out
-    std::vector<std::string> drivers, targets;  ///< of linkages, as in linkage_cases.hpp
+    std::vector<std::string> drivers, targets;  ///< for linkages, as in linkage_cases.hpp
     RowFormat format = RowFormat::Table;
 };
 

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using ik::IncidentKind;
 
-/// What would have prevented a flip; places as the file has them.
+/// The change that would have prevented a flip; positions in the file's conventions.
 Json prevention_json(const Prevention& prevention, const Conventions& space) {
     const TraceSolve& solve = prevention.solve;
     Json json{{"change", prevention_names[static_cast<std::size_t>(prevention.kind)]},

@@ -1,4 +1,4 @@
-// `tendril trace`: what went wrong in a chain's motion that an engine wrote down.
+// `tendril trace`: finds the faults in a chain's motion that an engine recorded.
 #pragma once
 
 #include <optional>

@@ -40,7 +40,7 @@ struct Argument {
     std::function<std::vector<std::string>(const Workspace&)> known{};
     /// For a list: the argument of the same command that takes a single element.
     std::string list_of{};
-    /// Its current value.
+    /// The argument's current value, as text.
     std::function<std::string(const Workspace&)> present{};
 };
 
@@ -70,9 +70,9 @@ class Arguments {
     bool boolean(const char* name) const;
     std::string text(const char* name) const;
     glm::vec3 point(const char* name) const;
-    bool is_point(const char* name) const;       ///< of a NumberOrPoint
-    glm::quat rotation(const char* name) const;  ///< of unit length
-    const Json& json(const char* name) const;    ///< of any type, as given
+    bool is_point(const char* name) const;       ///< whether a NumberOrPoint holds a point
+    glm::quat rotation(const char* name) const;  ///< a unit quaternion
+    const Json& json(const char* name) const;    ///< a value of any type, as given
     const Json& json() const { return json_; }   ///< all arguments: an object, or null if there are none
 
   private:

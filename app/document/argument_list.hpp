@@ -15,8 +15,8 @@
 
 namespace tendril::app {
 
-/// A value of an argument. In JSON, floats become their shortest exact decimals, points [x, y, z], rotations
-/// [x, y, z, w].
+/// The value of an argument. In JSON, floats become their shortest exact decimals, points [x, y, z],
+/// rotations [x, y, z, w].
 class ArgumentValue {
   public:
     using Value =

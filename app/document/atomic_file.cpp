@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-    // A name may hold a zero byte; a message cannot.
+    // A name may contain a zero byte; a message cannot.
     throw std::runtime_error("cannot write " + std::string(path.string().c_str()) + ": " + reason);
 }
 
@@ -150,7 +150,7 @@ class AtomicFile::Beside {
     void move_over(const fs::path& file) {
         require(::rename(name_.c_str(), file.c_str()) == 0);
         moved_ = true;
-        ::close(std::exchange(fd_, -1));  // until now its lock says that it is not torn
+        ::close(std::exchange(fd_, -1));  // until here its lock showed that it is not torn
         // The rename has succeeded; a file system that cannot sync a folder is no error.
         const int folder = open_file(folder_of(file), O_RDONLY | O_DIRECTORY);
         if (folder < 0) return;

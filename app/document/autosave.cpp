@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view name_start = "autosave-", name_end = ".json";
 
-/// The stem of the newest Autosave; recover() gives files names of it.
+/// The stem of the newest Autosave; recover() derives file names from it.
 std::string own_stem = std::to_string(::getpid());
 
 std::string name_for(const std::string& stem) {
@@ -32,8 +32,8 @@ fs::path lock_of(const fs::path& folder, const std::string& stem) {
     return folder / std::string(name_start).append(stem).append(".lock");
 }
 
-/// Whether the file is an autosave whose program has ended: "autosave-12.json", of a second program with that
-/// process ID "autosave-12_2.json", and of recovered work "autosave-12.1.json".
+/// Whether the file is an autosave whose program has ended: "autosave-12.json", "autosave-12_2.json" (a
+/// second program with that process ID) or "autosave-12.1.json" (recovered work).
 bool is_left_behind(const fs::path& file) {
     const std::string name = file.filename().string();
     if (!name.starts_with(name_start) || !name.ends_with(name_end)) return false;
@@ -58,7 +58,7 @@ void remove_left_locks(const fs::path& folder) {
         if (name.starts_with(name_start) && name.ends_with(".lock") && each->is_regular_file(ignored))
             locks.push_back(each->path());
     }
-    for (const fs::path& each : locks) FileLock::take(each);  // and let go: that removes it
+    for (const fs::path& each : locks) FileLock::take(each);  // released at once, which removes it
 }
 
 /// Renames the file to a free name of this program and returns it; empty if that fails.
@@ -82,7 +82,7 @@ Autosave::Autosave(fs::path folder, Clock::duration interval)
     const std::string pid = std::to_string(::getpid());
     for (int i = 1; !lock_ && i < 100; ++i) {
         stem_ = i == 1 ? pid : pid + "_" + std::to_string(i);
-        // A program that crashed may have had the same process ID: its files stay its own.
+        // A crashed program may have had the same process ID: leave its files alone.
         const std::vector<fs::path> left = left_behind(folder_);
         const auto has_stem = [&](const fs::path& each) {
             const std::string name = each.filename().string(), stem = std::string(name_start) + stem_;

@@ -36,12 +36,12 @@ class Autosave {
     /// The title of such a file in the window: the scene's file name and the time of writing.
     static std::string title(const std::filesystem::path& file);
     /// Opens such a file as unsaved changes to its original scene file (the extra member "path"), or to none.
-    /// What of a lab cannot be read stays in the file, and a toast says so. Throws as load_scene_file does.
-    /// The autosave becomes this program's, so that the work in it stays safe until it is saved.
+    /// A lab that cannot be read stays in the file, and a toast says so. Throws as load_scene_file does. The
+    /// autosave becomes this program's, so that the work in it stays safe until it is saved.
     static void recover(Workspace& workspace, const std::filesystem::path& file);
 
   private:
-    /// The file of the work that the workspace shows.
+    /// The autosave file of the workspace's current work.
     std::filesystem::path file_of(const Workspace& workspace) const {
         return workspace.recovered.empty() ? file() : workspace.recovered;
     }
@@ -53,8 +53,8 @@ class Autosave {
     Clock::duration interval_;
     Document written_;
     Clock::time_point changed_at_{};
-    bool waiting_ = false;         ///< since changed_at_
-    bool has_file_ = false;        ///< holds written_
+    bool waiting_ = false;         ///< changed_at_ is set, and nothing was written since
+    bool has_file_ = false;        ///< the file holds written_
     std::filesystem::path shown_;  ///< Workspace::recovered, at the last update
     bool failed_ = false;
 };

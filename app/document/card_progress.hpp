@@ -15,24 +15,24 @@
 
 namespace tendril::app {
 
-/// A step that asks for a drag once more, after a cure for what that drag caused: what has happened so far.
+/// Progress of a step that asks the user to repeat a drag after curing the incident that the drag caused.
 struct RepeatedDrag {
     struct Point {
         std::uint64_t moment = 0;
         glm::vec3 at{0.0f};
     };
-    std::vector<Point> path{};               ///< of the step's drags since another command changed the scene
+    std::vector<Point> path{};               ///< the step's drags since another command changed the scene
     std::optional<std::uint64_t> caused{};   ///< the moment of the last incident that a drag caused
-    SharedJson incident{};                   ///< the one to be cured, as in the state
-    glm::vec3 place{0.0f}, direction{0.0f};  ///< of that drag, then
+    SharedJson incident{};                   ///< the incident to cure, as in the state
+    glm::vec3 place{0.0f}, direction{0.0f};  ///< the drag's, when it caused the incident
     bool cured = false;
 };
 
 struct CardProgress {
     std::size_t card = 0;      ///< index among the lab's cards
     std::vector<bool> done{};  ///< for each step; empty until the first command
-    /// For each step: the moment of the command that it waits for. Empty before that, and again once another
-    /// command has changed the scene.
+    /// For each step: the moment when its command ran. Empty until then, and again once another command has
+    /// changed the scene.
     std::vector<std::optional<std::uint64_t>> tried{};
     std::vector<RepeatedDrag> drags{};   ///< for each step
     std::shared_ptr<const Part> seen{};  ///< the part at the last check
@@ -43,7 +43,7 @@ struct CardProgress {
 std::string card_key(const std::string& lab);
 bool card_shown(const Settings& settings, const std::string& lab);
 void show_card(Settings& settings, const std::string& lab, bool shown);
-/// Whether it was ever shown or hidden.
+/// Whether the user ever showed or hid the card.
 bool card_known(const Settings& settings, const std::string& lab);
 
 }  // namespace tendril::app

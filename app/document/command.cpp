@@ -85,7 +85,7 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
     if (command == nullptr) throw UnknownCommand("unknown command \"" + std::string(name) + "\"");
     check_arguments(*command, arguments);
 
-    const Document before = workspace.document;  // parts are shared: a few pointers
+    const Document before = workspace.document;  // copies pointers only: parts are shared
     const Place from = workspace.place();
     workspace.gesture_begins = !workspace.history.is_open(gesture);
     const bool modified = workspace.modified();

@@ -15,7 +15,7 @@
 
 namespace tendril::app {
 
-/// What a command does to the history.
+/// The effect of a command on the history.
 enum class Effect {
     Edit,     ///< changes the document; can be undone
     Look,     ///< changes view or selection only; no undo entry
@@ -32,8 +32,8 @@ struct Command {
     Effect effect = Effect::Edit;
     /// Whatever it throws becomes a refusal that begins with the command's name.
     std::function<void(Workspace&, const Arguments&)> apply{};
-    /// Completes at once what apply() only starts and ticks continue (Lab::work). For scripts, so that the
-    /// next line finds it done.
+    /// Completes at once the work that apply() only starts and ticks continue (Lab::work). For scripts, so
+    /// that the next line finds it done.
     std::function<void(Workspace&)> finish{};
     std::string lab{};  ///< set by the table; empty: the program's own
 };
@@ -67,7 +67,7 @@ std::string usage(const Command& command);
 
 /// scene.*, view.picture, quit.
 void add_scene_commands(CommandTable& table);
-/// All commands that need no lab: those of add_scene_commands(), undo, redo, camera.set, time.*, view.*.
+/// All commands that need no lab: add_scene_commands(), undo, redo, camera.set, time.*, view.*.
 void add_workspace_commands(CommandTable& table);
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-// What the user creates and saves: a value with one part per lab, independent of which labs exist.
+// The user's document: a value with one part per lab, independent of which labs exist.
 //
 // Copies share parts, which are never changed in place, so a copy costs a few pointers.
 #pragma once
@@ -33,9 +33,9 @@ class Part {
     virtual std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const { return then; }
     /// Rough size in memory, for the history's bound.
     virtual std::size_t bytes() const = 0;
-    /// Those of them that `other`, a part of the same lab, holds too, such as a character.
+    /// The bytes that `other`, a part of the same lab, holds too, for example a character's.
     virtual std::size_t shared_bytes(const Part& /*other*/) const { return 0; }
-    /// Files that load() reads beside the JSON: nothing is written over them.
+    /// Files that load() reads besides the JSON; the program never writes over them.
     virtual std::vector<std::filesystem::path> files() const { return {}; }
 
     /// The scene's JSON for this lab if it could not be read because of a file that it names; else null. It

@@ -28,7 +28,7 @@ struct MomentId {
 struct Place {
     std::string lab{};
     std::optional<std::filesystem::path> path{};      ///< the scene's file
-    std::optional<CameraPose> camera{};               ///< of the lab
+    std::optional<CameraPose> camera{};               ///< the lab's camera
     std::optional<MomentId> moment{};                 ///< set by time.seek only
     std::optional<std::set<std::string>> openings{};  ///< labs that move by themselves until they are changed
     std::optional<std::filesystem::path> recovered{};  ///< the autosave that holds this work
@@ -51,7 +51,7 @@ class History {
     /// Drops the last entry.
     void forget_last() { take(past_); }
 
-    /// Whether undo would restore these very parts.
+    /// Whether undo would restore exactly these parts.
     bool leads_to(const Document& parts) const { return !past_.empty() && past_.back().document == parts; }
     bool can_undo() const { return !past_.empty(); }
     bool can_redo() const { return !future_.empty(); }
@@ -66,10 +66,10 @@ class History {
 
   private:
     struct Entry {
-        Document document;  ///< of the parts that changed
+        Document document;  ///< the parts that changed
         std::string label;
         Place from, to;         ///< before and after the change
-        std::size_t bytes = 0;  ///< not shared with the document before it
+        std::size_t bytes = 0;  ///< bytes not shared with the document before it
     };
     using Entries = std::deque<Entry>;
 

@@ -13,12 +13,12 @@ namespace tendril::app {
 
 inline constexpr auto no_joint = static_cast<std::size_t>(-1);
 
-/// What helps, as commands that a button runs: "Add a pole target".
+/// A remedy, as commands that a button runs: "Add a pole target".
 struct Cure {
-    std::string title;               ///< of the button
+    std::string title;               ///< the button's title
     std::string help;                ///< its tooltip
-    std::vector<CommandCall> calls;  ///< one step to undo
-    std::string text{};              ///< stands before the button, cut where room ends; may be empty
+    std::vector<CommandCall> calls;  ///< undone in one step
+    std::string text{};              ///< shown before the button, cut to fit; may be empty
 };
 
 struct Incident {
@@ -30,13 +30,13 @@ struct Incident {
         Jump      ///< a joint went on to another crossing of its curve
     };
     Kind kind = Kind::Status;
-    std::uint64_t tick = 0;        ///< between the moment of this tick and the next
+    std::uint64_t tick = 0;        ///< happened between this tick's moment and the next
     std::size_t joint = no_joint;  ///< no_joint for a refusal
-    std::string name{};            ///< of the affected bone, control or unit, if it has one
+    std::string name{};            ///< name of the affected bone, control or unit, if it has one
     float degrees = 0.0f;          ///< a flip: how far a bone at the joint turned; a limit: its angle; else 0
     std::string cause;             ///< for display: "the chain was straight (collinear)"
     std::string cure{};            ///< for display, a sentence; empty if there is none
-    std::vector<Cure> buttons{};   ///< apply it, where commands can
+    std::vector<Cure> buttons{};   ///< apply the cure, where commands can
 };
 
 /// As written by --state.

@@ -47,7 +47,7 @@ std::string dump(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// A table row: few values, however many digits they have.
+/// A table row: few values, of any number of digits.
 bool is_row(const Json& json) {
     constexpr std::size_t max_row_size = 16;
     return json.is_array() && json.size() <= max_row_size &&
@@ -159,7 +159,7 @@ std::string reason_of(const std::exception& error) {
 
 std::shared_ptr<void> await_pipe(const std::filesystem::path& path) {
     std::error_code error;
-    // A shell's own pipes, /dev/stdin and /dev/fd/63, have their writer.
+    // The shell's own pipes, /dev/stdin and /dev/fd/63, already have a writer.
     const std::string name = path.string();
     if (!std::filesystem::is_fifo(path, error) || name.starts_with("/dev/") || name.starts_with("/proc/"))
         return nullptr;
@@ -180,7 +180,7 @@ std::shared_ptr<void> await_pipe(const std::filesystem::path& path) {
             ready = ::poll(&wanted, 1, patience);
         while (ready < 0 && errno == EINTR);
     if (ready == 0) fail(name, "nothing came through this pipe for 5 s");
-    // Being a writer, too, the next one who opens it to read does not wait.
+    // This end also writes, so the next open for reading does not block.
     return std::make_shared<std::pair<std::shared_ptr<const int>, std::shared_ptr<const int>>>(
         reader, open_end(O_RDWR));
 }

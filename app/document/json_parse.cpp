@@ -1,4 +1,4 @@
-// Parses JSON from untrusted files: bounded depth, time that grows with the text's size alone, and errors
+// Parses JSON from untrusted files: bounded depth, time that depends on the text's size alone, and errors
 // with line numbers.
 #include <algorithm>
 #include <numeric>
@@ -22,10 +22,10 @@ void check_depth(std::string_view text) {
     }
 }
 
-/// Rewords the parser's message, which speaks of literals and the last read. One line of printable ASCII.
+/// Rewords the parser's message, which mentions literals and the last read. One line of printable ASCII.
 std::string parse_reason(std::string_view what, std::string_view token) {
     constexpr std::size_t longest = 60;
-    what = what.substr(0, what.find("; last read"));  // what the file says is not what the parser says
+    what = what.substr(0, what.find("; last read"));  // omit the file's own text
     const auto says = [&](std::string_view part) { return what.find(part) != what.npos; };
     const std::string_view unexpected = "unexpected ";
     std::string reason;
@@ -53,7 +53,7 @@ std::string parse_reason(std::string_view what, std::string_view token) {
         return "not JSON";
     }
     reason += '\'';
-    // It names control characters as <U+000A>, and may begin before the mistake.
+    // The token shows control characters as <U+000A>, and may begin before the mistake.
     token = says("invalid string") ? token.substr(0, token.find("<U+"))
                                    : token.substr(token.find_last_of(" >{}[],:\"") + 1);
     for (const char c : token.substr(0, longest)) reason += c >= ' ' && c <= '~' ? c : '?';
@@ -63,7 +63,7 @@ std::string parse_reason(std::string_view what, std::string_view token) {
 using Members = std::vector<std::pair<std::string, Json>>;
 
 /// Builds an object. The library searches all earlier members for each new one, which takes hours for a file
-/// of nothing but keys.
+/// that is all keys.
 Json object_of(Members& members) {
     std::vector<std::size_t> order(members.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

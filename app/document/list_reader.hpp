@@ -33,7 +33,7 @@ class ListReader {
     std::string_view text_, value_;
     std::string name_;
     std::size_t at_ = 0;     ///< offset of the next value or, with done_, of the end
-    std::size_t start_ = 0;  ///< of value_
+    std::size_t start_ = 0;  ///< offset of value_
     std::size_t index_ = 0;
     bool first_ = true, done_ = false;
 };

@@ -1,4 +1,4 @@
-// Things that are chosen by name in commands and files: modes, presets, tools.
+// Lookup by name in commands and files: modes, presets, tools.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ struct EnumRow {
 /// The names of an enumeration: one row for each enumerator, in order, from 0.
 template <class Enum, std::size_t count>
 struct EnumNames {
-    const char* what;  ///< what messages call one of them: "mode"
+    const char* what;  ///< the noun for an element in messages: "mode"
     EnumRow rows[count];
 
     constexpr const EnumRow& row(Enum value) const { return rows[static_cast<std::size_t>(value)]; }

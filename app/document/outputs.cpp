@@ -19,7 +19,7 @@ namespace {
 /// The same for all names of a file but hard links.
 fs::path canonical_name(const fs::path& path) {
     std::error_code error;
-    // A relative path of which nothing exists would stay as it is spelled.
+    // A relative path without any existing part would stay as it is spelled.
     fs::path name = fs::weakly_canonical(fs::absolute(path, error), error);
     return error ? path : name;
 }
@@ -29,7 +29,7 @@ std::string text_of(const fs::path& path) {
     return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
-/// The first and the last 64 kB of a file, which tell its kind.
+/// The first and the last 64 kB of a file, enough to tell its kind.
 std::string ends_of(const fs::path& path) {
     constexpr std::streamoff enough = 1 << 16;
     std::ifstream in(path, std::ios::binary | std::ios::ate);
@@ -93,10 +93,10 @@ const char* name(OutputKind kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
-/// The JSON of a glTF file, text or binary; null of any other.
+/// The JSON of a glTF file, text or binary; null for any other file.
 Json gltf_json(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
-    std::string text(20, '\0');  // of a binary one: magic, version, length; its JSON's length and "JSON"
+    std::string text(20, '\0');  // in a binary file: magic, version, length; its JSON's length and "JSON"
     in.read(text.data(), 20);
     if (text.starts_with("glTF")) {
         const auto byte = [&](std::size_t at) { return static_cast<std::uint32_t>(text[at]) & 0xff; };
@@ -112,7 +112,7 @@ Json gltf_json(const fs::path& file) {
     try {
         return parse_json(text);
     } catch (const ParseError&) {
-        return nullptr;  // nothing reads it either
+        return nullptr;  // no reader accepts it either
     }
 }
 
@@ -157,10 +157,10 @@ void Outputs::own(const fs::path& path, const Stamp& stamp) {
 }
 
 void Outputs::check(const std::vector<fs::path>& paths, OutputKind kind, bool redraws) {
-    std::vector<fs::path> others;  // that exist and are not the session's
+    std::vector<fs::path> others;  // existing files that are not the session's
     for (const fs::path& path : paths) {
         std::error_code error;
-        if (!fs::is_regular_file(path, error)) continue;  // the writer says what is wrong with it
+        if (!fs::is_regular_file(path, error)) continue;  // the writer reports the error
         for (const auto* list : {&inputs, &in_use})
             for (const fs::path& input : *list)
                 if (reads(input, path)) refuse(path, "is not replaced: it is in use as input");

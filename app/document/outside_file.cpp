@@ -43,9 +43,9 @@ void for_each_file(auto& json, const auto& take) {
     for (auto& each : json) for_each_file(each, take);
 }
 
-/// Empty if it is nowhere.
+/// Empty if the file is nowhere.
 fs::path moved_file(const fs::path& path, const fs::path& scene_folder) {
-    constexpr std::size_t longest = 4096;  // bytes, as systems have it
+    constexpr std::size_t longest = 4096;  // bytes, the usual limit of operating systems
     fs::path base = path.native().size() > longest ? fs::path() : scene_folder;
     std::error_code error;
     for (int up = 0; up <= 2 && !base.empty(); ++up, base /= "..") {
@@ -76,7 +76,7 @@ Json save_outside_file(const OutsideFile& file) {
 
 OutsideFile named_file(const JsonPlace& place) {
     const auto path = place.optional("path");
-    // Older scenes have only the path of a ground.
+    // Older scenes store only the path of a ground.
     const std::string file = (path && !place.optional("file") ? *path : place["file"]).text();
     if (!path || is_there(path->text())) return {file, path ? path->text() : file};
     if (!is_there(file))

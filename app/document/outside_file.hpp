@@ -1,6 +1,6 @@
-// A file that a part of a scene reads besides the JSON, such as a character. The scene has its name, its
-// absolute path and a checksum: {"file": "hero.glb", "path": "/home/ann/hero.glb", "crc32": 907060870}. So a
-// lab that cannot be read because of its file is told from one with a wrong value.
+// A file that a part of a scene reads besides the JSON, such as a character. The scene stores its name, its
+// absolute path and a checksum: {"file": "hero.glb", "path": "/home/ann/hero.glb", "crc32": 907060870}. This
+// distinguishes a lab that cannot be read because of its file from one with a wrong value.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ namespace tendril::app {
 struct OutsideFile {
     std::string file{};                    ///< as the user gave it; empty: there is none
     std::string path{};                    ///< absolute
-    std::optional<std::uint32_t> crc32{};  ///< of its bytes
+    std::optional<std::uint32_t> crc32{};  ///< checksum of the file's bytes
     bool operator==(const OutsideFile&) const = default;
 };
 
-/// The file at `path`, which was just read; `file`: what the user called it, if that is something else.
+/// The file at `path`, which was just read; `file`: the user's name for it, if that is different.
 OutsideFile outside_file(const std::string& path, const std::string& file = {});
-/// Its members of the scene.
+/// The file's members in the scene's JSON.
 Json save_outside_file(const OutsideFile& file);
 
 /// A file that a scene names is missing or unreadable. what() begins with the JSON path.
@@ -46,8 +46,8 @@ auto read_outside_file(const JsonPlace& place, const auto& read) {
     }
 }
 
-/// Sets the paths of files in a part that have moved with the scene: those that are not at their path but,
-/// with the end of it, under the scene's folder or, with at least one folder, under the two above that.
+/// Updates the paths of files that moved with the scene. A file missing at its path is looked up by the
+/// path's end: under the scene's folder or, with at least one folder, under the two above it.
 void find_moved_files(Json& part, const std::filesystem::path& scene_folder);
 /// The name of a file in the part that has changed since the scene was saved; empty if none has.
 std::string changed_file(const Json& part);

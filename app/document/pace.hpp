@@ -1,4 +1,4 @@
-// Whether the machine keeps up with time, for what the labs say of it. In a live window only.
+// Whether the machine keeps up with real time, for the labs' messages. In a live window only.
 #pragma once
 
 #include "app/document/runtime.hpp"
@@ -9,7 +9,7 @@ namespace tendril::app {
 inline constexpr double max_stall = 0.25;
 
 struct Pace final : Runtime {
-    double kept = 1.0;  ///< share of the last second that the ticks kept up with
+    double kept = 1.0;  ///< fraction of the last second that the ticks kept up with
 };
 inline Pace& pace_of(const Runtimes& runtimes) {
     return runtimes.of<Pace>("pace");

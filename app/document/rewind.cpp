@@ -9,11 +9,11 @@ void Rewind::remember(std::uint64_t tick, std::uint64_t edition, std::shared_ptr
                       std::uint64_t clock) {
     forget_from(tick);
     change_.reset();
-    // It was kept only as the newest.
+    // Drop a moment that was kept only because it was the newest.
     if (!moments_.empty() && moments_.back().tick % stride_ != 0) drop_last();
     while (!moments_.empty() && moments_.front().tick + max_ticks < tick) drop_oldest();
     while (!incidents_.empty() && incidents_.front().tick + max_ticks < tick) incidents_.pop_front();
-    // The history counts a character that all moments share.
+    // The history counts a character that all moments share, so do not count it here.
     const Part& beside = moments_.empty() ? *part : *moments_.back().part;
     const std::size_t size = part->bytes() - part->shared_bytes(beside);
     moments_.push_back({tick, edition, clock, std::move(part), size});

@@ -30,7 +30,7 @@ class Rewind {
 
     explicit Rewind(std::size_t max_bytes = 64u << 20) : max_bytes_(max_bytes) {}
 
-    /// Remembers the part at a tick and discards that tick and later ones: time goes on from here.
+    /// Remembers the part at a tick and discards that tick and later ones: time continues from here.
     void remember(std::uint64_t tick, std::uint64_t edition, std::shared_ptr<const Part> part,
                   std::uint64_t clock = 0);
     void forget_from(std::uint64_t tick);

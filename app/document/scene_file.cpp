@@ -30,7 +30,7 @@ int read_version(const Json& scene) {
     return json_integer(version, "tendril_scene", 1, scene_version);
 }
 
-/// Calls the part, and converts any exception of it to std::runtime_error.
+/// Calls `call`, and converts any exception to std::runtime_error.
 template <class Call>
 auto converted(const std::string& where, const Call& call) {
     try {
@@ -160,11 +160,11 @@ struct Scene {
     std::string lab;
     CameraPose camera;
     std::vector<UnreadLab> unread;
-    std::optional<bool> paused;  ///< older scenes do not say
+    std::optional<bool> paused;  ///< older scenes do not store it
     std::optional<float> speed;
 };
 
-/// Throws what load_scene() throws.
+/// Throws as load_scene() does.
 Scene read_scene(const Workspace& workspace, const Json& json, const SceneLoading& loading) {
     const int version = read_version(json);
     const std::string whole;
@@ -185,7 +185,7 @@ Scene read_scene(const Workspace& workspace, const Json& json, const SceneLoadin
     return scene;
 }
 
-/// Why a saved scene would not open; empty if it would. Files that it names and that are gone are not its
+/// The reason why a saved scene would not open; empty if it would. Missing files that it names are not its
 /// fault.
 std::string loading_fault(const Workspace& workspace, const std::string& text) {
     try {
@@ -235,7 +235,7 @@ void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
 }
 
 std::vector<UnreadLab> load_scene_file(Workspace& workspace, const std::filesystem::path& path) {
-    const Outputs::Stamp stamp = Outputs::stamp_of(path);  // before it is read: later changes are noticed
+    const Outputs::Stamp stamp = Outputs::stamp_of(path);  // before reading: later changes are noticed
     const std::string text = read_text_file(path);
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     std::vector<UnreadLab> unread;

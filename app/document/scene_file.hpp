@@ -20,10 +20,10 @@ CameraPose load_camera(const Json& json, const std::string& where);
 
 struct SceneLoading {
     std::filesystem::path folder{};  ///< the scene's: files that have moved with it are found there
-    bool whole = true;               ///< a lab with a wrong value refuses the scene, and does not start blank
+    bool whole = true;  ///< a wrong value refuses the whole scene instead of starting that lab blank
 };
 
-/// A lab that starts blank, because of a file that its part of the scene names.
+/// A lab that starts blank because of a file that its part of the scene names.
 struct UnreadLab {
     std::string lab;
     std::string text;  ///< why: "labs.humanoid.file: hero.glb is missing, at ..."

@@ -23,7 +23,7 @@ const char* name_of(T value, const Names<T, N>& names) {
     return names.front().second;
 }
 
-/// Reads values by name. An invalid value is reported and leaves the default.
+/// Reads values by name. Reports an invalid value and keeps the default.
 class Reader {
   public:
     Reader(const Json& json, std::vector<std::string>& complaints) : json_(json), complaints_(complaints) {}

@@ -33,7 +33,7 @@ inline std::string lower_case(std::string_view text) {
     return result;
 }
 
-/// With its first letter in upper case.
+/// The text with its first letter in upper case.
 inline std::string capitalised(std::string text) {
     if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
     return text;

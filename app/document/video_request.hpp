@@ -26,14 +26,14 @@ struct PictureRequest : PictureLook {
 /// A video: of the last seconds, or of frames that a lab shows one by one.
 struct VideoRequest : PictureLook {
     std::filesystem::path path;
-    std::string command = "view.video";  ///< that asked for it, for messages
+    std::string command = "view.video";  ///< the command that asked for it, for messages
     int from = 0;                        ///< ticks of 1/60 s before the newest moment in Rewind
     int to = 0;                          ///< likewise, less than `from`
     int every = 2;                       ///< ticks from one frame to the next
-    double speed = 1.0;                  ///< of playback; 0.5 is slow motion
+    double speed = 1.0;                  ///< playback speed; 0.5 is slow motion
 
-    /// Instead of the last seconds: how many frames, and what shows one of them in a copy of the workspace.
-    /// It returns false if the frame looks like the one before.
+    /// Set for frames that a lab shows instead of the last seconds: their number, and the function that shows
+    /// one in a copy of the workspace. It returns false if the frame looks like the one before.
     int shown_frames = 0;
     std::function<bool(Workspace&, int frame)> show{};
 
@@ -42,7 +42,7 @@ struct VideoRequest : PictureLook {
 
 /// Progress of the video being written.
 struct VideoProgress {
-    std::string name;  ///< the file's
+    std::string name;  ///< the file's name
     int done = 0, frames = 0;
 };
 

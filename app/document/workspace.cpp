@@ -9,17 +9,17 @@
 namespace tendril::app {
 
 int Clock::whole_ticks() const {
-    constexpr double rounding = 1e-6;  // the speed is a float: ten tenths must make a whole
+    constexpr double rounding = 1e-6;  // the speed is a float: ten steps of a tenth must make a whole tick
     const double after = passed + static_cast<double>(speed);
     return static_cast<int>(std::floor(after + rounding) - std::floor(passed + rounding));
 }
 
 namespace {
 
-/// Of the last ten seconds of all closed labs together: as much as the open one may have.
+/// Memory for the last ten seconds of all closed labs together: as much as the open one may have.
 constexpr std::size_t max_closed_bytes = 64u << 20;
 
-/// Drops the last ten seconds of closed labs, the largest first, until the rest keep within that.
+/// Drops the last ten seconds of closed labs, the largest first, until the rest fit.
 void trim(std::map<std::string, Workspace::Past>& pasts) {
     const auto bytes = [](const auto& each) { return each.second.rewind.bytes(); };
     for (;;) {
@@ -119,7 +119,7 @@ void Workspace::set_openings(std::set<std::string> labs) {
 Workspace::BeforeAndAfter Workspace::around(const Incident& incident) const {
     if (rewind.empty() || incident.tick < rewind.oldest() || incident.tick > rewind.newest()) return {};
     const std::uint64_t back = rewind.newest() - incident.tick;
-    // The newest moment's successor is the document itself.
+    // The document itself follows the newest moment.
     return {rewind.at(back).part, back > 0 ? rewind.at(back - 1).part : document.parts().at(lab)};
 }
 

@@ -1,4 +1,4 @@
-// Everything that commands can change: the document, and the state around it while the program runs.
+// Everything that commands can change: the document, and the program's state around it.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +26,14 @@ inline constexpr double tick_seconds = 1.0 / 60.0;
 
 struct Clock {
     bool playing = true;
-    bool looks_back = false;     ///< paused by going to an earlier moment: only the open lab is
-    bool held = false;           ///< paused by hand: every lab is; up to date when a lab is closed
+    bool looks_back = false;     ///< paused by going to an earlier moment: only the open lab is paused
+    bool held = false;           ///< paused by hand: all labs are; up to date when a lab is closed
     std::uint64_t tick = 0;      ///< simulated ticks so far
     int steps_due = 0;           ///< ticks to take even while paused
     float speed = 1.0f;          ///< seconds that pass in a lab per second
     double passed = 0.0;         ///< ticks that have passed in the labs, scaled by speed
     bool replaying = false;      ///< the last seconds are replaying at this speed
-    std::uint64_t replayed = 0;  ///< up to this moment
+    std::uint64_t replayed = 0;  ///< replays up to this moment
     bool measured = false;       ///< measure the cost of simulating: only in a live window
 
     /// How many whole ticks of lab time the next tick completes, for a lab that cannot simulate part of a
@@ -51,10 +51,10 @@ struct Toast {
     int ticks_left = 0;
 };
 
-/// An autosave that a crash left.
+/// An autosave left behind by a crash.
 struct Recoverable {
     std::filesystem::path file;
-    std::string title;  ///< shown: "arm.json, 2026-11-21 14:03"
+    std::string title;  ///< as shown: "arm.json, 2026-11-21 14:03"
 };
 
 inline constexpr int min_picture = 16, max_picture = 8192;  ///< pixels, each way
@@ -65,19 +65,19 @@ struct UiState {
     bool palette = false;
     bool settings = false;
     enum class FileDialog { None, Open, SaveAs, SaveAndQuit, Video } file_dialog = FileDialog::None;
-    bool plays_after_dialog = false;  ///< the dialog has paused the simulation
+    bool plays_after_dialog = false;  ///< the simulation resumes when the dialog closes
     std::vector<Toast> toasts;
     std::vector<Recoverable> recoverable;  ///< until the user answers
     glm::vec2 view_size{1000.0f, 700.0f};  ///< the 3D view, or its first pane, in window coordinates
-    glm::ivec2 picture_size{1000, 700};    ///< of a picture of the whole view, pixels
+    glm::ivec2 picture_size{1000, 700};    ///< size of a picture of the whole view, pixels
     std::optional<std::string> copied;     ///< text on its way to the clipboard
-    bool pastes = false;                   ///< the clipboard's text is wanted, as by Ctrl+V
+    bool pastes = false;                   ///< paste the clipboard's text, as Ctrl+V does
     std::optional<PictureRequest> picture;
     std::optional<VideoRequest> video;          ///< requested, not started
-    std::optional<VideoProgress> filming;       ///< of the video being written
+    std::optional<VideoProgress> filming;       ///< the video being written
     bool ends_filming = false;                  ///< stop writing it
-    std::optional<Incident> incident;           ///< shown: the pose before it, over the pose after it
-    std::map<std::string, CardProgress> cards;  ///< of things to try, by lab
+    std::optional<Incident> incident;           ///< the pose before it is shown over the pose after it
+    std::map<std::string, CardProgress> cards;  ///< things to try, by lab
     bool asks_to_quit = false;                  ///< the question about unsaved work is open
     bool quit = false;
 
@@ -92,12 +92,12 @@ struct Workspace {
     Runtimes runtimes;      ///< the labs' scratch memory; may be discarded at any time
     Document blank;         ///< scene.new starts from this
     std::string lab;        ///< the open lab
-    CameraPose first_view;  ///< after scene.new, in a lab without a view of its own
-    std::map<std::string, CameraPose> first_views;  ///< each lab's
+    CameraPose first_view;  ///< the camera after scene.new, in a lab without a view of its own
+    std::map<std::string, CameraPose> first_views;  ///< each lab's first view
     CameraPose camera;
-    std::map<std::string, CameraPose> cameras;  ///< of the closed labs
+    std::map<std::string, CameraPose> cameras;  ///< the closed labs' cameras
     Clock clock;
-    Rewind rewind;                 ///< of the open lab
+    Rewind rewind;                 ///< the open lab's
     std::uint64_t beginnings = 0;  ///< counts scenes begun, new or opened
     std::uint64_t moment = 0;      ///< counts simulated ticks and changes by hand, which rewind remembers
     struct Past {
@@ -107,27 +107,27 @@ struct Workspace {
             left{};  ///< the lab's part when it was closed; the past is dropped if it has changed
         bool looks_back = false;  ///< the lab is paused at an earlier moment
     };
-    std::map<std::string, Past> pasts;  ///< of the closed labs
-    /// What the last edit at an earlier moment has discarded, until undo leads back there.
+    std::map<std::string, Past> pasts;  ///< the closed labs'
+    /// The moments that the last edit at an earlier moment discarded, until undo leads back there.
     struct Discarded {
         Rewind rewind;
-        std::shared_ptr<const Part> part;  ///< the open lab's, before the edit
+        std::shared_ptr<const Part> part;  ///< the open lab's part before the edit
         MomentId moment;
     };
     std::optional<Discarded> discarded;
-    std::uint64_t edition = 0;   ///< of the last undoable change
+    std::uint64_t edition = 0;   ///< the edition of the last undoable change
     std::uint64_t editions = 0;  ///< counts all editions; numbers are never reused
     History history;
     bool gesture_begins = true;  ///< the running command is the first of its drag, or not part of one
     Settings settings;
     std::filesystem::path config;  ///< folder for data kept between sessions; empty: none
-    bool keeps = false;            ///< save it automatically: only in a live window
+    bool keeps = false;            ///< autosave: only in a live window
     bool names_pictures = false;   ///< gives new pictures a name: only in a live window
     UiState ui;
     std::filesystem::path path;       ///< the scene's file; empty if it has none
     std::filesystem::path recovered;  ///< the autosave that holds this work; empty: the program's own
-    Outputs outputs;                  ///< of writes(), for all but the session's options
-    Document saved;                   ///< as last saved or opened
+    Outputs outputs;                  ///< used through writes(), except for the session's options
+    Document saved;                   ///< the document as last saved or opened
     std::set<std::string> openings;   ///< labs whose opening still moves by itself: nothing to save
 
     /// Opens a lab with the camera it had when it was last open.
@@ -141,11 +141,11 @@ struct Workspace {
     void remember_moment() { rewind.remember(moment, edition, document.parts().at(lab), clock.tick); }
     /// Counts a moment for a change by hand without a simulated tick.
     void pass_change();
-    /// Makes these labs the openings. What was one and what is one is as saved.
+    /// Makes these labs the openings. A lab that was or becomes one counts as saved.
     void set_openings(std::set<std::string> labs);
     /// Forgets this moment and the later ones, which an edit of `part` invalidates; undo brings them back.
     void discard_later(const std::shared_ptr<const Part>& part);
-    /// Brings back what the edit of this very part has discarded. Returns whether it did.
+    /// Brings back the moments that the edit of exactly this part discarded. Returns whether there were any.
     bool restore_later(const std::shared_ptr<const Part>& part);
     /// The ticks that an edit here would discard; 0 at the latest moment.
     std::uint64_t later_ticks() const {
@@ -162,9 +162,9 @@ struct Workspace {
     BeforeAndAfter around(const Incident& incident) const;
     Place place() const { return {lab, path, camera, std::nullopt, openings, recovered}; }
     bool modified() const { return document != saved; }
-    /// Through which every file is written: it knows which files the document reads.
+    /// Every file is written through this: it knows which files the document reads.
     Outputs& writes();
-    /// Closes the file dialog; what it has paused goes on.
+    /// Closes the file dialog and resumes what it paused.
     void close_file_dialog();
     void toast(std::string text, ToastKind kind = ToastKind::Info);
 };

@@ -29,7 +29,7 @@ void step_through(Workspace& workspace, bool back) {
     const auto before = workspace.document.parts();
     workspace.document = std::move(*document);
     const auto parts = workspace.document.parts();
-    // A scene that was opened changed all labs; its name says so.
+    // Opening a scene changes all labs; its name shows that, without a toast.
     std::vector<std::string> changed;
     for (const auto& [lab, part] : parts)
         if (const auto was = before.find(lab); was != before.end() && was->second != part)

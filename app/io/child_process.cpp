@@ -81,7 +81,7 @@ class SpawnPlan {
     SpawnPlan(const SpawnPlan&) = delete;
     SpawnPlan& operator=(const SpawnPlan&) = delete;
 
-    /// Returns 0 or an errno value.
+    /// Starts the program. Returns 0 or an errno value.
     int start(pid_t& id, const std::vector<std::string>& command) const {
         std::vector<char*> words;
         for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
@@ -160,7 +160,7 @@ std::string ChildProcess::last_line() const {
 
 void ChildProcess::fail(const std::string& otherwise) {
     close_input();
-    // It may have closed its input before reporting why: wait for up to a second.
+    // The program may have closed its input before it reports why: wait for up to a second.
     using Time = std::chrono::steady_clock;
     for (const auto end = Time::now() + std::chrono::seconds(1); !ended() && Time::now() < end;)
         std::this_thread::sleep_for(look_again);

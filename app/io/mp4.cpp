@@ -97,7 +97,7 @@ double Mp4File::seconds_left() {
 
 void Mp4File::begin_reading() {
     if (!reader_ && ffmpeg_.ended_after_input() && ffmpeg_.succeeded())
-        ends_by_.reset(), reader_.emplace(reading_command(file_.beside()));  // as long again to read it back
+        ends_by_.reset(), reader_.emplace(reading_command(file_.beside()));  // the same time again to read it
 }
 
 bool Mp4File::waits() {

@@ -1,6 +1,6 @@
-// MP4 with H.264 video, which everything plays, written by ffmpeg if that is installed, through a pipe.
-// ffmpeg may end well after a write has failed, so it then reads the whole file back; only then is the old
-// one gone. Colour has half the resolution (4:2:0), and there is no alpha channel.
+// MP4 with H.264 video, which everything plays, written through a pipe by ffmpeg if that is installed. ffmpeg
+// may exit successfully after a failed write, so it then reads the whole file back; only then is the old file
+// replaced. Colour has half the resolution (4:2:0), and there is no alpha channel.
 #pragma once
 
 #include <chrono>
@@ -25,8 +25,8 @@ class Mp4File final : public VideoFile {
 
   private:
     VideoFormat format_;
-    ChildProcess ffmpeg_;                 ///< ends before the file that it writes goes
-    std::optional<ChildProcess> reader_;  ///< once ffmpeg_ has ended well
+    ChildProcess ffmpeg_;                 ///< destroyed before the file that it writes
+    std::optional<ChildProcess> reader_;  ///< set once ffmpeg_ has succeeded
     int frames_ = 0;
     std::optional<std::chrono::steady_clock::time_point> ends_by_;  ///< set once it has all frames
 

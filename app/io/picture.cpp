@@ -48,7 +48,7 @@ Image matted(const Image& black, const Image& white) {
 Image draw_picture(Renderer& renderer, const DrawScene& draw, const CameraPose& pose, glm::ivec2 size,
                    const Palette& palette, bool transparent, const DrawOver& over) {
     if (!transparent) return drawn(renderer, draw, pose, size, palette, true, over);
-    // Colours that fade into the background fade into either of these.
+    // Colours that fade into the background fade into black and white here.
     return matted(drawn(renderer, draw, pose, size, before(palette, 0.0f), false, over),
                   drawn(renderer, draw, pose, size, before(palette, 1.0f), false, over));
 }

@@ -12,7 +12,7 @@ namespace tendril::app {
 /// Draws a lab's panes in the colours of a palette.
 using DrawScene = std::function<std::vector<Pane>(const Palette&)>;
 
-/// Draws over them, into the bound framebuffer, in the same colours.
+/// Draws over the panes, into the bound framebuffer, in the same colours.
 using DrawOver = std::function<void(const std::vector<Pane>&, const Palette&)>;
 
 /// Draws the scene in a picture of `size` pixels. With `transparent` it has no background, and transparent

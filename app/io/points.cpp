@@ -46,7 +46,7 @@ class PointReader {
     [[noreturn]] void fail(const std::string& what) const {
         throw std::runtime_error("line " + std::to_string(line_) + ": " + what);
     }
-    /// What stands at the present place, for a message.
+    /// The text at the present place, for a message.
     std::string found() const {
         std::size_t end = at_ + 1;
         while (end < text_.size() && end - at_ < 40 && text_[end] != '\n' && !separates(text_[end])) ++end;
@@ -80,7 +80,7 @@ class PointReader {
         }
     }
 
-    /// Inside brackets a row may go on in the next line.
+    /// Inside brackets a row may continue on the next line.
     void end_line() {
         if (count_ == 3 || (open_.empty() && (count_ > 0 || axis_))) finish_row();
         ++line_;
@@ -161,13 +161,13 @@ class PointReader {
 
     std::string_view text_;
     std::size_t most_, at_ = 0, line_ = 1;
-    std::string open_;  ///< brackets
+    std::string open_;  ///< the open brackets
     std::vector<glm::vec3> points_;
     // the present row
     glm::vec3 row_{0.0f};
     std::array<bool, 3> given_{};
     std::size_t count_ = 0;
-    std::optional<std::size_t> axis_;  ///< named, its number not yet read
+    std::optional<std::size_t> axis_;  ///< the named axis whose number is not yet read
     bool named_ = false;
 };
 

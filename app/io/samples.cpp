@@ -144,7 +144,7 @@ std::string columns_text(const Fields& names, bool named) {
     return "it has " + text;
 }
 
-/// As column names are compared: "Time (s)" is "time".
+/// A column name in the form that comparisons use: "Time (s)" is "time".
 std::string plain_name(std::string_view name) {
     return lower_case(trimmed(name.substr(0, name.find_first_of("(["))));
 }
@@ -195,7 +195,7 @@ struct Columns {
     double seconds = 1.0;   ///< the unit of time
 };
 
-/// Throws with the columns there are if they do not say which to take.
+/// Throws with a list of the columns if they do not determine which to read.
 Columns columns_of(const Table& table, const Fields& names, bool named, const ColumnChoice& choice) {
     if (!named && names.size() == 2 && choice.time.empty() && choice.value.empty()) return {};
     std::optional<std::size_t> time, value, dt;
@@ -231,7 +231,7 @@ void check_order(const Table& table, const Columns& columns, double time, double
         table.fail(columns.time, "time", "at most 1e9 s after " + decimal(before), decimal(time));
 }
 
-/// Computes dt from absolute times. The first sample's dt is unknown: it gets that of the next one, wherever
+/// Computes dt from absolute times. The first sample's dt is unknown and is set to the next one's, wherever
 /// time begins.
 void difference(TimedSamples& rows) {
     for (std::size_t i = 1; i < rows.times.size(); ++i) {

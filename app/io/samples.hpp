@@ -31,13 +31,13 @@ struct ColumnChoice {
 };
 
 /// `name` is the file's, for messages: "samples.csv: row 3, column 2 (input): expected a number, found "x"".
-/// Throws std::runtime_error; names the columns there are if they do not say which to take. Refuses a file
-/// without samples.
+/// Throws std::runtime_error, with a list of the columns if they do not determine which to read. Refuses a
+/// file without samples.
 TimedSamples parse_samples(std::string_view text, const std::string& name, const ColumnChoice& choice = {});
 TimedSamples read_samples(const std::filesystem::path& path, const ColumnChoice& choice = {});
 
 /// A response to `count` samples, one number per row: the column named output, response or value, or else the
-/// last one. So the output of `tendril signal` can be fitted.
+/// last one. This lets the output of `tendril signal` be fitted.
 std::vector<double> parse_response(std::string_view text, const std::string& name, std::size_t count);
 std::vector<double> read_response(const std::filesystem::path& path, std::size_t count);
 

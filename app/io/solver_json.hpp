@@ -18,7 +18,7 @@ namespace tendril::app {
 /// Writes the fields of the limit's kind; limit_from_json restores exactly the same angles.
 Json limit_json(const ik::Limit& limit);
 
-/// What ik::fault() says, with the limit's values: "the hinge's min is over its max: kind ..."
+/// The message of ik::fault() with the limit's values: "the hinge's min is over its max: kind ..."
 std::string fault_text(const char* why, const ik::Limit& limit);
 
 /// Reads a limit of any kind. A missing field has the value of ik::Limit::of(kind); a field that the kind

@@ -1,4 +1,4 @@
-// Solvers in words, the same everywhere: panel, microscope, race, `tendril solve`.
+// Solver names and results as text, the same everywhere: panel, microscope, race, `tendril solve`.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@ namespace tendril::app {
 /// "FABRIK, accelerated"
 const char* solver_title(ik::Method method);
 
-/// What ran in a solve: "FABRIK, accelerated + least squares, 3 restarts"; "FABRIK, accelerated, 1
-/// perturbation": of a chain that had stalled or was on one line. A method keeps its name within limits,
-/// where FABRIK omits its accelerated step and two bones continue with least-squares steps.
+/// The solvers that ran in a solve: "FABRIK, accelerated + least squares, 3 restarts", or "FABRIK,
+/// accelerated, 1 perturbation" for a chain that had stalled or was collinear. A method keeps its name within
+/// limits, where FABRIK omits its accelerated step and two bones continue with least-squares steps.
 std::string ran_text(ik::Method method, const ik::Report& report);
 
 }  // namespace tendril::app

@@ -11,7 +11,7 @@
 namespace tendril::app {
 
 struct VideoFormat {
-    glm::ivec2 size{0};        ///< of every frame, pixels
+    glm::ivec2 size{0};        ///< every frame's, pixels
     int frames = 0;            ///< total, 1 or more
     int every = 2;             ///< ticks of 1/60 s from one frame to the next: 1 to 60
     double speed = 1.0;        ///< 0.05 to 2; in slow motion frames last longer

@@ -7,17 +7,17 @@
 //                  "when": [{"expect": "solve.report.status", "equals": "Stretched"}],
 //                  "script": [{"command": "chain.target", "to": [9, 1, 0]}]}]}]
 //
-// A step is done when the user ran one of the commands in `by`, by a drag, a panel or the palette, and then
-// all conditions in `when`, if there are any, hold at once, before another command changes the scene. Where
-// `place` is a handle, panels and the palette do not count: the step asks for the mouse in the view. A
-// command counts if it has the listed arguments; null stands for any value. `scene` sets up the card's scene.
-// `script` is for the tests, which play every step.
+// A step is done when the user has run one of the commands in `by`, by a drag, a panel or the palette, and
+// then all conditions in `when`, if any, hold at once, before another command changes the scene. If `place`
+// is a handle, panels and the palette do not count: the step asks for the mouse in the view. A command counts
+// if it has the listed arguments; null matches any value. `scene` sets up the card's scene. `script` is for
+// the tests, which play every step.
 //
 // {"avoided": "flip", "after": "chain.pole", "within": 0.8} holds once a cure works: a drag by `by` caused a
-// flip, the command `after` was run, and then a drag passed within 0.8 m of the place where it flipped, from
-// one side to the other, without a flip. The same joint must not flip again, nor another for the same reason,
-// before the cure has to be repeated; any other flip only means that the drag has to pass once more. The
-// commands in `by` have a point for the argument that is null.
+// flip, the command `after` was run, and then a drag passed within 0.8 m of the place of the flip, from one
+// side to the other, without a flip. If the same joint flips again, or another for the same reason, the cure
+// has to be repeated; after any other flip only the drag has to be repeated. The commands in `by` have a
+// point for the argument that is null.
 #pragma once
 
 #include <map>
@@ -31,7 +31,7 @@
 
 namespace tendril::app {
 
-/// A command and its arguments, or those that matter.
+/// A command and its arguments, or only those that must match.
 struct CardLine {
     std::string command;
     SharedJson arguments;
@@ -42,7 +42,7 @@ struct CardCondition {
         Expected,  ///< the state is as expected: {"expect": PATH, ...} as in a script
         Present,   ///< the state has such a value: {"present": PATH}
         Noted,     ///< the command caused an incident of that kind: {"event": "flip"}
-        Avoided    ///< a drag that caused such an incident does so no more: {"avoided": "flip", ...}
+        Avoided    ///< a drag that caused such an incident no longer does: {"avoided": "flip", ...}
     } kind = Kind::Expected;
     Expect expect{};
     std::string name{};   ///< the path, or the kind of event
@@ -53,7 +53,7 @@ struct CardCondition {
 struct CardStep {
     std::string text;
     enum class Place { Handle, Panel, Inspector } place = Place::Handle;
-    std::string place_name;  ///< of the handle, or of the section
+    std::string place_name;  ///< name of the handle or the section
     std::vector<CardLine> by;
     std::vector<CardCondition> when;
     std::vector<SharedJson> script;

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As much of a file as FileKind::begins() sees. Empty if it cannot be read.
+/// The part of a file that FileKind::begins() sees. Empty if it cannot be read.
 std::string beginning_of(const fs::path& file) {
     constexpr std::streamsize enough = 1 << 16;
     std::ifstream in(file, std::ios::binary);
@@ -36,7 +36,7 @@ std::string all_kinds(const std::vector<FileRoute>& routes) {
     return text;
 }
 
-/// The command that opens such files, with what it needs to run without the program's table.
+/// The command that opens such files, complete enough to run without the program's table.
 Command opener(const FileRoute& route) {
     CommandTable own;
     route.lab != nullptr ? route.lab->add_commands(own) : add_scene_commands(own);
@@ -80,7 +80,7 @@ FileRoute file_route(const Labs& labs, const fs::path& file) {
     std::copy_if(routes.begin(), routes.end(), std::back_inserter(fitting),
                  [&](const FileRoute& route) { return has_ending(route.kind, file); });
     if (fitting.size() == 1) return fitting.front();
-    // A pipe can be read only once: it is a scene.
+    // A pipe can be read only once, so it is taken for a scene.
     std::error_code none;
     if (const fs::file_status status = fs::status(file, none);
         fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
@@ -89,7 +89,7 @@ FileRoute file_route(const Labs& labs, const fs::path& file) {
     const std::vector<FileRoute>& among = fitting.empty() ? routes : fitting;
     for (const FileRoute& route : among)
         if (route.kind.begins != nullptr && route.kind.begins(text)) return route;
-    // One that takes any text with its ending comes before one that has looked and found nothing.
+    // Prefer a kind that takes any text with its ending to one that checks the text and refuses.
     for (const FileRoute& route : fitting)
         if (route.kind.begins == nullptr) return route;
     if (!fitting.empty()) return fitting.front();

@@ -1,5 +1,5 @@
-// Which lab opens a file. Each lab says what it reads (Lab::files()); file.open finds the lab by the file's
-// ending, or by its text if that does not decide, and opens the file there.
+// Finds the lab that opens a file. Each lab lists its kinds of file (Lab::files()); file.open finds the lab
+// by the file's ending, or by its text if that does not decide, and opens the file there.
 #pragma once
 
 #include <filesystem>
@@ -15,14 +15,14 @@ struct FileRoute {
     FileKind kind;
 };
 
-/// Scenes first, then what each lab reads.
+/// Scenes first, then the files that each lab reads.
 std::vector<FileRoute> file_routes(const Labs& labs);
 
 bool has_ending(const FileKind& kind, const std::filesystem::path& file);
 /// "motions (bvh)"
 std::string kind_text(const FileKind& kind);
 
-/// How that file is opened. Throws Refused with the kinds there are if no lab reads it.
+/// The route that opens the file. Throws Refused with a list of the supported kinds if no lab reads it.
 FileRoute file_route(const Labs& labs, const std::filesystem::path& file);
 
 /// file.open

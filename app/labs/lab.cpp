@@ -13,7 +13,7 @@ Bounds bounds_of(glm::vec3 low, glm::vec3 high, float smallest) {
 }
 
 void frame_unless_seen(Workspace& workspace, const Bounds& bounds) {
-    constexpr float smallest = 0.25f;  // of the view
+    constexpr float smallest = 0.25f;  // fraction of the view
     const Rect view{{0.0f, 0.0f}, workspace.ui.view_size};
     const Camera camera(workspace.camera, view);
     const auto at = camera.project(bounds.centre);

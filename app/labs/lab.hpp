@@ -43,23 +43,23 @@ struct View {
 struct Handle {
     using Frame = HandleFrame;
     std::string name;       ///< as in --state: "target", "segment.3"
-    PickId pick = no_pick;  ///< of what is drawn at the frame
+    PickId pick = no_pick;  ///< the pick of the strokes drawn at the frame
     Frame frame;
     Drag drag = Drag::Position;
     /// Dragging it drags this part of a gizmo: a knob on its rail, a ring that is always shown.
     std::optional<GizmoPart> part{};
 };
 
-/// What one gizmo drags when several things are selected.
+/// The handles that one gizmo drags when several things are selected.
 struct Together {
     std::vector<Handle> handles;
-    std::string staying;  ///< which of the selected stay behind, and why; empty if none
+    std::string staying;  ///< which selected things stay behind, and why; empty if none
 };
 
-/// What a lab does with text from the clipboard.
+/// A lab's response to text from the clipboard.
 struct TakenText {
     std::optional<CommandCall> command;
-    std::string what;  ///< with a command: what the text holds, "points". Without: why the lab refuses it
+    std::string what;  ///< with a command: what the text holds, "points". Without: the reason for refusing it
 };
 
 /// A sphere that should be in view.
@@ -98,13 +98,13 @@ struct FileKind {
     std::string plural;                ///< "characters"
     std::vector<std::string> endings;  ///< in lower case: ".bvh"
     std::string command;               ///< opens such a file, given as `path`
-    ArgumentList arguments{};          ///< further ones
+    ArgumentList arguments{};          ///< further arguments
     /// Whether the file's text begins like one of this kind. Decides if several kinds share the ending, or
     /// if no kind has it. Null: the ending alone decides.
     bool (*begins)(std::string_view text) = nullptr;
 };
 
-/// Only the first functions must be overridden: names, blank part, commands, drawing. The rest have defaults.
+/// Only the first functions must be overridden: names, blank part, commands, drawing. The rest are optional.
 class Lab {
   public:
     virtual ~Lab() = default;
@@ -121,14 +121,14 @@ class Lab {
 
     // opening
     virtual CameraPose first_view() const { return {}; }
-    /// What to try first: "Drag the orange ball." Empty: none.
+    /// The first thing to try: "Drag the orange ball." Empty: none.
     virtual const char* invitation() const { return ""; }
 
     /// Commands that turn the blank part into the scene that a new window opens on, preferably one that
     /// moves by itself. Those that change a setting are skipped if the user has already chosen it.
     virtual std::vector<CommandCall> opening() const { return {}; }
-    /// Commands that stop what would compete with the user in the opening. Run once, before the first change
-    /// in the lab or the first press on something in it; not a step to undo.
+    /// Commands that stop motions of the opening that would interfere with the user. Run once, before the
+    /// first change in the lab or the first press on something in it; not an undo step.
     virtual std::vector<CommandCall> calm() const { return {}; }
 
     // time
@@ -151,7 +151,7 @@ class Lab {
     }
     /// Whether incidents in `before` still concern `after`: it has the same joints. If not, they are dropped.
     virtual bool same_joints(const Part& /*before*/, const Part& /*after*/) const { return true; }
-    /// Whether a long computation is running; work() does a share of it each tick, even while paused.
+    /// Whether a long computation is running; work() does a part of it each tick, even while paused.
     virtual bool working(const Workspace&) const { return false; }
     virtual void work(Workspace&) const {}
     /// Height of the timeline below the scene, in pixels at scale 1; 0: none.
@@ -160,7 +160,7 @@ class Lab {
     virtual void timeline(const Workspace&, Emit&) const {}
 
     // plots beside the scene
-    /// Share of the window's middle, from the left, that they take from the 3D view: 0 to 1.
+    /// Fraction of the window's middle, from the left, that they take from the 3D view: 0 to 1.
     virtual float canvas_share(const Workspace&) const { return 0.0f; }
     virtual void canvas(const Workspace&, Emit&) const {}
 
@@ -173,8 +173,8 @@ class Lab {
     virtual std::optional<Handle> gizmo(const Workspace&) const { return std::nullopt; }
     /// Drags a handle to a frame; called each time the pointer moves.
     virtual void drag(const Workspace&, PickId, const Handle::Frame&, Emit&) const {}
-    /// What an arrow (Drag::Position) or a ring (Drag::Rotation) of the gizmo drags when several are
-    /// selected. No handles: only the gizmo's own.
+    /// The handles that an arrow (Drag::Position) or a ring (Drag::Rotation) of the gizmo drags when several
+    /// are selected. No handles: only the gizmo's own.
     virtual Together together(const Workspace&, Drag) const { return {}; }
     /// Drags each of these to its frame.
     virtual void drag_together(const Workspace&, const std::vector<Handle>&, Emit&) const {}
@@ -194,10 +194,10 @@ class Lab {
     virtual std::vector<Handle> selectable(const Workspace& workspace, std::size_t /*pane*/) const {
         return handles(workspace);
     }
-    /// Selects the handles in the box; `add` keeps the selection there was. Some may be selected already.
+    /// Selects the handles in the box; `add` keeps the previous selection. Some may be selected already.
     virtual void select(const Workspace&, const std::vector<PickId>&, bool /*add*/, Emit&) const {}
-    /// Whether a drag, wherever it begins, draws a straight stroke across the scene instead of what a drag
-    /// usually does.
+    /// Whether a drag, wherever it begins, draws a straight stroke across the scene instead of its usual
+    /// effect.
     virtual bool takes_strokes(const Workspace&) const { return false; }
     /// The stroke in a pane, in the camera's pixels; its commands are emitted continuously, as one step to
     /// undo. A click on empty space is a stroke of no length.
@@ -207,18 +207,18 @@ class Lab {
     virtual void double_click(const Workspace& workspace, PickId pick, Emit& emit) const {
         click(workspace, pick, emit);
     }
-    /// What the mouse would do at that pick, for the status line.
+    /// The effect of the mouse at that pick, for the status line.
     virtual std::string hint(const Workspace&, PickId) const { return {}; }
     /// Whether pictures and videos have the labels and the legend if the request does not say.
     virtual bool labels_pictures(const Workspace&) const { return false; }
-    /// What the camera frames: all handles by default.
+    /// The sphere that the camera frames: around all handles by default.
     virtual Bounds bounds(const Workspace& workspace, bool selection_only) const;
 
-    /// The files it reads, besides scenes. Opening one, in whichever way, opens the lab too.
+    /// The files that the lab reads, besides scenes. Opening one, in whichever way, opens the lab too.
     virtual std::vector<FileKind> files() const { return {}; }
 
-    /// The command that Ctrl+V over the view runs for this text. By default the lab takes none, for no
-    /// reason.
+    /// The command that Ctrl+V over the view runs for this text. By default the lab takes no text and gives
+    /// no reason.
     virtual TakenText takes_text(const std::string& /*text*/) const { return {}; }
 
     // the panels
@@ -229,13 +229,13 @@ class Lab {
     // for the shell's tables
     virtual std::vector<Shortcut> shortcuts() const { return {}; }
     virtual std::vector<LabSetting> settings() const { return {}; }
-    /// What the mouse does here in addition to every lab.
+    /// Mouse gestures in this lab, in addition to those of every lab.
     virtual std::vector<MouseHelp> mouse_help() const { return {}; }
 
     // output
     /// The program that *Copy as C++* puts on the clipboard; empty if the lab has none.
     virtual std::string code(const Workspace&) const { return {}; }
-    /// What --state writes, without handles and camera: save() by default.
+    /// The JSON that --state writes, without handles and camera: save() by default.
     virtual Json state(const Workspace& workspace) const;
 
     virtual std::vector<TestScene> test_scenes() const { return {}; }

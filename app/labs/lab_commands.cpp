@@ -210,7 +210,7 @@ void add_recording(CommandTable& table, const Labs& labs) {
              require_view(w, labs);
              if (remembered_ticks(w) == 0)
                  throw Refused("nothing has moved yet, so there is nothing to record");
-             // Otherwise the moments just seen would drop out of the last ten seconds.
+             // Pause, so that the moments just seen do not drop out of the last ten seconds.
              w.ui.plays_after_dialog = w.ui.plays_after_dialog || w.clock.playing;
              w.clock.playing = w.clock.replaying = false;
              w.ui.file_dialog = UiState::FileDialog::Video;

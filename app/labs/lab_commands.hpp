@@ -1,4 +1,4 @@
-// Commands on what a lab shows, in every lab: the camera, view.close, and pictures and videos of the view.
+// Commands for the view of any lab: the camera, view.close, and pictures and videos of the view.
 #pragma once
 
 #include "app/labs/labs.hpp"
@@ -7,7 +7,7 @@ namespace tendril::app {
 
 /// The mouse preset for turning and shifting the view.
 LabSetting mouse_setting();
-/// What the wheel, or two fingers on a touchpad, do in the view.
+/// The effect of the wheel, or two fingers on a touchpad, in the view.
 LabSetting scroll_setting();
 
 /// `labs` must outlive the table.

@@ -8,7 +8,7 @@
 
 namespace tendril::app {
 
-/// What a script acts on: the program, or a test's substitute.
+/// The target of a script: the program, or a test's substitute.
 class Stage {
   public:
     virtual ~Stage() = default;

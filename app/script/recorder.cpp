@@ -80,7 +80,7 @@ Recorder::Recorder(const RecordingStart& start) {
 
 void Recorder::event(const Event& event) {
     const Json json = event_line(event);
-    // It still took a tick.
+    // The event still took a tick.
     if (json.is_null()) return idle_tick();
     line(json);
 }

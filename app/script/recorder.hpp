@@ -16,7 +16,7 @@ class Recorder {
 
     void event(const Event& event);                                              ///< a tick with this event
     void idle_tick();                                                            ///< a tick without event
-    void command(const std::string& name, const Json& arguments, bool refused);  ///< one that no event caused
+    void command(const std::string& name, const Json& arguments, bool refused);  ///< not caused by an event
     /// The whole script so far.
     std::string text() const;
 

@@ -180,7 +180,7 @@ constexpr std::array<Form, 11> forms{{{"expect", expect_line},
                                       {"state", state_line}}};
 
 Action parse_action(const Json& line, const CommandTable& commands) {
-    // First, because a command's arguments may have any name.
+    // Check this first, because a command's arguments may have any name.
     if (line.contains("command")) return command_line(line, commands);
     for (const Form& form : forms)
         if (line.contains(form.member)) return form.parse(line);

@@ -35,7 +35,7 @@ struct TakeScreenshot {
 struct WriteState {
     std::string path;
 };
-/// Events and moves take one tick, Wait as many as it says; commands, screenshots, states and expectations
+/// Events and moves take one tick, Wait its number of ticks; commands, screenshots, states and expectations
 /// take none.
 using Action = std::variant<Event, MoveToHandle, RunCommand, Wait, TakeScreenshot, WriteState, Expect>;
 
@@ -50,7 +50,7 @@ inline constexpr int max_window_side = 16384;
 
 /// A recording's first line: its initial state.
 struct RecordingStart {
-    std::string version;  ///< of the program that wrote it
+    std::string version;  ///< the version of the program that wrote it
     glm::ivec2 size{0};
     std::string lab;
     SharedJson scene;
@@ -59,7 +59,7 @@ struct RecordingStart {
     bool modified = false;  ///< it had unsaved changes
     float scale = 1.0f;     ///< the window's own scale for text and widgets
     bool live = false;      ///< made in a window: the end of another program is an event
-    int line = 1;           ///< of the script
+    int line = 1;           ///< its line in the script
 };
 
 struct Script {

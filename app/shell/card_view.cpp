@@ -208,7 +208,7 @@ std::optional<glm::vec2> show_card_halo(const ShellFrame& frame, PickId& known) 
     if (step == nullptr || step->place != CardStep::Place::Handle) return std::nullopt;
     const std::optional<Handle> found = handle_named(frame, step->place_name, known);
     if (!found || frame.lab.panes(frame.workspace).size() > 1) return std::nullopt;
-    // A lab may keep a handle that it does not show now.
+    // A lab may have a handle that it does not show now.
     if (std::ranges::none_of(frame.drawn, [&](const Stroke& each) { return each.pick == found->pick; }))
         return std::nullopt;
     const Workspace& workspace = frame.workspace;

@@ -17,8 +17,8 @@ void show_card(const ShellFrame& frame, glm::vec2 panel, Emit& emit);
 const CardStep* step_to_do(const ShellFrame& frame);
 /// Highlights the current step's section if it is in this side panel. Call it while filling the panel.
 void light_card_section(const ShellFrame& frame, bool left);
-/// Draws a ring around the handle of the current step if the scene shows it, and returns where. `known`
-/// caches the handle's pick from frame to frame.
+/// Draws a ring around the handle of the current step if the scene shows it, and returns its position.
+/// `known` caches the handle's pick from frame to frame.
 std::optional<glm::vec2> show_card_halo(const ShellFrame& frame, PickId& known);
 
 }  // namespace tendril::app

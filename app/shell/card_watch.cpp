@@ -10,7 +10,7 @@
 namespace tendril::app {
 namespace {
 
-/// Writing the state of a large part is slow: checks wait one tick for so many of its bytes.
+/// Writing the state of a large part is slow: checks wait one tick for each so many of its bytes.
 constexpr std::size_t bytes_a_tick = 8192;
 /// Larger parts are never checked.
 constexpr std::size_t max_watched_bytes = 1u << 20;
@@ -32,7 +32,7 @@ const CardCondition* avoided(const CardStep& step) {
     return found == step.when.end() ? nullptr : &*found;
 }
 
-/// Where the command moved something: its argument that is null in the line.
+/// The position to which the command moved something: its argument that is null in the line.
 std::optional<glm::vec3> moved_to(const CardLine& line, const Json& arguments) {
     for (const auto& [key, value] : line.arguments->items()) {
         const auto given = arguments.find(key);
@@ -49,7 +49,7 @@ void note_drag(RepeatedDrag& drag, glm::vec3 to, std::uint64_t moment) {
     drag.path.push_back({moment, to});
 }
 
-/// Whether it is what the cure was for: at the same joint, or for the same reason.
+/// Whether the incident is the one that the cure was for: at the same joint, or for the same reason.
 bool comes_back(const RepeatedDrag& drag, const Json& incident) {
     const auto same = [&](const char* member) {
         return drag.incident->value(member, Json()) == incident.value(member, Json());
@@ -57,8 +57,8 @@ bool comes_back(const RepeatedDrag& drag, const Json& incident) {
     return same("joint") || same("cause");
 }
 
-/// Notes where the drag was at the last incident of that kind, if it caused that one. After the cure, another
-/// joint may jump for a reason of its own, as by a jump of the mouse: the drag then begins anew there.
+/// Records where the drag was at the last incident of that kind, if it caused that incident. After the cure
+/// another joint may jump for its own reason, such as a jump of the mouse: the drag then restarts there.
 void note_incident(RepeatedDrag& drag, const std::string& kind, const Json& events) {
     for (const Json& each : events) {
         const auto moment = each.at("tick").get<std::uint64_t>();
@@ -79,11 +79,11 @@ void note_incident(RepeatedDrag& drag, const std::string& kind, const Json& even
     }
 }
 
-/// Whether the cured drag has led past the place where it once caused the incident, to the other side.
+/// Whether the cured drag has passed the place where it once caused the incident, to the other side.
 bool passed_again(const RepeatedDrag& drag, float within) {
     if (!drag.cured) return false;
-    float side = 0.0f;       // on which it was, well away from the place
-    bool came_near = false;  // since then
+    float side = 0.0f;       // the side on which it was, well away from the place
+    bool came_near = false;  // since it was on that side
     for (std::size_t i = 0; i < drag.path.size(); ++i) {
         const glm::vec3 here = drag.path[i].at, last = drag.path[i > 0 ? i - 1 : 0].at;
         came_near = came_near || distance_to(drag.place, last, here) <= within;

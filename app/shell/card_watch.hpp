@@ -8,13 +8,13 @@
 
 namespace tendril::app {
 
-/// Takes note of a command that was run at that moment: steps that wait for it and for nothing else are done.
-/// `changes`: it may have changed the scene. `in_panel`: it comes from a panel or the palette, which does no
-/// step that asks for a handle.
+/// Records that a command ran at that moment: steps that wait only for it are done. `changes`: it may have
+/// changed the scene. `in_panel`: it comes from a panel or the palette, which completes no step that asks for
+/// a handle.
 void note_command(CardProgress& progress, const Card& card, const std::string& command, const Json& arguments,
                   bool changes, std::uint64_t moment, bool in_panel = false);
 /// Marks the steps whose conditions now hold as well. Calls `state` only if there may be such steps; for a
-/// large part not every tick. `dragging`: a drag is under way, and none has been repeated before its end.
+/// large part not every tick. `dragging`: a drag is under way, and counts as repeated only once it ends.
 void watch_card(CardProgress& progress, const Card& card, const std::shared_ptr<const Part>& part,
                 const std::function<Json()>& state, bool dragging = false);
 /// Whether the next tick may find a step done even without an event.

@@ -76,7 +76,7 @@ std::vector<std::string> first_of(std::vector<std::string> values, const std::st
     return first;
 }
 
-/// Offers the ways to continue a list after an element.
+/// Offers the possible continuations of a list after an element.
 void offer_ends(std::vector<CompletionRow>& rows, const std::string& line) {
     rows.insert(rows.begin(),
                 {{"]", "ends the list", "", line + "] "}, {",", "adds another", "", line + ","}});

@@ -44,8 +44,7 @@ TypedLine read_typed_line(const CommandTable& table, const std::string& line);
 /// The command's argument of that name; null if it has none.
 const Argument* find_argument(const Command& command, const std::string& name);
 
-/// What is already wrong with the line; empty if more typing may still make it valid. Missing arguments are
-/// not mistakes.
+/// The mistake in the line; empty if more typing may still make it valid. Missing arguments are not mistakes.
 std::string mistake(const TypedLine& line);
 /// "length is missing (a number): metres", for the first required argument without a value; empty if there is
 /// none.

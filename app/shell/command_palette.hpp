@@ -1,5 +1,5 @@
-// Ctrl+K: finds a command by what it does, completes its arguments and their values, and runs it as in a
-// script.
+// Ctrl+K: finds a command by its title and help, completes its arguments and their values, and runs it as in
+// a script.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ class CommandPalette {
 
   private:
     std::optional<Emitted> ran_;
-    /// What the list offers for the line.
+    /// The rows that the list offers for the line.
     struct Offer {
         TypedLine typed{};
         std::vector<const Command*> found{};  ///< if the line is a search
@@ -57,7 +57,7 @@ class CommandPalette {
 
     std::array<char, 512> line_{};
     int chosen_ = 0;
-    int listed_choice_ = 0;  ///< when the list was last drawn
+    int listed_choice_ = 0;  ///< the choice when the list was last drawn
     bool moved_ = false;     ///< the user moved the choice since last editing the line
     bool was_open_ = false;
     bool take_caret_ = false;  ///< give the line the focus, with the caret at its end

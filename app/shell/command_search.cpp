@@ -29,8 +29,8 @@ bool takes(const Command& command, const std::string& word) {
     });
 }
 
-/// Of commands that match equally, people mean the one that adds something before the one that changes
-/// it, and last the one that removes it, or everything. The first word of the title tells which.
+/// Of commands that match equally, people usually mean one that adds something, then one that changes it,
+/// last one that removes it, or everything. The first word of the title decides.
 enum class Verb { Adds, Changes, Removes, RemovesAll };
 
 Verb verb_of(const Command& command) {
@@ -44,8 +44,8 @@ Verb verb_of(const Command& command) {
     return begins_word(title, "every") || begins_word(title, "all") ? Verb::RemovesAll : Verb::Removes;
 }
 
-/// Distance of a command from the query: for each word 0 if the title has it at the start of a word, more if
-/// only the name has it, the inside of the title, the help, or an argument's name. None if a word is nowhere.
+/// Distance of a command from the query. For each word: 0 if the title has it at the start of a word; more
+/// for the name, the inside of the title, the help, or an argument's name. None if a word is nowhere.
 std::optional<int> distance(const Command& command, const std::vector<std::string>& words) {
     const std::string title = lower_case(command.title), name = lower_case(command.name),
                       help = lower_case(command.help);

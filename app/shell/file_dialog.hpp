@@ -27,11 +27,11 @@ class FileDialog {
     void start(const Workspace& workspace, const Labs& labs);
     void go_to(const std::filesystem::path& folder);
     bool lists(const std::filesystem::path& file) const;
-    /// Chooses which kind of files is listed.
+    /// Chooses the kind of files to list.
     void show_filter();
     /// The folders and files; true once a file is double-clicked.
     bool list();
-    /// What can be opened, where the folder has nothing of it.
+    /// The message for a folder without any file that can be opened.
     std::string why_no_files() const;
     void take(Emit& emit);
     void send(const std::filesystem::path& path, Emit& emit);
@@ -45,8 +45,8 @@ class FileDialog {
 
     std::filesystem::path folder_;
     std::vector<Entry> entries_;
-    std::vector<FileKind> kinds_;  ///< that can be opened
-    int filter_ = 0;               ///< 0: all of them; else the kind before
+    std::vector<FileKind> kinds_;  ///< kinds that can be opened
+    int filter_ = 0;               ///< 0: all kinds; else the index of one, plus 1
     std::array<char, 1024> name_{};
     std::string complaint_;
     VideoOptions video_;

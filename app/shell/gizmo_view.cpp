@@ -15,7 +15,7 @@ std::optional<Handle> dragged_handle(const Lab& lab, const Workspace& workspace,
     return pointer.drags_gizmo() ? lab.gizmo(workspace) : lab.handle(workspace, pointer.dragged());
 }
 
-/// The lab itself reports moves of its own handles, but not how far they are turned.
+/// Whether to report the drag: labs report moves of their own handles, but not their rotation.
 bool tells(const Pointer& pointer) {
     const GizmoDrag* drag = pointer.dragged_part();
     return drag != nullptr && (pointer.drags_gizmo() || changed_by(drag->part()) == Drag::Rotation);
@@ -83,7 +83,7 @@ std::vector<NamedGrip> gizmo_grips(const DrawList& drawn, const Lab& lab, const 
 
 namespace {
 
-/// The handle that a held key constrains, as it is now: not a gizmo's part, not one that turns.
+/// The present state of the handle that a held key constrains; none for a gizmo's part, or one that rotates.
 std::optional<Handle> constrained_handle(const Lab& lab, const Workspace& workspace, const Pointer& pointer,
                                          const Input& input) {
     if (pointer.dragged() == no_pick || pointer.drags_gizmo() || pointer.constraint(input).empty())
@@ -93,7 +93,7 @@ std::optional<Handle> constrained_handle(const Lab& lab, const Workspace& worksp
     return lab.handle(workspace, pointer.dragged());
 }
 
-/// "0.42 m along Z, 0.40 m nearer". Depth is not seen in the picture, so a move mostly along it is said
+/// "0.42 m along Z, 0.40 m nearer". Depth is invisible in the picture, so a move mostly along it is reported
 /// twice.
 std::string moved_text(const std::string& bound, glm::vec3 from, glm::vec3 to, const Camera& camera) {
     const float moved = glm::distance(from, to), nearer = camera.depth(from) - camera.depth(to);

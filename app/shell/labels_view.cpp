@@ -100,7 +100,7 @@ LegendColumns legend_columns(std::span<const LegendRow> rows, const Rect& view, 
 
 Rect legend_box(std::span<const LegendRow> rows, const Rect& view, float scale, ViewCorner corner) {
     const bool small = view.size().y < 300.0f * scale || view.size().x < 260.0f * scale;
-    if (rows.empty() || small) return {view.min, view.min};  // the picture comes first
+    if (rows.empty() || small) return {view.min, view.min};  // the picture takes precedence
     ImGui::PushFont(small_font());
     const float wide = legend_columns(rows, view, scale).total();
     const float height = 1.35f * ImGui::GetFontSize() * static_cast<float>(rows.size());
@@ -121,7 +121,7 @@ Rect show_legend(std::span<const LegendRow> rows, const Rect& view, const Palett
     const float line = 1.35f * ImGui::GetFontSize();
     float y = box.min.y;
     ImDrawList* list = ImGui::GetBackgroundDrawList();
-    // A quiet ground, so that axes and grid lines do not run through the words.
+    // A plain background keeps axes and grid lines out of the words.
     const float edge = 6.0f * scale;
     list->AddRectFilled({box.min.x + edge, box.min.y - edge}, {box.max.x + edge, box.max.y + 0.5f * edge},
                         imgui_u32(palette.background_bottom, 0.82f), edge);

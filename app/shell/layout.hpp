@@ -17,7 +17,7 @@ struct Layout {
 
 /// Everything is in window coordinates. `timeline`: height of the time strip at scale 1. In a narrow window
 /// the panels shrink before the middle does; a folded panel leaves a slim strip to unfold it. `canvas`, 0 to
-/// 1, is the share of the middle, from the left, that the lab's own picture takes from the 3D view.
+/// 1, is the fraction of the middle, from the left, that the lab's own picture takes from the 3D view.
 Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float timeline, float canvas = 0.0f);
 
 }  // namespace tendril::app

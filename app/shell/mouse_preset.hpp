@@ -1,4 +1,4 @@
-// Mouse bindings for the camera: Tendril's own, or those of another program that the user is used to.
+// Mouse bindings for the camera: Tendril's own, or those of another program, for users who know that.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace tendril::app {
 enum class MousePreset { Tendril, Blender, Maya };
 MousePreset mouse_preset(const Settings& settings);
 
-/// What the wheel, or two fingers on a touchpad, do in the view. If they pan, they zoom while Ctrl is held.
+/// The effect of the wheel, or two fingers on a touchpad, in the view. Pan: they zoom while Ctrl is held.
 enum class Scroll { Zoom, Pan };
 Scroll scroll_action(const Settings& settings);
 
@@ -22,7 +22,7 @@ struct HeldKeys {
     bool shift = false, ctrl = false, alt = false;
     bool operator==(const HeldKeys&) const = default;
 };
-/// What a drag with that button does; none if it acts on handles. A left drag that begins on empty space
+/// The effect of a drag with that button; none if it acts on handles. A left drag that begins on empty space
 /// orbits, in every preset.
 std::optional<MouseAction> mouse_action(MousePreset preset, MouseButton button, HeldKeys held);
 

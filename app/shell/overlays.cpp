@@ -128,7 +128,7 @@ static void setting_row(const LabSetting& setting, const Settings& settings, Emi
     explain(setting.help.c_str());
 }
 
-/// A list, whose choice closes it: a button or slider would move under the mouse as the text grows.
+/// A list, which closes on a choice: a button or slider would move under the mouse as the text grows.
 static void text_size_row(const Settings& settings, Emit& emit) {
     static constexpr std::array percents{50, 75, 90, 100, 110, 125, 150, 175, 200, 250, 300};
     const int now = static_cast<int>(std::lround(100.0f * settings.text_scale));
@@ -234,7 +234,7 @@ Rect show_first_hint(const ShellFrame& frame) {
     std::string text = first + " " + rest;
     if (ImGui::CalcTextSize(text.c_str()).x > wrap) text = first + "\n" + rest;
     if (size_of(text).y > 0.15f * view.size().y) text = first;  // large text in a small view
-    if (size_of(text).y > 0.15f * view.size().y) return none;   // the picture comes first
+    if (size_of(text).y > 0.15f * view.size().y) return none;   // the picture takes precedence
     const float width = size_of(text).x;
     const ImVec2 at{std::min(view.centre().x - 0.5f * width, end - width),
                     view.min.y + 22.0f * frame.layout.scale};

@@ -15,7 +15,7 @@ namespace {
 struct Columns {
     float where = 0.0f, syntax = 0.0f, keys = 0.0f;
     bool two_lines = false;  ///< the syntax is below the title
-    float height = 0.0f;     ///< of a row
+    float height = 0.0f;     ///< a row's
 };
 
 /// Pixels between columns; margin() is before the first.

@@ -38,7 +38,7 @@ void show_pane_titles(std::span<const Pane> panes, std::span<const PaneTitle> ti
         ImGui::PushFont(small_font());
         const float wide = ImGui::CalcTextSize(title.detail.c_str()).x, high = ImGui::GetFontSize();
         const bool detail = !title.detail.empty() && wide < room && below + high <= rect.max.y;
-        // A quiet ground, as the legend's.
+        // A plain background, like the legend's.
         const float edge = 0.5f * inset;
         list->AddRectFilled({corner.x - edge, corner.y - edge},
                             {corner.x + std::max(name.x, detail ? wide : 0.0f) + edge,

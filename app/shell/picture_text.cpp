@@ -29,12 +29,12 @@ class CurrentContext {
     ImGuiContext* before_;
 };
 
-/// By the picture's size alone: as large as in a window whose view is like it, and legible at 1280 x 720.
+/// By the picture's size alone: as large as in a window with a view of that size, and legible at 1280 x 720.
 float text_scale(glm::ivec2 size) {
     return std::max(0.7f, std::min(static_cast<float>(size.x) / 800.0f, static_cast<float>(size.y) / 600.0f));
 }
 
-/// How much of the scene's solid strokes lies in a rectangle.
+/// The amount of the scene's solid strokes in a rectangle.
 int covered_by(const Rect& box, const DrawList& drawn, const Camera& camera) {
     constexpr int samples = 6;
     int count = 0;
@@ -84,7 +84,7 @@ void PictureText::look_at(std::span<const Pane> panes, const CameraPose& pose,
     ImGui::EndFrame();
 }
 
-/// Needs a frame, for the sizes of texts.
+/// Needs a frame, to measure texts.
 void PictureText::count_covered(std::span<const Pane> panes, const CameraPose& pose,
                                 std::span<const LegendRow> legend) {
     for (std::size_t i = 0; i < corners.size(); ++i) {

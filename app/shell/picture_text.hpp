@@ -24,10 +24,10 @@ class PictureText {
     PictureText(const PictureText&) = delete;
     PictureText& operator=(const PictureText&) = delete;
 
-    /// Counts what the legend would cover in each corner, so that draw() takes the freest one of all pictures
-    /// of a video. Without it, draw() goes by its first picture.
+    /// Counts the strokes that the legend would cover in each corner, so that draw() takes the freest one of
+    /// all pictures of a video. Without this, draw() goes by its first picture.
     void look_at(std::span<const Pane> panes, const CameraPose& pose, std::span<const LegendRow> legend);
-    /// Over the scene, into the bound framebuffer. The panes have been drawn with that camera and palette.
+    /// Draws over the scene, into the bound framebuffer. The panes were drawn with that camera and palette.
     void draw(std::span<const Pane> panes, const CameraPose& pose, std::span<const PaneTitle> titles,
               std::span<const LegendRow> legend, const Palette& palette);
 
@@ -39,7 +39,7 @@ class PictureText {
     float scale_;
     ImGuiContext* context_;
     std::array<int, 4> covered_{};     ///< strokes under the legend in each corner, of all pictures so far
-    std::optional<glm::vec2> corner_;  ///< the legend's, for all pictures
+    std::optional<glm::vec2> corner_;  ///< the legend's corner, for all pictures
 };
 
 }  // namespace tendril::app

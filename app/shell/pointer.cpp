@@ -14,7 +14,7 @@ namespace {
 constexpr float drag_threshold = 4.0f;  ///< pixels; less is a click
 constexpr float slack = 4.0f;           ///< pixels beyond a handle's edge that still catch it
 constexpr int double_click_ticks = 20;
-constexpr float pixels_per_notch = 20.0f;   ///< of a drag that zooms
+constexpr float pixels_per_notch = 20.0f;   ///< for a drag that zooms
 constexpr float pixels_per_scroll = 15.0f;  ///< shift of the view per notch: about the fingers' own movement
 
 /// The axis of the first axis key held.
@@ -49,7 +49,7 @@ void emit_camera(Emit& emit, const CameraPose& from, const CameraPose& to) {
 /// Whether the view is 2D: without perspective, and square on to a plane that has all handles.
 bool is_drawing(const Pointer::Scene& scene) {
     const CameraPose& pose = scene.camera.pose();
-    constexpr float flat = 1e-3f;  // of what is in view
+    constexpr float flat = 1e-3f;  // fraction of the camera's distance
     return pose.orthographic &&
            std::ranges::all_of(scene.lab.handles(scene.workspace), [&](const Handle& each) {
                return std::abs(glm::dot(each.frame.position - pose.target, scene.camera.forward())) <
@@ -237,7 +237,7 @@ std::optional<std::pair<glm::vec2, glm::vec2>> Pointer::stroke() const {
     return std::pair(caught_at_, last_);
 }
 
-/// Includes hidden handles: a box must also select within a coil.
+/// Includes hidden handles, so that a box can also select within a coil.
 void Pointer::select_in_box(bool add, const Scene& scene, Emit& emit) const {
     const Rect inside = *box();
     std::vector<PickId> picks;
@@ -266,7 +266,7 @@ void Pointer::drag(const Input& input, const Scene& scene, Emit& emit) {
     scene.lab.drag(scene.workspace, caught_handle_, frame, emit);
 }
 
-/// Relative to where all were caught: a handle stopped by a limit is back in position when the others return.
+/// Relative to where they were caught: a handle stopped by a limit is back in position when the others are.
 void Pointer::drag_together(const HandleFrame& to, const Scene& scene, Emit& emit) const {
     const HandleFrame& from = caught_frame_;
     const bool turns = changed_by(by_->part()) == Drag::Rotation;

@@ -23,10 +23,10 @@ class Pointer {
         const Workspace& workspace;
         const Lab& lab;
         const Camera& camera;
-        const DrawList& drawn;    ///< the last picture: the user picks what is visible
+        const DrawList& drawn;    ///< the last picture: the user picks among the visible objects
         bool over_panel = false;  ///< the mouse belongs to a panel
         float scale = 1.0f;       ///< multiplies all sizes in pixels
-        std::size_t pane = 0;     ///< that the mouse is in
+        std::size_t pane = 0;     ///< the pane that the mouse is in
     };
 
     /// Handles this tick's event. Emits camera.set and the lab's drag and click commands, which run
@@ -93,7 +93,7 @@ class Pointer {
     std::optional<GizmoDrag> by_;     ///< the part it is dragged by, if any
     std::vector<Handle> together_;    ///< all handles that the gizmo moves, as they were when caught
     int since_click_ = 1000;          ///< ticks
-    PickId clicked_ = no_pick;        ///< last
+    PickId clicked_ = no_pick;        ///< last clicked
     glm::vec2 clicked_at_{0.0f};
 };
 

@@ -95,7 +95,7 @@ void menu(const ShellFrame& frame, Emit& emit) {
     place_below_bar(frame, ImGui::GetItemRectMin().x);
     if (!begin_menu("menu popup", pressed)) return;
     close_popup_on_escape();
-    // Tighter than a panel's rows, so that all of it fits a window 720 pixels high.
+    // Tighter than a panel's rows, so that the whole menu fits a window 720 pixels high.
     const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(spacing.x, 0.65f * spacing.y));
     std::string_view open;
@@ -186,7 +186,7 @@ void play_button(const ShellFrame& frame, Emit& emit) {
     tooltip(with_keys(frame, effect, "time.toggle"));
 }
 
-/// Centred in the window if possible, between `from` and `to`; without the time if there is little room.
+/// Centred in the window if possible, between `from` and `to`; without the time if space is short.
 void time_controls(const ShellFrame& frame, float from, float to, Emit& emit) {
     const Clock& clock = frame.workspace.clock;
     const float gap = ImGui::GetStyle().ItemSpacing.x;
@@ -282,8 +282,8 @@ void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 p
     ImGui::PopStyleColor();
 }
 
-/// Content that became shorter cannot stay where it was scrolled to. Once it is as long as before, as after
-/// undo, it is there again, unless the user has scrolled since.
+/// Content that became shorter cannot keep its scroll position. Once it is as long as before, as after undo,
+/// the position is restored, unless the user has scrolled since.
 void Shell::keep_scroll(Scrolled& scrolled) {
     constexpr float same = 1.0f;  // pixels
     const float now = ImGui::GetScrollY(), most = ImGui::GetScrollMaxY();
@@ -307,8 +307,8 @@ void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     begin_region(left ? "left" : "right", rect, frame.colours().panel, {0.0f, 0.0f});
     panel_edge(rect, left, scale, emit);
     ImGui::SetCursorPos({left ? 0.0f : 5.0f * scale, 0.0f});
-    // The scroll bar always has its room, so that nothing shifts when it appears; it is transparent while
-    // unneeded.
+    // The scroll bar's space is always reserved, so that nothing shifts when it appears; it is transparent
+    // while unneeded.
     float& overflow = overflow_[left ? 0 : 1];
     const float grab = overflow > 0.0f ? 1.0f : 0.0f;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,

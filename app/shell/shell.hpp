@@ -20,7 +20,7 @@
 
 namespace tendril::app {
 
-/// What a frame of the shell shows.
+/// The contents of a frame of the shell.
 struct ShellFrame {
     const Workspace& workspace;
     const Labs& labs;
@@ -28,7 +28,7 @@ struct ShellFrame {
     const CommandTable& commands;
     const Shortcuts& shortcuts;
     const Layout& layout;
-    std::string hint;                 ///< what the mouse would do at its position
+    std::string hint;                 ///< the effect of the mouse at its position
     const Card* card = nullptr;       ///< the shown card of things to try, if any
     std::span<const Card> cards{};    ///< all of the lab's
     std::span<const Stroke> drawn{};  ///< the scene's strokes in the last picture
@@ -45,21 +45,21 @@ class Shell {
     void frame(const ShellFrame& frame, Emit& emit);
     /// Rectangles that the last frame drew on the scene: hint, legend and axis gizmo.
     const std::vector<Rect>& overlays() const { return overlays_; }
-    /// Where the last frame drew the ring of the card's current step, if it did.
+    /// The position of the ring of the card's current step in the last frame, if it was drawn.
     const std::optional<glm::vec2>& card_ring() const { return card_ring_; }
 
   private:
     void side_panel(const ShellFrame& frame, bool left, Emit& emit);
 
     float overflow_[2] = {0.0f, 0.0f};  ///< how far each side panel can scroll
-    /// Where a panel's content was scrolled to, and where it is while there is too little of it.
+    /// A panel's scroll position: the wanted one, and the present one while the content is too short.
     struct Scrolled {
         float wanted = 0.0f, shown = 0.0f, most = 0.0f;
     };
     void keep_scroll(Scrolled& scrolled);
-    std::map<std::pair<std::string, bool>, Scrolled> scrolled_;  ///< by lab, and whether it is the left one
+    std::map<std::pair<std::string, bool>, Scrolled> scrolled_;  ///< by lab, and whether it is the left panel
     std::vector<Rect> overlays_;
-    PickId lit_ = no_pick;  ///< of the highlighted handle; see show_card_halo()
+    PickId lit_ = no_pick;  ///< the highlighted handle's; see show_card_halo()
     std::optional<glm::vec2> card_ring_;
     CommandPalette palette_;
     Unfolding unfolding_;

@@ -1,5 +1,5 @@
-// The single table of keys and mouse gestures: the shell's rows and those of every lab. The handlers, the
-// menu, the help overlay, the tooltips and the README's list all come from it.
+// The single table of keys and mouse gestures: the shell's rows and every lab's. The handlers, the menu, the
+// help overlay, the tooltips and the README's list all come from it.
 #pragma once
 
 #include <optional>
@@ -30,7 +30,7 @@ class Shortcuts {
     std::string keys_for(std::string_view command) const;
     /// "Ctrl+Shift+Z, Ctrl+Y": every key that does the same.
     std::string all_keys_for(const Shortcut& wanted) const;
-    /// What the mouse does everywhere, then in the lab of that name; if that is empty, in all labs.
+    /// Mouse gestures common to all labs, then of the lab of that name; if that is empty, of every lab.
     std::vector<MouseHelp> mouse_help(std::string_view lab = {}, MousePreset preset = MousePreset::Tendril,
                                       Scroll scroll = Scroll::Zoom) const;
     /// Both lists as Markdown tables, for the README.

@@ -25,7 +25,7 @@ class Ui {
     struct Surface {
         glm::ivec2 size{0};              ///< window coordinates
         glm::ivec2 framebuffer_size{0};  ///< pixels
-        float scale = 1.0f;              ///< of text and widgets, in window coordinates
+        float scale = 1.0f;              ///< scale of text and widgets, in window coordinates
     };
 
     /// Starts a frame with `event`, which may be null. If no time passes, widgets do not advance either.

@@ -12,7 +12,7 @@
 namespace tendril::app {
 namespace {
 
-/// Unfolds the section of that title, if there is one, and whatever hides a row of the command.
+/// Unfolds the section of that title, if there is one, and the sections that hide a row of the command.
 void unfold(const ShellFrame& frame, const std::string& title, const std::string& command,
             const Json& arguments, Emit& emit) {
     RowSearch search{.title = title, .command = command};

@@ -1,4 +1,4 @@
-// Unfolds what hides the rows that someone is sent to: by a step of a card, or by a command of the palette.
+// Unfolds the sections that hide the rows to which a card's step or a palette's command leads.
 #pragma once
 
 #include "app/labs/card.hpp"

@@ -1,4 +1,4 @@
-// The dialog's options of a video: format, size, seconds, smoothness and speed.
+// The dialog's options for a video: format, size, seconds, smoothness and speed.
 #pragma once
 
 #include <filesystem>
@@ -14,11 +14,11 @@ class VideoOptions {
   public:
     static constexpr float rows = 9.0f;  ///< rows that frame() writes
 
-    /// Call when the dialog opens. Keeps earlier choices, except for the seconds and the labels.
-    /// `labels`: whether the lab wants them.
+    /// Call when the dialog opens. Keeps earlier choices, except for the seconds and the labels. `labels`:
+    /// whether the lab wants them.
     void start(const Workspace& workspace, bool labels);
     void frame();
-    /// Gives a name without an extension that of the format.
+    /// Adds the format's extension to a name without one.
     std::filesystem::path with_ending(std::filesystem::path path) const;
     /// The arguments of view.video.
     ArgumentList arguments(const std::filesystem::path& path) const;

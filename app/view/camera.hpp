@@ -47,7 +47,7 @@ class Camera {
     Ray ray(glm::vec2 pixel) const;
     /// Metres per pixel at the point's depth; positive even behind the eye.
     float metres_per_pixel(glm::vec3 point) const;
-    /// Where the pixel's ray meets the plane; none if it is parallel to the plane or meets it behind the eye.
+    /// The point where the pixel's ray meets the plane; none if they are parallel or it is behind the eye.
     std::optional<glm::vec3> on_plane(glm::vec2 pixel, glm::vec3 through, glm::vec3 normal) const;
 
   private:

@@ -31,7 +31,7 @@ class ClothSurface {
     }
 
   private:
-    /// Half a cell.
+    /// Half of a cell.
     struct Half {
         glm::vec3 normal{0.0f};  ///< its length is twice the area
         glm::vec3 middle{0.0f};
@@ -123,7 +123,7 @@ class ClothSurface {
 
     /// Casts the shadow of a few bars that nearly touch, since many thin ones would let too much of the sky
     /// through; close to the ground they are no thicker than their height, so that the shadow ends where the
-    /// cloth does.
+    /// cloth ends.
     void shadows() {
         constexpr std::uint32_t bars = 7;
         const std::uint32_t step = std::max((std::max(columns_, rows_) + bars - 1) / bars, 1u);

@@ -1,10 +1,10 @@
-// What to draw, free of GL. Labs fill a list each frame; the renderer draws it, picking reads it, and tests
-// inspect it.
+// The list of things to draw, free of GL. Labs fill a list each frame; the renderer draws it, picking reads
+// it, and tests inspect it.
 //
 // Nearly everything is one shape, a *stroke*: two balls and the hull between them. A sphere is a stroke whose
 // ends coincide, a line has constant width, a bone tapers. So one instanced call draws them all, and one
-// distance function picks them. Surfaces of other shapes are triangles of one mesh; app/view/surfaces.hpp
-// builds them. They cannot be picked: cover them with transparent strokes for that.
+// distance function picks them. Surfaces of other shapes are triangles of one mesh, built by
+// app/view/surfaces.hpp. They cannot be picked: cover them with transparent strokes for that.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,8 @@ struct Stroke {
     glm::vec3 a{0.0f}, b{0.0f};
     float radius_a = 1.0f, radius_b = 1.0f;
     glm::vec4 colour{1.0f};  ///< alpha 0: not drawn, but still picked and casting a shadow
-    glm::vec3 normal{0.0f};  ///< of the surface: unit, or the mean of several; only for Shade::Edge
-    /// How far the cuts at a and b shift along the line per pixel to its left; only for Shade::Edge.
+    glm::vec3 normal{0.0f};  ///< the surface's: unit, or the mean of several; only for Shade::Edge
+    /// Shift of the cuts at a and b along the line, per pixel to its left; only for Shade::Edge.
     glm::vec2 mitre{0.0f};
     float ring_width = 0.0f;  ///< pixels; only for Shade::Ring
     Unit unit = Unit::Metres;
@@ -59,7 +59,7 @@ struct DrawList {
     std::vector<Label> labels;
     Mesh mesh{};
     std::vector<SkinDraw> skins{};  ///< drawn with the mesh, or over the scene's strokes if transparent
-    Mesh veil{};                    ///< of the scene, transparent: everything behind it shows
+    Mesh veil{};                    ///< transparent surfaces of the scene: everything behind them shows
     Mesh overlay{};                 ///< over the scene, under the overlay strokes
 
     void clear() {

@@ -22,7 +22,7 @@ constexpr float box_half = 5.0f, box_alone = 82.0f, box_within = 56.0f;
 constexpr float plane_low = 22.0f, plane_high = 38.0f;
 constexpr std::int16_t gizmo_rank = 200;
 constexpr int ring_sides = 96;
-constexpr glm::vec4 unseen{0.0f};  ///< of strokes that only serve picking
+constexpr glm::vec4 unseen{0.0f};  ///< for strokes that only serve picking
 
 constexpr std::array<const char*, gizmo_parts> names{"move_x",   "move_y",  "move_z",   "move_yz",
                                                      "move_zx",  "move_xy", "rotate_x", "rotate_y",

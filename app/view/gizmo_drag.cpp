@@ -65,7 +65,7 @@ GizmoDrag::GizmoDrag(GizmoPart part, const HandleFrame& frame, const Ray& caught
     caught_at_ = edge_on_ ? std::atan2(glm::dot(nearest, v_), glm::dot(nearest, u_)) : caught_.x;
 }
 
-/// Where a line of sight meets the plane that faces the eye, relative to the centre.
+/// The point where a line of sight meets the plane that faces the eye, relative to the centre.
 std::optional<glm::vec3> GizmoDrag::facing(const Ray& ray) const {
     if (!finite(ray.origin) || !finite(ray.direction)) return std::nullopt;
     glm::vec3 at;
@@ -91,7 +91,7 @@ float GizmoDrag::along_axis(glm::vec3 at, glm::vec3 axis) const {
     return seen / std::max(slant - seen * away * nearness_, min_slant);
 }
 
-/// Where the line of sight through `at` meets the part's plane.
+/// The point where the line of sight through `at` meets the part's plane.
 glm::vec2 GizmoDrag::in_plane(glm::vec3 at) const {
     const float height = glm::dot(at, axis_), upright = glm::dot(sight_, axis_);
     const float side = upright < 0.0f ? -1.0f : 1.0f;

@@ -14,7 +14,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::uint32_t rows = 38, columns = 64;  ///< of points, without the two poles
+constexpr std::uint32_t rows = 38, columns = 64;  ///< rows and columns of points, without the two poles
 
 using Triangle = std::array<std::uint32_t, 3>;
 

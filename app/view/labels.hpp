@@ -19,14 +19,14 @@ namespace tendril::app {
 
 struct LabelRequest {
     glm::vec2 at{0.0f};       ///< pixel of the point
-    glm::vec2 size{0.0f};     ///< of the text, in pixels
+    glm::vec2 size{0.0f};     ///< the text's, in pixels
     float clearance = 10.0f;  ///< pixels around the point to keep free
     int rank = 0;
 };
 
 struct PlacedLabel {
     std::size_t request = 0;  ///< index of the request
-    Rect box;                 ///< of the text
+    Rect box;                 ///< the text's
 };
 
 /// The labels that fit, in the order of placement. `gap` pixels stay free between two labels. Positions that

@@ -14,8 +14,8 @@ namespace tendril::app {
 struct Vertex {
     glm::vec3 position{0.0f};
     glm::vec3 normal{0.0f, 1.0f, 0.0f};  ///< unit
-    glm::vec3 colour{1.0f};              ///< of the front
-    glm::vec3 back{1.0f};                ///< of the back
+    glm::vec3 colour{1.0f};              ///< the front's
+    glm::vec3 back{1.0f};                ///< the back's
 };
 
 struct Mesh {

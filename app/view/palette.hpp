@@ -20,7 +20,7 @@ struct Palette {
     glm::vec3 axis_x, axis_y, axis_z;
     // the surroundings
     glm::vec3 background_top, background_bottom, grid;
-    float shadow = 0.5f;  ///< how dark a contact shadow is, 0 to 1
+    float shadow = 0.5f;  ///< darkness of a contact shadow, 0 to 1
     // the panels
     glm::vec3 bar, panel, field, border, text, text_dim, accent;
 };

@@ -19,7 +19,7 @@ struct Renderer::Impl {
 
 namespace {
 
-constexpr float veil_opacity = 0.13f;  ///< of one layer; a hollow body has two
+constexpr float veil_opacity = 0.13f;  ///< opacity of one layer; a hollow body has two
 
 /// Earlier drawing, such as the panels', may have left these in any state.
 void reset_state() {

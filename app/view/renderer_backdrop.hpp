@@ -55,7 +55,7 @@ class Backdrop {
     GLuint framebuffer_ = 0, colour_ = 0;
     glm::ivec2 size_{0};
     std::optional<Key> last_, kept_;
-    int kept_calls_ = 0;  ///< that drawing the cached backdrop took
+    int kept_calls_ = 0;  ///< the draw calls of the cached backdrop
 };
 
 }  // namespace tendril::app

@@ -2,7 +2,7 @@
 
 namespace tendril::app {
 
-// Positions and depths must match those of StrokeProjector and StrokePass, or edges would not lie on their
+// Positions and depths must match StrokeProjector's and StrokePass's, or edges would not lie on their
 // surfaces.
 void set_surface_uniforms(const Program& program, const Camera& camera, const Frame& frame) {
     const glm::mat4& p = camera.projection();

@@ -28,7 +28,7 @@ class ShadowPass {
   private:
     struct Shadow {
         glm::vec4 ends;     ///< projected on the ground: a.x, a.z, b.x, b.z
-        glm::vec4 heights;  ///< of the axis at a, at b; radius at a, at b
+        glm::vec4 heights;  ///< of the axis at a, at b; then the radius at a, at b
         float darkest;      ///< 0 to 1; unused by the shader
     };
     void collect(const DrawList& list, const Camera& camera, float darkness);
@@ -40,8 +40,8 @@ class ShadowPass {
     Program over_program_{"shadow_over.vert", "shadow_over.frag"};
     Instances buffer_, whole_{0, {}};
     std::vector<Shadow> shadows_;
-    Rect bounds_;        ///< of all shadows, in window pixels
-    float area_ = 0.0f;  ///< of all shadows, in window pixels
+    Rect bounds_;        ///< bounds of all shadows, in window pixels
+    float area_ = 0.0f;  ///< area of all shadows, in window pixels
     GLuint framebuffer_ = 0, texture_ = 0;
     glm::ivec2 size_{0};
 };

@@ -84,7 +84,7 @@ class SkinPass::Sent {
         weights_ = draw.weights;
         send(Joints, weights_ ? *weights_ : draw.mesh->weights);
     }
-    /// Binds what draw() needs.
+    /// Binds everything that draw() needs.
     void bind() const {
         glBindVertexArray(vertex_array_);
         glVertexAttrib2f(Uv, 0.0f, 0.0f);

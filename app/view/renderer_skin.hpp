@@ -1,6 +1,6 @@
 // Skins on the GPU. A SkinnedMesh is sent once and kept as long as the mesh lives; the joints' matrices are
 // sent each frame. Solid skins are drawn with the other solids. Transparent ones follow after all solids of
-// the scene: first depth alone, then only the nearest surface, blended over whatever is inside, so that
+// the scene: first depth alone, then only the nearest surface, blended over the picture so far, so that
 // neither inner walls nor the order of triangles show.
 #pragma once
 

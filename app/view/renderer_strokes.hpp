@@ -29,7 +29,7 @@ class StrokePass {
         std::array<std::uint8_t, 4> colour;
         float lit;                          ///< 1: lit, 0: flat
         float ring;                         ///< half the ring's width; 0: not a ring
-        std::array<std::int8_t, 4> facing;  ///< of an edge: the lighting normal of its surface, and 1
+        std::array<std::int8_t, 4> facing;  ///< an edge's: the lighting normal of its surface, and 1
         glm::vec2 mitre;
     };
     /// Sorts in drawing order.

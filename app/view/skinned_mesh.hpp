@@ -34,13 +34,13 @@ struct Picture {
 
 /// Triangles with one material.
 struct SkinPart {
-    std::uint32_t first = 0, count = 0;  ///< of the indices
+    std::uint32_t first = 0, count = 0;  ///< range of the indices
     glm::vec4 colour{0.8f, 0.8f, 0.8f, 1.0f};
     std::int32_t picture = -1;  ///< multiplies the colour; -1: none
     float cutoff = 0.0f;        ///< fragments with a smaller alpha are discarded
 };
 
-/// A blend shape: how far the vertices from `first` on move at a weight of 1.
+/// A blend shape: the displacement of the vertices from `first` on at a weight of 1.
 struct MorphTarget {
     std::string name{};
     std::uint32_t first = 0;
@@ -68,7 +68,7 @@ struct SkinDraw {
     std::vector<float> morph_weights{};  ///< one per morph; missing ones are the morphs' own
     float opacity = 1.0f;                ///< 1: solid; less: transparent
     glm::vec3 tint{1.0f};                ///< multiplies every colour
-    /// One per vertex; they may use matrices beyond those of the mesh's joints. Null: the mesh's weights.
+    /// One per vertex; they may use matrices beyond those for the mesh's joints. Null: the mesh's weights.
     std::shared_ptr<const std::vector<JointWeights>> weights{};
 };
 

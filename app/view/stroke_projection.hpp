@@ -1,5 +1,5 @@
-// Projects a stroke to its outline on the screen. The renderer and picking both use it, so that what is seen
-// is what is picked.
+// Projects a stroke to its outline on the screen. The renderer and picking both use it, so that the visible
+// shape is the one picked.
 //
 // A ball is drawn as a circle of its radius at the depth of its centre, anywhere in the picture. (True
 // perspective stretches it towards the corners, which looks like a flaw.) The hull of two balls is bounded by

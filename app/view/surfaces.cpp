@@ -100,7 +100,7 @@ class Patch {
   public:
     Patch(DrawList& list, const Camera& camera, glm::vec3 point, glm::vec3 normal, float radius)
         : list_(list), edges_(list, camera), point_(point), normal_(normal), radius_(radius) {
-        // One horizontal axis, like a contour line.
+        // Make one axis horizontal, like a contour line.
         u_ = unit_or(glm::cross(glm::vec3(0.0f, 1.0f, 0.0f), normal), {1.0f, 0.0f, 0.0f});
         if (std::abs(normal.y) > 0.999f) u_ = glm::normalize(glm::vec3(1, 0, 0) - normal.x * normal);
         v_ = glm::cross(normal, u_);

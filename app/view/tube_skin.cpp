@@ -10,7 +10,7 @@ namespace tendril::app {
 
 namespace {
 
-/// The normal of a ball at the point seen in line with the one that has `normal` on a concentric ball `part`
+/// The ball's normal at the point seen in line with the point that has `normal` on a concentric ball `part`
 /// times as large. The mesh is smaller than the tube by its outline, which the shading must not show.
 glm::vec3 within(glm::vec3 normal, glm::vec3 sight, float part) {
     const float towards = glm::dot(normal, sight);

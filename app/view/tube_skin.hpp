@@ -16,12 +16,12 @@ namespace tendril::app {
 struct Ring {
     glm::vec3 centre{0.0f};
     glm::vec3 axis{0.0f}, u{0.0f}, v{0.0f};  ///< unit; the circle runs from u to v
-    float radius = 0.0f;                     ///< of the circle, metres
+    float radius = 0.0f;                     ///< the circle's, metres
     float lean = 0.0f;                       ///< radians that the surface's normal leans towards the axis
     float tube_radius = 0.0f;                ///< metres
     float pixels = 0.0f;                     ///< the tube's radius in pixels
-    unsigned outside = 0;                    ///< which borders of the view it is beyond, one bit per border
-    bool first = false;                      ///< no band connects it to the previous ring
+    unsigned outside = 0;  ///< the borders of the view that it is beyond, one bit per border
+    bool first = false;    ///< no band connects it to the previous ring
     glm::vec3 colour{1.0f};
 };
 
@@ -51,7 +51,7 @@ class TubeSkin {
     Edges edges_;
     std::uint32_t sides_;
     std::array<glm::vec2, max_sides> circle_{};
-    PerSide last_{};         ///< of the last band
+    PerSide last_{};         ///< the last band's
     float outwards_ = 1.0f;  ///< radius of the outline's centre line, relative to the last ring's
 };
 

@@ -1,4 +1,4 @@
-// The marks of an axis: how far apart they are, and what stands at them.
+// The marks of an axis: their spacing and their texts.
 #pragma once
 
 #include <string>

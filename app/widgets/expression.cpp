@@ -13,7 +13,7 @@ enum class Kind { Length, Angle, Time, Speed, Turning, Frequency, Share };
 struct Unit {
     std::string_view name;
     Kind kind;
-    double size;  ///< of one, in the first unit of its kind
+    double size;  ///< the size of one, in the first unit of its kind
 };
 constexpr double degrees = 180.0 / std::numbers::pi;
 constexpr std::array units{Unit{"m", Kind::Length, 1.0},         Unit{"km", Kind::Length, 1e3},

@@ -23,7 +23,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr float name_share = 0.38f;  ///< of the row's width, if name and field are side by side
+constexpr float name_share = 0.38f;  ///< fraction of the row's width, if name and field are side by side
 
 /// Too narrow for a name and a field side by side at the current text size.
 bool narrow() {
@@ -253,7 +253,7 @@ bool vector_field(const char* name, glm::vec3& value, float speed, glm::vec3 low
     ImVec2 from = ImGui::GetCursorScreenPos();
     text_elided(name, ImGui::GetContentRegionAvail().x, true);
     const ImVec2 fields = ImGui::GetCursorScreenPos();
-    if (fields.x < from.x) from = fields;  // what stands left of the name has a tooltip of its own
+    if (fields.x < from.x) from = fields;  // a part left of the name has a tooltip of its own
     bool changed = false;
     for (int i = 0; i < 3; ++i) {
         const std::string id = std::string("##") + name + ' ' + "xyz"[i];

@@ -9,7 +9,7 @@
 
 namespace tendril::app {
 
-/// The ids of what is drawn while it exists are its own: a row may have the name of one in another section.
+/// A scope for ids: a row drawn while it exists may have the name of a row in another section.
 class [[nodiscard]] IdScope {
   public:
     explicit IdScope(const char* name);
@@ -34,7 +34,7 @@ void note(const std::string& text);
 void coloured_note(const std::string& text, glm::vec3 colour);
 
 // Drags are clamped to the range. Typed values take effect when the user finishes (number_entry.hpp). They
-// are passed on even if out of range: the command refuses them with a message that gives the value and the
+// are emitted even if out of range: the command refuses them with a message that gives the value and the
 // range.
 /// `at_zero`, if given, is shown instead of 0: "never".
 bool number_field(const char* name, float& value, float speed, float low, float high, const char* format,
@@ -54,12 +54,12 @@ bool point_field(const char* name, glm::vec3& value, float speed, float most = 1
 bool vector_field(const char* name, glm::vec3& value, float speed, glm::vec3 low, glm::vec3 high,
                   const char* format);
 /// Keeps the height of the rows below `top`, a cursor position in the window, while the mouse is in it: a
-/// click that removes a row must not bring what follows under the mouse. They are at least `min_height`
+/// click that removes a row must not bring the next rows under the mouse. They are at least `min_height`
 /// pixels high.
 void keep_room(const char* id, float top, float min_height = 0.0f);
 /// The height of so many lines of dim text.
 float note_height(int lines);
-/// A note that comes and goes by itself, in room for so many lines; empty: nothing to say.
+/// A note that comes and goes by itself, in space for so many lines; empty: no note.
 void kept_note(const char* id, const std::string& text, int lines);
 /// A radio button: one of several exclusive options.
 bool option_button(const char* title, bool chosen, const char* tooltip = nullptr);
@@ -83,7 +83,7 @@ void explain(const char* text);
 
 /// A button in a row of `of` equal buttons, or fewer if they would be too small. A long tooltip is wrapped.
 bool row_button(const char* title, int of, bool enabled = true, const char* tooltip = nullptr);
-/// One of a row of buttons of which one is chosen, and lit.
+/// One of a row of buttons, of which the chosen one is lit.
 bool row_option(const char* title, int of, bool chosen, const char* tooltip = nullptr);
 
 /// Ends a row of buttons that is not full.

@@ -12,12 +12,12 @@
 
 namespace tendril::app {
 
-/// The text that filters a list, and which of its hits is highlighted; keep it from frame to frame. Typing
+/// The text that filters a list, and the index of its highlighted hit; keep it from frame to frame. Typing
 /// highlights the first hit, Up and Down move the highlight, Enter chooses it, Escape clears the text.
 struct SearchText {
     std::array<char, 64> text{};
     int at = -1;           ///< the highlighted hit; negative: none
-    int hits = 0;          ///< of the last frame, or so far of this one
+    int hits = 0;          ///< the last frame's, or this one's so far
     bool moved = false;    ///< the highlight moved in this frame
     bool entered = false;  ///< Enter was pressed in this frame
 
@@ -28,18 +28,18 @@ bool search_line(const char* id, const char* hint, SearchText& typed);
 /// Whether `text` contains `part`, ignoring case.
 bool contains_text(std::string_view text, std::string_view part);
 
-/// The list or menu that is open: at most one is.
+/// The open list or menu: at most one is open.
 struct OpenList {
     SearchText typed;
     bool in_field = false;                         ///< opened by a field, not by a button
     glm::vec2 opener_min{0.0f}, opener_max{0.0f};  ///< box of the item that opened it, on the screen
 };
 
-/// How much a list shows at once.
+/// The size of a list.
 struct ListRoom {
-    float width = 0.0f;  ///< of its rows, in pixels; 0: enough for most names
+    float width = 0.0f;  ///< width of its rows, in pixels; 0: enough for most names
     int rows = 10;
-    std::optional<glm::vec3> swatch{};  ///< of the choice in the field: the colour that it means
+    std::optional<glm::vec3> swatch{};  ///< the colour that the choice in the field means
 };
 
 /// Begins the list of a field. If it returns true, add rows and call end_list(). With `shown` the field is a
@@ -55,14 +55,14 @@ void end_list();
 /// ImGui::EndPopup().
 bool begin_menu(const char* id, bool pressed);
 
-/// One of a few, in a list. `why_not`, if given, has one entry per choice: null if it can be chosen, else the
-/// reason. `swatches`, if not empty, has the colour that each choice means. Returns true in a frame in which
-/// the user changed it.
+/// One of a few choices, in a list. `why_not`, if given, has one entry per choice: null if it can be chosen,
+/// else the reason. `swatches`, if not empty, has the colour that each choice means. Returns true in a frame
+/// in which the user changed it.
 bool choice_field(const char* name, int& chosen, const char* const* titles, int count,
                   const char* const* why_not = nullptr, std::span<const glm::vec3> swatches = {});
 
 /// Call before a frame in which a mouse button goes down: a press outside the open lists and menus closes
-/// them and acts on what is there. The item that opened a list only closes it.
+/// them and acts on the item there. The item that opened a list only closes it.
 void close_lists_on_press();
 
 }  // namespace tendril::app

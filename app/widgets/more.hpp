@@ -8,7 +8,7 @@
 
 namespace tendril::app {
 
-/// What a row sets, by which the palette and the cards find and unfold it. Empty for a reading.
+/// The command and arguments that a row sets, so that palette and cards can find it. Empty for a reading.
 struct RowOf {
     std::string command{};
     std::vector<std::string> arguments{};

@@ -19,7 +19,7 @@ struct RowSearch;
 
 /// The last row that has a field: its position, and its number's range, for explain().
 struct RowAbove {
-    int frame = -1;         ///< in which it was drawn
+    int frame = -1;         ///< the frame in which it was drawn
     glm::vec2 from{0.0f};   ///< start of its name
     glm::vec2 field{0.0f};  ///< start of its last field
     bool has_range = false;
@@ -30,17 +30,17 @@ struct RowAbove {
 /// The text field that is being typed into; its text outlives the frame in which another item takes the
 /// focus.
 struct TextEditing {
-    unsigned id = 0;  ///< of the field; 0: none
-    int frame = 0;    ///< in which it was last drawn
+    unsigned id = 0;  ///< the field's; 0: none
+    int frame = 0;    ///< the last frame in which it was drawn
     std::array<char, 1024> text{}, before{};
     unsigned wanted = 0;   ///< the field that is about to take the keyboard
     int wanted_until = 0;  ///< the last frame in which it may
 };
 
-/// The interface's state of number fields: which one's text is being edited. ImGui's UserData points to it.
+/// The interface's state of number fields: the one being edited, and its text. ImGui's UserData points to it.
 struct NumberEditing {
-    unsigned id = 0;     ///< of the field; 0: none
-    int frame = 0;       ///< in which it was last drawn
+    unsigned id = 0;     ///< the field's; 0: none
+    int frame = 0;       ///< the last frame in which it was drawn
     bool begins = true;  ///< the text must take the keyboard focus
     std::array<char, 128> text{}, before{};
     int tabbed_in = -1;     ///< the frame in which Tab left a number: edit the next one
@@ -50,7 +50,7 @@ struct NumberEditing {
     RowAbove row;
     OpenList list;
     glm::vec2 middle_min{0.0f}, middle_max{0.0f};  ///< between panels and bars: see tooltip.hpp
-    RowSearch* search = nullptr;                   ///< that is on now; see row_search.hpp
+    RowSearch* search = nullptr;                   ///< the search in progress; see row_search.hpp
 };
 
 NumberEditing& number_editing();

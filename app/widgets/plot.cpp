@@ -44,12 +44,12 @@ class Plot {
             low_ = axes.fixed_y ? axes.low_y : std::min(axes.low_y, min_y);
             high_ = axes.fixed_y ? axes.high_y : std::max(axes.high_y, max_y);
         } else if (min_y <= max_y) {
-            // A nearly constant curve is shown as such.
+            // Show a nearly constant curve as such.
             const float room = std::max(0.05f * (max_y - min_y), 1e-3f * std::max(std::abs(max_y), 1e-3f));
             low_ = min_y - room;
             high_ = max_y + room;
         }
-        if (axes.named) high_ += 0.1f * (high_ - low_);  // names at the top keep off the title
+        if (axes.named) high_ += 0.1f * (high_ - low_);  // keep names at the top off the title
         const float text = ImGui::GetFontSize();
         from_.y = at.y + 1.2f * text;
         to_ = {at.x + size.x - 0.6f * text, at.y + size.y - 2.4f * text};
@@ -324,7 +324,7 @@ class Plot {
     ImDrawList* list_;
     ImVec2 from_{}, to_{};
     float most_x_ = 0.0f, low_ = 0.0f, high_ = 1.0f;
-    bool has_zero_ = false;  ///< of the values, where the axis is logarithmic
+    bool has_zero_ = false;  ///< whether a value is 0, where the axis is logarithmic
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ std::size_t round_stride(float min) {
     }
 }
 
-/// The strip: its line, its head, and their use by the mouse.
+/// The strip: its line, its head, and its mouse handling.
 class Strip {
   public:
     explicit Strip(const char* id) : list_(ImGui::GetWindowDrawList()) {

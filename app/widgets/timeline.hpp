@@ -6,8 +6,8 @@
 
 namespace tendril::app {
 
-/// The steps of a solve: `ends[i]` is the last step of iteration i; `ends[0]` is that of the start, before
-/// the first iteration. `step` is 0 to ends.back(). True in a frame in which the user moved the head.
+/// The steps of a solve: `ends[i]` is the last step of iteration i; `ends[0]` is the start's, before the
+/// first iteration. `step` is 0 to ends.back(). True in a frame in which the user moved the head.
 bool step_timeline(const char* id, int& step, const std::vector<int>& ends);
 
 /// A bar for one tick of a strip: its colour, and its height, 0 to 1.
@@ -24,7 +24,7 @@ struct TimeMark {
 /// A stretch of time with bars and marks. All positions are in ticks from the left end.
 struct TimeStrip {
     int ticks = 1;
-    double seconds = 0.0;        ///< of one tick
+    double seconds = 0.0;        ///< seconds per tick
     double first_seconds = 0.0;  ///< time at the left end
     int start = 0;               ///< the head's minimum
     int known = 0;               ///< end of the recorded time

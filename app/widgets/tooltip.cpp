@@ -23,13 +23,13 @@ Rect last_item() {
     return {vec(ImGui::GetItemRectMin()), vec(ImGui::GetItemRectMax())};
 }
 
-/// Where a tooltip may stand, and what stays free there.
+/// The rectangle that a tooltip may use, and the part of it to keep free.
 struct TooltipRoom {
     Rect whole, free;
-    int axis = 0;  ///< 0: rather to the right or left of it; 1: rather below or above
+    int axis = 0;  ///< 0: preferably right or left of `free`; 1: preferably below or above
 };
 
-/// For an item that is not in a panel, a bar or a sheet.
+/// The room for an item that is not in a panel, a bar or a sheet.
 TooltipRoom room_in_middle(const Rect& item) {
     const NumberEditing& numbers = number_editing();
     return {{numbers.middle_min, numbers.middle_max}, item, 1};
@@ -51,14 +51,14 @@ float place_tooltip(const TooltipRoom& room, const Rect& item) {
     glm::vec2 at = glm::clamp(vec(ImGui::GetMousePos()), item.min, item.max), pivot{0.0f};
     float width = widest * em;
     if (room.axis == 1 && item.size().y > tall_item * em) {
-        // A plot, which fills the middle: the upper corner away from the mouse.
+        // For a plot, which fills the middle: the upper corner away from the mouse.
         pivot.x = at.x < item.centre().x ? 1.0f : 0.0f;
         at = {pivot.x > 0.5f ? item.max.x - gap : item.min.x + gap, item.min.y + gap};
         ImGui::SetNextWindowPos({at.x, at.y}, ImGuiCond_Always, {pivot.x, pivot.y});
         return width;
     }
     at = glm::clamp(at, low, glm::max(low, high));
-    pivot = (at - low) / glm::max(high - low, 1.0f);  // a share of it before the mouse, so that it fits
+    pivot = (at - low) / glm::max(high - low, 1.0f);  // extends to both sides of the mouse, so that it fits
     const glm::vec2 needed = em * glm::vec2(narrowest + tooltip_margin, lowest);
     for (const int axis : {room.axis, 1 - room.axis}) {
         const float before = room.free.min[axis] - gap - low[axis],
@@ -96,7 +96,7 @@ Tooltip::~Tooltip() {
 
 namespace {
 
-/// What a click does is seen better without the tooltip, until the mouse has left the item.
+/// Whether the item was clicked: its tooltip would hide the result, until the mouse has left the item.
 bool was_clicked() {
     const double hovered_since =
         ImGui::GetTime() - static_cast<double>(ImGui::GetCurrentContext()->HoveredIdTimer);

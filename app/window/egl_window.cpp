@@ -33,7 +33,7 @@ struct Egl {
     decltype(&eglReleaseThread) release_thread = library.get<decltype(&eglReleaseThread)>("eglReleaseThread");
 };
 
-/// Global as in osmesa_window.cpp: glad's loader takes no user argument.
+/// Global, as in osmesa_window.cpp: glad's loader takes no user argument.
 decltype(&eglGetProcAddress) egl_loading = nullptr;
 
 /// The display and the context in one object, so that a failing step undoes the earlier ones.

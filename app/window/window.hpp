@@ -30,7 +30,7 @@ class Window {
     /// Appends the events since the last call, in order, after waiting for one for at most `seconds`. Off
     /// screen there are no events, and it does not wait.
     virtual void poll(std::vector<Event>& events, double seconds) = 0;
-    /// Shows what was drawn.
+    /// Shows the finished picture.
     virtual void present() = 0;
     /// Changes the size; a real window may refuse or delay it.
     virtual void resize(glm::ivec2 size) = 0;

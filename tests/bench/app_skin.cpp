@@ -1,4 +1,4 @@
-// Cost of drawing a skin of 50 000 vertices at 1280x720 in a new pose each frame, beside the same triangles
+// Cost of drawing a skin of 50 000 vertices at 1280x720 in a new pose each frame, against the same triangles
 // as a static mesh: the difference is the skinning. Counters: triangles, GL draw calls.
 #include <benchmark/benchmark.h>
 #include <glad/gl.h>

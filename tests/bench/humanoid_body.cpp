@@ -7,14 +7,14 @@
 //  - a frame takes at most 40 loops (measure.hpp) without limits, 55 within them, and 72 with self-collision
 //    of the body's capsules as well.
 //
-// Targets that jump anywhere in every frame, most of them out of reach, have a row and a claim of their own:
-// at most 210 loops per frame.
+// Targets that jump anywhere in every frame, most of them out of reach, have a separate row and claim: at
+// most 210 loops per frame.
 //
-// Balance: a hand that is dragged far ahead, with and without it, in turns. A frame with it costs under three
-// times as much: the hand stays out of reach, and most frames run to the end of their iterations.
+// Balance: a hand that is dragged far ahead, alternately with and without balance. A frame with balance costs
+// under three times as much: the hand stays out of reach, and most frames run to the end of their iterations.
 //
-// A wheel in both hands (hold.hpp), and its grips as plain targets, in turns: moved about within reach it
-// costs under 4 times as much, and under 6 times where it gives way in every frame.
+// A wheel in both hands (hold.hpp), alternately with its grips as plain targets: moved about within reach it
+// costs under 4 times as much, and under 6 times where it yields in every frame.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,7 +1,7 @@
 // Cost of joint limits: an iteration with limits against one without, for every method, in the same run; how
 // often each method arrives from rest at targets from poses within the limits; a solve and an explanation of
 // an active limit. Then whole solves by the default method over sizes and kinds of joints: limits far off,
-// met, and dragged along; and a target that the limits forbid.
+// reached, and dragged along; and a target that the limits forbid.
 //
 //     tendril_bench_ik_limits            the tables
 //     tendril_bench_ik_limits --check    the same, and exit code 1 if a claim does not hold

@@ -5,9 +5,9 @@
 //     tendril_bench_ik_many --check    the same, and exit code 1 if a claim does not hold
 //
 // Claims: the minimum gain over the scalar solver in any band of distance, for 4, 11 and 31 joints and 1 000
-// chains, free, in a plane and within limits; and that of two threads over one, if there are two cores. The
-// goal is 15 times with 16 lanes (AVX3) and 7 times with 8 (AVX2), and half of that within limits; prints how
-// many rows reach it. What limits it to less than 15: on the processor of these claims, the divider splits a
+// chains, free, in a plane and within limits; and the gain of two threads over one, if there are two cores.
+// The goal is 15 times with 16 lanes (AVX3) and 7 times with 8 (AVX2), and half of that within limits; prints
+// how many rows reach it. Two things keep it below 15: on the processor of these claims, the divider splits a
 // register of 16 lanes in two, which bounds the accelerated step; and a quarter of the time is transfers,
 // which no width accelerates. Times are processor time, except for threads, whose gain needs an idle machine.
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Cost of a linkage's frame while its drivers glide, and of what is out of reach; beside closed-chain-ik-js.
+// Cost of a linkage's frame while its drivers glide, and of targets out of reach; against closed-chain-ik-js.
 //
 //     tendril_bench_linkage            the table and one line per claim
 //     tendril_bench_linkage --check    the same, and exit code 1 if a claim does not hold
@@ -9,7 +9,7 @@
 // with its default settings and with tight ones. Its columns have the largest gap of a closure
 // beside the time.
 //
-// Then targets out of reach: a point is drawn round a circle that it cannot reach, in 300 frames.
+// Then targets out of reach: a point is dragged round a circle that it cannot reach, in 300 frames.
 //
 // Claims: a frame of 1 degree takes at most 1.1 loops (measure.hpp) for a four-bar, 5 for Jansen's leg, 18
 // for a Stewart platform; closures are closed to 1e-6 of the size. Of targets out of reach, 19 frames in 20

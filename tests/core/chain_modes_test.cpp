@@ -1,4 +1,4 @@
-// The four modes: what moves, what stays, and degenerate directions.
+// The four modes: moving and fixed joints, and degenerate directions.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

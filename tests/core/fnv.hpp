@@ -1,4 +1,4 @@
-// The hash of a fixed session: 64-bit FNV-1a (Fowler, Noll, Vo 1991) over the bits of what it computes.
+// The hash of a fixed session: 64-bit FNV-1a (Fowler, Noll, Vo 1991) over the bits of its results.
 #pragma once
 
 #include <bit>

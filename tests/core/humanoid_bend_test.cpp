@@ -1,4 +1,4 @@
-// Chains of a character along a curve: where the joints come to lie, what follows, what stays, and any input.
+// Chains of a character along a curve: positions of the joints, followers, fixed nodes, and any input.
 #include <gtest/gtest.h>
 
 #include <algorithm>

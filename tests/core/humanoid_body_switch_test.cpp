@@ -1,4 +1,4 @@
-// A body whose targets are released or reweighted while its state goes on.
+// A body whose targets are released or reweighted while its state continues.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Where the clip puts the feet down on stairs, before they count as planted.
+// The places where the clip puts the feet down on stairs, before they count as planted.
 #include <gtest/gtest.h>
 
 #include "humanoid_feet_support.hpp"

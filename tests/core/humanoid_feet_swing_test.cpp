@@ -1,4 +1,4 @@
-// How far a foot passes through the ground while it is in the air.
+// The depth to which a foot passes through the ground while it is in the air.
 #include <gtest/gtest.h>
 
 #include <tendril/humanoid/lint.hpp>

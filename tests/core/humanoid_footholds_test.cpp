@@ -1,4 +1,4 @@
-// Where feet stand on stairs: with the whole sole on treads; and how smoothly they get there.
+// Positions of feet on stairs: the whole sole on treads; and how smoothly they get there.
 #include <gtest/gtest.h>
 
 #include <tendril/humanoid/lint.hpp>

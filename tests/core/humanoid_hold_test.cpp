@@ -1,4 +1,4 @@
-// Hands that hold one thing: the grips close within the limits, and the object gives way as little as it can.
+// Hands that hold one thing: the grips close within the limits, and the object yields as little as possible.
 #include <gtest/gtest.h>
 
 #include <algorithm>

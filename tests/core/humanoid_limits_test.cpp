@@ -1,4 +1,4 @@
-// Joint limits of a body: the T-pose that they are relative to, the defaults, and limits learned from clips.
+// Joint limits of a body: their reference T-pose, the defaults, and limits learned from clips.
 #include <gtest/gtest.h>
 
 #include <cmath>

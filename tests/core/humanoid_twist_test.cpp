@@ -1,4 +1,4 @@
-// Twist distribution along the arms: what counts as twist, and the nodes that share it.
+// Twist distribution along the arms: the measure of twist, and the nodes that share it.
 #include <gtest/gtest.h>
 
 #include <cmath>

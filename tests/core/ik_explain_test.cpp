@@ -1,4 +1,4 @@
-// Which limit keeps the tip from the target, where it stops, and the angle that the target needs.
+// The limit that keeps the tip from the target, its value, and the angle that the target needs.
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 

@@ -1,5 +1,5 @@
 // FABRIK and the loop around every method: the two passes by hand, reachability, collinear singularities,
-// snap-back, the soft zone, and what is kept if nothing helps.
+// snap-back, the soft zone, and the pose that is kept if nothing helps.
 #include <algorithm>
 #include <array>
 

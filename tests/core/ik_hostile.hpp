@@ -1,4 +1,4 @@
-// What every method must withstand: any chain, any pose, any target.
+// Input that every method must withstand: any chain, any pose, any target.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Families of recorded arms with one fault each: lag, repeated poses, an axis that was crossed, a hand beyond
-// the joint that reaches.
+// Families of recorded arms with one fault each: lag, repeated poses, a crossed axis, a hand beyond the joint
+// that reaches.
 #include "tendril/ik/incident.hpp"
 
 #include <gtest/gtest.h>

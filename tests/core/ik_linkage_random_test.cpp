@@ -1,4 +1,4 @@
-// Random linkages: closed wherever they are driven and drawn, from any state, there and back; and hostile
+// Random linkages: closed wherever they are driven and dragged, from any state, there and back; and hostile
 // ones.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Linkages that are driven and looked at by names, and random ones.
+// Linkages that are driven and inspected by names, and random ones.
 #pragma once
 
 #include <cmath>

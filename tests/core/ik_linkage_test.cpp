@@ -1,4 +1,4 @@
-// Linkages: cases of an independent implementation over whole turns, closed forms, what is out of reach
+// Linkages: cases of an independent implementation over whole turns, closed forms, targets out of reach
 // against brute force, modes and dead points, ranges, priorities, freedom, sketches, and hostile input.
 #include <gtest/gtest.h>
 

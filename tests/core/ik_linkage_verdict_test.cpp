@@ -1,4 +1,4 @@
-// Linkages: what a report claims is so, whatever was driven; and every step leads on along its branch.
+// Linkages: a report's claims are true, whatever was driven; and every step continues along its branch.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // solve_many within limits: joints stay within their limits, every target that the scalar solver reaches is
-// reached, and what the vector units cannot do is bitwise the scalar solver's answer.
+// reached, and cases that the vector units cannot do are bitwise the scalar solver's answer.
 #include "ik_limited_support.hpp"
 #include "ik_many_scalar.hpp"
 

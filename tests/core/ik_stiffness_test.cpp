@@ -1,4 +1,4 @@
-// Stiff joints: they turn less, the others make up for it, and the tip arrives all the same.
+// Stiff joints: they rotate less, the others make up for it, and the tip arrives all the same.
 #include "ik_limited_support.hpp"
 #include "tests/says.hpp"
 

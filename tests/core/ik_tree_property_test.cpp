@@ -1,5 +1,5 @@
-// A tree of chains with random and hostile input: how often it converges, that it always holds, that the
-// order of effectors does not matter, and that solving allocates nothing.
+// A tree of chains with random and hostile input: how often it converges, that its invariant always holds,
+// that the order of effectors does not matter, and that solving allocates nothing.
 #include <cstdio>
 #include <map>
 

@@ -1,4 +1,4 @@
-// Objects that were moved from refuse, or are empty: none of them reads through what it no longer has.
+// Objects that were moved from refuse, or are empty: none reads data that it no longer has.
 #include <gtest/gtest.h>
 
 #include <tendril/humanoid/bent_chain.hpp>

@@ -1,4 +1,4 @@
-// What each write leaves pending, the cost of reading, and the values read.
+// The poses that each write leaves pending, the cost of reading, and the values read.
 #include "memory.hpp"
 #include "rig_line.hpp"
 #include "rig_support.hpp"

@@ -1,4 +1,4 @@
-// What Rig::make refuses, and its messages.
+// Refusals of Rig::make, and their messages.
 #include <gtest/gtest.h>
 #include <limits>
 #include <string>

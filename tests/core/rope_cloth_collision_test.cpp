@@ -1,5 +1,5 @@
 // Cloth that collides with itself, with ropes and with other cloth: nothing passes through it, and layers
-// keep their thickness. Whether something passed is judged by segments that pierce triangles.
+// keep their thickness. Segments that pierce triangles show whether something passed.
 #include <gtest/gtest.h>
 
 #include <cmath>

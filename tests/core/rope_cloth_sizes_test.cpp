@@ -1,4 +1,4 @@
-// Cloth at any resolution: does not stretch, rests on what it touches, and recovers from disturbances.
+// Cloth at any resolution: does not stretch, rests on colliders, and recovers from disturbances.
 #include "rope_support.hpp"
 #include "tendril/ik/many.hpp"
 

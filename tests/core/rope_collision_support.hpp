@@ -1,4 +1,4 @@
-// Shared by tests of bodies that collide: crossed ropes, knots, and whether they are still what they were.
+// Shared by tests of bodies that collide: crossed ropes, knots, and whether they are still intact.
 #pragma once
 
 #include <algorithm>

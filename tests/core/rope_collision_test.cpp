@@ -1,5 +1,5 @@
 // Ropes that collide with each other and with themselves: they never pass, keep their thickness at rest, and
-// gain no energy. Whether something passed is judged by invariants of knots and links, not by distances.
+// gain no energy. Invariants of knots and links, not distances, show whether something passed.
 #include <gtest/gtest.h>
 
 #include <cmath>

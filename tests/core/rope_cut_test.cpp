@@ -1,4 +1,4 @@
-// Cloth cut along lines, torn, and parted into cloths of their own.
+// Cloth cut along lines, torn, and divided into separate cloths.
 #include <glm/vec2.hpp>
 #include <set>
 #include <vector>

@@ -1,4 +1,4 @@
-// Grounds that move and boxes that turn: friction carries what lies on them.
+// Grounds that move and boxes that rotate: friction carries the bodies on them.
 #include "rope_support.hpp"
 
 namespace tendril::test {

@@ -1,4 +1,4 @@
-// A cloth that was dragged about hangs as before once released, and falls like a stone once unpinned.
+// A cloth that was dragged about hangs as before once released, and falls freely once unpinned.
 // TENDRIL_GESTURES=200 drags more often.
 #include <cstdlib>
 

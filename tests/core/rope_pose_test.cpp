@@ -1,4 +1,4 @@
-// Between steps: where things are at a frame's own time, with frames that are no whole number of substeps.
+// Between steps: positions at a frame's own time, with frames that are no whole number of substeps.
 #include <vector>
 
 #include "random.hpp"

@@ -1,4 +1,4 @@
-// Bodies divided more or less finely, reversed, and made longer or wider while they move.
+// Bodies resampled, reversed, and made longer or wider while they move.
 #include <glm/vec3.hpp>
 #include <string>
 

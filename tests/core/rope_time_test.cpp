@@ -1,5 +1,4 @@
-// Time is simulated in fixed substeps: how it is divided into frames does not matter, and dropped time is
-// counted.
+// Time is simulated in fixed substeps: the division into frames does not matter, and dropped time is counted.
 #include "rope_support.hpp"
 
 namespace tendril::test {

@@ -1,4 +1,4 @@
-// What must hold for the bytes of a character, whatever they are.
+// Properties that hold for the bytes of a character, whatever they are.
 #pragma once
 
 #include <stdexcept>

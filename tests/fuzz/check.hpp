@@ -1,4 +1,4 @@
-// What a fuzz target does if a property does not hold.
+// The reaction of a fuzz target to a property that does not hold.
 #pragma once
 
 #include <cstdint>

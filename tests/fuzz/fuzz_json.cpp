@@ -1,5 +1,5 @@
-// Our parser reads what the JSON library reads, with the same value, unless it is nested too deep; and finds
-// a line for any path.
+// Our parser accepts the same texts as the JSON library, with the same values, unless they are nested too
+// deep; and finds a line for any path.
 #include "app/document/json_complete.hpp"
 #include "tests/fuzz/check.hpp"
 

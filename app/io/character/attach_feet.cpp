@@ -9,7 +9,7 @@ namespace {
 
 using humanoid::Skeleton;
 
-/// Up to 1000 times of the clip, those of the node's keys among them if there are fewer.
+/// Up to 1000 times of the clip: 501 evenly spaced, and the first 499 of the node's keys.
 std::vector<double> times_to_compare(const humanoid::Clip& clip, std::size_t node) {
     constexpr int even = 500;
     std::vector<double> times;
@@ -23,7 +23,7 @@ std::vector<double> times_to_compare(const humanoid::Clip& clip, std::size_t nod
     return times;
 }
 
-/// A scale of 0, or a shear, may occur in a clip alone.
+/// Whether the clip's motion stays the same; a scale of 0, or a shear, may occur only in a clip.
 bool keeps_motion(const Skeleton& before, const Skeleton& after, const humanoid::Clip& clip,
                   std::size_t node) {
     std::vector<rig::Transform> pose(before.size());

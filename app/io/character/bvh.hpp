@@ -3,10 +3,10 @@
 //
 // The reader accepts any number of roots; any channels in any order at any joint, with rotations multiplied
 // in that order; names with blanks; end sites, which become nodes ("LeftToeBase end"); any line ends; and,
-// with a note, what some programs write: more or fewer rows than the declared frames, other blanks around the
-// colons, a ^Z or NUL at the end. A joint's position replaces its OFFSET.
+// with a note, the deviations of some programs: more or fewer rows than the declared frames, other blanks
+// around the colons, a ^Z or NUL at the end. A joint's position replaces its OFFSET.
 //
-// A file does not say whether that is so for the root too, which axis is up or how long its unit is:
+// A file does not say whether the root's position does so too, which axis is up or how long its unit is:
 // judge_space() finds out. Memory stays below a constant times the size of the file.
 #pragma once
 
@@ -24,13 +24,13 @@ namespace tendril::app {
 Character parse_bvh(std::string_view text, const std::string& name, LoadProgress* progress = nullptr);
 
 /// Decides what a file leaves open: which axis points up, whether a root's positions replace its OFFSET or
-/// are added to it, how long its unit is, and how the figure stands when it does not move. All of it is
-/// judged by the zero pose and the motion together, if legs and a head are found; without them Y is up,
-/// positions replace the OFFSET, and only the unit is guessed.
+/// are added to it, how long its unit is, and how the figure stands at rest. Judges by the zero pose and the
+/// motion together if it finds legs and a head; without them Y is up, positions replace the OFFSET, and only
+/// the unit is guessed.
 ///
 /// `nodes` rest in the zero pose, at their OFFSETs. `character` has the motion and the root offsets in the
-/// file's units and axes, with the roots' positions as they stand there. Sets the scale, the space and the
-/// skeleton, converts the motion, and says what was guessed.
+/// file's units and axes, with the roots' positions unchanged. Sets the scale, the space and the skeleton,
+/// converts the motion, and records its guesses.
 void judge_space(Character& character, std::vector<humanoid::Node> nodes);
 
 /// The clip at `rate` frames per second from time 0 to its duration, Y up, in metres, or in millimetres for a

@@ -83,7 +83,7 @@ class Words {
         return end == text_.size() || text_[end] == '\n' || text_[end] == '\r';
     }
     /// Reads "Frames:" or "Frame Time:", with any blanks between the words and around the colon. Returns
-    /// whether those around the colon are the usual ones.
+    /// whether the blanks around the colon are the usual ones.
     bool label(std::string_view wanted) {
         skip_blanks();
         const std::size_t begin = at_;
@@ -315,7 +315,7 @@ humanoid::Clip read_motion(Words& words, const Hierarchy& hierarchy, std::vector
             values += joint.channels.size();
             if (moves(joint)) channel.translation.values.push_back(local.translation);
             if (!turns(joint)) continue;
-            // The file has angles: the sign of a quaternion is ours to choose.
+            // The file stores angles, so the sign of a quaternion is free to choose.
             std::vector<glm::dquat>& keys = channel.rotation.values;
             const bool is_far = !keys.empty() && glm::dot(keys.back(), local.rotation) < 0.0;
             keys.push_back(is_far ? -local.rotation : local.rotation);
@@ -362,7 +362,7 @@ Character read(Words& words, LoadProgress* progress) {
     return character;
 }
 
-/// Without the ^Z or NUL after which some programs end a text.
+/// The text without the ^Z or NUL that some programs write at its end.
 std::string_view without_end_marks(std::string_view text) {
     const std::size_t last = text.find_last_not_of(std::string_view("\0\x1a \t\r\n", 6));
     const std::size_t end =

@@ -19,12 +19,12 @@ using humanoid::Placement;
 using humanoid::Skeleton;
 
 constexpr std::size_t axis_count = 6, max_looked_at = 200;
-/// Legs and spine point along an axis by at least this cosine where a figure stands: at rest, in motion.
+/// Minimum cosine between an axis and the legs and spine of a figure that stands: at rest, in motion.
 constexpr double stands_at_rest = 0.7, stands = 0.6;
-/// Of the height of a figure, that feet on a floor may be above or below 0.
+/// Feet on a floor may be above or below 0 by this fraction of the figure's height.
 constexpr double near_floor = 0.1;
 
-/// Legs and spine of a skeleton, by which it is seen to stand.
+/// A skeleton's legs and spine, which show whether it stands.
 struct Body {
     std::array<std::size_t, 2> thighs, feet;
     std::size_t hips, head, root;
@@ -75,11 +75,11 @@ std::optional<Body> body_in(const Skeleton& skeleton, const humanoid::BoneMap& m
     return body;
 }
 
-/// A pose, and what decides how it stands.
+/// The measures of a pose that show how it stands.
 struct Look {
     glm::dvec3 legs{0.0}, spine{0.0};  ///< from feet to thighs and from hips to head; 1: straight
-    glm::dvec3 spread{0.0};            ///< from the right foot to the left, less that of the thighs
-    glm::dvec3 low{0.0}, high{0.0};    ///< of all nodes
+    glm::dvec3 spread{0.0};            ///< from the right foot to the left, less the same for the thighs
+    glm::dvec3 low{0.0}, high{0.0};    ///< the box around all nodes
 
     /// 1: straight and along the axis.
     double standing(UpAxis up) const {
@@ -97,7 +97,7 @@ UpAxis axis_at(std::size_t index) {
     return static_cast<UpAxis>(index);
 }
 
-/// The skeleton with that rest pose, turned so that the axis is Y.
+/// The skeleton with that rest pose, rotated so that the axis is Y.
 Expected<Skeleton> stood_up(const Skeleton& skeleton, std::span<const rig::Transform> rest, UpAxis up) {
     std::vector<humanoid::Node> nodes = skeleton.nodes();
     for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].rest = rest[i];
@@ -197,7 +197,7 @@ class Judge {
             std::ranges::count_if(looks_, [&](const Look& each) { return each.standing(up) >= stands; });
         return static_cast<double>(standing) / static_cast<double>(looks_.size());
     }
-    /// How far the lowest point is from 0 in most frames, in heights of the figure.
+    /// The median distance of the lowest point from 0, in heights of the figure.
     double off_floor(UpAxis up, Positions positions) const {
         const double raised = positions == Positions::Add ? glm::dot(offset_, direction(up)) : 0.0;
         std::vector<double> off;
@@ -222,7 +222,7 @@ class Judge {
         rest_up_ = at_rest;
         up_ = at_rest.value_or(share(moving) >= 0.3 ? moving : UpAxis::Y);
         if (at_rest && *at_rest != moving && share(moving) >= 0.6) {
-            // Which of the two is the floor's? A figure that lies on it does not stand, either.
+            // Decide between the two by the floor. A figure lying on the floor does not stand, either.
             const double by_rest = off_floor(*at_rest), by_motion = off_floor(moving);
             const bool floor_at_rest = by_rest < near_floor && by_rest < by_motion;
             if (!floor_at_rest && (share(*at_rest) < 0.1 || by_motion + near_floor < by_rest)) up_ = moving;
@@ -250,7 +250,7 @@ class Judge {
                                  ": that puts the feet on the floor.";
     }
 
-    /// Turns a zero pose that stands along another axis, and takes the rest pose from the motion where the
+    /// Rotates a zero pose that stands along another axis, and takes the rest pose from the motion if the
     /// zero pose does not stand at all.
     void stand_up() {
         if (rest_up_ == up_ || share(up_) == 0.0) return;
@@ -272,7 +272,7 @@ class Judge {
         sample_frame(index);
         stand_straight();
         for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].rest = pose_[i];
-        // Above the origin, at the height that it has in the motion, or else on the floor.
+        // Place it above the origin, at its height in the motion, or else on the floor.
         const glm::dvec3 axis = direction(up_);
         const double added = space_.positions == Positions::Add ? glm::dot(offset_, axis) : 0.0;
         glm::dvec3& at = nodes_[body_->root].rest.translation;
@@ -282,9 +282,9 @@ class Judge {
                                    std::to_string(frame_of(index)) + " of the motion, on straight legs.");
     }
 
-    /// Makes a frame a rest pose: it faces +Z of a file with Y up, on straight legs, with feet that point
-    /// forward, 30 degrees below level, and level toes. Where a figure looks in a frame, and how it treads,
-    /// says nothing of the figure. Its lower ankle stays where it is.
+    /// Makes a frame a rest pose: facing +Z of a file with Y up, on straight legs, with feet that point
+    /// forward, 30 degrees below level, and level toes. The heading and the footing of a single frame say
+    /// nothing about the figure. The lower ankle stays where it is.
     void stand_straight() {
         const double before = lowest_ankle();
         const auto standing = stood_up(skeleton_, pose_, up_);

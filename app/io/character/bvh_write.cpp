@@ -12,8 +12,8 @@ using humanoid::Skeleton;
 
 constexpr double degrees = 180.0 / 3.14159265358979323846;
 
-/// Euler angles z, x and y in degrees, intrinsic in that order, which most programs write. If x is a quarter
-/// turn, y is 0.
+/// Euler angles z, x and y in degrees, intrinsic in that order, the one that most programs write. If x is a
+/// quarter turn, y is 0.
 glm::dvec3 angles_zxy(const glm::dquat& q) {
     const double sine_x = 2.0 * (q.w * q.x + q.y * q.z);
     const double x = std::asin(std::clamp(sine_x, -1.0, 1.0));
@@ -102,8 +102,8 @@ class Writer {
         }
     }
 
-    /// For the frame time: with six decimals time would drift by a frame in ten hours, and a fast foot by a
-    /// tenth of a millimetre in two seconds.
+    /// Writes the frame time: with six decimals time would drift by a frame in ten hours, and a fast foot by
+    /// a tenth of a millimetre in two seconds.
     void write_exactly(double value) {
         char digits[32];
         text_.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);

@@ -156,7 +156,7 @@ humanoid::Skeleton skeleton_of(std::vector<humanoid::Node> nodes) {
 }
 
 LengthUnit guess_unit(double height) {
-    // CMU's captures are in inches, of a skeleton scaled by 0.45.
+    // CMU's captures are in inches, for a skeleton scaled by 0.45.
     constexpr std::array<LengthUnit, 6> units{{{"metres", 1.0},
                                                {"centimetres", 0.01},
                                                {"inches", 0.0254},

@@ -22,7 +22,7 @@ struct NamedBones {
     std::array<std::int32_t, humanoid::bone_count> nodes{};  ///< nodes of the skeleton; -1: none
 };
 
-/// The axis of a file that points up. An FBX or a glTF says which; there Y means: as the file says.
+/// The axis of a file that points up. An FBX or glTF file states it; for these Y means: as the file says.
 enum class UpAxis : std::uint8_t { X, Y, Z, MinusX, MinusY, MinusZ };
 
 inline constexpr EnumNames<UpAxis, 6> up_axes{
@@ -32,7 +32,7 @@ glm::dvec3 direction(UpAxis up);
 /// The rotation by a quarter or a half turn that makes this axis Y.
 glm::dquat turn_of(UpAxis up);
 
-/// What the positions of a root in a BVH's motion are: its place, or its way from its OFFSET.
+/// The meaning of a BVH root's positions: they replace its OFFSET or are added to it.
 enum class RootPositions : std::uint8_t { Replace, Add };
 
 inline constexpr EnumNames<RootPositions, 2> root_positions{
@@ -53,7 +53,7 @@ struct RootOffset {
 
 /// A capsule that keeps springs out, or a sphere if its ends are one point.
 struct SpringCollider {
-    std::size_t node = 0;           ///< it moves with
+    std::size_t node = 0;           ///< the collider moves with it
     glm::dvec3 from{0.0}, to{0.0};  ///< in the node's space
     double radius = 0.0;            ///< metres
     bool operator==(const SpringCollider&) const = default;
@@ -74,12 +74,11 @@ struct Character {
     std::optional<NamedBones> bones{};  ///< none: they must be matched
     std::vector<NamedSpring> springs{};
     double scale = 1.0;       ///< metres per unit of the file
-    bool states_unit = true;  ///< the file; a BVH never does, some FBX files do not
+    bool states_unit = true;  ///< whether the file does; a BVH never does, some FBX files do not
     FileSpace space{};
     std::vector<RootOffset> root_offsets{};  ///< only those that are not 0
     std::vector<std::string> notes{};        ///< sentences for the panel: what was omitted or changed
-    /// How the scale and the space were guessed, in a sentence each; empty: they were not, or are set by
-    /// hand.
+    /// How the scale and the space were guessed, in a sentence each; empty if not guessed or if set by hand.
     struct Guesses {
         std::string unit{}, up{}, positions{};
     } guesses{};
@@ -88,8 +87,8 @@ struct Character {
     std::vector<std::string> sentences() const;
 };
 
-/// Reads the character's file differently: converts its nodes, skin and clips. What is set by that is no
-/// guess any more. Throws std::runtime_error if a number becomes too large.
+/// Reads the character's file differently: converts its nodes, skin and clips. A value that this sets is no
+/// longer a guess. Throws std::runtime_error if a number becomes too large.
 void read_as(Character& character, double scale, const FileSpace& space);
 
 /// Converts a clip that was made for the character while it was read with `scale` and `space`. Root positions
@@ -123,10 +122,10 @@ struct LengthUnit {
 };
 LengthUnit guess_unit(double height);
 
-/// A person's height at rest that is hardly one, and the unit that mends it.
+/// An implausible height of a person at rest, and the unit that corrects it.
 struct UnitDoubt {
     double height;    ///< metres
-    LengthUnit unit;  ///< of the common units, or a nameless one that makes the person 1.75 m tall
+    LengthUnit unit;  ///< one of the common units, or a nameless one that makes the person 1.75 m tall
     double then;      ///< the height with that unit
 };
 /// A character with a usable bone map is a person; a height under 0.5 m or over 3 m is in doubt. `scale`:

@@ -54,7 +54,7 @@ std::vector<std::size_t> places_of(const Skeleton& skeleton, const Skeleton& rea
     return places;
 }
 
-/// Compares all joints at a time of the clip, and the same in the file.
+/// Compares all joints at a time of the clip with the same time of the file.
 class Comparison {
   public:
     Comparison(const Export& what, const Character& read, bool is_bvh, bool has_origin)
@@ -99,7 +99,7 @@ class Comparison {
     std::vector<Placement> wanted_{}, found_{};
 };
 
-/// Whether the original has that fault too: of the same joint, at the same time or next to it.
+/// Whether the original has that fault too: at the same joint, at the same or a neighbouring frame.
 bool is_known(const humanoid::Finding& finding, const humanoid::LintReport& original) {
     constexpr std::size_t near = 3;  // frames
     return std::ranges::any_of(original.findings, [&](const humanoid::Finding& each) {
@@ -116,7 +116,7 @@ ExportReport report_of(const Export& what, const Character& read, bool is_bvh, b
     for (std::size_t i = 0; i < report.frames; ++i) {
         const double time = frames.time(i), between = time + 0.5 * frames.step;
         comparison.at(time, is_bvh ? static_cast<double>(i) / what.rate : time, report);
-        // A BVH does not define what is between frames.
+        // A BVH does not define the motion between frames.
         if (!is_bvh) comparison.at(between, between, report);
     }
     const Skeleton& skeleton = what.character.skeleton;

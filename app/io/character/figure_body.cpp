@@ -22,9 +22,9 @@ using humanoid::Placement;
 
 constexpr float lowered = 0.7f;  // radians; the arms of the bind pose against the T-pose
 
-/// A cross-section: between two joints, or at one of them, and beside it.
+/// A cross-section: between two joints, or at one of them, and offset from it.
 struct FigureSection {
-    Bone from, to;  ///< of the left side
+    Bone from, to;  ///< joints of the left side
     float along;    ///< 0: at `from`; 1: at `to`
     vec3 beside;    ///< metres on a figure of 1.8 m; x: away from the middle
     float width, depth;
@@ -32,7 +32,7 @@ struct FigureSection {
 
 constexpr vec3 flat_z{0, 0, 1}, flat_y{0, 1, 0}, flat_x{1, 0, 0};
 
-// The trunk: one chain up the middle, and what is on it.
+// The trunk: one chain up the middle, and its attachments.
 constexpr FigureSection trunk[]{{Bone::Hips, Bone::Hips, 0, {0, 0.035f, -0.002f}, 0.138f, 0.096f},
                                 {Bone::Hips, Bone::Hips, 0, {0, 0.085f, 0.002f}, 0.128f, 0.089f},
                                 {Bone::Spine, Bone::Chest, 0.5f, {0, 0, 0.004f}, 0.124f, 0.086f},
@@ -47,7 +47,7 @@ constexpr FigureSection skull[]{{Bone::Head, Bone::Head, 0, {0, 0.102f, -0.014f}
 constexpr FigureSection jaw[]{{Bone::Head, Bone::Head, 0, {0, 0.082f, 0.028f}, 0.072f, 0.062f},
                               {Bone::Head, Bone::Head, 0, {0, 0.040f, 0.044f}, 0.052f, 0.046f},
                               {Bone::Head, Bone::Head, 0, {0, 0.014f, 0.058f}, 0.034f, 0.034f}};
-// Each of these on both sides.
+// Each of these exists on both sides.
 constexpr FigureSection girdle[]{
     {Bone::UpperChest, Bone::UpperChest, 0, {0, 0.095f, -0.010f}, 0.082f, 0.070f},
     {Bone::UpperChest, Bone::UpperChest, 0, {0.09f, 0.105f, -0.010f}, 0.070f, 0.066f},
@@ -219,11 +219,11 @@ class FigureBody {
 
     // The weights.
 
-    /// How far a point is past a joint, 0 to 1, in the direction `way`; `reach` metres are the transition.
+    /// How far a point is past a joint in the direction `way`, 0 to 1; the transition is `reach` metres.
     float past(Bone joint, vec3 way, float reach, const vec3& point) const {
         return step_between(-reach * unit_, reach * unit_, glm::dot(point - at(joint), glm::normalize(way)));
     }
-    /// Hands a share down a chain of bones, from joint to joint.
+    /// Divides a share among a chain of bones, from joint to joint.
     struct Joint {
         Bone bone;
         float reach;  ///< metres on a figure of 1.8 m
@@ -241,7 +241,7 @@ class FigureBody {
     }
     vec3 way(Bone from, Bone to) const { return glm::normalize(at(to) - at(from)); }
 
-    /// `distance`: of each group.
+    /// `distance` is for each group.
     Weights weights(const vec3& point, const BodyField::Distances& distance) const {
         std::array<float, 5> part{};
         float limbs = 0.0f;
@@ -249,7 +249,7 @@ class FigureBody {
             float rest = 1e9f;
             for (std::size_t k = 0; k < part.size(); ++k)
                 if (k != i) rest = std::min(rest, distance[k]);
-            // Points between a limb and the trunk, as in the armpit, are the trunk's.
+            // Points between a limb and the trunk, as in the armpit, belong to the trunk.
             const float from = (i <= RightArm ? -0.01f : -0.04f) * unit_, to = 0.045f * unit_;
             const bool is_arm = i <= RightArm;
             const Bone root = on(is_arm ? Bone::LeftUpperArm : Bone::LeftUpperLeg, i % 2 == 1 ? 1.0f : -1.0f);

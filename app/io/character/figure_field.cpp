@@ -58,8 +58,8 @@ void BodyField::add_chain(std::size_t group, std::span<const BodySection> sectio
     ++chains_;
 }
 
-/// To first order: the value over the length of its gradient. In plain numbers: it is computed a million
-/// times, also in builds that inline nothing.
+/// To first order: the value over the length of its gradient. Uses plain floats: it runs a million times,
+/// also in builds that inline nothing.
 float BodyField::cone_distance(const Cone& cone, const vec3& point) {
     float x = point.x - cone.from.x, y = point.y - cone.from.y, z = point.z - cone.from.z;
     const vec3 &way = cone.way, &flat = cone.flat;
@@ -135,7 +135,7 @@ class BodyNet {
     BodyNet(const BodyField& field, float cell) : field_(field), cell_(cell) {
         vec3 high;
         field.bounds(low_, high);
-        // A corner of the grid at x = 0: a symmetric body gets a symmetric net.
+        // Align a grid corner with x = 0, so that a symmetric body gets a symmetric net.
         low_.x = -cell * tile * std::ceil(-low_.x / (cell * tile));
         size_ = ivec3(glm::ceil((high - low_) / (cell * tile))) * tile + 1;
         values_.assign(static_cast<std::size_t>(size_.x * size_.y * size_.z), 1.0f);
@@ -214,8 +214,8 @@ class BodyNet {
         });
     }
 
-    /// Two opposite corners of a square inside and two outside would join two sheets in one edge: takes the
-    /// corner nearest to the surface to the other side. Returns whether there were any.
+    /// A square with two opposite corners inside and two outside would join two surfaces in one edge: flips
+    /// the corner nearest to the surface. Returns whether there were any.
     bool untangle() {
         bool found = false;
         each_block([&](const ivec3& at) {
@@ -310,7 +310,7 @@ class BodyNet {
             }
         });
     }
-    /// Cut along its shorter diagonal.
+    /// Splits the quad along its shorter diagonal.
     void add_quad(std::array<std::uint32_t, 4> ring, bool outward) {
         if (!outward) std::swap(ring[1], ring[3]);
         const auto& at = surface_.positions;
@@ -327,8 +327,8 @@ class BodyNet {
     std::vector<float> values_{};
     std::vector<char> filled_{};  ///< whether the value is a distance, not only a sign
     std::vector<std::uint32_t> corner_of_{};
-    std::vector<std::vector<std::uint16_t>> near_{};             ///< cones, of each block
-    std::vector<const std::vector<std::uint16_t>*> cones_of_{};  ///< of each corner of the surface
+    std::vector<std::vector<std::uint16_t>> near_{};             ///< the near cones of each block
+    std::vector<const std::vector<std::uint16_t>*> cones_of_{};  ///< near cones of each corner of the surface
     BodySurface surface_{};
 };
 

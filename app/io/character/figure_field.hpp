@@ -23,17 +23,17 @@ class BodyField {
     using Distances = std::array<float, max_groups>;
 
     float blend = 0.03f;  ///< cones closer than this melt into one
-    float floor = -1e9f;  ///< cuts off what is lower
+    float floor = -1e9f;  ///< cuts off everything lower
 
     /// Adds a smooth tube through the sections. Chains of one group must be added one after the other.
     void add_chain(std::size_t group, std::span<const BodySection> sections);
 
-    /// About the distance from the surface, negative inside. `near`: the cones that count here.
+    /// The approximate distance from the surface, negative inside. `near`: the cones that count here.
     float distance(const glm::vec3& point, std::span<const std::uint16_t> near) const;
-    /// Of each group alone; over 1e8 if none of its cones is near.
+    /// The distance from each group alone; over 1e8 if none of its cones is near.
     Distances groups(const glm::vec3& point, std::span<const std::uint16_t> near) const;
     std::span<const std::uint16_t> all() const { return all_; }
-    /// Those of `among` that count within `radius` of the point; returns the distance there.
+    /// The cones of `among` that count within `radius` of the point; returns the distance there.
     float near(const glm::vec3& point, float radius, std::span<const std::uint16_t> among,
                std::vector<std::uint16_t>& cones) const;
     /// A box around everything.
@@ -56,7 +56,7 @@ class BodyField {
 struct BodySurface {
     std::vector<glm::vec3> positions{}, normals{};
     std::vector<std::uint32_t> indices{};        ///< counter-clockwise, seen from outside
-    std::vector<BodyField::Distances> groups{};  ///< of each group alone, at each position
+    std::vector<BodyField::Distances> groups{};  ///< the distance from each group alone, at each position
 };
 
 /// The field's surface, closed, from a grid of cubes of that size.

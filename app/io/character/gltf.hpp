@@ -8,9 +8,9 @@
 //
 // Springs of a VRM file (gltf_vrm_springs.hpp) are the character's.
 //
-// Mended, each with a note: keys before 0 s, at the same time as another, or of no rotation; a node of scale
-// 0. Left out with a note: compressed meshes, pictures that are missing or neither PNG nor JPEG, and what
-// KHR_animation_pointer animates other than nodes. Not followed, with a note: node constraints of a VRM, and
+// Mended, each with a note: keys before 0 s, at the same time as another, or without a rotation; a node of
+// scale 0. Left out with a note: compressed meshes, pictures that are missing or neither PNG nor JPEG, and
+// targets of KHR_animation_pointer other than nodes. Not followed, with a note: a VRM's node constraints, and
 // colliders of its springs that are planes or hold them inside.
 #pragma once
 

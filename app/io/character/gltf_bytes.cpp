@@ -51,8 +51,8 @@ class Folder {
         std::error_code unknown;
         folder_ = fs::canonical(folder.empty() ? fs::path(".") : folder, unknown);
     }
-    /// The file of a URI; none if there is no such file. Throws if the URI leads out of the folder, whether
-    /// or not there is a file.
+    /// The URI's file; none if there is no such file. Throws if the URI leads out of the folder, whether or
+    /// not there is a file.
     std::optional<fs::path> find(const std::string& uri, const std::string& what) const {
         for (const std::string& name : names_of_uri(uri)) {
             check_inside(name, uri, what);
@@ -87,7 +87,7 @@ class Folder {
         throw std::runtime_error(what + ".uri: " + shown(uri) +
                                  " is outside the file's folder, so it is not read");
     }
-    /// By the name alone.
+    /// Checks the name only, not the disk.
     static void check_inside(const std::string& name, const std::string& uri, const std::string& what) {
         if (name.find('\0') != name.npos)
             throw std::runtime_error(what + ".uri: " + shown(uri) + " has a zero byte");
@@ -108,7 +108,7 @@ bool is_fallback(const json& buffer) {
     });
 }
 
-/// Of a buffer's or image's data URI or file. `is_there` is false if the file is missing.
+/// The bytes at a buffer's or image's data URI or file. `is_there` is false if the file is missing.
 Bytes bytes_at(const std::string& uri, const std::string& what, Folder& folder, bool& is_there) {
     is_there = true;
     if (const auto data = data_of(uri)) return bytes_of(*data);

@@ -190,7 +190,7 @@ void GltfFile::normalise_weights_of(const Json& primitive) {
             std::memcpy(buffer_.data() + at, four, sizeof four);
         }
     }
-    // Their range has changed; glTF requires one for positions only.
+    // The range has changed; glTF requires min and max for positions only.
     if (touched)
         for (std::size_t set = 0; set < sets.size(); ++set)
             accessor(set).erase("min"), accessor(set).erase("max");

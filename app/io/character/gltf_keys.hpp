@@ -1,4 +1,4 @@
-// Mends keys that glTF forbids but files have: before 0 s, two at one time, rotations of length 0.
+// Mends keys that glTF forbids but files contain: before 0 s, two at one time, rotations of length 0.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace tendril::app {
 /// How many keys were dropped, and why.
 struct DroppedKeys {
     std::size_t early = 0, doubled = 0, zero = 0;
-    std::string first{};  ///< where
+    std::string first{};  ///< where the first was
 
     bool any() const { return early + doubled + zero > 0; }
 };
@@ -38,9 +38,9 @@ double length_to_unit(const Value&) {
     return 1.0;
 }
 
-/// The key at 0 s of a curve from the first key, before 0 s, to the second, after it. `n` values per key, or
-/// 3 n for a cubic: in-tangents, values, out-tangents. The cubic after it is the same as before: its
-/// derivative there is both tangents.
+/// The key at 0 s of a curve between a key before 0 s and the next, after it. `n` values per key, or 3 n for
+/// a cubic: in-tangents, values, out-tangents. The rest of a cubic stays the same: both tangents are its
+/// derivative there.
 template <class Value>
 std::vector<Value> key_at_zero(const std::vector<double>& times, const std::vector<Value>& values,
                                std::size_t n, humanoid::Interpolation interpolation) {
@@ -72,9 +72,9 @@ std::vector<Value> key_at_zero(const std::vector<double>& times, const std::vect
 
 }  // namespace detail
 
-/// `values` has as many values for each key. Of two keys at one time the last one stays. Keys before 0 s
-/// become one at 0 s, with the value that the curve has there. `is_zero` says which keys (by their first
-/// value's index) have no rotation.
+/// `values` has the same number of values for each key. Of two keys at one time the last one stays. Keys
+/// before 0 s are replaced by one at 0 s, with the curve's value there. `is_zero` tells which keys (by their
+/// first value's index) have no rotation.
 template <class Value, class IsZero>
 void drop_bad_keys(std::vector<double>& times, std::vector<Value>& values,
                    humanoid::Interpolation interpolation, const IsZero& is_zero, DroppedKeys& dropped) {

@@ -42,7 +42,7 @@ struct Chunks {
     std::string_view json, binary;
 };
 
-/// The chunks of a GLB file. Others than JSON and BIN are ignored; an empty BIN chunk is valid.
+/// The chunks of a GLB file. Chunks other than JSON and BIN are ignored; an empty BIN chunk is valid.
 Chunks chunks_of(std::string_view bytes) {
     if (bytes.size() < 20) throw std::runtime_error("ends in its header");
     if (const std::uint32_t version = number_at(bytes, 4); version != 2)
@@ -69,7 +69,7 @@ Chunks chunks_of(std::string_view bytes) {
     return chunks;
 }
 
-/// Everything is in the JSON by then; it has only placeholders for files.
+/// Refuses tinygltf any file access: all that it needs is in the JSON, with placeholders for files.
 bool no_file(const std::string&, void*) {
     return false;
 }
@@ -102,7 +102,7 @@ tinygltf::Model read_json(std::string_view text) {
 }
 
 /// KHR_animation_pointer (Khronos): a pointer to a node's property is that node's usual channel. tinygltf
-/// leaves out channels without a node, so the others get node -1, with which they can be said. After
+/// leaves out channels without a node, so the others get node -1, which allows a note about them. After
 /// check_gltf().
 void resolve_pointers(json& file) {
     const json::json_pointer place("/extensions/KHR_animation_pointer/pointer");

@@ -9,9 +9,9 @@
 
 namespace tendril::app {
 
-/// Reads external buffers and images from `folder`. Images hold the bytes of their files, not pixels, and
-/// none if they are missing. Throws std::runtime_error for files that tinygltf refuses, for missing buffers,
-/// and for URIs outside `folder`.
+/// Reads external buffers and images from `folder`. Images hold the bytes of their files, not pixels; missing
+/// ones are empty. Throws std::runtime_error for files that tinygltf refuses, for missing buffers, and for
+/// URIs outside `folder`.
 tinygltf::Model gltf_model(std::string_view bytes, const std::filesystem::path& folder);
 
 /// The JSON text of a file: the first chunk of a binary file, or all of a text file.

@@ -25,7 +25,7 @@ using humanoid::Node;
 /// Sum over all clips: clips can share keys, so even a small file can claim any number.
 constexpr std::size_t max_clip_keys = 20'000'000;
 
-/// Stands for a scale of 0, which has no inverse: 2 m below it are 2 µm.
+/// Replaces a scale of 0, which has no inverse: 2 m below it become 2 µm.
 constexpr double tiny_scale = 1e-6;
 
 /// Nodes that were changed to be read.
@@ -199,7 +199,7 @@ class GltfReader {
             throw std::runtime_error("its skeleton has " + std::to_string(chosen_.size()) +
                                      " nodes, more than " + std::to_string(humanoid::Skeleton::max_nodes));
     }
-    /// A spring's nodes, of which the last ones are often no joints.
+    /// Chooses a spring's nodes, of which the last ones are often no joints.
     void choose_below(std::size_t root, std::vector<bool>& wanted) const {
         std::vector<std::size_t> open{root};
         for (std::size_t steps = 0; !open.empty() && steps < wanted.size(); ++steps) {
@@ -210,7 +210,7 @@ class GltfReader {
                 open.push_back(static_cast<std::size_t>(child));
         }
     }
-    /// Without a skin nothing says which nodes are joints: all of a tree are.
+    /// Chooses whole trees: without a skin nothing says which nodes are joints.
     void choose_whole_trees(std::vector<bool>& wanted) const {
         const auto root_of = [&](std::size_t node) {
             for (std::size_t steps = 0; parents_[node] >= 0 && steps < wanted.size(); ++steps)
@@ -301,7 +301,7 @@ class GltfReader {
         return rig::normalised(value);
     }
 
-    /// What is animated by a pointer is a node's (gltf_parse.cpp), or left out.
+    /// Counts the pointers that animate no node (gltf_parse.cpp) and are left out.
     void note_pointers(std::vector<std::string>& notes) const {
         std::size_t count = 0;
         std::string first;

@@ -12,14 +12,13 @@
 namespace tendril::app {
 
 struct GltfNodes {
-    std::vector<std::int32_t> parents;  ///< of the file's nodes
+    std::vector<std::int32_t> parents;  ///< parents of the file's nodes
     std::vector<std::int32_t> place;    ///< index in the skeleton of each of the file's nodes; -1: not in it
 };
 
 /// `local` has the local transform of each of the file's nodes. Omits meshes with no ancestor in the
 /// skeleton, points and lines, and compressed meshes; a surface whose picture cannot be read is gray. Counts
-/// keys of morphs that were dropped. Appends sentences about other omissions to `notes`. Throws
-/// std::runtime_error.
+/// dropped morph keys. Appends sentences about other omissions to `notes`. Throws std::runtime_error.
 Skin gltf_skin(const tinygltf::Model& model, const GltfNodes& nodes,
                const std::vector<humanoid::Placement>& local, DroppedKeys& dropped,
                std::vector<std::string>& notes);

@@ -104,8 +104,8 @@ void add_groups(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
     }
 }
 
-/// VRMC_springBone_extended_collider-1.0 by the VRM Consortium. A collider's own shape is for readers without
-/// it; here, where it is a plane or holds springs inside.
+/// VRMC_springBone_extended_collider-1.0 by the VRM Consortium. A collider's own shape is a fallback for
+/// readers without the extension; here, where the collider is a plane or holds springs inside.
 const Value* extended(const Value* collider) {
     return part_of(part_of(collider, "extensions"), "VRMC_springBone_extended_collider");
 }
@@ -148,7 +148,7 @@ void add_chains(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
     }
 }
 
-/// Of a chain at rest, in metres.
+/// The shape of a chain at rest, in metres.
 struct ChainShape {
     double first = 0.0, whole = 0.0;  // lengths of its first bone, and from its root to its farthest tip
     glm::dvec3 direction{0.0, -1.0, 0.0};
@@ -162,7 +162,7 @@ ChainShape shape_of(const humanoid::Skeleton& skeleton, const std::vector<humano
     const auto children = skeleton.children(root);
     for (const std::int32_t each : children) tip += at(each) / static_cast<double>(children.size());
     const glm::dvec3 own = rest[root].position;
-    // A node without children is as long as the way from its parent to it, as in SpringChain.
+    // A node without children is as long as its distance from its parent, as in SpringChain.
     const glm::dvec3 way = !children.empty()            ? tip - own
                            : skeleton[root].parent >= 0 ? own - at(skeleton[root].parent)
                                                         : glm::dvec3(0.0);
@@ -171,7 +171,7 @@ ChainShape shape_of(const humanoid::Skeleton& skeleton, const std::vector<humano
     shape.whole = shape.first;
     struct Open {
         std::int32_t node;
-        double length, last;  // from the root to it, and from its parent
+        double length, last;  // from the root to the node, and from its parent
     };
     std::vector<Open> open{{static_cast<std::int32_t>(root), 0.0, shape.first}};
     while (!open.empty()) {
@@ -279,7 +279,7 @@ std::vector<NamedSpring> named_springs(const std::vector<VrmSpring>& springs, co
             continue;
         }
         const SpringRate rate = spring_rate(each, shape.first, shape.direction);
-        // SpringChain's strength is that of the tip; its first bone, at a part s of the chain, is stiffer by
+        // SpringChain's strength is the tip's; its first bone, at a fraction s of the chain, is stiffer by
         // 1 / sqrt(s^2 (6 - 4 s + s^2) / 3). That bone swings as VRM's does.
         const double s = std::clamp(shape.first / shape.whole, 0.01, 1.0);
         result.push_back(

@@ -11,26 +11,26 @@
 
 namespace tendril::app {
 
-/// As the file has it.
+/// A spring's settings, as in the file.
 struct VrmSpring {
-    int node = -1;  ///< the file's; its descendants swing with it
+    int node = -1;  ///< the file's node; its descendants swing with it
     double stiffness = 1.0, drag = 0.4;
     glm::dvec3 gravity{0.0};  ///< direction times power
     double hit_radius = 0.0;
     std::vector<SpringCollider> colliders{};  ///< on the file's nodes
 };
 
-/// Springs on nodes that do not exist are left out; numbers are limited to sane ones.
+/// Leaves out springs on nodes that do not exist, and clamps numbers to sane ranges.
 std::vector<VrmSpring> vrm_springs(const tinygltf::Model& model);
 
-/// Frequency in Hz and damping ratio of a bone of that length, in metres, that points along `direction`.
+/// The frequency in Hz and damping ratio for a bone of that length, in metres, that points along `direction`.
 struct SpringRate {
     double strength = 0.0, critical_damping = 0.0;
 };
 SpringRate spring_rate(const VrmSpring& spring, double length, const glm::dvec3& direction);
 
-/// The springs on a skeleton. `place`: index in it of each of the file's nodes; -1: not in it. Springs on the
-/// body and on one another are left out. Appends sentences about what is left out to `notes`.
+/// The springs on a skeleton. `place`: the skeleton's index for each of the file's nodes; -1: not in it.
+/// Springs on the body and on one another are left out. Appends sentences about omissions to `notes`.
 std::vector<NamedSpring> named_springs(const std::vector<VrmSpring>& springs, const Character& character,
                                        const std::vector<std::int32_t>& place,
                                        std::vector<std::string>& notes);

@@ -159,7 +159,7 @@ void keep_animated(const Json& animations, const Character& character, const std
 
 std::string with_origin(const Character& shown, const humanoid::Clip& shown_clip, double rate,
                         const GltfOrigin& origin, bool binary) {
-    // Its up axis may have been corrected; the file keeps its own.
+    // The up axis may have been corrected; the file keeps its own.
     Character character = shown;
     character.clips.push_back(shown_clip);
     read_as(character, character.scale, {});
@@ -209,7 +209,7 @@ void add_skins(const humanoid::Skeleton& skeleton, GltfFile& file) {
     if (!skins.empty()) file.json["skins"] = std::move(skins);
 }
 
-/// Whether the file can have all of the mesh: one tree, a joint for each node, plain colours.
+/// Whether the file can hold the whole mesh: one tree, a joint for each node, plain colours.
 bool is_written(const Character& character) {
     const SkinnedMesh* const mesh = character.skin.mesh.get();
     if (mesh == nullptr || !mesh->pictures.empty() || !mesh->morphs.empty() || !mesh->tints.empty())
@@ -221,7 +221,7 @@ bool is_written(const Character& character) {
            std::ranges::count_if(all, [](const humanoid::Node& node) { return node.parent < 0; }) == 1;
 }
 
-/// Of a part's colour, which glTF has in linear light.
+/// A part's colour in linear light, as glTF has it.
 Json linear_colour(const glm::vec4& shown) {
     Json colour = Json::array();
     for (int i = 0; i < 3; ++i)

@@ -134,7 +134,7 @@ std::optional<SavedMap> find_kept_map(const std::filesystem::path& folder, const
     std::error_code error;
     if (!std::filesystem::exists(path, error)) return std::nullopt;
     const std::string name = path.filename().string();
-    // Reading a pipe might never end.
+    // Reading from a pipe might never end.
     if (!std::filesystem::is_regular_file(path, error)) throw std::runtime_error(name + ": is not a file");
     SavedMap map = read_map(path);
     if (map.nodes != names_of(skeleton))

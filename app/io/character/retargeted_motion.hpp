@@ -1,4 +1,4 @@
-// A clip of another character's file, played on a character (humanoid::retarget), and what that took.
+// A clip from another character's file, played on a character (humanoid::retarget), with notes.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,8 @@
 namespace tendril::app {
 
 struct RetargetedMotion {
-    humanoid::Clip clip{};  ///< of the character; has the name that it has in its file
-    /// The first is a line on what was not retargeted; then what was scaled, and what was guessed.
+    humanoid::Clip clip{};  ///< for the character, with its name from its file
+    /// First a line on bones that were not retargeted; then on scaling and on guesses.
     std::vector<std::string> notes{};
 };
 
@@ -26,7 +26,7 @@ RetargetedMotion retargeted_clip(const Character& source, const std::filesystem:
                                  const humanoid::Clip& clip, const humanoid::Skeleton& skeleton,
                                  const humanoid::BoneMap& map);
 
-/// In sentences: how a file without a unit or an up axis was read, and which bones its nodes hardly show.
+/// Sentences: how a file without a unit or an up axis was read, and which bones' matches are unsure.
 std::vector<std::string> guesses_of(const Character& character, const humanoid::BoneMap& map);
 
 /// One text of several sentences.

@@ -30,7 +30,7 @@ struct SkinJoint {
 
 /// Weights of morphs over a clip's time.
 struct MorphTrack {
-    std::size_t first = 0, count = 0;  ///< of the mesh's morphs
+    std::size_t first = 0, count = 0;  ///< a range of the mesh's morphs
     humanoid::Interpolation interpolation = humanoid::Interpolation::Linear;
     std::vector<double> times{};   ///< as a clip's
     std::vector<double> values{};  ///< `count` per key; cubic: three times that, as in a clip
@@ -42,7 +42,7 @@ struct Skin {
     std::vector<std::vector<MorphTrack>> morph_clips{};  ///< one list per clip, in order, or empty
 };
 
-/// For SkinDraw::matrices. `placements` are those of all nodes, from humanoid::place().
+/// For SkinDraw::matrices. `placements`: of all nodes, from humanoid::place().
 std::vector<AffineRows> skin_matrices(const Skin& skin, std::span<const humanoid::Placement> placements);
 /// Every vertex at its skinned position with its strongest joint's node, for humanoid::fitted_capsules();
 /// `rest`: the placements at rest.
@@ -81,9 +81,9 @@ class SkinBuilder {
     /// Adds a morph of the last part. Returns its index.
     std::size_t add_morph(const std::string& what, std::string name, double weight,
                           std::vector<glm::vec3> positions, std::vector<glm::vec3> normals);
-    /// Adds a picture from the bytes of a PNG or JPEG file and returns its index, which is that of an earlier
-    /// one of the same bytes; -1 if it is neither, is broken or is one too many. It is halved until no side
-    /// is over 2048 and it takes at most an eighth of what is left for pictures.
+    /// Adds a picture from the bytes of a PNG or JPEG file and returns its index, or the index of an earlier
+    /// one with the same bytes; -1 if it is neither, is broken or exceeds the limit. It is halved until no
+    /// side is over 2048 and it takes at most an eighth of the space left for pictures.
     std::int32_t add_picture(std::string_view bytes);
     /// Whether a picture was one too many: no more are decoded, however small they would become.
     bool pictures_are_full() const { return full_; }

@@ -18,7 +18,7 @@ namespace tendril::app {
 namespace {
 
 constexpr int longest_side = 2048;
-constexpr std::size_t max_pixels = std::size_t{1} << 26;  // of one picture, before it is halved: 256 MB
+constexpr std::size_t max_pixels = std::size_t{1} << 26;  // one picture's, before it is halved: 256 MB
 /// A byte of a PNG is at most 1032 bytes of rows (zlib, RFC 1951) of eight pixels each; of a JPEG it is less.
 constexpr std::size_t max_pixels_of_byte = 8 * 1032;
 
@@ -26,7 +26,7 @@ std::size_t pixels(const glm::ivec2& size) {
     return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
 }
 
-/// Whether a PNG has the bytes that its chunks claim: stb allocates them before it looks. Other files pass.
+/// Whether a PNG has the bytes that its chunks claim: stb allocates them before it checks. Other files pass.
 bool has_its_chunks(std::string_view bytes) {
     if (!bytes.starts_with("\x89PNG")) return true;
     std::size_t at = 8;
@@ -72,7 +72,7 @@ std::int32_t SkinBuilder::add_picture(std::string_view bytes) {
         picture.size.x <= 0 || picture.size.y <= 0 ||
         pixels(picture.size) > std::min(max_pixels, max_pixels_of_byte * bytes.size()))
         return -1;
-    // The bytes count too, since they are kept to be recognised.
+    // Count the bytes too, since they are kept to recognise a picture.
     decoded_ += pixels(picture.size) + bytes.size();
     full_ = full_ || decoded_ > 4 * max_pixels_ || kept_ >= max_pixels_;
     if (full_) return -1;

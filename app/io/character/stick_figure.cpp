@@ -154,7 +154,7 @@ constexpr double walk_period = 1.1, walk_speed = 1.0;  // s, m/s
 struct FootPose {
     dvec3 ankle;
     double pitch;  // degrees, toes up
-    double bend;   // of the toes against the foot, degrees
+    double bend;   // the toes' bend against the foot, degrees
 };
 FootPose foot_at(double phase) {
     constexpr double flat = 0.10, heel_off = 0.36, toe_off = 0.62, ahead = 0.26;

@@ -32,7 +32,7 @@ glm::dquat rotation_from(const Placement& from, const Placement& of) {
     return back ? (*back * of).rotation() : glm::dquat(1.0, 0.0, 0.0, 0.0);
 }
 
-/// The joint of that node nearest to index `near`, so that both belong to the same skin of the file.
+/// The node's joint with the index nearest to `near`, so that both belong to the same skin of the file.
 std::optional<std::size_t> joint_near(const Skin& skin, std::size_t node, std::size_t near) {
     std::optional<std::size_t> found;
     const auto away = [near](std::size_t i) { return i > near ? i - near : near - i; };

@@ -6,10 +6,10 @@
 //     draw.weights = spread.weights();
 //     draw.matrices = spread.matrices(character.skin, placements);
 //
-// A vertex keeps its joints and weights, but instead of a joint on an arm's bone it follows a copy of it,
-// rotated about the bone by the twist at the vertex's position along it. Positions are rounded to a hundredth
-// of the bone, and only those in use get a copy. So no vertex is blended between distant positions, and
-// without twist every vertex stays the same, bit for bit.
+// A vertex keeps its joints and weights, but instead of a joint on an arm's bone it follows a copy of the
+// joint, rotated about the bone by the twist at the vertex's position along it. Positions are rounded to a
+// hundredth of the bone, and only those in use get a copy. So no vertex is blended between distant positions,
+// and without twist every vertex stays the same, bit for bit.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@ namespace tendril::app {
 
 class TwistSpread {
   public:
-    /// Does nothing.
+    /// Makes a spread that does nothing.
     TwistSpread() = default;
     /// Skips bones with twist nodes that vertices follow. Twist is relative to the skin's bind pose, or to
     /// the rest pose if the skin lacks the joints.
@@ -31,7 +31,7 @@ class TwistSpread {
 
     /// For SkinDraw::weights; null if nothing is distributed.
     const std::shared_ptr<const std::vector<JointWeights>>& weights() const { return weights_; }
-    /// For SkinDraw::matrices: those of skin_matrices(), followed by those of the copies.
+    /// For SkinDraw::matrices: skin_matrices(), followed by the copies' matrices.
     std::vector<AffineRows> matrices(const Skin& skin, std::span<const humanoid::Placement> placements) const;
 
   private:
@@ -41,8 +41,8 @@ class TwistSpread {
         glm::dquat end_bound{1.0, 0.0, 0.0, 0.0};  ///< the next bone relative to the bone
     };
     struct Copy {
-        std::size_t arm, joint;  ///< of the skin
-        double part;             ///< along the bone
+        std::size_t arm, joint;  ///< indices of an arm and of a joint of the skin
+        double part;             ///< position along the bone, 0 to 1
     };
     void spread(const Skin& skin, const humanoid::Skeleton& skeleton,
                 std::span<const humanoid::Placement> rest);

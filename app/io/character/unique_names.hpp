@@ -9,7 +9,7 @@ namespace tendril::app {
 
 class UniqueNames {
   public:
-    /// Returns `name`, with `_2`, `_3` and so on appended if it is taken; a node's empty one becomes
+    /// Returns `name`, with `_2`, `_3` and so on appended if it is taken; a node's empty name becomes
     /// `node_7`, by its index in the file.
     std::string add(std::string name, std::size_t place) {
         if (name.empty()) name = "node_" + std::to_string(place);

@@ -52,7 +52,7 @@ Argument name_list_argument(const char* name, const char* instead_of, const char
 /// The names. Throws Refused, naming the argument and the value, for anything but a string.
 std::vector<std::string> name_list(const Arguments& given, const char* name);
 
-/// "Head, LeftHand"; "..." stands for any names after the eighth.
+/// "Head, LeftHand"; names after the eighth are replaced by "...".
 std::string name_list_text(const std::vector<std::string>& names);
 
 // Changing a lab's part from a command.
@@ -84,7 +84,7 @@ Command part_command(const char* lab, const char* name, const char* title, std::
                 });
             }};
 }
-/// The same for a change that needs the part and the arguments alone.
+/// The same for a change that needs only the part and the arguments.
 template <class LabPart>
 Command part_command(const char* lab, const char* name, const char* title, std::vector<Argument> arguments,
                      const char* help, void (*change)(LabPart&, const Arguments&),

@@ -14,7 +14,7 @@
 
 namespace tendril::app {
 
-/// The shortest decimal that reads back as this very number: "0.1", "0.1f". Must be finite.
+/// The shortest decimal that reads back as exactly this number: "0.1", "0.1f". Must be finite.
 std::string double_text(double value);
 std::string literal(float value);
 /// "{1.0f, 2.0f, 3.0f}", "{1.0, 2.0, 3.0}"

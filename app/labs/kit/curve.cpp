@@ -95,7 +95,7 @@ glm::vec3 curve_colour(const Palette& palette) {
 
 namespace {
 
-/// A curve of many control points takes fewer strokes between two of them.
+/// Between two control points, a curve with many of them has fewer strokes.
 std::size_t strokes_per_span(std::size_t points) {
     return std::clamp<std::size_t>(2048 / std::max<std::size_t>(points - 1, 1), 2, 24);
 }
@@ -121,16 +121,16 @@ void CurvePen::line() const {
     glm::vec3 from = place_of(0);
     for (std::size_t i = 0; i < all; ++i) {
         const glm::vec3 to = place_of(i + 1);
-        // Thick bones hide it: what is behind them shows through, thinner.
+        // Thick bones hide the curve: it shows through, thinner.
         list_.line(from, to, px(hovered ? 2.0f : 1.25f), faded(view_.palette, glm::vec3(colour), 0.55f))
             .layer = Layer::Overlay;
         Stroke& stroke = list_.line(from, to, px(hovered ? 3.0f : 2.0f), colour);
         stroke.pick = first_ + static_cast<PickId>(i);
-        stroke.rank = 1;  // before the bones, which lie along it
+        stroke.rank = 1;  // before the bones, which lie along the curve
         from = to;
     }
     if (kind_ == ik::CurveKind::Hermite) return;
-    // A B-spline passes beside its points: these lines say to which part each belongs.
+    // A B-spline passes beside its points: these lines show which part each point belongs to.
     for (std::size_t i = 1; i < points_.size(); ++i)
         list_.line(points_[i - 1], points_[i], px(1.0f),
                    faded(view_.palette, curve_colour(view_.palette), 0.3f));

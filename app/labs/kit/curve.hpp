@@ -1,5 +1,5 @@
-// A curve through control points that a chain of bones follows (tendril/ik/curve.hpp): its settings, and how
-// it is drawn and picked.
+// A curve through control points that a chain of bones follows (tendril/ik/curve.hpp): its settings, drawing
+// and picking.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +38,7 @@ struct CurveShape {
 /// How far each bone turns to the curve, times the weight; empty: all the way.
 std::vector<float> curve_weights(const CurveShape& shape, std::size_t bones);
 
-/// A control point more, at place `at` of ik::curve_point(): the shape stays nearly as it is.
+/// Adds a control point at place `at` of ik::curve_point(); the shape stays nearly the same.
 std::vector<glm::vec3> with_point_at(std::span<const glm::vec3> points, ik::CurveKind kind, float at);
 
 Json points_json(std::span<const glm::vec3> points);
@@ -60,7 +60,7 @@ class CurvePen {
     /// A ball; the last one is larger.
     void control(std::size_t index, PickId pick, bool selected = false, bool active = false) const;
 
-    /// How many picks the curve takes.
+    /// The number of picks that the curve takes.
     static std::size_t strokes(std::size_t points);
     /// The place on the curve, as ik::curve_point() takes it, of a stroke counted from the first.
     static std::optional<float> place(std::size_t stroke, std::size_t points);
@@ -79,7 +79,7 @@ class CurvePen {
 
 }  // namespace tendril::app
 
-/// Except for its points.
+/// All members except its points.
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::CurveShape>() noexcept;
 template <>

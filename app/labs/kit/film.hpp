@@ -1,4 +1,4 @@
-// What commands that write a video share: a file, its size and look.
+// Shared by commands that write a video: arguments for its file, size and look.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace tendril::app {
 
-/// path, then those of a picture, then `more`. With `may_name` the path may be omitted in a window.
+/// path, then the arguments of a picture, then `more`. With `may_name` the path may be omitted in a window.
 std::vector<Argument> film_arguments(std::vector<Argument> more, bool may_name = false);
-/// The request without its frames. A new file is called "<scene>-<what>-1.png". Throws Refused: another video
-/// is being written, or the file cannot be.
+/// The request without its frames. A new file is called "<scene>-<what>-1.png". Throws Refused if another
+/// video is being written, or the file cannot be.
 VideoRequest film_request(Workspace& workspace, const Arguments& given, const std::string& what = {});
 
 }  // namespace tendril::app

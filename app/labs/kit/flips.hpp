@@ -1,4 +1,4 @@
-// Flips: a bone turned far in one tick while its target hardly moved. The rule for them, and likely causes.
+// Flips: a bone turned far in one tick while its target hardly moved. Their rule and likely causes.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -34,15 +34,15 @@ void set_flip_rule(FlipRule& rule, const Arguments& given);
 /// Fields that edit the rule.
 void flip_rows(const FlipRule& rule, const FlipWords& words, MoreRows& more, Emit& emit);
 
-/// Between two rotations, radians, 0 to pi.
+/// The angle between two rotations, radians, 0 to pi.
 double turn_between(const glm::dquat& a, const glm::dquat& b);
 /// Metres from `point` to the segment from `a` to `b`.
 float distance_to(glm::vec3 point, glm::vec3 a, glm::vec3 b);
 
-/// What a button can do against such flips, in a lab that has the command.
+/// The remedy that a button can apply against such flips, in a lab that has the command.
 enum class FlipCure { ByHand, AddPole, MovePole, NoRestarts };
 
-/// What prevents such flips: a sentence for display, and its button. `poled`: the chain has a pole target.
+/// A way to prevent such flips: a sentence for display, and its button. `poled`: the chain has a pole target.
 struct FlipAdvice {
     const char* cure;
     FlipCure button = FlipCure::ByHand;

@@ -29,7 +29,7 @@ std::array<const char*, count> library_names() {
 /// The keys alone; tangents of 0 are omitted.
 Json curve_keys_json(const signal::Curve& curve);
 /// Only time and value are required; unknown members are refused. Throws std::runtime_error that begins with
-/// the JSON path of the fault. Does not check the order of the times: signal::check() does.
+/// the JSON path of the fault. Does not check the order of times: signal::check() does.
 std::vector<signal::CurveKey> read_curve_keys(const JsonPlace& place);
 
 Json curve_json(const signal::Curve& curve);
@@ -46,7 +46,7 @@ void add_curve_members(std::vector<std::string>& names);
 //
 // Positions are in metres from the root. `pole` and `limits` are present if the last solve used them.
 
-/// Of a chain in a plane.
+/// The side to which a chain in a plane bends.
 inline constexpr EnumNames<ik::Side, 3> bend_sides{
     "side",
     {{"free", "as it is", "The chain stays on the side that it is on."},
@@ -56,8 +56,8 @@ inline constexpr EnumNames<ik::PoleTurn, 2> pole_turns{
     "pole turn", {{"whole_chain", "whole chain"}, {"each_joint", "each joint"}}};
 
 Json save_ik_state(const ik::State& state);
-/// The state of `bones` bones, at rest if the file has no rotations. `joints` replace those of a pole that
-/// has none. Throws std::runtime_error that begins with the JSON path of the fault.
+/// The state of `bones` bones, at rest if the file has no rotations. `joints` are for a pole without joints.
+/// Throws std::runtime_error that begins with the JSON path of the fault.
 ik::State load_ik_state(const JsonPlace& place, std::size_t bones, const std::vector<glm::vec3>& joints = {});
 
 }  // namespace tendril::app

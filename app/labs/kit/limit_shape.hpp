@@ -1,5 +1,5 @@
-// A joint's limit in world space: where its bone may point and how it may twist, and how that is drawn. The
-// geometry is that of the solvers (tendril/ik/limit.hpp).
+// A joint's limit in world space: where its bone may point and how it may twist, and its drawing. The
+// geometry is the solvers' (tendril/ik/limit.hpp).
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -42,7 +42,7 @@ struct LimitLook {
     float radius = 0.0f;     ///< metres
     glm::vec3 colour{1.0f};
     float strength = 1.0f;  ///< below 1: paler
-    bool spokes = true;     ///< of a cone; the ticks of a hinge
+    bool spokes = true;     ///< a cone's spokes; a hinge's ticks
 };
 
 class LimitPen {
@@ -50,17 +50,17 @@ class LimitPen {
     LimitPen(const View& view, DrawList& list, const LimitLook& look)
         : view_(view), list_(list), look_(look) {}
 
-    /// The bound of swing.
+    /// The boundary of swing.
     void outline(const LimitShape& shape) const;
-    /// The area within it, translucent.
+    /// The area within the boundary, translucent.
     void fill(const LimitShape& shape) const;
     /// The range of twist about the bone at these angles, as an arc of `size` times the radius, centred `at`
-    /// times the radius along the bone, with a needle at the present twist. Nothing for a hinge, or if the
-    /// limit allows no twist.
+    /// times the radius along the bone, with a needle at the present twist. Draws nothing for a hinge, or if
+    /// the limit allows no twist.
     void dial(const LimitShape& shape, const ik::JointAngles& angles, float at, float size) const;
-    /// Where the bone points now, as a dot.
+    /// A dot in the direction of the bone.
     void dot(const LimitShape& shape, const ik::JointAngles& angles) const;
-    /// The same with a line from the joint, like a clock hand; drawn in front of everything.
+    /// The dot with a line from the joint, like a clock hand; drawn in front of everything.
     void needle(const LimitShape& shape, const ik::JointAngles& angles) const;
     /// A thin line from the joint in the rest direction.
     void rest(const LimitShape& shape) const;
@@ -81,7 +81,7 @@ class LimitPen {
 struct JointTurn {
     double swing = 0.0;  ///< 0 to 180
     double twist = 0.0;  ///< -180 to 180
-    double angle = 0.0;  ///< of the whole rotation: 0 to 180
+    double angle = 0.0;  ///< the whole rotation's: 0 to 180
 };
 
 /// `turn`: the rotation from rest, of any length but 0. `along`: the bone's rest direction in the same frame,

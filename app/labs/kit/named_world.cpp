@@ -27,7 +27,7 @@ auto* named(const List& list, const std::vector<std::string>& names, std::string
     return found == list.end() ? nullptr : &*found;
 }
 
-/// Names by the slot of what they name. Throws if one is empty or used twice.
+/// Names by the slot of their object. Throws if one is empty or used twice.
 template <class List>
 std::vector<std::string> by_slot(const List& list, const std::vector<std::string>& given, const char* kind) {
     std::vector<std::string> names;
@@ -94,7 +94,7 @@ std::string NamedWorld::name_body(rope::BodyId body, const std::string& wanted, 
     return bodies_[body.index] = name;
 }
 
-/// "cloth 2" and "cloth 3" come off "cloth", and "cloth 4" off "cloth 2".
+/// Pieces of "cloth" are called "cloth 2" and "cloth 3"; a piece of "cloth 2" is called "cloth 4".
 std::vector<std::string> NamedWorld::name_pieces(std::string_view of, std::span<const rope::BodyId> pieces) {
     std::string stem(of);
     const std::size_t end = stem.find_last_not_of("0123456789");

@@ -26,7 +26,7 @@ inline constexpr EnumNames<rope::Solver, 3> rope_solvers{
       "As relaxation, but with compliance: enough iterations stretch it as a material stretches."},
      {"direct", "Direct", "All segments of a rope at once: it does not stretch, and keeps its energy."}}};
 
-/// Of a body in the picture: that of its kind, or one in which racers are drawn, too (racer_colour()).
+/// A body's colour: by its kind, or one of the racers' colours (racer_colour()).
 enum class BodyColour : std::uint8_t { ByKind, Blue, Pink, Brown, Teal, Violet, Olive };
 
 inline constexpr EnumNames<BodyColour, 7> body_colours{"colour",
@@ -38,10 +38,10 @@ inline constexpr EnumNames<BodyColour, 7> body_colours{"colour",
                                                         {"violet", "Violet"},
                                                         {"olive", "Olive"}}};
 
-/// What became of a body that was cut, parted or resampled.
+/// The result of cutting, parting or resampling a body.
 struct Became {
     std::vector<std::size_t> particles;  ///< as in rope::Edited
-    std::vector<std::string> pieces;     ///< the names of what came off it, in the order of particles
+    std::vector<std::string> pieces;     ///< the names of the pieces that came off, in the order of particles
 };
 
 /// A value type, like the library's world; the state that only stepping needs is in a rope::Workspace.
@@ -126,7 +126,7 @@ class NamedWorld {
     std::size_t size() const { return world_.size(); }
     // In single precision, for drawing: where things are at the frame's own time (rope::World::pose).
     glm::vec3 position(std::size_t particle) const;
-    std::vector<glm::vec3> positions() const;  ///< of all particles
+    std::vector<glm::vec3> positions() const;  ///< all particles'
     rope::Shape shape(const rope::Collider& collider) const { return world_.pose(collider); }
     glm::vec3 velocity(std::size_t particle) const { return glm::vec3(world_.velocity(particle)); }
     double length_error(const rope::Body& body) const { return world_.length_error(body); }
@@ -146,7 +146,7 @@ class NamedWorld {
 
     rope::World world_;
     std::vector<std::string> bodies_, colliders_, ties_;  ///< by slot
-    std::vector<BodyColour> colours_;                     ///< of bodies, by slot
+    std::vector<BodyColour> colours_;                     ///< bodies' colours, by slot
 };
 
 }  // namespace tendril::app

@@ -71,7 +71,7 @@ bool preset_rows(const std::string& lab, const std::vector<PresetButton>& preset
         emit(lab + ".preset", {{"name", preset.name}});
         opened = true;
     }
-    // The last two buttons share the row of the last preset where they fill it.
+    // The last two buttons share the row of the last preset if they fill it.
     const bool filled = in_row == 3 && shown % 3 == 1;
     if (!filled) end_row();
     const int last = filled ? 3 : 2;
@@ -103,7 +103,7 @@ void show_verdict(const Verdict& said, const Palette& palette, Emit& emit, Verdi
     if (!said.why.empty()) note(said.why);
     const float between = static_cast<float>(room.paragraphs - 1) * ImGui::GetStyle().ItemSpacing.y;
     const float height = verdict_height(room.verdict) + note_height(room.notes) + between;
-    if (said.cure) {  // its line may end the room, with less space above it: nothing moves once it is gone
+    if (said.cure) {  // at the end of the space: nothing moves once the cure is gone
         const float spacing = ImGui::GetStyle().ItemSpacing.y, y = ImGui::GetCursorPosY();
         const float last = top + height - ImGui::GetTextLineHeight() - spacing;
         if (last < y && y - spacing <= last) ImGui::SetCursorPosY(last);

@@ -28,20 +28,20 @@ class [[nodiscard]] FoldingSection {
     IdScope ids_;
 };
 
-/// The same with its rows, of which those given to the MoreRows come last, under "More".
+/// The same with its rows; the rows given to the MoreRows come last, under "More".
 void folding_section(const Workspace& workspace, const char* title, Emit& emit, bool open_at_first,
                      const std::function<void(MoreRows&)>& rows);
 /// The end of the section `title`: its rows under "More", folded at first. Saved in the settings like a
 /// section.
 void more_rows(const Workspace& workspace, const char* title, const MoreRows& more, Emit& emit);
 
-// The section that opens a preset, empties the lab or resets it.
+// The section with buttons that open a preset, empty the lab or reset it.
 
 struct PresetButton {
-    std::string name;  ///< its argument of the preset command
+    std::string name;  ///< its argument in the preset command
     std::string title;
     std::string tooltip{};
-    int of = 0;  ///< buttons in its row; 0: as in the others
+    int of = 0;  ///< buttons in its row; 0: as in the other rows
 };
 
 /// Emits the lab's commands: "chain.preset", "chain.clear", "chain.reset". `clears` is the tooltip of Empty,
@@ -54,20 +54,20 @@ bool preset_rows(const std::string& lab, const std::vector<PresetButton>& preset
 struct Verdict {
     std::string text;  ///< "Reached", "Out of reach: 0.23 m short", "Lengths off by 1.5 %"
     enum class Kind { Good, Bad, Open } kind = Kind::Open;
-    std::string why{};           ///< the consequence, or what to do next; a sentence
-    std::optional<Cure> cure{};  ///< does that
+    std::string why{};           ///< the consequence, or the next step; a sentence
+    std::optional<Cure> cure{};  ///< performs the next step
 };
 
-/// Runs a cure: a small button at the right end of a line. `text`, before it, is cut where room ends.
+/// Runs a cure: a small button at the right end of a line. `text`, before it, is cut to fit.
 void cure_line(const std::string& text, const std::optional<Cure>& cure, Emit& emit);
 
-/// Lines that a verdict and what stands below it take at most, in a panel of the usual width.
+/// The maximum lines of a verdict and of the text below it, in a panel of the usual width.
 struct VerdictLines {
     int verdict = 2;
     int notes = 2;
-    int paragraphs = 1;  ///< of the notes
+    int paragraphs = 1;  ///< in the notes
 };
-/// Reserves that room, so that the rows below keep still when the verdict changes. `notes` come after the
+/// Reserves that space, so that the rows below stay in place when the verdict changes. `notes` come after the
 /// verdict's own `why` and cure.
 void show_verdict(const Verdict& said, const Palette& palette, Emit& emit, VerdictLines room = {},
                   const std::function<void()>& notes = {});

@@ -13,14 +13,13 @@
 
 namespace tendril::app {
 
-/// The share that each of its holders has of something with so many bytes: what one part alone holds counts
-/// whole.
+/// One holder's part of a shared object's bytes: all of them if it is the only holder.
 template <class Shared>
 std::size_t share_of(const std::shared_ptr<Shared>& shared, std::size_t bytes) {
     return shared ? bytes / static_cast<std::size_t>(shared.use_count()) : 0;
 }
 
-/// Bytes of memory, beyond the value itself.
+/// Memory of a value in bytes, beyond the value itself.
 template <class Value>
 std::size_t bytes_beyond(const Value&) {
     return 0;
@@ -51,7 +50,7 @@ class PartCache {
         return made->second;
     }
     bool has(const std::shared_ptr<const Part>& part) const { return values_.find(part) != values_.end(); }
-    /// Forgets parts that the rewind has dropped, once they outnumber those it holds.
+    /// Forgets parts that the rewind has dropped, once they outnumber the parts that it holds.
     void trim(const Rewind& past) {
         if (values_.size() <= 2 * past.size() + 64) return;
         std::set<Key, std::owner_less<>> remembered;

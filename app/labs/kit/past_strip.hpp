@@ -32,7 +32,7 @@ void go_to_past(const Workspace& workspace, int place, Emit& emit);
 struct StripLine {
     float left = 0.0f, right = 0.0f;
 };
-/// With the buttons to its left.
+/// Includes the buttons to its left.
 StripLine past_strip(const Workspace& workspace, Emit& emit);
 
 // The parts of past_strip(), for a lab that shows another strip beside it.
@@ -45,11 +45,11 @@ void replay_button(const Workspace& workspace, Emit& emit);
 /// Switches between this strip (while `shown`) and the lab's other one, called `other` ("clip"). True in the
 /// frame of the click.
 bool other_strip_button(bool shown, const std::string& other);
-/// Without buttons.
+/// The strip without buttons.
 StripLine past_time_strip(const Workspace& workspace, Emit& emit);
 /// The mark of an incident at tick `at` of another strip.
 TimeMark incident_mark(const Incident& incident, int at, const Palette& palette);
-/// The tooltip, while the mouse is on that mark.
+/// Shows the tooltip while the mouse is on that mark.
 void tell_incident(const Incident& incident);
 
 /// "Joint 2 flipped: a bone at it turned 128 degrees in one tick"

@@ -26,11 +26,11 @@ namespace {
 
 constexpr float plot_height = 130.0f;      ///< pixels at scale 1
 constexpr std::uint64_t half_second = 30;  ///< ticks
-/// Per frame. A count, not a time limit, so that every run draws the same.
+/// Moments computed per frame. A count, not a time limit, so that every run draws the same.
 constexpr std::size_t moments_a_frame = 16;
 
 struct PastRuntime final : Runtime {
-    std::string of;  ///< the `of` of the curve that `values` belong to
+    std::string of;  ///< the key of the curve that `values` belong to
     PartCache<float> values;
     bool waits = false;  ///< some values are still missing
     PartCache<PoseLines> poses;
@@ -44,7 +44,7 @@ float seconds(std::uint64_t ticks) {
     return static_cast<float>(static_cast<double>(ticks) * tick_seconds);
 }
 
-/// Pixels. Plots use this font.
+/// The height of the plots' font, in pixels.
 float small_font_size() {
     ImGui::PushFont(small_font());
     const float size = ImGui::GetFontSize();
@@ -309,7 +309,7 @@ void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emi
     std::size_t rows = 0;
     for (std::size_t i = incidents.size(); i-- > 0 && rows < max_rows; ++rows)
         incident_row(workspace, i, palette, emit);
-    // Below the rows, which must not move under the mouse that clicks one.
+    // Place it below the rows, which must not move under the mouse that clicks one.
     const auto& shown = workspace.ui.incident;
     bool& seen = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("incident seen"));
     const bool appears = shown.has_value() && !seen;
@@ -322,7 +322,7 @@ void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emi
     ImGui::PopTextWrapPos();
     for (const Cure& cure : shown->buttons) cure_line(cure.text, cure, emit);
     if (const std::string lost = discards_text(workspace); !lost.empty()) note(lost);
-    // The mark that was clicked is on the strip, which does not scroll.
+    // Scroll to the incident if its mark on the strip was clicked.
     if (appears && !ImGui::IsWindowHovered()) ImGui::SetScrollHereY(1.0f);
 }
 

@@ -1,4 +1,4 @@
-// How a lab shows its last ten seconds: a plot of one number below the scene, with a mark for each incident,
+// A lab's view of its last ten seconds: a plot of one number below the scene, with a mark for each incident,
 // and faint past poses, one for each half second.
 //
 // A lab declares which numbers it has (PastView), how to compute the chosen one from its part at a moment
@@ -40,14 +40,14 @@ struct PastView {
     std::size_t chosen(const Settings& settings) const { return plot.chosen(settings) - 1; }
 };
 /// `what`: the lab's subject in command titles: "chain". `numbers`: at least one. Without `same_joints`, all
-/// parts are taken to have the same joints.
+/// parts count as having the same joints.
 PastView past_view(const std::string& lab, const std::string& what, std::vector<LabSetting::Choice> numbers,
                    std::function<bool(const Part&, const Part&)> same_joints = {});
 
-/// The number that is plotted.
+/// The plotted number.
 struct PastCurve {
     std::string name;                                ///< with the joint: "swing of joint 2"
-    std::string of;                                  ///< a unique key; a new one drops the cached values
+    std::string of;                                  ///< a unique key; a new key drops the cached values
     std::string unit = "deg";                        ///< or "m", "N", ...
     float lowest_range = 10.0f;                      ///< minimum upper end of the axis, in `unit`
     std::string missing;                             ///< shown if no moment has a value: how to get one

@@ -1,4 +1,4 @@
-// What the races of two labs share: several solvers of one scene, each with a colour, and their numbers as
+// Shared by the races of two labs: several solvers of one scene, each with a colour, and their numbers as
 // CSV.
 #pragma once
 
@@ -17,7 +17,7 @@ inline constexpr std::size_t max_racers = 7;
 /// The colour of a racer in view, panel and curves; racers differ in lightness, too.
 glm::vec3 racer_colour(const Palette& palette, std::size_t racer);
 
-/// Small text at the right end of a line, cut where room ends.
+/// Small text at the right end of a line, cut to fit.
 void small_right(const std::string& text);
 
 /// The commands "<race>.copy" and "<race>.save", to the clipboard and to a file.

@@ -25,7 +25,7 @@ class Selection {
     /// Selects these, in any order; `add` keeps the previous selection. The last one becomes active.
     void take(const std::vector<std::size_t>& indices, bool add);
 
-    /// Keep the selection when an item is inserted or removed.
+    /// Update the selection when an item is inserted or removed.
     void inserted(std::size_t at);
     void removed(std::size_t at);
     /// Deselects indices of `count` or more.

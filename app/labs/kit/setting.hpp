@@ -1,5 +1,5 @@
-// A choice that a lab leaves to the user: saved by name in the settings, shown in the settings sheet, changed
-// by a command.
+// A choice that a lab leaves to the user: saved by name in the settings, shown in the settings sheet, and
+// changed by a command.
 #pragma once
 
 #include <cstddef>
@@ -18,9 +18,9 @@ struct LabSetting {
     };
     std::string key;              ///< in the settings file and sheet
     std::string command;          ///< "view.segments"
-    std::string title;            ///< of the command
-    std::string argument;         ///< of the command
-    std::string help;             ///< of the command
+    std::string title;            ///< the command's title
+    std::string argument;         ///< the command's argument
+    std::string help;             ///< the command's help
     std::vector<Choice> choices;  ///< at least two; the first is the default
 
     /// The index in `choices` of the present choice.

@@ -13,7 +13,7 @@ struct Shortcut {
     std::string command;
     ArgumentList arguments{};
     std::string title;    ///< in the menu; empty: the command's own
-    std::string section;  ///< of the menu and the help: "Edit"; a lab may add sections of its own
+    std::string section;  ///< section of the menu and the help: "Edit"; a lab may add sections of its own
     bool in_menu = true;
     bool while_typing = false;  ///< works even while a text field has the focus
     bool repeats = false;       ///< repeats while the key is held

@@ -36,7 +36,7 @@ glm::vec3 strain_colour(float strain, const Palette& palette) {
     const float size = std::abs(strain);
     const float share =
         std::log(std::max(size, min_strain) / min_strain) / std::log(full_strain / min_strain);
-    // From a grey that is lighter than both, in either theme.
+    // Start from a grey that is lighter than both, in either theme.
     const glm::vec3 none = glm::mix(palette.ghost, glm::vec3(1.0f), 0.35f);
     return glm::mix(none, strain > 0.0f ? palette.limit : palette.head, std::min(share, 1.0f));
 }

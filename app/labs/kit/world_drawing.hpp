@@ -15,9 +15,9 @@ namespace tendril::app {
 /// The colour of a relative strain (negative: compressed): neutral up to 0.01 %, full from 10 % on.
 glm::vec3 strain_colour(float strain, const Palette& palette);
 
-/// The colour of a cloth's front, without one of its own.
+/// The colour of a cloth's front, unless the body has its own.
 glm::vec3 cloth_front(const Palette& palette);
-/// Of a cloth, its front's.
+/// The body's colour; for a cloth, its front's.
 glm::vec3 body_colour(BodyColour colour, rope::Body::Kind kind, const Palette& palette);
 glm::vec3 body_colour(const NamedWorld& world, const rope::Body& body, const Palette& palette);
 /// One for each particle: its body's, or by the worst strain of its links.
@@ -37,7 +37,7 @@ std::vector<std::uint8_t> whole_cells(const NamedWorld& world, const rope::Body&
 /// Tubes with `sides` sides (3 to 64); hair always has six.
 void draw_strands(DrawList& list, const Camera& camera, const rope::Body& body,
                   std::span<const glm::vec3> positions, std::span<const glm::vec3> colours, int sides);
-/// Without colours, in that of the body; its back is paler than its front.
+/// Without colours, in the body's colour; its back is paler than its front.
 void draw_cloth(DrawList& list, const Camera& camera, const NamedWorld& world, const rope::Body& body,
                 std::span<const glm::vec3> positions, std::span<const glm::vec3> colours,
                 const Palette& palette);

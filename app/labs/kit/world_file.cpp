@@ -63,7 +63,7 @@ Json save_link(const rope::Link& link) {
     return row;
 }
 
-/// Newtons. Not bound by the usual range: stopping a heavy body at once can need more.
+/// Newtons. Not limited to the usual range: stopping a heavy body at once can need more.
 float load_tension(const JsonPlace& place) {
     const float tension = place.json().is_number() ? place.json().get<float>() : std::nanf("");
     if (!std::isfinite(tension)) place.fail("expected a finite number, found " + json_summary(place.json()));

@@ -14,7 +14,7 @@
 namespace tendril::app {
 namespace {
 
-// In steps of about 30 ns, as Rig::work counts.
+// Rig::work's steps, of about 30 ns each.
 constexpr std::uint64_t max_record_work = 40'000'000, max_frame_work = 20'000'000,
                         clip_work_per_tick = 300'000;
 constexpr std::size_t max_frames_per_tick = 16;
@@ -58,7 +58,7 @@ void append_frame(std::vector<ClipPose>& poses, const std::vector<ClipBone>& bon
     }
 }
 
-/// Parents come first, so the parent of each bone is already posed.
+/// Poses the bones; parents come first, so each bone's parent is already posed.
 void pose_bones(const ClipPose* frame, const std::vector<ClipBone>& bones, rig::Hierarchy& tree) {
     for (std::size_t i = 0; i < bones.size(); ++i) {
         const rig::Transform within = widened(frame[i]);
@@ -87,7 +87,7 @@ std::uint64_t numbers_in_controls(const rig::Definition& definition) {
     return count;
 }
 
-/// Per frame: a few descents of a few steps, each with one forward solve per number.
+/// The work of one frame: a few descents of a few steps, each with one forward solve per number.
 std::uint64_t frame_work(const RigPart& part) {
     const std::uint64_t numbers = numbers_in_controls(part.rig.definition()) + 1;
     return numbers * (8 * part.rig.work() + numbers * part.clip->bones.size() / 8);

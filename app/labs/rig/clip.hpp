@@ -13,8 +13,8 @@ namespace tendril::app {
 /// bones, or if the clip would be too large or take too long.
 RigClip record_clip(const RigPart& part, std::size_t frames, rig::Workspace& scratch);
 
-/// Starts a backward solve of the clip. Throws std::invalid_argument if there is no clip, if its bones are
-/// not those of the rig, or if a single frame would take too long.
+/// Starts a backward solve of the clip. Throws std::invalid_argument if there is no clip, if its bones differ
+/// from the rig's, or if a single frame would take too long.
 void start_clip_solve(RigPart& part);
 /// Throws what start_clip_solve would throw.
 void check_clip_solve(const RigPart& part);
@@ -40,7 +40,7 @@ std::string left_text(double mm, double degrees, double scale);
 // that the window stays responsive; the part stores the progress.
 
 inline constexpr double max_rate_seconds = 10.0;
-inline constexpr std::size_t max_rate_frames = 1000;  ///< of the slowest rate
+inline constexpr std::size_t max_rate_frames = 1000;  ///< at the slowest rate
 
 /// Starts comparing the first `ticks` ticks of the take. Throws std::invalid_argument if that takes too long.
 void start_rates(RigPart& part, std::uint32_t ticks);

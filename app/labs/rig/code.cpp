@@ -61,7 +61,7 @@ std::string definition_code(const rig::Definition& definition) {
     return text + "    return made;\n}\n\n";
 }
 
-/// What the user has set: input poses, controls, curves.
+/// The user's settings: input poses, controls, curves.
 std::string inputs_code(const RigPart& part) {
     const rig::State rest = part.rig.initial_state();
     std::string text;

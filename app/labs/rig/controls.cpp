@@ -246,7 +246,7 @@ class ControlDrawing {
         return stroke;
     }
 
-    /// `corner` maps -1 or 1 per axis to a point; `draw` gets an edge's ends, its first corner and its axis.
+    /// `corner` maps -1 or 1 per axis to a point; `draw` gets an edge's two ends, first corner and axis.
     template <class Corner, class Draw>
     void twelve_edges(Corner corner, Draw draw) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -281,7 +281,7 @@ class ControlDrawing {
         };
         twelve_edges(corner,
                      [&](glm::vec3 a, glm::vec3 b, glm::vec3, int) { line(a, b, width(), colour()); });
-        if (half > size_) {  // do not hide what is inside, but let its middle be grabbed
+        if (half > size_) {  // do not hide the contents, but let the middle be grabbed
             Stroke& grip = p_.list.sphere(at_, p_.px(14.0f), Unit::Pixels, catch_only);
             grip.pick = pick_;
             grip.rank = 3;
@@ -306,7 +306,7 @@ class ControlDrawing {
         knob(6.0f);
     }
 
-    /// The range of a control with a position, if it has both limits.
+    /// Draws the range of a control with a position, if it has both limits.
     void limit_box() {
         const rig::Control& control = shape_.control();
         if (!control.minimum || !control.maximum) return;
@@ -376,7 +376,7 @@ class ControlDrawing {
         const float stop = p_.at_least(0.05f, 5.0f, middle);
         const auto reached = [&](double end) { return limit_ && std::abs(knob_at - end) < 1e-9; };
         line(on(-half), on(half), 3.0f, pale());
-        // From 0, or the end nearest to it, to the knob: shows the amount.
+        // From 0, or from the end nearest to it, to the knob: shows the amount.
         const double zero = rail.place(std::clamp(0.0, rail.low, rail.high));
         line(on(zero), on(knob_at), 4.0f, colour());
         for (const double side : {-1.0, 1.0}) {

@@ -1,4 +1,4 @@
-// Where a control is drawn and how dragging it becomes a value: the rail of a float, the rectangle of a
+// The drawing of controls, and the values that drags give them: the rail of a float, the rectangle of a
 // vector2d, the box of a control with a position. Poses here are double; drawing converts them to float.
 #pragma once
 
@@ -65,7 +65,7 @@ class ControlShape {
     const rig::Control& control_;
     const rig::Value& value_;
     const rig::Transform& initial_;
-    rig::Transform space_;  ///< of the parent, global
+    rig::Transform space_;  ///< the parent's, global
     rig::Transform rest_;   ///< input pose, local
     rig::Transform now_;    ///< global
 };

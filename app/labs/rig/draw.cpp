@@ -135,7 +135,7 @@ class Drawing {
         p_.list.ring(at, clear + p_.px(4.0f), width, paint).layer = Layer::Overlay;
     }
 
-    /// Those that splines follow: where their points are after the last unit.
+    /// Draws the curves that splines follow, with their points as they are after the last unit.
     void curves() {
         for (const UnitRow& row : unit_rows(p_.part)) {
             const auto* spline = std::get_if<rig::Spline>(&row.unit->operation);
@@ -191,12 +191,12 @@ class Drawing {
         if (lies_elsewhere(i))
             p_.label(start_of(i), p_.name(i) + " " + before_units, p_.view.palette.text, gizmo_clearance, 3);
     }
-    /// At different positions, so that there is room for two names; not merely turned.
+    /// At different positions, so that there is room for two names; not merely rotated.
     bool lies_elsewhere(std::size_t i) const { return glm::distance(start_of(i), p_.point(i)) > 1e-4f; }
     glm::vec3 start_of(std::size_t i) const {
         return glm::vec3(p_.part.rig.start_pose(p_.part.state, i).translation);
     }
-    /// One bone, and the one that leads to it.
+    /// Draws one bone, and the bone that leads to it.
     void ghost(glm::vec3 to, std::optional<glm::vec3> from) {
         const glm::vec4 paint(p_.view.palette.ghost, 1.0f);
         p_.list.sphere(to, p_.px(4.0f), Unit::Pixels, paint).layer = Layer::Overlay;

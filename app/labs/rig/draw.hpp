@@ -14,9 +14,9 @@
 
 namespace tendril::app {
 
-// What the drawing adds to the poses: lengths of bones, and figures. A bone named "head" or "skull" is drawn
-// as a head facing along z, whose lids and mouth the curves "blink" and "mouth" move; a null named "blob" as
-// a blob, if there are curves "stretch", "bulge" and "hue".
+// Additions to the poses: lengths of bones, and figures. A bone named "head" or "skull" is drawn as a head
+// facing along z, with lids and mouth moved by the curves "blink" and "mouth"; a null named "blob" as a blob,
+// if there are curves "stretch", "bulge" and "hue".
 
 // Each element has its own pick id, and a rotation control one for each of its rings.
 constexpr PickId element_pick(std::size_t element, int ring = -1) {
@@ -44,7 +44,7 @@ double head_radius(const rig::Hierarchy& elements, rig::ElementId bone);
 Bounds figure_bounds(const RigPart& part, const rig::Hierarchy& elements, std::size_t element);
 
 // Drawn solid in palette colours, with the pick id of the element.
-/// Of a face, 0 to 1: the rig's curves "blink" and "mouth", where it has them.
+/// A face's state, 0 to 1: the rig's curves "blink" and "mouth", where they exist.
 struct Face {
     float blink = 0.0f;  ///< 1: the lids are closed
     float mouth = 0.0f;  ///< 1: wide open
@@ -80,7 +80,7 @@ struct RigPicture {
         const PickId pick = view.dragged != no_pick ? view.dragged : view.hovered;
         return pick != no_pick && picked_element(pick) == i;
     }
-    /// The colour highlighted if the element is selected (more for the active one) or under the pointer.
+    /// The colour, highlighted if the element is selected (more if it is active) or under the pointer.
     glm::vec3 marked(glm::vec3 colour, std::size_t i) const;
 
     Stroke& line(glm::vec3 a, glm::vec3 b, float width, glm::vec3 colour, PickId pick = no_pick) const;

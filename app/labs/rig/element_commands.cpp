@@ -112,7 +112,7 @@ std::vector<ControlValue> differing(const RigPart& part, std::vector<ControlValu
     return values;
 }
 
-/// Leaves alone a control that already has the value: units may have moved it since.
+/// Sets values. Skips a control that already has its value: units may have moved it since.
 void set_values(RigPart& part, std::vector<ControlValue> values) {
     constexpr std::size_t max_keys_at_once = 64;  // each one copies all keys
     values = differing(part, std::move(values));
@@ -261,14 +261,14 @@ Argument unit_name_argument(bool required) {
     return unit_argument("name", required, "of the unit");
 }
 
-/// Every member but "at" belongs to the unit, as in a scene file.
+/// Adds a unit. Every member but "at" belongs to the unit, as in a scene file.
 void add(RigPart& part, const Arguments& given) {
     Json unit = given.json();
     unit.erase("at");
     add_unit(part, read_unit(JsonPlace(unit, "")), given.has("at") ? given.integer("at") : -1);
 }
 
-/// Omitted members keep their value, also inside "primary", "secondary" and "filter".
+/// Changes a unit. Omitted members keep their value, also inside "primary", "secondary" and "filter".
 void set(RigPart& part, const Arguments& given) {
     const rig::Unit& now = unit_named(part, given.text("name"));
     Json unit = unit_json(now), changes = given.json();

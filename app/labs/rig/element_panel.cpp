@@ -94,7 +94,7 @@ float row_height() {
     return 1.25f * ImGui::GetTextLineHeight();
 }
 
-/// `highlighted`: by the filter.
+/// `highlighted`: selected by the filter.
 void draw_row(const RigPanel& panel, const Row& row, bool marks, bool highlighted) {
     const rig::Element& element = panel.part.rig.definition().elements[row.element];
     const rig::Pending pending = panel.part.state.elements.pending(panel.part.rig.id(row.element));
@@ -133,7 +133,7 @@ void draw_row(const RigPanel& panel, const Row& row, bool marks, bool highlighte
     ImGui::TextDisabled("%s", value.c_str());
 }
 
-/// Scrolls to a row, unless it is seen.
+/// Scrolls to a row, unless it is in view.
 void show_row(int row) {
     const float top = row_height() * static_cast<float>(row);
     const float from = ImGui::GetScrollY(), height = ImGui::GetWindowHeight();

@@ -25,7 +25,7 @@ double angle_of(const glm::dvec3& a, const glm::dvec3& b) {
 struct Moved {
     rig::ControlKind kind = rig::ControlKind::Transform;
     rig::Transform from{}, to{};  ///< global, before any unit moved it
-    double share = 0.0;           ///< of its range, for a float
+    double share = 0.0;  ///< the changed fraction of its range, for a float
 };
 
 bool has_place(rig::ControlKind kind) {
@@ -213,7 +213,7 @@ std::vector<FlipCause> flip_causes(const RigPart& part, const rig::State& was, c
     return causes;
 }
 
-// What can suddenly turn a bone, by kind of unit.
+// Causes that can suddenly rotate a bone, by kind of unit.
 
 namespace {
 
@@ -264,7 +264,7 @@ struct Both {
     double radians = 0.0;
 };
 
-/// What the library reports, for the unit or one in its body.
+/// The library's warning, for the unit or one in its body.
 Cause by_report(const Both& both) {
     const rig::State &was = both.before.left.state, &is = both.after.left.state;
     const auto top = unit_row(both.before.left, both.unit.name);
@@ -286,7 +286,7 @@ Cause by_switch(const Both& both) {
     return "its weight went from " + fixed_text(from, 2) + " to " + fixed_text(to, 2);
 }
 
-/// A rotation input that turned at least half as far.
+/// A rotation input that rotated at least half as far.
 Cause by_input(const Both& both) {
     for (const UnitInput& input : both.was.all()) {
         if (input.literal()) continue;
@@ -301,7 +301,7 @@ Cause by_input(const Both& both) {
 }
 
 /// At half a turn no direction is the shortest: near it the axis of rotation can swing round, and the bone
-/// turns with it, by twice as much.
+/// rotates with it, by twice as much.
 Cause by_half_turn(glm::vec3 from_was, glm::vec3 to_was, glm::vec3 from_is, glm::vec3 to_is, double radians) {
     const float furthest = std::max(ik::angle_between(from_was, to_was), ik::angle_between(from_is, to_is));
     const float axis = ik::angle_between(glm::cross(from_was, to_was), glm::cross(from_is, to_is));
@@ -352,7 +352,7 @@ std::optional<rig::Transform> item_pose(const RigPart& part, const rig::Item& it
     return at ? part.state.elements.known(part.rig.id(*at), rig::Space::Global) : std::nullopt;
 }
 
-/// From root to tip.
+/// The joints from root to tip.
 std::vector<glm::vec3> joints_between(const RigPart& part, const rig::Item& root, const rig::Item& tip) {
     const rig::Hierarchy& tree = part.state.elements;
     const auto first = part.rig.element(std::get<std::string>(root.which)),

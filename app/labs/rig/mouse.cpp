@@ -43,7 +43,7 @@ const char* what_dragging_does(rig::ControlKind kind) {
     return "drag its knob within the rectangle";
 }
 
-/// As drawn, nothing pending.
+/// The hierarchy as drawn, with nothing pending.
 const rig::Hierarchy& elements_of(const Workspace& workspace) {
     return workspace.runtimes.of<RigRuntime>(rig_lab).resolved(workspace);
 }
@@ -53,7 +53,7 @@ bool is_there(const RigPart& part, PickId pick) {
     return pick >= 0 && picked_element(pick) < part.state.controls.size();
 }
 
-/// The handle at what is drawn of the element: a knob, a joint.
+/// The handle at the element's drawing: a knob, a joint.
 Handle element_handle(const Workspace& workspace, std::size_t i) {
     const RigPart& part = rig_part(workspace);
     const rig::Hierarchy& elements = elements_of(workspace);
@@ -64,8 +64,7 @@ Handle element_handle(const Workspace& workspace, std::size_t i) {
     return {element.name, element_pick(i), frame_of(pose), Drag::Nothing};
 }
 
-/// What the gizmo changes: nothing for float, bool and vector2d controls, which are dragged or clicked
-/// directly.
+/// The gizmo's effect: none for float, bool and vector2d controls, which are dragged or clicked directly.
 Drag gizmo_drag(const rig::Element& element) {
     const Drag turn = Drag::Position | Drag::Rotation;
     if (!element.control) return element.kind == rig::ElementKind::Null ? turn | Drag::Scale : turn;
@@ -81,7 +80,7 @@ Drag gizmo_drag(const rig::Element& element) {
     }
 }
 
-/// For a bone or a null: its pose before any unit has moved it, which is what a drag sets.
+/// For a bone or a null: its pose before any unit has moved it, which a drag sets.
 Handle input_handle(const Workspace& workspace, std::size_t i) {
     const RigPart& part = rig_part(workspace);
     const rig::Element& element = part.rig.definition().elements[i];
@@ -273,11 +272,11 @@ std::optional<std::size_t> gizmo_element(const RigPart& part) {
 
 bool can(const RigPart& part, std::size_t i, Drag what) {
     const Drag changes = drag_at(part, i);
-    // Turning about another element moves along a circle.
+    // Rotation about another element moves along a circle.
     return has(changes, what) || (what == Drag::Rotation && has(changes, Drag::Position));
 }
 
-/// Which selected elements have a dragged ancestor and move with it.
+/// Marks the selected elements that have a dragged ancestor and move with it.
 std::vector<bool> carried(const RigPart& part, Drag what) {
     const Selection& selected = part.selected.elements;
     const rig::Hierarchy& tree = part.state.elements;

@@ -222,7 +222,7 @@ std::optional<SharedJson> transform_fields(const RigPanel& panel, const rig::Tra
 
 void name_field(const RigPanel& panel, const char* command, const std::string& name, const char* help) {
     std::string to = name;
-    ImGui::PushID(name.c_str());  // what was typed for one is not another's name
+    ImGui::PushID(name.c_str());  // a name typed for one element must not carry over to another
     if (text_field("name", to, "a name") && to != name) panel.emit(command, {{"name", name}, {"to", to}});
     ImGui::PopID();
     explain(help);

@@ -10,7 +10,7 @@
 
 namespace tendril::app {
 
-/// What a section reads.
+/// The data that a section reads.
 struct RigPanel {
     const Workspace& workspace;
     const RigPart& part;
@@ -19,7 +19,7 @@ struct RigPanel {
     const Palette& colours;
     Emit& emit;
 
-    /// Emits a command that changes the rig, and while the simulation is paused a solve in the same undo
+    /// Emits a command that changes the rig and, while the simulation is paused, a solve in the same undo
     /// step.
     void edit(const char* command, const ArgumentList& arguments) const;
 };
@@ -39,9 +39,9 @@ void solve_rows(const RigPanel& panel);
 // Right panel.
 /// Whether every unit ran.
 Verdict rig_verdict(const RigPart& part);
-/// The selected elements: what the active one is, with fields for the value of a control.
+/// The selected elements: the active one's kind, with fields for a control's value.
 void element_inspector(const RigPanel& panel);
-/// Poses of the active element, what is pending, and fields for its input pose; editing sets all of its kind.
+/// Poses of the active element, pending ones, and fields for its input pose; an edit sets all of its kind.
 void pose_rows(const RigPanel& panel);
 /// The value of the active element if it is a control.
 void control_rows(const RigPanel& panel);
@@ -49,7 +49,7 @@ void control_rows(const RigPanel& panel);
 std::vector<std::size_t> selected_alike(const RigPart& part);
 /// States how many elements a field edits, if several are selected. `what` names them: "position controls".
 void scope_note(const RigPart& part, std::size_t alike, const std::string& what);
-/// What each unit added to the active element.
+/// The contribution of each unit to the active element.
 void why_rows(const RigPanel& panel);
 /// The selected unit: fields for its literals, current values for other inputs.
 void unit_inspector(const RigPanel& panel);

@@ -1,5 +1,5 @@
-// The Rig lab's last ten seconds: plots of how an element is turned, relative to its parent and initial pose;
-// earlier poses; incidents and what each unit added to an element.
+// The Rig lab's last ten seconds: plots of an element's rotation, relative to its parent and initial pose;
+// earlier poses; incidents, and the contribution of each unit to an element.
 #include "app/labs/rig/past.hpp"
 
 #include <imgui.h>
@@ -173,7 +173,7 @@ void add_reports(const RigPart& before, const RigPart& after, std::vector<Incide
     }
 }
 
-/// A number of a control's value.
+/// One number of a control's value.
 std::optional<double> part_of(const rig::Value& value, int axis) {
     if (const auto* number = std::get_if<double>(&value))
         return axis == 0 ? std::optional(*number) : std::nullopt;
@@ -249,7 +249,7 @@ std::vector<Incident> rig_incidents(const RigPart& before, const RigPart& after)
     return incidents;
 }
 
-// Why is this bone here? What each unit added to the selected element, in order.
+// Why a bone is where it is: the contribution of each unit to the selected element, in order.
 
 namespace {
 

@@ -18,8 +18,8 @@ PoseLines rig_lines(const SharedPart& part);
 
 // Incidents that a user may ask about after a tick or change: flips, unit warnings, controls at their limits.
 
-/// `before` and `after` are consecutive states of one rig. Flips are only reported between two solves with
-/// nothing but controls set in between, and only the bone that turned furthest for each unit.
+/// `before` and `after` are consecutive states of one rig. Flips are reported only between two solves with
+/// nothing but controls set in between, and only the bone that rotated furthest for each unit.
 std::vector<Incident> rig_incidents(const RigPart& before, const RigPart& after);
 
 }  // namespace tendril::app

@@ -83,7 +83,7 @@ Definition aim_scene() {
     return rig;
 }
 
-/// A tentacle of controls, turned by a dial and by hand. Each bone follows one of them at some distance,
+/// A tentacle of controls, rotated by a dial and by hand. Each bone follows one of them at some distance,
 /// which shows that the offset is maintained.
 Definition fk_scene() {
     constexpr int count = 6;

@@ -52,7 +52,7 @@ std::size_t visits(const rig::Rig& rig, const rig::State& rest, const rig::ForEa
     return count;
 }
 
-/// Refuses what would run too long, before making it: one line of a file can ask for millions of iterations.
+/// Refuses rigs that would run too long, before making them: a line of a file can ask for millions of runs.
 void check_runs(const rig::Definition& definition) {
     const auto is_loop = [](const rig::Unit& unit) {
         return std::holds_alternative<rig::ForEach>(unit.operation);
@@ -91,7 +91,7 @@ void require_unit(auto& definition, std::string_view name, const auto& found) {
         throw std::invalid_argument("there is no unit " + quoted(std::string(name)));
 }
 
-/// The elements of the same names, where the other rig has them.
+/// The elements with the same names in the other rig, where they exist.
 Selection in_other_rig(const Selection& before, const rig::Rig& from, const rig::Rig& to) {
     std::vector<std::size_t> there;
     const auto keep = [&](std::size_t element) {
@@ -468,7 +468,7 @@ std::vector<std::string> roots_selected(const RigPart& part) {
     return names_of(part, roots);
 }
 
-/// Another element, to follow or point at: prefers selected ones, then controls.
+/// Another element to follow or point at: prefers selected ones, then controls.
 const rig::Element* other_than(const RigPart& part, const rig::Element& element) {
     for (const std::size_t each : part.selected.elements.all())
         if (const rig::Element& other = part.rig.definition().elements[each]; &other != &element)
@@ -500,7 +500,7 @@ UnitOffer follower(const RigPart& part, Json unit) {
     const rig::Element* item = item_of(part);
     const rig::Element* other = item != nullptr ? other_than(part, *item) : nullptr;
     if (other == nullptr) return {{}, "add a second element first"};
-    // Controls are meant to be followed; one that follows would just lose its own pose.
+    // Controls are meant to be followed; a control that follows would just lose its own pose.
     if (const rig::Element* instead = no_control(part);
         instead != nullptr && item->kind == rig::ElementKind::Control)
         other = std::exchange(item, instead);
@@ -533,8 +533,8 @@ UnitOffer chain(const RigPart& part, Json unit) {
     return {SharedJson(std::move(unit))};
 }
 
-/// Whole chains, unlike the other solvers: through the selected elements in order, or else from where the
-/// root is through all controls.
+/// Whole chains, unlike the other solvers: through the selected elements in order, or else from the root's
+/// position through all controls.
 UnitOffer along_points(const RigPart& part, Json unit) {
     UnitOffer offer = chain(part, std::move(unit));
     if (!offer.unit) return offer;

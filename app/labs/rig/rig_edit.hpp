@@ -1,5 +1,5 @@
-// Edits of the lab's part. A new definition replaces the old one as a whole, and the state of whatever still
-// exists is kept. Errors are std::invalid_argument and leave the part unchanged.
+// Edits of the lab's part. A new definition replaces the old one as a whole; state that still applies is
+// kept. Errors are std::invalid_argument and leave the part unchanged.
 #pragma once
 
 #include <optional>
@@ -45,26 +45,26 @@ std::size_t element_named(const RigPart& part, const std::string& name);
 std::vector<std::string> names_of(const RigPart& part, const std::vector<std::size_t>& elements);
 std::size_t curve_named(const RigPart& part, const std::string& name);
 
-/// To be called after anything but a control value changed: starts a new take.
+/// Call after any change other than of a control's value: starts a new take.
 void changed(RigPart& part);
 
-// Which units use a given element, unit or curve. Whatever is in use cannot be removed.
+// Finds units that use a given element, unit or curve. A used one cannot be removed.
 
 enum class Named { Element, Unit, Curve };
 
 struct Use {
     std::string unit;    ///< the unit that uses it
     std::string member;  ///< the input that does: "primary.target"
-    std::string name;    ///< what it uses
+    std::string name;    ///< the used name
 };
 
 /// The first use, in order, including bodies; none if no unit uses any of the names.
 std::optional<Use> first_use(const std::vector<rig::Unit>& units, Named kind,
                              const std::set<std::string>& names);
 
-/// Renames an element, a unit or a curve. Whatever refers to it follows: units, paths, the clip, the
-/// selection. State and take stay as they are, so the rig computes the same bits. Refuses an empty name, and
-/// one that is taken.
+/// Renames an element, a unit or a curve, with all references: units, paths, the clip, the selection. State
+/// and take stay as they are, so the rig computes the same bits. Refuses an empty name, and one that is
+/// taken.
 void rename(RigPart& part, Named kind, const std::string& from, const std::string& to);
 
 // Defaults for the Add menu: elements and units with only the required inputs, filled in from the selection.
@@ -72,7 +72,7 @@ void rename(RigPart& part, Named kind, const std::string& from, const std::strin
 /// "bone 3": the first such name that no element has.
 std::string free_element_name(const RigPart& part, const std::string& base);
 
-/// A unit as rig.unit.add takes it, or why there is none.
+/// A unit as rig.unit.add takes it, or the reason why there is none.
 struct UnitOffer {
     std::optional<SharedJson> unit;
     const char* needs = "";  ///< "add an element first", if there is no unit

@@ -343,7 +343,7 @@ ClipSolve read_solve(const JsonPlace& place, const RigPart& part) {
     check_members(place, {"running", "left", "controls"});
     ClipSolve solve{.running = place["running"].flag(), .left = {}, .controls = {}};
     place["left"].for_each("frames", part.clip->frames(), [&](const JsonPlace& each) {
-        const bool older = each.json().is_array() && each.json().size() == 3;  // it ended there
+        const bool older = each.json().is_array() && each.json().size() == 3;  // older rows end there
         if (!older) each.check_size(5, "values: millimetres, degrees, bone, scale, stopped");
         FrameLeft left{each.element(0).number(0.0f, 1e9f), each.element(1).number(0.0f, 360.0f),
                        static_cast<std::uint32_t>(each.element(2).index(part.clip->bones.size() - 1))};

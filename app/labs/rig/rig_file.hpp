@@ -6,7 +6,7 @@
 
 namespace tendril::app {
 
-/// Adds to the saved state. Omits whatever is absent.
+/// Adds to the saved state. Omits missing data.
 void save_time(const RigPart& part, Json& state);
 /// `part` must already have its rig and its state.
 void load_time(const JsonPlace& state, RigPart& part);

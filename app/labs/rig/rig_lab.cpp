@@ -31,7 +31,7 @@ std::string RigLab::code(const Workspace& workspace) const {
 
 namespace {
 
-// A control beside the face that makes it speak and blink: its x opens the mouth, its z closes the lids.
+// A control beside the face moves its mouth and lids: its x opens the mouth, its z closes the lids.
 constexpr glm::vec3 talk_centre(-0.85f, 1.15f, 0.5f);
 constexpr float talk_radius = 0.2f;
 
@@ -105,7 +105,7 @@ std::vector<CommandCall> RigLab::opening() const {
             {"rig.select", {}}};
 }
 
-/// With the eyes open and the mouth closed.
+/// Stops with the eyes open and the mouth closed.
 std::vector<CommandCall> RigLab::calm() const {
     return {
         {"rig.motion", {{"name", "tilt"}, {"path", "still"}}},

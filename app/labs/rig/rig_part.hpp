@@ -1,8 +1,8 @@
 // The Rig lab's part of the document: a rig and its state.
 //
 // The document owns the whole state: input and current poses, control values, curves, and the memory and last
-// outputs of the units. So undo, rewind and copies restore it bit for bit, and baking gives what playback
-// shows. The rig is the definition with what the library compiled from it; copies share it.
+// outputs of the units. So undo, rewind and copies restore it bit for bit, and baking matches playback. The
+// rig is the definition with the library's compiled data; copies share it.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@
 
 namespace tendril::app {
 
-// A clip: the poses of a rig's bones at 60 frames per second, as an imported animation has them. A backward
-// solve of a clip finds what the rig cannot express.
+// A clip: the poses of a rig's bones at 60 frames per second, like an imported animation. A backward solve of
+// a clip finds poses that the rig cannot express.
 
 inline constexpr std::size_t max_clip_frames = 3'600, max_clip_poses = 100'000;
 
@@ -53,7 +53,7 @@ struct FrameLeft {
     float mm = 0.0f, degrees = 0.0f;
     std::uint32_t bone = 0;  ///< index in RigClip::bones
     float scale = 0.0f;      ///< the largest difference of any component
-    bool stopped = false;    ///< by the work limit: better values may exist
+    bool stopped = false;    ///< stopped by the work limit: better values may exist
     bool expressed() const {
         return static_cast<double>(mm) <= min_shown_mm && static_cast<double>(degrees) <= min_shown_degrees &&
                static_cast<double>(scale) <= min_shown_scale;
@@ -65,14 +65,14 @@ struct FrameLeft {
 struct ClipSolve {
     bool running = true;
     std::vector<FrameLeft> left;       ///< one per frame so far
-    std::vector<rig::Value> controls;  ///< of the last frame solved; the next one starts there
+    std::vector<rig::Value> controls;  ///< values in the last frame solved; the next one starts there
     std::size_t done() const { return left.size(); }
     bool operator==(const ClipSolve&) const = default;
 };
 
 // A take: the stretch of time that the Rig lab is in. It begins with a state. Everything after follows from
-// that state, the paths that controls follow, and the keys: when controls were set and the rig was solved. So
-// any tick can be recomputed, in any order, bit for bit.
+// that state, the paths of the controls, and the keys: when controls were set and the rig was solved. So any
+// tick can be recomputed, in any order, bit for bit.
 //
 // A tick lasts tick_seconds at any clock speed; the clock only decides how many pass. So slow motion shows
 // exactly the poses of real time.
@@ -86,7 +86,7 @@ inline constexpr std::size_t max_take_keys = 3'600;
 struct RigWalk {
     std::string control;  ///< a transform or position control
     Motion motion;        ///< `ticks` is the phase at the start of the take
-    bool turn = false;    ///< a transform control turns its z axis along the path
+    bool turn = false;    ///< a transform control rotates its z axis along the path
     bool operator==(const RigWalk&) const = default;
 };
 
@@ -119,7 +119,7 @@ inline constexpr std::size_t max_lab_runs = 100'000;
 struct BackwardLeft {
     std::string bone;                     ///< the worst bone; empty if the rig has none
     std::vector<rig::Residual> elements;  ///< in definition order
-    bool stopped = false;                 ///< by the work limit: better values may exist
+    bool stopped = false;                 ///< stopped by the work limit: better values may exist
     bool operator==(const BackwardLeft& other) const;
 
     double worst_mm() const;       ///< maximum over all elements
@@ -130,19 +130,19 @@ struct BackwardLeft {
 /// Combines metres, radians and scale as a backward solve weighs them, for bones about 0.3 m long.
 double amount(const rig::Residual& left);
 
-/// How far apart the bones come at the usual frame rates; reset by any change.
+/// The largest distances between the bones at the usual frame rates; reset by any change.
 struct RateDifference {
     double mm = 0.0, degrees = 0.0, scale = 0.0;  ///< maximum over all bones
     std::string bone;                             ///< the bone farthest apart; empty in a rig without bones
     std::string between;                          ///< the two rates: "15 Hz and 144 Hz"
     double seconds = 0.0;                         ///< time in the take at which it happens
     double ticks = 0.0;                           ///< number of ticks compared
-    std::size_t frames = 0, done = 0;             ///< of the slowest rate: total, and compared so far
+    std::size_t frames = 0, done = 0;             ///< frames of the slowest rate: total, and compared so far
     bool running = false;                         ///< more ticks will continue it
     bool operator==(const RateDifference&) const = default;
 };
 
-/// What the panel shows in detail.
+/// The items that the panel shows in detail.
 struct RigSelection {
     Selection elements;      ///< by index in the definition
     std::string unit;        ///< by name; empty: none
@@ -165,7 +165,7 @@ struct RigPart final : Part {
     bool moving = false;
     std::optional<BackwardLeft> backward;
     RigTake take;                ///< `state` is its state at `take.tick`
-    std::vector<RigWalk> walks;  ///< of existing controls only
+    std::vector<RigWalk> walks;  ///< walks of existing controls only
     std::optional<RateDifference> rates;
     std::shared_ptr<const RigClip> clip;         ///< null if none was recorded
     std::shared_ptr<const ClipSolve> clip_left;  ///< null if it was not solved
@@ -173,7 +173,7 @@ struct RigPart final : Part {
     FlipRule flips;
 
     // Not saved: matters only between an edit by hand and the next solve.
-    /// The state of the last solve, before controls were set; null if none was set since.
+    /// The state of the last solve, before controls were set; null if none was set since then.
     std::shared_ptr<const rig::State> last_solved;
     /// Something other than a control value has changed since the last solve.
     bool edited = false;
@@ -190,7 +190,7 @@ struct RigPart final : Part {
     bool operator==(const RigPart& other) const;
 };
 
-/// Approximate.
+/// Approximate memory of a state.
 std::size_t state_bytes(const rig::State& state);
 
 inline constexpr FlipWords rig_flip_words{"rig.flips", "control", "the control, as the bone sees it,", "size",

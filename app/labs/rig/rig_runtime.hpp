@@ -25,9 +25,9 @@ class TakeSnapshots {
         rig::State state;  ///< before that tick's controls were set
         bool moving = false;
     };
-    /// Keeps the part's current tick if it is one of those to be kept.
+    /// Keeps the part's current tick if its number is due for a snapshot.
     void offer(const RigPart& part);
-    /// Keeps it in any case. The part must not include what was set at its tick yet.
+    /// Keeps it in any case. The part must not yet include the controls set at its tick.
     void keep(const RigPart& part);
     /// The last snapshot at or before a tick, with its tick; null if there is none.
     const std::pair<const std::uint32_t, Snapshot>* nearest(const RigPart& part, std::uint32_t tick);
@@ -40,7 +40,7 @@ class TakeSnapshots {
     static constexpr std::uint32_t first_stride = 8;
     std::uint32_t stride_ = first_stride;  ///< snapshots are kept at multiples of this
     std::size_t bytes_ = 0;
-    // What the snapshots depend on.
+    // The data that the snapshots depend on.
     std::shared_ptr<const rig::State> start_;
     std::shared_ptr<const std::vector<TakeKey>> keys_;
     std::vector<RigWalk> walks_;
@@ -71,7 +71,7 @@ class RigRuntime final : public Runtime {
     /// State of the interface only; nothing else depends on it.
     struct Panel {
         SearchText filter{};          ///< text that names in the tree must contain
-        std::string shown{}, unit{};  ///< what the lists last scrolled to
+        std::string shown{}, unit{};  ///< the items that the lists last scrolled to
         bool all_units = false;       ///< whether to list units that did not affect the element
         /// The Euler angles as last entered for `rotation`, which has many equivalent ones.
         glm::dvec3 degrees{0.0};

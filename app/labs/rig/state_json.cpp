@@ -1,7 +1,7 @@
-// The state of a rig in a scene file, and what --state writes of the Rig lab.
+// The state of a rig in a scene file, and the Rig lab's --state.
 //
-// Only poses that differ from rest are stored. Of local and global pose, one was computed from the other;
-// storing that other one makes the round trip exact.
+// Stores only poses that differ from rest. Of local and global pose, one was computed from the other; storing
+// that other one makes the round trip exact.
 #include "app/labs/rig/state_json.hpp"
 
 #include <cstring>
@@ -191,7 +191,7 @@ signal::SpringState<T> read_spring(const JsonPlace& place, rig::Type type) {
     const rig::Value value = read_value(place["value"], type, max_remembered);
     const rig::Value target = read_value(place["previous_target"], type, max_remembered);
     const bool started = place["started"].flag();
-    if (started) {  // until then the rotations are not of unit length
+    if (started) {  // before that the rotations are not of unit length
         check_unit(place["value"], value);
         check_unit(place["previous_target"], target);
     }
@@ -241,7 +241,7 @@ rig::UnitMemory read_memory(const JsonPlace& place) {
     return {signal::OutputState{.value = std::get<double>(value), .started = output["started"].flag()}};
 }
 
-// What --state writes of the Rig lab.
+// The Rig lab's --state.
 
 namespace {
 

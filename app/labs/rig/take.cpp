@@ -21,7 +21,7 @@ bool same_keys(const RigTake& a, const RigTake& b) {
     return a.keys && b.keys && *a.keys == *b.keys;
 }
 
-/// Limits clamp a walk. The path was checked when it was set.
+/// Walks each control along its path; limits clamp it. The path was checked when it was set.
 void walk(const rig::Rig& rig, const std::vector<RigWalk>& walks, rig::State& state, double ticks) {
     for (const RigWalk& each : walks)
         if (const auto at = rig.element(each.control))
@@ -87,7 +87,7 @@ std::shared_ptr<const std::vector<TakeKey>> shared(std::vector<TakeKey> keys) {
     return keys.empty() ? nullptr : std::make_shared<const std::vector<TakeKey>>(std::move(keys));
 }
 
-/// The keys that have taken effect. Excludes those of the current tick that are not applied yet.
+/// The keys that have taken effect. Excludes keys of the current tick that are not applied yet.
 std::vector<TakeKey> keys_so_far(const RigPart& part) {
     const RigTake& take = part.take;
     if (!take.keys) return {};
@@ -119,11 +119,11 @@ bool go_from_known(RigPart& part, std::uint32_t tick, RigRuntime& runtime) {
     return true;
 }
 
-/// Undoes the keys of the current tick. `keys`: those of earlier ticks.
+/// Undoes the keys of the current tick. `keys`: the earlier ticks' keys.
 bool undo_keys_here(RigPart& part, std::vector<TakeKey> keys, RigRuntime& runtime) {
     part.take.keys = shared(std::move(keys));
     if (!go_from_known(part, part.take.tick, runtime)) return false;
-    runtime.snapshots.keep(part);  // a drag comes here repeatedly
+    runtime.snapshots.keep(part);  // a drag returns here repeatedly
     return true;
 }
 
@@ -148,7 +148,7 @@ bool RigTake::operator==(const RigTake& other) const {
 }
 
 void begin_take(RigPart& part) {
-    part.rates.reset();  // they belong to the old take
+    part.rates.reset();  // the rates belong to the old take
     for (RigWalk& each : part.walks)
         each.motion.ticks = (each.motion.ticks + part.take.tick) % ticks_per_round(each.motion);
     part.take = {.start = nullptr, .keys = nullptr, .tick = 0, .last = 0, .began = part.take.now()};
@@ -159,7 +159,7 @@ void key_control(RigPart& part, std::size_t element) {
     if (part.take.tick == 0 || count >= max_take_keys) return begin_take(part);
     const std::uint32_t tick = part.take.tick, at = static_cast<std::uint32_t>(element);
     std::vector<TakeKey> keys = keys_so_far(part);
-    // Units have already seen what was set before the last solve at this tick.
+    // Units have already seen the values set before the last solve at this tick.
     const auto seen = std::find_if(keys.rbegin(), keys.rend(), [&](const TakeKey& key) {
         return key.tick < tick || key.element == TakeKey::solve;
     });

@@ -8,7 +8,7 @@
 
 namespace tendril::app {
 
-/// Starts a new take at the current time, because what comes next does not follow from the take so far.
+/// Starts a new take at the current time, because the future no longer follows from the take so far.
 void begin_take(RigPart& part);
 /// Records that the control was set after the current tick. Discards the later keys.
 void key_control(RigPart& part, std::size_t element);
@@ -20,8 +20,8 @@ void solve_now(RigPart& part, RigRuntime& runtime, bool measured);
 /// Whether a tick would change anything.
 bool time_moves(const RigPart& part);
 void pass_tick(RigPart& part, RigRuntime& runtime, bool measured);
-/// Goes to any tick of the take, as playing to it would, past its end too. Throws std::invalid_argument if
-/// that would take too long.
+/// Goes to any tick of the take, or past its end, with the same result as playing to it. Throws
+/// std::invalid_argument if that would take too long.
 void go_to(RigPart& part, std::uint32_t tick, RigRuntime& runtime);
 
 /// Runs a separate state through the take, without changing the part.

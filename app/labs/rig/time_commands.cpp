@@ -95,7 +95,7 @@ BackwardLeft solve_backward(RigPart& part, rig::Workspace& scratch) {
     return left;
 }
 
-/// Solves without passing time. Units with memory have yet to see the changes, so the next tick solves too.
+/// Solves without passing time. Units with memory have not seen the changes yet, so the next tick solves too.
 void solve(Workspace& workspace, const Arguments& given) {
     auto& runtime = workspace.runtimes.of<RigRuntime>(rig_lab);
     const bool backward = given.has("direction") && given.text("direction") == "backward";
@@ -277,7 +277,7 @@ void go(Workspace& workspace, const Arguments& given) {
     if (!modified) workspace.saved = workspace.document;  // playing does not modify the scene
 }
 
-/// What was played, or else ten seconds if a control walks.
+/// The ticks played so far, or else ten seconds if a control walks.
 std::uint32_t ticks_worth_looking_at(const RigPart& part) {
     if (part.take.last > 0) return part.take.last;
     if (part.walks.empty()) throw std::invalid_argument("nothing has been played yet: play, or give seconds");
@@ -321,7 +321,7 @@ void compare_rates(Workspace& workspace, const Arguments& given) {
     });
 }
 
-/// For callers that do not wait for ticks.
+/// Finishes for callers that do not wait for ticks.
 void finish_rates(Workspace& workspace) {
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
     for (RatesWork work; part.rates && part.rates->running;) work.advance(part);

@@ -367,7 +367,7 @@ class Offers {
         from_pose("each element", {{"item", "each"}}, type);
     }
 
-    /// Units that have run before. Excludes the enclosing for-each and units in other bodies.
+    /// Offers units that have run before. Excludes the enclosing for-each and units in other bodies.
     void from_units(rig::Type type) {
         for (const UnitRow& each : unit_rows(part_)) {
             if (each.at >= row_.at) break;

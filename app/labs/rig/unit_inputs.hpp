@@ -14,12 +14,12 @@
 
 namespace tendril::app {
 
-/// One of several names: "location" or "direction".
+/// A choice among names: "location" or "direction".
 struct InputChoice {
     std::size_t chosen = 0;
     std::vector<const char*> names;
 };
-/// Which axes of translation, rotation and scale pass.
+/// The axes of translation, rotation and scale that pass.
 struct InputFilter {
     rig::TransformFilter passes;
 };
@@ -37,7 +37,7 @@ struct InputCurve {
 };
 
 struct UnitInput {
-    std::string path;   ///< of its value in unit_json(): "/primary/target"
+    std::string path;   ///< the path of its value in unit_json(): "/primary/target"
     std::string title;  ///< "primary target"
     const char* unit = "";
     /// The source: "head, translation", "unit curve"; empty for a literal.
@@ -47,7 +47,7 @@ struct UnitInput {
         value;
     bool count = false;  ///< a whole number, such as a number of elements
 
-    /// What input_offers() can replace it with. For values: of `type`, or of any type if that is empty.
+    /// Replacements that input_offers() lists. For values: of `type`, or of any type if that is empty.
     enum class Takes : std::uint8_t { Nothing, Value, Element, Bone, Names, Curve } takes = Takes::Nothing;
     std::optional<rig::Type> type{};
 
@@ -71,7 +71,7 @@ Json with_input(const rig::Unit& unit, const std::string& path, Json value);
 struct UnitRow {
     const rig::Unit* unit = nullptr;
     std::size_t at = 0;   ///< index in State::units
-    std::size_t top = 0;  ///< index in Definition::units; inside a body, of its for-each
+    std::size_t top = 0;  ///< index in Definition::units; inside a body, its for-each's
     bool inner = false;   ///< in a body
 };
 /// In execution order; a body follows its for-each.
@@ -79,8 +79,8 @@ std::vector<UnitRow> unit_rows(const RigPart& part);
 /// The unit of that name; none if there is none.
 std::optional<UnitRow> unit_row(const RigPart& part, std::string_view name);
 
-// What an input may be instead: elements, outputs of earlier units, the variables of a for-each. The
-// inspector lists these; rig.unit.set accepts each of them.
+// Replacements for an input: elements, outputs of earlier units, the variables of a for-each. The inspector
+// lists these; rig.unit.set accepts each of them.
 
 struct InputOffer {
     std::string title;  ///< "dial, value", "unit late", "each ratio, 0 to 1"
@@ -96,7 +96,7 @@ std::vector<InputOffer> input_offers(const RigPart& part, const UnitRow& row, co
 
 /// `operation` is named as in scene files; `path` is UnitInput::path.
 const char* input_help(std::string_view operation, std::string_view path);
-/// What an operation does, in one sentence.
+/// The effect of an operation, in one sentence.
 const char* operation_help(std::string_view operation);
 
 }  // namespace tendril::app

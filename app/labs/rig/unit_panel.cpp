@@ -197,7 +197,7 @@ void unit_list(const RigPanel& panel) {
     }
     if (many) ImGui::EndChild();
     if (rows.empty()) note("No units: bones stay where they are.");
-    keep_room("units", top);  // warnings come and go
+    keep_room("units", top);  // the warnings come and go
     order_buttons(panel, rows);
     add_unit_menu(panel);
 }

@@ -42,20 +42,20 @@ rig::Value read_value(const JsonPlace& place, rig::Type type, double most = most
 /// Infers the type from the JSON form.
 rig::Value read_any_value(const JsonPlace& place, double most = most_given);
 
-/// Refuses rotations that are not of unit length, which a rig's own always are. Accepts all other types.
+/// Refuses rotations that are not of unit length, as a rig's own always are. Accepts all other types.
 void check_unit(const JsonPlace& place, const rig::Value& value);
 /// Reads a value that a rig reached, as it was stored.
 rig::Value read_stored(const JsonPlace& place, rig::Type type);
 
-/// In the form of that kind of control: a vector2d is [a, b].
+/// The value in the form of that kind of control: a vector2d is [a, b].
 Json control_value_json(rig::ControlKind kind, const rig::Value& value);
 /// Members omitted from a transform are taken from `now`.
 rig::Value read_control_value(const JsonPlace& place, rig::ControlKind kind, const rig::Value& now,
                               double most = most_given);
 
-// When several values are set at once, each keeps what was not touched: null in a vector, omitted from a
+// When several values are set at once, each keeps its untouched parts: null in a vector, omitted from a
 // transform.
-/// `after` without what equals `before`.
+/// `after` without the members that equal `before`.
 Json touched(Json after, const Json& before);
 /// `given`, with nulls replaced from `now`. A rotation is given whole or not at all.
 Json filled(Json given, const Json& now);
@@ -66,7 +66,7 @@ Json filled(Json given, const Json& now);
 std::string vector_text(const glm::dvec3& vector, int decimals = 2);
 /// Euler angles in the order XYZ, degrees: "10.0  -90.0  0.0"
 std::string rotation_text(const glm::dquat& rotation);
-/// On one line. A transform shows its translation, and its rotation if it is turned.
+/// The value on one line. A transform shows its translation, and its rotation if it has one.
 std::string value_text(const rig::Value& value);
 /// An output of a unit; the count of a for-each has no decimals.
 std::string output_text(const rig::Operation& operation, const rig::Value& value);

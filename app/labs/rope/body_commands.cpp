@@ -133,7 +133,7 @@ void unpin(RopeEdit& edit, const Arguments& given) {
     }
 }
 
-/// A row of n segments gets f(n) of them, and so does a column of a cloth.
+/// Divides a row of n segments into f(n), and a column of a cloth likewise.
 template <class Divide>
 void divide_body(RopeEdit& edit, const Arguments& given, Divide f) {
     const rope::Body& body = body_of(edit.seen(), given.text("rope"));
@@ -296,7 +296,7 @@ void add_body_commands(CommandTable& table) {
 
 namespace {
 
-/// What bodies and colliders fill, planes aside; a collider that swings fills its way.
+/// The spaces of bodies and colliders, except planes; a swinging collider fills its whole path.
 std::vector<Space> filled_spaces(const RopePart& part) {
     constexpr float apart = 0.1f;  // metres
     const NamedWorld& world = *part.world;
@@ -330,7 +330,7 @@ glm::vec3 free_place(const Workspace& workspace, const Space& needed) {
     const auto is_free = [&](glm::vec3 at) {
         return std::ranges::none_of(filled, [&](const Space& each) { return each.meets(needed.moved(at)); });
     };
-    // Along the axis of the grid that is nearest to it, so that scenes stay in order.
+    // Search along the nearest axes of the grid, so that scenes stay in order.
     const float yaw = glm::half_pi<float>() * std::round(workspace.camera.yaw / glm::half_pi<float>());
     const glm::vec3 right(std::round(std::cos(yaw)), 0.0f, -std::round(std::sin(yaw)));
     const glm::vec3 behind(right.z, 0.0f, -right.x);

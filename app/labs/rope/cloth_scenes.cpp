@@ -96,7 +96,7 @@ RopeScene line_scene() {
                               .down = {0, -0.8f, 0},
                               .columns = columns,
                               .rows = 11});
-    // Each to the particle of the rope above it.
+    // Tie each to the particle of the rope above it.
     for (int column = 0; column < columns; column += apart) {
         const float part =
             0.5f + half * (2.0f * static_cast<float>(column) / (columns - 1) - 1.0f) / (2.0f * from);
@@ -160,7 +160,7 @@ RopeScene hair_scene() {
     world.add_collider("neck", rope::Capsule{{0, 1.05f, 0}, {0, 1.3f, 0}, 0.07f});
     world.add_collider("shoulders", rope::Capsule{{-0.26f, 0.98f, 0}, {0.26f, 0.98f, 0}, 0.11f});
     rope::HairShape hair{.length = 0.48f, .segments = 14, .radius = 0.004f, .density = 0.02f, .bend = 0.5f};
-    // Up and back, to leave the face free.
+    // Directed up and back, to leave the face free.
     const rope::HairPatch patch{.direction = glm::vec3(0, 0.8f, -0.6f), .strands = 140, .spread = 0.3f};
     hair.roots = require_value(roots_on(head, patch, hair.radius));
     world.add_hair("hair", std::move(hair), "head");

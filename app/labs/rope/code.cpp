@@ -39,7 +39,7 @@ std::string shape_text(const rope::Shape& shape) {
            '}';
 }
 
-/// Index in state.colliders, in which order number_slots() numbers them.
+/// The index in state.colliders, whose order number_slots() follows.
 std::size_t place_of(const rope::State& state, rope::ColliderId collider) {
     const auto found = std::ranges::find(state.colliders, collider, &rope::Collider::id);
     return static_cast<std::size_t>(found - state.colliders.begin());
@@ -104,11 +104,11 @@ class RopeProgram {
         list("    ", entries, "};");
         line("");
     }
-    /// A comment with the name that the user gave it.
+    /// A comment with the user's name for the object.
     void name(const std::string& name) {
         say("// " + Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
     }
-    /// A body, collider or pin.
+    /// Adds a body, collider or pin.
     void add(const std::string& what, const std::vector<std::string>& members) {
         list("    state." + what + ".push_back({", members, "});", "        ");
     }

@@ -1,4 +1,4 @@
-// Collisions between bodies: their command, and the panel's buttons for one of them.
+// Collisions between bodies: their command, and the panel's buttons for a body.
 #include <string>
 #include <vector>
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr float plane_radius = 3.0f;       ///< visible radius of an infinite plane, metres
 constexpr double heavy_from = 4.0;         ///< multiple of the mass of a rope's lightest particle
-constexpr double weight_density = 2500.0;  ///< kg/m^3, that of stone
+constexpr double weight_density = 2500.0;  ///< kg/m^3, the density of stone
 constexpr glm::vec4 unseen{0.0f};          ///< for invisible strokes that only catch the pointer
 
 class Drawing {
@@ -67,11 +67,11 @@ class Drawing {
         return chosen(body) && part_.selection->particles.has(i);
     }
 
-    /// Whether its particles show which are selected: the colour of the body says that all of it is.
+    /// Whether its particles show the selection; the body's colour shows that all of it is selected.
     bool shows_selected(const rope::Body& body) const {
         return chosen(body) && (body.count == 1 || part_.selection->particles.all().size() < body.count);
     }
-    /// One with a colour of its own keeps it as far as its particles show the selection.
+    /// A body with its own colour keeps it if its particles show the selection.
     bool marked(const rope::Body& body) const {
         return chosen(body) && (world_.colour(body) == BodyColour::ByKind || !shows_selected(body));
     }
@@ -98,7 +98,7 @@ class Drawing {
             catchable_box(*block, pick);
         } else if (const auto* plane = std::get_if<rope::Plane>(&shape)) {
             plane_patch(list_, view_.camera, plane->point, plane->normal, plane_radius, colour);
-            // A grip in the centre of the plane; on the ground it would only be in the way.
+            // A grip in the centre of the plane; on the ground it would only be a nuisance.
             if (plane->point.y == 0.0f && glm::normalize(plane->normal).y > 0.999f) return;
             solid(list_.sphere(plane->point, px(5.0f), Unit::Pixels, glm::vec4(colour, 1.0f)), pick);
         }
@@ -219,7 +219,7 @@ class Drawing {
             }
         }
     }
-    /// In pixels: a little more than the rope's thickness, to be visible.
+    /// In pixels: a little more than the rope's thickness, so that the ball is visible.
     float ball_radius(const rope::Body& body, std::size_t particle) const {
         const float thick = body.radius / view_.camera.metres_per_pixel(positions_[particle]);
         return std::clamp(1.3f * thick, px(3.0f), std::max(px(6.0f), 1.3f * thick));

@@ -23,28 +23,28 @@ float highest_speed(const NamedWorld& world, const Particles& particles);
 /// A sample of the whole world; after a tick, with its report and the length of its frame.
 RopeSample sample_of(const NamedWorld& world);
 RopeSample sample_of(const RopePart& part, const RopeReport& report);
-/// Sums over the last second, except for `inside`, which is that of the last tick.
+/// Sums over the last second, except for `inside`, which is the last tick's.
 RopeReport last_second(const std::vector<RopeSample>& samples);
 
-/// Of the last second: "310 µs"; "" where nothing was measured.
+/// The cost over the last second: "310 µs"; "" if nothing was measured.
 std::string cost_text(const std::vector<RopeSample>& samples);
 /// "< 0.01 %", "1.25 %"
 std::string share_text(float share);
 
-/// Two pins farther apart than what is between them is long: rope, cloth along its threads, and ties.
+/// Two pins farther apart than the length between them: of rope, of cloth along its threads, and of ties.
 struct OverPulled {
     std::string from, to;              ///< the bodies that are pinned, may be the same
     double apart = 0.0, length = 0.0;  ///< metres
-    std::vector<std::uint32_t> way;    ///< particles from one pin to the other: pins and ends of ties
+    std::vector<std::uint32_t> way;    ///< the path of particles between the pins: pins and tie ends
 };
-/// The worst for each pin, the worst of all first. What may stretch is never too short.
+/// The worst for each pin, the worst of all first. Elastic links count as long enough.
 std::vector<OverPulled> over_pulled(const NamedWorld& world);
 
-/// Of a tie, or at the selected particles: "5.50 N". Not a number of newtons while a tie still draws its ends
-/// together, nor where pins pull what cannot stretch: that force has no limit.
+/// The tension of a tie, or at the selected particles: "5.50 N". Text without a number while a tie still
+/// draws its ends together, and where pins pull inextensible links: that force has no limit.
 std::string tension_text(const NamedWorld& world, const rope::Tie& tie);
 std::string tension_text(const NamedWorld& world, const RopeSelection& selection);
-/// The tension of a tie where it is a number of newtons.
+/// The tension of a tie, if it is a number of newtons.
 std::optional<float> measured_tension(const rope::Tie& tie, const std::vector<OverPulled>& pulled);
 
 }  // namespace tendril::app

@@ -1,8 +1,7 @@
-// Whether pins are farther apart than what is between them is long, and the tensions that this leaves.
+// Finds pins that are farther apart than the length between them, and the resulting tensions.
 //
 // Pins and the ends of ties are the nodes of a graph. Its edges are the stretch of rope, strand or cloth
-// between two nodes of a body, and the ties. The shortest way between two pins is the farthest that they can
-// be apart.
+// between two nodes of a body, and the ties. The shortest path between two pins is their maximum distance.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -17,12 +16,12 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t max_pins = 32;         ///< per body, that are compared with others
-constexpr std::size_t max_cloth_nodes = 64;  ///< per cloth: between any two of them is an edge
-constexpr double too_short = 1.001;          ///< apart, over the length between
+constexpr std::size_t max_pins = 32;         ///< per body, compared with others
+constexpr std::size_t max_cloth_nodes = 64;  ///< per cloth: each pair of them has an edge
+constexpr double too_short = 1.001;          ///< distance of the pins over the length between them
 constexpr double no_way = std::numeric_limits<double>::infinity();
 
-/// How far apart links let the particles of a body be, along rows and columns.
+/// The distances along rows and columns that links allow between a body's particles.
 class Threads {
   public:
     explicit Threads(const rope::State& state)
@@ -44,7 +43,7 @@ class Threads {
                 along_[from] = link.rest;
         }
     }
-    /// Of two particles of a body.
+    /// The maximum distance between two particles of a body.
     double between(const rope::Body& body, std::size_t a, std::size_t b) const {
         const std::size_t row = body.row > 0 ? body.row : body.count;
         const std::size_t from = body.cell(a - body.first), to = body.cell(b - body.first);
@@ -123,7 +122,7 @@ class PinGraph {
         node_[a].edges.emplace_back(b, length);
         node_[b].edges.emplace_back(a, length);
     }
-    /// The nodes of a body from `first` on: neighbours on a strand, all of a cloth.
+    /// Joins the nodes of a body from `first` on: neighbours on a strand, all of a cloth.
     void join(const Threads& threads, const rope::Body& body, std::size_t first) {
         const auto from = node_.begin() + static_cast<std::ptrdiff_t>(first);
         const bool cloth = body.kind == rope::Body::Kind::Cloth;
@@ -136,7 +135,7 @@ class PinGraph {
         }
     }
 
-    /// From one pin to those after it (E. W. Dijkstra, 1959).
+    /// Searches from one pin to those after it (E. W. Dijkstra, 1959).
     void search(std::size_t start, std::vector<OverPulled>& found) {
         using Reached = std::pair<double, std::size_t>;
         std::priority_queue<Reached, std::vector<Reached>, std::greater<>> next;
@@ -187,11 +186,11 @@ class PinGraph {
     const rope::State& state_;
     std::vector<Node> node_;                                    ///< by body, then by particle
     std::vector<std::pair<std::uint32_t, std::size_t>> index_;  ///< particle, node; ascending
-    std::vector<double> length_;                                ///< of the search, by node
+    std::vector<double> length_;                                ///< the search's, by node
     std::vector<std::size_t> before_;
 };
 
-/// Whether the way between pins that are too far apart leads through the tie, or through that body.
+/// Whether the path between pins that are too far apart leads through the tie, or through the body.
 bool is_pulled(const std::vector<OverPulled>& all, const rope::Tie& tie) {
     return std::ranges::any_of(all, [&](const OverPulled& each) {
         return std::ranges::count(each.way, tie.a) != 0 && std::ranges::count(each.way, tie.b) != 0;
@@ -206,7 +205,7 @@ bool is_pulled(const std::vector<OverPulled>& all, const rope::Body& body) {
 
 constexpr const char* unbounded = "without limit";
 
-/// "12.34 N", or "25.2 MN" where hundredths say nothing.
+/// "12.34 N", or "25.2 MN" where hundredths are meaningless.
 std::string force_text(float newtons) {
     const auto value = static_cast<double>(newtons);
     return value < 1e4 ? fixed_text(value, 2) + " N" : si_text(value, "N");

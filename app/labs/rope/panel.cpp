@@ -214,7 +214,7 @@ void body_rows(const NamedWorld& world, const rope::Body& body, const Palette& c
     const BodySettings settings = settings_of(world, body);
     const FieldRows rows(settings, "rope.set", emit, {{"rope", world.name(body)}});
     for (const Field& field : fields<BodySettings>()) {
-        if (field.optional && field.empty(&settings)) continue;  // it has no such links
+        if (field.optional && field.empty(&settings)) continue;  // the body has no such links
         const std::string_view name = field.name;
         RowOptions options;
         if (name == "length" && !(settings.length > 0.0f))
@@ -277,7 +277,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     body_rows(world, body, colours, emit);
 }
 
-/// For several selected particles.
+/// Rows for several selected particles.
 void several_rows(const RopePart& part, const rope::Body& body, const std::vector<std::size_t>& all,
                   const Palette& colours, Emit& emit) {
     const NamedWorld& world = *part.world;
@@ -305,7 +305,7 @@ void several_rows(const RopePart& part, const rope::Body& body, const std::vecto
     body_rows(world, body, colours, emit);
 }
 
-/// All fields of its kind except the position, which is set by moving it, as in a drag.
+/// All fields of its kind except the position, which is set by moving the collider, as in a drag.
 void shape_rows(const rope::Collider& collider, const std::string& name, Emit& emit) {
     const FieldsOf of = shape_fields_of(collider.shape);
     const FieldRows rows(of, field_texts<rope::Shape>(), "rope.collider.set", emit, {{"name", name}});
@@ -384,7 +384,7 @@ void length_plot(const std::vector<RopeSample>& samples, const Palette& palette)
     plot("length error", errors, {.x = "time", .x_unit = "s", .y = "", .y_unit = "%", .min_y = 1e-4f}, 9.0f);
 }
 
-/// The numbers of each racer now, and their curves; `timed`: with the cost too.
+/// The present numbers of each racer, and their curves; `timed`: with the cost too.
 void race_rows(const RopePart& part, bool timed, const Palette& palette, Emit& emit) {
     const PanelSection ids("Race");
     const std::vector<RopeRacer> racers = rope_racers(part);

@@ -22,17 +22,17 @@ struct Space {
 };
 
 /// The centre of the view, or the nearest place to its right, to its left or behind it where `needed`, the
-/// space around that place, is free. Nothing is put in front of what is there.
+/// space around that place, is free. Never a place in front of existing objects.
 glm::vec3 free_place(const Workspace& workspace, const Space& needed);
 /// Buttons that add ropes, cloths, hair and colliders.
 void adding_rows(const Workspace& workspace, Emit& emit);
-/// How well lengths are kept.
+/// The verdict on how well lengths are kept.
 Verdict rope_verdict(const RopePart& part);
-/// The verdict, and how fast time passes where the machine is too slow for the ropes.
+/// The verdict with the simulation speed, if the machine is too slow for the ropes.
 Verdict paced_verdict(Verdict said, const Workspace& workspace);
-/// Buttons for what a rope collides with.
+/// Buttons for the bodies that a rope collides with.
 void collision_rows(const NamedWorld& world, const rope::Body& body, Emit& emit);
-/// Of a selected tie.
+/// Rows of a selected tie.
 void tie_rows(const RopePart& part, const rope::Tie& tie, Emit& emit);
 /// The selection, and actions on it.
 void selection_rows(const Workspace& workspace, Emit& emit);

@@ -82,8 +82,8 @@ std::set<std::size_t> spread(std::size_t count, std::size_t wanted) {
 
 /// A row of particles.
 struct Thread {
-    std::vector<std::size_t> particles{};  ///< numbered in the world; no link leads to a gap's
-    /// Which particles have a link to the next; empty: all.
+    std::vector<std::size_t> particles{};  ///< indices in the world; a gap's is not linked
+    /// Marks the particles with a link to the next; empty: all.
     std::vector<bool> linked{};
 
     bool whole(std::size_t from, std::size_t to) const {
@@ -141,7 +141,7 @@ std::optional<PastCurve> rope_past_curve(const Workspace& workspace) {
     const auto what = static_cast<Number>(view.chosen(workspace.settings));
     std::optional<RopeSelection> selection = rope_part(workspace).selection;
     if (selection && !selection->of_particles()) selection.reset();
-    // An emptied world shows nothing of what was removed.
+    // An emptied world shows no removed ropes.
     const bool empty = rope_part(workspace).world->state().bodies.empty();
     const Told words = told(what);
     const std::string name = selection ? words.of_some + measured_name(what, *selection) : words.of_all;

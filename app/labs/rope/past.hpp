@@ -5,12 +5,12 @@
 
 namespace tendril::app {
 
-/// Shows past poses of the same particles only: from before a cut or a tear too, but not of another scene.
+/// Shows past poses of the same particles only: also from before a cut or a tear, but not of another scene.
 PastView rope_past();
 /// Plots the selected particles or their body, or else all ropes. Empty while nothing is plotted.
 std::optional<PastCurve> rope_past_curve(const Workspace& workspace);
 /// Ropes and strands from end to end, and a cloth by five of its rows and columns. At most a few hundred
-/// lines, each over as many links as that requires.
+/// lines, each over several links if necessary.
 PoseLines rope_lines(const SharedPart& part);
 
 }  // namespace tendril::app

@@ -18,7 +18,7 @@ const NamedWorld& picked_world(const RopePart& part, PickId pick) {
     return world_in(part, static_cast<std::size_t>(std::max(pick, 0) / picks_in_pane));
 }
 
-/// What was picked of these, whose picks begin with `first`; null if it is something else, or the world has
+/// The picked one of these, whose picks begin with `first`; null if it is something else, or the world has
 /// changed since.
 template <class Thing>
 const Thing* picked_of(const std::vector<Thing>& all, PickId first, PickId pick) {
@@ -76,7 +76,7 @@ glm::quat turn_of(const rope::Shape& shape) {
     return {1.0f, 0.0f, 0.0f, 0.0f};
 }
 
-/// Arguments of rope.collider.set that give the shape that rotation.
+/// Arguments of rope.collider.set for the shape with that rotation.
 ArgumentList turned(const rope::Shape& shape, glm::quat turn) {
     if (const auto* capsule = std::get_if<rope::Capsule>(&shape)) {
         const glm::vec3 middle = rope::centre(shape);
@@ -96,12 +96,12 @@ Handle collider_handle(const NamedWorld& world, const rope::Collider& collider, 
             turns ? Drag::Position | Drag::Rotation : Drag::Position};
 }
 
-/// Moved as a whole, turned by its particles.
+/// A handle that moves the body as a whole and rotates it by its particles.
 Handle body_handle(const NamedWorld& world, const rope::Body& body, PickId pick) {
     return {world.name(body), pick, {grip_of(world, body)}, Drag::Position | Drag::Rotation};
 }
 
-/// The body of which every particle is selected; null if there is none.
+/// The body whose particles are all selected; null if there is none.
 const rope::Body* whole_body(const RopePart& part) {
     if (!part.selection || !part.selection->of_particles()) return nullptr;
     const rope::Body* const body = part.world->find(part.selection->body);
@@ -222,7 +222,7 @@ void RopeLab::drop(const Workspace& workspace, PickId, Emit& emit) const {
 
 namespace {
 
-/// The selection is the own world's: in that of a rival the body may lack the particle.
+/// The selection belongs to the part's own world: in a rival's world the body may lack the particle.
 bool in_body(const ParticlePlace& place) {
     return place.body != nullptr && place.index < place.body->count;
 }
@@ -293,7 +293,7 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
         const bool pinned = world.pinned(place->body->first + place->index);
         emit(pinned ? "rope.unpin" : "rope.pin", of_particle(world, *place));
     } else if (part.tool == RopeTool::Cut &&
-               place->body->kind != rope::Body::Kind::Cloth) {  // the command refuses what cannot be cut
+               place->body->kind != rope::Body::Kind::Cloth) {  // the command refuses uncuttable bodies
         const std::size_t segment = std::min(place->index, std::max<std::size_t>(place->body->count, 2) - 2);
         emit("rope.cut", {{"rope", world.name(*place->body)}, {"segment", segment}});
     }
@@ -328,7 +328,7 @@ std::vector<Handle> RopeLab::selectable(const Workspace& workspace, std::size_t 
     return all;
 }
 
-/// Selects in the body with the most particles in the box, or in the one being added to.
+/// Selects in the body with the most particles in the box, or in the selected body when adding.
 void RopeLab::select(const Workspace& workspace, const std::vector<PickId>& picks, bool add,
                      Emit& emit) const {
     const RopePart& part = rope_part(workspace);
@@ -461,7 +461,7 @@ std::optional<Handle> RopeLab::gizmo(const Workspace& workspace) const {
     return std::nullopt;
 }
 
-/// A whole body is moved by itself, by drag().
+/// A whole body is moved by drag() instead.
 Together RopeLab::together(const Workspace& workspace, Drag what) const {
     const RopePart& part = rope_part(workspace);
     Together together;

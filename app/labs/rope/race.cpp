@@ -27,7 +27,7 @@ std::shared_ptr<const NamedWorld> with_settings(std::shared_ptr<const NamedWorld
     return changed;
 }
 
-/// The rival with the own world's new solver swaps places with it, and takes the solver that it `had`.
+/// If a rival has the own world's new solver, the two swap places; the rival gets the solver that it `had`.
 void change_places(RopePart& part, rope::Solver had) {
     const rope::Solver now = solver_of(part.world);
     for (Rival& rival : part.rivals) {

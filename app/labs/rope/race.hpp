@@ -1,5 +1,5 @@
-// A race: the scene by each solver, side by side with one camera. What a command does to the part's own world
-// it does to those of its rivals too, and they pass the same ticks.
+// A race: the scene by each solver, side by side with one camera. A command that changes the part's own world
+// also changes its rivals' worlds, and all pass the same ticks.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace tendril::app {
 
 class CommandTable;
 
-/// One of the worlds of a part, in the order of its panes: its own, then those of its rivals.
+/// One of the worlds of a part, in the order of its panes: its own, then the rivals'.
 struct RopeRacer {
     const NamedWorld& world;
     const std::vector<RopeSample>& samples;
@@ -27,13 +27,13 @@ std::vector<RopeRacer> rope_racers(const RopePart& part);
 /// The world that is drawn in a pane; the part's own if there is no such pane.
 const NamedWorld& world_in(const RopePart& part, std::size_t pane);
 
-/// Starts the race from where the part's own world is now.
+/// Starts the race from the present state of the part's own world.
 void begin_race(RopePart& part);
-/// The part as it is for a rival.
+/// The part with the rival's world, samples and drag in place of its own.
 RopePart part_of_rival(const RopePart& part, const Rival& rival);
-/// Does to each rival what a command did to `part`'s own world, which was `old` before. A rival that
-/// lacks what it names, as a tie that tore there, stays as it is. If the command chose a rival's solver, the
-/// two change places.
+/// Applies to each rival the command that changed `part`'s own world, which was `old` before. A rival that
+/// lacks the named object, such as a tie that tore there, stays as it is. If the command chose a rival's
+/// solver, the two change places.
 void change_rivals(RopePart& part, const RopePart& old, const std::function<void(RopePart&)>& change);
 /// Sets the settings of all worlds; each rival keeps its solver, or changes places as above.
 void take_settings(RopePart& part, const rope::Settings& settings);

@@ -14,17 +14,17 @@ class Arguments;
 /// A change to the lab's part.
 class RopeEdit {
   public:
-    /// `workspace` is used to simulate drags: that of the lab's runtime.
+    /// `workspace` simulates drags; it is the lab runtime's.
     RopeEdit(RopePart& changed, const Clock& clock, rope::Workspace& workspace);
 
     RopePart& part;
-    std::string said;  ///< what was done, where the picture does not show it
+    std::string said;  ///< a message about the change, if the picture does not show it
     /// The world, read-only. world() copies it on first write.
     const NamedWorld& seen() const { return *part.world; }
     bool running() const { return seconds_ > 0.0; }
     NamedWorld& world();
-    /// Moves over one tick, so that whatever is in the way is pushed evenly. While the simulation is paused,
-    /// moves at once by a quasi-static drag.
+    /// Moves over one tick, so that obstacles are pushed evenly. While the simulation is paused, moves at
+    /// once by a quasi-static drag.
     void move_pins(const std::vector<rope::PinPlace>& pins);
     void move_collider(const std::string& name, const glm::vec3& to);
     void set_collider(const std::string& name, const rope::Shape& shape);  ///< moves at once
@@ -34,7 +34,7 @@ class RopeEdit {
 
     rope::Workspace& workspace_;
     std::shared_ptr<NamedWorld> copy_;
-    double seconds_;  ///< until the end of the next tick, from the last substep on; 0 while paused
+    double seconds_;  ///< from the last substep to the end of the next tick; 0 while paused
 };
 
 /// Compares worlds by identity and the rest by value. Ignores quiet_ticks and samples.
@@ -49,7 +49,7 @@ void check_work(const NamedWorld& world);
 const rope::Body& body_of(const NamedWorld& world, std::string_view name);
 const rope::Collider& collider_of(const NamedWorld& world, std::string_view name);
 const rope::Tie& tie_of(const NamedWorld& world, std::string_view name);
-/// The number of the body that a particle is in, looked for from a body `near` it.
+/// The index of the body that contains a particle, searched from the body `near`.
 std::size_t body_with(const rope::State& state, std::size_t particle, std::size_t near);
 /// The particle that two arguments name.
 struct NamedParticle {
@@ -75,26 +75,26 @@ std::string free_name(const std::string& kind, Taken taken) {
     return name;
 }
 
-/// The particles that a drag still holds, as indices in the world, or in that of a rival.
+/// The particles that a drag still holds, as indices in the world, or in a rival's world.
 std::vector<std::size_t> held_particles(const RopePart& part);
 std::vector<std::size_t> held_particles(const NamedWorld& world, const std::optional<Hold>& hold);
 bool is_held(const RopePart& part, std::size_t particle);
 bool is_held(const NamedWorld& world, const std::optional<Hold>& hold, std::size_t particle);
 /// Stops holding the particle, because it was pinned or released.
 void forget_held(RopePart& part, const NamedParticle& named);
-/// Whether a drag holds particles, here or in the world of a rival.
+/// Whether a drag holds particles, here or in a rival's world.
 bool holds(const RopePart& part);
 /// Ends the drag, in all worlds.
 void let_go(RopePart& part);
-/// The world, or that of a rival, with the drag released.
+/// The world, or a rival's world, with the drag released.
 std::shared_ptr<const NamedWorld> released(std::shared_ptr<const NamedWorld> world,
                                            const std::optional<Hold>& hold);
-/// Selection and drag follow their particles of a body that was edited in the world: the selection stays with
-/// the active one, on its piece, and a drag of several that are no longer on one piece ends.
+/// Updates selection and drag after a body was edited in the world: the selection stays with the active
+/// particle, on its piece; a drag of particles that are no longer on one piece ends.
 void follow_particles(RopePart& part, NamedWorld& world, const std::string& body, const Became& became);
-/// Makes what has come off the bodies that tore since `before` bodies of their own.
+/// Makes separate bodies of the pieces that have torn off since `before`.
 void part_torn(RopePart& part, NamedWorld& world, const NamedWorld& before);
-/// Divides a body more or less finely; ends a drag that holds it. The selection stays on its particles, or
+/// Changes a body's number of segments; ends a drag that holds it. The selection stays on its particles, or
 /// the nearest to them. Throws Refused if there would be too many.
 void resample_body(RopeEdit& edit, const std::string& body, const rope::Resolution& to);
 void reverse_rope(RopeEdit& edit, const std::string& rope);

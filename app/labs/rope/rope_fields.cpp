@@ -61,7 +61,7 @@ constexpr FieldText compliance_row(const char* name, int decimals, const char* h
             .scale = 1000.0,
             .unit = "mm/N"};
 }
-/// `percent`: of a length, instead of in the field's unit.
+/// `percent`: shown as a fraction of a length, instead of in the field's unit.
 constexpr FieldText tears_row(const char* name, bool percent, const char* help) {
     return {.name = name,
             .label = "tears at",

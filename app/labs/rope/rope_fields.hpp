@@ -13,15 +13,15 @@ class Arguments;
 
 /// Optional fields are empty if the body has no such links or cannot tear.
 struct BodySettings {
-    float length = 1.0f;                   ///< metres; of a row of a cloth, of a strand of hair
+    float length = 1.0f;                   ///< metres; a row's of a cloth, a strand's of hair
     std::optional<float> width{};          ///< metres, across the rows of a cloth
-    std::optional<int> segments{};         ///< of a rope or of each strand
+    std::optional<int> segments{};         ///< segments of a rope or of each strand
     std::optional<int> columns{}, rows{};  ///< particles of a cloth
     double mass = 1.0;                     ///< kilograms, of the whole body
-    std::optional<double> density{};       ///< kg/m, of a cloth kg/m^2; none of a body without length
+    std::optional<double> density{};       ///< kg/m, for cloth kg/m^2; none for a body without length
     float radius = 0.02f;                  ///< metres: half of its thickness
-    float friction = 0.0f;                 ///< the world's, unless it has its own
-    /// Strain per newton: of a rope, a strand, or a strip of cloth a metre wide.
+    float friction = 0.0f;                 ///< the world's, unless the body has its own
+    /// Strain per newton, for a rope, a strand, or a strip of cloth a metre wide.
     std::optional<float> stretch{};
     std::optional<float> bending{};  ///< bending stiffness of a rope, N m^2
     /// Compliance of its links, m/N.

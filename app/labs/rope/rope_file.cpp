@@ -1,4 +1,4 @@
-// The Rope lab in a scene file, and what --state writes.
+// The Rope lab in a scene file, and its --state.
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -141,8 +141,8 @@ RopeView load_view(const JsonPlace& place) {
     return view;
 }
 
-/// What a world of a race keeps beside its state: what a drag holds, and the last ten seconds, a column for
-/// each number but the cost, which is of this computer.
+/// A racer's data besides its world: held particles, and the last ten seconds, a column for each number
+/// except the cost, which depends on the computer.
 void save_racer(Json& json, const std::optional<Hold>& hold, const std::vector<RopeSample>& samples) {
     if (hold) json["held"] = {{"rope", hold->body}, {"particles", hold->particles}};
     for (const RopeSample& each : samples) {
@@ -247,11 +247,11 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
     return part;
 }
 
-// What --state writes of the Rope lab.
+// The Rope lab's --state.
 
 namespace {
 
-/// Of all particles, as in the picture.
+/// All particles, as in the picture.
 struct ShownParticles {
     std::vector<glm::dvec3> pose;
     std::vector<bool> pinned;

@@ -110,7 +110,7 @@ void RopeLab::step(Workspace& workspace) const {
             part.rivals[i] = {std::move(same.world), std::move(same.samples), std::move(same.hold)};
         }
         pass_tick(part, clock, measured, runtime.workspace);
-        // A tick without a substep says nothing about rest.
+        // A tick without a substep does not show whether the ropes rest.
         const bool moved_on = part.world->state().substeps != substeps;
         part.quiet_ticks = !rests || !at_rest(part) ? 0 : part.quiet_ticks + (moved_on ? 1 : 0);
     });
@@ -155,7 +155,7 @@ std::string RopeLab::code(const Workspace& workspace) const {
     return rope_code(rope_part(workspace));
 }
 
-/// The ball swings through the ropes that lie on it.
+/// The opening: a ball swings through the ropes that lie on it.
 std::vector<CommandCall> RopeLab::opening() const {
     return {
         {"rope.collider.swing", {{"name", "ball"}, {"by", glm::vec3(0.0f, 0.12f, 0.3f)}, {"period", 4.0f}}}};
@@ -213,13 +213,13 @@ bool stretches(const NamedWorld& world) {
     });
 }
 
-/// The name of the body whose lengths are furthest off.
+/// The name of the body with the largest length error.
 const std::string& worst_body(const NamedWorld& world) {
     const auto error = [&](const rope::Body& body) { return world.length_error(body); };
     return world.name(*std::ranges::max_element(world.state().bodies, {}, error));
 }
 
-/// Halves the substep; none at the shortest.
+/// Halves the substep; none at the minimum.
 std::optional<Cure> shorter_substeps(const RopePart& part) {
     const double now = part.world->settings().substep, half = std::max(0.5 * now, rope::min_substep);
     if (!(half < now)) return std::nullopt;
@@ -229,7 +229,7 @@ std::optional<Cure> shorter_substeps(const RopePart& part) {
                 {{"rope.settings", {{"substep", half}}}}};
 }
 
-constexpr double slow_share = 1.0 - max_stall;  ///< a single stall takes the share of real time no lower
+constexpr double slow_share = 1.0 - max_stall;  ///< a single stall does not take the rate below this
 constexpr const char* real_time = " % of real time";
 std::string at_pace(double kept) {
     return ", at " + fixed_text(5.0 * std::round(20.0 * kept), 0) + real_time;
@@ -246,10 +246,10 @@ bool is_a_tie(const OverPulled& pulled, const rope::State& state) {
 }  // namespace
 
 Verdict rope_verdict(const RopePart& part) {
-    constexpr double seen = 0.01;  // of its length: visibly too long
+    constexpr double seen = 0.01;  // fraction of its length: visibly too long
     if (part.world->state().bodies.empty())
         return {"No ropes", Verdict::Kind::Open, "Add a rope, cloth or hair, or open a preset."};
-    // Before its first tick, an opened scene is judged as it stands.
+    // Before its first tick, an opened scene is judged as it is.
     const RopeSample last = part.samples.empty() ? sample_of(part, {}) : part.samples.back();
     const RopeReport report = last_second(part.samples);
     const auto error = static_cast<double>(last.error), before = static_cast<double>(last.stretch);
@@ -259,7 +259,7 @@ Verdict rope_verdict(const RopePart& part) {
     const std::string percent =
         error < 1e-4 ? "under 0.01 %" : fixed_text(100.0 * error, error < 0.1 ? 2 : 0) + " %";
     const std::string off = "Lengths off by " + percent;
-    // However slight: no solver can hold it, so the other advice would mislead.
+    // Report this however slight it is: no solver can fix it, so the other advice would mislead.
     if (const std::vector<OverPulled> pulled = over_pulled(*part.world); !pulled.empty()) {
         const OverPulled& worst = pulled.front();
         const int decimals = worst.apart - worst.length < 0.01 ? 3 : 2;

@@ -10,7 +10,7 @@
 namespace tendril::app {
 
 /// Pick ids: particles by their index in the world; colliders, ties and whole bodies by their index in its
-/// lists. Valid per frame. In a race those of a rival's pane are of its world.
+/// lists. Valid per frame. In a race, the ids in a rival's pane refer to the rival's world.
 inline PickId particle_pick(std::size_t particle) {
     return static_cast<PickId>(particle);
 }
@@ -31,13 +31,13 @@ struct ParticlePlace {
     const rope::Body* body = nullptr;
     std::size_t index = 0;  ///< in the body
 };
-/// None if it is something else, or the world has changed since.
+/// None if the pick is something else, or the world has changed since.
 std::optional<ParticlePlace> picked_particle(const NamedWorld& world, PickId pick);
 
-/// Where a whole body is moved by: the middle of its pins, which stay where they are put, or of its
+/// The point by which a whole body is moved: the middle of its pins, which stay where they are put, or of its
 /// particles.
 glm::vec3 grip_of(const NamedWorld& world, const rope::Body& body);
-/// Whether it moves with a collider.
+/// Whether the body moves with a collider.
 bool is_attached(const NamedWorld& world, const rope::Body& body);
 
 /// Extends a box by a collider, except for planes, which are infinite.

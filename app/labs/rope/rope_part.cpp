@@ -7,7 +7,7 @@
 namespace tendril::app {
 namespace {
 
-/// Counts the lists of the state, not what the world caches beside it.
+/// Counts the lists of the state, not the world's caches.
 std::size_t bytes_of(const rope::State& state) {
     constexpr std::size_t particle = 3 * sizeof(glm::dvec3) + sizeof(double);
     std::size_t cells = 0;

@@ -23,7 +23,7 @@ inline constexpr const char* rope_lab = "rope";
 /// exceeds it is refused.
 inline constexpr std::uint64_t max_lab_work = 50'000'000;
 
-/// What a click on an object in the scene does.
+/// The effect of a click on an object in the scene.
 enum class RopeTool : std::uint8_t { Move, Pin, Cut, Tie };
 
 /// A collider that swings to and fro. Its centre is middle + sin(2 pi t / period) * swing.
@@ -45,7 +45,7 @@ struct Hold {
 /// The selection: particles of a body, a collider or a tie.
 struct RopeSelection {
     std::string body;
-    Selection particles;   ///< of the body; at least one
+    Selection particles;   ///< selected particles of the body; at least one
     std::string collider;  ///< if not empty, the collider is selected instead of particles
     std::string tie;       ///< the same for a tie
     bool of_particles() const { return collider.empty() && tie.empty(); }
@@ -66,11 +66,11 @@ struct Jitter {
 struct RopeView {
     bool particles = false;  ///< show particles as balls
     bool strain = false;     ///< colour links by their strain
-    int sides = 16;          ///< of the tube, 3 to 64
+    int sides = 16;          ///< sides of the tube, 3 to 64
     bool operator==(const RopeView&) const = default;
 };
 
-/// What the solver reports about a tick.
+/// The solver's report about a tick.
 struct RopeReport {
     std::uint64_t inside = 0;       ///< particles left inside colliders
     std::uint64_t unconverged = 0;  ///< solves that did not converge or were only applied in part
@@ -84,10 +84,10 @@ struct RopeReport {
 /// The results of a tick, for the curves.
 struct RopeSample {
     float stretch = 0.0f;  ///< the largest relative length error of all ropes, after the solver
-    float error = 0.0f;    ///< the same after contact, with what depenetration added
+    float error = 0.0f;    ///< the same after contact, including depenetration
     float energy = 0.0f;   ///< joules, of all bodies
     float frame = 0.0f;    ///< length of the frame that the tick ends in, milliseconds
-    float cost = 0.0f;  ///< time to simulate it, microseconds; measured in a live window and in a race only
+    float cost = 0.0f;  ///< time to simulate it, microseconds; only measured in a live window and in a race
     RopeReport report;
     bool operator==(const RopeSample&) const = default;
 };
@@ -97,12 +97,12 @@ inline constexpr std::size_t max_rope_samples = 600;  ///< ten seconds
 struct Rival {
     std::shared_ptr<const NamedWorld> world;
     std::vector<RopeSample> samples;
-    std::optional<Hold> hold;  ///< in its own numbers and names: a body may have torn there only
+    std::optional<Hold> hold;  ///< with the rival's own indices and names: a body may have torn there only
 };
 
 struct RopePart final : Part {
     std::shared_ptr<const NamedWorld> world = std::make_shared<const NamedWorld>();
-    /// The settings that the scene was opened with: only others count as changed. Not saved.
+    /// The settings that the scene was opened with: only settings that differ count as changed. Not saved.
     rope::Settings usual;
     std::vector<Swing> swings;
     Walker walker;
@@ -113,7 +113,7 @@ struct RopePart final : Part {
     Jitter jitter;
     RopeView view;
     int quiet_ticks = 0;              ///< consecutive ticks without noticeable motion
-    std::vector<RopeSample> samples;  ///< of the last ticks
+    std::vector<RopeSample> samples;  ///< samples of the last ticks
     std::vector<Rival> rivals;        ///< in a race (race.hpp)
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<RopePart>(*this); }

@@ -28,7 +28,7 @@ double shuffled(std::uint32_t number) {
     return static_cast<double>(x ^ (x >> 16)) / 4294967295.0;
 }
 
-/// Starts the motion of what swings or walks to its position at `time`, one tick ahead.
+/// Starts the motion of swinging and walking colliders to their positions at `time`, one tick ahead.
 void aim(const RopePart& part, NamedWorld& world, double time) {
     for (const Swing& swing : part.swings)
         world.move_collider(swing.collider, swing_point(swing, time), world.world().pending() + tick_seconds);
@@ -43,7 +43,7 @@ struct Tick {
 
 void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, Tick& tick) {
     const std::uint64_t each = std::max(work_of_substep(world), std::uint64_t{1});
-    // Always allows one substep: else a world that is too large would silently stop.
+    // Always allow one substep: otherwise a world that is too large would silently stop.
     const std::uint64_t most = std::max(tick.work_left / each, std::uint64_t{tick.work_left == max_lab_work});
     const rope::Advance done = world.advance(seconds, workspace, most);
     tick.work_left -= std::min(tick.work_left, each * static_cast<std::uint64_t>(done.substeps));
@@ -57,10 +57,10 @@ void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, Tick
     report.contact_loss += static_cast<float>(done.contact_loss);
 }
 
-/// Advances by a frame. If anything swings or walks, the frame is split at the lab's ticks, where that is
-/// aimed, so that it does not depend on how time is divided.
+/// Advances by a frame. If anything swings or walks, the frame is split at the lab's ticks, where its next
+/// motion starts, so that the result does not depend on how time is divided.
 void pass_frame(RopePart& part, NamedWorld& world, double seconds, rope::Workspace& workspace, Tick& tick) {
-    constexpr double rounding = 1e-6;  // of a tick
+    constexpr double rounding = 1e-6;  // fraction of a tick
     if (part.swings.empty() && !part.walker.figure) {
         advance(world, seconds, workspace, tick);
         part.time += seconds;

@@ -13,12 +13,12 @@ namespace tendril::app {
 struct RopeRuntime final : Runtime {
     RopeRuntime();
     rope::Workspace workspace;  ///< multi-threaded if the machine has several cores
-    /// The same for each rival of a race, so that each finds what it prepared.
+    /// The same for each rival of a race, so that each keeps its own preparation.
     std::array<rope::Workspace, 2> of_rivals;
 };
 
 /// Advances the lab by `seconds`. The result does not depend on how the time is divided into calls, unless
-/// substeps are dropped because of max_lab_work. `workspace` may be any, preferably the same in every tick.
+/// substeps are dropped because of max_lab_work. Any `workspace` works; the same in every tick is fastest.
 RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace);
 /// The work of a substep, for max_lab_work. Not timed, so that every machine drops the same substeps.
 std::uint64_t work_of_substep(const NamedWorld& world);

@@ -123,7 +123,7 @@ RopeScene drape_scene() {
     add_ground(world);
     world.add_collider("ball", rope::Sphere{{-0.65f, 0.95f, 0.0f}, 0.4f});
     world.add_collider("bar", rope::Capsule{{0.8f, 1.1f, -0.7f}, {0.8f, 1.1f, 0.7f}, 0.14f});
-    // Starts taut above everything, so that it comes to lie on top.
+    // Starts taut above everything, so that it ends up lying on top.
     const float height = 1.9f, hands = 1.55f, half = 2.1f;
     world.add_rope("rope", {.from = {-half, height, 0},
                             .to = {half, height, 0},
@@ -187,8 +187,8 @@ RopeScene bridge_scene() {
     return scene;
 }
 
-/// A suspension bridge. Main ropes, hangers and deck are ropes of their own, tied to each other. Each main
-/// rope begins as a parabola in the plane of its hangers, close to where they come to rest.
+/// A suspension bridge. Main ropes, hangers and deck are separate ropes, tied to each other. Each main rope
+/// begins as a parabola in the plane of its hangers, close to its rest position.
 RopeScene hanger_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
@@ -256,7 +256,7 @@ RopeScene knot_scene() {
     constexpr float top = 2.3f, middle = 1.75f, size = 0.04f, depth = 0.065f, radius = 0.014f, opened = 0.15f;
     constexpr int pieces = 240;
     const auto trefoil = [](float t) {
-        // Turned so that the lobe that is cut points along +X.
+        // Rotated so that the lobe that is cut points along +X.
         constexpr float lobe = glm::pi<float>() / 3.0f, turn = -glm::pi<float>() / 6.0f;
         t += lobe;
         const float x = std::sin(t) + 2.0f * std::sin(2.0f * t), y = std::cos(t) - 2.0f * std::cos(2.0f * t);
@@ -281,13 +281,13 @@ RopeScene knot_scene() {
     lay(world, "rope", line);
     weigh_down(world, "rope", 1, 0.5);
     world.set_collides("rope", "rope", true);
-    // The blow when the knot closes needs finer steps.
+    // The impact when the knot closes needs finer steps.
     world.set_settings({.substep = 1.0 / 480.0, .damping = 0.6f, .friction = 0.15f});
     return scene;
 }
 
 /// A cloth folded in four, like a concertina. A crease is a row of particles that stand out halfway between
-/// two layers, so that every thread has its length.
+/// two layers, so that every thread keeps its length.
 RopeScene folded_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
@@ -313,7 +313,7 @@ RopeScene folded_scene() {
         p.x = (layer % 2 == 0 ? end : flat - end) - 0.5 * flat;
         p.y = static_cast<double>(radius) + apart * (layer - (crease ? 0.5 : 0.0));
     }
-    // The creases are pressed: what shapes the cloth is at rest as it lies.
+    // The creases are pressed: the rest lengths of shear and bend links are those of the folded cloth.
     for (rope::Link& link : state.links)
         if (link.kind != rope::Link::Kind::Stretch)
             link.rest = static_cast<float>(glm::distance(state.position[link.a], state.position[link.b]));
@@ -353,7 +353,7 @@ RopeScene pendulum_scene() {
     return scene;
 }
 
-/// Ropes of few and many segments fall on ever thinner bars. Only contact takes energy: watch the curve.
+/// Ropes of few and many segments fall on ever thinner bars. Only contact loses energy: watch the curve.
 RopeScene bars_scene() {
     RopeScene scene;
     NamedWorld& world = scene.world;
@@ -366,7 +366,7 @@ RopeScene bars_scene() {
     for (const auto& [x, bar, segments] : pairs) {
         const std::string size = std::to_string(segments);
         world.add_collider("bar " + size, rope::Capsule{{x, height, -0.6f}, {x, height, 0.6f}, bar});
-        // Off centre, so that it slides down on one side.
+        // Off centre, so that the rope slides down on one side.
         const float middle = x + 0.06f;
         world.add_rope("rope " + size, {.from = {middle - half, height + fall, 0},
                                         .to = {middle + half, height + fall, 0},
@@ -433,7 +433,7 @@ RopeScene net_scene() {
     add_ground(world);
     constexpr int cells = 6, between = 4, segments = cells * between;
     constexpr float half = 0.85f, height = 1.5f, sag = 0.25f, post = 0.045f;
-    // Begins close to where it comes to rest.
+    // Begins close to its rest position.
     const auto at = [&](float x, float z) {
         return glm::vec3(half * x, height - sag * (2.0f - x * x - z * z), half * z);
     };

@@ -14,16 +14,16 @@
 namespace tendril::app {
 namespace {
 
-constexpr float beyond_edge = 0.3f;  ///< cells by which a cut goes on beyond an edge that it reaches
+constexpr float beyond_edge = 0.3f;  ///< cells by which a cut goes beyond an edge that it reaches
 
 float cross_of(glm::vec2 a, glm::vec2 b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// In a cloth's own columns and rows.
+/// An end of a cut, in the cloth's own columns and rows.
 struct CutEnd {
     glm::vec2 cell{0.0f};
-    bool at_edge = false;  ///< of what it crosses; else the stroke ends here
+    bool at_edge = false;  ///< at an edge of the crossed surface; else the stroke ends here
 };
 using CutLine = std::deque<CutEnd>;
 
@@ -47,7 +47,7 @@ class KnifeStroke {
     }
 
   private:
-    /// How far along the line between two particles it crosses the stroke, 0 to 1; none: it does not.
+    /// The fraction along the line between two particles at which it crosses the stroke; none: it does not.
     std::optional<float> crossing(std::size_t a, std::size_t b) const {
         if (!pixels_[a] || !pixels_[b]) return std::nullopt;
         const glm::vec2 line = *pixels_[b] - *pixels_[a], off = *pixels_[a] - from_;
@@ -58,7 +58,7 @@ class KnifeStroke {
         return part;
     }
 
-    /// The last segment first: what is before it keeps its name and numbers.
+    /// The last segment first, so that the part before it keeps its name and indices.
     void cut_rope(const rope::Body& rope, Emit& emit) const {
         for (std::size_t i = rope.count; i-- > 1;)
             if (crossing(rope.first + i - 1, rope.first + i))
@@ -190,7 +190,7 @@ class KnifeStroke {
 
     const NamedWorld& world_;
     glm::vec2 from_, way_;
-    std::vector<std::optional<glm::vec2>> pixels_;  ///< of each particle
+    std::vector<std::optional<glm::vec2>> pixels_;  ///< each particle's pixel
 };
 
 }  // namespace

@@ -19,7 +19,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr double walker_edge = 1e6;  ///< metres: no capsule is farther out
+constexpr double walker_edge = 1e6;  ///< metres: the limit for capsules
 
 const humanoid::Clip* clip_of(const Walker& walker) {
     const auto& clips = walker.figure->character.clips;
@@ -27,7 +27,7 @@ const humanoid::Clip* clip_of(const Walker& walker) {
     return found == clips.end() ? nullptr : &*found;
 }
 
-/// How often the clip has begun again.
+/// The number of times that the clip has restarted.
 double rounds(const Walker& walker, double time) {
     const humanoid::Clip* const clip = clip_of(walker);
     if (clip == nullptr || !(clip->duration > 0.0)) return 0.0;
@@ -125,7 +125,7 @@ void leave(RopeEdit& edit) {
 void enter(RopeEdit& edit, const Arguments& given) {
     Walker walker;
     const std::string file = given.has("path") ? given.text("path") : std::string();
-    // One that goes on elsewhere or with another clip is not read again.
+    // Do not read the file again for another position or clip of the same character.
     const auto& now = edit.part.walker.figure;
     const bool same = now && now->file == file && (given.has("clip") || given.has("at"));
     walker.figure = same ? now : read_walker(file);

@@ -16,32 +16,32 @@ namespace tendril::app {
 class CommandTable;
 class NamedWorld;
 
-/// Read from a file, or the stick figure; copies of the document share it.
+/// A character from a file, or the stick figure; copies of the document share it.
 struct WalkerFigure : OutsideFile {
     Character character;
     humanoid::BoneMap map;
     std::vector<humanoid::BodyCapsule> capsules;
 };
-/// An empty path gives the stick figure; `file`: what the user called it, if that is something else. Throws
+/// An empty path gives the stick figure; `file`: the user's name for the file, if different. Throws
 /// std::runtime_error if the file cannot be read, or has no body.
 std::shared_ptr<const WalkerFigure> read_walker(const std::string& path, const std::string& file = {});
 
 struct Walker {
     std::shared_ptr<const WalkerFigure> figure;  ///< null: there is none
-    std::string clip;                            ///< plays over and over; empty: it stands as at rest
-    glm::vec3 at{0.0f};                          ///< of its file's origin, metres
+    std::string clip;                            ///< plays in a loop; empty: stands in the rest pose
+    glm::vec3 at{0.0f};                          ///< position of its file's origin, metres
     double began = 0.0;                          ///< simulated time at which the clip began
     bool operator==(const Walker&) const = default;
 };
 
-/// Where a capsule is; its collider has the name of its bone.
+/// A capsule's placement; its collider has the name of its bone.
 struct WalkerCapsule {
     std::string name;
     rope::Capsule shape;
 };
 std::vector<WalkerCapsule> walker_capsules(const Walker& walker, double time);
-/// Starts its colliders' motion to where they are at `next`, seconds from `now`. Where the clip begins again
-/// they are put there. Those that were removed stay away.
+/// Starts its colliders' motion to their placement at `next`, in seconds like `now`. Where the clip restarts
+/// they are placed there at once. Removed colliders stay removed.
 void aim_walker(const Walker& walker, NamedWorld& world, double now, double next);
 
 Json save_walker(const Walker& walker);

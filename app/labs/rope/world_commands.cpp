@@ -250,7 +250,7 @@ void add_collider_commands(CommandTable& table) {
         "Makes a collider swing to and fro", set_swing));
 }
 
-// Commands on selection, drags and view. Only what a drag does to a rope leaves an undo step.
+// Commands on selection, drags and view. Only the effect of a drag on a rope is an undo step.
 
 namespace {
 
@@ -335,7 +335,7 @@ void add_look_commands(CommandTable& table) {
         "Sets what a click in the scene does",
         [](RopeEdit& edit, const Arguments& given) {
             edit.part.tool = rope_tools.value(given.text("name"));
-            // What was selected for something else is no end of a tie.
+            // A particle selected for another purpose is not the end of a tie.
             if (edit.part.tool == RopeTool::Tie) edit.part.selection.reset();
         },
         Effect::Look));

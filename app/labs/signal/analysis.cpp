@@ -171,7 +171,7 @@ Span span_of(const SignalInput& input, std::span<const double> values) {
 }
 
 Span widened(const Span& input, std::span<const std::span<const double>> outputs) {
-    constexpr double margin = 0.15, step = 0.25, most = 1.0;  // parts of the input's range
+    constexpr double margin = 0.15, step = 0.25, most = 1.0;  // fractions of the input's range
     const double range = input.high - input.low;
     double below = 0.0, above = 0.0;
     for (const std::span<const double> output : outputs)

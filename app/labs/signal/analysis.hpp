@@ -21,16 +21,16 @@ using StageMeasures = signal::Measures;
 /// of a second. Cost: 1.5 ms for eight filters; for the hand, at most four times a second.
 struct ChainAnalysis {
     std::vector<double> time, input;
-    std::vector<std::vector<double>> outputs;  ///< of each stage
+    std::vector<std::vector<double>> outputs;  ///< each stage's output
     std::vector<StageMeasures> stages;         ///< a disabled stage is measured as passing its input through
     StageMeasures whole;
-    signal::RateComparison rates;  ///< of the whole chain
+    signal::RateComparison rates;  ///< the whole chain's
 };
 
 /// A kind of filter, measured on the lab's input.
 struct ShelfPoint {
     signal::Filter filter;
-    std::optional<std::size_t> stage;  ///< whose parameters it has; empty: the kind's defaults
+    std::optional<std::size_t> stage;  ///< the stage that has these parameters; empty: the kind's defaults
     double lag = 0.0;                  ///< seconds
     double jitter = 0.0;               ///< fraction of the input's
 };
@@ -46,11 +46,11 @@ class SignalRuntime final : public Runtime {
     FitWork fit_work;
 
   private:
-    /// All inputs of the measurements.
+    /// All inputs to the measurements.
     struct Source {
         std::vector<std::pair<signal::Filter, bool>> filters;
         SignalInput input;
-        InputRows rows;  ///< empty if they follow from the input
+        InputRows rows;  ///< empty if they follow from `input`
         bool operator==(const Source&) const = default;
     };
     static Source source_of(const SignalPart& part, InputRows rows);
@@ -74,7 +74,7 @@ struct Span {
     bool operator==(const Span&) const = default;
 };
 
-/// The range of an input: all that a wave can do; otherwise the range of `values`, the rows that are shown.
+/// The range of an input: everything a wave can reach; otherwise the range of `values`, the rows shown.
 Span span_of(const SignalInput& input, std::span<const double> values);
 
 /// Adds a margin and makes room for the outputs: in steps, so that the axis does not follow every swing, and

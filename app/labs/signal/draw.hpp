@@ -13,10 +13,10 @@ inline constexpr float ball_level = 1.5f;  ///< the height of a signal of 0
 struct BallPlaces {
     glm::vec3 input{0.0f}, output{0.0f};
 };
-/// Within 1 km: a signal that grows without bound leaves the picture.
+/// Limited to 1 km: a signal that grows without bound leaves the picture.
 BallPlaces ball_places(const SignalPart& part);
 
-/// The colour of a filter's output in every plot; the last enabled filter has that of the output ball.
+/// The colour of a filter's output in every plot; the last enabled filter has the output ball's colour.
 glm::vec3 stage_colour(const Palette& palette, const SignalPart& part, std::size_t stage);
 glm::vec3 input_colour(const Palette& palette);
 glm::vec3 output_colour(const Palette& palette);

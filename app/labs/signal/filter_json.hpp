@@ -14,9 +14,9 @@
 
 namespace tendril::app {
 
-/// With all parameters.
+/// Includes all parameters.
 Json filter_json(const signal::Filter& filter);
-/// Without the kind.
+/// Omits the kind.
 Json parameters_json(const signal::Filter& filter);
 
 /// Missing parameters have the kind's defaults; unknown keys are ignored. Throws std::runtime_error that

@@ -58,7 +58,7 @@ class KindFit final : public FitTask {
             space_[d].field->set_number(signal::fields_in(filter), space_[d].value(at[d]));
         if (auto* switching = std::get_if<signal::Hysteresis>(&filter))
             if (switching->low > switching->high) std::swap(switching->low, switching->high);
-        // max_speed acts through the distance max_speed * smooth_time, so that is what is searched.
+        // max_speed acts through the distance max_speed * smooth_time, so search that.
         if (auto* damp = std::get_if<signal::SmoothDamp>(&filter))
             damp->max_speed = std::min(damp->max_speed / std::max(damp->smooth_time, 1e-4), 1e9);
     }

@@ -29,7 +29,7 @@ struct Fit {
     int evaluations = 0;
 };
 
-/// The fit of one kind, computed in shares. The problem and its rows must outlive it.
+/// The fit of one kind, computed in slices. The problem and its rows must outlive it.
 class FitTask {
   public:
     virtual ~FitTask() = default;
@@ -44,7 +44,7 @@ std::unique_ptr<FitTask> begin_fit(const signal::Kind& kind, const FitProblem& p
                                    const signal::Filter* like = nullptr);
 
 /// The best fit of a kind, searched from `like` too if that is of the kind. A parameter that this input does
-/// not determine stays at its default; a threshold that may lie anywhere in a range is centred in it.
+/// not determine stays at its default; a threshold that may be anywhere in a range is put in its middle.
 Fit fit_kind(const signal::Kind& kind, const FitProblem& problem, const signal::Filter* like = nullptr);
 
 /// Sorts by residual, best first. Residuals up to `indistinguishable` are equal; then the filter with fewer
@@ -52,7 +52,7 @@ Fit fit_kind(const signal::Kind& kind, const FitProblem& problem, const signal::
 inline constexpr double indistinguishable = 1e-6;
 void rank(std::vector<Fit>& fits);
 
-/// The residual of a filter as it is.
+/// The residual of a filter with its present parameters.
 double residual_of(const signal::Filter& filter, const FitProblem& problem);
 
 /// Maximum less minimum; 1 if the values are constant.
@@ -64,8 +64,8 @@ double range_of(std::span<const double> values);
 /// largest while that helps, and improves their times.
 std::unique_ptr<FitTask> begin_curve_fit(const FitProblem& problem);
 
-/// With and without clamp and interpolation: the simplest whose residual is close to the best. The range map
-/// stays off, since scale and bias can express it.
+/// Tries with and without clamp and interpolation, and returns the simplest whose residual is close to the
+/// best. The range map stays off, since scale and bias can express it.
 std::unique_ptr<FitTask> begin_scale_fit(const FitProblem& problem);
 
 // Runs a filter over the rows of a problem and compares the output with the desired response.

@@ -1,4 +1,4 @@
-// Fits of the two kinds with methods of their own. A curve: its output depends on the present input alone, so
+// Fits of the two kinds with methods of their own. A curve's output depends on the present input alone, so
 // every row is a point of it.
 #include <algorithm>
 #include <cmath>
@@ -183,10 +183,10 @@ class CurveFit final : public FitTask {
     const FitProblem& problem_;
     FitFacts facts_;
     Trial trial_;
-    std::vector<double> times_;       ///< of each row: its input, scaled to 0 to 1
+    std::vector<double> times_;       ///< each row's input, scaled to 0 to 1
     std::vector<std::size_t> order_;  ///< rows in order of time
     std::vector<double> keys_{0.0, 1.0};
-    double left_ = 0.0;  ///< residual with those keys
+    double left_ = 0.0;  ///< the residual with those keys
     int evaluations_ = 0;
 };
 
@@ -232,7 +232,7 @@ Line regression(const FitProblem& problem, const FitFacts& facts, double low, do
     return {slope * facts.input_low + bias, slope * facts.input_high + bias};
 }
 
-/// A search: which stages are on, and whether the levels of the clamp follow from the rest by least squares.
+/// A search: which stages are on, and whether the clamp's levels follow from the rest by least squares.
 struct BentPart {
     bool clamp = false, interp = false, levels_follow = false;
 };
@@ -240,7 +240,7 @@ constexpr BentPart parts[] = {{false, false, false}, {true, false, true}, {true,
                               {false, true, false},  {true, true, true},  {true, true, false}};
 
 /// A clamped line by its bends: `low` up to the input `at`, `high` from at + width on. Scale and bias would
-/// say the same, but for a steep clamped line they lie far outside the range of the response.
+/// be equivalent, but for a steep clamped line they lie far outside the range of the response.
 struct Bends {
     double at = 0.0, width = 1.0, low = 0.0, high = 1.0;
     double share(double input) const { return std::clamp((input - at) / width, 0.0, 1.0); }
@@ -254,7 +254,7 @@ class ScaleFit final : public FitTask {
           trial_(problem),
           kind_(&signal::kind_of(signal::ScaleBiasClamp())) {}
 
-    /// One search after the other, simplest first, until one is exact.
+    /// Runs one search after the other, simplest first, until one is exact.
     bool advance() override {
         const BentPart& part = parts[part_];
         if (!minimiser_) minimiser_.emplace(search(part));
@@ -330,7 +330,7 @@ class ScaleFit final : public FitTask {
         return bends;
     }
 
-    /// With levels 0 and 1, the output would be the weight of `high`, and the rest that of `low`. The
+    /// With levels 0 and 1, the output would be the weight of `high`, and the rest the weight of `low`. The
     /// direction in which the response moves gives the speed, so both levels follow by linear least squares.
     void set_levels(Bends& bends, std::span<const double> speeds) const {
         const Dimension dimension = speed_dimension();
@@ -416,7 +416,7 @@ class ScaleFit final : public FitTask {
         return starts;
     }
 
-    /// Bends all over the input range, some with only an end of it on the slope, at slow and fast speeds.
+    /// Adds bends over the whole input range, some with only one end on the slope, at slow and fast speeds.
     void add_bends(std::vector<std::vector<double>>& starts) const {
         const Dimension bend = bend_dimension(), width = width_dimension(), speed = speed_dimension();
         for (const double wide : {0.05, 0.2, 0.5, 1.0})
@@ -439,10 +439,10 @@ class ScaleFit final : public FitTask {
     FitFacts facts_;
     Trial trial_;
     const signal::Kind* kind_;
-    std::vector<Fit> fits_;            ///< of the completed searches
+    std::vector<Fit> fits_;            ///< the completed searches' fits
     std::size_t part_ = 0;             ///< index in `parts` of the present search
     std::vector<double> bends_start_;  ///< the best point of the search with dependent levels
-    int evaluations_ = 0;              ///< of searches that only provided a start
+    int evaluations_ = 0;              ///< evaluations of searches that only provided a start
     std::optional<Minimiser> minimiser_;
 };
 

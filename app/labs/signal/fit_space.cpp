@@ -208,7 +208,7 @@ void add_smooth_damps(std::vector<signal::Filter>& guesses, const FitProblem& pr
                       const FitFacts& facts) {
     const std::vector<double> slopes = slopes_of(problem);
     if (slopes.empty()) return;
-    std::vector<double> speeds{1.3 * slopes.back(), 2.0 * slopes.back()};  // in case it never gets there
+    std::vector<double> speeds{1.3 * slopes.back(), 2.0 * slopes.back()};  // in case it never moves that fast
     for (const double part : {0.5, 0.8, 0.95, 1.0})
         speeds.push_back(slopes[static_cast<std::size_t>(part * static_cast<double>(slopes.size() - 1))]);
     for (const double speed : speeds) {

@@ -1,5 +1,5 @@
-// The search space of a fit: which parameters, over which ranges, on which scale; and initial guesses. Ranges
-// follow from the rows: signals in degrees or at 1000 Hz fit as well as those from 0 to 1 at 60 Hz.
+// The search space of a fit: its parameters, their ranges and scales; and initial guesses. Ranges follow from
+// the rows: signals in degrees or at 1000 Hz fit as well as signals from 0 to 1 at 60 Hz.
 #pragma once
 
 #include <optional>
@@ -14,12 +14,12 @@ namespace tendril::app {
 struct FitFacts {
     explicit FitFacts(const FitProblem& problem);
 
-    double shortest = 1.0 / 60.0;  ///< seconds: the smallest dt, ignoring those of nearly 0
+    double shortest = 1.0 / 60.0;  ///< seconds: the smallest dt, ignoring values of nearly 0
     double duration = 1.0;         ///< seconds of all rows
     double input_low = 0.0, input_high = 1.0;
     double response_low = 0.0, response_high = 1.0;
-    double largest_jump = 1.0;  ///< of the input, from row to row
-    double speed = 1.0;         ///< of the input: root mean square, 1/s
+    double largest_jump = 1.0;  ///< the input's, from row to row
+    double speed = 1.0;         ///< the input's: root mean square, 1/s
 
     double input_range() const { return input_high - input_low; }
     double response_range() const { return response_high - response_low; }

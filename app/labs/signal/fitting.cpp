@@ -142,7 +142,7 @@ void fit(SignalPart& part, const Arguments& given) {
     start_fitting(part);
 }
 
-/// For callers without ticks.
+/// Finishes for callers without ticks.
 void finish_fit(Workspace& workspace) {
     SignalPart& part = workspace.document.edit<SignalPart>(signal_lab);
     for (FitWork work; part.fitting;) work.advance(part);

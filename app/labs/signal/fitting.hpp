@@ -1,4 +1,4 @@
-// Fits every kind of filter to the desired response, a share in every tick, so that the window stays
+// Fits every kind of filter to the desired response, a slice in every tick, so that the window stays
 // responsive. The progress is stored in the part and depends on the number of ticks, never on the clock.
 #pragma once
 
@@ -16,7 +16,7 @@ void cancel_fitting(SignalPart& part);
 /// The search in progress. It is a function of the part: if lost, it is redone up to the part's progress.
 class FitWork {
   public:
-    /// Does one share, some 2 to 15 ms; the last share of a kind adds its fit to the part.
+    /// Computes one slice, some 2 to 15 ms; the last slice of a kind adds its fit to the part.
     void advance(SignalPart& part);
 
   private:

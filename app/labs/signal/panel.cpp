@@ -109,7 +109,7 @@ std::string kind_title(const signal::Filter& filter) {
 }
 
 void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
-    // Above the list, whose length they change.
+    // Put these above the list, whose length they change.
     add_button(emit);
     const bool chosen = part.selected.has_value();
     const std::size_t at = part.selected.value_or(0);
@@ -160,7 +160,7 @@ void SignalLab::panel(const Workspace& workspace, Emit& emit) const {
 
 namespace {
 
-/// Half-life, and duration and bounce of the same spring: any of them can be set.
+/// Half-life, and duration and bounce of the same spring: all can be set.
 void spring_rows(const signal::Spring<>& spring, std::size_t at, Emit& emit) {
     const signal::SpringFeel feel = signal::feel_of(spring.strength, spring.critical_damping);
     const auto set = [&](const Expected<signal::SpringShape>& shape) {

@@ -14,14 +14,14 @@ std::string kind_title(const signal::Kind& kind);
 
 /// The chain: one row for each filter, and a button that adds one.
 void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit);
-/// How the whole chain follows its input.
+/// The verdict on how the whole chain follows its input.
 Verdict signal_verdict(const SignalPart& part, const signal::Measures& whole);
 /// The parameters of the selected filter.
 void parameter_rows(const Workspace& workspace, const Palette& palette, Emit& emit);
 /// The ranking of fitted filters.
 void fit_rows(const SignalPart& part, Emit& emit);
 
-/// How many of the best fits the plot shows, and their colours.
+/// The number of best fits that the plot shows, and their colours.
 inline constexpr std::size_t shown_fits = 3;
 glm::vec3 fit_colour(const Palette& palette, std::size_t rank);
 /// The plot of the desired response, to draw on, with the best fits.

@@ -1,4 +1,4 @@
-// Presets: chains of filters, each with an input and a plot that make its point.
+// Presets: chains of filters, each with an input and a plot that show its point.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace tendril::app {
 struct SignalPreset {
     const char* name;
     const char* title;
-    const char* point;  ///< what to notice, and what to try
+    const char* point;  ///< things to notice and to try
     SignalPart (*make)();
 };
 

@@ -32,7 +32,7 @@ Minimiser::Minimiser(Objective objective, Search search)
     best_.at.assign(search_.dimensions, 0.5);
 }
 
-/// Evaluates points over the whole range, then improves each of the best, then refines the very best.
+/// Evaluates points over the whole range, then improves each of the best, then refines the best of all.
 bool Minimiser::advance() {
     const std::size_t share = shares_++;
     if (dimensions() == 0) {

@@ -26,15 +26,15 @@ struct Minimum {
     int evaluations = 0;
 };
 
-/// The search, computed in shares. Cost: some 200 evaluations in one dimension to 10 000 in six, at most 1500
-/// in one share. Values that are not finite count as very large.
+/// The search, computed in slices. Cost: some 200 evaluations in one dimension to 10 000 in six, at most 1500
+/// in one slice. Values that are not finite count as very large.
 class Minimiser {
   public:
     Minimiser(Objective objective, Search search);
 
     /// Returns whether there is more to do.
     bool advance();
-    /// The best so far.
+    /// The best point so far.
     const Minimum& best() const { return best_; }
 
   private:

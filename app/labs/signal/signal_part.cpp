@@ -51,7 +51,7 @@ void pass_signal_time(SignalPart& part, double dt) {
     record(part);
 }
 
-/// If the chain had other filters then, restores it as it was.
+/// If the chain had other filters at that moment, restores it completely.
 std::shared_ptr<const Part> SignalPart::at_moment(std::shared_ptr<const Part> then) const {
     auto part = std::make_shared<SignalPart>(dynamic_cast<const SignalPart&>(*then));
     const bool same_chain =
@@ -106,7 +106,7 @@ double shuffled(std::int64_t number) {
     return static_cast<double>((x ^ (x >> 31)) >> 11) * 0x1p-52 - 1.0;
 }
 
-/// The fraction of the period: greater than 0, up to 1.
+/// The fraction of the period: greater than 0, at most 1.
 double phase(double time, double period) {
     const double periods = time / period - 1e-9;
     return periods - std::floor(periods);
@@ -185,7 +185,7 @@ InputRows rows_to_answer(const SignalPart& part) {
         return {part.past.end() - count, part.past.end()};
     }
     InputRows rows = measuring_rows(part.input, 60.0);
-    if (!rows.empty()) rows.erase(rows.begin());  // the input at 0, which no tick plays
+    if (!rows.empty()) rows.erase(rows.begin());  // the input at 0 belongs to no tick
     if (rows.size() > max_wanted) rows.resize(max_wanted);
     return rows;
 }
@@ -234,7 +234,7 @@ void record(SignalPart& part) {
     const std::vector<double> times = signal::times_of(part.fit_input);
     while (recording.rows < times.size() && times[recording.rows] <= part.time + 1e-6)
         part.wanted[recording.rows++] = recording.value;
-    // The rows to come repeat the present value.
+    // The remaining rows repeat the present value.
     std::fill(part.wanted.begin() + static_cast<std::ptrdiff_t>(recording.rows), part.wanted.end(),
               recording.value);
     if (recording.rows == times.size()) part.recording.reset();

@@ -37,12 +37,12 @@ using InputRows = std::vector<signal::Sample>;
 
 struct SignalInput {
     InputKind kind = InputKind::Square;
-    double amplitude = 1.0;  ///< of square, sine and noise, to either side of 0
-    double period = 2.0;     ///< seconds, of the same
+    double amplitude = 1.0;  ///< amplitude of square, sine and noise waves, to either side of 0
+    double period = 2.0;     ///< seconds, of the same waves
     double hand = 0.0;
     /// The rows of Recorded and Csv. Shared between copies, and immutable.
     std::shared_ptr<const InputRows> recording{}, file{};
-    std::string path{};  ///< of the file
+    std::string path{};  ///< the file's path
 
     /// Compares recordings by pointer.
     bool operator==(const SignalInput&) const = default;
@@ -74,7 +74,7 @@ struct SignalStage {
     bool operator==(const SignalStage&) const = default;
 };
 
-/// What the lower plot shows.
+/// The contents of the lower plot.
 enum class SignalPlot : std::uint8_t { Rates, Shelf, Fit };
 inline constexpr EnumNames<SignalPlot, 3> signal_plots{
     "plot",
@@ -92,7 +92,7 @@ struct Recording {
     bool operator==(const Recording&) const = default;
 };
 
-/// A fit in progress, computed in shares, one per tick (fitting.hpp): one kind after the other, in the order
+/// A fit in progress, computed in slices, one per tick (fitting.hpp): one kind after the other, in the order
 /// of signal::kinds(). SignalPart::fits has the completed ones.
 struct Fitting {
     std::vector<signal::Filter> from;  ///< the chain at the start: further starting points of the searches
@@ -104,14 +104,14 @@ inline constexpr double max_residual = 1e9;  ///< in files
 struct SignalPart final : Part {
     std::vector<SignalStage> stages;
     SignalInput input;
-    double time = 0.0;  ///< seconds, of the input
+    double time = 0.0;  ///< time of the input, seconds
     InputRows past;     ///< the input of the last ticks, oldest first
     std::optional<std::size_t> selected;
     SignalPlot plot = SignalPlot::Rates;
     /// The response that filters are fitted to, and its input.
     InputRows fit_input;
     std::vector<double> wanted;
-    std::optional<Recording> recording;  ///< of `wanted`, which has a row for each row of fit_input
+    std::optional<Recording> recording;  ///< recording of `wanted`, which has a row for each row of fit_input
     std::vector<Fit> fits;               ///< best first
     std::optional<Fitting> fitting;      ///< the fit in progress
 
@@ -143,7 +143,7 @@ inline const SignalPart& signal_part(const Workspace& workspace) {
     return workspace.document.get<SignalPart>(signal_lab);
 }
 
-// Recording a response by hand, for filters to be fitted to.
+// Recording a response by hand, to which filters are then fitted.
 
 /// The input of the response: the rows that the lab plays from its start, one per tick, or the last input of
 /// the hand.

@@ -1,4 +1,4 @@
-// Reading files that are missing, endless, too large or too deep, and the memory that takes.
+// Reading files that are missing, endless, too large or too deep, and the memory that this takes.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
-// Properties of every lab, and of one that only the tests have: random events and commands on each of its
-// scenes break nothing, and replaying them gives the same result.
+// Properties of every lab, and of one that exists only in the tests: random events and commands on each of
+// its scenes break nothing, and replaying them gives the same result.
 #include <algorithm>
 #include <cstdlib>
 #include <map>

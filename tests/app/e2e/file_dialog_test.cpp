@@ -1,4 +1,4 @@
-// The dialog that asks for a file: what it says of folders and of long names.
+// The dialog that asks for a file: its messages about folders and long names.
 #include <algorithm>
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-// Memory in a long session is what undo and the last ten seconds count, and these have bounds.
+// Memory in a long session is bounded: undo and the last ten seconds account for all of it.
 #include <malloc.h>
 
 #include <map>

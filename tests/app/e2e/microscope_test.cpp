@@ -1,4 +1,4 @@
-// The microscope in the running program: what it shows stays.
+// The microscope in the running program: the solve that it shows stays the same.
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {

@@ -1,4 +1,4 @@
-// The command palette in the running program: typing, Tab, Enter and the mouse, and what ran.
+// The command palette in the running program: typing, Tab, Enter and the mouse, and the commands that ran.
 #include <imgui.h>
 
 #include <random>

@@ -1,4 +1,4 @@
-// Dragging a joint in mode Reach: the joint is an effector of its own, root and target stay.
+// Dragging a joint in mode Reach: the joint is an effector, while root and target stay.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

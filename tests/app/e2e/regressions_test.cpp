@@ -1,4 +1,4 @@
-// Regressions, seen from outside: what a user or a script did, and the correct result.
+// Regressions, seen from outside: the user's or script's actions, and the correct result.
 #include <sstream>
 
 #include "tests/places.hpp"

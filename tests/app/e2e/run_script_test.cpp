@@ -1,4 +1,4 @@
-// app/run with mock tools: what it prints while it installs and builds.
+// app/run with mock tools: its output while it installs and builds.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Selecting with the mouse: Shift, a box, and what the gizmo then moves.
+// Selecting with the mouse: Shift, a box, and the effect of the gizmo on the selection.
 #include <glm/geometric.hpp>
 
 #include "tests/places.hpp"

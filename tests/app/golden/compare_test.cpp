@@ -1,4 +1,4 @@
-// What the comparison of pictures must detect, and what it must not, on modified pictures of the program.
+// Differences that the comparison of pictures must detect, and others that it must accept.
 #include "tests/app/golden/compare.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What a BVH file does not say, found from its zero pose and its motion: up axis, unit, what the root's
-// positions mean, and a rest pose that stands.
+// Properties that a BVH file leaves open, found from its zero pose and its motion: the up axis, the unit, the
+// meaning of the root's positions, and a rest pose that stands.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-// Feet of IK rigs that hang outside the legs: they get below them, and every joint moves as before.
+// Feet of IK rigs that hang outside the legs: they are moved below them, and every joint moves as before.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// glTF files as people have them: not all that the format forbids is a reason to refuse a character. What was
-// mended or left out is said.
+// Real glTF files: not everything that the format forbids is a reason to refuse a character. Notes list the
+// parts that were mended or left out.
 #include <gtest/gtest.h>
 #include <zlib.h>
 

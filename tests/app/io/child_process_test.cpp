@@ -1,4 +1,4 @@
-// Child processes: found on PATH, given bytes, and their failures reported in their own words.
+// Child processes: found on PATH, given bytes, and their failures reported with their own messages.
 #include "app/io/child_process.hpp"
 
 #include "tests/app/support/temp_folder.hpp"

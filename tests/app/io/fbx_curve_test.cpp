@@ -1,4 +1,4 @@
-// Curves of FBX files: each shape of key, layers, and the clips that come of them.
+// Curves of FBX files: each shape of key, layers, and the resulting clips.
 #include <gtest/gtest.h>
 
 #include <array>

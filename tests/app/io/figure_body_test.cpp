@@ -1,4 +1,4 @@
-// The built-in figure's body: its surface at rest, how it bends, and its way through a file.
+// The built-in figure's body: its surface at rest, its bending, and its export and import.
 #include <gtest/gtest.h>
 
 #include <algorithm>

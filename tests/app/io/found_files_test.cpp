@@ -1,5 +1,5 @@
-// Files on which readers once failed, and what is right for each: a row for every file of that folder. Small
-// cases of each kind, which need no such folder, are in the tests of the formats.
+// Files on which readers once failed, and the correct result for each: a row for every file of that folder.
+// Small cases of each kind, which need no such folder, are in the tests of the formats.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Where the nodes of a character are, at rest and in a clip.
+// Positions of a character's nodes, at rest and in a clip.
 #pragma once
 
 #include <string>

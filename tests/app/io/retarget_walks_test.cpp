@@ -1,6 +1,6 @@
-// Motions of people's files on people's characters: each of the shared walks on each of the shared humanoids.
-// Feet are on the ground where the source's stand and land as they do, no knee pops, the root goes along, and
-// arms, hands and heads point as the source's do. What cannot be reached is said in numbers.
+// Motions from real files on characters from real files: each of the shared walks on each of the shared
+// humanoids. Feet stand and land on the ground as the source's do, no knee pops, the root moves along, and
+// arms, hands and heads point as the source's do. Exceptions are stated in numbers.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What must hold for a character that a reader accepts, whatever the bytes were.
+// Invariants of a character that a reader accepts, whatever the bytes were.
 #pragma once
 
 #include <algorithm>

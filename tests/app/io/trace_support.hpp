@@ -1,4 +1,4 @@
-// Traces made up for tests: an arm of two bones, solved in closed form here, with one fault planted, written
+// Invented traces for tests: an arm of two bones, solved in closed form here, with one fault planted, written
 // in the conventions and formats of engines.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The inspector's numbers match the picture: under the microscope, those of the step that is shown.
+// The inspector's numbers match the picture: under the microscope, they belong to the step shown.
 #include <cstdio>
 #include <glm/geometric.hpp>
 

@@ -1,4 +1,4 @@
-// chain.paste: what the points of the clipboard become.
+// chain.paste: the effect of points on the clipboard.
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/says.hpp"
 

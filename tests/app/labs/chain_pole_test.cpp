@@ -1,5 +1,5 @@
-// The pole's memory in the program: while the target crosses the line through root and pole, joints move no
-// faster than they may; across saving and loading, undo and redo, and with any runtime of the lab.
+// The pole's memory in the program: while the target crosses the line through root and pole, joints stay
+// within their speed limit; across saving and loading, undo and redo, and with any runtime of the lab.
 #include <algorithm>
 #include <cmath>
 #include <functional>

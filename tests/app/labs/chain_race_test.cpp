@@ -1,4 +1,4 @@
-// The race iteration by iteration: every racer stands where its solver stands after as many iterations.
+// The race iteration by iteration: every racer is where its solver is after the same number of iterations.
 #include <gtest/gtest.h>
 
 #include <algorithm>

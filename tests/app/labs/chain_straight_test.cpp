@@ -1,4 +1,4 @@
-// The preset Straight, a chain that FABRIK (2011) cannot bend; and what helps it and others.
+// The preset Straight, a chain that FABRIK (2011) cannot bend; and the remedies for it and others.
 #include <glm/common.hpp>
 
 #include "app/labs/chain/cures.hpp"

@@ -1,4 +1,4 @@
-// Drivers, motors, ranges and drags of a linkage: what is asked of it, through edits, undo and files.
+// Drivers, motors, ranges and drags of a linkage: its goals, through edits, undo and files.
 #include <cmath>
 #include <glm/geometric.hpp>
 

@@ -1,5 +1,5 @@
-// What the Linkage lab says of a linkage: the ways on at a dead point, transmission angles, turns, what
-// floats; motors between bars; and what is in view.
+// The Linkage lab's messages about a linkage: ways out of a dead point, transmission angles, rotations,
+// floating links; motors between bars; and the view.
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

@@ -1,4 +1,4 @@
-// What tests of the Linkage lab share.
+// Shared by tests of the Linkage lab.
 #pragma once
 
 #include <gtest/gtest.h>

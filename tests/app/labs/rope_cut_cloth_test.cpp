@@ -1,4 +1,4 @@
-// Cutting cloth: by the command, by clicks and by a stroke, and what the pieces are then.
+// Cutting cloth: by the command, by clicks and by a stroke, and the resulting pieces.
 #include <algorithm>
 #include <glm/vec2.hpp>
 

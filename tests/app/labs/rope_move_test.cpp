@@ -1,4 +1,4 @@
-// Moving a rope, cloth or hair as a whole, and where new ones are put.
+// Moving a rope, cloth or hair as a whole, and the placement of new ones.
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-// The Rope lab at a speed that is no whole number of substeps a tick: the picture is of the tick's own time.
+// The Rope lab at speeds without a whole number of substeps per tick: the picture is of the tick's own time.
 #include "app/labs/rope/rope_time.hpp"
 #include "tests/app/labs/rope_support.hpp"
 

@@ -1,4 +1,4 @@
-// What the Rope lab's commands refuse, their messages, and that a refusal changes nothing.
+// Refusals of the Rope lab's commands: their messages, and that nothing changes.
 #include "tests/app/labs/rope_support.hpp"
 #include "tests/says.hpp"
 

@@ -1,4 +1,4 @@
-// CSV files as people have them: columns found by their names, by their places, or as chosen.
+// Real CSV files: columns found by their names, by their positions, or as chosen.
 #include "app/io/samples.hpp"
 #include "app/labs/signal/signal_part.hpp"
 #include "tests/app/labs/lab_support.hpp"

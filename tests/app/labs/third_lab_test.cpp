@@ -1,5 +1,5 @@
 // A lab is one folder and one line in the table: opens, drags, undoes, saves and records a lab that the
-// program does not have, and finds it in palette, help and shortcuts, although only the table knows it.
+// program does not have. Palette, help and shortcuts find it, although only the table knows it.
 #include <gtest/gtest.h>
 
 #include "app/document/command.hpp"

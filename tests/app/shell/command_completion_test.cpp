@@ -1,4 +1,4 @@
-// What the palette finds, offers and reports while a line is typed, without a window.
+// The palette's results, offers and messages while a line is typed, without a window.
 #include "app/shell/command_completion.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// Every widget of every panel has an id of its own and a tooltip, does by a click what it says, and stays
-// under the mouse that clicks it. The widgets are those of the frames themselves, so that a new one is tried
-// too. Not clicked: plots, curves and other areas to draw in, which have tests of their own.
+// Every widget of every panel has an id of its own and a tooltip, does its job when clicked, and stays under
+// the mouse that clicks it. The widgets are taken from the frames themselves, so that new ones are tried too.
+// Not clicked: plots, curves and other areas to draw in, which have tests of their own.
 #include <gtest/gtest.h>
 #include <imgui_internal.h>  // the item under the mouse, open lists, scrolling
 

@@ -1,4 +1,4 @@
-// How much a lab's panel shows when the lab is opened, and that nothing is lost under "More".
+// The size of a lab's panel when the lab is opened; no row is lost under "More".
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Which of the backends that need no display are there on this machine.
+// The backends without a display that are available on this machine.
 #pragma once
 
 #include <exception>

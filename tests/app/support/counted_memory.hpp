@@ -1,4 +1,4 @@
-// How much memory a piece of code takes: what the test program's own objects allocate.
+// The memory that a piece of code takes: allocations of the test program's own objects.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // Dear ImGui's output of a frame as texts and items instead of pixels: each text with its position and clip
-// rectangle, each item with its box. Its functions are wrapped when the tests are linked (see CMakeLists.txt
-// there), so the program under test is the real one.
+// rectangle, each item with its box. Its functions are wrapped when the tests are linked (see
+// CMakeLists.txt), so the program under test is the real one.
 #pragma once
 
 #include <imgui.h>

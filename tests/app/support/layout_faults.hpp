@@ -1,4 +1,4 @@
-// Faults in a window's layout: texts that are cut off, overlaps, and what cannot be reached.
+// Faults in a window's layout: texts that are cut off, overlaps, and items that cannot be reached.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// A part of no real lab, for tests of properties of every part.
+// A part that belongs to no real lab, for tests of properties of every part.
 #pragma once
 
 #include <memory>

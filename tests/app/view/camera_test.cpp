@@ -1,4 +1,4 @@
-// The camera's mathematics: pixels and rays agree, moves do what they say, and no pose breaks it.
+// The camera's mathematics: pixels and rays agree, moves have their effects, and no pose breaks it.
 #include "app/view/camera.hpp"
 
 #include <gtest/gtest.h>

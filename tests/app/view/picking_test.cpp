@@ -1,4 +1,4 @@
-// Which of several objects under a pixel is picked.
+// Picks one of several objects under a pixel.
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>

@@ -203,7 +203,7 @@ class StackReader {
     bool has_odd_ = false, has_solo_ = false;
 };
 
-/// A rotation under construction: Euler angles as long as only such are added, then rotations after them.
+/// A rotation under construction: Euler angles while only such are added, then rotations after them.
 struct Turning {
     glm::dvec3 euler;
     glm::dquat after{1.0, 0.0, 0.0, 0.0};

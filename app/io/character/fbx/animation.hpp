@@ -26,7 +26,7 @@ enum class Animated : std::uint8_t { Translation, Rotation, Scale };
 struct Layer {
     enum class Blend : std::uint8_t { Additive, Override };
     Blend blend = Blend::Additive;
-    bool turns_by_axis = false;  ///< additive Euler angles, not rotations, add up
+    bool turns_by_axis = false;  ///< additive Euler angles add up by axis, not as rotations
     bool scales_by_sum = false;  ///< additive scales add up instead of multiplying
     VectorCurves weight{};       ///< x: percent
     std::map<std::size_t, std::array<std::optional<VectorCurves>, 3>> nodes{};
@@ -36,7 +36,7 @@ struct Layer {
 struct Stack {
     std::string name{};
     double begin = 0.0, end = 0.0;  ///< seconds
-    std::vector<Layer> layers{};    ///< the first sets, the others add or override
+    std::vector<Layer> layers{};    ///< the first layer sets, the others add or override
 
     /// A node's values at a time.
     Values at(const Node& node, std::size_t index, double time) const;

@@ -72,7 +72,7 @@ class BodyChooser {
                 for (const auto& entry : layer.nodes)
                     if (!body_.nodes[entry.first].has_mesh) is_bone_[entry.first] = true;
     }
-    /// Bones and what is above them.
+    /// Finds the bones and their ancestors.
     void find_wanted() {
         wanted_.assign(body_.nodes.size(), false);
         for (auto i = order_.rbegin(); i != order_.rend(); ++i) {
@@ -81,8 +81,8 @@ class BodyChooser {
             if (wanted_[*i] && parent_of(*i) >= 0) wanted_[static_cast<std::size_t>(parent_of(*i))] = true;
         }
     }
-    /// A rotating sky dome is no skeleton: drops top-level trees with less than a tenth of the largest one's
-    /// nodes.
+    /// A rotating sky dome is no skeleton: drops top-level trees with less than a tenth of the nodes of the
+    /// largest.
     void leave_out_small_trees() {
         std::vector<std::size_t> tree(body_.nodes.size()), counts(body_.nodes.size());
         for (const std::size_t i : order_) {
@@ -100,7 +100,7 @@ class BodyChooser {
                 wanted_[i] = true;
     }
 
-    /// Nodes with a scale that is at some time not uniform, or nearly 0, and children that do not take it.
+    /// Finds nodes whose scale is ever uneven or nearly 0, and that have children which do not inherit it.
     void find_split() {
         body_.is_split.assign(body_.nodes.size(), false);
         for (const std::size_t i : order_)
@@ -135,8 +135,8 @@ class BodyChooser {
 
     void collect() {
         body_.bone_of.assign(body_.nodes.size(), -1);
-        std::vector<std::int32_t> first(body_.nodes.size(), -1);  // of two bones
-        // In the file's order as far as parents come first, so that siblings keep it.
+        std::vector<std::int32_t> first(body_.nodes.size(), -1);  // the first of a split node's two bones
+        // Keep the file's order, apart from parents coming first, so that siblings stay in order.
         for (const std::size_t i : order_) {
             if (!wanted_[i]) continue;
             Bone bone{.node = i};

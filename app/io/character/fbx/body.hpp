@@ -1,12 +1,12 @@
-// Which nodes of an FBX file are the skeleton, and their transforms in it.
+// The nodes of an FBX file that form the skeleton, and their transforms in it.
 //
-// The skeleton is what skins are bound to (without a skin: limbs and what is animated), what is above, and
-// what hangs on it. Cameras, lights, their targets, and nodes that only hold meshes are omitted.
+// The skeleton: the nodes that skins are bound to (without a skin: limbs and animated nodes), their
+// ancestors, and what hangs on them. Cameras, lights, their targets and nodes with meshes only are omitted.
 //
-// A skeleton's nodes inherit all of their parent's scale. A node of another InheritType has its scale
+// A skeleton's nodes inherit all of their parent's scale. A node with another InheritType has its scale
 // divided by the parent's. Where that would need shear, because the parent's scale is not uniform, the parent
-// is two nodes: itself without its scale, for such children, and "Hips scale" below it, for its skin and all
-// other children.
+// becomes two nodes: itself without its scale, for such children, and "Hips scale" below it, for its skin and
+// all other children.
 #pragma once
 
 #include "app/io/character/fbx/animation.hpp"
@@ -15,22 +15,22 @@ namespace tendril::app::fbx {
 
 /// A node of the skeleton.
 struct Bone {
-    std::size_t node = 0;  ///< of the file
+    std::size_t node = 0;  ///< the file's node
     std::int32_t parent = -1;
     bool is_scale = false;  ///< the second of two nodes
 };
 
 struct Body {
-    std::vector<Node> nodes{};            ///< of the file
+    std::vector<Node> nodes{};            ///< the file's nodes
     std::vector<Bone> bones{};            ///< parents first
-    std::vector<std::int32_t> bone_of{};  ///< for each node, the bone with its whole place; -1: none
-    std::vector<bool> is_split{};         ///< for each node: two bones
+    std::vector<std::int32_t> bone_of{};  ///< for each node, the bone with its full transform; -1: none
+    std::vector<bool> is_split{};         ///< for each node, whether it is two bones
 
     /// The bone's transform below its parent; `local` gives the local transform of a node of the file.
     template <class Local>
     rig::Transform transform(std::size_t bone, const Local& local) const;
-    /// The nodes whose scales make that of `node`: itself, and its parents as far as they are inherited
-    /// apart.
+    /// The nodes whose scales make up the scale of `node`: itself, and its ancestors as long as they are
+    /// inherited separately.
     std::vector<std::size_t> scale_chain(std::size_t node) const;
 
   private:

@@ -1,8 +1,8 @@
 // The clips of an FBX file, from its curves.
 //
-// A track has the keys of its curves, as they are in the file. It is linear if that is what the curves do, a
-// step track if all of them step, and cubic otherwise, with the curves' own slopes; where even that is off by
-// more than the tolerance (a rotation by Euler angles far apart), keys are added in between.
+// A track has the keys of its curves, as in the file. It is linear if all its curves are, a step track if
+// they all step, and cubic otherwise, with the curves' own slopes; where even a cubic is off by more than the
+// tolerance (a rotation by Euler angles far apart), keys are added in between.
 #pragma once
 
 #include <tendril/humanoid/clip.hpp>
@@ -11,13 +11,13 @@
 
 namespace tendril::app::fbx {
 
-/// How far a track may be from its curves: `length` in the file's unit, for every node by itself.
+/// The maximum distance of a track from its curves: `length` in the file's unit, for each node by itself.
 struct Tolerance {
     double length = 1e-3;
     std::vector<double> levers{};  ///< for each bone, the distance up to which its rotation moves nodes
 };
-/// 0.005 mm for a figure of 1.8 m, and not under 0.001 mm: the errors of a chain of nodes add up.
-/// `metres` per unit of the file.
+/// 0.005 mm for a figure of 1.8 m, at least 0.001 mm: the errors of a chain of nodes add up. `metres` per
+/// unit of the file.
 Tolerance tolerance_for(const Body& body, double metres);
 
 class ClipWriter {

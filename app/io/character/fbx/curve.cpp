@@ -21,7 +21,7 @@ constexpr std::int64_t weighted_right = 0x1000000, weighted_next_left = 0x200000
 constexpr std::int64_t any_velocity = 0x30000000;
 constexpr double usual_weight = 1.0 / 3.0;
 
-/// What a key says about its tangents.
+/// A key's tangent settings.
 struct Tangents {
     std::int64_t flags = 0;
     std::array<double, 3> data{};  ///< slopes, or tension, continuity and bias
@@ -45,19 +45,19 @@ Secants secants_at(const std::vector<CurveKey>& keys, std::size_t i) {
     return {between(previous, i), between(i, next), between(previous, next), previous == i || next == i};
 }
 
-// Slopes that the file leaves to its readers, as Autodesk's documentation of FbxAnimCurveDef names them. It
-// gives no formulas; these are as ufbx (github.com/ufbx/ufbx) found them by comparison with MotionBuilder.
+// Slopes that the file leaves to its readers, named as in Autodesk's documentation of FbxAnimCurveDef. It has
+// no formulas; ufbx (github.com/ufbx/ufbx) found these by comparison with MotionBuilder.
 
-/// A bias in percent draws the slope from the mean of both secants to one of them; what it has beyond 500
-/// steepens without bound. Only keys that depend on time have one.
+/// A bias in percent moves the slope from the mean of both secants to one of them; the excess over 500
+/// steepens it without bound. Only time-dependent keys have a bias.
 double biased(double slope, const Secants& at, double bias) {
     const double part = std::abs(bias) / 100.0, toward = bias > 0.0 ? at.after : at.before;
     const double way = at.at_end ? 0.0 : toward - slope;
     const double excess = std::max(part - 5.0, 0.0), sign = std::abs(way) > 1e-5 ? way : bias;
     return slope + way * part + std::copysign(40.0 * excess * excess, sign);
 }
-/// Of an automatic key. A clamped one is level where a neighbour has its value; a progressively clamped one
-/// is level at the ends, and no control point of its tangents leaves the range of the neighbours' values.
+/// The slope of an automatic key. A clamped one is level where a neighbour has its value; a progressively
+/// clamped one is level at the ends, and its tangents' control points stay within the neighbours' values.
 double automatic(const Secants& at, std::int64_t flags, double bias, double left_weight,
                  double right_weight) {
     const bool is_progressive = (flags & clamp_progressive) != 0;
@@ -79,7 +79,7 @@ double kochanek(const Secants& at, const Tangents& key, bool leaving) {
            ((1.0 + bias) * (1.0 + continuity) * at.before + (1.0 - bias) * (1.0 - continuity) * at.after);
 }
 
-/// Turns what the keys say into slopes between them.
+/// Converts the keys' settings into slopes between them.
 void set_slopes(std::vector<CurveKey>& keys, const std::vector<Tangents>& tangents) {
     // A key has its own slope or bias to the right, and the next key's to the left.
     const auto slope = [&](std::size_t i, bool leaving) {
@@ -102,7 +102,7 @@ void set_slopes(std::vector<CurveKey>& keys, const std::vector<Tangents>& tangen
     }
 }
 
-/// Keys in the order of time. Of equal times the last one counts; one that goes back is left out.
+/// Keys in order of time. Of equal times the last one counts; a key that goes back in time is left out.
 class KeyList {
   public:
     void add(const CurveKey& key, const Tangents& tangents) {
@@ -181,12 +181,12 @@ bool is_word(const Record& record, std::size_t at) {
     return !text.empty() && ((text[0] >= 'a' && text[0] <= 'z') || (text[0] >= 'A' && text[0] <= 'Z'));
 }
 
-/// Takes the keys of version 6 apart: time, value, a letter for the shape, and what belongs to that.
+/// Parses the keys of version 6: time, value, a letter for the shape, and its data.
 class OldKeys {
   public:
     explicit OldKeys(const Record& record) : record_(record) {}
 
-    /// No keys if one of them is not understood: where the next begins is then unknown.
+    /// Reads no keys if one of them is not understood: where the next begins is then unknown.
     Curve read() {
         while (at_ < record_.properties.size() && !is_lost_) read_key();
         if (is_lost_) return {.is_odd = true};
@@ -306,7 +306,7 @@ Curve read_curve(const Record& record) {
         const Record* type = found ? found->child("Type") : nullptr;
         if (type && !type->text(0).empty() && type->text(0) != "C") keys.set_odd();
     }
-    // Each set of attributes is for a number of keys; the last one for all that are left.
+    // Each set of attributes applies to a number of keys; the last one to all that are left.
     std::size_t set = 0;
     std::int64_t left = counts.empty() ? 0 : counts[0];
     for (std::size_t i = 0; i < times.size(); ++i, --left) {

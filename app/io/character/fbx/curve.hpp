@@ -1,4 +1,4 @@
-// An animation curve of an FBX file: a number over time, evaluated as the file's keys say.
+// An animation curve of an FBX file: a number over time, interpolated as its keys specify.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 namespace tendril::app::fbx {
 
 constexpr double ticks_per_second = 46'186'158'000.0;
-constexpr std::size_t max_keys = 20'000'000;  ///< of all curves
+constexpr std::size_t max_keys = 20'000'000;  ///< in all curves together
 
 struct CurveKey {
     enum class Shape : std::uint8_t { Constant, ConstantNext, Linear, Cubic };
@@ -23,15 +23,15 @@ struct CurveKey {
 
 struct Curve {
     std::vector<CurveKey> keys{};  ///< times increase
-    bool is_odd = false;           ///< keys that are not understood in full
+    bool is_odd = false;           ///< some keys are not fully understood
 
-    /// Holds the first and the last value outside.
+    /// Outside its keys the curve holds the first or last value.
     double at(double time) const;
 };
 
-/// Reads an AnimationCurve of version 7. Throws std::runtime_error if it has not as many times as values.
+/// Reads an AnimationCurve of version 7. Throws std::runtime_error if the numbers of times and values differ.
 Curve read_curve(const Record& record);
-/// Reads a channel of a take of version 6: its record Key.
+/// Reads a channel of a version 6 take: its record Key.
 Curve read_old_curve(const Record& channel);
 
 }  // namespace tendril::app::fbx

@@ -14,7 +14,7 @@ namespace tendril::app {
 namespace fbx {
 namespace {
 
-/// Keys of all clips: nodes can share curves, so this bounds the memory by the file's size.
+/// Limits the keys of all clips: nodes can share curves, so this bounds the memory by the file's size.
 constexpr std::size_t max_clip_keys = 20'000'000, free_keys = 20'000, keys_per_byte = 4;
 
 class CharacterReader {
@@ -105,7 +105,7 @@ class CharacterReader {
         const double centimetres = unit ? unit.record->number(unit.first, 1.0) : 1.0;
         character_.states_unit = centimetres > 0.0 && unit;
         character_.scale = centimetres > 0.0 ? 0.01 * centimetres : 0.01;
-        // Autodesk's FbxTime::EMode; 14 is a rate of the file's own.
+        // Autodesk's FbxTime::EMode; 14 is a custom rate of the file.
         constexpr std::array<double, 19> rates{0.0,  120.0, 100.0, 60.0,  50.0,  48.0,   30.0,
                                                30.0, 29.97, 29.97, 25.0,  24.0,  1000.0, 23.976,
                                                0.0,  96.0,  72.0,  59.94, 119.88};

@@ -1,13 +1,13 @@
-// Characters in FBX files, binary or text, versions 6.0 to 7.7. What a file says in ways that are not read is
-// left out and said in the character's notes.
+// Characters in FBX files, binary or text, versions 6.0 to 7.7. Contents that are not supported are left out
+// and listed in the character's notes.
 //
 //     record.hpp     the file as records
 //     objects.hpp    objects, their properties and connections
-//     node.hpp       models as nodes, and how they are placed
+//     node.hpp       models as nodes, and their transforms
 //     curve.hpp, animation.hpp    stacks, layers and curves, evaluated as written
-//     body.hpp       which nodes are the skeleton
-//     clip.hpp       the stacks as its clips
-//     mesh.hpp, material.hpp, skin.hpp    what is drawn
+//     body.hpp       the nodes that form the skeleton
+//     clip.hpp       the stacks as clips
+//     surface.hpp    meshes, materials and skins
 #pragma once
 
 #include <string>

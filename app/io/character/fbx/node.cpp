@@ -26,7 +26,7 @@ bool is_mesh(const Objects& objects, std::size_t object) {
     });
 }
 
-/// Whether some axis of its translation, rotation or scale has a minimum or maximum that is switched on.
+/// Whether a minimum or maximum is switched on for any axis of translation, rotation or scale.
 bool has_limits(const Objects& objects, std::size_t object) {
     for (const std::string property : {"Translation", "Rotation", "Scaling"}) {
         if (objects.integer(object, property + "Active", 0) == 0) continue;
@@ -48,7 +48,7 @@ Node read_node(const Objects& objects, std::size_t object, std::vector<std::stri
     node.translation = vector("Lcl Translation");
     node.euler = vector("Lcl Rotation");
     node.scale = vector("Lcl Scaling", 1.0);
-    // Only with RotationActive have order, pre- and post-rotation an effect, and that may be on limits alone.
+    // Order, pre- and post-rotation need RotationActive, and may apply to limits alone.
     if (objects.integer(object, "RotationActive", 0) != 0 &&
         objects.integer(object, "RotationSpaceForLimitOnly", 0) == 0) {
         const std::int64_t order = objects.integer(object, "RotationOrder", 0);

@@ -1,9 +1,9 @@
-// The models of an FBX file as nodes, and how a node's properties make its place.
+// The models of an FBX file as nodes, and the transforms that their properties make.
 //
 // A node's local matrix is T Roff Rp Rpre R Rpost^-1 Rp^-1 Soff Sp S Sp^-1 (Autodesk, "FBX SDK: Computing
-// transformation matrices"): always a translation, a rotation and a scale. What a child takes of its parent's
-// scale depends on its InheritType, so places are composed in two parts: `unscaled`, all but the node's own
-// scale, and `scale`.
+// transformation matrices"): always a translation, a rotation and a scale. How much of its parent's scale a
+// child inherits depends on its InheritType, so transforms are composed in two parts: `unscaled`, all but the
+// node's own scale, and `scale`.
 #pragma once
 
 #include <span>
@@ -22,7 +22,7 @@ enum class Inherit : std::uint8_t {
     NoScale       ///< "Rrs": the parent's own scale is ignored; Maya's segment scale compensation
 };
 
-/// What curves animate; the rotation includes all but pre- and post-rotation.
+/// The animated values; the rotation includes all but pre- and post-rotation.
 struct Values {
     glm::dvec3 translation{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
@@ -37,11 +37,11 @@ struct Node {
     bool has_mesh = false;
 
     glm::dvec3 translation{0.0}, euler{0.0}, scale{1.0};  ///< at rest; degrees
-    int order = 0;                                        ///< of rotations: XYZ, XZY, YZX, YXZ, ZXY, ZYX
+    int order = 0;                                        ///< rotation order: XYZ, XZY, YZX, YXZ, ZXY, ZYX
     Inherit inherit = Inherit::ByComponent;
     glm::dquat pre{1.0, 0.0, 0.0, 0.0}, post{1.0, 0.0, 0.0, 0.0};  ///< `post` is applied inverted
     glm::dvec3 rotation_offset{0.0}, rotation_pivot{0.0}, scaling_offset{0.0}, scaling_pivot{0.0};
-    humanoid::Placement geometry{};  ///< of its mesh alone
+    humanoid::Placement geometry{};  ///< the transform of its mesh alone
 
     /// Whether the translation depends on rotation and scale.
     bool has_pivots() const;
@@ -54,7 +54,7 @@ std::vector<Node> read_nodes(const Objects& objects, std::vector<std::string>& n
 /// The nodes' indices, parents first.
 std::vector<std::size_t> parents_first(const std::vector<Node>& nodes);
 
-/// The first letter of `order` turns first. Degrees.
+/// Rotates about the axis of the first letter of `order` first. Degrees.
 glm::dquat from_euler(const glm::dvec3& degrees, int order);
 /// Translation, rotation and scale of the node's local matrix.
 rig::Transform local_of(const Node& node, const Values& values);

@@ -22,7 +22,7 @@ T raw_at(std::string_view bytes, std::size_t at) {
     return value;
 }
 
-/// A text file's number; bare words are 0 but for T and Y, which are written for true.
+/// A text file's number; bare words are 0, except T and Y, which mean true.
 double number_in(std::string_view text, double otherwise) {
     if (text.starts_with('+')) text.remove_prefix(1);
     double value = 0.0;

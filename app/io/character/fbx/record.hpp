@@ -5,8 +5,8 @@
 //     const Record* objects = file.root.child("Objects");
 //     for (const Record& each : objects->children) each.text(1);  // "Hips\0\1Model", "Model::Hips"
 //
-// Properties are views of the file, decoded when asked for, so that a file is as large in memory as a
-// constant times its bytes, whatever its arrays claim.
+// Properties are views of the file, decoded on request, so that memory stays below a constant times the
+// file's size, whatever its arrays claim.
 #pragma once
 
 #include <cstdint>
@@ -33,13 +33,13 @@ struct Record {
     /// A property as a number, or `otherwise` if it is none or missing.
     double number(std::size_t index, double otherwise = 0.0) const;
     std::int64_t integer(std::size_t index, std::int64_t otherwise = 0) const;
-    /// A string, a character or a text file's bare word; "" if it is none or missing.
+    /// A string, a character or a text file's bare word; "" for any other kind or if missing.
     std::string_view text(std::size_t index) const;
     /// All numbers of the record: of its array, or else of its properties. Throws std::runtime_error for an
     /// array that cannot be unpacked.
     std::vector<double> numbers() const;
     std::vector<std::int64_t> integers() const;
-    /// The numbers of 32-bit floats, which text files may write as the integers of the same bits.
+    /// The numbers as 32-bit floats, which text files may write as integers with the same bits.
     std::vector<double> floats() const;
     /// A child's numbers; empty if there is no such child.
     std::vector<double> numbers_of(std::string_view wanted) const;
@@ -49,7 +49,7 @@ struct Record {
 struct File {
     Record root{};
     int version = 0;     ///< 7400 for 7.4
-    std::string note{};  ///< what was left out; "": nothing
+    std::string note{};  ///< the omissions; "": none
 };
 
 /// The records keep views of `bytes`. Throws std::runtime_error with the reason and the byte or line.
@@ -58,13 +58,13 @@ File read_records(std::string_view bytes);
 
 // For read_records().
 
-/// The size of a binary file's number of that letter, or of an array's; 0: it is none.
+/// The size of a binary file's number of that letter, or of an array's elements; 0: not a number.
 std::size_t number_bytes(char kind);
 inline bool is_array(char kind) {
     return kind >= 'a' && kind <= 'z' && number_bytes(kind) > 0;
 }
 
-/// What the readers of both forms share: the records that the place they are at is inside of.
+/// The shared part of both readers: the stack of records that are open at the present place.
 class RecordReader {
   public:
     RecordReader() = default;
@@ -77,7 +77,7 @@ class RecordReader {
     [[noreturn]] void fail(const std::string& what) const;
     void open(Record record, std::size_t end = 0);
     bool inside() const { return !open_.empty(); }
-    std::size_t end() const { return open_.back().end; }  ///< of the innermost record
+    std::size_t end() const { return open_.back().end; }  ///< end of the innermost record
     void close();
     File finish();
 

@@ -92,7 +92,7 @@ class BinaryRecords final : public RecordReader {
         }
         if (at_ != end) fail("properties that do not end where they say");
     }
-    /// How long a property of unknown kind is, only its record says.
+    /// Skips to the end of the record: the length of a property of unknown kind is not known.
     void skip_unknown(std::string_view name, std::size_t end) {
         const char kind[]{bytes_[at_], '\0'};
         if (file_.note.empty())

@@ -5,8 +5,8 @@
 namespace tendril::app::fbx {
 namespace {
 
-/// `Name: value, value { records }`. A list begins in a later line, or goes on there after a comma, unless a
-/// record begins there; it also goes on if that line begins with a comma.
+/// `Name: value, value { records }`. A list begins on a later line, or continues there after a comma, unless
+/// a record begins there; it also continues if that line begins with a comma.
 class TextRecords final : public RecordReader {
   public:
     explicit TextRecords(std::string_view text) : text_(text) {}
@@ -69,7 +69,7 @@ class TextRecords final : public RecordReader {
         ++at_;
         return name;
     }
-    /// Whether what follows is no value: `Name:`, a brace, or the end.
+    /// Whether no value follows: `Name:`, a brace, or the end.
     bool at_record() {
         const std::size_t begin = at_;
         const bool has_word = !word().empty();

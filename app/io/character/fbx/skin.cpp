@@ -80,7 +80,7 @@ class SkinReader {
         return builder_.add_joint(static_cast<std::size_t>(bone), from_bind);
     }
 
-    /// The weights of all clusters, by point. Empty: there are none for nodes of the skeleton.
+    /// The weights of all clusters, by point. Empty if none belongs to a node of the skeleton.
     Influences influences(const Mesh& mesh, std::size_t geometry, std::size_t model, std::size_t& joint) {
         Influences result;
         for (const Connection& skin : objects_.children(geometry)) {

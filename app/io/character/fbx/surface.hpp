@@ -1,5 +1,5 @@
-// What is seen of an FBX file: its meshes as triangles, their materials, and how bones and blend shapes move
-// them.
+// The visible contents of an FBX file: its meshes as triangles, their materials, and their deformation by
+// bones and blend shapes.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@
 
 namespace tendril::app::fbx {
 
-/// Triangles of one material. Corners of the same point, normal and texture coordinate are one.
+/// Triangles with one material. Corners with the same point, normal and texture coordinate are merged.
 struct MeshPart {
-    std::int64_t material = 0;                      ///< counts the model's
+    std::int64_t material = 0;                      ///< index among the model's
     std::vector<std::uint32_t> points{};            ///< for each corner, the geometry's point
     std::vector<glm::vec3> positions{}, normals{};  ///< one per corner; normals may be empty
     std::vector<glm::vec2> uvs{};                   ///< one per corner, v from the bottom; or empty
@@ -31,8 +31,8 @@ struct Mesh {
     std::vector<MeshPart> parts{};
 };
 
-/// `geometry` has the records Vertices and PolygonVertexIndex. Throws std::runtime_error for a polygon of
-/// points that there are not; layers that do not fit are left out.
+/// `geometry` has the records Vertices and PolygonVertexIndex. Throws std::runtime_error for a polygon with
+/// points that do not exist; layers that do not fit are left out.
 Mesh read_mesh(const Record& geometry);
 
 /// The materials of a file: a colour, or a picture that is embedded in the file.
@@ -41,7 +41,7 @@ class Materials {
     /// Pictures are added to `builder`.
     Materials(const Objects& objects, SkinBuilder& builder) : objects_(objects), builder_(builder) {}
 
-    /// The materials of a model, in the order in which its polygons count them.
+    /// The materials of a model, in the order in which its polygons index them.
     std::vector<std::size_t> of(std::size_t model) const;
     SkinPart look(std::size_t material);
     /// A picture on the model itself, as in version 6; -1: none.
@@ -71,8 +71,8 @@ struct SkinOfFile {
     std::vector<MorphChannel> morphs{};
 };
 
-/// `scale` is metres per unit of the file. Meshes without a skin follow the nearest node above that is in the
-/// skeleton; those without one are omitted. Appends sentences to `notes`. Throws std::runtime_error.
+/// `scale` is metres per unit of the file. Meshes without a skin follow the nearest ancestor in the skeleton;
+/// those without one are omitted. Appends sentences to `notes`. Throws std::runtime_error.
 SkinOfFile read_skin(const Objects& objects, const Body& body, double scale, std::vector<std::string>& notes);
 
 }  // namespace tendril::app::fbx

@@ -1,4 +1,4 @@
-// Balance in the Humanoid lab: a switch, what the panel says of it, its file, its code and its picture.
+// Balance in the Humanoid lab: its switch, the panel's message, its file, its code and its picture.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A tail or the spine of the character along a curve: what bends, what follows, and what keeps its targets.
+// A tail or the spine of the character along a curve: the bending bones, the followers, and kept targets.
 #include <algorithm>
 #include <cmath>
 #include <tendril/humanoid/clip.hpp>

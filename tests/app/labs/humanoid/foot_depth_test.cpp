@@ -1,4 +1,4 @@
-// Feet and the ground that they pass through: planted soles stand on treads, and what is too fast is told.
+// Feet and the ground that they pass through: planted soles stand on treads, and too fast steps are reported.
 #include "app/io/character/read.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"

@@ -1,4 +1,4 @@
-// Motions of other characters, carried over to the lab's.
+// Motions of other characters, retargeted to the lab's.
 #include "app/document/command.hpp"
 #include "app/io/character/character.hpp"
 #include "app/labs/humanoid/draw.hpp"

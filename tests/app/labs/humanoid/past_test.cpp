@@ -1,5 +1,5 @@
-// A joint's rotation and an effector's distance to its target at each remembered moment, compared with what
-// the lab shows after seeking there.
+// A joint's rotation and an effector's distance to its target at each remembered moment, compared with the
+// lab's display after seeking there.
 #include "app/labs/humanoid/past/past.hpp"
 
 #include <glm/trigonometric.hpp>

@@ -1,5 +1,5 @@
-// Bones below a control that is not at rest: a solve starts with them where the control has moved them, for
-// commands, gizmos and ghosts alike.
+// Bones below a control that is not at rest: a solve starts with the bones where the control has moved them,
+// for commands, gizmos and ghosts alike.
 #include "app/view/palette.hpp"
 #include "rig_support.hpp"
 

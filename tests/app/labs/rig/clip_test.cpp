@@ -1,4 +1,4 @@
-// Clips in the Rig lab: recording, and which frames the rig can express.
+// Clips in the Rig lab: recording, and the frames that the rig can express.
 #include <random>
 
 #include "app/labs/rig/clip.hpp"

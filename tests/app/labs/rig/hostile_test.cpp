@@ -1,4 +1,4 @@
-// What the lab refuses, and its messages. LabTest::refused checks that nothing changes.
+// The lab's refusals and their messages. LabTest::refused checks that nothing changes.
 #include <cmath>
 #include <limits>
 

@@ -1,4 +1,4 @@
-// What the Rig lab's panels list, offer and change.
+// The contents of the Rig lab's panels: their lists, offers and edits.
 #include <algorithm>
 #include <set>
 #include <tendril/rig/fields.hpp>

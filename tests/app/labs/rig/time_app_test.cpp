@@ -1,4 +1,4 @@
-// Time in the Rig lab of the running program: the strip below the scene, and long work in small shares.
+// Time in the Rig lab of the running program: the strip below the scene, and long work in small slices.
 #include "app/labs/rig/rig_lab.hpp"
 #include "tests/app/e2e/monkey.hpp"
 #include "tests/says.hpp"

@@ -1,4 +1,4 @@
-// Time in the Rig lab: seeking to any tick of a take, in any order, shows bitwise what playing shows.
+// Time in the Rig lab: seeking to any tick of a take, in any order, gives bitwise the same as playing.
 #include <random>
 
 #include "app/labs/rig/rig_runtime.hpp"

@@ -1,5 +1,5 @@
 // A small lab: a ball on a spring. It is not in the program; app/labs/README.md explains it, and the tests
-// show that a folder and one line are all that a lab needs.
+// show that a lab needs only a folder and one line.
 #pragma once
 
 #include "app/labs/lab.hpp"
