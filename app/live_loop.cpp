@@ -84,7 +84,7 @@ void LiveLoop::run(Player& player, std::optional<int> frames) {
         turn(events, std::chrono::duration<double>(now - last).count(), player);
         if (frames && ticks_ < *frames && credit_ >= tick_seconds) tick(player);
         last = now;
-        keep_house();
+        save_settings_and_autosave();
     }
     // Keep unsaved work if the program was ended from outside; a user who quits was already asked.
     const bool keeps = options_.ending || (!app_.quit() && !app_.workspace().path.empty());
@@ -177,7 +177,7 @@ void LiveLoop::turn(std::vector<Event> events, double elapsed, Player& player) {
     }
 }
 
-void LiveLoop::keep_house() {
+void LiveLoop::save_settings_and_autosave() {
     if (!options_.config || app_.busy()) return;
     Workspace& workspace = app_.workspace();
     autosave_->update(workspace, Autosave::Clock::now());

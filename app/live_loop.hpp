@@ -35,7 +35,7 @@ class LiveLoop {
     bool take_ticks(Player& player);
     void tick(Player& player);
     void paste(const Player& player);
-    void keep_house();
+    void save_settings_and_autosave();
     void note_pace(double elapsed, double dropped);
 
     App& app_;

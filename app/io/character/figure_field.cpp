@@ -76,7 +76,7 @@ float BodyField::cone_distance(const Cone& cone, const vec3& point) {
 }
 
 /// The smaller of two distances, rounded where they differ by less than `over`.
-float BodyField::melted(float a, float b, float over) {
+float BodyField::smooth_min(float a, float b, float over) {
     const float overlap = std::max(over - std::abs(a - b), 0.0f) / over;
     return std::min(a, b) - 0.25f * over * overlap * overlap;
 }
@@ -89,7 +89,7 @@ BodyField::Distances BodyField::groups(const vec3& point, std::span<const std::u
         float chain = 1e9f;
         for (; i < near.size() && cones_[near[i]].chain == first.chain; ++i)
             chain = std::min(chain, cone_distance(cones_[near[i]], point));
-        all[first.group] = melted(all[first.group], chain, blend);
+        all[first.group] = smooth_min(all[first.group], chain, blend);
     }
     return all;
 }
@@ -97,8 +97,8 @@ BodyField::Distances BodyField::groups(const vec3& point, std::span<const std::u
 float BodyField::distance(const vec3& point, std::span<const std::uint16_t> near) const {
     const Distances all = groups(point, near);
     float body = all[0];
-    for (std::size_t i = 1; i < all.size(); ++i) body = melted(body, all[i], blend);
-    return -melted(-body, point.y - floor, 0.4f * blend);
+    for (std::size_t i = 1; i < all.size(); ++i) body = smooth_min(body, all[i], blend);
+    return -smooth_min(-body, point.y - floor, 0.4f * blend);
 }
 
 float BodyField::near(const vec3& point, float radius, std::span<const std::uint16_t> among,

@@ -46,7 +46,7 @@ class BodyField {
         std::uint16_t chain, group;
     };
     static float cone_distance(const Cone& cone, const glm::vec3& point);
-    static float melted(float a, float b, float over);
+    static float smooth_min(float a, float b, float over);
 
     std::vector<Cone> cones_{};
     std::vector<std::uint16_t> all_{};

@@ -201,7 +201,7 @@ Expected<BodyReport> Body::solve(std::span<rig::Transform> pose, std::span<const
             tendril::detail::check_count("Body::solve", "pose", pose.size(), work_->parents.size());
         !bad)
         return bad;
-    if (const std::size_t odd = detail::first_insane(pose); odd < pose.size())
+    if (const std::size_t odd = detail::first_invalid(pose); odd < pose.size())
         return refused("Body::solve", Argument("pose", odd), "finite, at most 1e9, with a unit rotation",
                        "one that is not");
     if (const Result bad = check_targets(targets); !bad) return bad;

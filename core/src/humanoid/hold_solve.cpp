@@ -40,7 +40,7 @@ constexpr double hold_tolerance = 1e-7;
 /// Maximum move of an elbow or hand: metres per metre of the requested grips and the shoulders, plus metres.
 constexpr double jump_per_metre = 20.0, jump_slack = 1e-3;
 /// A joint is at a limit if a force over the first would turn it by the second, radians, but it cannot turn.
-constexpr double told_force = 1e-5, told_turn = 1e-3;
+constexpr double min_reported_force = 1e-5, min_reported_turn = 1e-3;
 /// An arm is straight if its bend is at most this much over its minimum, radians.
 constexpr double straight_slack = 0.03;
 
@@ -427,10 +427,11 @@ void HoldSolve::tell(HoldReport& report, HoldState& state) noexcept {
         const Arm& arm = arms_[joint.arm];
         const glm::dvec3 lever = minus(link(arm.end).position, link(joint.link).position);
         const glm::dvec3 torque = plus(cross(lever, arm.pull), arm.twist);
-        const auto direction = direction_of(torque, told_force);
+        const auto direction = direction_of(torque, min_reported_force);
         glm::dquat there;
         report.body.at_limit[static_cast<std::size_t>(link(joint.link).bone)] =
-            direction && length(excess(joint, times(*direction, told_turn), there)) > 0.1 * told_turn;
+            direction &&
+            length(excess(joint, times(*direction, min_reported_turn), there)) > 0.1 * min_reported_turn;
     }
     double cause = 0.0, travel = 0.0;
     HoldState now;
@@ -444,7 +445,7 @@ void HoldSolve::tell(HoldReport& report, HoldState& state) noexcept {
             const Link& upper = link(static_cast<std::size_t>(arm.limb->upper));
             const glm::dvec3 way = minus(link(arm.end).position, upper.position);
             grip.straight = bend(arm, about) < arm.least_bend + straight_slack &&
-                            dot(arm.pull, way) > told_force * length(way);
+                            dot(arm.pull, way) > min_reported_force * length(way);
             now.shoulders[hand] = upper.position;
             now.elbows[hand] = link(static_cast<std::size_t>(arm.limb->lower)).position;
         }

@@ -36,13 +36,13 @@ inline bool is_sane(const rig::Transform& local) noexcept {
     return is_within(local.translation) && is_within(local.scale) && squared >= 0.25 && squared <= 4.0;
 }
 /// Index of the first transform that is not sane; pose.size() if all are.
-inline std::size_t first_insane(std::span<const rig::Transform> pose) noexcept {
+inline std::size_t first_invalid(std::span<const rig::Transform> pose) noexcept {
     std::size_t i = 0;
     while (i < pose.size() && is_sane(pose[i])) ++i;
     return i;
 }
 inline bool is_sane(std::span<const rig::Transform> pose) noexcept {
-    return first_insane(pose) == pose.size();
+    return first_invalid(pose) == pose.size();
 }
 
 /// A quaternion that can be normalised.

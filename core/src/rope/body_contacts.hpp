@@ -61,7 +61,7 @@ class BodyContacts : IslandStep {
     // body_search.cpp
     void search(const std::vector<glm::dvec3>& ends);
     bool stay_listed(const std::vector<glm::dvec3>& ends);
-    bool outran();
+    bool left_search_range();
     void note_moves();
     template <class Visit>
     void each_listed(Visit visit) const;

@@ -68,7 +68,7 @@ void BodyContacts::part(const Pair& pair, const Shares& where) {
 }
 
 void BodyContacts::keep_apart() {
-    if (outran()) search(scratch_.place);
+    if (left_search_range()) search(scratch_.place);
     Shares where{};
     bool any = true;
     for (int round = 0; any && round < max_partings; ++round) {
@@ -79,7 +79,7 @@ void BodyContacts::keep_apart() {
             if (round == 0) ++local_.done.held_back;
             part(pair, where);
         }
-        if (any && outran()) search(scratch_.place);
+        if (any && left_search_range()) search(scratch_.place);
     }
     if (!any) return;
     // All bodies go only a part of the way: pairs that did not cross on the whole way do not on a part.

@@ -1,6 +1,6 @@
 // Finds pairs that may come near each other, and chooses the contacts among them.
 //
-// Candidates are listed with a margin, and stay listed until a particle has roamed too far from its position
+// Candidates are listed with a margin, and stay listed until a particle has drifted too far from its position
 // then (L. Verlet, 1967). A substep looks only at them, and finds the same pairs whenever the list was made.
 #include <algorithm>
 #include <cmath>
@@ -18,9 +18,9 @@ using glm::dvec3;
 
 /// How far a particle may be pulled off its free path, metres; the search for colliders allows the same.
 constexpr double off_path = 1e-3;
-/// Until candidates are listed again, a particle may roam by these multiples of its way and of its radius,
+/// Until candidates are listed again, a particle may drift by these multiples of its way and of its radius,
 /// and its way may grow by these multiples.
-constexpr double roamed_ways = 4.0, roamed_radii = 0.3, grown_way = 2.0, grown_radii = 0.2;
+constexpr double drift_ways = 4.0, drift_radii = 0.3, grown_way = 2.0, grown_radii = 0.2;
 /// Parts of a body nearer than this along it, in thicknesses, cannot touch: pi times the radius.
 constexpr double min_arc = 1.5707963267948966;
 /// Metres above a surface that count as touching.
@@ -79,7 +79,7 @@ void BodyContacts::search(const std::vector<dvec3>& ends) {
         // Diagonals do not touch; they must only not be crossed.
         const bool touches = std::max(each.a, each.b) < state_.links.size();
         const double near = both(each, &Scratch::Listed::way) + 2.0 * off_path + (touches ? radii : 0.0);
-        if (each.listed - both(each, &Scratch::Listed::roamed) > near) continue;
+        if (each.listed - both(each, &Scratch::Listed::drifted) > near) continue;
         const std::array<dvec3, 4> at = points_of(each, state_.position);
         const Nearest nearest = nearest_of(each, at);
         const double apart = detail::length(nearest.between);
@@ -128,15 +128,15 @@ bool BodyContacts::stay_listed(const std::vector<dvec3>& ends) {
     }
     each_listed([&](std::size_t i, Scratch::Listed& it, double) {
         it.way = square(ends[i] - state_.position[i] - s_.mean);
-        it.roamed = square(state_.position[i] - it.at - drift);
+        it.drifted = square(state_.position[i] - it.at - drift);
         const double most = it.reach - off_path;
-        stay = stay && it.way <= most * most && it.roamed <= it.roam * it.roam;
+        stay = stay && it.way <= most * most && it.drifted <= it.max_drift * it.max_drift;
     });
     return stay;
 }
 
 /// Whether a segment went farther than the search expected.
-bool BodyContacts::outran() {
+bool BodyContacts::left_search_range() {
     note_moves();
     bool farther = false;
     each_listed([&](std::size_t, const Scratch::Listed& it, double) {
@@ -160,8 +160,8 @@ void BodyContacts::list_candidates() {
     s_.chunks.clear();
     each_listed([&](std::size_t i, Scratch::Listed& it, double radius) {
         const double way = std::sqrt(it.way);
-        it.at = state_.position[i], it.roamed = 0.0;
-        it.roam = roamed_ways * way + roamed_radii * radius;
+        it.at = state_.position[i], it.drifted = 0.0;
+        it.max_drift = drift_ways * way + drift_radii * radius;
         it.reach = off_path + grown_way * way + grown_radii * radius;
     });
     for (std::uint32_t c = island_.chunks.first; c < island_.chunks.first + island_.chunks.count; ++c)
@@ -192,16 +192,16 @@ void BodyContacts::add_features(const Plan::Chunk& chunk) {
                                   .body = chunk.body};
     const auto add = [&](std::uint32_t link, std::initializer_list<std::uint32_t> points) {
         BodyContactScratch::Feature it{.body = chunk.body, .link = link};
-        double reach = 0.0, roam = 0.0;
+        double reach = 0.0, max_drift = 0.0;
         for (const std::uint32_t i : points) {
             it.points[it.count++] = i;
             it.middle += (1.0 / static_cast<double>(points.size())) * state_.position[i];
             reach = std::max(reach, scratch_.listed[i].reach);
-            roam = std::max(roam, scratch_.listed[i].roam);
+            max_drift = std::max(max_drift, scratch_.listed[i].max_drift);
         }
         double size = 0.0;
         for (const std::uint32_t i : points) size = std::max(size, square(state_.position[i] - it.middle));
-        it.reach = reach + roam + static_cast<double>(body.radius);
+        it.reach = reach + max_drift + static_cast<double>(body.radius);
         it.radius = std::sqrt(size) + it.reach;
         box.low = glm::min(box.low, it.middle - dvec3(it.radius));
         box.high = glm::max(box.high, it.middle + dvec3(it.radius));

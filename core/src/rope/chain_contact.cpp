@@ -13,12 +13,12 @@ namespace {
 using detail::dot;
 using glm::dvec3;
 
-constexpr double slack = 1e-3;         ///< metres that a particle may be pulled off its free path
-constexpr double touching = 1e-5;      ///< metres above a surface
-constexpr double depth = 1e-7;         ///< metres inside that are harmless
-constexpr double harmful = 1e-6;       ///< metres inside that require another step
-constexpr double harmful_late = 1e-5;  ///< the same after many steps
-constexpr double far_away = 1e30;      ///< metres, if not measured
+constexpr double slack = 1e-3;                  ///< metres that a particle may be pulled off its free path
+constexpr double touching = 1e-5;               ///< metres above a surface
+constexpr double depth = 1e-7;                  ///< metres inside that are harmless
+constexpr double penetration_tolerance = 1e-6;  ///< metres inside that require another step
+constexpr double late_penetration_tolerance = 1e-5;  ///< the same after many steps
+constexpr double far_away = 1e30;                    ///< metres, if not measured
 /// Slip per substep of a particle that friction holds, metres.
 constexpr double creep = 1e-7;
 
@@ -239,12 +239,13 @@ bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
         const bool was = plane.active;
         if (plane.gap < -depth) {
             plane.active = was || !contact.waits;
-            changed |= plane.gap < (s_.progress.may_go ? -harmful : -harmful_late);
-        } else if (was && s_.progress.may_go) {
+            changed |=
+                plane.gap < (s_.progress.may_release ? -penetration_tolerance : -late_penetration_tolerance);
+        } else if (was && s_.progress.may_release) {
             // The force that the contact has to bear: the imbalance without it.
             plane.active = dot(node.force, plane.normal) + node.mass * plane.gap <= 0.0;
         }
-        changed |= s_.progress.may_go && plane.active != was;
+        changed |= s_.progress.may_release && plane.active != was;
         if (!plane.active) continue;
         // Sorted by depth, deepest first.
         constexpr int most = detail::NodeContact::most;
@@ -256,12 +257,12 @@ bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
         hold.gap[at] = plane.gap;
         hold.planes = std::min(hold.planes + 1, most);
     }
-    rub(contact);
+    apply_friction(contact);
     return changed;
 }
 
 /// Friction of a particle.
-void ChainNewton::rub(ContactScratch::Contact& contact) {
+void ChainNewton::apply_friction(ContactScratch::Contact& contact) {
     const detail::ChainNode& node = s_.nodes[contact.node];
     detail::NodeContact& hold = s_.holds[static_cast<std::size_t>(node.contact)];
     const double friction = detail::friction(state_, state_.bodies[plan_.chains[chain_].body]);
@@ -297,7 +298,7 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
         hold.gap = dot(hold.normal, a + hold.at * (b - a) - contact.point);
         if (hold.gap < -thick) return true;  // it has passed through
     }
-    double deepest = was && (!s_.progress.may_go || hold.multiplier >= 0.0) ? touching : -depth;
+    double deepest = was && (!s_.progress.may_release || hold.multiplier >= 0.0) ? touching : -depth;
     std::uint32_t touched = ~0u;
     hold.active = false;
     for (std::uint32_t c = contact.first; c < contact.first + contact.count; ++c) {
@@ -331,15 +332,16 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
         const dvec3 force = s_.nodes[contact.bond].force + s_.nodes[contact.bond + 1].force;
         hold.multiplier = s_.progress.moved ? 0.0 : std::max(0.0, -dot(force, hold.normal));
     }
-    const bool changed = (s_.progress.may_go && (hold.active != was || touched != contact.collider)) ||
-                         (hold.active && hold.gap < (s_.progress.may_go ? -harmful : -harmful_late));
+    const bool changed = (s_.progress.may_release && (hold.active != was || touched != contact.collider)) ||
+                         (hold.active && hold.gap < (s_.progress.may_release ? -penetration_tolerance
+                                                                             : -late_penetration_tolerance));
     contact.collider = touched;
-    if (hold.active) rub_link(contact);
+    if (hold.active) apply_link_friction(contact);
     return changed;
 }
 
 /// Friction of a link: its ends share the drag.
-void ChainNewton::rub_link(const ContactScratch::LinkContact& contact) {
+void ChainNewton::apply_link_friction(const ContactScratch::LinkContact& contact) {
     const detail::BondContact& hold = s_.bond_holds[static_cast<std::size_t>(s_.bonds[contact.bond].contact)];
     const double friction = detail::friction(state_, state_.bodies[plan_.chains[chain_].body]);
     const double normal = std::max(0.0, hold.multiplier);

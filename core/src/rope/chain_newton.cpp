@@ -15,9 +15,9 @@ namespace {
 using glm::dvec3;
 
 constexpr int max_steps = 16;
-constexpr int few_steps = 4;        ///< after these a larger error is accepted
-constexpr int steps_to_let_go = 8;  ///< in these contacts may be dropped
-constexpr int max_rejected = 3;     ///< consecutive steps that may be repeated
+constexpr int few_steps = 4;      ///< after these a larger error is accepted
+constexpr int release_steps = 8;  ///< in these contacts may be dropped
+constexpr int max_rejected = 3;   ///< consecutive steps that may be repeated
 /// Minimum link compliance over h^2, relative to the inverse mass of its ends. A link that cannot reach its
 /// length stretches just enough to keep its tension finite. A metre of rope, 64 segments, carrying a hundred
 /// times its weight stretches by a millionth.
@@ -134,18 +134,18 @@ void ChainNewton::go_back(double part) {
 /// Whether a link has grown or shrunk too much. `turned`: the largest change of a link's direction, relative
 /// to its length.
 bool ChainNewton::went_too_far(double& turned) const {
-    bool wild = false, numbers = true;
+    bool diverged = false, numbers = true;
     turned = 0.0;
     for (std::size_t k = 0; k < s_.bonds.size(); ++k) {
         const double rest = s_.bonds[k].rest;
         numbers &= std::isfinite(s_.bonds[k].error);
-        wild |= !(std::abs(s_.bonds[k].error) <= grown_too_far * rest + std::abs(s_.kept[k].error));
+        diverged |= !(std::abs(s_.bonds[k].error) <= grown_too_far * rest + std::abs(s_.kept[k].error));
         const dvec3 before = s_.kept[k + 1].x - s_.kept[k].x, now = s_.nodes[k + 1].x - s_.nodes[k].x;
         const double squared = std::max({rest * rest, detail::dot(before, before), 1e-18});
         turned = std::max(turned, detail::dot(now - before, now - before) / squared);
     }
     turned = numbers ? std::sqrt(turned) : std::numeric_limits<double>::infinity();
-    return wild;
+    return diverged;
 }
 
 void ChainNewton::solve() {
@@ -160,9 +160,11 @@ bool ChainNewton::step(bool presses, bool more) {
     auto& p = s_.progress;
     const int steps = std::min(max_steps, state_.settings.iterations);
     if (presses) system.evaluate(p.stiffer);
-    p.may_go = p.taken <= steps_to_let_go;
+    p.may_release = p.taken <= release_steps;
     const bool changed = update_contacts();
-    const double enough = p.taken <= few_steps ? accepted : p.may_go ? 10.0 * accepted : 100.0 * accepted;
+    const double enough = p.taken <= few_steps ? accepted
+                          : p.may_release      ? 10.0 * accepted
+                                               : 100.0 * accepted;
     const bool done =
         p.moved && !changed && p.worst <= enough && (p.used == 0.0 || p.relapses == max_relapses);
     if ((done && !more) || p.taken == steps) return false;
@@ -172,8 +174,8 @@ bool ChainNewton::step(bool presses, bool more) {
     system.step();
     local_.done.work += s_.bonds.size();
     system.evaluate(p.stiffer);
-    const bool wild = went_too_far(p.turned);
-    if (wild && p.rejected < max_rejected) {
+    const bool diverged = went_too_far(p.turned);
+    if (diverged && p.rejected < max_rejected) {
         if (p.rejected == 0) p.relapses = std::min(p.relapses + 1, max_relapses);
         ++p.rejected;
         p.stiffer = std::max(first_stiffer, 100.0 * p.stiffer);
@@ -182,7 +184,7 @@ bool ChainNewton::step(bool presses, bool more) {
         return true;
     }
     p.rejected = 0;
-    if (wild && p.turned > turned_too_far) {
+    if (diverged && p.turned > turned_too_far) {
         go_back(turned_too_far / p.turned);
         system.evaluate(p.stiffer);
     }

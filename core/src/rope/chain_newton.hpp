@@ -57,9 +57,9 @@ class ChainNewton {
     void measure_planes(const ContactScratch::Contact& contact);
     void choose_deepest();
     bool update_planes(ContactScratch::Contact& contact);
-    void rub(ContactScratch::Contact& contact);
+    void apply_friction(ContactScratch::Contact& contact);
     bool update_link(ContactScratch::LinkContact& contact);
-    void rub_link(const ContactScratch::LinkContact& contact);
+    void apply_link_friction(const ContactScratch::LinkContact& contact);
     void begin_bends();
     void keep();
     void go_back(double part);

@@ -95,10 +95,10 @@ inline void solve_node(ChainNode& node, const Sweep& before, double stiffness,
 inline Sweep eliminate(const ChainNode& node, ChainBond& bond, const dvec3& along, double weights) noexcept {
     const double s = bond.stiffness;
     const dvec3 moved = node.mobility * along;
-    const double pivot = dot(along, moved) + bond.compliance / bond.pliant;
+    const double pivot = dot(along, moved) + bond.compliance / bond.stiffness_left;
     bond.inverse = weights > 0.0 ? 1.0 / pivot : 0.0;  // nothing to solve between two pinned nodes
     bond.row = along - s * moved;
-    bond.right = bond.error / bond.pliant - dot(along, node.offset);
+    bond.right = bond.error / bond.stiffness_left - dot(along, node.offset);
     Sweep next;
     const double square = -s * s;
     const Symmetric3& m = node.mobility;
@@ -204,7 +204,7 @@ void ChainSystem::evaluate(double stiffer) noexcept {
             bond.stiffness = tension / std::max(bond.rest + bond.compliance * tension, 1e-9);
             if (!bends.empty() && dot(bends[k].direction, bond.along) > 0.0) bond.stiffness *= tension_ahead;
             bond.stiffness = std::min(bond.stiffness + stiffer * node.mass, max_stiffness * node.mass);
-            bond.pliant = std::max(1.0 - bond.compliance * bond.stiffness, 1e-9);
+            bond.stiffness_left = std::max(1.0 - bond.compliance * bond.stiffness, 1e-9);
             pull = bond.multiplier * bond.along;
             if (!bends.empty() && dot(bends[k].direction, bond.along) > 0.0)
                 pull = bond.multiplier *

@@ -88,14 +88,14 @@ struct NodePush {
 
 /// A link, from its node to the next.
 struct ChainBond {
-    double rest = 0.0;          ///< metres
-    double compliance = 0.0;    ///< m/N, over h^2
-    double multiplier = 0.0;    ///< tension times h^2
-    std::int32_t contact = -1;  ///< index of its BondContact; negative: none
-    dvec3 along{0.0};           ///< unit
-    double error = 0.0;         ///< metres too long
-    double stiffness = 0.0;     ///< sideways, times h^2
-    double pliant = 1.0;        ///< part of the stiffness along it left by compliance
+    double rest = 0.0;            ///< metres
+    double compliance = 0.0;      ///< m/N, over h^2
+    double multiplier = 0.0;      ///< tension times h^2
+    std::int32_t contact = -1;    ///< index of its BondContact; negative: none
+    dvec3 along{0.0};             ///< unit
+    double error = 0.0;           ///< metres too long
+    double stiffness = 0.0;       ///< sideways, times h^2
+    double stiffness_left = 1.0;  ///< part of the stiffness along it left by compliance
     // Within a step: expresses the multiplier by the displacement of the next node in elimination order.
     dvec3 row{0.0};
     double right = 0.0, inverse = 0.0;

@@ -35,7 +35,7 @@ void add(const detail::GridVector& vector, std::size_t cell, const dvec3& value)
 
 void ClothSolver::add_contacts() {
     for (ClothContact& each : local_.cloth_contacts) {
-        rub(each);
+        apply_friction(each);
         add_contact(each);
     }
 }

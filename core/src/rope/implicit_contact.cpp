@@ -89,7 +89,7 @@ void ImplicitStep::keep(ClothContact contact, const SurfaceDistance& surface, do
 }
 
 /// Friction, from the normal force of the previous step.
-void ImplicitStep::rub(ClothContact& contact) const {
+void ImplicitStep::apply_friction(ClothContact& contact) const {
     const dvec3& n = contact.normal;
     contact.at = between(contact, scratch_.place);
     dvec3& slip = contact.slip;

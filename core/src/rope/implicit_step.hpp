@@ -18,7 +18,7 @@ class ImplicitStep : protected IslandStep {
     void find_at_particle(ClothContact contact, double radius, bool first);
     void find_at_link(ClothContact contact, double radius, bool first);
     void keep(ClothContact contact, const SurfaceDistance& surface, double radius, bool first);
-    void rub(ClothContact& contact) const;
+    void apply_friction(ClothContact& contact) const;
     double potential_of(const ClothContact& contact) const;
     const Scratch::Moving& collider_of(const ClothContact& contact) const {
         return scratch_.colliders[local_.near[contact.near].collider];

@@ -68,8 +68,8 @@ struct ContactScratch {
     struct {
         double stiffer = 0.0, used = 0.0, turned = 1.0, worst = 0.0;
         int taken = 0, rejected = 0, relapses = 0;
-        bool moved = false;   ///< a step was taken
-        bool may_go = false;  ///< contacts may still be dropped
+        bool moved = false;        ///< a step was taken
+        bool may_release = false;  ///< contacts may still be dropped
     } progress;
 };
 
@@ -202,12 +202,12 @@ struct Scratch {
     };
     std::vector<std::optional<Slowed>> chain_slowed;  ///< empty until its energy is balanced
     std::vector<BodyContactScratch> body_contacts;    ///< by island of the plan with collisions
-    /// A particle that may collide: its position when candidates were listed, how far it may roam from there
-    /// before they are listed again, and how far it may go in a substep. Squared: how far it has roamed, its
+    /// A particle that may collide: its position when candidates were listed, how far it may drift from there
+    /// before they are listed again, and how far it may go in a substep. Squared: how far it has drifted, its
     /// free way in this substep, and how far the solver has moved it so far.
     struct Listed {
         glm::dvec3 at{0.0};
-        double roam = 0.0, reach = 0.0, roamed = 0.0, way = 0.0, moved = 0.0;
+        double max_drift = 0.0, reach = 0.0, drifted = 0.0, way = 0.0, moved = 0.0;
     };
     std::vector<Listed> listed;                   ///< by particle; empty if nothing collides
     std::vector<ContactScratch> chain_contacts;   ///< by chain; empty if nothing collides

@@ -209,7 +209,7 @@ void TiedSolver::add_bends() {
 
 void TiedSolver::add_contacts() {
     for (ClothContact& each : local_.cloth_contacts) {
-        rub(each);
+        apply_friction(each);
         const std::uint32_t grid = plan_.grid_of[plan_.chunks[local_.near[each.near].chunk].body];
         if (grid > 0) {
             Cloth(*this, grid).add_contact(each);

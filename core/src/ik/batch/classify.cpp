@@ -14,7 +14,7 @@ namespace HWY_NAMESPACE {
 /// Metres: beyond this, floats are too coarse for the invariant of chain.hpp.
 constexpr float far_out = 1e3f;
 // Fractions of the allowed length error: between them a float cannot decide; rounding is 1/300 of it.
-constexpr float surely_fits = 0.95f, surely_loose = 1.05f;
+constexpr float fits_below = 0.95f, loose_above = 1.05f;
 
 /// False for NaN.
 HWY_INLINE Mask are_valid(const Points& p) {
@@ -65,8 +65,8 @@ HWY_INLINE Fit fit_of(const Block& block, std::size_t i) {
         Lanes off, allowed;
         compare(block, bone, i, off, allowed);
         fit.valid = hn::And(fit.valid, are_valid(load_points(block.joint(bone + 1) + i)));
-        fit.loose = hn::Or(fit.loose, hn::Gt(off, hn::Mul(allowed, all(surely_loose))));
-        const Mask unclear = hn::AndNot(fit.loose, hn::Ge(off, hn::Mul(allowed, all(surely_fits))));
+        fit.loose = hn::Or(fit.loose, hn::Gt(off, hn::Mul(allowed, all(loose_above))));
+        const Mask unclear = hn::AndNot(fit.loose, hn::Ge(off, hn::Mul(allowed, all(fits_below))));
         const Lanes squared = squared_distance(block.joint(bone) + i, block.joint(bone + 1) + i);
         const Mask blind = hn::And(fit.loose, hn::Lt(squared, all(math::coincidence)));
         fit.unclear = hn::Or(fit.unclear, hn::Or(unclear, blind));
@@ -115,7 +115,7 @@ HWY_INLINE void enforce_lengths(const Block& block, std::size_t i) {
     for (std::size_t bone = 0; bone < block.bones(); ++bone) {
         Lanes off, allowed;
         compare(block, bone, i, off, allowed);
-        const Mask fails = hn::Gt(off, hn::Mul(allowed, all(surely_loose)));
+        const Mask fails = hn::Gt(off, hn::Mul(allowed, all(loose_above)));
         const Mask loose = hn::And(fails, equals(block.row(Row::Class) + i, Class::Reachable));
         store(hn::IfThenElse(loose, all(static_cast<float>(Activity::Active)), load(activity + i)),
               activity + i);
