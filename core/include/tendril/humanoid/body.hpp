@@ -56,6 +56,7 @@ struct BodyTarget {
     /// turns with its parent bone.
     std::optional<glm::dquat> rotation{};
     double weight = 1.0;  ///< 0 to 1e3, relative to other targets; 0: ignored
+    bool operator==(const BodyTarget&) const = default;
 };
 
 /// Where a foot without a target stays: away from the clip's place, as footsteps.hpp moves it.
@@ -86,6 +87,7 @@ struct BodyOptions {
     std::array<FootShift, 2> feet{};  ///< left, right; only feet that stay
     const Ground* ground =
         nullptr;  ///< which feet stand, for balance; null: the lowest sole is on the ground
+    bool operator==(const BodyOptions&) const = default;
 };
 
 /// Where the last solve ended, for the next one to start from. If empty, it starts from the clip's pose.
@@ -156,6 +158,9 @@ class Body {
 
 }  // namespace tendril::humanoid
 
+template <>
+std::span<const tendril::Field>
+tendril::fields<tendril::humanoid::BodyTarget>() noexcept;  ///< not its effector
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::humanoid::FootShift>() noexcept;
 template <>
