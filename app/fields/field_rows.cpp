@@ -67,12 +67,7 @@ void FieldRows::row(std::string_view name, const RowOptions& options) const {
 }
 
 bool FieldRows::changed(const Field& field) const {
-    if (default_ == nullptr) return false;
-    const FieldValue now = field.get(of_.object), usual = field.get(default_);
-    const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
-    for (std::size_t i = 0; i < static_cast<std::size_t>(field.size()); ++i)
-        if (!same(now[i], usual[i])) return true;
-    return false;
+    return default_ != nullptr && !same_value(field, of_.object, default_);
 }
 
 void FieldRows::draw(const Field& field, const FieldText& usual, const RowOptions& options) const {
@@ -114,7 +109,8 @@ void FieldRows::flag_row(const Field& field, const FieldText& text) const {
 }
 
 void FieldRows::number_row(const Field& field, const FieldText& text, const RowOptions& options) const {
-    const FieldRange range = options.within.value_or(field.range);
+    FieldRange range = options.within.value_or(field.range);
+    if (field.over_low) range.low += static_cast<double>(text.step) / text.scale;
     double now = field.get(of_.object)[0];
     if (std::isnan(now)) now = options.otherwise.value_or(range.low);
     if (field.type == FieldType::Integer) {

@@ -53,6 +53,8 @@ Json saved(const Field& field, const FieldValue& value) {
 }
 
 double number_in_range(const JsonPlace& place, const Field& field) {
+    if (field.over_low && place.real() <= file_range(field).low)
+        place.fail("expected a number over " + json_summary(file_range(field).low));
     if (is_angle(field)) {
         const auto [low, high] = file_range(field);
         const double given = place.real(low, high);
@@ -154,6 +156,12 @@ bool is_angle(const Field& field) {
 
 std::string file_name(const Field& field) {
     return is_angle(field) ? std::string(field.name) + "_deg" : field.name;
+}
+
+bool same_value(const Field& field, const void* a, const void* b) {
+    const FieldValue was = field.get(a), is = field.get(b);
+    return std::ranges::equal(was, is,
+                              [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
 }
 
 FieldRange file_range(const Field& field) {

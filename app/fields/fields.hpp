@@ -23,6 +23,9 @@ std::string file_name(const Field& field);
 /// The field's range there, with bounds as their shortest decimals.
 FieldRange file_range(const Field& field);
 
+/// Empty fields are the same.
+bool same_value(const Field& field, const void* a, const void* b);
+
 /// A field's presentation.
 struct FieldText {
     const char* name;    ///< the field's, as in its table

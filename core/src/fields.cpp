@@ -45,7 +45,11 @@ class Text {
 /// "0 to 1000 1/s", or "one of relaxation, xpbd, direct".
 Text requirement(const Field& field) noexcept {
     Text text;
-    if (field.type == FieldType::Rotation) return text.add("a quaternion of length 1");
+    if (field.type == FieldType::Rotation) {
+        text.add("a quaternion of length ");
+        if (field.range.low == unit_length.low) return text.add("1");
+        return text.add(field.range.low).add(" to ").add(field.range.high);
+    }
     if (field.type == FieldType::Choice) {
         text.add("one of ");
         for (std::size_t i = 0; i < field.choices.size(); ++i)

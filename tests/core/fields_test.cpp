@@ -13,6 +13,7 @@
 #include <tendril/humanoid/hold.hpp>
 #include <tendril/humanoid/look_at.hpp>
 #include <tendril/humanoid/spring_chain.hpp>
+#include <tendril/ik/curve.hpp>
 #include <tendril/ik/options.hpp>
 #include <tendril/rope/body.hpp>
 #include <tendril/rope/collider.hpp>
@@ -43,6 +44,7 @@ Table table(const char* name) {
 std::vector<Table> tables() {
     using namespace humanoid;
     std::vector<Table> all{table<BodyOptions>("BodyOptions"),
+                           table<BodyTarget>("BodyTarget"),
                            table<BodyState>("BodyState"),
                            table<FeetOptions>("FeetOptions"),
                            table<FeetState>("FeetState"),
@@ -57,6 +59,7 @@ std::vector<Table> tables() {
                            table<SpringOptions>("SpringOptions"),
                            table<SpringChainState>("SpringChainState"),
                            table<ik::AngleLimit>("AngleLimit"),
+                           table<ik::CurveOptions>("CurveOptions"),
                            table<ik::Limit>("Limit"),
                            table<ik::Options>("Options"),
                            table<rope::Settings>("Settings"),

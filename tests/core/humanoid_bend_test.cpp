@@ -385,7 +385,7 @@ TEST(BentChain, SurvivesAnyInput) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const Points good{{0.1f, 0.0f, -0.5f}};
     const std::array<float, 3> three{1.0f, 1.0f, 1.0f};
-    const auto refuses = [&](const Points& points, const BendOptions& options = {}) {
+    const auto refuses = [&](const Points& points, const ik::CurveOptions& options = {}) {
         const Pose given = pose = tail.random_pose(random);
         ik::CurveMemory memory(tail_bones);
         const ik::CurveMemory before = memory;

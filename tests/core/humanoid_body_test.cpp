@@ -389,12 +389,13 @@ TEST_P(HumanoidBody, what_it_cannot_use_is_refused_and_nothing_moves) {
     };
     const double nan = std::nan("");
     EXPECT_TRUE(test::says(refused({{Effector::Head, {0.0, nan, 0.0}}}),
-                           "Body::solve targets[0].position.y finite 1e9 nan"));
+                           "Body::solve targets[0].position.y 1e9 nan"));
     EXPECT_TRUE(
-        test::says(refused({{Effector::Head, {}, {}, -1.0}}), "Body::solve targets[0].weight 0 1e3 -1"));
+        test::says(refused({{Effector::Head, {}, {}, -1.0}}), "Body::solve targets[0].weight 0 1000 -1"));
     EXPECT_TRUE(test::says(refused({{Effector::Head, {}}, {Effector::Head, {}}}),
                            "Body::solve targets[1].effector once head"));
-    EXPECT_FALSE(refused({{Effector::Head, {}, glm::dquat(0.0, 0.0, 0.0, 0.0)}}).empty());
+    EXPECT_TRUE(test::says(refused({{Effector::Head, {}, glm::dquat(0.0, 0.0, 0.0, 0.0)}}),
+                           "targets[0].rotation quaternion of length 1e-6 to 1e9"));
     EXPECT_TRUE(test::says(refused({{Effector::Head, {}}}, {.tolerance = 0.0}),
                            "Body::solve options.tolerance over 0 to 1 0"));
     state.turns.resize(body.bones().size(), glm::dquat(1.0, 0.0, 0.0, 0.0));

@@ -72,8 +72,8 @@ TEST_F(FeetHostile, AnyPoseOnAnyGroundGivesFinitePosesOfTheSameLengths) {
             std::vector<rig::Transform> made = pose();
             const std::vector<rig::Transform> before = made;
             FeetOptions options;
-            options.max_turn = number(0.0, 1.5);
-            options.max_slope = number(0.0, 1.5);
+            options.max_turn = number(0.0, 1.48);
+            options.max_slope = number(0.0, 1.48);
             options.weight = number(0.0, 1.0) < 0.5 ? 1.0 : number(0.0, 1.0);
             options.root.rotation = rotation();
             const FeetReport report = feet.step(made, below, dt(), state, options);

@@ -179,6 +179,15 @@ TEST_F(HumanoidFootsteps, StepsEndForAnyTarget) {
     EXPECT_GE(few, 30);
 }
 
+TEST_F(HumanoidFootsteps, OptionsOutOfRangeAreClamped) {
+    const auto after = [&](const FootstepOptions& options) {
+        FootstepsState begun{.feet = {Footstep{{}, {0.0, 0.0, 0.4}, 0.0}}};
+        return advance_steps(begun, soles, 0.01, options);
+    };
+    EXPECT_EQ(after({.seconds = 1e-9, .lift = 7.0}), after({.seconds = 0.05, .lift = 1.0}));
+    EXPECT_EQ(after({.seconds = 1e9, .lift = std::nan("")}), after({.seconds = 5.0, .lift = 0.0}));
+}
+
 TEST_F(HumanoidFootsteps, BadStatesAreReset) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     steps.feet[0].to.x = nan;

@@ -63,7 +63,7 @@ TEST_F(HandIk, AtFullWeightTheHandIsOnItsTargetAndTurnedAsItIs) {
         HandsState state;
         HandTargets targets;
         targets[0] = {.position = target, .rotation = turned, .weight = 1.0};
-        const HandsReport report = hands.step(made, targets, 1.0 / 60, state, {.view = 3.15});
+        const HandsReport report = hands.step(made, targets, 1.0 / 60, state, {.view = 3.14});
         ASSERT_TRUE(report.valid);
         EXPECT_EQ(report.hands[0].weight, 1.0);
         EXPECT_LT(glm::distance(at(made, Bone::LeftHand), target), 0.002);
@@ -104,7 +104,7 @@ TEST_F(HandIk, BetweenTheTwoItIsSmooth) {
             std::vector<rig::Transform> made = clip;
             HandTargets targets;
             targets[0] = {.position = target, .rotation = turned, .weight = static_cast<double>(i) / steps};
-            hands.step(made, targets, 1.0 / 60, state, {.view = 3.15});
+            hands.step(made, targets, 1.0 / 60, state, {.view = 3.14});
             const glm::dvec3 now = at(made, Bone::LeftHand), bent = at(made, Bone::LeftLowerArm);
             worst = std::max(worst, glm::distance(now, before));
             const glm::dvec3 shoulder = at(made, Bone::LeftUpperArm);
@@ -223,7 +223,7 @@ TEST_F(HandIk, AnyPoseAndTargetGiveFinitePosesWithoutMemory) {
             if (round % 5 == 0) target.position = at(made, Bone::LeftUpperArm);
         }
         HandsReport report;
-        without_memory([&] { report = hands.step(made, targets, 1.0 / 60, state, {.view = 3.15}); });
+        without_memory([&] { report = hands.step(made, targets, 1.0 / 60, state, {.view = 3.14}); });
         ASSERT_TRUE(report.valid);
         for (const rig::Transform& each : made) {
             ASSERT_TRUE(std::isfinite(each.translation.x));

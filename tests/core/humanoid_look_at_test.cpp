@@ -61,7 +61,7 @@ TEST_F(HeadLook, StaysWithinItsLimits) {
         std::vector<rig::Transform> made = rest_pose(skeleton);
         LookAtState state;
         const LookAtOptions options{
-            .target = target, .spine_limit = 0.2, .neck_limit = 0.3, .head_limit = 0.4, .view = 3.15};
+            .target = target, .spine_limit = 0.2, .neck_limit = 0.3, .head_limit = 0.4, .view = 3.14};
         look.step(made, options, 1.0 / 60, state);
         EXPECT_LE(turned(made, Bone::Spine) + turned(made, Bone::Chest) + turned(made, Bone::UpperChest),
                   0.2 + 1e-6);
@@ -129,7 +129,7 @@ TEST_F(HeadLook, RefusesWhatIsNoTargetAndNeedsNoMemory) {
         for (int i = 0; i < 3; ++i) target[i] = number(-1.0, 1.0) * std::pow(10.0, number(-9.0, 8.0));
         if (round % 7 == 0) target = glm::dvec3(0, 1.6, 0);
         LookAtReport report;
-        without_memory([&] { report = look.step(made, {.target = target, .view = 3.15}, 1.0 / 60, state); });
+        without_memory([&] { report = look.step(made, {.target = target, .view = 3.14}, 1.0 / 60, state); });
         ASSERT_TRUE(report.valid);
         ASSERT_TRUE(std::isfinite(report.left));
         for (const rig::Transform& each : made) ASSERT_NEAR(glm::length(each.rotation), 1.0, 1e-9);

@@ -200,7 +200,7 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
         if (const auto selected = place.optional("selected")) {
             if (selected->json().is_string()) {
                 part->chosen_point = selected->choice(chain_points);
-                if (part->chosen_point == ChainPoint::Pole && !part->reach.pole)
+                if (part->chosen_point == ChainPoint::Pole && !part->reach.options.pole)
                     selected->fail("there is no pole target to select");
             } else {
                 part->selection = Selection::load(*selected, part->chain.size());
@@ -280,7 +280,6 @@ ik::State load_state(const JsonPlace& owner, const std::vector<glm::vec3>& joint
 Json save_reach(const ReachSettings& settings, const Chain& chain) {
     Json json{{"solver", ik::name(settings.method)}};
     json.update(save_fields(settings));
-    json["pole"] = settings.pole ? point(*settings.pole) : Json(nullptr);
     if (settings.plane) {
         Json& plane = json["plane"] = {{"normal", point(settings.plane->normal)},
                                        {"bend", bend_sides.name(settings.plane->bend)}};
@@ -297,7 +296,6 @@ ReachSettings load_reach(const JsonPlace& place, const Chain& chain) {
     ReachSettings settings;
     settings.method = load_method(place["solver"]);
     load_fields(place, settings);
-    if (const auto pole = place.optional("pole")) settings.pole = pole->point();
     if (const auto plane = place.optional("plane")) settings.plane = load_plane(*plane, chain);
     if (settings.plane && place.has("limits")) place["limits"].fail("a chain in a plane has the plane's");
     settings.limits = load_limits(place, "limits", chain);

@@ -105,7 +105,8 @@ std::vector<Handle> ChainLab::handles(const Workspace& workspace) const {
             handles.push_back(*handle(workspace, control_pick(i)));
     else
         handles.push_back(*handle(workspace, target_pick));
-    if (part.mode == ChainMode::Reach && part.reach.pole) handles.push_back(*handle(workspace, pole_pick));
+    if (part.mode == ChainMode::Reach && part.reach.options.pole)
+        handles.push_back(*handle(workspace, pole_pick));
     const std::vector<glm::vec3> joints = shown_joints(shown_chain(workspace));
     for (std::size_t i = 0; i < joints.size(); ++i) handles.push_back(joint_handle(part, i, joints[i]));
     return handles;
@@ -119,8 +120,9 @@ std::optional<Handle> ChainLab::handle(const Workspace& workspace, PickId pick) 
         return Handle{"control." + std::to_string(*control), pick, {part.curve.points[*control]}};
     if (const auto at = curved ? picked_on_curve(part, pick) : std::nullopt)
         return Handle{
-            "curve", pick, {ik::curve_point(part.curve.points, part.curve.kind, *at)}, Drag::Nothing};
-    if (pick == pole_pick && part.reach.pole) return Handle{"pole", pole_pick, {*part.reach.pole}};
+            "curve", pick, {ik::curve_point(part.curve.points, part.curve.options.kind, *at)}, Drag::Nothing};
+    if (pick == pole_pick && part.reach.options.pole)
+        return Handle{"pole", pole_pick, {*part.reach.options.pole}};
     if (const auto end = picked_limit(pick)) return limit_handle(part, *end);
     if (pick < segment_pick(0) || picked_segment(pick) >= part.chain.size()) return std::nullopt;
     const std::size_t index = picked_segment(pick);
@@ -154,7 +156,7 @@ Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
     const ChainPart& part = chain_part(workspace);
     if (selection_only && part.chosen_point) {
         const bool target = part.chosen_point == ChainPoint::Target;
-        return {target ? part.target : part.reach.pole.value_or(part.target), 0.5f};
+        return {target ? part.target : part.reach.options.pole.value_or(part.target), 0.5f};
     }
     if (selection_only && !part.along.selection.empty()) {
         glm::vec3 low(1e30f), high(-1e30f);
@@ -182,9 +184,9 @@ Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
         for (const glm::vec3& each : part.curve.points)
             low = glm::min(low, each), high = glm::max(high, each);
     for (const glm::vec3& joint : part.study.start) low = glm::min(low, joint), high = glm::max(high, joint);
-    if (part.mode == ChainMode::Reach && part.reach.pole) {
-        low = glm::min(low, *part.reach.pole);
-        high = glm::max(high, *part.reach.pole);
+    if (part.mode == ChainMode::Reach && part.reach.options.pole) {
+        low = glm::min(low, *part.reach.options.pole);
+        high = glm::max(high, *part.reach.options.pole);
     }
     // A chain of a few centimetres fills the view as a long one does.
     const float reach = part.chain.reach();
@@ -242,7 +244,7 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
     if (!part.study.open() && chain_past().shows_ghosts(workspace.settings))
         rows.push_back({ghost_legend, colours.ghost});
     if (part.mode != ChainMode::Reach) return rows;
-    if (part.reach.pole) rows.push_back({"pole", pole_colour(colours)});
+    if (part.reach.options.pole) rows.push_back({"pole", pole_colour(colours)});
     if (is_limited(part.reach)) rows.push_back({"limit", colours.ghost, true});
     if (is_limited(part.reach)) rows.push_back({"active limit", colours.limit, true});
     return rows;

@@ -47,10 +47,12 @@ void check_range(const ChainPart& part) {
 
 int iterations_of(const ChainPart& part, ChainMode mode) {
     if (mode == ChainMode::Curve) return 1;
-    return mode == ChainMode::Reach ? part.reach.iterations : part.iterations[static_cast<std::size_t>(mode)];
+    return mode == ChainMode::Reach ? part.reach.options.max_iterations
+                                    : part.iterations[static_cast<std::size_t>(mode)];
 }
 int& iterations_of(ChainPart& part, ChainMode mode) {
-    return mode == ChainMode::Reach ? part.reach.iterations : part.iterations[static_cast<std::size_t>(mode)];
+    return mode == ChainMode::Reach ? part.reach.options.max_iterations
+                                    : part.iterations[static_cast<std::size_t>(mode)];
 }
 
 std::size_t led_joint(const ChainPart& part) {
@@ -134,7 +136,7 @@ std::shared_ptr<const Part> ChainPart::at_moment(std::shared_ptr<const Part> the
     part->selection = std::move(now);
     part->along.selection = std::move(controls);
     part->chosen_point = chosen_point;
-    if (chosen_point == ChainPoint::Pole && !part->reach.pole) part->chosen_point.reset();
+    if (chosen_point == ChainPoint::Pole && !part->reach.options.pole) part->chosen_point.reset();
     return part;
 }
 

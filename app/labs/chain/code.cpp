@@ -174,10 +174,6 @@ void ChainProgram::reach() {
 void ChainProgram::curve() {
     const CurveSettings& chosen = part_.curve;
     const std::vector<float> weights = curve_weights(chosen, part_.chain.size() - 1);
-    const ik::CurveOptions options = curve_options(chosen, weights), plain;
-    const auto set = [&](bool differs, const std::string& what) {
-        if (differs) say("options." + what + ";");
-    };
     say("// The curve's control points; metres.");
     say("const std::vector<glm::vec3> points{");
     for (const glm::vec3& each : chosen.points) say("    " + braced(each) + ",");
@@ -188,14 +184,9 @@ void ChainProgram::curve() {
         say("};");
     }
     say("ik::CurveOptions options;");
-    set(options.kind != plain.kind, "kind = ik::CurveKind::BSpline");
-    set(options.fit, "fit = true");
-    set(options.fit && options.max_factor != plain.max_factor, "max_factor = " + literal(options.max_factor));
-    set(options.up != plain.up, "up = " + braced(options.up));
-    set(options.roll_start != 0.0f, "roll_start = " + literal(options.roll_start));
-    set(options.roll_end != 0.0f, "roll_end = " + literal(options.roll_end));
-    set(options.weight != 1.0f, "weight = " + literal(options.weight));
-    set(!weights.empty(), "weights = weights");
+    for (const std::string& each : changed_texts(chosen.options, "ik::CurveKind::"))
+        say("options" + each + ";");
+    if (!weights.empty()) say("options.weights = weights;");
     line("");
     say("// Make these once. State and memory go with the joints from frame to frame.");
     say("std::vector<float> lengths;");
@@ -223,7 +214,7 @@ void ChainProgram::options() {
     line("");
     say("ik::Options options;");
     set("tolerance", literal(*options.tolerance),
-        chosen.tolerance ? "  // metres" : "  // metres: 1e-3 of the reach");
+        chosen.options.tolerance ? "  // metres" : "  // metres: 1e-3 of the reach");
     set("max_iterations", std::to_string(options.max_iterations));
     if (options.pole) {
         say("options.pole = glm::vec3" + braced(*options.pole) + ";  // the elbow or knee points at it");

@@ -129,7 +129,7 @@ void set_mode(ChainPart& part, const Arguments& given) {
     }
     if (!given.has("tolerance")) return;
     if (part.mode == ChainMode::Reach) {
-        part.reach.tolerance = given.number("tolerance");
+        part.reach.options.tolerance = given.number("tolerance");
     } else {
         part.tolerance = given.number("tolerance");
     }
@@ -187,7 +187,7 @@ void select(ChainPart& part, const Arguments& given) {
         if (given.has("index") || given.has("joints") || add)
             throw Refused("point cannot be given with joints: it is selected instead of them");
         const ChainPoint chosen = chain_points.value(given.text("point"));
-        if (chosen == ChainPoint::Pole && !(part.mode == ChainMode::Reach && part.reach.pole))
+        if (chosen == ChainPoint::Pole && !(part.mode == ChainMode::Reach && part.reach.options.pole))
             throw Refused("there is no pole target");
         if (part.mode == ChainMode::Curve)
             throw Refused("in mode curve the last control point is the target");

@@ -28,7 +28,7 @@ Cure add_pole(const ChainPart& part) {
 
 /// Out of the plane in which the target moved, to the side where the pole target is.
 std::optional<Cure> move_pole(const ChainPart& before, const ChainPart& after) {
-    const glm::vec3 root = after.chain.position(0), pole = *after.reach.pole;
+    const glm::vec3 root = after.chain.position(0), pole = *after.reach.options.pole;
     const glm::vec3 normal = glm::cross(before.target - root, after.target - root);
     if (!(glm::length(normal) > 1e-6f * after.chain.reach() * after.chain.reach())) return std::nullopt;
     const glm::vec3 out = glm::normalize(normal);
@@ -73,21 +73,22 @@ std::optional<Cure> reach_cure(const ChainPart& part) {
     const ReachSettings& reach = part.reach;
     const bool limited = is_limited(reach);
     const ik::Status status = part.result->report.status;
-    if (status == ik::Status::IterationLimit && reach.iterations < max_iterations) {
-        const int more = std::min(2 * reach.iterations, max_iterations);
+    if (status == ik::Status::IterationLimit && reach.options.max_iterations < max_iterations) {
+        const int more = std::min(2 * reach.options.max_iterations, max_iterations);
         return solve_with(part, "More iterations", "Runs chain.solver: up to " + std::to_string(more),
                           {"iterations", more});
     }
     if (status != ik::Status::Stalled) return std::nullopt;
     if (!limited && in_line_with_target(part))
-        return reach.pole ? std::nullopt : std::optional(add_pole(part));
+        return reach.options.pole ? std::nullopt : std::optional(add_pole(part));
     if (part.result->method != ik::Method::Fabrik)
         return solve_with(part, "Another solver",
                           std::string("Runs chain.solver: ") + solver_title(ik::Method::Fabrik),
                           {"name", ik::name(ik::Method::Fabrik)});
-    const int restarts = reach.restarts.value_or(default_restarts);
-    if (!ik::honours(reach.method, field_of<&ik::Options::restarts>(), limited) || restarts >= max_restarts)
-        return std::nullopt;
+    const int restarts = reach.options.restarts.value_or(default_restarts);
+    const Field& row = field_of<&ik::Options::restarts>();
+    const int max_restarts = static_cast<int>(row.range.high);
+    if (!ik::honours(reach.method, row, limited) || restarts >= max_restarts) return std::nullopt;
     const int more = std::clamp(2 * restarts, default_restarts, max_restarts);
     return solve_with(part, "More restarts", "Runs chain.solver: up to " + std::to_string(more),
                       {"restarts", more});
@@ -98,10 +99,10 @@ std::optional<Cure> flip_cure(FlipCure cure, const ChainPart& before, const Chai
         case FlipCure::ByHand:
             break;
         case FlipCure::AddPole:
-            if (!after.reach.pole) return add_pole(before);
+            if (!after.reach.options.pole) return add_pole(before);
             break;
         case FlipCure::MovePole:
-            if (after.reach.pole) return move_pole(before, after);
+            if (after.reach.options.pole) return move_pole(before, after);
             break;
         case FlipCure::NoRestarts:
             return Cure{"No restarts",

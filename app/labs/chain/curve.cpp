@@ -3,21 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <stdexcept>
 #include <utility>
 
 #include "app/document/json_complete.hpp"
+#include "app/fields/field_in.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/kit/arguments.hpp"
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::CurveSettings>() noexcept {
-    using app::CurveSettings;
     static const std::vector<Field> rows = [] {
         const std::span<const Field> shape = fields<app::CurveShape>();
         std::vector<Field> all(shape.begin(), shape.end());
-        all.push_back(field<&CurveSettings::up>("up", {-max_magnitude, max_magnitude}));
+        all.push_back(app::field_in<&app::CurveShape::options, &ik::CurveOptions::up>());
         return all;
     }();
     return rows;
@@ -44,17 +43,6 @@ const Chain& own_chain(const ChainPart& part) {
     return part.mode == ChainMode::Curve ? part.along.given : part.chain;
 }
 
-ik::CurveOptions curve_options(const CurveSettings& settings, std::span<const float> weights) {
-    return {.kind = settings.kind,
-            .fit = settings.fit,
-            .max_factor = settings.max_factor,
-            .up = settings.up,
-            .roll_start = glm::radians(settings.roll_start_deg),
-            .roll_end = glm::radians(settings.roll_end_deg),
-            .weight = settings.weight,
-            .weights = weights};
-}
-
 namespace {
 
 /// Five joints of the chain, evenly spread, or all of a shorter one.
@@ -67,7 +55,7 @@ std::vector<glm::vec3> points_through(const Chain& chain) {
 
 /// Whether a joint that moves further than the curve has jumped: the control points alone differ.
 bool only_points_moved(const ChainPart& before, const ChainPart& after) {
-    const CurveSettings &was = before.curve, &is = after.curve;
+    const ik::CurveOptions &was = before.curve.options, &is = after.curve.options;
     return before.mode == ChainMode::Curve && before.along.given == after.along.given &&
            was.kind == is.kind && was.fit == is.fit && was.max_factor == is.max_factor;
 }
@@ -87,18 +75,17 @@ void follow_curve(ChainPart& part) {
     for (const Segment& each : along.given.segments().subspan(1)) lengths.push_back(each.length);
     const std::vector<glm::vec3> rest(bones, along.given.default_direction());
     const std::vector<float> weights = curve_weights(curve, bones);
-    const ik::CurveOptions options = curve_options(curve, weights);
     std::vector<glm::vec3> joints = positions(along.given);
     part.reach.state = ik::State(bones);
     if (along.memory.at.size() != joints.size()) along.memory = ik::CurveMemory(bones);
-    along.report =
-        ik::place_along(curve.points, {lengths, rest}, joints, part.reach.state, along.memory, options);
+    along.report = ik::place_along(curve.points, {lengths, rest}, joints, part.reach.state, along.memory,
+                                   curve.with(weights));
     if (along.report->status == ik::Status::InvalidInput)
         throw std::invalid_argument("the chain cannot be placed along this curve");
 
     std::vector<Segment> segments{{joints.front(), along.given.length(0)}};
     for (std::size_t i = 0; i < bones; ++i) {
-        const float weight = curve.weight * (weights.empty() ? 1.0f : weights[i]);
+        const float weight = curve.options.weight * (weights.empty() ? 1.0f : weights[i]);
         segments.push_back({joints[i + 1], lengths[i] * (1.0f + weight * (along.report->factor - 1.0f))});
     }
     part.chain = require_value(Chain::from_segments(std::move(segments), along.given.default_direction()));

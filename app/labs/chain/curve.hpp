@@ -24,8 +24,6 @@ inline constexpr std::size_t max_control_points = 4096;
 
 /// With none of its points, or at least two.
 struct CurveSettings : CurveShape {
-    glm::vec3 up{0.0f, 1.0f, 0.0f};
-
     bool operator==(const CurveSettings&) const = default;
 };
 
@@ -47,7 +45,6 @@ void follow_curve(ChainPart& part);
 /// After an edit that began with the given chain in place of the chain: places it again if need be, and
 /// forgets what only mode Curve keeps in another mode.
 void keep_on_curve(ChainPart& part, const ChainPart& before);
-ik::CurveOptions curve_options(const CurveSettings& settings, std::span<const float> weights);
 
 /// Removes the selected control points. Throws Refused if fewer than two would be left.
 void remove_selected_points(ChainPart& part);

@@ -21,8 +21,8 @@ class CurveDrawing {
         : view_(view), part_(part), curve_(part.curve), list_(list) {}
 
     void run() {
-        const CurvePen pen(view_, curve_.points, curve_.kind, first_curve_pick, view_.palette.target, 2,
-                           list_);
+        const CurvePen pen(view_, curve_.points, curve_.options.kind, first_curve_pick, view_.palette.target,
+                           2, list_);
         pen.line();
         const Selection& selection = part_.along.selection;
         for (std::size_t i = 0; i < curve_.points.size(); ++i)  // over the joints: the first is on the root
@@ -37,8 +37,8 @@ class CurveDrawing {
     void frames() {
         const auto& rotations = part_.reach.state.rotations;
         const glm::vec3 rest = part_.chain.default_direction();
-        glm::vec3 side = glm::cross(curve_.up, rest);
-        if (!(glm::length(side) > 1e-6f * glm::length(curve_.up)))
+        glm::vec3 side = glm::cross(curve_.options.up, rest);
+        if (!(glm::length(side) > 1e-6f * glm::length(curve_.options.up)))
             side = glm::cross(std::abs(rest.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0), rest);
         const glm::vec3 right = glm::normalize(side), upper = glm::cross(rest, right);
         for (std::size_t i = 0; i < rotations.size() && i + 1 < part_.chain.size(); ++i) {
@@ -86,7 +86,7 @@ void curve_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
     end_row();
     FieldRows(part.curve, "chain.curve", emit)
         .under(more)
-        .rows("kind", "weight", "roll_start_deg", "roll_end_deg", "fit", "max_factor", "falloff", "up");
+        .rows("kind", "weight", "roll_start", "roll_end", "fit", "max_factor", "falloff", "up");
 }
 
 Verdict curve_verdict(const ChainPart& part) {
@@ -95,7 +95,7 @@ Verdict curve_verdict(const ChainPart& part) {
     if (report.collapsed) return {"All points coincide", Verdict::Kind::Bad};
     if (report.status == ik::Status::Stretched)
         return {"Past the end: " + distance_text(report.past_end), Verdict::Kind::Bad};
-    if (part.curve.weight < 1.0f || part.curve.falloff != 0.0f)
+    if (part.curve.options.weight < 1.0f || part.curve.falloff != 0.0f)
         return {"Between pose and curve", Verdict::Kind::Open};
     return {"On the curve", Verdict::Kind::Good};
 }
@@ -110,7 +110,7 @@ void curve_report_rows(const ChainPart& part, const Palette& palette, Emit& emit
                           : past == 0      ? "Every joint lies on the curve."
                                            : count_text(past, "bone") + (past == 1 ? " goes" : " go") +
                                             " on straight past its last point.");
-                     if (past == 0 || part.curve.fit) return;
+                     if (past == 0 || part.curve.options.fit) return;
                      cure_line("",
                                Cure{"Fit",
                                     "Runs chain.curve: scales the bones so that the tip is on the last "
@@ -119,7 +119,8 @@ void curve_report_rows(const ChainPart& part, const Palette& palette, Emit& emit
                                emit);
                  });
     if (!part.along.report) return;
-    if (part.curve.fit) reading("bones scaled by", "%.4f", static_cast<double>(part.along.report->factor));
+    if (part.curve.options.fit)
+        reading("bones scaled by", "%.4f", static_cast<double>(part.along.report->factor));
 }
 
 void control_rows(const ChainPart& part, Emit& emit) {

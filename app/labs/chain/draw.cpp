@@ -384,8 +384,8 @@ void draw_reach_sphere(const View& view, const ShownChain& shown, DrawList& list
 }
 
 void draw_pole(const View& view, const ChainPart& part, DrawList& list) {
-    if (!part.reach.pole) return;
-    const glm::vec3 at = *part.reach.pole;
+    if (!part.reach.options.pole) return;
+    const glm::vec3 at = *part.reach.options.pole;
     const bool hovered = view.hovered == pole_pick || view.dragged == pole_pick;
     if (!part.chain.empty()) {
         const glm::vec3 root = part.chain.position(0), along = part.target - root;

@@ -147,7 +147,7 @@ Incident incident_of(const TracedIncident& found, const ShownTrace& trace,
         if (found.kind != ik::IncidentKind::Limit) incident.degrees = 0.0f;
         return incident;
     }
-    incident.cure = flip_advice(found.flip, after.reach.pole.has_value()).cure;
+    incident.cure = flip_advice(found.flip, after.reach.options.pole.has_value()).cure;
     if (!found.prevented.tried) return incident;
     const std::size_t count = found.prevented.by.size();
     incident.cure = capitalised(found.prevented.text()) + (count == 0   ? "."
@@ -171,11 +171,11 @@ class Moments {
             part->chain = chain_through(frame.joints);
             part->target = frame.goal();
             part->reach.method = solve.method;
-            part->reach.soft_zone = solve.soft_zone;
-            part->reach.pole = solve.pole(frame);
+            part->reach.options.soft_zone = solve.soft_zone;
+            part->reach.options.pole = solve.pole(frame);
             auto traced =
                 std::make_shared<TracedPose>(TracedPose{positions(part->chain), ghost.follow(frame), trace});
-            flips.add({.joints = traced->ghost, .target = part->target, .pole = part->reach.pole});
+            flips.add({.joints = traced->ghost, .target = part->target, .pole = part->reach.options.pole});
             float apart = 0.0f;
             for (std::size_t i = 0; i < traced->joints.size(); ++i)
                 apart = std::max(apart, glm::distance(traced->joints[i], traced->ghost[i]));

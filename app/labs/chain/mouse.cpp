@@ -112,7 +112,8 @@ void ChainLab::click(const Workspace& workspace, PickId pick, Emit& emit) const 
     if (const auto control = picked_control(pick)) return emit("chain.select", {{"control", *control}});
     if (const auto at = picked_on_curve(part, pick)) {
         emit("chain.curve",
-             {{"points", SharedJson(points_json(with_point_at(part.curve.points, part.curve.kind, *at)))}});
+             {{"points",
+               SharedJson(points_json(with_point_at(part.curve.points, part.curve.options.kind, *at)))}});
         return emit("chain.select", {{"control", static_cast<std::size_t>(*at) + 1}});
     }
     if (pick == target_pick || pick == pole_pick) {
@@ -288,9 +289,8 @@ void solve_section(Section& section, const Chain& chain, const ReachSettings& se
 ik::Options section_options(const ReachSettings& settings, float tolerance) {
     ik::Options options;
     options.tolerance = tolerance;
-    options.max_iterations = settings.iterations;
-    options.damping = settings.damping;
-    options.rotations = false;
+    options.max_iterations = settings.options.max_iterations;
+    options.damping = settings.options.damping;
     options.restarts = 0;  // a restart could end elsewhere: a dragged joint must not jump
     return options;
 }
@@ -342,7 +342,8 @@ void drag_root(Chain& chain, ReachSettings& settings, glm::vec3 to, glm::vec3 ta
 
 void drag_tip(Chain& chain, ReachSettings& settings, glm::vec3 to, ChainRuntime& runtime) {
     ReachSettings exact = settings;
-    exact.tolerance = std::min(drag_tolerance * chain.reach(), reach_tolerance(settings, chain.reach()));
+    exact.options.tolerance =
+        std::min(drag_tolerance * chain.reach(), reach_tolerance(settings, chain.reach()));
     solve_reach(chain, exact, to, runtime);
     settings.state = exact.state;
 }

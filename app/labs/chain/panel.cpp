@@ -323,7 +323,7 @@ std::string stalled_text(const ChainPart& part) {
         const float span = glm::distance(part.chain.position(0), part.chain.position(part.chain.size() - 1));
         return std::string(span > 0.999f * part.chain.reach() ? "Straight, and the target is on its line"
                                                               : "Folded onto the line to the target") +
-               ": bend it" + (reach.pole ? "." : ", or add a pole target.");
+               ": bend it" + (reach.options.pole ? "." : ", or add a pole target.");
     }
     const bool restarts = ik::honours(part.result->method, field_of<&ik::Options::restarts>(), limited);
     return std::string("No closer from here. Try another solver") + (restarts ? ", or more restarts." : ".");
@@ -427,12 +427,13 @@ void option_rows(const ReachSettings& reach, float length, MoreRows& more, Emit&
     solver_row<&Options::snap_back>(reach, "snap_back", more, emit);
     solver_row<&Options::soft_zone>(reach, "soft_zone", more, emit);
     solver_row<&Options::damping>(reach, "damping", more, emit);
-    solver_row<&Options::twist>(reach, "twist_deg", more, emit);
+    solver_row<&Options::twist>(reach, "twist", more, emit);
     solver_row<&Options::restarts>(reach, "restarts", more, emit, default_restarts);
     more.add("", {"chain.solver", {"default_tolerance", "default_restarts"}}, false, [&reach, &emit] {
-        if (row_button("Default tolerance", 1, reach.tolerance.has_value(), "A thousandth of the reach"))
+        if (row_button("Default tolerance", 1, reach.options.tolerance.has_value(),
+                       "A thousandth of the reach"))
             emit("chain.solver", {{"default_tolerance", true}});
-        if (row_button("Default restarts", 1, reach.restarts.has_value(),
+        if (row_button("Default restarts", 1, reach.options.restarts.has_value(),
                        "8, but none while the target is dragged"))
             emit("chain.solver", {{"default_restarts", true}});
         end_row();
@@ -440,7 +441,7 @@ void option_rows(const ReachSettings& reach, float length, MoreRows& more, Emit&
 }
 
 void pole_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
-    bool on = part.reach.pole.has_value();
+    bool on = part.reach.options.pole.has_value();
     ImGui::BeginDisabled(part.chain.empty());
     if (ImGui::Checkbox("Pole target", &on))
         emit("chain.pole", on ? ArgumentList{{"to", first_pole(part)}} : ArgumentList{{"off", true}});
@@ -449,9 +450,9 @@ void pole_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
         "Turns the chain about the line from root to tip until the elbow points at a ball that you place.");
     ImGui::SameLine();
     plane_switch(part, emit);
-    if (!part.reach.pole || part.chain.empty()) return;
+    if (!part.reach.options.pole || part.chain.empty()) return;
     more.add("pole", {"chain.pole", {"to"}}, false, [&part, &emit] {
-        glm::vec3 pole = *part.reach.pole;
+        glm::vec3 pole = *part.reach.options.pole;
         if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});
         explain("Where the pole target is. Drag the pink ball to move it.");
     });

@@ -150,7 +150,7 @@ bool limit_switched(const ChainPart& before, const ChainPart& after) {
 }
 
 ik::ReachPose reach_pose(const ChainPart& part) {
-    ik::ReachPose pose{.target = part.target, .pole = part.reach.pole};
+    ik::ReachPose pose{.target = part.target, .pole = part.reach.options.pole};
     for (const Segment& segment : part.chain.segments()) pose.joints.push_back(segment.position);
     return pose;
 }
@@ -172,7 +172,7 @@ FlipReason reason_of(const ChainPart& before, const ChainPart& after, const ik::
         if (limit_switched(before, after))
             return {"a limit switched sides", {"Narrow that limit: both its ends are equally good here."}};
     }
-    const FlipAdvice advice = flip_advice(seen, after.reach.pole.has_value());
+    const FlipAdvice advice = flip_advice(seen, after.reach.options.pole.has_value());
     if (seen == Unexplained) return {"the solver switched to another pose that the target allows", advice};
     return {ik::text(seen), advice};
 }
@@ -204,9 +204,9 @@ bool comparable(const ChainPart& before, const ChainPart& after) {
     if (before.mode != ChainMode::Reach || after.mode != ChainMode::Reach) return false;
     if (before.study.open() || after.study.open() || !after.result) return false;
     if (a.size() != b.size() || a.size() < 2 || a.position(0) != b.position(0)) return false;
-    const ReachSettings &was = before.reach, &is = after.reach;
-    if (was.method != is.method || was.limits != is.limits || was.pole_turn != is.pole_turn ||
-        was.twist_deg != is.twist_deg || was.pole.has_value() != is.pole.has_value())
+    const ik::Options &was = before.reach.options, &is = after.reach.options;
+    if (before.reach.method != after.reach.method || before.reach.limits != after.reach.limits ||
+        was.pole_turn != is.pole_turn || was.twist != is.twist || was.pole.has_value() != is.pole.has_value())
         return false;
     if (before.target == after.target && was.pole == is.pole) return false;
     return std::equal(a.segments().begin(), a.segments().end(), b.segments().begin(),
@@ -273,7 +273,7 @@ std::string trace_of_strip(const Workspace& workspace) {
         Json frame{{"t", static_cast<double>(tick) * tick_seconds}};
         for (const Segment& each : part.chain.segments()) frame["joints"].push_back(point(each.position));
         if (reaches) frame["target"] = point(part.target);
-        if (reaches && part.reach.pole) frame["pole"] = point(*part.reach.pole);
+        if (reaches && part.reach.options.pole) frame["pole"] = point(*part.reach.options.pole);
         text += frame.dump() + '\n';
     };
     for (const Rewind::Moment& each : workspace.rewind.moments())

@@ -43,7 +43,7 @@ void paste(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     const std::vector<glm::vec3> points = read_points(given.text("text"), max_pasted_points);
     if (points.size() > 1) return take_chain(part, chain_through(points));
     if (part.chosen_point == ChainPoint::Pole) {
-        part.reach.pole = points.front();
+        part.reach.options.pole = points.front();
         return reach_again(part, runtime);
     }
     if (part.chosen_point || part.selection.empty()) return reach_for(part, points.front(), runtime);

@@ -179,7 +179,7 @@ void make_it_reach(ChainPart& part, ChainRuntime& runtime) {
     part.reach = {};
     // In the opening view, target, pole target and shoulder are equally deep, so that a drag of the target in
     // the view plane leads over the pole target, and the elbow flips.
-    part.reach.pole = glm::vec3(0.3f, 2.5f, -0.5f);
+    part.reach.options.pole = glm::vec3(0.3f, 2.5f, -0.5f);
     constexpr std::size_t elbow = 1;
     if (part.chain.size() > elbow + 1) {
         ik::Limit hinge = ik::Limit::of(ik::JointKind::Hinge);
@@ -198,10 +198,10 @@ void put_on_curve(ChainPart& part, const std::string& preset) {
     part.curve = {};
     if (preset == "spine") {
         part.curve.points = {{0, 1, 0}, {0, 1.25f, 0.06f}, {0, 1.5f, -0.05f}, {0.03f, 1.7f, 0}};
-        part.curve.roll_end_deg = 40;
-        part.curve.fit = true;
+        part.curve.options.roll_end = glm::radians(40.0f);
+        part.curve.options.fit = true;
     } else if (preset == "tentacle") {
-        part.curve.fit = true;  // the curve is drawn through the chain
+        part.curve.options.fit = true;  // the curve is drawn through the chain
     } else {
         part.curve.points = {{0, 1, 0},           {-0.9f, 0.8f, 0},    {-1.8f, 1.2f, 0.2f},
                              {-1.5f, 2.0f, 0.3f}, {-0.9f, 1.5f, 0.1f}, {-1.9f, 0.9f, -0.2f},

@@ -16,6 +16,12 @@
 
 namespace tendril::app {
 
+bool ReachSettings::operator==(const ReachSettings& other) const {
+    const auto same = [&](const Field& field) { return same_value(field, this, &other); };
+    return method == other.method && std::ranges::all_of(fields<ReachSettings>(), same) &&
+           plane == other.plane && limits == other.limits && state == other.state;
+}
+
 std::vector<glm::vec3> positions(const Chain& chain) {
     std::vector<glm::vec3> joints;
     joints.reserve(chain.size());
@@ -60,24 +66,15 @@ void check_takes(ik::Method method, const Chain& chain) {
 }
 
 float reach_tolerance(const ReachSettings& settings, float reach) {
-    return settings.tolerance.value_or(1e-3f * reach);
+    return settings.options.tolerance.value_or(1e-3f * reach);
 }
 
 ik::Options solver_options(const ReachSettings& settings, float reach) {
-    ik::Options options;
+    ik::Options options = settings.options;
     options.tolerance = reach_tolerance(settings, reach);
-    options.max_iterations = settings.iterations;
     if (settings.plane)
         options.plane = ik::Plane{settings.plane->normal, settings.plane->bend, settings.plane->limits};
     options.limits = settings.limits;
-    options.pole = settings.pole;
-    options.pole_turn = settings.pole_turn;
-    options.snap_back = settings.snap_back;
-    options.soft_zone = settings.soft_zone;
-    options.damping = settings.damping;
-    options.twist = glm::radians(settings.twist_deg);
-    options.restarts = settings.restarts;
-    options.rotations = false;  // limits maintain them anyway
     return options;
 }
 

@@ -10,6 +10,7 @@
 #include <tendril/ik/active_limit.hpp>
 #include <tendril/ik/limit.hpp>
 #include <tendril/ik/method.hpp>
+#include <tendril/ik/options.hpp>
 #include <tendril/ik/plane.hpp>
 #include <tendril/ik/pole_turn.hpp>
 #include <tendril/ik/report.hpp>
@@ -22,17 +23,12 @@
 #include "app/io/solver_text.hpp"
 #include "app/labs/kit/library_json.hpp"
 
-namespace tendril::ik {
-struct Options;
-}
-
 namespace tendril::app {
 
 class ChainRuntime;
 
-inline constexpr int max_iterations = 10'000, max_restarts = 1000;
-inline constexpr float min_damping = 1e-4f, max_damping = 10.0f;
-inline constexpr int default_restarts = 8;  ///< ik::Options' default; none while the target is dragged
+inline constexpr int max_iterations = 10'000;  ///< the program stays responsive
+inline constexpr int default_restarts = 8;     ///< ik::Options' default; none while the target is dragged
 
 /// The plane that the chain stays in, through its root.
 struct ChainPlane {
@@ -46,22 +42,14 @@ struct ChainPlane {
 
 struct ReachSettings {
     ik::Method method = ik::Method::Fabrik;
-    int iterations = 100;
-    std::optional<float> tolerance;  ///< metres; 1e-3 of the reach if empty
-    float snap_back = 0.0f;          ///< 0 to 1
-    float soft_zone = 0.0f;          ///< fraction of the reach
-    float damping = 0.1f;            ///< fraction of the reach
-    float twist_deg = 0.0f;          ///< for two_bone
-    std::optional<int> restarts;     ///< with limits, 0 to max_restarts; empty: the library's default
-    std::optional<glm::vec3> pole;   ///< metres
-    ik::PoleTurn pole_turn = ik::PoleTurn::WholeChain;
+    ik::Options options{};            ///< but for plane and limits, which solver_options() adds
     std::optional<ChainPlane> plane;  ///< of every mode; `limits` are then empty, for it has its own
     std::vector<ik::Limit> limits;    ///< one per bone, at the joint that it starts from; or empty
     /// The solver's state between solves; no bones before the first solve. Its rotations are maintained only
     /// with limits, which need them.
     ik::State state;
 
-    bool operator==(const ReachSettings&) const = default;
+    bool operator==(const ReachSettings& other) const;
 };
 
 /// The result of the last solve.
@@ -164,7 +152,7 @@ ik::Method load_method(const JsonPlace& place);
 
 }  // namespace tendril::app
 
-/// The numeric and enumerated settings; the others have their own JSON.
+/// The settings that are values; the others have their own JSON.
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::ReachSettings>() noexcept;
 template <>

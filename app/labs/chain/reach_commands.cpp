@@ -4,21 +4,26 @@
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
+#include "app/fields/field_in.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/commands.hpp"
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::ReachSettings>() noexcept {
     using namespace app;
-    static constexpr auto turns = pole_turns.name_array();
-    static constexpr Field rows[] = {field<&ReachSettings::iterations>("iterations", {1, max_iterations}),
-                                     field<&ReachSettings::tolerance>("tolerance", {0.0, max_magnitude}, "m"),
-                                     field<&ReachSettings::snap_back>("snap_back"),
-                                     field<&ReachSettings::soft_zone>("soft_zone"),
-                                     field<&ReachSettings::damping>("damping", {min_damping, max_damping}),
-                                     field<&ReachSettings::twist_deg>("twist_deg", {-180.0, 180.0}, "deg"),
-                                     field<&ReachSettings::restarts>("restarts", {0, max_restarts}),
-                                     field<&ReachSettings::pole_turn>("pole_turn", turns)};
+    using Settings = ReachSettings;
+    using ik::Options;
+    constexpr double half_turn = 3.1415927410125732;  // as a float
+    static const Field rows[] = {
+        field_in<&Settings::options, &Options::max_iterations>("iterations", FieldRange{1, max_iterations}),
+        field_in<&Settings::options, &Options::tolerance>(),
+        field_in<&Settings::options, &Options::snap_back>(),
+        field_in<&Settings::options, &Options::soft_zone>(),
+        field_in<&Settings::options, &Options::damping>(),
+        field_in<&Settings::options, &Options::twist>(nullptr, FieldRange{-half_turn, half_turn}),
+        field_in<&Settings::options, &Options::restarts>(),
+        field_in<&Settings::options, &Options::pole>(),
+        field_in<&Settings::options, &Options::pole_turn>()};
     return rows;
 }
 
@@ -59,7 +64,7 @@ std::span<const FieldText> field_texts<ReachSettings>() {
          .decimals = 3,
          .unit = "of reach",
          .more = true},
-        {.name = "twist_deg",
+        {.name = "twist",
          .label = "twist",
          .help = "Two-bone: turns the bend of the bones about the line from root to tip.",
          .step = 0.5f,
@@ -160,8 +165,8 @@ void set_solver(ChainPart& part, const Arguments& given, ChainRuntime& runtime) 
         reach.method = *ik::method_named(given.text("name"));
         check_takes(reach.method, part.chain);
     }
-    if (given.has("default_tolerance") && given.boolean("default_tolerance")) reach.tolerance.reset();
-    if (given.has("default_restarts") && given.boolean("default_restarts")) reach.restarts.reset();
+    if (given.has("default_tolerance") && given.boolean("default_tolerance")) reach.options.tolerance.reset();
+    if (given.has("default_restarts") && given.boolean("default_restarts")) reach.options.restarts.reset();
     set_fields(given, reach);
     if (part.study.open()) reach_again(part, runtime);
 }
@@ -170,9 +175,9 @@ void set_pole(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     const bool off = given.has("off") && given.boolean("off");
     if (given.has("to") && off) throw Refused("to and off cannot be combined");
     if (!given.has("to") && !off) throw Refused("needs either to or off: true");
-    part.reach.pole.reset();
+    part.reach.options.pole.reset();
     if (off && part.chosen_point == ChainPoint::Pole) part.chosen_point.reset();
-    if (given.has("to")) part.reach.pole = given.point("to");
+    if (given.has("to")) part.reach.options.pole = given.point("to");
     reach_again(part, runtime);
 }
 

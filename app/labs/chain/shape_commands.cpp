@@ -155,7 +155,7 @@ void take_chain(ChainPart& part, Chain chain) {
     part.chosen_point.reset();
     part.motion.path = Motion::Path::Still;
     forget_limits(part.reach);
-    part.reach.pole.reset();
+    part.reach.options.pole.reset();
     part.reach.plane.reset();
     part.reach_target.reset();
     part.reach.state = {};

@@ -209,15 +209,7 @@ class HumanoidProgram {
             }
         }
         make_solver("Feet", "feet", learned ? "*skeleton, map, soles" : "*skeleton, map");
-        std::vector<std::string> members;
-        if (options.root_velocity != glm::dvec3(0.0))
-            members.push_back(".root_velocity = " + braced(options.root_velocity));
-        if (options.floor) members.push_back(".floor = " + double_text(*options.floor));
-        for (const auto& [name, value] : {std::pair{".enter_speed", options.enter_speed},
-                                          {".leave_speed", options.leave_speed},
-                                          {".max_turn", options.max_turn}})
-            members.push_back(name + (" = " + double_text(value)));
-        list("const humanoid::FeetOptions feet_options{", members, "};");
+        list("const humanoid::FeetOptions feet_options{", changed_texts(options), "};");
         const humanoid::FeetState state = feet_state();
         say("humanoid::FeetState feet_state{" + joined(initialisers(state, "humanoid::FootAlone::")) + "};");
     }
@@ -262,7 +254,7 @@ class HumanoidProgram {
         }
         const humanoid::BodyOptions options = body_options(part_, solvers_);
         if (options.balance) {
-            std::vector<std::string> members{".balance = true", ".reserve = " + double_text(options.reserve)};
+            std::vector<std::string> members = changed_texts(options);
             if (humanoid::FootstepsState steps = part_.ik_state.steps; steps.away()) {
                 std::string feet = ".feet = {";  // where they have stepped
                 for (const humanoid::FootShift& each :
@@ -335,17 +327,9 @@ class HumanoidProgram {
     void gaze() {
         if (!gaze_on()) return;
         const humanoid::LookAtOptions options = look_options(part_, body_on() && acts());
-        const humanoid::LookAtOptions usual;
         say("");
         make_solver("LookAt", "look", "*skeleton, map");
-        std::vector<std::string> members{".target = " + braced(options.target),
-                                         ".weight = " + double_text(options.weight)};
-        if (options.spine_part != usual.spine_part)
-            members.push_back(".spine_part = " + double_text(options.spine_part));
-        if (options.neck_part != usual.neck_part)
-            members.push_back(".neck_part = " + double_text(options.neck_part));
-        members.push_back(".view = " + double_text(options.view));
-        list("const humanoid::LookAtOptions look_options{", members, "};");
+        list("const humanoid::LookAtOptions look_options{", changed_texts(options), "};");
         say("humanoid::LookAtState look_state{" + joined(initialisers(part_.ik_state.look)) + "};");
     }
 
@@ -363,8 +347,7 @@ class HumanoidProgram {
             list("hand_targets[" + std::to_string(hand) + "] = {", members,
                  hand == 0 ? "};  // left" : "};  // right");
         }
-        say("const humanoid::HandsOptions hands_options{.view = " +
-            double_text(glm::radians(part_.ik.hand_ik.view_deg)) + "};");
+        list("const humanoid::HandsOptions hands_options{", changed_texts(part_.ik.hand_ik.options), "};");
         say("humanoid::HandsState hands_state{" + joined(initialisers(part_.ik_state.hands)) + "};");
     }
 
@@ -386,18 +369,9 @@ class HumanoidProgram {
             const std::vector<float> weights = curve_weights(curve.shape, chains[i]->bones());
             for (const float each : weights) factors.push_back(literal(each));
             if (!factors.empty()) list("const float " + name + "_weights[] = {", factors, "};");
-            const humanoid::BendOptions options = bend_options(curve.shape, weights);
-            std::vector<std::string> members;
-            if (options.kind == ik::CurveKind::BSpline) members.push_back(".kind = ik::CurveKind::BSpline");
-            if (options.fit) {
-                members.push_back(".fit = true");
-                members.push_back(".max_factor = " + literal(options.max_factor));
-            }
-            if (options.roll_start != 0.0f) members.push_back(".roll_start = " + literal(options.roll_start));
-            if (options.roll_end != 0.0f) members.push_back(".roll_end = " + literal(options.roll_end));
-            if (options.weight != 1.0f) members.push_back(".weight = " + literal(options.weight));
+            std::vector<std::string> members = changed_texts(curve.shape.options, "ik::CurveKind::");
             if (!factors.empty()) members.push_back(".weights = " + name + "_weights");
-            list("const humanoid::BendOptions " + name + "_options{", members, "};");
+            list("const ik::CurveOptions " + name + "_options{", members, "};");
         }
     }
 
@@ -406,17 +380,13 @@ class HumanoidProgram {
         for (std::size_t i = 0; i < chains.size(); ++i) {
             if (chains[i] == nullptr) continue;
             const std::string name = "spring_" + std::to_string(i);
-            const humanoid::SpringOptions options = part_.springs[i].options();
+            humanoid::SpringOptions options = part_.springs[i].options;
+            if (const NamedSpring* file = colliding(part_, part_.springs[i]))
+                options.hit_radius = file->hit_radius;
             say("");
             make_solver("SpringChain", name,
                         "*skeleton, map, *skeleton->find(" + string_text(part_.springs[i].node) + ')');
-            std::vector<std::string> members{".strength = " + double_text(options.strength),
-                                             ".critical_damping = " + double_text(options.critical_damping),
-                                             ".weight = " + double_text(options.weight),
-                                             ".max_angle = " + double_text(options.max_angle)};
-            if (const NamedSpring* file = colliding(part_, part_.springs[i]))
-                members.push_back(".hit_radius = " + double_text(file->hit_radius));
-            list("const humanoid::SpringOptions " + name + "_options{", members, "};");
+            list("const humanoid::SpringOptions " + name + "_options{", changed_texts(options), "};");
             say("humanoid::SpringChainState " + name + "_state;");
             if (i >= part_.ik_state.springs.size()) continue;
             for (const humanoid::SpringMass& mass : part_.ik_state.springs[i].masses)
@@ -459,7 +429,7 @@ class HumanoidProgram {
         say(posed_ ? "std::vector<rig::Transform> pose(std::begin(pose_rows), std::end(pose_rows));"
                    : "std::vector<rig::Transform> pose = humanoid::rest_pose(*skeleton);");
         const auto solve = [&] {
-            const std::string options = part_.ik.balance.on ? ", body_options" : "";
+            const std::string options = part_.ik.balance.body.balance ? ", body_options" : "";
             if (part_.ik.hold)
                 say("if (const auto solved = humanoid::hold(*body, pose, targets, {grips, asked}, "
                     "body_state, hold_state" +

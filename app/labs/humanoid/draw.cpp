@@ -229,7 +229,7 @@ class Drawing {
 
     /// What the head looks at, with a thin line to the head.
     void gaze() {
-        const auto at = glm::vec3(part_.ik.look_at.target);
+        const auto at = glm::vec3(part_.ik.look_at.options.target);
         const glm::vec3 head = shown_.point(*part_.node_of(humanoid::Bone::Head));
         list_.line(head, at, px(1.0f), glm::vec4(view_.palette.target, 0.35f)).layer = Layer::Overlay;
         const bool marks = view_.dragged == look_pick || view_.hovered == look_pick;

@@ -36,7 +36,8 @@ bool HumanoidLab::moving(const Workspace& workspace) const {
     const HumanoidPart& part = humanoid_part(workspace);
     constexpr int until_rest = 120;
     const bool eases = part.ik.look_at.on || (part.ik.hand_ik.on && part.ik.has_targets());
-    const bool steps = part.ik.balance.on && part.ik.balance.steps && body_acts(part, part.ik_state);
+    const bool steps =
+        part.ik.balance.body.balance && part.ik.balance.steps && body_acts(part, part.ik_state);
     const bool swings = !part.springs.empty();
     const bool hangs = !part.attachments.list.empty();
     return goes_on(part.playback, *part.loaded) || part.ik_state.release.left > 0.0 ||

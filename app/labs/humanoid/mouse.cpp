@@ -74,7 +74,8 @@ std::vector<Handle> HumanoidLab::handles(const Workspace& workspace) const {
         for (const Effector effector : all_effectors)
             if (!holds(part, effector)) handles.push_back(effector_handle(workspace, effector));
     if (part.ik.hold) handles.push_back(hold_handle(*part.ik.hold, shown));
-    if (part.ik.look_at.on) handles.push_back({"look_at", look_pick, {glm::vec3(part.ik.look_at.target)}});
+    if (part.ik.look_at.on)
+        handles.push_back({"look_at", look_pick, {glm::vec3(part.ik.look_at.options.target)}});
     for (std::size_t i = 0; i < part.skeleton().size(); ++i)
         handles.push_back({"node." + part.skeleton()[i].name,
                            node_pick(i),
@@ -92,7 +93,7 @@ std::optional<Handle> HumanoidLab::handle(const Workspace& workspace, PickId pic
     if (!curve || curve->control) return Lab::handle(workspace, pick);
     const std::vector<glm::vec3> points =
         shown_curve(part, humanoid_runtime(workspace).solvers, shown_pose(workspace), curve->curve);
-    const glm::vec3 at = ik::curve_point(points, part.curves[curve->curve].shape.kind, curve->at);
+    const glm::vec3 at = ik::curve_point(points, part.curves[curve->curve].shape.options.kind, curve->at);
     return Handle{"curve", pick, {at}, Drag::Nothing};
 }
 
@@ -271,7 +272,7 @@ Bounds HumanoidLab::bounds(const Workspace& workspace, bool selection_only) cons
     for (std::size_t i = 0; i < part.skeleton().size(); ++i) take(shown.point(i));
     for (const auto& target : part.ik.targets)
         if (target) take(glm::vec3(target->position));
-    if (part.ik.look_at.on) take(glm::vec3(part.ik.look_at.target));
+    if (part.ik.look_at.on) take(glm::vec3(part.ik.look_at.options.target));
     for (std::size_t i = 0; i < part.curves.size(); ++i)
         for (const glm::vec3& each : shown_curve(part, humanoid_runtime(workspace).solvers, shown, i))
             take(each);

@@ -2,6 +2,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/io/solver_json.hpp"
 #include "app/labs/humanoid/clip/motions.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
@@ -131,14 +132,8 @@ Json targets_state(const HumanoidPart& part, const ShownPose& shown) {
     for (const humanoid::Effector effector : all_effectors) {
         const auto& target = part.ik.target(effector);
         if (!target) continue;
-        Json rotation = nullptr;
-        if (target->rotation)
-            rotation = Json::array(
-                {target->rotation->x, target->rotation->y, target->rotation->z, target->rotation->w});
-        targets[humanoid::name(effector)] = {{"position", dpoint(target->position)},
-                                             {"rotation", std::move(rotation)},
-                                             {"weight", target->weight},
-                                             {"residual", residual(shown, humanoid::bone_of(effector))}};
+        Json& json = targets[humanoid::name(effector)] = save_fields(*target);
+        json["residual"] = residual(shown, humanoid::bone_of(effector));
     }
     return targets;
 }
@@ -148,15 +143,7 @@ float in_degrees(float radians) {
 }
 
 Json range_json(const ik::Limit* limit) {
-    if (limit == nullptr) return nullptr;
-    if (limit->kind == ik::JointKind::Hinge)
-        return {{"min_deg", in_degrees(limit->min)}, {"max_deg", in_degrees(limit->max)}};
-    return {{"up_deg", in_degrees(limit->up)},
-            {"down_deg", in_degrees(limit->down)},
-            {"left_deg", in_degrees(limit->left)},
-            {"right_deg", in_degrees(limit->right)},
-            {"twist_min_deg", in_degrees(limit->twist_min)},
-            {"twist_max_deg", in_degrees(limit->twist_max)}};
+    return limit == nullptr ? Json(nullptr) : limit_json(*limit);
 }
 
 /// Rotation and range of the joint that the inspector shows; null if there is none.
@@ -221,19 +208,13 @@ Json feet_state(const HumanoidPart& part, Solvers& solvers, const ShownPose& sho
 }
 
 Json ground_state(const GroundSetting& ground) {
-    Json json{{"kind", ground_kinds.name(ground.kind)}};
-    if (ground.kind == humanoid::GroundKind::Slope) json["angle_deg"] = ground.angle_deg;
+    Json json = save_fields(ground);
     if (ground.kind == humanoid::GroundKind::Mesh) json["path"] = ground.mesh->path;
-    if (ground.kind == humanoid::GroundKind::Stairs) {
-        json["step_height"] = ground.step_height;
-        json["step_depth"] = ground.step_depth;
-    }
     return json;
 }
 
 Json hands_state(const HumanoidPart& part, const ShownPose& shown) {
-    const HandIkSetting& setting = part.ik.hand_ik;
-    Json json{{"on", setting.on}, {"view_deg", setting.view_deg}};
+    Json json = save_fields(part.ik.hand_ik);
     if (!shown.hands) return json;
     for (std::size_t hand = 0; hand < 2; ++hand)
         json[hand == 0 ? "left" : "right"] = {{"weight", shown.hands->hands[hand].weight},
@@ -242,8 +223,7 @@ Json hands_state(const HumanoidPart& part, const ShownPose& shown) {
 }
 
 Json look_state(const HumanoidPart& part, const ShownPose& shown) {
-    const LookAtSetting& setting = part.ik.look_at;
-    Json json{{"on", setting.on}, {"target", dpoint(setting.target)}, {"weight", setting.weight}};
+    Json json = save_fields(part.ik.look_at);
     if (!shown.look) return json;
     json["in_view"] = shown.look->in_view;
     json["left_deg"] = glm::degrees(shown.look->left);
@@ -280,13 +260,10 @@ Json springs_state(const Workspace& workspace, const ShownPose& shown) {
         Json bones = Json::array();
         if (chains[i] != nullptr)
             for (const std::size_t node : chains[i]->bones()) bones.push_back(part.skeleton()[node].name);
-        list.push_back({{"node", each.node},
-                        {"bones", std::move(bones)},
-                        {"strength", each.strength},
-                        {"critical_damping", each.critical_damping},
-                        {"weight", each.weight},
-                        {"max_angle_deg", each.max_angle_deg},
-                        {"angle_deg", glm::degrees(shown.springs[i].angle)}});
+        list.push_back(save_fields(each));
+        list.back().update({{"node", each.node},
+                            {"bones", std::move(bones)},
+                            {"angle_deg", glm::degrees(shown.springs[i].angle)}});
         if (const NamedSpring* file = colliding(part, each))
             list.back()["colliders"] = file->colliders.size();
     }
@@ -297,17 +274,14 @@ Json clip_state(const HumanoidPart& part) {
     const humanoid::Clip* clip = part.clip();
     if (clip == nullptr) return nullptr;
     const Playback& playback = part.playback;
-    return Json{{"name", clip->name},
-                {"time", playback.time},
-                {"duration", clip->duration},
-                {"playing", playback.playing},
-                {"speed", playback.speed},
-                {"loop", playback.loop},
-                {"in_place", playback.in_place},
-                {"travel", playback.travel},
-                {"targets_travel", playback.targets_travel},
-                {"pace", {playback.pace.x, playback.pace.y, playback.pace.z}},
-                {"rounds", playback.rounds}};
+    Json json = save_fields(playback);
+    json.update({{"name", clip->name},
+                 {"time", playback.time},
+                 {"duration", clip->duration},
+                 {"playing", playback.playing},
+                 {"pace", dpoint(playback.pace)},
+                 {"rounds", playback.rounds}});
+    return json;
 }
 
 Json clips_state(const HumanoidPart& part) {

@@ -113,6 +113,15 @@ std::vector<std::string> member_texts(FieldsOf of, const std::string& scope) {
     return texts;
 }
 
+std::vector<std::string> texts_unlike(const void* usual, FieldsOf of, const std::string& scope) {
+    std::vector<std::string> texts;
+    for (const Field& field : of.table)
+        if (field.type != FieldType::Struct && field.count == nullptr && !same_value(field, of.object, usual))
+            for (const std::string& text : member_texts({{&field, 1}, of.object}, scope))
+                texts.push_back(text);
+    return texts;
+}
+
 namespace {
 
 /// `at`: what the field's accessors take; of a struct, its address.

@@ -31,6 +31,15 @@ std::string pascal_text(std::string_view name);
 /// ".damping = 0.5" for each field that is not NaN, in table order. Members must be named like their fields.
 /// Choices are enumerators of `scope`: "rope::Solver::".
 std::vector<std::string> member_texts(FieldsOf of, const std::string& scope = {});
+/// The same of the values that differ from those of `usual`, a struct of the same type. Without nested
+/// structs and lists.
+std::vector<std::string> texts_unlike(const void* usual, FieldsOf of, const std::string& scope = {});
+/// The same of the values that differ from those of a new struct.
+template <class Struct>
+std::vector<std::string> changed_texts(const Struct& of, const std::string& scope = {}) {
+    static const Struct usual{};
+    return texts_unlike(&usual, of, scope);
+}
 /// "true", "{1.0, 0.0, 0.0}": an initialiser of every member, by position. So the table must have all of
 /// them, in the order of their declaration; its lists are std::array.
 std::vector<std::string> initialisers(FieldsOf of, const std::string& scope = {});

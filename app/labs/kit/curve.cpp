@@ -3,19 +3,18 @@
 #include <algorithm>
 
 #include "app/document/json_complete.hpp"
+#include "app/fields/field_in.hpp"
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::CurveShape>() noexcept {
-    using app::CurveShape;
-    static constexpr auto kinds = app::curve_kinds.name_array();
-    static constexpr Field rows[] = {
-        field<&CurveShape::kind>("kind", kinds),
-        field<&CurveShape::fit>("fit"),
-        field<&CurveShape::max_factor>("max_factor", {1.001, 100.0}),
-        field<&CurveShape::weight>("weight"),
-        field<&CurveShape::falloff>("falloff", {-1.0, 1.0}),
-        field<&CurveShape::roll_start_deg>("roll_start_deg", {-3600.0, 3600.0}, "deg"),
-        field<&CurveShape::roll_end_deg>("roll_end_deg", {-3600.0, 3600.0}, "deg")};
+    using app::CurveShape, app::field_in, ik::CurveOptions;
+    static const Field rows[] = {field_in<&CurveShape::options, &CurveOptions::kind>(),
+                                 field_in<&CurveShape::options, &CurveOptions::fit>(),
+                                 field_in<&CurveShape::options, &CurveOptions::max_factor>(),
+                                 field_in<&CurveShape::options, &CurveOptions::weight>(),
+                                 field<&CurveShape::falloff>("falloff", {-1.0, 1.0}),
+                                 field_in<&CurveShape::options, &CurveOptions::roll_start>(),
+                                 field_in<&CurveShape::options, &CurveOptions::roll_end>()};
     return rows;
 }
 
@@ -46,17 +45,23 @@ std::span<const FieldText> field_texts<CurveShape>() {
                  "the first.",
          .step = 0.005f,
          .more = true},
-        {.name = "roll_start_deg",
+        {.name = "roll_start",
          .label = "roll at the root",
          .help = "How far the first bone is rolled about itself.",
          .step = 0.5f,
          .decimals = 0},
-        {.name = "roll_end_deg",
+        {.name = "roll_end",
          .label = "roll at the tip",
          .help = "How far the last bone is rolled; between them the roll is spread by length.",
          .step = 0.5f,
          .decimals = 0}};
     return texts;
+}
+
+ik::CurveOptions CurveShape::with(std::span<const float> weights) const {
+    ik::CurveOptions all = options;
+    all.weights = weights;
+    return all;
 }
 
 std::vector<float> curve_weights(const CurveShape& shape, std::size_t bones) {

@@ -24,15 +24,13 @@ inline constexpr EnumNames<ik::CurveKind, 2> curve_kinds{
 
 struct CurveShape {
     std::vector<glm::vec3> points;  ///< metres
-    ik::CurveKind kind = ik::CurveKind::Hermite;
-    bool fit = false;
-    float max_factor = 2.0f;  ///< of fit
-    float weight = 1.0f;      ///< 0: the given pose, 1: the curve
+    ik::CurveOptions options{};     ///< without weights
     /// -1 to 1: by how much less the first bones follow the curve than the last; negative: the last bones.
     float falloff = 0.0f;
-    float roll_start_deg = 0.0f, roll_end_deg = 0.0f;
 
     bool operator==(const CurveShape&) const = default;
+    /// Refers to `weights`.
+    ik::CurveOptions with(std::span<const float> weights) const;
 };
 
 /// How far each bone turns to the curve, times the weight; empty: all the way.

@@ -24,7 +24,7 @@ Placement seen_from_points(const Placement& above) noexcept {
            Placement{above.axes, glm::dvec3(0.0)};
 }
 
-float weight_of(const BendOptions& options, std::size_t bone) noexcept {
+float weight_of(const ik::CurveOptions& options, std::size_t bone) noexcept {
     return options.weight * (options.weights.empty() ? 1.0f : options.weights[bone]);
 }
 
@@ -60,9 +60,9 @@ struct BentChain::Plan {
     }
     bool take_rest(const Skeleton& skeleton);
     ik::CurveReport bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,
-                         const BendOptions& options, ik::CurveMemory& memory) noexcept;
+                         const ik::CurveOptions& options, ik::CurveMemory& memory) noexcept;
     void lay(std::span<rig::Transform> pose, Placement at, const glm::dquat& swing,
-             const BendOptions& options, double factor) noexcept;
+             const ik::CurveOptions& options, double factor) noexcept;
 };
 
 /// False if the chain has no length. A bone without length points as the one before it, or else the next.
@@ -143,7 +143,7 @@ std::vector<glm::vec3> BentChain::points_through(std::span<const rig::Transform>
 }
 
 ik::CurveReport BentChain::Plan::bend(std::span<rig::Transform> pose, std::span<const glm::vec3> given,
-                                      const BendOptions& options, ik::CurveMemory& memory) noexcept {
+                                      const ik::CurveOptions& options, ik::CurveMemory& memory) noexcept {
     constexpr auto refusal = ik::Status::InvalidInput;
     if (pose.size() != count || !detail::is_sane(pose) || given.empty() || given.size() > max_points ||
         !std::ranges::all_of(given, tendril::detail::is_point))
@@ -177,15 +177,9 @@ ik::CurveReport BentChain::Plan::bend(std::span<rig::Transform> pose, std::span<
         rest[i] = narrow(rotated(swing, directions[i]));
         state.rotations[i] = narrow(math::compose(placed[i].rotation(), conjugate(straight)));
     }
-    ik::CurveReport report = ik::place_along(curve, {lengths, rest}, joints, state, memory,
-                                             {.kind = options.kind,
-                                              .fit = options.fit,
-                                              .max_factor = options.max_factor,
-                                              .up = narrow(rotated(swing, perpendicular(directions[0]))),
-                                              .roll_start = options.roll_start,
-                                              .roll_end = options.roll_end,
-                                              .weight = options.weight,
-                                              .weights = options.weights});
+    ik::CurveOptions upright = options;
+    upright.up = narrow(rotated(swing, perpendicular(directions[0])));
+    ik::CurveReport report = ik::place_along(curve, {lengths, rest}, joints, state, memory, upright);
     // A tip on the last control point may be past it by rounding.
     if (report.status == ik::Status::Converged) report.bones_past_end = 0, report.past_end = 0.0f;
     if (report.status != refusal) lay(pose, at, swing, options, static_cast<double>(report.factor));
@@ -195,7 +189,7 @@ ik::CurveReport BentChain::Plan::bend(std::span<rig::Transform> pose, std::span<
 /// Turns the nodes as the solve has turned the bones, and then each by the shortest arc to where its bone
 /// should point: a pose may move a node within its parent, and a scale may shear it.
 void BentChain::Plan::lay(std::span<rig::Transform> pose, Placement at, const glm::dquat& swing,
-                          const BendOptions& options, double factor) noexcept {
+                          const ik::CurveOptions& options, double factor) noexcept {
     bool moved = false;  // the bones before the first one with a weight keep their bits
     for (std::size_t i = 0; i < bones(); ++i) {
         rig::Transform& local = pose[nodes[i]];
@@ -217,13 +211,13 @@ void BentChain::Plan::lay(std::span<rig::Transform> pose, Placement at, const gl
 }
 
 ik::CurveReport BentChain::bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,
-                                const BendOptions& options, ik::CurveMemory& memory) noexcept {
+                                const ik::CurveOptions& options, ik::CurveMemory& memory) noexcept {
     if (!plan_) return {.status = ik::Status::InvalidInput};
     return plan_->bend(pose, points, options, memory);
 }
 
 ik::CurveReport BentChain::bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,
-                                const BendOptions& options) noexcept {
+                                const ik::CurveOptions& options) noexcept {
     ik::CurveMemory none;
     return bend(pose, points, options, none);
 }

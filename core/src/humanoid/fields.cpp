@@ -21,8 +21,12 @@ constexpr const char *sides[] = {"left", "right"}, *both_hands[] = {"left_hand",
 constexpr const char* alone[] = {"no", "no_hit", "too_steep", "too_far", "cannot_reach"};
 
 constexpr FieldRange anything{-max_magnitude, max_magnitude}, positive{0.0, max_magnitude},
-    thousand{0.0, 1e3}, half_lives{1e-6, 10.0}, up_to_half_turn{0.0, 3.15}, under_quarter_turn{0.0, 1.5},
-    speeds{1e-6, 1e3};
+    thousand{0.0, 1e3}, half_lives{1e-6, 10.0}, speeds{1e-6, 1e3};
+
+constexpr FieldRange up_to_degrees(double high) noexcept {
+    return {0.0, high * 0.01745329251994329576923690768489};
+}
+constexpr FieldRange up_to_half_turn = up_to_degrees(180.0), under_quarter_turn = up_to_degrees(85.0);
 
 }  // namespace
 
@@ -170,7 +174,7 @@ std::span<const Field> fields<SpringOptions>() noexcept {
     static constexpr Field rows[] = {field<&Options::strength>("strength", {0.01, 100.0}, "Hz"),
                                      field<&Options::critical_damping>("critical_damping", {0.0, 10.0}),
                                      field<&Options::weight>("weight"),
-                                     field<&Options::max_angle>("max_angle", {0.0, 3.14}, "rad"),
+                                     field<&Options::max_angle>("max_angle", up_to_degrees(179.0), "rad"),
                                      field<&Options::hit_radius>("hit_radius", thousand, "m")};
     return rows;
 }
@@ -189,6 +193,14 @@ std::span<const Field> fields<SpringMass>() noexcept {
 template <>
 std::span<const Field> fields<SpringChainState>() noexcept {
     static constexpr Field rows[] = {list<&SpringChainState::masses>("masses").up_to(Skeleton::max_nodes)};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<BodyTarget>() noexcept {
+    static constexpr Field rows[] = {field<&BodyTarget::position>("position", anything, "m"),
+                                     field<&BodyTarget::rotation>("rotation", {1e-6, max_magnitude}),
+                                     field<&BodyTarget::weight>("weight", thousand)};
     return rows;
 }
 

@@ -73,8 +73,12 @@ Result check(const FootstepsState& state) noexcept {
 std::array<FootShift, 2> advance_steps(FootstepsState& state, const Soles& soles, double dt,
                                        const FootstepOptions& options) noexcept {
     if (!check(state)) state = {};
-    const double seconds = options.seconds >= 0.05 ? std::min(options.seconds, 5.0) : 0.05;
-    const double lift = weight(options.lift);
+    const auto clamped = [&](const Field& option) {
+        const double value = option.number(&options);
+        return value >= option.range.low ? std::min(value, option.range.high) : option.range.low;
+    };
+    const double seconds = clamped(field_of<&FootstepOptions::seconds>()),
+                 lift = clamped(field_of<&FootstepOptions::lift>());
     std::array<FootShift, 2> shifts;
     for (std::size_t side = 0; side < 2; ++side) {
         Footstep& step = state.feet[side];

@@ -3,6 +3,7 @@
 #include "app/labs/chain/chain_runtime.hpp"
 
 #include <cmath>
+#include <glm/trigonometric.hpp>
 #include <random>
 
 #include "app/document/scene_file.hpp"
@@ -66,12 +67,12 @@ TEST(Code, options_that_are_the_librarys_own_are_not_said) {
         EXPECT_TRUE(lacks(plain, option)) << option;
     ChainPart part = reaching();
     part.reach.method = ik::Method::SvdDls;
-    part.reach.pole = glm::vec3(0, 2, 0);
-    part.reach.pole_turn = ik::PoleTurn::EachJoint;
-    part.reach.snap_back = 0.5f;
-    part.reach.soft_zone = 0.1f;
-    part.reach.twist_deg = 90.0f;
-    part.reach.restarts = 3;
+    part.reach.options.pole = glm::vec3(0, 2, 0);
+    part.reach.options.pole_turn = ik::PoleTurn::EachJoint;
+    part.reach.options.snap_back = 0.5f;
+    part.reach.options.soft_zone = 0.1f;
+    part.reach.options.twist = glm::radians(90.0f);
+    part.reach.options.restarts = 3;
     part.reach.limits.resize(7);
     part.reach.limits[2] = ik::Limit::hinge({0, 1, 0}, 0.0f, 1.5f);
     part.reach.limits[3] = ik::Limit::of(ik::JointKind::BallAndSocket);
@@ -93,7 +94,7 @@ TEST(Code, options_that_are_the_librarys_own_are_not_said) {
 
 TEST(Code, what_the_solver_remembers_goes_along) {
     ChainPart part = reaching();
-    part.reach.pole = glm::vec3(2, 1, 0);
+    part.reach.options.pole = glm::vec3(2, 1, 0);
     EXPECT_TRUE(lacks(chain_code(part), "state.pole"));
     ChainRuntime runtime;
     reach_for(part, {2, 2, 0}, runtime);

@@ -42,7 +42,7 @@ TEST_F(ChainPaste, OnePointMovesWhatIsSelectedOrElseTheTarget) {
     run("chain.select", {{"point", "pole"}});
     const glm::vec3 target = part().target;
     paste("[0, 0, 4]");
-    EXPECT_EQ(part().reach.pole, glm::vec3(0, 0, 4));
+    EXPECT_EQ(part().reach.options.pole, glm::vec3(0, 0, 4));
     EXPECT_EQ(part().target, target);
     EXPECT_TRUE(test::says(told(), "pole 0.000 0.000 4.000"));
     run("chain.select", {{"point", "target"}});

@@ -95,8 +95,9 @@ TEST_F(ChainRace, AnIterationIsTheLibrarysWithAsManyIterations) {
                     EXPECT_EQ(shown["finished"], finished);
                     EXPECT_EQ(shown["iteration"], std::min(static_cast<int>(k), racer.iterations()));
                     ik::Report report;
-                    const auto expected = solved(
-                        racer.method, finished ? part().reach.iterations : static_cast<int>(k), report);
+                    const auto expected =
+                        solved(racer.method,
+                               finished ? part().reach.options.max_iterations : static_cast<int>(k), report);
                     if (!finished && report.residual != racer.residuals[k]) continue;
                     EXPECT_EQ(shown["residual"], number(report.residual)) << ik::name(racer.method);
                     const auto seen = points(shown["positions"]);

@@ -81,7 +81,7 @@ TEST_F(StraightChain, OtherShortfallsHaveTheirOwnCures) {
     EXPECT_EQ(reach_cure(part())->title, "More iterations");
     const float before = part().result->report.residual;
     apply(reach_cure(part()));
-    EXPECT_EQ(part().reach.iterations, 4);
+    EXPECT_EQ(part().reach.options.max_iterations, 4);
     EXPECT_LT(part().result->report.residual, before);
 
     ChainPart stalled = part();

@@ -164,7 +164,7 @@ TEST_F(ChainTrace, ATargetOrPoleThatIsNotFiniteIsHeldOrLeftOut) {
     for (const auto& each : workspace.rewind.moments()) {
         const auto& then = dynamic_cast<const ChainPart&>(*each.part);
         EXPECT_TRUE(is_finite_point(then.target));
-        EXPECT_TRUE(!then.reach.pole || is_finite_point(*then.reach.pole));
+        EXPECT_TRUE(!then.reach.options.pole || is_finite_point(*then.reach.options.pole));
     }
 }
 

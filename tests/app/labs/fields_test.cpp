@@ -114,7 +114,7 @@ std::vector<Table> all_tables() {
         table_of<CurveShape>(humanoid_lab, "humanoid.curve", "/curves/0", {{"first", "Spine"}}),
         table_of<GroundSetting>(humanoid_lab, "humanoid.ground", "/ik/ground"),
         table_of<FootIkSetting>(humanoid_lab, "humanoid.foot_ik", "/ik/foot_ik", Json::object(),
-                                {{"leave_speed", 100}}),
+                                {{"leave_speed", 1000}}),
         table_of<HandIkSetting>(humanoid_lab, "humanoid.hand_ik", "/ik/hand_ik"),
         table_of<BalanceSetting>(humanoid_lab, "humanoid.balance", "/ik/balance"),
         {.lab = humanoid_lab,
@@ -184,6 +184,7 @@ std::vector<Json> bad(const Field& field) {
             break;
         case FieldType::Number:
             all.insert(all.end(), {low - by, high + by, std::nan(""), true});
+            if (field.over_low) all.push_back(low);
             break;
         case FieldType::Pair:
             all.insert(all.end(), {Json::array({0, high + by}), Json::array({low - by, 0}), 0,

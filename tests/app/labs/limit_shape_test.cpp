@@ -203,7 +203,8 @@ TEST(CodeText, EscapesWhatALiteralCannotHold) {
 
 TEST(HumanoidCode, AnEmptyListIsClosed) {
     HumanoidPart part;
-    part.ik.target(humanoid::Effector::LeftHand) = TargetSetting{.position = {0.3, 1.2, 0.4}};
+    part.ik.target(humanoid::Effector::LeftHand) =
+        humanoid::BodyTarget{.effector = humanoid::Effector::LeftHand, .position = {0.3, 1.2, 0.4}};
     part.ik_state.body.pace = 0.1;  // and no turns
     Solvers solvers;
     EXPECT_NE(humanoid_code(part, solvers).find("body_state.turns = {};"), std::string::npos);

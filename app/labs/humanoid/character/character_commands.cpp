@@ -253,9 +253,9 @@ void scale_places(HumanoidPart& part, double factor) {
     };
     for (BoneCurve& each : part.curves)
         for (glm::vec3& point : each.shape.points) point *= static_cast<float>(factor);
-    for (std::optional<TargetSetting>& target : part.ik.targets)
+    for (std::optional<humanoid::BodyTarget>& target : part.ik.targets)
         if (target) scale(target->position);
-    if (part.ik.look_at.placed) scale(part.ik.look_at.target);
+    if (part.ik.look_at.placed) scale(part.ik.look_at.options.target);
     if (part.ik.hold) scale(part.ik.hold->position);
 }
 

@@ -97,7 +97,7 @@ ClipLint::Judged ClipLint::wanted(const HumanoidPart& part) {
     start.playback.rounds = 0;
     carry_targets(start, part.playback);
     const auto rounded = [](double value) { return std::round(1e6 * value) * 1e-6; };
-    for (std::optional<TargetSetting>& target : start.ik.targets) {
+    for (std::optional<humanoid::BodyTarget>& target : start.ik.targets) {
         if (!target) continue;
         for (int i = 0; i < 3; ++i) target->position[i] = rounded(target->position[i]);
         for (int i = 0; i < 4 && target->rotation; ++i)

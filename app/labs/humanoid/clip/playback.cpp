@@ -167,7 +167,7 @@ void carry_targets(HumanoidPart& part, const Playback& before) {
         position = at;
         return true;
     };
-    for (std::optional<TargetSetting>& target : part.ik.targets)
+    for (std::optional<humanoid::BodyTarget>& target : part.ik.targets)
         if (target && carried(target->position) && target->rotation)
             target->rotation = rig::normalised(along.rotation * *target->rotation);
     if (part.ik.hold && !part.ik.hold->with_body && carried(part.ik.hold->position))

@@ -22,7 +22,7 @@ std::string report_text(const BoneCurve& curve, const ik::CurveReport& report) {
     if (report.collapsed) return "no direction";
     if (report.status == ik::Status::Stretched)
         return length_text(static_cast<double>(report.past_end)) + " past the end";
-    if (curve.shape.weight < 1.0f || curve.shape.falloff != 0.0f) return "partly on the curve";
+    if (curve.shape.options.weight < 1.0f || curve.shape.falloff != 0.0f) return "partly on the curve";
     return "on the curve";
 }
 
@@ -92,7 +92,7 @@ void curve_notes(const BoneCurve& curve, const ik::CurveReport& report, const hu
     if (curve.jumped)
         said += (said.empty() ? "" : " ") + panel.part.skeleton()[chain.nodes()[*curve.jumped]].name +
                 " jumped to another crossing of the curve: open that bend.";
-    const bool partly = curve.shape.weight < 1.0f || curve.shape.falloff != 0.0f;
+    const bool partly = curve.shape.options.weight < 1.0f || curve.shape.falloff != 0.0f;
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
     const bool reached = shown.body || shown.hold;
     if (said.empty())
@@ -122,8 +122,8 @@ void curve_inspector(const HumanoidPanel& panel) {
     const ik::CurveReport& report = panel.runtime.shown(panel.workspace).curves[*which];
     curve_notes(curve, report, *chain, panel);
     const FieldRows rows(curve.shape, "humanoid.curve", panel.emit, {{"first", curve.first}});
-    rows.rows("kind", "weight", "falloff", "roll_start_deg", "roll_end_deg", "fit");
-    if (!curve.shape.fit) return;
+    rows.rows("kind", "weight", "falloff", "roll_start", "roll_end", "fit");
+    if (!curve.shape.options.fit) return;
     rows.row("max_factor");
     reading("bones scaled by", "%.4f", static_cast<double>(report.factor));
 }

@@ -87,7 +87,7 @@ void draw_bone_curves(const View& view, DrawList& list, const HumanoidPart& part
     for (std::size_t i = 0; i < part.curves.size(); ++i) {
         const std::vector<glm::vec3> curve = shown_curve(part, solvers, shown, i);
         if (curve.size() < 2) continue;
-        const CurvePen pen(view, curve, part.curves[i].shape.kind, block_of(i) + strokes_from,
+        const CurvePen pen(view, curve, part.curves[i].shape.options.kind, block_of(i) + strokes_from,
                            curve_colour(view.palette), over_effectors, list);
         pen.line();
         for (std::size_t k = 1; k < curve.size(); ++k)
@@ -121,7 +121,7 @@ void click_curve(const HumanoidPart& part, Solvers& solvers, const ShownPose& sh
         if (chain == nullptr) return;
         std::vector<glm::vec3> points = shown_curve(part, solvers, shown, picked.curve);
         for (glm::vec3& each : points) each = into_space(chain->space(shown.placed), each);
-        points = with_point_at(points, curve.shape.kind, picked.at);
+        points = with_point_at(points, curve.shape.options.kind, picked.at);
         points.erase(points.begin());
         emit_curve_points(curve, points, false, emit);
     }

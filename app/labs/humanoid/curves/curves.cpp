@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
@@ -152,16 +151,6 @@ std::string why_no_curve(const HumanoidPart& part, const BoneChain& chain) {
     return {};
 }
 
-humanoid::BendOptions bend_options(const CurveShape& shape, std::span<const float> weights) {
-    return {.kind = shape.kind,
-            .fit = shape.fit,
-            .max_factor = shape.max_factor,
-            .roll_start = glm::radians(shape.roll_start_deg),
-            .roll_end = glm::radians(shape.roll_end_deg),
-            .weight = shape.weight,
-            .weights = weights};
-}
-
 std::vector<ik::CurveReport> bend(const HumanoidPart& part, const BentChains& chains,
                                   std::vector<rig::Transform>& pose) {
     std::vector<ik::CurveReport> reports(chains.size());
@@ -169,7 +158,7 @@ std::vector<ik::CurveReport> bend(const HumanoidPart& part, const BentChains& ch
         if (chains[i] == nullptr) continue;
         const CurveShape& shape = part.curves[i].shape;
         const std::vector<float> weights = curve_weights(shape, chains[i]->bones());
-        reports[i] = chains[i]->bend(pose, shape.points, bend_options(shape, weights));
+        reports[i] = chains[i]->bend(pose, shape.points, shape.with(weights));
     }
     return reports;
 }
@@ -177,7 +166,7 @@ std::vector<ik::CurveReport> bend(const HumanoidPart& part, const BentChains& ch
 std::optional<std::size_t> jump_between(const HumanoidPart& part, humanoid::BentChain& chain,
                                         const CurveShape& before, const std::vector<glm::vec3>& points) {
     const std::vector<float> weights = curve_weights(before, chain.bones());
-    const humanoid::BendOptions options = bend_options(before, weights);
+    const ik::CurveOptions options = before.with(weights);
     ik::CurveMemory memory(chain.bones());
     std::vector<rig::Transform> pose = unsolved_pose(part), again = pose;
     chain.bend(pose, before.points, options, memory);

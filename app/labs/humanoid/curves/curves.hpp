@@ -60,8 +60,6 @@ using BentChains = std::vector<std::unique_ptr<humanoid::BentChain>>;
 /// Bends the pose along all curves. One report each; of a chain that is not there, an empty one.
 std::vector<ik::CurveReport> bend(const HumanoidPart& part, const BentChains& chains,
                                   std::vector<rig::Transform>& pose);
-/// `weights`: curve_weights() of the shape. Refers to them.
-humanoid::BendOptions bend_options(const CurveShape& shape, std::span<const float> weights);
 /// The joint that goes on to another crossing if the curve's points become `points`.
 std::optional<std::size_t> jump_between(const HumanoidPart& part, humanoid::BentChain& chain,
                                         const CurveShape& before, const std::vector<glm::vec3>& points);

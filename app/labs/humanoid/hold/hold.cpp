@@ -133,23 +133,6 @@ Json hold_state(const HumanoidPart& part, const ShownPose& shown) {
     return json;
 }
 
-// In a scene file.
-
-Json hold_json(const HoldSetting& setting) {
-    Json json = save_fields(setting);
-    json["position"] = dpoint(setting.position);
-    json["rotation"] = dquaternion(setting.rotation);
-    return json;
-}
-
-HoldSetting read_hold(const JsonPlace& place) {
-    HoldSetting setting;
-    load_fields(place, setting);
-    setting.position = place["position"].dpoint();
-    if (const auto rotation = place.optional("rotation")) setting.rotation = rotation->drotation();
-    return setting;
-}
-
 // Commands.
 
 namespace {
@@ -180,7 +163,7 @@ void set_hold(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     HoldSetting setting = part.ik.hold.value_or(HoldSetting());
     humanoid::ObjectPose asked = part.ik.hold ? setting.asked(now.shown.hips) : before_chest(now, part);
     const bool with_body = setting.with_body;
-    set_fields(given, setting);
+    set_fields(given, setting, "rotation");  // which is in the character's space
     place_as_given(given, asked);
     if (!part.ik.hold || setting.with_body != with_body || given.has("to") || given.has("rotation"))
         setting.ask(asked, now.shown.hips);

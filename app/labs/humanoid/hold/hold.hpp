@@ -35,9 +35,6 @@ Verdict hold_verdict(const HoldSetting& setting, const humanoid::HoldReport& rep
 /// Null if nothing is held.
 Json hold_state(const HumanoidPart& part, const ShownPose& shown);
 
-Json hold_json(const HoldSetting& setting);
-HoldSetting read_hold(const JsonPlace& place);
-
 void draw_hold(const View& view, DrawList& list, const HumanoidPart& part, const ShownPose& shown);
 /// Rows of the section Hands and gaze.
 void hold_rows(const HumanoidPanel& panel);

@@ -2,16 +2,20 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <tendril/magnitude.hpp>
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::HoldSetting>() noexcept {
     using namespace app;
     static constexpr auto kinds = held_kinds.name_array();
     static constexpr auto hands = holding_hands.name_array();
+    constexpr FieldRange anywhere{-max_magnitude, max_magnitude};
     static constexpr Field rows[] = {field<&HoldSetting::kind>("kind", kinds),
-                                     field<&HoldSetting::size>("size", {smallest_held, largest_held}),
+                                     field<&HoldSetting::size>("size", {0.1, 10.0}),
                                      field<&HoldSetting::hands>("hands", hands),
-                                     field<&HoldSetting::with_body>("with_body")};
+                                     field<&HoldSetting::with_body>("with_body"),
+                                     field<&HoldSetting::position>("position", anywhere, "m"),
+                                     field<&HoldSetting::rotation>("rotation", unit_length)};
     return rows;
 }
 

@@ -40,7 +40,6 @@ struct HoldSetting {
     void ask(const humanoid::ObjectPose& there, const humanoid::ObjectPose& hips);
     bool holds(humanoid::Effector effector) const;
 };
-inline constexpr double smallest_held = 0.1, largest_held = 10.0;
 
 /// A bar of the object's shape, in its frame; metres.
 struct HeldBar {
@@ -55,6 +54,6 @@ std::vector<humanoid::Grip> held_grips(const HoldSetting& setting, const humanoi
 }  // namespace tendril::app
 
 template <>
-std::span<const tendril::Field> tendril::fields<tendril::app::HoldSetting>() noexcept;  ///< not its place
+std::span<const tendril::Field> tendril::fields<tendril::app::HoldSetting>() noexcept;
 template <>
 std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::HoldSetting>();

@@ -96,14 +96,14 @@ std::vector<Effector> effectors_named(const Arguments& given) {
 }
 
 /// The effector's target, which is created at its current position if it has none.
-TargetSetting& target_begun(const IkNow& now, HumanoidPart& part, Effector effector) {
-    std::optional<TargetSetting>& target = part.ik.target(effector);
+humanoid::BodyTarget& target_begun(const IkNow& now, HumanoidPart& part, Effector effector) {
+    std::optional<humanoid::BodyTarget>& target = part.ik.target(effector);
     if (holds(part, effector))
         throw std::invalid_argument(std::string(humanoid::name(effector)) + " holds the " +
                                     held_kinds.title(part.ik.hold->kind) + ": move that, or let go of it");
     if (!target) {
         const std::size_t node = *part.node_of(humanoid::bone_of(effector));
-        target = TargetSetting{.position = now.shown.placed[node].position};
+        target = humanoid::BodyTarget{.effector = effector, .position = now.shown.placed[node].position};
         forget_on_the_way_to(part.ik_state.release, part.skeleton(), node);
     }
     return *target;
@@ -124,7 +124,7 @@ void set_targets(const IkNow& now, HumanoidPart& part, const Arguments& given) {
             part.ik.target(effectors[i]).reset();
             continue;
         }
-        TargetSetting& target = target_begun(now, part, effectors[i]);
+        humanoid::BodyTarget& target = target_begun(now, part, effectors[i]);
         if (given.has("to")) target.position = exact_point(given.json("to"));
         if (points) target.position = points->element(i).dpoint();
         if (given.has("rotation")) target.rotation = glm::dquat(given.rotation("rotation"));
@@ -193,12 +193,10 @@ void set_foot_ik(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     FootIkSetting& setting = part.ik.foot_ik;
     set_fields(given, setting);
     // One of the two takes the other along.
-    if (!given.has("leave_speed")) setting.leave_speed = std::max(setting.leave_speed, setting.enter_speed);
-    if (!given.has("enter_speed")) setting.enter_speed = std::min(setting.leave_speed, setting.enter_speed);
-    if (setting.leave_speed < setting.enter_speed)
-        throw std::invalid_argument("leave_speed must be at least enter_speed, " +
-                                    fixed_text(setting.enter_speed, 2) + " m/s, got " +
-                                    fixed_text(setting.leave_speed, 2));
+    auto &enter = setting.options.enter_speed, &leave = setting.options.leave_speed;
+    if (!given.has("leave_speed")) leave = std::max(leave, enter);
+    if (!given.has("enter_speed")) enter = std::min(leave, enter);
+    if (const Result bad = check(setting.options); !bad) throw std::invalid_argument(bad.message());
     if (setting.on && now.solvers.feet(part) == nullptr)
         throw std::invalid_argument("foot IK is not possible: " + now.solvers.why_no_feet(part));
 }
@@ -210,6 +208,7 @@ std::vector<std::string> effector_names() {
 }  // namespace
 
 void add_ik_commands(CommandTable& table) {
+    const FieldRange weights = field_of<&humanoid::BodyTarget::weight>().range;
     table.add(ik_command(
         "humanoid.target", "Set an effector's target",
         {choice_argument("effector", false, "which", effector_names()),
@@ -221,7 +220,7 @@ void add_ik_commands(CommandTable& table) {
           .required = false,
           .help = "of the bone; free if never given"},
          each_argument("rotations", "effectors"),
-         number_argument("weight", "compared with other targets; 0 lets go", 0.0, heaviest_target)},
+         number_argument("weight", "compared with other targets; 0 lets go", weights.low, weights.high)},
         "Gives effectors targets, or lets them go", set_targets));
     std::vector<Argument> ground_arguments = field_arguments<GroundSetting>();
     ground_arguments.push_back(text_argument("path", false, "of the mesh: a .gltf or .glb file"));
@@ -266,22 +265,19 @@ HandCurve curve_over(const humanoid::Clip* clip) {
     return {at(usual.begin), at(usual.full), at(usual.until), at(usual.end)};
 }
 
-constexpr std::array<const char*, 4> curve_times{"begin", "full", "until", "end"};
-
 /// Times that are not given move along, so that the four may be typed in any order.
-HandCurve with_times(const HandCurve& curve, const Arguments& given) {
-    std::array<double, 4> times{curve.begin, curve.full, curve.until, curve.end};
-    for (std::size_t i = 0; i < 4; ++i) {
-        if (!given.has(curve_times[i])) continue;
-        times[i] = given.real(curve_times[i]);
-        for (std::size_t k = 0; k < 4; ++k)
-            if (!given.has(curve_times[k]))
-                times[k] = k < i ? std::min(times[k], times[i]) : std::max(times[k], times[i]);
-    }
-    if (!std::ranges::is_sorted(times))
+HandCurve with_times(HandCurve curve, const Arguments& given) {
+    set_fields(given, curve);
+    for (const Field& time : fields<HandCurve>())
+        for (const Field& other : fields<HandCurve>()) {
+            if (!given.has(time.name) || given.has(other.name)) continue;
+            const double set = time.number(&curve), moves = other.number(&curve);
+            other.set_number(&curve, &other < &time ? std::min(moves, set) : std::max(moves, set));
+        }
+    if (curve.begin > curve.full || curve.full > curve.until || curve.until > curve.end)
         throw std::invalid_argument(
             "from (begin), full from (full), full to (until) and to (end) must be in ascending order");
-    return {times[0], times[1], times[2], times[3]};
+    return curve;
 }
 
 /// Sets the curve of a hand.
@@ -291,7 +287,8 @@ void set_curve(HumanoidPart& part, std::size_t hand, const Arguments& given) {
         curve.reset();
         return;
     }
-    const bool times = std::ranges::any_of(curve_times, [&](const char* each) { return given.has(each); });
+    const bool times =
+        std::ranges::any_of(fields<HandCurve>(), [&](const Field& each) { return given.has(each.name); });
     if (times || given.has("curve")) curve = with_times(curve.value_or(curve_over(part.clip())), given);
 }
 
@@ -319,11 +316,11 @@ void set_look_at(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     set_fields(given, setting);
     if (setting.on) require_body(now, part);
     if (setting.on && !setting.placed) {
-        setting.target = ahead_of_head(now, part);
+        setting.options.target = ahead_of_head(now, part);
         setting.placed = true;
     }
     if (given.has("to")) {
-        setting.target = exact_point(given.json("to"));
+        setting.options.target = exact_point(given.json("to"));
         setting.placed = true;
     }
 }
@@ -337,8 +334,9 @@ void set_self_collision(const IkNow& now, HumanoidPart& part, const Arguments& g
 
 void set_balance(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     set_fields(given, part.ik.balance);
-    if (part.ik.balance.on) require_body(now, part);
-    if (part.ik.balance.on && now.solvers.masses(part) == nullptr)
+    const bool on = part.ik.balance.body.balance;
+    if (on) require_body(now, part);
+    if (on && now.solvers.masses(part) == nullptr)
         throw std::invalid_argument("balance is not possible: " + now.solvers.why_no_feet(part));
     part.ik_state.body = {};  // it moves only as far as its targets do
 }
@@ -346,18 +344,11 @@ void set_balance(const IkNow& now, HumanoidPart& part, const Arguments& given) {
 }  // namespace
 
 void add_hand_commands(CommandTable& table) {
-    const auto seconds = [](const char* name, const char* help) {
-        return number_argument(name, help, 0.0, max_curve);
-    };
     std::vector<Argument> hands = field_arguments<HandIkSetting>();
-    for (Argument& each : std::vector<Argument>{
-             choice_argument("hand", false, "whose curve; both if omitted", {"left", "right", "both"}),
-             switch_argument("curve", "the weight follows the clip's time"),
-             seconds("begin",
-                     "of the clip: weight 0 until then; moves the other times along if it passes them"),
-             seconds("full", "weight 1 from then on"), seconds("until", "weight 1 until then"),
-             seconds("end", "weight 0 from then on")})
-        hands.push_back(std::move(each));
+    hands.push_back(
+        choice_argument("hand", false, "whose curve; both if omitted", {"left", "right", "both"}));
+    hands.push_back(switch_argument("curve", "the weight follows the clip's time"));
+    for (Argument& each : field_arguments<HandCurve>()) hands.push_back(std::move(each));
     table.add(ik_command("humanoid.hand_ik", "Set hand IK", std::move(hands),
                          "Blends the hands from the clip to their targets; anything omitted stays as it is",
                          set_hand_ik));

@@ -14,11 +14,7 @@ Json targets_json(const IkSettings& ik) {
     Json targets = Json::object();
     for (const humanoid::Effector effector : all_effectors) {
         const auto& target = ik.target(effector);
-        if (!target) continue;
-        Json& json = targets[humanoid::name(effector)];
-        json["position"] = dpoint(target->position);
-        if (target->rotation) json["rotation"] = dquaternion(*target->rotation);
-        json["weight"] = target->weight;
+        if (target) targets[humanoid::name(effector)] = save_fields(*target);
     }
     return targets;
 }
@@ -28,12 +24,9 @@ void read_targets(const JsonPlace& place, IkSettings& ik) {
     for (const auto& [name, value] : place.json().items()) {
         const auto effector = humanoid::effector_named(name);
         if (!effector) place.fail("there is no effector \"" + name + "\"");
-        const JsonPlace at = place[name.c_str()];
-        TargetSetting target;
-        target.position = at["position"].dpoint();
-        if (const auto rotation = at.optional("rotation")) target.rotation = rotation->drotation();
-        if (const auto weight = at.optional("weight")) target.weight = weight->real(1e-9, heaviest_target);
-        ik.target(*effector) = target;
+        constexpr std::string_view newer[] = {"rotation", "weight"};
+        load_all_fields(place[name.c_str()], ik.target(*effector).emplace(), newer);
+        ik.target(*effector)->effector = *effector;
     }
 }
 
@@ -69,17 +62,15 @@ void read_ground(const JsonPlace& place, GroundSetting& ground) {
 
 void read_foot_ik(const JsonPlace& place, FootIkSetting& setting) {
     load_fields(place, setting);
-    if (setting.leave_speed < setting.enter_speed)
-        (place.has("leave_speed") ? place["leave_speed"] : place)
-            .fail("expected at least enter_speed, " + json_summary(setting.enter_speed) + ", found " +
-                  json_summary(setting.leave_speed));
+    if (const Result bad = check(setting.options); !bad) place.fail(bad.message());
 }
 
 Json hand_ik_json(const HandIkSetting& setting) {
     Json json = save_fields(setting);
     for (std::size_t hand = 0; hand < 2; ++hand)
         if (const auto& curve = setting.curves[hand])
-            json[humanoid::name(both_hands[hand])] = {curve->begin, curve->full, curve->until, curve->end};
+            for (const Field& time : fields<HandCurve>())
+                json[humanoid::name(both_hands[hand])].push_back(time.number(&*curve));
     return json;
 }
 
@@ -89,10 +80,12 @@ void read_hand_ik(const JsonPlace& place, HandIkSetting& setting) {
         const auto times = place.optional(humanoid::name(both_hands[hand]));
         if (!times) continue;
         times->check_size(4, "times in ascending order");
-        std::array<double, 4> seconds{};
-        for (std::size_t i = 0; i < 4; ++i)
-            seconds[i] = times->element(i).real(i == 0 ? 0.0 : seconds[i - 1], max_curve);
-        setting.curves[hand] = HandCurve{seconds[0], seconds[1], seconds[2], seconds[3]};
+        double before = 0.0;
+        for (const Field& time : fields<HandCurve>()) {
+            const auto i = static_cast<std::size_t>(&time - fields<HandCurve>().data());
+            before = times->element(i).real(before, time.range.high);
+            time.set_number(i == 0 ? &setting.curves[hand].emplace() : &*setting.curves[hand], before);
+        }
     }
 }
 
@@ -122,7 +115,7 @@ Json ik_json(const HumanoidPart& part) {
     json["balance"] = save_fields(part.ik.balance);
     json["hand_ik"] = hand_ik_json(part.ik.hand_ik);
     json["look_at"] = save_fields(part.ik.look_at);
-    if (part.ik.hold) json["hold"] = hold_json(*part.ik.hold);
+    if (part.ik.hold) json["hold"] = save_fields(*part.ik.hold);
     if (part.ik_state.hold != humanoid::HoldState()) json["held"] = save_fields(part.ik_state.hold);
     if (!(part.ik_state.hands == humanoid::HandsState())) json["hands"] = save_fields(part.ik_state.hands);
     if (!(part.ik_state.look == humanoid::LookAtState())) json["look"] = save_fields(part.ik_state.look);
@@ -144,7 +137,7 @@ void read_ik(const JsonPlace& place, HumanoidPart& part) {
     if (const auto hand_ik = place.optional("hand_ik")) read_hand_ik(*hand_ik, part.ik.hand_ik);
     if (const auto look_at = place.optional("look_at")) load_fields(*look_at, part.ik.look_at);
     if (const auto hold = place.optional("hold")) {
-        part.ik.hold = read_hold(*hold);
+        load_fields(*hold, part.ik.hold.emplace());
         for (const humanoid::Effector hand : both_hands)
             if (part.ik.hold->holds(hand) && part.ik.target(hand))
                 place["targets"][humanoid::name(hand)].fail("this hand holds the object: remove its target");

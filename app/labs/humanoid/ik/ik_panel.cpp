@@ -33,7 +33,8 @@ void effector_row(const HumanoidPanel& panel, humanoid::Effector effector) {
     explain("Removes the target.");
     ImGui::SameLine();
     auto weight = static_cast<float>(target->weight);
-    if (number_field(name.c_str(), weight, 0.01f, 0.01f, static_cast<float>(heaviest_target), "%.2f"))
+    const auto most = static_cast<float>(field_of<&humanoid::BodyTarget::weight>().range.high);
+    if (number_field(name.c_str(), weight, 0.01f, 0.01f, most, "%.2f"))
         panel.emit.continuously("humanoid.target",
                                 {{"effector", humanoid::name(effector)}, {"weight", weight}});
     explain("Where targets conflict, the one with more weight gets closer.");
@@ -42,7 +43,7 @@ void effector_row(const HumanoidPanel& panel, humanoid::Effector effector) {
 void balance_rows(const HumanoidPanel& panel, MoreRows& more) {
     const BalanceSetting& balance = panel.part.ik.balance;
     const FieldRows rows = FieldRows(balance, "humanoid.balance", panel.emit).under(more);
-    const bool possible = balance.on || panel.runtime.solvers.masses(panel.part) != nullptr;
+    const bool possible = balance.body.balance || panel.runtime.solvers.masses(panel.part) != nullptr;
     rows.row("on", {.why_not = possible ? std::string()
                                         : "Balance is not possible: " +
                                               panel.runtime.solvers.why_no_feet(panel.part) + "."});
@@ -51,7 +52,7 @@ void balance_rows(const HumanoidPanel& panel, MoreRows& more) {
         const std::string why = why_no_balance(panel.part, shown, panel.runtime.solvers);
         if (!why.empty()) note(why);
     }
-    if (balance.on) rows.rows("reserve", "steps", "step_seconds");
+    if (balance.body.balance) rows.rows("reserve", "steps", "step_seconds");
 }
 
 void body_rows(const HumanoidPanel& panel, MoreRows& more) {
@@ -90,33 +91,8 @@ const char* hand_name(std::size_t hand) {
     return hand == 0 ? "left" : "right";
 }
 
-void curve_fields(const HumanoidPanel& panel, std::size_t hand, const HandCurve& curve) {
-    const std::string side = hand_name(hand);
-    const auto set = [&](const char* argument, float value) {
-        panel.emit.continuously("humanoid.hand_ik", {{"hand", side}, {argument, value}});
-    };
-    struct Row {
-        const char *title, *argument, *help;
-        double HandCurve::*time;
-    };
-    // Any order while typing: a time that passes another one moves it along.
-    constexpr Row rows[]{
-        {" from", "begin", "Until then the hand follows the clip.", &HandCurve::begin},
-        {" full from", "full", "From then on the hand is on its target.", &HandCurve::full},
-        {" full to", "until", "Until then the hand is on its target; afterwards it goes back to the clip.",
-         &HandCurve::until},
-        {" to", "end", "From then on the hand follows the clip.", &HandCurve::end}};
-    for (const Row& row : rows) {
-        auto time = static_cast<float>(curve.*row.time);
-        if (number_field((side + row.title).c_str(), time, 0.005f, 0.0f, static_cast<float>(max_curve),
-                         "%.2f s"))
-            set(row.argument, time);
-        explain(row.help);
-    }
-}
-
 void hand_row(const HumanoidPanel& panel, std::size_t hand) {
-    const TargetSetting* const target = panel.part.ik.hand_target(hand);
+    const humanoid::BodyTarget* const target = panel.part.ik.hand_target(hand);
     if (target == nullptr) return;
     const std::optional<HandCurve>& curve = panel.part.ik.hand_ik.curves[hand];
     bool timed = curve.has_value();
@@ -124,7 +100,9 @@ void hand_row(const HumanoidPanel& panel, std::size_t hand) {
     if (ImGui::Checkbox(title.c_str(), &timed))
         panel.emit("humanoid.hand_ik", {{"hand", side}, {"curve", timed}});
     explain("The hand goes to its target and back as the clip plays.");
-    if (curve) curve_fields(panel, hand, *curve);
+    ImGui::PushID(side.c_str());
+    if (curve) FieldRows(*curve, "humanoid.hand_ik", panel.emit, {{"hand", side}}).all();
+    ImGui::PopID();
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
     if (!shown.hands) return;
     const humanoid::HandReport& report = shown.hands->hands[hand];
@@ -143,7 +121,7 @@ void hand_rows(const HumanoidPanel& panel) {
     const FieldRows hands(ik.hand_ik, "humanoid.hand_ik", panel.emit);
     hands.row("on", {.why_not = ik.hand_ik.on || body ? std::string() : no_body});
     if (ik.hand_ik.on) {
-        hands.row("view_deg");
+        hands.row("view");
         for (std::size_t hand = 0; hand < 2; ++hand) hand_row(panel, hand);
         if (ik.hand_target(0) == nullptr && ik.hand_target(1) == nullptr)
             note("Drag the orange ball of a hand.");
@@ -151,7 +129,7 @@ void hand_rows(const HumanoidPanel& panel) {
     const FieldRows gaze(ik.look_at, "humanoid.look_at", panel.emit);
     gaze.row("on", {.why_not = ik.look_at.on || body ? std::string() : no_body});
     if (!ik.look_at.on) return;
-    gaze.rows("weight", "view_deg");
+    gaze.rows("weight", "view");
     const ShownPose& shown = panel.runtime.shown(panel.workspace);
     const bool out_of_view = shown.look && !shown.look->in_view;
     kept_note("out of view", out_of_view ? "The target is outside the cone of view." : "", 1);
@@ -205,7 +183,7 @@ void standing_rows(const HumanoidPanel& panel, MoreRows& more) {
     rows.row("on", {.why_not = none ? "Foot IK is not possible: " + why + "." : ""});
     if (!feet.on) return;  // the greyed switch says why
     if (!why.empty()) return note("Foot IK is not possible: " + why + ".");
-    rows.row("max_angle_deg");
+    rows.row("max_angle");
     rows.rows("enter_speed", "leave_speed");
     for (std::size_t side = 0; side < 2; ++side) foot_row(panel, side);
     const ShownPose& shown = panel.runtime.shown(panel.workspace);

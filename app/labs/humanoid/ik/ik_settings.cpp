@@ -1,7 +1,8 @@
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 
 #include <algorithm>
-#include <tendril/magnitude.hpp>
+
+#include "app/fields/field_in.hpp"
 
 namespace tendril::app {
 
@@ -14,8 +15,8 @@ LimitsFrom IkSettings::limits_of(humanoid::Bone bone) const {
     return own == joint_limits.end() ? limits : own->second;
 }
 
-const TargetSetting* IkSettings::hand_target(std::size_t hand) const {
-    const std::optional<TargetSetting>& wanted = target(both_hands[hand]);
+const humanoid::BodyTarget* IkSettings::hand_target(std::size_t hand) const {
+    const std::optional<humanoid::BodyTarget>& wanted = target(both_hands[hand]);
     return hand_ik.on && wanted ? &*wanted : nullptr;
 }
 
@@ -46,41 +47,51 @@ std::span<const Field> fields<app::GroundSetting>() noexcept {
 template <>
 std::span<const Field> fields<app::BalanceSetting>() noexcept {
     using namespace app;
-    static constexpr Field rows[] = {
-        field<&BalanceSetting::on>("on"), field<&BalanceSetting::reserve>("reserve", {0.0, max_reserve}),
-        field<&BalanceSetting::steps>("steps"),
-        field<&BalanceSetting::step_seconds>("step_seconds", {min_step_seconds, max_step_seconds}, "s")};
+    using Setting = BalanceSetting;
+    static const Field rows[] = {
+        field_in<&Setting::body, &humanoid::BodyOptions::balance>("on"),
+        field_in<&Setting::body, &humanoid::BodyOptions::reserve>(), field<&Setting::steps>("steps"),
+        field_in<&Setting::footsteps, &humanoid::FootstepOptions::seconds>("step_seconds")};
     return rows;
 }
 
 template <>
 std::span<const Field> fields<app::FootIkSetting>() noexcept {
     using namespace app;
+    using Setting = FootIkSetting;
+    static const Field rows[] = {field<&Setting::on>("on"),
+                                 field_in<&Setting::options, &humanoid::FeetOptions::enter_speed>(),
+                                 field_in<&Setting::options, &humanoid::FeetOptions::leave_speed>(),
+                                 field_in<&Setting::options, &humanoid::FeetOptions::max_turn>("max_angle")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<app::HandCurve>() noexcept {
+    using app::HandCurve;
+    constexpr FieldRange times{0.0, 1e4};
     static constexpr Field rows[] = {
-        field<&FootIkSetting::on>("on"),
-        field<&FootIkSetting::enter_speed>("enter_speed", {0.0, fastest_foot}, "m/s"),
-        field<&FootIkSetting::leave_speed>("leave_speed", {0.0, fastest_foot}, "m/s"),
-        field<&FootIkSetting::max_angle_deg>("max_angle_deg", {0.0, max_foot_angle}, "deg")};
+        field<&HandCurve::begin>("begin", times, "s"), field<&HandCurve::full>("full", times, "s"),
+        field<&HandCurve::until>("until", times, "s"), field<&HandCurve::end>("end", times, "s")};
     return rows;
 }
 
 template <>
 std::span<const Field> fields<app::HandIkSetting>() noexcept {
     using namespace app;
-    static constexpr Field rows[] = {
-        field<&HandIkSetting::on>("on"),
-        field<&HandIkSetting::view_deg>("view_deg", {0.0, widest_view_deg}, "deg")};
+    static const Field rows[] = {field<&HandIkSetting::on>("on"),
+                                 field_in<&HandIkSetting::options, &humanoid::HandsOptions::view>()};
     return rows;
 }
 
 template <>
 std::span<const Field> fields<app::LookAtSetting>() noexcept {
     using namespace app;
-    constexpr FieldRange anywhere{-max_magnitude, max_magnitude};
-    static constexpr Field rows[] = {
-        field<&LookAtSetting::on>("on"), field<&LookAtSetting::placed>("placed"),
-        field<&LookAtSetting::target>("target", anywhere, "m"), field<&LookAtSetting::weight>("weight"),
-        field<&LookAtSetting::view_deg>("view_deg", {0.0, widest_view_deg}, "deg")};
+    using Setting = LookAtSetting;
+    static const Field rows[] = {field<&Setting::on>("on"), field<&Setting::placed>("placed"),
+                                 field_in<&Setting::options, &humanoid::LookAtOptions::target>(),
+                                 field_in<&Setting::options, &humanoid::LookAtOptions::weight>(),
+                                 field_in<&Setting::options, &humanoid::LookAtOptions::view>()};
     return rows;
 }
 
@@ -88,7 +99,7 @@ namespace app {
 namespace {
 
 constexpr FieldText view_text(const char* label) {
-    return {.name = "view_deg",
+    return {.name = "view",
             .label = label,
             .help = "Half the angle of the cone in which targets are followed.",
             .step = 0.5f,
@@ -172,12 +183,31 @@ std::span<const FieldText> field_texts<FootIkSetting>() {
          .label = "let go above",
          .help = "A planted foot is released when the clip moves it faster than this.",
          .more = true},
-        {.name = "max_angle_deg",
+        {.name = "max_angle",
          .label = "foot angle",
          .help = "The maximum angle by which the ground tilts a foot.",
          .step = 0.1f,
          .decimals = 0,
          .more = true}};
+    return texts;
+}
+
+template <>
+std::span<const FieldText> field_texts<HandCurve>() {
+    static constexpr FieldText texts[] = {
+        {.name = "begin",
+         .label = "from",
+         .help = "Until then, in the clip, the hand follows it.",
+         .step = 0.005f},
+        {.name = "full",
+         .label = "full from",
+         .help = "From then on the hand is on its target.",
+         .step = 0.005f},
+        {.name = "until",
+         .label = "full to",
+         .help = "Until then the hand is on its target; afterwards it goes back to the clip.",
+         .step = 0.005f},
+        {.name = "end", .label = "to", .help = "From then on the hand follows the clip.", .step = 0.005f}};
     return texts;
 }
 

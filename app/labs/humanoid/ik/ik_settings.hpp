@@ -19,16 +19,6 @@
 
 namespace tendril::app {
 
-inline constexpr double heaviest_target = 1e3;
-
-/// The target of an effector; metres, in the character's space.
-struct TargetSetting {
-    glm::dvec3 position{0.0};
-    std::optional<glm::dquat> rotation{};  ///< of the bone, if set
-    double weight = 1.0;                   ///< above 0, up to heaviest_target
-    bool operator==(const TargetSetting&) const = default;
-};
-
 enum class LimitsFrom : std::uint8_t { Defaults, Motion, None };
 inline constexpr EnumNames<LimitsFrom, 3> limits_from{
     "source of limits",
@@ -36,53 +26,47 @@ inline constexpr EnumNames<LimitsFrom, 3> limits_from{
      {"motion", "as in the clips", "Each joint turns as far as the character's clips turn it."},
      {"none", "none", "Joints turn as far as they are asked to."}}};
 
-/// Foot IK settings. Speeds in m/s.
+// The library's options, beside what only the lab has. Files, commands and panels have those of them that the
+// tables list; the others keep their defaults, or follow from clip and character.
+
+/// `options.floor` and `options.root_velocity` follow from the clip.
 struct FootIkSetting {
     bool on = false;
-    double enter_speed = 0.3,
-           leave_speed = 1.0;     ///< a low foot is planted below enter_speed, released above leave_speed
-    double max_angle_deg = 35.0;  ///< limit on how far the ground turns a foot
+    humanoid::FeetOptions options{};
     bool operator==(const FootIkSetting&) const = default;
 };
-inline constexpr double fastest_foot = 100.0, max_foot_angle = 80.0;
 
 /// A hand's weight over the clip's time: 0 until `begin`, 1 from `full` to `until`, 0 from `end`; seconds.
 struct HandCurve {
     double begin = 0.3, full = 0.55, until = 0.62, end = 0.85;
     bool operator==(const HandCurve&) const = default;
 };
-inline constexpr double max_curve = 1e4, widest_view_deg = 180.0;
 
 /// Hand IK: the clip moves the hands, and each arm alone blends its hand to the target.
-/// View angles, also below, are half angles of a cone.
 struct HandIkSetting {
     bool on = false;
-    double view_deg = 115.0;
+    humanoid::HandsOptions options{};
     std::array<std::optional<HandCurve>, 2> curves{};  ///< left, right; none: weight 1 throughout
     bool operator==(const HandIkSetting&) const = default;
 };
 
 struct LookAtSetting {
     bool on = false;
-    bool placed = false;               ///< a position was given or found
-    glm::dvec3 target{0.0, 1.6, 2.0};  ///< metres
-    double weight = 1.0;               ///< 0 to 1
-    double view_deg = 109.0;
+    bool placed = false;  ///< a position was given or found
+    humanoid::LookAtOptions options{.target = {0.0, 1.6, 2.0}};
     bool operator==(const LookAtSetting&) const = default;
 };
 
-/// Balance of a body that reaches: the centre of mass stays over the feet.
+/// Balance of a body that reaches: `body.balance` switches it on.
 struct BalanceSetting {
-    bool on = false;
-    double reserve = 0.25;  ///< part of the support, from its edge inwards, to keep clear of
-    bool steps = true;      ///< a foot steps when that is not enough; needs running time
-    double step_seconds = 0.3;
+    humanoid::BodyOptions body{};
+    bool steps = true;  ///< a foot steps when shifting the hips is not enough; needs running time
+    humanoid::FootstepOptions footsteps{};
     bool operator==(const BalanceSetting&) const = default;
 };
-inline constexpr double max_reserve = 0.9, min_step_seconds = 0.05, max_step_seconds = 5.0;
 
 struct IkSettings {
-    std::array<std::optional<TargetSetting>, humanoid::effector_count> targets{};
+    std::array<std::optional<humanoid::BodyTarget>, humanoid::effector_count> targets{};
     LimitsFrom limits = LimitsFrom::Defaults;
     std::map<humanoid::Bone, LimitsFrom> joint_limits{};  ///< joints with a source of their own
     bool self_collision = false;                          ///< keeps hands and lower arms out of the body
@@ -94,17 +78,17 @@ struct IkSettings {
     std::optional<HoldSetting> hold{};  ///< its hands have no targets
     bool operator==(const IkSettings&) const = default;
 
-    std::optional<TargetSetting>& target(humanoid::Effector effector) {
+    std::optional<humanoid::BodyTarget>& target(humanoid::Effector effector) {
         return targets[static_cast<std::size_t>(effector)];
     }
-    const std::optional<TargetSetting>& target(humanoid::Effector effector) const {
+    const std::optional<humanoid::BodyTarget>& target(humanoid::Effector effector) const {
         return targets[static_cast<std::size_t>(effector)];
     }
     bool has_targets() const;
     /// The source of that joint's limit.
     LimitsFrom limits_of(humanoid::Bone bone) const;
     /// Hand 0 is left, 1 right. Null if the hand has no target, or hand IK is off.
-    const TargetSetting* hand_target(std::size_t hand) const;
+    const humanoid::BodyTarget* hand_target(std::size_t hand) const;
 };
 
 /// What still fades out after a target was released; see release_between().
@@ -146,6 +130,8 @@ std::span<const Field> fields<app::BalanceSetting>() noexcept;
 template <>
 std::span<const Field> fields<app::FootIkSetting>() noexcept;
 template <>
+std::span<const Field> fields<app::HandCurve>() noexcept;
+template <>
 std::span<const Field> fields<app::HandIkSetting>() noexcept;  ///< except for its curves
 template <>
 std::span<const Field> fields<app::LookAtSetting>() noexcept;
@@ -158,6 +144,8 @@ template <>
 std::span<const FieldText> field_texts<BalanceSetting>();
 template <>
 std::span<const FieldText> field_texts<FootIkSetting>();
+template <>
+std::span<const FieldText> field_texts<HandCurve>();
 template <>
 std::span<const FieldText> field_texts<HandIkSetting>();
 template <>

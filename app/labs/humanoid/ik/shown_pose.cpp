@@ -89,8 +89,8 @@ void reach_by_hand(const HumanoidPart& part, Solvers& solvers, double dt, IkStat
         return;
     }
     for (std::size_t hand = 0; hand < 2; ++hand) shown.hand_goes[hand] = part.ik.hand_target(hand) != nullptr;
-    const humanoid::HandsReport report = hands->step(shown.local, hand_targets(part), dt, state.hands,
-                                                     {.view = glm::radians(part.ik.hand_ik.view_deg)});
+    const humanoid::HandsReport report =
+        hands->step(shown.local, hand_targets(part), dt, state.hands, part.ik.hand_ik.options);
     if (report.valid) shown.hands = report;
 }
 
@@ -100,20 +100,16 @@ std::vector<humanoid::BodyTarget> body_targets(const IkSettings& ik) {
     std::vector<humanoid::BodyTarget> targets;
     for (const humanoid::Effector effector : all_effectors)
         if (const auto& target = ik.target(effector); target && !is_hand(ik, effector))
-            targets.push_back({effector, target->position, target->rotation, target->weight});
+            targets.push_back(*target);
     return targets;
 }
 
 /// The ground decides which feet stand only if foot IK brings them there.
 humanoid::BodyOptions body_options(const HumanoidPart& part, Solvers& solvers) {
-    humanoid::BodyOptions options{.balance = part.ik.balance.on, .reserve = part.ik.balance.reserve};
+    humanoid::BodyOptions options = part.ik.balance.body;
     if (options.balance && part.ik.foot_ik.on && part.ik.ground.kind != humanoid::GroundKind::None)
         options.ground = &solvers.ground(part);
     return options;
-}
-
-humanoid::FootstepOptions footstep_options(const HumanoidPart& part) {
-    return {.seconds = part.ik.balance.step_seconds};
 }
 
 bool body_acts(const HumanoidPart& part, const IkState& state) {
@@ -121,11 +117,8 @@ bool body_acts(const HumanoidPart& part, const IkState& state) {
 }
 
 humanoid::FeetOptions feet_options(const HumanoidPart& part, Solvers& solvers) {
-    const FootIkSetting& setting = part.ik.foot_ik;
-    humanoid::FeetOptions options{.floor = solvers.floor(part),
-                                  .enter_speed = setting.enter_speed,
-                                  .leave_speed = setting.leave_speed,
-                                  .max_turn = glm::radians(setting.max_angle_deg)};
+    humanoid::FeetOptions options = part.ik.foot_ik.options;
+    options.floor = solvers.floor(part);
     if (part.playback.in_place)
         options.root_velocity =
             missing_velocity(part.playback, *part.loaded, part.node_of(humanoid::Bone::Hips));
@@ -133,9 +126,7 @@ humanoid::FeetOptions feet_options(const HumanoidPart& part, Solvers& solvers) {
 }
 
 humanoid::LookAtOptions look_options(const HumanoidPart& part, bool body_solved) {
-    const LookAtSetting& setting = part.ik.look_at;
-    humanoid::LookAtOptions options{
-        .target = setting.target, .weight = setting.weight, .view = glm::radians(setting.view_deg)};
+    humanoid::LookAtOptions options = part.ik.look_at.options;
     if (body_solved) options.spine_part = 0.0;
     if (part.ik.target(humanoid::Effector::Head)) options.neck_part = 0.0;
     return options;
@@ -144,7 +135,7 @@ humanoid::LookAtOptions look_options(const HumanoidPart& part, bool body_solved)
 humanoid::HandTargets hand_targets(const HumanoidPart& part) {
     humanoid::HandTargets targets{};
     for (std::size_t hand = 0; hand < 2; ++hand)
-        if (const TargetSetting* const target = part.ik.hand_target(hand))
+        if (const humanoid::BodyTarget* const target = part.ik.hand_target(hand))
             targets[hand] = {.position = target->position,
                              .rotation = target->rotation,
                              .weight = std::min(target->weight, 1.0) *
@@ -172,13 +163,13 @@ void reach_and_step(const HumanoidPart& part, Solvers& solvers, humanoid::Body& 
                     IkState& state, ShownPose& shown) {
     humanoid::BodyOptions options = body_options(part, solvers);
     const humanoid::Masses* const masses = solvers.masses(part);
-    if (masses == nullptr || !part.ik.balance.on || !part.ik.balance.steps) {
+    if (masses == nullptr || !part.ik.balance.body.balance || !part.ik.balance.steps) {
         state.steps = {};
         reach(part, body, body_targets(part.ik), options, dt, state, shown);
         return;
     }
     const humanoid::Soles& soles = solvers.feet(part)->soles();
-    options.feet = humanoid::advance_steps(state.steps, soles, dt, footstep_options(part));
+    options.feet = humanoid::advance_steps(state.steps, soles, dt, part.ik.balance.footsteps);
     const std::vector<rig::Transform> clip = shown.local;
     reach(part, body, body_targets(part.ik), options, dt, state, shown);
     if (!(dt > 0.0) || !shown.body) return;
@@ -221,7 +212,8 @@ ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkSt
         shown.soles = humanoid::sole_points(feet->soles(), shown.placed);
         shown.has_soles = true;
     }
-    if (const humanoid::Masses* const masses = part.ik.balance.on ? solvers.masses(part) : nullptr) {
+    if (const humanoid::Masses* const masses =
+            part.ik.balance.body.balance ? solvers.masses(part) : nullptr) {
         const humanoid::Support support = humanoid::find_support(solvers.feet(part)->soles(), shown.soles,
                                                                  body_options(part, solvers).ground);
         const glm::dvec3 centre = masses->centre(shown.placed);
@@ -292,7 +284,7 @@ std::string why_in_air(const HumanoidPart& part, const ShownPose& shown, Solvers
     const Solvers::Gait* const gait = solvers.gait(part);
     if (gait == nullptr || part.playback.pace != glm::dvec3(0.0)) return {};
     const double slide = gait->slide[side];
-    if (slide < part.ik.foot_ik.enter_speed) return {};
+    if (slide < part.ik.foot_ik.options.enter_speed) return {};
     const std::string speed = fixed_text(slide, 1) + " m/s";
     if (gait->travel < 0.35 * gait->slide[side])
         return "Feet are not planted: the clip walks in place, and they slide at " + speed +

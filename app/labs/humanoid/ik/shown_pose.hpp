@@ -57,7 +57,6 @@ std::vector<rig::Transform> unsolved_pose(const HumanoidPart& part);
 std::vector<humanoid::BodyTarget> body_targets(const IkSettings& ik);
 /// Without the feet that step.
 humanoid::BodyOptions body_options(const HumanoidPart& part, Solvers& solvers);
-humanoid::FootstepOptions footstep_options(const HumanoidPart& part);
 /// Whether full-body IK runs before gaze and hands: there is a target or an object in the hands, or a foot
 /// has stepped away.
 bool body_acts(const HumanoidPart& part, const IkState& state);

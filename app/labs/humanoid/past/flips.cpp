@@ -90,7 +90,8 @@ class Drivers {
         if (!was_.shown.look || !is_.shown.look) return false;
         if (std::abs(is_.shown.look->weight - was_.shown.look->weight) >= std::max(share(), 1e-9))
             return true;
-        return moved(bone.node, was_.part.ik.look_at.target, is_.part.ik.look_at.target, enough);
+        return moved(bone.node, was_.part.ik.look_at.options.target, is_.part.ik.look_at.options.target,
+                     enough);
     }
 
     bool target_moved(const Turned& bone, double enough) const {

@@ -194,8 +194,8 @@ namespace {
 /// The settings without the poses of targets and of the held object.
 IkSettings without_places(IkSettings settings) {
     for (auto& target : settings.targets)
-        if (target) target = TargetSetting{.position = glm::dvec3(0.0), .weight = target->weight};
-    settings.look_at.target = glm::dvec3(0.0);
+        if (target) target = humanoid::BodyTarget{.effector = target->effector, .weight = target->weight};
+    settings.look_at.options.target = glm::dvec3(0.0);
     if (settings.hold) settings.hold->position = {}, settings.hold->rotation = {1.0, 0.0, 0.0, 0.0};
     return settings;
 }

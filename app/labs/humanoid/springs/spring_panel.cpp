@@ -74,7 +74,7 @@ bool same_settings(SpringSetting a, const SpringSetting& b) {
 void setting_rows(const HumanoidPanel& panel, const SpringSetting& spring,
                   const std::vector<std::string>& nodes) {
     FieldRows(spring, "humanoid.spring", panel.emit, {of_nodes(nodes)})
-        .rows("strength", "critical_damping", "weight", "max_angle_deg");
+        .rows("strength", "critical_damping", "weight", "max_angle");
 }
 
 }  // namespace

@@ -2,21 +2,20 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
+#include "app/fields/field_in.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::SpringSetting>() noexcept {
     using app::SpringSetting;
-    static constexpr Field rows[] = {
-        field<&SpringSetting::strength>("strength", {app::min_spring_strength, app::max_spring_strength},
-                                        "Hz"),
-        field<&SpringSetting::critical_damping>("critical_damping", {0.0, app::max_spring_damping}),
-        field<&SpringSetting::weight>("weight"),
-        field<&SpringSetting::max_angle_deg>("max_angle_deg", {0.0, app::widest_swing_deg}, "deg")};
+    using humanoid::SpringOptions;
+    static const Field rows[] = {app::field_in<&SpringSetting::options, &SpringOptions::strength>(),
+                                 app::field_in<&SpringSetting::options, &SpringOptions::critical_damping>(),
+                                 app::field_in<&SpringSetting::options, &SpringOptions::weight>(),
+                                 app::field_in<&SpringSetting::options, &SpringOptions::max_angle>()};
     return rows;
 }
 
@@ -34,7 +33,7 @@ std::span<const FieldText> field_texts<SpringSetting>() {
          .help = "0 swings for ever, 1 comes to rest without overshooting.",
          .step = 0.005f},
         {.name = "weight", .label = "spring weight", .help = "0: as in the clip. 1: the whole swing."},
-        {.name = "max_angle_deg",
+        {.name = "max_angle",
          .label = "max angle",
          .help = "The largest angle by which a bone turns away from the clip.",
          .step = 0.5f,
@@ -56,13 +55,6 @@ std::string overlap(const HumanoidPart& part, std::size_t node) {
 }
 
 }  // namespace
-
-humanoid::SpringOptions SpringSetting::options() const {
-    return {.strength = strength,
-            .critical_damping = critical_damping,
-            .weight = weight,
-            .max_angle = glm::radians(max_angle_deg)};
-}
 
 std::optional<std::size_t> spring_on(const HumanoidPart& part, std::size_t node) {
     for (std::size_t i = 0; i < part.springs.size(); ++i)
@@ -89,9 +81,8 @@ std::string why_no_spring(const HumanoidPart& part, std::size_t node) {
 void take_springs(HumanoidPart& part) {
     for (const NamedSpring& each : part.loaded->character.springs) {
         if (part.springs.size() == max_springs || !why_no_spring(part, each.node).empty()) continue;
-        part.springs.push_back({.node = part.skeleton()[each.node].name,
-                                .strength = each.strength,
-                                .critical_damping = each.critical_damping});
+        part.springs.push_back({part.skeleton()[each.node].name,
+                                {.strength = each.strength, .critical_damping = each.critical_damping}});
     }
     part.ik_state.springs.resize(part.springs.size());
 }
@@ -172,7 +163,7 @@ std::vector<humanoid::SpringReport> swing(const HumanoidPart& part, const Spring
             states[i] = {};
             continue;
         }
-        humanoid::SpringOptions options = part.springs[i].options();
+        humanoid::SpringOptions options = part.springs[i].options;
         std::vector<humanoid::PlacedCapsule> colliders;
         if (const NamedSpring* file = colliding(part, part.springs[i])) {
             if (placed.empty()) {
@@ -191,7 +182,7 @@ void carry(const std::vector<SpringSetting>& settings, const SpringChains& chain
            std::vector<rig::Transform> pose, SpringStates& states) {
     states.resize(chains.size());
     for (std::size_t i = 0; i < chains.size(); ++i)
-        if (chains[i] != nullptr) chains[i]->teleport(pose, settings[i].options(), states[i]);
+        if (chains[i] != nullptr) chains[i]->teleport(pose, settings[i].options, states[i]);
 }
 
 bool at_rest(const SpringStates& states) {

@@ -17,19 +17,12 @@ struct HumanoidPart;
 class JsonPlace;
 
 inline constexpr std::size_t max_springs = 64;
-inline constexpr double min_spring_strength = 0.01, max_spring_strength = 100.0;  ///< Hz
-inline constexpr double max_spring_damping = 10.0, widest_swing_deg = 179.0;
 
-/// A spring on a node and all its descendants; see humanoid::SpringOptions.
+/// A spring on a node and all its descendants.
 struct SpringSetting {
-    std::string node;  ///< by name
-    double strength = humanoid::SpringOptions().strength;
-    double critical_damping = humanoid::SpringOptions().critical_damping;
-    double weight = humanoid::SpringOptions().weight;
-    double max_angle_deg = 60.0;  ///< the library's default
+    std::string node;                   ///< by name
+    humanoid::SpringOptions options{};  ///< the hit radius is that of the character's file
     bool operator==(const SpringSetting&) const = default;
-
-    humanoid::SpringOptions options() const;
 };
 
 /// The index of the part's spring that turns the node; empty if none does.

@@ -29,16 +29,6 @@
 
 namespace tendril::humanoid {
 
-/// As in ik::CurveOptions; the rest pose takes the place of `up`.
-struct BendOptions {
-    ik::CurveKind kind = ik::CurveKind::Hermite;
-    bool fit = false;
-    float max_factor = 2.0f;                   ///< over 1 to 100
-    float roll_start = 0.0f, roll_end = 0.0f;  ///< radians, right-handed about the bones
-    float weight = 1.0f;                       ///< 0: the given pose, 1: the curve
-    std::span<const float> weights{};          ///< for each bone, 0 to 1; empty: all 1
-};
-
 /// Made once per character. bend() uses internal scratch: do not share an object between threads.
 class BentChain {
   public:
@@ -63,13 +53,13 @@ class BentChain {
     std::vector<glm::vec3> points_through(std::span<const rig::Transform> pose, std::size_t count) const;
 
     /// `pose` holds the local transforms of all nodes; the chain's come back along the curve. `points`: 1 to
-    /// max_points, those after the first node. `memory`, for bones() bones, is only needed to report jumps.
-    /// Status::InvalidInput for a pose, points or options that are not finite or out of range: nothing has
-    /// changed.
+    /// max_points, those after the first node. The rest pose takes the place of `options.up`. `memory`, for
+    /// bones() bones, is only needed to report jumps. Status::InvalidInput for a pose, points or options that
+    /// are not finite or out of range: nothing has changed.
     ik::CurveReport bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,
-                         const BendOptions& options, ik::CurveMemory& memory) noexcept;
+                         const ik::CurveOptions& options, ik::CurveMemory& memory) noexcept;
     ik::CurveReport bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,
-                         const BendOptions& options = {}) noexcept;
+                         const ik::CurveOptions& options = {}) noexcept;
 
   private:
     struct Plan;

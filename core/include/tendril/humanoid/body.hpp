@@ -56,6 +56,7 @@ struct BodyTarget {
     /// head turns with its parent bone.
     std::optional<glm::dquat> rotation{};
     double weight = 1.0;  ///< 0 to 1e3, relative to other targets; 0: ignored
+    bool operator==(const BodyTarget&) const = default;
 };
 
 /// The shift of a foot without a target from its place in the clip, as footsteps.hpp sets it.
@@ -86,6 +87,7 @@ struct BodyOptions {
     std::array<FootShift, 2> feet{};  ///< left, right; only feet that stay
     const Ground* ground =
         nullptr;  ///< decides which feet stand, for balance; null: the lowest sole is on the ground
+    bool operator==(const BodyOptions&) const = default;
 };
 
 /// The end of the last solve, from which the next one starts. If empty, it starts from the clip's pose.
@@ -155,6 +157,9 @@ class Body {
 
 }  // namespace tendril::humanoid
 
+template <>
+std::span<const tendril::Field>
+tendril::fields<tendril::humanoid::BodyTarget>() noexcept;  ///< not its effector
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::humanoid::FootShift>() noexcept;
 template <>

@@ -70,9 +70,9 @@ struct FeetOptions {
     double break_distance = 0.2;  ///< a lock this far from the clip, horizontally, is released; 0 to 1e3
     double half_life = 0.05;      ///< for a released lock's offset and the foot's turn; 1e-6 to 10
 
-    double ray_start = 0.5;                ///< above the ankle; 0 to 1e3
-    double max_turn = 0.610865238198015;   ///< 35 degrees: the ground turns a foot by at most this; 0 to 1.5
-    double max_slope = 0.785398163397448;  ///< 45 degrees: steeper ground is ignored; 0 to 1.5
+    double ray_start = 0.5;                 ///< above the ankle; 0 to 1e3
+    double max_turn = 0.6108652381980153;   ///< 35 degrees: the ground turns a foot by at most this
+    double max_slope = 0.7853981633974483;  ///< 45 degrees: steeper ground is ignored; both 0 to 85 degrees
     double edge = 0.012;    ///< a sole keeps this distance to the edges of the step that it stands on; 0: it
                             ///< stays where the clip puts it; 0 to 0.1
     double max_step = 0.5;  ///< ground this far above or below the root's is ignored; 0 to 1e3
@@ -83,6 +83,7 @@ struct FeetOptions {
     double straightest = 0.995;      ///< maximum part of a leg's full length; 0.5 to 1
     double lift_half_life = 0.03;    ///< for easing when the ground below a foot jumps; 1e-6 to 10
     double max_speed = 2.2;          ///< m/s; 1e-6 to 1e3
+    bool operator==(const FeetOptions&) const = default;
 };
 /// Names the member that is out of range: "feet: low must be 0 to 1000 m, got nan".
 Result check(const FeetOptions& options) noexcept;

@@ -35,6 +35,7 @@ inline constexpr double no_step_within = 0.02;
 struct FootstepOptions {
     double seconds = 0.3;  ///< duration of a step: 0.05 to 5
     double lift = 0.1;     ///< height of its arc, part of the leg's length: 0 to 1
+    bool operator==(const FootstepOptions&) const = default;
 };
 
 /// A foot's shift from its place in the clip, metres.

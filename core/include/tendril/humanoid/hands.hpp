@@ -38,10 +38,12 @@ using HandTargets = std::array<HandTarget, 2>;  ///< left, right
 
 /// Radians, seconds.
 struct HandsOptions {
-    rig::Transform root{};   ///< where the character stands, as FeetOptions::root
-    double view = 2.0;       ///< half-angle of the view cone of the head; 0 to 3.15, which sees everything
+    rig::Transform root{};  ///< where the character stands, as FeetOptions::root
+    /// Half-angle of the view cone of the head, 115 degrees; 0 to pi, which sees everything.
+    double view = 2.007128639793479;
     double half_life = 0.1;  ///< for easing when a target enters or leaves the view; 1e-6 to 10
-    double shoulder = 0.5;   ///< a shoulder turns by at most this; 0 to 1.5
+    double shoulder = 0.5;   ///< a shoulder turns by at most this; 0 to 1.48 (85 degrees)
+    bool operator==(const HandsOptions&) const = default;
 };
 /// Names the member that is out of range.
 Result check(const HandsOptions& options) noexcept;

@@ -26,15 +26,17 @@ struct LookAtOptions {
     double weight = 1.0;     ///< 0 to 1
     rig::Transform root{};   ///< where the character stands, as FeetOptions::root
 
-    double spine_part = 0.2;  ///< part of the way taken by the mapped bones from Spine to UpperChest; 0 to 1
-    double neck_part = 0.3;   ///< part of the way taken by the neck; 0 to 1; with spine_part at most 1
-    double spine_limit = 0.35;  ///< maximum turn of these spine bones together; 0 to 3.15
+    double spine_part = 0.2;    ///< part of the way taken by the bones from Spine to UpperChest; 0 to 1
+    double neck_part = 0.3;     ///< part of the way taken by the neck; 0 to 1; with spine_part at most 1
+    double spine_limit = 0.35;  ///< maximum turn of those spine bones together; 0 to pi
     double neck_limit = 0.5;
     double head_limit = 0.9;
 
-    double view = 1.9;       ///< half-angle of the view cone about the clip's gaze; 0 to 3.15
+    /// Half-angle of the view cone about the clip's gaze, 108 degrees; 0 to pi.
+    double view = 1.8849555921538759;
     double half_life = 0.1;  ///< for easing when a target enters or leaves the view; 1e-6 to 10
     double max_speed = 8.0;  ///< radians per second; 1e-6 to 1e3
+    bool operator==(const LookAtOptions&) const = default;
 };
 /// Names the member that is out of range.
 Result check(const LookAtOptions& options) noexcept;

@@ -20,6 +20,7 @@
 #include <span>
 #include <vector>
 
+#include "tendril/fields.hpp"
 #include "tendril/ik/report.hpp"
 #include "tendril/ik/state.hpp"
 #include "tendril/vec3.hpp"
@@ -45,12 +46,14 @@ struct CurveOptions {
     /// The direction that the bones' upper side faces where the curve begins. Parallel to the curve, or zero:
     /// a fixed perpendicular.
     glm::vec3 up{0.0f, 1.0f, 0.0f};
-    /// Roll about the first and the last bone, radians, right-handed; between them in proportion to length.
+    /// Roll about the first and the last bone, radians, right-handed, at most 1e6; between them in proportion
+    /// to length.
     float roll_start = 0.0f, roll_end = 0.0f;
     /// 0 to 1: how far each bone turns from the given pose to the curve; the root moves as far. `weights`
     /// multiplies it for each bone, 0 to 1; empty: all 1.
     float weight = 1.0f;
     std::span<const float> weights{};
+    bool operator==(const CurveOptions& other) const noexcept;  ///< the same weights, not the same span
 };
 
 /// Where the joints were along the curve after the last call. A value, kept with the joints; only needed to
@@ -103,3 +106,6 @@ CurveReport place_along(std::span<const glm::vec3> points, const CurveChain& cha
 glm::vec3 curve_point(std::span<const glm::vec3> points, CurveKind kind, float at) noexcept;
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::CurveOptions>() noexcept;

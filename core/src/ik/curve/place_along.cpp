@@ -4,6 +4,7 @@
 #include "ik/curve/path.hpp"
 #include "math/checks.hpp"
 #include "math/elementary.hpp"
+#include "math/ranges.hpp"
 #include "tendril/ik/curve.hpp"
 
 namespace tendril::ik {
@@ -18,9 +19,17 @@ constexpr std::size_t max_control_points = 4096;
 bool is_unit(const glm::dvec3& v) noexcept {
     return std::abs(dot(v, v) - 1.0) <= 2e-3;
 }
-bool within(float value, float low, float high) noexcept {
-    return value >= low && value <= high;
-}
+
+constexpr const char* curve_kinds[] = {"hermite", "b_spline"};
+constexpr FieldRange rolls{-1e6, 1e6};
+constexpr Field curve_rows[] = {field<&CurveOptions::kind>("kind", curve_kinds),
+                                field<&CurveOptions::fit>("fit"),
+                                field<&CurveOptions::max_factor>("max_factor", {1.0, 100.0}).over(),
+                                field<&CurveOptions::up>("up", {-max_magnitude, max_magnitude}),
+                                field<&CurveOptions::roll_start>("roll_start", rolls, "rad"),
+                                field<&CurveOptions::roll_end>("roll_end", rolls, "rad"),
+                                field<&CurveOptions::weight>("weight"),
+                                list<&CurveOptions::weights>("weights")};
 
 bool is_valid(std::span<const glm::vec3> points, const CurveChain& chain, std::span<const glm::vec3> joints,
               const State& state, const CurveMemory& memory, const CurveOptions& options) noexcept {
@@ -36,11 +45,9 @@ bool is_valid(std::span<const glm::vec3> points, const CurveChain& chain, std::s
            std::ranges::all_of(joints, is_point) && std::ranges::all_of(chain.lengths, is_length) &&
            std::ranges::all_of(chain.rest_directions,
                                [](const glm::vec3& each) { return is_point(each) && is_unit(wide(each)); }) &&
-           std::ranges::all_of(state.rotations, unit_quaternion) && is_point(options.up) &&
-           std::abs(options.roll_start) <= 1e6f && std::abs(options.roll_end) <= 1e6f &&
-           options.max_factor > 1.0f && options.max_factor <= 100.0f && within(options.weight, 0.0f, 1.0f) &&
-           std::ranges::all_of(options.weights, [](float each) { return within(each, 0.0f, 1.0f); }) &&
-           (options.kind == CurveKind::Hermite || options.kind == CurveKind::BSpline);
+           std::ranges::all_of(state.rotations, unit_quaternion) &&
+           tendril::detail::are_in_range<curve_rows>(&options) &&
+           std::ranges::all_of(options.weights, [](float each) { return each >= 0.0f && each <= 1.0f; });
 }
 
 /// Where the tip comes to lie, with all bones scaled by `factor`: metres beyond the end of the path, or, if
@@ -202,7 +209,13 @@ class Jumps {
 }  // namespace detail
 
 const char* name(CurveKind kind) noexcept {
-    return kind == CurveKind::BSpline ? "b_spline" : "hermite";
+    return detail::curve_kinds[static_cast<std::size_t>(kind)];
+}
+
+bool CurveOptions::operator==(const CurveOptions& other) const noexcept {
+    return kind == other.kind && fit == other.fit && max_factor == other.max_factor && up == other.up &&
+           roll_start == other.roll_start && roll_end == other.roll_end && weight == other.weight &&
+           std::ranges::equal(weights, other.weights);
 }
 
 glm::vec3 curve_point(std::span<const glm::vec3> points, CurveKind kind, float at) noexcept {
@@ -309,3 +322,8 @@ CurveReport place_along(std::span<const glm::vec3> points, const CurveChain& cha
 }
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::CurveOptions>() noexcept {
+    return ik::detail::curve_rows;
+}

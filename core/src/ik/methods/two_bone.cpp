@@ -8,6 +8,7 @@
 
 #include "ik/math.hpp"
 #include "ik/pole/pole.hpp"
+#include "ik/solve/validate.hpp"
 #include "math/checks.hpp"
 #include "tendril/ik/options.hpp"
 #include "tendril/ik/two_bone.hpp"
@@ -130,17 +131,14 @@ TwoBoneResult solve(const TwoBone& limb, const glm::vec3& target, const TwoBoneO
     return result;
 }
 
-bool is_within(float value, float minimum, float maximum) noexcept {
-    return value >= minimum && value <= maximum;  // false for NaN
-}
-
 bool are_valid(const TwoBone& limb, const glm::vec3& target, const TwoBoneOptions& options) noexcept {
     using tendril::detail::is_point;
     return is_point(limb.root) && is_point(limb.mid) && is_point(limb.tip) && is_point(target) &&
-           is_within(limb.upper, 0.0f, max_magnitude) && is_within(limb.lower, 0.0f, max_magnitude) &&
+           within(limb.upper, 0.0f, max_magnitude) && within(limb.lower, 0.0f, max_magnitude) &&
            (!options.pole || is_point(*options.pole)) && options.start_stretch_ratio > 0.0f &&
-           options.start_stretch_ratio <= 1.0f && is_within(options.max_stretch_scale, 1.0f, 100.0f) &&
-           is_within(options.twist, -max_magnitude, max_magnitude);
+           within(options.start_stretch_ratio, stretch_starts) &&
+           within(options.max_stretch_scale, stretch_scales) &&
+           within(options.twist, -max_magnitude, max_magnitude);
 }
 
 }  // namespace

@@ -34,8 +34,10 @@ constexpr Field option_rows[] = {
     field<&Options::tip_orientation>("tip_orientation", unit_length),
     field<&Options::soft_zone>("soft_zone"),
     field<&Options::damping>("damping", {0.0, 10.0}).over().by(damped, damped_or_two),
-    field<&Options::start_stretch_ratio>("start_stretch_ratio").over().by(two_bone, none),
-    field<&Options::max_stretch_scale>("max_stretch_scale", {1.0, 100.0}).by(two_bone, none),
+    field<&Options::start_stretch_ratio>("start_stretch_ratio", detail::stretch_starts)
+        .over()
+        .by(two_bone, none),
+    field<&Options::max_stretch_scale>("max_stretch_scale", detail::stretch_scales).by(two_bone, none),
     field<&Options::twist>("twist", anywhere, "rad").by(two_bone, two_bone),
     field<&Options::weight>("weight"),
     field<&Options::restarts>("restarts", {0, 1000}).by(none, fabrik),

@@ -24,6 +24,12 @@ inline bool within(float value, float minimum, float maximum) noexcept {
     return value >= minimum && value <= maximum;
 }
 
+inline bool within(float value, FieldRange range) noexcept {
+    return within(value, static_cast<float>(range.low), static_cast<float>(range.high));
+}
+/// Of start_stretch_ratio, which must be over the low end, and of max_stretch_scale.
+inline constexpr FieldRange stretch_starts{0.0, 1.0}, stretch_scales{1.0, 100.0};
+
 /// Unit length to 1e-3.
 inline bool is_unit(const glm::quat& q) noexcept {
     return within(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 0.998f, 1.002f);

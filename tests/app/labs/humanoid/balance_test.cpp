@@ -161,13 +161,6 @@ TEST_F(HumanoidBalanceLab, StepsCanBeSwitchedOff) {
     EXPECT_FALSE(part().ik_state.steps.away());
 }
 
-TEST_F(HumanoidBalanceLab, AFileWithAStepOutOfRangeIsRefused) {
-    run("humanoid.balance", {{"on", true}});
-    drag("right_hand", {-0.2, 1.0, 1.6});
-    tick(10);
-    expect_scene_refused("/ik/steps/left/part", 7, "labs.humanoid.ik.steps");
-}
-
 TEST_F(HumanoidBalanceLab, CharactersThatOthersMadeStandNoWorseWithIt) {
     const std::filesystem::path folder = test::characters_folder();
     if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is not there";

@@ -272,7 +272,6 @@ TEST_F(HumanoidClips, AFileThatIsWrongIsRefusedWithItsPlace) {
     expect_scene_refused("/bones", 3, "labs.humanoid.bones");
     expect_scene_refused("/clip/name", "run", "no clip \"run\"");
     expect_scene_refused("/clip", {{"name", "walk"}, {"time", 7}}, "labs.humanoid.clip.time");
-    expect_scene_refused("/clip/speed", "fast", "labs.humanoid.clip.speed");
     expect_scene_refused("/t_pose", 1, "labs.humanoid.t_pose");
 }
 

@@ -143,7 +143,6 @@ TEST_F(HumanoidCurves, AreRefusedFromAFileThatWasBroken) {
     expect_scene_refused("/curves/0/first", "wing", "no node \"wing\"");
     expect_scene_refused("/curves/0/last", "Hips", "curves.0.last");
     expect_scene_refused("/curves/1", saved()["curves"][0], "curves.1.first");
-    expect_scene_refused("/curves/0/weight", 7, "curves.0.weight");
     expect_scene_refused("/curves/1/points", Json::array(), "curves.1.points");
     expect_scene_refused("/curves/1/points/0/1", "up", "curves.1.points.0");
     expect_scene_refused("/curves/1/jumped", 99, "curves.1.jumped");

@@ -2,9 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/gtc/quaternion.hpp>
-#include <tendril/humanoid/capsules.hpp>
 
-#include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "humanoid_support.hpp"
 
 namespace tendril::app {
@@ -124,25 +122,6 @@ TEST_F(HumanoidLook, LeavesTheHandsOnTheirTargets) {
     tick(60);
     EXPECT_LT(glm::distance(bone("LeftHand"), glm::dvec3(0.5, 1.3, 0.3)), 1e-3);
 }
-
-class HumanoidSelfCollision : public HumanoidTest {
-  protected:
-    /// The depth of the right hand in the trunk, metres.
-    double depth() {
-        const auto capsules = humanoid::default_capsules(part().skeleton(), *part().map);
-        const ShownPose& shown = shown_pose(workspace);
-        double deepest = 0.0;
-        for (const humanoid::BodyCapsule& hand : capsules) {
-            if (hand.bone != humanoid::Bone::RightHand) continue;
-            for (const humanoid::BodyCapsule& trunk : capsules)
-                if (trunk.bone <= humanoid::Bone::UpperChest)
-                    deepest =
-                        std::max(deepest, -humanoid::gap(humanoid::place(hand, *part().map, shown.placed),
-                                                         humanoid::place(trunk, *part().map, shown.placed)));
-        }
-        return deepest;
-    }
-};
 
 }  // namespace
 }  // namespace tendril::app

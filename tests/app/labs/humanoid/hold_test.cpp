@@ -61,7 +61,6 @@ TEST_F(HumanoidHold, ReleasesAndRefusesByName) {
     EXPECT_TRUE(hold().is_null());
     EXPECT_NE(refused("humanoid.release").find("hold nothing"), std::string::npos);
     EXPECT_NE(refused("humanoid.hold_move", {{"to", {0, 1, 1}}}).find("humanoid.hold"), std::string::npos);
-    EXPECT_NE(refused("humanoid.hold", {{"kind", "sword"}}).find("sword"), std::string::npos);
 }
 
 /// The object goes on with a character that walks away, and the feet walk.

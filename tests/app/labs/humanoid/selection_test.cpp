@@ -205,9 +205,10 @@ TEST_F(HumanoidSelection, SpringsAreSetOnAll) {
     expect_says(inspector(), {"2 springs selected", "Showing the one from antenna_r_2 down; changes"});
     run("humanoid.spring", {{"nodes", {"antenna_l_1", "antenna_r_2"}}, {"weight", 0.25}});
     for (const SpringSetting& each : part().springs)
-        EXPECT_EQ(each.weight, each.node == "tail_1" ? 1.0 : 0.25) << each.node;
+        EXPECT_EQ(each.options.weight, each.node == "tail_1" ? 1.0 : 0.25) << each.node;
     run("undo");
-    for (const SpringSetting& each : part().springs) EXPECT_EQ(each.weight, 1.0) << "one step for all";
+    for (const SpringSetting& each : part().springs)
+        EXPECT_EQ(each.options.weight, 1.0) << "one step for all";
     run("humanoid.spring", {{"nodes", {"antenna_l_1", "antenna_r_2", "tail_1"}}, {"on", false}});
     EXPECT_TRUE(part().springs.empty());
 }

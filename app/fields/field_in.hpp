@@ -1,0 +1,43 @@
+// Rows for what a struct holds of another one, with the name, unit and range that they have in its own table.
+#pragma once
+
+#include <optional>
+#include <tendril/fields.hpp>
+
+namespace tendril::app {
+namespace detail {
+
+template <auto outer, auto inner>
+struct FieldIn {
+    static const void* in(const void* object) noexcept { return &tendril::detail::member_of<outer>(object); }
+    static FieldValue get(const void* object) noexcept {
+        return tendril::detail::get_field<inner>(in(object));
+    }
+    static void set(void* object, const FieldValue& value) noexcept {
+        tendril::detail::set_field<inner>(&tendril::detail::member_of<outer>(object), value);
+    }
+    static bool empty(const void* object) noexcept {
+        return tendril::detail::is_empty_field<inner>(in(object));
+    }
+    static bool fits(const Field& row, const void* object) noexcept {
+        return tendril::detail::fits_field<inner>(row, in(object));
+    }
+};
+
+}  // namespace detail
+
+/// field_in<&LookAtSetting::options, &humanoid::LookAtOptions::view>(). `name`, `within`: other ones than in
+/// its own table; a range may only be narrower.
+template <auto outer, auto inner>
+Field field_in(const char* name = nullptr, std::optional<FieldRange> within = {}) noexcept {
+    using In = detail::FieldIn<outer, inner>;
+    Field row = field_of<inner>();
+    if (name != nullptr) row.name = name;
+    if (within) row.range = *within, row.over_low = false;
+    row.get = In::get, row.set = In::set, row.fits = In::fits;
+    if constexpr (tendril::detail::FieldOptional<tendril::detail::ValueOf<inner>>::value)
+        row.empty = In::empty;
+    return row;
+}
+
+}  // namespace tendril::app
