@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <random>
 #include <tendril/humanoid/balance.hpp>
 #include <tendril/humanoid/body.hpp>
 
 #include "humanoid_figure.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -342,21 +340,6 @@ TEST_F(HumanoidBalance, SmallMovesOfTheTargetGiveSmallMovesOfThePose) {
         }
     }
     EXPECT_LT(worst, 13.0 * 0.005);  // as fast as without balance: body.hpp
-}
-
-TEST_F(HumanoidBalance, RefusesWhatIsOutOfRange) {
-    const BodyTarget target{Effector::RightHand, {-0.2, 1.0, 0.5}};
-    std::vector<rig::Transform> pose = rest;
-    BodyState state;
-    const auto message = [&](const BodyOptions& options) {
-        const auto report = body.solve(pose, {&target, 1}, state, options);
-        return report ? std::string() : std::string(report.message());
-    };
-    EXPECT_TRUE(says(message({.balance = true, .reserve = 0.95}), "options.reserve 0 to 0.9"));
-    EXPECT_EQ(pose, rest);
-    ASSERT_EQ(message({.balance = true}), "");
-    state.outside = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_TRUE(says(message({.balance = true}), "state.outside"));
 }
 
 /// Sizes from a doll to a giant.

@@ -231,6 +231,14 @@ class HumanoidProgram {
         }
     }
 
+    /// Of a BodyTarget or a HandTarget.
+    static std::vector<std::string> target_members(const auto& target) {
+        std::vector<std::string> members{".position = " + braced(target.position)};
+        if (target.rotation) members.push_back(".rotation = glm::dquat" + braced(*target.rotation));
+        members.push_back(".weight = " + double_text(target.weight));
+        return members;
+    }
+
     void body() {
         if (!body_on()) return;
         say("");
@@ -245,11 +253,9 @@ class HumanoidProgram {
                     rows.empty() ? "*skeleton, map, limits" : "*skeleton, map, limits, capsules");
         say("std::vector<humanoid::BodyTarget> targets;");
         for (const humanoid::BodyTarget& target : targets()) {
-            std::vector<std::string> members{
-                ".effector = humanoid::Effector::" + pascal_text(humanoid::name(target.effector)),
-                ".position = " + braced(target.position)};
-            if (target.rotation) members.push_back(".rotation = glm::dquat" + braced(*target.rotation));
-            members.push_back(".weight = " + double_text(target.weight));
+            std::vector<std::string> members = target_members(target);
+            members.insert(members.begin(),
+                           ".effector = humanoid::Effector::" + pascal_text(humanoid::name(target.effector)));
             list("targets.push_back({", members, "});");
         }
         const humanoid::BodyOptions options = body_options(part_, solvers_);
@@ -341,10 +347,7 @@ class HumanoidProgram {
         const humanoid::HandTargets all = hand_targets(part_);
         for (std::size_t hand = 0; hand < 2; ++hand) {
             if (part_.ik.hand_target(hand) == nullptr) continue;
-            std::vector<std::string> members{".position = " + braced(all[hand].position)};
-            if (all[hand].rotation) members.push_back(".rotation = glm::dquat" + braced(*all[hand].rotation));
-            members.push_back(".weight = " + double_text(all[hand].weight));
-            list("hand_targets[" + std::to_string(hand) + "] = {", members,
+            list("hand_targets[" + std::to_string(hand) + "] = {", target_members(all[hand]),
                  hand == 0 ? "};  // left" : "};  // right");
         }
         list("const humanoid::HandsOptions hands_options{", changed_texts(part_.ik.hand_ik.options), "};");

@@ -21,13 +21,13 @@ bool is_unit(const glm::dvec3& v) noexcept {
 }
 
 constexpr const char* curve_kinds[] = {"hermite", "b_spline"};
-constexpr FieldRange rolls{-1e6, 1e6};
+constexpr FieldRange roll_range{-1e6, 1e6};
 constexpr Field curve_rows[] = {field<&CurveOptions::kind>("kind", curve_kinds),
                                 field<&CurveOptions::fit>("fit"),
                                 field<&CurveOptions::max_factor>("max_factor", {1.0, 100.0}).over(),
                                 field<&CurveOptions::up>("up", {-max_magnitude, max_magnitude}),
-                                field<&CurveOptions::roll_start>("roll_start", rolls, "rad"),
-                                field<&CurveOptions::roll_end>("roll_end", rolls, "rad"),
+                                field<&CurveOptions::roll_start>("roll_start", roll_range, "rad"),
+                                field<&CurveOptions::roll_end>("roll_end", roll_range, "rad"),
                                 field<&CurveOptions::weight>("weight"),
                                 list<&CurveOptions::weights>("weights")};
 
