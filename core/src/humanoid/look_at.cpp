@@ -26,6 +26,16 @@ double limited(double angle, double most) noexcept {
     return std::min(angle, most);
 }
 
+/// The direction to which the gaze turns next on its way to `wanted`: by way of the clip's gaze, `looks`, if
+/// the shortest arc would change sides outside the view, behind the head. All bones would turn over there.
+glm::dvec3 next_gaze(const glm::dvec3& gaze, const glm::dvec3& wanted, const glm::dvec3& looks,
+                     double view) noexcept {
+    const bool same_side = dot(gaze, wanted) >= dot(gaze, looks) * dot(wanted, looks);
+    if (same_side) return wanted;
+    const auto middle = direction_of(plus(gaze, wanted), 1e-6);
+    return middle && detail::angle_between(*middle, looks) <= view ? wanted : looks;
+}
+
 }  // namespace
 
 struct LookAt::Plan {
@@ -136,7 +146,8 @@ LookAtReport LookAt::step(std::span<rig::Transform> pose, const LookAtOptions& o
     const double most = dt > 0.0 ? options.max_speed * std::min(dt, 1e3) : 0.0;
     // The gaze does not track a target out of view: when one comes into view, it starts from the clip's gaze.
     const glm::dvec3 from = seen > 0.0 ? state.gaze : looks;
-    state.gaze = is_first ? wanted : detail::turned_toward(from, state.in_view ? wanted : from, most);
+    const glm::dvec3 to = state.in_view ? next_gaze(from, wanted, looks, options.view) : from;
+    state.gaze = is_first ? wanted : detail::turned_toward(from, to, most);
 
     LookAtReport report{.weight = rig::detail::weight(options.weight) * seen, .in_view = state.in_view};
     const glm::dvec3 point = plus(at.position, times(state.gaze, length(way)));
