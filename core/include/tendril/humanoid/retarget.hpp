@@ -29,9 +29,12 @@
 //
 // A figure of the same nodes and rest, if in another size, gets the clip itself.
 //
-// Feet turn from how they stand at rest, whatever the clip does later. Where the source's rest pose does not
-// stand on level ground, as a zero pose or a bind pose in mid-run, that is learned from the frames in which a
-// foot carries the figure, which neither sits nor lies; a clip without any leaves what t_pose() makes of it.
+// Feet turn from how they stand at rest; a rest pose in which they do not, as a zero pose or a bind pose in
+// mid-run, counts as what t_pose() makes of it, and legs spread by over 12 degrees, as in CMU's zero pose,
+// are put together with their feet. From the clip come only heights: those of its floor and of the soles, and
+// when feet stand. So a frame has the same rotations whatever other frames there are, except for thighs and
+// shins, which keep the soles where they stand. Where the clip places the hips, their position at rest, as
+// the OFFSET of a BVH's root, changes nothing.
 //
 // The target stands on its floor at rest, or on height 0 if its rest pose is far from there, as a BVH's often
 // is.
