@@ -93,6 +93,8 @@ void App::start_recording(bool live) {
         const bool modified = workspace_.modified();
         const std::shared_ptr<Part> again = part->load(part->save(), workspace_.lab);
         again->unread = part->unread;
+        again->unread_why = part->unread_why;
+        again->replaces_unread = part->replaces_unread;
         workspace_.document.set(workspace_.lab, again);
         if (!modified) workspace_.saved = workspace_.document;
     }
@@ -251,7 +253,7 @@ void App::run_emitted(Emit& emit, From from) {
             take_pictures();
             if (command.continuous && pointer_.dragged() != no_pick) workspace_.settings.hint_seen = true;
         } catch (const Refused& refusal) {
-            refuse(refusal.what());
+            refuse(refusal.reason());
             // Only the lab's own refusals become incidents, not those of other files.
             if (command.name.starts_with(workspace_.lab + ".")) note_refusal(refusal.what());
         }
@@ -395,6 +397,10 @@ Json App::state() {
         state["layout"][name] = {{"min", pixel(rect.min)}, {"max", pixel(rect.max)}};
     if (panes_.size() > 1) state["panes"] = panes_state();
     if (shown_card() != nullptr) state["card"] = card_state();
+    if (const std::string why =
+            stand_in_note(workspace_.lab, *workspace_.document.parts().at(workspace_.lab));
+        !why.empty())
+        state["unread"] = why;
     return state;
 }
 

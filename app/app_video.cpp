@@ -29,7 +29,7 @@ void App::take_picture(const PictureRequest& wanted) {
     const bool copies = wanted.path.empty();
     const std::string command = copies ? "view.copy_picture" : "view.picture";
     if (lab().canvas_share(workspace_) > 0.0f)
-        throw Refused(command + ": this lab's picture is more than a view of a scene; use --screenshot");
+        throw Refused(command, "this lab's picture is more than a view of a scene; use --screenshot");
     try {
         const PictureView view = picture_view(wanted.size);
         const auto text = picture_text(workspace_, lab(), view, wanted);
@@ -40,7 +40,7 @@ void App::take_picture(const PictureRequest& wanted) {
             workspace_.writes().write(wanted.path, OutputKind::Picture, encode_png(image),
                                       !workspace_.outputs.in_window);
     } catch (const std::exception& error) {
-        throw Refused(command + ": " + error.what());
+        throw Refused(command, error.what());
     }
     workspace_.toast(copies ? "Copied the picture" : written_text(wanted.path));
 }
@@ -58,7 +58,7 @@ void App::begin_video(const VideoRequest& wanted) {
         video_ =
             std::make_unique<VideoTake>(wanted, workspace_, lab(), renderer_, view, frames_a_tick(counted));
     } catch (const std::exception& error) {
-        throw Refused(wanted.command + ": " + error.what());
+        throw Refused(wanted.command, error.what());
     }
     workspace_.ui.filming = video_->progress();
     workspace_.close_file_dialog();
@@ -89,7 +89,7 @@ void App::write_video(bool ends) {
     } catch (const std::exception& error) {
         const std::string command = video_->wanted().command;
         drop_video();
-        throw Refused(command + ": " + error.what());
+        throw Refused(command, error.what());
     }
 }
 
@@ -110,7 +110,7 @@ void App::pass_video(bool ended) {
     try {
         write_video(ended || !by_event);
     } catch (const Refused& refusal) {
-        refuse(refusal.what());
+        refuse(refusal.reason());
     }
 }
 

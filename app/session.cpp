@@ -71,14 +71,14 @@ Script read_script(const SessionOptions& options, const CommandTable& commands) 
     }
 }
 
-/// Nothing to undo or to save: the file is where the session starts.
-void open_given(App& app, const std::string& file) {
+/// Nothing to undo or to save: the file is where the session starts. False if a lab of it could not be read.
+bool open_given(App& app, const std::string& file) {
     Workspace& workspace = app.workspace();
     if (file_route(app.labs(), file).lab == nullptr) {
-        load_scene_file(workspace, file);
-        for (const Toast& each : workspace.ui.toasts)  // what it starts without
+        const std::vector<UnreadLab> unread = load_scene_file(workspace, file);
+        for (const UnreadLab& each : unread)
             if (!workspace.outputs.in_window) complain(each.text);
-        return;
+        return unread.empty();
     }
     const std::uint64_t beginnings = workspace.beginnings;
     app.commands().run(workspace, "file.open", {{"path", file}});
@@ -86,10 +86,12 @@ void open_given(App& app, const std::string& file) {
     workspace.saved = workspace.document;
     workspace.history.clear();
     if (workspace.beginnings == beginnings) workspace.start_anew();  // else the file has a past of its own
+    return true;
 }
 
-void open_scene(App& app, const SessionOptions& options) {
-    if (!options.scene.empty()) open_given(app, options.scene);
+/// False if it lacks what it could not read.
+bool open_scene(App& app, const SessionOptions& options) {
+    const bool whole = options.scene.empty() || open_given(app, options.scene);
     if (!options.lab.empty()) {
         if (app.labs().find(options.lab) == nullptr) {
             throw std::runtime_error("there is no lab \"" + options.lab + "\"; --list-labs names them");
@@ -99,6 +101,7 @@ void open_scene(App& app, const SessionOptions& options) {
     }
     if (opens_alive(options)) open_alive(app);
     app.settle();
+    return whole;
 }
 
 /// The start is the first line of its recording.
@@ -158,11 +161,10 @@ int run(const SessionOptions& options) {
     if (options.config && !script.start) app.workspace().config = config_folder();
     LiveLoop live(app, *window, {.config = config, .ending = ending});
     if (!options.headless && options.script.empty()) offer_cards(app);
-    open_scene(app, options);
+    int exit_code = open_scene(app, options) || !options.headless ? 0 : 2;
     if (script.start) start_recorded(app, options, *script.start);
     if (!options.record.empty()) app.start_recording(!options.headless);
 
-    int exit_code = 0;
     Player player(std::move(script));
     try {
         if (options.headless) {

@@ -8,18 +8,6 @@
 namespace tendril::app {
 namespace {
 
-/// "chain.remove: index 9 is out of range": omits the operation's name with which the library's messages
-/// begin if the command's name already contains it.
-std::string refusal_text(const std::string& command, std::string what) {
-    const std::string operation = what.substr(0, what.find(": "));
-    if (operation.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") != std::string::npos ||
-        operation.size() == what.size())
-        return command + ": " + what;
-    const std::string own = "_" + command.substr(command.rfind('.') + 1) + "_";
-    if (("_" + operation + "_").find(own) != std::string::npos) what.erase(0, operation.size() + 2);
-    return command + ": " + what;
-}
-
 /// Pushes an undo entry that shows the lab whose part changed, even if another lab is open.
 void remember(Workspace& workspace, const Document& changed, const Command& command, Gesture gesture,
               Place from) {
@@ -31,16 +19,17 @@ void remember(Workspace& workspace, const Document& changed, const Command& comm
     workspace.history.push(changed, command.name, gesture, from, to);
 }
 
-/// A scene's JSON that could not be read is kept only while its lab is left alone.
-void forget_unread(Workspace& workspace, const Document& before) {
+/// What the scene's file has of a lab that could not be read is saved again until the lab is edited; from
+/// then on saving asks.
+void replace_unread(Workspace& workspace, const Document& before) {
     const Document edited_document = workspace.document;
     for (const auto& [lab, part] : edited_document.parts()) {
         const auto was = before.parts().find(lab);
-        if (!part->unread || was == before.parts().end() || was->second == part ||
-            was->second->unread != part->unread)
-            continue;
+        if (was == before.parts().end() || was->second == part || !was->second->unread) continue;
         const std::shared_ptr<Part> edited = part->clone();
-        edited->unread = nullptr;
+        edited->unread = was->second->unread;
+        edited->unread_why = was->second->unread_why;
+        edited->replaces_unread = true;
         workspace.document.set(lab, edited);
     }
 }
@@ -49,20 +38,19 @@ void forget_unread(Workspace& workspace, const Document& before) {
 
 void check_arguments(const Command& command, const Json& given) {
     if (!given.is_object() && !given.is_null()) {
-        throw Refused(command.name + ": arguments must be an object, got " + json_summary(given));
+        throw Refused(command.name, "arguments must be an object, got " + json_summary(given));
     }
     for (const auto& [name, value] : given.items()) {
         const auto known = std::find_if(command.arguments.begin(), command.arguments.end(),
                                         [&key = name](const Argument& a) { return a.name == key; });
         if (known == command.arguments.end()) {
-            throw Refused(command.name + ": unknown argument \"" + name + "\"; it takes: " + usage(command));
+            throw Refused(command.name, "unknown argument \"" + name + "\"; it takes: " + usage(command));
         }
         check_value(*known, value, command.name + ": " + name);
     }
     for (const auto& argument : command.arguments) {
         if (argument.required && !given.contains(argument.name)) {
-            throw Refused(command.name + ": " + argument.name + " is missing (" + type_text(argument.type) +
-                          ")");
+            throw Refused(command.name, argument.name + " is missing (" + type_text(argument.type) + ")");
         }
     }
 }
@@ -94,14 +82,14 @@ void CommandTable::run(Workspace& workspace, std::string_view name, const Json& 
         command->apply(workspace, Arguments(arguments));
     } catch (const std::exception& error) {
         workspace.document = before;
-        throw Refused(refusal_text(command->name, reason_of(error)));
+        throw Refused(command->name, reason_of(error));
     }
     // A new file path counts as a change too: undo restores the old one.
     if (workspace.document == before && workspace.path == from.path) return;
     if (command->effect == Effect::Replace) return;
     if (command->effect == Effect::Edit) {
-        forget_unread(workspace, before);
         if (beginnings == workspace.beginnings) {  // else the command has made the past itself
+            replace_unread(workspace, before);
             const auto& part = before.parts().at(workspace.lab);
             workspace.discard_later(part);
             if (part != workspace.document.parts().at(workspace.lab))

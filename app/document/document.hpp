@@ -38,9 +38,11 @@ class Part {
     /// Files that load() reads besides the JSON; the program never writes over them.
     virtual std::vector<std::filesystem::path> files() const { return {}; }
 
-    /// The scene's JSON for this lab if it could not be read because of a file that it names; else null. It
-    /// is saved instead of save() until a command edits the part.
+    /// The scene's JSON for this lab, if a file that it names kept it from being read, and why; else null. It
+    /// is saved instead of save() until a command edits the part, which then replaces it.
     std::shared_ptr<const Json> unread{};
+    std::string unread_why{};  ///< "hero.glb is missing, at ..."
+    bool replaces_unread = false;
 };
 
 class Document {

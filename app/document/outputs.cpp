@@ -177,14 +177,19 @@ void Outputs::check(const std::vector<fs::path>& paths, OutputKind kind, bool re
         last = stamp_of(path);
     }
     if (asked) return;
-    const std::string more = others.size() > 1 ? "and " + std::to_string(others.size() - 1) + " more " : "",
-                      again = in_window ? ". Do the same again to replace it" : "; --force replaces it";
+    const std::string more = others.size() > 1 ? "and " + std::to_string(others.size() - 1) + " more " : "";
     refuse(others.front(),
            more +
                (owned_.contains(canonical_name(others.front())) ? "was changed by another program"
                 : others.size() > 1                             ? "already exist"
                                                                 : "already exists") +
-               again);
+               again());
+}
+
+void Outputs::confirm(const std::string& loss) {
+    const bool agreed = loss.empty() || force || (in_window && asked_loss_ == loss);
+    asked_loss_ = agreed ? std::string() : loss;
+    if (!agreed) throw std::runtime_error(loss + again());
 }
 
 Outputs::Place Outputs::place_at_end(const fs::path& path, OutputKind kind) {

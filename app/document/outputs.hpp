@@ -36,6 +36,8 @@ class Outputs {
     /// Throws std::runtime_error if one of the files must not be written over. `redraws`: a command line asks
     /// for a picture or a state, which replaces an earlier one.
     void check(const std::vector<std::filesystem::path>& paths, OutputKind kind, bool redraws = false);
+    /// Throws std::runtime_error with `loss`, unless that is empty, --force is given or a window asks again.
+    void confirm(const std::string& loss);
     /// At the end of long work, which must not be lost: the path and no refusal or, where check() now refuses
     /// it, a free name beside it and why.
     struct Place {
@@ -53,6 +55,11 @@ class Outputs {
   private:
     std::map<std::filesystem::path, Stamp> owned_;
     std::map<std::filesystem::path, Stamp> asked_;  ///< refused because they existed like this
+    std::string asked_loss_{};                      ///< refused by confirm()
+
+    const char* again() const {
+        return in_window ? ". Do the same again to replace it" : "; --force replaces it";
+    }
 };
 
 }  // namespace tendril::app

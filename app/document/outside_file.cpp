@@ -80,8 +80,8 @@ OutsideFile named_file(const JsonPlace& place) {
     const std::string file = (path && !place.optional("file") ? *path : place["file"]).text();
     if (!path || is_there(path->text())) return {file, path ? path->text() : file};
     if (!is_there(file))
-        throw OutsideFileError(place.where() + ".file: " + fs::path(path->text()).filename().string() +
-                               " is missing, at " + shown_path(path->text()) + " and beside the scene");
+        throw OutsideFileError(fs::path(path->text()).filename().string() + " is missing, at " +
+                               shown_path(path->text()) + " and beside the scene");
     return {file, file};
 }
 

@@ -26,7 +26,7 @@ OutsideFile outside_file(const std::string& path, const std::string& file = {});
 /// The file's members in the scene's JSON.
 Json save_outside_file(const OutsideFile& file);
 
-/// A file that a scene names is missing or unreadable. what() begins with the JSON path.
+/// A file that a scene names is missing or unreadable. what() names the file, as a person does.
 class OutsideFileError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
@@ -42,7 +42,7 @@ auto read_outside_file(const JsonPlace& place, const auto& read) {
     try {
         return read(from.path, from.file);
     } catch (const std::exception& error) {
-        throw OutsideFileError(place.where() + ".file: " + error.what());
+        throw OutsideFileError(error.what());
     }
 }
 

@@ -12,6 +12,13 @@ namespace tendril::app {
 class Refused : public std::runtime_error {
   public:
     explicit Refused(const std::string& why) : std::runtime_error(message(why)) {}
+    Refused(const std::string& command, const std::string& why)
+        : std::runtime_error(message(command + ": " + why)), reason_at_(command.size() + 2) {}
+    /// what() without the command's name, which a person who clicks does not know.
+    const char* reason() const noexcept { return what() + reason_at_; }
+
+  private:
+    std::size_t reason_at_ = 0;
 };
 /// There is no such command: a mistake in a script, not a refusal.
 class UnknownCommand : public Refused {

@@ -51,21 +51,20 @@ std::shared_ptr<const Part> load_part(const Part& blank, const Json& json, int v
     if (version != scene_version) converted(where, [&] { blank.upgrade(*saved, version); });
     Json found = *saved;
     find_moved_files(found, loading.folder);
-    std::string why;
+    const std::shared_ptr<Part> part = blank.clone();
     try {
         return converted(where, [&] { return blank.load(found, where); });
     } catch (const OutsideFileError& error) {
-        why = error.what();
+        part->unread_why = error.what();
     } catch (const std::runtime_error& error) {
         const std::string changed = changed_file(found);
         if (loading.whole && changed.empty()) throw;
-        why = error.what();
-        if (!changed.empty()) why += " (" + changed + " has changed since the scene was saved)";
+        part->unread_why = error.what();
+        if (!changed.empty())
+            part->unread_why = changed + " has changed since the scene was saved (" + part->unread_why + ')';
     }
-    unread.push_back({lab, why + ". This lab starts blank, and saving keeps what the scene has of it until "
-                                 "you change it"});
-    const std::shared_ptr<Part> part = blank.clone();
     part->unread = std::move(saved);
+    unread.push_back({lab, stand_in_note(lab, *part)});
     return part;
 }
 
@@ -139,11 +138,21 @@ CameraPose load_camera(const Json& json, const std::string& where) {
     return pose;
 }
 
+std::string stand_in_note(const std::string& lab, const Part& part) {
+    if (!part.unread) return {};
+    return part.unread_why + ". " +
+           (part.replaces_unread
+                ? "Saving replaces what the scene still has of the " + lab + " lab; undo brings it back."
+                : "The " + lab +
+                      " lab is blank; saving keeps what the scene has of it until you change it. "
+                      "Put the file back and open the scene again.");
+}
+
 Json save_scene(const Workspace& workspace) {
     Json labs = Json::object();
     for (const auto& [name, part] : workspace.document.parts()) {
         if (name == workspace.lab || !workspace.openings.contains(name))
-            labs[name] = part->unread ? *part->unread : part->save();
+            labs[name] = part->unread && !part->replaces_unread ? *part->unread : part->save();
     }
     return Json{{"tendril_scene", scene_version},
                 {"lab", workspace.lab},
@@ -154,6 +163,26 @@ Json save_scene(const Workspace& workspace) {
 }
 
 namespace {
+
+/// The document as saved to that file. Asks first if the file still has what a lab could not read, and the
+/// lab has been edited since.
+Document as_saved(Workspace& workspace, const fs::path& path) {
+    Document saved = workspace.document;
+    std::string lost;
+    for (const auto& [lab, part] : workspace.document.parts()) {
+        if (!part->replaces_unread) continue;
+        lost += (lost.empty() ? "" : "; ") + ("the " + lab + " lab, which could not be read: ") +
+                part->unread_why;
+        const std::shared_ptr<Part> own = part->clone();
+        own->unread = nullptr;
+        own->replaces_unread = false;
+        saved.set(lab, own);
+    }
+    std::error_code none;
+    const bool loses = !lost.empty() && fs::equivalent(path, workspace.path, none);
+    workspace.outputs.confirm(loses ? shown_path(path) + " still has the old contents of " + lost : "");
+    return saved;
+}
 
 struct Scene {
     Document document;
@@ -228,7 +257,9 @@ void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
                                  " was not overwritten, because the scene would not open again: " + fault +
                                  ". Save it under another name");
     remove_torn_files(path.has_parent_path() ? path.parent_path() : fs::path("."));
+    Document saved = as_saved(workspace, path);
     workspace.writes().write(path, OutputKind::Scene, text);
+    workspace.document = std::move(saved);
     workspace.path = path;
     workspace.saved = workspace.document;
     if (!fault.empty()) workspace.toast("Saved, but the file does not open: " + fault, ToastKind::Refusal);

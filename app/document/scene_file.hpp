@@ -26,8 +26,11 @@ struct SceneLoading {
 /// A lab that starts blank because of a file that its part of the scene names.
 struct UnreadLab {
     std::string lab;
-    std::string text;  ///< why: "labs.humanoid.file: hero.glb is missing, at ..."
+    std::string text;  ///< stand_in_note()
 };
+/// While a part stands in for what could not be read: why, and what saving does; else empty. "hero.glb is
+/// missing, at ... The humanoid lab is blank; saving keeps ..."
+std::string stand_in_note(const std::string& lab, const Part& part);
 
 /// Converts a workspace's document, lab, camera and pause to JSON and back. Loading resets time and makes
 /// blank any lab that the scene does not mention. It throws std::runtime_error with the path and the reason
@@ -41,7 +44,8 @@ std::vector<UnreadLab> load_scene(Workspace& workspace, const Json& scene, const
 
 /// The same through a file; both keep `workspace.path` and `workspace.saved` up to date. Saving never
 /// overwrites a file with a scene that would not open again; under a new name it does save it, with a
-/// warning. Toasts say which labs of a scene start blank.
+/// warning. It asks (Outputs::confirm()) before it drops what a file has of a lab that could not be read.
+/// Toasts say which labs of a scene start blank.
 void save_scene_file(Workspace& workspace, const std::filesystem::path& path);
 std::vector<UnreadLab> load_scene_file(Workspace& workspace, const std::filesystem::path& path);
 

@@ -80,14 +80,15 @@ std::vector<const Command*> search_commands(const CommandTable& table, const std
     const auto scope = [&](const Command& command) {
         return open_lab.empty() || command.lab == open_lab ? 0 : command.lab.empty() ? 1 : 2;
     };
-    using Rank = std::tuple<bool, std::ptrdiff_t, bool, int, Verb, int>;
+    // A command whose help alone has the words comes after those of other labs whose title or name has them.
+    using Rank = std::tuple<bool, std::ptrdiff_t, bool, bool, int, Verb, int>;
     std::vector<std::pair<Rank, const Command*>> found;
     for (const Command& command : table.all()) {
         const auto far = distance(command, words);
         if (!far) continue;
         const bool other = words.size() != 1 || lower_case(command.name) != words.front();
-        found.push_back({{other, age(command), scope(command) == 2, *far,
-                          words.empty() ? Verb::Changes : verb_of(command), scope(command)},
+        found.push_back({{other, age(command), *far > 3 * static_cast<int>(words.size()), scope(command) == 2,
+                          *far, words.empty() ? Verb::Changes : verb_of(command), scope(command)},
                          &command});
     }
     std::stable_sort(found.begin(), found.end(),

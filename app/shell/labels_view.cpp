@@ -106,6 +106,8 @@ Rect legend_box(std::span<const LegendRow> rows, const Rect& view, float scale, 
     const float height = 1.35f * ImGui::GetFontSize() * static_cast<float>(rows.size());
     ImGui::PopFont();
     const glm::vec2 size{30.0f * scale + wide, height};
+    constexpr float most = 0.2f;  // of the view
+    if (size.x * size.y > most * view.size().x * view.size().y) return {view.min, view.min};
     const glm::vec2 low_end = view.min + glm::vec2(0.0f, 12.0f * scale),
                     high_end = view.max - size - glm::vec2(12.0f * scale);
     const glm::vec2 at = glm::mix(low_end, high_end, corner);

@@ -7,11 +7,13 @@
 #include <cstdio>
 
 #include "app/document/command.hpp"
+#include "app/document/scene_file.hpp"
 #include "app/document/text.hpp"
 #include "app/shell/axis_gizmo.hpp"
 #include "app/shell/card_view.hpp"
 #include "app/shell/labels_view.hpp"
 #include "app/shell/theme.hpp"
+#include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
 #include "app/widgets/lists.hpp"
@@ -330,6 +332,10 @@ void Shell::side_panel(const ShellFrame& frame, bool left, Emit& emit) {
     if (left) {
         frame.lab.panel(frame.workspace, emit);
     } else {
+        const std::string& lab = frame.workspace.lab;
+        if (const std::string why = stand_in_note(lab, *frame.workspace.document.parts().at(lab));
+            !why.empty())
+            coloured_note(why, frame.colours().limit);
         frame.lab.inspector(frame.workspace, emit);
     }
     light_card_section(frame, left);

@@ -26,6 +26,18 @@ TEST(Result, is_fine_unless_something_is_wrong) {
     EXPECT_STREQ(name(bad.code()), "OutOfRange");
 }
 
+TEST(Result, HandsOutTheReasonWithoutTheOperation) {
+    for (const auto& [message, reason] : {std::pair{"linkage_from: bar \"bc\": no", "bar \"bc\": no"},
+                                          {"index 9", "index 9"},
+                                          {"", ""},
+                                          {"set:x", "set:x"},
+                                          {"LeftLowerArm: the hinge's min", "LeftLowerArm: the hinge's min"},
+                                          {"a b: c", "a b: c"}}) {
+        EXPECT_STREQ(Result(ErrorCode::NotFound, message).reason(), reason);
+        EXPECT_STREQ(Expected<int>(Result(ErrorCode::NotFound, message)).reason(), reason);
+    }
+}
+
 TEST(Result, is_copied_with_its_message) {
     const Result bad(ErrorCode::NotFound, "no such body");
     Result copy;

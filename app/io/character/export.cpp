@@ -220,7 +220,8 @@ bool ends_as_export(const fs::path& path) {
 }
 
 ExportReport export_clip(const Export& what, const fs::path& path) {
-    const std::string name = path.filename().string(), ending = lower_case(path.extension().string());
+    const std::string name = (path.has_filename() ? path.filename() : path).string(),
+                      ending = lower_case(path.extension().string());
     if (!ends_as_export(path))
         throw std::runtime_error(name + ": expected a name that ends in .gltf, .glb or .bvh");
     if (!(what.rate >= min_rate && what.rate <= largest_rate))

@@ -50,8 +50,10 @@ std::string read_bytes(const std::filesystem::path& path) {
 std::string character_bytes(const std::filesystem::path& path) {
     const std::string name = path.filename().string();
     std::error_code unknown;
-    if (!std::filesystem::is_regular_file(path, unknown))
-        throw std::runtime_error(name + ": there is no such file");
+    if (const auto status = std::filesystem::status(path, unknown); !is_regular_file(status))
+        throw std::runtime_error(name + (is_directory(status) ? " is a folder"
+                                         : exists(status)     ? " is a pipe or a device, not a file"
+                                                              : ": there is no such file"));
     try {
         return read_bytes(path);
     } catch (const std::exception& error) {

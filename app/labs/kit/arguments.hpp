@@ -19,15 +19,15 @@ namespace tendril::app {
 
 // Turn a library error into an exception whose message the user reads.
 
-/// Throws std::invalid_argument with the result's message if it is an error.
+/// Throws std::invalid_argument with the result's reason if it is an error.
 inline void require_ok(const Result& result) {
-    if (!result) throw std::invalid_argument(result.message());
+    if (!result) throw std::invalid_argument(result.reason());
 }
 
-/// The value. Throws std::invalid_argument with the error's message if there is none.
+/// The value. Throws std::invalid_argument with the error's reason if there is none.
 template <class T>
 T require_value(Expected<T> expected) {
-    if (!expected) throw std::invalid_argument(expected.message());
+    if (!expected) throw std::invalid_argument(expected.reason());
     return std::move(expected).value();
 }
 

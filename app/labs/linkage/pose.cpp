@@ -226,12 +226,7 @@ LinkageShape shape_of(ik::LinkageSketch sketch) {
     LinkageShape shape;
     shape.floating = floating_bars(sketch);
     shape.bodies = ik::rigid_bodies(sketch);
-    Expected<ik::Linkage> made = ik::linkage_from(held_part(sketch, shape.floating));
-    if (!made) {
-        const std::string message = made.message();
-        throw std::invalid_argument(message.substr(message.find(": ") + 2));  // without the function's name
-    }
-    shape.linkage = std::move(made).value();
+    shape.linkage = require_value(ik::linkage_from(held_part(sketch, shape.floating)));
     shape.loose = freedom_of_loose(sketch, shape.floating);
     shape.sketch = std::move(sketch);
     find_loops(shape);

@@ -51,6 +51,8 @@ class [[nodiscard]] Result {
     ErrorCode code() const noexcept { return code_; }
     /// `insert: index 9 is out of range, the chain has 4 segments`; empty on success.
     const char* message() const noexcept { return message_; }
+    /// The message without the operation: `index 9 is out of range, the chain has 4 segments`.
+    const char* reason() const noexcept;
 
   private:
     ErrorCode code_ = ErrorCode::None;
@@ -80,6 +82,8 @@ class [[nodiscard]] Expected {
     ErrorCode code() const noexcept { return ok() ? ErrorCode::None : std::get_if<1>(&held_)->code(); }
     /// Empty if there is a value.
     const char* message() const noexcept { return ok() ? "" : std::get_if<1>(&held_)->message(); }
+
+    const char* reason() const noexcept { return ok() ? "" : std::get_if<1>(&held_)->reason(); }
 
     /// The value, which must exist.
     T& value() & noexcept { return *held(); }

@@ -38,6 +38,12 @@ Result::Result(ErrorCode code, std::string_view message) noexcept : code_(code) 
     message_[size] = '\0';
 }
 
+/// An operation is a function's name, in front of ": ".
+const char* Result::reason() const noexcept {
+    const std::size_t end = std::strspn(message_, "abcdefghijklmnopqrstuvwxyz_");
+    return end > 0 && message_[end] == ':' && message_[end + 1] == ' ' ? message_ + end + 2 : message_;
+}
+
 Result::Result(const Result& other) noexcept : code_(other.code_) {
     std::memcpy(message_, other.message_, std::strlen(other.message_) + 1);
 }

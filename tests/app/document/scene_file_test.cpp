@@ -309,6 +309,18 @@ class SceneWithAFile : public testing::Test {
         workspace.document.set("file", workspace.blank.parts().at("file"));
         return workspace;
     }
+    static CommandTable command_table() {
+        CommandTable table;
+        add_workspace_commands(table);
+        table.add(
+            {.name = "file.edit",
+             .title = "Edit",
+             .arguments = {},
+             .help = "Edits",
+             .effect = Effect::Edit,
+             .apply = [](Workspace& w, const Arguments&) { ++w.document.edit<FilePart>("file").edits; }});
+        return table;
+    }
     /// Saves a scene that reads the model.
     void save(const std::string& scene, const std::string& model) {
         test::write(folder_ / model, "the model");
@@ -343,17 +355,10 @@ TEST_F(SceneWithAFile, OpensWithoutTheFileAndSavesTheLabUnchanged) {
     std::filesystem::remove(folder_ / "model.glb");
     const Json saved = read_json_file(folder_ / "project/s.json");
     Workspace again = workspace();
-    CommandTable table;
-    add_workspace_commands(table);
-    table.add({.name = "file.edit",
-               .title = "Edit",
-               .arguments = {},
-               .help = "Edits",
-               .effect = Effect::Edit,
-               .apply = [](Workspace& w, const Arguments&) { ++w.document.edit<FilePart>("file").edits; }});
+    const CommandTable table = command_table();
     table.run(again, "scene.open", {{"path", (folder_ / "project/s.json").string()}});
     ASSERT_FALSE(again.ui.toasts.empty());
-    EXPECT_TRUE(test::says(again.ui.toasts.back().text, "labs.file.models.0.file model.glb is missing"));
+    EXPECT_TRUE(test::says(again.ui.toasts.back().text, "model.glb is missing The file lab is blank"));
     EXPECT_EQ(again.document.get<TestPart>("arm").title, saved["labs"]["arm"]["title"].get<std::string>());
 
     again.document.edit<FilePart>("file").text = "the simulation went on";
@@ -363,6 +368,38 @@ TEST_F(SceneWithAFile, OpensWithoutTheFileAndSavesTheLabUnchanged) {
     EXPECT_EQ(save_scene(again)["labs"]["file"]["edits"], 1) << "it was edited as it is now";
     table.run(again, "undo", Json::object());
     EXPECT_EQ(save_scene(again)["labs"], saved["labs"]);
+}
+
+TEST_F(SceneWithAFile, IsAskedForBeforeASaveDropsWhatTheFileHas) {
+    save("s.json", "model.glb");
+    std::filesystem::remove(folder_ / "model.glb");
+    const std::string text = test::read(folder_ / "s.json");
+    Workspace again = workspace();
+    const auto note = [&] { return stand_in_note("file", *again.document.parts().at("file")); };
+    const auto saved = [&](const char* name) {
+        return message_of([&] { save_scene_file(again, folder_ / name); });
+    };
+    const auto open_and_edit = [&] {
+        test::write(folder_ / "s.json", text);
+        load_scene_file(again, folder_ / "s.json");
+        EXPECT_TRUE(test::says(note(), "model.glb is missing keeps until you change it")) << note();
+        command_table().run(again, "file.edit", Json::object());
+        EXPECT_TRUE(test::says(note(), "model.glb is missing Saving replaces")) << note();
+    };
+    open_and_edit();
+    for (int i = 0; i < 2; ++i) EXPECT_TRUE(test::says(saved("s.json"), "s.json still has file lab --force"));
+    EXPECT_EQ(test::read(folder_ / "s.json"), text);
+    EXPECT_EQ(saved("other.json"), "") << "the old one is still there";
+    EXPECT_EQ(note(), "");
+    open_and_edit();
+    again.outputs.in_window = true;
+    EXPECT_TRUE(test::says(saved("s.json"), "Do the same again"));
+    EXPECT_EQ(saved("s.json"), "");
+    EXPECT_EQ(read_json_file(folder_ / "s.json")["labs"]["file"]["edits"], 1);
+    open_and_edit();
+    EXPECT_TRUE(test::says(saved("s.json"), "Do the same again")) << "each loss by itself";
+    again.outputs.force = true;
+    EXPECT_EQ(saved("s.json"), "");
 }
 
 /// A wrong value is refused, unless the file explains it.
@@ -384,12 +421,12 @@ TEST_F(SceneWithAFile, StartsBlankOnlyWhereItsFileIsAtFault) {
     test::write(folder_ / "model.glb", "another model");
     EXPECT_EQ(opened(10), "");
     test::write(folder_ / "model.glb", "short");
-    EXPECT_TRUE(opened(7).starts_with("blank: file: labs.file.edits: expected")) << opened(7);
-    EXPECT_TRUE(test::says(opened(7), "(model.glb has changed since the scene was saved)"));
+    EXPECT_TRUE(test::says(opened(7), "blank: file: model.glb has changed (labs.file.edits: expected"))
+        << opened(7);
     std::filesystem::remove(folder_ / "model.glb");
-    EXPECT_TRUE(test::says(opened(7), "blank: file: labs.file.models.0.file model.glb is missing"));
+    EXPECT_TRUE(test::says(opened(7), "blank: file: model.glb is missing"));
     std::filesystem::create_directory(folder_ / "model.glb");
-    EXPECT_TRUE(test::says(opened(7), "blank: file: labs.file.models.0.file is a folder"));
+    EXPECT_TRUE(test::says(opened(7), "blank: file: is a folder"));
 }
 
 TEST(SceneFile, cut_off_anywhere_is_refused) {

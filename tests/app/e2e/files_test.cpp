@@ -4,6 +4,7 @@
 #include <fstream>
 #include <thread>
 
+#include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"
 #include "tests/places.hpp"
 #include "tests/says.hpp"
@@ -155,6 +156,80 @@ TEST(SavedScene, IsToldWithItsFolder) {
     EXPECT_EQ(told(), "Saved: " + app::shown_path(folder / "arm.json"));
     program.run({"scene.save_dialog", app::Json::object()});
     EXPECT_EQ(told(), "Saved: " + app::shown_path(folder / "arm.json"));
+}
+
+/// A scene whose character has gone, in scripts and in the window.
+class MissingCharacter : public testing::Test {
+  protected:
+    MissingCharacter() {
+        std::filesystem::copy_file(source_path("tests/app/golden/a_pose.bvh"), folder_ / "hero.bvh");
+        play(ScriptText()
+                 .command("lab.open", {{"name", "humanoid"}})
+                 .command("humanoid.load", {{"path", (folder_ / "hero.bvh").string()}})
+                 .command("scene.save", {{"path", scene_}}));
+        std::filesystem::remove(folder_ / "hero.bvh");
+        text_ = read(scene_);
+    }
+    Outcome run(const ScriptText& script, std::vector<std::string> more = {}) {
+        write(folder_ / "script.jsonl", script.text());
+        more.insert(more.end(), {"--headless", scene_, "--script", (folder_ / "script.jsonl").string(),
+                                 "--state", (folder_ / "state.json").string()});
+        return run_here(more);
+    }
+    const TempFolder folder_;
+    const std::string scene_ = (folder_ / "s.json").string();
+    std::string text_;
+};
+
+TEST_F(MissingCharacter, IsToldToScriptsAndNotSavedOverWithoutForce) {
+    const Outcome opened = run(ScriptText().wait(1));
+    EXPECT_EQ(opened.exit_code, 2);
+    EXPECT_TRUE(says(opened.err, "hero.bvh is missing The humanoid lab is blank"));
+    const std::string said = app::parse_json(read(folder_ / "state.json")).at("unread").get<std::string>();
+    EXPECT_TRUE(says(opened.err, said));
+    const auto save = ScriptText().command("humanoid.foot_ik", {{"on", true}}).command("scene.save");
+    const Outcome refused = run(save);
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_TRUE(says(refused.err, "s.json still has humanoid lab hero.bvh --force"));
+    EXPECT_EQ(read(scene_), text_);
+    run(save, {"--force"});
+    EXPECT_NE(read(scene_), text_);
+}
+
+TEST_F(MissingCharacter, IsSaidInThePanelAndAskedForBeforeItIsSavedOver) {
+    const auto window = app::open_offscreen({1280, 720});
+    app::App program(*window);
+    FrameRecorder recorder;
+    const auto settled_text = [&](int ticks) {
+        for (int i = 0; i < ticks; ++i) program.tick(nullptr);
+        std::string all;
+        for (const DrawnText& each : recorder.frame().texts) all += each.text + ' ';
+        return all;
+    };
+    const auto save = [&] {
+        const app::Event event = app::KeyTap{*app::chord_from_name("ctrl+s")};
+        program.tick(&event);
+        return settled_text(4);
+    };
+    program.workspace().outputs.in_window = true;
+    program.run({"scene.open", app::Json{{"path", scene_}}});
+    EXPECT_TRUE(says(settled_text(600), "hero.bvh is missing keeps what the scene has"));
+    save();
+    EXPECT_EQ(app::parse_json(read(scene_)).at("labs"), app::parse_json(text_).at("labs"));
+    const std::string before = read(scene_);
+    glm::vec2 at(0.0f);
+    for (const DrawnText& each : recorder.frame().texts)
+        if (each.text == "Foot IK") at = each.box.centre();
+    for (const app::Event& event :
+         {app::Event(app::MouseMove{at}), app::Event(app::MousePress{app::MouseButton::Left, true}),
+          app::Event(app::MousePress{app::MouseButton::Left, false})})
+        program.tick(&event);
+    EXPECT_TRUE(says(settled_text(600), "hero.bvh is missing Saving replaces"));
+    EXPECT_TRUE(says(save(), "s.json still has Do the same again"));
+    EXPECT_EQ(read(scene_), before);
+    EXPECT_TRUE(says(save(), "Saved"));
+    EXPECT_NE(read(scene_), before);
+    EXPECT_FALSE(says(settled_text(600), "hero.bvh"));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "tests/app/io/lint_support.hpp"
 #include "tests/core/random.hpp"
 #include "tests/places.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -205,6 +206,24 @@ TEST_F(LintTest, finds_a_knee_and_an_elbow_that_bend_the_wrong_way) {
             EXPECT_GT(fault->amount, 0.6 * most) << fault->text;
             EXPECT_LT(fault->amount, most + 1.0) << fault->text;
             EXPECT_STREQ(fault->unit, "deg");
+        }
+}
+
+TEST_F(LintTest, finds_a_knee_that_is_bent_sideways_or_twisted_and_says_what_is_tolerated) {
+    for (const glm::dvec3& axis : {glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1), glm::dvec3(0, 1, 0)})
+        for (const double most : {15.0, 40.0, 80.0}) {
+            Frames frames = walk();
+            for (std::size_t k = 40; k < 80; ++k) {
+                glm::dquat& knee = frames.at(k, "LeftLowerLeg").rotation;
+                knee = knee * glm::angleAxis(glm::radians(most * ramp(k, 40, 60)), axis);
+            }
+            const LintReport report = run(frames.clip());
+            const auto fault = std::ranges::find(report.findings, Fault::Limit, &Finding::fault);
+            ASSERT_EQ(fault != report.findings.end(), most > 20.0) << texts(report);
+            if (fault == report.findings.end()) continue;
+            EXPECT_NEAR(fault->amount, most, 0.2 * most) << fault->text;
+            EXPECT_TRUE(test::says(fault->text, "LeftLowerLeg beyond its limit 20 are tolerated"))
+                << fault->text;
         }
 }
 

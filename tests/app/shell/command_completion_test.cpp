@@ -140,6 +140,12 @@ TEST_F(Completion, FindsWhatRemovesThingsLast) {
     }
 }
 
+TEST_F(Completion, FindsWhatOnlyTheHelpSaysAfterOtherLabs) {
+    const Strings pins = names("pin", "chain");  // "pinch" is in the help of view.scroll
+    EXPECT_LT(std::ranges::find(pins, "rope.pin"), std::ranges::find(pins, "view.scroll"));
+    EXPECT_TRUE(has(pins, "view.scroll"));
+}
+
 TEST_F(Completion, FindsByArgumentsAfterTitleAndHelp) {
     for (const auto& lab : labs_.all()) {
         for (const char* word : {"radius", "weight", "length", "speed"}) {

@@ -18,7 +18,9 @@
 //                keys; one finding for all joints of a clip                       the worst     deg
 //     Limit      a joint is beyond its range, by the smallest turn that brings
 //                it back; an elbow, if it bends to a side to which no shoulder can
-//                twist it                                                         its node      deg
+//                twist it. Decent captures exceed the default limits, so 20
+//                degrees are tolerated at knees, 34 at elbows, 65 at the head and
+//                45 elsewhere                                                     its node      deg
 //     Jump       a joint departs for a few frames, or jumps for good; a key
 //                that steps on purpose is no jump                                 its node      deg or mm
 //     Scale      implausible sizes: the clip's bones are a multiple of the

@@ -1,6 +1,7 @@
 // Joints turned beyond their limits.
 #include <algorithm>
 
+#include "humanoid/joint_turn.hpp"
 #include "humanoid/lint/lint.hpp"
 #include "ik/limits/joint.hpp"
 #include "math/vector.hpp"
@@ -89,15 +90,26 @@ double least_turn(const ik::Limit& limit, const glm::dvec3& along, const glm::dq
     return least;
 }
 
+/// The smallest turn that brings a hinge within its limit, radians: bends sideways and twists count too.
+double least_turn_of_hinge(const ik::Limit& limit, const glm::dquat& turn) {
+    const glm::dvec3 axis = math::wide(limit.axis);
+    const double within = std::clamp(detail::hinge_angle(axis, turn), static_cast<double>(limit.min),
+                                     static_cast<double>(limit.max));
+    return 2.0 * half_angle_between(rotation_about(axis, within), turn);
+}
+
 /// How far a joint is beyond its limit, radians; for a ball joint the smallest turn if that is over `most`.
 double excess_of(const BodyJoints& joints, Bone bone, const std::vector<Placement>& placed, bool by_default,
                  double most) {
     for (const Arm& arm : arms)
         if (by_default && bone == arm.lower && joints.parent(bone) == arm.upper)
             return elbow_excess(joints, arm, placed);
+    const ik::Limit& limit = joints.limit(bone);
+    const bool is_hinge = limit.kind == ik::JointKind::Hinge;
+    if (is_hinge && by_default) return least_turn_of_hinge(limit, joints.turn(bone, placed));
     const auto excess = static_cast<double>(joints.excess(bone, placed));
-    if (excess <= most || joints.limit(bone).kind == ik::JointKind::Hinge) return excess;
-    return least_turn(joints.limit(bone), joints.direction(bone), joints.turn(bone, placed));
+    return excess <= most || is_hinge ? excess
+                                      : least_turn(limit, joints.direction(bone), joints.turn(bone, placed));
 }
 
 /// The first and the worst frame of a joint's stay beyond its limit.
@@ -111,11 +123,12 @@ struct Stay {
 /// another axis.
 constexpr double shortest = 0.1;  // seconds
 
-void tell(Check& check, Bone bone, const Stay& stay, std::size_t last) {
+void tell(Check& check, Bone bone, const Stay& stay, std::size_t last, double tolerated) {
     const double seconds = static_cast<double>(last - stay.first) / check.report.rate;
     if (!check.settings.limits && seconds < shortest) return;
     check.add(Fault::Limit, check.map[bone].node, stay.worst, stay.first, last, stay.most, "deg",
-              "is turned " + shown(stay.most) + " degrees beyond its limit");
+              "is turned " + shown(stay.most) + " degrees beyond its limit; " + shown(tolerated) +
+                  " are tolerated");
 }
 
 }  // namespace
@@ -126,6 +139,7 @@ void check_limits(Check& check) {
     const Expected<BodyJoints> joints = BodyJoints::make(
         check.skeleton, check.map, given ? *given : default_limits(check.skeleton, check.map));
     if (!joints) return;
+    const auto tolerated = [&](Bone bone) { return given ? check.settings.beyond : tolerance(bone); };
     std::array<Stay, bone_count> stays{};
     std::vector<rig::Transform> pose(check.skeleton.size());
     std::vector<Placement> placed(check.skeleton.size());
@@ -134,11 +148,11 @@ void check_limits(Check& check) {
         place(check.skeleton, pose, placed);
         for (std::size_t i = 0; i < bone_count; ++i) {
             const auto bone = static_cast<Bone>(i);
-            const double most = given ? check.settings.beyond : tolerance(bone);
+            const double most = tolerated(bone);
             const double excess = degrees * excess_of(*joints, bone, placed, !given, most / degrees);
             Stay& stay = stays[i];
             const bool is_beyond = excess > most;
-            if (stay.is_beyond && !is_beyond) tell(check, bone, stay, frame - 1);
+            if (stay.is_beyond && !is_beyond) tell(check, bone, stay, frame - 1, most);
             if (is_beyond && (!stay.is_beyond || excess > stay.most)) {
                 if (!stay.is_beyond) stay.first = frame;
                 stay.worst = frame;
@@ -148,7 +162,8 @@ void check_limits(Check& check) {
         }
     }
     for (std::size_t i = 0; i < bone_count; ++i)
-        if (stays[i].is_beyond) tell(check, static_cast<Bone>(i), stays[i], check.report.frames - 1);
+        if (const auto bone = static_cast<Bone>(i); stays[i].is_beyond)
+            tell(check, bone, stays[i], check.report.frames - 1, tolerated(bone));
 }
 
 }  // namespace tendril::humanoid::lint_detail

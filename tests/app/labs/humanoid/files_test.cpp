@@ -57,16 +57,6 @@ TEST_F(HumanoidFiles, AMapIsSavedAndLoaded) {
     EXPECT_EQ(bones().at("LeftHand").at("node"), "LeftHand");
 }
 
-TEST_F(HumanoidFiles, AMapOfAnotherCharacterIsRefused) {
-    SavedMap map = saved_map(*part().map, part().skeleton());
-    map.bones[0] = "mixamorig:Hips";
-    test::write(path("map.json"), map_text(map));
-    expect_refused("humanoid.map.load", {{"path", path("map.json")}}, {"Hips", "mixamorig:Hips"});
-    expect_refused("humanoid.map.load", {{"path", path("none.json")}}, {"none.json"});
-    expect_refused("humanoid.map.save", {}, {"path"});
-    expect_refused("humanoid.map.save", {{"path", path("nowhere/map.json")}}, {"cannot write"});
-}
-
 TEST_F(HumanoidFiles, AClipIsExportedAsItCame) {
     for (const char* name : {"walk.glb", "walk.gltf", "walk.bvh"}) {
         run("humanoid.export", {{"path", path(name)}, {"clip", "punch"}});
@@ -191,27 +181,6 @@ TEST_F(HumanoidFiles, AnotherCharacterTellsWhatItDiscards) {
         << workspace.ui.toasts.back().text;
     run("undo");
     EXPECT_TRUE(part() == before);
-}
-
-TEST_F(HumanoidFiles, AnExportKeepsTheClipsFrameRate) {
-    for (const auto& [frame_time, rate] :
-         {std::pair{"0.016667", 60.0}, {"0.04", 25.0}, {"0.0083333", 120.0}}) {
-        std::string text = bvh_figure();
-        const std::size_t frames = text.find("Frames:"), at = text.find("Frame Time:");
-        ASSERT_NE(at, text.npos);
-        const std::string row = text.substr(text.rfind('\n', text.size() - 2) + 1);
-        text = text.substr(0, frames) + "Frames: 240\nFrame Time: " + frame_time + "\n";
-        for (int i = 0; i < 240; ++i) text += row;
-        test::write(path("in.bvh"), text);
-        run("humanoid.load", {{"path", path("in.bvh")}});
-        for (const char* name : {"out.glb", "out.bvh"}) {
-            run("humanoid.export", {{"path", path(name)}});
-            EXPECT_EQ(humanoid::frame_rate(read_character(path(name)).clips.at(0)), rate) << name;
-            EXPECT_TRUE(test::says(workspace.ui.toasts.back().text,
-                                   "at " + std::to_string(static_cast<int>(rate)) + " fps"))
-                << workspace.ui.toasts.back().text;
-        }
-    }
 }
 
 /// Two clips of one name can each be chosen.
