@@ -205,6 +205,27 @@ TEST_F(LinkageTest, WhatIsWrongIsRefusedByNameAndNothingIsLost) {
     expect_refused("linkage.joint", {{"at", {0, 0, 0}}}, {"plane"});
 }
 
+TEST_F(LinkageTest, AFileOfAnyValuesIsReadOrRefused) {
+    draw_four_bar();
+    run("linkage.range", {{"joint", "motor 1"}, {"min", -200}});
+    run("linkage.target", {{"point", "C"}, {"to", {1, 2, 0}}});
+    const Json values{nullptr,       -1, 0, 1e30, "", "A", "bar 1", Json::array(), Json::array({0, 0}),
+                      Json::object()};
+    const Json file = saved(), flat = file.flatten();
+    for (const auto& [at, was] : flat.items())
+        for (const std::string& place : {at, at.substr(0, at.rfind('/'))})
+            for (const Json& value : values) {
+                Json changed = file;
+                changed[Json::json_pointer(place)] = value;
+                try {
+                    const auto part = LinkagePart().load(changed, "it");
+                    EXPECT_EQ(part->load(part->save(), "it")->save(), part->save()) << place << value;
+                } catch (const std::runtime_error& error) {
+                    EXPECT_TRUE(std::string(error.what()).starts_with("it")) << error.what();
+                }
+            }
+}
+
 TEST_F(LinkageTest, AFileThatIsWrongIsRefusedWithItsPlace) {
     draw_four_bar();
     expect_scene_refused("/ranges", Json::parse(R"([{"joint": "motor 1", "min": 2, "max": 1}])"),
