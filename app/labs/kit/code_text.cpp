@@ -103,7 +103,7 @@ std::string value_text(const Field& field, const void* at, const std::string& ma
         case FieldType::Rotation:
             return '{' + digits({3, 0, 1, 2}) + '}';
         default:
-            return std::string(field.enumeration) +
+            return std::string(field.enumeration.substr(std::string_view("tendril::").size())) +
                    "::" + pascal_text(field.choices[static_cast<std::size_t>(value[0])]);
     }
 }

@@ -331,7 +331,7 @@ TEST(FieldFiles, AreRefusedWithTheirPlace) {
 
 TEST(FieldFiles, AreWrittenAsCode) {
     EXPECT_EQ(struct_text(read_sketch(Json::parse(sketch_file)).points[1]),
-              "{.name = \"B\", .at = {1.5, 0.0}, .hold = tendril::ik::SketchHold::Guided, "
+              "{.name = \"B\", .at = {1.5, 0.0}, .hold = ik::SketchHold::Guided, "
               ".guide = 0.5235987755982988}");
 }
 
