@@ -188,7 +188,7 @@ TEST(Fields, ATextIsSetAndAChoiceNamesItsEnumeration) {
     name.set_text(&point, "A");
     EXPECT_EQ(point.name, "A");
     EXPECT_EQ(name.text(&point), "A");
-    EXPECT_EQ(field_of<&ik::SketchPoint::hold>().enumeration, "tendril::ik::SketchHold");
+    EXPECT_EQ(field_of<&ik::SketchPoint::hold>().in_code, "tendril::ik::SketchHold");
 }
 
 TEST(Fields, AnOptionalStructCanBeEmptied) {

@@ -103,7 +103,7 @@ std::string value_text(const Field& field, const void* at, const std::string& ma
         case FieldType::Rotation:
             return '{' + digits({3, 0, 1, 2}) + '}';
         default:
-            return std::string(field.enumeration.substr(std::string_view("tendril::").size())) +
+            return std::string(field.in_code.substr(std::string_view("tendril::").size())) +
                    "::" + pascal_text(field.choices[static_cast<std::size_t>(value[0])]);
     }
 }
@@ -128,8 +128,9 @@ std::vector<std::string> member_texts(FieldsOf of, const std::string& margin) {
         const void* const at = field.type == FieldType::Struct && field.count == nullptr
                                    ? field.address(of.object, 0)
                                    : of.object;
+        const bool other = field.type != FieldType::Choice && !field.in_code.empty();
         texts.push_back(
-            '.' + std::string(field.name) + " = " +
+            '.' + std::string(other ? field.in_code : field.name) + " = " +
             (field.count != nullptr ? list_text(field, at, margin) : value_text(field, at, margin)));
     }
     return texts;

@@ -71,7 +71,8 @@ struct Field {
     FieldRange range{};     ///< of a flag 0 to 1, of a choice 0 to the last index; an end may be infinite
     bool over_low = false;  ///< range.low itself is out of range
     std::span<const char* const> choices{};
-    std::string_view enumeration{};         ///< of a choice, in C++: "tendril::ik::SketchHold"
+    std::string_view in_code{};             ///< a choice's enumeration: "tendril::ik::SketchHold"; else the
+                                            ///< member, where it is not `name`
     const char* of = "";                    ///< the list of an index, in a struct around this one
     FieldRange usual{};                     ///< for sliders and random tests; empty: `range`
     FieldScale scale = FieldScale::Linear;  ///< how sliders map it
@@ -139,6 +140,11 @@ struct Field {
     constexpr Field by(std::uint16_t without, std::uint16_t within) const noexcept {
         Field row = *this;
         row.without_limits = without, row.within_limits = within;
+        return row;
+    }
+    constexpr Field as_member(std::string_view member) const noexcept {
+        Field row = *this;
+        row.in_code = member;
         return row;
     }
     constexpr Field sparsely() const noexcept {
@@ -448,7 +454,7 @@ template <auto member>
 constexpr Field field(const char* name, std::span<const char* const> choices) noexcept {
     Field row = field<member>(name, {0.0, static_cast<double>(choices.size()) - 1.0});
     row.choices = choices;
-    row.enumeration = detail::type_name<typename detail::FieldOptional<detail::ValueOf<member>>::type>();
+    row.in_code = detail::type_name<typename detail::FieldOptional<detail::ValueOf<member>>::type>();
     return row;
 }
 
