@@ -176,18 +176,6 @@ TEST_F(LinkageTest, ADragAcrossAPathIsAnIncidentWhereThePointJumps) {
     EXPECT_TRUE(lab().review(workspace, *before, part()).empty());
 }
 
-TEST_F(LinkageTest, TheOtherModeIsTheMirroredRocker) {
-    four_bar();
-    run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 90}});
-    const glm::dvec3 above = at("C");
-    run("linkage.other_mode");
-    EXPECT_GT(glm::distance(at("C"), above), 0.5);
-    EXPECT_NEAR(glm::distance(at("B"), at("C")), 2.5, 1e-8);
-    EXPECT_NEAR(driver("crank"), 90.0, 1e-6);
-    run("linkage.other_mode");
-    EXPECT_NEAR(glm::distance(at("C"), above), 0.0, 1e-6);
-}
-
 TEST_F(LinkageTest, WhatIsWrongIsRefusedByNameAndNothingIsLost) {
     four_bar();
     expect_refused("linkage.set", {{"lengths", {{"cranc", 1}}}}, {"cranc"});
@@ -224,16 +212,6 @@ TEST_F(LinkageTest, AFileOfAnyValuesIsReadOrRefused) {
                     EXPECT_TRUE(std::string(error.what()).starts_with("it")) << error.what();
                 }
             }
-}
-
-TEST_F(LinkageTest, AFileThatIsWrongIsRefusedWithItsPlace) {
-    draw_four_bar();
-    expect_scene_refused("/ranges", Json::parse(R"([{"joint": "motor 1", "min": 2, "max": 1}])"),
-                         "labs.linkage.ranges.0.min");
-    expect_scene_refused("/sketch/bars/0/points", Json::array(), "labs.linkage.sketch");
-    expect_scene_refused("/joints", Json::array(), "labs.linkage.joints");
-    expect_scene_refused("/drivers/0/joint", "nobody", "labs.linkage.drivers.0.joint");
-    expect_scene_refused("/selected", "nobody", "labs.linkage.selected");
 }
 
 TEST_F(LinkageTest, LengthsThatChangeKeepPoseAndAssemblyMode) {
