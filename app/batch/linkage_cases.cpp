@@ -131,10 +131,8 @@ std::vector<std::string> LinkageCase::columns() const {
 
 std::vector<double> LinkageCase::column_values() const {
     std::vector<double> values;
-    for (const auto& each : drivers) {
-        const double value = part.value_of(each.first);
-        values.push_back(turns(part, each.first) ? glm::degrees(value) : value);
-    }
+    for (const auto& each : drivers)
+        values.push_back(in_degrees(part, each.first, part.value_of(each.first)));
     for (std::size_t i = 0; i < part.linkage().points.size(); ++i) {
         const glm::dvec3 at = part.at(i);
         values.insert(values.end(), {at.x, at.y, at.z});
@@ -152,8 +150,7 @@ void read_drivers(const Json& drivers, const std::string& before, LinkageCase& t
         at_place(at, [&] { require_linkage_joint(to.part, joint); });
         std::vector<double> values = driver_values(at);
         check_rows(at, values.size(), to.rows());
-        if (turns(to.part, joint))
-            for (double& value : values) value = glm::radians(value);
+        for (double& value : values) value = from_degrees(to.part, joint, value);
         to.drivers.emplace_back(joint, std::move(values));
     }
 }

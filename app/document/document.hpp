@@ -14,6 +14,11 @@
 
 namespace tendril::app {
 
+/// Of the elements of some lists, for Part::bytes().
+std::size_t bytes_in(const auto&... lists) {
+    return ((lists.size() * sizeof(lists[0])) + ... + 0);
+}
+
 /// One lab's part of the document: a value with a JSON form.
 class Part {
   public:

@@ -34,15 +34,25 @@ std::string format_of(const Field& field, const FieldText& text) {
     return "%." + std::to_string(text.decimals) + "f" + shown_unit(unit);
 }
 
-/// A number field that drags within the usual range; values beyond it can be typed. `value` is the shown one.
-bool usual_number_field(const char* label, float& value, const Field& field, const FieldText& text) {
-    const FieldRange range = field.slider();
-    const auto low = static_cast<float>(text.scale * range.low),
-               high = static_cast<float>(text.scale * range.high);
+/// An angle is shown as its command takes it, in degrees.
+double scale_of(const Field& field, const FieldText& text) {
+    return is_angle(field) ? glm::degrees(1.0) : text.scale;
+}
+
+/// Drags within the usual range, if the field has one; values beyond it can be typed. `value` is the shown
+/// one.
+bool shown_number(const char* label, float& value, const Field& field, const FieldText& text,
+                  const std::optional<FieldRange>& within = {}) {
+    const bool usual = !within && field.usual.low < field.usual.high;
+    const FieldRange range = within.value_or(field.slider());
+    const auto low = static_cast<float>(scale_of(field, text) * range.low),
+               high = static_cast<float>(scale_of(field, text) * range.high);
+    const std::string format = format_of(field, text);
+    if (!usual) return number_field(label, value, text.step, low, high, format.c_str(), text.at_zero);
     const float step = field.scale == FieldScale::Logarithmic ? std::max(0.01f * std::abs(value), 1e-4f)
                                                               : 0.005f * (high - low);
-    return number_field(label, value, step, std::min(low, value), std::max(high, value),
-                        format_of(field, text).c_str(), text.at_zero);
+    return number_field(label, value, step, std::min(low, value), std::max(high, value), format.c_str(),
+                        text.at_zero);
 }
 
 }  // namespace
@@ -67,7 +77,7 @@ void FieldRows::row(std::string_view name, const RowOptions& options) const {
 }
 
 bool FieldRows::changed(const Field& field) const {
-    return default_ != nullptr && !same_value(field, of_.object, default_);
+    return of_.fresh != nullptr && !same_field(field, of_.object, of_.fresh);
 }
 
 void FieldRows::draw(const Field& field, const FieldText& usual, const RowOptions& options) const {
@@ -119,14 +129,8 @@ void FieldRows::number_row(const Field& field, const FieldText& text, const RowO
             emit_.continuously(command_, arguments(field, value));
         return;
     }
-    // An angle is shown as its command takes it, in degrees.
-    const double scale = is_angle(field) ? glm::degrees(1.0) : text.scale;
-    const auto shown = [&](double of) { return static_cast<float>(scale * of); };
-    float value = shown(now);
-    const bool usual = !options.within && field.usual.low < field.usual.high;
-    if (usual ? usual_number_field(text.label, value, field, text)
-              : number_field(text.label, value, text.step, shown(range.low), shown(range.high),
-                             format_of(field, text).c_str(), text.at_zero))
+    auto value = static_cast<float>(scale_of(field, text) * now);
+    if (shown_number(text.label, value, field, text, options.within))
         emit_.continuously(
             command_, arguments(field, is_angle(field) ? value : value / static_cast<float>(text.scale)));
 }
@@ -135,9 +139,9 @@ void FieldRows::pair_row(const Field& field, const FieldText& text) const {
     const FieldValue now = field.get(of_.object);
     for (std::size_t i = 0; i < 2; ++i) {
         if (i > 0) explain(text.help);  // the caller explains the last
-        const std::string label = std::string(text.label) + (i == 0 ? " low" : " high");
+        const std::string label = std::string(text.label) + ' ' + text.ends[i];
         auto value = static_cast<float>(text.scale * now[i]);
-        if (!usual_number_field(label.c_str(), value, field, text)) continue;
+        if (!shown_number(label.c_str(), value, field, text)) continue;
         FieldValue changed = now;
         changed[i] = shortest_decimal(value / static_cast<float>(text.scale));
         emit_.continuously(command_, arguments(field, SharedJson(Json{changed[0], changed[1]})));

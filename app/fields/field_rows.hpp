@@ -1,7 +1,6 @@
 // A panel's rows for the fields of a struct, with name, unit, range, tooltip and command from the table.
 #pragma once
 
-#include <concepts>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -28,16 +27,7 @@ class FieldRows {
     /// Each change emits `command` with `with`, then the field's name and value.
     template <class Struct>
     FieldRows(const Struct& object, std::string command, Emit& emit, ArgumentList with = {})
-        : of_(object),
-          texts_(field_texts<Struct>()),
-          command_(std::move(command)),
-          emit_(emit),
-          with_(std::move(with)) {
-        if constexpr (std::default_initializable<Struct>) {
-            static const Struct fresh{};
-            default_ = &fresh;
-        }
-    }
+        : FieldRows(FieldsOf(object), field_texts<Struct>(), std::move(command), emit, std::move(with)) {}
     template <class Struct>
     FieldRows(const Struct&&, std::string, Emit&, ArgumentList = {}) = delete;  // it refers to the struct
     FieldRows(FieldsOf of, std::span<const FieldText> texts, std::string command, Emit& emit,
@@ -52,7 +42,7 @@ class FieldRows {
     }
     /// Where the struct's type has no default of its own. It must live as long.
     FieldRows& compared_with(FieldsOf usual) {
-        default_ = usual.object;
+        of_.fresh = usual.object;
         return *this;
     }
     void row(std::string_view name, const RowOptions& options = {}) const;
@@ -84,7 +74,6 @@ class FieldRows {
     std::string command_;
     Emit& emit_;
     ArgumentList with_;
-    const void* default_ = nullptr;  ///< a struct with default values, if it has any
     MoreRows* more_ = nullptr;
 };
 

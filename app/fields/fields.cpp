@@ -11,6 +11,7 @@ namespace {
 
 /// A bound of a range as written in files: 0.001, not 0.00100000005.
 double file_end(const Field& field, double end) {
+    if (std::isinf(end)) return end;
     const auto single = static_cast<float>(end);
     if (is_angle(field)) return degrees(single).get<double>();
     return static_cast<double>(single) == end ? shortest_decimal(single) : end;
@@ -27,7 +28,7 @@ Json exact_degrees(double radians) {
 }
 
 Json saved(const Field& field, const FieldValue& value) {
-    if (field.optional && std::isnan(value[0])) return nullptr;
+    if ((field.optional && std::isnan(value[0])) || std::isinf(value[0])) return nullptr;
     if (is_angle(field)) return field.exact ? exact_degrees(value[0]) : degrees(static_cast<float>(value[0]));
     switch (field.type) {
         case FieldType::Flag:
@@ -45,14 +46,16 @@ Json saved(const Field& field, const FieldValue& value) {
         case FieldType::Rotation:
             return field.exact ? dquaternion({value[3], value[0], value[1], value[2]})
                                : quaternion(rotation_of(value));
-        case FieldType::Point:
-        case FieldType::Struct:
+        default:
             break;
     }
     return field.exact ? dpoint({value[0], value[1], value[2]}) : point({value[0], value[1], value[2]});
 }
 
 double number_in_range(const JsonPlace& place, const Field& field) {
+    if (place.json().is_null())
+        for (const double end : {field.range.low, field.range.high})
+            if (std::isinf(end)) return end;
     if (field.over_low && place.real() <= file_range(field).low)
         place.fail("expected a number over " + json_summary(file_range(field).low));
     if (is_angle(field)) {
@@ -91,8 +94,7 @@ FieldValue loaded(const JsonPlace& place, const Field& field) {
             return {number_in_range(place.element(0), field), number_in_range(place.element(1), field)};
         case FieldType::Rotation:
             return field.exact ? detail::to_field(place.drotation()) : detail::to_field(place.rotation());
-        case FieldType::Point:
-        case FieldType::Struct:
+        default:
             break;
     }
     place.check_size(3, "coordinates");
@@ -141,6 +143,10 @@ Argument argument(const Field& field, const FieldText& text) {
             result.type = ArgumentType::Text;
             result.choices.assign(field.choices.begin(), field.choices.end());
             break;
+        case FieldType::Text:
+        case FieldType::Index:
+            result.type = ArgumentType::Text;
+            break;
         case FieldType::Struct:
             break;
     }
@@ -158,93 +164,208 @@ std::string file_name(const Field& field) {
     return is_angle(field) ? std::string(field.name) + "_deg" : field.name;
 }
 
-bool same_value(const Field& field, const void* a, const void* b) {
-    const FieldValue was = field.get(a), is = field.get(b);
-    return std::ranges::equal(was, is,
-                              [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
-}
-
 FieldRange file_range(const Field& field) {
     return {file_end(field, field.range.low), file_end(field, field.range.high)};
 }
 
 namespace {
 
-/// `at`: what the field's accessors take; of a struct, its address.
-Json saved_at(const Field& field, const void* at) {
-    return field.type == FieldType::Struct ? save_fields({field.table(), at}) : saved(field, field.get(at));
+std::size_t count_of(const Field& field, const void* object) {
+    if (field.count != nullptr) return field.count(object);
+    return field.address == nullptr || field.address(object, 0) != nullptr ? 1 : 0;
+}
+/// What the field's accessors take; of a struct, its address.
+const void* element_of(const Field& field, const void* object, std::size_t index) {
+    return field.address != nullptr ? field.address(object, index) : object;
 }
 
-void save_list(Json& json, const Field& field, const void* object) {
-    Json list = field.names.empty() ? Json::array() : Json::object();
-    for (std::size_t i = 0; i < field.count(object); ++i) {
-        const void* const element = field.address(object, i);
-        if (field.names.empty())
-            list.push_back(saved_at(field, element));
-        else if (field.empty == nullptr || !field.empty(element))
-            list[field.names[i]] = saved_at(field, element);
+bool same_element(const Field& field, const void* a, const void* b) {
+    if (field.type == FieldType::Text) return field.text(a) == field.text(b);
+    if (field.type == FieldType::Struct)
+        return std::ranges::all_of(field.table(), [&](const Field& row) { return same_field(row, a, b); });
+    const FieldValue one = field.get(a), other = field.get(b);
+    const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+    return std::equal(one.begin(), one.begin() + field.size(), other.begin(), same);
+}
+
+}  // namespace
+
+bool same_field(const Field& field, const void* a, const void* b) {
+    const std::size_t count = count_of(field, a);
+    if (count != count_of(field, b)) return false;
+    for (std::size_t i = 0; i < count; ++i)
+        if (!same_element(field, element_of(field, a, i), element_of(field, b, i))) return false;
+    return true;
+}
+
+namespace {
+
+/// The text that an element of a list is known by; null if there is none.
+const Field* key_of(const Field& list) {
+    const bool has = list.type == FieldType::Struct && list.table().front().type == FieldType::Text;
+    return has ? &list.table().front() : nullptr;
+}
+
+/// A struct, and those around it.
+struct Scope {
+    const Scope* above;
+    std::span<const Field> table;
+    const void* object;
+
+    /// The names of a list's elements, for an index of one.
+    std::vector<std::string_view> names(std::string_view list) const {
+        if (above == nullptr) return {};
+        const Field* const found = find_field(above->table, list);
+        if (found == nullptr) return above->names(list);
+        std::vector<std::string_view> all;
+        for (std::size_t i = 0; i < found->count(above->object); ++i)
+            all.push_back(key_of(*found)->text(found->address(above->object, i)));
+        return all;
     }
-    if (field.in_line)
-        json.update(list);
-    else
-        json[field.name] = std::move(list);
+};
+
+/// An index of an element, which has no default although it is a number.
+bool is_required(const Field& field) {
+    return field.type == FieldType::Index && field.count == nullptr && !field.optional;
+}
+
+Json text_json(std::string_view text) {
+    return text.empty() ? Json(nullptr) : Json(std::string(text));
+}
+
+Json save_struct(const Scope& scope, const void* fresh = nullptr);
+
+Json save_element(const Field& field, const void* at, const Scope& scope) {
+    if (field.type == FieldType::Struct)
+        return save_struct({&scope, field.table(), at}, field.sparse ? field.fresh() : nullptr);
+    if (field.type == FieldType::Text) return text_json(field.text(at));
+    if (field.type != FieldType::Index) return saved(field, field.get(at));
+    const std::vector<std::string_view> names = scope.names(field.of);
+    const double index = field.get(at)[0];
+    return index < static_cast<double>(names.size()) ? text_json(names[static_cast<std::size_t>(index)])
+                                                     : Json(nullptr);
+}
+
+Json save_list(const Field& field, const Scope& scope) {
+    Json list = field.names.empty() ? Json::array() : Json::object();
+    for (std::size_t i = 0; i < field.count(scope.object); ++i) {
+        const void* const element = field.address(scope.object, i);
+        if (field.names.empty())
+            list.push_back(save_element(field, element, scope));
+        else if (field.empty == nullptr || !field.empty(element))
+            list[field.names[i]] = save_element(field, element, scope);
+    }
+    return list;
+}
+
+/// Without the members that are as in `fresh`, if there is one.
+Json save_struct(const Scope& scope, const void* fresh) {
+    Json json = Json::object();
+    for (const Field& field : scope.table) {
+        if (fresh != nullptr && !is_required(field) && same_field(field, scope.object, fresh)) continue;
+        if (field.in_line)
+            json.update(save_list(field, scope));
+        else if (field.count != nullptr)
+            json[field.name] = save_list(field, scope);
+        else
+            json[file_name(field)] = count_of(field, scope.object) == 0
+                                         ? Json(nullptr)
+                                         : save_element(field, element_of(field, scope.object, 0), scope);
+    }
+    return json;
 }
 
 class Loader {
   public:
     explicit Loader(bool all, std::span<const std::string_view> newer = {}) : all_(all), newer_(newer) {}
 
-    void fields(const JsonPlace& place, FieldsIn in) const {
+    void fields(const JsonPlace& place, const Scope& scope) const {
         if (!place.json().is_object()) place.fail("expected an object, found " + json_summary(place.json()));
-        for (const Field& field : in.table) {
+        void* const object = const_cast<void*>(scope.object);
+        for (const Field& field : scope.table) {
             if (field.in_line) {
-                list(place, field, in.object);
+                list(place, field, scope);
                 continue;
             }
             const std::string name = file_name(field);
-            if (!place.has(name.c_str()) && (!all_ || std::ranges::find(newer_, name) != newer_.end()))
-                continue;
+            if (!place.has(name.c_str())) {
+                if (is_angle(field) && place.has(field.name)) {
+                    field.set(object, {place[field.name].real(field.range.low, field.range.high)});
+                    continue;
+                }
+                const bool newer = std::ranges::find(newer_, name) != newer_.end();
+                if (newer || !(all_ || is_required(field))) continue;
+            }
             const JsonPlace member = place[name.c_str()];
             if (field.count != nullptr)
-                list(member, field, in.object);
+                list(member, field, scope);
             else if (field.type == FieldType::Struct)
-                nested(member, field, in.object);
+                nested(member, field, scope);
             else
-                value(member, field, in.object);
+                value(member, field, object, scope);
         }
     }
 
   private:
-    void value(const JsonPlace& place, const Field& field, void* at) const {
-        const bool nothing = field.optional && place.json().is_null();
-        field.set(at, nothing ? FieldValue{std::nan("")} : loaded(place, field));
+    void value(const JsonPlace& place, const Field& field, void* at, const Scope& scope) const {
+        const bool nothing = place.json().is_null();
+        if (field.type == FieldType::Text)
+            field.set_text(at, nothing ? std::string() : place.text());
+        else if (field.optional && nothing)
+            field.set(at, {std::nan("")});
+        else
+            field.set(at, field.type == FieldType::Index ? index(place, field, scope) : loaded(place, field));
     }
-    void nested(const JsonPlace& place, const Field& field, void* object) const {
+    static FieldValue index(const JsonPlace& place, const Field& field, const Scope& scope) {
+        const std::vector<std::string_view> names = scope.names(field.of);
+        const auto found = std::ranges::find(names, place.text());
+        if (found == names.end()) {
+            std::string one = field.of;
+            one.pop_back();
+            place.fail("there is no " + one + " \"" + place.text() + "\"");
+        }
+        return {static_cast<double>(found - names.begin())};
+    }
+    void nested(const JsonPlace& place, const Field& field, const Scope& scope) const {
+        void* const object = const_cast<void*>(scope.object);
         const bool nothing = field.optional && place.json().is_null();
         if (field.optional) field.resize(object, nothing ? 0 : 1);
-        if (!nothing) fields(place, {field.table(), field.address_in(object)});
+        if (!nothing) element(place, field, field.address_in(object), scope);
     }
-    void element(const JsonPlace& place, const Field& field, void* at) const {
+    void element(const JsonPlace& place, const Field& field, void* at, const Scope& scope) const {
         if (field.type == FieldType::Struct)
-            fields(place, {field.table(), at});
+            (field.sparse ? Loader(false) : *this).fields(place, {&scope, field.table(), at});
         else
-            value(place, field, at);
+            value(place, field, at, scope);
     }
-    void list(const JsonPlace& place, const Field& field, void* object) const {
+    void list(const JsonPlace& place, const Field& field, const Scope& scope) const {
+        void* const object = const_cast<void*>(scope.object);
         if (!field.names.empty() && !place.json().is_object())
             place.fail("expected an object, found " + json_summary(place.json()));
         for (std::size_t i = 0; i < field.names.size(); ++i) {
             const char* const name = field.names[i];
             if (place.has(name) || !(field.optional || (field.in_line && !all_)))
-                element(place[name], field, field.address_in(object, i));
+                element(place[name], field, field.address_in(object, i), scope);
         }
         if (!field.names.empty()) return;
-        if (field.resize != nullptr)
+        if (field.resize != nullptr) {
+            field.resize(object, 0);  // what was there is no default
             field.resize(object, place.list_size(field.name, field.most));
-        else
+        } else {
             place.check_size(field.most, "elements");
-        for (std::size_t i = 0; i < field.count(object); ++i)
-            element(place.element(i), field, field.address_in(object, i));
+        }
+        for (std::size_t i = 0; i < field.count(object); ++i) {
+            element(place.element(i), field, field.address_in(object, i), scope);
+            if (key_of(field) != nullptr) check_key(place.element(i), field, object, i);
+        }
+    }
+    static void check_key(const JsonPlace& place, const Field& list, const void* object, std::size_t at) {
+        const Field& key = *key_of(list);
+        const std::string_view name = key.text(list.address(object, at));
+        if (name.empty()) (place.has(key.name) ? place[key.name] : place).fail("expected a name, found none");
+        for (std::size_t i = 0; i < at; ++i)
+            if (key.text(list.address(object, i)) == name)
+                place[key.name].fail("there is another \"" + std::string(name) + "\"");
     }
 
     bool all_;
@@ -254,26 +375,15 @@ class Loader {
 }  // namespace
 
 Json save_fields(FieldsOf of) {
-    Json json = Json::object();
-    for (const Field& field : of.table) {
-        if (field.count != nullptr)
-            save_list(json, field, of.object);
-        else if (field.type == FieldType::Struct)
-            json[field.name] = field.address(of.object, 0) == nullptr
-                                   ? Json(nullptr)
-                                   : saved_at(field, field.address(of.object, 0));
-        else
-            json[file_name(field)] = saved(field, field.get(of.object));
-    }
-    return json;
+    return save_struct({nullptr, of.table, of.object});
 }
 
 void load_all_fields(const JsonPlace& place, FieldsIn in, std::span<const std::string_view> newer) {
-    Loader(true, newer).fields(place, in);
+    Loader(true, newer).fields(place, {nullptr, in.table, in.object});
 }
 
 void load_fields(const JsonPlace& place, FieldsIn in) {
-    Loader(false).fields(place, in);
+    Loader(false).fields(place, {nullptr, in.table, in.object});
 }
 
 std::vector<Argument> field_arguments(std::span<const Field> table, std::span<const FieldText> texts) {

@@ -2,6 +2,7 @@
 // each field a label and a help text; the rest follows from the table.
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <span>
 #include <string>
@@ -23,9 +24,6 @@ std::string file_name(const Field& field);
 /// The field's range there, with bounds as their shortest decimals.
 FieldRange file_range(const Field& field);
 
-/// Empty fields are the same.
-bool same_value(const Field& field, const void* a, const void* b);
-
 /// A field's presentation.
 struct FieldText {
     const char* name;    ///< the field's, as in its table
@@ -33,9 +31,10 @@ struct FieldText {
     const char* help;    ///< its effect, in a sentence or two: for the panel and the command's argument
     float step = 0.01f;  ///< change of the shown value per pixel of a drag
     int decimals = 2;
-    double scale = 1.0;                  ///< shown value = value * scale
-    const char* unit = nullptr;          ///< of the shown value, if not the field's: "ms"
-    const char* at_zero = nullptr;       ///< shown instead of 0: "never"
+    double scale = 1.0;                              ///< shown value = value * scale
+    const char* unit = nullptr;                      ///< of the shown value, if not the field's: "ms"
+    const char* at_zero = nullptr;                   ///< shown instead of 0: "never"
+    std::array<const char*, 2> ends{"low", "high"};  ///< of a pair, after the label
     bool in_line = false;                ///< of a point: its three numbers side by side, below its label
     bool more = false;                   ///< rarely needed: its row is under "More", if the section has that
     bool listed = false;                 ///< choices in a drop-down list instead of buttons
@@ -49,13 +48,17 @@ std::span<const FieldText> field_texts();
 /// A struct and its table.
 struct FieldsOf {
     template <class Struct>
-    FieldsOf(const Struct& of) : table(fields<Struct>()), object(&of) {}
+    FieldsOf(const Struct& of) : table(fields<Struct>()), object(&of) {
+        if constexpr (std::default_initializable<Struct>) fresh = detail::fresh<Struct>();
+    }
     template <class Struct>
     FieldsOf(const Struct&&) = delete;  // it would not outlive the call
-    FieldsOf(std::span<const Field> of_table, const void* of) : table(of_table), object(of) {}
+    FieldsOf(std::span<const Field> of_table, const void* of, const void* with_defaults = nullptr)
+        : table(of_table), object(of), fresh(with_defaults) {}
 
     std::span<const Field> table;
     const void* object;
+    const void* fresh = nullptr;  ///< a struct with default values, if it has any
 };
 struct FieldsIn {
     template <class Struct>
@@ -65,6 +68,13 @@ struct FieldsIn {
     std::span<const Field> table;
     void* object;
 };
+
+/// Whether two structs have the same in this row.
+bool same_field(const Field& field, const void* a, const void* b);
+
+// In files an element of a list whose first row is a text is known by it: texts of a list are not empty and
+// differ, and an index is the text of its element. No text, no element and an infinite number are null. An
+// angle that old files have in radians, under its plain name, is read.
 
 /// Includes nested structs and lists. A list with names leaves out its empty elements.
 Json save_fields(FieldsOf of);

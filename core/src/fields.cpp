@@ -56,6 +56,8 @@ Text requirement(const Field& field) noexcept {
             text.add(i > 0 ? ", " : "").add(field.choices[i]);
         return text;
     }
+    if (field.type == FieldType::Index)
+        return text.add("an index of ").add(field.of).add(field.optional ? ", or none" : "");
     text.add(field.whole() ? "a whole number, " : "").add(field.over_low ? "over " : "");
     text.add(field.range.low).add(" to ").add(field.range.high);
     if (field.unit[0] != '\0') text.add(" ").add(field.unit);
@@ -81,16 +83,39 @@ struct Place {
     }
 };
 
+/// A struct, and those around it.
+struct Scope {
+    const Scope* above;
+    std::span<const Field> table;
+    const void* object;
+
+    /// Of a list in a struct around this one.
+    std::size_t count(std::string_view list) const noexcept {
+        if (above == nullptr) return static_cast<std::size_t>(-1);
+        const Field* const found = find_field(above->table, list);
+        return found != nullptr ? found->count(above->object) : above->count(list);
+    }
+};
+
+/// `at`: what the field's accessors take.
+bool fits(const Field& field, const void* at, const Scope& scope) noexcept {
+    if (field.type == FieldType::Text) return true;
+    if (field.type != FieldType::Index) return field.fits(field, at);
+    const double index = field.get(at)[0];
+    return std::isnan(index) ? field.optional : index < static_cast<double>(scope.count(field.of));
+}
+
 /// Sets `refusal` to the first thing that does not fit. Solvers check in every step, so plain values come
 /// first and places are made only where they are needed.
 class Check {
   public:
     Check(const char* operation, Result& refusal) noexcept : operation_(operation), refusal_(refusal) {}
 
-    bool passes(std::span<const Field> table, const void* object, const Place& above) const noexcept {
-        for (const Field& field : table) {
+    bool passes(const Scope& scope, const Place& above) const noexcept {
+        const void* const object = scope.object;
+        for (const Field& field : scope.table) {
             if (field.address == nullptr) {
-                if (field.type != FieldType::Flag && !field.fits(field, object))
+                if (field.type != FieldType::Flag && !fits(field, object, scope))
                     return refuse(field, object, {&above, field.name});
                 continue;
             }
@@ -101,9 +126,10 @@ class Check {
             for (std::size_t i = 0; i < count; ++i) {
                 const void* const at = field.address(object, i);
                 const Place place{&above, field.name, list ? &field : nullptr, i};
-                if (field.type != FieldType::Struct && !field.fits(field, at))
+                if (field.type != FieldType::Struct && !fits(field, at, scope))
                     return refuse(field, at, place);
-                if (field.type == FieldType::Struct && at != nullptr && !passes(field.table(), at, place))
+                if (field.type == FieldType::Struct && at != nullptr &&
+                    !passes({&scope, field.table(), at}, place))
                     return false;
             }
         }
@@ -120,10 +146,12 @@ class Check {
             return refuse(place, wanted,
                           {"one of length",
                            std::sqrt(all[0] * all[0] + all[1] * all[1] + all[2] * all[2] + all[3] * all[3])});
+        if (field.type == FieldType::Index && std::isnan(all[0])) return refuse(place, wanted, "none");
         std::size_t axis = 0;
         while (static_cast<int>(axis) + 1 < field.size() && field.in_range(all[axis])) ++axis;
         const bool pair = field.type == FieldType::Pair;
         const Place part{&place, pair ? ends[axis] : field.size() > 1 ? axes[axis] : ""};
+        if (field.type == FieldType::Index) return refuse(place, wanted, static_cast<std::size_t>(all[0]));
         if (field.whole()) return refuse(part, wanted, static_cast<int>(all[axis]));
         if (field.exact) return refuse(part, wanted, all[axis]);
         return refuse(part, wanted, static_cast<float>(all[axis]));
@@ -150,7 +178,7 @@ const Field* find_field(std::span<const Field> table, std::string_view name) noe
 Result check_fields(const char* operation, std::span<const Field> table, const void* object,
                     const char* place) noexcept {
     Result refusal;
-    Check(operation, refusal).passes(table, object, {nullptr, place});
+    Check(operation, refusal).passes({nullptr, table, object}, {nullptr, place});
     return refusal;
 }
 

@@ -22,6 +22,7 @@ struct FieldSpot {
 inline void collect_spots(std::span<const Field> table, void* object, const std::string& above,
                           std::vector<FieldSpot>& spots) {
     for (const Field& field : table) {
+        if (field.type == FieldType::Text || field.type == FieldType::Index) continue;  // not numbers
         std::string path = above.empty() ? field.name : above + '.' + field.name;
         const bool list = field.count != nullptr, nested = field.type == FieldType::Struct;
         if (!list && !nested) {
@@ -46,7 +47,8 @@ inline void collect_spots(std::span<const Field> table, void* object, const std:
 /// At that part of each range, from 0 to 1.
 inline FieldValue value_in_range(const Field& field, double part) {
     if (field.type == FieldType::Rotation) return {0.6, 0.0, 0.0, 0.8};
-    const double value = field.range.low + part * (field.range.high - field.range.low);
+    const double low = std::max(field.range.low, -1e9), high = std::min(field.range.high, 1e9);
+    const double value = low + part * (high - low);
     FieldValue all{};
     for (int axis = 0; axis < field.size(); ++axis)
         all[static_cast<std::size_t>(axis)] = field.whole() ? std::floor(value) : value;
@@ -62,6 +64,7 @@ inline std::vector<FieldValue> values_out_of_range(const Field& field) {
     std::vector<double> numbers{field.type == FieldType::Rotation ? 0.0 : low - by, high + by};
     if (!field.whole()) numbers.insert(numbers.end(), {INFINITY, -INFINITY});
     if (field.over_low) numbers.push_back(low);
+    std::erase_if(numbers, [&](double each) { return field.in_range(each); });  // an open end
     for (int axis = 0; axis < field.size(); ++axis) {
         // NaN means empty in an optional field; a whole number cannot be NaN.
         if (!field.whole() && !(field.optional && axis == 0)) numbers.push_back(std::nan(""));

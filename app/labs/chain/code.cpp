@@ -184,7 +184,7 @@ void ChainProgram::curve() {
         say("};");
     }
     say("ik::CurveOptions options;");
-    for (const std::string& each : changed_texts(chosen.options, "ik::CurveKind::"))
+    for (const std::string& each : member_texts(chosen.options))
         say("options" + each + ";");
     if (!weights.empty()) say("options.weights = weights;");
     line("");

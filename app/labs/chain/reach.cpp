@@ -17,7 +17,7 @@
 namespace tendril::app {
 
 bool ReachSettings::operator==(const ReachSettings& other) const {
-    const auto same = [&](const Field& field) { return same_value(field, this, &other); };
+    const auto same = [&](const Field& field) { return same_field(field, this, &other); };
     return method == other.method && std::ranges::all_of(fields<ReachSettings>(), same) &&
            plane == other.plane && limits == other.limits && state == other.state;
 }

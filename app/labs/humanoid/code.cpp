@@ -209,9 +209,9 @@ class HumanoidProgram {
             }
         }
         make_solver("Feet", "feet", learned ? "*skeleton, map, soles" : "*skeleton, map");
-        list("const humanoid::FeetOptions feet_options{", changed_texts(options), "};");
+        list("const humanoid::FeetOptions feet_options{", member_texts(options), "};");
         const humanoid::FeetState state = feet_state();
-        say("humanoid::FeetState feet_state{" + joined(initialisers(state, "humanoid::FootAlone::")) + "};");
+        say("humanoid::FeetState feet_state" + struct_text(state, "        ") + ';');
     }
 
     void limits() {
@@ -260,7 +260,7 @@ class HumanoidProgram {
         }
         const humanoid::BodyOptions options = body_options(part_, solvers_);
         if (options.balance) {
-            std::vector<std::string> members = changed_texts(options);
+            std::vector<std::string> members = member_texts(options);
             if (humanoid::FootstepsState steps = part_.ik_state.steps; steps.away()) {
                 std::string feet = ".feet = {";  // where they have stepped
                 for (const humanoid::FootShift& each :
@@ -315,19 +315,7 @@ class HumanoidProgram {
     void body_state(const humanoid::BodyState& state) {
         if (state == humanoid::BodyState()) return;
         say("// Where the last solve ended.");
-        for (const Field& field : fields<humanoid::BodyState>()) {
-            const std::string set = std::string("body_state.") + field.name + " = ";
-            if (field.count == nullptr) {
-                say(set + initialisers({{&field, 1}, &state}).front() + ';');
-                continue;
-            }
-            const char* const type = field.type == FieldType::Point      ? "glm::dvec3"
-                                     : field.type == FieldType::Rotation ? "glm::dquat"
-                                                                         : "";
-            std::vector<std::string> elements = element_texts(field, &state);
-            for (std::string& each : elements) each = type + each;
-            list(set + '{', elements, "};");
-        }
+        list("body_state = {", member_texts(state), "};");
     }
 
     void gaze() {
@@ -335,8 +323,8 @@ class HumanoidProgram {
         const humanoid::LookAtOptions options = look_options(part_, body_on() && acts());
         say("");
         make_solver("LookAt", "look", "*skeleton, map");
-        list("const humanoid::LookAtOptions look_options{", changed_texts(options), "};");
-        say("humanoid::LookAtState look_state{" + joined(initialisers(part_.ik_state.look)) + "};");
+        list("const humanoid::LookAtOptions look_options{", member_texts(options), "};");
+        say("humanoid::LookAtState look_state" + struct_text(part_.ik_state.look) + ';');
     }
 
     void hands() {
@@ -350,8 +338,8 @@ class HumanoidProgram {
             list("hand_targets[" + std::to_string(hand) + "] = {", target_members(all[hand]),
                  hand == 0 ? "};  // left" : "};  // right");
         }
-        list("const humanoid::HandsOptions hands_options{", changed_texts(part_.ik.hand_ik.options), "};");
-        say("humanoid::HandsState hands_state{" + joined(initialisers(part_.ik_state.hands)) + "};");
+        list("const humanoid::HandsOptions hands_options{", member_texts(part_.ik.hand_ik.options), "};");
+        say("humanoid::HandsState hands_state" + struct_text(part_.ik_state.hands, "        ") + ';');
     }
 
     void curves() {
@@ -372,7 +360,7 @@ class HumanoidProgram {
             const std::vector<float> weights = curve_weights(curve.shape, chains[i]->bones());
             for (const float each : weights) factors.push_back(literal(each));
             if (!factors.empty()) list("const float " + name + "_weights[] = {", factors, "};");
-            std::vector<std::string> members = changed_texts(curve.shape.options, "ik::CurveKind::");
+            std::vector<std::string> members = member_texts(curve.shape.options);
             if (!factors.empty()) members.push_back(".weights = " + name + "_weights");
             list("const ik::CurveOptions " + name + "_options{", members, "};");
         }
@@ -389,11 +377,11 @@ class HumanoidProgram {
             say("");
             make_solver("SpringChain", name,
                         "*skeleton, map, *skeleton->find(" + string_text(part_.springs[i].node) + ')');
-            list("const humanoid::SpringOptions " + name + "_options{", changed_texts(options), "};");
+            list("const humanoid::SpringOptions " + name + "_options{", member_texts(options), "};");
             say("humanoid::SpringChainState " + name + "_state;");
             if (i >= part_.ik_state.springs.size()) continue;
             for (const humanoid::SpringMass& mass : part_.ik_state.springs[i].masses)
-                list(name + "_state.masses.push_back({", initialisers(mass), "});");
+                list(name + "_state.masses.push_back({", member_texts(mass), "});");
         }
     }
 

@@ -76,79 +76,68 @@ std::string pascal_text(std::string_view name) {
 
 namespace {
 
-std::string field_text(const Field& field, const FieldValue& value, const std::string& scope) {
-    const auto digits = [&](double each) {
-        return field.exact ? double_text(each) : literal(static_cast<float>(each));
+/// `at`: what the field's accessors take; of a struct, its address.
+std::string value_text(const Field& field, const void* at, const std::string& margin) {
+    if (field.type == FieldType::Struct)
+        return struct_text({field.table(), at, field.fresh()}, margin + "    ");
+    if (field.type == FieldType::Text) return string_text(field.text(at));
+    const FieldValue value = field.get(at);
+    const auto digits = [&](std::initializer_list<std::size_t> order) {
+        std::vector<std::string> numbers;
+        for (const std::size_t i : order)
+            numbers.push_back(field.exact ? double_text(value[i]) : literal(static_cast<float>(value[i])));
+        return joined(numbers);
     };
     switch (field.type) {
         case FieldType::Flag:
             return value[0] != 0.0 ? "true" : "false";
         case FieldType::Integer:
+        case FieldType::Index:
             return std::to_string(static_cast<long long>(value[0]));
         case FieldType::Number:
-            return digits(value[0]);
+            return digits({0});
         case FieldType::Pair:
-            return '{' + digits(value[0]) + ", " + digits(value[1]) + '}';
+            return '{' + digits({0, 1}) + '}';
         case FieldType::Point:
-            return '{' + digits(value[0]) + ", " + digits(value[1]) + ", " + digits(value[2]) + '}';
+            return '{' + digits({0, 1, 2}) + '}';
         case FieldType::Rotation:
-            return '{' + digits(value[3]) + ", " + digits(value[0]) + ", " + digits(value[1]) + ", " +
-                   digits(value[2]) + '}';
-        case FieldType::Choice:
-        case FieldType::Struct:
-            break;
+            return '{' + digits({3, 0, 1, 2}) + '}';
+        default:
+            return std::string(field.in_code.substr(std::string_view("tendril::").size())) +
+                   "::" + pascal_text(field.choices[static_cast<std::size_t>(value[0])]);
     }
-    return scope + pascal_text(field.choices[static_cast<std::size_t>(value[0])]);
 }
 
-}  // namespace
-
-std::vector<std::string> member_texts(FieldsOf of, const std::string& scope) {
-    std::vector<std::string> texts;
-    for (const Field& field : of.table) {
-        const FieldValue value = field.get(of.object);
-        if (!std::isnan(value[0]))
-            texts.push_back('.' + std::string(field.name) + " = " + field_text(field, value, scope));
-    }
-    return texts;
-}
-
-std::vector<std::string> texts_unlike(const void* usual, FieldsOf of, const std::string& scope) {
-    std::vector<std::string> texts;
-    for (const Field& field : of.table)
-        if (field.type != FieldType::Struct && field.count == nullptr && !same_value(field, of.object, usual))
-            for (const std::string& text : member_texts({{&field, 1}, of.object}, scope))
-                texts.push_back(text);
-    return texts;
-}
-
-namespace {
-
-/// `at`: what the field's accessors take; of a struct, its address.
-std::string text_at(const Field& field, const void* at, const std::string& scope) {
-    return field.type == FieldType::Struct ? '{' + joined(initialisers({field.table(), at}, scope)) + '}'
-                                           : field_text(field, field.get(at), scope);
-}
-
-}  // namespace
-
-std::vector<std::string> element_texts(const Field& field, const void* object, const std::string& scope) {
-    std::vector<std::string> texts;
+std::string list_text(const Field& field, const void* object, const std::string& margin) {
+    std::string all;
     for (std::size_t i = 0; i < field.count(object); ++i)
-        texts.push_back(text_at(field, field.address(object, i), scope));
+        all += (i == 0                            ? ""
+                : field.type == FieldType::Struct ? ",\n" + margin
+                                                  : ", ") +
+               value_text(field, field.address(object, i), margin);
+    return field.resize != nullptr ? '{' + all + '}' : "{{" + all + "}}";  // of an array
+}
+
+}  // namespace
+
+std::vector<std::string> member_texts(FieldsOf of, const std::string& margin) {
+    std::vector<std::string> texts;
+    for (const Field& field : of.table) {
+        const bool usual = of.fresh != nullptr && same_field(field, of.object, of.fresh);
+        if (usual || (field.empty != nullptr && field.count == nullptr && field.empty(of.object))) continue;
+        const void* const at = field.type == FieldType::Struct && field.count == nullptr
+                                   ? field.address(of.object, 0)
+                                   : of.object;
+        const bool other = field.type != FieldType::Choice && !field.in_code.empty();
+        texts.push_back(
+            '.' + std::string(other ? field.in_code : field.name) + " = " +
+            (field.count != nullptr ? list_text(field, at, margin) : value_text(field, at, margin)));
+    }
     return texts;
 }
 
-std::vector<std::string> initialisers(FieldsOf of, const std::string& scope) {
-    std::vector<std::string> texts;
-    for (const Field& field : of.table) {
-        if (field.count != nullptr)
-            texts.push_back("{{" + joined(element_texts(field, of.object, scope)) + "}}");
-        else
-            texts.push_back(text_at(
-                field, field.type == FieldType::Struct ? field.address(of.object, 0) : of.object, scope));
-    }
-    return texts;
+std::string struct_text(FieldsOf of, const std::string& margin) {
+    return '{' + joined(member_texts(of, margin)) + '}';
 }
 
 std::vector<std::string> ik_memory_texts(const std::string& name, const ik::State& state) {
@@ -196,7 +185,7 @@ namespace {
 void for_each_member(const ik::Limit& limit, auto take) {
     for (const Field& field : ik::limit_fields(limit.kind))
         if (field.type != FieldType::Number || field.number(&limit) != 0.0)
-            take(field, member_texts({{&field, 1}, &limit}, "ik::JointKind::").front());
+            take(field, member_texts({{&field, 1}, &limit}).front());
 }
 
 }  // namespace

@@ -28,23 +28,12 @@ std::string string_text(std::string_view text);
 /// "one_euro" as "OneEuro"
 std::string pascal_text(std::string_view name);
 
-/// ".damping = 0.5" for each field that is not NaN, in table order. Members must be named like their fields.
-/// Choices are enumerators of `scope`: "rope::Solver::".
-std::vector<std::string> member_texts(FieldsOf of, const std::string& scope = {});
-/// The same of the values that differ from those of `usual`, a struct of the same type. Without nested
-/// structs and lists.
-std::vector<std::string> texts_unlike(const void* usual, FieldsOf of, const std::string& scope = {});
-/// The same of the values that differ from those of a new struct.
-template <class Struct>
-std::vector<std::string> changed_texts(const Struct& of, const std::string& scope = {}) {
-    static const Struct usual{};
-    return texts_unlike(&usual, of, scope);
-}
-/// "true", "{1.0, 0.0, 0.0}": an initialiser of every member, by position. So the table must have all of
-/// them, in the order of their declaration; its lists are std::array.
-std::vector<std::string> initialisers(FieldsOf of, const std::string& scope = {});
-/// The same of each element of a list.
-std::vector<std::string> element_texts(const Field& field, const void* object, const std::string& scope = {});
+/// ".damping = 0.5": each member that is not at its default, with its structs and lists, in table order;
+/// without defaults each that is not empty. Members must be named, and declared in the order of, their
+/// fields. The elements of a list of structs are on a line each, after `margin`.
+std::vector<std::string> member_texts(FieldsOf of, const std::string& margin = {});
+/// "{.name = "A", .at = {1.0, 0.0}}"
+std::string struct_text(FieldsOf of, const std::string& margin = {});
 /// Separated by ", ".
 std::string joined(const std::vector<std::string>& texts);
 

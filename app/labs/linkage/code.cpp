@@ -7,57 +7,11 @@
 namespace tendril::app {
 namespace {
 
-std::string braced_pair(const glm::dvec2& value) {
-    return "{" + double_text(value.x) + ", " + double_text(value.y) + "}";
-}
-
-std::string indices_text(const std::vector<std::size_t>& indices) {
-    std::vector<std::string> texts;
-    for (const std::size_t each : indices) texts.push_back(std::to_string(each));
-    return "{" + joined(texts) + "}";
-}
-
-std::string sketch_text(const ik::LinkageSketch& sketch) {
-    std::string text = "    ik::LinkageSketch sketch;\n    sketch.points = {";
-    for (const ik::SketchPoint& each : sketch.points) {
-        text += "\n        {" + string_text(each.name) + ", " + braced_pair(each.at);
-        if (each.hold == ik::SketchHold::Pinned) text += ", ik::SketchHold::Pinned";
-        if (each.hold == ik::SketchHold::Guided)
-            text += ", ik::SketchHold::Guided, " + double_text(each.guide);
-        text += "},";
-    }
-    text += "};\n    sketch.bars = {";
-    for (const ik::SketchBar& each : sketch.bars)
-        text += "\n        {" + string_text(each.name) + ", " + indices_text(each.points) + "},";
-    text += "};\n";
-    if (sketch.motors.empty()) return text;
-    text += "    sketch.motors = {";
-    for (const ik::SketchMotor& each : sketch.motors)
-        text += "\n        {" + string_text(each.name) + ", " + std::to_string(each.point) + ", " +
-                std::to_string(each.bar) +
-                (each.against != ik::ground_link ? ", " + std::to_string(each.against) : "") + "},";
-    return text + "};\n";
-}
-
 /// "ik::four_bar({.ground = 3.0, ...})"
 std::string call_text(const Mechanism& mechanism) {
     const bool walker = std::holds_alternative<JansenWalker>(mechanism);
     return "ik::" + std::string(walker ? "jansen" : kind_of(mechanism)->name) + "({" +
            joined(member_texts(mechanism_fields(mechanism))) + "})";
-}
-
-/// Pose and assembly mode: each joint's place.
-std::string state_text(const LinkagePart& part) {
-    std::string text;
-    for (std::size_t i = 0; i < part.state.joints.size(); ++i) {
-        const ik::JointPlace& each = part.state.joints[i];
-        const glm::dquat& turn = each.turn;
-        text += "    state.joints[" + std::to_string(i) + "] = {" + double_text(each.value) +
-                ", glm::dquat(" +
-                joined({double_text(turn.w), double_text(turn.x), double_text(turn.y), double_text(turn.z)}) +
-                "), " + double_text(each.last) + "};\n";
-    }
-    return text;
 }
 
 /// The ranges set by hand, before the solver is made.
@@ -95,7 +49,8 @@ std::string linkage_code(const LinkagePart& part) {
         "int main() {\n";
     const Mechanism& mechanism = part.shape->mechanism;
     const bool drawn = kind_of(mechanism) == nullptr, plane = part.shape->in_plane();
-    if (drawn) text += sketch_text(part.shape->sketch);
+    if (drawn)
+        text += "    const ik::LinkageSketch sketch" + struct_text(part.shape->sketch, "        ") + ";\n";
     if (!drawn && plane) text += expected_text("LinkageSketch", "sketch", call_text(mechanism));
     const std::string sketch = drawn ? "ik::linkage_from(sketch)" : "ik::linkage_from(*sketch)";
     text += expected_text("Linkage", "linkage", plane ? sketch : call_text(mechanism));
@@ -106,7 +61,7 @@ std::string linkage_code(const LinkagePart& part) {
         "    ik::LinkageSolver& solver = *made;\n"
         "    // All that it remembers: copy it to save it.\n"
         "    ik::LinkageState state = solver.initial_state();\n";
-    text += state_text(part);
+    text += "    state = " + struct_text(part.state, "        ") + ";\n";
     if (!part.copies.empty())
         text +=
             "    // One of the twelve legs. The others are the same linkage, each with a state of its own, "

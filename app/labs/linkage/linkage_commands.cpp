@@ -73,9 +73,9 @@ void drive(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     if (given.has("angle_deg") && !turns(part, joint))
         throw Refused("joint \"" + joint + "\" is a slider: give value, in metres");
     drive.value = given.has("angle_deg") ? glm::radians(given.real("angle_deg")) : given.real("value");
-    const std::size_t link = *part.linkage().find_link(joint);
     if (given.has("angle_deg") && std::abs(given.real("angle_deg")) < 360.0)
-        drive.value = turned_near(drive.value, part.state.joints[link].value, part.linkage().links[link]);
+        drive.value = turned_near(drive.value, part.value_of(joint),
+                                  part.linkage().links[*part.linkage().find_link(joint)]);
     drive.held = true;
     drive.rate = 0.0;
     solve_linkage(part, runtime);
@@ -117,15 +117,10 @@ void set_range(LinkagePart& part, const Arguments& given, LinkageRuntime& runtim
         ranges.erase(range);
     } else {
         if (range == ranges.end()) range = ranges.insert(range, LinkageRange{.joint = joint});
-        const auto value = [&](const char* name) {
-            return turns(part, joint) ? glm::radians(given.real(name)) : given.real(name);
-        };
-        if (given.has("min")) range->minimum = value("min");
-        if (given.has("max")) range->maximum = value("max");
+        if (given.has("min")) range->minimum = from_degrees(part, joint, given.real("min"));
+        if (given.has("max")) range->maximum = from_degrees(part, joint, given.real("max"));
         if (range->minimum > range->maximum) {
-            const auto text = [&](double each) {
-                return fixed_text(turns(part, joint) ? glm::degrees(each) : each, 3);
-            };
+            const auto text = [&](double each) { return fixed_text(in_degrees(part, joint, each), 3); };
             throw Refused("min must be at most max, got " + text(range->minimum) + " and " +
                           text(range->maximum));
         }

@@ -74,11 +74,6 @@ std::string bar_at(const LinkagePart& part, const Camera& camera, glm::vec2 pixe
     return found;
 }
 
-Json drive_state(const LinkagePart& part, const LinkageDrive& drive) {
-    const double value = part.value_of(drive.joint);
-    return turns(part, drive.joint) ? Json(glm::degrees(value)) : Json(value);
-}
-
 }  // namespace
 
 std::shared_ptr<Part> LinkageLab::blank() const {
@@ -265,7 +260,8 @@ Json linkage_state(const LinkagePart& part) {
          targets = Json::object(), jumped = nullptr;
     for (std::size_t i = 0; i < part.linkage().points.size(); ++i)
         points[part.linkage().points[i].name] = dpoint(part.at(i));
-    for (const LinkageDrive& each : part.drives) drivers[each.joint] = drive_state(part, each);
+    for (const LinkageDrive& each : part.drives)
+        drivers[each.joint] = in_degrees(part, each.joint, part.value_of(each.joint));
     for (const std::size_t each : result.active) active.push_back(part.linkage().links[each].name);
     for (const std::size_t each : result.open_closures) open.push_back(part.linkage().closures[each].name);
     for (const LinkageTarget& each : part.targets)

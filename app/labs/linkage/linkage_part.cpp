@@ -4,47 +4,71 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
-#include <tendril/magnitude.hpp>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/labs/kit/arguments.hpp"
-#include "app/labs/kit/library_json.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/measures.hpp"
 
-namespace {
-
-constexpr double max_links = tendril::ik::max_links;
-/// Metres from one end of so many links to the other and back, each as long as may be. Angles are far less.
-constexpr double farthest = 2.0 * max_links * tendril::max_magnitude;
-
-}  // namespace
-
 template <>
-std::span<const tendril::Field> tendril::fields<tendril::ik::LinkageReport>() noexcept {
-    using ik::LinkageReport;
-    static const auto statuses = app::library_names<ik::LinkageStatus, 7>();
-    static const Field rows[] = {
-        field<&LinkageReport::status>("status", statuses),
-        field<&LinkageReport::iterations>("iterations", {0, 1e6}),
-        field<&LinkageReport::closed_to>("closed_to", {0, farthest}, "m"),
-        field<&LinkageReport::residual>("residual", {0, farthest}, "m"),
-        field<&LinkageReport::driver_residual>("driver_residual", {0, farthest}),  // radians or metres
-        field<&LinkageReport::freedom>("freedom", {-1e6, 1e6}),
-        field<&LinkageReport::stopped>("stopped", {0, max_links}),
-        field<&LinkageReport::stopped_at>("stopped_at", {-farthest, farthest}),  // likewise
-        field<&LinkageReport::passed_dead_point>("passed_dead_point"),
-        field<&LinkageReport::jumped>("jumped", {0, app::max_linkage_points}),
-        field<&LinkageReport::jump>("jump", {0, farthest}, "m")};
+std::span<const tendril::Field> tendril::fields<tendril::app::LinkageRange>() noexcept {
+    using app::LinkageRange;
+    constexpr double no_end = std::numeric_limits<double>::infinity();
+    static constexpr Field rows[] = {field<&LinkageRange::joint>("joint"),
+                                     field<&LinkageRange::minimum>("min", {-no_end, 1e6}),
+                                     field<&LinkageRange::maximum>("max", {-1e6, no_end})};
     return rows;
 }
 
 template <>
-std::span<const tendril::Field> tendril::fields<tendril::ik::LinkageFreedom>() noexcept {
-    using ik::LinkageFreedom;
-    static constexpr Field rows[] = {field<&LinkageFreedom::counted>("counted", {-1e6, 1e6}),
-                                     field<&LinkageFreedom::actual>("actual", {-1e6, 1e6})};
+std::span<const tendril::Field> tendril::fields<tendril::app::LinkageShape>() noexcept {
+    using app::LinkageShape;
+    static constexpr Field rows[] = {list<&LinkageShape::ranges>("ranges").up_to(ik::max_links)};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::LinkageDrive>() noexcept {
+    using app::LinkageDrive;
+    static constexpr Field rows[] = {
+        field<&LinkageDrive::joint>("joint"), field<&LinkageDrive::value>("value", {-1e9, 1e9}),
+        field<&LinkageDrive::rate>("rate", {-app::max_motor_rate, app::max_motor_rate}),
+        field<&LinkageDrive::held>("held")};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::LinkageTarget>() noexcept {
+    using app::LinkageTarget;
+    static constexpr Field rows[] = {
+        field<&LinkageTarget::point>("point"), field<&LinkageTarget::to>("to", {-1e9, 1e9}, "m"),
+        field<&LinkageTarget::weight>("weight", {1e-6, 1e6}), field<&LinkageTarget::exact>("exact")};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::LinkageResult>() noexcept {
+    using app::LinkageResult;
+    constexpr FieldRange indices{0.0, ik::max_links - 1};
+    static constexpr Field rows[] = {
+        nested<&LinkageResult::report>("report"), nested<&LinkageResult::freedom>("freedom"),
+        list<&LinkageResult::active>("active", indices).up_to(ik::max_links),
+        list<&LinkageResult::open_closures>("open_closures", indices).up_to(ik::max_links)};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::LinkagePart>() noexcept {
+    using app::LinkagePart;
+    static constexpr std::array tools = app::linkage_tools.name_array();
+    static constexpr Field rows[] = {list<&LinkagePart::drives>("drivers").up_to(ik::max_links),
+                                     list<&LinkagePart::targets>("targets").up_to(app::max_linkage_points),
+                                     nested<&LinkagePart::drag>("drag"),
+                                     nested<&LinkagePart::result>("result"),
+                                     field<&LinkagePart::time>("time", {0.0, 1e9}),
+                                     field<&LinkagePart::tool>("tool", tools),
+                                     field<&LinkagePart::selected>("selected")};
     return rows;
 }
 
@@ -58,21 +82,12 @@ bool LinkagePart::operator==(const LinkagePart& other) const {
 
 std::size_t LinkagePart::bytes() const {
     const ik::LinkageSketch& sketch = shape->sketch;
-    std::size_t ends = 0;
-    for (const ik::SketchBar& each : sketch.bars) ends += each.points.size();
-    const std::size_t drawn =
-        sizeof(LinkageShape) + sketch.points.size() * sizeof(ik::SketchPoint) +
-        sketch.bars.size() * sizeof(ik::SketchBar) + ends * sizeof(std::size_t) +
-        sketch.motors.size() * sizeof(ik::SketchMotor) + shape->bodies.size() * sizeof(std::size_t) +
-        shape->driven.size() * sizeof(DrivenLoop) + shape->ranges.size() * sizeof(LinkageRange);
-    const std::size_t made = linkage().links.size() * sizeof(ik::Link) +
-                             linkage().closures.size() * sizeof(ik::Closure) +
-                             linkage().points.size() * sizeof(ik::LinkPoint);
-    const std::size_t pose =
-        state.joints.size() * sizeof(ik::JointPlace) + links.size() * sizeof(ik::LinkPlace);
-    return sizeof(*this) + drawn + made + pose + copies.size() * (sizeof(LinkageCopy) + pose) +
-           drives.size() * sizeof(LinkageDrive) + targets.size() * sizeof(LinkageTarget) +
-           (result.active.size() + result.open_closures.size()) * sizeof(std::size_t);
+    std::size_t all = sizeof(*this) + sizeof(LinkageShape);
+    for (const ik::SketchBar& each : sketch.bars) all += bytes_in(each.points);
+    for (const LinkageCopy& each : copies) all += bytes_in(each.state.joints, each.links);
+    return all + bytes_in(sketch.points, sketch.bars, sketch.motors, shape->bodies, shape->driven,
+                          shape->ranges, linkage().links, linkage().closures, linkage().points, state.joints,
+                          links, copies, drives, targets, result.active, result.open_closures);
 }
 
 namespace {
@@ -103,105 +118,30 @@ std::shared_ptr<const Part> LinkagePart::at_moment(std::shared_ptr<const Part> t
 
 namespace {
 
-constexpr std::array sketch_holds{ik::SketchHold::Free, ik::SketchHold::Pinned, ik::SketchHold::Guided};
-
-Json save_sketch(const ik::LinkageSketch& sketch) {
-    Json json{{"points", Json::array()}, {"bars", Json::array()}, {"motors", Json::array()}};
-    for (const ik::SketchPoint& each : sketch.points) {
-        Json point{{"name", each.name}, {"at", {each.at.x, each.at.y}}, {"hold", ik::name(each.hold)}};
-        if (each.hold == ik::SketchHold::Guided) point["guide"] = each.guide;
-        json["points"].push_back(std::move(point));
+/// Turns the library's refusal into an error with its place.
+LinkageShape made_shape(const JsonPlace& place, const auto& from) {
+    try {
+        return shape_of(from);
+    } catch (const std::invalid_argument& error) {
+        place.fail(error.what());
     }
-    for (const ik::SketchBar& each : sketch.bars) {
-        Json ends = Json::array();
-        for (const std::size_t point : each.points) ends.push_back(sketch.points[point].name);
-        json["bars"].push_back({{"name", each.name}, {"points", std::move(ends)}});
-    }
-    for (const ik::SketchMotor& each : sketch.motors) {
-        Json& motor = json["motors"].emplace_back(Json{{"name", each.name},
-                                                       {"point", sketch.points[each.point].name},
-                                                       {"bar", sketch.bars[each.bar].name}});
-        if (each.against != ik::ground_link) motor["against"] = sketch.bars[each.against].name;
-    }
-    return json;
-}
-
-std::size_t load_index(const JsonPlace& place, const char* what, auto find) {
-    const std::optional<std::size_t> found = find(place.text());
-    if (!found) place.fail("there is no " + std::string(what) + " \"" + place.text() + "\"");
-    return *found;
-}
-
-void check_link_name(const JsonPlace& place, const ik::LinkageSketch& sketch, const std::string& name) {
-    if (name.empty()) place.fail("it needs a name");
-    if (is_link_name(sketch, name)) place.fail("there is another \"" + name + "\"");
-}
-
-ik::LinkageSketch load_sketch(const JsonPlace& place) {
-    ik::LinkageSketch sketch;
-    const auto point_of = [&](const JsonPlace& each) {
-        return load_index(each, "point", [&](const std::string& name) { return sketch.find_point(name); });
-    };
-    place["points"].for_each("points", max_linkage_points, [&](const JsonPlace& each) {
-        ik::SketchPoint point{.name = each["name"].text()};
-        if (point.name.empty()) each["name"].fail("a point needs a name");
-        if (sketch.find_point(point.name)) each["name"].fail("there is a point of this name");
-        each["at"].check_size(2, "coordinates");
-        point.at = {each["at"].element(0).real(-max_linkage_extent, max_linkage_extent),
-                    each["at"].element(1).real(-max_linkage_extent, max_linkage_extent)};
-        const std::string hold = each["hold"].text();
-        const auto found =
-            std::ranges::find_if(sketch_holds, [&](auto any) { return hold == ik::name(any); });
-        if (found == sketch_holds.end())
-            each["hold"].fail("expected free, pinned or guided, found \"" + hold + "\"");
-        point.hold = *found;
-        if (point.hold == ik::SketchHold::Guided) point.guide = each["guide"].real(-1e3, 1e3);
-        sketch.points.push_back(std::move(point));
-    });
-    place["bars"].for_each("bars", max_linkage_bars, [&](const JsonPlace& each) {
-        ik::SketchBar bar{.name = each["name"].text()};
-        check_link_name(each["name"], sketch, bar.name);
-        each["points"].for_each("points", max_linkage_points,
-                                [&](const JsonPlace& end) { bar.points.push_back(point_of(end)); });
-        if (bar.points.size() < 2) each["points"].fail("a bar needs two points");
-        sketch.bars.push_back(std::move(bar));
-    });
-    const auto bar_of = [&](const JsonPlace& each) {
-        return load_index(each, "bar", [&](const std::string& name) { return sketch.find_bar(name); });
-    };
-    place["motors"].for_each("motors", max_linkage_bars, [&](const JsonPlace& each) {
-        ik::SketchMotor motor{
-            .name = each["name"].text(), .point = point_of(each["point"]), .bar = bar_of(each["bar"])};
-        if (const auto against = each.optional("against")) motor.against = bar_of(*against);
-        // It may share its own bar's name, as in presets: they are one link.
-        if (motor.name != sketch.bars[motor.bar].name) check_link_name(each["name"], sketch, motor.name);
-        sketch.motors.push_back(std::move(motor));
-    });
-    return sketch;
 }
 
 LinkageShape load_shape(const JsonPlace& place) {
     if (const auto preset = place.optional("mechanism")) {
-        const std::string name = (*preset)["name"].text();
-        for (const MechanismKind& kind : mechanism_kinds()) {
-            if (name != kind.name) continue;
-            Mechanism mechanism = kind.blank();
-            load_all_fields((*preset)["lengths"], mechanism_fields(mechanism));
-            try {
-                return shape_of(mechanism);
-            } catch (const std::invalid_argument& error) {
-                (*preset)["lengths"].fail(error.what());
-            }
+        const MechanismKind* kind = nullptr;
+        try {
+            kind = &mechanism_kind((*preset)["name"].text());
+        } catch (const std::invalid_argument& error) {
+            (*preset)["name"].fail(error.what());
         }
-        (*preset)["name"].fail("unknown mechanism \"" + name + "\"");
+        Mechanism mechanism = kind->blank();
+        load_all_fields((*preset)["lengths"], mechanism_fields(mechanism));
+        return made_shape((*preset)["lengths"], mechanism);
     }
-    const JsonPlace sketch = place["sketch"];
-    ik::LinkageSketch loaded = load_sketch(sketch);
-    try {
-        return shape_of(std::move(loaded));
-    } catch (const std::invalid_argument& error) {
-        sketch.fail(error.what());
-    }
+    ik::LinkageSketch sketch;
+    load_all_fields(place["sketch"], sketch);
+    return made_shape(place["sketch"], sketch);
 }
 
 Json save_state(const ik::LinkageState& state, const ik::Linkage& linkage) {
@@ -232,72 +172,55 @@ ik::LinkageState load_state(const JsonPlace& place, const ik::Linkage& linkage) 
     return state;
 }
 
-Json save_target(const LinkageTarget& target) {
-    return {{"point", target.point},
-            {"to", dpoint(target.to)},
-            {"weight", target.weight},
-            {"exact", target.exact}};
+/// Of a hinge or slider.
+std::size_t link_at(const JsonPlace& joint, const ik::Linkage& linkage) {
+    const auto link = linkage.find_link(joint.text());
+    if (!link || linkage.links[*link].joint == ik::LinkJoint::Ball)
+        joint.fail("there is no hinge or slider \"" + joint.text() + "\"");
+    return *link;
 }
 
-LinkageTarget load_target(const JsonPlace& place, const LinkagePart& part) {
-    const std::string point = place["point"].text();
-    if (!part.linkage().find_point(point)) place["point"].fail("there is no point \"" + point + "\"");
-    return {point, place["to"].dpoint(), place["weight"].real(1e-6, 1e6), place["exact"].flag()};
-}
-
-Json save_result(const LinkageResult& result) {
-    return {{"report", save_fields(result.report)},
-            {"freedom", save_fields(result.freedom)},
-            {"active", result.active},
-            {"open_closures", result.open_closures}};
-}
-
-LinkageResult load_result(const JsonPlace& place, const LinkagePart& part) {
-    LinkageResult result;
-    load_all_fields(place["report"], result.report);
-    load_all_fields(place["freedom"], result.freedom);
-    const auto load_list = [](const JsonPlace& list, std::size_t count, std::vector<std::size_t>& all) {
-        list.for_each("numbers", count, [&](const JsonPlace& each) { all.push_back(each.index(count - 1)); });
-    };
-    const std::size_t links = part.linkage().links.size();
-    load_list(place["active"], links, result.active);
-    load_list(place["open_closures"], part.linkage().closures.size(), result.open_closures);
-    if (result.report.stopped && *result.report.stopped >= links)
-        place["report"]["stopped"].fail("there is no such link");
-    return result;
+void check_point(const JsonPlace& point, const ik::Linkage& linkage) {
+    if (!linkage.find_point(point.text())) point.fail("there is no point \"" + point.text() + "\"");
 }
 
 void load_ranges(const JsonPlace& place, LinkageShape& shape) {
-    std::vector<LinkageRange> all;
-    place.for_each("ranges", ik::max_links, [&](const JsonPlace& each) {
-        LinkageRange range{.joint = each["joint"].text()};
-        const auto link = shape.linkage.find_link(range.joint);
-        if (!link || shape.linkage.links[*link].joint == ik::LinkJoint::Ball)
-            each["joint"].fail("there is no hinge or slider \"" + range.joint + "\"");
-        if (std::ranges::count(all, range.joint, &LinkageRange::joint) > 0)
-            each["joint"].fail(range.joint + " has a range already");
-        if (const auto minimum = each.optional("min")) range.minimum = minimum->real(-1e6, 1e6);
-        if (const auto maximum = each.optional("max")) range.maximum = maximum->real(-1e6, 1e6);
-        if (range.minimum > range.maximum) each["min"].fail("is over max");
-        all.push_back(std::move(range));
-    });
+    load_fields(place, shape);
+    for (std::size_t i = 0; i < shape.ranges.size(); ++i) {
+        const JsonPlace range = place["ranges"].element(i);
+        static_cast<void>(link_at(range["joint"], shape.linkage));
+        if (shape.ranges[i].minimum > shape.ranges[i].maximum) range["min"].fail("is over max");
+    }
     try {
-        set_ranges(shape, std::move(all));
+        set_ranges(shape, shape.ranges);
     } catch (const std::invalid_argument& error) {
-        place.fail(error.what());
+        place["ranges"].fail(error.what());
     }
 }
 
-void load_drive(const JsonPlace& place, LinkagePart& part) {
-    const std::string joint = place["joint"].text();
-    const auto link = part.linkage().find_link(joint);
-    if (!link || part.linkage().links[*link].joint == ik::LinkJoint::Ball)
-        place["joint"].fail("there is no hinge or slider \"" + joint + "\"");
-    if (part.find_drive(joint) != nullptr) place["joint"].fail("it is driven twice");
-    const double fastest = turns(part, joint) ? glm::radians(max_motor_rate) : max_motor_rate;
-    const auto value = place.optional("value");  // older files: where the joint is
-    part.drives.push_back({joint, value ? value->real() : part.state.joints[*link].value,
-                           place["rate"].real(-fastest, fastest), place["held"].flag()});
+/// What names and links say beyond each number's range.
+void check_loaded(const JsonPlace& place, LinkagePart& part) {
+    const ik::Linkage& linkage = part.linkage();
+    for (std::size_t i = 0; i < part.drives.size(); ++i) {
+        const JsonPlace driver = place["drivers"].element(i);
+        const std::size_t link = link_at(driver["joint"], linkage);
+        const double fastest = from_degrees(part, part.drives[i].joint, max_motor_rate);
+        static_cast<void>(driver["rate"].real(-fastest, fastest));
+        if (!driver.has("value")) part.drives[i].value = part.state.joints[link].value;  // of older files
+    }
+    for (std::size_t i = 0; i < part.targets.size(); ++i)
+        check_point(place["targets"].element(i)["point"], linkage);
+    if (part.drag) check_point(place["drag"]["point"], linkage);
+    if (!part.selected.empty()) check_point(place["selected"], linkage);
+    const auto beyond = [](const std::vector<std::size_t>& all, std::size_t count) {
+        return std::ranges::any_of(all, [&](std::size_t each) { return each >= count; });
+    };
+    const LinkageResult& result = part.result;
+    const std::size_t links = linkage.links.size();
+    if (beyond(result.active, links) || (result.report.stopped && *result.report.stopped >= links))
+        place["result"].fail("there is no such link");
+    if (beyond(result.open_closures, linkage.closures.size()))
+        place["result"].fail("there is no such closure");
 }
 
 }  // namespace
@@ -308,29 +231,15 @@ Json LinkagePart::save() const {
         json["mechanism"] = {{"name", kind->name},
                              {"lengths", save_fields(mechanism_fields(shape->mechanism))}};
     else
-        json["sketch"] = save_sketch(shape->sketch);
-    for (const LinkageRange& each : shape->ranges) {
-        const auto end = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
-        json["ranges"].push_back(
-            {{"joint", each.joint}, {"min", end(each.minimum)}, {"max", end(each.maximum)}});
-    }
+        json["sketch"] = save_fields(shape->sketch);
+    json.update(save_fields(*shape));
     json["joints"] = save_state(state, linkage());
     if (!copies.empty()) {
         json["legs"] = Json::array();
         for (const LinkageCopy& each : copies) json["legs"].push_back(save_state(each.state, linkage()));
         json["walked"] = walked;
     }
-    json["drivers"] = Json::array();
-    for (const LinkageDrive& each : drives)
-        json["drivers"].push_back(
-            {{"joint", each.joint}, {"value", each.value}, {"rate", each.rate}, {"held", each.held}});
-    json["targets"] = Json::array();
-    for (const LinkageTarget& each : targets) json["targets"].push_back(save_target(each));
-    if (drag) json["drag"] = save_target(*drag);
-    json["result"] = save_result(result);
-    json["time"] = time;
-    json["tool"] = linkage_tools.name(tool);
-    json["selected"] = selected.empty() ? Json(nullptr) : Json(selected);
+    json.update(save_fields(*this));
     return json;
 }
 
@@ -338,7 +247,7 @@ std::shared_ptr<Part> LinkagePart::load(const Json& json, const std::string& whe
     const JsonPlace place(json, where);
     auto part = std::make_shared<LinkagePart>();
     LinkageShape loaded = load_shape(place);
-    if (const auto ranges = place.optional("ranges")) load_ranges(*ranges, loaded);
+    load_ranges(place, loaded);
     part->shape = std::make_shared<const LinkageShape>(std::move(loaded));
     part->state = load_state(place["joints"], part->linkage());
     part->copies = copies_of(*part->shape, part->state);
@@ -348,27 +257,15 @@ std::shared_ptr<Part> LinkagePart::load(const Json& json, const std::string& whe
             part->copies[i].state = load_state(place["legs"].element(i), part->linkage());
         part->walked = place["walked"].real();
     }
-    place["drivers"].for_each("drivers", ik::max_links,
-                              [&](const JsonPlace& each) { load_drive(each, *part); });
+    static constexpr std::string_view newer[] = {"drag", "result", "value", "selected"};
+    load_all_fields(place, *part, newer);
+    check_loaded(place, *part);
     if (const auto& motors = part->shape->sketch.motors;
         !part->copies.empty() && part->find_drive(motors.front().name) == nullptr)
         place["drivers"].fail("a walker needs its driver \"" + motors.front().name + "\"");
-    place["targets"].for_each("targets", max_linkage_points, [&](const JsonPlace& each) {
-        LinkageTarget target = load_target(each, *part);
-        if (std::ranges::count(part->targets, target.point, &LinkageTarget::point) > 0)
-            each["point"].fail(target.point + " has a target already");
-        part->targets.push_back(std::move(target));
-    });
-    if (const auto held = place.optional("drag")) part->drag = load_target(*held, *part);
-    part->time = place["time"].real(0.0, 1e9);
-    part->tool = place["tool"].choice(linkage_tools);
-    if (const auto selected_point = place.optional("selected")) {
-        part->selected = selected_point->text();
-        if (!part->linkage().find_point(part->selected))
-            selected_point->fail("there is no point \"" + part->selected + "\"");
-    }
+    const LinkageResult solved = part->result;
     report_in_pose(*part);  // of older files; places the links, too
-    if (const auto solved = place.optional("result")) part->result = load_result(*solved, *part);
+    if (place.optional("result")) part->result = solved;
     return part;
 }
 

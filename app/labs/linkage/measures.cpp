@@ -67,9 +67,21 @@ bool turns(const LinkagePart& part, std::string_view joint) {
     return link && part.linkage().links[*link].joint == ik::LinkJoint::Hinge;
 }
 
+double in_degrees(const LinkagePart& part, std::string_view joint, double value) {
+    return turns(part, joint) ? glm::degrees(value) : value;
+}
+
+double from_degrees(const LinkagePart& part, std::string_view joint, double value) {
+    return turns(part, joint) ? glm::radians(value) : value;
+}
+
+CommandCall motor_call(const LinkagePart& part, const std::string& joint, ArgumentValue speed) {
+    return {"linkage.motor",
+            {{"joint", joint}, {turns(part, joint) ? "deg_per_s" : "per_s", std::move(speed)}}};
+}
+
 ShownValue shown_value(const LinkagePart& part, std::string_view joint, double value) {
-    if (!turns(part, joint)) return {value};
-    const double degrees = glm::degrees(value);
+    const double degrees = in_degrees(part, joint, value);
     if (!goes_round(part, joint)) return {degrees};
     constexpr double half_a_digit = 0.05;  // 359.96 would read 360.0
     const double whole = std::floor((degrees + half_a_digit) / 360.0);
@@ -341,11 +353,7 @@ std::vector<Cure> ways_on(const LinkagePart& part) {
     const LinkageDrive* const drive = part.find_drive(joint);
     if (drive == nullptr) return ways;
     if (drive->rate != 0.0) {
-        const bool hinge = turns(part, joint);
-        const CommandCall back{
-            "linkage.motor",
-            {{"joint", joint},
-             {hinge ? "deg_per_s" : "per_s", hinge ? glm::degrees(-drive->rate) : -drive->rate}}};
+        const CommandCall back = motor_call(part, joint, in_degrees(part, joint, -drive->rate));
         ways.push_back({"Turn back",
                         "Runs the motor the other way: the linkage goes back as it came",
                         {back},

@@ -15,6 +15,11 @@ namespace tendril::app {
 
 /// Whether the joint of that link turns: its values are angles.
 bool turns(const LinkagePart& part, std::string_view joint);
+/// A value or speed of the joint as files, commands and panels have it, in degrees or metres; and back.
+double in_degrees(const LinkagePart& part, std::string_view joint, double value);
+double from_degrees(const LinkagePart& part, std::string_view joint, double value);
+/// Runs the joint at a speed, degrees or metres a second.
+CommandCall motor_call(const LinkagePart& part, const std::string& joint, ArgumentValue speed);
 
 /// A joint's value as it is shown: degrees or metres. An angle in the plane without a range is that in its
 /// turn, 0 to 360.

@@ -26,7 +26,7 @@ struct MechanismKind {
     const char* help;
     Mechanism (*blank)();
     std::span<const Field> fields;
-    std::span<const FieldText> texts;
+    std::vector<FieldText> texts;
     const char* traced;        ///< the point whose path is shown first; empty: none
     const char* drivers = "";  ///< in space: links whose names begin like this are driven
 };

@@ -133,33 +133,35 @@ void linkage_tool_rows(const LinkagePart& part, Emit& emit) {
     end_row();
 }
 
-/// Radians or metres a second.
-void run_at(const LinkagePart& part, const LinkageDrive& drive, double rate, Emit& emit) {
-    const bool angular = turns(part, drive.joint);
-    emit.continuously(
-        "linkage.motor",
-        {{"joint", drive.joint}, {angular ? "deg_per_s" : "per_s", angular ? glm::degrees(rate) : rate}});
+/// Degrees or metres a second.
+void run_at(const LinkagePart& part, const std::string& joint, ArgumentValue speed, Emit& emit) {
+    const CommandCall call = motor_call(part, joint, std::move(speed));
+    emit.continuously(call.name, call.arguments);
 }
 
 void speed_row(const LinkagePart& part, const LinkageDrive& drive, const std::string& name, Emit& emit) {
     const bool angular = turns(part, drive.joint);
-    auto rate = static_cast<float>(angular ? glm::degrees(drive.rate) : drive.rate);
+    auto rate = static_cast<float>(in_degrees(part, drive.joint, drive.rate));
     const auto most = static_cast<float>(max_motor_rate);
     if (number_field(name.c_str(), rate, angular ? 1.0f : 0.01f, -most, most,
                      angular ? "%.0f deg/s" : "%.2f m/s"))
-        emit.continuously("linkage.motor", {{"joint", drive.joint}, {angular ? "deg_per_s" : "per_s", rate}});
+        run_at(part, drive.joint, rate, emit);
     explain("How fast the motor runs while time passes. 0 stops it.");
 }
 
+/// Of a joint: degrees or metres.
+bool joint_field(const LinkagePart& part, const std::string& joint, const char* label, float& value) {
+    const bool angular = turns(part, joint);
+    return number_field(label, value, angular ? 0.5f : 0.002f, -1e6f, 1e6f, angular ? "%.1f deg" : "%.3f m");
+}
+
 void value_row(const LinkagePart& part, const LinkageDrive& drive, Emit& emit) {
-    const bool angular = turns(part, drive.joint);
     const ShownValue now = shown_value(part, drive.joint, part.value_of(drive.joint));
     auto value = static_cast<float>(now.value);
-    const char* const format = angular ? "%.1f deg" : "%.3f m";
-    if (number_field(drive.joint.c_str(), value, angular ? 0.5f : 0.002f, -1e6f, 1e6f, format)) {
+    if (joint_field(part, drive.joint, drive.joint.c_str(), value)) {
         const double wanted = static_cast<double>(value) + 360.0 * now.turns;
-        emit.continuously("linkage.drive",
-                          {{"joint", drive.joint}, {angular ? "angle_deg" : "value", wanted}});
+        emit.continuously("linkage.drive", {{"joint", drive.joint},
+                                            {turns(part, drive.joint) ? "angle_deg" : "value", wanted}});
     }
     explain(now.turns == 0 ? "The joint's value: drag or type it to drive the linkage."
                            : ("The joint's value, in its turn " + std::to_string(now.turns) +
@@ -170,21 +172,19 @@ void value_row(const LinkagePart& part, const LinkageDrive& drive, Emit& emit) {
 }  // namespace
 
 void linkage_range_rows(const LinkagePart& part, const std::string& joint, Emit& emit) {
-    const bool angular = turns(part, joint);
-    const auto shown = [&](double value) { return angular ? glm::degrees(value) : value; };
     const auto range = std::ranges::find(part.shape->ranges, joint, &LinkageRange::joint);
     if (range == part.shape->ranges.end()) {
         if (row_button(("Limit " + joint).c_str(), 1, true, "Gives the joint a range about where it is")) {
-            const double now = shown(part.value_of(joint)), about = angular ? 45.0 : 0.5;
+            const double now = in_degrees(part, joint, part.value_of(joint)),
+                         about = turns(part, joint) ? 45.0 : 0.5;
             emit("linkage.range", {{"joint", joint}, {"min", now - about}, {"max", now + about}});
         }
         return end_row();
     }
-    const char* const format = angular ? "%.1f deg" : "%.3f m";
     const auto end = [&](const char* which, double now) {
         if (!std::isfinite(now)) return;
-        auto value = static_cast<float>(shown(now));
-        if (number_field((joint + " " + which).c_str(), value, angular ? 0.5f : 0.002f, -1e6f, 1e6f, format))
+        auto value = static_cast<float>(in_degrees(part, joint, now));
+        if (joint_field(part, joint, (joint + " " + which).c_str(), value))
             emit.continuously("linkage.range", {{"joint", joint}, {which, value}});
         explain("An end of the joint's range.");
     };
@@ -207,7 +207,7 @@ void motor_buttons(const Workspace& workspace, Emit& emit) {
             "Runs the motor while time passes, or stops it there. Where it cannot go on it turns back")) {
         for (const LinkageDrive& each : part.drives)
             if (stands && is_running(each))
-                run_at(part, each, -each.rate, emit);
+                run_at(part, each.joint, in_degrees(part, each.joint, -each.rate), emit);
             else if (runs && !stands)
                 emit.continuously("linkage.drive",
                                   {{"joint", each.joint}, {"value", part.value_of(each.joint)}});
@@ -243,38 +243,12 @@ void driver_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
     motor_buttons(workspace, emit);
 }
 
-/// A point beside a bar: along it, and to its left.
-void pair_rows(const Field& field, const FieldText& text, const Mechanism& mechanism, Emit& emit) {
-    const FieldValue now = field.get(mechanism_fields(mechanism).object);
-    const char* const ways[] = {"along", "beside"};
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-        auto value = static_cast<float>(now[axis]);
-        if (number_field((std::string(text.label) + " " + ways[axis]).c_str(), value, text.step, -1e6f, 1e6f,
-                         "%.3f m")) {
-            FieldValue wanted = now;
-            wanted[axis] = static_cast<double>(value);
-            emit.continuously("linkage.set", {{field.name, SharedJson(Json{wanted[0], wanted[1]})}});
-        }
-        explain(text.help);
-    }
-}
-
 void length_rows(const LinkagePart& part, MoreRows& more, Emit& emit) {
     const Mechanism& mechanism = part.shape->mechanism;
     const MechanismKind* const kind = kind_of(mechanism);
     if (kind == nullptr) return note("Drawn by hand: select a joint, and set its bars beside it.");
-    const FieldRows rows(mechanism_fields(mechanism), kind->texts, "linkage.set", emit);
-    for (const FieldText& text : kind->texts) {
-        const Field& field = *find_field(kind->fields, text.name);
-        if (field.type == FieldType::Pair)
-            pair_rows(field, text, mechanism, emit);
-        else if (text.more)
-            FieldRows(mechanism_fields(mechanism), kind->texts, "linkage.set", emit)
-                .under(more)
-                .row(field.name);
-        else
-            rows.row(field.name);
-    }
+    FieldRows rows(mechanism_fields(mechanism), kind->texts, "linkage.set", emit);
+    for (const FieldText& text : kind->texts) rows.under(more).row(text.name);
 }
 
 constexpr PastHelp linkage_past_help{

@@ -223,6 +223,9 @@ void find_loops(LinkageShape& shape) {
 }  // namespace
 
 LinkageShape shape_of(ik::LinkageSketch sketch) {
+    for (const ik::SketchBar& each : sketch.bars)
+        if (each.points.size() < 2)
+            throw std::invalid_argument("bar \"" + each.name + "\" must have two points");
     LinkageShape shape;
     shape.floating = floating_bars(sketch);
     shape.bodies = ik::rigid_bodies(sketch);

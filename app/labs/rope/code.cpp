@@ -35,8 +35,7 @@ std::string particle_text(const rope::State& state, std::size_t i) {
 }
 
 std::string shape_text(const rope::Shape& shape) {
-    return "rope::" + pascal_text(rope::kind(shape)) + '{' + joined(member_texts(shape_fields_of(shape))) +
-           '}';
+    return "rope::" + pascal_text(rope::kind(shape)) + struct_text(shape_fields_of(shape));
 }
 
 /// The index in state.colliders, whose order number_slots() follows.
@@ -134,7 +133,7 @@ class RopeProgram {
     void state() {
         const rope::State& state = world_.state();
         say("rope::State state;");
-        list("    state.settings = {", member_texts(state.settings, "rope::Solver::"), "};", "        ");
+        list("    state.settings = {", member_texts(state.settings), "};", "        ");
         for (const rope::Body& body : state.bodies) {
             name(world_.name(body));
             std::vector<std::string> members{".id = {}", std::string(".kind = ") + kind_text(body.kind),

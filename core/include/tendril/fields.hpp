@@ -18,6 +18,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -35,6 +36,8 @@ enum class FieldType : std::uint8_t {
     Point,     ///< three numbers
     Rotation,  ///< a quaternion: x, y, z, w
     Choice,    ///< an index into `choices`
+    Text,      ///< a std::string
+    Index,     ///< of an element of the list `of`, which files call by its name
     Struct     ///< has a table of its own
 };
 
@@ -58,16 +61,19 @@ enum class FieldScale : std::uint8_t { Linear, Logarithmic };
 /// One field of a struct. `get`, `set` and `empty` take the struct; `set` checks nothing.
 ///
 /// A list of values or structs has a `count`. Its type, range and unit are those of an element, and `get`,
-/// `set` and `empty` take the address of one.
+/// `set` and `empty` take the address of one. A text has `text` and `set_text` instead.
 struct Field {
     const char* name;       ///< as in files and commands: "gravity_scale"
     const char* unit = "";  ///< "m/s^2", "rad"; empty for none
     FieldType type = FieldType::Number;
     bool exact = false;     ///< stored in double precision; otherwise float
     bool optional = false;  ///< may be empty, which reads as NaN
-    FieldRange range{};     ///< of a flag 0 to 1, of a choice 0 to the last index
+    FieldRange range{};     ///< of a flag 0 to 1, of a choice 0 to the last index; an end may be infinite
     bool over_low = false;  ///< range.low itself is out of range
     std::span<const char* const> choices{};
+    std::string_view in_code{};             ///< a choice's enumeration: "tendril::ik::SketchHold"; else the
+                                            ///< member, where it is not `name`
+    const char* of = "";                    ///< the list of an index, in a struct around this one
     FieldRange usual{};                     ///< for sliders and random tests; empty: `range`
     FieldScale scale = FieldScale::Linear;  ///< how sliders map it
     FieldValue (*get)(const void* object) noexcept = nullptr;
@@ -76,9 +82,12 @@ struct Field {
     bool (*empty)(const void* object) noexcept = nullptr;
     /// Whether the value is in the range of `row`, or empty.
     bool (*fits)(const Field& row, const void* object) noexcept = nullptr;
+    std::string_view (*text)(const void* object) noexcept = nullptr;
+    void (*set_text)(void* object, std::string_view text) = nullptr;
 
-    /// The table of a nested struct; null for values.
+    /// The table of a nested struct, and one with its default values; null for values.
     std::span<const Field> (*table)() noexcept = nullptr;
+    const void* (*fresh)() noexcept = nullptr;
     /// The address of a struct, null while an optional one is empty, or of a list's element.
     const void* (*address)(const void* object, std::size_t index) noexcept = nullptr;
     std::size_t (*count)(const void* object) noexcept = nullptr;
@@ -88,6 +97,7 @@ struct Field {
     std::size_t most = static_cast<std::size_t>(-1);  ///< elements of a list
     std::span<const char* const> names{};             ///< of the elements: "left", "right"
     bool in_line = false;  ///< in files the named elements are members of the struct itself
+    bool sparse = false;   ///< in files members at their default are left out
 
     /// Bit i: method i honours it, without and within joint limits. See honours() in ik/method.hpp.
     std::uint16_t without_limits = 0xffff, within_limits = 0xffff;
@@ -100,7 +110,8 @@ struct Field {
                                            : 1;
     }
     bool whole() const noexcept {
-        return type == FieldType::Flag || type == FieldType::Integer || type == FieldType::Choice;
+        return type == FieldType::Flag || type == FieldType::Integer || type == FieldType::Choice ||
+               type == FieldType::Index;
     }
     /// Reads or sets one number; the others keep their values.
     double number(const void* object, int axis = 0) const noexcept {
@@ -131,6 +142,16 @@ struct Field {
         row.without_limits = without, row.within_limits = within;
         return row;
     }
+    constexpr Field as_member(std::string_view member) const noexcept {
+        Field row = *this;
+        row.in_code = member;
+        return row;
+    }
+    constexpr Field sparsely() const noexcept {
+        Field row = *this;
+        row.sparse = true;
+        return row;
+    }
     constexpr Field up_to(std::size_t elements) const noexcept {
         Field row = *this;
         row.most = elements;
@@ -151,7 +172,8 @@ std::span<const Field> fields() noexcept;
 /// Null for an unknown name.
 const Field* find_field(std::span<const Field> table, std::string_view name) noexcept;
 
-/// Refuses the first number of `object`, its structs and its lists that is out of its range. The message
+/// Refuses the first number of `object`, its structs and its lists that is out of its range, or an index of
+/// nothing. The message
 /// names `operation`, the field, its range and the value: "Body::solve: options.feet.left.lift must be ...",
 /// where `place` is "options". `object` is a struct of the table's type.
 Result check_fields(const char* operation, std::span<const Field> table, const void* object,
@@ -191,7 +213,8 @@ struct FieldPair<glm::dvec2> : std::true_type {};
 /// Whether a list's element is a struct with a table, and not a value.
 template <class Value>
 inline constexpr bool has_table =
-    std::is_class_v<Value> && !FieldOptional<Value>::value && !FieldPair<Value>::value && !requires(Value v) {
+    std::is_class_v<Value> && !std::is_same_v<Value, std::string> && !FieldOptional<Value>::value &&
+    !FieldPair<Value>::value && !requires(Value v) {
     v.x, v.y, v.z;
 };
 template <class Value>
@@ -226,6 +249,35 @@ Value from_field(const FieldValue& given) noexcept {
         return {given[3], given[0], given[1], given[2]};
     else
         return Value(given[0], given[1], given[2]);
+}
+
+/// An index; none is -1.
+inline FieldValue get_index(const void* at) noexcept {
+    const std::size_t index = *static_cast<const std::size_t*>(at);
+    return {index == static_cast<std::size_t>(-1) ? std::numeric_limits<double>::quiet_NaN()
+                                                  : static_cast<double>(index)};
+}
+inline void set_index(void* at, const FieldValue& given) noexcept {
+    *static_cast<std::size_t*>(at) =
+        given[0] >= 0.0 ? static_cast<std::size_t>(given[0]) : static_cast<std::size_t>(-1);
+}
+
+/// "tendril::ik::SketchHold"; empty where the compiler does not say.
+template <class Value>
+constexpr std::string_view type_name() noexcept {
+#ifdef __GNUC__
+    constexpr std::string_view all = __PRETTY_FUNCTION__, before = "Value = ";
+    constexpr std::size_t begin = all.find(before) + before.size();
+    return all.substr(begin, all.find_first_of(";]", begin) - begin);
+#else
+    return {};
+#endif
+}
+
+template <class Value>
+const void* fresh() noexcept {
+    static const Value value{};
+    return &value;
 }
 
 template <class Value>
@@ -308,6 +360,23 @@ bool fits_field(const Field& row, const void* object) noexcept {
 }
 
 template <auto member>
+std::string_view get_text(const void* object) noexcept {
+    return member_of<member>(object);
+}
+template <auto member>
+void set_text(void* object, std::string_view text) {
+    member_of<member>(object) = text;
+}
+template <auto member>
+FieldValue get_index_field(const void* object) noexcept {
+    return get_index(&member_of<member>(object));
+}
+template <auto member>
+void set_index_field(void* object, const FieldValue& given) noexcept {
+    set_index(&member_of<member>(object), given);
+}
+
+template <auto member>
 const void* struct_address(const void* object, std::size_t) noexcept {
     const auto& value = member_of<member>(object);
     if constexpr (FieldOptional<ValueOf<member>>::value)
@@ -365,12 +434,19 @@ constexpr Field value_row(const char* name, FieldRange range, const char* unit) 
 /// A row of a table: field<&Settings::damping>("damping", {0.0, max_rate}, "1/s").
 template <auto member>
 constexpr Field field(const char* name, FieldRange range = {0.0, 1.0}, const char* unit = "") noexcept {
-    Field row = detail::value_row<detail::ValueOf<member>>(name, range, unit);
-    row.get = detail::get_field<member>, row.set = detail::set_field<member>;
-    row.fits = detail::fits_field<member>;
-    if constexpr (detail::FieldOptional<detail::ValueOf<member>>::value)
-        row.empty = detail::is_empty_field<member>;
-    return row;
+    using Value = detail::ValueOf<member>;
+    if constexpr (std::is_same_v<Value, std::string>) {
+        return {.name = name,
+                .type = FieldType::Text,
+                .text = detail::get_text<member>,
+                .set_text = detail::set_text<member>};
+    } else {
+        Field row = detail::value_row<Value>(name, range, unit);
+        row.get = detail::get_field<member>, row.set = detail::set_field<member>;
+        row.fits = detail::fits_field<member>;
+        if constexpr (detail::FieldOptional<Value>::value) row.empty = detail::is_empty_field<member>;
+        return row;
+    }
 }
 
 /// A row for an enumeration whose enumerators count from 0; `choices` are their names, in order.
@@ -378,6 +454,7 @@ template <auto member>
 constexpr Field field(const char* name, std::span<const char* const> choices) noexcept {
     Field row = field<member>(name, {0.0, static_cast<double>(choices.size()) - 1.0});
     row.choices = choices;
+    row.in_code = detail::type_name<typename detail::FieldOptional<detail::ValueOf<member>>::type>();
     return row;
 }
 
@@ -387,6 +464,7 @@ constexpr Field nested(const char* name) noexcept {
     using Member = detail::ValueOf<member>;
     Field row{.name = name, .type = FieldType::Struct, .optional = detail::FieldOptional<Member>::value};
     row.table = fields<typename detail::FieldOptional<Member>::type>;
+    row.fresh = detail::fresh<typename detail::FieldOptional<Member>::type>;
     row.address = detail::struct_address<member>;
     if constexpr (detail::FieldOptional<Member>::value) row.resize = detail::resize_struct<member>;
     return row;
@@ -400,6 +478,7 @@ constexpr Field list(const char* name, FieldRange range = {0.0, 1.0}, const char
     Field row{.name = name, .type = FieldType::Struct};
     if constexpr (detail::has_table<Element>) {
         row.table = fields<Element>;
+        row.fresh = detail::fresh<Element>;
     } else {
         row = detail::value_row<Element>(name, range, unit);
         row.get = detail::get_value<Element>, row.set = detail::set_value<Element>;
@@ -410,6 +489,22 @@ constexpr Field list(const char* name, FieldRange range = {0.0, 1.0}, const char
     row.count = detail::count_elements<member>;
     if constexpr (requires(List & all) { all.resize(1); }) row.resize = detail::resize_list<member>;
     if constexpr (requires { std::tuple_size<List>::value; }) row.most = std::tuple_size<List>::value;
+    return row;
+}
+
+/// A row for an index, or a list of indices, into the list `of` of a struct around this one. `optional`: -1
+/// stands for none.
+template <auto member>
+constexpr Field index(const char* name, const char* of, bool optional = false) noexcept {
+    Field row{};
+    if constexpr (std::is_same_v<detail::ValueOf<member>, std::size_t>) {
+        row.get = detail::get_index_field<member>, row.set = detail::set_index_field<member>;
+    } else {
+        row = list<member>(name);
+        row.get = detail::get_index, row.set = detail::set_index;
+    }
+    row.name = name, row.type = FieldType::Index, row.fits = nullptr;
+    row.of = of, row.optional = optional;
     return row;
 }
 

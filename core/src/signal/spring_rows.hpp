@@ -9,7 +9,8 @@ namespace tendril::signal::detail {
 inline constexpr Field spring_rows[] = {
     field<&SpringState<double>::value>("value", {-max_magnitude, max_magnitude}),
     field<&SpringState<double>::velocity>("velocity", {-max_magnitude, max_magnitude}, "1/s"),
-    field<&SpringState<double>::previous_target>("previous", {-max_magnitude, max_magnitude}),
+    field<&SpringState<double>::previous_target>("previous", {-max_magnitude, max_magnitude})
+        .as_member("previous_target"),
     field<&SpringState<double>::started>("started")};
 
 }  // namespace tendril::signal::detail

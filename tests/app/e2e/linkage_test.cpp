@@ -72,17 +72,5 @@ TEST(LinkageInTheWindow, APresetsLastTenSecondsBeginWithIt) {
     EXPECT_EQ(state_after(script)["events"], Json::array());
 }
 
-TEST(LinkageInTheWindow, AJointIsDraggedAndTheDragIsOneStep) {
-    const ScriptText before = ScriptText().command("lab.open", {{"name", "linkage"}}).wait(2);
-    const Json state = state_after(before);
-    const glm::vec2 at = handle(state, "B");
-    ScriptText script = before;
-    script.drag({at, at + glm::vec2(0, -20), at + glm::vec2(-10, -50)}).wait(2);
-    const Json dragged = state_after(script);
-    EXPECT_GT(dragged.at("drivers").at("crank").get<double>(), 10.0);
-    const Json back = state_after(script.command("undo").wait(2));
-    EXPECT_EQ(back.at("points"), state.at("points"));
-}
-
 }  // namespace
 }  // namespace tendril::test

@@ -2,6 +2,8 @@
 // refused by the command and in a file, by name, and changes nothing.
 #include "app/fields/fields.hpp"
 
+#include <limits>
+#include <tendril/ik/linkage_sketch.hpp>
 #include <tendril/rope/settings.hpp>
 
 #include "app/document/command.hpp"
@@ -11,6 +13,7 @@
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"
+#include "app/labs/kit/code_text.hpp"
 #include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/rope_fields.hpp"
 #include "app/labs/rope/rope_lab.hpp"
@@ -193,6 +196,8 @@ std::vector<Json> bad(const Field& field) {
         case FieldType::Rotation:
             all.insert(all.end(), {Json::array({0, 0, 0, 0}), Json::array({0, 0, "z", 1}), 0});
             break;
+        case FieldType::Text:
+        case FieldType::Index:
         case FieldType::Struct:
             break;
         case FieldType::Point:
@@ -241,7 +246,7 @@ class EveryField : public LabTest, public testing::WithParamInterface<Row> {
                 return Json::array({0.5, 0.5, 0.5, 0.5});
             case FieldType::Point:
                 return Json::array({number_in(field().range), 0, number_in(field().range)});
-            case FieldType::Struct:
+            default:
                 break;
         }
         return {};
@@ -271,6 +276,63 @@ TEST(FilterFields, EachHasItsText) {
             EXPECT_NE(name.find(texts[i].label), name.npos) << "the label is the name or a part of it";
         }
     }
+}
+
+const char* const sketch_file = R"({
+    "points": [{"name": "A", "hold": "pinned"}, {"name": "B", "at": [1.5, 0.0], "hold": "guided", "guide_deg": 30.0}],
+    "bars": [{"name": "bar", "points": ["A", "B"]}],
+    "motors": [{"name": "motor", "point": "A", "bar": "bar", "minimum_deg": -90.0}]})";
+
+ik::LinkageSketch read_sketch(const Json& json) {
+    ik::LinkageSketch sketch;
+    load_all_fields({json, "it"}, sketch);
+    return sketch;
+}
+
+TEST(FieldFiles, NameWhatIsIndexedAndLeaveOutDefaults) {
+    const Json file = Json::parse(sketch_file);
+    const ik::LinkageSketch sketch = read_sketch(file);
+    EXPECT_EQ(sketch.bars[0].points, (std::vector<std::size_t>{0, 1}));
+    EXPECT_EQ(sketch.motors[0].against, ik::ground_link);
+    EXPECT_EQ(sketch.motors[0].maximum, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(save_fields(sketch), file);
+    Json older = file;
+    older["points"][1].erase("guide_deg");
+    older["points"][1]["guide"] = sketch.points[1].guide;
+    older["points"][0]["guide_deg"] = 0;
+    older["motors"][0]["maximum_deg"] = older["motors"][0]["against"] = nullptr;
+    EXPECT_EQ(read_sketch(older), sketch);
+}
+
+TEST(FieldFiles, AreRefusedWithTheirPlace) {
+    const std::pair<const char*, Json> faults[] = {{"points.0.name", nullptr},     {"points.1.name", "A"},
+                                                   {"points.1.hold", "glued"},     {"points.1.at", 7},
+                                                   {"bars.0.points.1", "Z"},       {"bars.0.name", ""},
+                                                   {"motors.0.point", "Z"},        {"motors.0.against", "Z"},
+                                                   {"motors.0.bar", nullptr},      {"motors", 1},
+                                                   {"motors.0.minimum_deg", "low"}};
+    for (const auto& [place, value] : faults) {
+        Json file = Json::parse(sketch_file);
+        std::string pointer = std::string("/") + place;
+        std::ranges::replace(pointer, '.', '/');
+        file[Json::json_pointer(pointer)] = value;
+        std::string message;
+        try {
+            read_sketch(file);
+        } catch (const std::runtime_error& error) {
+            message = error.what();
+        }
+        EXPECT_TRUE(message.starts_with(std::string("it.") + place + ": ")) << place << ": " << message;
+    }
+    Json nameless = Json::parse(sketch_file);
+    nameless["motors"][0].erase("point");
+    EXPECT_THROW(read_sketch(nameless), std::runtime_error);
+}
+
+TEST(FieldFiles, AreWrittenAsCode) {
+    EXPECT_EQ(struct_text(read_sketch(Json::parse(sketch_file)).points[1]),
+              "{.name = \"B\", .at = {1.5, 0.0}, .hold = ik::SketchHold::Guided, "
+              ".guide = 0.5235987755982988}");
 }
 
 TEST_P(EveryField, IsSavedLoadedAndUndone) {

@@ -45,6 +45,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tendril/fields.hpp"
 #include "tendril/quat.hpp"
 #include "tendril/result.hpp"
 #include "tendril/vec3.hpp"
@@ -288,3 +289,20 @@ class LinkageSolver {
 };
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Link>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::LinkPoint>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Closure>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Linkage>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::JointPlace>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::LinkageState>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::LinkageReport>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::LinkageFreedom>() noexcept;

@@ -97,3 +97,12 @@ Result remove_bar(LinkageSketch& sketch, std::size_t bar);
 Expected<Linkage> linkage_from(const LinkageSketch& sketch);
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::SketchPoint>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::SketchBar>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::SketchMotor>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::LinkageSketch>() noexcept;

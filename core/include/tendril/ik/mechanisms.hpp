@@ -87,3 +87,20 @@ std::array<double, 6> stewart_legs(const Stewart& lengths, const glm::dvec3& pla
                                    const glm::dquat& rotation) noexcept;
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::FourBar>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::SliderCrank>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Peaucellier>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Pantograph>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::ScissorLift>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Jansen>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Delta>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Stewart>() noexcept;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <string>
 
 #include "ik/math.hpp"
@@ -33,24 +32,6 @@ Point2 crossing_left(const Point2& a, double from_a, const Point2& b, double fro
 
 constexpr SketchHold pinned = SketchHold::Pinned;
 
-/// A named length, and whether it may be 0 or negative.
-struct Named {
-    const char* name;
-    double value;
-    double minimum = 1e-9;
-};
-Result check_lengths(const char* mechanism, std::initializer_list<Named> lengths) noexcept {
-    for (const auto& [name, value, minimum] : lengths)
-        if (!(value >= minimum && value <= static_cast<double>(max_magnitude)))
-            return refused(mechanism, name,
-                           minimum > 0.0    ? "a length over 0, at most 1e9 m"
-                           : minimum == 0.0 ? "a length from 0 to 1e9 m"
-                                            : "a number of magnitude at most 1e9",
-                           value);
-    return {};
-}
-constexpr double any_number = -static_cast<double>(max_magnitude);
-
 double apart_by(const Point2& a, const Point2& b) noexcept {
     return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
 }
@@ -64,14 +45,7 @@ bool joins_over(double apart, double a, double b) noexcept {
 
 Expected<LinkageSketch> four_bar(const FourBar& lengths) {
     const auto& [ground, crank, coupler, rocker, coupler_point] = lengths;
-    if (const Result bad = check_lengths("four_bar", {{"ground", ground},
-                                                      {"crank", crank},
-                                                      {"coupler", coupler},
-                                                      {"rocker", rocker},
-                                                      {"coupler_point.x", coupler_point.x, any_number},
-                                                      {"coupler_point.y", coupler_point.y, any_number}});
-        !bad)
-        return bad;
+    if (const Result bad = check_fields("four_bar", lengths); !bad) return bad;
     // B to D: what the crank can make it, and what coupler and rocker can. Where the crank cannot be at 0, or
     // the linkage would be flat there or B on D, it is drawn in the middle of its range.
     const double low = std::max(std::abs(ground - crank), std::abs(coupler - rocker)),
@@ -108,10 +82,7 @@ Expected<LinkageSketch> four_bar(const FourBar& lengths) {
 
 Expected<LinkageSketch> slider_crank(const SliderCrank& lengths) {
     const auto& [crank, rod, offset] = lengths;
-    if (const Result bad =
-            check_lengths("slider_crank", {{"crank", crank}, {"rod", rod}, {"offset", offset, any_number}});
-        !bad)
-        return bad;
+    if (const Result bad = check_fields("slider_crank", lengths); !bad) return bad;
     if (!(std::abs(offset) <= crank + rod))
         return refused("slider_crank", "offset", "at most crank and rod together", offset);
     // Where the rod does not reach down from 0, the crank is turned towards the slider's line.
@@ -130,11 +101,7 @@ Expected<LinkageSketch> slider_crank(const SliderCrank& lengths) {
 }
 
 Expected<LinkageSketch> peaucellier(const Peaucellier& lengths) {
-    if (const Result bad = check_lengths(
-            "peaucellier",
-            {{"long_bar", lengths.long_bar}, {"short_bar", lengths.short_bar}, {"crank", lengths.crank}});
-        !bad)
-        return bad;
+    if (const Result bad = check_fields("peaucellier", lengths); !bad) return bad;
     if (!joins_over(2.0 * lengths.crank, lengths.long_bar, lengths.short_bar))
         return refused("peaucellier", "crank", "such that long and short bars join O and C, 2 crank apart",
                        lengths.crank);
@@ -152,10 +119,7 @@ Expected<LinkageSketch> peaucellier(const Peaucellier& lengths) {
 
 Expected<LinkageSketch> pantograph(const Pantograph& lengths) {
     // D on OA and E on AP; D-A-E-T is a parallelogram, so that T stays on OP.
-    if (const Result bad = check_lengths("pantograph", {{"arm", lengths.arm}, {"scale", lengths.scale}});
-        !bad)
-        return bad;
-    if (!(lengths.scale > 1.0)) return refused("pantograph", "scale", "over 1", lengths.scale);
+    if (const Result bad = check_fields("pantograph", lengths); !bad) return bad;
     const double part = 1.0 / lengths.scale;
     const Point2 a = point_at_angle(lengths.arm, math::pi / 3.0), p{lengths.arm, 0.0};
     LinkageSketch sketch;
@@ -171,10 +135,7 @@ Expected<LinkageSketch> pantograph(const Pantograph& lengths) {
 
 Expected<LinkageSketch> scissor_lift(const ScissorLift& lengths) {
     const std::size_t stages = lengths.stages;
-    if (!(stages >= 1 && stages <= 32)) return refused("scissor_lift", "stages", "1 to 32", stages);
-    if (const Result bad = check_lengths("scissor_lift", {{"bar", lengths.bar}}); !bad) return bad;
-    if (!(lengths.angle > 1e-6 && lengths.angle < 0.5 * math::pi - 1e-6))
-        return refused("scissor_lift", "angle", "over 0 and under a right angle", lengths.angle);
+    if (const Result bad = check_fields("scissor_lift", lengths); !bad) return bad;
     const Point2 across = point_at_angle(lengths.bar, lengths.angle);
     LinkageSketch sketch;
     sketch.points = {{"L0", {0.0, 0.0}, pinned}, {"R0", {across.x, 0.0}, SketchHold::Guided}};
@@ -196,21 +157,7 @@ Expected<LinkageSketch> scissor_lift(const ScissorLift& lengths) {
 
 Expected<LinkageSketch> jansen(const Jansen& lengths) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = lengths;
-    if (const Result bad = check_lengths("jansen", {{"a", a, any_number},
-                                                    {"b", b},
-                                                    {"c", c},
-                                                    {"d", d},
-                                                    {"e", e},
-                                                    {"f", f},
-                                                    {"g", g},
-                                                    {"h", h},
-                                                    {"i", i},
-                                                    {"j", j},
-                                                    {"k", k},
-                                                    {"l", l, any_number},
-                                                    {"m", m}});
-        !bad)
-        return bad;
+    if (const Result bad = check_fields("jansen", lengths); !bad) return bad;
     const Point2 crank{m, 0.0}, pivot{-a, -l};
     const Point2 upper = crossing_left(pivot, b, crank, j), lower = crossing_left(crank, k, pivot, c);
     const Point2 back = crossing_left(pivot, d, upper, e), knee = crossing_left(lower, g, back, f);
@@ -273,13 +220,7 @@ glm::dvec3 in_base(const Point2& flat, double z) noexcept {
 
 Expected<Linkage> delta(const Delta& lengths) {
     const auto& [base_radius, platform_radius, upper_arm, forearm, width] = lengths;
-    if (const Result bad = check_lengths("delta", {{"base_radius", base_radius, 0.0},
-                                                   {"platform_radius", platform_radius, 0.0},
-                                                   {"upper_arm", upper_arm},
-                                                   {"forearm", forearm},
-                                                   {"width", width}});
-        !bad)
-        return bad;
+    if (const Result bad = check_fields("delta", lengths); !bad) return bad;
     // As drawn, the arms point 30 degrees down.
     constexpr double down = math::pi / 6.0;
     const double elbow_radius = base_radius + upper_arm * std::sqrt(0.75);
@@ -350,15 +291,7 @@ StewartEnds ends_of_leg(const Stewart& lengths, std::size_t leg) noexcept {
 }  // namespace
 
 Expected<Linkage> stewart(const Stewart& lengths) {
-    if (const Result bad = check_lengths("stewart", {{"base_radius", lengths.base_radius},
-                                                     {"platform_radius", lengths.platform_radius},
-                                                     {"height", lengths.height},
-                                                     {"base_angle", lengths.base_angle, any_number},
-                                                     {"platform_angle", lengths.platform_angle, any_number},
-                                                     {"minimum", lengths.minimum, 0.0},
-                                                     {"maximum", lengths.maximum}});
-        !bad)
-        return bad;
+    if (const Result bad = check_fields("stewart", lengths); !bad) return bad;
     if (!(lengths.minimum <= lengths.maximum))
         return refused("stewart", "minimum", "at most the maximum", lengths.minimum);
     Linkage linkage;
@@ -400,3 +333,98 @@ std::array<double, 6> stewart_legs(const Stewart& lengths, const glm::dvec3& pla
 }
 
 }  // namespace tendril::ik
+
+namespace tendril {
+namespace {
+
+constexpr FieldRange bar_length{1e-9, max_magnitude}, radius_length{0.0, max_magnitude},
+    any_length{-max_magnitude, max_magnitude};
+
+}  // namespace
+
+template <>
+std::span<const Field> fields<ik::FourBar>() noexcept {
+    using ik::FourBar;
+    static constexpr Field rows[] = {field<&FourBar::ground>("ground", bar_length, "m"),
+                                     field<&FourBar::crank>("crank", bar_length, "m"),
+                                     field<&FourBar::coupler>("coupler", bar_length, "m"),
+                                     field<&FourBar::rocker>("rocker", bar_length, "m"),
+                                     field<&FourBar::coupler_point>("coupler_point", any_length, "m")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<ik::SliderCrank>() noexcept {
+    using ik::SliderCrank;
+    static constexpr Field rows[] = {field<&SliderCrank::crank>("crank", bar_length, "m"),
+                                     field<&SliderCrank::rod>("rod", bar_length, "m"),
+                                     field<&SliderCrank::offset>("offset", any_length, "m")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<ik::Peaucellier>() noexcept {
+    using ik::Peaucellier;
+    static constexpr Field rows[] = {field<&Peaucellier::long_bar>("long_bar", bar_length, "m"),
+                                     field<&Peaucellier::short_bar>("short_bar", bar_length, "m"),
+                                     field<&Peaucellier::crank>("crank", bar_length, "m")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<ik::Pantograph>() noexcept {
+    using ik::Pantograph;
+    static constexpr Field rows[] = {field<&Pantograph::arm>("arm", bar_length, "m"),
+                                     field<&Pantograph::scale>("scale", {1.0, max_magnitude}).over()};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<ik::ScissorLift>() noexcept {
+    using ik::ScissorLift;
+    static constexpr Field rows[] = {field<&ScissorLift::stages>("stages", {1.0, 32.0}),
+                                     field<&ScissorLift::bar>("bar", bar_length, "m"),
+                                     field<&ScissorLift::angle>("angle", {1e-6, 1.570795}, "rad")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<ik::Jansen>() noexcept {
+    using ik::Jansen;
+    static constexpr Field rows[] = {
+        field<&Jansen::a>("a", any_length, "m"), field<&Jansen::b>("b", bar_length, "m"),
+        field<&Jansen::c>("c", bar_length, "m"), field<&Jansen::d>("d", bar_length, "m"),
+        field<&Jansen::e>("e", bar_length, "m"), field<&Jansen::f>("f", bar_length, "m"),
+        field<&Jansen::g>("g", bar_length, "m"), field<&Jansen::h>("h", bar_length, "m"),
+        field<&Jansen::i>("i", bar_length, "m"), field<&Jansen::j>("j", bar_length, "m"),
+        field<&Jansen::k>("k", bar_length, "m"), field<&Jansen::l>("l", any_length, "m"),
+        field<&Jansen::m>("m", bar_length, "m")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<ik::Delta>() noexcept {
+    using ik::Delta;
+    static constexpr Field rows[] = {field<&Delta::base_radius>("base_radius", radius_length, "m"),
+                                     field<&Delta::platform_radius>("platform_radius", radius_length, "m"),
+                                     field<&Delta::upper_arm>("upper_arm", bar_length, "m"),
+                                     field<&Delta::forearm>("forearm", bar_length, "m"),
+                                     field<&Delta::width>("width", bar_length, "m")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<ik::Stewart>() noexcept {
+    using ik::Stewart;
+    static constexpr Field rows[] = {
+        field<&Stewart::base_radius>("base_radius", bar_length, "m"),
+        field<&Stewart::platform_radius>("platform_radius", bar_length, "m"),
+        field<&Stewart::height>("height", bar_length, "m"),
+        field<&Stewart::base_angle>("base_angle", {-math::pi, math::pi}, "rad"),
+        field<&Stewart::platform_angle>("platform_angle", {-math::pi, math::pi}, "rad"),
+        field<&Stewart::minimum>("minimum", radius_length, "m"),
+        field<&Stewart::maximum>("maximum", bar_length, "m")};
+    return rows;
+}
+
+}  // namespace tendril

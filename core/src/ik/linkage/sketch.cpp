@@ -16,9 +16,14 @@ namespace tendril::ik {
 using tendril::detail::check_index;
 using tendril::detail::index_of_name;
 
+namespace {
+
+constexpr const char* hold_names[] = {"free", "pinned", "guided"};
+
+}  // namespace
+
 const char* name(SketchHold hold) noexcept {
-    constexpr const char* names[] = {"free", "pinned", "guided"};
-    return names[static_cast<std::size_t>(hold)];
+    return hold_names[static_cast<std::size_t>(hold)];
 }
 
 namespace {
@@ -124,21 +129,7 @@ class SketchTree {
     }
 
     Result check_parts() const {
-        for (const std::size_t count : {sketch_.points.size(), sketch_.bars.size(), sketch_.motors.size()})
-            if (count > max_links)
-                return sketch_refused("points, bars and motors must be at most " + std::to_string(max_links) +
-                                      " each, got " + std::to_string(count));
-        for (std::size_t i = 0; i < sketch_.points.size(); ++i) {
-            const SketchPoint& each = sketch_.points[i];
-            for (const double number : {each.at.x, each.at.y, each.guide})
-                if (!(std::abs(number) <= static_cast<double>(max_magnitude)))
-                    return sketch_refused(said("point", each.name, i) +
-                                          " must have numbers of magnitude at most 1e9, got " +
-                                          sketch_number(number));
-            if (static_cast<std::uint8_t>(each.hold) > static_cast<std::uint8_t>(SketchHold::Guided))
-                return sketch_refused(said("point", each.name, i) + " must be free, pinned or guided, got " +
-                                      std::to_string(static_cast<int>(each.hold)));
-        }
+        if (const Result bad = check_fields("linkage_from", sketch_, "sketch"); !bad) return bad;
         for (std::size_t i = 0; i < sketch_.bars.size(); ++i)
             if (const Result bad = check_bar(sketch_.bars[i], said("bar", sketch_.bars[i].name, i)); !bad)
                 return bad;
@@ -160,11 +151,6 @@ class SketchTree {
         return {};
     }
     Result check_motor(const SketchMotor& motor, const std::string& who) const {
-        if (motor.bar >= sketch_.bars.size())
-            return sketch_refused(who + " must turn a bar of the sketch, got " + std::to_string(motor.bar));
-        if (motor.point >= sketch_.points.size())
-            return sketch_refused(who + " must be at a point of the sketch, got " +
-                                  std::to_string(motor.point));
         const SketchPoint& point = sketch_.points[motor.point];
         if (!joins(sketch_.bars[motor.bar], motor.point))
             return sketch_refused(who + " must be at a point of its bar, got " +
@@ -176,12 +162,9 @@ class SketchTree {
             if (point.hold != SketchHold::Pinned)
                 return sketch_refused(who + " must be at a pinned point, or turn against a bar, got " +
                                       said("point", point.name, motor.point));
-        } else if (motor.against >= sketch_.bars.size() || motor.against == motor.bar ||
-                   !joins(sketch_.bars[motor.against], motor.point)) {
+        } else if (motor.against == motor.bar || !joins(sketch_.bars[motor.against], motor.point)) {
             return sketch_refused(who + " must turn against another bar at its point, got " +
-                                  (motor.against < sketch_.bars.size()
-                                       ? said("bar", sketch_.bars[motor.against].name, motor.against)
-                                       : std::to_string(motor.against)));
+                                  said("bar", sketch_.bars[motor.against].name, motor.against));
         }
         if (const double angle = angle_of(motor); !(angle >= motor.minimum && angle <= motor.maximum))
             return sketch_refused(who + " must be drawn within its range, got " + sketch_number(angle));
@@ -405,3 +388,48 @@ Expected<Linkage> linkage_from(const LinkageSketch& sketch) {
 }
 
 }  // namespace tendril::ik
+
+namespace tendril {
+
+template <>
+std::span<const Field> fields<ik::SketchPoint>() noexcept {
+    using namespace ik;
+    static constexpr Field rows[] = {field<&SketchPoint::name>("name"),
+                                     field<&SketchPoint::at>("at", {-max_magnitude, max_magnitude}, "m"),
+                                     field<&SketchPoint::hold>("hold", hold_names),
+                                     field<&SketchPoint::guide>("guide", {-1e3, 1e3}, "rad")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<ik::SketchBar>() noexcept {
+    using namespace ik;
+    static constexpr Field rows[] = {field<&SketchBar::name>("name"),
+                                     index<&SketchBar::points>("points", "points").up_to(max_links)};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<ik::SketchMotor>() noexcept {
+    using namespace ik;
+    constexpr double no_end = std::numeric_limits<double>::infinity();
+    static constexpr Field rows[] = {
+        field<&SketchMotor::name>("name"),
+        index<&SketchMotor::point>("point", "points"),
+        index<&SketchMotor::bar>("bar", "bars"),
+        index<&SketchMotor::against>("against", "bars", true),
+        field<&SketchMotor::minimum>("minimum", {-no_end, max_magnitude}, "rad"),
+        field<&SketchMotor::maximum>("maximum", {-max_magnitude, no_end}, "rad")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<ik::LinkageSketch>() noexcept {
+    using namespace ik;
+    static constexpr Field rows[] = {list<&LinkageSketch::points>("points").sparsely().up_to(max_links),
+                                     list<&LinkageSketch::bars>("bars").sparsely().up_to(max_links),
+                                     list<&LinkageSketch::motors>("motors").sparsely().up_to(max_links)};
+    return rows;
+}
+
+}  // namespace tendril
