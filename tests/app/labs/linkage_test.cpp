@@ -108,16 +108,6 @@ TEST_F(LinkageTest, TheLibrarysMechanismsStandAsTheyAreNamed) {
     EXPECT_EQ(state().at("drivers").size(), 6u) << "a Stewart platform has six legs";
 }
 
-TEST_F(LinkageTest, PeaucellierDrawsAStraightLine) {
-    run("linkage.preset", {{"name", "peaucellier"}});
-    const double line = at("P").x;
-    for (const int angle : {-30, -15, 10, 25, 40}) {
-        run("linkage.drive", {{"joint", "crank"}, {"angle_deg", angle}});
-        ASSERT_EQ(state().at("status"), "Reached") << angle;
-        EXPECT_NEAR(at("P").x, line, 1e-6) << angle;
-    }
-}
-
 /// Through the lab's own commands, over whole turns.
 class LinkageReference : public LinkageTest {
   protected:
@@ -273,21 +263,6 @@ TEST_F(LinkageTest, WhatIsWrongIsRefusedByNameAndNothingIsLost) {
     expect_refused("linkage.joint", {{"at", {0, 0, 0}}}, {"plane"});
 }
 
-TEST_F(LinkageTest, AFileThatIsWrongIsRefusedWithItsPlace) {
-    draw_four_bar();
-    expect_scene_refused("/sketch/points/1/name", "A", "labs.linkage.sketch.points.1.name");
-    expect_scene_refused("/sketch/points/1/hold", "glued", "labs.linkage.sketch.points.1.hold");
-    expect_scene_refused("/sketch/bars/0/points/1", "Z", "labs.linkage.sketch.bars.0.points.1");
-    expect_scene_refused("/sketch/motors/0/against", "bar 7", "labs.linkage.sketch.motors.0.against");
-    expect_scene_refused("/ranges", Json::parse(R"([{"joint": "motor 1", "min": 2, "max": 1}])"),
-                         "labs.linkage.ranges.0.min");
-    expect_scene_refused("/sketch/motors/0/bar", "bar 7", "labs.linkage.sketch.motors.0.bar");
-    expect_scene_refused("/sketch/bars/0/points", Json::array(), "labs.linkage.sketch");
-    expect_scene_refused("/joints", Json::array(), "labs.linkage.joints");
-    expect_scene_refused("/drivers/0/joint", "nobody", "labs.linkage.drivers.0.joint");
-    expect_scene_refused("/selected", "nobody", "labs.linkage.selected");
-}
-
 TEST_F(LinkageTest, LengthsThatChangeKeepPoseAndAssemblyMode) {
     four_bar();
     run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 90}});
@@ -310,12 +285,6 @@ TEST_F(LinkageTest, ADeadPointThatNamesNoDriverIsSaidToo) {
     stuck.result.report.status = ik::LinkageStatus::DeadPoint;
     stuck.result.report.stopped.reset();
     EXPECT_EQ(linkage_verdict(stuck, runtime()).text, "Dead point");
-}
-
-TEST_F(LinkageTest, OnePointHasOneTargetInAFile) {
-    run("linkage.target", {{"point", "C"}, {"to", {1, 2, 0}}});
-    EXPECT_TRUE(test::says(opened_with("/targets/1", saved()["targets"][0]),
-                           "labs.linkage.targets.1.point C has a target"));
 }
 
 TEST_F(LinkageTest, AllLegsOfAWalkerChangeTheirMode) {
