@@ -43,7 +43,7 @@ Json incident_json(const TracedIncident& incident, const std::string& chain, con
               {"amount", incident.kind == IncidentKind::Nan ? Json() : Json(incident.amount)},
               {"unit", ik::unit(incident.kind)},
               {"cause", incident.cause}};
-    if (incident.kind == IncidentKind::Jitter) json["hertz"] = incident.hertz;
+    if (incident.hertz > 0.0) json["hertz"] = incident.hertz;
     if (incident.prevented.tried) {
         const auto& flips_in = incident.prevented.flips_in;
         json["flips_in"] = flips_in ? Json(ik::name(*flips_in)) : Json();
@@ -149,8 +149,8 @@ they are not given, and the first line says how.
 Prints a line for each incident, with its frame from 0, joint from 0 at the root,
 amount and cause; with --json one array:
   [{"frame", "last_frame", "joint", "kind": "flip" | "nan" | "length" | "limit" |
-    "missed" | "lag" | "jitter" | "repeated" | "target_jump", "amount", "unit",
-    "cause"}]
+    "missed" | "lag" | "jitter" | "repeated" | "target_jump" | "pole_jump" |
+    "misplaced", "amount", "unit", "cause"}]
 A flip also has what would have prevented it: small changes under which
 Tendril's solve of the same input has none, each tried, and the solver that flips
 without them:

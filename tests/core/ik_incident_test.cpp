@@ -10,6 +10,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace tendril::ik {
@@ -51,6 +52,13 @@ std::vector<ChainIncident> incidents_of(std::size_t frames, const IncidentOption
     }
     finder.finish();
     return finder.incidents();
+}
+
+std::string said(const std::vector<ChainIncident>& incidents) {
+    std::string text;
+    for (const ChainIncident& each : incidents)
+        text += std::to_string(each.frame) + ' ' + name(each.kind) + ", " + each.cause + '\n';
+    return text;
 }
 
 /// Targets of many kinds, at a given speed in shares of the reach a frame.
@@ -135,6 +143,118 @@ TEST(Incident, FindsAPoseRepeatedOverAnyNumberOfFrames) {
         EXPECT_EQ(repeated->frame, first) << "seed " << seed;
         EXPECT_EQ(repeated->last_frame, first + held - 1);
         EXPECT_EQ(repeated->amount, static_cast<double>(held));
+    }
+}
+
+/// A pole target far from the line to any target of moving_target().
+glm::vec3 beside(Random& random, const std::vector<glm::vec3>& targets) {
+    glm::vec3 sum(0.0f);
+    for (const glm::vec3& each : targets) sum += each;
+    return 2.0f * glm::normalize(glm::cross(sum, random.in_ball()));
+}
+
+// Updated in every n-th frame, or in 5 of 6 (n = 0); the target likewise, or in every frame.
+TEST(Incident, AChainUpdatedAtALowerRateIsOneIncidentAndNoneIfItsTargetIsToo) {
+    for (unsigned seed = 0; seed < 80; ++seed) {
+        Random random(seed);
+        const std::size_t n = std::array{2u, 3u, 4u, 0u}[seed % 4];
+        const bool target_too = seed / 4 % 2 == 0;
+        const auto targets = moving_target(random, seed / 8 % 2, 150, random.uniform(0.01f, 0.02f));
+        const glm::vec3 side = beside(random, targets);
+        const auto shown = [&](std::size_t i) {
+            return n == 0 ? i - (i % 6 == 5 && i > 6 ? 1 : 0) : i / n * n;
+        };
+        const auto all = incidents_of(
+            150, {}, [&](std::size_t i) { return arm(targets[shown(i)], side); },
+            [&](std::size_t i) { return targets[target_too ? shown(i) : i]; }, side);
+        ASSERT_EQ(all.size(), target_too ? 0u : 1u) << "seed " << seed << ", " << n << ": " << said(all);
+        if (target_too) continue;
+        EXPECT_EQ(all[0].kind, IncidentKind::Repeated);
+        EXPECT_NEAR(all[0].hertz, n == 0 ? 50.0 : 60.0 / static_cast<double>(n), 0.5) << "seed " << seed;
+        EXPECT_LT(all[0].frame, 12u);
+        EXPECT_GT(all[0].last_frame, 138u);
+    }
+}
+
+TEST(Incident, AHeldPoseThatCatchesUpDoesNotFlip) {
+    for (unsigned seed = 0; seed < 100; ++seed) {
+        Random random(seed);
+        const std::size_t held = 3 + seed % 18, first = 40 + random.below(20);
+        const auto targets = moving_target(random, seed % 2, 150, random.uniform(0.01f, 0.04f));
+        const glm::vec3 side = beside(random, targets);
+        const auto all = incidents_of(
+            150, {},
+            [&](std::size_t i) { return arm(targets[i < first || i >= first + held ? i : first - 1], side); },
+            [&](std::size_t i) { return targets[i]; }, side);
+        ASSERT_EQ(all.size(), 1u) << "seed " << seed << ": " << said(all);
+        EXPECT_EQ(all[0].kind, IncidentKind::Repeated) << "seed " << seed;
+    }
+}
+
+TEST(Incident, AFrameAsideOrTwoSwappedAreOneIncident) {
+    for (unsigned seed = 0; seed < 120; ++seed) {
+        Random random(seed);
+        std::size_t at = 40 + random.below(60);
+        const auto targets = moving_target(random, 0, 150, random.uniform(0.008f, 0.03f));
+        const glm::vec3 side = beside(random, targets);
+        while (glm::distance(targets[at], targets[at + 1]) < 0.005f) ++at;
+        const glm::vec3 aside = random.uniform(0.15f, 0.4f) * glm::normalize(random.in_ball());
+        const auto all = incidents_of(
+            150, {},
+            [&](std::size_t i) {
+                const bool swaps = seed % 3 == 0 && (i == at || i == at + 1);
+                auto joints = arm(targets[swaps ? 2 * at + 1 - i : i], side);
+                for (glm::vec3& joint : joints)
+                    if (seed % 3 == 1 && i == at) joint += aside;
+                return joints;
+            },
+            [&](std::size_t i) { return targets[i]; }, side);
+        ASSERT_EQ(all.size(), seed % 3 == 2 ? 0u : 1u) << "seed " << seed << ": " << said(all);
+        if (all.empty()) continue;
+        EXPECT_EQ(all[0].kind, IncidentKind::Misplaced);
+        EXPECT_EQ(all[0].frame, at) << "seed " << seed << ": " << all[0].cause;
+        EXPECT_EQ(all[0].last_frame, at + (seed % 3 == 0 ? 1 : 0));
+    }
+}
+
+TEST(Incident, APoleTargetThatJumpsIsNamedForTheBendThatFollows) {
+    for (unsigned seed = 0; seed < 60; ++seed) {
+        Random random(seed);
+        const auto targets = moving_target(random, 0, 120, 0.01f);
+        const bool jumps = seed % 2 == 0, follows = seed % 4 == 0;
+        const glm::vec3 from = 2.0f * glm::normalize(glm::cross(targets[60], random.in_ball()));
+        IncidentFinder finder;
+        for (std::size_t i = 0; i < 120; ++i) {
+            const glm::vec3 pole = jumps && i >= 60 ? -from : from;
+            const auto joints = arm(targets[i], follows ? pole : from);
+            finder.add({.joints = joints, .target = targets[i], .pole = pole});
+        }
+        finder.finish();
+        const auto& all = finder.incidents();
+        ASSERT_EQ(all.size(), jumps ? 1u : 0u) << "seed " << seed << ": " << said(all);
+        if (!jumps) continue;
+        EXPECT_EQ(all[0].kind, IncidentKind::PoleJump);
+        EXPECT_EQ(all[0].frame, 60u);
+        EXPECT_NEAR(all[0].amount, 4.0, 0.01);
+        EXPECT_EQ(std::string(all[0].cause).ends_with("the chain bends there with it"), follows);
+    }
+}
+
+// The elbow changes sides at the farthest point of a way out and back.
+TEST(Incident, AnArmThatIsAllButStraightFlipsForThat) {
+    for (unsigned seed = 0; seed < 60; ++seed) {
+        Random random(seed);
+        const bool straight = seed % 2 == 0;
+        const float far = straight ? random.uniform(0.9955f, 0.999f) : random.uniform(0.9f, 0.99f);
+        const glm::vec3 line = glm::normalize(glm::vec3(1, 0.5f, 0.7f) + 0.3f * random.in_ball());
+        const glm::vec3 side = glm::cross(line, random.in_ball());
+        const auto target = [&](std::size_t i) {
+            return (far - 0.0001f * std::abs(static_cast<float>(i) - 59.5f)) * line;
+        };
+        const auto all = incidents_of(
+            120, {}, [&](std::size_t i) { return arm(target(i), i < 60 ? side : -side); }, target);
+        ASSERT_EQ(all.size(), 1u) << "seed " << seed;
+        EXPECT_EQ(all[0].flip, straight ? FlipCause::Straight : FlipCause::Unexplained) << far;
     }
 }
 

@@ -34,22 +34,6 @@ void expect_refused(World& world, const std::function<void()>& call,
     EXPECT_TRUE(same_bits(before, world.state())) << message;
 }
 
-TEST(RopeRefusals, OfSettings) {
-    World world = some_world();
-    expect_refused(world, [&] { world.set_settings({.substep = 0.2}); }, {"set_settings", "substep", "0.2"});
-    EXPECT_NO_THROW(world.set_settings(
-        {.substep = 0.1, .iterations = 10'000, .damping = 1e3f, .friction = 100.0f, .longest_frame = 10.0f}));
-}
-
-TEST(RopeRefusals, OfRopes) {
-    World world = some_world();
-    const auto bad = [&](const rope::RopeShape& shape, const char* what, const char* value) {
-        expect_refused(world, [&] { world.add_rope(shape); }, {"add_rope", what, value});
-    };
-    bad({.from = {nan, 0, 0}}, "from", "nan");
-    bad({.segments = 999'999}, "particles", "1000000");  // and the present ones
-}
-
 TEST(RopeRefusals, OfClothAndHair) {
     World world = some_world();
     const auto cloth = [&](const rope::ClothShape& shape, const char* what, const char* value) {
@@ -97,27 +81,6 @@ TEST(RopeRefusals, OfEverythingElse) {
     refused([&] { world.set_collider("nobody", rope::Sphere{}); }, {"set_collider", "collider"});
     refused([&] { world.remove_collider("nobody"); }, {"remove_collider", "collider"});
     refused([&] { world.use_vector_unit("abacus"); }, {"use_vector_unit", "abacus"});
-}
-
-TEST(RopeRefusals, OfMaterials) {
-    World world = some_world();
-    const rope::BodyId rope = world.id("rope"), nobody{};
-    const auto refused = [&](const Result& result, std::initializer_list<const char*> words) {
-        expect_refused(
-            world, [&] { allow(result); }, words);
-    };
-    rope::World& core = world.core();
-    refused(core.set_radius(nobody, 0.1f), {"set_radius", "body"});
-    refused(core.set_radius(rope, -1.0f), {"set_radius", "-1"});
-    refused(core.set_mass(nobody, 1.0), {"set_mass", "body"});
-    refused(core.set_mass(rope, 0.0), {"set_mass", "0"});
-    refused(core.set_mass(rope, double{nan}), {"set_mass", "nan"});
-    refused(core.set_tear(nobody, 1.0f), {"set_tear", "body"});
-    refused(core.set_tear(rope, nan), {"set_tear", "nan"});
-    refused(core.set_compliance(nobody, rope::Link::Kind::Bend, 1.0f), {"set_compliance", "body"});
-    refused(core.set_compliance(rope, rope::Link::Kind::Bend, infinity), {"set_compliance", "inf"});
-    refused(core.set_length(nobody, 1.0f), {"set_length", "body"});
-    refused(core.set_length(rope, -1.0f), {"set_length", "-1"});
 }
 
 /// The largest scene that fits is accepted; one particle more is not.

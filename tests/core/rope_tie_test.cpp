@@ -328,26 +328,6 @@ TEST_P(RopeTieScenes, StayFiniteAndGainNoEnergy) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, RopeTieScenes, testing::Range<std::uint64_t>(0, 1000, 250));
 
-/// Editing, rollback, other workspaces and threads.
-TEST(RopeTie, SameBitsFromAnyCopy) {
-    World world;
-    world.add_rope("line",
-                   {.from = {0, 2, 0}, .to = {1, 2, 0}, .segments = 20, .pin_start = true, .pin_end = true});
-    world.add_cloth(
-        "sheet",
-        {.corner = {0, 1.9f, 0}, .along = {1, 0, 0}, .down = {0, -1, 0.2f}, .columns = 6, .rows = 6});
-    world.add_rope("tail", {.from = {0.5f, 1, 0.2f}, .to = {0.5f, 0.5f, 0.2f}, .segments = 8});
-    for (int i = 0; i < 6; ++i) tie(world, "line", 4 * i, "sheet", i, {.length = 0.02f});
-    tie(world, "sheet", -3, "tail", 0, {.strength = 100.0f});
-    run(world, 0.5);
-    World copy(world.state());
-    copy.use_vector_unit("none");
-    EXPECT_EQ(copy.state().ties, world.state().ties);
-    run(world, 1.0);
-    run(copy, 1.0);
-    EXPECT_TRUE(same_bits(world.state(), copy.state()));
-}
-
 TEST(RopeTie, StaysOnItsParticleThroughEdits) {
     World world;
     world.add_rope("first", {.from = {0, 3, 0}, .to = {1, 3, 0}, .segments = 4});

@@ -29,17 +29,6 @@ double farthest_apart(const World& a, const World& b) {
     return most;
 }
 
-TEST(RopeTime, ItsCutIntoFramesDoesNotMatter) {
-    for (const Solver solver : all_solvers) {
-        World whole = scene(solver), tenths = scene(solver);
-        for (int i = 0; i < 60; ++i) whole.advance(1.0 / 60.0);
-        for (int i = 0; i < 10; ++i) tenths.advance(1.0 / 10.0);
-        EXPECT_EQ(whole.state().substeps, 240u);
-        EXPECT_EQ(tenths.state().substeps, 240u);
-        EXPECT_LE(farthest_apart(whole, tenths), 1e-6) << name(solver);
-    }
-}
-
 TEST(RopeTime, NorDoRaggedCuts) {
     Random random(51);
     World whole = scene(Solver::Direct);

@@ -32,6 +32,7 @@ struct Words {
     std::string label{};  ///< "elbow" in "elbow = new Vector3", in lower case; may be empty
     Meaning meaning = Meaning::Joint;
     bool is_position = true;
+    char letter = 0;  ///< the word next to the vector, if it is one: "p=("
 };
 
 /// Three or four numbers.
@@ -121,6 +122,7 @@ Words words_before(std::string_view text) {
         if (end - begin == 1 && begin > 1 && text[begin - 1] == '.' && !is_digit(text[begin]))
             for (--begin; begin > 0 && is_word(text[begin - 1]);) --begin;  // hand.R
         const std::string word = lower_case(text.substr(begin, end - begin));
+        if (last == text.size() && word.size() == 1 && !is_digit(word[0])) found.letter = word[0];
         const bool number = word.find_first_not_of("0123456789_") == word.npos;
         if (number ? named || !joined || !index.empty() : !named && !joined && !index.empty()) break;
         named = named || !joined;
@@ -148,19 +150,21 @@ bool is_number_start(char c) {
     return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
 }
 
-/// A number, or one as np.float64(1.5) prints it.
+/// A number, or one in a constructor: np.float64(1.5), array(1.5, dtype=float32).
 std::optional<double> take_printed(std::string_view& text) {
     if (const auto number = take_number(text)) return number;
-    for (const std::string_view type :
-         {"np.float64(", "np.float32(", "np.float16(", "numpy.float64(", "float("}) {
-        if (!text.starts_with(type)) continue;
-        std::string_view rest = text.substr(type.size());
-        const auto number = take_number(rest);
-        if (!number || !rest.starts_with(')')) return std::nullopt;
-        text = rest.substr(1);
-        return number;
-    }
-    return std::nullopt;
+    constexpr std::size_t longest = 16;  // "numpy.float64"
+    std::size_t open = 0;
+    while (open < std::min(text.size(), longest) && (is_word(text[open]) || text[open] == '.')) ++open;
+    if (open == 0 || open == text.size() || text[open] != '(') return std::nullopt;
+    std::string_view rest = text.substr(open + 1);
+    const auto number = take_number(rest);
+    constexpr std::string_view type = ", dtype=";
+    if (number && rest.starts_with(type))
+        for (rest.remove_prefix(type.size()); !rest.empty() && is_word(rest[0]);) rest.remove_prefix(1);
+    if (!number || !rest.starts_with(')')) return std::nullopt;
+    text = rest.substr(1);
+    return number;
 }
 
 /// Finds vectors in one line.
@@ -237,15 +241,20 @@ class Scanner {
         return at;
     }
 
-    /// X=1.0 Y=2.0 Z=3.0 [W=1.0], or W first.
+    /// X=1.0 Y=2.0 Z=3.0 [W=1.0], or W first; each may have the point's name: elbow.x=1.0 elbow.y=2.0
     bool named(std::size_t at, std::size_t& end, std::vector<double>& numbers) {
-        if (at > 0 && is_word(text_[at - 1])) return false;
+        const bool joined = at > 0 && (text_[at - 1] == '.' || text_[at - 1] == '_');
+        if (at > 0 && is_word(text_[at - 1]) && !joined) return false;
+        std::size_t begin = at;
+        while (joined && begin > from_ && (is_word(text_[begin - 1]) || text_[begin - 1] == '.')) --begin;
+        const std::string_view name = text_.substr(begin, at - begin);
         const bool w_first = text_[at] == 'w' || text_[at] == 'W';
         const std::string_view lower = w_first ? "wxyz" : "xyzw", upper = w_first ? "WXYZ" : "XYZW";
         std::size_t here = at;
         bool equals = false, tight = false;
         for (std::size_t i = 0; i < 4; ++i) {
-            const std::size_t start = skip(here, i == 0 ? "" : " ,;\t\"'");
+            std::size_t start = skip(here, i == 0 ? "" : " ,;\t\"'");
+            if (i > 0 && joined && text_.substr(start).starts_with(name)) start += name.size();
             if (start >= text_.size() || (text_[start] != lower[i] && text_[start] != upper[i])) break;
             const std::size_t sign = skip(start + 1, " \"'");
             if (sign >= text_.size() || (text_[sign] != '=' && text_[sign] != ':')) break;
@@ -273,11 +282,13 @@ class Scanner {
         return true;
     }
 
-    /// 1.0 2.0 3.0, after a name and a colon or equals sign.
+    /// 1.0 2.0 3.0, after a name and a colon or equals sign, or beside a pipe.
     bool bare(std::size_t at, std::size_t& end, std::vector<double>& numbers) {
-        if (!is_number_start(text_[at]) || at == 0) return false;
-        const std::size_t sign = text_.find_last_not_of(" \t", at - 1);
-        if (sign == text_.npos || sign < from_ || (text_[sign] != ':' && text_[sign] != '=')) return false;
+        if (!is_number_start(text_[at])) return false;
+        const std::size_t sign = at == 0 ? text_.npos : text_.find_last_not_of(" \t", at - 1);
+        const char before = sign == text_.npos ? '|' : text_[sign];
+        if ((sign != text_.npos && sign < from_) || (before != ':' && before != '=' && before != '|'))
+            return false;
         std::size_t here = at;
         for (;;) {
             std::string_view rest = text_.substr(here);
@@ -293,8 +304,10 @@ class Scanner {
             const Words words = words_before(text_.substr(from_, at - from_));
             return !words.label.empty() || !words.is_position;
         };
-        const bool fits = (numbers.size() == 3 || numbers.size() == 4) &&
-                          text_.substr(at, end - at).find('.') != text_.npos && named();
+        const bool fits =
+            (numbers.size() == 3 || numbers.size() == 4) &&
+            text_.substr(at, end - at).find('.') != text_.npos &&
+            ((sign != text_.npos && before == '|') || (here < text_.size() && text_[here] == '|') || named());
         if (!fits) numbers.clear();
         return fits;
     }
@@ -483,11 +496,13 @@ class LogTrace final : public RawTrace {
     /// Adds a line's vectors to the frame. True if the line begins the next one, which is then in ahead_.
     bool take(RawFrame& frame) {
         std::vector<Found> found = Scanner(text_, *this).all();
+        read_stamp();
         const bool ends =
             documents_.value_or(false) ? text_.starts_with("---") : labels_.empty() && !by_line_;
         if (found.empty()) return ends && frame.joints.size() >= (documents_ ? 1u : 2u);
         sort_fours(found);
         any_ = true;
+        name_by_letters(found);
         leave_out_attributes(found);
         const auto joints = std::ranges::count_if(found, is_joint);
         if (joints >= 2) by_line_ = true;
@@ -503,6 +518,49 @@ class LogTrace final : public RawTrace {
             add(*into, each);
         }
         return into == &ahead_;
+    }
+    /// "[0.033] ...", "time: 0.033", "12:00:01.033 ..."; ROS has "sec: 12" and "nanosec: 345".
+    void read_stamp() {
+        constexpr std::size_t farthest = 60;  // characters
+        std::string_view text = std::string_view(text_).substr(0, farthest);
+        text.remove_prefix(std::min(text.find_first_not_of(" \t[("), text.size()));
+        const std::string_view all = text;
+        if (auto number = take_number(text)) {
+            for (; text.starts_with(':') && text.size() > 1 && is_digit(text[1]);)
+                text.remove_prefix(1), number = 60.0 * *number + take_number(text).value_or(0.0);
+            const bool whole = all.substr(0, all.size() - text.size()).find('.') == all.npos;
+            if (!whole && !text.empty() && std::string_view(" ])\t:s|").find(text[0]) != text.npos)
+                stamp_ = number;
+            return;
+        }
+        while (!text.empty()) {
+            std::size_t end = 0;
+            while (end < text.size() && is_word(text[end])) ++end;
+            const std::string word = lower_case(text.substr(0, end));
+            const double unit = end > 0 ? time_unit(word) : 0.0;
+            text.remove_prefix(std::max<std::size_t>(end, 1));
+            std::string_view rest = text.substr(std::min(text.find_first_not_of(" =:"), text.size()));
+            const auto number = rest.size() < text.size() ? take_number(rest) : std::nullopt;
+            if (number && unit > 0.0) stamp_ = *number * unit;
+            if (number && (word == "sec" || word == "secs")) stamp_ = *number;
+            if (number && (word == "nanosec" || word == "nsecs"))
+                stamp_ = stamp_.value_or(0.0) + 1e-9 * *number;
+            if (number) return;
+        }
+    }
+    /// p (...) q (...) r (...): letters that stand once each, with no other names, are the joints' names.
+    static void name_by_letters(std::vector<Found>& found) {
+        std::set<char> letters;
+        std::size_t joints = 0;
+        for (const Found& each : found) {
+            if (each.meaning != Meaning::Joint || each.numbers.size() != 3) continue;
+            if (each.letter == 0 || each.label.size() > 1) return;
+            letters.insert(each.letter);
+            ++joints;
+        }
+        if (joints < 2 || letters.size() < joints) return;
+        for (Found& each : found)
+            if (each.letter != 0) each.label = each.letter, each.is_position = true;
     }
     static bool is_joint(const Found& found) {
         return found.is_position && found.meaning == Meaning::Joint && found.numbers.size() == 3;
@@ -548,7 +606,7 @@ class LogTrace final : public RawTrace {
 
     void add(RawFrame& frame, const Found& found) {
         if (!found.is_position && found.numbers.size() == 3) return;
-        if (frame.line == 0) frame.line = line;
+        if (frame.line == 0) frame.line = line, frame.time = stamp_;
         const auto& n = found.numbers;
         if (n.size() == 4) {
             if (found.meaning == Meaning::Joint && frame.rotations.size() < max_trace_joints)
@@ -575,7 +633,8 @@ class LogTrace final : public RawTrace {
     std::string before_;              ///< the line before, if it ends with a colon
     std::deque<std::string> later_;   ///< lines that were read ahead
     std::optional<bool>
-        documents_{};  ///< whether --- parts the frames; unknown before the first x: on a line
+        documents_{};                ///< whether --- parts the frames; unknown before the first x: on a line
+    std::optional<double> stamp_{};  ///< seconds, the latest that was read
     bool waiting_ = true, by_line_ = false, any_ = false, homogeneous_ = false;
 };
 

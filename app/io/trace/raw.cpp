@@ -25,13 +25,13 @@ bool read_line(std::istream& in, std::string& text, std::size_t& line) {
         const int c = buffer.sbumpc();
         if (c == std::char_traits<char>::eof()) break;
         any = true;
-        if (c == '\n') break;
+        if (c == '\r' && buffer.sgetc() == '\n') buffer.sbumpc();
+        if (c == '\n' || c == '\r') break;
         if (text.size() == longest) fail_line(line + 1, "is longer than 16 MiB");
         text.push_back(static_cast<char>(c));
     }
     if (!any) return false;
     ++line;
-    if (text.ends_with('\r')) text.pop_back();
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
     if (line == 1 && text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
     return true;

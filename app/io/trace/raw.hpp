@@ -64,6 +64,8 @@ std::optional<double> take_number(std::string_view& text);
 enum class Meaning { Joint, Target, Pole };
 /// The meaning of a name in lower case: "ik_target", "pole vector".
 Meaning meaning_of(std::string_view name);
+/// Seconds that one of a column or word counts: 1e-3 of "time_ms" and "time [ms]"; 0 if it is no time.
+double time_unit(std::string_view name);
 /// Whether the text before a vector, or a column's name, says that the numbers are not a position:
 /// "elbow_rotation", "in RPY (radian)".
 bool names_no_position(std::string_view text);

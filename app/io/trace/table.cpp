@@ -33,7 +33,7 @@ std::vector<std::string_view> cells(std::string_view line, char separator) {
 char separator_of(std::string_view line) {
     char best = ' ';
     std::ptrdiff_t most = 0;
-    for (const char each : {',', ';', '\t'}) {
+    for (const char each : {',', ';', '\t', '|'}) {
         const auto count = std::count(line.begin(), line.end(), each);
         if (count > most) most = count, best = each;
     }
@@ -60,6 +60,7 @@ struct Column {
     Role role = Role::Ignored;
     std::size_t joint = 0;
     int axis = 0;
+    std::size_t chain = 0;
     double unit = 1.0;  ///< seconds, of a time
 };
 
@@ -130,7 +131,26 @@ Role role_of(const std::string& base) {
     return roles[static_cast<std::size_t>(meaning_of(base))];
 }
 
-/// Seconds that one of a column counts: 1e-3 of "time_ms" and "Time [ms]"; 0 if it is no time.
+/// "left_elbow", "elbow.r" and "RightElbow" are the elbow of the left (0) or right (1) side.
+struct Sided {
+    std::size_t side;
+    std::string part;
+};
+std::optional<Sided> sided(const std::string& base) {
+    const auto parts = [](char c) { return c == '.' || c == '_' || c == ' ' || c == '-' || c == ':'; };
+    for (const std::string_view name : {"left", "right", "l", "r"}) {
+        if (base.size() < name.size() + 2) continue;
+        const std::size_t side = name[0] == 'l' ? 0 : 1, rest = base.size() - name.size();
+        if (base.starts_with(name) && (name.size() > 1 || parts(base[1])))
+            return Sided{side, base.substr(name.size() + (parts(base[name.size()]) ? 1 : 0))};
+        if (base.ends_with(name) && (name.size() > 1 || parts(base[rest - 1])))
+            return Sided{side, base.substr(0, rest - (parts(base[rest - 1]) ? 1 : 0))};
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
 double time_unit(std::string_view name) {
     double unit = 1.0;
     bool time = false;
@@ -154,6 +174,8 @@ double time_unit(std::string_view name) {
     return time ? unit : 0.0;
 }
 
+namespace {
+
 class Table final : public RawTrace {
   public:
     Table(std::istream& in, std::string first, std::size_t at) : in_(in), text_(std::move(first)) {
@@ -172,6 +194,10 @@ class Table final : public RawTrace {
     bool next(RawFrame& frame) override {
         frame = {};
         if (one_pose_) return next_pose(frame);
+        if (!other_.joints.empty()) {
+            frame = std::exchange(other_, {});
+            return true;
+        }
         do {
             if (!waiting_ && !read_line(in_, text_, line)) return false;
             waiting_ = false;
@@ -183,7 +209,15 @@ class Table final : public RawTrace {
         if (row.size() != columns_.size())
             fail_line(line, "expected " + std::to_string(columns_.size()) + " columns, found " +
                                 std::to_string(row.size()));
-        for (std::size_t i = 0; i < row.size(); ++i) take(frame, i, row[i]);
+        if (two_sides_) {
+            frame.chain = "left";
+            other_ = frame;
+            other_.chain = "right";
+        }
+        for (std::size_t i = 0; i < row.size(); ++i)
+            take(two_sides_ && columns_[i].chain == 1 ? other_ : frame, i, row[i]);
+        other_.time = frame.time;
+        other_.dt = frame.dt;
         return true;
     }
 
@@ -233,8 +267,18 @@ class Table final : public RawTrace {
             if (point && point->axis == 3 &&
                 !(fours[point->base].w == 1.0 && glm::length(fours[point->base]) > 1.02))
                 turns.insert(point->base);
+        // Both arms in one table: each joint of the one has its like in the other.
+        std::array<std::set<std::string>, 2> sides;
+        two_sides_ = std::ranges::none_of(row, [](auto cell) { return lower_case(cell) == "chain"; });
+        for (const auto& point : points) {
+            if (!point || turns.contains(point->base) || role_of(point->base) != Role::Joint) continue;
+            const auto side = sided(point->base);
+            two_sides_ = two_sides_ && side;
+            if (side) sides[side->side].insert(side->part);
+        }
+        two_sides_ = two_sides_ && sides[0].size() > 1 && sides[0] == sides[1];
         std::string left_out;
-        std::map<Role, std::string> aims;
+        std::map<std::pair<Role, std::size_t>, std::string> aims;
         for (std::size_t i = 0; i < row.size(); ++i) {
             Column column;
             const std::string_view cell = row[i];
@@ -250,18 +294,26 @@ class Table final : public RawTrace {
             } else if (point) {
                 column.role = turns.contains(point->base) ? Role::Ignored : role_of(point->base);
                 const bool aim = column.role == Role::Target || column.role == Role::Pole;
+                const auto side = two_sides_ ? sided(point->base) : std::nullopt;
+                if (side) column.chain = side->side;
                 const bool second =
-                    aim && aims.try_emplace(column.role, point->base).first->second != point->base;
+                    aim &&
+                    ((two_sides_ && !side) ||
+                     aims.try_emplace({column.role, column.chain}, point->base).first->second != point->base);
                 if (second) column.role = Role::Ignored;
                 if (column.role == Role::Ignored && left_out != point->base)
                     notes.push_back("the columns of \"" + printable(left_out = point->base) +
                                     "\" were left out: they are " +
-                                    (second ? "a second target" : "not positions"));
+                                    (!second      ? "not positions"
+                                     : two_sides_ ? "no side's target"
+                                                  : "a second target"));
                 if (point->axis == 3) column.role = Role::Ignored;
                 column.axis = point->axis;
                 if (column.role == Role::Joint) {
-                    const auto [joint, is_new] = joints.try_emplace(point->base, joints.size());
-                    if (is_new) header.bones.push_back(point->base);
+                    // Of two sides the second has the first one's joints.
+                    const std::string& name = side ? side->part : point->base;
+                    const auto [joint, is_new] = joints.try_emplace(name, joints.size());
+                    if (is_new) header.bones.push_back(name);
                     column.joint = joint->second;
                     ++axes[static_cast<std::size_t>(column.axis)];
                 }
@@ -272,7 +324,7 @@ class Table final : public RawTrace {
         }
         joints_ = joints.size();
         for (const int count : axes)
-            if (static_cast<std::size_t>(count) != joints_)
+            if (static_cast<std::size_t>(count) != joints_ * (two_sides_ ? 2 : 1))
                 fail_line(at, "expected columns x, y and z of every joint: j0x, j0y, j0z, j1x and so on");
         if (joints_ > max_trace_joints) fail_line(at, "found more than 4096 joints");
     }
@@ -320,7 +372,8 @@ class Table final : public RawTrace {
     char separator_ = ',';
     std::vector<Column> columns_;
     std::size_t joints_ = 0;
-    bool waiting_ = true, one_pose_ = false, done_ = false;
+    RawFrame other_;  ///< the right side's, while it was not handed out
+    bool waiting_ = true, one_pose_ = false, done_ = false, two_sides_ = false;
 };
 
 }  // namespace

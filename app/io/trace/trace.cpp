@@ -50,9 +50,14 @@ std::string amount_of(const ik::ChainIncident& incident) {
             return text("%.0f frame%s late", amount, amount == 1.0 ? "" : "s");
         case ik::IncidentKind::Missed:
             return text("%.3g mm short", 1000.0 * amount);
+        case ik::IncidentKind::Misplaced:
+            return text("%.3g mm off", 1000.0 * amount);
         case ik::IncidentKind::TargetJump:
+        case ik::IncidentKind::PoleJump:
             return text("%.3g m", amount);
         case ik::IncidentKind::Repeated:
+            if (incident.hertz > 0.0)
+                return text("%.0f frames repeat, new ones come at %.3g Hz", amount, incident.hertz);
             return amount == 1.0 ? "drawn twice" : text("drawn %.0f times", amount + 1.0);
         case ik::IncidentKind::Nan:
             break;

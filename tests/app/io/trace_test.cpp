@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <sstream>
 
-#include "tests/app/io/trace_support.hpp"
+#include "tests/app/io/trace_reading.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
@@ -37,38 +38,6 @@ const Space& space_for(Format format, unsigned seed) {
 
 bool says_its_space(Format format) {
     return format == Format::JsonLines || format == Format::JsonList;
-}
-
-struct ReadTrace {
-    TraceFindings findings;
-    Conventions conventions;
-    std::vector<std::string> notes;
-    const std::vector<TracedIncident>& incidents() const { return findings.chains.front().incidents; }
-    std::string text() const {
-        std::string all;
-        for (const auto& each : incidents())
-            all += std::string(ik::name(each.kind)) + " at " + std::to_string(each.frame) + " joint " +
-                   std::to_string(static_cast<int>(each.joint)) + " " + std::to_string(each.amount) + ": " +
-                   each.cause + "\n";
-        return all;
-    }
-};
-
-ReadTrace read_trace(const std::string& text, const ConventionChoice& choice = {}) {
-    std::istringstream in(text);
-    TraceReader reader(in, choice);
-    ReadTrace result{find_incidents(reader), reader.conventions(), {}};
-    result.notes = reader.notes();
-    return result;
-}
-
-std::string trace_refusal(const std::string& text) {
-    try {
-        read_trace(text);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "read";
 }
 
 TEST(Trace, EveryPlantedFaultIsFoundAtItsFrameWithItsCause) {
@@ -330,225 +299,6 @@ TEST(Trace, AnArrayOfManyLinesIsReadInTimeOfItsLength) {
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
-/// How a program prints a frame of shoulder, elbow and hand, and what it can be known to have.
-struct Maker {
-    const char* name;
-    std::string (*print)(const std::vector<glm::dvec3>& joints, std::size_t frame);
-    int space = 2;            ///< of test::made::spaces
-    const char* header = "";  ///< before the first frame
-    const char* engine = "";  ///< in the text of the conventions
-};
-
-std::string printed(const glm::dvec3& p, const char* format = "(%.4f, %.4f, %.4f)") {
-    char text[200];
-    std::snprintf(text, sizeof text, format, p.x, p.y, p.z);
-    return text;
-}
-template <std::size_t N>
-std::string each_joint(const std::vector<glm::dvec3>& joints, const char (&format)[N],
-                       const char* between = " ") {
-    std::string text;
-    for (const glm::dvec3& joint : joints) text += (text.empty() ? "" : between) + printed(joint, format);
-    return text;
-}
-std::string labelled(const std::vector<glm::dvec3>& joints, const char* format) {
-    return "shoulder" + printed(joints[0], format) + "elbow" + printed(joints[1], format) + "hand" +
-           printed(joints[2], format);
-}
-
-using Joints = std::vector<glm::dvec3>;
-const Maker makers[]{
-    {"NumPy",
-     [](const Joints& j, std::size_t) { return "[" + each_joint(j, "[%.4f %.4f %.4f]", "\n ") + "]\n"; }},
-    {"NumPy repr",
-     [](const Joints& j, std::size_t) {
-         return "arm = array([" + each_joint(j, "[ %.4f,  %.4f,  %.4f]", ",\n       ") + "])\n";
-     }},
-    {"NumPy scalars",
-     [](const Joints& j, std::size_t) {
-         return each_joint(j, "(np.float64(%.4f), np.float64(%.4f), np.float64(%.4f))") + "\n";
-     }},
-    {"System.Numerics",
-     [](const Joints& j, std::size_t) { return each_joint(j, "<%.4f, %.4f, %.4f>") + "\n"; }},
-    {"XNA", [](const Joints& j, std::size_t) { return each_joint(j, "{X:%.4f Y:%.4f Z:%.4f}") + "\n"; }, 2,
-     "", "XNA"},
-    {"Babylon",
-     [](const Joints& j, std::size_t) { return each_joint(j, "{X: %.4f Y: %.4f Z: %.4f}") + "\n"; }, 1, "",
-     "Babylon"},
-    {"C# record",
-     [](const Joints& j, std::size_t) {
-         return each_joint(j, "Vector3 { X = %.4f, Y = %.4f, Z = %.4f }") + "\n";
-     }},
-    {"Unreal",
-     [](const Joints& j, std::size_t) {
-         return "LogTemp: " + each_joint(j, "X=%.3f Y=%.3f Z=%.3f") + " Rotation: X=0.0 Y=0.0 Z=0.0 W=1.0\n";
-     },
-     0, "", "Unreal"},
-    {"Godot", [](const Joints& j, std::size_t) { return each_joint(j, "(%.4f, %.4f, %.4f)") + "\n"; }},
-    {"three.js", [](const Joints& j,
-                    std::size_t) { return each_joint(j, "Vector3 {x: %.4f, y: %.4f, z: %.4f}") + "\n"; }},
-    {"glm",
-     [](const Joints& j, std::size_t) {
-         return each_joint(j, "vec3(%f, %f, %f)") + " rot quat(1.000000, {0.000000, 0.000000, 0.000000})\n";
-     }},
-    {"Eigen column", [](const Joints& j, std::size_t) { return labelled(j, ":\n%.4f\n%.4f\n%.4f\n"); }},
-    {"Eigen row", [](const Joints& j, std::size_t) { return labelled(j, ": %.4f %.4f  %.4f\n"); }},
-    {"ROS",
-     [](const Joints& j, std::size_t) {
-         return "poses:\n" +
-                each_joint(j,
-                           "- position:\n    x: %.4f\n    y: %.4f\n    z: %.4f\n  orientation:\n    x: 0.0\n"
-                           "    y: 0.0\n    z: 0.0\n    w: 1.0\n",
-                           "") +
-                "---\n";
-     },
-     3, "", "ROS"},
-    {"Maya",
-     [](const Joints& j, std::size_t) { return "[" + each_joint(j, "[%.4f, %.4f, %.4f]", ", ") + "]\n"; }},
-    {"Maya points",
-     [](const Joints& j, std::size_t) { return each_joint(j, "(%.4f, %.4f, %.4f, 1)") + "\n"; }},
-    {"Maya selection", [](const Joints& j, std::size_t) { return labelled(j, " = %.4f %.4f %.4f //\n"); }},
-    {"Houdini",
-     [](const Joints& j, std::size_t) { return each_joint(j, "<hou.Vector3 [%.4f, %.4f, %.4f]>") + "\n"; }, 2,
-     "", "Houdini"},
-    {"Blender",
-     [](const Joints& j, std::size_t) { return each_joint(j, "<Vector (%.4f, %.4f, %.4f)>") + "\n"; }, 3, "",
-     "Blender"},
-    {"Blender matrices",
-     [](const Joints& j, std::size_t) {
-         std::string text;
-         for (std::size_t i = 0; i < 3; ++i)
-             text += "joint " + std::to_string(i) +
-                     printed(j[i],
-                             ": <Matrix 4x4 (0.6, -0.8, 0.0, %.4f)\n            (0.8, 0.6, 0.0, %.4f)\n"
-                             "            (0.0, 0.0, 1.0, %.4f)\n            (0.0, 0.0, 0.0, 1.0)>\n");
-         return text;
-     },
-     3},
-    {"MATLAB",
-     [](const Joints& j, std::size_t) { return "p = [" + each_joint(j, "%.4f %.4f %.4f", "; ") + "]\n"; }},
-    {"JOML", [](const Joints& j, std::size_t) { return each_joint(j, "( %.4E  %.4E  %.4E)") + "\n"; }},
-    {"Python",
-     [](const Joints& j, std::size_t) { return each_joint(j, "{'x': %.4f, 'y': %.4f, 'z': %.4f}") + "\n"; }},
-    {"JSON objects",
-     [](const Joints& j, std::size_t) { return each_joint(j, "{\"x\":%.4f,\"y\":%.4f,\"z\":%.4f}") + "\n"; }},
-    {"with rotations",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, " position (%.4f, %.4f, %.4f) rotation (0.00, 90.00, 0.00) scale (1, 1, 1)\n");
-     }},
-    {"quaternions, w first",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, " (%.4f, %.4f, %.4f) <Quaternion (w=0.9888, x=0.0338, y=0.0846, z=0.1184)> ") +
-                "\n";
-     }},
-    {"named quaternions",
-     [](const Joints& j, std::size_t) {
-         return each_joint(j, "{pos: {x: %.4f, y: %.4f, z: %.4f}, rot: {w: 1.0, x: 0.0, y: 0.0, z: 0.0}}") +
-                "\n";
-     }},
-    {"t r s",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, " t=[%.4f, %.4f, %.4f] r=[10.0, 20.0, 30.0] s=[1.0, 1.0, 1.0] ") + "\n";
-     }},
-    {"p w v",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, ": p=(%.4f, %.4f, %.4f) w=(0.0, 0.0, 0.3) v=(0.1, 0.2, 0.3) ") + "\n";
-     }},
-    {"forward, up",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, " pos (%.4f, %.4f, %.4f) fwd (0.0, 0.0, 1.0) up (0.0, 1.0, 0.0)\n");
-     }},
-    {"axis, angle",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, " (%.4f, %.4f, %.4f) axis=(0.0, 1.0, 0.0) angle=10.0 ") + "\n";
-     }},
-    {"world, local",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, " world (%.4f, %.4f, %.4f) local (0.3, 0.0, 0.0) ") + "\n";
-     }},
-    {"velocities",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, ": position (%.4f, %.4f, %.4f) velocity (0.1, 0.0, 0.3) ") + "\n";
-     }},
-    {"a label that each has",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, " (%.4f, %.4f, %.4f) bulge (0.1, 0.2, 0.3) ") + "\n";
-     }},
-    {"labels in turn",
-     [](const Joints& j, std::size_t) {
-         return each_joint(j, "here (%.4f, %.4f, %.4f) bulge (0.1, 0.2, 0.3)") + "\n";
-     }},
-    {"poses of seven",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, " [%.4f, %.4f, %.4f, 0.0338, 0.0846, 0.1184, 0.9888] ") + "\n";
-     }},
-    {"Universal Robots",
-     [](const Joints& j, std::size_t) { return each_joint(j, "p[%.4f, %.4f, %.4f, 0.1, 0.2, 0.3]") + "\n"; }},
-    {"hand.R",
-     [](const Joints& j, std::size_t) {
-         return "arm.R" + printed(j[0]) + "\nfore.R" + printed(j[1]) + "\nhand.R" + printed(j[2]) + "\n";
-     }},
-    {"with matrices",
-     [](const Joints& j, std::size_t) {
-         return each_joint(j, "(%.4f, %.4f, %.4f)") + " [[0.6 -0.8 0.0] [0.8 0.6 0.0] [0.0 0.0 1.0]]\n";
-     }},
-    {"indexed",
-     [](const Joints& j, std::size_t) {
-         std::string text;
-         for (std::size_t i = 0; i < 3; ++i)
-             text += "joint[" + std::to_string(i) + "] = " + printed(j[i]) + "\n";
-         return text;
-     }},
-    {"blank lines",
-     [](const Joints& j, std::size_t) { return each_joint(j, "(%.4f, %.4f, %.4f)", "\n") + "\n\n"; }},
-    {"CSV .x",
-     [](const Joints& j, std::size_t) { return each_joint(j, "%.4f,%.4f,%.4f,0,0,0,1", ",") + "\n"; }, 2,
-     "a.pos.x,a.pos.y,a.pos.z,a.rot.x,a.rot.y,a.rot.z,a.rot.w,b.pos.x,b.pos.y,b.pos.z,b.rot.x,b.rot.y,b.rot."
-     "z,"
-     "b.rot.w,c.pos.x,c.pos.y,c.pos.z,c.rot.x,c.rot.y,c.rot.z,c.rot.w\n"},
-    {"CSV [0]", [](const Joints& j, std::size_t) { return each_joint(j, "%.4f,%.4f,%.4f", ",") + "\n"; }, 2,
-     "a[0],a[1],a[2],b[0],b[1],b[2],c[0],c[1],c[2]\n"},
-    {"CSV prefix", [](const Joints& j, std::size_t) { return each_joint(j, "%.4f,%.4f,%.4f", ",") + "\n"; },
-     2, "x1,y1,z1,x2,y2,z2,x3,y3,z3\n"},
-    {"CSV unit", [](const Joints& j, std::size_t) { return each_joint(j, "%.4f,%.4f,%.4f", ",") + "\n"; }, 2,
-     "a_x [m],a_y [m],a_z [m],b_x [m],b_y [m],b_z [m],c_x [m],c_y [m],c_z [m]\n"},
-    {"CSV, not axes",
-     [](const Joints& j, std::size_t) { return "7,8," + each_joint(j, "%.4f,%.4f,%.4f,1", ",") + "\n"; }, 2,
-     "z-score,x label,a_x,a_y,a_z,a_w,b_x,b_y,b_z,b_w,c_x,c_y,c_z,c_w\n"}};
-
-TEST(Trace, LogsOfManyMakersAreRead) {
-    for (const Maker& maker : makers)
-        for (unsigned seed = 0; seed < 6; ++seed) {
-            SCOPED_TRACE(maker.name);
-            const MadeTrace made = TraceMaker(seed).make(seed < 3 ? Plant::Length : Plant::None);
-            const Space& space = test::made::spaces[maker.space];
-            std::string text = maker.header;
-            for (std::size_t i = 0; i < made.frames.size(); ++i) {
-                Joints joints;
-                for (const glm::dvec3& joint : made.frames[i].joints) joints.push_back(space.of(joint));
-                text += maker.print(joints, i);
-            }
-            ASSERT_EQ(trace_refusal(text), "read") << maker.name << '\n' << text.substr(0, 400);
-            const ReadTrace found = read_trace(text);
-            EXPECT_EQ(found.findings.chains[0].frames, made.frames.size()) << maker.name << '\n'
-                                                                           << text.substr(0, 400);
-            const Conventions& said = found.conventions;
-            EXPECT_NE(said.text().find(maker.engine), std::string::npos) << maker.name << ": " << said.text();
-            EXPECT_TRUE(!said.up.sure || trace_ups.name(said.up.value) == std::string(space.up))
-                << maker.name;
-            EXPECT_TRUE(!said.handed.sure || trace_hands.name(said.handed.value) == std::string(space.handed))
-                << maker.name << ": " << said.text();
-            EXPECT_TRUE(!said.unit.sure || trace_units.name(said.unit.value) == std::string(space.unit))
-                << maker.name << ": " << said.text();
-            ASSERT_EQ(found.incidents().size(), made.kind.empty() ? 0u : 1u) << maker.name << '\n'
-                                                                             << found.text();
-            if (made.kind.empty()) continue;
-            EXPECT_EQ(found.incidents()[0].frame, made.frame) << maker.name;
-            EXPECT_EQ(found.incidents()[0].joint, static_cast<std::size_t>(made.joint)) << maker.name;
-            EXPECT_NEAR(found.incidents()[0].amount, made.amount, 5e-3) << maker.name;
-        }
-}
-
 TEST(Trace, ATargetIsKnownByItsName) {
     const auto check = [](const std::string& text, bool pole) {
         std::istringstream in(text);
@@ -655,6 +405,66 @@ TEST(Trace, TablesAndTheirTimesAreReadHoweverTheyAreWritten) {
     EXPECT_TRUE(test::says(trace_refusal(std::string("\xff\xfet\0i\0", 6)), "UTF-16"));
     EXPECT_EQ(trace_refusal("{\"joints\": [{\"position\": {\"x\": 0, \"y\": 1, \"z\": 0}}, [1, 1, 0]]}\n"),
               "read");
+}
+
+TEST(Trace, StampsOfLogsGiveTheRate) {
+    const auto seconds = [](double t) { return test::made::number_text(t, 3); };
+    const std::function<std::string(double)> stamps[]{
+        [&](double t) { return '[' + seconds(t) + "] "; },
+        [&](double t) { return "  " + seconds(t + 1.69e9) + ": "; },
+        [&](double t) { return "12:00:0" + seconds(t) + " INFO "; },
+        [&](double t) { return "arm time=" + seconds(t) + ' '; },
+        [&](double t) { return "[stamp_ms: " + seconds(1e3 * t) + "] "; },
+        [](double t) {
+            const double whole = std::floor(t);
+            return "stamp:\n  sec: " + test::made::number_text(1.69e9 + whole, 0) +
+                   "\n  nanosec: " + test::made::number_text(1e9 * (t - whole), 0) + '\n';
+        }};
+    for (const auto& stamp : stamps) {
+        std::string text;
+        for (int i = 0; i < 80; ++i)
+            text += stamp(i / 30.0) + "a (0.0, 1.5, 0.0) b (0.25, 1.0, " + seconds(0.01 * i) + ")\n";
+        std::istringstream in(text);
+        EXPECT_NEAR(TraceReader(in).fps(), 30.0, 0.05) << text.substr(0, 100);
+    }
+}
+
+TEST(Trace, BothSidesInOneTableAreTwoChains) {
+    const auto table = [](std::vector<std::string> names, bool with_targets) {
+        std::string text = "time";
+        for (const std::string& name : names)
+            for (const char* axis : {"_x", "_y", "_z"}) text += ',' + name + axis;
+        for (unsigned i = 0; i < 120; ++i) {
+            text += '\n' + std::to_string(i / 60.0);
+            for (const Plant plant : {Plant::None, Plant::Length}) {
+                static const MadeTrace sides[]{TraceMaker(1).make(Plant::None),
+                                               TraceMaker(2).make(Plant::Length)};
+                const auto& frame = sides[plant == Plant::None ? 0 : 1].frames[i];
+                for (const glm::dvec3& joint : frame.joints) text += ',' + printed(joint, "%.5f,%.5f,%.5f");
+                if (with_targets) text += ',' + printed(frame.target, "%.5f,%.5f,%.5f");
+            }
+        }
+        return text;
+    };
+    for (const auto& names : std::initializer_list<std::vector<std::string>>{
+             {"left_shoulder", "left_elbow", "left_hand", "left_target", "right_shoulder", "right_elbow",
+              "right_hand", "right_target"},
+             {"LeftArm", "LeftForeArm", "LeftHand", "LeftTarget", "RightArm", "RightForeArm", "RightHand",
+              "RightTarget"},
+             {"arm.L", "forearm.L", "hand.L", "target.L", "arm.R", "forearm.R", "hand.R", "target.R"},
+             {"l_arm", "l_elbow", "l_hand", "r_arm", "r_elbow", "r_hand"}}) {
+        const ReadTrace found = read_trace(table(names, names.size() == 8));
+        ASSERT_EQ(found.findings.chains.size(), 2u) << names[0];
+        EXPECT_EQ(found.findings.chains[0].name, "left");
+        EXPECT_EQ(found.findings.chains[0].incidents.size(), 0u) << found.text();
+        ASSERT_EQ(found.findings.chains[1].incidents.size(), 1u);
+        EXPECT_EQ(found.findings.chains[1].incidents[0].kind, ik::IncidentKind::Length);
+        EXPECT_EQ(found.notes.size(), 0u);
+    }
+    // One side alone, or sides that differ, are one chain.
+    EXPECT_EQ(read_trace(table({"left_a", "left_b", "left_c", "right_d", "right_e", "right_f"}, false))
+                  .findings.chains.size(),
+              1u);
 }
 
 TEST(Trace, TheWholeChainScaledOrUnwrittenOrFrozenIsOneIncident) {
@@ -769,22 +579,6 @@ TEST(Trace, EveryByteCutOrFlippedIsReadOrRefused) {
             for (const std::string& each : {flipped, cut, shorter}) EXPECT_FALSE(trace_refusal(each).empty());
         }
     }
-}
-
-TEST(Trace, ChainsAreKeptApart) {
-    std::string text;
-    for (int i = 0; i < 30; ++i)
-        for (const char* chain : {"left", "right"}) {
-            const bool broken = chain[0] == 'r' && i == 20;
-            text += std::string("{\"chain\": \"") + chain + "\", \"joints\": [[0,1,0],[" +
-                    (broken ? "NaN" : "0.5") + ",1,0]], \"target\": [0.5,1,0]}\n";
-        }
-    const ReadTrace both = read_trace(text);
-    ASSERT_EQ(both.findings.chains.size(), 2u);
-    EXPECT_TRUE(both.findings.chains[0].incidents.empty());
-    ASSERT_EQ(both.findings.chains[1].incidents.size(), 1u);
-    EXPECT_EQ(both.findings.chains[1].incidents[0].kind, ik::IncidentKind::Nan);
-    EXPECT_EQ(both.findings.chains[1].incidents[0].frame, 20u);
 }
 
 }  // namespace

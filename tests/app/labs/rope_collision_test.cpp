@@ -96,46 +96,5 @@ TEST_F(RopeCollisionTest, Refusals) {
     expect_refused("rope.collide", {{"a", "line"}, {"b", "other"}}, {"on"});
 }
 
-TEST_F(RopeCollisionTest, AFoldedClothLiesInLayersUntilSwitchedOff) {
-    run("rope.preset", {{"name", "folded"}});
-    const rope::Body cloth = *world().find("cloth");
-    // Four particles that lie above each other, far from the creases.
-    const auto height = [&](std::size_t layer) {
-        return world().position(cloth.first + 2 * cloth.row + 10 * layer + 5).y / (2.0f * cloth.radius);
-    };
-    EXPECT_EQ(state()["verdict"], "Lengths hold");
-    wait(120);
-    EXPECT_EQ(state()["verdict"], "Lengths hold");
-    const std::vector<glm::dvec3> were = world().state().position;
-    wait(60);
-    for (std::size_t layer = 0; layer < 4; ++layer)
-        EXPECT_NEAR(height(layer), 0.5 + static_cast<double>(layer), 0.05) << layer;
-    for (std::size_t i = 0; i < were.size(); ++i) {
-        EXPECT_LT(world().state().position[i].y, 4.0f * 2.0f * cloth.radius) << "no part of it lifts";
-        EXPECT_LT(glm::distance(world().state().position[i], were[i]), 5e-4) << "it lies still";
-    }
-    run("rope.collide", {{"a", "cloth"}, {"b", "cloth"}, {"on", false}});
-    wait(180);
-    EXPECT_LT(height(1), 1.2) << "a layer has sunk into the one below it";
-}
-
-TEST_F(RopeCollisionTest, AKnotIsPulledTightByItsWeight) {
-    run("rope.preset", {{"name", "knot"}});
-    const double before = lowest("rope");
-    wait(900);
-    EXPECT_LT(lowest("rope"), before - 0.3) << "it has become longer";
-    EXPECT_GT(lowest("rope"), 0.05) << "it hangs clear of the ground";
-    EXPECT_GT(state()["contacts"], 5);
-    EXPECT_LT(world().length_error(), 1e-3);
-    // Without the knot it would hang straight, at its length.
-    const rope::Body& rope = *world().find("rope");
-    EXPECT_GT(lowest("rope"), world().position(rope.first).y - world().length(rope) + 0.15);
-    EXPECT_EQ(state()["verdict"], "Lengths hold");
-    run("rope.collide", {{"a", "rope"}, {"b", "rope"}, {"on", false}});
-    wait(300);
-    EXPECT_LT(lowest("rope"), world().position(rope.first).y - world().length(rope) + 0.05)
-        << "it has come undone";
-}
-
 }  // namespace
 }  // namespace tendril::app

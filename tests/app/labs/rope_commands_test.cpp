@@ -161,31 +161,6 @@ TEST_F(RopeCommands, AColliderSwingsAboutItsMiddleAndNeverJumps) {
     EXPECT_EQ(centre(), last);
 }
 
-TEST_F(RopeCommands, WindFluttersTheFlag) {
-    run("rope.preset", {{"name", "flag"}});
-    EXPECT_GT(world().settings().wind.x, 1.0f);
-    const auto spread = [&] {  // of its last particle, across the wind, in 4 s
-        double low = 1e9, high = -1e9;
-        for (int tick = 0; tick < 240; ++tick) {
-            wait(1);
-            const double z = world().state().position.back().z;
-            low = std::min(low, z), high = std::max(high, z);
-        }
-        return high - low;
-    };
-    wait(120);
-    const double before = spread();
-    EXPECT_GT(before, 0.2);
-    EXPECT_LT(before, 2.0);
-    run("rope.wind", {{"velocity", {0, 0, 0}}});
-    wait(30 * 60);
-    EXPECT_LT(spread(), 0.05) << "without wind it hangs";
-    run("rope.wind", {{"velocity", {0, 0, 3}}, {"gusts", 0.5}});
-    EXPECT_EQ(world().settings().wind, glm::vec3(0, 0, 3));
-    EXPECT_EQ(world().settings().gusts, 0.5f);
-    EXPECT_GT(spread(), 0.2);
-}
-
 TEST_F(RopeCommands, AClothIsOfAMaterial) {
     run("rope.clear");
     const auto add = [&](Json more) {

@@ -67,22 +67,6 @@ TEST_F(RopeCutCloth, APieceIsAClothOfItsOwn) {
     EXPECT_NE(world().find("cloth 2"), nullptr);
 }
 
-/// A piece with gaps in its grid comes back from a file as it was, and goes on the same.
-TEST_F(RopeCutCloth, APieceIsSaved) {
-    cut("cloth", {{-1, 2.5}, {3.5, 5.5}, {8, 2.5}});
-    ASSERT_FALSE(body("cloth").cells.empty());
-    const Json saved = part().save();
-    const auto loaded = std::dynamic_pointer_cast<RopePart>(part().load(saved, "file"));
-    EXPECT_EQ(loaded->world->state().bodies[1].cells, world().state().bodies[1].cells);
-    EXPECT_EQ(loaded->save(), saved);
-    EXPECT_TRUE(test::says(lab().code(workspace), ".cells"));
-    EXPECT_EQ(state()["cloths"][0]["cells"].size(), body("cloth").count);
-    Json bad = saved;
-    for (Json& each : bad["world"]["bodies"])
-        if (each.contains("cells")) each["cells"][1] = 0;
-    EXPECT_ANY_THROW(part().load(bad, "file"));
-}
-
 TEST_F(RopeCutCloth, ClicksCutFromOneToTheNext) {
     run("rope.tool", {{"name", "cut"}});
     EXPECT_TRUE(test::says(lab().hint(workspace, no_pick), "Drag across to cut"));

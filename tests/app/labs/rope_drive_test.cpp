@@ -16,16 +16,6 @@ class RopeDrive : public RopeTest {
     }
 };
 
-TEST_F(RopeDrive, AGroundThatMovesCarriesARope) {
-    lie_on_the_ground();
-    run("rope.collider.drive", {{"name", "ground"}, {"velocity", {0, 0, 2}}});
-    wait(120);
-    EXPECT_NEAR(world().velocity(0).z, 2.0f, 0.05f);
-    EXPECT_EQ(state().at("colliders")[0].at("drive").at("velocity"), Json({0, 0, 2}));
-    EXPECT_EQ(rope::centre(world().find_collider("ground")->shape), glm::vec3(0.0f));
-    EXPECT_FALSE(at_rest(part()));
-}
-
 TEST_F(RopeDrive, ABoxThatTurnsIsShownTurned) {
     run("rope.clear");
     run("rope.collider.add",
@@ -38,27 +28,6 @@ TEST_F(RopeDrive, ABoxThatTurnsIsShownTurned) {
     EXPECT_FALSE(world().find_collider("box")->drive.any());
     run("undo");
     EXPECT_TRUE(world().find_collider("box")->drive.any());
-}
-
-TEST_F(RopeDrive, HairLeansInTheWind) {
-    run("rope.clear");
-    run("rope.hair.add", {{"centre", {0, 2, 0}}, {"strands", 1}, {"spread", 0}, {"length", 0.5}});
-    run("rope.wind", {{"velocity", {8, 0, 0}}, {"gusts", 0}});
-    wait(300);
-    EXPECT_GT(world().position(world().size() - 1).x, 0.1f);
-}
-
-TEST_F(RopeDrive, StillAirSlowsAFall) {
-    const auto fallen = [&](bool still_air) {
-        run("rope.clear");
-        run("rope.wind", {{"velocity", {0, 0, 0}}, {"still_air", still_air}});
-        run("rope.cloth.add", {{"corner", {0, 90, 0}}, {"along", {1, 0, 0}}, {"down", {0, 0, 1}}});
-        wait(90);
-        return 90.0f - world().position(100).y;
-    };
-    const float without = fallen(false);
-    EXPECT_LT(fallen(true), 0.4f * without);
-    EXPECT_TRUE(world().settings().still_air);
 }
 
 }  // namespace

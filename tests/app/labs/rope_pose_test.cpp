@@ -31,21 +31,6 @@ class RopePose : public RopeTest {
     double x_ = 0.0;
 };
 
-TEST_F(RopePose, ADraggedEndIsWhereItWasToldToBe) {
-    for (const double rate : {144.0, 90.0, 75.0, 60.0}) {
-        run("time.speed", {{"factor", 60.0 / rate}});
-        for (const double off : drag(60)) EXPECT_LT(off, 1e-4) << rate << " Hz";
-    }
-}
-
-/// The state of the solver itself is behind: that is what the picture was of.
-TEST_F(RopePose, TheLastStepIsBehind) {
-    run("time.speed", {{"factor", 60.0 / 144.0}});
-    drag(7);
-    EXPECT_GT(world().world().pending(), 1e-4);
-    EXPECT_GT(glm::distance(glm::vec3(world().state().position[0]), world().position(0)), 1e-3f);
-}
-
 TEST_F(RopePose, ASwingingBallIsWhereItSwings) {
     run("rope.collider.add", {{"name", "ball"}, {"kind", "sphere"}, {"centre", {3, 1, 0}}, {"radius", 0.2}});
     run("rope.collider.swing", {{"name", "ball"}, {"by", {1, 0, 0}}, {"period", 1}});

@@ -160,32 +160,6 @@ TEST_F(RopeTieTest, IsInTheCode) {
         test::says(rope_code(part()), "\"tie\" state.ties.push_back .length 0.04f rope::number_slots"));
 }
 
-/// It hangs as it is drawn at once, comes to rest within seconds, and is as it was a minute later.
-TEST_F(RopeTieTest, AHangerBridgeComesToRestAndStays) {
-    run("rope.preset", {{"name", "hangers"}});
-    EXPECT_EQ(state()["ties"].size(), 36u);
-    EXPECT_EQ(state()["verdict"], "Lengths hold");
-    const auto farthest = [&](const rope::State& from) {
-        double most = 0.0;
-        for (std::size_t i = 0; i < world().size(); ++i)
-            most = std::max(most, glm::distance(world().state().position[i], from.position[i]));
-        return most;
-    };
-    const rope::State drawn = world().state();
-    wait(300);  // five seconds
-    EXPECT_LT(farthest(drawn), 0.03);
-    for (std::size_t i = 0; i < world().size(); ++i) ASSERT_LT(glm::length(world().velocity(i)), 0.01f);
-    const rope::State rest = world().state();
-    int ticks = 300;
-    for (; ticks < 3600 && lab().moving(workspace); ++ticks) wait(1);
-    EXPECT_LT(ticks, 900) << "at rest";
-    wait(3600 - ticks);  // a minute in all
-    EXPECT_LT(farthest(rest), 0.003);
-    EXPECT_EQ(state()["verdict"], "Lengths hold");
-    for (const Json& tie : state()["ties"]) EXPECT_GT(tie["tension"], 1.0) << tie;
-    EXPECT_LT(world().length_error(), 1e-4);
-}
-
 TEST_F(RopeTieTest, Refusals) {
     two_ropes();
     tie_them();

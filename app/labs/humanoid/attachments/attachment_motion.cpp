@@ -1,6 +1,7 @@
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -9,6 +10,7 @@
 #include <tendril/magnitude.hpp>
 
 #include "app/document/workspace.hpp"
+#include "app/labs/humanoid/hold/hold_setting.hpp"
 
 namespace tendril::app {
 namespace {
@@ -35,14 +37,38 @@ dvec3 kept_in(const dvec3& point) {
     return kept;
 }
 
-std::vector<NamedShape> colliders_of(const Wearer& wearer) {
-    std::vector<NamedShape> all;
+/// Of a limb's capsule, from its beginning, the part that overlaps the trunk in any pose; empty: no limb's.
+std::optional<double> joined_part(humanoid::Bone bone) {
+    using enum humanoid::Bone;
+    static constexpr std::array joined{LeftUpperArm, RightUpperArm, LeftUpperLeg, RightUpperLeg};
+    static constexpr std::array limbs{LeftLowerArm, RightLowerArm, LeftHand, RightHand,
+                                      LeftLowerLeg, RightLowerLeg, LeftFoot, RightFoot};
+    if (std::ranges::find(joined, bone) != joined.end()) return 0.5;
+    return std::ranges::find(limbs, bone) != limbs.end() ? std::optional(0.0) : std::nullopt;
+}
+
+/// Limbs, and what hands hold, are soft: where they close on the trunk they become thinner, so that cloth
+/// between the two has room.
+std::vector<NamedShape> colliders_of(const Wearer& wearer, const rope::State& worn) {
+    double room = 0.0;
+    for (const rope::Body& each : worn.bodies) room = std::max(room, 2.0 * static_cast<double>(each.radius));
+    std::vector<humanoid::PlacedCapsule> placed, hard;
     for (const humanoid::BodyCapsule& each : wearer.capsules) {
-        const humanoid::PlacedCapsule at = humanoid::place(each, wearer.map, wearer.placed);
-        all.push_back(
-            {humanoid::name(each.bone), rope::Capsule{glm::vec3(kept_in(at.from)), glm::vec3(kept_in(at.to)),
-                                                      static_cast<float>(std::clamp(at.radius, 0.0, 1e6))}});
+        placed.push_back(humanoid::place(each, wearer.map, wearer.placed));
+        if (!joined_part(each.bone)) hard.push_back(placed.back());
     }
+    std::vector<NamedShape> all;
+    const auto add = [&](std::string name, const humanoid::PlacedCapsule& at, std::optional<double> from) {
+        double radius = at.radius;
+        if (from)
+            for (const humanoid::PlacedCapsule& each : hard)
+                radius = std::min(radius,
+                                  humanoid::gap({glm::mix(at.from, at.to, *from), at.to, 0.0}, each) - room);
+        all.push_back({std::move(name), rope::Capsule{glm::vec3(kept_in(at.from)), glm::vec3(kept_in(at.to)),
+                                                      static_cast<float>(std::clamp(radius, 0.0, 1e6))}});
+    };
+    for (std::size_t i = 0; i < placed.size(); ++i)
+        add(humanoid::name(wearer.capsules[i].bone), placed[i], joined_part(wearer.capsules[i].bone));
     // A rising slope is the union of two half spaces. A falling one is their intersection, which separate
     // colliders cannot express.
     const GroundSetting& ground = wearer.ground;
@@ -53,33 +79,41 @@ std::vector<NamedShape> colliders_of(const Wearer& wearer) {
         all.push_back({"slope", rope::Plane{.normal = {0.0f, static_cast<float>(std::cos(angle)),
                                                        static_cast<float>(-std::sin(angle))}}});
     }
+    for (std::size_t i = 0; i < wearer.held.size(); ++i)
+        add("held " + std::to_string(i), wearer.held[i], 0.0);
     return all;
 }
 
-/// Whether the world has exactly these colliders, in this order. Positions may differ.
-bool has(const NamedWorld& world, const std::vector<NamedShape>& wanted) {
+/// How many of the first colliders the world has, in this order. Positions may differ.
+std::size_t count_shared(const NamedWorld& world, const std::vector<NamedShape>& wanted) {
     const std::vector<rope::Collider>& there = world.state().colliders;
-    if (there.size() != wanted.size()) return false;
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-        if (world.name(there[i]) != wanted[i].name || there[i].shape.index() != wanted[i].shape.index())
-            return false;
-    return true;
+    std::size_t i = 0;
+    while (i < std::min(there.size(), wanted.size()) && world.name(there[i]) == wanted[i].name &&
+           there[i].shape.index() == wanted[i].shape.index())
+        ++i;
+    return i;
+}
+bool has(const NamedWorld& world, const std::vector<NamedShape>& wanted) {
+    return world.state().colliders.size() == wanted.size() && count_shared(world, wanted) == wanted.size();
 }
 
-void place_colliders(NamedWorld& world, const std::vector<NamedShape>& wanted) {
-    if (has(world, wanted)) {
-        for (const NamedShape& each : wanted) world.set_collider(each.name, each.shape);
-        return;
-    }
-    while (!world.state().colliders.empty()) {
+/// Removes and adds colliders until the world has exactly these.
+void match_colliders(NamedWorld& world, const std::vector<NamedShape>& wanted) {
+    const std::size_t shared = count_shared(world, wanted);
+    while (world.state().colliders.size() > shared) {
         const std::string name = world.name(world.state().colliders.back());
         world.remove_collider(name);
     }
-    for (const NamedShape& each : wanted) world.add_collider(each.name, each.shape);
+    for (std::size_t i = shared; i < wanted.size(); ++i) world.add_collider(wanted[i].name, wanted[i].shape);
+}
+
+void place_colliders(NamedWorld& world, const std::vector<NamedShape>& wanted) {
+    match_colliders(world, wanted);
+    for (const NamedShape& each : wanted) world.set_collider(each.name, each.shape);
 }
 
 void move_colliders(NamedWorld& world, const std::vector<NamedShape>& wanted, double seconds) {
-    if (!has(world, wanted)) return place_colliders(world, wanted);
+    match_colliders(world, wanted);
     for (const NamedShape& each : wanted) {
         if (const auto* capsule = std::get_if<rope::Capsule>(&each.shape))
             world.move_capsule(each.name, *capsule, seconds);
@@ -214,7 +248,7 @@ void untangle(NamedWorld& world, const Attachments& attachments, const Wearer& w
 
 void carry(Attachments& attachments, const Wearer& wearer, rope::Workspace& workspace) {
     if (attachments.list.empty()) return;
-    const std::vector<NamedShape> colliders = colliders_of(wearer);
+    const std::vector<NamedShape> colliders = colliders_of(wearer, attachments.world->state());
     if (in_place(attachments, wearer, colliders)) return;
     std::vector<Carrier> carriers;
     for (const Attachment& each : attachments.list) carriers.emplace_back(each.frame, frame_of(each, wearer));
@@ -225,14 +259,12 @@ void carry(Attachments& attachments, const Wearer& wearer, rope::Workspace& work
         attachments.list[k].frame = carriers[k].to;
     }
     // The capsules first move rigidly with the first attachment, in their old pose, then to the new pose.
-    if (has(*world, colliders)) {
-        for (const rope::Collider& each : attachments.world->state().colliders)
-            if (const auto* capsule = std::get_if<rope::Capsule>(&each.shape))
-                world->set_collider(
-                    world->name(each),
-                    rope::Capsule{glm::vec3(carriers.front().point(dvec3(capsule->a))),
-                                  glm::vec3(carriers.front().point(dvec3(capsule->b))), capsule->radius});
-    }
+    for (const rope::Collider& each : attachments.world->state().colliders)
+        if (const auto* capsule = std::get_if<rope::Capsule>(&each.shape))
+            world->set_collider(
+                world->name(each),
+                rope::Capsule{glm::vec3(carriers.front().point(dvec3(capsule->a))),
+                              glm::vec3(carriers.front().point(dvec3(capsule->b))), capsule->radius});
     push_aside(*world, colliders, workspace);
     untangle(*world, attachments, wearer);
     attachments.world = std::move(world);
@@ -240,7 +272,7 @@ void carry(Attachments& attachments, const Wearer& wearer, rope::Workspace& work
 
 void advance(Attachments& attachments, const Wearer& wearer, rope::Workspace& workspace, double seconds) {
     if (attachments.list.empty() || !(seconds > 0.0)) return;
-    const std::vector<NamedShape> colliders = colliders_of(wearer);
+    const std::vector<NamedShape> colliders = colliders_of(wearer, attachments.world->state());
     if (has_jumped(attachments, wearer, colliders, seconds)) carry(attachments, wearer, workspace);
     auto world = std::make_shared<NamedWorld>(*attachments.world);
     // Whole substeps, so that everything is at the character's pose when the tick ends.
@@ -280,7 +312,13 @@ void carry_attachments(Workspace& workspace) {
 }  // namespace
 
 Wearer wearer_of(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown) {
-    return {*part.loaded, *part.map, solvers.volume(part), shown.placed, part.ik.ground};
+    Wearer wearer{*part.loaded, *part.map, solvers.volume(part), shown.placed, part.ik.ground};
+    if (!part.ik.hold || !shown.hold) return wearer;
+    const humanoid::ObjectPose& at = shown.hold->object;
+    const auto placed = [&](const dvec3& point) { return at.position + at.rotation * point; };
+    for (const HeldBar& bar : held_shape(*part.ik.hold, part.loaded->height()))
+        wearer.held.push_back({placed(bar.from), placed(bar.to), bar.radius});
+    return wearer;
 }
 
 Command carrying(Command command) {

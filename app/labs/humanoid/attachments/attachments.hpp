@@ -1,7 +1,8 @@
 // Attachments of a character: ropes, hair and cloth, all in one rope world. A value, stored in the document.
 //
 // An attachment is a body of that world. Its pins move rigidly with one node of the character, relative to
-// the node's rest pose. The world's colliders are the character's capsules and the ground, if that is flat.
+// the node's rest pose. The world's colliders are the character's capsules, what its hands hold, and the
+// ground, if that is flat.
 #pragma once
 
 #include <memory>
@@ -83,6 +84,7 @@ struct Wearer {
     std::span<const humanoid::BodyCapsule> capsules;  ///< of `map`
     std::span<const humanoid::Placement> placed;      ///< as displayed
     const GroundSetting& ground;
+    std::vector<humanoid::PlacedCapsule> held{};  ///< the object in its hands
 
     NodeFrame frame(std::size_t node) const;
 };

@@ -40,7 +40,7 @@ enum class FlipCause : std::uint8_t {
     TargetJump,   ///< the target jumped
     ThroughRoot,  ///< the target went through the root
     PassedPole,   ///< the line from root to target passed the pole target
-    Straight,     ///< the chain was straight, so every bend was equally near
+    Straight,     ///< the chain was all but straight, so every bend was equally near
     Folded,       ///< likewise, folded onto one line
     ClosePole,    ///< the line came close to the pole target
     PassedAxis,   ///< without a pole target: the line passed an axis of the space, see passed_axis()
@@ -88,7 +88,8 @@ bool passed_axis(const ReachPose& before, const ReachPose& after) noexcept;
 
 /// The distance of the joint, at least one, that is furthest from the line through the first and the last.
 float bend_of(std::span<const glm::vec3> joints) noexcept;
-/// Whether the chain was straight in either pose: every joint within a fiftieth of the reach of that line.
+/// Whether the chain was all but straight in either pose: every joint within a twentieth of the reach of that
+/// line.
 bool was_straight(const ReachPose& before, const ReachPose& after) noexcept;
 /// The cause for such a chain: Straight, or Folded if its tip was within half its reach of the root.
 FlipCause collinear_cause(const ReachPose& before, const ReachPose& after) noexcept;

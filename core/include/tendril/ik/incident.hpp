@@ -34,14 +34,20 @@ enum class IncidentKind : std::uint8_t {
     /// alone, its two bones are one incident, the larger: they differ over the same frames, and at first the
     /// distance of their outer ends changed less than a quarter as much. Bones of one factor: one incident.
     Length,
-    Limit,      ///< a joint is beyond its limit; amount: degrees beyond it
-    Missed,     ///< the tip does not arrive, though the target is within reach; amount: metres short
-    Lag,        ///< the tip is where the target was some frames ago, 30 at most; amount: frames
-    Jitter,     ///< the tip swings while the target is still; amount: metres to either side
-    Repeated,   ///< frames equal the one before them, in the middle of a motion; amount: frames
-    TargetJump  ///< amount: metres
+    Limit,   ///< a joint is beyond its limit; amount: degrees beyond it
+    Missed,  ///< the tip does not arrive, though the target is within reach; amount: metres short
+    Lag,     ///< the tip is where the target was some frames ago, 30 at most; amount: frames
+    Jitter,  ///< the tip swings while the target is still; amount: metres to either side
+    /// Frames equal the one before them, in the middle of a motion; amount: frames. One incident for those
+    /// that come with a beat: the chain is updated at another rate than the log. None if the target is, too.
+    Repeated,
+    TargetJump,  ///< amount: metres
+    PoleJump,    ///< the pole target jumps to another side of the line from root to target; amount: metres
+    /// One frame, or two in swapped order, off the path of the frames around them; amount: metres of the tip.
+    Misplaced
 };
-/// "flip", "nan", "length", "limit", "missed", "lag", "jitter", "repeated", "target_jump"
+/// "flip", "nan", "length", "limit", "missed", "lag", "jitter", "repeated", "target_jump", "pole_jump",
+/// "misplaced"
 const char* name(IncidentKind kind) noexcept;
 /// "degrees", "metres", "frames"; empty for Nan.
 const char* unit(IncidentKind kind) noexcept;
@@ -53,7 +59,7 @@ struct ChainIncident {
     /// the bone further from the root. no_joint for a target's jump or a repeated frame.
     std::size_t joint = no_joint;
     double amount = 0.0;
-    double hertz = 0.0;                       ///< a jitter's frequency, else 0
+    double hertz = 0.0;  ///< a jitter's frequency; new poses a second of those repeated with a beat; else 0
     const char* cause = "";                   ///< for display, a clause
     FlipCause flip = FlipCause::Unexplained;  ///< a flip's cause
 };
@@ -120,8 +126,14 @@ class IncidentFinder {
     FlipCause cause_of_flip(const ReachPose& before, const ReachPose& after, bool aimed) const;
     void find_rolls(const ReachPose& pose, std::span<const glm::quat> rotations);
     bool changed_sides(const ReachPose& pose, bool jumped);
-    bool find_jump(const ReachPose& pose);
+    struct Steps;
+    bool steps_far(Steps& steps, float step, IncidentKind kind, const char* cause);
+    bool find_jumps(const ReachPose& pose);
+    void find_misplaced(const ReachPose& pose, bool aimed);
     void find_repeated(const ReachPose& pose);
+    struct Hold;
+    void add_hold(const Hold& hold);
+    void close_beat();
     bool both_moved(const ReachPose& a, const ReachPose& b) const noexcept;
     bool resumes(const ReachPose& pose) const;
     float inner_reach() const noexcept;
@@ -148,9 +160,11 @@ class IncidentFinder {
     std::vector<Episode> length_, limit_;
     std::set<std::pair<std::uint64_t, std::size_t>> displaced_;  ///< frame and joint: moved alone
 
-    // The latest consecutive finite frames, newest last.
+    // The latest consecutive finite frames, newest last. One that equals the one before it keeps that one's
+    // inputs: it was solved for those.
     std::vector<ReachPose> recent_;
-    std::vector<glm::quat> rotations_;  ///< of the latest frame
+    ReachPose latest_;                  ///< with its own inputs
+    std::vector<glm::quat> rotations_;  ///< of the newest in recent_
     std::uint64_t flipped_at_ = 0;
     bool flipped_ = false;
     /// The side to which a chain of two bones last bent.
@@ -160,9 +174,19 @@ class IncidentFinder {
         bool straight_since = false;
     };
     std::optional<Side> side_;
-    // A jump is confirmed one frame later.
-    float step_ = 0.0f, step_before_ = 0.0f;
-    std::size_t steps_ = 0;
+    /// Steps of the target or the pole target. A jump is confirmed one frame later.
+    struct Steps {
+        float latest = 0.0f, before = 0.0f;
+        const char* cause = nullptr;  ///< of the latest, if it may be a jump
+    };
+    Steps steps_, pole_steps_;
+    /// The latest frames in space, newest last.
+    struct Moment {
+        glm::vec3 root{0.0f}, tip{0.0f};
+        std::optional<glm::vec3> target{};
+    };
+    std::vector<Moment> moments_;
+    std::uint64_t disturbed_ = 0;  ///< the latest frame with a flip or a wrong length, from 1
     /// Frames that equal the one before them, up to the latest.
     struct Held {
         std::uint64_t frames = 0;
@@ -172,6 +196,11 @@ class IncidentFinder {
         glm::vec3 target{0.0f};     ///< at the beginning
     };
     Held held_;
+    struct Hold {
+        ChainIncident incident{};
+        bool fault = false, rested = false;  ///< the target did
+    };
+    std::vector<Hold> beat_;  ///< the latest, as far apart as its first two are
     /// Sums over frames, to fit the tip's path with the target's of some frames ago.
     struct Following {
         struct Lagged {

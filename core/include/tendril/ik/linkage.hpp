@@ -23,7 +23,8 @@
 // to Numerical Continuation Methods", 2003, on step control). So a linkage stays in its assembly mode while a
 // driver glides, and stops at a dead point. Where branches cross, as in a parallelogram folded onto one line,
 // it goes on as it last moved; branches that come within 1e-4 radians or sizes of each other count as
-// crossing.
+// crossing. In space a driver has changed branches near such a place without a report, in 13 of 330 000
+// random steps of two hinges and a coupler between balls.
 //
 // Targets have no such guard. A small step of a target can make its nearest place vanish. The point then
 // jumps to another part of its path, and the report says so.

@@ -12,24 +12,98 @@
 namespace tendril::ik {
 
 // A step is only a jump if the next one is short again, so it is judged with that one.
-bool IncidentFinder::find_jump(const ReachPose& pose) {
-    if (recent_.empty()) {
-        steps_ = 0;
-        return false;
-    }
-    const ReachPose& before = recent_.back();
-    const float step = math::distance(*before.target - before.root(), *pose.target - pose.root());
-    const float long_step = std::max(jump_share * reach_, rounding_steps * options_.resolution);
-    if (steps_ > 0 && step_ > long_step && step_ > jump_factor * std::max(step, step_before_))
-        note({.kind = IncidentKind::TargetJump,
+bool IncidentFinder::steps_far(Steps& steps, float step, IncidentKind kind, const char* cause) {
+    const float least = std::max(jump_share * reach_, rounding_steps * options_.resolution);
+    const auto far = [&](float length, float beside) {
+        return length > least && length > jump_factor * beside;
+    };
+    if (steps.cause != nullptr && far(steps.latest, std::max(step, steps.before)))
+        note({.kind = kind,
               .frame = frames_ - 1,
               .last_frame = frames_ - 1,
-              .amount = static_cast<double>(step_),
-              .cause = "the target is somewhere else from one frame to the next"});
-    step_before_ = steps_ > 0 ? step_ : 0.0f;
-    step_ = step;
-    ++steps_;
-    return step > long_step && step > jump_factor * step_before_;
+              .amount = static_cast<double>(steps.latest),
+              .cause = steps.cause});
+    const float before = steps.latest;
+    steps = {step, before, cause};
+    return far(step, before);
+}
+
+bool IncidentFinder::find_jumps(const ReachPose& pose) {
+    const auto from_root = [](const std::optional<glm::vec3>& point, const ReachPose& of) {
+        return *point - of.root();
+    };
+    const glm::vec3 was = from_root(latest_.target, latest_), is = from_root(pose.target, pose);
+    if (!pose.pole || !latest_.pole) {
+        pole_steps_ = {};
+    } else {
+        const glm::vec3 pole_was = from_root(latest_.pole, latest_), pole_is = from_root(pose.pole, pose);
+        const auto bend = [&](const ReachPose& of, glm::vec3 line) {
+            glm::vec3 sum(0.0f);
+            for (std::size_t i = 1; i < end_; ++i) sum += math::cross(line, of.joints[i] - of.root());
+            return sum;
+        };
+        const auto turns = [&](glm::vec3 a, glm::vec3 b) {
+            return in_degrees(angle_between(a, b)) > options_.flip_degrees;
+        };
+        const char* cause = nullptr;
+        if (turns(math::cross(was, pole_was), math::cross(is, pole_is)))
+            cause =
+                turns(bend(latest_, was), bend(pose, is))
+                    ? "the pole target is on another side from one frame to the next, and the chain bends "
+                      "there with it"
+                    : "the pole target is on another side from one frame to the next";
+        steps_far(pole_steps_, math::distance(pole_was, pole_is), IncidentKind::PoleJump, cause);
+    }
+    return steps_far(steps_, math::distance(was, is), IncidentKind::TargetJump,
+                     "the target is somewhere else from one frame to the next");
+}
+
+// The middle one of five frames, or the middle two of six, against the path of those around them.
+void IncidentFinder::find_misplaced(const ReachPose& pose, bool aimed) {
+    moments_.push_back({pose.root(), pose.joints[end_], aimed ? pose.target : std::nullopt});
+    if (moments_.size() > 6) moments_.erase(moments_.begin());
+    const std::size_t n = moments_.size();
+    if (n < 5 || frames_ < disturbed_ + 5) return;
+    const auto at = [&](std::size_t ago) -> const Moment& { return moments_[n - 1 - ago]; };
+    const bool all_aimed =
+        std::ranges::all_of(moments_, [](const Moment& m) { return m.target.has_value(); });
+    const float rounding = rounding_steps * options_.resolution;
+    const auto off = [](glm::vec3 before, glm::vec3 p, glm::vec3 after) {
+        return math::length(p - 0.5f * (before + after));
+    };
+    const float aside = off(at(3).tip, at(2).tip, at(1).tip);
+    const float steps = std::max({math::distance(at(4).tip, at(3).tip), math::distance(at(1).tip, at(0).tip),
+                                  0.5f * math::distance(at(3).tip, at(1).tip)});
+    const float asked = all_aimed ? off(*at(3).target, *at(2).target, *at(1).target) : 0.0f;
+    ChainIncident found{
+        .kind = IncidentKind::Misplaced, .frame = frames_ - 2, .last_frame = frames_ - 2, .joint = end_};
+    if (aside > std::max(leap_share * reach_, rounding) && aside > leap_steps * std::max(steps, asked)) {
+        found.amount = static_cast<double>(aside);
+        found.cause = 2.0f * off(at(3).root, at(2).root, at(1).root) > aside
+                          ? "the whole chain is aside for one frame"
+                          : "the tip is aside for one frame";
+        return note(found);
+    }
+    if (n < 6) return;
+    // Second differences, which two frames in swapped order make large.
+    const auto bent = [&](bool swapped, auto point) {
+        const std::array<std::size_t, 6> order{5, 4, swapped ? 2u : 3u, swapped ? 3u : 2u, 1, 0};
+        float sum = 0.0f;
+        for (std::size_t i = 1; i < 5; ++i)
+            sum += off(point(at(order[i - 1])), point(at(order[i])), point(at(order[i + 1])));
+        return sum;
+    };
+    const auto tip = [](const Moment& m) { return m.tip; };
+    const auto target = [](const Moment& m) { return *m.target; };
+    const float way = math::distance(at(5).tip, at(0).tip);
+    if (!(way > 5.0f * std::max(moving_share * reach_, rounding)) ||
+        bent(false, tip) < std::max(swapped_bends * bent(true, tip), swapped_way * way) ||
+        (all_aimed && bent(false, target) >= bent(true, target)))
+        return;
+    found.frame = frames_ - 3;
+    found.amount = static_cast<double>(math::distance(at(3).tip, at(2).tip));
+    found.cause = "two frames in swapped order";
+    note(found);
 }
 
 // Frames that equal the one before them: sure once tip and target move on, as they did before.
@@ -37,6 +111,7 @@ void IncidentFinder::find_repeated(const ReachPose& pose) {
     if (recent_.size() < 2) return;
     const ReachPose &before = recent_.back(), &earlier = recent_[recent_.size() - 2];
     if (pose.joints == before.joints) {
+        if (held_.frames == 0 && before.joints == earlier.joints) return;  // since the first frame
         if (held_.frames++ > 0) return;
         held_.step = before.joints[end_] - earlier.joints[end_];
         held_.earlier_step = 0.0f;
@@ -47,13 +122,56 @@ void IncidentFinder::find_repeated(const ReachPose& pose) {
         held_.target = *before.target;
         return;
     }
-    if (held_.frames > 0 && held_.moved && both_moved(before, pose) && resumes(pose))
-        note({.kind = IncidentKind::Repeated,
-              .frame = frames_ - held_.frames,
-              .last_frame = frames_ - 1,
-              .amount = static_cast<double>(held_.frames),
-              .cause = "all joints are where they were a frame before, in the middle of a motion"});
+    if (held_.frames > 0)
+        add_hold({{.kind = IncidentKind::Repeated,
+                   .frame = frames_ - held_.frames,
+                   .last_frame = frames_ - 1,
+                   .amount = static_cast<double>(held_.frames),
+                   .cause = "all joints are where they were a frame before, in the middle of a motion"},
+                  held_.moved && both_moved(before, pose) && resumes(pose),
+                  held_.target == *latest_.target});
     held_ = {};
+}
+
+void IncidentFinder::add_hold(const Hold& hold) {
+    if (beat_.size() > 1) {
+        const std::uint64_t spacing = beat_[1].incident.frame - beat_[0].incident.frame,
+                            apart = hold.incident.frame - beat_.back().incident.frame;
+        if (apart + 1 < spacing || apart > spacing + 1 || beat_.size() == max_incidents) close_beat();
+    }
+    beat_.push_back(hold);
+}
+
+// Few are reported one by one, and the last of them may be the first of the next beat.
+void IncidentFinder::close_beat() {
+    const std::size_t count = beat_.size();
+    const auto faults = std::ranges::count(beat_, true, &Hold::fault),
+               rested = std::ranges::count(beat_, true, &Hold::rested);
+    const auto most = [&](std::ptrdiff_t some) { return 2 * static_cast<std::size_t>(some) > count; };
+    if (count < beat_least || (!most(rested) && !most(faults))) {
+        const Hold last = count > 0 ? beat_.back() : Hold{};
+        for (std::size_t i = 0; i + 1 < count; ++i)
+            if (beat_[i].fault) note(beat_[i].incident);
+        beat_.assign(count > 0 ? 1 : 0, last);
+        return;
+    }
+    ChainIncident all = beat_.front().incident;
+    const ChainIncident last = beat_.back().incident;
+    double held = 0.0;
+    for (const Hold& each : beat_) held += each.incident.amount;
+    const double span = static_cast<double>(last.frame - all.frame), fresh = span - (held - last.amount);
+    const auto beats = static_cast<double>(count - 1);
+    beat_.clear();
+    if (most(rested)) return;
+    all.last_frame = last.last_frame;
+    all.amount = held;
+    all.hertz = static_cast<double>(options_.fps) * fresh / span;
+    all.cause =
+        fresh != beats        ? "the chain is updated at another rate than the log"
+        : span == 2.0 * beats ? "every second frame is new: the chain is updated at half the log's rate"
+        : span == 3.0 * beats ? "every third frame is new: the chain is updated at a third of the log's rate"
+                              : "the chain is updated at a lower rate than the log";
+    note(all);
 }
 
 bool IncidentFinder::both_moved(const ReachPose& a, const ReachPose& b) const noexcept {
@@ -66,7 +184,7 @@ bool IncidentFinder::both_moved(const ReachPose& a, const ReachPose& b) const no
 // starts in another direction or at another speed; unless its target went on.
 bool IncidentFinder::resumes(const ReachPose& pose) const {
     const ReachPose& before = recent_.back();
-    if (held_.frames == 1 || math::distance(held_.target, *before.target) > moving_share * reach_)
+    if (held_.frames == 1 || math::distance(held_.target, *latest_.target) > moving_share * reach_)
         return true;
     const glm::vec3 step = pose.joints[end_] - before.joints[end_];
     const float was = math::length(held_.step), is = math::length(step);
@@ -280,8 +398,9 @@ void IncidentFinder::finish_following() {
     judge_jitter();
     // Held to the end, while the target goes on within reach.
     const bool limited = std::ranges::any_of(limit_, &Episode::open);
-    if (held_.frames > 1 && held_.moved && !limited && !recent_.empty()) {
-        const glm::vec3 target = *recent_.back().target;
+    const double usual = beat_.size() >= beat_least ? beat_.back().incident.amount + 1.0 : 1.0;
+    if (static_cast<double>(held_.frames) > usual && held_.moved && !limited && !recent_.empty()) {
+        const glm::vec3 target = *latest_.target;
         const std::uint64_t first = frames_ - held_.frames;
         if (math::distance(held_.target, target) > moving_share * reach_ &&
             math::distance(target, recent_.back().root()) < reach_) {
@@ -296,7 +415,9 @@ void IncidentFinder::finish_following() {
         }
     }
     const std::size_t best = find_lag();
-    if (best == 0) return;
+    // A lower rate is late by less than its beat.
+    const bool beats = beat_.size() >= beat_least && beat_[0].incident.frame + best < beat_[1].incident.frame;
+    if (best == 0 || beats) return;
     // Where the target was before the first frame is unknown.
     std::erase_if(found_, [&](const ChainIncident& each) {
         return each.kind == IncidentKind::Missed && each.frame == 0 &&

@@ -54,8 +54,8 @@ void merge_scaled(std::vector<ChainIncident>& found, const std::vector<float>& l
 }  // namespace
 
 const char* name(IncidentKind kind) noexcept {
-    static constexpr std::array names{"flip", "nan",    "length",   "limit",      "missed",
-                                      "lag",  "jitter", "repeated", "target_jump"};
+    static constexpr std::array names{"flip",   "nan",      "length",      "limit",     "missed",   "lag",
+                                      "jitter", "repeated", "target_jump", "pole_jump", "misplaced"};
     return names[static_cast<std::size_t>(kind)];
 }
 
@@ -118,17 +118,24 @@ void IncidentFinder::add(const TraceFrame& frame) {
         limit_.resize(options_.limits.size());
     }
     const bool aimed = frame.target.has_value();
-    if (!aimed) steps_ = 0;
+    if (!aimed || recent_.empty()) steps_ = pole_steps_ = {};
     find_lengths(pose, aimed);
     find_limits(pose);
-    const bool jumped = aimed && find_jump(pose);
-    find_flips(pose, jumped, aimed);
+    const bool jumped = aimed && !recent_.empty() && find_jumps(pose);
+    const bool held = !recent_.empty() && pose.joints == recent_.back().joints;
+    if (!held) find_flips(pose, jumped, aimed);
     find_rolls(pose, frame.rotations);
     find_repeated(pose);
+    find_misplaced(pose, aimed);
     if (aimed) {
         find_missed(pose);
         follow(pose);
         find_jitter(pose);
+    }
+    latest_ = pose;
+    if (held) {
+        pose.target = recent_.back().target;
+        pose.pole = recent_.back().pole;
     }
     recent_.push_back(std::move(pose));
     if (recent_.size() > swing_frames + 1) recent_.erase(recent_.begin());
@@ -142,7 +149,8 @@ void IncidentFinder::forget_motion() noexcept {
     followers_.clear();
     tips_.clear();
     side_.reset();
-    steps_ = 0;
+    steps_ = pole_steps_ = {};
+    moments_.clear();
     held_ = {};
     missed_frames_ = 0;
 }
@@ -206,6 +214,7 @@ void IncidentFinder::find_lengths(const ReachPose& pose, bool aimed) {
                 displaced_.insert({frames_, i});
         }
         opened = opens;
+        if (active) disturbed_ = frames_ + 1;
         last(length_[i], active,
              {.kind = IncidentKind::Length,
               .frame = frames_,
@@ -247,6 +256,7 @@ void IncidentFinder::find_flips(const ReachPose& pose, bool jumped, bool aimed) 
               .flip = cause});
         flipped_ = true;
         flipped_at_ = frames_;
+        disturbed_ = frames_ + 1;
     };
     const bool straight_since = side_ && side_->straight_since;
     const bool other_side = changed_sides(pose, jumped);
@@ -358,6 +368,8 @@ void IncidentFinder::finish() {
     for (Episode& each : length_) last(each, false, {});
     for (Episode& each : limit_) last(each, false, {});
     finish_following();
+    close_beat();
+    if (!beat_.empty() && beat_.back().fault) note(beat_.back().incident);
     std::ranges::stable_sort(found_, {}, &ChainIncident::frame);
     merge_scaled(found_, lengths_);
     // A joint out of its place changes both its bones over the same frames: one incident, the larger.

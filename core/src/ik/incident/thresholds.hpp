@@ -33,6 +33,12 @@ inline constexpr float resumed_share = 0.6f, resumed_faster = 1.5f;
 /// Between the steps before and after: likewise with -0.5; some of the 120 are lost with 0.95.
 inline constexpr float resumed_cosine = 0.5f;
 
+/// Runs of repeated frames that make a beat.
+inline constexpr std::size_t beat_least = 4;
+/// Frames in swapped order: times the bends of the path with the two put right, and of the way of six frames.
+/// At constant speed 4 steps of second differences, halved, over 5 steps of way: 0.8; put right: 0.
+inline constexpr float swapped_bends = 4.0f, swapped_way = 0.5f;
+
 inline constexpr float missed_share = 0.01f;
 inline constexpr std::size_t missed_run = 5;  ///< frames
 inline constexpr float approach = 0.98f;      ///< a tip that comes closer by more a frame is under way

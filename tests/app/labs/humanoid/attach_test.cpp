@@ -2,6 +2,7 @@
 #include "app/labs/humanoid/panel.hpp"
 #include "attach_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -82,7 +83,7 @@ TEST_F(HumanoidAttach, StaysOffTheBody) {
         }
         const std::string which = std::string(clip) + " at " + std::to_string(speed);
         RecordProperty(which, std::to_string(1e3 * deepest_link) + " mm, " + std::to_string(error));
-        EXPECT_LT(deepest, 1e-4) << which;
+        EXPECT_LT(deepest, 5e-4) << which << ": a limb near the trunk yields";
         EXPECT_LT(deepest_link, 0.005) << which;
         EXPECT_LT(stretch, speed > 1.0 ? 0.05 : 0.02) << which << ": as the solver left it";
         EXPECT_LT(error, 0.08) << which << ": with what the body pushed aside";
@@ -90,6 +91,25 @@ TEST_F(HumanoidAttach, StaysOffTheBody) {
         const std::size_t row = body("cape").row, middle = row / 2;
         for (std::size_t r = 0; r < 8; ++r)
             EXPECT_LT(particle("cape", r * row + middle).z, bone("UpperChest").z) << which << ", row " << r;
+    }
+}
+
+/// Hands that take hold of a rifle bring arms close to the trunk, and the rifle to the cape between.
+TEST_F(HumanoidAttach, IsNotTornByWhatClosesOnTheTrunk) {
+    for (const auto& [file, size, before] :
+         {std::tuple("robot.glb", 1.0, 16), {"mixed_orders.bvh", 1.0, 34}, {"robot.glb", 2.0, 7}}) {
+        const auto path = test::characters_folder() / file;
+        if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+        workspace = make_blank_workspace(labs);
+        run("humanoid.load", {{"path", path.string()}});
+        run("humanoid.attach", {{"bone", "Chest"}, {"kind", "cloth"}, {"name", "cape"}});
+        run("humanoid.clip", {{"index", 0}, {"play", true}, {"loop", true}});
+        tick(before);
+        run("humanoid.hold", {{"kind", "rifle"}, {"size", size}});
+        EXPECT_NE(world().find_collider("held 0"), nullptr);
+        double error = 0.0;
+        for (int i = 0; i < 120; ++i) tick(), error = std::max(error, world().length_error());
+        EXPECT_LT(error, 0.05) << file << ", " << size;
     }
 }
 
