@@ -257,23 +257,6 @@ TEST(RigBackward, ARigWithoutControlsOrBonesIsSolvedAtOnce) {
     EXPECT_EQ(solve_backward(bones.rig, bones.state, bones.workspace).elements[0].metres, 0.0);
 }
 
-TEST(RigExplain, ContributionsComposeToThePose) {
-    test::Random random(7);
-    for (int round = 0; round < 20; ++round) {
-        Held rig(fk_rig(4));
-        for (const char* name : {"c0", "c1", "c2", "c3"})
-            ASSERT_TRUE(rig.control(name, any_rotation(random, 90)));
-        rig.solve();
-        const Explanation why = explain(rig.rig, rig.state, rig.element("b3"), rig.workspace);
-        ASSERT_EQ(why.units.size(), 4u);
-        Transform pose = why.input;
-        for (const Contribution& each : why.units) pose = compose(pose, each.change);
-        EXPECT_LT(glm::length(pose.translation - rig.global("b3").translation), 1e-5);
-        EXPECT_GT(std::abs(glm::dot(pose.rotation, rig.global("b3").rotation)), 1.0 - 1e-10);
-        EXPECT_EQ(why.result, rig.global("b3"));
-    }
-}
-
 TEST(RigExplain, SaysWhoMovedItAndHowFar) {
     Held rig(fk_rig(2));
     ASSERT_TRUE(rig.control("c0", turned(90, {0, 0, 1}).rotation));

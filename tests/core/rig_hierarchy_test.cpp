@@ -40,16 +40,6 @@ TEST(RigHierarchy, ReadingWorksOutWhatIsPendingAboveAndNothingElse) {
     EXPECT_EQ(line.flags(), "nnng");
 }
 
-TEST(RigHierarchy, ALocalThatWaitsIsWorkedOutBeforeItsParentMoves) {
-    RigLine line;
-    line.expect_set(line.tip, Global, moved(0, 5, 0), Propagate::Yes);  // 3 above its parent
-    EXPECT_EQ(line.flags(), "nnln");
-    line.expect_set(line.root, Global, moved(10, 1, 0), Propagate::Yes);
-    EXPECT_EQ(line.flags(), "lggg");
-    EXPECT_EQ(line.at(line.tip), glm::dvec3(10, 5, 0));
-    EXPECT_EQ(line.at(line.tip, Local), glm::dvec3(0, 3, 0));
-}
-
 TEST(RigHierarchy, ChildrenThatStayKeepTheirGlobalToTheBit) {
     Random random(2);
     RigLine line;
@@ -72,19 +62,6 @@ TEST(RigHierarchy, WhatWasSetIsReadBackToTheBit) {
         line.expect_set(line.tip, space, value, i % 3 ? Propagate::Yes : Propagate::No);
         EXPECT_TRUE(same_bits(line.tree.get(line.tip, space), value));
     }
-}
-
-TEST(RigHierarchy, ThePosesAreIndependent) {
-    RigLine line;
-    line.expect_set(line.root, Global, moved(3, 1, 0), Propagate::Yes);
-    EXPECT_EQ(line.tree.pending(line.tip, Pose::Initial), Pending::None);
-    EXPECT_EQ(line.tree.get(line.tip, Global, Pose::Initial).translation, glm::dvec3(0, 3, 0));
-    ASSERT_TRUE(line.tree.set(line.root, Local, moved(0, 7, 0), Propagate::Yes, Pose::Initial).ok());
-    EXPECT_EQ(line.tree.get(line.tip, Global, Pose::Initial).translation, glm::dvec3(0, 9, 0));
-    EXPECT_EQ(line.at(line.tip), glm::dvec3(3, 3, 0));
-    line.expect_set(line.tip, Global, moved(0, 0, 1), Propagate::Yes);
-    line.tree.copy_pose(Pose::Initial, Pose::Current);
-    EXPECT_EQ(line.at(line.tip), glm::dvec3(0, 9, 0));
 }
 
 TEST(RigHierarchy, MovingAFingersBaseRecomputesTheThreeThatFollowIt) {
@@ -198,17 +175,6 @@ TEST(RigHierarchy, RotationsStayUnitLengthAndNumbersFinite) {
     for (const ElementId each : {line.middle, line.tip, line.other})
         for (const Space space : {Local, Global})
             EXPECT_LE(std::abs(norm(line.tree.get(each, space).rotation) - 1.0), 1e-14);
-}
-
-TEST(RigHierarchy, AScaleOfZeroHasAnInverseOfZero) {
-    RigLine line;
-    Transform flat = moved(0, 1, 0);
-    flat.scale = {1, 0, 1};
-    line.tree.put(line.root, Local, flat);
-    EXPECT_EQ(line.at(line.tip), glm::dvec3(0, 1, 0));
-    line.expect_set(line.middle, Global, moved(4, 5, 6), Propagate::Yes);
-    EXPECT_EQ(line.at(line.middle, Local), glm::dvec3(4, 0, 6));
-    EXPECT_EQ(line.tree.get(line.middle, Local).scale, glm::dvec3(1, 0, 1));
 }
 
 TEST(RigHierarchy, ReadingAndWritingAllocateNothing) {

@@ -29,13 +29,6 @@ Definition with(Operation operation) {
     return rig;
 }
 
-TEST(RigMake, TakesTheSmallRigs) {
-    EXPECT_EQ(refusal(aim_rig()), "");
-    EXPECT_EQ(refusal(fk_rig()), "");
-    EXPECT_EQ(refusal(loop_rig()), "");
-    EXPECT_EQ(refusal({}), "");
-}
-
 TEST(RigMake, RefusesElementsThatMakeNoTree) {
     EXPECT_TRUE(test::says(refusal({.elements = {{.name = "a"}, {.name = "a"}}}), "element a another name"));
     EXPECT_TRUE(test::says(refusal({.elements = {{.name = ""}}}), "elements[0] name empty"));

@@ -56,23 +56,6 @@ TEST(SignalMeasure, LagIsTheShiftThatFitsBest) {
     EXPECT_NEAR(*signal::lag(periodic.response()), 0.1, 0.01) << "not a period more";
 }
 
-TEST(SignalMeasure, LagOfASpringIsTheFormulas) {
-    for (const double hz : {30.0, 240.0}) {
-        const Filter spring = filter_of("spring", {{"strength", 2.0}, {"critical_damping", 1.0}});
-        const auto samples = sampled([](double t) { return 3.0 * t; }, 20.0, hz);
-        const std::vector<double> time = signal::times_of(samples),
-                                  output = signal::run({&spring, 1}, samples);
-        std::vector<double> wanted;
-        for (const Sample& sample : samples) wanted.push_back(sample.input);
-        // Without the start, before the motion is steady.
-        const std::size_t from = static_cast<std::size_t>(5 * hz);
-        const auto lag = signal::lag({std::span(time).subspan(from), std::span(wanted).subspan(from),
-                                      std::span(output).subspan(from)});
-        ASSERT_TRUE(lag);
-        EXPECT_NEAR(*lag + 0.5 / hz, 2.0 / (turn * 2.0), 2e-3) << hz;
-    }
-}
-
 TEST(SignalMeasure, NothingIsSaidOfWhatDoesNotChange) {
     const auto flat = [](double) { return 2.0; };
     const auto wave = [](double t) { return std::sin(turn * t); };

@@ -1,8 +1,6 @@
 // The Rope lab's commands: their effects, and --state.
 #include <array>
 
-#include "app/labs/rope/rope_time.hpp"
-#include "app/labs/rope/scenes.hpp"
 #include "tests/app/labs/rope_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
 

@@ -1,33 +1,11 @@
 // The Rope lab in scene files: bit for bit, and faults with their position.
-#include <bit>
-#include <random>
-
-#include "app/document/json_complete.hpp"
-#include "app/labs/rope/scenes.hpp"
 #include "tests/app/labs/rope_support.hpp"
-#include "tests/app/support/program.hpp"
-#include "tests/app/support/temp_folder.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
 
-using test::has;
-using test::message_of;
-
-class RopeFile : public RopeTest {
-  protected:
-    /// Loads a part and returns the message of the fault.
-    std::string wrong(const Json& json) const {
-        return message_of([&] { part().load(json, "labs.rope"); });
-    }
-    /// The saved part with one value changed.
-    std::string wrong_with(const char* place, const Json& value) const {
-        Json json = part().save();
-        json[Json::json_pointer(place)] = value;
-        return wrong(json);
-    }
-};
+class RopeFile : public RopeTest {};
 
 /// Of a race too, where each world holds particles of its own.
 TEST_F(RopeFile, WhatADragHoldsIsHeldAfterwards) {
@@ -38,9 +16,9 @@ TEST_F(RopeFile, WhatADragHoldsIsHeldAfterwards) {
     EXPECT_EQ(loaded->hold, part().hold);
     EXPECT_EQ(loaded->rivals[1].hold, part().hold);
     EXPECT_TRUE(loaded->world->pinned(4));
-    EXPECT_TRUE(has(wrong_with("/held/rope", "x"), "labs.rope.held.rope: there is no rope \"x\""));
-    EXPECT_TRUE(has(wrong_with("/held/particles", {4, 4}), "labs.rope.held.particles: expected ascending"));
-    EXPECT_TRUE(has(wrong_with("/held/particles/0", 3), "labs.rope.held.particles.0: it is not pinned"));
+    expect_scene_refused("/held/rope", "x", "labs.rope.held.rope: there is no rope \"x\"");
+    expect_scene_refused("/held/particles", {4, 4}, "labs.rope.held.particles: expected ascending");
+    expect_scene_refused("/held/particles/0", 3, "labs.rope.held.particles.0: it is not pinned");
 }
 
 TEST_F(RopeFile, ParticlesAreCompactRows) {
@@ -55,13 +33,11 @@ TEST_F(RopeFile, ParticlesAreCompactRows) {
 }
 
 TEST_F(RopeFile, SizesAreRefusedWithTheLimit) {
-    Json json = part().save();
-    const Json row = Json::array({0.0, 0.0, 0.0, 1.0});
-    json["world"]["particles"] = Json(100'001, row);
-    EXPECT_TRUE(test::says(wrong(json), "labs.rope.world.particles 100001 particles 100000"));
-    json = part().save();
-    json["world"]["colliders"] = Json(1001, json["world"]["colliders"][0]);
-    EXPECT_TRUE(test::says(wrong(json), "labs.rope.world.colliders 1001 colliders 1000"));
+    const Json row = Json::array({0.0, 0.0, 0.0, 1.0}), collider = saved()["world"]["colliders"][0];
+    EXPECT_TRUE(test::says(opened_with("/world/particles", Json(100'001, row)),
+                           "labs.rope.world.particles 100001 particles 100000"));
+    EXPECT_TRUE(test::says(opened_with("/world/colliders", Json(1001, collider)),
+                           "labs.rope.world.colliders 1001 colliders 1000"));
 }
 
 }  // namespace

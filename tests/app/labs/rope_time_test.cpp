@@ -1,6 +1,5 @@
 // Time in the Rope lab: independent of frames, at any speed, until everything is at rest.
 #include "app/labs/rope/rope_time.hpp"
-#include "app/labs/rope/scenes.hpp"
 #include "tests/app/labs/rope_support.hpp"
 #include "tests/says.hpp"
 
@@ -63,6 +62,20 @@ TEST_F(RopeTime, FramesAreFrom1To250Milliseconds) {
     EXPECT_LT(shortest, 0.0012);
     EXPECT_LE(longest, 0.25);
     EXPECT_GT(longest, 0.24);
+}
+
+/// At a step that does not divide a tick, the picture is of the tick's own time.
+TEST_F(RopeTime, ASwingingBallIsWhereItSwings) {
+    run("rope.clear");
+    run("rope.add", {{"from", {0, 2, 0}}, {"to", {0, 1, 0}}, {"segments", 8}, {"pin_start", true}});
+    run("rope.collider.add", {{"name", "ball"}, {"kind", "sphere"}, {"centre", {3, 1, 0}}, {"radius", 0.2}});
+    run("rope.collider.swing", {{"name", "ball"}, {"by", {1, 0, 0}}, {"period", 1}});
+    run("rope.settings", {{"substep", 0.007}});
+    for (int i = 0; i < 60; ++i) {
+        wait(1);
+        const glm::vec3 shown = rope::centre(world().shape(*world().find_collider("ball")));
+        EXPECT_LT(glm::distance(shown, swing_point(part().swings[0], part().time)), 1e-4f) << i;
+    }
 }
 
 /// The plot of frame times shows the actual frames.
@@ -149,7 +162,6 @@ TEST_F(RopeTime, TheChainTakesATickOnlyWhenOneHasPassed) {
     const Lab& chain = *labs.find("chain");
     const auto ticks_in = [&](float speed, int ticks) {
         run("time.speed", {{"factor", speed}});
-        const Json before = chain.blank()->save();
         int passed = 0;
         for (int i = 0; i < ticks; ++i) {
             passed += workspace.clock.whole_ticks();

@@ -97,6 +97,30 @@ signal::Filter some_filter(const signal::Kind& kind, test::Random& random) {
     return filter;
 }
 
+/// Fits the response of `truth`, and expects the parameters that it depends on if `parameters`. Returns how
+/// many were compared.
+int expect_found(const signal::Filter& truth, const Samples& samples, bool parameters,
+                 double excited = 1e-3) {
+    const std::vector<double> response = signal::run({&truth, 1}, samples);
+    const FitProblem problem{samples, response};
+    const signal::Kind& kind = signal::kind_of(truth);
+    const Fit fit = fit_kind(kind, problem);
+    EXPECT_LT(fit.residual, 1e-3) << kind.name;
+    EXPECT_NEAR(residual_of(fit.filter, problem), fit.residual, 1e-12);
+    EXPECT_TRUE(signal::check(fit.filter)) << kind.name;
+    int compared = 0;
+    if (!parameters) return compared;
+    for (const Field& field : kind.fields)
+        for (int axis = 0; axis < field.size(); ++axis) {
+            if (!test::excited(truth, field, axis, problem, excited)) continue;
+            const double wanted = field.number(signal::fields_in(truth), axis);
+            EXPECT_NEAR(field.number(signal::fields_in(fit.filter), axis), wanted, 0.02 * std::abs(wanted))
+                << kind.name << " " << field.name;
+            ++compared;
+        }
+    return compared;
+}
+
 struct Case {
     std::size_t kind;
     bool uneven;
@@ -108,31 +132,15 @@ TEST_P(FitOfAKind, MeetsTheResponseByTheParametersThatMadeIt) {
     const signal::Kind& kind = signal::kinds()[GetParam().kind];
     test::Random random(5);
     for (unsigned draw = 0; draw < 3; ++draw) {
+        SCOPED_TRACE(draw);
         const Samples samples = rich_input(400, draw + 1, GetParam().uneven);
         const signal::Filter truth = some_filter(kind, random);
-        const std::vector<double> response = signal::run({&truth, 1}, samples);
-        const FitProblem problem{samples, response};
-        const Fit fit = fit_kind(kind, problem);
-        EXPECT_LT(fit.residual, 1e-3) << kind.name << ", draw " << draw;
-        EXPECT_NEAR(residual_of(fit.filter, problem), fit.residual, 1e-12);
-        EXPECT_TRUE(signal::check(fit.filter));
-        EXPECT_EQ(fit_kind(kind, problem).filter, fit.filter) << "the same at every run";
         // For a curve only its values count: different ranges and keys can give the same curve.
-        if (std::holds_alternative<signal::Curve>(truth)) continue;
-        int compared = 0;
-        for (const Field& field : kind.fields)
-            for (int axis = 0; axis < field.size(); ++axis) {
-                if (!test::excited(truth, field, axis, problem, 1e-4)) continue;
-                const double wanted = field.number(signal::fields_in(truth), axis);
-                EXPECT_NEAR(field.number(signal::fields_in(fit.filter), axis), wanted,
-                            0.02 * std::abs(wanted))
-                    << kind.name << " " << field.name << ", draw " << draw;
-                ++compared;
-            }
+        const bool curve = std::holds_alternative<signal::Curve>(truth);
+        const int compared = expect_found(truth, samples, !curve, 1e-4);
         // Between two rows a switch's thresholds are arbitrary: they have a test of their own.
-        if (!std::holds_alternative<signal::Hysteresis>(truth)) {
-            EXPECT_GT(compared, 0) << kind.name << ": this input says nothing of it";
-        }
+        if (curve || std::holds_alternative<signal::Hysteresis>(truth)) continue;
+        EXPECT_GT(compared, 0) << kind.name << ": this input says nothing of it";
     }
 }
 
@@ -323,13 +331,8 @@ TEST_F(SignalFitRows, AreThoseThatAreTicked) {
 // Filters with unusual parameters are found too: very slow ones, clamps that cut off most of a line,
 // thresholds that the input never crosses.
 
-using Samples = std::vector<signal::Sample>;
-
-double even(test::Random& random, double low, double high) {
-    return low + (high - low) * (0.5 + 0.5 * static_cast<double>(random.around(1.0f)));
-}
 double by_ratio(test::Random& random, double low, double high) {
-    return low * std::pow(high / low, even(random, 0.0, 1.0));
+    return low * std::pow(high / low, between(random, 0.0, 1.0));
 }
 
 enum class Wave { Square, TwoSines, Jumps };
@@ -342,8 +345,8 @@ Samples wide_input(Wave wave, test::Random& random) {
         if (wave == Wave::Square) level = (i / 48) % 2;
         if (wave == Wave::TwoSines) level = std::sin(0.7 * turns) + 0.4 * std::sin(2.3 * turns + 1.0);
         if (wave == Wave::Jumps) {
-            if (i % 37 == 0) level = even(random, -1.5, 1.5);
-            level += even(random, -0.02, 0.02);
+            if (i % 37 == 0) level = between(random, -1.5, 1.5);
+            level += between(random, -0.02, 0.02);
         }
         samples.push_back({1.0 / 60.0, level});
     }
@@ -374,37 +377,20 @@ signal::Filter wide_filter(const signal::Kind& kind, test::Random& random) {
     set("width", 0.05, 0.8);
     set("threshold", 0.1, 1.0);
     if (auto* hysteresis = std::get_if<signal::Hysteresis>(&filter)) {
-        hysteresis->low = even(random, -1.6, 0.4);
-        hysteresis->high = hysteresis->low + even(random, 0.05, 0.8);
+        hysteresis->low = between(random, -1.6, 0.4);
+        hysteresis->high = hysteresis->low + between(random, 0.05, 0.8);
     }
     if (auto* scale = std::get_if<signal::ScaleBiasClamp>(&filter)) {
         const double sign = random.chance(2) ? -1.0 : 1.0;
         scale->scale = sign * by_ratio(random, 0.3, 3.0);
-        scale->bias = even(random, -0.5, 0.5);
+        scale->bias = between(random, -0.5, 0.5);
         scale->clamp = scale->interp = true;
-        scale->clamp_min = even(random, -1.0, 0.0);
-        scale->clamp_max = scale->clamp_min + even(random, 0.1, 1.5);
+        scale->clamp_min = between(random, -1.0, 0.0);
+        scale->clamp_max = scale->clamp_min + between(random, 0.1, 1.5);
         scale->speed_increasing = by_ratio(random, 1.0, 25.0);
         scale->speed_decreasing = by_ratio(random, 1.0, 25.0);
     }
     return filter;
-}
-
-void expect_found(const signal::Filter& truth, const Samples& samples, bool parameters) {
-    const std::vector<double> response = signal::run({&truth, 1}, samples);
-    const FitProblem problem{samples, response};
-    const signal::Kind& kind = signal::kind_of(truth);
-    const Fit fit = fit_kind(kind, problem);
-    EXPECT_LT(fit.residual, 1e-3) << kind.name;
-    EXPECT_TRUE(signal::check(fit.filter)) << kind.name;
-    if (!parameters) return;
-    for (const Field& field : kind.fields)
-        for (int axis = 0; axis < field.size(); ++axis) {
-            if (!test::excited(truth, field, axis, problem, 1e-3)) continue;
-            const double wanted = field.number(signal::fields_in(truth), axis);
-            EXPECT_NEAR(field.number(signal::fields_in(fit.filter), axis), wanted, 0.02 * std::abs(wanted))
-                << kind.name << " " << field.name;
-        }
 }
 
 class FitOfAWideRange : public testing::TestWithParam<std::size_t> {};
@@ -600,25 +586,14 @@ TEST_F(SignalFitting, ItsProgressIsTold) {
 TEST_F(SignalFitting, FilesThatCannotGoOnAreRefused) {
     begin("signal.fit");
     work(3);
-    const Json saved = part().save();
-    const auto expect_place = [&](const char* pointer, const Json& value, const char* says) {
-        Json broken = saved;
-        broken[Json::json_pointer(pointer)] = value;
-        try {
-            part().load(broken, "labs.signal");
-            ADD_FAILURE() << pointer << " was read";
-        } catch (const std::runtime_error& error) {
-            EXPECT_TRUE(std::string(error.what()).starts_with(says)) << error.what();
-        }
-    };
-    expect_place("/fit/fitting/shares", -1, "labs.signal.fit.fitting.shares");
-    expect_place("/fit/fitting/shares", 1e6, "labs.signal.fit.fitting.shares");
-    expect_place("/fit/fitting/from", 3, "labs.signal.fit.fitting.from");
-    expect_place("/fit/fitting/from/0/kind", "sponge", "labs.signal.fit.fitting.from.0.kind");
+    expect_scene_refused("/fit/fitting/shares", -1, "labs.signal.fit.fitting.shares");
+    expect_scene_refused("/fit/fitting/shares", 1e6, "labs.signal.fit.fitting.shares");
+    expect_scene_refused("/fit/fitting/from", 3, "labs.signal.fit.fitting.from");
+    expect_scene_refused("/fit/fitting/from/0/kind", "sponge", "labs.signal.fit.fitting.from.0.kind");
     Json rank = Json::array();
     for (const signal::Kind& kind : signal::kinds())
         rank.push_back({{"filter", {{"kind", kind.name}}}, {"residual", 1}});
-    expect_place("/fit/ranking", rank, "labs.signal.fit.fitting");
+    expect_scene_refused("/fit/ranking", rank, "labs.signal.fit.fitting");
 }
 
 }  // namespace

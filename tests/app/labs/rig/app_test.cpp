@@ -30,18 +30,6 @@ class RigApp : public testing::Test {
         for (const float share : {0.25f, 0.5f, 1.0f}) send(MouseMove{from + share * by});
         send(MousePress{MouseButton::Left, false});
     }
-    Json element(const std::string& name) {
-        const Json elements = app_.state().at("elements");
-        for (const Json& each : elements)
-            if (each.at("name") == name) return each;
-        return nullptr;
-    }
-    /// The state without the clock.
-    Json now() {
-        Json state = app_.state();
-        state.erase("time");
-        return state;
-    }
 
     std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
     App app_{*window_, false};

@@ -139,8 +139,6 @@ TEST_F(RigClips, AClipOfOtherBonesIsRefused) {
 TEST_F(RigClips, WhatIsTooLongIsRefused) {
     expect_refused("rig.clip.record", {{"seconds", 1}}, {"no bones"});
     walking_head();
-    expect_refused("rig.clip.record", {{"seconds", 61}}, {"seconds", "60"});
-    expect_refused("rig.clip.record", {{"seconds", 0}}, {"seconds"});
     run("rig.preset", {{"name", "fk"}});
     expect_refused("rig.clip.record", Json::object(), {"nothing has been played"});
 }

@@ -96,19 +96,6 @@ TEST_F(RigPresets, TheTentacleFollowsItsControls) {
     EXPECT_GT(glm::length(translation("bone 6") - glm::dvec3(0, 2.2, 0)), 0.5) << "it has curled";
 }
 
-TEST_F(RigPresets, WithoutItsOffsetABoneGoesToItsControl) {
-    open("fk");
-    const auto bone_3_from_control = [&] {
-        return glm::length(translation("bone 3") - translation("control 3"));
-    };
-    set("dial", 0.5);
-    solve();
-    EXPECT_NEAR(bone_3_from_control(), 0.25, 1e-9);
-    switch_input(3, "maintain_offset", false);
-    solve();
-    EXPECT_NEAR(bone_3_from_control(), 0.0, 1e-9);
-}
-
 TEST_F(RigPresets, TheArmsCurlOrTheirJointsTurnInPlace) {
     open("loop");
     const glm::dvec3 straight = translation("arm 2 joint 6");

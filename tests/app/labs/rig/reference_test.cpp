@@ -1,7 +1,6 @@
 // Numeric cases from an independent implementation, through the lab's own commands. Skipped if the files are
 // missing; the other tests do not need them.
 #include <filesystem>
-#include <glm/gtc/quaternion.hpp>
 
 #include "rig_support.hpp"
 #include "tests/places.hpp"
@@ -66,40 +65,6 @@ INSTANTIATE_TEST_SUITE_P(Commands, RigLabReference,
                          });
 
 class RigLabAimReference : public RigTest {};
-
-/// Targets as literals in the unit, and as named elements.
-TEST_F(RigLabAimReference, AgreesWithAnIndependentImplementation) {
-    const Json cases = cases_of("aim.json");
-    if (cases.empty()) GTEST_SKIP() << "aim.json is not there";
-    for (const Json& example : cases) {
-        SCOPED_TRACE(example.at("name").get<std::string>());
-        for (const bool by_name : {false, true}) {
-            run("rig.clear");
-            run("rig.element.add",
-                {{"name", "item"},
-                 {"kind", "bone"},
-                 {"local", {{"translation", example.at("position")}, {"rotation", {0.1, -0.7, 0.3, 0.6}}}}});
-            Json aim{{"unit", "aim"}, {"item", "item"}, {"weight", example.at("weight")}};
-            for (const char* each : {"primary", "secondary"}) {
-                aim[each] = example.at(each);
-                if (!by_name) continue;
-                run("rig.element.add",
-                    {{"name", each}, {"kind", "null"}, {"local", {{"translation", aim[each]["target"]}}}});
-                aim[each]["target"] = each;
-            }
-            unit(aim);
-            solve();
-            EXPECT_EQ(named("units", "aim").at("warning"), "");
-            for (const char* each : {"primary", "secondary"}) {
-                const Json& a = example.at(each).at("axis");
-                const glm::dvec3 axis(a[0].get<double>(), a[1].get<double>(), a[2].get<double>());
-                const glm::dvec3 points = rotation("item") * axis;
-                const Json& wanted = example.at("expect").at(std::string(each) + "_axis_world");
-                EXPECT_LE(distance(dpoint(points), wanted), example.at("tolerance").get<double>()) << each;
-            }
-        }
-    }
-}
 
 }  // namespace
 }  // namespace tendril::app

@@ -105,15 +105,6 @@ TEST_F(RigTime, AWalkThatIsChangedGoesOnWhereItIs) {
     EXPECT_LT(glm::distance(head(), before), 0.05);
 }
 
-TEST_F(RigTime, OneThatIsSetWalksNoFurther) {
-    secondary();
-    play(20);
-    set("head", at(0, 1, 0));
-    EXPECT_TRUE(part().walks.empty());
-    run("undo");
-    EXPECT_EQ(part().walks.size(), 1u);
-}
-
 TEST_F(RigTime, AnyTickInAnyOrderIsWhatPlayingShowed) {
     secondary();
     const auto states = play(600);
@@ -235,14 +226,8 @@ TEST_F(RigTime, WhatItRefuses) {
     expect_refused("rig.time", Json::object(), {"either a tick or seconds"});
     expect_refused("rig.time", {{"tick", 1}, {"seconds", 1}}, {"either a tick or seconds"});
     expect_refused("rig.time", {{"tick", 1000000000}}, {"36000 ticks", "1000000000"});
-    expect_refused("rig.time", {{"tick", -1}}, {"tick"});
-    expect_refused("rig.time", {{"seconds", std::nan("")}}, {"seconds"});
     expect_refused("rig.motion", {{"name", "skull"}, {"path", "circle"}}, {"\"skull\" is not a control"});
     expect_refused("rig.motion", {{"name", "nobody"}, {"path", "circle"}}, {"no element \"nobody\""});
-    expect_refused("rig.motion", {{"name", "head"}, {"path", "spiral"}}, {"path", "\"spiral\""});
-    expect_refused("rig.motion", {{"name", "head"}, {"path", "circle"}, {"period", 0}}, {"period", "0.1"});
-    expect_refused("rig.motion", {{"name", "head"}, {"path", "circle"}, {"radius", std::nan("")}},
-                   {"radius"});
     expect_refused("rig.motion",
                    {{"name", "head"}, {"path", "circle"}, {"centre", {1e9, 1, 1}}, {"radius", 1e4}},
                    {"farther than 1e9 m"});
