@@ -39,7 +39,8 @@ TEST_F(RigCommands, ClearLeavesNothing) {
 TEST_F(RigCommands, TheControlsOfACurveAreRenamedAndRemovedInItsUnit) {
     element("1");
     element("2", "1", transform(0.5, 0, 0));
-    for (const char* name : {"p", "q", "r"}) control(name, "position");
+    for (const auto& [name, x] : {std::pair("p", 0.0), {"q", 1.0}, {"r", 2.5}})
+        control(name, "position", {{"local", transform(x, 1, 0)}});
     unit({{"unit", "spline"}, {"name", "tail"}, {"root", "1"}, {"tip", "2"}, {"points", {"p", "q", "r"}}});
     run("rig.element.rename", {{"name", "q"}, {"to", "hump"}});
     EXPECT_EQ(saved().at("units").at(0).at("points"), (Json{"p", "hump", "r"}));
