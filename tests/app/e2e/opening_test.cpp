@@ -42,26 +42,6 @@ TEST_F(OpenScene, is_an_arm_with_its_hand_on_the_target) {
     for (const char* name : {"target", "pole", "segment.0", "segment.1", "segment.2"}) handle(state, name);
 }
 
-TEST_F(OpenScene, leaves_nothing_to_save_or_undo) {
-    open_alive(app_);
-    app_.settle();
-    EXPECT_FALSE(workspace().modified());
-    EXPECT_FALSE(workspace().history.can_undo());
-    EXPECT_TRUE(workspace().path.empty());
-    app_.run({"quit", Json{{"unsaved", "ask"}}});
-    EXPECT_TRUE(app_.quit()) << "and it does not ask";
-}
-
-TEST_F(OpenScene, a_new_scene_is_what_it_always_was) {
-    const Json blank = workspace().document.parts().at(chain_lab)->save();
-    open_alive(app_);
-    app_.run({"scene.new"});
-    EXPECT_EQ(workspace().document.parts().at(chain_lab)->save(), blank);
-    open_alive(app_);
-    app_.run({"chain.reset"});
-    EXPECT_EQ(workspace().document.parts().at(chain_lab)->save(), blank);
-}
-
 TEST_F(OpenScene, leaves_what_a_person_chose) {
     workspace().settings.choices["segments"] = "spheres";
     open_alive(app_);

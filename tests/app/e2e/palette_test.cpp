@@ -61,34 +61,20 @@ TEST_F(PaletteTest, TabCompletesNameArgumentAndValueWithTheCaretBehind) {
     EXPECT_EQ(chain().chain.size(), before - 1);
 }
 
-TEST_F(PaletteTest, TabGoesAsFarAsAllAgree) {
-    const std::string before = app_.state()["mode"];
-    open().type("microscope.s").key("tab").type("eek step=0");
-    key("escape");
-    EXPECT_FALSE(is_open());
-    open().type("time.sp").key("tab").type("0.5").key("enter");
-    EXPECT_FALSE(is_open());
-    EXPECT_FLOAT_EQ(app_.workspace().clock.speed, 0.5f);
-    EXPECT_EQ(app_.state()["mode"], before);
-}
-
-TEST_F(PaletteTest, UpAndDownChooseAValueAndEnterTakesItThenRuns) {
-    open().type("chain.mode mode=").key("down").key("down").key("enter");
-    EXPECT_TRUE(is_open()) << "what was chosen stands in the line now";
-    EXPECT_NE(app_.state()["mode"], "fixed");
-    app_.tick(nullptr);
-    key("enter");
-    EXPECT_FALSE(is_open());
-    EXPECT_EQ(app_.state()["mode"], "fixed");
-}
-
-TEST_F(PaletteTest, EnterFinishesAValueThatIsBegun) {
-    open().type("chain.mode mode=re").key("enter");
-    EXPECT_TRUE(is_open());
-    app_.tick(nullptr);
-    key("enter");
-    EXPECT_FALSE(is_open());
-    EXPECT_EQ(app_.state()["mode"], "reach");
+TEST_F(PaletteTest, EnterTakesAValueThatIsChosenOrBegunAndThenRuns) {
+    const auto enter_runs = [&](const char* mode) {
+        key("enter");
+        EXPECT_TRUE(is_open()) << "it stands in the line now";
+        EXPECT_NE(app_.state()["mode"], mode);
+        app_.tick(nullptr);
+        key("enter");
+        EXPECT_FALSE(is_open());
+        EXPECT_EQ(app_.state()["mode"], mode);
+    };
+    open().type("chain.mode mode=").key("down").key("down");
+    enter_runs("fixed");
+    open().type("chain.mode mode=re");
+    enter_runs("reach");
 }
 
 TEST_F(PaletteTest, AMistakeRunsNothingAndCanBeMended) {

@@ -430,13 +430,6 @@ TEST(ChainsPast, LookingIsNothingToUndo) {
     EXPECT_EQ(end["target"], Json::array({2.0, 5.0, 0.0}));
 }
 
-TEST(ChainsPast, AnotherSceneHasAPastOfItsOwn) {
-    const ScriptText script = through_the_root().command("scene.new").wait(3);
-    const Json state = state_after(script);
-    EXPECT_TRUE(state["events"].empty());
-    EXPECT_EQ(play(ScriptText(script).command("time.seek", {{"ticks_back", 1}}, true)).outcome.exit_code, 0);
-}
-
 // The Rig lab's last ten seconds in the running program: flips of bones, and returning to them.
 
 /// The head looks up; then the control for its up direction crosses its line of sight.

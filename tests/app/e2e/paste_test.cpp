@@ -31,15 +31,6 @@ class Paste : public testing::Test {
     App app_{*window_};
 };
 
-TEST_F(Paste, OverTheViewMakesAChainAndUndoTakesItBack) {
-    paste("0 0 0\n1 1 0\n2 1 0\n3 1 1\n3 2 2");
-    EXPECT_EQ(part().chain.size(), 5u);
-    EXPECT_EQ(part().target, glm::vec3(3, 2, 2));
-    EXPECT_TRUE(says(told(), "chain 5 joints clipboard"));
-    app_.run({"undo", Json::object()});
-    EXPECT_EQ(part().chain.size(), 8u);
-}
-
 TEST_F(Paste, OfASmallArmFramesItAndOfOneInViewDoesNot) {
     app_.run({"scene.new", Json::object()});
     const CameraPose before = app_.workspace().camera;

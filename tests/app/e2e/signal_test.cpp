@@ -285,19 +285,6 @@ TEST(SignalInTheWindow, AFileIsTypedIntoThePanel) {
     EXPECT_EQ(state.at("input"), 7.0);
 }
 
-TEST(SignalInTheWindow, ACsvThatIsDroppedIsTheInput) {
-    const TempFolder folder;
-    for (const char* name : {"rows.csv", "ROWS.CSV"}) {
-        write(folder / name, "dt,input\n0.5,7\n0.5,-7\n");
-        ScriptText script = ScriptText().command("lab.open", {{"name", "signal"}}).wait(2);
-        script.line({{"drop", Json::array({(folder / name).string()})}}).wait(10);
-        const Json state = state_after(script);
-        EXPECT_EQ(state.at("input_kind"), "csv");
-        EXPECT_EQ(state.at("input"), 7.0);
-        EXPECT_EQ(state_after(script.command("undo").wait(2)).at("input_kind"), "square");
-    }
-}
-
 TEST(SignalInTheWindow, ACsvThatIsDroppedInVainSaysWhy) {
     const TempFolder folder;
     write(folder / "rows.csv", "dt,input\n0.5,7\n0.5,-7\n");

@@ -8,7 +8,6 @@
 #include "app/document/command.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 #include "tests/app/labs/chain_support.hpp"
-#include "tests/app/support/play.hpp"
 
 namespace tendril::app {
 namespace {
@@ -163,9 +162,3 @@ TEST_F(ChainPole, solvers_are_made_once_per_chain) {
 
 }  // namespace
 }  // namespace tendril::app
-
-namespace tendril::test {
-namespace {
-
-}  // namespace
-}  // namespace tendril::test

@@ -136,21 +136,6 @@ TEST_F(ChainPull, TheOrderIsOfNoMatterAndOneStepUndoesIt) {
     EXPECT_EQ(positions(part().chain), once);
 }
 
-TEST_F(ChainPull, OneInAListIsTheSameAsOneByItself) {
-    for (const std::string& mode : chain_modes.names()) {
-        if (mode == "curve") continue;
-        for (const std::size_t i : {0u, 2u, 6u}) {
-            reach_with(6);
-            run("chain.mode", {{"mode", mode}});
-            run("chain.pull", {{"index", i}, {"to", {1, 2, 3}}});
-            const auto alone = positions(part().chain);
-            run("undo");
-            pull({i}, {{1, 2, 3}});
-            EXPECT_EQ(positions(part().chain), alone) << mode << " " << i;
-        }
-    }
-}
-
 TEST_F(ChainPull, BadListsAreRefusedWithWhatIsWrong) {
     reach_with(3);
     const Json two{{1, 0, 0}, {2, 0, 0}};

@@ -21,28 +21,10 @@ class ChainReach : public ChainTest {
     static float distance_at(float degrees) { return 2.0f * std::cos(glm::radians(0.5f * degrees)); }
 };
 
-TEST_F(ChainReach, the_head_stays_and_the_tail_reaches_the_target) {
-    run("chain.mode", {{"mode", "reach"}});
-    EXPECT_EQ(part().chain.position(7), glm::vec3(7, 0, 0)) << "the mode alone moves nothing";
-    run("chain.target", {{"to", {3, 3, 1}}});
-    EXPECT_EQ(part().chain.position(0), glm::vec3(0, 0, 0));
-    EXPECT_LE(tip_distance(), 7e-3f);
-    EXPECT_EQ(state()["solve"]["report"]["status"], "Converged");
-    EXPECT_EQ(state()["solve"]["report"]["solver"], "fabrik");
-    EXPECT_EQ(state()["mode"], "reach");
-}
-
 TEST_F(ChainReach, a_solve_that_moves_nothing_says_so_too) {
     run("chain.mode", {{"mode", "reach"}});
     run("chain.target", {{"to", {7, 0, 0}}});
     EXPECT_EQ(state()["solve"]["report"]["status"], "Converged");
-}
-
-TEST_F(ChainReach, delete_removes_what_is_selected) {
-    EXPECT_NE(refused("chain.remove_selected").find("no joint is selected"), std::string::npos);
-    run("chain.select", {{"index", 3}});
-    run("chain.remove_selected");
-    EXPECT_EQ(part().chain.size(), 7u);
 }
 
 TEST_F(ChainReach, every_solver_reaches_and_says_so) {
@@ -53,15 +35,8 @@ TEST_F(ChainReach, every_solver_reaches_and_says_so) {
         EXPECT_EQ(state()["solve"]["report"]["status"], "Converged") << ik::name(method);
         EXPECT_EQ(state()["solve"]["solver"], ik::name(method));
         EXPECT_LE(tip_distance(), part().chain.reach() * 1.001e-3f) << ik::name(method);
+        EXPECT_LT(glm::length(part().chain.position(0)), 1e-5f) << ik::name(method) << ": the root stays";
     }
-}
-
-TEST_F(ChainReach, a_target_out_of_reach_stretches_the_chain) {
-    run("chain.mode", {{"mode", "reach"}});
-    run("chain.target", {{"to", {0, 10, 0}}});
-    EXPECT_EQ(state()["solve"]["report"]["status"], "Stretched");
-    EXPECT_NEAR(state()["solve"]["report"]["residual"].get<float>(), 3.0f, 1e-4f);
-    EXPECT_NEAR(part().chain.position(4).y, 4.0f, 1e-5f);
 }
 
 TEST_F(ChainReach, a_default_tolerance_follows_the_reach_and_each_mode_has_its_own_iterations) {
@@ -162,7 +137,6 @@ TEST_F(ChainReach, bad_input_is_refused_with_what_is_wrong) {
         const std::string why = refused(name, arguments);
         EXPECT_NE(why.find(part_of), std::string::npos) << name << arguments << ": " << why;
     };
-    says("chain.solver", {{"name", "newton"}}, "newton");
     says("chain.solver", {{"name", "two_bone"}}, "Two-bone needs exactly two bones; this chain has 4");
     says("chain.pole", Json::object(), "off");
     says("chain.pole", {{"to", {0, 1, 0}}, {"off", true}}, "combined");

@@ -12,23 +12,6 @@ class ChainSelection : public ChainTest {
     ik::JointKind kind(std::size_t joint) const { return limit_of(part().reach, joint).kind; }
 };
 
-TEST_F(ChainSelection, ShiftAddsAndTakesOut) {
-    run("chain.select", {{"index", 2}});
-    run("chain.select", {{"index", 5}, {"add", true}});
-    EXPECT_EQ(selected(), (Indices{2, 5}));
-    EXPECT_EQ(state()["selected"], 5) << "the active one";
-    EXPECT_EQ(state()["selection"], Json({2, 5}));
-    run("chain.select", {{"index", 5}, {"add", true}});
-    EXPECT_EQ(selected(), Indices{2});
-    run("chain.select", {{"joints", {4, 1}}, {"add", true}});
-    EXPECT_EQ(selected(), (Indices{1, 2, 4}));
-    EXPECT_EQ(part().selection.active(), 1u);
-    run("chain.select", {{"joints", {6}}});
-    EXPECT_EQ(selected(), Indices{6});
-    run("chain.select");
-    EXPECT_TRUE(selected().empty());
-}
-
 TEST_F(ChainSelection, LimitsGoOnAllAndEachKeepsWhatIsNotTold) {
     reach_with(6);
     run("chain.limit",
@@ -51,12 +34,6 @@ TEST_F(ChainSelection, LimitsGoOnAllAndEachKeepsWhatIsNotTold) {
     EXPECT_EQ(kind(1), ik::JointKind::Hinge);
 }
 
-TEST_F(ChainSelection, LengthsGoOnAll) {
-    run("chain.set_length", {{"joints", {2, 3, 5}}, {"length", 0.25}});
-    for (std::size_t i = 1; i < part().chain.size(); ++i)
-        EXPECT_FLOAT_EQ(part().chain.length(i), i == 2 || i == 3 || i == 5 ? 0.25f : 1.0f) << i;
-}
-
 TEST_F(ChainSelection, DeleteRemovesAllOfThem) {
     const std::size_t size = part().chain.size();
     run("chain.set_length", {{"index", 4}, {"length", 0.5}});
@@ -65,7 +42,7 @@ TEST_F(ChainSelection, DeleteRemovesAllOfThem) {
     EXPECT_EQ(part().chain.size(), size - 3);
     EXPECT_FLOAT_EQ(part().chain.length(2), 0.5f) << "the fourth is the second now";
     EXPECT_TRUE(selected().empty());
-    refused("chain.remove_selected");
+    EXPECT_NE(refused("chain.remove_selected").find("no joint is selected"), std::string::npos);
     run("undo");
     EXPECT_EQ(part().chain.size(), size);
     run("chain.select", {{"joints", {0, 1, 2, 3, 4, 5, 6, 7}}});

@@ -74,23 +74,6 @@ TEST_F(LinkageTest, ADraggedJointTakesTheCrankAlong) {
     EXPECT_NEAR(driver("crank"), 30.0, 1e-6) << "a drag is one step";
 }
 
-TEST_F(LinkageTest, IsDrawnByHandAndRuns) {
-    draw_four_bar();
-    EXPECT_EQ(state().at("freedom"), 1);
-    EXPECT_EQ(state().at("gruebler"), 1);
-    EXPECT_NEAR(driver("motor 1"), 90.0, 1e-9);
-    const glm::dvec3 before = at("C");
-    run("linkage.motor", {{"joint", "motor 1"}, {"deg_per_s", 60}});
-    wait(30);
-    EXPECT_NEAR(driver("motor 1"), 120.0, 1e-6);
-    EXPECT_GT(glm::distance(at("C"), before), 0.1);
-    EXPECT_NEAR(glm::distance(at("B"), at("C")), std::sqrt(5.0), 1e-8);
-    for (int i = 0; i < 7; ++i) run("undo");
-    EXPECT_TRUE(part().shape->sketch.bars.empty());
-    for (int i = 0; i < 7; ++i) run("redo");
-    EXPECT_EQ(state().at("drivers").size(), 1u);
-}
-
 TEST_F(LinkageTest, TheLibrarysMechanismsStandAsTheyAreNamed) {
     for (const MechanismKind& kind : mechanism_kinds()) {
         run("linkage.preset", {{"name", kind.name}});

@@ -1,5 +1,5 @@
-// A lab is one folder and one line in the table: opens, drags, undoes, saves and records a lab that the
-// program does not have. Palette, help and shortcuts find it, although only the table knows it.
+// A lab is one folder and one line in the table: palette, help and shortcuts find a lab that the program does
+// not have, although only the table knows it. EveryScene drags, undoes, saves and records it.
 #include <gtest/gtest.h>
 
 #include "app/document/command.hpp"
@@ -39,30 +39,6 @@ class ThirdLab : public testing::Test {
     std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
     App app_{*window_, false, labs_with_a_spring()};
 };
-
-TEST_F(ThirdLab, IsDraggedAndADragIsUndoneInOneStep) {
-    const Json before = ball();
-    drag("ball", {120.0f, -40.0f});
-    const Json after = ball();
-    EXPECT_GT(after[0].get<float>(), before[0].get<float>());
-    EXPECT_GT(after[1].get<float>(), before[1].get<float>());
-    EXPECT_EQ(app_.workspace().history.size(), 1u);
-    app_.run({"undo"});
-    EXPECT_EQ(ball(), before);
-    app_.run({"redo"});
-    EXPECT_EQ(ball(), after);
-}
-
-TEST_F(ThirdLab, WhatChangesNothingLeavesNoStep) {
-    app_.run({"spring.ball", Json{{"to", ball()}}});
-    EXPECT_FALSE(app_.workspace().history.can_undo());
-}
-
-TEST_F(ThirdLab, SwingsWhileTimeRuns) {
-    const Json before = ball();
-    for (int i = 0; i < 10; ++i) app_.run({"time.step"});
-    EXPECT_NE(ball(), before);
-}
 
 TEST_F(ThirdLab, IsPicturedAndItsHandlesAreWhereTheyAreDrawn) {
     const Image picture = app_.screenshot();

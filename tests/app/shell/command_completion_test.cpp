@@ -65,6 +65,7 @@ TEST_F(Completion, FindsByPlainWordsFirst) {
 TEST_F(Completion, FindsWhatIsNamedAndThenTheOpenLabsOwn) {
     EXPECT_EQ(names("rope.clear", "chain").front(), "rope.clear");
     EXPECT_EQ(names("chain.remove", "rope").front(), "chain.remove");
+    EXPECT_EQ(names("chain.add length=3").front(), "chain.add");
     for (const auto& lab : labs_.all()) {
         const std::string own = lab->name();
         if (table_.find(own + ".reset") != nullptr) {

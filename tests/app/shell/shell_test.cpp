@@ -161,15 +161,5 @@ TEST(CommandPaletteLine, IsReadAsItWouldStandInAScript) {
     EXPECT_THROW(read_typed_command("chain.add =3"), std::runtime_error);
 }
 
-TEST(CommandPaletteLine, FindsByNameAndByHelp) {
-    const Labs labs;
-    const CommandTable table = make_command_table(labs);
-    EXPECT_EQ(search_commands(table, "").size(), table.all().size());
-    EXPECT_EQ(search_commands(table, "chain.add").front()->name, "chain.add");
-    EXPECT_EQ(search_commands(table, "chain.add length=3").front()->name, "chain.add");
-    EXPECT_EQ(search_commands(table, "TAIL append").front()->name, "chain.add");
-    EXPECT_TRUE(search_commands(table, "xyzzy").empty());
-}
-
 }  // namespace
 }  // namespace tendril::app

@@ -62,25 +62,12 @@ TEST_F(HumanoidBalanceLab, ThePanelSaysWhereTheCentreOfMassIs) {
     EXPECT_TRUE(test::says(where({-4.0, 0.0, 0.0}), "m right of the feet"));
 }
 
-TEST_F(HumanoidBalanceLab, OffIsAsIfItHadNeverBeenOn) {
-    run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.3, 1.3, 0.4}}});
-    const Json before = state();
-    run("humanoid.balance", {{"on", true}});
-    run("humanoid.balance", {{"on", false}});
-    EXPECT_EQ(state(), before);
-}
-
 TEST_F(HumanoidBalanceLab, TheCodeKeepsTheBalanceToo) {
     run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.3, 1.3, 0.4}}});
     EXPECT_FALSE(test::says(lab().code(workspace), "body_options"));
     run("humanoid.balance", {{"on", true}, {"reserve", 0.5}});
     EXPECT_TRUE(test::says(lab().code(workspace), "BodyOptions body_options .balance = true .reserve = 0.5"));
     EXPECT_TRUE(test::says(lab().code(workspace), "body->solve(pose, targets, body_state, body_options)"));
-}
-
-TEST_F(HumanoidBalanceLab, NeedsABody) {
-    run("humanoid.map", {{"bone", "LeftHand"}, {"node", ""}});
-    EXPECT_TRUE(test::says(refused("humanoid.balance", {{"on", true}}), "full-body IK is off"));
 }
 
 TEST_F(HumanoidBalanceLab, TheGroundShowsWhatTheFeetSupport) {

@@ -60,6 +60,9 @@ TEST_F(HumanoidCharacter, ComesFromAFileAsItRests) {
     EXPECT_NEAR(bone("Hips").y, 0.95, 1e-12);
     EXPECT_NEAR(bone("LeftHand").x, 0.53, 1e-12);
     EXPECT_TRUE(lab().moving(workspace)) << "it plays";
+    run("humanoid.load");
+    EXPECT_FALSE(part().clip()) << "of two clips, a user chooses one";
+    run("undo");
     run("undo");
     EXPECT_EQ(state().at("clip").at("name"), "walk");
     EXPECT_EQ(state().at("character").at("file"), "");

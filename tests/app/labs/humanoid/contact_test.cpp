@@ -63,11 +63,14 @@ TEST_F(HumanoidContacts, WhatACharacterWearsIsKeptApart) {
 }
 
 TEST_F(HumanoidContacts, OffIsAsIfItHadNeverBeenOn) {
-    run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.3, 1.3, 0.4}}});
-    const Json before = state();
-    run("humanoid.self_collision", {{"on", true}});
-    run("humanoid.self_collision", {{"on", false}});
-    EXPECT_EQ(state(), before);
+    for (const char* command : {"humanoid.self_collision", "humanoid.balance"}) {
+        workspace = make_blank_workspace(labs);
+        run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.3, 1.3, 0.4}}});
+        const Json before = state();
+        run(command, {{"on", true}});
+        run(command, {{"on", false}});
+        EXPECT_EQ(state(), before) << command;
+    }
 }
 
 }  // namespace

@@ -156,16 +156,6 @@ TEST_F(HumanoidFiles, AnExportTellsThatThereAreOtherClipsAndWritesThemAll) {
     EXPECT_FALSE(test::says(workspace.ui.toasts.back().text, "1 of")) << workspace.ui.toasts.back().text;
 }
 
-TEST_F(HumanoidFiles, AFileWithOneClipPlaysIt) {
-    run("humanoid.export", {{"path", path("one.glb")}, {"clip", "punch"}});
-    run("humanoid.load", {{"path", path("one.glb")}});
-    ASSERT_TRUE(part().clip());
-    EXPECT_EQ(part().clip()->name, "punch");
-    EXPECT_TRUE(part().playback.playing);
-    run("humanoid.load");
-    EXPECT_FALSE(part().clip()) << "of two clips, a user chooses one";
-}
-
 TEST_F(HumanoidFiles, AnotherCharacterTellsWhatItDiscards) {
     const std::string walk = tendril::test::source_path("tests/app/golden/faulty_walk.bvh");
     run("humanoid.load", {{"path", walk}});

