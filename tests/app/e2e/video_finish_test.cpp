@@ -204,9 +204,9 @@ TEST_F(VideoFinish, TellsWhatWentWrongAndLeavesTheOldFile) {
     const std::string old = std::string("\0\0\0\x20", 4) + "ftypisom, the old video";
     write(folder_ / "a.mp4", old);
     for (const auto& [end, reads_back, told] :
-         {std::tuple{"sleep 0.2; echo 'disk full' >&2; exit 1\n", true, "view.video ffmpeg disk full"},
-          {"echo 'disk full' >&2\n", true, "view.video ffmpeg disk full"},
-          {": > \"${last#file:}\"\n", false, "view.video ffmpeg exit code 1"}}) {
+         {std::tuple{"sleep 0.2; echo 'disk full' >&2; exit 1\n", true, "ffmpeg disk full"},
+          {"echo 'disk full' >&2\n", true, "ffmpeg disk full"},
+          {": > \"${last#file:}\"\n", false, "ffmpeg exit code 1"}}) {
         film_with(end, reads_back);
         for (int i = 0; i < 3000 && filming(); ++i) tick();
         EXPECT_FALSE(filming());

@@ -106,7 +106,7 @@ TEST_F(RopeRefusals, WhatDoesNotGoTogether) {
     EXPECT_TRUE(test::says(refused("rope.hair.add"), "rope.hair.add centre missing collider"));
     EXPECT_TRUE(test::says(refused("rope.hair.add", {{"attach", "x"}}), "rope.hair.add no collider x"));
     EXPECT_TRUE(test::says(refused("rope.hair.add", {{"centre", origin}, {"direction", origin}}),
-                           "rope.hair.add hair direction finite length 0"));
+                           "rope.hair.add direction finite length 0"));
     refused("rope.add", {{"from", origin}, {"to", right}, {"name", "rope"}});
     run("rope.cloth.add",
         {{"corner", origin}, {"along", right}, {"down", {0, 1, 0}}, {"columns", 3}, {"rows", 3}});

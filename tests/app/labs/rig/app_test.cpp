@@ -143,7 +143,7 @@ TEST_F(RigApp, AUnitIsRenamedInItsPanel) {
     };
     const auto selected = [&] { return rig_part(app_.workspace()).selected.unit; };
     type("set head");
-    EXPECT_TRUE(says(app_.workspace().ui.toasts.back().text, "rig.unit.rename already unit set head"));
+    EXPECT_TRUE(says(app_.workspace().ui.toasts.back().text, "already unit set head"));
     EXPECT_EQ(selected(), "aim");
     type("gaze");
     EXPECT_EQ(selected(), "gaze");
