@@ -84,7 +84,7 @@ class RopeProgram {
     /// `opening`, entries separated by commas, then `closing`, with as many as fit on a line.
     void list(const std::string& opening, const std::vector<std::string>& entries, const std::string& closing,
               const std::string& margin = "    ") {
-        std::string row = opening;
+        std::string row = entries.empty() ? opening + closing : opening;
         for (std::size_t i = 0; i < entries.size(); ++i) {
             const std::string next = entries[i] + (i + 1 < entries.size() ? "," : closing);
             if (i > 0 && row.size() + 1 + next.size() > max_line)

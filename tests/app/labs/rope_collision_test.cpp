@@ -86,6 +86,9 @@ TEST_F(RopeCollisionTest, IsInTheCode) {
     EXPECT_TRUE(test::says(rope_code(part()),
                            "rope::number_slots state.collisions.push_back({state.bodies[0].id, "
                            "state.bodies[0].id}) state.contacts.push_back .force"));
+    RopePart of_defaults;
+    of_defaults.world = std::make_shared<NamedWorld>();
+    EXPECT_TRUE(test::says(rope_code(of_defaults), "state.settings = {};"));
 }
 
 TEST_F(RopeCollisionTest, Refusals) {

@@ -127,6 +127,7 @@ Json ik_json(const HumanoidPart& part) {
 }
 
 void read_ik(const JsonPlace& place, HumanoidPart& part) {
+    if (!place.json().is_object()) place.fail("expected an object, found " + json_summary(place.json()));
     if (const auto targets = place.optional("targets")) read_targets(*targets, part.ik);
     if (const auto limits = place.optional("limits")) part.ik.limits = limits->choice(limits_from);
     if (const auto joints = place.optional("joint_limits")) read_joint_limits(*joints, part.ik);

@@ -170,6 +170,7 @@ TEST_F(HumanoidTargets, AFileThatIsWrongIsRefusedWithItsPlace) {
     expect_scene_refused("/ik/targets/head", {{"position", {0, 1}}},
                          "labs.humanoid.ik.targets.head.position");
     expect_scene_refused("/ik/targets/left_hand/rotation", {0, 0, 0, 0}, "length 1");
+    expect_scene_refused("/ik", "x", "labs.humanoid.ik: expected an object");
     expect_scene_refused("/ik/limits", "dreams", "unknown source of limits \"dreams\"");
     expect_scene_refused("/ik/body/turns/0", {0, 0, 0}, "labs.humanoid.ik.body.turns");
     // State of another body is ignored.
