@@ -107,48 +107,4 @@ class FigureWalk {
     Clip clip_;
 };
 
-/// Some frames of a clip, sampled at a rate.
-inline Clip frames_of(const Skeleton& skeleton, const Clip& clip, double rate, int first, int last) {
-    Clip part{.name = clip.name, .duration = (last - first) / rate, .channels = {}, .rate = rate};
-    std::vector<rig::Transform> pose(skeleton.size());
-    for (std::size_t node = 0; node < pose.size(); ++node) part.channels.push_back({.node = node});
-    for (int i = first; i <= last; ++i) {
-        sample(clip, skeleton, std::min(i / rate, clip.duration), pose);
-        for (std::size_t node = 0; node < pose.size(); ++node) {
-            Channel& channel = part.channels[node];
-            for (auto* times : {&channel.translation.times, &channel.rotation.times})
-                times->push_back(i == last ? part.duration : (i - first) / rate);
-            channel.translation.values.push_back(pose[node].translation);
-            channel.rotation.values.push_back(pose[node].rotation);
-        }
-    }
-    return part;
-}
-
-/// The largest angle, degrees, by which a bone turns otherwise in the clip `part` than in the frames of
-/// `whole` from `first` on. Thighs and shins follow where the feet stand, and are left out.
-inline double turned_apart(const Skeleton& skeleton, const BoneMap& map, const Clip& whole, const Clip& part,
-                           double rate, int first) {
-    double worst = 0.0;
-    std::vector<rig::Transform> pose(skeleton.size());
-    const auto placed = [&](const Clip& clip, double time) {
-        std::vector<Placement> all(skeleton.size());
-        sample(clip, skeleton, std::min(time, clip.duration), pose);
-        place(skeleton, pose, all);
-        return all;
-    };
-    for (int i = 0; i <= std::lround(part.duration * rate); ++i) {
-        const auto a = placed(whole, (first + i) / rate), b = placed(part, i / rate);
-        for (const Bone bone : {Bone::Hips, Bone::Chest, Bone::Head, Bone::LeftHand, Bone::RightLowerArm,
-                                Bone::LeftFoot, Bone::RightFoot, Bone::LeftToes, Bone::RightToes})
-            if (map[bone].node >= 0) {
-                const auto node = static_cast<std::size_t>(map[bone].node);
-                const glm::dquat apart = glm::conjugate(a[node].rotation()) * b[node].rotation();
-                worst = std::max(worst, 2.0 * glm::degrees(std::asin(std::min(
-                                                  1.0, glm::length(glm::dvec3(apart.x, apart.y, apart.z))))));
-            }
-    }
-    return worst;
-}
-
 }  // namespace tendril::test

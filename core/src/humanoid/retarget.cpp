@@ -41,29 +41,6 @@ Skeleton resized(const Skeleton& skeleton, double by) {
     const auto made = Skeleton::make(std::move(nodes));
     return made ? *made : skeleton;
 }
-/// Where the clip places the hips, their position at rest (the OFFSET of a BVH's root) is no part of the
-/// motion: they rest at the origin.
-Skeleton with_hips_at_origin(const Skeleton& skeleton, const BoneMap& map, const Clip& clip) {
-    std::vector<Node> nodes = skeleton.nodes();
-    std::vector<Placement> placed(nodes.size());
-    place(skeleton, rest_pose(skeleton), placed);
-    const glm::dvec3 hips = placed[static_cast<std::size_t>(map[Bone::Hips].node)].position;
-    const auto is_placed = [&](std::int32_t node) {
-        return std::any_of(clip.channels.begin(), clip.channels.end(), [&](const Channel& each) {
-            return each.node == static_cast<std::size_t>(node) && !each.translation.times.empty();
-        });
-    };
-    std::int32_t top = -1;  // the hips, or the topmost node above them that the clip places
-    for (std::int32_t node = map[Bone::Hips].node; node >= 0;
-         node = skeleton[static_cast<std::size_t>(node)].parent)
-        if (is_placed(node)) top = node;
-    if (top < 0) return skeleton;
-    Node& node = nodes[static_cast<std::size_t>(top)];
-    const Placement above = node.parent < 0 ? Placement() : placed[static_cast<std::size_t>(node.parent)];
-    node.rest.translation = minus(node.rest.translation, detail::seen_from(above, hips));
-    const auto made = Skeleton::make(std::move(nodes));
-    return made ? *made : skeleton;
-}
 double size_for_steps(const MappedSkeleton& body) {
     const double leg = detail::RetargetBody(body).leg;
     return leg > 1e-6 && leg < 1e6 ? person_leg / leg : 1.0;
@@ -130,7 +107,7 @@ class Retargeter {
   public:
     Retargeter(const MappedSkeleton& from, const Clip& clip, const MappedSkeleton& to)
         : size_(size_for_steps(from)),
-          skeleton_(with_hips_at_origin(resized(from.skeleton, size_), from.map, clip)),
+          skeleton_(resized(from.skeleton, size_)),
           clip_(resized(clip, size_)),
           to_(to),
           was_({skeleton_, from.map}),
@@ -271,10 +248,9 @@ class Retargeter {
             lint_detail::feet_motion({skeleton_, was_.body.map, clip_, settings, 0.0, report});
         if (!legs_[0] || !legs_[1] || motion.feet.size() != 2) return;
         const auto stood_on = lint_detail::floor_of(motion, report.rate);
-        detail::RetargetBody standing = was_;
-        if (stood_on || motion.knows_soles) learn_level_feet(motion, standing);
-        const std::array<detail::SoleTriple, 2> soles{standing.sole(true, motion.feet[0].points[0].above),
-                                                      standing.sole(false, motion.feet[1].points[0].above)};
+        if (stood_on || motion.knows_soles) learn_level_feet(motion);
+        const std::array<detail::SoleTriple, 2> soles{was_.sole(true, motion.feet[0].points[0].above),
+                                                      was_.sole(false, motion.feet[1].points[0].above)};
         std::vector<detail::PointedFrame> frames;
         for (std::size_t i = 0; i < report.frames; ++i) {
             point_limbs(std::min(static_cast<double>(i) / report.rate, clip_.duration));
@@ -292,13 +268,12 @@ class Retargeter {
              .ground = was_.ground,
              .turn = turn_});
     }
-    /// Learns how feet and toes lie on the ground, from the frames in which they stand: for heights of the
-    /// soles, not for rotations.
-    void learn_level_feet(const lint_detail::FeetMotion& motion, detail::RetargetBody& body) {
+    /// Learns how feet and toes lie on the ground, from the frames in which they stand.
+    void learn_level_feet(const lint_detail::FeetMotion& motion) {
         for (const bool left : {true, false}) {
             const lint_detail::Foot& foot = motion.feet[left ? 0 : 1];
-            body.level(static_cast<std::size_t>(foot.node), foot.flat);
-            body.straighten_foot(left);
+            was_.level(static_cast<std::size_t>(foot.node), foot.flat);
+            was_.straighten_foot(left);
             const Bone toes = left ? Bone::LeftToes : Bone::RightToes;
             if (!was_.has(toes) || motion.knows_soles) continue;
             glm::dvec3 up(0.0);
@@ -310,7 +285,7 @@ class Retargeter {
                 const glm::dquat turned = source_[was_.node(toes)].rotation();
                 up = plus(up, rotated(conjugate(turned), {0.0, 1.0, 0.0}));
             }
-            if (const auto mean = direction_of(up, 1e-9)) body.level(was_.node(toes), *mean);
+            if (const auto mean = direction_of(up, 1e-9)) was_.level(was_.node(toes), *mean);
         }
     }
     detail::PointedFrame pointed(const std::array<detail::SoleTriple, 2>& source_soles) const {

@@ -12,12 +12,11 @@ namespace tendril::humanoid::detail {
 
 using namespace rig::detail;
 
+namespace {
+
 struct LegBones {
     Bone upper, lower, foot, toes;
 };
-
-namespace {
-
 constexpr LegBones leg_bones[2]{{Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot, Bone::LeftToes},
                                 {Bone::RightUpperLeg, Bone::RightLowerLeg, Bone::RightFoot, Bone::RightToes}};
 
@@ -35,7 +34,6 @@ RetargetBody::RetargetBody(const MappedSkeleton& given) : body(given), at(facing
     for (const Placement& each : placed) rotations.push_back(each.rotation());
     // Forward may be reversed (Facing): the frame stays right-handed.
     frame = Placement{{cross(at.up, at.forward), at.up, at.forward}, glm::dvec3(0.0)}.rotation();
-    for (const LegBones& bones : leg_bones) roll_with_leg(bones);
     find_feet(point_toes());
     for (const bool left : {true, false}) {
         find_fingers(left);
@@ -174,19 +172,6 @@ bool RetargetBody::point_toes() {
         turned = true;
     }
     return turned;
-}
-
-/// A leg that rests spread wider than people stand, though not in a split, takes its foot along when it is
-/// put down straight. CMU's zero pose: 20 degrees; in its walks the soles are level at a roll of 14 to 26.
-void RetargetBody::roll_with_leg(const LegBones& bones) {
-    constexpr double widest_stance = 0.21, split = 0.5;  // radians from vertical: 12 and 29 degrees
-    if (!has(bones.upper) || !has(bones.foot)) return;
-    std::vector<Placement> rest(placed.size());
-    place(body.skeleton, rest_pose(body.skeleton), rest);
-    const glm::dvec3 up_leg = minus(rest[node(bones.upper)].position, rest[node(bones.foot)].position);
-    const double spread = arctangent(dot(up_leg, cross(at.forward, at.up)), dot(up_leg, at.up));
-    if (std::abs(spread) > widest_stance && std::abs(spread) < split)
-        turn(node(bones.foot), rotation_about(at.forward, -spread));
 }
 
 void RetargetBody::find_feet(bool toes_are_turned) {

@@ -20,8 +20,6 @@ using FingerNodes = std::array<std::int32_t, 3>;
 /// Heel, in the foot's axes; ball and tip of the toes, in those of the toes.
 using SoleTriple = std::array<glm::dvec3, 3>;
 
-struct LegBones;
-
 /// A body in its reference pose.
 struct RetargetBody {
     explicit RetargetBody(const MappedSkeleton& given);
@@ -61,7 +59,6 @@ struct RetargetBody {
     std::optional<glm::dvec3> hand_axis(bool left) const;
     void find_fingers(bool left);
     void straighten_hand(bool left);
-    void roll_with_leg(const LegBones& bones);
     bool point_toes();
     void find_feet(bool toes_are_turned);
     void even_soles(const std::vector<Placement>& standing, bool shows_thickness);

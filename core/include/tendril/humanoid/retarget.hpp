@@ -29,12 +29,9 @@
 //
 // A figure with the same nodes and rest pose, even in another size, gets the clip itself.
 //
-// Feet turn from how they stand at rest. A rest pose that does not stand, such as a zero pose or a bind pose
-// in mid-run, is replaced by t_pose()'s; legs spread by 12 to 29 degrees, as in CMU's zero pose, are put
-// together with their feet. The clip gives only the heights of floor and soles, and when feet stand. So a
-// frame's rotations do not depend on the other frames, except for thighs and shins, which keep the soles
-// where they stand. If the clip places the hips, their rest position (the OFFSET of a BVH's root) has no
-// effect.
+// Feet turn from how they stand at rest, whatever the clip does later. If the source's rest pose does not
+// stand on level ground, as a zero pose or a bind pose in mid-run, the stand is learned from frames in which
+// a foot carries the figure, which neither sits nor lies; without any, t_pose() gives it.
 //
 // The target stands on its floor at rest, or on height 0 if its rest pose is far from there, as a BVH's often
 // is.
