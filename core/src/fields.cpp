@@ -152,8 +152,9 @@ class Check {
         const bool pair = field.type == FieldType::Pair;
         const Place part{&place, pair ? ends[axis] : field.size() > 1 ? axes[axis] : ""};
         if (field.type == FieldType::Index) return refuse(place, wanted, static_cast<std::size_t>(all[0]));
-        if (field.whole()) return refuse(part, wanted, static_cast<int>(all[axis]));
-        if (field.exact) return refuse(part, wanted, all[axis]);
+        if (field.whole() && std::abs(all[axis]) < 1e9)
+            return refuse(part, wanted, static_cast<int>(all[axis]));
+        if (field.exact || field.whole()) return refuse(part, wanted, all[axis]);
         return refuse(part, wanted, static_cast<float>(all[axis]));
     }
     bool refuse(const Place& place, const Text& wanted, const detail::Shown& value) const noexcept {
