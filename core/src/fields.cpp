@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "math/checks.hpp"
 
@@ -152,7 +153,7 @@ class Check {
         const bool pair = field.type == FieldType::Pair;
         const Place part{&place, pair ? ends[axis] : field.size() > 1 ? axes[axis] : ""};
         if (field.type == FieldType::Index) return refuse(place, wanted, static_cast<std::size_t>(all[0]));
-        if (field.whole() && std::abs(all[axis]) < 1e9)
+        if (field.whole() && std::abs(all[axis]) <= std::numeric_limits<int>::max())
             return refuse(part, wanted, static_cast<int>(all[axis]));
         if (field.exact || field.whole()) return refuse(part, wanted, all[axis]);
         return refuse(part, wanted, static_cast<float>(all[axis]));
