@@ -4,12 +4,15 @@
 
 #include "chain_support.hpp"
 #include "random.hpp"
+#include "tests/labels.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
 
 const float root_half = std::sqrt(0.5f);
+
+LABEL(slow, "ChainEdit.AHundredThousandAddsAreQuick");
 
 TEST(ChainEdit, StartsEmpty) {
     const Chain chain;

@@ -7,6 +7,7 @@
 #include <tendril/humanoid/body.hpp>
 
 #include "humanoid_figure.hpp"
+#include "tests/labels.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {
@@ -100,6 +101,10 @@ double farthest(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>&
     for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, glm::distance(a[i], b[i]));
     return most;
 }
+
+LABEL(slow, "Limits/HumanoidBody.targets_where_the_clip_has_the_effectors_change_nothing/*");
+LABEL(slow, "Limits/HumanoidBody.follows_targets_in_and_out_of_reach_without_a_leap/*");
+LABEL(slow, "Limits/HumanoidBody.a_slow_target_gives_a_slow_pose_and_a_still_one_a_still_pose/*");
 
 TEST_P(HumanoidBody, reaches_five_targets_within_a_millimetre) {
     RandomPoses random(1);

@@ -9,6 +9,7 @@
 
 #include "humanoid_figure.hpp"
 #include "memory.hpp"
+#include "tests/labels.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {
@@ -53,6 +54,8 @@ class HandIk : public ::testing::Test {
     const BoneMap map = match_bones(skeleton);
     const Hands hands = *Hands::make(skeleton, map);
 };
+
+LABEL(slow, "HandIk.BetweenTheTwoItIsSmooth");
 
 TEST_F(HandIk, AtFullWeightTheHandIsOnItsTargetAndTurnedAsItIs) {
     for (int round = 0; round < 1000; ++round) {

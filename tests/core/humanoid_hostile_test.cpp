@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <tendril/humanoid/balance.hpp>
@@ -19,16 +18,11 @@
 
 #include "humanoid_figure.hpp"
 #include "random.hpp"
+#include "tests/labels.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
-
-/// Number of characters to try; TENDRIL_HOSTILE_ROUNDS overrides it.
-int rounds(int usual) {
-    const char* const given = std::getenv("TENDRIL_HOSTILE_ROUNDS");
-    return given ? std::atoi(given) : usual;
-}
 
 bool is_fine(double value) {
     return std::isfinite(value);

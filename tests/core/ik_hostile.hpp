@@ -2,10 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 
 #include "ik_support.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 
@@ -14,13 +13,6 @@ inline glm::dvec3 cross(glm::dvec3 a, glm::dvec3 b) {
 }
 inline double dot(glm::dvec3 a, glm::dvec3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-inline std::uint64_t given_seed() {
-    const char* given = std::getenv("TENDRIL_SEED");
-    const std::uint64_t value = given ? std::strtoull(given, nullptr, 0) : 20'260'301u;
-    std::printf("seed %llu\n", static_cast<unsigned long long>(value));
-    return value;
 }
 
 /// A distance between two fractions of the reach; longer if a long bone makes nearer targets unreachable.

@@ -2,6 +2,7 @@
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 #include "memory.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test::ik_limited_test {
 namespace {
@@ -38,6 +39,8 @@ ik::Options hostile_options(Random& random, const Arm& arm, const Joints& joints
     if (random.chance(6)) options.tip_orientation = some_turn(random, 3.0f);
     return options;
 }
+
+LABEL(slow, "IkLimited.HoldsWhateverTheTargetHundredThousandTimes");
 
 TEST(IkLimited, HoldsWhateverTheTargetHundredThousandTimes) {
     Random random(given_seed());

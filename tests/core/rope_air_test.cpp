@@ -2,12 +2,15 @@
 #include <algorithm>
 
 #include "rope_support.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
 
 constexpr double air = 1.2, plate = 2.0, thread = 1.2;  // kg/m^3, drag coefficients
 constexpr rope::Settings weightless{.damping = 1.0f, .gravity = glm::vec3(0.0f), .gusts = 0.0f};
+
+LABEL(slow, "RopeAir.ASailTakesItsCurve");
 
 /// A strip of cloth held at two edges bulges in a steady wind. The pressure on it falls with the cosine of
 /// its slope and its tension is the same everywhere, so it takes the curve y = -a log cos(x / a), of which

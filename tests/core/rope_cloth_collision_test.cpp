@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "rope_cloth_collision.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -46,6 +47,9 @@ World folded(int size, float radius) {
     collide(made, "cloth", "cloth");
     return made;
 }
+
+LABEL(slow, "RopeClothCollision.FoldedInFour*");
+LABEL(slow, "RopeClothCollision.ARope*");
 
 TEST(RopeClothCollision, FoldedInFourItKeepsTheThicknessOfItsLayers) {
     constexpr int size = 16;

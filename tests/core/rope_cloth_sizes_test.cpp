@@ -1,6 +1,7 @@
 // Cloth at any resolution: does not stretch, rests on colliders, and recovers from disturbances.
 #include "rope_support.hpp"
 #include "tendril/ik/many.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -27,12 +28,15 @@ double worst_stretch(World& world, double seconds) {
     return worst;
 }
 
+LABEL(slow, "RopeClothSizes.[!S]*");
+
 TEST(RopeClothSizes, HangsByTwoCornersWithinOnePercent) {
     const struct {
         int side;
         double seconds;
     } cases[] = {{5, 4.0}, {16, 4.0}, {24, 4.0}, {33, 3.0}, {48, 2.0}, {64, 2.0}, {128, 0.5}};
     for (const auto& [side, seconds] : cases) {
+        if (side > 64 && !is_thorough()) continue;
         World world;
         world.add_cloth("cloth", flat(side, ClothShape::Pins::Corners));
         EXPECT_LE(worst_stretch(world, seconds), 0.01) << side;

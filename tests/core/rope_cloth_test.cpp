@@ -2,6 +2,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "rope_support.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -14,6 +15,9 @@ std::size_t count(const World& world, Link::Kind kind) {
     return static_cast<std::size_t>(std::count_if(world.state().links.begin(), world.state().links.end(),
                                                   [&](const Link& link) { return link.kind == kind; }));
 }
+
+LABEL(slow, "RopeCloth.HangsAndComesToRest");
+LABEL(slow, "RopeCloth.ItsEnergyDoesNotGrow");
 
 TEST(RopeCloth, IsAGridWithShearAndBendLinks) {
     World world;

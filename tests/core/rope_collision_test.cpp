@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <string>
 #include <tendril/rope/edit.hpp>
@@ -11,6 +10,7 @@
 
 #include "random.hpp"
 #include "rope_cloth_collision.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -20,12 +20,6 @@ using glm::dvec3;
 constexpr float radius = 0.01f;
 const char* const below = "rope";  // as the test's World names them
 const char* const on_top = "rope 2";
-
-/// Random scenes of the hostile test: TENDRIL_SCENES of them, a few by default.
-int scenes_to_play() {
-    const char* const wanted = std::getenv("TENDRIL_SCENES");
-    return wanted == nullptr ? 100 : std::atoi(wanted);
-}
 
 /// A rope with weights at its ends is dropped on another one, across it.
 World crossed(int segments, double weight = 1.0) {
@@ -416,7 +410,7 @@ void play_thrown(int seed) {
 }
 
 TEST(RopeCollision, NothingPassesInRandomScenes) {
-    for (int seed = 0; seed < scenes_to_play(); ++seed) play_thrown(seed);
+    for (int seed = 0, end = rounds(100); seed < end; ++seed) play_thrown(seed);
 }
 
 TEST(RopeCollision, ContactsFollowTheParticlesOfRopesThatAreDividedAnew) {

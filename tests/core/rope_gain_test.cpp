@@ -1,9 +1,9 @@
 // Contact never adds energy: random ropes, hair and cloth fall among random colliders at rest.
 // TENDRIL_ENERGY_SCENES=10000 runs more and larger scenes.
-#include <cstdlib>
 #include <glm/gtc/quaternion.hpp>
 
 #include "rope_support.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -126,12 +126,11 @@ double gained(World& world, double seconds) {
 }
 
 TEST(RopeGain, NothingGainsEnergyByWhatItMeets) {
-    const char* more = std::getenv("TENDRIL_ENERGY_SCENES");
-    const int scenes = more != nullptr ? std::atoi(more) : 160;
+    const int scenes = rounds(160);
     double worst = 0.0;
     for (int seed = 1; seed <= scenes; ++seed) {
         Random random(static_cast<std::uint64_t>(seed));
-        World world = some_world(random, more != nullptr);
+        World world = some_world(random, is_thorough());
         // Lengths accurate to a fraction of a percent account for this fraction of the weight times 1 m.
         const double part = gained(world, 1.5) / weight(world);
         EXPECT_LE(part, 2.5e-3) << seed << ": " << name(world.settings().solver) << ", " << world.size()
@@ -139,7 +138,6 @@ TEST(RopeGain, NothingGainsEnergyByWhatItMeets) {
         worst = std::max(worst, part);
     }
     RecordProperty("worst", std::to_string(worst));
-    if (more != nullptr) std::printf("worst: %.2g of the weight times a metre\n", worst);
 }
 
 World stiff_rope(Random& random) {
@@ -162,11 +160,8 @@ World stiff_rope(Random& random) {
     }
 }
 
-/// TENDRIL_STIFF_SCENES=600 runs more.
 TEST(RopeGain, AStiffRopeGainsNoEnergyByWhatItMeets) {
-    const char* more = std::getenv("TENDRIL_STIFF_SCENES");
-    const int scenes = more != nullptr ? std::atoi(more) : 26;
-    for (int seed = 50; seed < 50 + scenes; ++seed) {
+    for (int seed = 50, end = seed + rounds(26); seed < end; ++seed) {
         Random random(static_cast<std::uint64_t>(seed));
         World world = stiff_rope(random);
         const rope::Body& body = world.state().bodies[0];

@@ -1,8 +1,9 @@
 // A cloth that was dragged about hangs as before once released, and falls freely once unpinned.
 // TENDRIL_GESTURES=200 drags more often.
-#include <cstdlib>
+#include <cmath>
 
 #include "rope_support.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -52,20 +53,21 @@ double unlike_a_stone(World world) {
     return std::abs((before + speed * seconds - mean_height(world)) / stone - 1.0);
 }
 
+LABEL(slow, "RopeGesture.AClothHangsAgainAndFallsAsAStoneDoes");
+
 TEST(RopeGesture, AClothHangsAgainAndFallsAsAStoneDoes) {
-    const char* more = std::getenv("TENDRIL_GESTURES");
-    const int gestures = more != nullptr ? std::atoi(more) : 3;
+    const int gestures = rounds(3);
     for (const rope::ClothMaterial& material : rope::cloth_materials) {
         // Each takes seconds, so the smallest of the first alone is repeated unless more is requested.
         const bool first = &material == std::begin(rope::cloth_materials);
         for (const int side : {12, 18, 24}) {
-            if (!first && side > 12 && more == nullptr) continue;
+            if (!first && side > 12 && !is_thorough()) continue;
             const std::string what = std::string(material.name) + ' ' + std::to_string(side);
             World calm = hung(side, material);
             run(calm, 10.0);
             const double hanging = mean_height(calm);
             double worst = 0.0;
-            const bool repeats = more != nullptr || (first && side == 12);
+            const bool repeats = is_thorough() || (first && side == 12);
             // Another gesture for each size.
             const int from = repeats ? 1 : side / 6 - 1, to = repeats ? gestures : from;
             for (int seed = from; seed <= to; ++seed) {
@@ -80,7 +82,7 @@ TEST(RopeGesture, AClothHangsAgainAndFallsAsAStoneDoes) {
                 EXPECT_LE(off, 0.035) << what << ' ' << seed;
                 EXPECT_LE(unlike_a_stone(world), 0.02) << what << ' ' << seed;
             }
-            if (more != nullptr) std::printf("%s: off by %.2f %% at most\n", what.c_str(), 100.0 * worst);
+            if (is_thorough()) std::printf("%s: off by %.2f %% at most\n", what.c_str(), 100.0 * worst);
         }
     }
 }

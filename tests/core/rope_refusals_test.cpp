@@ -3,6 +3,7 @@
 #include <tendril/rope/hair_roots.hpp>
 
 #include "rope_support.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -33,6 +34,8 @@ void expect_refused(World& world, const std::function<void()>& call,
         EXPECT_NE(message.find(word), std::string::npos) << message << " lacks " << word;
     EXPECT_TRUE(same_bits(before, world.state())) << message;
 }
+
+LABEL(slow, "RopeRefusals.AtTheLimitOfParticles");
 
 TEST(RopeRefusals, OfClothAndHair) {
     World world = some_world();

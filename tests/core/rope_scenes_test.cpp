@@ -1,6 +1,7 @@
 // Ten thousand random scenes: ropes, cloth and hair among colliders of every kind that move, overlap, and
 // contain particles at the start. No free particle stays inside if there is room, and nothing is ever NaN.
 #include "rope_support.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -138,6 +139,8 @@ void play(std::uint64_t seed, Found& worst) {
 
 /// Four tests of 2500 scenes, so that none takes long.
 class RopeScenes : public testing::TestWithParam<int> {};
+
+LABEL(slow, "Of10000/RopeScenes.*");
 
 TEST_P(RopeScenes, NothingFreeStaysInside) {
     int failed = 0;

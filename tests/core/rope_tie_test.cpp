@@ -1,6 +1,7 @@
 // Ties between particles of any bodies.
 #include "rope_support.hpp"
 #include "tendril/rope/edit.hpp"
+#include "tests/labels.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {
@@ -25,6 +26,9 @@ double gap(const World& world, rope::TieId id) {
     return std::abs(glm::distance(world.core().position(tie.a), world.core().position(tie.b)) -
                     static_cast<double>(tie.length));
 }
+LABEL(slow, "RopeTie.ClothStaysOnItsRope");
+LABEL(slow, "Seeds/RopeTieScenes.StayFiniteAndGainNoEnergy/[1-9]");
+
 TEST(RopeTie, TwoRopesHangTogether) {
     for (const Solver solver : all_solvers) {
         World world = world_with({.solver = solver, .damping = 2.0f});

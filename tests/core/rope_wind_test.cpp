@@ -1,5 +1,6 @@
 // Wind on cloth: a flag flutters, a free cloth drifts, and no wind throws a cloth.
 #include "rope_support.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -49,6 +50,9 @@ Flutter flutter_of(World& world) {
     }
     return {std::sqrt(square), up / seconds, height / static_cast<double>(z.size())};
 }
+
+LABEL(slow, "RopeWind.Fl*");
+LABEL(slow, "RopeWind.NoWindThrowsAFlag");
 
 /// Flags beat with a Strouhal number, frequency times length over wind, of some tenths.
 TEST(RopeWind, FlagsFlutter) {

@@ -8,6 +8,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "tests/app/support/program.hpp"
+#include "tests/labels.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {
@@ -41,6 +42,9 @@ int lines_without(const std::string& text, const std::string& part) {
         found += text.substr(begin, end - begin).find(part) == std::string::npos;
     return found;
 }
+
+LABEL(slow, "Solve.a_million_cases_take_little_more_memory_than_their_text");
+LABEL(slow, "All/SolveSignals.end_with_what_is_done_whole/*");
 
 TEST_F(Solve, prints_one_array_with_positions) {
     const Outcome outcome = run(two_cases, {"--json"});

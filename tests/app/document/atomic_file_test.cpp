@@ -10,6 +10,7 @@
 
 #include "tests/app/support/child.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::app {
 namespace {
@@ -27,6 +28,8 @@ std::string write_message(const fs::path& path, std::string_view bytes = "new") 
 std::string check_message(const fs::path& path) {
     return message_of([&] { check_writable(path); });
 }
+
+LABEL(slow, "AtomicFile.is_whole_whenever_its_writer_is_killed");
 
 TEST(AtomicFile, makes_and_replaces_a_file_and_leaves_nothing_beside_it) {
     const TempFolder folder;

@@ -447,7 +447,7 @@ TEST(SceneFile, with_any_byte_changed_is_refused_or_read_whole) {
     const std::string text = json_to_text(save_scene(make_busy_workspace()));
     std::mt19937 random(8);
     int refused = 0, accepted = 0;
-    for (int i = 0; i < 30'000 / test::sanitizer_factor; ++i) {
+    for (int i = 0; i < test::rounds(30'000); ++i) {
         std::string changed = text;
         for (unsigned flips = 1 + static_cast<unsigned>(random()) % 3; flips > 0; --flips)
             changed[random() % changed.size()] = static_cast<char>(random() % 256);
@@ -464,8 +464,8 @@ TEST(SceneFile, with_any_byte_changed_is_refused_or_read_whole) {
             ASSERT_EQ(snapshot(workspace), before) << error.what();
         }
     }
-    EXPECT_GT(refused, 700 / test::sanitizer_factor);
-    EXPECT_GT(accepted, 700 / test::sanitizer_factor);
+    EXPECT_GT(refused, test::rounds(700));
+    EXPECT_GT(accepted, test::rounds(700));
 }
 
 /// Replaces each value of a scene in turn by one of every type.

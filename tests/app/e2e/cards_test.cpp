@@ -18,6 +18,7 @@
 #include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/play.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -283,6 +284,8 @@ TEST_P(LabCard, leaves_room_beside_it) {
         }
     }
 }
+
+LABEL(slow, "CardsTest.the_chevron_shows_the_next_card_on_its_scene");
 
 TEST(CardsTest, follow_one_another) {
     const auto window = open_offscreen({1280, 720});

@@ -1,7 +1,6 @@
 // Properties of every lab, and of one that exists only in the tests: random events and commands on each of
 // its scenes break nothing, and replaying them gives the same result.
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <random>
 
@@ -11,6 +10,7 @@
 #include "tests/app/e2e/monkey.hpp"
 #include "tests/app/labs/spring/spring_lab.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {
@@ -111,6 +111,11 @@ class EveryScene : public testing::TestWithParam<LabScene> {
     WorkingIn inside_{folder_};  // random commands write files
 };
 
+LABEL(slow, "EveryLab/EveryScene.MayGoAwayUnderTheMouse/*");
+LABEL(slow, "EveryLab/EveryScene.LooksAndMovesTheSameEachTimeAndAfterItWasSaved/*");
+LABEL(slow, "EveryLab/EveryScene.OpensAsItWasSavedAndGoesOnWhateverWasDoneToIt/*");
+LABEL(slow, "EveryLab/EveryScene.IsUndoneToWhereItBegan/*");
+
 TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
     expect_replay_ends_the_same(
         [](App& app) {
@@ -130,19 +135,12 @@ TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
         all_labs);
 }
 
-/// Random scenes per test scene; TENDRIL_RANDOM_SCENES overrides it.
-unsigned random_scenes() {
-    const char* const given = std::getenv("TENDRIL_RANDOM_SCENES");
-    return given == nullptr ? 1u : static_cast<unsigned>(std::strtoul(given, nullptr, 10));
-}
-
 TEST_P(EveryScene, OpensAsItWasSavedAndGoesOnWhateverWasDoneToIt) {
-    ASSERT_GT(random_scenes(), 0u);
     const auto window = open_offscreen({1280, 720});
     App app(*window, false, all_labs());
     unsigned seed = 0;  // other edits in each scene
     for (const char letter : GetParam().scene.name) seed = 31 * seed + static_cast<unsigned char>(letter);
-    for (const unsigned end = seed + random_scenes(); seed != end && !HasFailure(); ++seed) {
+    for (const unsigned end = seed + static_cast<unsigned>(rounds(1)); seed != end && !HasFailure(); ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         app.run({"scene.new"});
         set_up(app, GetParam());
@@ -272,7 +270,7 @@ TEST_P(EveryScene, IsRefusedWithThePathOfWhatIsWrongOrReadWhole) {
     const auto kinds = paths_by_kind(scene, GetParam().lab);
     const Json others[]{nullptr, true, -1, 0, 2.5, 1e8, 3e9, 1e300, "text", Json::array(), Json::object()};
     std::mt19937 random(7);
-    for (int i = 0; i < 30 / sanitizer_factor && !HasFailure(); ++i) {
+    for (int i = 0; i < rounds(30) && !HasFailure(); ++i) {
         const std::vector<std::string>& paths = kinds[random() % kinds.size()];
         const std::string& path = paths[random() % paths.size()];
         Json changed = scene;

@@ -13,6 +13,7 @@
 #include "app/document/atomic_file.hpp"
 #include "app/document/expectation.hpp"
 #include "app/labs/labs.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -64,6 +65,8 @@ class Files : public testing::Test {
     }
     TempFolder folder_;
 };
+
+LABEL(slow, "Files.*");
 
 TEST_F(Files, DroppedOrOpenedGoToTheirLabAndComeBackByUndo) {
     for (const std::string& lab : labs()) {

@@ -2,6 +2,7 @@
 #include "app/document/refused.hpp"
 #include "app/document/scene_file.hpp"
 #include "tests/app/e2e/monkey.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -126,6 +127,8 @@ TEST(HistoryReplay, UndoBringsBackTheOldScenesFile) {
 }
 
 class HistoryReplaySeeds : public testing::TestWithParam<unsigned> {};
+
+LABEL(slow, "Seeds/HistoryReplaySeeds.*/[1-9]");
 
 /// In any order, in every lab.
 TEST_P(HistoryReplaySeeds, NewOpenSaveUndoAndRedoInAnyOrder) {

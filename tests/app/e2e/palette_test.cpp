@@ -10,6 +10,7 @@
 #include "app/shell/ui.hpp"
 #include "tests/app/support/play.hpp"
 #include "tests/app/support/program.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -38,6 +39,8 @@ class PaletteTest : public testing::Test {
     std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
     App app_{*window_};
 };
+
+LABEL(slow, "PaletteTest.[!H]*");
 
 TEST_F(PaletteTest, PlainWordsFindACommandAndEnterAsksForItsArguments) {
     const std::size_t before = chain().chain.size();
@@ -174,7 +177,7 @@ TEST_F(PaletteTest, HostileLinesCrashNothing) {
                           "name", "mode=", "length=", "index=", "%s%n", "999999999999999999"};
     const char* keys[] = {"tab", "enter", "up", "down", "backspace", "left", "home", "end"};
     const auto& all = app_.commands().all();
-    for (int i = 0; i < 600 / sanitizer_factor; ++i) {
+    for (int i = 0; i < rounds(600); ++i) {
         if (!is_open()) open();
         std::string line = below(2) == 0 ? all[below(all.size())].name + " " : "";
         for (std::size_t n = below(8); n > 0; --n) line += bits[below(std::size(bits))];

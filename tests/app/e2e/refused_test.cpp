@@ -1,5 +1,6 @@
 // Commands with hostile arguments in scripts: refused with a reason and an exit code, the document unchanged.
 #include "tests/app/support/play.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -39,6 +40,8 @@ class Refused : public testing::Test {
     std::string state() { return read(folder_ / "state.json"); }
     TempFolder folder_;
 };
+
+LABEL(slow, "Refused.changes_nothing_and_ends_the_script_with_1");
 
 TEST_F(Refused, changes_nothing_and_ends_the_script_with_1) {
     EXPECT_TRUE(succeeded(run("{\"wait\": 1}\n")));

@@ -10,6 +10,7 @@
 #include "app/window/offscreen_window.hpp"
 #include "tests/app/support/program.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {
@@ -143,6 +144,8 @@ class VideoReplay : public VideoFinish {
         EXPECT_EQ(folder_.names(), files);
     }
 };
+
+LABEL(slow, "VideoReplay.*");
 
 TEST_F(VideoReplay, IsCancelledAgainThoughFfmpegIsDoneAtOnce) {
     begin("exec sleep 30\n");

@@ -11,6 +11,7 @@
 
 #include "tests/app/support/panel_places.hpp"
 #include "tests/app/support/play.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -143,6 +144,8 @@ const Json& first_state() {
     static const Json state = state_after(ScriptText().wait(1));
     return state;
 }
+
+LABEL(window, "RealWindow.*");
 
 TEST_F(RealWindow, the_target_is_dragged_and_another_mode_is_clicked) {
     start({"--no-config"});

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "tests/app/support/program.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -46,6 +47,8 @@ class Golden : public testing::TestWithParam<fs::path> {
     fs::path picture() const { return fs::path(GetParam()).replace_extension(".png"); }
     std::string name() const { return GetParam().stem().string(); }
 };
+
+LABEL(pictures, "*/Golden.*");
 
 TEST_P(Golden, osmesa_draws) {
     if (const std::string why = missing("osmesa"); !why.empty()) GTEST_SKIP() << why;

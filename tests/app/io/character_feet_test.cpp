@@ -6,6 +6,7 @@
 #include "app/io/character/read.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "tests/core/humanoid_feet_support.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::app {
@@ -29,6 +30,8 @@ void expect_stands(const Measured& all) {
     EXPECT_LT(all.skate, 0.005);
     EXPECT_LE(all.stretch, 0.995 + 1e-6);
 }
+
+LABEL(slow, "CharacterFeet.ClipsThatOthersMadeStandToo");
 
 TEST(CharacterFeet, TheFiguresSolesAreWhereItsMakerHasThem) {
     const Character figure = stick_figure();

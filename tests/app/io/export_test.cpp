@@ -14,6 +14,7 @@
 #include "app/io/character/stick_figure.hpp"
 #include "tests/app/io/gltf_structure.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::app {
@@ -46,6 +47,8 @@ class Exports : public ::testing::Test {
     TempFolder folder_;
     const Character figure_ = stick_figure();
 };
+
+LABEL(slow, "Exports.files_of_others_keep_what_they_have_and_move_as_they_did");
 
 TEST_F(Exports, the_figure_comes_back_as_it_was) {
     for (const Clip& clip : figure_.clips) {

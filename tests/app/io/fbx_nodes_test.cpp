@@ -14,6 +14,7 @@
 #include "tests/app/io/fbx_file.hpp"
 #include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::app {
 namespace {
@@ -138,6 +139,8 @@ FbxScene scene_of(const std::vector<NaiveNode>& nodes) {
 std::string bytes_of(const FbxScene& scene, int way) {
     return way == 0 ? scene.text() : way == 1 ? scene.binary(7400, true) : scene.binary(7700);
 }
+
+LABEL(slow, "FbxNodes.ten_thousand_random_nodes_*");
 
 TEST(FbxNodes, ten_thousand_random_nodes_are_where_a_naive_evaluator_puts_them) {
     std::mt19937 random(11);

@@ -11,6 +11,7 @@
 #include "app/io/character/read.hpp"
 #include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::app {
@@ -83,6 +84,8 @@ void compare(const Positions& mine, const Json& known, double size, const std::s
     }
     EXPECT_LT(worst, 1e-4 * size / 1.8) << what << ", " << where;
 }
+
+LABEL(slow, "Fbx.every_node_is_where_an_independent_reader_puts_it");
 
 TEST(Fbx, every_node_is_where_an_independent_reader_puts_it) {
     const fs::path list = shared / "reference/fbx.json";

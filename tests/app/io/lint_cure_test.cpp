@@ -8,6 +8,7 @@
 #include "app/io/character/read.hpp"
 #include "tests/app/io/lint_support.hpp"
 #include "tests/core/random.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 #include "tests/says.hpp"
 
@@ -258,6 +259,8 @@ class LintFixes : public LintFigure {
         }
     }
 };
+
+LABEL(slow, "LintFixes.*");
 
 TEST_F(LintFixes, of_skating_feet_of_nearly_straight_legs_make_nothing_else_wrong) {
     Random random(5);

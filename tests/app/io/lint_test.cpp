@@ -11,6 +11,7 @@
 #include "app/io/character/read.hpp"
 #include "tests/app/io/lint_support.hpp"
 #include "tests/core/random.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 #include "tests/says.hpp"
 
@@ -426,6 +427,8 @@ bool has_files() {
     return fs::is_directory(tendril::test::characters_folder()) &&
            fs::is_directory(tendril::test::found_path(""));
 }
+
+LABEL(slow, "LintFiles.*");
 
 TEST(LintFiles, those_of_others_are_what_they_were_found_to_be) {
     if (!has_files()) GTEST_SKIP() << "they are not there";

@@ -7,11 +7,14 @@
 #include "app/labs/rope/rope_time.hpp"
 #include "app/labs/rope/scenes.hpp"
 #include "tests/app/labs/rope_support.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::app {
 namespace {
 
 class RopeSceneHolds : public RopeTest, public testing::WithParamInterface<std::string> {};
+
+LABEL(slow, "All/RopeSceneHolds.*");
 
 TEST_P(RopeSceneHolds, KeepsLengthsWithinAPercent) {
     run("rope.preset", {{"name", GetParam()}});

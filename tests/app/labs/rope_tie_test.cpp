@@ -2,6 +2,7 @@
 #include "app/labs/rope/code.hpp"
 #include "tests/app/labs/rope_support.hpp"
 #include "tests/app/support/panel_text.hpp"
+#include "tests/labels.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
@@ -33,6 +34,8 @@ class RopeTieTest : public RopeTest {
         for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
     }
 };
+
+LABEL(slow, "RopeTieTest.Refusals");
 
 /// While it draws its ends together, what the solver reports is what moves them, not a load.
 TEST_F(RopeTieTest, HasATensionOnceItIsClosed) {

@@ -25,6 +25,7 @@
 #include "tests/app/support/full_scenes.hpp"
 #include "tests/app/support/layout_faults.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::test {
@@ -407,6 +408,8 @@ class PanelClicks : public Panels {
     TempFolder folder_;
     WorkingIn in_folder_{folder_};
 };
+
+LABEL(slow, "Labs/PanelClicks.*");
 
 TEST_P(PanelClicks, HaveTooltipsInTheBarAtFoldedPanelsAndInSheets) {
     const auto in = [](const std::string& window) {

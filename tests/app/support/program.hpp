@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 
@@ -70,18 +71,5 @@ testing::AssertionResult succeeded(const Outcome& outcome);
 /// Whether it ended with that code and a one-line message on stderr that contains all `parts`.
 testing::AssertionResult complained(const Outcome& outcome, int exit_code,
                                     const std::vector<std::string>& parts = {});
-
-/// Sanitizers take additional time and memory: limits are multiplied by this.
-#if defined(__SANITIZE_ADDRESS__)
-inline constexpr int sanitizer_factor = 6;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-inline constexpr int sanitizer_factor = 6;
-#else
-inline constexpr int sanitizer_factor = 1;
-#endif
-#else
-inline constexpr int sanitizer_factor = 1;
-#endif
 
 }  // namespace tendril::test

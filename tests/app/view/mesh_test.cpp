@@ -16,6 +16,7 @@
 #include "app/window/gl.hpp"
 #include "app/window/window.hpp"
 #include "tests/app/support/backends.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::app::mesh_test {
 namespace {
@@ -363,6 +364,7 @@ TEST_P(Meshes, BrokenOnesAreHarmless) {
     draw(list, {.pitch = 0.3f, .orthographic = true}, true);
 }
 
+LABEL(nightly, "Backends/Meshes.*/Egl");
 INSTANTIATE_TEST_SUITE_P(Backends, Meshes, testing::ValuesIn(test::backends_here()),
                          [](const auto& test) { return test.param == Backend::Egl ? "Egl" : "OsMesa"; });
 

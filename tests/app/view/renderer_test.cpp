@@ -12,6 +12,7 @@
 #include "app/window/gl.hpp"
 #include "app/window/window.hpp"
 #include "tests/app/support/backends.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::app::renderer_test {
 namespace {
@@ -241,6 +242,7 @@ TEST_P(Drawing, BrokenStrokesAndPosesAreHarmless) {
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
+LABEL(nightly, "Backends/Drawing.*/Egl");
 INSTANTIATE_TEST_SUITE_P(Backends, Drawing, testing::ValuesIn(test::backends_here()),
                          [](const auto& test) { return test.param == Backend::Egl ? "Egl" : "OsMesa"; });
 
@@ -336,6 +338,7 @@ TEST_P(Offscreen, CanBeOpenedAgain) {
     for (int i = 0; i < 3; ++i) expect_clears(*open_window(GetParam(), {32, 32}), {32, 32});
 }
 
+LABEL(nightly, "Backends/Offscreen.*/Egl");
 INSTANTIATE_TEST_SUITE_P(Backends, Offscreen, testing::ValuesIn(test::backends_here()),
                          [](const auto& test) { return test.param == Backend::Egl ? "Egl" : "OsMesa"; });
 

@@ -9,6 +9,7 @@
 #include "app/window/gl.hpp"
 #include "app/window/window.hpp"
 #include "tests/app/support/backends.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::app::skin_test {
 namespace {
@@ -191,6 +192,7 @@ TEST_P(SkinDrawing, WhatCannotBeDrawnIsNot) {
     }
 }
 
+LABEL(nightly, "Backends/SkinDrawing.*/Egl");
 INSTANTIATE_TEST_SUITE_P(Backends, SkinDrawing, testing::ValuesIn(test::backends_here()),
                          [](const auto& test) { return test.param == Backend::Egl ? "Egl" : "OsMesa"; });
 

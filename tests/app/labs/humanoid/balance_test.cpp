@@ -11,6 +11,7 @@
 #include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 #include "tests/says.hpp"
 
@@ -41,6 +42,8 @@ class HumanoidBalanceLab : public HumanoidTest {
         }
     }
 };
+
+LABEL(slow, "HumanoidBalanceLab.CharactersThatOthersMadeStandNoWorseWithIt");
 
 TEST_F(HumanoidBalanceLab, ThePanelSaysWhereTheCentreOfMassIs) {
     EXPECT_FALSE(balance().contains("text"));

@@ -5,6 +5,7 @@
 #include "app/io/character/stick_figure.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 #include "tests/says.hpp"
 
@@ -24,6 +25,8 @@ class HumanoidCharacter : public HumanoidTest {
   private:
     test::TempFolder folder_;
 };
+
+LABEL(slow, "HumanoidCharacter.ThatOthersMadeAreShownAsTheyStand");
 
 TEST_F(HumanoidCharacter, IsTheStickFigureAtFirst) {
     const Json now = state();

@@ -4,6 +4,7 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::app {
 namespace {
@@ -45,6 +46,8 @@ class HumanoidFeetHistory : public HumanoidTest {
                                     {{"kind", "slope"}, {"angle_deg", -15}},
                                     {{"kind", "terrain"}}};
 };
+
+LABEL(slow, "HumanoidFeetHistory.IsTheSameAfterMinutes");
 
 TEST_F(HumanoidFeetHistory, LooksScrubbedAsItWasPlayed) {
     for (const Json& ground : grounds)
