@@ -246,7 +246,8 @@ TEST_P(EveryScene, IsUndoneToWhereItBegan) {
 /// are chosen as seldom as its one radius.
 std::vector<std::vector<std::string>> paths_by_kind(const Json& scene, const std::string& lab) {
     std::map<std::string, std::vector<std::string>> kinds;
-    const Json flat = scene.at("labs").at(lab).flatten();
+    // Json keeps its keys in order and looks each up in all of them.
+    const auto flat = nlohmann::json(scene.at("labs").at(lab)).flatten();
     for (const auto& [path, value] : flat.items()) {
         std::string kind;
         for (const char letter : path)
