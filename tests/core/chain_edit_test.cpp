@@ -258,26 +258,6 @@ std::vector<Segment> copy_of(const Chain& chain) {
     return {chain.segments().begin(), chain.segments().end()};
 }
 
-Chain reloaded(const Chain& chain) {
-    return *Chain::from_segments(copy_of(chain), chain.default_direction());
-}
-
-TEST(ChainLoad, SavedChainsComeBackBitForBit) {
-    Random random(7);
-    for (const float range : {1.0f, 900.0f, 5e3f, 1e6f, 5e8f}) {
-        for (int round = 0; round < 200; ++round) {
-            Chain chain = along(glm::vec3(0.577f, 0.577f, -0.577f));
-            const std::size_t count = 1 + random.below(64);
-            for (std::size_t i = 0; i < count; ++i)
-                expect_ok(chain.add(Segment{random.point(range), std::abs(random.around(3))}));
-            const std::size_t index = random.below(count);
-            expect_ok(chain.with_index(index, random.point(range)));
-            expect_ok(chain.fixed(random.point(range), {.iterations = 3}).outcome);
-            EXPECT_TRUE(same_bits(reloaded(chain), chain)) << "range " << range << ", round " << round;
-        }
-    }
-}
-
 TEST(ChainLoad, FoldedAndCoincidingLinksThatHoldAreKept) {
     const std::vector<Segment> given{
         {{0, 0, 0}, 1}, {{1, 0, 0}, 1}, {{0, 0, 0}, 1}, {{0, 0, 0}, 0}, {{0, 0, 2}, 2}};

@@ -310,14 +310,6 @@ TEST_F(HumanoidBalance, AClipThatIsOutOfBalanceMayStaySo) {
     }
 }
 
-TEST_F(HumanoidBalance, WithoutATargetNothingChanges) {
-    std::vector<rig::Transform> pose = rest;
-    BodyState state;
-    ASSERT_TRUE(body.solve(pose, {}, state, {.balance = true}));
-    EXPECT_EQ(pose, rest);
-    EXPECT_EQ(state, BodyState());
-}
-
 TEST_F(HumanoidBalance, SmallMovesOfTheTargetGiveSmallMovesOfThePose) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> any(-1.0, 1.0);

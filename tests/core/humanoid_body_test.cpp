@@ -364,26 +364,6 @@ TEST_P(HumanoidBody, nodes_between_bones_and_above_them_turn_along) {
     EXPECT_LT(report->residual, 2e-3);
 }
 
-TEST_P(HumanoidBody, a_copy_of_the_state_goes_on_as_the_original) {
-    RandomPoses random(7);
-    const auto targets = targets_of(random_pose(random, 0.5));
-    BodyState state;
-    for (int i = 0; i < 5; ++i) {
-        auto pose = rest;
-        ASSERT_TRUE(body.solve(pose, targets, state));
-    }
-    const BodyState copy = state;
-    Body fresh = *Body::make(skeleton, map, GetParam() ? limits : no_limits());
-    auto next = targets;
-    next[0].position += glm::dvec3(0.05, 0.02, 0.0);
-    auto first = rest, second = rest;
-    BodyState other = copy;
-    ASSERT_TRUE(body.solve(first, next, state));
-    ASSERT_TRUE(fresh.solve(second, next, other));
-    EXPECT_EQ(first, second);
-    EXPECT_EQ(state, other);
-}
-
 TEST_P(HumanoidBody, what_it_cannot_use_is_refused_and_nothing_moves) {
     auto pose = rest;
     BodyState state;

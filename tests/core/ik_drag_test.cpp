@@ -189,25 +189,5 @@ TEST(IkDrag, AJumpOfTheTargetOrOfThePoseIsANewSearch) {
     EXPECT_GE(after_jump, 5);
 }
 
-TEST(IkDrag, FromACopyOfTheStateTheBitsAreTheSame) {
-    Random random(5);
-    for (int k = 0; k < 40; ++k) {
-        Forbidden it = some_forbidden(random);
-        const ik::Options options{.limits = it.arm.limits};
-        const glm::vec3 by = some_direction(random) * (2e-3f * it.arm.reach());
-        const ik::State saved = it.solver.state;
-        Joints twin = it.joints;
-        KeptSolver fresh = it.arm.solver();
-        fresh.state = saved;
-        for (int i = 1; i <= 50; ++i) {
-            const glm::vec3 target = it.target + by * static_cast<float>(i);
-            it.solver.solve(Method::Fabrik, it.joints, target, options);
-            fresh.solve(Method::Fabrik, twin, target, options);
-            ASSERT_TRUE(same_bits(it.joints, twin)) << k << " " << i;
-            ASSERT_EQ(it.solver.state, fresh.state);
-        }
-    }
-}
-
 }  // namespace
 }  // namespace tendril::test::ik_drag_test

@@ -278,16 +278,6 @@ TEST(SolveManyWithinLimits, BadTargetsAndJointsThatWereMovedHarmNobody) {
     }
 }
 
-TEST(SolveManyWithinLimits, NeedsNoMemory) {
-    Random random(58);
-    const LimitedCrowd all = limited_crowd(500, 6, ArmKind::Cones, random);
-    const LimitedAnswer expected = solve_limited(all);
-    Batch batch = batch_of(all);
-    std::vector<ManyReport> reports(all.crowd.size());
-    without_memory([&] { ik::solve_many(batch, all.crowd.targets, reports); });
-    EXPECT_EQ(difference({joints_of(batch), reports}, expected.answer), "");
-}
-
 TEST(Batch, RefusesLimitsThatAreNone) {
     Batch batch = *Batch::make(3, 2);
     Rotations rotations(6, glm::quat(1, 0, 0, 0));

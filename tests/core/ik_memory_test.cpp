@@ -32,7 +32,10 @@ TEST(IkMemory, SolvingTakesNone) {
                 Joints joints = random.chance(3) ? straight_joints(lengths) : some_pose(lengths, random);
                 const glm::vec3 target = some_direction(random) * (far * reach);
                 Status status = Status::InvalidInput;
-                without_memory([&] { status = solver.solve(method, joints, target, each).status; });
+                without_memory([&] {
+                    status = solver.solve(method, joints, target, each).status;
+                    solver.explain(joints, target, each);
+                });
                 EXPECT_NE(status, Status::InvalidInput) << name(method);
             }
         }

@@ -193,23 +193,5 @@ TEST(IkSingular, OnTheLineOfRandomArms) {
     }
 }
 
-TEST(IkSingular, TheSameWayEveryTimeAndWatched) {
-    Random random(given_seed() + 5);
-    for (int k = 0; k < 300; ++k) {
-        const Arm arm = some_straight_arm(random);
-        const glm::vec3 target{random.around(1.0f) * arm.reach(), 0, 0};
-        const ik::Options options{.limits = arm.limits};
-        for (const Method method : iterating_methods) {
-            KeptSolver first = arm.solver(), second = arm.solver();
-            Joints joints = arm.at_rest(), twin = joints;
-            Recorder recorder;
-            const ik::Report report = first.solve(method, joints, target, options);
-            EXPECT_EQ(second.solve(method, twin, target, options, &recorder), report);
-            EXPECT_TRUE(same_bits(joints, twin)) << name(method);
-            EXPECT_TRUE(same_bits(recorder.replay(arm.at_rest()), joints)) << name(method);
-        }
-    }
-}
-
 }  // namespace
 }  // namespace tendril::test::ik_singular_test

@@ -1,7 +1,6 @@
 // The tip's orientation as requested, with and without limits.
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
-#include "memory.hpp"
 
 namespace tendril::test::ik_tip_test {
 namespace {
@@ -51,21 +50,6 @@ TEST(IkTip, EveryMethodLaysTheLastBoneAsAsked) {
                        (method == Method::Fabrik || method == Method::Dls)) {
                 EXPECT_EQ(report.status, Status::Converged);
             }
-        }
-    }
-}
-
-TEST(IkTip, RotationsFollowTheBones) {
-    Random random(2);
-    const Lengths lengths = some_lengths(5, random);
-    KeptSolver solver(lengths);
-    Joints joints = straight_joints(lengths);
-    for (int k = 0; k < 50; ++k) {
-        const glm::vec3 target = some_direction(random) * 2.0f;
-        solver.solve(Method::Fabrik, joints, target, {.tip_orientation = some_rotation(random)});
-        for (std::size_t i = 0; i < lengths.size(); ++i) {
-            const glm::vec3 said = solver.rotations()[i] * glm::vec3(1, 0, 0) * lengths[i];
-            EXPECT_LE(distance(joints[i + 1] - joints[i], said), 1e-4) << i;
         }
     }
 }
@@ -143,27 +127,6 @@ TEST(IkTip, AWristThatCannotIsLimited) {
         EXPECT_EQ(solver.solve(method, joints, {2.3f, 0, 0}, options).status, Status::Limited)
             << name(method);
         EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations()));
-    }
-}
-
-TEST(IkTip, WatchedItGoesTheSameWayWithoutMemory) {
-    Random random(given_seed() + 1);
-    for (int k = 0; k < 1000 && !HasFailure(); ++k) {
-        const Lengths lengths = hostile_lengths(random);
-        const Joints start = hostile_pose(lengths, random);
-        const glm::vec3 target = hostile_target(start, lengths, random);
-        const ik::Options options{.max_iterations = 20, .tip_orientation = some_rotation(random)};
-        for (const Method method : iterating_methods) {
-            KeptSolver first(lengths), second(lengths);
-            Joints joints = start, twin = start;
-            Recorder recorder;
-            ik::Report report;
-            without_memory([&] { report = first.solve(method, joints, target, options); });
-            EXPECT_TRUE(Holds(joints, lengths));
-            EXPECT_EQ(second.solve(method, twin, target, options, &recorder), report);
-            EXPECT_TRUE(same_bits(joints, twin)) << name(method);
-            EXPECT_TRUE(same_bits(recorder.replay(start), joints)) << name(method);
-        }
     }
 }
 

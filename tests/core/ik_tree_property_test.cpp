@@ -229,8 +229,12 @@ TEST(IkTreeProperty, RefusesEachBadArgument) {
     EXPECT_TRUE(refuses(before, {{hand, target}, {hand, target}}, {}));
     EXPECT_FALSE(refuses(before, {{hand, target}, {hand, target, 0.0f}}, {}));
     for (const float bad : {nan, infinity, -infinity, 1.1e9f, -1.1e9f}) {
-        EXPECT_TRUE(refuses(before, {{hand, {0.1f, bad, 0.0f}}}, {}));
-        EXPECT_TRUE(refuses(before, {{hand, {0.1f, bad, 0.0f}, 0.0f}}, {}));
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::vec3 far = target;
+            far[axis] = bad;
+            EXPECT_TRUE(refuses(before, {{hand, far}}, {}));
+            EXPECT_TRUE(refuses(before, {{hand, far, 0.0f}}, {}));
+        }
         EXPECT_TRUE(refuses(before, {{hand, target, bad}}, {}));
         EXPECT_TRUE(refuses(before, {{hand, target}}, {.tolerance = bad}));
         Places joints = before;

@@ -87,40 +87,6 @@ TEST(RopeBits, ARopeInOnePointIsFiniteInEveryUnit) {
     }
 }
 
-/// A rope's neighbours in its register must not matter.
-TEST(RopeBits, CompanyDoesNotMatter) {
-    for (const int others : {0, 1, 3, 7, 12}) {
-        World alone, together;
-        Random random(103);
-        const rope::RopeShape shape{
-            .from = {0, 0, 0}, .to = {0.6f, 0.3f, 0}, .segments = 12, .length = 1.0f, .pin_start = true};
-        alone.add_rope("it", shape);
-        for (int i = 0; i < others; ++i)
-            together.add_rope({.from = random.point(1),
-                               .to = random.point(1),
-                               .segments = 12,
-                               .length = 3.0f,
-                               .pin_start = random.chance(2)});
-        together.add_rope("it", shape);
-        const std::size_t first = together.find("it")->first;
-        for (int i = 0; i < 20; ++i) {
-            const glm::vec3 to = random.point(0.3f);  // a whip
-            alone.pin(0, to, 0.03), together.pin(first, to, 0.03);
-            alone.advance(0.05), together.advance(0.05);
-        }
-        for (std::size_t i = 0; i < alone.size(); ++i)
-            EXPECT_EQ(alone.state().position[i], together.state().position[first + i]) << others << ' ' << i;
-    }
-}
-
-TEST(RopeBits, AUnitOutlivesACopy) {
-    World world = wild_scene({});
-    world.use_vector_unit("none");
-    World copy = world;
-    world.advance(0.2), copy.advance(0.2);
-    EXPECT_TRUE(same_bits(world.state(), copy.state()));
-}
-
 /// Once buffers have their size; near colliders and far from them.
 TEST(RopeBits, TimePassesWithoutMemory) {
     for (const Solver solver : all_solvers) {

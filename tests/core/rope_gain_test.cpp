@@ -205,26 +205,6 @@ TEST(RopeGain, ARopeIsNotThrownByAThinBar) {
         }
 }
 
-/// A ball appears around the middle of a resting rope: the rope comes out, and is not thrown.
-TEST(RopeGain, ARopeIsNotThrownByAColliderThatAppears) {
-    for (const bool pinned : {false, true}) {
-        World world;
-        world.add_collider("ground", rope::Plane{});
-        world.add_rope("rope", {.from = {-0.8f, 0.05f, 0},
-                                .to = {0.8f, 0.05f, 0.01f},
-                                .segments = 40,
-                                .pin_start = pinned,
-                                .pin_end = pinned});
-        run(world, 1.0);
-        world.add_collider("ball", rope::Sphere{{0.05f, 0.02f, 0.02f}, 0.3f});
-        double fastest = 0.0;
-        run_substeps(world, 240, [&] { fastest = std::max(fastest, top_speed(world)); });
-        EXPECT_LE(fastest, 2.0) << pinned;
-        for (const glm::dvec3& at : world.state().position)
-            EXPECT_GE(surface_distance(world.find_collider("ball")->shape, at).distance, 0.02 - 1e-4);
-    }
-}
-
 enum class Subject { Rope, PinnedRope, Cloth, PinnedCloth };
 constexpr Subject all_subjects[] = {Subject::Rope, Subject::PinnedRope, Subject::Cloth, Subject::PinnedCloth};
 

@@ -79,21 +79,6 @@ TEST(SignalSpring, DoesNotDependOnHowTimeIsCut) {
     }
 }
 
-TEST(SignalSpring, IsStableAtTenSeconds) {
-    Random random(3);
-    for (int i = 0; i < 2000; ++i) {
-        const Spring<> spring{.strength = std::exp2(around(random, 10.0)),
-                              .critical_damping = random.chance(4) ? 0.0 : between(random, 0.0, 3.0)};
-        SpringState<> state = moving(1.0, 0.0);
-        const double w = turn * spring.strength;
-        for (int turns = 0; turns < 50; ++turns) {
-            signal::step(spring, state, 0.0, 10.0);
-            // The energy never grows.
-            EXPECT_LE(state.value * state.value + state.velocity * state.velocity / (w * w), 1.0 + 1e-9);
-        }
-    }
-}
-
 TEST(SignalSpring, LagsBehindSteadyMotionAsTheFormulaSays) {
     for (const double damping : {0.3, 1.0, 2.0}) {
         for (const double amount : {0.0, 0.5, 1.0}) {
@@ -203,10 +188,6 @@ TEST(SignalSpring, RefusedIsAsIfItHadNotBeen) {
     signal::step(good, state, 1.0, 0.1);
     signal::step(good, state, 2.0, 0.1);
     const SpringState<> before = state;
-    for (const double bad : {not_a_number, infinity, -1.1e9})
-        EXPECT_EQ(signal::step(good, state, bad, 0.1), before.value);
-    for (const double dt : {0.0, -0.1, not_a_number, infinity})
-        EXPECT_EQ(signal::step(good, state, 5.0, dt), before.value);
     for (const Spring<>& bad : {Spring<>{.strength = -1.0}, Spring<>{.strength = not_a_number},
                                 Spring<>{.critical_damping = 1001.0}, Spring<>{.force = infinity},
                                 Spring<>{.target_velocity_amount = 1.5}})

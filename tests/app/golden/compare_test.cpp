@@ -112,13 +112,6 @@ Labelled labelled() {
     return {play(script, {.picture = true}).picture, without};
 }
 
-TEST(Compare, a_picture_is_the_same_as_itself) {
-    Studio studio;
-    const Image picture = studio.draw();
-    EXPECT_TRUE(compare(picture, picture).same);
-    EXPECT_TRUE(compare(picture, studio.draw()).same);
-}
-
 TEST(Compare, noise_passes) {
     const Image picture = Studio().draw();
     const Image panels = app::read_png(golden_folder() / "light.png");
@@ -169,15 +162,6 @@ TEST(Compare, another_colour_of_one_joint_fails) {
     }
 }
 
-TEST(Compare, another_colour_of_the_target_fails) {
-    Studio studio;
-    const Image before = studio.draw();
-    for (auto& stroke : studio.list.strokes) {
-        if (stroke.pick == app::target_pick) stroke.colour.g -= 8.0f / 255.0f;
-    }
-    EXPECT_FALSE(compare(before, studio.draw()).same);
-}
-
 TEST(Compare, a_missing_segment_fails) {
     for (std::size_t segment = 0; segment < 8; ++segment) {
         for (bool ball : {false, true}) {
@@ -224,20 +208,6 @@ TEST(Compare, another_size_fails) {
     shorter.rgba.resize(shorter.rgba.size() - 4 * 900);
     EXPECT_FALSE(compare(picture, shorter).same);
     EXPECT_FALSE(compare(picture, Image{}).same);
-}
-
-// Fails if the comparison detects nothing any more, and with it no golden picture would.
-TEST(Compare, is_not_blind) {
-    const Image dark = app::read_png(golden_folder() / "mode_fixed.png");
-    const Image other = app::read_png(golden_folder() / "empty_chain.png");
-    const Image light = app::read_png(golden_folder() / "light.png");
-    const Image black{dark.size, std::vector<std::uint8_t>(dark.rgba.size(), 0)};
-    for (const Image* wrong : {&other, &light, &black}) {
-        const Difference difference = compare(dark, *wrong);
-        EXPECT_FALSE(difference.same);
-        EXPECT_GT(difference.pixels, 500);
-        EXPECT_EQ(difference.picture.size, dark.size);
-    }
 }
 
 TEST(Golden_check, is_not_blind_and_leaves_the_pictures) {

@@ -279,16 +279,6 @@ TEST(Labels, TheHigherRankStays) {
     EXPECT_LT(placed.size(), requests.size());
 }
 
-TEST(Labels, AreTheSameEveryTime) {
-    const auto requests = random_requests(7, 500);
-    const auto first = place_labels(requests, viewport), second = place_labels(requests, viewport);
-    ASSERT_EQ(first.size(), second.size());
-    for (std::size_t i = 0; i < first.size(); ++i) {
-        EXPECT_EQ(first[i].request, second[i].request);
-        EXPECT_EQ(first[i].box, second[i].box);
-    }
-}
-
 TEST(Labels, LeaveOutWhatCannotBePlaced) {
     const float nan = std::nanf("");
     const std::vector<LabelRequest> requests{{.at = {nan, 300}, .size = {40, 14}},

@@ -199,14 +199,6 @@ TEST_P(Drawing, PickingAgreesWithTheDrawnPixels) {
     }
 }
 
-TEST_P(Drawing, IsTheSameEveryTime) {
-    const DrawList list = many(300);
-    const CameraPose pose{.yaw = 0.4f, .pitch = 0.5f};
-    const Image first = draw(list, pose, palette(Theme::Light), true);
-    draw(many(7), {}, palette(Theme::Dark));
-    EXPECT_EQ(draw(list, pose, palette(Theme::Light), true).rgba, first.rgba);
-}
-
 TEST_P(Drawing, TheKeptBackdropIsTheSameAsADrawnOne) {
     const DrawList list = many(5);
     const CameraPose pose{.yaw = 0.4f, .pitch = 0.5f};

@@ -172,16 +172,6 @@ TEST(Tube, MovesSteadilyAsItsCentresDo) {
     }
 }
 
-TEST(Tube, IsTheSameEveryTime) {
-    DrawList one, two;
-    for (DrawList* list : {&one, &two})
-        tube(*list, camera_at(3.0f), hanging(24), 0.05f, 16, Points{red, blue});
-    ASSERT_EQ(one.mesh.vertices.size(), two.mesh.vertices.size());
-    for (std::size_t i = 0; i < one.mesh.vertices.size(); ++i)
-        EXPECT_EQ(one.mesh.vertices[i].position, two.mesh.vertices[i].position);
-    EXPECT_EQ(one.mesh.indices, two.mesh.indices);
-}
-
 TEST(Tube, IsFiniteWhateverComesIn) {
     const float nan = std::nanf(""), infinite = std::numeric_limits<float>::infinity();
     const float odd[]{nan, infinite, -infinite, 1e38f, -1e30f, 1e9f, 1e-38f, 0.0f, -0.0f, 1.0f};
