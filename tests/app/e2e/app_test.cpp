@@ -122,13 +122,6 @@ TEST_F(AppTest, a_drop_of_nothing_changes_nothing) {
     EXPECT_TRUE(app_.workspace().ui.toasts.empty());
 }
 
-TEST_F(AppTest, a_toast_goes_by_itself) {
-    EXPECT_THROW(run("chain.remove", {{"index", 99}}), Refused);
-    ASSERT_EQ(app_.workspace().ui.toasts.size(), 1u);
-    for (int i = 0; i < 60 * 20 && !app_.workspace().ui.toasts.empty(); ++i) app_.tick(nullptr);
-    EXPECT_TRUE(app_.workspace().ui.toasts.empty());
-}
-
 TEST_F(AppTest, the_first_hint_stays_until_the_first_drag) {
     EXPECT_FALSE(app_.workspace().settings.hint_seen);
     run("chain.target", {{"to", {1, 2, 3}}});

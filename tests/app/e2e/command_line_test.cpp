@@ -1,7 +1,5 @@
 // The command line: what it lists; errors are one line with exit code 2, and nothing is overwritten.
-#include <algorithm>
 #include <map>
-#include <sstream>
 
 #include "tests/app/support/play.hpp"
 #include "tests/places.hpp"
@@ -17,13 +15,6 @@ class CommandLine : public testing::Test {
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
     TempFolder folder_;
 };
-
-Strings lines_of(const std::string& text) {
-    Strings lines;
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
-    return lines;
-}
 
 TEST_F(CommandLine, lists_and_says_what_it_is_asked) {
     for (const char* flag : {"--list-commands", "--list-labs", "--list-shortcuts", "--version", "--help"}) {
@@ -47,18 +38,9 @@ TEST_F(CommandLine, help_names_every_flag) {
 TEST_F(CommandLine, lists_the_chain_commands_with_exactly_these_arguments) {
     const std::string list = run_program({"--list-commands"}).out;
     for (const char* usage :
-         {"chain.clear [default_direction]", "chain.add length [position]",
-          "chain.insert index length [position]", "chain.remove index",
-          "chain.set_length length [index] [joints]", "chain.mode mode [index] [iterations] [tolerance]",
-          "chain.target to", "undo", "redo", "scene.new", "scene.open path", "time.play", "time.pause",
-          "time.step"}) {
-        const Strings lines = lines_of(list);
-        EXPECT_NE(std::find(lines.begin(), lines.end(), usage), lines.end()) << usage;
-    }
-    for (const char* name :
-         {"chain.select", "chain.preset name", "scene.save", "lab.open name", "camera.set"}) {
-        EXPECT_TRUE(has(list, std::string("\n") + name));
-    }
+         {"chain.clear [default_direction]", "chain.mode mode [index] [iterations] [tolerance]",
+          "chain.set_length length [index] [joints]", "undo", "scene.open path", "time.step"})
+        EXPECT_TRUE(has("\n" + list, std::string("\n") + usage + "\n"));
 }
 
 // The README's tables and the program's shortcuts must be the same text.
@@ -134,8 +116,6 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& mistake) { return mistake.param.name; });
 
 TEST_F(CommandLine, no_window_without_a_display_and_the_line_says_what_helps) {
-    const Outcome outcome = run_program({}, {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}});
-    EXPECT_TRUE(complained(outcome, 2, {"display"}));
     EXPECT_TRUE(complained(run_program({}, {{"DISPLAY", ":9731"}, {"WAYLAND_DISPLAY", {}}}), 2, {"display"}));
 }
 
@@ -157,10 +137,8 @@ TEST_F(CommandLine, a_path_that_cannot_be_written_is_refused_before_anything_run
 
 TEST_F(CommandLine, a_path_within_a_script_that_cannot_be_written_ends_it_with_2) {
     for (const char* form : {"screenshot", "state"}) {
-        write(folder_ / "script.jsonl", ScriptText().line({{form, path("missing/out")}}).text());
-        EXPECT_TRUE(complained(run_program({"--headless", "--script", path("script.jsonl")}), 2,
-                               {path("missing/out")}))
-            << form;
+        const Outcome outcome = run_script(ScriptText().line({{form, path("missing/out")}}));
+        EXPECT_TRUE(complained(outcome, 2, {path("missing/out")})) << form;
     }
 }
 

@@ -139,37 +139,24 @@ TEST_P(HistoryReplaySeeds, NewOpenSaveUndoAndRedoInAnyOrder) {
     expect_exact_replay(folder, "", [&](App& app) {
         const auto path = [&] { return (folder / (below(2) == 0 ? "a.json" : "b.json")).string(); };
         const auto& labs = app.labs().all();
-        const auto any_of = [&](const auto& list) {
-            return static_cast<std::size_t>(below(static_cast<int>(list.size())));
+        const auto tap_or_run = [&](const char* chord, const char* command) {
+            below(2) == 0 ? tap(app, chord) : void(refused(app, command));
         };
         for (int i = 0; i < 120; ++i) {
-            switch (below(10)) {
-                case 0:
-                    below(2) == 0 ? tap(app, "ctrl+n") : void(refused(app, "scene.new"));
-                    break;
-                case 1:
-                    refused(app, "scene.open", {{"path", path()}});
-                    break;
-                case 2:
-                    refused(app, "scene.save", {{"path", path()}});
-                    break;
-                case 3:
-                case 4:
-                    below(2) == 0 ? tap(app, "ctrl+z") : void(refused(app, "undo"));
-                    break;
-                case 5:
-                    below(2) == 0 ? tap(app, "ctrl+y") : void(refused(app, "redo"));
-                    break;
-                case 6:
-                    app.run({"lab.open", Json{{"name", labs[any_of(labs)]->name()}}});
-                    break;
-                case 7:
-                    app.tick(nullptr);
-                    break;
-                default:
-                    Monkey(app, static_cast<unsigned>(random()), lab_commands(app), {"", "arm", "rope"})
-                        .command();
+            const int kind = below(10);
+            if (kind == 0) tap_or_run("ctrl+n", "scene.new");
+            if (kind == 1) refused(app, "scene.open", {{"path", path()}});
+            if (kind == 2) refused(app, "scene.save", {{"path", path()}});
+            if (kind == 3 || kind == 4) tap_or_run("ctrl+z", "undo");
+            if (kind == 5) tap_or_run("ctrl+y", "redo");
+            if (kind == 6) {
+                const auto lab = static_cast<std::size_t>(below(static_cast<int>(labs.size())));
+                app.run({"lab.open", Json{{"name", labs[lab]->name()}}});
             }
+            if (kind == 7) app.tick(nullptr);
+            if (kind > 7)
+                Monkey(app, static_cast<unsigned>(random()), lab_commands(app), {"", "arm", "rope"})
+                    .command();
         }
     });
 }

@@ -67,20 +67,12 @@ class Monkey {
     /// A plausible number, sometimes a hostile one.
     Json any_number() {
         if (careful_) return number(between(0.0f, 3.0f));
-        static const std::vector<Json> hostile{0.0,
-                                               -1.0,
-                                               1e9,
-                                               -1e9,
-                                               1e10,
-                                               1e-40,
-                                               1e300,
-                                               -0.0,
-                                               "one",
-                                               nullptr,
-                                               true,
-                                               Json::array(),
-                                               std::numeric_limits<double>::quiet_NaN(),
-                                               std::numeric_limits<double>::infinity()};
+        static const Json hostile = [] {
+            Json all = Json::parse(R"([0.0,-1.0,1e9,-1e9,1e10,1e-40,1e300,-0.0,"one",null,true,[]])");
+            all.push_back(std::numeric_limits<double>::quiet_NaN());
+            all.push_back(std::numeric_limits<double>::infinity());
+            return all;
+        }();
         if (below(8) == 0) return hostile[static_cast<std::size_t>(below(static_cast<int>(hostile.size())))];
         return number(between(0.0f, 3.0f));
     }
@@ -106,22 +98,13 @@ class Monkey {
 
     /// Often a name, since most arguments of any type are names.
     Json any_json() {
-        switch (words_.empty() ? below(4) : below(6)) {
-            case 0:
-                return any_number();
-            case 1:
-                return any_point();
-            case 2:
-                return below(2) == 0;
-            case 3:
-                return any_list();
-            case 4: {
-                const std::string key = one_of(words_);
-                return Json{{key, any_number()}};
-            }
-            default:
-                return one_of(words_);
-        }
+        const int kind = words_.empty() ? below(4) : below(6);
+        if (kind == 0) return any_number();
+        if (kind == 1) return any_point();
+        if (kind == 2) return below(2) == 0;
+        if (kind == 3) return any_list();
+        const std::string word = one_of(words_);
+        return kind == 4 ? Json{{word, any_number()}} : Json(word);
     }
 
     glm::vec2 any_place() {
@@ -138,35 +121,18 @@ class Monkey {
 
     Event event() {
         const auto key = [&] { return static_cast<Key>(1 + below(static_cast<int>(Key::Count) - 1)); };
-        switch (below(16)) {
-            case 0:
-            case 1:
-            case 2:
-            case 3:
-            case 4:
-            case 5:
-                return MouseMove{any_place()};
-            case 6:
-            case 7:
-            case 8:
-                return MousePress{MouseButton::Left, coin()};
-            case 9:
-                return MousePress{static_cast<MouseButton>(below(3)), coin()};
-            case 10:
-                return MouseWheel{below(10) == 0 ? between(-1e9f, 1e9f) : between(-3.0f, 3.0f),
-                                  below(10) == 0 ? between(-1e9f, 1e9f) : between(-3.0f, 3.0f)};
-            case 11:
-                return KeyChange{key(), coin()};
-            case 12:
-                return harmless(KeyTap{{key(), below(4) == 0, below(4) == 0, below(4) == 0}});
-            case 13:
-                return TextInput{coin() ? "1.5" : "\xC3\xA4\xFF"};
-            case 14:
-                return below(5) == 0 ? Event(Resize{{1 + below(1600), 1 + below(1000)}})
-                                     : Event(Focus{coin()});
-            default:
-                return Drop{{"/no/such/scene.json"}};
-        }
+        const auto turn = [&] { return below(10) == 0 ? between(-1e9f, 1e9f) : between(-3.0f, 3.0f); };
+        const int kind = below(16);
+        if (kind < 6) return MouseMove{any_place()};
+        if (kind < 9) return MousePress{MouseButton::Left, coin()};
+        if (kind == 9) return MousePress{static_cast<MouseButton>(below(3)), coin()};
+        if (kind == 10) return MouseWheel{turn(), turn()};
+        if (kind == 11) return KeyChange{key(), coin()};
+        if (kind == 12) return harmless(KeyTap{{key(), below(4) == 0, below(4) == 0, below(4) == 0}});
+        if (kind == 13) return TextInput{coin() ? "1.5" : "\xC3\xA4\xFF"};
+        if (kind == 15) return Drop{{"/no/such/scene.json"}};
+        if (below(5) == 0) return Resize{{1 + below(1600), 1 + below(1000)}};
+        return Focus{coin()};
     }
     /// Keys that open or save files do nothing, so that no file is overwritten.
     Event harmless(const KeyTap& tap) {

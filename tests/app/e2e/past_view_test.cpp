@@ -253,17 +253,6 @@ TEST_F(LivePlot, IsWholeInAPictureAndInTheState) {
 
 // The Chain lab's last ten seconds in the running program: drags, flips, and returning to them.
 
-/// Plays in a window, where a refusal does not end the script.
-Json play_refused(const ScriptText& script) {
-    const TempFolder folder;
-    write(folder / "script.jsonl", script.text());
-    const std::string state = (folder / "state.json").string();
-    const Outcome outcome =
-        run_program({"--headless", "--script", (folder / "script.jsonl").string(), "--state", state});
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return app::parse_json(read(state));
-}
-
 /// Two bones in mode Reach whose target then passes through the root, a hundredth of the reach per tick.
 ScriptText through_the_root() {
     ScriptText script;
@@ -370,7 +359,8 @@ TEST(ChainsPast, ARefusedNumberIsAMarkAndNoFlip) {
                                  .command("view.fold", chain_panel::unfolded())
                                  .wait(3);
     const Json typed =
-        play_refused(ScriptText(reach).click(chain_panel::iterations).wait(2).text("0").key("enter").wait(2));
+        play_refused(ScriptText(reach).click(chain_panel::iterations).wait(2).text("0").key("enter").wait(2))
+            .state;
     ASSERT_EQ(typed["events"].size(), 1u);
     EXPECT_EQ(typed["events"][0]["kind"], "status");
     EXPECT_TRUE(test::says(typed["events"][0]["cause"].get<std::string>(), "iterations 1"))

@@ -67,11 +67,8 @@ TEST(Picture, ChangesNothingElse) {
 
 TEST(Picture, IsRefusedInWords) {
     const TempFolder folder;
-    const auto refusal = [&](const app::Json& arguments) {
-        ScriptText script;
-        script.command("view.picture", arguments);
-        write(folder / "script.jsonl", script.text());
-        return run_here({"--headless", "--script", (folder / "script.jsonl").string()}).err;
+    const auto refusal = [](const app::Json& arguments) {
+        return run_script(ScriptText().command("view.picture", arguments)).err;
     };
     EXPECT_TRUE(has(refusal({{"path", "a.jpg"}}), "path must end in .png, got a.jpg"));
     EXPECT_TRUE(has(refusal({{"path", "/nowhere/a.png"}}), "/nowhere/a.png"));
@@ -79,9 +76,7 @@ TEST(Picture, IsRefusedInWords) {
     ScriptText plots;
     plots.command("lab.open", {{"name", "signal"}});
     plots.command("view.picture", {{"path", (folder / "a.png").string()}});
-    write(folder / "script.jsonl", plots.text());
-    EXPECT_TRUE(has(run_program({"--headless", "--script", (folder / "script.jsonl").string()}).err,
-                    "more than a view of a scene"));
+    EXPECT_TRUE(has(run_script(plots).err, "more than a view of a scene"));
 }
 
 }  // namespace

@@ -128,10 +128,7 @@ TEST(RacePicture, IsLabelledInAVideoOfThePast) {
     bare.update({{"path", (folder / "without.png").string()}, {"labels", false}});
     script.command("view.video", view).command("view.video", bare);
     script.key("ctrl+shift+p").wait(4).key("enter").wait(60);
-    const TempFolder scripts;
-    write(scripts / "script.jsonl", script.text());
-    EXPECT_TRUE(succeeded(
-        run_program({"--headless", "--script", (scripts / "script.jsonl").string()}, {}, folder.path())));
+    EXPECT_TRUE(succeeded(run_script(script, {}, folder.path())));
     const auto first = [&](const char* name) {
         return read_apng(read(folder / name)).frames.front().image.rgba;
     };

@@ -65,10 +65,7 @@ TEST(SignalInTheWindow, AResponseIsDrawnWithTheMouse) {
 }
 
 double most_wanted_after(ScriptText script) {
-    const TempFolder folder;
-    script.command("scene.save", {{"path", (folder / "drawn.json").string()}});
-    play(script);
-    const Json scene = app::parse_json(read(folder / "drawn.json"));
+    const Json scene = scene_after(script);
     const Json& wanted = scene.at("labs").at("signal").at("fit").at("wanted");
     double most = 0.0;
     for (const Json& each : wanted) most = std::max(most, each.get<double>());
@@ -113,10 +110,7 @@ TEST(SignalInTheWindow, AResponseIsDrawnWhereTheMouseIs) {
                             .wait(3);
     const float row = row_of_input(play(script, {.picture = true}).picture, 340);  // at 1.0
     script.drag({{320, row}, {330, row}, {400, row}});
-    const TempFolder folder;
-    script.command("scene.save", {{"path", (folder / "drawn.json").string()}});
-    play(script);
-    const Json scene = app::parse_json(read(folder / "drawn.json"));
+    const Json scene = scene_after(script);
     const Json& wanted = scene.at("labs").at("signal").at("fit").at("wanted");
     for (std::size_t i = 15; i < 40; ++i) EXPECT_NEAR(wanted[i].get<double>(), 1.0, 0.05) << i;
 }

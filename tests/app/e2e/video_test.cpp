@@ -53,13 +53,6 @@ Environment with_program(const TempFolder& folder, const std::string& name, cons
     return {{"PATH", folder.path().string() + ":" + std::getenv("PATH")}};
 }
 
-Outcome run_script(const ScriptText& script, const Environment& changes = {},
-                   const std::filesystem::path& in = {}) {
-    const TempFolder folder;
-    write(folder / "script.jsonl", script.text());
-    return run_program({"--headless", "--script", (folder / "script.jsonl").string()}, changes, in);
-}
-
 void expect_frames_are_pictures(const ScriptText& scene, const Json& more, int from, int to, int every) {
     const TempFolder folder;
     Json look{{"width", 160}, {"height", 120}};

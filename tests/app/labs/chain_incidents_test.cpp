@@ -58,7 +58,7 @@ class ChainIncidents : public ChainTest {
         run("chain.mode", {{"mode", "reach"}});
     }
     std::vector<glm::vec3> pose() const { return positions(part().chain); }
-    void target(glm::vec3 to) { run("chain.target", {{"to", Json::array({to.x, to.y, to.z})}}); }
+    std::vector<Incident> target(glm::vec3 to) { return incidents_of("chain.target", {{"to", point(to)}}); }
 
     struct Gesture {
         int flips = 0, marked = 0;
@@ -71,17 +71,14 @@ class ChainIncidents : public ChainTest {
         Gesture gesture;
         const float reach = part().chain.reach();
         for (std::size_t i = 1; i < path.size(); ++i) {
-            const auto before = workspace.document.parts().at(chain_lab);
             const std::vector<glm::vec3> was = pose();
-            target(path[i]);
+            const std::vector<Incident> all = target(path[i]);
             const Turn turn = furthest_turn(was, pose());
             const bool still = angle_between(path[i - 1], path[i]) < 0.2f * turn.degrees ||
                                glm::distance(path[i - 1], path[i]) < 0.02f * reach;
             const bool flipped = turn.degrees > 30.0f && still;
             gesture.flips += flipped;
             const Incident* mark = nullptr;
-            const std::vector<Incident> all =
-                lab().review(workspace, *before, *workspace.document.parts().at(chain_lab));
             for (const Incident& each : all)
                 if (each.kind == Incident::Kind::Flip) mark = &each;
             gesture.marked += mark != nullptr;
@@ -231,9 +228,7 @@ TEST_F(ChainIncidents, TheRuleIsSettable) {
     chain({1, 1, 1}, {1, 0, 0}, {0, 0, 1}, 0.0f);
     const auto flips = [&](float to) {
         target({2.999f, 0, 0});
-        const auto before = workspace.document.parts().at(chain_lab);
-        target({to, 0, 0});
-        const auto all = lab().review(workspace, *before, *workspace.document.parts().at(chain_lab));
+        const auto all = target({to, 0, 0});
         return std::count_if(all.begin(), all.end(),
                              [](const Incident& each) { return each.kind == Incident::Kind::Flip; });
     };
@@ -250,9 +245,7 @@ TEST_F(ChainIncidents, NothingIsMarkedForWhatIsNoMoveOfTheTarget) {
     chain({1, 1, 1}, {0, 1, 0}, {0, 0, 1}, 0.5f);
     target({1.5f, 1.5f, 0});
     const auto none = [&](const char* name, const Json& arguments) {
-        const auto before = workspace.document.parts().at(chain_lab);
-        run(name, arguments);
-        return lab().review(workspace, *before, *workspace.document.parts().at(chain_lab)).empty();
+        return incidents_of(name, arguments).empty();
     };
     EXPECT_TRUE(none("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"min_deg", -5}, {"max_deg", 5}}));
     EXPECT_TRUE(none("chain.solver", {{"name", "ccd"}}));

@@ -72,7 +72,7 @@ TEST_F(ChainPaste, JunkIsRefusedWithItsLineAndChangesNothing) {
                                                           {"two words", "line 1 two"},
                                                           {std::string(1 << 20, '#'), "line 1"},
                                                           {rows, "line 10001 10000"}})
-        EXPECT_TRUE(test::says(refused("chain.paste", {{"text", text}}), told));
+        refuses("chain.paste", {{"text", text}}, told);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include "app/view/camera.hpp"
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/play.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -204,11 +203,8 @@ class LimitDrag {
     }
     /// Of the bone at the root, degrees.
     glm::vec2 limit() const {
-        const test::TempFolder folder;
-        const std::string path = (folder / "scene.json").string();
-        test::play(test::ScriptText(script).command("scene.save", {{"path", path}}));
         const Json limits =
-            parse_json(test::read(path)).at("labs").at("chain").at("reach").at("plane").at("limits");
+            test::scene_after(script).at("labs").at("chain").at("reach").at("plane").at("limits");
         return {limits.at(0).at("min_deg").get<float>(), limits.at(0).at("max_deg").get<float>()};
     }
 

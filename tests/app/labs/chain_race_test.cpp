@@ -140,14 +140,14 @@ TEST_F(ChainRace, StepsAndScrubsWithinItsIterations) {
     EXPECT_EQ(iteration(), last);
     run("study.step", {{"by", -100000}});
     EXPECT_EQ(iteration(), 0u);
-    EXPECT_TRUE(says(refused("race.show", {{"iteration", last + 1}}),
-                     "iteration 0 " + std::to_string(last) + " " + std::to_string(last + 1)));
+    refuses("race.show", {{"iteration", last + 1}},
+            "iteration 0 " + std::to_string(last) + " " + std::to_string(last + 1));
     run("race.close");
-    EXPECT_TRUE(says(refused("race.show", {{"iteration", 0}}), "no race is open"));
-    EXPECT_TRUE(says(refused("race.play"), "no race is open"));
-    EXPECT_TRUE(says(refused("study.step"), "microscope race open"));
+    refuses("race.show", {{"iteration", 0}}, "no race is open");
+    refuses("race.play", Json::object(), "no race is open");
+    refuses("study.step", Json::object(), "microscope race open");
     run("microscope.open");
-    EXPECT_TRUE(says(refused("race.show", {{"iteration", 0}}), "no race is open"));
+    refuses("race.show", {{"iteration", 0}}, "no race is open");
     run("study.step");
     EXPECT_EQ(state()["microscope"]["step"], 1);
 }
@@ -183,7 +183,7 @@ TEST_F(ChainRace, PlaysToItsEndAtALegiblePace) {
     EXPECT_FLOAT_EQ(race_pace(3), 1.0f) << "3 s for the whole";
     EXPECT_FLOAT_EQ(race_pace(20), 4.0f);
     EXPECT_FLOAT_EQ(race_pace(1100), 100.0f) << "11 s for the whole";
-    EXPECT_TRUE(says(refused("race.play", {{"on", false}, {"pace", 3}}), "pace on false"));
+    refuses("race.play", {{"on", false}, {"pace", 3}}, "pace on false");
 }
 
 /// A pose bent by hand, to see what that changes, is where the race starts.

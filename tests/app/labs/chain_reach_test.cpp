@@ -27,18 +27,6 @@ TEST_F(ChainReach, a_solve_that_moves_nothing_says_so_too) {
     EXPECT_EQ(state()["solve"]["report"]["status"], "Converged");
 }
 
-TEST_F(ChainReach, every_solver_reaches_and_says_so) {
-    for (const ik::Method method : ik::all_methods) {
-        reach_with(method == ik::Method::TwoBone ? 2 : 7);
-        run("chain.solver", {{"name", ik::name(method)}, {"iterations", 1000}});
-        run("chain.target", {{"to", {1.2, 0.7, 0.4}}});
-        EXPECT_EQ(state()["solve"]["report"]["status"], "Converged") << ik::name(method);
-        EXPECT_EQ(state()["solve"]["solver"], ik::name(method));
-        EXPECT_LE(tip_distance(), part().chain.reach() * 1.001e-3f) << ik::name(method);
-        EXPECT_LT(glm::length(part().chain.position(0)), 1e-5f) << ik::name(method) << ": the root stays";
-    }
-}
-
 TEST_F(ChainReach, a_default_tolerance_follows_the_reach_and_each_mode_has_its_own_iterations) {
     run("chain.solver", {{"tolerance", 0.25}});
     run("chain.solver", {{"default_tolerance", true}});
@@ -119,7 +107,7 @@ TEST_F(ChainReach, a_joint_is_dragged_at_once_after_another_was_removed) {
 
 TEST_F(ChainReach, limits_end_where_a_scene_would_be_too_large) {
     run("chain.preset", {{"name", "start"}, {"count", 100001}});
-    EXPECT_NE(refused("chain.limit", {{"index", 0}, {"kind", "pivot"}}).find("100000"), std::string::npos);
+    expect_refused("chain.limit", {{"index", 0}, {"kind", "pivot"}}, {"100000"});
 }
 
 TEST_F(ChainReach, a_new_tolerance_gives_a_new_report) {

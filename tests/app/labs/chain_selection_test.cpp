@@ -42,7 +42,7 @@ TEST_F(ChainSelection, DeleteRemovesAllOfThem) {
     EXPECT_EQ(part().chain.size(), size - 3);
     EXPECT_FLOAT_EQ(part().chain.length(2), 0.5f) << "the fourth is the second now";
     EXPECT_TRUE(selected().empty());
-    EXPECT_NE(refused("chain.remove_selected").find("no joint is selected"), std::string::npos);
+    expect_refused("chain.remove_selected", Json::object(), {"no joint is selected"});
     run("undo");
     EXPECT_EQ(part().chain.size(), size);
     run("chain.select", {{"joints", {0, 1, 2, 3, 4, 5, 6, 7}}});
@@ -99,26 +99,21 @@ TEST_F(ChainSelection, RemovedTogetherOrOneByOneTheSameLimitsStay) {
 TEST_F(ChainSelection, WhatIsNoJointIsRefusedAndChangesNothing) {
     reach_with(4);
     run("chain.select", {{"joints", {1, 2}}});
-    const Json before = save_scene(workspace);
     const Json joints_that_are_none = Json::array({{0, 9}, {-1}, {0.5}, {"tip"}, {nullptr}, {{0}}, {1e300}});
     for (const Json& joints : joints_that_are_none) {
         for (const char* command : {"chain.select", "chain.limit", "chain.set_length"}) {
             Json arguments{{"joints", joints}};
             if (std::string(command) == "chain.set_length") arguments["length"] = 1;
             EXPECT_FALSE(refused(command, arguments).empty()) << command << joints;
-            EXPECT_EQ(save_scene(workspace), before);
         }
     }
-    EXPECT_NE(refused("chain.limit", {{"joints", {1, 4}}, {"kind", "hinge"}}).find("tail"),
-              std::string::npos);
+    expect_refused("chain.limit", {{"joints", {1, 4}}, {"kind", "hinge"}}, {"tail"});
     refused("chain.limit", {{"joints", Json::array()}, {"kind", "hinge"}});
     refused("chain.set_length", {{"joints", Json::array()}, {"length", 1}});
-    EXPECT_NE(refused("chain.limit", {{"kind", "hinge"}}).find("either index or joints"), std::string::npos);
-    EXPECT_NE(refused("chain.select", {{"index", 1}, {"joints", {1}}}).find("either index or joints"),
-              std::string::npos);
-    EXPECT_NE(refused("chain.select", {{"point", "pole"}}).find("no pole"), std::string::npos);
+    expect_refused("chain.limit", {{"kind", "hinge"}}, {"either index or joints"});
+    expect_refused("chain.select", {{"index", 1}, {"joints", {1}}}, {"either index or joints"});
+    expect_refused("chain.select", {{"point", "pole"}}, {"no pole"});
     refused("chain.select", {{"point", "target"}, {"index", 1}});
-    EXPECT_EQ(save_scene(workspace), before);
 }
 
 TEST_F(ChainSelection, TheTargetOrThePoleInsteadOfJoints) {

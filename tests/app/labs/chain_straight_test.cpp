@@ -106,10 +106,7 @@ TEST_F(StraightChain, AFlipOverThePoleIsPreventedByItsButton) {
         std::vector<Incident> flips;
         for (int i = 0; i <= 60; ++i) {
             const glm::vec3 at = glm::mix(a, b, static_cast<float>(i) / 60.0f);
-            const auto before = workspace.document.parts().at(chain_lab);
-            run("chain.target", {{"to", {at.x, at.y, at.z}}});
-            for (const Incident& each :
-                 lab().review(workspace, *before, *workspace.document.parts().at(chain_lab)))
+            for (const Incident& each : incidents_of("chain.target", {{"to", point(at)}}))
                 if (each.kind == Incident::Kind::Flip && i > 0) flips.push_back(each);
         }
         return flips;

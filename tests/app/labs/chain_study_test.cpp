@@ -99,16 +99,6 @@ TEST_F(ChainStudy, every_solve_begins_at_the_same_start) {
     EXPECT_EQ(part().chain, first) << "closing leaves the chain as it was solved";
 }
 
-TEST_F(ChainStudy, opening_looks_into_the_last_solve) {
-    run("chain.mode", {{"mode", "reach"}});
-    run("chain.target", {{"to", {2, 3, 0}}});
-    const Chain solved = part().chain;
-    run("microscope.open");
-    EXPECT_EQ(part().chain, solved);
-    EXPECT_EQ(study().start.back(), glm::vec3(7, 0, 0));
-    EXPECT_GT(trace().frames(), 0u);
-}
-
 TEST_F(ChainStudy, steps_go_on_and_back_and_stay_within) {
     reach_with(4);
     run("chain.solver", {{"name", "fabrik_plain"}, {"tolerance", 1e-6}, {"iterations", 3}});
@@ -129,7 +119,7 @@ TEST_F(ChainStudy, steps_go_on_and_back_and_stay_within) {
     EXPECT_EQ(step(), trace().frames());
     run("study.step", {{"by", -100000}});
     EXPECT_EQ(step(), 0u);
-    EXPECT_NE(refused("microscope.seek", {{"step", 5000}}).find("5000"), std::string::npos);
+    expect_refused("microscope.seek", {{"step", 5000}}, {"5000"});
 }
 
 TEST_F(ChainStudy, every_step_has_its_sentence) {
@@ -228,7 +218,7 @@ TEST_F(ChainStudy, the_race_is_written_as_csv) {
     EXPECT_EQ(rows, expected);
     ASSERT_TRUE(workspace.ui.copied);
     EXPECT_EQ(*workspace.ui.copied, csv);
-    EXPECT_NE(refused("race.save", {{"path", "/nowhere/at/all.csv"}}).find("/nowhere"), std::string::npos);
+    expect_refused("race.save", {{"path", "/nowhere/at/all.csv"}}, {"/nowhere"});
 }
 
 TEST_F(ChainStudy, the_chain_is_copied_as_code_and_as_a_scene) {
@@ -302,15 +292,15 @@ TEST_F(ChainStudy, what_changes_the_chain_closes_it_and_other_modes_too) {
 }
 
 TEST_F(ChainStudy, what_cannot_be_studied_is_refused) {
-    EXPECT_NE(refused("microscope.close").find("not open"), std::string::npos);
-    EXPECT_NE(refused("study.step").find("open"), std::string::npos);
-    EXPECT_NE(refused("race.close").find("no race"), std::string::npos);
-    EXPECT_NE(refused("race.save", {{"path", "a.csv"}}).find("no race"), std::string::npos);
-    EXPECT_NE(refused("race.copy").find("no race"), std::string::npos);
+    expect_refused("microscope.close", Json::object(), {"not open"});
+    expect_refused("study.step", Json::object(), {"open"});
+    expect_refused("race.close", Json::object(), {"no race"});
+    expect_refused("race.save", {{"path", "a.csv"}}, {"no race"});
+    expect_refused("race.copy", Json::object(), {"no race"});
     run("chain.preset", {{"name", "start"}, {"count", 1000}});
-    EXPECT_NE(refused("microscope.open").find("1000"), std::string::npos);
+    expect_refused("microscope.open", Json::object(), {"1000"});
     run("chain.clear");
-    EXPECT_NE(refused("race.open").find("no bone"), std::string::npos);
+    expect_refused("race.open", Json::object(), {"no bone"});
 }
 
 TEST_F(ChainStudy, HostileScenesSayWhereTheyAreWrong) {

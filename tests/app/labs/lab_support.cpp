@@ -1,6 +1,7 @@
 #include "tests/app/labs/lab_support.hpp"
 
 #include "app/document/command.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 
@@ -22,6 +23,18 @@ void LabTest::run(const char* name, const Json& arguments, Gesture gesture) {
 
 void LabTest::begin(const char* name, const Json& arguments) {
     table.run(workspace, name, arguments);
+}
+
+void LabTest::emit(const std::function<void(Emit&)>& act, Gesture gesture) {
+    Emit emitted;
+    act(emitted);
+    for (const Emitted& each : emitted.take()) run(each.name.c_str(), *each.arguments, gesture);
+}
+
+std::vector<Incident> LabTest::incidents_of(const char* name, const Json& arguments, Gesture gesture) {
+    const auto before = workspace.document.parts().at(lab_);
+    run(name, arguments, gesture);
+    return lab().review(workspace, *before, *workspace.document.parts().at(lab_));
 }
 
 void LabTest::run_in(Workspace& other, const char* name, const Json& arguments) const {
@@ -54,6 +67,10 @@ void LabTest::expect_refused(const char* name, const Json& arguments, const std:
     const std::string message = refused(name, arguments);
     for (const std::string& each : says)
         EXPECT_NE(message.find(each), std::string::npos) << message << "\n  does not say " << each;
+}
+
+void LabTest::refuses(const char* name, const Json& arguments, const std::string& words) {
+    EXPECT_TRUE(test::says(refused(name, arguments), words)) << name << " " << arguments;
 }
 
 std::string LabTest::opened_with(const std::string& at, const Json& value) const {

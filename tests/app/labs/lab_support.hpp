@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <string>
@@ -39,11 +40,21 @@ class LabTest : public testing::Test {
     void run(const char* name, const Json& arguments = Json::object(), Gesture gesture = 0);
     /// As in the window: long work continues in ticks.
     void begin(const char* name, const Json& arguments = Json::object());
+    /// Runs ticks, whether or not anything moves.
+    void wait(int ticks) {
+        for (int i = 0; i < ticks; ++i) lab().step(workspace);
+    }
+    /// Runs what a click, a drag or a panel emits.
+    void emit(const std::function<void(Emit&)>& act, Gesture gesture = 0);
+    /// Runs a command; returns the incidents that it leads to.
+    std::vector<Incident> incidents_of(const char* name, const Json& arguments, Gesture gesture = 0);
     void run_in(Workspace& other, const char* name, const Json& arguments) const;
     /// Runs a command that must be refused, checks that nothing changed, and returns the message.
     std::string refused(const char* name, const Json& arguments = Json::object());
     /// The same, with a message that says each of these in any order.
     void expect_refused(const char* name, const Json& arguments, const std::vector<std::string>& says);
+    /// The same, with a message that has these words in this order; see says.hpp.
+    void refuses(const char* name, const Json& arguments, const std::string& words);
     /// Opens the scene with this value at a JSON pointer in the lab. Returns what refuses it; "blank: " and
     /// why, if the lab starts blank; or nothing.
     std::string opened_with(const std::string& at, const Json& value) const;

@@ -15,9 +15,6 @@ class LinkageTest : public LabTest {
     LinkageTest() : LabTest(linkage_lab) { workspace.lab = linkage_lab; }
     const LinkagePart& part() const { return linkage_part(workspace); }
     LinkageRuntime& runtime() const { return workspace.runtimes.of<LinkageRuntime>(linkage_lab); }
-    void wait(int ticks) {
-        for (int i = 0; i < ticks; ++i) lab().step(workspace);
-    }
     glm::dvec3 at(const char* point) const {
         const Json place = state().at("points").at(point);
         return {place[0].get<double>(), place[1].get<double>(), place[2].get<double>()};

@@ -9,17 +9,6 @@ namespace {
 
 class RopeCommands : public RopeTest {};
 
-TEST_F(RopeCommands, AfterClearThereIsNoRopeAndNoCollider) {
-    run("rope.preset", {{"name", "hair"}});
-    run("rope.clear");
-    EXPECT_EQ(state().at("ropes"), Json::array());
-    EXPECT_EQ(state().at("hair"), Json::array());
-    EXPECT_EQ(state().at("colliders"), Json::array());
-    EXPECT_TRUE(part().swings.empty());
-    run("undo");
-    EXPECT_EQ(state().at("hair").size(), 1u);
-}
-
 TEST_F(RopeCommands, AddLaysARopeStraightOrHanging) {
     run("rope.clear");
     run("rope.add", {{"from", {0, 1, 0}}, {"to", {2, 1, 0}}});

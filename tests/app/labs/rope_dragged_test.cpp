@@ -15,14 +15,10 @@ class RopeDragged : public RopeTest {
     void select(const Json& particles) { run("rope.select", {{"rope", "rope"}, {"particles", particles}}); }
     Together together() const { return lab().together(workspace, Drag::Position); }
     void drag(const std::vector<Handle>& handles, Gesture gesture = 7) {
-        Emit emit;
-        lab().drag_together(workspace, handles, emit);
-        for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments, gesture);
+        emit([&](Emit& to) { lab().drag_together(workspace, handles, to); }, gesture);
     }
     void drop(Gesture gesture = 7) {
-        Emit emit;
-        lab().drop(workspace, no_pick, emit);
-        for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments, gesture);
+        emit([&](Emit& to) { lab().drop(workspace, no_pick, to); }, gesture);
     }
     std::vector<Handle> moved(glm::vec3 by) const {
         std::vector<Handle> handles = together().handles;

@@ -25,9 +25,7 @@ class RopeGizmo : public RopeTest {
     std::optional<Handle> gizmo() const { return lab().gizmo(workspace); }
     void select(const char* name) { run("rope.select", {{"collider", name}}); }
     void drag(const Handle::Frame& to) {
-        Emit emit;
-        lab().drag(workspace, gizmo()->pick, to, emit);
-        for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
+        emit([&](Emit& by) { lab().drag(workspace, gizmo()->pick, to, by); });
     }
     const rope::Shape& shape(const char* name) const { return world().find_collider(name)->shape; }
 };

@@ -1,5 +1,4 @@
 // Moving a rope, cloth or hair as a whole, and the placement of new ones.
-#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -25,11 +24,6 @@ class RopeMove : public RopeTest {
         wait(20);
     }
     const rope::Body& body(const char* name) const { return *world().find(name); }
-    void emit(const std::function<void(Emit&)>& act, Gesture gesture = 0) {
-        Emit emit;
-        act(emit);
-        for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments, gesture);
-    }
     /// Drags the gizmo by that much.
     void drag(glm::vec3 by, Gesture gesture) {
         Handle handle = *lab().gizmo(workspace);

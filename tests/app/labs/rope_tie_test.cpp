@@ -29,9 +29,7 @@ class RopeTieTest : public RopeTest {
         click(particle_pick(world().find(body)->first + index));
     }
     void click(PickId pick) {
-        Emit emit;
-        lab().click(workspace, pick, emit);
-        for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
+        emit([&](Emit& to) { lab().click(workspace, pick, to); });
     }
 };
 

@@ -2,7 +2,6 @@
 #include "app/labs/rope/rope_time.hpp"
 #include "tests/app/labs/rope_support.hpp"
 #include "tests/places.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {

@@ -3,7 +3,6 @@
 #include "app/labs/signal/signal_part.hpp"
 #include "tests/app/labs/lab_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -40,23 +39,21 @@ TEST_F(SignalCsv, ColumnsAreFoundByNameOrAreTheOtherOfTwo) {
 
 TEST_F(SignalCsv, UnknownColumnsAreAskedForAndChosenByNameOrNumber) {
     const std::string text = "frame,clock,left,right\n1,0,5,1\n2,0.5,5,-2\n";
-    EXPECT_TRUE(test::says(refused("signal.input", file(text)), "row 1 time frame clock left right"));
-    EXPECT_TRUE(test::says(refused("signal.input", file(text, {{"time", "clock"}})),
-                           "row 1 value frame clock left right"));
-    EXPECT_TRUE(test::says(refused("signal.input", file(text, {{"time", "clock"}, {"value", "up"}})),
-                           "no column up frame clock left right"));
-    EXPECT_TRUE(
-        test::says(refused("signal.input", file(text, {{"time", "2"}, {"value", "5"}})), "no column 5"));
-    EXPECT_TRUE(test::says(refused("signal.input", file(text, {{"time", "2"}, {"value", "clock"}})), "same"));
-    EXPECT_TRUE(test::says(refused("signal.input", file("0,1,2\n1,1,2\n")), "time columns 1 to 3"));
-    EXPECT_TRUE(test::says(refused("signal.input", {{"kind", "sine"}, {"value", "y"}}), "value path"));
+    refuses("signal.input", file(text), "row 1 time frame clock left right");
+    refuses("signal.input", file(text, {{"time", "clock"}}), "row 1 value frame clock left right");
+    refuses("signal.input", file(text, {{"time", "clock"}, {"value", "up"}}),
+            "no column up frame clock left right");
+    refuses("signal.input", file(text, {{"time", "2"}, {"value", "5"}}), "no column 5");
+    refuses("signal.input", file(text, {{"time", "2"}, {"value", "clock"}}), "same");
+    refuses("signal.input", file("0,1,2\n1,1,2\n"), "time columns 1 to 3");
+    refuses("signal.input", {{"kind", "sine"}, {"value", "y"}}, "value path");
     const std::vector<double> wanted{1, -2};
     run("signal.input", file(text, {{"time", "Clock"}, {"value", "right"}}));
     EXPECT_EQ(values(), wanted);
     run("signal.input", file("0,9,1\n1,9,-2\n", {{"time", "1"}, {"value", "3"}}));
     EXPECT_EQ(values(), wanted);
-    EXPECT_TRUE(test::says(refused("signal.input", file(text + "3,x,5,1\n", {{"time", "2"}, {"value", "4"}})),
-                           "row 4 column 2 time x"));
+    refuses("signal.input", file(text + "3,x,5,1\n", {{"time", "2"}, {"value", "4"}}),
+            "row 4 column 2 time x");
 }
 
 TEST_F(SignalCsv, AnExactNameWinsOverOneThatDiffersInCaseOrUnit) {
@@ -66,7 +63,7 @@ TEST_F(SignalCsv, AnExactNameWinsOverOneThatDiffersInCaseOrUnit) {
         run("signal.input", file(text, {{"value", name}}));
         EXPECT_EQ(values(), wanted) << name;
     }
-    EXPECT_TRUE(test::says(refused("signal.input", file(text, {{"value", "x (m)"}})), "3 columns called x"));
+    refuses("signal.input", file(text, {{"value", "x (m)"}}), "3 columns called x");
 }
 
 TEST_F(SignalCsv, TimeIsInTheUnitThatItsColumnNames) {
@@ -76,8 +73,7 @@ TEST_F(SignalCsv, TimeIsInTheUnitThatItsColumnNames) {
         run("signal.input", file("time [" + unit + "],value\n0,1\n20,2\n"));
         EXPECT_NEAR(step(), seconds, 1e-12) << unit;
     }
-    EXPECT_TRUE(
-        test::says(refused("signal.input", file("time (h),value\n0,1\n20,2\n")), "time h must be s ms us"));
+    refuses("signal.input", file("time (h),value\n0,1\n20,2\n"), "time h must be s ms us");
 }
 
 }  // namespace

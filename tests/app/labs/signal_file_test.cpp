@@ -15,9 +15,6 @@ class SignalFile : public LabTest {
   protected:
     SignalFile() : LabTest(signal_lab) {}
     const SignalPart& part() const { return signal_part(workspace); }
-    void wait(int ticks) {
-        for (int i = 0; i < ticks; ++i) lab().step(workspace);
-    }
     void every_kind() {
         run("signal.clear");
         for (const signal::Kind& kind : signal::kinds()) run("signal.filter.add", {{"kind", kind.name}});

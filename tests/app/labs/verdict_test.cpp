@@ -7,13 +7,15 @@
 namespace tendril::app {
 namespace {
 
-class RopeVerdict : public LabTest {
+class VerdictTest : public LabTest {
   protected:
-    RopeVerdict() : LabTest("rope") {}
+    using LabTest::LabTest;
     std::string said() const { return state()["verdict"]; }
-    void wait(int ticks) {
-        for (int i = 0; i < ticks; ++i) lab().step(workspace);
-    }
+};
+
+class RopeVerdict : public VerdictTest {
+  protected:
+    RopeVerdict() : VerdictTest("rope") {}
 };
 
 TEST_F(RopeVerdict, SaysWhetherLengthsHold) {
@@ -185,10 +187,9 @@ TEST_F(RopeVerdict, SaysWhatContactTook) {
     EXPECT_GT(lost, 1.0);
 }
 
-class SignalVerdict : public LabTest {
+class SignalVerdict : public VerdictTest {
   protected:
-    SignalVerdict() : LabTest("signal") {}
-    std::string said() const { return state()["verdict"]; }
+    SignalVerdict() : VerdictTest("signal") {}
 };
 
 TEST_F(SignalVerdict, SaysHowTheChainFollows) {
@@ -199,10 +200,9 @@ TEST_F(SignalVerdict, SaysHowTheChainFollows) {
     EXPECT_EQ(said(), "No filter is on");
 }
 
-class RigVerdict : public LabTest {
+class RigVerdict : public VerdictTest {
   protected:
-    RigVerdict() : LabTest("rig") {}
-    std::string said() const { return state()["verdict"]; }
+    RigVerdict() : VerdictTest("rig") {}
 };
 
 TEST_F(RigVerdict, SaysWhetherEveryUnitRan) {
@@ -218,10 +218,9 @@ TEST_F(RigVerdict, SaysWhetherEveryUnitRan) {
     EXPECT_EQ(said(), "1 unit with problems");
 }
 
-class HumanoidVerdict : public LabTest {
+class HumanoidVerdict : public VerdictTest {
   protected:
-    HumanoidVerdict() : LabTest("humanoid") {}
-    std::string said() const { return state()["verdict"]; }
+    HumanoidVerdict() : VerdictTest("humanoid") {}
 };
 
 TEST_F(HumanoidVerdict, NamesTheOptionalBonesThatAreMissing) {

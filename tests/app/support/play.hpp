@@ -56,4 +56,31 @@ inline app::Json state_after(const ScriptText& script) {
     return play(script).state;
 }
 
+/// The scene after a script, as it is saved.
+inline app::Json scene_after(ScriptText script) {
+    const TempFolder folder;
+    play(script.command("scene.save", {{"path", (folder / "scene.json").string()}}));
+    return app::parse_json(read(folder / "scene.json"));
+}
+
+/// Runs a script in a program of its own, whatever comes of it.
+inline Outcome run_script(const ScriptText& script, const Environment& changes = {},
+                          const std::filesystem::path& in = {}) {
+    const TempFolder folder;
+    write(folder / "script.jsonl", script.text());
+    return run_program({"--headless", "--script", (folder / "script.jsonl").string()}, changes, in);
+}
+
+/// Plays a script in a program of its own; refusals in a panel do not end it.
+inline Played play_refused(const ScriptText& script) {
+    const TempFolder folder;
+    const std::string path = (folder / "script.jsonl").string(), state = (folder / "state.json").string();
+    write(path, script.text());
+    Played played;
+    played.outcome = run_program({"--headless", "--script", path, "--state", state});
+    EXPECT_EQ(played.outcome.exit_code, 0) << played.outcome.err;
+    played.state = app::parse_json(read(state));
+    return played;
+}
+
 }  // namespace tendril::test

@@ -74,16 +74,10 @@ TEST_F(HumanoidBalanceLab, TheCodeKeepsTheBalanceToo) {
 }
 
 TEST_F(HumanoidBalanceLab, TheGroundShowsWhatTheFeetSupport) {
-    const auto strokes = [&] {
-        const Camera camera({.target = {0.0f, 0.9f, 0.0f}}, {{0.0f, 0.0f}, {1000.0f, 700.0f}});
-        DrawList list;
-        lab().draw({.workspace = workspace, .camera = camera, .palette = palette(Theme::Dark)}, list);
-        return list.strokes.size();
-    };
-    const std::size_t before = strokes();
+    const std::size_t before = drawn().strokes.size();
     run("humanoid.balance", {{"on", true}});
     const std::size_t corners = balance().at("support").size();
-    EXPECT_EQ(strokes(), before + corners + 3);  // the outline, a line and its two ends
+    EXPECT_EQ(drawn().strokes.size(), before + corners + 3);  // the outline, a line and its two ends
 }
 
 TEST_F(HumanoidBalanceLab, AFootStepsWhileTheSimulationRuns) {

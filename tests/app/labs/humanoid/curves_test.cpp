@@ -65,9 +65,7 @@ TEST_F(HumanoidCurves, BeginThroughThePoseAndBendIt) {
     const auto last = handle("curve.tail_1.3");
     ASSERT_TRUE(last);
     const std::vector<glm::vec3> before = points();
-    Emit emit;
-    lab().drag(workspace, last->pick, last->frame, emit);
-    for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
+    emit([&](Emit& to) { lab().drag(workspace, last->pick, last->frame, to); });
     EXPECT_LT(glm::distance(points().back(), before.back()), 1e-5f);
     // Weight 0 gives the clip's pose to the bit, and fit puts the tip on the last point.
     run("humanoid.curve", {{"first", "tail_1"}, {"weight", 0}});
@@ -159,12 +157,11 @@ TEST_F(HumanoidCurves, SayThatAJointJumped) {
     for (int i = 0; i < 40; ++i) {
         const glm::vec3 bend = start + glm::vec3(0.0f, 0.0f, -0.05f * static_cast<float>(40 - i) * length);
         const std::vector<glm::vec3> hairpin{bend, start + glm::vec3(0.0f, 0.02f, 2.0f)};
-        const auto before = workspace.document.parts().at(humanoid_lab);
-        run("humanoid.curve", {{"first", "tail_1"}, {"points", points_json(hairpin)}});
+        const auto told =
+            incidents_of("humanoid.curve", {{"first", "tail_1"}, {"points", points_json(hairpin)}});
         if (!part().curves[0].jumped) continue;
         ++jumps;
-        for (const Incident& each :
-             lab().review(workspace, *before, *workspace.document.parts().at(humanoid_lab))) {
+        for (const Incident& each : told) {
             if (each.kind != Incident::Kind::Jump) continue;
             ++marks;
             EXPECT_EQ(each.name, curve().at("jumped")) << "the joint itself";
@@ -226,35 +223,22 @@ TEST_F(HumanoidCurves, OfferTheChainsThatCanBend) {
 /// With the mouse: drag a point, add one on the curve, remove it.
 TEST_F(HumanoidCurves, AreBentByTheMouse) {
     run("humanoid.curve", {{"first", "tail_1"}});
-    const auto strokes = [&] {
-        const Camera camera({.target = {0.0f, 0.9f, 0.0f}}, {{0.0f, 0.0f}, {1000.0f, 700.0f}});
-        DrawList list;
-        lab().draw({.workspace = workspace, .camera = camera, .palette = palette(Theme::Dark)}, list);
-        return list.strokes;
-    };
     std::optional<PickId> on_curve;
-    for (const Stroke& each : strokes())
+    const DrawList list = drawn();
+    for (const Stroke& each : list.strokes)
         if (const auto picked = picked_curve(part(), each.pick);
             picked && !picked->control && picked->at > 2.5f)
             on_curve = each.pick;
     ASSERT_TRUE(on_curve);
     ASSERT_TRUE(lab().handle(workspace, *on_curve));
     const glm::dvec3 tip = node("tail_6");
-    const auto done = [&](Emit& emit) {
-        for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
-    };
-    Emit click;
-    lab().click(workspace, *on_curve, click);
-    done(click);
+    emit([&](Emit& to) { lab().click(workspace, *on_curve, to); });
     EXPECT_EQ(points().size(), new_curve_points + 1);
     EXPECT_LT(glm::distance(node("tail_6"), tip), 0.02) << "the shape stays";
     EXPECT_EQ(state().at("selected"), "tail_1") << "its settings are shown";
     EXPECT_FALSE(lab().hint(workspace, *on_curve).empty());
-    while (points().size() > 1) {
-        Emit twice;
-        lab().double_click(workspace, handle("curve.tail_1.0")->pick, twice);
-        done(twice);
-    }
+    while (points().size() > 1)
+        emit([&](Emit& to) { lab().double_click(workspace, handle("curve.tail_1.0")->pick, to); });
     EXPECT_EQ(lab().hint(workspace, handle("curve.tail_1.0")->pick).find("double click"), std::string::npos);
     Emit last;
     lab().double_click(workspace, handle("curve.tail_1.0")->pick, last);

@@ -5,7 +5,6 @@
 #include <fstream>
 
 #include "app/labs/humanoid/ik/shown_pose.hpp"
-#include "app/view/palette.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/temp_folder.hpp"
@@ -251,17 +250,15 @@ TEST_F(HumanoidFeet, AreMarkedWhereTheyTouchTheGround) {
     run("humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.16}, {"step_depth", 0.36}});
     run("humanoid.foot_ik", {{"on", true}});
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
-    const Palette& colours = palette(Theme::Dark);
-    const Camera camera({.target = {0.0f, 0.9f, 0.0f}}, {{0.0f, 0.0f}, {1000.0f, 700.0f}});
+    const glm::vec4 colour(palette(Theme::Dark).tail, 1.0f);
     int marks = 0;
     for (int i = 0; i < 264; ++i) {
         tick();
-        DrawList list;
-        lab().draw({.workspace = workspace, .camera = camera, .palette = colours}, list);
+        const DrawList list = drawn();
         const bool planted = foot(0).at("planted").get<bool>() || foot(1).at("planted").get<bool>();
         int now = 0;
         for (const Stroke& stroke : list.strokes) {
-            if (stroke.layer != Layer::Overlay || stroke.colour != glm::vec4(colours.tail, 1.0f)) continue;
+            if (stroke.layer != Layer::Overlay || stroke.colour != colour) continue;
             ++now;
             for (const float t : {0.0f, 0.25f, 0.5f, 0.75f, 1.0f}) {
                 const glm::dvec3 at(glm::mix(stroke.a, stroke.b, t));

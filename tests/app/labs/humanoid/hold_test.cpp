@@ -7,7 +7,6 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -17,7 +16,6 @@ class HumanoidHold : public HumanoidTest {
     Json hold() const { return state().at("hold"); }
     double number(const char* name) const { return hold().at(name).get<double>(); }
     std::string text() const { return hold().at("text").get<std::string>(); }
-    void ask(double x, double y, double z) { run("humanoid.hold_move", {{"to", {x, y, z}}}); }
 };
 
 TEST_F(HumanoidHold, PutsBothHandsOnEachObject) {
@@ -34,7 +32,7 @@ TEST_F(HumanoidHold, PutsBothHandsOnEachObject) {
 TEST_F(HumanoidHold, GivesWayOutOfReachAndSaysWhy) {
     run("humanoid.hold");
     const glm::dvec3 start = vector(hold().at("position"));
-    ask(start.x, start.y, start.z + 2.0);
+    run("humanoid.hold_move", {{"to", {start.x, start.y, start.z + 2.0}}});
     EXPECT_TRUE(hold().at("closed").get<bool>());
     EXPECT_GT(number("moved"), 0.5);
     EXPECT_NE(text().find("The wheel gives way by"), std::string::npos) << text();
@@ -52,15 +50,14 @@ TEST_F(HumanoidHold, ReleasesAndRefusesByName) {
     run("humanoid.hold", {{"hands", "left"}});
     EXPECT_FALSE(part().ik.target(humanoid::Effector::LeftHand)) << "the grip takes its place";
     EXPECT_EQ(hold().at("grips").size(), 1u);
-    EXPECT_NE(refused("humanoid.target", {{"effector", "left_hand"}}).find("left_hand holds the wheel"),
-              std::string::npos);
+    expect_refused("humanoid.target", {{"effector", "left_hand"}}, {"left_hand holds the wheel"});
     run("humanoid.target", {{"effector", "right_hand"}});
     run("humanoid.hold", {{"hands", "right"}});
     run("humanoid.target", {{"effector", "left_hand"}});
     run("humanoid.release");
     EXPECT_TRUE(hold().is_null());
-    EXPECT_NE(refused("humanoid.release").find("hold nothing"), std::string::npos);
-    EXPECT_NE(refused("humanoid.hold_move", {{"to", {0, 1, 1}}}).find("humanoid.hold"), std::string::npos);
+    expect_refused("humanoid.release", Json::object(), {"hold nothing"});
+    expect_refused("humanoid.hold_move", {{"to", {0, 1, 1}}}, {"humanoid.hold"});
 }
 
 /// The object goes on with a character that walks away, and the feet walk.
@@ -167,19 +164,16 @@ TEST_F(HumanoidHold, IsReviewedWhileItIsDragged) {
     const glm::dvec3 start = vector(hold().at("position"));
     bool marked = false;
     for (int i = 1; i <= 25 && !marked; ++i) {
-        const auto before = workspace.document.parts().at(humanoid_lab);
-        ask(start.x + 0.03 * i, start.y + 0.05 * i, start.z - 0.05 * i);
-        marked = !lab().review(workspace, *before, *workspace.document.parts().at(humanoid_lab)).empty();
+        const Json to{start.x + 0.03 * i, start.y + 0.05 * i, start.z - 0.05 * i};
+        marked = !incidents_of("humanoid.hold_move", {{"to", to}}).empty();
     }
     EXPECT_TRUE(marked) << "no joint reached its limit, nothing flipped";
 }
 
 TEST_F(HumanoidHold, IsNoFlipWhereTheObjectTurnsTheArms) {
     run("humanoid.hold", {{"kind", "box"}, {"size", 1.2}});
-    const auto before = workspace.document.parts().at(humanoid_lab);
-    run("humanoid.hold_move", {{"to", {0.2, 1.1, 0.7}}, {"rotation", {0, 0, 0.3826834, 0.9238795}}});
-    for (const Incident& each :
-         lab().review(workspace, *before, *workspace.document.parts().at(humanoid_lab)))
+    const Json turned{{"to", {0.2, 1.1, 0.7}}, {"rotation", {0, 0, 0.3826834, 0.9238795}}};
+    for (const Incident& each : incidents_of("humanoid.hold_move", turned))
         EXPECT_NE(each.kind, Incident::Kind::Flip) << each.name;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/labs/humanoid/humanoid_lab.hpp"
+#include "app/view/palette.hpp"
 #include "tests/app/labs/lab_support.hpp"
 
 namespace tendril::app {
@@ -34,6 +35,14 @@ class HumanoidTest : public LabTest {
             if (each.at("name") == name) return vector(each.at("position"));
         ADD_FAILURE() << "there is no node " << name;
         return {};
+    }
+
+    /// What the lab draws, 1000 by 700 pixels.
+    DrawList drawn(const CameraPose& pose = {.target = {0.0f, 0.9f, 0.0f}}) const {
+        const Camera camera(pose, {{0.0f, 0.0f}, {1000.0f, 700.0f}});
+        DrawList list;
+        lab().draw({.workspace = workspace, .camera = camera, .palette = palette(Theme::Dark)}, list);
+        return list;
     }
 
     /// Saved and loaded, the lab is the same to the bit, then and after `ticks`.

@@ -35,9 +35,7 @@ class HumanoidIncidents : public HumanoidTest {
     }
     /// Moves it there and returns the new marks.
     std::vector<Incident> moved(const char* effector, const glm::dvec3& to) {
-        const auto before = now();
-        target(effector, to);
-        return since(before);
+        return incidents_of("humanoid.target", {{"effector", effector}, {"to", {to.x, to.y, to.z}}});
     }
     /// The global rotation of each bone in degrees, computed independently.
     static std::map<std::string, double> turns(const Json& was, const Json& is) {
@@ -138,9 +136,7 @@ TEST_F(HumanoidIncidents, GesturesAndTargetsThatAreLetGoAreNoFlips) {
             << i;
         EXPECT_TRUE(only(Kind::Flip, ticked()).empty()) << i;
     }
-    const auto before = now();
-    run("humanoid.target", {{"effector", "left_hand"}, {"weight", 0}});
-    EXPECT_TRUE(since(before).empty());
+    EXPECT_TRUE(incidents_of("humanoid.target", {{"effector", "left_hand"}, {"weight", 0}}).empty());
     for (int i = 0; i < 30; ++i) EXPECT_TRUE(only(Kind::Flip, ticked()).empty()) << i;
 }
 
@@ -170,9 +166,7 @@ TEST_F(HumanoidIncidents, AChangeOfAnythingButATargetsPlaceIsNone) {
     const glm::dvec3 shoulder = fold_left_arm();
     target("left_hand", shoulder + glm::dvec3(0.3, 0, 0.3));
     const auto none = [&](const char* command, const Json& arguments) {
-        const auto before = now();
-        run(command, arguments);
-        return since(before).empty();
+        return incidents_of(command, arguments).empty();
     };
     EXPECT_TRUE(none("humanoid.hand_ik", {{"on", false}}));
     EXPECT_TRUE(none("humanoid.t_pose", {{"on", true}}));

@@ -18,13 +18,7 @@ class HumanoidLimits : public HumanoidTest {
     HumanoidLimits() : colours_(palette(Theme::Dark)) {}
 
     Solvers& solvers() { return humanoid_runtime(workspace).solvers; }
-    DrawList drawn() {
-        const Camera camera({.target = {0.0f, 0.9f, 0.0f}, .distance = 3.6f},
-                            {{0.0f, 0.0f}, {1000.0f, 700.0f}});
-        DrawList list;
-        lab().draw({.workspace = workspace, .camera = camera, .palette = colours_}, list);
-        return list;
-    }
+    DrawList drawn() { return HumanoidTest::drawn({.target = {0.0f, 0.9f, 0.0f}, .distance = 3.6f}); }
     /// Directions of the bone along the outlines of that colour, in the world.
     std::vector<glm::dvec3> outline(glm::vec3 colour) {
         const DrawList list = drawn();

@@ -149,10 +149,7 @@ TEST_F(HumanoidMotions, TheRootGoesAlongAndOnlyBonesAreDrawnAsBones) {
     run("humanoid.clip", {{"time", 1.0}, {"play", false}, {"loop", false}});
     const std::vector<humanoid::Placement>& placed = shown_pose(workspace).placed;
     EXPECT_LT(glm::distance(placed[0].position, glm::dvec3(0, 0, -1)), 1e-6);
-    const Camera camera({.target = {0.0f, 0.5f, -1.0f}, .distance = 3.0f}, {{0.0f, 0.0f}, {1000.0f, 700.0f}});
-    const Palette colours = palette(Theme::Dark);
-    DrawList list;
-    lab().draw({.workspace = workspace, .camera = camera, .palette = colours}, list);
+    const DrawList list = drawn({.target = {0.0f, 0.5f, -1.0f}, .distance = 3.0f});
     const std::size_t foot = *part().node_of(Bone::LeftFoot);
     glm::dvec3 end(0.0);
     for (const Stroke& each : list.strokes) {
@@ -183,12 +180,9 @@ TEST_F(HumanoidMotions, WhatWasGuessedOfItsFileIsSaid) {
 TEST_F(HumanoidMotions, WhatCannotBeCarriedOverIsRefusedOrSaid) {
     test::write(folder_ / "still.gltf",
                 R"({"asset":{"version":"2.0"},"nodes":[{"children":[1]},{}],"skins":[{"joints":[0,1]}]})");
-    EXPECT_TRUE(
-        test::says(refused("humanoid.motion.load", {{"path", path("still.gltf")}}), "still.gltf no clips"));
-    EXPECT_TRUE(
-        test::says(refused("humanoid.motion.load", {{"path", path("gone.vrma")}}), "gone.vrma no such file"));
-    EXPECT_TRUE(test::says(refused("humanoid.motion.load", {{"path", path("wave.vrma")}, {"clip", "run"}}),
-                           "wave.vrma no clip run"));
+    refuses("humanoid.motion.load", {{"path", path("still.gltf")}}, "still.gltf no clips");
+    refuses("humanoid.motion.load", {{"path", path("gone.vrma")}}, "gone.vrma no such file");
+    refuses("humanoid.motion.load", {{"path", path("wave.vrma")}, {"clip", "run"}}, "wave.vrma no clip run");
     run("humanoid.motion.load", {{"path", path("wave.vrma")}});
     const std::string said = workspace.ui.toasts.back().text;
     EXPECT_TRUE(test::says(said, "Clip wave wave.vrma At rest: Chest, UpperChest, Neck, Shoulder, Toes."))
@@ -203,8 +197,7 @@ TEST_F(HumanoidMotions, WhatCannotBeCarriedOverIsRefusedOrSaid) {
     run("humanoid.motion.load", {{"path", path("wave.vrma")}});
     EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "wave_2 Left as it is: pole."));
     run("humanoid.map", {{"bone", "Hips"}});
-    EXPECT_TRUE(
-        test::says(refused("humanoid.motion.load", {{"path", path("wave.vrma")}}), "wave.vrma to.map Hips"));
+    refuses("humanoid.motion.load", {{"path", path("wave.vrma")}}, "wave.vrma to.map Hips");
 }
 
 /// Motions and fixes keep the unit, axes, bones and limits that they were made with.

@@ -164,16 +164,12 @@ TEST_F(HumanoidSelection, RowsOfTheBoneMapThatAreSelectedStandOut) {
 }
 
 TEST_F(HumanoidSelection, AreMarkedTheActiveOneStrongest) {
-    const Palette& colours = palette(Theme::Dark);
     const auto share = [&](const char* node) {
-        const Camera camera({.target = {0.0f, 0.9f, 0.0f}, .distance = 3.6f},
-                            {{0.0f, 0.0f}, {1000.0f, 700.0f}});
-        DrawList list;
-        lab().draw({.workspace = workspace, .camera = camera, .palette = colours}, list);
+        const DrawList list = drawn({.target = {0.0f, 0.9f, 0.0f}, .distance = 3.6f});
         const auto pick = static_cast<PickId>(*part().skeleton().find(node));
         for (const Stroke& each : list.strokes)
             if (each.pick == pick && each.shade != Shade::Ring)
-                return glm::distance(glm::vec3(each.colour), colours.selection);
+                return glm::distance(glm::vec3(each.colour), palette(Theme::Dark).selection);
         ADD_FAILURE() << node << " is not drawn";
         return 0.0f;
     };
