@@ -151,10 +151,10 @@ void Workspace::Parts::solve_islands(State& state, bool measures) {
             local.loops.end();
             shared_left.fetch_sub(1, std::memory_order_release);
         }
-        for (std::uint32_t looked = 0; shared_left.load(std::memory_order_acquire) > 0; ++looked) {
+        for (std::uint32_t polls = 0; shared_left.load(std::memory_order_acquire) > 0; ++polls) {
             for (std::uint32_t other = 0; other < count; ++other)
-                if (threads[other].loops.help()) looked = 0;
-            tendril::detail::pause(looked);
+                if (threads[other].loops.help()) polls = 0;
+            tendril::detail::pause(polls);
         }
     };
     tendril::detail::run_pieces(tasks, count, count, solve);

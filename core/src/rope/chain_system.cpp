@@ -51,8 +51,8 @@ Symmetric3 inverse_of(const Symmetric3& m) noexcept {
             by * (m.xx * m.yy - m.xy * m.xy)};
 }
 
-/// Removes a node's freedom to move along the normals of its planes. Of two nearly parallel planes the second
-/// is skipped if the first left too little freedom: it would fling the node far sideways.
+/// Removes a node's freedom to move along the normals of its planes. Skips a plane nearly parallel to an
+/// earlier one, as it would fling the node far sideways.
 void constrain(ChainNode& node, const NodeContact& contact) noexcept {
     const Symmetric3 free = node.mobility;
     for (int p = 0; p < contact.planes; ++p) {
