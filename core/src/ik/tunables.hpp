@@ -85,7 +85,7 @@ inline constexpr float singular = 5e-3f;
 /// With the first way only, DLS brings 39 instead of 47 percent of those arms there. Up to three more bends,
 /// each joint its own way, changed 2 of 60 000 results and took up to twice the iterations for hinges of one
 /// axis.
-inline constexpr float min_part = 0.1f, alike = 1e-4f;
+inline constexpr float min_part = 0.1f, tie_error = 1e-4f;
 
 /// Methods without restarts. 10 or 40 instead of 20: of targets anywhere, DLS reaches up to 0.7 percentage
 /// points fewer, or up to 0.3 more, in a third less time or up to twice the iterations.
@@ -129,7 +129,7 @@ inline constexpr int iterations = 60;
 inline constexpr std::size_t max_candidates = 4;  ///< joints to free
 inline constexpr int halvings = 8;                ///< bisections of the best joint's range: to 0.4 % of it
 inline constexpr float fine = 1e-4f;              ///< fraction of the reach: a smaller error has arrived
-inline constexpr float noticeable = 1e-3f;        ///< of the remaining distance: a smaller gain is ignored
+inline constexpr float min_gain_part = 1e-3f;     ///< of the remaining distance: a smaller gain is ignored
 
 }  // namespace explain
 
@@ -200,10 +200,10 @@ inline constexpr float damping_falls = 0.3f, damping_grows = 5.0f;
 inline constexpr float first_move = 1.0f, max_move = 1.0f, move_grows = 2.0f, move_falls = 0.4f;
 /// Active-set passes per step. 1: 150 chains are left; 3: 70.
 inline constexpr int passes = 2;
-/// A chain is left to the scalar solver after `patience` successive steps that each removed less than
-/// `little` of the error. 5: 102; 20: 53, but a chain that cannot arrive then uses up all steps.
-inline constexpr float little = 0.1f;
-inline constexpr int patience = 8;
+/// A chain is left to the scalar solver after `max_slow_steps` successive steps that each removed less than
+/// `min_progress` of the error. 5: 102; 20: 53, but a chain that cannot arrive then uses up all steps.
+inline constexpr float min_progress = 0.1f;
+inline constexpr int max_slow_steps = 8;
 
 }  // namespace batch
 

@@ -11,9 +11,9 @@ constexpr std::uint64_t part_mask = first_part - 1;
 
 }  // namespace
 
-void pause(std::uint32_t looked) noexcept {
-    constexpr std::uint32_t patience = 2000;
-    if (looked > patience) sched_yield();
+void pause(std::uint32_t polls) noexcept {
+    constexpr std::uint32_t max_spins = 2000;
+    if (polls > max_spins) sched_yield();
 #if defined(__x86_64__) || defined(__i386__)
     else
         __builtin_ia32_pause();
@@ -43,7 +43,7 @@ void ForkJoin::run(TaskFunction part, void* context, std::uint32_t count) noexce
     const std::uint64_t before = open_.load(std::memory_order_relaxed) & ~(loop_number - 1);
     open_.store(before + loop_number + count, std::memory_order_release);
     work(true);
-    for (std::uint32_t looked = 0; done_.load(std::memory_order_acquire) != count; ++looked) pause(looked);
+    for (std::uint32_t polls = 0; done_.load(std::memory_order_acquire) != count; ++polls) pause(polls);
 }
 
 }  // namespace tendril::detail

@@ -56,7 +56,7 @@ class ForkJoin {
     alignas(64) std::atomic<std::uint32_t> done_{0};
 };
 
-/// For polling loops: `looked` is the number of polls so far. After a while it yields the processor.
-void pause(std::uint32_t looked) noexcept;
+/// For polling loops: `polls` is the number of polls so far. After a while it yields the processor.
+void pause(std::uint32_t polls) noexcept;
 
 }  // namespace tendril::detail

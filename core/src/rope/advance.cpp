@@ -18,7 +18,7 @@ namespace {
 using glm::dvec3;
 
 /// Removes the links over their body's tear strain; returns whether there were any.
-bool tear(State& state) {
+bool tear_links(State& state) {
     std::size_t b = 0;  // links of a body are nearly always contiguous
     const auto torn = [&](const Link& link) {
         while (link.a < state.bodies[b].first) --b;
@@ -42,13 +42,13 @@ bool tear_ties(State& state) {
 }
 
 /// Turns a capsule whose centre has moved to its direction there.
-void turn(Collider& collider, double part, Scratch::Moving& moving) {
+void rotate_capsule(Collider& collider, double part, Scratch::Moving& moving) {
     auto& capsule = std::get<Capsule>(collider.shape);
     const dvec3 was = detail::half_of(capsule), middle(centre(collider.shape));
     const dvec3 half = was + part * (*collider.half_goal - was);
     const dvec3 low = moving.low, high = moving.high;
     collider.shape =
-        detail::kept_in(Capsule{glm::vec3(middle - half), glm::vec3(middle + half), capsule.radius});
+        detail::clamped_to_world(Capsule{glm::vec3(middle - half), glm::vec3(middle + half), capsule.radius});
     moving.turn = detail::half_of(capsule) - was;
     // The ends sweep along lines: the bounds of both positions contain everything in between.
     detail::bounds(collider.shape, moving.by, moving.low, moving.high);
@@ -61,12 +61,12 @@ void turn(Collider& collider, double part, Scratch::Moving& moving) {
 }
 
 /// Adds a steady motion to the substep's. A spinning body sweeps a volume within a ball.
-void drive(State& state, Collider& collider, Scratch::Moving& moving) {
+void apply_drive(State& state, Collider& collider, Scratch::Moving& moving) {
     const double h = state.settings.substep;
     const dvec3 was(centre(collider.shape));
     collider.shape = detail::driven(collider.shape, collider.drive, h);
     moving.spins = collider.drive.spin != 0.0f;
-    moving.unspin = math::conjugate(detail::turn_by(collider.drive, h));
+    moving.inverse_spin = math::conjugate(detail::rotation_after(collider.drive, h));
     moving.middle = dvec3(centre(collider.shape));
     if (const auto* const plane = std::get_if<Plane>(&collider.shape)) {
         const dvec3 normal = detail::unit(dvec3(plane->normal)), by = h * dvec3(collider.drive.velocity);
@@ -77,10 +77,10 @@ void drive(State& state, Collider& collider, Scratch::Moving& moving) {
     constexpr double edge = max_magnitude;
     collider.goal = glm::clamp(collider.goal + (moving.middle - was), dvec3(-edge), dvec3(edge));
     if (moving.spins) {
-        const glm::dquat turn = math::conjugate(moving.unspin);
-        if (collider.half_goal) collider.half_goal = math::rotated(turn, *collider.half_goal);
+        const glm::dquat rotate_capsule = math::conjugate(moving.inverse_spin);
+        if (collider.half_goal) collider.half_goal = math::rotated(rotate_capsule, *collider.half_goal);
         for (Pin& pin : state.pins)
-            if (pin.collider == collider.id) pin.goal = math::rotated(turn, pin.goal);
+            if (pin.collider == collider.id) pin.goal = math::rotated(rotate_capsule, pin.goal);
     }
     double reach = static_cast<double>(size(collider.shape));
     if (const auto* const box = std::get_if<Box>(&collider.shape))
@@ -99,20 +99,21 @@ void move_colliders(State& state, Scratch& scratch) {
         const glm::vec3 was = centre(collider.shape);
         const double part = detail::part_of(state.settings.substep, collider.seconds);
         const dvec3 from(was), to = from + part * (collider.goal - from);
-        if (glm::vec3(to) != was) collider.shape = detail::kept_in(moved(collider.shape, glm::vec3(to)));
+        if (glm::vec3(to) != was)
+            collider.shape = detail::clamped_to_world(moved(collider.shape, glm::vec3(to)));
         moving.shape = &collider.shape;
         moving.by = dvec3(centre(collider.shape)) - from;
         moving.size = size(collider.shape);
         moving.turn = dvec3(0.0);
         detail::bounds(collider.shape, moving.by, moving.low, moving.high);
-        if (collider.half_goal) turn(collider, part, moving);
+        if (collider.half_goal) rotate_capsule(collider, part, moving);
         moving.spins = false;
-        if (collider.drive.any()) drive(state, collider, moving);
+        if (collider.drive.any()) apply_drive(state, collider, moving);
     }
 }
 
 /// Less work than this, about 60 µs on one thread, is not worth another thread.
-constexpr std::size_t links_a_thread = 1024;
+constexpr std::size_t min_links_per_thread = 1024;
 /// Whether idle threads help with this island: it has a large cloth.
 bool is_shared(const Plan& plan, const Plan::Island& island) {
     const auto is_large = [&](const Plan::Island& part) {
@@ -128,7 +129,7 @@ std::size_t useful_threads(const State& state, const Plan& plan) {
     std::size_t useful = plan.islands.size();
     for (const Plan::Island& island : plan.islands)
         if (is_shared(plan, island)) useful += island.particles / detail::min_shared_cells;
-    return std::min(useful, state.links.size() / links_a_thread);
+    return std::min(useful, state.links.size() / min_links_per_thread);
 }
 
 }  // namespace
@@ -150,16 +151,16 @@ void Workspace::Parts::solve_islands(State& state, bool measures) {
             local.loops.end();
             shared_left.fetch_sub(1, std::memory_order_release);
         }
-        for (std::uint32_t looked = 0; shared_left.load(std::memory_order_acquire) > 0; ++looked) {
+        for (std::uint32_t polls = 0; shared_left.load(std::memory_order_acquire) > 0; ++polls) {
             for (std::uint32_t other = 0; other < count; ++other)
-                if (threads[other].loops.help()) looked = 0;
-            tendril::detail::pause(looked);
+                if (threads[other].loops.help()) polls = 0;
+            tendril::detail::pause(polls);
         }
     };
     tendril::detail::run_pieces(tasks, count, count, solve);
 }
 
-void Workspace::Parts::add_up(Advance& done) {
+void Workspace::Parts::sum_reports(Advance& done) {
     int passes = 0, shortened = 0;
     for (IslandScratch& thread : threads) {
         passes = std::max(passes, thread.done.passes);
@@ -178,7 +179,7 @@ void Workspace::Parts::add_up(Advance& done) {
 }
 
 /// Keeps the contacts of the substep.
-void Workspace::Parts::note_contacts(State& state) {
+void Workspace::Parts::store_contacts(State& state) {
     if (plan.colliding == 0 && state.contacts.empty()) return;
     std::size_t most = 0;
     for (const BodyContactScratch& island : scratch.body_contacts) most += island.contacts.size();
@@ -216,20 +217,20 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
     if (steps) parts.prepare(state_);                   // allocates, so before anything changes
     constexpr auto countable = std::uint64_t{1} << 53;  // exactly representable in a file's numbers
     state_.dropped = std::min(state_.dropped + done.dropped, countable);
-    const auto keep = [&] { state_.remainder = std::min(left, substep); };
-    keep();
+    const auto store_remainder = [&] { state_.remainder = std::min(left, substep); };
+    store_remainder();
     while (is_due()) {
         left = std::max(0.0, left - substep);
         move_colliders(state_, parts.scratch);
         parts.solve_islands(state_, !is_due());
-        parts.add_up(done);
+        parts.sum_reports(done);
         ++done.substeps;
         ++state_.substeps;
-        keep();
-        detail::drift_gusts(state_);
+        store_remainder();
+        detail::advect_gusts(state_);
         state_.displaced_in = substep;
-        parts.note_contacts(state_);
-        const bool torn = parts.plan.tears && tear(state_), untied = tear_ties(state_);
+        parts.store_contacts(state_);
+        const bool torn = parts.plan.tears && tear_links(state_), untied = tear_ties(state_);
         if (torn || untied) parts.replan(state_);
     }
     if (steps) parts.prepared = true;

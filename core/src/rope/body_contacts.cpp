@@ -15,54 +15,55 @@ using glm::dvec3;
 
 constexpr int max_rounds = 6, min_rounds = 3;
 /// Accepted error of a contact, relative to the thickness.
-constexpr double enough_apart = 1e-3;
+constexpr double contact_tolerance = 1e-3;
 /// Stiffness of a contact, relative to the effective mass of its two chains.
-constexpr double stiffer_than_offered = 50.0;
+constexpr double relative_stiffness = 50.0;
 
 /// Metres that projections may move a particle in a substep.
-constexpr double nearby = 1e-3;
+constexpr double max_correction = 1e-3;
 
 }  // namespace
 
 /// The response of a contact whose points are at `to`.
 BodyContacts::Response BodyContacts::respond(const Contact& contact, const Points& to) const {
     const Nearest nearest = nearest_of(contact, to);
-    Response response{.shares = nearest.shares};
-    double apart = detail::length(nearest.between);
-    response.normal = apart > 1e-9 * contact.thickness ? (1.0 / apart) * nearest.between : contact.normal;
+    Response response{.weights = nearest.weights};
+    double distance = detail::length(nearest.between);
+    response.normal =
+        distance > 1e-9 * contact.thickness ? (1.0 / distance) * nearest.between : contact.normal;
     if (detail::dot(response.normal, contact.normal) < 0.0) {  // they have crossed
         response.normal = -response.normal;
-        apart = -apart;
+        distance = -distance;
     }
     const dvec3& n = response.normal;
-    response.gap = apart - contact.thickness;
+    response.gap = distance - contact.thickness;
     const double before = detail::dot(contact.force, n), k = contact.stiffness;
-    const double pressed = std::max(0.0, before - k * (response.gap - contact.target));
-    if (!(pressed > 0.0)) return response;
+    const double normal_force = std::max(0.0, before - k * (response.gap - contact.target));
+    if (!(normal_force > 0.0)) return response;
     dvec3 slip(0.0);
     for (std::size_t p = 0; p < 4; ++p)
-        slip += nearest.shares[p] * (to[p] - state_.position[contact.points[p]]);
+        slip += nearest.weights[p] * (to[p] - state_.position[contact.points[p]]);
     slip -= detail::dot(slip, n) * n;
     const dvec3 friction = contact.force - before * n - k * slip;
     const double size = detail::length(friction),
-                 most = static_cast<double>(state_.settings.friction) * pressed;
+                 most = static_cast<double>(state_.settings.friction) * normal_force;
     const double part = size > most ? most / size : 1.0;
-    response.force = pressed * n + part * friction;
+    response.force = normal_force * n + part * friction;
     response.along = k;
     response.across = part * k;
     return response;
 }
 
-/// The position of a node, or the expected one if nothing presses on it.
-dvec3 BodyContacts::expected(std::uint32_t number, std::uint32_t node) const {
-    const ContactScratch& chain = memory(number);
+/// A node's current position; before its chain's first step the one without links and contacts.
+dvec3 BodyContacts::expected_position(std::uint32_t number, std::uint32_t node) const {
+    const ContactScratch& chain = chain_scratch(number);
     return chain.progress.moved ? chain.nodes[node].x : chain.nodes[node].base;
 }
 
 BodyContacts::Response BodyContacts::respond(const Contact& contact) const {
     const auto expected_end = [&](std::uint32_t link, std::uint32_t end) {
         const std::uint32_t chain = plan_.chain_of[link];
-        return expected(chain, link - plan_.chains[chain].first_link + end);
+        return expected_position(chain, link - plan_.chains[chain].first_link + end);
     };
     return respond(contact, {expected_end(contact.a, 0), expected_end(contact.a, 1),
                              expected_end(contact.b, 0), expected_end(contact.b, 1)});
@@ -94,9 +95,9 @@ std::span<const BodyContacts::Side> BodyContacts::sides_of(std::uint32_t chain) 
     return {first, std::upper_bound(first, s_.sides.end(), chain, after)};
 }
 
-/// The effective mass of a chain at a contact: a node's, and its neighbours' as far as tension makes them
-/// follow. Other contacts within that distance share it.
-double BodyContacts::offered(std::size_t number) const {
+/// Effective mass of a chain at a contact, kg: a node's and its neighbours' that tension couples to it,
+/// divided by the number of contacts among them.
+double BodyContacts::effective_mass(std::size_t number) const {
     const Side& side = s_.sides[number];
     const Plan::Chain& chain = plan_.chains[side.chain];
     const Link& link = state_.links[chain.first_link + side.bond];
@@ -120,23 +121,26 @@ void BodyContacts::choose_stiffness() {
     for (Contact& contact : s_.contacts) contact.stiffness = 0.0;
     // Initially its inverse.
     for (std::size_t i = 0; i < s_.sides.size(); ++i)
-        s_.contacts[s_.sides[i].contact].stiffness += 1.0 / offered(i);
+        s_.contacts[s_.sides[i].contact].stiffness += 1.0 / effective_mass(i);
     for (Contact& contact : s_.contacts)
-        contact.stiffness = contact.stiffness > 0.0 ? stiffer_than_offered / contact.stiffness : 0.0;
+        contact.stiffness = contact.stiffness > 0.0 ? relative_stiffness / contact.stiffness : 0.0;
 }
 
 /// Sets the pushes on the nodes of a chain.
-void BodyContacts::press(std::uint32_t number, std::span<const Side> sides) {
-    ContactScratch& chain = memory(number);
+void BodyContacts::set_pushes(std::uint32_t number, std::span<const Side> sides) {
+    ContactScratch& chain = chain_scratch(number);
     for (detail::NodePush& push : chain.pushes)
-        push = {.node = push.node, .at = expected(number, push.node), .force = dvec3(0.0), .stiffness = {}};
+        push = {.node = push.node,
+                .at = expected_position(number, push.node),
+                .force = dvec3(0.0),
+                .stiffness = {}};
     for (const Side& side : sides) {
         const Contact& contact = s_.contacts[side.contact];
         const Response response = respond(contact);
         // If both segments are of this chain, both move in its step, but each is taken as still.
         const bool own = plan_.chain_of[contact.a] == plan_.chain_of[contact.b];
         const double sign = side.is_b ? 1.0 : -1.0, times = own ? 2.0 : 1.0;
-        const double t = std::abs(response.shares[side.is_b ? 3 : 1]);
+        const double t = std::abs(response.weights[side.is_b ? 3 : 1]);
         for (std::uint32_t end = 0; end < 2; ++end) {
             const detail::ChainNode& node = chain.nodes[side.bond + end];
             detail::NodePush& push = chain.pushes[static_cast<std::size_t>(node.push)];
@@ -169,7 +173,7 @@ void BodyContacts::solve() {
     choose_stiffness();
     for (const std::uint32_t r : s_.chains) {
         scratch_.chain_solved[r] = 1;
-        ContactScratch& chain = memory(r);
+        ContactScratch& chain = chain_scratch(r);
         ChainNewton newton(state_, plan_, island_, scratch_, local_, chain);
         newton.find(r);
         newton.begin();
@@ -184,16 +188,16 @@ void BodyContacts::solve() {
     for (int round = 0; round < max_rounds; ++round) {
         bool stepped = false;
         for (const std::uint32_t r : s_.chains) {
-            ChainNewton newton(state_, plan_, island_, scratch_, local_, memory(r));
+            ChainNewton newton(state_, plan_, island_, scratch_, local_, chain_scratch(r));
             newton.open(r);
-            press(r, sides_of(r));
+            set_pushes(r, sides_of(r));
             stepped |= newton.step(true, more);
         }
-        more = update_forces() > enough_apart || round + 1 < min_rounds;
+        more = update_forces() > contact_tolerance || round + 1 < min_rounds;
         if (!stepped && !more) break;
     }
     for (const std::uint32_t r : s_.chains) {
-        ChainNewton newton(state_, plan_, island_, scratch_, local_, memory(r));
+        ChainNewton newton(state_, plan_, island_, scratch_, local_, chain_scratch(r));
         newton.open(r);
         while (newton.step(false, false)) {
         }
@@ -201,68 +205,69 @@ void BodyContacts::solve() {
     }
 }
 
-void BodyContacts::find_presses(const Body& cloth, double stiffness, std::vector<ClothPress>& presses) {
+void BodyContacts::find_self_contacts(const Body& cloth, double stiffness,
+                                      std::vector<ClothSelfContact>& self_contacts) {
     const auto body = static_cast<std::uint32_t>(&cloth - state_.bodies.data());
     local_.done.work += s_.projected.size();
-    note_moves();
+    measure_moves();
     for (Contact& contact : s_.projected) {
         if (contact.body_a != body || contact.body_b != body ||
-            contact.apart - both(contact, &Scratch::Listed::moved) > contact.thickness)
+            contact.distance - max_approach(contact, &Scratch::Listed::moved) > contact.thickness)
             continue;
         contact.stiffness = stiffness;
-        const Response found = respond(contact, points_of(contact, scratch_.place));
+        const Response found = respond(contact, points_of(contact, scratch_.x));
         if (!(found.along > 0.0)) continue;
         dvec3 slip(0.0), at(0.0);
         for (std::size_t k = 0; k < 4; ++k) {
-            const dvec3 place = scratch_.place[contact.points[k]];
-            at += found.shares[k] * place;
-            slip += found.shares[k] * (place - state_.position[contact.points[k]]);
+            const dvec3 x = scratch_.x[contact.points[k]];
+            at += found.weights[k] * x;
+            slip += found.weights[k] * (x - state_.position[contact.points[k]]);
         }
         slip -= detail::dot(slip, found.normal) * found.normal;
-        presses.push_back({contact.points, found.shares, found.normal, found.along, found.across,
-                           found.gap - contact.target, at, slip});
+        self_contacts.push_back({contact.points, found.weights, found.normal, found.along, found.across,
+                                 found.gap - contact.target, at, slip});
     }
 }
 
-/// Drops contacts too far apart for projections to bring together in this substep, unless it takes `all`. The
-/// deepest come first.
+/// Sorts contacts by depth, deepest first; unless `all`, drops those too far apart to meet in this substep.
 void BodyContacts::begin_projection(bool all) {
-    note_moves();
+    measure_moves();
     const auto distant = [&](const Contact& contact) {
-        const double reach = contact.target + nearby;
-        return contact.apart - both(contact, &Scratch::Listed::moved) > contact.thickness + reach ||
-               respond(contact, points_of(contact, scratch_.place)).gap > reach;
+        const double reach = contact.target + max_correction;
+        return contact.distance - max_approach(contact, &Scratch::Listed::moved) >
+                   contact.thickness + reach ||
+               respond(contact, points_of(contact, scratch_.x)).gap > reach;
     };
     if (!all) std::erase_if(s_.projected, distant);
     std::stable_sort(s_.projected.begin(), s_.projected.end(), [](const Contact& p, const Contact& q) {
-        return p.apart - p.thickness < q.apart - q.thickness;
+        return p.distance - p.thickness < q.distance - q.thickness;
     });
 }
 
 double BodyContacts::project(bool all) {
-    std::vector<dvec3>& place = scratch_.place;
+    std::vector<dvec3>& x = scratch_.x;
     double worst = 0.0;
     const auto correct = [&](Contact& contact) {
         contact.force = dvec3(0.0);
-        const Response found = respond(contact, points_of(contact, place));
+        const Response found = respond(contact, points_of(contact, x));
         const double depth = contact.target - found.gap;
         if (!(depth > 0.0)) return;
         double freedom = 0.0;
         dvec3 slip(0.0);
         for (std::size_t k = 0; k < 4; ++k) {
             const std::uint32_t i = contact.points[k];
-            freedom += found.shares[k] * found.shares[k] * scratch_.weight[i];
-            slip += found.shares[k] * (place[i] - state_.position[i]);
+            freedom += found.weights[k] * found.weights[k] * scratch_.weight[i];
+            slip += found.weights[k] * (x[i] - state_.position[i]);
         }
         if (!(freedom > 0.0)) return;
         worst = std::max(worst, depth / contact.thickness);
         slip -= detail::dot(slip, found.normal) * found.normal;
-        const double slipped = detail::length(slip),
+        const double slip_distance = detail::length(slip),
                      most = depth * static_cast<double>(state_.settings.friction);
-        const dvec3 by = depth * found.normal - (slipped > most ? most / slipped : 1.0) * slip;
+        const dvec3 by = depth * found.normal - (slip_distance > most ? most / slip_distance : 1.0) * slip;
         for (std::size_t k = 0; k < 4; ++k) {
             const std::uint32_t i = contact.points[k];
-            place[i] += (found.shares[k] * scratch_.weight[i] / freedom) * by;
+            x[i] += (found.weights[k] * scratch_.weight[i] / freedom) * by;
         }
     };
     local_.done.work += (all ? s_.contacts.size() : 0) + s_.projected.size();

@@ -11,10 +11,10 @@ namespace {
 
 using glm::dvec3;
 
-constexpr int max_halvings_of_way = 6;  ///< of a pair's way, to check its parts
-constexpr int max_partings = 8;         ///< rounds
-constexpr double parted = 0.1;          ///< distance to restore, relative to the thickness
-constexpr int max_shortenings = 12;
+constexpr int max_bisections = 6;         ///< of a pair's way, to check its parts
+constexpr int max_separation_rounds = 8;  ///< rounds
+constexpr double restored_gap = 0.1;      ///< distance to restore, relative to the thickness
+constexpr int max_step_cuts = 12;
 
 /// Whether a plane with this normal separates a pair's features.
 bool separates(const BodyContactScratch::Candidate& pair, const dvec3& n, const std::array<dvec3, 4>& at) {
@@ -31,62 +31,62 @@ bool separates(const BodyContactScratch::Candidate& pair, const dvec3& n, const 
 
 }  // namespace
 
-/// Whether a pair crosses on a straight way. It does not if one plane separates the features at both ends of
-/// the way; otherwise its halves are checked.
+/// Whether a pair crosses between two positions: no if one plane separates it at both; else bisects.
 bool BodyContacts::crosses(const Candidate& pair, const Points& from, const Points& to, const dvec3& n,
-                           int depth, Shares& where) const {
+                           int depth, Weights& where) const {
     if (separates(pair, n, to)) return false;
     Points halfway;
     for (std::size_t k = 0; k < 4; ++k) halfway[k] = 0.5 * (from[k] + to[k]);
     const Nearest nearest = nearest_of(pair, halfway);
-    where = nearest.shares;
-    const double apart = detail::length(nearest.between);
-    if (depth == 0 || !(apart > 1e-12)) return true;
+    where = nearest.weights;
+    const double distance = detail::length(nearest.between);
+    if (depth == 0 || !(distance > 1e-12)) return true;
     return crosses(pair, from, halfway, n, depth - 1, where) ||
-           crosses(pair, halfway, to, (1.0 / apart) * nearest.between, depth - 1, where);
+           crosses(pair, halfway, to, (1.0 / distance) * nearest.between, depth - 1, where);
 }
 
-bool BodyContacts::crosses(const Pair& pair, Shares& where) const {
-    if (!(pair.apart > 1e-9 * pair.thickness)) return false;  // crossing from the start: either side will do
-    const Points to = points_of(pair, scratch_.place);
+bool BodyContacts::crosses(const Pair& pair, Weights& where) const {
+    if (!(pair.distance > 1e-9 * pair.thickness))
+        return false;  // crossing from the start: either side will do
+    const Points to = points_of(pair, scratch_.x);
     return !separates(pair, pair.normal, to) &&
-           crosses(pair, points_of(pair, state_.position), to, pair.normal, max_halvings_of_way, where);
+           crosses(pair, points_of(pair, state_.position), to, pair.normal, max_bisections, where);
 }
 
 /// Moves the points that would cross back to their own sides.
-void BodyContacts::part(const Pair& pair, const Shares& where) {
-    double freedom = 0.0, apart = 0.0;
+void BodyContacts::separate(const Pair& pair, const Weights& where) {
+    double freedom = 0.0, distance = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
         freedom += where[k] * where[k] * scratch_.weight[pair.points[k]];
-        apart += where[k] * detail::dot(pair.normal, scratch_.place[pair.points[k]]);
+        distance += where[k] * detail::dot(pair.normal, scratch_.x[pair.points[k]]);
     }
-    const double wanted = std::min(pair.apart, parted * pair.thickness);
+    const double wanted = std::min(pair.distance, restored_gap * pair.thickness);
     if (!(freedom > 0.0)) return;
-    const double by = std::max(wanted - apart, 0.1 * wanted) / freedom;
+    const double by = std::max(wanted - distance, 0.1 * wanted) / freedom;
     for (std::size_t k = 0; k < 4; ++k)
-        scratch_.place[pair.points[k]] += (by * where[k] * scratch_.weight[pair.points[k]]) * pair.normal;
+        scratch_.x[pair.points[k]] += (by * where[k] * scratch_.weight[pair.points[k]]) * pair.normal;
 }
 
-void BodyContacts::keep_apart() {
-    if (left_search_range()) search(scratch_.place);
-    Shares where{};
+void BodyContacts::prevent_crossing() {
+    if (left_search_range()) search(scratch_.x);
+    Weights where{};
     bool any = true;
-    for (int round = 0; any && round < max_partings; ++round) {
+    for (int round = 0; any && round < max_separation_rounds; ++round) {
         any = false;
         for (const Pair& pair : s_.pairs) {
             if (!crosses(pair, where)) continue;
             any = true;
             if (round == 0) ++local_.done.held_back;
-            part(pair, where);
+            separate(pair, where);
         }
-        if (any && left_search_range()) search(scratch_.place);
+        if (any && left_search_range()) search(scratch_.x);
     }
     if (!any) return;
-    // All bodies go only a part of the way: pairs that did not cross on the whole way do not on a part.
-    for (int i = 0; i <= max_shortenings; ++i) {
-        const double left = i < max_shortenings ? 0.5 : 0.0;
+    // Cuts the step of all bodies: pairs that did not cross in a whole step do not in a part.
+    for (int i = 0; i <= max_step_cuts; ++i) {
+        const double left = i < max_step_cuts ? 0.5 : 0.0;
         each_particle([&](std::size_t k) {
-            scratch_.place[k] = state_.position[k] + left * (scratch_.place[k] - state_.position[k]);
+            scratch_.x[k] = state_.position[k] + left * (scratch_.x[k] - state_.position[k]);
         });
         if (std::none_of(s_.pairs.begin(), s_.pairs.end(),
                          [&](const Pair& pair) { return crosses(pair, where); }))

@@ -16,17 +16,13 @@ namespace {
 
 using glm::dvec3;
 
-/// How far a particle may be pulled off its free path, metres; the search for colliders allows the same.
-constexpr double off_path = 1e-3;
-/// Until candidates are listed again, a particle may drift by these multiples of its way and of its radius,
-/// and its way may grow by these multiples.
-constexpr double drift_ways = 4.0, drift_radii = 0.3, grown_way = 2.0, grown_radii = 0.2;
+/// Search margins for drift and for the travel in a substep, as multiples of a particle's travel and radius.
+constexpr double drift_per_travel = 4.0, drift_per_radius = 0.3, reach_per_travel = 2.0,
+                 reach_per_radius = 0.2;
 /// Parts of a body nearer than this along it, in thicknesses, cannot touch: pi times the radius.
 constexpr double min_arc = 1.5707963267948966;
-/// Metres above a surface that count as touching.
-constexpr double nearly = 1e-5;
 /// How fast overlapping bodies separate: part per substep, and m/s.
-constexpr double recovered = 0.2, recovery_speed = 0.5;
+constexpr double recovery_rate = 0.2, recovery_speed = 0.5;
 /// Particles that a contact may slide along in a substep and still continue.
 constexpr std::uint32_t max_slide = 3;
 
@@ -36,7 +32,7 @@ double square(const dvec3& v) {
 
 }  // namespace
 
-/// Calls `visit` with each particle that may collide, its place in the list, and its radius.
+/// Calls `visit` with each particle that may collide, its list entry, and its radius in metres.
 template <class Visit>
 void BodyContacts::each_listed(Visit visit) const {
     for (const std::uint32_t b : Plan::part(plan_.bodies, island_.bodies)) {
@@ -60,17 +56,17 @@ BodyContacts::Nearest BodyContacts::nearest_of(const Candidate& pair, const std:
 void BodyContacts::find() {
     search(scratch_.base);
     choose_contacts();
-    continue_forces();
-    // A pair that neither presses nor would press needs no contact.
+    warm_start();
+    // Drops pairs without contact force now or on the free path.
     std::erase_if(s_.contacts, [&](const Contact& contact) {
         return contact.force == dvec3(0.0) &&
-               respond(contact, points_of(contact, scratch_.base)).gap > nearly;
+               respond(contact, points_of(contact, scratch_.base)).gap > touch_distance;
     });
 }
 
 /// Finds pairs that may come near each other on the way to `ends`.
 void BodyContacts::search(const std::vector<dvec3>& ends) {
-    if (!stay_listed(ends)) list_candidates();
+    if (!update_drift(ends)) list_candidates();
     local_.done.work += s_.candidates.size();
     s_.pairs.clear();
     for (const Candidate& each : s_.candidates) {
@@ -78,17 +74,18 @@ void BodyContacts::search(const std::vector<dvec3>& ends) {
                              static_cast<double>(state_.bodies[each.body_b].radius);
         // Diagonals do not touch; they must only not be crossed.
         const bool touches = std::max(each.a, each.b) < state_.links.size();
-        const double near = both(each, &Scratch::Listed::way) + 2.0 * off_path + (touches ? radii : 0.0);
-        if (each.listed - both(each, &Scratch::Listed::drifted) > near) continue;
+        const double near =
+            max_approach(each, &Scratch::Listed::travel) + 2.0 * path_margin + (touches ? radii : 0.0);
+        if (each.listed - max_approach(each, &Scratch::Listed::drifted) > near) continue;
         const std::array<dvec3, 4> at = points_of(each, state_.position);
         const Nearest nearest = nearest_of(each, at);
-        const double apart = detail::length(nearest.between);
-        if (apart > near) continue;
+        const double distance = detail::length(nearest.between);
+        if (distance > near) continue;
         Pair& pair = s_.pairs.emplace_back(Pair{each});
-        pair.thickness = std::max(radii, each.least);
-        pair.apart = apart, pair.shares = nearest.shares;
-        if (apart > 1e-9 * pair.thickness) {
-            pair.normal = (1.0 / apart) * nearest.between;
+        pair.thickness = std::max(radii, each.min_thickness);
+        pair.distance = distance, pair.weights = nearest.weights;
+        if (distance > 1e-9 * pair.thickness) {
+            pair.normal = (1.0 / distance) * nearest.between;
             continue;
         }
         const dvec3 across = each.split == 2 ? detail::cross(at[1] - at[0], at[3] - at[2])
@@ -98,18 +95,18 @@ void BodyContacts::search(const std::vector<dvec3>& ends) {
     }
 }
 
-/// The sum of the largest moves in each of a pair's two features.
-double BodyContacts::both(const Candidate& pair, double Scratch::Listed::*way) const {
+/// Upper bound of a pair's approach, metres: the sum of the largest moves of its two features.
+double BodyContacts::max_approach(const Candidate& pair, double Scratch::Listed::*travel) const {
     double a = 0.0, b = 0.0;
     for (std::uint32_t k = 0; k < 4; ++k) {
         double& most = k < pair.split ? a : b;
-        most = std::max(most, scratch_.listed[pair.points[k]].*way);
+        most = std::max(most, scratch_.listed[pair.points[k]].*travel);
     }
     return std::sqrt(a) + std::sqrt(b);
 }
 
-/// Notes how far particles go in the substep; false if candidates must be listed again.
-bool BodyContacts::stay_listed(const std::vector<dvec3>& ends) {
+/// Stores the squared drift and travel of each particle; false if candidates must be listed again.
+bool BodyContacts::update_drift(const std::vector<dvec3>& ends) {
     dvec3 mean(0.0), drift(0.0);
     each_particle([&](std::size_t i) {
         mean += ends[i] - state_.position[i];
@@ -127,29 +124,29 @@ bool BodyContacts::stay_listed(const std::vector<dvec3>& ends) {
         s_.radii[k] = radius;
     }
     each_listed([&](std::size_t i, Scratch::Listed& it, double) {
-        it.way = square(ends[i] - state_.position[i] - s_.mean);
+        it.travel = square(ends[i] - state_.position[i] - s_.mean);
         it.drifted = square(state_.position[i] - it.at - drift);
-        const double most = it.reach - off_path;
-        stay = stay && it.way <= most * most && it.drifted <= it.max_drift * it.max_drift;
+        const double most = it.reach - path_margin;
+        stay = stay && it.travel <= most * most && it.drifted <= it.max_drift * it.max_drift;
     });
     return stay;
 }
 
 /// Whether a segment went farther than the search expected.
 bool BodyContacts::left_search_range() {
-    note_moves();
+    measure_moves();
     bool farther = false;
     each_listed([&](std::size_t, const Scratch::Listed& it, double) {
-        if (farther || it.moved <= it.way + off_path * off_path) return;
-        const double most = std::sqrt(it.way) + off_path;
+        if (farther || it.moved <= it.travel + path_margin * path_margin) return;
+        const double most = std::sqrt(it.travel) + path_margin;
         farther = !(it.moved <= most * most);
     });
     return farther;
 }
 
-void BodyContacts::note_moves() {
+void BodyContacts::measure_moves() {
     each_listed([&](std::size_t i, Scratch::Listed& it, double) {
-        it.moved = square(scratch_.place[i] - state_.position[i] - s_.mean);
+        it.moved = square(scratch_.x[i] - state_.position[i] - s_.mean);
     });
 }
 
@@ -159,10 +156,10 @@ void BodyContacts::list_candidates() {
     s_.features.clear();
     s_.chunks.clear();
     each_listed([&](std::size_t i, Scratch::Listed& it, double radius) {
-        const double way = std::sqrt(it.way);
+        const double travel = std::sqrt(it.travel);
         it.at = state_.position[i], it.drifted = 0.0;
-        it.max_drift = drift_ways * way + drift_radii * radius;
-        it.reach = off_path + grown_way * way + grown_radii * radius;
+        it.max_drift = drift_per_travel * travel + drift_per_radius * radius;
+        it.reach = path_margin + reach_per_travel * travel + reach_per_radius * radius;
     });
     for (std::uint32_t c = island_.chunks.first; c < island_.chunks.first + island_.chunks.count; ++c)
         if (plan_.collides[plan_.chunks[c].body] != Plan::Collides::None) add_features(plan_.chunks[c]);
@@ -209,8 +206,8 @@ void BodyContacts::add_features(const Plan::Chunk& chunk) {
     };
     const auto end = [&] { return static_cast<std::uint32_t>(s_.features.size()); };
     box.first[0] = end();
-    for (std::uint32_t i = chunk.first; plan_.meets_cloth[chunk.body] != 0 && i < chunk.first + chunk.count;
-         ++i)
+    for (std::uint32_t i = chunk.first;
+         plan_.collides_with_cloth[chunk.body] != 0 && i < chunk.first + chunk.count; ++i)
         add(0, {i});
     box.first[1] = end();
     for (std::uint32_t l = chunk.first_link; l < chunk.first_link + chunk.links; ++l) {
@@ -234,8 +231,8 @@ void BodyContacts::add_features(const Plan::Chunk& chunk) {
 }
 
 void BodyContacts::search_chunks(const BodyContactScratch::Chunk& c, const BodyContactScratch::Chunk& d) {
-    const auto few = [&](std::vector<std::uint32_t>& list, const auto& from, std::size_t kind,
-                         const auto& other) {
+    const auto find_overlapping = [&](std::vector<std::uint32_t>& list, const auto& from, std::size_t kind,
+                                      const auto& other) {
         list.clear();
         for (std::uint32_t f = from.first[kind]; f < from.first[kind + 1]; ++f) {
             const BodyContactScratch::Feature& it = s_.features[f];
@@ -246,18 +243,18 @@ void BodyContacts::search_chunks(const BodyContactScratch::Chunk& c, const BodyC
         }
     };
     const auto search = [&](const auto& first, std::size_t kind_a, const auto& last, std::size_t kind_b) {
-        few(s_.few_a, first, kind_a, last);
-        if (s_.few_a.empty()) return;
-        few(s_.few_b, last, kind_b, first);
-        for (const std::uint32_t k : s_.few_a) {
+        find_overlapping(s_.near_a, first, kind_a, last);
+        if (s_.near_a.empty()) return;
+        find_overlapping(s_.near_b, last, kind_b, first);
+        for (const std::uint32_t k : s_.near_a) {
             const BodyContactScratch::Feature& a = s_.features[k];
-            for (const std::uint32_t l : s_.few_b) {
+            for (const std::uint32_t l : s_.near_b) {
                 const BodyContactScratch::Feature& b = s_.features[l];
                 const double reach = a.radius + b.radius;
                 if (square(b.middle - a.middle) > reach * reach ||
                     (kind_a == kind_b && &first == &last && l <= k))
                     continue;
-                consider(a, b);
+                add_candidate(a, b);
             }
         }
     };
@@ -266,19 +263,23 @@ void BodyContacts::search_chunks(const BodyContactScratch::Chunk& c, const BodyC
     if (&c != &d) search(d, 0, c, 2);
 }
 
-void BodyContacts::consider(const BodyContactScratch::Feature& a, const BodyContactScratch::Feature& b) {
-    if (a.count == 2 && a.link > b.link) return consider(b, a);
-    Candidate it{
-        .a = a.link, .b = b.link, .split = a.count, .body_a = a.body, .body_b = b.body, .least = 1e-6};
+void BodyContacts::add_candidate(const BodyContactScratch::Feature& a, const BodyContactScratch::Feature& b) {
+    if (a.count == 2 && a.link > b.link) return add_candidate(b, a);
+    Candidate it{.a = a.link,
+                 .b = b.link,
+                 .split = a.count,
+                 .body_a = a.body,
+                 .body_b = b.body,
+                 .min_thickness = 1e-6};
     std::copy_n(a.points.begin(), a.count, it.points.begin());
     std::copy_n(b.points.begin(), b.count, it.points.begin() + a.count);
     if (a.count == 2)
         for (const BodyContactScratch::Feature* each : {&a, &b})
-            it.least +=
+            it.min_thickness +=
                 1e-4 * detail::length(plan_.rest_at[each->points[0]] - plan_.rest_at[each->points[1]]);
     if (a.body == b.body) {
         const double radius = state_.bodies[a.body].radius;
-        const double arc = min_arc * std::max(2.0 * radius, it.least);
+        const double arc = min_arc * std::max(2.0 * radius, it.min_thickness);
         for (std::uint32_t k = 0; k < a.count; ++k)
             for (std::uint32_t l = 0; l < b.count; ++l)
                 if (a.points[k] == b.points[l] ||
@@ -290,8 +291,8 @@ void BodyContacts::consider(const BodyContactScratch::Feature& a, const BodyCont
 }
 
 /// Whether no neighbour of one of its segments is nearer to the other.
-bool BodyContacts::lowest(const Pair& pair) const {
-    const auto lowest_at = [&](std::uint32_t number, double at, const dvec3& to_other) {
+bool BodyContacts::is_local_minimum(const Pair& pair) const {
+    const auto is_minimum_at = [&](std::uint32_t number, double at, const dvec3& to_other) {
         const Plan::Chain& chain = plan_.chains[plan_.chain_of[number]];
         const bool first = number == chain.first_link, last = number + 1 == chain.first_link + chain.links;
         if (at >= 1.0) return last;
@@ -299,7 +300,8 @@ bool BodyContacts::lowest(const Pair& pair) const {
         const Link& before = state_.links[number - 1];
         return detail::dot(to_other, state_.position[before.a] - state_.position[before.b]) <= 0.0;
     };
-    return lowest_at(pair.a, -pair.shares[1], pair.normal) && lowest_at(pair.b, pair.shares[3], -pair.normal);
+    return is_minimum_at(pair.a, -pair.weights[1], pair.normal) &&
+           is_minimum_at(pair.b, pair.weights[3], -pair.normal);
 }
 
 /// Segments of two ropes touch at their nearest points. On cloth, particles and triangles handle the ends of
@@ -312,29 +314,28 @@ void BodyContacts::choose_contacts() {
             return state_.bodies[body].kind == Body::Kind::Cloth;
         };
         const bool inside =
-            std::none_of(pair.shares.begin(), pair.shares.end(), [](double share) { return share == 0.0; });
+            std::none_of(pair.weights.begin(), pair.weights.end(), [](double share) { return share == 0.0; });
         const bool cloth = is_cloth(pair.body_a) || is_cloth(pair.body_b);
         if (std::max(pair.a, pair.b) >= state_.links.size()) continue;  // a diagonal must only not be crossed
-        if (pair.split == 2 && !(cloth ? inside : lowest(pair))) continue;
+        if (pair.split == 2 && !(cloth ? inside : is_local_minimum(pair))) continue;
         const bool solved = !cloth && plan_.collides[pair.body_a] == Plan::Collides::Solved &&
                             plan_.collides[pair.body_b] == Plan::Collides::Solved;
         Contact& contact = (solved ? s_.contacts : s_.projected).emplace_back(Contact{pair});
-        const double gap = pair.apart - pair.thickness;
-        contact.target = gap < 0.0 ? gap + std::min(-recovered * gap, recovery_speed * h_) : 0.0;
+        const double gap = pair.distance - pair.thickness;
+        contact.target = gap < 0.0 ? gap + std::min(-recovery_rate * gap, recovery_speed * h_) : 0.0;
     }
 }
 
-/// Takes over each contact's force from the previous substep: of the same two segments, or of neighbours if
-/// it has slid.
-void BodyContacts::continue_forces() {
+/// Takes each contact's force from the previous substep: the same segments', or neighbours' after sliding.
+void BodyContacts::warm_start() {
     const std::vector<BodyContact>& before = state_.contacts;
-    s_.taken.assign(before.size(), 0);
+    s_.reused.assign(before.size(), 0);
     const auto key = [](const BodyContact& each) { return std::tie(each.a, each.b); };
     const auto particles = [&](const Contact& contact) {
         return std::pair(state_.links[contact.a].a, state_.links[contact.b].a);
     };
     const auto take = [&](Contact& contact, std::size_t old) {
-        s_.taken[old] = 1;
+        s_.reused[old] = 1;
         contact.force = (h_ * h_) * before[old].force;
     };
     const auto first_from = [&](std::uint32_t a, std::uint32_t b) {
@@ -354,7 +355,7 @@ void BodyContacts::continue_forces() {
         const std::uint32_t low = a - std::min(a, max_slide);
         for (std::size_t at = first_from(low, 0); at < before.size() && before[at].a <= a + max_slide; ++at) {
             const std::uint32_t slid = std::max(before[at].b, b) - std::min(before[at].b, b);
-            if (s_.taken[at] != 0 || slid > max_slide) continue;
+            if (s_.reused[at] != 0 || slid > max_slide) continue;
             take(contact, at);
             break;
         }

@@ -39,7 +39,7 @@ dvec3 acceleration(const Settings& settings) noexcept {
     return static_cast<double>(settings.gravity_scale) * dvec3(settings.gravity) + dvec3(settings.external);
 }
 
-double distance_kept(const Tie& tie, double h) noexcept {
+double enforced_length(const Tie& tie, double h) noexcept {
     const double length = tie.length, way = static_cast<double>(tie_speed) * h;
     return std::clamp(length, tie.now - way, tie.now + way);
 }

@@ -43,7 +43,7 @@ inline bool has_air(const Settings& settings) noexcept {
 /// Pressure of the wind in a gust on a cloth that faces it, N/m^2.
 double wind_pressure(const Settings& settings) noexcept;
 /// Carries the gusts along for a substep.
-void drift_gusts(State& state) noexcept;
+void advect_gusts(State& state) noexcept;
 /// The compliance of a link as its solver uses it, m/N.
 inline double compliance(const Settings& settings, const Link& link) noexcept {
     if (link.kind != Link::Kind::Stretch) return link.compliance;
@@ -71,7 +71,7 @@ inline double friction(const State& state, const Body& body) noexcept {
 }
 
 /// The distance that a tie keeps in a substep of h seconds, metres.
-double distance_kept(const Tie& tie, double h) noexcept;
+double enforced_length(const Tie& tie, double h) noexcept;
 
 // Energy in joules, halfway through a substep: Verlet's velocity refers to that time, and a leapfrog step
 // conserves that energy.

@@ -13,16 +13,14 @@ namespace {
 using detail::dot;
 using glm::dvec3;
 
-constexpr double slack = 1e-3;                  ///< metres that a particle may be pulled off its free path
-constexpr double touching = 1e-5;               ///< metres above a surface
-constexpr double depth = 1e-7;                  ///< metres inside that are harmless
-constexpr double penetration_tolerance = 1e-6;  ///< metres inside that require another step
+constexpr double allowed_depth = 1e-7;               ///< metres inside that are harmless
+constexpr double penetration_tolerance = 1e-6;       ///< metres inside that require another step
 constexpr double late_penetration_tolerance = 1e-5;  ///< the same after many steps
-constexpr double far_away = 1e30;                    ///< metres, if not measured
+constexpr double unmeasured = 1e30;                  ///< metres, if not measured
 /// Slip per substep of a particle that friction holds, metres.
-constexpr double creep = 1e-7;
+constexpr double min_slip = 1e-7;
 
-dvec3 beside(const dvec3& v, const dvec3& normal) {
+dvec3 tangential(const dvec3& v, const dvec3& normal) {
     return v - dot(v, normal) * normal;
 }
 
@@ -57,19 +55,19 @@ bool ChainNewton::find(std::uint32_t number) {
     s_.link_colliders.clear();
     if (local_.near.empty()) return false;
     const Plan::Chain& chain = plan_.chains[number];
-    std::uint32_t chunk = island_.chunks.first, sought = chunk + island_.chunks.count;
+    std::uint32_t chunk = island_.chunks.first, searched = chunk + island_.chunks.count;
     std::span<const IslandScratch::Near> near;
     bool link_before = false;
     for (std::uint32_t k = 0; k <= chain.links; ++k) {
         const std::uint32_t i = particle(k);
-        if (sought != chunk || i - plan_.chunks[chunk].first >= plan_.chunks[chunk].count) {
+        if (searched != chunk || i - plan_.chunks[chunk].first >= plan_.chunks[chunk].count) {
             near = near_of(i, chunk);
-            sought = chunk;
+            searched = chunk;
         }
         if (link_before) contact_of(k);  // for the friction of the link
         link_before = false;
         const dvec3 from = state_.position[i], to = scratch_.base[i];
-        const double reach = radius_ + slack + detail::length(to - from);
+        const double reach = radius_ + path_margin + detail::length(to - from);
         local_.done.work += near.size();
         for (const IslandScratch::Near& each : near) {
             if (scratch_.weight[i] == 0.0 || collider(each.collider).far_from(to, reach)) continue;
@@ -83,7 +81,8 @@ bool ChainNewton::find(std::uint32_t number) {
             if (link.rest <= moving.size) continue;
             const std::uint32_t j = particle(k + 1);
             const dvec3 way = scratch_.base[j] - state_.position[j], along = state_.position[j] - from;
-            const double far = radius_ + slack + 0.5 * detail::length(along) + detail::length(way) + reach;
+            const double far =
+                radius_ + path_margin + 0.5 * detail::length(along) + detail::length(way) + reach;
             if (moving.far_from(from + 0.5 * along, far)) continue;
             if (!link_before) {
                 contact_of(k);
@@ -102,8 +101,9 @@ bool ChainNewton::link_touches(const ContactScratch::LinkContact& contact, const
                                bool moved) const {
     for (std::uint32_t c = contact.first; c < contact.first + contact.count; ++c) {
         const Scratch::Moving& moving = collider(s_.link_colliders[c]);
-        const dvec3 from = moved ? a : a + moving.by_at(a), along = (moved ? b : b + moving.by_at(b)) - from;
-        const double near = radius_ + touching;
+        const dvec3 from = moved ? a : a + moving.move_at(a),
+                    along = (moved ? b : b + moving.move_at(b)) - from;
+        const double near = radius_ + touch_distance;
         if (moving.far_from(from + 0.5 * along, near + 0.5 * detail::length(along))) continue;
         local_.done.work += detail::max_line_samples;
         const std::optional<double> at = detail::nearest_between(*moving.shape, from, from + along, near);
@@ -118,8 +118,8 @@ bool ChainNewton::touches() const {
         const dvec3 start = state_.position[i], base = scratch_.base[i];
         for (std::uint32_t p = contact.first; p < contact.first + contact.count; ++p) {
             const Scratch::Moving& moving = collider(s_.planes[p].collider);
-            const dvec3 from = start + moving.by_at(start);
-            const double near = radius_ + touching, far = detail::length(base - from);
+            const dvec3 from = start + moving.move_at(start);
+            const double near = radius_ + touch_distance, far = detail::length(base - from);
             ++local_.done.work;
             const double distance = surface_distance(*moving.shape, base).distance;
             if (distance < near || far > 0.5 * moving.size + radius_) return true;
@@ -136,17 +136,17 @@ bool ChainNewton::touches() const {
 
 bool ChainNewton::inside() const {
     for (const ContactScratch::Contact& contact : s_.contacts) {
-        const dvec3& place = scratch_.place[particle(contact.node)];
+        const dvec3& x = scratch_.x[particle(contact.node)];
         for (std::uint32_t p = contact.first; p < contact.first + contact.count; ++p) {
             const Scratch::Moving& moving = collider(s_.planes[p].collider);
             ++local_.done.work;
-            if (moving.far_from(place, radius_)) continue;
-            if (surface_distance(*moving.shape, place).distance < radius_ - depth) return true;
+            if (moving.far_from(x, radius_)) continue;
+            if (surface_distance(*moving.shape, x).distance < radius_ - allowed_depth) return true;
         }
     }
     for (const ContactScratch::LinkContact& contact : s_.link_contacts) {
         const std::uint32_t i = particle(contact.bond), j = particle(contact.bond + 1);
-        if (link_touches(contact, scratch_.place[i], scratch_.place[j], true)) return true;
+        if (link_touches(contact, scratch_.x[i], scratch_.x[j], true)) return true;
     }
     return false;
 }
@@ -155,20 +155,20 @@ bool ChainNewton::inside() const {
 void ChainNewton::begin_plane(ContactScratch::Contact& contact, ContactScratch::Plane& plane) {
     const std::uint32_t i = particle(contact.node);
     const Scratch::Moving& moving = collider(plane.collider);
-    plane.by = moving.by_at(state_.position[i]);
+    plane.by = moving.move_at(state_.position[i]);
     dvec3 at = state_.position[i] + plane.by;  // relative to the collider
     const dvec3 from = at, way = scratch_.base[i] - from;
     const double far = detail::length(way), step = 0.5 * moving.size + radius_;
     SurfaceDistance surface = surface_distance(*moving.shape, at);
-    plane.active = surface.distance < radius_ + touching;
+    plane.active = surface.distance < radius_ + touch_distance;
     if (far > step && !plane.active && surface.distance < far + radius_) {
         const int samples = static_cast<int>(std::min(64.0, std::ceil(far / std::max(step, 1e-9))));
         local_.done.work += static_cast<std::uint64_t>(samples);
         for (int k = 1; k <= samples && !plane.active; ++k) {
-            const dvec3 on_the_way = from + (static_cast<double>(k) / samples) * way;
-            const SurfaceDistance there = surface_distance(*moving.shape, on_the_way);
+            const dvec3 sample = from + (static_cast<double>(k) / samples) * way;
+            const SurfaceDistance there = surface_distance(*moving.shape, sample);
             if (there.distance >= radius_) continue;
-            at = on_the_way;
+            at = sample;
             surface = there;
             plane.active = true;
         }
@@ -193,7 +193,7 @@ void ChainNewton::measure_planes(const ContactScratch::Contact& contact) {
         ContactScratch::Plane& plane = s_.planes[p];
         const Scratch::Moving& moving = collider(plane.collider);
         ++local_.done.work;
-        plane.gap = far_away;
+        plane.gap = unmeasured;
         if (s_.progress.moved && !plane.active && moving.far_from(node.x, radius_)) continue;
         plane.gap = dot(plane.normal, node.x - plane.point);
         // A particle far behind a plane that it touched has passed through: the surface now nearest is
@@ -213,15 +213,15 @@ void ChainNewton::choose_deepest() {
     ContactScratch::Contact* kept = nullptr;
     double deepest = 0.0;
     for (ContactScratch::Contact& contact : s_.contacts) {
-        contact.waits = false;
-        double gap = -depth;
+        contact.deferred = false;
+        double gap = -allowed_depth;
         for (std::uint32_t p = contact.first; p < contact.first + contact.count; ++p)
             if (!s_.planes[p].active) gap = std::min(gap, s_.planes[p].gap);
-        if (gap == -depth) continue;
+        if (gap == -allowed_depth) continue;
         // In a substep bending reaches as many links as the fourth root of its stiffness.
         const double stiff = s_.bends[contact.node].own / s_.nodes[contact.node].mass;
         if (kept != nullptr && contact.node - kept->node < std::sqrt(std::sqrt(stiff))) {
-            (gap < deepest ? kept : &contact)->waits = true;
+            (gap < deepest ? kept : &contact)->deferred = true;
             if (gap >= deepest) continue;
         }
         kept = &contact;
@@ -231,14 +231,14 @@ void ChainNewton::choose_deepest() {
 
 bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
     const detail::ChainNode& node = s_.nodes[contact.node];
-    detail::NodeContact& hold = s_.holds[static_cast<std::size_t>(node.contact)];
+    detail::NodeContact& effect = s_.node_effects[static_cast<std::size_t>(node.contact)];
     bool changed = false;
-    hold.planes = 0;
+    effect.planes = 0;
     for (std::uint32_t p = contact.first; p < contact.first + contact.count; ++p) {
         ContactScratch::Plane& plane = s_.planes[p];
         const bool was = plane.active;
-        if (plane.gap < -depth) {
-            plane.active = was || !contact.waits;
+        if (plane.gap < -allowed_depth) {
+            plane.active = was || !contact.deferred;
             changed |=
                 plane.gap < (s_.progress.may_release ? -penetration_tolerance : -late_penetration_tolerance);
         } else if (was && s_.progress.may_release) {
@@ -249,13 +249,13 @@ bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
         if (!plane.active) continue;
         // Sorted by depth, deepest first.
         constexpr int most = detail::NodeContact::most;
-        if (hold.planes == most && plane.gap >= hold.gap[most - 1]) continue;
-        int at = std::min(hold.planes, most - 1);
-        for (; at > 0 && hold.gap[at - 1] > plane.gap; --at)
-            hold.normal[at] = hold.normal[at - 1], hold.gap[at] = hold.gap[at - 1];
-        hold.normal[at] = plane.normal;
-        hold.gap[at] = plane.gap;
-        hold.planes = std::min(hold.planes + 1, most);
+        if (effect.planes == most && plane.gap >= effect.gap[most - 1]) continue;
+        int at = std::min(effect.planes, most - 1);
+        for (; at > 0 && effect.gap[at - 1] > plane.gap; --at)
+            effect.normal[at] = effect.normal[at - 1], effect.gap[at] = effect.gap[at - 1];
+        effect.normal[at] = plane.normal;
+        effect.gap[at] = plane.gap;
+        effect.planes = std::min(effect.planes + 1, most);
     }
     apply_friction(contact);
     return changed;
@@ -264,53 +264,55 @@ bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
 /// Friction of a particle.
 void ChainNewton::apply_friction(ContactScratch::Contact& contact) {
     const detail::ChainNode& node = s_.nodes[contact.node];
-    detail::NodeContact& hold = s_.holds[static_cast<std::size_t>(node.contact)];
+    detail::NodeContact& effect = s_.node_effects[static_cast<std::size_t>(node.contact)];
     const double friction = detail::friction(state_, state_.bodies[plan_.chains[chain_].body]);
-    hold.drag = 0.0;
-    if (hold.planes == 0 || friction == 0.0) return;
+    effect.drag = 0.0;
+    if (effect.planes == 0 || friction == 0.0) return;
     dvec3 by(0.0);
     for (std::uint32_t p = contact.first; p < contact.first + contact.count; ++p)
-        if (s_.planes[p].active && s_.planes[p].normal == hold.normal[0]) by = s_.planes[p].by;
+        if (s_.planes[p].active && s_.planes[p].normal == effect.normal[0]) by = s_.planes[p].by;
     dvec3 force = node.force, slip = node.x - state_.position[particle(contact.node)] - by;
     double normal = 0.0;
-    for (int p = 0; p < hold.planes; ++p) {
-        normal += std::max(0.0, -dot(force, hold.normal[p]) - node.mass * hold.gap[p]);
-        force = beside(force, hold.normal[p]);
-        slip = beside(slip, hold.normal[p]);
+    for (int p = 0; p < effect.planes; ++p) {
+        normal += std::max(0.0, -dot(force, effect.normal[p]) - node.mass * effect.gap[p]);
+        force = tangential(force, effect.normal[p]);
+        slip = tangential(slip, effect.normal[p]);
     }
-    double slipped = detail::length(slip);
+    double slip_distance = detail::length(slip);
     if (!s_.progress.moved) {  // its earlier slip, or its free one
         const double before = detail::length(state_.displacement[particle(contact.node)] - by);
         const double alone = detail::length(slip + (1.0 / node.mass) * force) - friction * normal / node.mass;
-        slipped = std::max(before, alone);
+        slip_distance = std::max(before, alone);
     }
-    hold.slip = slip;
-    hold.drag = friction * normal / std::max(slipped, creep);
+    effect.slip = slip;
+    effect.drag = friction * normal / std::max(slip_distance, min_slip);
 }
 
 bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
     const detail::ChainBond& bond = s_.bonds[contact.bond];
-    detail::BondContact& hold = s_.bond_holds[static_cast<std::size_t>(bond.contact)];
+    detail::BondContact& effect = s_.bond_effects[static_cast<std::size_t>(bond.contact)];
     const dvec3 a = s_.nodes[contact.bond].x, b = s_.nodes[contact.bond + 1].x;
-    const bool was = hold.active;
+    const bool was = effect.active;
     if (was) {
         const double thick = 0.5 * collider(contact.collider).size + radius_;
-        hold.gap = dot(hold.normal, a + hold.at * (b - a) - contact.point);
-        if (hold.gap < -thick) return true;  // it has passed through
+        effect.gap = dot(effect.normal, a + effect.at * (b - a) - contact.point);
+        if (effect.gap < -thick) return true;  // it has passed through
     }
-    double deepest = was && (!s_.progress.may_release || hold.multiplier >= 0.0) ? touching : -depth;
+    double deepest =
+        was && (!s_.progress.may_release || effect.multiplier >= 0.0) ? touch_distance : -allowed_depth;
     std::uint32_t touched = ~0u;
-    hold.active = false;
+    effect.active = false;
     for (std::uint32_t c = contact.first; c < contact.first + contact.count; ++c) {
         const Scratch::Moving& moving = collider(s_.link_colliders[c]);
         // The start of the substep as seen by the collider, which has moved since.
-        const dvec3 by_a = s_.progress.moved ? dvec3(0.0) : moving.by_at(a),
-                    by_b = s_.progress.moved ? dvec3(0.0) : moving.by_at(b);
+        const dvec3 by_a = s_.progress.moved ? dvec3(0.0) : moving.move_at(a),
+                    by_b = s_.progress.moved ? dvec3(0.0) : moving.move_at(b);
         const dvec3 from = a + by_a, along = b + by_b - from;
-        if (moving.far_from(from + 0.5 * along, radius_ + touching + 0.5 * detail::length(along))) continue;
+        if (moving.far_from(from + 0.5 * along, radius_ + touch_distance + 0.5 * detail::length(along)))
+            continue;
         local_.done.work += detail::max_line_samples;
         const std::optional<double> at =
-            detail::nearest_between(*moving.shape, from, from + along, radius_ + touching);
+            detail::nearest_between(*moving.shape, from, from + along, radius_ + touch_distance);
         if (!at) continue;
         const dvec3 nearest = from + *at * along;
         const SurfaceDistance surface = surface_distance(*moving.shape, nearest);
@@ -319,52 +321,54 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
         if ((s_.progress.moved ? gap : std::min(gap, distance)) >= deepest) continue;
         deepest = gap;
         touched = s_.link_colliders[c];
-        hold.active = true;
-        hold.normal = surface.normal;
-        hold.at = *at;
-        hold.gap = gap;
+        effect.active = true;
+        effect.normal = surface.normal;
+        effect.at = *at;
+        effect.gap = gap;
         contact.point = nearest - distance * surface.normal;
     }
-    if (!hold.active) {
-        hold.multiplier = 0.0;
+    if (!effect.active) {
+        effect.multiplier = 0.0;
     } else if (touched != contact.collider) {
         // A rough estimate of the force that it has to bear.
         const dvec3 force = s_.nodes[contact.bond].force + s_.nodes[contact.bond + 1].force;
-        hold.multiplier = s_.progress.moved ? 0.0 : std::max(0.0, -dot(force, hold.normal));
+        effect.multiplier = s_.progress.moved ? 0.0 : std::max(0.0, -dot(force, effect.normal));
     }
-    const bool changed = (s_.progress.may_release && (hold.active != was || touched != contact.collider)) ||
-                         (hold.active && hold.gap < (s_.progress.may_release ? -penetration_tolerance
-                                                                             : -late_penetration_tolerance));
+    const bool changed =
+        (s_.progress.may_release && (effect.active != was || touched != contact.collider)) ||
+        (effect.active &&
+         effect.gap < (s_.progress.may_release ? -penetration_tolerance : -late_penetration_tolerance));
     contact.collider = touched;
-    if (hold.active) apply_link_friction(contact);
+    if (effect.active) apply_link_friction(contact);
     return changed;
 }
 
 /// Friction of a link: its ends share the drag.
 void ChainNewton::apply_link_friction(const ContactScratch::LinkContact& contact) {
-    const detail::BondContact& hold = s_.bond_holds[static_cast<std::size_t>(s_.bonds[contact.bond].contact)];
+    const detail::BondContact& effect =
+        s_.bond_effects[static_cast<std::size_t>(s_.bonds[contact.bond].contact)];
     const double friction = detail::friction(state_, state_.bodies[plan_.chains[chain_].body]);
-    const double normal = std::max(0.0, hold.multiplier);
+    const double normal = std::max(0.0, effect.multiplier);
     if (friction == 0.0 || normal == 0.0) return;
     const detail::ChainNode &a = s_.nodes[contact.bond], &b = s_.nodes[contact.bond + 1];
     const auto slip_of = [&](std::uint32_t node) {
         const dvec3 start = state_.position[particle(node)];
-        const dvec3 by = collider(contact.collider).by_at(s_.nodes[node].x);
-        return beside(s_.nodes[node].x - start - by, hold.normal);
+        const dvec3 by = collider(contact.collider).move_at(s_.nodes[node].x);
+        return tangential(s_.nodes[node].x - start - by, effect.normal);
     };
     const dvec3 slip_a = slip_of(contact.bond), slip_b = slip_of(contact.bond + 1);
-    const double t = hold.at;
-    double slipped = detail::length((1.0 - t) * slip_a + t * slip_b);
+    const double t = effect.at;
+    double slip_distance = detail::length((1.0 - t) * slip_a + t * slip_b);
     if (!s_.progress.moved) {
         const dvec3 before = (1.0 - t) * state_.displacement[particle(contact.bond)] +
                              t * state_.displacement[particle(contact.bond + 1)];
         const Scratch::Moving& moving = collider(contact.collider);
-        const dvec3 by = moving.spins ? moving.by_at((1.0 - t) * a.x + t * b.x) : moving.by;
-        slipped = detail::length(beside(before - by, hold.normal));
+        const dvec3 by = moving.spins ? moving.move_at((1.0 - t) * a.x + t * b.x) : moving.by;
+        slip_distance = detail::length(tangential(before - by, effect.normal));
     }
-    const double drag = friction * normal / std::max(slipped, creep);
+    const double drag = friction * normal / std::max(slip_distance, min_slip);
     const auto share = [&](const detail::ChainNode& node, double part, const dvec3& slip) {
-        detail::NodeContact& end = s_.holds[static_cast<std::size_t>(node.contact)];
+        detail::NodeContact& end = s_.node_effects[static_cast<std::size_t>(node.contact)];
         if (end.planes > 0) return;  // it has its own friction
         end.drag = part * drag;
         end.slip = slip;

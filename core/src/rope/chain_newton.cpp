@@ -15,19 +15,19 @@ namespace {
 using glm::dvec3;
 
 constexpr int max_steps = 16;
-constexpr int few_steps = 4;      ///< after these a larger error is accepted
+constexpr int strict_steps = 4;   ///< after these a larger error is accepted
 constexpr int release_steps = 8;  ///< in these contacts may be dropped
 constexpr int max_rejected = 3;   ///< consecutive steps that may be repeated
 /// Minimum link compliance over h^2, relative to the inverse mass of its ends. A link that cannot reach its
 /// length stretches just enough to keep its tension finite. A metre of rope, 64 segments, carrying a hundred
 /// times its weight stretches by a millionth.
 constexpr double min_compliance = 1e-8;
-constexpr double accepted = 1e-5;  ///< relative length error
-/// Number of times that steps may diverge before links keep their resistance to turning: a fold that
-/// runs along a rope would otherwise make them diverge again and again, to the end.
-constexpr int max_relapses = 2;
-constexpr double first_stiffer = 10.0;
-constexpr double grown_too_far = 0.25, turned_too_far = 0.5;
+constexpr double max_length_error = 1e-5;  ///< relative length error
+/// After this many divergences links keep their extra stiffness: a fold running along a rope would repeat
+/// them.
+constexpr int max_divergences = 2;
+constexpr double first_extra_stiffness = 10.0;
+constexpr double max_growth = 0.25, max_turn = 0.5;
 
 }  // namespace
 
@@ -41,7 +41,7 @@ void ChainNewton::begin() {
     const double h = state_.settings.substep, square = h * h;
     s_.nodes.resize(chain.links + 1);
     s_.bonds.resize(chain.links);
-    s_.kept.resize(chain.links + 1);
+    s_.saved.resize(chain.links + 1);
     for (std::uint32_t k = 0; k <= chain.links; ++k) {
         const std::uint32_t i = particle(k);
         detail::ChainNode& node = s_.nodes[k];
@@ -60,14 +60,14 @@ void ChainNewton::begin() {
         bond.multiplier = std::max(0.0, static_cast<double>(link.tension) * square);
         bond.contact = -1;
     }
-    s_.holds.assign(s_.contacts.size(), {});
+    s_.node_effects.assign(s_.contacts.size(), {});
     for (std::size_t c = 0; c < s_.contacts.size(); ++c) {
         ContactScratch::Contact& contact = s_.contacts[c];
         s_.nodes[contact.node].contact = static_cast<std::int32_t>(c);
         for (std::uint32_t p = 0; p < contact.count; ++p) begin_plane(contact, s_.planes[contact.first + p]);
     }
-    s_.bond_holds.assign(s_.link_contacts.size(), {});
-    s_.kept_contacts.assign(s_.link_contacts.size(), 0.0);
+    s_.bond_effects.assign(s_.link_contacts.size(), {});
+    s_.saved_contacts.assign(s_.link_contacts.size(), 0.0);
     for (std::size_t c = 0; c < s_.link_contacts.size(); ++c) {
         s_.bonds[s_.link_contacts[c].bond].contact = static_cast<std::int32_t>(c);
         s_.link_contacts[c].collider = ~0u;
@@ -77,7 +77,7 @@ void ChainNewton::begin() {
     s_.progress = {};
     detail::ChainSystem system = this->system();
     system.evaluate(0.0);
-    s_.progress.worst = system.largest_error();
+    s_.progress.worst = system.max_error();
 }
 
 void ChainNewton::begin_bends() {
@@ -109,42 +109,45 @@ void ChainNewton::begin_bends() {
         s_.bends[k].direction = detail::unit(earlier(k + 1) - earlier(k));
 }
 
-void ChainNewton::keep() {
+void ChainNewton::save_state() {
     for (std::size_t k = 0; k < s_.nodes.size(); ++k) {
-        s_.kept[k].x = s_.nodes[k].x;
+        s_.saved[k].x = s_.nodes[k].x;
         if (k == s_.bonds.size()) break;
-        s_.kept[k].multiplier = s_.bonds[k].multiplier;
-        s_.kept[k].error = s_.bonds[k].error;
+        s_.saved[k].multiplier = s_.bonds[k].multiplier;
+        s_.saved[k].error = s_.bonds[k].error;
     }
-    for (std::size_t c = 0; c < s_.bond_holds.size(); ++c) s_.kept_contacts[c] = s_.bond_holds[c].multiplier;
+    for (std::size_t c = 0; c < s_.bond_effects.size(); ++c)
+        s_.saved_contacts[c] = s_.bond_effects[c].multiplier;
 }
 
 /// Reduces the last step to a part.
-void ChainNewton::go_back(double part) {
+void ChainNewton::scale_step(double part) {
     // NaN must not survive: part 0 assigns.
-    const auto back = [&](auto& to, const auto& from) { to = part > 0.0 ? from + part * (to - from) : from; };
+    const auto scale = [&](auto& to, const auto& from) {
+        to = part > 0.0 ? from + part * (to - from) : from;
+    };
     for (std::size_t k = 0; k < s_.nodes.size(); ++k) {
-        back(s_.nodes[k].x, s_.kept[k].x);
-        if (k < s_.bonds.size()) back(s_.bonds[k].multiplier, s_.kept[k].multiplier);
+        scale(s_.nodes[k].x, s_.saved[k].x);
+        if (k < s_.bonds.size()) scale(s_.bonds[k].multiplier, s_.saved[k].multiplier);
     }
-    for (std::size_t c = 0; c < s_.bond_holds.size(); ++c)
-        back(s_.bond_holds[c].multiplier, s_.kept_contacts[c]);
+    for (std::size_t c = 0; c < s_.bond_effects.size(); ++c)
+        scale(s_.bond_effects[c].multiplier, s_.saved_contacts[c]);
 }
 
-/// Whether a link has grown or shrunk too much. `turned`: the largest change of a link's direction, relative
+/// Whether a link has grown or shrunk too much. `turn`: the largest change of a link's direction, relative
 /// to its length.
-bool ChainNewton::went_too_far(double& turned) const {
-    bool diverged = false, numbers = true;
-    turned = 0.0;
+bool ChainNewton::has_diverged(double& turn) const {
+    bool diverged = false, finite = true;
+    turn = 0.0;
     for (std::size_t k = 0; k < s_.bonds.size(); ++k) {
         const double rest = s_.bonds[k].rest;
-        numbers &= std::isfinite(s_.bonds[k].error);
-        diverged |= !(std::abs(s_.bonds[k].error) <= grown_too_far * rest + std::abs(s_.kept[k].error));
-        const dvec3 before = s_.kept[k + 1].x - s_.kept[k].x, now = s_.nodes[k + 1].x - s_.nodes[k].x;
+        finite &= std::isfinite(s_.bonds[k].error);
+        diverged |= !(std::abs(s_.bonds[k].error) <= max_growth * rest + std::abs(s_.saved[k].error));
+        const dvec3 before = s_.saved[k + 1].x - s_.saved[k].x, now = s_.nodes[k + 1].x - s_.nodes[k].x;
         const double squared = std::max({rest * rest, detail::dot(before, before), 1e-18});
-        turned = std::max(turned, detail::dot(now - before, now - before) / squared);
+        turn = std::max(turn, detail::dot(now - before, now - before) / squared);
     }
-    turned = numbers ? std::sqrt(turned) : std::numeric_limits<double>::infinity();
+    turn = finite ? std::sqrt(turn) : std::numeric_limits<double>::infinity();
     return diverged;
 }
 
@@ -155,46 +158,47 @@ void ChainNewton::solve() {
     finish();
 }
 
-bool ChainNewton::step(bool presses, bool more) {
+bool ChainNewton::step(bool pushes_changed, bool force_step) {
     detail::ChainSystem system = this->system();
     auto& p = s_.progress;
     const int steps = std::min(max_steps, state_.settings.iterations);
-    if (presses) system.evaluate(p.stiffer);
-    p.may_release = p.taken <= release_steps;
+    if (pushes_changed) system.evaluate(p.extra_stiffness);
+    p.may_release = p.steps_taken <= release_steps;
     const bool changed = update_contacts();
-    const double enough = p.taken <= few_steps ? accepted
-                          : p.may_release      ? 10.0 * accepted
-                                               : 100.0 * accepted;
-    const bool done =
-        p.moved && !changed && p.worst <= enough && (p.used == 0.0 || p.relapses == max_relapses);
-    if ((done && !more) || p.taken == steps) return false;
-    if (++p.taken == few_steps)  // too fast for the mean of directions: the latest alone converges
+    const double tolerance = p.steps_taken <= strict_steps ? max_length_error
+                             : p.may_release               ? 10.0 * max_length_error
+                                                           : 100.0 * max_length_error;
+    const bool done = p.moved && !changed && p.worst <= tolerance &&
+                      (p.used_stiffness == 0.0 || p.divergences == max_divergences);
+    if ((done && !force_step) || p.steps_taken == steps) return false;
+    if (++p.steps_taken == strict_steps)  // too fast for the mean of directions: the latest alone converges
         for (detail::ChainBend& bend : s_.bends) bend.direction = dvec3(0.0);
-    keep();
+    save_state();
     system.step();
     local_.done.work += s_.bonds.size();
-    system.evaluate(p.stiffer);
-    const bool diverged = went_too_far(p.turned);
+    system.evaluate(p.extra_stiffness);
+    const bool diverged = has_diverged(p.turn);
     if (diverged && p.rejected < max_rejected) {
-        if (p.rejected == 0) p.relapses = std::min(p.relapses + 1, max_relapses);
+        if (p.rejected == 0) p.divergences = std::min(p.divergences + 1, max_divergences);
         ++p.rejected;
-        p.stiffer = std::max(first_stiffer, 100.0 * p.stiffer);
-        go_back(0.0);
-        system.evaluate(p.stiffer);
+        p.extra_stiffness = std::max(first_extra_stiffness, 100.0 * p.extra_stiffness);
+        scale_step(0.0);
+        system.evaluate(p.extra_stiffness);
         return true;
     }
     p.rejected = 0;
-    if (diverged && p.turned > turned_too_far) {
-        go_back(turned_too_far / p.turned);
-        system.evaluate(p.stiffer);
+    if (diverged && p.turn > max_turn) {
+        scale_step(max_turn / p.turn);
+        system.evaluate(p.extra_stiffness);
     }
     p.moved = true;
-    p.used = p.stiffer;
-    const double before = std::exchange(p.worst, system.largest_error());
-    if (p.relapses < max_relapses)
-        p.stiffer = p.stiffer > first_stiffer ? 0.1 * p.stiffer : 0.0;
+    p.used_stiffness = p.extra_stiffness;
+    const double before = std::exchange(p.worst, system.max_error());
+    if (p.divergences < max_divergences)
+        p.extra_stiffness = p.extra_stiffness > first_extra_stiffness ? 0.1 * p.extra_stiffness : 0.0;
     else
-        p.stiffer = std::max(p.worst > 0.5 * before ? 10.0 * p.stiffer : p.stiffer, first_stiffer);
+        p.extra_stiffness = std::max(p.worst > 0.5 * before ? 10.0 * p.extra_stiffness : p.extra_stiffness,
+                                     first_extra_stiffness);
     return true;
 }
 
@@ -202,14 +206,14 @@ void ChainNewton::finish() {
     const Plan::Chain& chain = plan_.chains[chain_];
     for (std::uint32_t k = 0; k <= chain.links; ++k) {
         const std::uint32_t i = particle(k);
-        if (scratch_.weight[i] > 0.0) scratch_.place[i] = s_.nodes[k].x;
+        if (scratch_.weight[i] > 0.0) scratch_.x[i] = s_.nodes[k].x;
         if (k < chain.links) scratch_.multiplier[chain.first_link + k] = s_.bonds[k].multiplier;
     }
     const auto& p = s_.progress;
     scratch_.chain_error[chain_] = p.worst;
-    local_.done.passes = std::max(local_.done.passes, p.taken);
-    const bool spent = p.taken == std::min(max_steps, state_.settings.iterations);
-    if (spent && !(p.worst <= 100.0 * accepted)) ++local_.done.unconverged;
+    local_.done.passes = std::max(local_.done.passes, p.steps_taken);
+    const bool exhausted = p.steps_taken == std::min(max_steps, state_.settings.iterations);
+    if (exhausted && !(p.worst <= 100.0 * max_length_error)) ++local_.done.unconverged;
 }
 
 }  // namespace tendril::rope

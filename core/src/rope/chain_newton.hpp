@@ -6,9 +6,8 @@
 // on slip: the normal force times the coefficient over the slip distance, both from the last step, which
 // converges in a few steps (iteratively reweighted least squares). Contacts that stick creep invisibly.
 //
-// A step that lengthens a link too much, or turns it too far for its linearisation, is repeated with links
-// that resist turning (K. Levenberg, 1944), and finally taken only in part. If that helps only for a while,
-// links keep this resistance until lengths hold.
+// A step that lengthens a link too much, or turns it too far for its linearisation, is repeated with extra
+// sideways stiffness (K. Levenberg, 1944), and finally cut. If it keeps diverging, the stiffness stays.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +21,7 @@ class ChainNewton {
     ChainNewton(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
                 IslandScratch& local)
         : ChainNewton(state, plan, island, scratch, local, local.contact) {}
-    /// With memory of its own, so that several chains can be solved in turns.
+    /// With its own scratch, so that several chains can be solved in turns.
     ChainNewton(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
                 IslandScratch& local, ContactScratch& own)
         : state_(state), plan_(plan), island_(island), scratch_(scratch), local_(local), s_(own) {}
@@ -40,8 +39,9 @@ class ChainNewton {
     // The same in parts. Between steps the caller sets the pushes of other chains on nodes.
     void open(std::uint32_t chain);  ///< a chain that was found earlier
     void begin();
-    /// `presses`: pushes have changed since the last step. `more`: forces a step. False if none was taken.
-    bool step(bool presses, bool more);
+    /// `pushes_changed`: pushes have changed since the last step. `force_step`: forces a step. False if none
+    /// was taken.
+    bool step(bool pushes_changed, bool force_step);
     void finish();
 
   private:
@@ -61,11 +61,11 @@ class ChainNewton {
     bool update_link(ContactScratch::LinkContact& contact);
     void apply_link_friction(const ContactScratch::LinkContact& contact);
     void begin_bends();
-    void keep();
-    void go_back(double part);
-    bool went_too_far(double& turned) const;
+    void save_state();
+    void scale_step(double part);
+    bool has_diverged(double& turn) const;
     detail::ChainSystem system() const {
-        return {s_.nodes, s_.bonds, s_.holds, s_.bond_holds, s_.pushes, s_.bends};
+        return {s_.nodes, s_.bonds, s_.node_effects, s_.bond_effects, s_.pushes, s_.bends};
     }
 
     const State& state_;

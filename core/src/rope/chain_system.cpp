@@ -7,10 +7,10 @@
 namespace tendril::rope::detail {
 namespace {
 
-constexpr double softness = 1e-8;       ///< of contacts with links, relative to the inverse mass
-constexpr double max_stiffness = 1e9;   ///< relative to the mass
-constexpr double max_multiplier = 1e9;  ///< relative to mass and rest
-constexpr double enough_freedom = 0.05;
+constexpr double contact_compliance = 1e-8;  ///< of contacts with links, relative to the inverse mass
+constexpr double max_stiffness = 1e9;        ///< relative to the mass
+constexpr double max_multiplier = 1e9;       ///< relative to mass and rest
+constexpr double min_freedom = 0.05;
 
 /// Terms that eliminated nodes pass on to the next node.
 struct Sweep {
@@ -51,16 +51,16 @@ Symmetric3 inverse_of(const Symmetric3& m) noexcept {
             by * (m.xx * m.yy - m.xy * m.xy)};
 }
 
-/// Removes a node's freedom to move along the normals of its planes. Of two nearly parallel planes the second
-/// is skipped if the first left too little freedom: it would fling the node far sideways.
-void hold(ChainNode& node, const NodeContact& contact) noexcept {
+/// Removes a node's freedom to move along the normals of its planes. Skips a plane nearly parallel to an
+/// earlier one, as it would fling the node far sideways.
+void constrain(ChainNode& node, const NodeContact& contact) noexcept {
     const Symmetric3 free = node.mobility;
     for (int p = 0; p < contact.planes; ++p) {
         const dvec3& normal = contact.normal[p];
         const dvec3 moved = node.mobility * normal;
         const double freedom = dot(moved, normal);
         if (!(freedom > 1e-14 / node.mass)) continue;
-        if (p > 0 && freedom < enough_freedom * dot(free * normal, normal)) continue;
+        if (p > 0 && freedom < min_freedom * dot(free * normal, normal)) continue;
         const double inverse = 1.0 / freedom;
         node.offset -= (inverse * (contact.gap[p] + dot(normal, node.offset))) * moved;
         node.mobility.add(-inverse, moved, moved);
@@ -88,7 +88,7 @@ inline void solve_node(ChainNode& node, const Sweep& before, double stiffness,
     }
     node.mobility = inverse_of(matrix);
     node.offset = node.mobility * right;
-    if (contact != nullptr) hold(node, *contact);
+    if (contact != nullptr) constrain(node, *contact);
 }
 
 /// Eliminates a solved node and the bond that leads from it in the direction `along`.
@@ -160,7 +160,7 @@ void couple(const ChainNode& node, ChainBond& bond, const dvec3& along, double w
     }
     contact.right = contact.gap + dot(push, node.offset);
     contact.coupled = -dot(along, moved);
-    const double own = dot(push, moved) + softness * weights;
+    const double own = dot(push, moved) + contact_compliance * weights;
     const double pivot = bond.inverse > 0.0 ? 1.0 / bond.inverse : 0.0;
     const double determinant = pivot * own - contact.coupled * contact.coupled;
     if (!(determinant > 1e-14 * pivot * own)) {
@@ -189,7 +189,7 @@ void couple(const ChainNode& node, ChainBond& bond, const dvec3& along, double w
 
 }  // namespace
 
-void ChainSystem::evaluate(double stiffer) noexcept {
+void ChainSystem::evaluate(double extra_stiffness) noexcept {
     dvec3 pull_before(0.0);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
         ChainNode& node = nodes[k];
@@ -203,7 +203,8 @@ void ChainSystem::evaluate(double stiffer) noexcept {
             bond.error = is - bond.rest - bond.compliance * bond.multiplier;
             bond.stiffness = tension / std::max(bond.rest + bond.compliance * tension, 1e-9);
             if (!bends.empty() && dot(bends[k].direction, bond.along) > 0.0) bond.stiffness *= tension_ahead;
-            bond.stiffness = std::min(bond.stiffness + stiffer * node.mass, max_stiffness * node.mass);
+            bond.stiffness =
+                std::min(bond.stiffness + extra_stiffness * node.mass, max_stiffness * node.mass);
             bond.stiffness_left = std::max(1.0 - bond.compliance * bond.stiffness, 1e-9);
             pull = bond.multiplier * bond.along;
             if (!bends.empty() && dot(bends[k].direction, bond.along) > 0.0)
@@ -234,7 +235,7 @@ void ChainSystem::evaluate(double stiffer) noexcept {
     }
 }
 
-double ChainSystem::largest_error() const noexcept {
+double ChainSystem::max_error() const noexcept {
     double worst = 0.0;
     for (const ChainBond& bond : bonds)
         worst = std::max(worst, std::abs(bond.error) / std::max(bond.rest, 1e-9));
@@ -327,9 +328,9 @@ void ChainSystem::solve() noexcept {
             double other = dot(contact->row, next_by) + contact->right;
             if constexpr (bent) other += dot(bends[k].contact_row, second_by);
             change += other * contact->coupled;
-            const double pressed = right_here * contact->coupled + other * contact->inverse;
-            contact->multiplier -= pressed;
-            push -= (pressed * (forward ? 1.0 - contact->at : contact->at)) * contact->normal;
+            const double contact_change = right_here * contact->coupled + other * contact->inverse;
+            contact->multiplier -= contact_change;
+            push -= (contact_change * (forward ? 1.0 - contact->at : contact->at)) * contact->normal;
         }
         const dvec3 by = here.offset + here.mobility * (change * along + push);
         // The stiffness acted along the link too; that part is tension.

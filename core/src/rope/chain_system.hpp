@@ -123,9 +123,8 @@ struct BondContact {
     double right = 0.0, inverse = 0.0, coupled = 0.0;
 };
 
-/// How a chain resists bending at a node: by a moment, stiffness times the curvature before (x_{j-1} - x_j) +
-/// after (x_{j+1} - x_j). Its forces are linear in positions (M. Bergou et al., "A Quadratic Bending Model
-/// for Inextensible Surfaces", 2006).
+/// Bending at a node: a moment of stiffness times the curvature before (x_{j-1} - x_j) + after (x_{j+1} -
+/// x_j), linear in positions (M. Bergou et al., "A Quadratic Bending Model for Inextensible Surfaces", 2006).
 struct ChainBend {
     double stiffness = 0.0;            ///< N m^2 over the mean length of its links, times h^2; 0 at the ends
     double before = 0.0, after = 0.0;  ///< over the length of each link, 1/m
@@ -142,8 +141,8 @@ struct ChainBend {
         return before * (previous - x) + after * (next - x);
     }
 };
-/// Curvatures and directions of tension are taken by this part at the end of a substep, the rest one substep
-/// before the last. At 0.5 no energy would be lost, and a stiff rope would ring for ever.
+/// Weight of the end of the substep in curvature and in the direction of tension; the rest is taken one
+/// substep before the last. At 0.5 no energy would be lost, and a stiff rope would ring for ever.
 inline constexpr double bend_ahead = 0.6, tension_ahead = 0.51;
 
 struct ChainSystem {
@@ -154,12 +153,12 @@ struct ChainSystem {
     std::span<const NodePush> pushes;
     std::span<ChainBend> bends;  ///< by node; empty: nothing resists bending
 
-    /// Computes directions, errors and forces from the positions of nodes. `stiffer`: sideways stiffness in
-    /// addition to the tension's, relative to a node's mass, so that a step turns links less.
-    void evaluate(double stiffer) noexcept;
+    /// Computes directions, errors and forces from the positions of nodes. `extra_stiffness`: sideways
+    /// stiffness in addition to the tension's, relative to a node's mass, so that a step turns links less.
+    void evaluate(double extra_stiffness) noexcept;
     /// Moves nodes and changes multipliers by one step, after evaluate().
     void step() noexcept;
-    double largest_error() const noexcept;  ///< length error of a link, relative to its rest length
+    double max_error() const noexcept;  ///< length error of a link, relative to its rest length
 
   private:
     template <bool bent>

@@ -13,7 +13,7 @@ using glm::dvec3;
 
 /// Stiffness of a contact within the cloth, in m / h^2: it carries a hundred times the weight of a particle
 /// with a gap of a few micrometres.
-constexpr double press_stiffness = 300.0;
+constexpr double self_contact_stiffness = 300.0;
 
 /// along n n^T + across (I - n n^T), in the order of GridBlocks.
 std::array<double, 6> block(const dvec3& n, double along, double across) {
@@ -57,38 +57,38 @@ void ClothSolver::add_contact(const ClothContact& contact) {
     add(level_.links[link.step], link.cell, -to_a * to_b, stiff);
 }
 
-void ClothSolver::find_presses() {
-    local_.presses.clear();
+void ClothSolver::find_self_contacts() {
+    local_.self_contacts.clear();
     if (island_.contacts == 0) return;
     const Body& body = state_.bodies[grid_.body];
-    BodyContacts(*this).find_presses(body, press_stiffness * mass_, local_.presses);
+    BodyContacts(*this).find_self_contacts(body, self_contact_stiffness * mass_, local_.self_contacts);
 }
 
-void ClothSolver::add_presses() {
-    std::vector<detail::GridPress>& to = cloth_.system.presses();
+void ClothSolver::add_self_contacts() {
+    std::vector<detail::GridCoupling>& to = cloth_.system.couplings();
     to.clear();
     const double unit = 1.0 / mass_;
-    for (const ClothPress& each : local_.presses) {
-        detail::GridPress press{.along = static_cast<float>(unit * each.along),
-                                .across = static_cast<float>(unit * each.across)};
+    for (const ClothSelfContact& each : local_.self_contacts) {
+        detail::GridCoupling coupling{.along = static_cast<float>(unit * each.along),
+                                      .across = static_cast<float>(unit * each.across)};
         const dvec3 force = -unit * (each.along * each.gap * each.normal + each.across * each.slip);
         for (std::size_t k = 0; k < 4; ++k) {
             const std::size_t cell = cell_of(each.points[k]);
-            press.cells[k] = static_cast<std::uint32_t>(cell);
-            press.shares[k] = level_.free[cell] * static_cast<float>(each.shares[k]);
-            add(level_.right, cell, each.shares[k] * force);
+            coupling.cells[k] = static_cast<std::uint32_t>(cell);
+            coupling.weights[k] = level_.free[cell] * static_cast<float>(each.weights[k]);
+            add(level_.right, cell, each.weights[k] * force);
         }
         for (std::size_t c = 0; c < 3; ++c)
-            press.normal[c] = static_cast<float>(each.normal[static_cast<int>(c)]);
-        to.push_back(press);
+            coupling.normal[c] = static_cast<float>(each.normal[static_cast<int>(c)]);
+        to.push_back(coupling);
     }
 }
 
-double ClothSolver::potential_of_presses() const {
+double ClothSolver::self_contact_potential() const {
     double sum = 0.0;
-    for (const ClothPress& each : local_.presses) {
+    for (const ClothSelfContact& each : local_.self_contacts) {
         dvec3 by = -each.at;
-        for (std::size_t k = 0; k < 4; ++k) by += each.shares[k] * scratch_.place[each.points[k]];
+        for (std::size_t k = 0; k < 4; ++k) by += each.weights[k] * scratch_.x[each.points[k]];
         const double along = detail::dot(by, each.normal), gap = each.gap + along;
         const dvec3 slip = each.slip + by - along * each.normal;
         sum += each.along * gap * gap + each.across * detail::dot(slip, slip);
@@ -97,9 +97,9 @@ double ClothSolver::potential_of_presses() const {
 }
 
 /// Stores the force of each contact after a solve.
-void ClothSolver::note_forces() {
+void ClothSolver::store_forces() {
     for (ClothContact& each : local_.cloth_contacts) {
-        const dvec3 moved = between(each, scratch_.place) - each.at;
+        const dvec3 moved = contact_point(each, scratch_.x) - each.at;
         each.force = -stiffness_ * (each.gap + detail::dot(each.normal, moved));
     }
 }

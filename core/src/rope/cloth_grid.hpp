@@ -28,7 +28,7 @@ inline constexpr std::size_t stretch_steps = 2;
 struct ClothArrays {
     std::array<float*, fine_steps> rest{}, stiffness{};  ///< per link, by the cell it begins in; 0: no link
     std::array<float*, fine_steps> pull{};               ///< force over length
-    GridVector place{};                                  ///< relative to any particle of the cloth, metres
+    GridVector position{};                               ///< relative to any particle of the cloth, metres
     GridVector lag{};                                    ///< x0 - x
     float* mass = nullptr;
 };

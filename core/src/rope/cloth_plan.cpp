@@ -10,7 +10,7 @@ namespace {
 
 /// Finds the cell and the step of a link in a grid; false if it is not a grid link.
 bool place_in_grid(const Body& body, const Link& link, std::size_t stride, Plan::GridLink& in_grid) {
-    const LinkWay way = way_of(body, link);
+    const LinkStep way = link_step(body, link);
     for (std::size_t s = 0; s < grid_steps.size(); ++s) {
         if (grid_steps[s].column != way.columns || grid_steps[s].row != way.rows) continue;
         in_grid.cell = static_cast<std::uint32_t>(way.row * stride + way.column);
@@ -59,7 +59,7 @@ bool fill_grid(const State& state, const Plan::Island& island, std::uint32_t num
 
 /// The cost of grids' ties grows with the cube of their number, the cost of elimination with the cube of a
 /// cloth's side. From this many ties per side on, elimination costs less.
-constexpr std::size_t max_ties_a_side = 4;
+constexpr std::size_t max_ties_per_side = 4;
 
 /// Adds the grids of tied bodies, unless there are so many ties that elimination costs less.
 void fill_tied_grids(const State& state, Plan::Island& island, Plan& plan) {
@@ -79,7 +79,7 @@ void fill_tied_grids(const State& state, Plan::Island& island, Plan& plan) {
             for (const std::uint32_t end : {state.ties[i].a, state.ties[i].b})
                 ties += end - body.first < body.count ? 1 : 0;
     }
-    if (ties * ties <= max_ties_a_side * max_ties_a_side * cells) return;
+    if (ties * ties <= max_ties_per_side * max_ties_per_side * cells) return;
     for (const Plan::Grid& grid : Plan::part(plan.grids, grids)) plan.grid_of[grid.body] = 0;
     plan.grids.resize(grids.first);
     plan.grid_links.resize(links);
@@ -94,7 +94,7 @@ void find_grids(const State& state, Plan& plan) {
     plan.each_part([&](Plan::Island& island) {
         if (island.ties.count > 0) return fill_tied_grids(state, island, plan);
         const std::uint32_t body = Plan::part(plan.bodies, island.bodies).front();
-        if (!island.alone && island.bodies.count == 1) fill_grid(state, island, body, plan);
+        if (!island.isolated && island.bodies.count == 1) fill_grid(state, island, body, plan);
         island.grid = plan.grid_of[body];
     });
 }

@@ -24,11 +24,11 @@ constexpr double accepted_strain = 0.007;
 constexpr double accepted_depth = 0.01;  ///< relative to the shortest stretch link
 /// The residual at which a step is solved: relative to its initial value; in later steps, to the forces on
 /// free particles, but less than strains a single link.
-constexpr double usual_residual = 0.1, driven_residual = 0.1;
+constexpr double relative_residual = 0.1, force_residual = 0.1;
 constexpr double residual_strain = 1e-3;
-constexpr double far_driven = 0.05;  ///< displacement by forces in a substep, relative to a link
+constexpr double max_predicted_move = 0.05;  ///< displacement by forces in a substep, relative to a link
 constexpr int max_halvings = 6;
-constexpr std::size_t links_summed = 4096;  ///< by a thread at a time
+constexpr std::size_t links_per_sum = 4096;  ///< by a thread at a time
 
 }  // namespace
 
@@ -38,7 +38,7 @@ void detail::Cloth::resize(std::size_t columns, std::size_t rows) {
     auto next = all.begin();
     for (auto* links : {&arrays.rest, &arrays.stiffness, &arrays.pull})
         for (float*& each : *links) each = *next++;
-    for (GridVector* vector : {&arrays.place, &arrays.lag})
+    for (GridVector* vector : {&arrays.position, &arrays.lag})
         for (float*& each : *vector) each = *next++;
     arrays.mass = *next;
     parts.resize((system.finest().cells() + dot_cells - 1) / dot_cells);
@@ -91,11 +91,11 @@ void ClothSolver::each_cell(Visit visit) const {
 template <class Visit>
 double ClothSolver::sum_of_links(Visit visit) const {
     std::vector<double>& sums = cloth_.sums;
-    sums.assign((grid_.links.count + links_summed - 1) / links_summed, 0.0);
+    sums.assign((grid_.links.count + links_per_sum - 1) / links_per_sum, 0.0);
     in_parts(sums.size(), 1, [&](detail::GridRange parts) {
         for (std::size_t part = parts.first; part < parts.end; ++part) {
-            const std::size_t first = part * links_summed;
-            const std::size_t end = std::min<std::size_t>(first + links_summed, grid_.links.count);
+            const std::size_t first = part * links_per_sum;
+            const std::size_t end = std::min<std::size_t>(first + links_per_sum, grid_.links.count);
             for (std::size_t i = first; i < end; ++i) sums[part] += visit(i);
         }
     });
@@ -136,12 +136,12 @@ void ClothSolver::load() {
 /// inertia and links, over the mean mass and times h^2.
 void ClothSolver::evaluate() {
     detail::ClothArrays& to = cloth_.arrays;
-    const dvec3 origin = scratch_.place[first_];
+    const dvec3 origin = scratch_.x[first_];
     each_cell([&](std::size_t i, std::size_t cell) {
-        const dvec3 place = scratch_.place[i] - origin, lag = scratch_.base[i] - scratch_.place[i];
-        to.place[0][cell] = static_cast<float>(place.x), to.lag[0][cell] = static_cast<float>(lag.x);
-        to.place[1][cell] = static_cast<float>(place.y), to.lag[1][cell] = static_cast<float>(lag.y);
-        to.place[2][cell] = static_cast<float>(place.z), to.lag[2][cell] = static_cast<float>(lag.z);
+        const dvec3 position = scratch_.x[i] - origin, lag = scratch_.base[i] - scratch_.x[i];
+        to.position[0][cell] = static_cast<float>(position.x), to.lag[0][cell] = static_cast<float>(lag.x);
+        to.position[1][cell] = static_cast<float>(position.y), to.lag[1][cell] = static_cast<float>(lag.y);
+        to.position[2][cell] = static_cast<float>(position.z), to.lag[2][cell] = static_cast<float>(lag.z);
     });
     in_cells([&](detail::GridRange cells) {
         scratch_.cloth_unit.links(level_, to, static_cast<float>(stiffness_), cloth_.parts.data(), cells);
@@ -172,67 +172,67 @@ void ClothSolver::pin() {
 /// A step of Newton's method. If it strains links, it is halved until the potential does not rise, the first
 /// one towards free motion.
 int ClothSolver::step(int iterations, bool first, double enough) {
-    const detail::GridSystem::Tolerance tolerance{first ? 0.0 : enough, usual_residual};
+    const detail::GridSystem::Tolerance tolerance{first ? 0.0 : enough, relative_residual};
     in_cells([&](detail::GridRange cells) { scratch_.cloth_unit.cells(level_, cloth_.arrays, cells); });
     add_contacts();
-    add_presses();
+    add_self_contacts();
     pin();
     // Never the last, the first one need not keep angular momentum.
-    const detail::GridVector* place = first ? nullptr : &cloth_.arrays.place;
+    const detail::GridVector* position = first ? nullptr : &cloth_.arrays.position;
     const auto solved =
-        cloth_.system.solve(scratch_.grid_unit, lightest_, tolerance, iterations, place, local_.loops);
+        cloth_.system.solve(scratch_.grid_unit, lightest_, tolerance, iterations, position, local_.loops);
     converged_ = solved.converged;
     const detail::GridVector& by = cloth_.system.solution();
     if (first)
         each_cell([&](std::size_t i, std::size_t cell) {
-            const dvec3 free = scratch_.base[i] - scratch_.place[i];
-            scratch_.place[i] = scratch_.base[i];
+            const dvec3 free = scratch_.base[i] - scratch_.x[i];
+            scratch_.x[i] = scratch_.base[i];
             by[0][cell] -= static_cast<float>(free.x), by[1][cell] -= static_cast<float>(free.y);
             by[2][cell] -= static_cast<float>(free.z);
         });
-    const auto go = [&](float part) {
+    const auto move = [&](float part) {
         each_cell([&](std::size_t i, std::size_t cell) {
-            scratch_.place[i] += dvec3(part * by[0][cell], part * by[1][cell], part * by[2][cell]);
+            scratch_.x[i] += dvec3(part * by[0][cell], part * by[1][cell], part * by[2][cell]);
         });
     };
     double before = potential();
-    go(1.0f);
+    move(1.0f);
     evaluate();
-    taken_ = 1.0;
+    step_scale_ = 1.0;
     if (strain_ <= accepted_strain) return solved.iterations;
     if (first) {
-        go(-1.0f);
+        move(-1.0f);
         evaluate();
         before = potential();
-        go(1.0f);
+        move(1.0f);
         evaluate();
     }
     float part = 1.0f;
     for (int i = 0; i < max_halvings && !(potential() <= before); ++i) {
         part *= 0.5f;
-        go(-part);
+        move(-part);
         evaluate();
     }
     if (!(potential() <= before)) {
-        go(-part);
+        move(-part);
         evaluate();
         part = 0.0f;
     }
-    taken_ = part;
+    step_scale_ = part;
     return solved.iterations;
 }
 
-/// Twice the incremental potential at `place`.
+/// Twice the incremental potential at `position`.
 double ClothSolver::potential() const {
     double sum = potential_;
     for (const ClothContact& each : local_.cloth_contacts) sum += potential_of(each);
-    return sum + potential_of_presses();
+    return sum + self_contact_potential();
 }
 
 double ClothSolver::add_links(double sum) const {
     for (const Plan::GridLink& each : Plan::part(plan_.grid_links, grid_.links)) {
         const Link& link = state_.links[each.link];
-        const double longer = detail::length(scratch_.place[link.b] - scratch_.place[link.a]) - link.rest;
+        const double longer = detail::length(scratch_.x[link.b] - scratch_.x[link.a]) - link.rest;
         sum += stiffness_of(link) * longer * longer;
     }
     return sum;
@@ -244,7 +244,7 @@ void ClothSolver::finish() {
     const double elastic = sum_of_links([&](std::size_t i) {
         const Plan::GridLink& each = links[i];
         const Link& link = state_.links[each.link];
-        const double longer = detail::length(scratch_.place[link.b] - scratch_.place[link.a]) - link.rest;
+        const double longer = detail::length(scratch_.x[link.b] - scratch_.x[link.a]) - link.rest;
         const double pull = static_cast<double>(cloth_.arrays.stiffness[each.step][each.cell]) * longer;
         scratch_.multiplier[each.link] = mass_ * pull;
         return pull * longer;
@@ -253,8 +253,8 @@ void ClothSolver::finish() {
     cloth_.energy.gained += cloth_.energy.elastic;
 }
 
-double ClothSolver::start() {
-    const double far = far_driven * shortest_;
+double ClothSolver::predict() {
+    const double far = max_predicted_move * shortest_;
     double driven = 0.0, farthest = 0.0;
     const auto unchanged = [&](std::size_t i) { return state_.position[i] + state_.displacement[i]; };
     const std::size_t end = first_ + state_.bodies[grid_.body].count;
@@ -266,23 +266,23 @@ double ClothSolver::start() {
         farthest = std::max(farthest, square);
     }
     for (std::size_t i = first_; i < end && farthest < far * far; ++i)
-        if (scratch_.weight[i] > 0.0) scratch_.place[i] = unchanged(i);
+        if (scratch_.weight[i] > 0.0) scratch_.x[i] = unchanged(i);
     evaluate();
     const double small = residual_strain * shortest_;
-    return std::min(driven_residual * driven_residual * driven, small * small * stiffness_);
+    return std::min(force_residual * force_residual * driven, small * small * stiffness_);
 }
 
 int ClothSolver::solve(int iterations) {
     load();
-    const double enough = start();
+    const double enough = predict();
     int most = 0;
-    for (int taken = 0;; ++taken) {
-        find_contacts(taken == 0);
-        find_presses();
+    for (int step_scale = 0;; ++step_scale) {
+        find_contacts(step_scale == 0);
+        find_self_contacts();
         const bool good = strain_ <= accepted_strain && deepest() <= accepted_depth * shortest_;
-        if (taken == max_newton_steps || (good && taken >= min_newton_steps)) break;
-        most = std::max(most, step(iterations, taken == 0, enough));
-        note_forces();
+        if (step_scale == max_newton_steps || (good && step_scale >= min_newton_steps)) break;
+        most = std::max(most, step(iterations, step_scale == 0, enough));
+        store_forces();
     }
     finish();
     return most;

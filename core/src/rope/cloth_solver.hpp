@@ -15,7 +15,7 @@ class ClothSolver : protected ImplicitStep {
     /// largest number used.
     int solve(int iterations);
     bool converged() const { return converged_; }
-    double taken() const { return taken_; }  ///< the part of the last step that was taken
+    double step_scale() const { return step_scale_; }  ///< factor on the last step, 0 to 1
 
   protected:
     /// For any grid of the plan, 1-based, or the island's; measures nothing.
@@ -33,11 +33,11 @@ class ClothSolver : protected ImplicitStep {
     // cloth_contact.cpp
     void add_contacts();
     void add_contact(const ClothContact& contact);
-    void note_forces();
+    void store_forces();
     double deepest() const;
-    void find_presses();
-    void add_presses();
-    double potential_of_presses() const;
+    void find_self_contacts();
+    void add_self_contacts();
+    double self_contact_potential() const;
 
     double stiffness_of(const Link& link) const;
     std::size_t cell_of(std::size_t particle) const { return cells_[particle - first_]; }
@@ -51,10 +51,9 @@ class ClothSolver : protected ImplicitStep {
         in_parts(level_.cells(), detail::part_cells, work);
     }
     static double link_stiffness(double weight, double shortest, double unit);
-    /// Starts as if nothing had changed since the previous substep: links and contacts then push as they did.
-    /// If forces move particles by as much as a link, it starts from free motion instead. Returns the
-    /// residual at which a later step is solved.
-    double start();
+    /// Initial guess: unchanged velocities, or free motion if forces move particles by as much as a link.
+    /// Returns the residual at which a later step is solved.
+    double predict();
     template <class Visit>
     void each_cell(Visit visit) const;
     template <class Visit>
@@ -67,7 +66,7 @@ class ClothSolver : protected ImplicitStep {
     std::size_t first_;
     double unit_ = 0.0;  ///< mean mass of a particle, over h^2
     float lightest_ = 1.0f;
-    double taken_ = 1.0;
+    double step_scale_ = 1.0;
     double shortest_ = 1e30;  ///< minimum rest length of stretch links
     double strain_ = 0.0;     ///< maximum over stretch links
     double potential_ = 0.0;  ///< inertia plus links

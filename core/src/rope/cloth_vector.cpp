@@ -16,7 +16,7 @@ namespace HWY_NAMESPACE {
 
 /// The links of one step.
 template <std::size_t s>
-void links_of(const GridLevel& level, const ClothArrays& cloth, float hard, ClothPart& part,
+void links_of(const GridLevel& level, const ClothArrays& cloth, float counted_stiffness, ClothPart& part,
               GridRange cells) {
     const V zero = hn::Zero(Tag()), one = hn::Set(Tag(), 1.0f), shortest = hn::Set(Tag(), 1e-18f);
     const std::ptrdiff_t step = level.step(s);
@@ -24,7 +24,7 @@ void links_of(const GridLevel& level, const ClothArrays& cloth, float hard, Clot
     V strain = zero;
     part.potential += sum_of(cells, [&](std::ptrdiff_t i) {
         const V stiffness = load(cloth.stiffness[s] + i), rest = load(cloth.rest[s] + i);
-        const V3 by = load(cloth.place, i + step) - load(cloth.place, i);
+        const V3 by = load(cloth.position, i + step) - load(cloth.position, i);
         const V length =
             hn::Sqrt(hn::Add(hn::Add(hn::Mul(by.x, by.x), hn::Mul(by.y, by.y)), hn::Mul(by.z, by.z)));
         // Coincident particles: any direction will do.
@@ -35,7 +35,7 @@ void links_of(const GridLevel& level, const ClothArrays& cloth, float hard, Clot
         const V longer = hn::Sub(length, rest), force = hn::Mul(stiffness, longer);
         if (s < stretch_steps) {
             const V by_rest = hn::Div(hn::Abs(longer), hn::Max(rest, shortest));
-            const auto counts = hn::Eq(stiffness, hn::Set(Tag(), hard));
+            const auto counts = hn::Eq(stiffness, hn::Set(Tag(), counted_stiffness));
             strain = hn::Max(strain, hn::IfThenElseZero(counts, by_rest));
         }
         const V pull = hn::Mul(force, inverse);
@@ -53,7 +53,8 @@ void links_of(const GridLevel& level, const ClothArrays& cloth, float hard, Clot
     part.strain = std::max(part.strain, hn::GetLane(hn::MaxOfLanes(Tag(), strain)));
 }
 
-void links(const GridLevel& level, const ClothArrays& cloth, float hard, ClothPart* parts, GridRange range) {
+void links(const GridLevel& level, const ClothArrays& cloth, float counted_stiffness, ClothPart* parts,
+           GridRange range) {
     static_assert(fine_steps == 6);
     each_dot(range, [&](GridRange cells) {
         ClothPart& part = parts[cells.first / dot_cells];
@@ -64,12 +65,12 @@ void links(const GridLevel& level, const ClothArrays& cloth, float hard, ClothPa
                 hn::Add(hn::Add(hn::Mul(lag.x, lag.x), hn::Mul(lag.y, lag.y)), hn::Mul(lag.z, lag.z));
             return hn::Mul(load(cloth.mass + i), square);
         });
-        links_of<0>(level, cloth, hard, part, cells);
-        links_of<1>(level, cloth, hard, part, cells);
-        links_of<2>(level, cloth, hard, part, cells);
-        links_of<3>(level, cloth, hard, part, cells);
-        links_of<4>(level, cloth, hard, part, cells);
-        links_of<5>(level, cloth, hard, part, cells);
+        links_of<0>(level, cloth, counted_stiffness, part, cells);
+        links_of<1>(level, cloth, counted_stiffness, part, cells);
+        links_of<2>(level, cloth, counted_stiffness, part, cells);
+        links_of<3>(level, cloth, counted_stiffness, part, cells);
+        links_of<4>(level, cloth, counted_stiffness, part, cells);
+        links_of<5>(level, cloth, counted_stiffness, part, cells);
     });
 }
 
@@ -77,12 +78,12 @@ void cells(const GridLevel& level, const ClothArrays& cloth, GridRange range) {
     std::ptrdiff_t step[fine_steps];
     for (std::size_t s = 0; s < fine_steps; ++s) step[s] = level.step(s);
     each_register(range, [&](std::ptrdiff_t i) {
-        const V3 at = load(cloth.place, i);
+        const V3 at = load(cloth.position, i);
         V3 right = load(cloth.mass + i) * load(cloth.lag, i);
         for (std::size_t s = 0; s < fine_steps; ++s) {
             const float* pull = cloth.pull[s] + i;
-            right = right + load(pull) * (load(cloth.place, i + step[s]) - at);
-            right = right - load(pull - step[s]) * (at - load(cloth.place, i - step[s]));
+            right = right + load(pull) * (load(cloth.position, i + step[s]) - at);
+            right = right - load(pull - step[s]) * (at - load(cloth.position, i - step[s]));
         }
         store(right, level.right, i);
     });

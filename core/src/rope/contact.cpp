@@ -20,9 +20,6 @@ namespace {
 
 using glm::dvec3;
 
-/// How far a particle may move in a substep beyond its free motion, metres.
-constexpr double extra_way = 1e-3;
-
 struct Bounds {
     dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
 
@@ -39,9 +36,9 @@ struct Bounds {
 
 }  // namespace
 
-dvec3 Scratch::Moving::by_at(const dvec3& at) const {
+dvec3 Scratch::Moving::move_at(const dvec3& at) const {
     if (spins) {
-        const dvec3 from = at - middle, all = by + (from - math::rotated(unspin, from));
+        const dvec3 from = at - middle, all = by + (from - math::rotated(inverse_spin, from));
         const auto* const plane = std::get_if<Plane>(shape);
         if (plane == nullptr) return all;
         const dvec3 normal = detail::unit(dvec3(plane->normal));  // a plane does not move along it
@@ -55,20 +52,20 @@ dvec3 Scratch::Moving::by_at(const dvec3& at) const {
     return by + (2.0 * t - 1.0) * turn;
 }
 
-SurfaceDistance Scratch::Moving::entered(const dvec3& was, dvec3& at, double radius,
-                                         std::uint64_t& work) const {
+SurfaceDistance Scratch::Moving::sweep(const dvec3& was, dvec3& at, double radius,
+                                       std::uint64_t& work) const {
     const SurfaceDistance surface = surface_distance(*shape, at);
     // Relative to the collider.
-    const dvec3 from = was + by_at(at), way = at - from;
+    const dvec3 from = was + move_at(at), way = at - from;
     const double far = detail::length(way), stride = 0.5 * size + radius;
     if (!(far > stride && surface.distance < far + radius)) return surface;
     const int samples = static_cast<int>(std::min(64.0, std::ceil(far / std::max(stride, 1e-9))));
     work += static_cast<std::uint64_t>(samples);
     for (int k = 0; k < samples; ++k) {
-        const dvec3 on_the_way = from + (static_cast<double>(k) / samples) * way;
-        const SurfaceDistance there = surface_distance(*shape, on_the_way);
+        const dvec3 sample = from + (static_cast<double>(k) / samples) * way;
+        const SurfaceDistance there = surface_distance(*shape, sample);
         if (there.distance >= radius) continue;
-        at = on_the_way;
+        at = sample;
         return there;
     }
     return surface;
@@ -84,12 +81,12 @@ void Substep::find_near() {
         Bounds bounds;
         double farthest = 0.0;
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
-            const dvec3 by = scratch_.place[i] - state_.position[i];
+            const dvec3 by = scratch_.x[i] - state_.position[i];
             farthest = std::max(farthest, detail::dot(by, by));
-            bounds.add(scratch_.place[i]);
+            bounds.add(scratch_.x[i]);
             bounds.add(state_.position[i]);
         }
-        bounds.grow(std::sqrt(farthest) + state_.bodies[chunk.body].radius + chunk.reach + extra_way);
+        bounds.grow(std::sqrt(farthest) + state_.bodies[chunk.body].radius + chunk.reach + path_margin);
         scratch_.chunk_low[c] = bounds.low;
         scratch_.chunk_high[c] = bounds.high;
         whole.add(bounds.low);
@@ -118,7 +115,7 @@ Touch& Substep::touch(std::uint32_t i, std::uint32_t collider, const dvec3& norm
     Touch& touch = scratch_.touch[i];
     if (!touch.touching) {
         touch.touching = true;
-        touch.collider_displacement = scratch_.colliders[collider].by_at(scratch_.place[i]);
+        touch.collider_displacement = scratch_.colliders[collider].move_at(scratch_.x[i]);
         touch.normal = normal;
         local_.touched.push_back(i);
     }
@@ -129,12 +126,12 @@ void Substep::apply_friction(std::uint32_t i, std::uint32_t body) {
     Touch& touch = scratch_.touch[i];
     const double normal_part = detail::dot(touch.displacement, touch.normal);
     const dvec3 friction = touch.displacement - normal_part * touch.normal;
-    const dvec3 slip = scratch_.place[i] - state_.position[i] - touch.collider_displacement;
+    const dvec3 slip = scratch_.x[i] - state_.position[i] - touch.collider_displacement;
     dvec3 wanted = friction - (slip - detail::dot(slip, touch.normal) * touch.normal);
     const double size = detail::length(wanted),
                  limit = detail::friction(state_, state_.bodies[body]) * normal_part;
     if (size > limit) wanted = (limit / size) * wanted;
-    scratch_.place[i] += wanted - friction;
+    scratch_.x[i] += wanted - friction;
     touch.displacement = normal_part * touch.normal + wanted;
 }
 
@@ -158,15 +155,15 @@ void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, std::uint3
     if (scratch_.weight[i] == 0.0) return;
     const Scratch::Moving& collider = scratch_.colliders[number];
     const double radius = state_.bodies[body].radius;
-    dvec3& place = scratch_.place[i];
-    const double travelled = first ? detail::length(place - state_.position[i]) : 0.0;
-    if (collider.far_from(place, radius + travelled)) return;
-    const SurfaceDistance surface = first ? collider.entered(state_.position[i], place, radius, report_.work)
-                                          : surface_distance(*collider.shape, place);
+    dvec3& x = scratch_.x[i];
+    const double travelled = first ? detail::length(x - state_.position[i]) : 0.0;
+    if (collider.far_from(x, radius + travelled)) return;
+    const SurfaceDistance surface = first ? collider.sweep(state_.position[i], x, radius, report_.work)
+                                          : surface_distance(*collider.shape, x);
     const double depth = radius - surface.distance;
     if (!(depth > 0.0)) return;
-    strike(body, depth);
-    place += depth * surface.normal;
+    record_impact(body, depth);
+    x += depth * surface.normal;
     Touch& contact = touch(i, number, surface.normal);
     if (detail::dot(contact.normal, surface.normal) < 0.9) return;  // the second of two
     contact.displacement += depth * surface.normal;
@@ -174,17 +171,17 @@ void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, std::uint3
 }
 
 /// Records that a collider displaced a body by `depth`.
-void Substep::strike(std::uint32_t body, double depth) {
+void Substep::record_impact(std::uint32_t body, double depth) {
     Scratch::Nearest& nearest = scratch_.body_near[body];
     if (depth > correction_speed * h_ && nearest == Scratch::Nearest::Resting)
-        nearest = Scratch::Nearest::Struck;
+        nearest = Scratch::Nearest::Impact;
 }
 
 void Substep::resolve_link(const Link& link, std::uint32_t number, std::uint32_t body) {
     const double radius = state_.bodies[body].radius;
     const Scratch::Moving& collider = scratch_.colliders[number];
     if (link.rest <= collider.size) return;
-    dvec3 &a = scratch_.place[link.a], &b = scratch_.place[link.b];
+    dvec3 &a = scratch_.x[link.a], &b = scratch_.x[link.b];
     const dvec3 along = b - a;
     if (collider.far_from(a + 0.5 * along, radius + 0.5 * detail::length(along))) return;
     report_.work += detail::max_line_samples;
@@ -196,12 +193,12 @@ void Substep::resolve_link(const Link& link, std::uint32_t number, std::uint32_t
     const double share_a = scratch_.weight[link.a] * (1.0 - t), share_b = scratch_.weight[link.b] * t;
     const double shares = share_a * (1.0 - t) + share_b * t;
     if (!(depth > 0.0) || shares <= 0.0) return;
-    strike(body, depth);
+    record_impact(body, depth);
     const auto displace = [&](std::uint32_t i, double wanted) {
         // Next to a pinned end the other one would have to move very far.
         const double by = std::min(wanted, 1.5 * depth);
         if (by <= 0.0) return;
-        scratch_.place[i] += by * surface.normal;
+        scratch_.x[i] += by * surface.normal;
         Touch& contact = touch(i, number, surface.normal);
         if (detail::dot(contact.normal, surface.normal) < 0.9) return;
         contact.displacement += by * surface.normal;

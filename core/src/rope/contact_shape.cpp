@@ -107,15 +107,15 @@ dvec3 half_of(const Capsule& capsule) noexcept {
     return 0.5 * dvec3(capsule.b) - 0.5 * dvec3(capsule.a);
 }
 
-Shape on_the_way(const Collider& collider, double part) noexcept {
+Shape interpolated(const Collider& collider, double part) noexcept {
     const dvec3 from(centre(collider.shape)), to = from + part * (collider.goal - from);
-    if (!collider.half_goal) return kept_in(moved(collider.shape, glm::vec3(to)));
+    if (!collider.half_goal) return clamped_to_world(moved(collider.shape, glm::vec3(to)));
     const auto* const capsule = std::get_if<Capsule>(&collider.shape);
     const dvec3 was = half_of(*capsule), half = was + part * (*collider.half_goal - was);
-    return kept_in(Capsule{glm::vec3(to - half), glm::vec3(to + half), capsule->radius});
+    return clamped_to_world(Capsule{glm::vec3(to - half), glm::vec3(to + half), capsule->radius});
 }
 
-glm::dquat turn_by(const Drive& drive, double seconds) noexcept {
+glm::dquat rotation_after(const Drive& drive, double seconds) noexcept {
     const double half = 0.5 * seconds * static_cast<double>(drive.spin);
     return {std::cos(half), std::sin(half) * unit(dvec3(drive.axis))};
 }
@@ -125,18 +125,18 @@ Shape driven(const Shape& shape, const Drive& drive, double seconds) noexcept {
     constexpr double edge = max_magnitude;
     const dvec3 from(centre(shape)), to = from + seconds * dvec3(drive.velocity);
     Shape there = moved(shape, glm::vec3(glm::clamp(to, dvec3(-edge), dvec3(edge))));
-    if (drive.spin == 0.0f) return kept_in(there);
-    const glm::dquat turn = turn_by(drive, seconds);
+    if (drive.spin == 0.0f) return clamped_to_world(there);
+    const glm::dquat turn = rotation_after(drive, seconds);
     if (auto* box = std::get_if<Box>(&there))
         box->rotation = math::narrow(math::compose(turn, math::wide(box->rotation)));
     if (auto* capsule = std::get_if<Capsule>(&there)) {
         const dvec3 middle(centre(there)), half = math::rotated(turn, half_of(*capsule));
         *capsule = {glm::vec3(middle - half), glm::vec3(middle + half), capsule->radius};
     }
-    return kept_in(there);
+    return clamped_to_world(there);
 }
 
-Shape kept_in(const Shape& shape) noexcept {
+Shape clamped_to_world(const Shape& shape) noexcept {
     const auto* capsule = std::get_if<Capsule>(&shape);  // the others are defined by their centre
     if (capsule == nullptr) return shape;
     const glm::vec3 edge(max_magnitude);

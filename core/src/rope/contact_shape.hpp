@@ -25,13 +25,13 @@ std::optional<double> nearest_between(const Shape& shape, const glm::dvec3& a, c
 /// Half the vector from a to b.
 glm::dvec3 half_of(const Capsule& capsule) noexcept;
 /// A collider's shape after this part of the way to its goal.
-Shape on_the_way(const Collider& collider, double part) noexcept;
+Shape interpolated(const Collider& collider, double part) noexcept;
 /// The rotation by a steady spin.
-glm::dquat turn_by(const Drive& drive, double seconds) noexcept;
+glm::dquat rotation_after(const Drive& drive, double seconds) noexcept;
 /// The shape after a steady motion for some seconds. A plane stays.
 Shape driven(const Shape& shape, const Drive& drive, double seconds) noexcept;
 
 /// The same shape with coordinates clamped to max_magnitude, which rounding can exceed.
-Shape kept_in(const Shape& shape) noexcept;
+Shape clamped_to_world(const Shape& shape) noexcept;
 
 }  // namespace tendril::rope::detail

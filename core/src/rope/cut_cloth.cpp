@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "math/checks.hpp"
+#include "rope/body_data.hpp"
 #include "rope/slots.hpp"
-#include "rope/taken.hpp"
 #include "tendril/rope/edit.hpp"
 
 namespace tendril::rope {
@@ -80,16 +80,17 @@ std::vector<BodyPiece> pieces_of(const State& state, const Body& body, std::vect
 }
 
 /// The body with its particles in the order of the pieces.
-detail::Taken sorted_by_piece(const State& state, const Body& body, const std::vector<BodyPiece>& pieces,
-                              const std::vector<std::size_t>& piece_of, std::vector<std::size_t>& becomes) {
-    detail::Taken taken{.row = body.row};
+detail::BodyData sorted_by_piece(const State& state, const Body& body, const std::vector<BodyPiece>& pieces,
+                                 const std::vector<std::size_t>& piece_of,
+                                 std::vector<std::size_t>& becomes) {
+    detail::BodyData data{.row = body.row};
     becomes.resize(body.count);
     for (const BodyPiece& piece : pieces)
         for (const std::size_t i : piece.particles) {
-            becomes[i] = taken.position.size();
-            taken.position.push_back(state.position[body.first + i]);
-            taken.displacement.push_back(state.displacement[body.first + i]);
-            taken.mass.push_back(state.mass[body.first + i]);
+            becomes[i] = data.position.size();
+            data.position.push_back(state.position[body.first + i]);
+            data.displacement.push_back(state.displacement[body.first + i]);
+            data.mass.push_back(state.mass[body.first + i]);
         }
     std::vector<std::vector<Link>> links(pieces.size());
     for (Link link : state.links) {
@@ -99,29 +100,29 @@ detail::Taken sorted_by_piece(const State& state, const Body& body, const std::v
         link.b = static_cast<std::uint32_t>(becomes[link.b - body.first]);
         its.push_back(link);
     }
-    for (const std::vector<Link>& its : links) taken.links.insert(taken.links.end(), its.begin(), its.end());
+    for (const std::vector<Link>& its : links) data.links.insert(data.links.end(), its.begin(), its.end());
     for (Pin pin : state.pins) {
         if (pin.particle - body.first >= body.count) continue;
         pin.particle = becomes[pin.particle - body.first];
-        taken.pins.push_back(pin);
+        data.pins.push_back(pin);
     }
-    return taken;
+    return data;
 }
 
-Edited taken_apart(State state, BodyId id) {
+Edited split_pieces(State state, BodyId id) {
     const Body whole = *detail::find_in(state.bodies, id);
     std::vector<std::size_t> piece_of;
     std::vector<BodyPiece> pieces = pieces_of(state, whole, piece_of);
-    const auto stays =
+    const auto largest =
         std::max_element(pieces.begin(), pieces.end(), [](const BodyPiece& a, const BodyPiece& b) {
             return a.pins != b.pins ? a.pins < b.pins : a.particles.size() < b.particles.size();
         });
-    const auto number = static_cast<std::size_t>(stays - pieces.begin());
-    std::rotate(pieces.begin(), stays, stays + 1);
+    const auto number = static_cast<std::size_t>(largest - pieces.begin());
+    std::rotate(pieces.begin(), largest, largest + 1);
     for (std::size_t& each : piece_of) each = each == number ? 0 : each < number ? each + 1 : each;
     Edited edited;
-    const detail::Taken taken = sorted_by_piece(state, whole, pieces, piece_of, edited.becomes);
-    detail::put_back(state, id, taken, edited.becomes);
+    const detail::BodyData data = sorted_by_piece(state, whole, pieces, piece_of, edited.becomes);
+    detail::replace_body(state, id, data, edited.becomes);
 
     auto at = detail::find_in(state.bodies, id) - state.bodies.data();
     std::size_t first = whole.first;
@@ -142,7 +143,7 @@ Edited taken_apart(State state, BodyId id) {
             body.id = detail::take_slot(state.body_slots, state.bodies);
             edited.pieces.push_back(body.id);
             state.bodies.insert(state.bodies.begin() + ++at, std::move(body));
-            detail::collide_alike(state, id, edited.pieces.back());
+            detail::copy_collisions(state, id, edited.pieces.back());
         }
         detail::measure_stretch(state, state.bodies[static_cast<std::size_t>(at)]);
     }
@@ -158,7 +159,7 @@ Expected<Edited> part_body(const World& world, BodyId id) {
     if (body->kind == Body::Kind::Hair)
         return Result(ErrorCode::InvalidArgument, "only ropes and cloth come apart, not hair");
     std::vector<std::size_t> piece_of;
-    if (pieces_of(world.state(), *body, piece_of).size() > 1) return taken_apart(world.state(), id);
+    if (pieces_of(world.state(), *body, piece_of).size() > 1) return split_pieces(world.state(), id);
     Edited whole{world, std::vector<std::size_t>(body->count)};
     std::iota(whole.becomes.begin(), whole.becomes.end(), std::size_t{0});
     return whole;
@@ -187,7 +188,7 @@ Expected<Edited> cut_cloth(const World& world, BodyId cloth, std::span<const Clo
     };
     if (std::erase_if(state.links, crossed) == 0)
         return refused(op, "lines", "across links of the cloth", "none that crosses one");
-    return taken_apart(std::move(state), cloth);
+    return split_pieces(std::move(state), cloth);
 }
 
 }  // namespace tendril::rope

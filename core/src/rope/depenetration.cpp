@@ -91,45 +91,45 @@ dvec3 smallest_displacement(const Neighbours& neighbours, const dvec3& at, doubl
 /// The distance that a ball must move along a line to leave a shape; `limit` if that is farther. The distance
 /// to a convex shape is convex along a line, so Newton's method approaches from the limit without
 /// overshooting.
-double way_out_of(const Shape& shape, const dvec3& from, const dvec3& along, double radius, double limit,
-                  std::uint64_t& distances_taken) {
-    double way = limit;
+double exit_distance_of(const Shape& shape, const dvec3& from, const dvec3& along, double radius,
+                        double limit, std::uint64_t& distances_taken) {
+    double distance = limit;
     for (int i = 0; i < newton_steps; ++i) {
         ++distances_taken;
-        const SurfaceDistance surface = surface_distance(shape, from + way * along);
+        const SurfaceDistance surface = surface_distance(shape, from + distance * along);
         const double over = surface.distance - radius, slope = detail::dot(surface.normal, along);
         if (over <= depth_tolerance || slope <= 0.0) break;
-        way -= (over - 0.5 * depth_tolerance) / slope;
+        distance -= (over - 0.5 * depth_tolerance) / slope;
     }
-    return way;
+    return distance;
 }
 
 /// The way out of every collider along a line; `limit` if that is farther, or the search has taken too long.
 /// A line never leads back into a convex shape, so each collider is left only once.
-double way_out(const Neighbours& neighbours, const dvec3& from, const dvec3& along, double thickness,
-               double limit) {
-    double way = 0.0;
+double exit_distance(const Neighbours& neighbours, const dvec3& from, const dvec3& along, double thickness,
+                     double limit) {
+    double distance = 0.0;
     for (std::size_t i = 0;
-         i <= neighbours.scratch.colliders.size() && way < limit && neighbours.searches > 0; ++i) {
+         i <= neighbours.scratch.colliders.size() && distance < limit && neighbours.searches > 0; ++i) {
         const std::uint64_t before = neighbours.distances_taken;
-        const Shape* const inside = neighbours.deepest(from + way * along, thickness).shape;
-        if (inside == nullptr) return way;
-        way = way_out_of(*inside, from, along, thickness, limit, neighbours.distances_taken);
+        const Shape* const inside = neighbours.deepest(from + distance * along, thickness).shape;
+        if (inside == nullptr) return distance;
+        distance = exit_distance_of(*inside, from, along, thickness, limit, neighbours.distances_taken);
         neighbours.searches -= std::min(neighbours.searches, neighbours.distances_taken - before);
     }
     return limit;
 }
 
 /// The shortest way out in 26 directions, for surfaces that nearly meet; false if none is found.
-bool search(const Neighbours& neighbours, const dvec3& from, double thickness, dvec3& at) {
+bool search_directions(const Neighbours& neighbours, const dvec3& from, double thickness, dvec3& at) {
     double shortest = max_magnitude;
     bool found = false;
     for (int k = 0; k < 27; ++k) {
         if (k == 13) continue;
         const dvec3 along = detail::unit(dvec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
-        const double way = way_out(neighbours, from, along, thickness, shortest);
-        if (way >= shortest) continue;
-        shortest = way, at = from + way * along;
+        const double distance = exit_distance(neighbours, from, along, thickness, shortest);
+        if (distance >= shortest) continue;
+        shortest = distance, at = from + distance * along;
         found = true;
     }
     return found;
@@ -137,16 +137,16 @@ bool search(const Neighbours& neighbours, const dvec3& from, double thickness, d
 
 /// Brings a ball out of every collider, or at least its centre if the ball does not fit. Stays close if that
 /// is easily found. False, and unmoved, if no way is found.
-bool bring_out(const Neighbours& neighbours, dvec3& place, double radius) {
+bool move_out(const Neighbours& neighbours, dvec3& x, double radius) {
     for (const double thickness : {radius, 0.0}) {
-        dvec3 at = place;
+        dvec3 at = x;
         bool out = neighbours.depth(at, thickness) <= depth_tolerance;
         for (int i = 0; i < rounds && !out; ++i) {
             at += smallest_displacement(neighbours, at, thickness);
             out = neighbours.depth(at, thickness) <= depth_tolerance;
         }
-        if (!out && !search(neighbours, place, thickness, at)) continue;
-        place = at;
+        if (!out && !search_directions(neighbours, x, thickness, at)) continue;
+        x = at;
         return true;
     }
     return false;
@@ -186,12 +186,12 @@ void Substep::depenetrate() {
     each_near(0, state_.position.size(),
               [&](std::uint32_t i, std::uint32_t body, const Neighbours& neighbours) {
                   const Body& of = state_.bodies[body];
-                  const double harmless = detail::bends(state_, of) ? harmless_depth : depth_tolerance;
-                  dvec3& place = scratch_.place[i];
-                  const dvec3 was = place;
-                  if (neighbours.depth(place, of.radius) <= harmless) return;
-                  if (!bring_out(neighbours, place, of.radius)) ++report_.unresolved;
-                  strike(body, detail::length(place - was));
+                  const double allowed = detail::bends(state_, of) ? allowed_depth : depth_tolerance;
+                  dvec3& x = scratch_.x[i];
+                  const dvec3 was = x;
+                  if (neighbours.depth(x, of.radius) <= allowed) return;
+                  if (!move_out(neighbours, x, of.radius)) ++report_.unresolved;
+                  record_impact(body, detail::length(x - was));
               });
 }
 

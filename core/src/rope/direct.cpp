@@ -1,9 +1,8 @@
 // The direct solver: whole chains at once, as many side by side as a vector register has lanes.
 //
-// A chain without other links first moves by its previous tension, applied implicitly; then one or two passes
-// correct its lengths. If it moves too fast for that (a whip cracks), or would gain energy, it is solved
-// again from the tension that was found, which now acts along the links' new directions: that converges, and
-// costs energy.
+// An isolated chain first moves by its previous tension, applied implicitly; then one or two passes correct
+// its lengths. If it moves too fast for that (a whip cracks), or would gain energy, it is solved again from
+// that result, with tension along the links' new directions: that converges, and costs energy.
 //
 // A chain that touches colliders is solved with its contacts, by Newton's method (chain_newton.hpp). A cloth
 // that is a grid is one system with its contacts (cloth_solver.hpp), and so are bodies that ties join
@@ -28,8 +27,8 @@ namespace tendril::rope {
 namespace {
 
 using detail::Block;
-using detail::Order;
 using detail::Row;
+using detail::SolveJob;
 using glm::dvec3;
 
 constexpr double length_tolerance = 1e-7;       ///< relative length error that needs no correction
@@ -41,8 +40,8 @@ constexpr int max_restarts = 6, fallback_passes = 16, max_step_halvings = 10;
 /// Minimum passes of chains that share particles, while near a collider.
 constexpr int min_contact_passes = 4;
 /// Rounds in which contacts are projected, and their accepted error, relative to the thickness.
-constexpr int contact_passes = 8;
-constexpr double projected_enough = 1e-3;
+constexpr int projection_rounds = 8;
+constexpr double projection_tolerance = 1e-3;
 /// A chain that shares particles may have impossible lengths, straight between two pins: its system is damped
 /// (Levenberg, Marquardt), or it would fling its particles about.
 constexpr double shared_damping = 2e-2;
@@ -61,7 +60,7 @@ struct Substep::Batch {
 
 /// Solves chains that share nothing. A chain that touches something is solved with its contacts, any other as
 /// if in the air; if it then ends inside a collider, or fails, it is solved again with contacts.
-int Substep::direct_alone() {
+int Substep::direct_isolated() {
     ChainNewton newton(state_, plan_, island_, scratch_, local_);
     const std::uint32_t first = island_.chains.first, end = first + island_.chains.count;
     const auto near = [&](std::uint32_t r) { return is_near(plan_.chains[r].body); };
@@ -71,8 +70,8 @@ int Substep::direct_alone() {
     const auto solve = [&](std::uint32_t r) {
         newton.solve();
         const bool falls = acceleration_ != dvec3(0.0);
-        if (falls && !bends(r) && ledger_of(plan_.chains[r]).gains(accepted_gain))
-            slow_correction(plan_.chains[r]);
+        if (falls && !bends(r) && ledger_of(plan_.chains[r]).gains_over(accepted_gain))
+            scale_correction(plan_.chains[r]);
     };
     for (std::uint32_t r = first; r < end; ++r) {
         if (scratch_.chain_solved[r] != 0) continue;
@@ -101,15 +100,15 @@ void Substep::shorten_steps() {
     const std::uint32_t first = island_.chains.first, end = first + island_.chains.count;
     for (std::uint32_t r = first; r < end; ++r) {
         const Plan::Chain& chain = plan_.chains[r];
-        if (!chain.alone || !detail::bends(state_, state_.bodies[chain.body])) continue;
+        if (!chain.isolated || !detail::bends(state_, state_.bodies[chain.body])) continue;
         if (std::binary_search(together.begin(), together.end(), r)) continue;
         if (!std::exchange(found, true)) find_near();
         shorten_step(r);
     }
 }
 
-/// Shortens a step that gains energy, ends in a collider, or did not converge: slowing the chain down would
-/// not remove a gain by bending. The last resort is a step back, which gains nothing.
+/// Cuts a step that gains energy, ends in a collider, or did not converge. Scaling velocities would not
+/// remove a gain by bending. The last resort is a step back, which gains nothing.
 void Substep::shorten_step(std::uint32_t number) {
     const Plan::Chain& chain = plan_.chains[number];
     const bool failed = !(scratch_.chain_error[number] <= fallback_error);
@@ -124,53 +123,52 @@ void Substep::shorten_step(std::uint32_t number) {
     };
     const double most = failed ? fallback_error + stretch(state_.position) : 0.0;
     // A collider that moves must take the chain along.
-    const bool carried = scratch_.body_near[chain.body] == Scratch::Nearest::Moving;
+    const bool driven = scratch_.body_near[chain.body] == Scratch::Nearest::Moving;
     double deepest = -1.0;
     const auto is_bad = [&] {
-        if (failed && !(stretch(scratch_.place) <= most)) return true;
+        if (failed && !(stretch(scratch_.x) <= most)) return true;
         const Ledger ledger = ledger_of(chain);
-        if (ledger.keeps(accepted_gain)) return true;
-        if (ledger.gains(accepted_gain) && bounded_correction(chain) < 1.0) return true;
-        if (carried || depth_of(chain, scratch_.place) <= harmless_depth) return false;
-        if (deepest < 0.0) deepest = std::max(harmless_depth, depth_of(chain, state_.position));
-        return depth_of(chain, scratch_.place) > deepest;
+        if (ledger.leaves_gain(accepted_gain)) return true;
+        if (ledger.gains_over(accepted_gain) && correction_scale(chain) < 1.0) return true;
+        if (driven || depth_of(chain, scratch_.x) <= allowed_depth) return false;
+        if (deepest < 0.0) deepest = std::max(allowed_depth, depth_of(chain, state_.position));
+        return depth_of(chain, scratch_.x) > deepest;
     };
     const auto each = [&](auto move) {
         for (std::uint32_t k = 0; k <= chain.links; ++k) {
             const std::uint32_t i = plan_.nodes[chain.first_node + k];
-            if (scratch_.weight[i] > 0.0) scratch_.place[i] = move(i);
+            if (scratch_.weight[i] > 0.0) scratch_.x[i] = move(i);
         }
     };
     if (!is_bad()) return;
     ++report_.fallbacks;
     for (int i = 0; i < max_step_halvings && is_bad(); ++i)
-        each([&](std::uint32_t p) { return 0.5 * (state_.position[p] + scratch_.place[p]); });
+        each([&](std::uint32_t p) { return 0.5 * (state_.position[p] + scratch_.x[p]); });
     for (const double back : {0.0, 0.5, 1.0}) {
         if (!is_bad()) break;
         each([&](std::uint32_t p) { return state_.position[p] - back * state_.displacement[p]; });
     }
 }
 
-/// The part of a chain's correction that throws no particle: none is corrected faster than the maximum of the
-/// speed of its fastest particle and correction_speed.
-double Substep::bounded_correction(const Plan::Chain& chain) const {
+/// Factor that limits a chain's correction to correction_speed or the speed of its fastest particle.
+double Substep::correction_scale(const Plan::Chain& chain) const {
     double farthest = 0.0, most = correction_speed * h_;
     for (std::uint32_t k = 0; k <= chain.links; ++k) {
         const std::uint32_t i = plan_.nodes[chain.first_node + k];
-        farthest = std::max(farthest, detail::length(scratch_.place[i] - scratch_.base[i]));
+        farthest = std::max(farthest, detail::length(scratch_.x[i] - scratch_.base[i]));
         most = std::max(most, detail::length(scratch_.base[i] - state_.position[i]));
     }
     return farthest > most ? most / farthest : 1.0;
 }
 
 /// Scales down a solve that would throw a chain.
-void Substep::slow_correction(const Plan::Chain& chain) {
-    const double part = bounded_correction(chain);
+void Substep::scale_correction(const Plan::Chain& chain) {
+    const double part = correction_scale(chain);
     if (part == 1.0) return;
     ++report_.fallbacks;
     for (std::uint32_t k = 0; k <= chain.links; ++k) {
         const std::uint32_t i = plan_.nodes[chain.first_node + k];
-        scratch_.place[i] = scratch_.base[i] + part * (scratch_.place[i] - scratch_.base[i]);
+        scratch_.x[i] = scratch_.base[i] + part * (scratch_.x[i] - scratch_.base[i]);
     }
 }
 
@@ -179,7 +177,7 @@ int Substep::direct_grid() {
     const int allowed = passes_allowed(), passes = cloth.solve(allowed);
     report_.work += static_cast<std::uint64_t>(passes) * island_.links.count;
     if (!cloth.converged() && allowed < state_.settings.iterations) report_.shortened = 1;
-    if (cloth.taken() < 1.0) ++report_.fallbacks;
+    if (cloth.step_scale() < 1.0) ++report_.fallbacks;
     measure();
     return passes;
 }
@@ -204,9 +202,9 @@ int Substep::direct() {
     }
     int passes = 0;
     for (const Plan::Island& part : Plan::part(plan_.parts, island_.parts)) {
-        Substep alone(*this, part);
-        alone.find_near();
-        passes = std::max(passes, alone.direct_part());
+        Substep step(*this, part);
+        step.find_near();
+        passes = std::max(passes, step.direct_part());
     }
     find_near();
     project_contacts();
@@ -216,10 +214,10 @@ int Substep::direct() {
 /// Projects the contacts that were not solved with lengths, alternating with colliders and lengths.
 void Substep::project_contacts() {
     BodyContacts(*this).begin_projection(false);
-    for (int pass = 0; pass < contact_passes; ++pass) {
-        if (BodyContacts(*this).project(false) <= projected_enough) break;
+    for (int pass = 0; pass < projection_rounds; ++pass) {
+        if (BodyContacts(*this).project(false) <= projection_tolerance) break;
         resolve_contacts(false);
-        if (pass + 1 == contact_passes) break;
+        if (pass + 1 == projection_rounds) break;
         for (const std::uint32_t i : Plan::part(plan_.links, island_.links))
             if (state_.links[i].kind == Link::Kind::Stretch)
                 satisfy(i, detail::compliance(state_.settings, state_.links[i]));
@@ -227,12 +225,12 @@ void Substep::project_contacts() {
 }
 
 int Substep::direct_part() {
-    if (island_.alone) return direct_alone();
+    if (island_.isolated) return direct_isolated();
     if (island_.grid != 0) return direct_grid();
     if (island_.tied != 0) return direct_tied();
     for (const std::uint32_t i : Plan::part(plan_.soft, island_.soft)) scratch_.multiplier[i] = 0.0;
     for (const Plan::Chain& chain : Plan::part(plan_.chains, island_.chains)) {
-        if (!chain.alone) std::fill_n(scratch_.multiplier.begin() + chain.first_link, chain.links, 0.0);
+        if (!chain.isolated) std::fill_n(scratch_.multiplier.begin() + chain.first_link, chain.links, 0.0);
     }
     const bool contact = !local_.near.empty();
     const int max_passes = passes_allowed();
@@ -247,16 +245,16 @@ int Substep::direct_part() {
         measure();
         resolve_contacts(passes == 0);
         ++passes;
-        converged =
-            island_.alone || (worst <= accepted_shared_error && (!contact || passes >= min_contact_passes));
+        converged = island_.isolated ||
+                    (worst <= accepted_shared_error && (!contact || passes >= min_contact_passes));
     }
     if (!converged && max_passes < state_.settings.iterations) report_.shortened = 1;
     relax_failed_bodies();
     return passes;
 }
 
-/// The fallback if chains share particles: a body that could not be solved (or cannot be, as its lengths are
-/// impossible) is relaxed, which always gives a sensible result.
+/// The fallback if chains share particles: relaxes a body that did not converge or whose lengths are
+/// impossible.
 void Substep::relax_failed_bodies() {
     bool any = false;
     const std::span<const std::uint32_t> bodies = Plan::part(plan_.bodies, island_.bodies);
@@ -274,7 +272,7 @@ void Substep::relax_failed_bodies() {
         if (scratch_.body_failed[b] == 0) continue;
         const Body& body = state_.bodies[b];
         for (std::size_t i = body.first; i < body.first + body.count; ++i) {
-            scratch_.place[i] = scratch_.base[i];
+            scratch_.x[i] = scratch_.base[i];
             scratch_.touch[i].displacement = dvec3(0.0);
         }
     }
@@ -320,44 +318,44 @@ double Substep::solve_batch(const Batch& batch, int iteration) {
     const Plan::Chain& first = plan_.chains[batch.chain];
     Block block{local_.block.data() + local_.block_offset, first.links,
                 batch.single ? 1 : scratch_.unit.lanes};
-    Order order;
+    SolveJob job;
     gather(block, batch);
-    order.implicit = first.alone && iteration == 0;
+    job.implicit = first.isolated && iteration == 0;
     for (std::uint32_t lane = 0; lane < detail::max_lanes; ++lane) {
         // Chains that share particles partly undo each other's corrections, and contacts leave initial length
         // errors: there the new direction alone works best.
         const std::uint32_t body = plan_.chains[batch.chain + std::min(lane, batch.count - 1)].body;
         const bool contact = has_fallback_contact(body);
-        order.backward[lane] = first.alone && !contact ? min_backward : 1.0;
-        const int max_passes = !first.alone ? 1 : contact ? 4 : 2;
-        order.passes[lane] = std::min(max_passes, state_.settings.iterations);
+        job.backward[lane] = first.isolated && !contact ? min_backward : 1.0;
+        const int max_passes = !first.isolated ? 1 : contact ? 4 : 2;
+        job.passes[lane] = std::min(max_passes, state_.settings.iterations);
     }
-    if (!first.alone) order.damping = shared_damping;
-    order.tolerance = length_tolerance;
-    (batch.single ? scratch_.unit.single : scratch_.unit.solve)(block, order);
+    if (!first.isolated) job.damping = shared_damping;
+    job.tolerance = length_tolerance;
+    (batch.single ? scratch_.unit.single : scratch_.unit.solve)(block, job);
     double worst = 0.0;
     for (std::uint32_t lane = 0; lane < batch.count; ++lane) {
         const std::uint32_t chain = batch.chain + lane;
-        scratch_.chain_error[chain] = order.worst[lane];
+        scratch_.chain_error[chain] = job.worst[lane];
         scatter(block, lane, chain);
     }
     for (std::uint32_t chain = batch.chain; chain < batch.chain + batch.count; ++chain) {
-        if (first.alone && iteration == 0) solve_again(chain);
+        if (first.isolated && iteration == 0) solve_again(chain);
         worst = std::max(worst, scratch_.chain_error[chain]);
     }
     return worst;
 }
 
 void Substep::solve_again(std::uint32_t chain) {
-    const double enough =
+    const double tolerance =
         has_fallback_contact(plan_.chains[chain].body) ? 10.0 * accepted_error : accepted_error;
     const Plan::Chain& it = plan_.chains[chain];
-    if (scratch_.chain_error[chain] <= enough) {
+    if (scratch_.chain_error[chain] <= tolerance) {
         const Ledger ledger = ledger_of(it);
-        if (!ledger.gains(1e-4)) {
+        if (!ledger.gains_over(1e-4)) {
             // Nothing else moves it in this substep: the same ledger balances it.
             const bool untouched = scratch_.body_near[it.body] == Scratch::Nearest::None;
-            if (untouched && island_.contacts == 0) scratch_.chain_slowed[chain] = balance(ledger);
+            if (untouched && island_.contacts == 0) scratch_.chain_slowdown[chain] = limit_gain(ledger);
             return;
         }
     }
@@ -367,16 +365,16 @@ void Substep::solve_again(std::uint32_t chain) {
         scratch_.multiplier[k] = static_cast<double>(state_.links[k].tension) * (h_ * h_);
     }
     for (int i = 0; i < restarts; ++i) {
-        Order order;
+        SolveJob job;
         gather(block, {chain, 1, true});
-        order.implicit = true;
-        order.backward[0] = 1.0;
-        order.passes[0] = i + 1 < restarts ? 2.0 : 8.0;
-        order.tolerance = length_tolerance;
-        scratch_.unit.single(block, order);
-        scratch_.chain_error[chain] = order.worst[0];
+        job.implicit = true;
+        job.backward[0] = 1.0;
+        job.passes[0] = i + 1 < restarts ? 2.0 : 8.0;
+        job.tolerance = length_tolerance;
+        scratch_.unit.single(block, job);
+        scratch_.chain_error[chain] = job.worst[0];
         scatter(block, 0, chain);
-        if (order.worst[0] <= enough) break;
+        if (job.worst[0] <= tolerance) break;
     }
 }
 
@@ -396,7 +394,7 @@ void Substep::gather(const Block& block, const Batch& batch) const {
             const std::uint32_t i = plan_.nodes[chain.first_node + k];
             double* const node = block.at(k, 0) + lane;
             const auto row = [&](std::size_t which) -> double* { return node + which * block.lanes; };
-            put(row(Row::X), scratch_.place[i], block.lanes);
+            put(row(Row::X), scratch_.x[i], block.lanes);
             put(row(Row::OldX), state_.position[i] - state_.displacement[i], block.lanes);
             *row(Row::Weight) = scratch_.weight[i];
             put(row(Row::BaseX), scratch_.base[i], block.lanes);
@@ -415,7 +413,7 @@ void Substep::scatter(const Block& block, std::uint32_t lane, std::uint32_t numb
         const std::uint32_t i = plan_.nodes[chain.first_node + k];
         const double* const node = block.at(k, 0) + lane;
         const auto row = [&](std::size_t which) { return node[which * block.lanes]; };
-        if (scratch_.weight[i] > 0.0) scratch_.place[i] = {row(Row::X), row(Row::Y), row(Row::Z)};
+        if (scratch_.weight[i] > 0.0) scratch_.x[i] = {row(Row::X), row(Row::Y), row(Row::Z)};
         if (k < chain.links) scratch_.multiplier[chain.first_link + k] = row(Row::Multiplier);
     }
 }

@@ -42,7 +42,7 @@ struct Block {
 };
 
 /// A block's solve. Outputs have one value per lane.
-struct Order {
+struct SolveJob {
     bool implicit = false;  ///< first apply the existing tension implicitly
     /// Tension acts along the mean of the link's directions before and after at 0, along the one after at 1.
     double backward[max_lanes] = {};
@@ -50,10 +50,10 @@ struct Order {
     double damping = 1e-9;          ///< relative to the system's diagonal
     double tolerance = 1e-7;        ///< relative length error at which a lane is done
     double worst[max_lanes];        ///< out: the largest relative length error
-    int taken = 0;                  ///< out: passes taken
+    int passes_taken = 0;           ///< out: passes taken
 };
 
-using SolveBlock = void(const Block& block, Order& order);
+using SolveBlock = void(const Block& block, SolveJob& job);
 
 struct VectorUnit {
     SolveBlock* solve = nullptr;   ///< `lanes` at a time

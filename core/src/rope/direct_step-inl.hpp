@@ -36,23 +36,23 @@ class BlockSolver {
   public:
     explicit BlockSolver(const Block& block) : block_(block) {}
 
-    void run(Order& order) {
+    void run(SolveJob& job) {
         store_old_directions();
-        if (order.implicit) apply_implicit_tension(order);
+        if (job.implicit) apply_implicit_tension(job);
         // The first pass is unconditional: checking whether it is needed costs half as much.
-        const V max_passes = hn::LoadU(d_, order.passes);
+        const V max_passes = hn::LoadU(d_, job.passes);
         V worst = set(1e300);
-        order.taken = 0;
-        for (;; ++order.taken) {
+        job.passes_taken = 0;
+        for (;; ++job.passes_taken) {
             const auto open =
-                hn::And(hn::Gt(worst, set(order.tolerance)), hn::Lt(set(order.taken), max_passes));
+                hn::And(hn::Gt(worst, set(job.tolerance)), hn::Lt(set(job.passes_taken), max_passes));
             if (hn::AllFalse(d_, open)) break;
-            improve(open, order);
-            worst = largest_error();
+            correct_lengths(open, job);
+            worst = max_error();
         }
         HWY_ALIGN double lanes[max_lanes] = {};
         hn::Store(worst, d_, lanes);
-        for (std::size_t i = 0; i < block_.lanes; ++i) order.worst[i] = lanes[i];
+        for (std::size_t i = 0; i < block_.lanes; ++i) job.worst[i] = lanes[i];
     }
 
   private:
@@ -117,7 +117,7 @@ class BlockSolver {
     }
 
     /// The length of a link under its current tension.
-    V stretched(std::size_t k) const {
+    V loaded_length(std::size_t k) const {
         const V longer = hn::Mul(load(k, Compliance), larger(load(k, Multiplier), hn::Zero(d_)));
         return larger(hn::Add(load(k, Rest), longer), set(1e-9));
     }
@@ -126,21 +126,23 @@ class BlockSolver {
     /// rope that cannot be as short as its pins require would drown all other digits.
     V stiffness(std::size_t k) const {
         const V both = hn::Add(load(k, Weight), load(k + 1, Weight));
-        const V half = hn::Div(hn::Mul(set(0.5), larger(load(k, Multiplier), hn::Zero(d_))), stretched(k));
+        const V half =
+            hn::Div(hn::Mul(set(0.5), larger(load(k, Multiplier), hn::Zero(d_))), loaded_length(k));
         return smaller(half, hn::Div(set(1e8), larger(both, set(1e-30))));
     }
 
     /// Nodes move from their base by tensions along the old and the new directions. Tension never acts
     /// sideways here: all three coordinates share one tridiagonal matrix.
-    void apply_implicit_tension(const Order& order) const {
-        const V backward = hn::LoadU(d_, order.backward);
+    void apply_implicit_tension(const SolveJob& job) const {
+        const V backward = hn::LoadU(d_, job.backward);
         const V ahead = hn::Add(set(1.0), backward), behind = hn::Sub(set(1.0), backward);
         V stiff_before = hn::Zero(d_), upper = hn::Zero(d_);
         V3 old_before{hn::Zero(d_), hn::Zero(d_), hn::Zero(d_)}, right = old_before;
         for (std::size_t k = 0; k <= block_.links; ++k) {
             const bool last = k == block_.links;
             const V weight = load(k, Weight);
-            const V stiff = last ? hn::Zero(d_) : stiffness(k), length = last ? hn::Zero(d_) : stretched(k);
+            const V stiff = last ? hn::Zero(d_) : stiffness(k),
+                    length = last ? hn::Zero(d_) : loaded_length(k);
             const V3 old = last ? V3{hn::Zero(d_), hn::Zero(d_), hn::Zero(d_)}
                                 : times(hn::Mul(stiff, length), load3(k, OldX));
             const V up = hn::Mul(hn::Mul(weight, ahead), stiff);
@@ -157,14 +159,14 @@ class BlockSolver {
             stiff_before = stiff;
             old_before = old;
         }
-        V3 behind_it = right;
+        V3 next_x = right;
         for (std::size_t k = block_.links; k-- > 0;) {
-            behind_it = minus(load3(k, X), times(load(k, Upper), behind_it));
-            store3(behind_it, k, X);
+            next_x = minus(load3(k, X), times(load(k, Upper), next_x));
+            store3(next_x, k, X);
         }
     }
 
-    V largest_error() const {
+    V max_error() const {
         V worst = hn::Zero(d_);
         V3 from = load3(0, X);
         for (std::size_t k = 0; k < block_.links; ++k) {
@@ -182,8 +184,8 @@ class BlockSolver {
 
     /// One pass: corrects the lengths to first order in the lanes `open`.
     template <class M>
-    void improve(M open, const Order& order) const {
-        eliminate(order);
+    void correct_lengths(M open, const SolveJob& job) const {
+        eliminate(job);
         const V zero = hn::Zero(d_);
         V change_after = zero;
         V3 impulse_after = {zero, zero, zero};  // the change times its direction
@@ -202,29 +204,29 @@ class BlockSolver {
         store3(plus(load3(k, X), times(load(k, Weight), by)), k, X);
     }
 
-    void eliminate(const Order& order) const {
-        const V zero = hn::Zero(d_), half = set(0.5), backward = hn::LoadU(d_, order.backward);
+    void eliminate(const SolveJob& job) const {
+        const V zero = hn::Zero(d_), half = set(0.5), backward = hn::LoadU(d_, job.backward);
         const V after = hn::Add(half, hn::Mul(half, backward)),
                 before = hn::Sub(half, hn::Mul(half, backward));
         V upper_before = zero, right_before = zero;
-        V3 acts_before{zero, zero, zero}, lies_before = acts_before;
+        V3 q_before{zero, zero, zero}, n_before = q_before;
         V3 from = load3(0, X);
         for (std::size_t k = 0; k < block_.links; ++k) {
             const V3 to = load3(k + 1, X);
             V length;
-            const V3 lies = unit(minus(to, from), length), old = load3(k, OldX);
+            const V3 n = unit(minus(to, from), length), old = load3(k, OldX);
             // Over a right angle in two substeps is too fast for the mean to be useful.
-            const auto slow = hn::Gt(dot(lies, old), zero);
-            const V3 mean = plus(times(after, lies), times(before, old));
-            const V3 acts{hn::IfThenElse(slow, mean.x, lies.x), hn::IfThenElse(slow, mean.y, lies.y),
-                          hn::IfThenElse(slow, mean.z, lies.z)};
-            store3(acts, k, DirectionX);
+            const auto slow = hn::Gt(dot(n, old), zero);
+            const V3 mean = plus(times(after, n), times(before, old));
+            const V3 q{hn::IfThenElse(slow, mean.x, n.x), hn::IfThenElse(slow, mean.y, n.y),
+                       hn::IfThenElse(slow, mean.z, n.z)};
+            store3(q, k, DirectionX);
             const V compliance = load(k, Compliance);
             const V error = hn::Sub(hn::Sub(length, load(k, Rest)), hn::Mul(compliance, load(k, Multiplier)));
             const V weight = load(k, Weight), both = hn::Add(weight, load(k + 1, Weight));
-            const V diagonal = hn::Add(hn::Mul(both, dot(lies, acts)), compliance);
-            const V lower = hn::Neg(hn::Mul(weight, dot(lies, acts_before)));
-            const V up_before = hn::Neg(hn::Mul(weight, dot(lies_before, acts)));  // of row k - 1
+            const V diagonal = hn::Add(hn::Mul(both, dot(n, q)), compliance);
+            const V lower = hn::Neg(hn::Mul(weight, dot(n, q_before)));
+            const V up_before = hn::Neg(hn::Mul(weight, dot(n_before, q)));  // of row k - 1
             // The previous row can be finished only now that its upper entry is known.
             V upper_ready = zero;
             if (k > 0) {
@@ -232,7 +234,7 @@ class BlockSolver {
                 store(upper_ready, k - 1, Upper);
             }
             const V pivot =
-                hn::Sub(hn::Add(diagonal, hn::Mul(set(order.damping), both)), hn::Mul(lower, upper_ready));
+                hn::Sub(hn::Add(diagonal, hn::Mul(set(job.damping), both)), hn::Mul(lower, upper_ready));
             const V inverse = hn::Div(set(1.0), larger(pivot, larger(hn::Mul(set(1e-10), both), set(1e-30))));
             // Nothing to solve between two pinned nodes.
             const auto fixed = hn::Le(both, zero);
@@ -240,8 +242,8 @@ class BlockSolver {
                 hn::IfThenZeroElse(fixed, hn::Mul(inverse, hn::Sub(error, hn::Mul(lower, right_before))));
             upper_before = hn::IfThenZeroElse(fixed, inverse);
             store(right_before, k, Right);
-            acts_before = acts;
-            lies_before = lies;
+            q_before = q;
+            n_before = n;
             from = to;
         }
         store(zero, block_.links - 1, Upper);

@@ -16,11 +16,11 @@ namespace HWY_NAMESPACE {
 using Wide = hn::CappedTag<double, max_lanes>;
 using Single = hn::CappedTag<double, 1>;
 
-void solve_wide(const Block& block, Order& order) {
-    BlockSolver<Wide>(block).run(order);
+void solve_wide(const Block& block, SolveJob& job) {
+    BlockSolver<Wide>(block).run(job);
 }
-void solve_single(const Block& block, Order& order) {
-    BlockSolver<Single>(block).run(order);
+void solve_single(const Block& block, SolveJob& job) {
+    BlockSolver<Single>(block).run(job);
 }
 std::size_t wide_lanes() {
     return hn::Lanes(Wide());
@@ -44,7 +44,7 @@ VectorUnit vector_unit(std::string_view name) noexcept {
     const std::int64_t target = tendril::detail::target_named(name);
     if (target == 0) return {};
     return {TENDRIL_COMPILED_FOR(solve_wide, target), TENDRIL_COMPILED_FOR(solve_single, target),
-                TENDRIL_COMPILED_FOR(wide_lanes, target)()};
+            TENDRIL_COMPILED_FOR(wide_lanes, target)()};
 }
 
 }  // namespace tendril::rope::detail

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "math/checks.hpp"
+#include "rope/body_data.hpp"
 #include "rope/build.hpp"
 #include "rope/rest_grid.hpp"
 #include "rope/slots.hpp"
-#include "rope/taken.hpp"
 
 namespace tendril::rope {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 using glm::dvec3;
 using tendril::detail::refused;
 
-using detail::Taken;
+using detail::BodyData;
 
 template <class T>
 void replace_range(std::vector<T>& list, std::size_t first, std::size_t count, const std::vector<T>& by) {
@@ -34,7 +34,7 @@ Expected<Edited> edited(State state, std::vector<std::size_t> becomes) {
 }
 
 /// A point between two numbers of a row: `part` of the way from `before` to the next.
-struct Between {
+struct RowPoint {
     std::size_t before = 0;
     double part = 0.0;
     std::size_t after() const noexcept { return part > 0.0 ? before + 1 : before; }
@@ -42,14 +42,14 @@ struct Between {
 };
 
 /// The number of `segments` for each span, in proportion to its length and at least one.
-std::vector<std::size_t> share_out(const std::vector<double>& lengths, std::size_t segments) {
-    double whole = 0.0;
-    for (const double length : lengths) whole += length;
+std::vector<std::size_t> distribute_segments(const std::vector<double>& lengths, std::size_t segments) {
+    double is_whole = 0.0;
+    for (const double length : lengths) is_whole += length;
     std::vector<std::size_t> counts;
     std::vector<std::pair<double, std::size_t>> missing;  // shortfall of each span
     std::size_t given = 0;
     for (std::size_t i = 0; i < lengths.size(); ++i) {
-        const double wanted = static_cast<double>(segments) * lengths[i] / whole;
+        const double wanted = static_cast<double>(segments) * lengths[i] / is_whole;
         counts.push_back(static_cast<std::size_t>(std::max(1.0, std::floor(wanted + 1e-9))));
         given += counts.back();
         missing.emplace_back(wanted - static_cast<double>(counts.back()), i);
@@ -69,14 +69,14 @@ std::vector<std::size_t> share_out(const std::vector<double>& lengths, std::size
 
 /// The sources of a row's particles. `rest`: the coordinates of its particles; `kept`: particles that stay,
 /// sorted, both ends among them.
-std::vector<Between> divide(const std::vector<double>& rest, const std::vector<std::size_t>& kept,
-                            std::size_t segments) {
+std::vector<RowPoint> sample_row(const std::vector<double>& rest, const std::vector<std::size_t>& kept,
+                                 std::size_t segments) {
     std::vector<double> lengths;
     const bool extended = rest.back() > 0.0;
     const auto at = [&](std::size_t i) { return extended ? rest[i] : static_cast<double>(i); };
     for (std::size_t i = 0; i + 1 < kept.size(); ++i) lengths.push_back(at(kept[i + 1]) - at(kept[i]));
-    const std::vector<std::size_t> counts = share_out(lengths, segments);
-    std::vector<Between> list;
+    const std::vector<std::size_t> counts = distribute_segments(lengths, segments);
+    std::vector<RowPoint> list;
     for (std::size_t span = 0; span < counts.size(); ++span) {
         std::size_t before = kept[span];
         for (std::size_t k = 0; k < counts[span]; ++k) {
@@ -86,14 +86,14 @@ std::vector<Between> divide(const std::vector<double>& rest, const std::vector<s
             const double step = at(before + 1) - at(before);
             double part = k == 0 || !(step > 0.0) ? 0.0 : (wanted - at(before)) / step;
             if (part < 1e-6) part = 0.0;
-            list.push_back(part > 1.0 - 1e-6 ? Between{before + 1, 0.0} : Between{before, part});
+            list.push_back(part > 1.0 - 1e-6 ? RowPoint{before + 1, 0.0} : RowPoint{before, part});
         }
     }
     list.push_back({kept.back(), 0.0});
     return list;
 }
 
-std::vector<std::size_t> nearest_of(const std::vector<Between>& list, std::size_t count) {
+std::vector<std::size_t> nearest_samples(const std::vector<RowPoint>& list, std::size_t count) {
     std::vector<std::size_t> becomes;
     const auto where = [&](std::size_t i) { return static_cast<double>(list[i].before) + list[i].part; };
     for (std::size_t i = 0, at = 0; i < count; ++i) {
@@ -121,13 +121,13 @@ class Resampling {
     }
 
     Result divide_rows() {
-        const auto axis = [&](bool across, std::vector<Between>& list) -> Result {
+        const auto axis = [&](bool across, std::vector<RowPoint>& list) -> Result {
             const std::size_t was = across ? was_.rows : was_.columns, to = across ? to_.rows : to_.columns;
             if (was == to) {
                 for (std::size_t i = 0; i < was; ++i) list.push_back({i, 0.0});
                 return {};
             }
-            const std::vector<std::size_t> kept = kept_in(across);
+            const std::vector<std::size_t> kept = fixed_indices(across);
             if (to < kept.size()) {
                 char rule[128];
                 std::snprintf(rule, sizeof rule,
@@ -135,7 +135,7 @@ class Resampling {
                               kept.size(), kept.size() - 1);
                 return refused("resample", across ? "rows" : "columns", rule, to);
             }
-            list = divide(across ? grid_.down : grid_.along, kept, to - 1);
+            list = sample_row(across ? grid_.down : grid_.along, kept, to - 1);
             return {};
         };
         if (const Result bad = axis(false, column_); !bad) return bad;
@@ -143,22 +143,22 @@ class Resampling {
     }
 
     /// `becomes`: the new particle of each old one, or the nearest to it.
-    Taken taken(std::vector<std::size_t>& becomes) const {
-        Taken made{.row = to_.columns};
+    BodyData taken(std::vector<std::size_t>& becomes) const {
+        BodyData made{.row = to_.columns};
         std::vector<std::size_t> number(to_.columns * to_.rows, none);
         add_particles(made, number);
         add_links(made, number);
-        keep_momentum(made);
-        follow(number, becomes);
+        conserve_momentum(made);
+        map_particles(number, becomes);
         return made;
     }
 
   private:
     static constexpr std::size_t none = ~std::size_t{0};
 
-    void follow(const std::vector<std::size_t>& number, std::vector<std::size_t>& becomes) const {
-        const std::vector<std::size_t> columns = nearest_of(column_, was_.columns),
-                                       rows = nearest_of(row_, was_.rows);
+    void map_particles(const std::vector<std::size_t>& number, std::vector<std::size_t>& becomes) const {
+        const std::vector<std::size_t> columns = nearest_samples(column_, was_.columns),
+                                       rows = nearest_samples(row_, was_.rows);
         const auto off = [](std::size_t a, std::size_t b) { return a < b ? b - a : a - b; };
         for (std::size_t i = 0; i < body_.count; ++i) {
             const std::size_t cell = body_.cell(i), c = columns[cell % was_.columns],
@@ -180,9 +180,9 @@ class Resampling {
         along_.assign(pin_.size(), nullptr), down_.assign(pin_.size(), nullptr);
         for (const Link& link : state_.links) {
             if (!detail::is_within(body_, link)) continue;
-            has_[static_cast<std::size_t>(link.kind)] = &link;
+            example_link_[static_cast<std::size_t>(link.kind)] = &link;
             if (link.kind != Link::Kind::Stretch) continue;
-            const detail::LinkWay way = detail::way_of(body_, link);
+            const detail::LinkStep way = detail::link_step(body_, link);
             const std::size_t begin = way.row * was_.columns + way.column;
             if (way.columns == 1 && way.rows == 0) along_[begin] = &link;
             if (way.columns == 0 && way.rows == 1) down_[begin] = &link;
@@ -195,7 +195,7 @@ class Resampling {
 
     /// The columns, or rows, that must stay: the ends, those with ties, and those with a pin that does not
     /// continue on both sides.
-    std::vector<std::size_t> kept_in(bool across) const {
+    std::vector<std::size_t> fixed_indices(bool across) const {
         const std::size_t count = across ? was_.rows : was_.columns, step = across ? was_.columns : 1;
         std::vector<bool> kept(count, false);
         kept.front() = kept.back() = true;
@@ -214,37 +214,37 @@ class Resampling {
         return list;
     }
 
-    std::size_t old(std::size_t column, std::size_t row) const { return row * was_.columns + column; }
+    std::size_t old_cell(std::size_t column, std::size_t row) const { return row * was_.columns + column; }
 
     /// Whether a cell gets a new particle: the nearest old cell is no gap, and threads lead to it.
     bool filled(std::size_t c, std::size_t r) const {
         if (body_.cells.empty()) return true;
-        return particle_[old(column_[c].nearest(), row_[r].nearest())] < body_.count &&
-               ((c > 0 && whole(c - 1, r, c, r)) || (r > 0 && whole(c, r - 1, c, r)) ||
-                (c + 1 < to_.columns && whole(c, r, c + 1, r)) ||
-                (r + 1 < to_.rows && whole(c, r, c, r + 1)));
+        return particle_[old_cell(column_[c].nearest(), row_[r].nearest())] < body_.count &&
+               ((c > 0 && is_whole(c - 1, r, c, r)) || (r > 0 && is_whole(c, r - 1, c, r)) ||
+                (c + 1 < to_.columns && is_whole(c, r, c + 1, r)) ||
+                (r + 1 < to_.rows && is_whole(c, r, c, r + 1)));
     }
 
     /// Whether the cloth is whole between two of the new particles, which may be one.
-    bool whole(std::size_t c0, std::size_t r0, std::size_t c1, std::size_t r1) const {
+    bool is_whole(std::size_t c0, std::size_t r0, std::size_t c1, std::size_t r1) const {
         const auto low_c = std::min(column_[c0].before, column_[c1].before),
                    high_c = std::max(column_[c0].after(), column_[c1].after()),
                    low_r = std::min(row_[r0].before, row_[r1].before),
                    high_r = std::max(row_[r0].after(), row_[r1].after());
         for (std::size_t r = low_r; r <= high_r; ++r)
             for (std::size_t c = low_c; c <= high_c; ++c) {
-                if (c < high_c && along_[old(c, r)] == nullptr) return false;
-                if (r < high_r && down_[old(c, r)] == nullptr) return false;
+                if (c < high_c && along_[old_cell(c, r)] == nullptr) return false;
+                if (r < high_r && down_[old_cell(c, r)] == nullptr) return false;
             }
         return true;
     }
 
     dvec3 blend(const std::vector<dvec3>& list, std::size_t c, std::size_t r) const {
-        const Between &column = column_[c], &row = row_[r];
+        const RowPoint &column = column_[c], &row = row_[r];
         const auto at = [&](std::size_t i, std::size_t k) {
-            return list[body_.first + particle_[old(i, k)]];
+            return list[body_.first + particle_[old_cell(i, k)]];
         };
-        if (!whole(c, r, c, r)) return at(column.nearest(), row.nearest());
+        if (!is_whole(c, r, c, r)) return at(column.nearest(), row.nearest());
         const auto in_row = [&](std::size_t k) {
             const dvec3 before = at(column.before, k);
             return column.part > 0.0 ? before + column.part * (at(column.before + 1, k) - before) : before;
@@ -255,9 +255,10 @@ class Resampling {
 
     /// The pin of a new particle; none unless all old ones around it are pinned alike.
     bool pin_at(std::size_t c, std::size_t r, Pin& pin) const {
-        const Between &column = column_[c], &row = row_[r];
-        const std::size_t corners[] = {old(column.before, row.before), old(column.after(), row.before),
-                                       old(column.before, row.after()), old(column.after(), row.after())};
+        const RowPoint &column = column_[c], &row = row_[r];
+        const std::size_t corners[] = {
+            old_cell(column.before, row.before), old_cell(column.after(), row.before),
+            old_cell(column.before, row.after()), old_cell(column.after(), row.after())};
         const double parts[] = {(1.0 - column.part) * (1.0 - row.part), column.part * (1.0 - row.part),
                                 (1.0 - column.part) * row.part, column.part * row.part};
         if (pin_[corners[0]] == nullptr) return false;
@@ -273,19 +274,20 @@ class Resampling {
     }
 
     /// Rest coordinates of the new columns, or rows.
-    static std::vector<double> coordinates(const std::vector<double>& was, const std::vector<Between>& list) {
+    static std::vector<double> coordinates(const std::vector<double>& was,
+                                           const std::vector<RowPoint>& list) {
         std::vector<double> all;
-        for (const Between& each : list)
+        for (const RowPoint& each : list)
             all.push_back(was[each.before] + each.part * (was[each.after()] - was[each.before]));
         return all;
     }
 
     /// Sets the number of the particle in each cell.
-    void add_particles(Taken& made, std::vector<std::size_t>& number) const {
+    void add_particles(BodyData& made, std::vector<std::size_t>& number) const {
         const bool cloth = body_.kind == Body::Kind::Cloth;
-        const std::vector<double> columns = detail::shares(coordinates(grid_.along, column_)),
-                                  rows = detail::shares(coordinates(grid_.down, row_));
-        const std::vector<double> was = detail::shares(grid_.along);
+        const std::vector<double> columns = detail::lumped_lengths(coordinates(grid_.along, column_)),
+                                  rows = detail::lumped_lengths(coordinates(grid_.down, row_));
+        const std::vector<double> was = detail::lumped_lengths(grid_.along);
         double all = 0.0;  // sum over all filled cells, or over a strand
         for (std::size_t r = 0; r < to_.rows && cloth; ++r)
             for (std::size_t c = 0; c < to_.columns; ++c)
@@ -313,7 +315,7 @@ class Resampling {
         }
     }
 
-    void add_links(Taken& made, const std::vector<std::size_t>& number) const {
+    void add_links(BodyData& made, const std::vector<std::size_t>& number) const {
         detail::RestGrid grid{.along = coordinates(grid_.along, column_),
                               .down = coordinates(grid_.down, row_),
                               .cosine = grid_.cosine};
@@ -321,8 +323,8 @@ class Resampling {
         body.first = 0, body.count = number.size(), body.row = to_.columns, body.cells.clear();
         const auto columns = static_cast<std::uint32_t>(to_.columns),
                    rows = static_cast<std::uint32_t>(to_.rows);
-        const Link* const stretch = has_[static_cast<std::size_t>(Link::Kind::Stretch)];
-        const double per = stretch != nullptr ? detail::link_per_material(body_, grid_, *stretch) : 0.0;
+        const Link* const stretch = example_link_[static_cast<std::size_t>(Link::Kind::Stretch)];
+        const double per = stretch != nullptr ? detail::unit_link_compliance(body_, grid_, *stretch) : 0.0;
         const double material = per > 0.0 ? stretch->compliance / per : 0.0;
         // A thread of a cloth has its share of the force.
         const auto share = [](std::size_t was, std::size_t now) {
@@ -330,16 +332,16 @@ class Resampling {
         };
         const auto add = [&](std::uint32_t a, std::uint32_t b, Link::Kind kind) {
             const std::size_t ca = a % columns, ra = a / columns, cb = b % columns, rb = b / columns;
-            const Link* const like = has_[static_cast<std::size_t>(kind)];
-            if (like == nullptr || !whole(ca, ra, cb, rb)) return;
+            const Link* const like = example_link_[static_cast<std::size_t>(kind)];
+            if (like == nullptr || !is_whole(ca, ra, cb, rb)) return;
             Link link{.a = a, .b = b, .rest = 0.0f, .kind = kind, .compliance = like->compliance};
             link.rest = static_cast<float>(detail::length(grid.at(cb, rb) - grid.at(ca, ra)));
             if (kind == Link::Kind::Stretch) {
-                const double soft = material * detail::link_per_material(body, grid, link);
+                const double soft = material * detail::unit_link_compliance(body, grid, link);
                 link.compliance = static_cast<float>(std::min(soft, static_cast<double>(max_magnitude)));
                 const bool in_row = ra == rb;
-                const Link& under = *(in_row ? along_[old(column_[ca].before, row_[ra].nearest())]
-                                             : down_[old(column_[ca].nearest(), row_[ra].before)]);
+                const Link& under = *(in_row ? along_[old_cell(column_[ca].before, row_[ra].nearest())]
+                                             : down_[old_cell(column_[ca].nearest(), row_[ra].before)]);
                 link.tension = static_cast<float>(
                     under.tension * (in_row ? share(was_.rows, to_.rows) : share(was_.columns, to_.columns)));
             }
@@ -350,7 +352,7 @@ class Resampling {
     }
 
     /// Adds the same velocity to all free particles, so that their momentum stays the same.
-    void keep_momentum(Taken& made) const {
+    void conserve_momentum(BodyData& made) const {
         dvec3 missing(0.0);
         for (std::size_t i = 0; i < body_.count; ++i)
             if (pin_[body_.cell(i)] == nullptr)
@@ -376,8 +378,8 @@ class Resampling {
     std::vector<std::size_t> particle_;      ///< numbered in the body; body_.count: none
     std::vector<const Pin*> pin_;            ///< null: none
     std::vector<const Link*> along_, down_;  ///< the stretch links that begin there
-    const Link* has_[3] = {};                ///< a link of each kind
-    std::vector<Between> column_, row_;
+    const Link* example_link_[3] = {};       ///< a link of each kind
+    std::vector<RowPoint> column_, row_;
 };
 
 }  // namespace
@@ -388,7 +390,8 @@ std::size_t Body::particle_in(std::size_t cell) const noexcept {
     return found == cells.end() || *found != cell ? count : static_cast<std::size_t>(found - cells.begin());
 }
 
-void detail::put_back(State& state, BodyId id, const Taken& taken, const std::vector<std::size_t>& becomes) {
+void detail::replace_body(State& state, BodyId id, const BodyData& taken,
+                          const std::vector<std::size_t>& becomes) {
     Body& body = *detail::find_in(state.bodies, id);
     const std::size_t first = body.first, was = body.count, end = first + was, now = taken.position.size();
     replace_range(state.position, first, was, taken.position);
@@ -490,10 +493,10 @@ Expected<Edited> resample(const World& world, BodyId id, const Resolution& to) {
     if (const Result bad = resampling.divide_rows(); !bad) return bad;
     State state = world.state();
     std::vector<std::size_t> becomes;
-    const Taken taken = resampling.taken(becomes);
+    const BodyData taken = resampling.taken(becomes);
     if (taken.position.empty())
         return refused(op, "columns", "more: nothing of it would be left", to.columns);
-    detail::put_back(state, id, taken, becomes);
+    detail::replace_body(state, id, taken, becomes);
     Body& now = *detail::find_in(state.bodies, id);
     const bool gaps = !now.cells.empty();
     detail::crop(now);
@@ -513,7 +516,7 @@ Expected<Edited> reverse(const World& world, BodyId rope) {
     State state = world.state();
     const std::size_t first = body->first, last = body->count - 1;
     std::vector<std::size_t> becomes(body->count);
-    Taken taken{.row = body->count};
+    BodyData taken{.row = body->count};
     for (std::size_t i = 0; i <= last; ++i) {
         const std::size_t from = first + last - i;
         becomes[i] = last - i;
@@ -533,7 +536,7 @@ Expected<Edited> reverse(const World& world, BodyId rope) {
         pin.particle = becomes[pin.particle - first];
         taken.pins.push_back(pin);
     }
-    detail::put_back(state, rope, taken, becomes);
+    detail::replace_body(state, rope, taken, becomes);
     return edited(std::move(state), std::move(becomes));
 }
 

@@ -41,7 +41,7 @@ double row_dot(const Matrix3& a, int i, const Matrix3& b, int j) noexcept {
 }  // namespace
 
 Elimination::Elimination(std::span<const std::uint8_t> is_late, std::span<const Edge> edges)
-    : place(is_late.size(), 0) {
+    : rank(is_late.size(), 0) {
     const auto nodes = static_cast<std::uint32_t>(is_late.size());
     std::vector<std::vector<std::uint32_t>> beside(nodes);  // ascending
     const auto join = [&](std::uint32_t a, std::uint32_t b) {
@@ -60,7 +60,7 @@ Elimination::Elimination(std::span<const std::uint8_t> is_late, std::span<const 
     while (!left.empty()) {
         const std::uint32_t node = left.begin()->back();
         left.erase(left.begin());
-        place[node] = static_cast<std::uint32_t>(columns.size());
+        rank[node] = static_cast<std::uint32_t>(columns.size());
         columns.push_back(std::move(beside[node]));
         late += is_late[node] == 0 ? 1u : 0u;
         for (const std::uint32_t a : columns.back()) {
@@ -74,7 +74,7 @@ Elimination::Elimination(std::span<const std::uint8_t> is_late, std::span<const 
     first.reserve(nodes + 1);
     for (std::vector<std::uint32_t>& column : columns) {
         first.push_back(static_cast<std::uint32_t>(row.size()));
-        for (std::uint32_t& node : column) node = place[node];
+        for (std::uint32_t& node : column) node = rank[node];
         std::sort(column.begin(), column.end());
         row.insert(row.end(), column.begin(), column.end());
     }
@@ -91,9 +91,9 @@ std::uint32_t Elimination::block(std::uint32_t a, std::uint32_t b) const noexcep
 }
 
 void EliminationSystem::resize(const Elimination& order) {
-    diagonal.resize(order.place.size());
+    diagonal.resize(order.rank.size());
     blocks.resize(order.row.size());
-    x.resize(order.place.size());
+    x.resize(order.rank.size());
 }
 
 void EliminationSystem::clear() {

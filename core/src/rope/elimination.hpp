@@ -25,7 +25,7 @@ struct Elimination {
     /// The block between two nodes that an edge joins, given by their places in the order.
     std::uint32_t block(std::uint32_t a, std::uint32_t b) const noexcept;
 
-    std::vector<std::uint32_t> place;  ///< place of each node in the order
+    std::vector<std::uint32_t> rank;   ///< place of each node in the order
     std::vector<std::uint32_t> first;  ///< first block of each place; one more at the end
     std::vector<std::uint32_t> row;    ///< later place of each block; ascending in a column
     std::vector<std::uint32_t> fill;   ///< block changed by each pair of blocks of a column

@@ -21,12 +21,12 @@ constexpr double rounding = 1e-9;
 
 /// The energy that scaling a velocity by s removes. A shorter displacement also moves the halfway point
 /// towards the end of the substep; `since` is the potential energy released between the two.
-double lost(double kinetic, double since, double s) {
+double energy_removed(double kinetic, double since, double s) {
     return kinetic * (1.0 - s * s) + since * (1.0 - s);
 }
 
 /// The largest s that removes `gained`; if none does, the one that removes most.
-double slower(double kinetic, double since, double gained) {
+double velocity_scale(double kinetic, double since, double gained) {
     if (!(gained > 0.0) || !(kinetic > 0.0)) return 1.0;
     const double most = std::clamp(-since / (2.0 * kinetic), 0.0, 1.0);
     const double root = since * since + 4.0 * kinetic * (kinetic + since - gained);
@@ -38,61 +38,62 @@ double slower(double kinetic, double since, double gained) {
     return std::clamp(s, most, 1.0);
 }
 
-/// Whether a link without compliance is so far off its length that it holds uncounted energy.
-bool strains(const Link& link, const dvec3& along) {
-    constexpr double counted = 1e-3;  // relative to its length
+/// Whether a link's length error is so large that it holds uncounted energy.
+bool is_strained(const Link& link, const dvec3& along) {
+    constexpr double max_strain = 1e-3;  // relative to its length
     const double rest = link.rest;
-    return link.kind == Link::Kind::Stretch && std::abs(detail::length(along) - rest) > counted * rest;
+    return link.kind == Link::Kind::Stretch && std::abs(detail::length(along) - rest) > max_strain * rest;
 }
 
 }  // namespace
 
 inline void Substep::Ledger::add_particle(std::size_t i) {
-    const dvec3 now = it_->scratch_.place[i] - it_->state_.position[i];
-    if (it_->scratch_.weight[i] == 0.0) {
-        worked_on_ = worked_on_ || now != dvec3(0.0);
+    const dvec3 now = step_->scratch_.x[i] - step_->state_.position[i];
+    if (step_->scratch_.weight[i] == 0.0) {
+        driven_ = driven_ || now != dvec3(0.0);
         pinned_ = true;
         return;
     }
-    const dvec3 then = it_->state_.displacement[i];
-    pushed_ += it_->state_.mass[i] * (it_->scratch_.place[i] - it_->scratch_.base[i]);
-    const double mass = it_->state_.mass[i], moving = detail::kinetic_energy(mass, now, it_->h_);
-    const double half = 0.5 * mass * detail::dot(it_->acceleration_, now);
+    const dvec3 then = step_->state_.displacement[i];
+    solver_momentum_ += step_->state_.mass[i] * (step_->scratch_.x[i] - step_->scratch_.base[i]);
+    const double mass = step_->state_.mass[i], moving = detail::kinetic_energy(mass, now, step_->h_);
+    const double half = 0.5 * mass * detail::dot(step_->acceleration_, now);
     mass_ += mass;
     kinetic_ += moving;
     momentum_ += mass * now;
-    fallen_ += half;
-    const double moved = detail::kinetic_energy(mass, then, it_->h_);
-    gained_ += moving - moved - half - it_->before_ * 0.5 * mass * detail::dot(it_->acceleration_, then);
-    if (it_->blows_)  // work of the wind is no gain
-        gained_ -= detail::dot(it_->scratch_.blown[i], now + then) * (0.5 * mass / (it_->h_ * it_->h_));
+    gravity_work_ += half;
+    const double moved = detail::kinetic_energy(mass, then, step_->h_);
+    gained_ += moving - moved - half - step_->before_ * 0.5 * mass * detail::dot(step_->acceleration_, then);
+    if (step_->has_air_)  // work of the wind is no gain
+        gained_ -=
+            detail::dot(step_->scratch_.wind_move[i], now + then) * (0.5 * mass / (step_->h_ * step_->h_));
     kinetic_before_ += moved;
-    damped_ += (1.0 - it_->damping_ * it_->damping_) * moved;
+    damping_loss_ += (1.0 - step_->damping_ * step_->damping_) * moved;
 }
 
 inline void Substep::Ledger::add_link(std::uint32_t number) {
-    const State& state = it_->state_;
+    const State& state = step_->state_;
     const Link& link = state.links[number];
     length_ += link.rest;
     const double compliance = detail::compliance(state.settings, link);
     const dvec3 then = state.position[link.b] - state.position[link.a];
     if (compliance == 0.0) {
-        const bool asked = near_ != Scratch::Nearest::None && state.settings.solver != Solver::Direct;
-        strained_ = strained_ || (asked && strains(link, then));
+        const bool checks_strain = near_ != Scratch::Nearest::None && state.settings.solver != Solver::Direct;
+        strained_ = strained_ || (checks_strain && is_strained(link, then));
         return;
     }
-    const dvec3 now = it_->scratch_.place[link.b] - it_->scratch_.place[link.a];
-    const double tension = it_->scratch_.multiplier[number] / (it_->h_ * it_->h_);
+    const dvec3 now = step_->scratch_.x[link.b] - step_->scratch_.x[link.a];
+    const double tension = step_->scratch_.multiplier[number] / (step_->h_ * step_->h_);
     const double half = detail::elastic_energy(link, compliance, tension, now, now - then);
     gained_ += half - detail::elastic_energy(link, compliance, link.tension, then,
                                              state.displacement[link.b] - state.displacement[link.a]);
     elastic_ += half;
-    released_ += half - detail::elastic_energy(link, compliance, tension, now, dvec3(0.0));
+    elastic_release_ += half - detail::elastic_energy(link, compliance, tension, now, dvec3(0.0));
 }
 
 /// A solver that takes curvatures at both ends of a substep bounds their mean energy.
 void Substep::Ledger::add_bending(const Plan::Chain& chain) {
-    const State& state = it_->state_;
+    const State& state = step_->state_;
     const Body& body = state.bodies[chain.body];
     if (!detail::bends(state, body)) return;
     const auto energy = [&](auto at) {
@@ -101,11 +102,11 @@ void Substep::Ledger::add_bending(const Plan::Chain& chain) {
             sum += detail::bending_energy(state, body, state.links[k - 1], state.links[k], at);
         return sum;
     };
-    const double now = energy([&](std::uint32_t i) { return it_->scratch_.place[i]; });
+    const double now = energy([&](std::uint32_t i) { return step_->scratch_.x[i]; });
     const double start = energy([&](std::uint32_t i) { return state.position[i]; });
     const double then = energy([&](std::uint32_t i) { return state.position[i] - state.displacement[i]; });
     gained_ += 0.5 * (now - then);
-    released_ += 0.5 * (start - now);
+    elastic_release_ += 0.5 * (start - now);
 }
 
 /// The links of a cloth are too stiff for lengths halfway; its solver has summed their energy at the end.
@@ -115,49 +116,50 @@ void Substep::Ledger::add_cloth(const detail::Cloth& cloth) {
     elastic_ += cloth.energy.elastic;
 }
 
-bool Substep::Ledger::gains(double part) const {
-    return gained() > 0.0 && gained() > part * mass_ * length_ * detail::length(it_->acceleration_);
+bool Substep::Ledger::gains_over(double part) const {
+    return gained() > 0.0 && gained() > part * mass_ * length_ * detail::length(step_->acceleration_);
 }
 
 /// Removes the gain from motion relative to the mean first, so that a free body keeps falling freely. A pin
 /// takes momentum, so with one all motion is scaled alike. Any remaining gain is stretch caused by a collider
 /// that appeared inside the body: tensions are scaled down, so that the links cannot return it as motion.
-Substep::Slowed Substep::Ledger::slowed() const {
-    Slowed slowed;
-    if (!gains(rounding)) return slowed;
+Substep::Slowdown Substep::Ledger::slowdown() const {
+    Slowdown slowdown;
+    if (!gains_over(rounding)) return slowdown;
     double left = gained_;
     if (pinned_) {
-        slowed.whole = slowed.apart = slower(kinetic_, fallen_ + released_, left);
-        left -= lost(kinetic_, fallen_ + released_, slowed.whole);
+        slowdown.mean_factor = slowdown.relative_factor =
+            velocity_scale(kinetic_, gravity_work_ + elastic_release_, left);
+        left -= energy_removed(kinetic_, gravity_work_ + elastic_release_, slowdown.mean_factor);
     } else {
-        slowed.mean = (1.0 / mass_) * momentum_;
-        const double whole = detail::kinetic_energy(mass_, slowed.mean, it_->h_);
+        slowdown.mean = (1.0 / mass_) * momentum_;
+        const double whole = detail::kinetic_energy(mass_, slowdown.mean, step_->h_);
         const double apart = std::max(0.0, kinetic_ - whole);
-        slowed.apart = slower(apart, released_, left);
-        left -= lost(apart, released_, slowed.apart);
-        slowed.whole = slower(whole, fallen_, left);
-        left -= lost(whole, fallen_, slowed.whole);
+        slowdown.relative_factor = velocity_scale(apart, elastic_release_, left);
+        left -= energy_removed(apart, elastic_release_, slowdown.relative_factor);
+        slowdown.mean_factor = velocity_scale(whole, gravity_work_, left);
+        left -= energy_removed(whole, gravity_work_, slowdown.mean_factor);
     }
-    slowed.left = left;
+    slowdown.left = left;
     if (near_ != Scratch::Nearest::None && left > 0.0 && elastic_ > 0.0)
-        slowed.tension = std::sqrt(std::max(0.0, 1.0 - left / elastic_));
-    return slowed;
+        slowdown.tension_factor = std::sqrt(std::max(0.0, 1.0 - left / elastic_));
+    return slowdown;
 }
 
-bool Substep::Ledger::keeps(double part) const {
-    return slowed().left >
-           part * std::max(kinetic_before_, mass_ * length_ * detail::length(it_->acceleration_));
+bool Substep::Ledger::leaves_gain(double part) const {
+    return slowdown().left >
+           part * std::max(kinetic_before_, mass_ * length_ * detail::length(step_->acceleration_));
 }
 
 double Substep::Ledger::contact_loss() const {
-    return near_ != Scratch::Nearest::None && !worked_on_ ? std::max(0.0, -gained_ - damped_) : 0.0;
+    return near_ != Scratch::Nearest::None && !driven_ ? std::max(0.0, -gained_ - damping_loss_) : 0.0;
 }
 
 bool Substep::Ledger::suspended() const {
-    constexpr double seen = 0.1;  // relative to its weight
-    const double fall = it_->h_ * it_->h_ * detail::length(it_->acceleration_);
+    constexpr double min_force = 0.1;  // relative to its weight
+    const double fall = step_->h_ * step_->h_ * detail::length(step_->acceleration_);
     return near_ == Scratch::Nearest::None && !pinned_ && fall > 0.0 &&
-           detail::length(pushed_) > seen * mass_ * fall;
+           detail::length(solver_momentum_) > min_force * mass_ * fall;
 }
 
 Substep::Ledger Substep::ledger_of(const Plan::Chain& chain) const {
@@ -201,24 +203,24 @@ Substep::Ledger Substep::ledger_of(const Plan::Island& part) const {
 }
 
 /// Reports a body's loss and limits its gain.
-Substep::Slowed Substep::balance(const Ledger& ledger) {
+Substep::Slowdown Substep::limit_gain(const Ledger& ledger) {
     report_.contact_loss += ledger.contact_loss();
     if (ledger.suspended()) ++report_.suspended;
-    return state_.settings.solver == Solver::Direct || ledger.bounds_relaxation() ? ledger.slowed()
-                                                                                  : Slowed{};
+    return state_.settings.solver == Solver::Direct || ledger.bounds_relaxation() ? ledger.slowdown()
+                                                                                  : Slowdown{};
 }
 
-/// Parts of an island are balanced one by one: if one is slowed, the others still fall. A cloth's gain from a
-/// rope that falls on it is then lost.
-void Substep::balance_energy() {
+/// Limits each part of an island by itself: if one is slowed, the others still fall. Energy that a cloth
+/// gains from a rope falling on it is lost.
+void Substep::limit_energy() {
     const std::span<const Plan::Island> parts = plan_.parts_of(island_);
-    local_.part_slowed.assign(parts.size(), {});
-    bool alone = false;
+    local_.part_slowdown.assign(parts.size(), {});
+    bool isolated = false;
     for (std::size_t k = 0; k < parts.size(); ++k) {
-        if (!parts[k].alone) local_.part_slowed[k] = balance(ledger_of(parts[k]));
-        alone |= parts[k].alone;
+        if (!parts[k].isolated) local_.part_slowdown[k] = limit_gain(ledger_of(parts[k]));
+        isolated |= parts[k].isolated;
     }
-    if (!alone) return;
+    if (!isolated) return;
     // A chain gains through a contact the energy that the other chain loses.
     std::span<const std::uint32_t> together;
     if (island_.contacts != 0) together = scratch_.body_contacts[island_.contacts - 1].chains;
@@ -228,45 +230,46 @@ void Substep::balance_energy() {
             near = std::max(near, scratch_.body_near[plan_.chains[r].body]);
         Ledger ledger(*this, near);
         for (const std::uint32_t r : together) add_chain(ledger, plan_.chains[r]);
-        const Slowed slowed = balance(ledger);
-        for (const std::uint32_t r : together) scratch_.chain_slowed[r] = slowed;
+        const Slowdown slowdown = limit_gain(ledger);
+        for (const std::uint32_t r : together) scratch_.chain_slowdown[r] = slowdown;
     }
     for (const Plan::Island& part : parts)
-        for (std::uint32_t r = part.chains.first; part.alone && r < part.chains.first + part.chains.count;
+        for (std::uint32_t r = part.chains.first; part.isolated && r < part.chains.first + part.chains.count;
              ++r) {
             if (std::binary_search(together.begin(), together.end(), r)) continue;
-            if (!scratch_.chain_slowed[r]) scratch_.chain_slowed[r] = balance(ledger_of(plan_.chains[r]));
+            if (!scratch_.chain_slowdown[r])
+                scratch_.chain_slowdown[r] = limit_gain(ledger_of(plan_.chains[r]));
         }
 }
 
 /// Scales velocities and the tension of elastic links; positions stay.
-void Substep::slow_down() {
-    const auto slow = [&](std::size_t i, const Slowed& slowed) {
+void Substep::apply_slowdown() {
+    const auto slow = [&](std::size_t i, const Slowdown& slowdown) {
         if (scratch_.weight[i] == 0.0) return;
         dvec3& by = state_.displacement[i];
-        by = slowed.whole * slowed.mean + slowed.apart * (by - slowed.mean);
+        by = slowdown.mean_factor * slowdown.mean + slowdown.relative_factor * (by - slowdown.mean);
     };
-    const auto slacken = [&](Link& link, const Slowed& slowed, bool grid) {
+    const auto scale_tension = [&](Link& link, const Slowdown& slowdown, bool grid) {
         if (grid || detail::compliance(state_.settings, link) > 0.0)
-            link.tension *= static_cast<float>(slowed.tension);
+            link.tension *= static_cast<float>(slowdown.tension_factor);
     };
     const std::span<const Plan::Island> parts = plan_.parts_of(island_);
     for (std::size_t k = 0; k < parts.size(); ++k) {
-        const Slowed& slowed = local_.part_slowed[k];
-        if (!slowed.any()) continue;
-        each_particle_of(parts[k], [&](std::size_t i) { slow(i, slowed); });
+        const Slowdown& slowdown = local_.part_slowdown[k];
+        if (!slowdown.any()) continue;
+        each_particle_of(parts[k], [&](std::size_t i) { slow(i, slowdown); });
         const std::span<const std::uint32_t> links = Plan::part(plan_.links, parts[k].links);
         for (std::size_t i = 0; i < links.size(); ++i)
-            slacken(state_.links[links[i]], slowed, parts[k].grid != 0 || tied_in_grid(parts[k], i));
+            scale_tension(state_.links[links[i]], slowdown, parts[k].grid != 0 || tied_in_grid(parts[k], i));
     }
     for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r) {
-        const std::optional<Slowed> balanced = std::exchange(scratch_.chain_slowed[r], std::nullopt);
+        const std::optional<Slowdown> balanced = std::exchange(scratch_.chain_slowdown[r], std::nullopt);
         if (!balanced || !balanced->any()) continue;
-        const Slowed& slowed = *balanced;
+        const Slowdown& slowdown = *balanced;
         const Plan::Chain& chain = plan_.chains[r];
-        for (std::uint32_t k = 0; k <= chain.links; ++k) slow(plan_.nodes[chain.first_node + k], slowed);
+        for (std::uint32_t k = 0; k <= chain.links; ++k) slow(plan_.nodes[chain.first_node + k], slowdown);
         for (std::uint32_t k = 0; k < chain.links; ++k)
-            slacken(state_.links[chain.first_link + k], slowed, false);
+            scale_tension(state_.links[chain.first_link + k], slowdown, false);
     }
 }
 

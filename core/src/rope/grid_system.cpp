@@ -27,25 +27,25 @@ class Arrays {
     void take(const GridLevel& level, std::span<float*> arrays) {
         for (float*& each : arrays) take(level, each);
     }
-    std::size_t taken() const { return taken_; }
+    std::size_t taken() const { return step_scale_; }
 
   private:
     void take(const GridLevel& level, float*& array) {
         // A register may begin a link before the first cell or after the last.
         const std::size_t around = 2 * level.stride + 4 * grid_lanes;
-        if (next_ != nullptr) array = next_ + taken_ + around;
-        taken_ += level.cells() + 2 * around;
+        if (next_ != nullptr) array = next_ + step_scale_ + around;
+        step_scale_ += level.cells() + 2 * around;
     }
 
     float* next_;
-    std::size_t taken_ = 0;
+    std::size_t step_scale_ = 0;
 };
 
 }  // namespace
 
 void GridSystem::resize(std::size_t columns, std::size_t rows, std::span<float*> others) {
     levels_.clear();
-    presses_.clear();
+    couplings_.clear();
     for (;;) {
         GridLevel level;
         level.columns = columns, level.rows = rows;
@@ -55,7 +55,7 @@ void GridSystem::resize(std::size_t columns, std::size_t rows, std::span<float*>
         if (std::max(columns, rows) <= coarsest) break;
         columns = (columns + 1) / 2, rows = (rows + 1) / 2;
     }
-    const auto share = [&](float* memory) {
+    const auto weight = [&](float* memory) {
         Arrays arrays(memory);
         for (GridLevel& level : levels_) arrays.of(level);
         for (GridVector* vector : {&solution_, &direction_, &product_}) arrays.take(levels_.front(), *vector);
@@ -64,9 +64,9 @@ void GridSystem::resize(std::size_t columns, std::size_t rows, std::span<float*>
     };
     sums_.resize((levels_.front().cells() + dot_cells - 1) / dot_cells);
     constexpr std::size_t line = 16;
-    memory_.assign(share(nullptr) + line, 0.0f);
+    memory_.assign(weight(nullptr) + line, 0.0f);
     const std::size_t off = reinterpret_cast<std::uintptr_t>(memory_.data()) / sizeof(float) % line;
-    share(memory_.data() + (line - off) % line);
+    weight(memory_.data() + (line - off) % line);
 }
 
 /// Runs operations on levels, in parts if threads help.
@@ -122,20 +122,21 @@ void GridSystem::factorize_coarsest() {
             }
         }
     const std::size_t shift = levels_.size() - 1, stride = finest().stride;
-    for (const GridPress& press : presses_)
+    for (const GridCoupling& coupling : couplings_)
         for (std::size_t p = 0; p < 4; ++p)
             for (std::size_t q = 0; q < 4; ++q) {
                 const auto row_of = [&](std::uint32_t cell) {
                     return 3 * ((cell / stride >> shift) * columns + (cell % stride >> shift));
                 };
-                const std::size_t i = row_of(press.cells[p]), j = row_of(press.cells[q]);
+                const std::size_t i = row_of(coupling.cells[p]), j = row_of(coupling.cells[q]);
                 if (j > i) continue;
-                const auto share = static_cast<double>(press.shares[p] * press.shares[q]);
+                const auto weight = static_cast<double>(coupling.weights[p] * coupling.weights[q]);
                 for (std::size_t r = 0; r < 3; ++r)
                     for (std::size_t c = 0; c < 3; ++c) {
-                        const float beyond = (press.along - press.across) * press.normal[r] * press.normal[c];
+                        const float beyond =
+                            (coupling.along - coupling.across) * coupling.normal[r] * coupling.normal[c];
                         a[(i + r) * n + j + c] +=
-                            share * static_cast<double>(beyond + (r == c ? press.across : 0.0f));
+                            weight * static_cast<double>(beyond + (r == c ? coupling.across : 0.0f));
                     }
             }
     coarsest_.factorize(3 * cells);
@@ -143,16 +144,17 @@ void GridSystem::factorize_coarsest() {
 
 void GridSystem::multiply(const Loops& loops, const GridVector& x) {
     loops.multiply(finest(), x, product_);
-    for (const GridPress& press : presses_) {
+    for (const GridCoupling& coupling : couplings_) {
         std::array<float, 3> by{};
         for (std::size_t p = 0; p < 4; ++p)
-            for (std::size_t c = 0; c < 3; ++c) by[c] += press.shares[p] * x[c][press.cells[p]];
-        const float beyond = (press.along - press.across) *
-                             (press.normal[0] * by[0] + press.normal[1] * by[1] + press.normal[2] * by[2]);
+            for (std::size_t c = 0; c < 3; ++c) by[c] += coupling.weights[p] * x[c][coupling.cells[p]];
+        const float beyond =
+            (coupling.along - coupling.across) *
+            (coupling.normal[0] * by[0] + coupling.normal[1] * by[1] + coupling.normal[2] * by[2]);
         for (std::size_t p = 0; p < 4; ++p)
             for (std::size_t c = 0; c < 3; ++c)
-                product_[c][press.cells[p]] +=
-                    press.shares[p] * (beyond * press.normal[c] + press.across * by[c]);
+                product_[c][coupling.cells[p]] +=
+                    coupling.weights[p] * (beyond * coupling.normal[c] + coupling.across * by[c]);
     }
 }
 
@@ -194,7 +196,7 @@ void GridSystem::project(const Loops& loops, const GridVector& vector) {
 /// Makes the residual orthogonal to translations of each cell of the coarsest level and, if positions are
 /// given, to rotations of the whole: however early the iteration ended, large parts keep their momentum, and
 /// the whole its angular momentum.
-void GridSystem::balance(const Loops& loops, const GridVector* place) {
+void GridSystem::balance(const Loops& loops, const GridVector* position) {
     if (levels_.size() == 1) return;  // solved exactly
     const GridLevel &fine = finest(), &coarse = levels_.back();
     const std::size_t n = coarsest_.size, first = translations();
@@ -206,14 +208,14 @@ void GridSystem::balance(const Loops& loops, const GridVector* place) {
     const GridVector about[rotations] = {
         {none, opposite[2], from[1]}, {from[2], none, opposite[0]}, {opposite[1], from[0], none}};
     const std::size_t middle = fine.rows / 2 * fine.stride + fine.columns / 2;
-    for (std::size_t c = 0; c < 3 && place != nullptr; ++c) {
-        const float* const all = (*place)[c];
+    for (std::size_t c = 0; c < 3 && position != nullptr; ++c) {
+        const float* const all = (*position)[c];
         for (std::size_t i = 0; i < fine.cells(); ++i) {
             from[c][i] = fine.free[i] * (all[i] - all[middle]);
             opposite[c][i] = -from[c][i];
         }
     }
-    for (std::size_t k = 0; k < rotations && place != nullptr; ++k) {
+    for (std::size_t k = 0; k < rotations && position != nullptr; ++k) {
         double* const row = coarsest_.matrix.data() + (first + k) * n;
         multiply(loops, about[k]);
         project(loops, product_);
@@ -226,8 +228,8 @@ void GridSystem::balance(const Loops& loops, const GridVector* place) {
         if (!(coarsest_.factorize_row(first + k) > min_pivot)) coarsest_.drop_row(first + k);
     }
     project(loops, fine.right);
-    solve_coarsest(place != nullptr ? n : first);
-    for (std::size_t k = 0; k < rotations && place != nullptr; ++k) {
+    solve_coarsest(position != nullptr ? n : first);
+    for (std::size_t k = 0; k < rotations && position != nullptr; ++k) {
         const auto angle = static_cast<float>(coarsest_x_[first + k]);
         loops.cells(fine, [&](GridRange part) { loops.unit.add(angle, about[k], solution_, part); });
     }
@@ -262,7 +264,7 @@ void GridSystem::precondition(const Loops& loops, std::size_t index) {
 }
 
 GridSystem::Solved GridSystem::solve(const GridUnit& unit, float floor, const Tolerance& tolerance,
-                                     int iterations, const GridVector* place,
+                                     int iterations, const GridVector* position,
                                      tendril::detail::ForkJoin& with) {
     const Loops loops(unit, with);
     const GridLevel& fine = finest();
@@ -284,7 +286,7 @@ GridSystem::Solved GridSystem::solve(const GridUnit& unit, float floor, const To
         if (!std::isfinite(now)) return solved;
         solved.converged = now <= enough;
         if (solved.converged || solved.iterations >= iterations) {
-            balance(loops, place);
+            balance(loops, position);
             return solved;
         }
         const float kept = solved.iterations == 0 ? 0.0f : static_cast<float>(now / before);

@@ -70,9 +70,9 @@ struct GridLevel {
 
 /// Couples up to four cells anywhere: a spring between two of their means, with stiffness `along` in its
 /// direction and `across` sideways.
-struct GridPress {
+struct GridCoupling {
     std::array<std::uint32_t, 4> cells{};
-    std::array<float, 4> shares{};  ///< 0 for a cell that is not free
+    std::array<float, 4> weights{};  ///< 0 for a cell that is not free
     std::array<float, 3> normal{};
     float along = 0.0f, across = 0.0f;
 };
@@ -142,7 +142,7 @@ class GridSystem {
     GridLevel& finest() { return levels_.front(); }
     /// Couplings that solve() adds to the blocks. The preconditioner has them only on the coarsest level, so
     /// their stiffness should not exceed some hundred times the smallest on the diagonal.
-    std::vector<GridPress>& presses() { return presses_; }
+    std::vector<GridCoupling>& couplings() { return couplings_; }
 
     struct Solved {
         int iterations = 0;
@@ -153,10 +153,10 @@ class GridSystem {
         double square = 0.0, relative = 0.0;
     };
     /// Iterates until the residual is within either tolerance. `floor`: lower bound of the eigenvalues of the
-    /// diagonal's blocks. `place`: the cells' positions; null leaves rotations out of the balance.
+    /// diagonal's blocks. `position`: the cells' positions; null leaves rotations out of the balance.
     /// `loops`: threads that may help; changes no bit.
     Solved solve(const GridUnit& unit, float floor, const Tolerance& tolerance, int iterations,
-                 const GridVector* place, tendril::detail::ForkJoin& loops);
+                 const GridVector* position, tendril::detail::ForkJoin& loops);
     const GridVector& solution() const { return solution_; }
 
     // For solving several grids together with the bodies tied to them (tied_grids.cpp). Its preconditioner is
@@ -167,9 +167,9 @@ class GridSystem {
     dvec3 spread_at(std::size_t cell) const;          ///< the sum over the levels, after spread()
     void push(std::size_t cell, const dvec3& force);  ///< adds to the residual, after spread()
     void gather(const GridUnit& unit);                ///< sums x over the levels
-    std::array<dvec3, 3> between(std::size_t a, std::size_t b);  ///< the preconditioner's block
+    std::array<dvec3, 3> preconditioner_block(std::size_t a, std::size_t b);  ///< the preconditioner's block
     /// direction = x + by direction; then product = A direction.
-    void turn(const GridUnit& unit, float by);
+    void update_direction(const GridUnit& unit, float by);
     void add_to_product(std::size_t cell, const dvec3& force);
     double residual_dot_x(const GridUnit& unit) { return dot(unit, finest().right, finest().x); }
     double direction_dot_product(const GridUnit& unit) { return dot(unit, direction_, product_); }
@@ -186,7 +186,7 @@ class GridSystem {
     void multiply(const Loops& loops, const GridVector& x);  ///< to `product_`
     void solve_coarsest(std::size_t n);
     void project(const Loops& loops, const GridVector& vector);
-    void balance(const Loops& loops, const GridVector* place);
+    void balance(const Loops& loops, const GridVector* position);
     double dot(const Loops& loops, const GridVector& a, const GridVector& b);
     double dot(const GridUnit& unit, const GridVector& a, const GridVector& b);
     template <class Visit>
@@ -200,7 +200,7 @@ class GridSystem {
     std::vector<float> memory_;
     std::vector<double> sums_;  ///< partial sums of a dot product
     std::vector<GridLevel> levels_;
-    std::vector<GridPress> presses_;
+    std::vector<GridCoupling> couplings_;
     /// Factor and solution of the coarsest level, then of the rotations.
     DenseSystem coarsest_;
     std::vector<double> coarsest_x_;

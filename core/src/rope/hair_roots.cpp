@@ -17,18 +17,18 @@ Expected<glm::vec3> direction_of(const HairPatch& patch, glm::vec3 otherwise) {
 }
 
 /// A point of the patch: distance and direction from its centre.
-struct Seat {
+struct PatchPoint {
     float distance = 0.0f;
     glm::vec3 outwards{1.0f, 0.0f, 0.0f};  ///< unit, perpendicular to the direction
 };
 
-std::vector<Seat> seats(const HairPatch& patch, glm::vec3 direction) {
+std::vector<PatchPoint> patch_points(const HairPatch& patch, glm::vec3 direction) {
     constexpr float golden_angle = 2.3999632f;
     const glm::vec3 across = std::abs(direction.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
     const glm::vec3 aside = math::cross(direction, across);
     const glm::vec3 first = math::times(aside, 1.0f / math::length(aside));
     const glm::vec3 second = math::cross(direction, first);
-    std::vector<Seat> found;
+    std::vector<PatchPoint> found;
     found.reserve(static_cast<std::size_t>(patch.strands));
     for (int i = 0; i < patch.strands; ++i) {
         const float part = (static_cast<float>(i) + 0.5f) / static_cast<float>(patch.strands);
@@ -46,8 +46,8 @@ Expected<std::vector<HairRoot>> roots_around(const HairPatch& patch) {
     if (!given) return given.error();
     const glm::vec3 direction = *given;
     std::vector<HairRoot> roots;
-    for (const Seat& seat : seats(patch, direction))
-        roots.push_back({patch.centre + seat.distance * seat.outwards, direction});
+    for (const PatchPoint& point : patch_points(patch, direction))
+        roots.push_back({patch.centre + point.distance * point.outwards, direction});
     return roots;
 }
 
@@ -61,12 +61,12 @@ Expected<std::vector<HairRoot>> roots_on(const Shape& shape, const HairPatch& pa
     const glm::vec3 middle = centre(shape);
     const float ball = plane != nullptr ? 0.0f : size(shape);
     std::vector<HairRoot> roots;
-    for (const Seat& seat : seats(patch, direction)) {
+    for (const PatchPoint& point : patch_points(patch, direction)) {
         // Along an arc on a ball of the collider's size, and from there to its surface.
-        const float angle = ball > 0.0f ? seat.distance / ball : 0.0f;
+        const float angle = ball > 0.0f ? point.distance / ball : 0.0f;
         const glm::vec3 from =
-            ball > 0.0f ? middle + ball * (std::cos(angle) * direction + std::sin(angle) * seat.outwards)
-                        : middle + seat.distance * seat.outwards;
+            ball > 0.0f ? middle + ball * (std::cos(angle) * direction + std::sin(angle) * point.outwards)
+                        : middle + point.distance * point.outwards;
         const SurfaceDistance surface = surface_distance(shape, from);
         const glm::vec3 normal(surface.normal);
         roots.push_back({from + (lift - static_cast<float>(surface.distance)) * normal, normal});

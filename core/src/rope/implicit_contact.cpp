@@ -51,49 +51,49 @@ void ImplicitStep::find_at_particle(ClothContact contact, double radius, bool fi
     const std::uint32_t i = contact.a;
     if (scratch_.weight[i] == 0.0) return;
     const Scratch::Moving& collider = collider_of(contact);
-    dvec3& place = scratch_.place[i];
-    const double travelled = first ? detail::length(place - state_.position[i]) : 0.0;
-    if (collider.far_from(place, radius + travelled)) return;
-    keep(contact,
-         first ? collider.entered(state_.position[i], place, radius, local_.done.work)
-               : surface_distance(*collider.shape, place),
-         radius, first);
+    dvec3& x = scratch_.x[i];
+    const double travelled = first ? detail::length(x - state_.position[i]) : 0.0;
+    if (collider.far_from(x, radius + travelled)) return;
+    add_if_active(contact,
+                  first ? collider.sweep(state_.position[i], x, radius, local_.done.work)
+                        : surface_distance(*collider.shape, x),
+                  radius, first);
 }
 
 void ImplicitStep::find_at_link(ClothContact contact, double radius, bool first) {
     const Scratch::Moving& collider = collider_of(contact);
-    const dvec3 a = scratch_.place[contact.a], b = scratch_.place[contact.b], along = b - a;
+    const dvec3 a = scratch_.x[contact.a], b = scratch_.x[contact.b], along = b - a;
     if (scratch_.weight[contact.a] + scratch_.weight[contact.b] == 0.0) return;
     if (collider.far_from(a + 0.5 * along, radius + 0.5 * detail::length(along))) return;
     local_.done.work += detail::max_line_samples;
     const std::optional<double> t = detail::nearest_between(*collider.shape, a, b, radius);
     if (!t) return;
     contact.t = *t;
-    keep(contact, surface_distance(*collider.shape, a + *t * along), radius, first);
+    add_if_active(contact, surface_distance(*collider.shape, a + *t * along), radius, first);
 }
 
-/// In the first solve, keeps also contacts that would arise without links; each presses as much as it takes
-/// to prevent that.
-void ImplicitStep::keep(ClothContact contact, const SurfaceDistance& surface, double radius, bool first) {
+/// Adds a contact that penetrates or pressed before; in the first solve also one that free motion would make.
+void ImplicitStep::add_if_active(ClothContact contact, const SurfaceDistance& surface, double radius,
+                                 bool first) {
     contact.gap = surface.distance - radius;
     contact.normal = surface.normal;
     double depth = -contact.gap;
     if (first) {
-        const dvec3 further = between(contact, scratch_.base) - between(contact, scratch_.place);
-        depth = std::max(depth, depth - detail::dot(contact.normal, further));
+        const dvec3 free_move = contact_point(contact, scratch_.base) - contact_point(contact, scratch_.x);
+        depth = std::max(depth, depth - detail::dot(contact.normal, free_move));
     }
-    const bool presses = contact.force > 0.0;
-    if (depth <= 0.0 && !presses) return;
-    if (!presses) contact.force = depth * state_.mass[contact.a] / mass_;
+    const bool pressed_before = contact.force > 0.0;
+    if (depth <= 0.0 && !pressed_before) return;
+    if (!pressed_before) contact.force = depth * state_.mass[contact.a] / mass_;
     local_.cloth_contacts.push_back(contact);
 }
 
 /// Friction, from the normal force of the previous step.
 void ImplicitStep::apply_friction(ClothContact& contact) const {
     const dvec3& n = contact.normal;
-    contact.at = between(contact, scratch_.place);
+    contact.at = contact_point(contact, scratch_.x);
     dvec3& slip = contact.slip;
-    slip = contact.at - between(contact, state_.position) - collider_of(contact).by_at(contact.at);
+    slip = contact.at - contact_point(contact, state_.position) - collider_of(contact).move_at(contact.at);
     slip -= detail::dot(slip, n) * n;
     const double size = detail::length(slip), most = friction_of(contact) * contact.force;
     contact.drag = size * stiffness_ > most ? most / size : stiffness_;
@@ -101,7 +101,7 @@ void ImplicitStep::apply_friction(ClothContact& contact) const {
 
 /// The contact's share of the potential.
 double ImplicitStep::potential_of(const ClothContact& contact) const {
-    const dvec3 by = between(contact, scratch_.place) - contact.at;
+    const dvec3 by = contact_point(contact, scratch_.x) - contact.at;
     const double along = detail::dot(by, contact.normal), gap = contact.gap + along;
     const dvec3 slip = contact.slip + by - along * contact.normal;
     return stiffness_ * gap * gap + contact.drag * detail::dot(slip, slip);

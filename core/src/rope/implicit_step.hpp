@@ -17,7 +17,7 @@ class ImplicitStep : protected IslandStep {
     void find_contacts(bool first);
     void find_at_particle(ClothContact contact, double radius, bool first);
     void find_at_link(ClothContact contact, double radius, bool first);
-    void keep(ClothContact contact, const SurfaceDistance& surface, double radius, bool first);
+    void add_if_active(ClothContact contact, const SurfaceDistance& surface, double radius, bool first);
     void apply_friction(ClothContact& contact) const;
     double potential_of(const ClothContact& contact) const;
     const Scratch::Moving& collider_of(const ClothContact& contact) const {
@@ -27,7 +27,7 @@ class ImplicitStep : protected IslandStep {
         const Plan::Chunk& chunk = plan_.chunks[local_.near[contact.near].chunk];
         return detail::friction(state_, state_.bodies[chunk.body]);
     }
-    static glm::dvec3 between(const ClothContact& contact, const std::vector<glm::dvec3>& all) {
+    static glm::dvec3 contact_point(const ClothContact& contact, const std::vector<glm::dvec3>& all) {
         return (1.0 - contact.t) * all[contact.a] + contact.t * all[contact.b];
     }
 

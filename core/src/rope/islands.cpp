@@ -7,14 +7,14 @@
 namespace tendril::rope::detail {
 namespace {
 
-/// Bodies whose chains are all alone, and that collide with none, are merged until an island has this many
+/// Bodies whose chains are all isolated, and that collide with none, are merged until an island has this many
 /// links: enough to fill registers, few enough to spread a large world over threads.
 constexpr std::uint32_t island_links = 2048;
 
 /// Sets of bodies joined by links or ties, identified by their first body (union-find).
-class JoinedBodies {
+class UnionFind {
   public:
-    explicit JoinedBodies(std::size_t bodies) : parent_(bodies) {
+    explicit UnionFind(std::size_t bodies) : parent_(bodies) {
         std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
     }
     std::uint32_t first_of(std::uint32_t body) {
@@ -51,15 +51,16 @@ void sort_by_island(std::vector<Plan::Island>& islands, Plan::Range Plan::Island
 
 template <class Visit>
 void each_collision(const Plan& plan, Visit visit) {
-    for (std::uint32_t b = 0; b + 1 < plan.meets_first.size(); ++b)
-        for (std::uint32_t m = plan.meets_first[b]; m < plan.meets_first[b + 1]; ++m) visit(b, plan.meets[m]);
+    for (std::uint32_t b = 0; b + 1 < plan.collides_first.size(); ++b)
+        for (std::uint32_t m = plan.collides_first[b]; m < plan.collides_first[b + 1]; ++m)
+            visit(b, plan.collides_with[m]);
 }
 
 /// Makes the islands, as if nothing collided with cloth; returns the island of each body.
 std::vector<std::uint32_t> make_islands(const State& state, const std::vector<std::uint32_t>& body_of,
                                         Plan& plan) {
     const std::size_t bodies = state.bodies.size();
-    JoinedBodies joined(bodies);
+    UnionFind joined(bodies);
     std::vector<std::uint32_t> links(bodies, 0);
     for (const Link& link : state.links) {
         joined.join(body_of[link.a], body_of[link.b]);
@@ -72,7 +73,7 @@ std::vector<std::uint32_t> make_islands(const State& state, const std::vector<st
     });
     std::vector<std::uint8_t> shares(bodies, 0);
     for (const Plan::Chain& chain : plan.chains)
-        if (!chain.alone) shares[joined.first_of(chain.body)] = 1;
+        if (!chain.isolated) shares[joined.first_of(chain.body)] = 1;
     for (const Tie& tie : state.ties) shares[joined.first_of(body_of[tie.a])] = 1;
     for (const std::uint32_t i : plan.soft) shares[joined.first_of(body_of[state.links[i].a])] = 1;
 
@@ -89,7 +90,7 @@ std::vector<std::uint32_t> make_islands(const State& state, const std::vector<st
             island_of[b] = island_of[first];
         } else if (shares[b] != 0 || collides[b] != 0 || open_links >= island_links) {
             island_of[b] = static_cast<std::uint32_t>(plan.islands.size());
-            plan.islands.push_back({.alone = shares[b] == 0});
+            plan.islands.push_back({.isolated = shares[b] == 0});
             if (shares[b] == 0 && collides[b] == 0) open = island_of[b], open_links = 0;
         } else {
             island_of[b] = open;
@@ -100,11 +101,10 @@ std::vector<std::uint32_t> make_islands(const State& state, const std::vector<st
     return island_of;
 }
 
-/// Renumbers islands, so that islands joined by collisions with cloth follow each other. Returns for each the
-/// first one that it is joined to.
-std::vector<std::uint32_t> put_side_by_side(Plan& plan, std::vector<std::uint32_t>& island_of) {
+/// Makes islands joined by collisions with cloth contiguous. Returns the first island of each one's set.
+std::vector<std::uint32_t> reorder_islands(Plan& plan, std::vector<std::uint32_t>& island_of) {
     const std::size_t count = plan.islands.size();
-    JoinedBodies joined(count);
+    UnionFind joined(count);
     each_collision(plan, [&](std::uint32_t a, std::uint32_t b) { joined.join(island_of[a], island_of[b]); });
     std::vector<std::uint32_t> order(count), now(count), first(count);
     std::iota(order.begin(), order.end(), std::uint32_t{0});
@@ -122,27 +122,27 @@ std::vector<std::uint32_t> put_side_by_side(Plan& plan, std::vector<std::uint32_
     return first;
 }
 
-/// Merges joined islands into one, of which they become the parts.
-void join_parts(Plan& plan, const std::vector<std::uint32_t>& first,
-                const std::vector<std::uint32_t>& island_of) {
+/// Merges joined islands into one; they become its parts.
+void merge_islands(Plan& plan, const std::vector<std::uint32_t>& first,
+                   const std::vector<std::uint32_t>& island_of) {
     const std::vector<Plan::Island> all = std::move(plan.islands);
     plan.islands.clear();
     std::vector<std::uint32_t> whole(all.size());
     for (std::uint32_t i = 0; i < all.size(); ++i) {
-        const bool goes_on = i + 1 < all.size() && first[i + 1] == first[i];
+        const bool continues = i + 1 < all.size() && first[i + 1] == first[i];
         if (first[i] == i) {
             plan.islands.push_back(all[i]);
-            if (goes_on) plan.islands.back().parts = {static_cast<std::uint32_t>(plan.parts.size()), 0};
+            if (continues) plan.islands.back().parts = {static_cast<std::uint32_t>(plan.parts.size()), 0};
         } else {
             Plan::Island& island = plan.islands.back();
             for (const auto range : {&Plan::Island::bodies, &Plan::Island::links, &Plan::Island::soft,
                                      &Plan::Island::chains, &Plan::Island::chunks, &Plan::Island::ties})
                 (island.*range).count += (all[i].*range).count;
             island.particles += all[i].particles;
-            island.alone = false;
+            island.isolated = false;
         }
         whole[i] = static_cast<std::uint32_t>(plan.islands.size()) - 1;
-        if (first[i] == i && !goes_on) continue;
+        if (first[i] == i && !continues) continue;
         plan.parts.push_back(all[i]);
         ++plan.islands.back().parts.count;
     }
@@ -155,7 +155,7 @@ void join_parts(Plan& plan, const std::vector<std::uint32_t>& first,
             plan.parts[island.parts.first + k].contacts = island.contacts;
     plan.each_part([&](const Plan::Island& island) {
         for (const std::uint32_t body : Plan::part(plan.bodies, island.bodies))
-            if (!island.alone && !plan.collides.empty() && plan.collides[body] == Plan::Collides::Solved)
+            if (!island.isolated && !plan.collides.empty() && plan.collides[body] == Plan::Collides::Solved)
                 plan.collides[body] = Plan::Collides::Projected;
     });
 }
@@ -173,7 +173,7 @@ std::vector<std::uint32_t> bodies_of_particles(const State& state) {
 void divide_into_islands(const State& state, Plan& plan) {
     const std::vector<std::uint32_t> body_of = bodies_of_particles(state);
     std::vector<std::uint32_t> island_of = make_islands(state, body_of, plan);
-    const std::vector<std::uint32_t> first = put_side_by_side(plan, island_of);
+    const std::vector<std::uint32_t> first = reorder_islands(plan, island_of);
     const auto of_body = [&](std::uint32_t body) { return island_of[body]; };
     const auto of_link = [&](std::uint32_t i) { return island_of[body_of[state.links[i].a]]; };
     plan.bodies.resize(state.bodies.size());
@@ -191,7 +191,7 @@ void divide_into_islands(const State& state, Plan& plan) {
     const auto of_part = [&](const auto& part) { return island_of[part.body]; };
     sort_by_island(islands, &Plan::Island::chains, plan.chains, of_part);
     sort_by_island(islands, &Plan::Island::chunks, plan.chunks, of_part);
-    join_parts(plan, first, island_of);
+    merge_islands(plan, first, island_of);
 }
 
 }  // namespace tendril::rope::detail

@@ -73,7 +73,7 @@ double World::density(const Body& body) const {
     const double filled = static_cast<double>(body.count) / static_cast<double>(body.row * body.rows());
     double extent = filled * grid.length() * grid.width() * std::sqrt(1.0 - grid.cosine * grid.cosine);
     if (body.kind != Body::Kind::Cloth) {
-        const std::vector<double> each = detail::shares(grid.along);
+        const std::vector<double> each = detail::lumped_lengths(grid.along);
         const double whole = std::accumulate(each.begin(), each.end(), 0.0);
         extent = grid.length() > 0.0 ? whole * static_cast<double>(body.count / body.row) : 0.0;
     }
@@ -102,7 +102,7 @@ double World::compliance(const Body& body, Link::Kind kind) const {
     });
     if (link == state_.links.end()) return 0.0;
     if (kind != Link::Kind::Stretch || link->compliance == 0.0f) return link->compliance;
-    const double per = detail::link_per_material(body, detail::rest_grid(state_, body), *link);
+    const double per = detail::unit_link_compliance(body, detail::rest_grid(state_, body), *link);
     return per > 0.0 ? link->compliance / per : 0.0;
 }
 
@@ -115,7 +115,7 @@ Result World::set_compliance(BodyId body, Link::Kind kind, double compliance) {
     for (Link& link : state_.links) {
         if (link.kind != kind || !detail::owns(*changed, link)) continue;
         const double per =
-            kind == Link::Kind::Stretch ? detail::link_per_material(*changed, grid, link) : 1.0;
+            kind == Link::Kind::Stretch ? detail::unit_link_compliance(*changed, grid, link) : 1.0;
         link.compliance = static_cast<float>(std::min(per * compliance, static_cast<double>(max_magnitude)));
     }
     return {};
@@ -149,7 +149,7 @@ Result World::scale(BodyId body, const char* operation, float metres, bool rows)
     for (double& each : rows ? grid.along : grid.down) each *= factor;
     // Diagonals follow both sides; links along one side keep their own proportion.
     const auto new_rest = [&](const Link& link) -> double {
-        const detail::LinkWay way = detail::way_of(*changed, link);
+        const detail::LinkStep way = detail::link_step(*changed, link);
         const bool diagonal = way.columns != 0 && way.rows != 0 && changed->kind == Body::Kind::Cloth;
         if (!diagonal)
             return (rows == (way.rows == 0) || changed->kind != Body::Kind::Cloth ? factor : 1.0) * link.rest;
@@ -165,11 +165,11 @@ Result World::scale(BodyId body, const char* operation, float metres, bool rows)
         if (!detail::owns(*changed, link)) continue;
         const double material =
             link.compliance > 0.0f && link.kind == Link::Kind::Stretch
-                ? link.compliance / std::max(detail::link_per_material(*changed, was, link), 1e-30)
+                ? link.compliance / std::max(detail::unit_link_compliance(*changed, was, link), 1e-30)
                 : -1.0;
         link.rest = static_cast<float>(new_rest(link));
         if (material < 0.0) continue;
-        const double soft = material * detail::link_per_material(*changed, grid, link);
+        const double soft = material * detail::unit_link_compliance(*changed, grid, link);
         link.compliance = static_cast<float>(std::min(soft, static_cast<double>(max_magnitude)));
     }
     scale_mass(*changed, factor);

@@ -29,7 +29,7 @@ std::size_t row_of(const Body& body) {
 
 Plan::Plan(const State& state) {
     find_chains(state);
-    note_collisions(state);
+    index_collisions(state);
     find_faces(state);
     cut_into_chunks(state);
     detail::divide_into_islands(state, *this);
@@ -69,10 +69,10 @@ void Plan::find_chains(const State& state) {
             nodes.push_back(state.links[i + chain.links].b);
             ++chain.links;
         }
-        chain.alone = true;
+        chain.isolated = true;
         for (std::uint32_t k = 0; k <= chain.links; ++k) {
             const std::uint32_t own = k == 0 || k == chain.links ? 1 : 2;
-            chain.alone = chain.alone && touching[nodes[chain.first_node + k]] == own;
+            chain.isolated = chain.isolated && touching[nodes[chain.first_node + k]] == own;
         }
         i += chain.links;
         longest = std::max(longest, chain.links);
@@ -90,7 +90,7 @@ void Plan::find_faces(const State& state) {
     for (const Link& link : state.links) {
         const Body& of = state.bodies[body_of[link.a]];
         if (link.kind != Link::Kind::Stretch || !detail::is_within(of, link)) continue;
-        const detail::LinkWay way = detail::way_of(of, link);
+        const detail::LinkStep way = detail::link_step(of, link);
         const std::uint32_t low = std::min(link.a, link.b), high = std::max(link.a, link.b);
         if (way.columns == 1 && way.rows == 0) linked[low] = 1;
         if (way.columns == 0 && way.rows == 1) under[low] = high;
@@ -132,7 +132,8 @@ bool Plan::fits(const State& state) const noexcept {
 }
 
 void Plan::group_chains(std::size_t particles) {
-    std::vector<std::uint32_t> taken(particles, 0);  // 1-based number of the last group with the particle
+    std::vector<std::uint32_t> last_group(particles,
+                                          0);  // 1-based number of the last group with the particle
     each_part([&](Island& island) {
         island.groups.first = static_cast<std::uint32_t>(groups.size());
         const std::uint32_t begin = island.chains.first, end = begin + island.chains.count;
@@ -140,19 +141,19 @@ void Plan::group_chains(std::size_t particles) {
             const Chain& chain = chains[i];
             const auto number = static_cast<std::uint32_t>(groups.size());
             bool joins =
-                i > begin && chains[i - 1].links == chain.links && chains[i - 1].alone == chain.alone;
+                i > begin && chains[i - 1].links == chain.links && chains[i - 1].isolated == chain.isolated;
             for (std::uint32_t k = 0; joins && k <= chain.links; ++k)
-                joins = taken[nodes[chain.first_node + k]] != number;
+                joins = last_group[nodes[chain.first_node + k]] != number;
             if (!joins) groups.push_back({.first_chain = i, .chains = 0});
             ++groups.back().chains;
             for (std::uint32_t k = 0; k <= chain.links; ++k)
-                taken[nodes[chain.first_node + k]] = static_cast<std::uint32_t>(groups.size());
+                last_group[nodes[chain.first_node + k]] = static_cast<std::uint32_t>(groups.size());
         }
         island.groups.count = static_cast<std::uint32_t>(groups.size()) - island.groups.first;
     });
 }
 
-void Plan::note_collisions(const State& state) {
+void Plan::index_collisions(const State& state) {
     if (state.collisions.empty()) return;
     const auto index_of = [&](BodyId id) {
         return static_cast<std::uint32_t>(detail::find_in(state.bodies, id) - state.bodies.data());
@@ -161,17 +162,17 @@ void Plan::note_collisions(const State& state) {
     for (const Collision& each : state.collisions)
         pairs.push_back(std::minmax({index_of(each.a), index_of(each.b)}));
     std::sort(pairs.begin(), pairs.end());
-    meets_first.assign(state.bodies.size() + 1, 0);
-    for (const auto& [a, b] : pairs) ++meets_first[a + 1], meets.push_back(b);
-    for (std::size_t b = 0; b < state.bodies.size(); ++b) meets_first[b + 1] += meets_first[b];
+    collides_first.assign(state.bodies.size() + 1, 0);
+    for (const auto& [a, b] : pairs) ++collides_first[a + 1], collides_with.push_back(b);
+    for (std::size_t b = 0; b < state.bodies.size(); ++b) collides_first[b + 1] += collides_first[b];
     collides.assign(state.bodies.size(), Collides::None);
-    meets_cloth.assign(state.bodies.size(), 0);
-    const auto note = [&](std::uint32_t body, std::uint32_t other) {
+    collides_with_cloth.assign(state.bodies.size(), 0);
+    const auto add = [&](std::uint32_t body, std::uint32_t other) {
         const bool cloth = state.bodies[body].kind == Body::Kind::Cloth;
         collides[body] = cloth ? Collides::Projected : Collides::Solved;
-        if (state.bodies[other].kind == Body::Kind::Cloth) meets_cloth[body] = 1;
+        if (state.bodies[other].kind == Body::Kind::Cloth) collides_with_cloth[body] = 1;
     };
-    for (const auto& [a, b] : pairs) note(a, b), note(b, a);
+    for (const auto& [a, b] : pairs) add(a, b), add(b, a);
     rest_at.assign(state.position.size(), glm::dvec3(0.0));
     for (std::uint32_t b = 0; b < state.bodies.size(); ++b) {
         if (collides[b] == Collides::None) continue;
@@ -186,7 +187,7 @@ void Plan::note_collisions(const State& state) {
 
 /// Call once the chains are in the order of their islands.
 void Plan::number_chains(std::size_t count) {
-    if (meets_first.empty()) return;
+    if (collides_first.empty()) return;
     chain_of.assign(count, 0);
     for (std::uint32_t c = 0; c < chains.size(); ++c)
         std::fill_n(chain_of.begin() + chains[c].first_link, chains[c].links, c);
@@ -194,13 +195,13 @@ void Plan::number_chains(std::size_t count) {
 
 bool Plan::collide(std::uint32_t body_a, std::uint32_t body_b) const noexcept {
     const auto pair = std::minmax(body_a, body_b);
-    const auto first = meets.begin() + meets_first[pair.first];
-    return std::binary_search(first, meets.begin() + meets_first[pair.first + 1], pair.second);
+    const auto first = collides_with.begin() + collides_first[pair.first];
+    return std::binary_search(first, collides_with.begin() + collides_first[pair.first + 1], pair.second);
 }
 
 void Plan::order_tied(const State& state) {
     if (state.ties.empty()) return;
-    places.resize(state.position.size());
+    system_index.resize(state.position.size());
     each_part([&](Island& island) {
         if (island.ties.count == 0) return;
         Tied& made = tied[island.tied - 1];
@@ -213,16 +214,16 @@ void Plan::order_tied(const State& state) {
                 const std::size_t particle = of.first + i;
                 if (grid > 0) {
                     in_grid[particle] = 1;
-                    places[particle] = grid_cells[grids[grid - 1].cells.first + i];
+                    system_index[particle] = grid_cells[grids[grid - 1].cells.first + i];
                 } else {
-                    places[particle] = static_cast<std::uint32_t>(nodes_of_it.size());
+                    system_index[particle] = static_cast<std::uint32_t>(nodes_of_it.size());
                     nodes_of_it.push_back(particle);
                 }
             }
         }
         std::vector<detail::Elimination::Edge> edges;
         const auto join = [&](std::uint32_t a, std::uint32_t b) {
-            if (in_grid[a] + in_grid[b] == 0) edges.emplace_back(places[a], places[b]);
+            if (in_grid[a] + in_grid[b] == 0) edges.emplace_back(system_index[a], system_index[b]);
         };
         for (const std::uint32_t i : part(links, island.links)) join(state.links[i].a, state.links[i].b);
         for (const Chain& chain : part(chains, island.chains))
@@ -238,13 +239,14 @@ void Plan::order_tied(const State& state) {
             if (in_grid[tie.a] + in_grid[tie.b] == 0) continue;
             made.across.push_back(i);
             for (const std::uint32_t end : {tie.a, tie.b})
-                if (in_grid[end] == 0) late[places[end]] = 1;
+                if (in_grid[end] == 0) late[system_index[end]] = 1;
         }
         made.order = detail::Elimination(late, edges);
         for (std::size_t node = 0; node < nodes_of_it.size(); ++node)
-            places[nodes_of_it[node]] = made.order.place[node];
+            system_index[nodes_of_it[node]] = made.order.rank[node];
         const auto block = [&](std::uint32_t a, std::uint32_t b) {
-            return in_grid[a] + in_grid[b] > 0 ? no_block : made.order.block(places[a], places[b]);
+            return in_grid[a] + in_grid[b] > 0 ? no_block
+                                               : made.order.block(system_index[a], system_index[b]);
         };
         for (const std::uint32_t i : part(links, island.links))
             made.link_blocks.push_back(block(state.links[i].a, state.links[i].b));

@@ -18,15 +18,15 @@ struct Plan {
         std::uint32_t first = 0, count = 0;
     };
     /// Bodies that no link, tie or collision joins to any other. Nothing in a substep reaches from one island
-    /// to another, so islands can be solved in any order and in parallel. Bodies whose chains are all alone
-    /// are merged to fill registers.
+    /// to another, so islands can be solved in any order and in parallel. Bodies whose chains are all
+    /// isolated are merged to fill registers.
     struct Island {
         Range bodies{}, links{}, soft{}, chains{}, groups{}, chunks{}, ties{};
         /// In `parts`: parts joined only by collisions with cloth are solved one after the other. Empty: all
         /// at once.
         Range parts{};
         std::uint32_t particles = 0;
-        bool alone = false;      ///< every chain is alone, and there are no soft links
+        bool isolated = false;   ///< every chain is isolated, and there are no soft links
         std::uint32_t grid = 0;  ///< 1-based index in `grids` of the one with all its links; 0: none
         std::uint32_t tied = 0;  ///< 1-based index in `tied` if it has ties; 0: none
         /// 1-based index in Scratch::body_contacts if its bodies collide with each other; 0: none
@@ -53,7 +53,7 @@ struct Plan {
         std::uint32_t first_link = 0, links = 0;
         std::uint32_t first_node = 0;  ///< in `nodes`, links + 1 of them
         std::uint32_t body = 0;
-        bool alone = false;  ///< no other link touches its particles
+        bool isolated = false;  ///< no other link touches its particles
     };
     /// Chains of an island, of equal length, that share no particle; contiguous in `chains`.
     struct Group {
@@ -110,19 +110,19 @@ struct Plan {
 
     std::vector<std::uint32_t> ties;
     std::vector<Tied> tied;
-    std::vector<std::uint32_t> places;   ///< of each tied particle: place in its system's order, or cell
-    std::vector<std::uint32_t> grid_of;  ///< 1-based index of each body in `grids`; 0: none
+    std::vector<std::uint32_t> system_index;  ///< of each tied particle: place in its system's order, or cell
+    std::vector<std::uint32_t> grid_of;       ///< 1-based index of each body in `grids`; 0: none
 
-    /// For each body the bodies, from itself on, with which it collides: ascending, in `meets` from
+    /// For each body the bodies, from itself on, with which it collides: ascending, in `collides_with` from
     /// meets_first on. Empty, as the next four, if nothing collides.
-    std::vector<std::uint32_t> meets_first, meets;
+    std::vector<std::uint32_t> collides_first, collides_with;
     /// For each body, whether its contacts are solved with its lengths or projected afterwards.
     enum class Collides : std::uint8_t { None, Solved, Projected };
     std::vector<Collides> collides;
-    std::vector<std::uint8_t> meets_cloth;  ///< whether each body collides with a cloth
-    std::vector<std::uint32_t> chain_of;    ///< chain of each link; unused for soft links
-    std::vector<glm::dvec3> rest_at;        ///< unstrained position of each particle in its body
-    std::uint32_t colliding = 0;            ///< islands with collisions
+    std::vector<std::uint8_t> collides_with_cloth;  ///< whether each body collides with a cloth
+    std::vector<std::uint32_t> chain_of;            ///< chain of each link; unused for soft links
+    std::vector<glm::dvec3> rest_at;                ///< unstrained position of each particle in its body
+    std::uint32_t colliding = 0;                    ///< islands with collisions
     bool collide(std::uint32_t body_a, std::uint32_t body_b) const noexcept;
 
     std::vector<std::uint32_t> nodes;
@@ -141,7 +141,7 @@ struct Plan {
     void cut_into_chunks(const State& state);
     void group_chains(std::size_t particles);
     void order_tied(const State& state);
-    void note_collisions(const State& state);
+    void index_collisions(const State& state);
     void number_chains(std::size_t count);
 
     // The inputs of the plan.

@@ -22,9 +22,9 @@ double part_after(double pending, double seconds) {
 }
 
 /// Part of the world's particles: those from `first` on.
-class PosedParticles {
+class PoseExtrapolation {
   public:
-    PosedParticles(const World& world, std::span<dvec3> at, std::size_t first)
+    PoseExtrapolation(const World& world, std::span<dvec3> at, std::size_t first)
         : world_(world),
           state_(world.state()),
           pending_(world.pending()),
@@ -32,15 +32,15 @@ class PosedParticles {
           at_(at.first(std::min(at.size(), world.size() - first_))) {}
 
     void run() {
-        carry_on();
+        extrapolate();
         if (pending_ == 0.0) return;
-        for (const Collider& collider : state_.colliders) keep_out(collider);
+        for (const Collider& collider : state_.colliders) depenetrate(collider);
         place_pins();
     }
 
   private:
     /// Each particle goes on as in the last substep.
-    void carry_on() {
+    void extrapolate() {
         const double rate = state_.displaced_in > 0.0 ? pending_ / state_.displaced_in : 0.0;
         constexpr double edge = max_magnitude;
         for (std::size_t i = 0; i < at_.size(); ++i) {
@@ -52,7 +52,7 @@ class PosedParticles {
     }
 
     /// No particle gets deeper into a collider than it was after the last substep.
-    void keep_out(const Collider& collider) {
+    void depenetrate(const Collider& collider) {
         const Shape shape = world_.pose(collider);
         dvec3 low, high;
         detail::bounds(shape, dvec3(0.0), low, high);
@@ -80,7 +80,7 @@ class PosedParticles {
             dvec3 goal = pin->goal;
             if (const Collider* const holder = world_.find(pin->collider)) {
                 if (holder->drive.spin != 0.0f)
-                    goal = math::rotated(detail::turn_by(holder->drive, pending_), goal);
+                    goal = math::rotated(detail::rotation_after(holder->drive, pending_), goal);
                 goal += dvec3(centre(world_.pose(*holder)));
             }
             at_[pin->particle - first_] = now + part_after(pending_, pin->seconds) * (goal - now);
@@ -102,13 +102,13 @@ double World::pending() const noexcept {
 }
 
 void World::pose(std::span<dvec3> particles, std::size_t first) const noexcept {
-    PosedParticles(*this, particles, first).run();
+    PoseExtrapolation(*this, particles, first).run();
 }
 
 Shape World::pose(const Collider& collider) const noexcept {
     const double ahead = pending(), part = part_after(ahead, collider.seconds);
     if (part == 0.0) return collider.shape;
-    const Shape there = detail::on_the_way(collider, part);
+    const Shape there = detail::interpolated(collider, part);
     return collider.drive.any() ? detail::driven(there, collider.drive, ahead) : there;
 }
 

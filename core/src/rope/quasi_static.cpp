@@ -52,7 +52,7 @@ State frozen(const World& world) {
 }
 
 /// Pins and colliders that were not dragged resume their moves.
-void send_on(State& now, const State& still, const State& was) {
+void resume_moves(State& now, const State& still, const State& was) {
     for (Pin& pin : now.pins) {
         const auto at =
             std::lower_bound(still.pins.begin(), still.pins.end(), pin.particle,
@@ -70,19 +70,19 @@ void send_on(State& now, const State& still, const State& was) {
     }
 }
 
-/// `send` moves the dragged pins or colliders of a world within the given seconds.
-template <class Send>
-Result drag(World& world, Workspace& workspace, Send send) {
+/// `start_move` moves the dragged pins or colliders of a world within the given seconds.
+template <class StartMove>
+Result drag(World& world, Workspace& workspace, StartMove start_move) {
     const State& was = world.state();
     const State still = frozen(world);
     Expected<World> moved = World::from_state(still);
     if (!moved) return moved.error();
     const double seconds = substeps * still.settings.substep;
-    if (const Result refused = send(*moved, seconds); !refused) return refused;
+    if (const Result refused = start_move(*moved, seconds); !refused) return refused;
     moved->advance(seconds, workspace);
 
     State now = moved->state();
-    send_on(now, still, was);
+    resume_moves(now, still, was);
     for (std::size_t i = 0; i < now.bodies.size(); ++i) {
         now.bodies[i].tear = was.bodies[i].tear;
         now.bodies[i].bending = was.bodies[i].bending;

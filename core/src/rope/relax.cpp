@@ -13,7 +13,7 @@ void Substep::satisfy(std::uint32_t number, double compliance) {
     const Link& link = state_.links[number];
     const double weight_a = scratch_.weight[link.a], weight_b = scratch_.weight[link.b];
     if (weight_a + weight_b == 0.0) return;
-    glm::dvec3 &a = scratch_.place[link.a], &b = scratch_.place[link.b];
+    glm::dvec3 &a = scratch_.x[link.a], &b = scratch_.x[link.b];
     const glm::dvec3 by = b - a;
     const double length = detail::length(by), softness = compliance / (h_ * h_);
     const glm::dvec3 along = length > 1e-30 ? (1.0 / length) * by : glm::dvec3(1.0, 0.0, 0.0);
@@ -33,19 +33,19 @@ void Substep::satisfy_ties() {
         const Tie& tie = state_.ties[i];
         const double weight_a = scratch_.weight[tie.a], weight_b = scratch_.weight[tie.b];
         if (weight_a + weight_b == 0.0) continue;
-        const glm::dvec3 by = scratch_.place[tie.b] - scratch_.place[tie.a];
+        const glm::dvec3 by = scratch_.x[tie.b] - scratch_.x[tie.a];
         const double length = detail::length(by);
         if (length <= 1e-30) continue;
-        const double change = (length - detail::distance_kept(tie, h_)) / (weight_a + weight_b);
+        const double change = (length - detail::enforced_length(tie, h_)) / (weight_a + weight_b);
         scratch_.tie_multiplier[i] += change;
-        scratch_.place[tie.a] += (weight_a * change / length) * by;
-        scratch_.place[tie.b] -= (weight_b * change / length) * by;
+        scratch_.x[tie.a] += (weight_a * change / length) * by;
+        scratch_.x[tie.b] -= (weight_b * change / length) * by;
     }
 }
 
 /// A link stretched to more than twice its length was pulled apart by a collider that appeared. Correcting it
 /// would throw the body.
-void Substep::strike_overstretched() {
+void Substep::record_overstretch() {
     if (local_.near.empty()) return;
     for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
         const Link& link = state_.links[i];
@@ -54,13 +54,13 @@ void Substep::strike_overstretched() {
         if (link.kind != Link::Kind::Stretch || detail::dot(along, along) <= twice * twice) continue;
         const auto next = std::upper_bound(state_.bodies.begin(), state_.bodies.end(), link.a,
                                            [](std::size_t a, const Body& body) { return a < body.first; });
-        strike(static_cast<std::uint32_t>(next - state_.bodies.begin() - 1),
-               detail::length(along) - link.rest);
+        record_impact(static_cast<std::uint32_t>(next - state_.bodies.begin() - 1),
+                      detail::length(along) - link.rest);
     }
 }
 
 int Substep::relax() {
-    strike_overstretched();
+    record_overstretch();
     const std::span<const std::uint32_t> links = Plan::part(plan_.links, island_.links);
     for (const std::uint32_t i : links) scratch_.multiplier[i] = 0.0;
     for (const std::uint32_t i : Plan::part(plan_.ties, island_.ties)) scratch_.tie_multiplier[i] = 0.0;

@@ -11,7 +11,7 @@ namespace {
 constexpr double unknown = -1.0;
 
 /// Sums steps to coordinates. Unknown ones are the mean of the others.
-std::vector<double> sums(std::vector<double> steps) {
+std::vector<double> cumulative(std::vector<double> steps) {
     double known = 0.0, count = 0.0;
     for (const double step : steps)
         if (step != unknown) known += step, ++count;
@@ -23,10 +23,10 @@ std::vector<double> sums(std::vector<double> steps) {
 
 }  // namespace
 
-LinkWay way_of(const Body& body, const Link& link) noexcept {
+LinkStep link_step(const Body& body, const Link& link) noexcept {
     const std::size_t low = body.cell(std::min(link.a, link.b) - body.first),
                       high = body.cell(std::max(link.a, link.b) - body.first);
-    LinkWay way{.column = low % body.row, .row = low / body.row};
+    LinkStep way{.column = low % body.row, .row = low / body.row};
     way.columns = static_cast<std::ptrdiff_t>(high % body.row) - static_cast<std::ptrdiff_t>(way.column);
     way.rows = static_cast<std::ptrdiff_t>(high / body.row) - static_cast<std::ptrdiff_t>(way.row);
     return way;
@@ -37,16 +37,16 @@ RestGrid rest_grid(const State& state, const Body& body) {
     const Link* shear = nullptr;
     for (const Link& link : state.links) {
         if (!is_within(body, link)) continue;
-        const LinkWay way = way_of(body, link);
+        const LinkStep way = link_step(body, link);
         if (link.kind == Link::Kind::Shear && shear == nullptr && std::abs(way.columns) == 1 && way.rows == 1)
             shear = &link;
         if (link.kind != Link::Kind::Stretch) continue;
         if (way.columns == 1 && way.rows == 0 && along[way.column] == unknown) along[way.column] = link.rest;
         if (way.columns == 0 && way.rows == 1 && down[way.row] == unknown) down[way.row] = link.rest;
     }
-    RestGrid grid{.along = sums(std::move(along)), .down = sums(std::move(down))};
+    RestGrid grid{.along = cumulative(std::move(along)), .down = cumulative(std::move(down))};
     if (shear == nullptr) return grid;
-    const LinkWay way = way_of(body, *shear);
+    const LinkStep way = link_step(body, *shear);
     const std::size_t left = way.columns > 0 ? way.column : way.column - 1;
     const double a = grid.along[left + 1] - grid.along[left], b = grid.down[way.row + 1] - grid.down[way.row];
     const double rest = shear->rest, product = 2.0 * static_cast<double>(way.columns) * a * b;
@@ -55,16 +55,16 @@ RestGrid rest_grid(const State& state, const Body& body) {
     return grid;
 }
 
-double link_per_material(const Body& body, const RestGrid& grid, const Link& link) noexcept {
+double unit_link_compliance(const Body& body, const RestGrid& grid, const Link& link) noexcept {
     if (body.kind != Body::Kind::Cloth) return link.rest;
     // A thread carries an equal share of the cloth beside it.
-    const bool in_row = way_of(body, link).rows == 0;
+    const bool in_row = link_step(body, link).rows == 0;
     const double beside = in_row ? grid.width() / static_cast<double>(grid.down.size())
                                  : grid.length() / static_cast<double>(grid.along.size());
     return beside > 0.0 ? link.rest / beside : 1.0;
 }
 
-std::vector<double> shares(const std::vector<double>& at) {
+std::vector<double> lumped_lengths(const std::vector<double>& at) {
     std::vector<double> list(at.size(), 1.0);
     if (at.size() < 2 || !(at.back() > 0.0)) return list;
     const std::size_t last = at.size() - 1;

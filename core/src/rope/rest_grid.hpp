@@ -21,21 +21,21 @@ struct RestGrid {
 };
 
 /// The start of a link and its way, in columns and rows.
-struct LinkWay {
+struct LinkStep {
     std::size_t column = 0, row = 0;  ///< start
     std::ptrdiff_t columns = 0, rows = 0;
 };
-LinkWay way_of(const Body& body, const Link& link) noexcept;
+LinkStep link_step(const Body& body, const Link& link) noexcept;
 
 /// Torn links of a cloth take their lengths from those that are left.
 RestGrid rest_grid(const State& state, const Body& body);
 
 /// The compliance of a stretch link of a material that strains by 1 per newton: a rope's, a strand's, or a
 /// strip of cloth's, a metre wide. Metres.
-double link_per_material(const Body& body, const RestGrid& grid, const Link& link) noexcept;
+double unit_link_compliance(const Body& body, const RestGrid& grid, const Link& link) noexcept;
 
 /// Each point's share of a body's mass, as a length in metres: half the distance to each neighbour; at the
 /// ends all of it.
-std::vector<double> shares(const std::vector<double>& at);
+std::vector<double> lumped_lengths(const std::vector<double>& at);
 
 }  // namespace tendril::rope::detail

@@ -18,6 +18,9 @@
 
 namespace tendril::rope {
 
+/// Maximum distance by which solvers move a particle off its free path, metres, and contact distance.
+inline constexpr double path_margin = 1e-3, touch_distance = 1e-5;
+
 /// A particle's contact with a collider in one substep.
 struct Touch {
     glm::dvec3 normal{0.0};
@@ -39,7 +42,7 @@ struct ContactScratch {
     struct Contact {
         std::uint32_t node = 0;
         std::uint32_t first = 0, count = 0;  ///< in `planes`
-        bool waits = false;                  ///< for a deeper contact nearby
+        bool deferred = false;               ///< for a deeper contact nearby
     };
     /// A contact with colliders so small that a link can touch them between its ends.
     struct LinkContact {
@@ -48,26 +51,26 @@ struct ContactScratch {
         std::uint32_t collider = 0xffffffffu;  ///< the one that it touches
         glm::dvec3 point{0.0};                 ///< on its plane
     };
-    struct Kept {
+    struct Saved {
         glm::dvec3 x{0.0};
         double multiplier = 0.0, error = 0.0;
     };
-    std::vector<Contact> contacts;  ///< parallel to `holds`, by node
+    std::vector<Contact> contacts;  ///< parallel to `node_effects`, by node
     std::vector<Plane> planes;
-    std::vector<LinkContact> link_contacts;  ///< parallel to `bond_holds`, by bond
+    std::vector<LinkContact> link_contacts;  ///< parallel to `bond_effects`, by bond
     std::vector<std::uint32_t> link_colliders;
     std::vector<detail::ChainNode> nodes;
     std::vector<detail::ChainBond> bonds;
-    std::vector<detail::NodeContact> holds;
-    std::vector<detail::BondContact> bond_holds;
+    std::vector<detail::NodeContact> node_effects;
+    std::vector<detail::BondContact> bond_effects;
     std::vector<detail::ChainBend> bends;  ///< by node; empty if the body does not resist bending
-    std::vector<Kept> kept;                ///< nodes and bonds before a step
-    std::vector<double> kept_contacts;
+    std::vector<Saved> saved;              ///< nodes and bonds before a step
+    std::vector<double> saved_contacts;
     std::vector<detail::NodePush> pushes;  ///< by contacts with other segments
     /// Progress of the solve.
     struct {
-        double stiffer = 0.0, used = 0.0, turned = 1.0, worst = 0.0;
-        int taken = 0, rejected = 0, relapses = 0;
+        double extra_stiffness = 0.0, used_stiffness = 0.0, turn = 1.0, worst = 0.0;
+        int steps_taken = 0, rejected = 0, divergences = 0;
         bool moved = false;        ///< a step was taken
         bool may_release = false;  ///< contacts may still be dropped
     } progress;
@@ -109,15 +112,15 @@ struct BodyContactScratch {
         std::array<std::uint32_t, 4> points{};  ///< particles: two of a and two of b, or one and three
         std::uint32_t split = 2;                ///< how many belong to a
         std::uint32_t body_a = 0, body_b = 0;
-        double least = 0.0;   ///< thickness, metres
-        double listed = 0.0;  ///< distance when listed, metres
+        double min_thickness = 0.0;  ///< thickness, metres
+        double listed = 0.0;         ///< distance when listed, metres
     };
     /// Candidates that may come near each other in the substep.
     struct Pair : Candidate {
         glm::dvec3 normal{0.0};  ///< from a to b where they are nearest, at the start of the substep
-        double apart = 0.0;      ///< distance of centre lines there, metres
+        double distance = 0.0;   ///< distance of centre lines there, metres
         double thickness = 0.0;
-        std::array<double, 4> shares{};  ///< of the points, where they are nearest; negative for a
+        std::array<double, 4> weights{};  ///< of the points, where they are nearest; negative for a
     };
     /// A pair that is nearer than its neighbours are.
     struct Contact : Pair {
@@ -131,7 +134,7 @@ struct BodyContactScratch {
         bool is_b = false;
     };
     glm::dvec3 mean{0.0};  ///< mean way of all particles
-    // The lists stay until a particle roams too far (Scratch::Listed).
+    // The lists are valid until a particle drifts too far (Scratch::Listed).
     bool listed = false;
     std::vector<float> radii;  ///< radii of the island's bodies
     std::vector<Candidate> candidates;
@@ -142,27 +145,27 @@ struct BodyContactScratch {
         std::array<std::uint32_t, 4>
             first{};  ///< of its particles, segments, triangles in `features`; the end
     };
-    std::vector<Chunk> chunks;                ///< of colliding bodies, by `low.x`
-    std::vector<std::uint32_t> few_a, few_b;  ///< features of two chunks that are in both boxes
+    std::vector<Chunk> chunks;                  ///< of colliding bodies, by `low.x`
+    std::vector<std::uint32_t> near_a, near_b;  ///< features of two chunks that are in both boxes
     std::vector<Pair> pairs;
     std::vector<Contact> contacts;      ///< solved with the chains
     std::vector<Contact> projected;     ///< by depth
     std::vector<Side> sides;            ///< sorted by chain and bond
     std::vector<std::uint32_t> chains;  ///< solved together
-    std::vector<std::uint8_t> taken;    ///< whether a contact continues each State::contacts
+    std::vector<std::uint8_t> reused;   ///< whether a contact continues each State::contacts
 };
 
 /// Shared by the islands: each writes only data of its own bodies, links, chains and chunks. Colliders have
 /// moved before islands are solved.
 struct Scratch {
-    std::vector<glm::dvec3> place;   ///< current position of each particle
-    std::vector<glm::dvec3> base;    ///< position without links and colliders
-    std::vector<glm::dvec3> blown;   ///< displacement by the wind in `base`; empty without wind
-    std::vector<double> weight;      ///< inverse mass; 0: pinned
-    std::vector<double> multiplier;  ///< by link: tension times h^2
+    std::vector<glm::dvec3> x;          ///< current position of each particle
+    std::vector<glm::dvec3> base;       ///< position without links and colliders
+    std::vector<glm::dvec3> wind_move;  ///< displacement by the wind in `base`; empty without wind
+    std::vector<double> weight;         ///< inverse mass; 0: pinned
+    std::vector<double> multiplier;     ///< by link: tension times h^2
     std::vector<Touch> touch;
-    /// The colliders near a body. Struck: a resting collider displaced it faster than correction_speed.
-    enum class Nearest : std::uint8_t { None, Resting, Struck, Moving };
+    /// The colliders near a body. Impact: a resting collider displaced it faster than correction_speed.
+    enum class Nearest : std::uint8_t { None, Resting, Impact, Moving };
     std::vector<Nearest> body_near;
     std::vector<std::uint8_t> body_failed;  ///< whether a body could not be solved
     std::vector<glm::dvec3> chunk_low, chunk_high;
@@ -173,15 +176,15 @@ struct Scratch {
         double size = 0.0;
         glm::dvec3 turn{0.0};  ///< a capsule's: end b moves this much beyond `by`, end a the opposite
         bool spins = false;
-        glm::dquat unspin{1.0, 0.0, 0.0, 0.0};  ///< rotates back to the start of the substep
-        glm::dvec3 middle{0.0};                 ///< centre of the spin at the end of the substep
+        glm::dquat inverse_spin{1.0, 0.0, 0.0, 0.0};  ///< rotates back to the start of the substep
+        glm::dvec3 middle{0.0};                       ///< centre of the spin at the end of the substep
 
         /// The displacement of the shape at its point nearest to `at`.
-        glm::dvec3 by_at(const glm::dvec3& at) const;
+        glm::dvec3 move_at(const glm::dvec3& at) const;
         /// The distance of `at`, for a particle that started the substep at `was`. If it moved fast, puts
         /// `at` back to where it first touches, on the side that it came from.
-        SurfaceDistance entered(const glm::dvec3& was, glm::dvec3& at, double radius,
-                                std::uint64_t& work) const;
+        SurfaceDistance sweep(const glm::dvec3& was, glm::dvec3& at, double radius,
+                              std::uint64_t& work) const;
         bool moves() const { return by != glm::dvec3(0.0) || turn != glm::dvec3(0.0) || spins; }
         /// Whether a ball is entirely beyond the shape's bounds in the substep.
         bool far_from(const glm::dvec3& at, double radius) const {
@@ -194,20 +197,20 @@ struct Scratch {
     std::vector<double> chain_error;         ///< by chain: relative length error after its last pass
     /// Factors on the mean velocity of some particles, on the deviations from it, and on the tension of
     /// links.
-    struct Slowed {
+    struct Slowdown {
         glm::dvec3 mean{0.0};  ///< mean displacement
-        double whole = 1.0, apart = 1.0, tension = 1.0;
+        double mean_factor = 1.0, relative_factor = 1.0, tension_factor = 1.0;
         double left = 0.0;  ///< joules of gain that slowing leaves
-        bool any() const { return whole != 1.0 || apart != 1.0 || tension != 1.0; }
+        bool any() const { return mean_factor != 1.0 || relative_factor != 1.0 || tension_factor != 1.0; }
     };
-    std::vector<std::optional<Slowed>> chain_slowed;  ///< empty until its energy is balanced
-    std::vector<BodyContactScratch> body_contacts;    ///< by island of the plan with collisions
-    /// A particle that may collide: its position when candidates were listed, how far it may drift from there
-    /// before they are listed again, and how far it may go in a substep. Squared: how far it has drifted, its
-    /// free way in this substep, and how far the solver has moved it so far.
+    std::vector<std::optional<Slowdown>> chain_slowdown;  ///< empty until its energy is balanced
+    std::vector<BodyContactScratch> body_contacts;        ///< by island of the plan with collisions
+    /// A particle that may collide: its position when candidates were listed, the drift and travel per
+    /// substep that they allow, metres; and its drift, free travel and move by the solver in this substep,
+    /// squared.
     struct Listed {
         glm::dvec3 at{0.0};
-        double max_drift = 0.0, reach = 0.0, drifted = 0.0, way = 0.0, moved = 0.0;
+        double max_drift = 0.0, reach = 0.0, drifted = 0.0, travel = 0.0, moved = 0.0;
     };
     std::vector<Listed> listed;                   ///< by particle; empty if nothing collides
     std::vector<ContactScratch> chain_contacts;   ///< by chain; empty if nothing collides
@@ -215,7 +218,7 @@ struct Scratch {
     std::vector<detail::Cloth> cloths;            ///< by grid of the plan
     std::vector<detail::EliminationSystem> tied;  ///< by tied bodies of the plan
     std::vector<TieForces> tie_forces;            ///< by tied bodies of the plan
-    std::vector<glm::dvec3> tied_by;              ///< by particle: a step of the tied solver; else empty
+    std::vector<glm::dvec3> tied_step;            ///< by particle: a step of the tied solver; else empty
     std::vector<double> tie_multiplier;           ///< by tie: tension times h^2
     detail::VectorUnit unit;
     detail::GridUnit grid_unit;
@@ -228,7 +231,7 @@ struct ClothContact {
     std::uint32_t a = 0, b = 0;  ///< particles: the same one twice, or a link's ends
     std::uint32_t link = 0;      ///< a link's index
     double t = 0.0;              ///< position between them, 0: at a
-    double force = 0.0;          ///< in the last solve; positive: presses
+    double force = 0.0;          ///< in the last solve; over 0 in compression
     double gap = 0.0;            ///< from the collider's surface, less the radius of the cloth
     glm::dvec3 normal{0.0};
     glm::dvec3 at{0.0};    ///< where it was found
@@ -239,9 +242,9 @@ struct ClothContact {
 };
 
 /// A contact within a cloth, where it is now: its features press on each other like a spring.
-struct ClothPress {
+struct ClothSelfContact {
     std::array<std::uint32_t, 4> points{};
-    std::array<double, 4> shares{};
+    std::array<double, 4> weights{};
     glm::dvec3 normal{0.0};
     double along = 0.0, across = 0.0;  ///< stiffness along the normal, and along the surface
     double gap = 0.0;                  ///< beyond the target gap, metres
@@ -261,10 +264,10 @@ struct IslandScratch {
     std::size_t block_offset = 0;
     ContactScratch contact;
     std::vector<ClothContact> cloth_contacts, earlier_contacts;
-    std::vector<ClothPress> presses;
-    std::vector<Scratch::Slowed> part_slowed;  ///< by part of the island
-    tendril::detail::ForkJoin loops;           ///< over a cloth; idle threads help
-    Advance done;                              ///< in this substep; `passes`: maximum over the islands
+    std::vector<ClothSelfContact> self_contacts;
+    std::vector<Scratch::Slowdown> part_slowdown;  ///< by part of the island
+    tendril::detail::ForkJoin loops;               ///< over a cloth; idle threads help
+    Advance done;                                  ///< in this substep; `passes`: maximum over the islands
 };
 
 /// The data that an island's solvers share in one fixed substep. They write only the island's own data, so
@@ -319,8 +322,8 @@ struct Workspace::Parts {
     /// The rest of a substep after colliders have moved: threads take islands until none is left.
     void solve_islands(State& state, bool measures);
     /// Adds the threads' work in the substep to the report of the call.
-    void add_up(Advance& done);
-    void note_contacts(State& state);
+    void sum_reports(Advance& done);
+    void store_contacts(State& state);
 };
 
 }  // namespace tendril::rope

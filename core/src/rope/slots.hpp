@@ -68,7 +68,7 @@ inline void insert_collision(std::vector<Collision>& list, const Collision& each
 }
 
 /// Makes `rest`, split off `whole`, collide with the same bodies. Adds at most one more than there are.
-inline void collide_alike(State& state, BodyId whole, BodyId rest) {
+inline void copy_collisions(State& state, BodyId whole, BodyId rest) {
     for (std::size_t i = 0, count = state.collisions.size(); i < count; ++i) {
         const Collision each = state.collisions[i];
         if (each.a != whole && each.b != whole) continue;

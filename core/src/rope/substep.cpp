@@ -19,16 +19,16 @@ using glm::dvec3;
 
 /// True only if every coordinate is at most `limit`; false for NaN. A single comparison, because it runs for
 /// every particle; the others are checked again.
-bool surely_within(const dvec3& v, double limit) {
+bool is_surely_within(const dvec3& v, double limit) {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z) <= limit;
 }
 
 /// Clamps a position to the edge of the world, max_magnitude from the origin in each coordinate. If the
 /// solver's result is not finite, the particle stays where it was.
-dvec3 within_the_world(const dvec3& place, const dvec3& was) {
+dvec3 clamped_to_world(const dvec3& x, const dvec3& was) {
     constexpr double edge = max_magnitude;
-    const bool number = std::isfinite(place.x) && std::isfinite(place.y) && std::isfinite(place.z);
-    return number ? glm::clamp(place, dvec3(-edge), dvec3(edge)) : was;
+    const bool number = std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
+    return number ? glm::clamp(x, dvec3(-edge), dvec3(edge)) : was;
 }
 
 /// Tension in newtons from a Lagrange multiplier.
@@ -46,7 +46,7 @@ Substep::Substep(State& state, const Plan& plan, const Plan::Island& island, Scr
     : IslandStep(state, plan, island, scratch, local),
       report_(local.done),
       acceleration_(detail::acceleration(state.settings)),
-      blows_(detail::has_air(state.settings)) {}
+      has_air_(detail::has_air(state.settings)) {}
 
 Substep::Substep(const Substep& whole, const Plan::Island& part)
     : IslandStep(whole, part),
@@ -55,7 +55,7 @@ Substep::Substep(const Substep& whole, const Plan::Island& part)
       before_(whole.before_),
       damping_(whole.damping_),
       acceleration_(whole.acceleration_),
-      blows_(whole.blows_) {}
+      has_air_(whole.has_air_) {}
 
 void Substep::run(bool measures) {
     measures_ = measures;
@@ -66,9 +66,9 @@ void Substep::run(bool measures) {
     report_.passes = std::max(report_.passes, passes);
     shorten_steps();
     depenetrate();
-    stay_in_the_world();
-    if (island_.contacts != 0) BodyContacts(*this).keep_apart();
-    balance_energy();
+    clamp_to_world();
+    if (island_.contacts != 0) BodyContacts(*this).prevent_crossing();
+    limit_energy();
     commit();
 }
 
@@ -118,8 +118,8 @@ void Substep::move_particles() {
                                     [](const Pin& each, std::size_t i) { return each.particle < i; });
         for (; pin != state_.pins.end() && pin->particle < body.first + body.count; ++pin) move_pin(*pin);
     }
-    if (blows_) blow();
-    each_particle([&](std::size_t i) { scratch_.place[i] = scratch_.base[i]; });
+    if (has_air_) apply_wind();
+    each_particle([&](std::size_t i) { scratch_.x[i] = scratch_.base[i]; });
     for (const std::uint32_t i : Plan::part(plan_.links, island_.links)) {
         scratch_.multiplier[i] = static_cast<double>(state_.links[i].tension) * (h_ * h_);
     }
@@ -140,34 +140,34 @@ void Substep::measure() {
         while (link.a < state_.bodies[b].first) --b;  // links of a body are nearly always contiguous
         while (link.a - state_.bodies[b].first >= state_.bodies[b].count) ++b;
         if (link.kind != Link::Kind::Stretch) continue;
-        const double length = detail::length(scratch_.place[link.b] - scratch_.place[link.a]);
+        const double length = detail::length(scratch_.x[link.b] - scratch_.x[link.a]);
         const double error = link.rest > 0.0f ? std::abs(length / link.rest - 1.0) : length;
         state_.bodies[b].stretch =
             std::max(state_.bodies[b].stretch, static_cast<float>(std::min(error, limit)));
     }
 }
 
-void Substep::stay_in_the_world() {
+void Substep::clamp_to_world() {
     bool stopped = false;
     each_particle([&](std::size_t i) {
-        dvec3& place = scratch_.place[i];
-        if (surely_within(place, max_magnitude)) return;
-        const dvec3 was = std::exchange(place, within_the_world(place, state_.position[i]));
-        stopped |= was != place;
+        dvec3& x = scratch_.x[i];
+        if (is_surely_within(x, max_magnitude)) return;
+        const dvec3 was = std::exchange(x, clamped_to_world(x, state_.position[i]));
+        stopped |= was != x;
     });
     if (!stopped) return;
     // Energies balanced before refer to other positions.
     for (const Plan::Island& part : plan_.parts_of(island_))
-        std::fill_n(scratch_.chain_slowed.begin() + part.chains.first, part.chains.count, std::nullopt);
+        std::fill_n(scratch_.chain_slowdown.begin() + part.chains.first, part.chains.count, std::nullopt);
 }
 
 void Substep::commit() {
     each_particle([&](std::size_t i) {
-        dvec3 &place = scratch_.place[i], &position = state_.position[i], &moved = state_.displacement[i];
+        dvec3 &x = scratch_.x[i], &position = state_.position[i], &moved = state_.displacement[i];
         // Coordinate by coordinate: a vector just written as a whole cannot be read at once. Zeros lose their
         // sign, which would depend on how many ropes were solved side by side.
         for (int c = 0; c < 3; ++c) {
-            const double to = place[c] + 0.0;
+            const double to = x[c] + 0.0;
             moved[c] = to - position[c];
             position[c] = to;
         }
@@ -178,9 +178,9 @@ void Substep::commit() {
     for (const std::uint32_t i : Plan::part(plan_.ties, island_.ties)) {
         Tie& tie = state_.ties[i];
         tie.tension = tension_of(scratch_.tie_multiplier[i], h_ * h_);
-        tie.now = static_cast<float>(detail::distance_kept(tie, h_));
+        tie.now = static_cast<float>(detail::enforced_length(tie, h_));
     }
-    slow_down();
+    apply_slowdown();
     for (const std::uint32_t i : local_.touched) scratch_.touch[i] = Touch{};
     local_.touched.clear();
 }

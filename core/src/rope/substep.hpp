@@ -34,14 +34,13 @@ class Substep : IslandStep {
 
     /// A contact that displaces a body faster than this, m/s, would throw it.
     static constexpr double correction_speed = 2.0;
-    /// Depth in a collider, metres, at which a particle of a chain that resists bending may stay: bringing it
-    /// out alone would bend the chain.
-    static constexpr double harmless_depth = 5e-5;
+    /// Penetration, metres, that a chain with bending stiffness may keep: moving one particle would bend it.
+    static constexpr double allowed_depth = 5e-5;
 
     // substep.cpp
     void move_particles();
     void measure();
-    void stay_in_the_world();
+    void clamp_to_world();
     void commit();
     int passes_allowed() const;
 
@@ -50,25 +49,25 @@ class Substep : IslandStep {
         glm::dvec3 by;  ///< in the substep, metres
         double gusts;   ///< their maximum, in the same unit
     };
-    void blow();
+    void apply_wind();
     /// A triangle of a cloth, or a segment of a rope or hair.
     struct Face {
         double mass = 0.0;
-        glm::dvec3 past{0.0};  ///< displacement of the air past it in the substep
+        glm::dvec3 flow{0.0};  ///< displacement of the air past it in the substep
     };
     Face face_of(std::span<const std::size_t> corners, const Air& air) const;
-    void blow_on_cloth(const Body& body, const Air& air);
-    void blow_on_strands(const Body& body, const Air& air);
-    void blow_on_triangle(const std::array<std::size_t, 3>& corners, const Air& air);
-    void blow_on_segment(const std::array<std::size_t, 2>& ends, double thickness, const Air& air);
-    void push(std::span<const std::size_t> corners, const glm::dvec3& by);
+    void wind_on_cloth(const Body& body, const Air& air);
+    void wind_on_strands(const Body& body, const Air& air);
+    void wind_on_triangle(const std::array<std::size_t, 3>& corners, const Air& air);
+    void wind_on_segment(const std::array<std::size_t, 2>& ends, double thickness, const Air& air);
+    void add_wind(std::span<const std::size_t> corners, const glm::dvec3& by);
 
     // contact.cpp: finds near colliders, and keeps bodies that are not solved with their contacts out of them
     void find_near();
     void resolve_contacts(bool first);
     void resolve_particle(std::uint32_t i, std::uint32_t collider, std::uint32_t body, bool first);
     void resolve_link(const Link& link, std::uint32_t collider, std::uint32_t body);
-    void strike(std::uint32_t body, double depth);
+    void record_impact(std::uint32_t body, double depth);
     void apply_friction(std::uint32_t i, std::uint32_t body);  ///< Coulomb's friction
     Touch& touch(std::uint32_t i, std::uint32_t collider, const glm::dvec3& normal);
 
@@ -80,7 +79,7 @@ class Substep : IslandStep {
 
     // relax.cpp: one link after the other
     int relax();
-    void strike_overstretched();
+    void record_overstretch();
     void satisfy(std::uint32_t link, double compliance);
     void satisfy_soft();
     void satisfy_ties();
@@ -90,7 +89,7 @@ class Substep : IslandStep {
     int direct();
     int direct_part();
     void project_contacts();
-    int direct_alone();
+    int direct_isolated();
     int direct_grid();
     int direct_tied();
     double solve_group(const Plan::Group& group, int iteration);
@@ -99,69 +98,70 @@ class Substep : IslandStep {
     void relax_failed_bodies();
     void shorten_steps();
     void shorten_step(std::uint32_t chain);
-    double bounded_correction(const Plan::Chain& chain) const;
-    void slow_correction(const Plan::Chain& chain);
+    double correction_scale(const Plan::Chain& chain) const;
+    void scale_correction(const Plan::Chain& chain);
     void gather(const detail::Block& block, const Batch& batch) const;
     void scatter(const detail::Block& block, std::uint32_t lane, std::uint32_t chain);
     /// Whether contacts displace a body after its lengths are solved, not together with them.
-    bool has_fallback_contact(std::uint32_t body) const { return !island_.alone && is_near(body); }
+    bool has_fallback_contact(std::uint32_t body) const { return !island_.isolated && is_near(body); }
     bool is_near(std::uint32_t body) const { return scratch_.body_near[body] != Scratch::Nearest::None; }
 
     // energy.cpp
     class Ledger;
-    using Slowed = Scratch::Slowed;
+    using Slowdown = Scratch::Slowdown;
     Ledger ledger_of(const Plan::Chain& chain) const;
     Ledger ledger_of(const Plan::Island& part) const;
     bool tied_in_grid(const Plan::Island& part, std::size_t link) const;
     void add_chain(Ledger& ledger, const Plan::Chain& chain) const;
-    void balance_energy();
-    Slowed balance(const Ledger& ledger);
-    void slow_down();
+    void limit_energy();
+    Slowdown limit_gain(const Ledger& ledger);
+    void apply_slowdown();
 
     Advance& report_;
     bool measures_ = false;
     double before_ = 1.0;   ///< length of the previous substep relative to this one
     double damping_ = 1.0;  ///< factor on velocity, in the substep
     glm::dvec3 acceleration_;
-    bool blows_;  ///< whether there is air
+    bool has_air_;  ///< whether there is air
 };
 
 /// The energy that particles and links gain in this substep, in joules.
 class Substep::Ledger {
   public:
     Ledger(const Substep& substep, Scratch::Nearest near)
-        : it_(&substep), near_(near), worked_on_(near == Scratch::Nearest::Moving) {}
+        : step_(&substep), near_(near), driven_(near == Scratch::Nearest::Moving) {}
 
     void add_particle(std::size_t i);
     void add_link(std::uint32_t link);
     void add_cloth(const detail::Cloth& cloth);
     void add_bending(const Plan::Chain& chain);
     /// Zero if a moving collider or pin may have done work.
-    double gained() const { return worked_on_ ? 0.0 : gained_; }
-    /// Whether the gain exceeds this part of their weight times their length.
-    bool gains(double part) const;
-    /// Whether slowed() leaves a gain of more than this part of their weight times their length, or of their
-    /// earlier kinetic energy.
-    bool keeps(double part) const;
-    Slowed slowed() const;
+    double gained() const { return driven_ ? 0.0 : gained_; }
+    /// Whether the gain exceeds this part of weight times length.
+    bool gains_over(double part) const;
+    /// Whether slowdown() leaves a gain of more than this part of their weight times their length, or of
+    /// their earlier kinetic energy.
+    bool leaves_gain(double part) const;
+    Slowdown slowdown() const;
     /// Joules lost to contact. The work of moving colliders cannot be separated from it.
     double contact_loss() const;
-    /// Relaxation and XPBD can hold stretch that no energy counts; bounded then, a taut rope would sag.
+    /// Relaxation and XPBD can hold uncounted strain energy; if bounded then, a taut rope would sag.
     bool bounds_relaxation() const {
-        return near_ == Scratch::Nearest::Struck || (near_ != Scratch::Nearest::None && !strained_);
+        return near_ == Scratch::Nearest::Impact || (near_ != Scratch::Nearest::None && !strained_);
     }
     /// Whether it does not fall freely, though nothing holds or touches it.
     bool suspended() const;
 
   private:
-    const Substep* it_;
+    const Substep* step_;
     Scratch::Nearest near_;
-    double gained_ = 0.0, damped_ = 0.0, kinetic_ = 0.0, kinetic_before_ = 0.0, elastic_ = 0.0, mass_ = 0.0,
-           length_ = 0.0;
-    glm::dvec3 momentum_{0.0};              ///< times the substep
-    glm::dvec3 pushed_{0.0};                ///< momentum from all but gravity, times the substep
-    double fallen_ = 0.0, released_ = 0.0;  ///< energy released by gravity and by links, since halfway
-    bool worked_on_, pinned_ = false, strained_ = false;
+    double gained_ = 0.0, damping_loss_ = 0.0, kinetic_ = 0.0, kinetic_before_ = 0.0, elastic_ = 0.0,
+           mass_ = 0.0, length_ = 0.0;
+    glm::dvec3 momentum_{0.0};         ///< times the substep
+    glm::dvec3 solver_momentum_{0.0};  ///< momentum from all but gravity, times the substep
+    double gravity_work_ = 0.0,
+           elastic_release_ = 0.0;  ///< energy released by gravity and by links, since halfway
+    bool driven_, pinned_ = false, strained_ = false;
 };
 
 }  // namespace tendril::rope

@@ -101,7 +101,7 @@ void GridSystem::gather(const GridUnit& unit) {
         unit.prolong(levels_[i], levels_[i + 1], {0, levels_[i + 1].rows});
 }
 
-std::array<dvec3, 3> GridSystem::between(std::size_t a, std::size_t b) {
+std::array<dvec3, 3> GridSystem::preconditioner_block(std::size_t a, std::size_t b) {
     constexpr std::array<dvec3, 3> units{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
     std::array<dvec3, 3> columns{};
     for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {
@@ -136,7 +136,7 @@ const double* GridSystem::inverse_column(std::size_t cell, std::size_t component
     return inverse_.data() + (first + component) * n;
 }
 
-void GridSystem::turn(const GridUnit& unit, float by) {
+void GridSystem::update_direction(const GridUnit& unit, float by) {
     const GridLevel& level = finest();
     unit.scale_and_add(by, level.x, direction_, {0, level.cells()});
     unit.multiply(level, direction_, product_, {0, level.cells()});
@@ -187,15 +187,15 @@ void TiedSolver::load_ties() {
         const std::uint32_t number = tied_.across[i];
         const Tie& tie = state_.ties[number];
         const auto end = [&](std::uint32_t particle, double sign) {
-            const std::uint32_t grid = grid_with(particle);
+            const std::uint32_t grid = grid_of_particle(particle);
             using Of = TieForces::End::Of;
             const Of of = scratch_.weight[particle] == 0.0 ? Of::Nothing : grid > 0 ? Of::Grid : Of::Rest;
-            return TieForces::End{of, grid > 0 ? grid - 1 - tied_.grids.first : 0, plan_.places[particle],
-                                  sign};
+            return TieForces::End{of, grid > 0 ? grid - 1 - tied_.grids.first : 0,
+                                  plan_.system_index[particle], sign};
         };
         forces.ends[i] = {end(tie.a, -1.0), end(tie.b, 1.0)};
-        const dvec3 apart = scratch_.place[tie.b] - scratch_.place[tie.a];
-        const double rest = detail::distance_kept(tie, h_), length = detail::length(apart);
+        const dvec3 apart = scratch_.x[tie.b] - scratch_.x[tie.a];
+        const double rest = detail::enforced_length(tie, h_), length = detail::length(apart);
         const double along = 1.0 / tie_stiffness(tie);
         double across = along;
         dvec3 n_of(1.0, 0.0, 0.0);
@@ -226,7 +226,7 @@ void TiedSolver::add_responses() {
             for (std::size_t i = j; i < forces.ends.size(); ++i)
                 for (const TieForces::End& a : forces.ends[i]) {
                     if (a.of != Of::Grid || a.grid != b.grid) continue;
-                    const std::array<dvec3, 3> columns = system.between(a.at, b.at);
+                    const std::array<dvec3, 3> columns = system.preconditioner_block(a.at, b.at);
                     for (std::size_t c = 0; c < 3; ++c)
                         for (std::size_t r = 0; r < 3; ++r)
                             forces.system.matrix[(3 * i + r) * n + 3 * j + c] +=
@@ -294,8 +294,8 @@ void TiedSolver::solve_with_grids(const detail::GridSystem::Tolerance& tolerance
         });
         each_grid([&](detail::GridSystem& grid) { grid.gather(unit); });
     };
-    const auto turn = [&](float by) {
-        each_grid([&](detail::GridSystem& grid) { grid.turn(unit, by); });
+    const auto update_direction = [&](float by) {
+        each_grid([&](detail::GridSystem& grid) { grid.update_direction(unit, by); });
         for (std::size_t i = 0; i < forces.ends.size(); ++i)
             forces.direction[i] = forces.now[i] + static_cast<double>(by) * forces.direction[i];
         each_end(Of::Grid, [&](std::size_t i, const TieForces::End& end) {
@@ -316,7 +316,7 @@ void TiedSolver::solve_with_grids(const detail::GridSystem::Tolerance& tolerance
     const double enough = std::max(tolerance.square, tolerance.relative * tolerance.relative * size);
     std::fill(forces.total.begin(), forces.total.end(), dvec3(0.0));
     std::fill(forces.direction.begin(), forces.direction.end(), dvec3(0.0));
-    turn(0.0f);
+    update_direction(0.0f);
     advance(1.0f);
     double before = 1.0;
     for (int i = 0;; ++i) {
@@ -325,7 +325,7 @@ void TiedSolver::solve_with_grids(const detail::GridSystem::Tolerance& tolerance
         double now = 0.0, curvature = 0.0;
         each_grid([&](detail::GridSystem& grid) { now += grid.residual_dot_x(unit); });
         if (now <= enough || i >= iterations || !std::isfinite(now)) break;
-        turn(i == 0 ? 0.0f : static_cast<float>(now / before));
+        update_direction(i == 0 ? 0.0f : static_cast<float>(now / before));
         before = now;
         each_grid([&](detail::GridSystem& grid) { curvature += grid.direction_dot_product(unit); });
         if (!(curvature > 0.0)) break;
@@ -345,10 +345,10 @@ void TiedSolver::solve_with_grids(const detail::GridSystem::Tolerance& tolerance
     for (std::size_t i = 0; i < forces.ends.size(); ++i) {
         const Tie& tie = state_.ties[tied_.across[i]];
         const dvec3& force = forces.total[i];
-        const dvec3 apart = scratch_.place[tie.b] - scratch_.place[tie.a];
+        const dvec3 apart = scratch_.x[tie.b] - scratch_.x[tie.a];
         scratch_.tie_multiplier[tied_.across[i]] =
-            mass_ * (detail::distance_kept(tie, h_) > 0.0 ? detail::dot(force, detail::unit(apart))
-                                                          : detail::length(force));
+            mass_ * (detail::enforced_length(tie, h_) > 0.0 ? detail::dot(force, detail::unit(apart))
+                                                            : detail::length(force));
     }
 }
 

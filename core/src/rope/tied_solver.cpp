@@ -18,14 +18,14 @@ constexpr double max_stiffness_between = 1e7;
 /// Stiffness of a contact, relative to the mean mass of a particle.
 constexpr double contact_stiffness = 1e6;
 constexpr int max_steps = 16, steps_near_colliders = 3;
-constexpr double turned_enough = 1e-3;  ///< below it, the next step changes lengths by under a millionth
+constexpr double turn_tolerance = 1e-3;  ///< below it, the next step changes lengths by under a millionth
 /// After this many steps a larger turn is accepted, which leaves lengths right to 0.05 %.
-constexpr int few_steps = 3;
-constexpr double turned_little = 0.03;
-constexpr double turned_far = 0.05;  ///< above it, the step is checked
+constexpr int strict_steps = 3;
+constexpr double late_turn_tolerance = 0.03;
+constexpr double checked_turn = 0.05;  ///< above it, the step is checked
 constexpr int max_halvings = 8;
 /// For cloth that is a grid, as in cloth_solver.cpp.
-constexpr double accepted_strain = 0.007, usual_residual = 0.1;
+constexpr double accepted_strain = 0.007, relative_residual = 0.1;
 constexpr int min_grid_steps = 2, max_grid_steps = 8;
 /// A free body goes on turning, and each step's error with it.
 constexpr int min_free_steps = 4;
@@ -86,7 +86,7 @@ void TiedSolver::measure_grids() {
     stiffness_ = Cloth::link_stiffness(weight, shortest_, mass_ / (h_ * h_));
 }
 
-std::uint32_t TiedSolver::grid_with(std::uint32_t particle) const {
+std::uint32_t TiedSolver::grid_of_particle(std::uint32_t particle) const {
     std::uint32_t found = 0;
     each_grid([&](std::uint32_t number) {
         const Body& body = state_.bodies[plan_.grids[number - 1].body];
@@ -120,7 +120,7 @@ void TiedSolver::each_spring(Visit visit) {
     for (std::size_t k = 0; k < ties.size(); ++k) {
         const Tie& tie = state_.ties[ties[k]];
         double& multiplier = scratch_.tie_multiplier[ties[k]];
-        visit(Spring{tie.a, tie.b, tied_.tie_blocks[k], detail::distance_kept(tie, h_), tie_stiffness(tie),
+        visit(Spring{tie.a, tie.b, tied_.tie_blocks[k], detail::enforced_length(tie, h_), tie_stiffness(tie),
                      multiplier * per_mass, true, tied_.tie_blocks[k] == Plan::no_block},
               multiplier);
     }
@@ -128,11 +128,11 @@ void TiedSolver::each_spring(Visit visit) {
 
 void TiedSolver::add(std::uint32_t particle, const Symmetric3& matrix, const dvec3& force) {
     if (scratch_.weight[particle] == 0.0) return;
-    const std::uint32_t place = plan_.places[particle];
-    Symmetric3& at = system_.diagonal[place];
+    const std::uint32_t x = plan_.system_index[particle];
+    Symmetric3& at = system_.diagonal[x];
     at.xx += matrix.xx, at.xy += matrix.xy, at.xz += matrix.xz;
     at.yy += matrix.yy, at.yz += matrix.yz, at.zz += matrix.zz;
-    system_.x[place] += force;
+    system_.x[x] += force;
 }
 
 /// Builds the system at the current positions. The first step takes the previous substep's tension: particles
@@ -143,11 +143,11 @@ void TiedSolver::assemble(bool first) {
         const Body& body = state_.bodies[number];
         if (plan_.grid_of[number] > 0) continue;
         for (std::size_t i = body.first; i < body.first + body.count; ++i) {
-            const std::uint32_t place = plan_.places[i];
+            const std::uint32_t x = plan_.system_index[i];
             const bool pinned = scratch_.weight[i] == 0.0;
             const double mass = pinned ? 1.0 : state_.mass[i] / mass_;
-            system_.diagonal[place] = {mass, 0.0, 0.0, mass, 0.0, mass};
-            if (!pinned) system_.x[place] = mass * (scratch_.base[i] - scratch_.place[i]);
+            system_.diagonal[x] = {mass, 0.0, 0.0, mass, 0.0, mass};
+            if (!pinned) system_.x[x] = mass * (scratch_.base[i] - scratch_.x[i]);
         }
     }
     each_grid([&](std::uint32_t number) {
@@ -158,7 +158,7 @@ void TiedSolver::assemble(bool first) {
     });
     each_spring([&](const Spring& spring, double&) {
         if (spring.block == Plan::no_block) return;
-        const dvec3 apart = scratch_.place[spring.b] - scratch_.place[spring.a];
+        const dvec3 apart = scratch_.x[spring.b] - scratch_.x[spring.a];
         const double length = detail::length(apart);
         Symmetric3 matrix;
         dvec3 force;
@@ -188,8 +188,7 @@ void TiedSolver::each_bend(Visit visit) const {
                                                       state_.links[at.link - 1], state_.links[at.link]);
         bend.stiffness /= mass_;
         visit(at, bend,
-              bend.curvature(scratch_.place[at.points[0]], scratch_.place[at.points[1]],
-                             scratch_.place[at.points[2]]));
+              bend.curvature(scratch_.x[at.points[0]], scratch_.x[at.points[1]], scratch_.x[at.points[2]]));
     }
 }
 
@@ -223,48 +222,47 @@ void TiedSolver::add_contacts() {
         if (!each.is_link()) continue;
         add(each.b, scaled(stiff, to_b * to_b), to_b * force);
         if (scratch_.weight[each.a] == 0.0 || scratch_.weight[each.b] == 0.0) continue;
-        system_.blocks[tied_.order.block(plan_.places[each.a], plan_.places[each.b])].subtract(
+        system_.blocks[tied_.order.block(plan_.system_index[each.a], plan_.system_index[each.b])].subtract(
             scaled(stiff, -to_a * to_b));
     }
 }
 
-void TiedSolver::go(double part) {
-    each_particle([&](std::size_t i) { scratch_.place[i] += part * scratch_.tied_by[i]; });
+void TiedSolver::move_by(double part) {
+    each_particle([&](std::size_t i) { scratch_.x[i] += part * scratch_.tied_step[i]; });
 }
 
 /// Stores the tension of links and ties: to first order over the step, or exactly at its end.
-void TiedSolver::note_tensions(bool at_end) {
-    double turned = 0.0;  // squared
+void TiedSolver::store_tensions(bool exact) {
+    double turn = 0.0;  // squared
     each_spring([&](const Spring& spring, double& multiplier) {
-        const dvec3 apart = scratch_.place[spring.b] - scratch_.place[spring.a];
-        const dvec3 by = scratch_.tied_by[spring.b] - scratch_.tied_by[spring.a];
+        const dvec3 apart = scratch_.x[spring.b] - scratch_.x[spring.a];
+        const dvec3 by = scratch_.tied_step[spring.b] - scratch_.tied_step[spring.a];
         if (scratch_.weight[spring.a] + scratch_.weight[spring.b] == 0.0) {
             multiplier = 0.0;
         } else if (spring.rest > 0.0) {
             const double length = detail::length(apart);
             const dvec3 along = length > 1e-30 ? (1.0 / length) * apart : dvec3(1.0, 0.0, 0.0);
-            const double longer = length - spring.rest + (at_end ? 0.0 : detail::dot(along, by));
+            const double longer = length - spring.rest + (exact ? 0.0 : detail::dot(along, by));
             if (!spring.across) multiplier = mass_ * spring.stiffness * longer;
             if (!spring.stiff) return;
             const double reach = std::max(spring.rest, length);
-            if (detail::dot(by, by) > turned * reach * reach) turned = detail::dot(by, by) / (reach * reach);
+            if (detail::dot(by, by) > turn * reach * reach) turn = detail::dot(by, by) / (reach * reach);
         } else if (!spring.across) {
-            multiplier = mass_ * spring.stiffness * detail::length(at_end ? apart : apart + by);
+            multiplier = mass_ * spring.stiffness * detail::length(exact ? apart : apart + by);
         }
     });
-    turned_ = std::sqrt(turned);
+    turn_ = std::sqrt(turn);
 }
 
-/// Twice the incremental potential at `place`, over the mean mass and times h^2.
+/// Twice the incremental potential at `x`, over the mean mass and times h^2.
 double TiedSolver::potential() {
     double sum = 0.0;
     each_particle([&](std::size_t i) {
-        const dvec3 beside = scratch_.place[i] - scratch_.base[i];
+        const dvec3 beside = scratch_.x[i] - scratch_.base[i];
         sum += state_.mass[i] / mass_ * detail::dot(beside, beside);
     });
     each_spring([&](const Spring& spring, double&) {
-        const double longer =
-            detail::length(scratch_.place[spring.b] - scratch_.place[spring.a]) - spring.rest;
+        const double longer = detail::length(scratch_.x[spring.b] - scratch_.x[spring.a]) - spring.rest;
         sum += spring.stiffness * longer * longer;
     });
     each_bend([&](const Plan::Tied::Bend&, const detail::ChainBend& bend, const dvec3& curvature) {
@@ -297,10 +295,9 @@ void TiedSolver::find_step(const detail::GridSystem::Tolerance& tolerance, int i
         const Body& body = state_.bodies[number];
         const std::uint32_t grid = plan_.grid_of[number];
         for (std::size_t i = body.first; i < body.first + body.count; ++i) {
-            const std::uint32_t place = plan_.places[i];
-            scratch_.tied_by[i] = grid == 0
-                                      ? system_.x[place]
-                                      : detail::value_at(scratch_.cloths[grid - 1].system.solution(), place);
+            const std::uint32_t x = plan_.system_index[i];
+            scratch_.tied_step[i] =
+                grid == 0 ? system_.x[x] : detail::value_at(scratch_.cloths[grid - 1].system.solution(), x);
         }
     }
 }
@@ -311,25 +308,24 @@ void TiedSolver::step(bool first, int iterations, double enough) {
     assemble(first);
     add_bends();
     add_contacts();
-    find_step({first ? 0.0 : enough, usual_residual}, iterations);
+    find_step({first ? 0.0 : enough, relative_residual}, iterations);
     local_.done.work += island_.links.count;
-    note_tensions(false);
-    go(1.0);
+    store_tensions(false);
+    move_by(1.0);
     evaluate_grids();
-    taken_ = 1.0;
-    if (turned_ <= turned_far && strain_ <= accepted_strain) return;
-    go(-1.0);
-    const double turned = turned_,
-                 most = potential() * (1.0 + (tied_.grids.count > 0 ? single_rounding : 0.0));
-    go(1.0);
+    step_scale_ = 1.0;
+    if (turn_ <= checked_turn && strain_ <= accepted_strain) return;
+    move_by(-1.0);
+    const double turn = turn_, most = potential() * (1.0 + (tied_.grids.count > 0 ? single_rounding : 0.0));
+    move_by(1.0);
     for (int i = 0; i < max_halvings && !(potential() <= most); ++i) {
-        taken_ *= 0.5;
-        go(-taken_);
+        step_scale_ *= 0.5;
+        move_by(-step_scale_);
     }
-    if (taken_ == 1.0 && turned_ <= turned_far) return;
-    if (taken_ < 1.0) evaluate_grids();
-    note_tensions(true);
-    turned_ = turned;
+    if (step_scale_ == 1.0 && turn_ <= checked_turn) return;
+    if (step_scale_ < 1.0) evaluate_grids();
+    store_tensions(true);
+    turn_ = turn;
 }
 
 /// Whether nothing external acts: no pins, no contacts.
@@ -341,33 +337,33 @@ bool TiedSolver::is_free() const {
 
 /// Internal forces cannot move the centre of mass. If nothing external acts, removes the drift that rounding
 /// caused: links are ten million times stiffer than particles are heavy.
-void TiedSolver::keep_centre() {
+void TiedSolver::remove_drift() {
     if (!is_free()) return;
     double mass = 0.0;
     dvec3 moved(0.0);
     each_particle([&](std::size_t i) {
         mass += state_.mass[i];
-        moved += state_.mass[i] * (scratch_.place[i] - scratch_.base[i]);
+        moved += state_.mass[i] * (scratch_.x[i] - scratch_.base[i]);
     });
-    each_particle([&](std::size_t i) { scratch_.place[i] -= (1.0 / mass) * moved; });
-    if (tied_.grids.count > 0) keep_spin();
+    each_particle([&](std::size_t i) { scratch_.x[i] -= (1.0 / mass) * moved; });
+    if (tied_.grids.count > 0) remove_rotation();
 }
 
 /// Internal forces cannot change angular momentum either. Grids are solved only approximately; this removes
 /// the rotation that the error leaves.
-void TiedSolver::keep_spin() {
+void TiedSolver::remove_rotation() {
     double mass = 0.0;
     dvec3 centre(0.0), turn(0.0);
     each_particle([&](std::size_t i) {
         mass += state_.mass[i];
-        centre += state_.mass[i] * scratch_.place[i];
+        centre += state_.mass[i] * scratch_.x[i];
     });
     centre *= 1.0 / mass;
     double trace = 0.0;
     Symmetric3 inertia;
     each_particle([&](std::size_t i) {
-        const dvec3 from = scratch_.place[i] - centre;
-        turn -= state_.mass[i] * detail::cross(from, scratch_.place[i] - scratch_.base[i]);
+        const dvec3 from = scratch_.x[i] - centre;
+        turn -= state_.mass[i] * detail::cross(from, scratch_.x[i] - scratch_.base[i]);
         trace += state_.mass[i] * detail::dot(from, from);
         inertia.add(-state_.mass[i], from, from);
     });
@@ -380,16 +376,16 @@ void TiedSolver::keep_spin() {
     const dvec3 by =
         (1.0 / volume) * dvec3(detail::dot(turn, detail::cross(b, c)), detail::dot(a, detail::cross(turn, c)),
                                detail::dot(a, detail::cross(b, turn)));
-    each_particle([&](std::size_t i) { scratch_.place[i] += detail::cross(by, scratch_.place[i] - centre); });
+    each_particle([&](std::size_t i) { scratch_.x[i] += detail::cross(by, scratch_.x[i] - centre); });
 }
 
-/// Starts from unchanged velocities: at rest a single step then suffices.
-void TiedSolver::start() {
+/// Initial guess: unchanged velocities. At rest a single step then suffices.
+void TiedSolver::predict() {
     for (const std::uint32_t number : Plan::part(plan_.bodies, island_.bodies)) {
         const Body& body = state_.bodies[number];
         if (plan_.grid_of[number] > 0) continue;
         for (std::size_t i = body.first; i < body.first + body.count; ++i)
-            if (scratch_.weight[i] > 0.0) scratch_.place[i] = state_.position[i] + state_.displacement[i];
+            if (scratch_.weight[i] > 0.0) scratch_.x[i] = state_.position[i] + state_.displacement[i];
     }
 }
 
@@ -401,11 +397,11 @@ int TiedSolver::solve(int iterations) {
                       : is_free()          ? min_free_steps
                                            : min_grid_steps;
     double enough = 0.0;
-    start();
+    predict();
     each_grid([&](std::uint32_t number) {
         Cloth cloth(*this, number);
         cloth.load();
-        enough += cloth.start();
+        enough += cloth.predict();
         strain_ = std::max(strain_, cloth.strain_);
     });
     int taken = 0;
@@ -413,14 +409,15 @@ int TiedSolver::solve(int iterations) {
         find_contacts(taken == 0);
         step(taken == 0, iterations, enough);
         for (ClothContact& each : local_.cloth_contacts) {
-            const dvec3 moved = between(each, scratch_.place) - each.at;
+            const dvec3 moved = contact_point(each, scratch_.x) - each.at;
             each.force = -stiffness_ * (each.gap + detail::dot(each.normal, moved));
         }
         ++taken;
-        converged_ = taken >= least && turned_ <= (taken < few_steps ? turned_enough : turned_little) &&
+        converged_ = taken >= least &&
+                     turn_ <= (taken < strict_steps ? turn_tolerance : late_turn_tolerance) &&
                      (strain_ <= accepted_strain || taken >= max_grid_steps);
     }
-    keep_centre();
+    remove_drift();
     each_grid([&](std::uint32_t number) { Cloth(*this, number).finish(); });
     return taken;
 }

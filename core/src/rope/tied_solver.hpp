@@ -19,7 +19,7 @@ class TiedSolver : ImplicitStep {
     /// Solves the island's particles, from `base`; returns the steps of Newton's method.
     int solve(int iterations);
     bool converged() const { return converged_; }
-    bool shortened() const { return taken_ < 1.0; }  ///< the last step was not taken as a whole
+    bool shortened() const { return step_scale_ < 1.0; }  ///< the last step was not taken as a whole
 
   private:
     /// A spring between two particles.
@@ -33,7 +33,7 @@ class TiedSolver : ImplicitStep {
     struct Cloth : ClothSolver {
         Cloth(const TiedSolver& island, std::uint32_t grid);
         using ClothSolver::add_contact, ClothSolver::add_links, ClothSolver::evaluate, ClothSolver::finish,
-            ClothSolver::load, ClothSolver::pin, ClothSolver::start, ClothSolver::link_stiffness,
+            ClothSolver::load, ClothSolver::pin, ClothSolver::predict, ClothSolver::link_stiffness,
             ClothSolver::cloth_, ClothSolver::in_cells, ClothSolver::level_, ClothSolver::strain_;
     };
     template <class Visit>
@@ -46,22 +46,22 @@ class TiedSolver : ImplicitStep {
     void each_grid(Visit visit) const {
         for (std::uint32_t g = 1; g <= tied_.grids.count; ++g) visit(tied_.grids.first + g);
     }
-    std::uint32_t grid_with(std::uint32_t particle) const;  ///< the grid's number, or 0
+    std::uint32_t grid_of_particle(std::uint32_t particle) const;  ///< the grid's number, or 0
     void measure_grids();
     void evaluate_grids();
-    void start();
+    void predict();
     template <class Visit>
     void each_bend(Visit visit) const;
     void add_bends();
     void add(std::uint32_t particle, const detail::Symmetric3& matrix, const glm::dvec3& force);
     void find_step(const detail::GridSystem::Tolerance& tolerance, int iterations);
     void step(bool first, int iterations, double enough);
-    void go(double part);
-    void note_tensions(bool exact);
+    void move_by(double part);
+    void store_tensions(bool exact);
     double potential();
     bool is_free() const;
-    void keep_centre();
-    void keep_spin();
+    void remove_drift();
+    void remove_rotation();
 
     double tie_stiffness(const Tie& tie) const;  ///< times h^2 over the mean mass
 
@@ -72,8 +72,8 @@ class TiedSolver : ImplicitStep {
 
     const Plan::Tied& tied_;
     detail::EliminationSystem& system_;
-    double taken_ = 1.0;
-    double turned_ = 0.0;     ///< by a stiff link in the last step, relative to its length
+    double step_scale_ = 1.0;
+    double turn_ = 0.0;       ///< by a stiff link in the last step, relative to its length
     double strain_ = 0.0;     ///< in grids: maximum over stretch links
     double shortest_ = 1e30;  ///< in grids: minimum rest length of stretch links
     float lightest_ = 1.0f;

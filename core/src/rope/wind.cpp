@@ -3,10 +3,9 @@
 // it too, and a little along its surface. A wave that runs down a flag slower than the wind is then driven by
 // it, so that a flag flutters; gusts start the waves. A segment of a rope or hair is a cylinder.
 //
-// The air's force is a drag on the motion relative to it, applied implicitly: in a substep a face takes on
-// part of the difference, never more than all of it. Added up over the faces of a body without pins, this
-// cannot raise its kinetic energy as seen by the air, in however strong a wind. The ledger counts the work of
-// the wind (energy.cpp).
+// Drag acts on the motion relative to the air and is implicit: in a substep a face takes on a part of the
+// difference, at most 1. Summed over a body without pins it cannot raise the kinetic energy relative to the
+// air. The ledger counts the work of the wind (energy.cpp).
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -26,11 +25,11 @@ constexpr double air_density = 1.2;  // kg/m^3
 constexpr double across_plate = 2.0, along_plate = 0.1;
 /// The same for a cylinder; its area is thickness times length.
 constexpr double across_thread = 1.2, along_thread = 0.03;
-constexpr double eddy = 1.0;                              // metres: the distance over which gusts differ
-constexpr std::uint64_t period = std::uint64_t{1} << 20;  // eddies after which the gusts repeat
+constexpr double eddy_size = 1.0;                              // metres: the distance over which gusts differ
+constexpr std::uint64_t gust_period = std::uint64_t{1} << 20;  // eddies after which the gusts repeat
 
-/// The part of a difference covered at this rate per substep.
-double reached(double rate) {
+/// Part of a velocity difference that implicit drag removes in a substep, for `rate` per substep.
+double implicit_part(double rate) {
     return rate < 1e12 ? rate / (1.0 + rate) : 1.0;
 }
 
@@ -49,7 +48,7 @@ dvec3 corner_gust(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
 
 /// Smooth noise from -1 to 1 in each coordinate, with one value per unit of length.
 dvec3 smooth_gust(const dvec3& at) {
-    constexpr auto lap = static_cast<double>(period);
+    constexpr auto lap = static_cast<double>(gust_period);
     std::uint64_t cell[3];
     double part[3];
     for (int c = 0; c < 3; ++c) {
@@ -62,7 +61,8 @@ dvec3 smooth_gust(const dvec3& at) {
         const unsigned x = k & 1, y = k >> 1 & 1, z = k >> 2;
         const double weight = (x != 0 ? part[0] : 1.0 - part[0]) * (y != 0 ? part[1] : 1.0 - part[1]) *
                               (z != 0 ? part[2] : 1.0 - part[2]);
-        sum += weight * corner_gust((cell[0] + x) % period, (cell[1] + y) % period, (cell[2] + z) % period);
+        sum += weight * corner_gust((cell[0] + x) % gust_period, (cell[1] + y) % gust_period,
+                                    (cell[2] + z) % gust_period);
     }
     return sum;
 }
@@ -75,42 +75,42 @@ double detail::wind_pressure(const Settings& settings) noexcept {
 }
 
 // The drift is bounded, so that it keeps its precision.
-void detail::drift_gusts(State& state) noexcept {
-    constexpr double lap = static_cast<double>(period) * eddy;
+void detail::advect_gusts(State& state) noexcept {
+    constexpr double lap = static_cast<double>(gust_period) * eddy_size;
     state.drift += state.settings.substep * dvec3(state.settings.wind);
     for (int c = 0; c < 3; ++c) state.drift[c] = std::fmod(state.drift[c], lap);
 }
 
 /// Adds the air's displacement of bodies to `base`.
-void Substep::blow() {
+void Substep::apply_wind() {
     const dvec3 wind(state_.settings.wind);
     const Air air{.by = h_ * wind,
                   .gusts = h_ * static_cast<double>(state_.settings.gusts) * detail::length(wind)};
     for (const std::uint32_t b : Plan::part(plan_.bodies, island_.bodies)) {
         const Body& body = state_.bodies[b];
         const std::size_t end = body.first + body.count;
-        for (std::size_t i = body.first; i < end; ++i) scratch_.blown[i] = dvec3(0.0);
+        for (std::size_t i = body.first; i < end; ++i) scratch_.wind_move[i] = dvec3(0.0);
         if (body.kind == Body::Kind::Cloth)
-            blow_on_cloth(body, air);
+            wind_on_cloth(body, air);
         else
-            blow_on_strands(body, air);
+            wind_on_strands(body, air);
         for (std::size_t i = body.first; i < end; ++i)
-            if (scratch_.weight[i] != 0.0) scratch_.base[i] += scratch_.blown[i];
+            if (scratch_.weight[i] != 0.0) scratch_.base[i] += scratch_.wind_move[i];
     }
 }
 
-void Substep::blow_on_cloth(const Body& body, const Air& air) {
+void Substep::wind_on_cloth(const Body& body, const Air& air) {
     for (std::size_t i = body.first; i < body.first + body.count; ++i) {
         const std::size_t below = plan_.below[i];
         if (below == 0) continue;
-        blow_on_triangle({i, i + 1, below}, air);
-        blow_on_triangle({i + 1, below + 1, below}, air);
+        wind_on_triangle({i, i + 1, below}, air);
+        wind_on_triangle({i + 1, below + 1, below}, air);
     }
 }
 
-void Substep::blow_on_strands(const Body& body, const Air& air) {
+void Substep::wind_on_strands(const Body& body, const Air& air) {
     for (std::size_t i = body.first; i < body.first + body.count; ++i)
-        if (plan_.below[i] != 0) blow_on_segment({i, i + 1}, 2.0 * static_cast<double>(body.radius), air);
+        if (plan_.below[i] != 0) wind_on_segment({i, i + 1}, 2.0 * static_cast<double>(body.radius), air);
 }
 
 /// A particle shares its mass and motion among its faces.
@@ -123,36 +123,38 @@ Substep::Face Substep::face_of(std::span<const std::size_t> corners, const Air& 
         momentum += share * (scratch_.base[i] - state_.position[i]);
         middle += (1.0 / static_cast<double>(corners.size())) * state_.position[i];
     }
-    face.past = air.by - (1.0 / face.mass) * momentum;
-    if (air.gusts > 0.0) face.past += air.gusts * smooth_gust((1.0 / eddy) * (middle - state_.drift));
+    face.flow = air.by - (1.0 / face.mass) * momentum;
+    if (air.gusts > 0.0) face.flow += air.gusts * smooth_gust((1.0 / eddy_size) * (middle - state_.drift));
     return face;
 }
 
-void Substep::push(std::span<const std::size_t> corners, const dvec3& by) {
-    for (const std::size_t i : corners) scratch_.blown[i] += (1.0 / plan_.faces[i]) * by;
+void Substep::add_wind(std::span<const std::size_t> corners, const dvec3& by) {
+    for (const std::size_t i : corners) scratch_.wind_move[i] += (1.0 / plan_.faces[i]) * by;
 }
 
-void Substep::blow_on_triangle(const std::array<std::size_t, 3>& corners, const Air& air) {
+void Substep::wind_on_triangle(const std::array<std::size_t, 3>& corners, const Air& air) {
     const dvec3& a = state_.position[corners[0]];
     const dvec3 normal = detail::cross(state_.position[corners[1]] - a, state_.position[corners[2]] - a);
-    const double twice = detail::length(normal);
-    if (!(twice > 1e-30)) return;
+    const double double_area = detail::length(normal);
+    if (!(double_area > 1e-30)) return;
     const Face face = face_of(corners, air);
-    const double grip = 0.25 * air_density * twice * detail::length(face.past) / face.mass;
-    const dvec3 facing = detail::dot(face.past, normal) / (twice * twice) * normal;
-    push(corners, reached(across_plate * grip) * facing + reached(along_plate * grip) * (face.past - facing));
+    const double drag = 0.25 * air_density * double_area * detail::length(face.flow) / face.mass;
+    const dvec3 normal_flow = detail::dot(face.flow, normal) / (double_area * double_area) * normal;
+    add_wind(corners, implicit_part(across_plate * drag) * normal_flow +
+                          implicit_part(along_plate * drag) * (face.flow - normal_flow));
 }
 
 /// The force across depends on the flow across alone, not along (S. Hoerner, "Fluid-Dynamic Drag", 1965).
-void Substep::blow_on_segment(const std::array<std::size_t, 2>& ends, double thickness, const Air& air) {
+void Substep::wind_on_segment(const std::array<std::size_t, 2>& ends, double thickness, const Air& air) {
     const dvec3 along = state_.position[ends[1]] - state_.position[ends[0]];
     const double square = detail::dot(along, along);
     if (!(square > 1e-30)) return;
     const Face face = face_of(ends, air);
-    const dvec3 facing = face.past - detail::dot(face.past, along) / square * along;
-    const double grip = 0.5 * air_density * thickness * std::sqrt(square) / face.mass;
-    push(ends, reached(across_thread * grip * detail::length(facing)) * facing +
-                   reached(along_thread * grip * detail::length(face.past)) * (face.past - facing));
+    const dvec3 normal_flow = face.flow - detail::dot(face.flow, along) / square * along;
+    const double drag = 0.5 * air_density * thickness * std::sqrt(square) / face.mass;
+    add_wind(ends,
+             implicit_part(across_thread * drag * detail::length(normal_flow)) * normal_flow +
+                 implicit_part(along_thread * drag * detail::length(face.flow)) * (face.flow - normal_flow));
 }
 
 }  // namespace tendril::rope

@@ -14,7 +14,7 @@ namespace {
 /// Sizes everything, so that nothing is allocated later.
 void size(Scratch& scratch, const State& state, const Plan& plan) {
     const std::size_t particles = state.position.size();
-    scratch.place.resize(particles);
+    scratch.x.resize(particles);
     scratch.base.resize(particles);
     scratch.weight.resize(particles);
     scratch.touch.assign(particles, Touch{});
@@ -25,7 +25,7 @@ void size(Scratch& scratch, const State& state, const Plan& plan) {
     scratch.chunk_high.resize(plan.chunks.size());
     scratch.chain_solved.assign(plan.chains.size(), 0);
     scratch.chain_error.assign(plan.chains.size(), 0.0);
-    scratch.chain_slowed.assign(plan.chains.size(), {});
+    scratch.chain_slowdown.assign(plan.chains.size(), {});
     scratch.body_contacts.resize(plan.colliding);
     for (BodyContactScratch& each : scratch.body_contacts) each.listed = false;
     scratch.listed.resize(plan.colliding > 0 ? state.position.size() : 0);
@@ -37,9 +37,9 @@ void size(Scratch& scratch, const State& state, const Plan& plan) {
     scratch.tie_forces.resize(plan.tied.size());
     for (std::size_t i = 0; i < plan.tied.size(); ++i) {
         scratch.tied[i].resize(plan.tied[i].order);
-        scratch.tie_forces[i].resize(plan.tied[i].across.size(), plan.tied[i].order.place.size());
+        scratch.tie_forces[i].resize(plan.tied[i].across.size(), plan.tied[i].order.rank.size());
     }
-    scratch.tied_by.resize(plan.tied.empty() ? 0 : particles);
+    scratch.tied_step.resize(plan.tied.empty() ? 0 : particles);
     scratch.tie_multiplier.assign(state.ties.size(), 0.0);
 }
 
@@ -53,10 +53,10 @@ void size(IslandScratch& scratch, const State& state, const Plan& plan, std::siz
     scratch.earlier_contacts.reserve(cells);
     const std::size_t nodes = plan.longest + 1;
     ContactScratch& contact = scratch.contact;
-    contact.nodes.reserve(nodes), contact.bonds.reserve(nodes), contact.kept.reserve(nodes);
-    contact.contacts.reserve(nodes), contact.holds.reserve(nodes), contact.planes.reserve(4 * nodes);
-    contact.link_contacts.reserve(nodes), contact.bond_holds.reserve(nodes);
-    contact.kept_contacts.reserve(nodes), contact.link_colliders.reserve(4 * nodes);
+    contact.nodes.reserve(nodes), contact.bonds.reserve(nodes), contact.saved.reserve(nodes);
+    contact.contacts.reserve(nodes), contact.node_effects.reserve(nodes), contact.planes.reserve(4 * nodes);
+    contact.link_contacts.reserve(nodes), contact.bond_effects.reserve(nodes);
+    contact.saved_contacts.reserve(nodes), contact.link_colliders.reserve(4 * nodes);
     constexpr std::size_t alignment = 8;  // doubles: 64 bytes
     scratch.block.assign(detail::Block::doubles(plan.longest, lanes) + alignment, 0.0);
     const auto address = reinterpret_cast<std::uintptr_t>(scratch.block.data());
@@ -102,7 +102,7 @@ Result Workspace::use_threads(int threads, const Tasks& tasks) {
 void Workspace::Parts::prepare(const State& state) {
     if (!std::exchange(prepared, false) || !plan.fits(state)) replan(state);
     scratch.colliders.resize(state.colliders.size());
-    if (detail::has_air(state.settings)) scratch.blown.assign(state.position.size(), glm::dvec3(0.0));
+    if (detail::has_air(state.settings)) scratch.wind_move.assign(state.position.size(), glm::dvec3(0.0));
     for (IslandScratch& thread : threads) thread.close.reserve(state.colliders.size());
     scratch.collider_at.resize(state.collider_slots.size());
     for (std::uint32_t i = 0; i < state.colliders.size(); ++i)

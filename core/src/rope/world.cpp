@@ -125,9 +125,9 @@ Expected<BodyId> World::add_hair(const HairShape& shape) {
 }
 
 Result World::remove(BodyId body) noexcept {
-    const Body* gone = found(body);
-    if (gone == nullptr) return missing("remove", "body", "body", body.index);
-    const std::size_t first = gone->first, count = gone->count, end = first + count;
+    const Body* removed = found(body);
+    if (removed == nullptr) return missing("remove", "body", "body", body.index);
+    const std::size_t first = removed->first, count = removed->count, end = first + count;
     erase_range(state_.position, first, count);
     erase_range(state_.displacement, first, count);
     erase_range(state_.mass, first, count);
@@ -145,7 +145,7 @@ Result World::remove(BodyId body) noexcept {
     for (BodyContact& each : state_.contacts) renumber(each.a), renumber(each.b);
     std::erase_if(state_.collisions, [&](const Collision& each) { return each.a == body || each.b == body; });
     detail::free_slot(state_.body_slots, body);
-    erase_range(state_.bodies, static_cast<std::size_t>(gone - state_.bodies.data()), 1);
+    erase_range(state_.bodies, static_cast<std::size_t>(removed - state_.bodies.data()), 1);
     for (Body& each : state_.bodies) renumber(each.first);
     return {};
 }
@@ -175,12 +175,12 @@ Result World::pin(std::size_t particle, const glm::dvec3& at, double seconds) {
     if (const Result bad = check_particle("pin", particle, size()); !bad) return bad;
     if (const Result bad = check_point("pin", "at", glm::vec3(at)); !bad) return bad;
     if (const Result bad = check_time("pin", seconds); !bad) return bad;
-    const auto place = pin_of(state_.pins, particle);
+    const auto slot = pin_of(state_.pins, particle);
     const Pin pin{.particle = particle, .goal = at, .seconds = seconds, .collider = {}};
-    if (place != state_.pins.end() && place->particle == particle) {
-        *place = pin;
+    if (slot != state_.pins.end() && slot->particle == particle) {
+        *slot = pin;
     } else {
-        state_.pins.insert(place, pin);
+        state_.pins.insert(slot, pin);
     }
     return {};
 }
@@ -190,26 +190,26 @@ Result World::attach(std::size_t particle, ColliderId collider) {
     const Collider* holder = find(collider);
     if (holder == nullptr) return missing("attach", "collider", "collider", collider.index);
     if (const Result bad = pin(particle, position(particle)); !bad) return bad;
-    const auto place = pin_of(state_.pins, particle);
-    place->goal = state_.position[particle] - glm::dvec3(centre(holder->shape));
-    place->collider = collider;
+    const auto slot = pin_of(state_.pins, particle);
+    slot->goal = state_.position[particle] - glm::dvec3(centre(holder->shape));
+    slot->collider = collider;
     return {};
 }
 
 Result World::unpin(std::size_t particle) noexcept {
     if (const Result bad = check_particle("unpin", particle, size()); !bad) return bad;
-    const auto place = pin_of(state_.pins, particle);
-    if (place == state_.pins.end() || place->particle != particle)
+    const auto slot = pin_of(state_.pins, particle);
+    if (slot == state_.pins.end() || slot->particle != particle)
         return refused("unpin", "particle", "a pinned particle", particle);
-    state_.pins.erase(place);
+    state_.pins.erase(slot);
     return {};
 }
 
 bool World::pinned(std::size_t particle) const noexcept {
-    const auto place =
+    const auto slot =
         std::lower_bound(state_.pins.begin(), state_.pins.end(), particle,
                          [](const Pin& pin, std::size_t number) { return pin.particle < number; });
-    return place != state_.pins.end() && place->particle == particle;
+    return slot != state_.pins.end() && slot->particle == particle;
 }
 
 Expected<BodyId> World::cut(BodyId rope, std::size_t segment) {
@@ -233,7 +233,7 @@ Expected<BodyId> World::cut(BodyId rope, std::size_t segment) {
     state_.bodies.insert(state_.bodies.begin() + number + 1, std::move(rest));
     std::erase_if(state_.links, [&](const Link& link) { return link.a == at && link.b == at + 1; });
     std::erase_if(state_.contacts, [&](const BodyContact& each) { return each.a == at || each.b == at; });
-    detail::collide_alike(state_, rope, id);
+    detail::copy_collisions(state_, rope, id);
     return id;
 }
 
@@ -372,11 +372,11 @@ Result World::set_collider(ColliderId collider, const Shape& shape) noexcept {
 }
 
 Result World::remove_collider(ColliderId collider) noexcept {
-    const Collider* const gone = find(collider);
-    if (gone == nullptr) return missing("remove_collider", "collider", "collider", collider.index);
+    const Collider* const removed = find(collider);
+    if (removed == nullptr) return missing("remove_collider", "collider", "collider", collider.index);
     std::erase_if(state_.pins, [&](const Pin& pin) { return pin.collider == collider; });
     detail::free_slot(state_.collider_slots, collider);
-    erase_range(state_.colliders, static_cast<std::size_t>(gone - state_.colliders.data()), 1);
+    erase_range(state_.colliders, static_cast<std::size_t>(removed - state_.colliders.data()), 1);
     return {};
 }
 

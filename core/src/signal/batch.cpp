@@ -26,12 +26,14 @@ Result check_lists(const char* operation, std::size_t count, std::initializer_li
 
 Result check_lists(const char* operation, const SpringArrays& springs) noexcept {
     const std::size_t count = springs.value.size();
-    const auto or_none = [count](std::span<const float> list) { return list.empty() ? count : list.size(); };
+    const auto size_or_count = [count](std::span<const float> list) {
+        return list.empty() ? count : list.size();
+    };
     return check_lists(operation, count,
                        {{"strength", springs.strength.size()},
                         {"critical_damping", springs.critical_damping.size()},
-                        {"force", or_none(springs.force)},
-                        {"target_velocity_amount", or_none(springs.target_velocity_amount)},
+                        {"force", size_or_count(springs.force)},
+                        {"target_velocity_amount", size_or_count(springs.target_velocity_amount)},
                         {"target", springs.target.size()},
                         {"velocity", springs.velocity.size()},
                         {"previous_target", springs.previous_target.size()}});

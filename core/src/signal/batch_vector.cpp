@@ -17,7 +17,7 @@ namespace tendril::signal::detail {
 namespace HWY_NAMESPACE {
 
 constexpr float two_pi = 6.28318531f;
-constexpr float weakest = static_cast<float>(no_strength);
+constexpr float min_spring_strength = static_cast<float>(no_strength);
 constexpr float max_state = static_cast<float>(max_output);
 constexpr float min_state = 1e-25f;  ///< smaller counts as 0: denormal numbers take a hundred times longer
 
@@ -89,7 +89,7 @@ HWY_INLINE void step_register(const SpringRows& rows, std::size_t i, Lanes dt, L
     valid = both(valid, both(is_within(target, max_magnitude), is_within(previous, max_magnitude)));
     valid = both(valid, both(is_within(value, max_state), is_within(velocity, max_state)));
 
-    const Mask is_spring = hn::Ge(strength, all(weakest));
+    const Mask is_spring = hn::Ge(strength, all(min_spring_strength));
     const Lanes hz = hn::IfThenElseZero(is_spring, strength), w = times(hz, two_pi);
     const Lanes divisor = hn::IfThenElse(is_spring, w, all(1.0f));
     // The target's shift by force and target velocity; without a spring the force accelerates.
@@ -102,9 +102,9 @@ HWY_INLINE void step_register(const SpringRows& rows, std::size_t i, Lanes dt, L
 
     const Swing swing = swing_of(hn::Mul(hz, dt), damping);
     const Lanes s = hn::Mul(swing.s, dt), ws = hn::Mul(w, s), drag = hn::Mul(damping, ws);
-    const Lanes place = hn::Add(goal, hn::Add(hn::Mul(hn::Add(swing.c, drag), error), hn::Mul(s, from)));
+    const Lanes position = hn::Add(goal, hn::Add(hn::Mul(hn::Add(swing.c, drag), error), hn::Mul(s, from)));
     const Lanes speed = hn::Sub(hn::Mul(hn::Sub(swing.c, drag), from), hn::Mul(hn::Mul(w, ws), error));
-    hn::StoreU(hn::IfThenElse(valid, bounded(place), value), d, rows.value + i);
+    hn::StoreU(hn::IfThenElse(valid, bounded(position), value), d, rows.value + i);
     hn::StoreU(hn::IfThenElse(valid, bounded(speed), velocity), d, rows.velocity + i);
     hn::StoreU(hn::IfThenElse(valid, target, previous), d, rows.previous_target + i);
 }

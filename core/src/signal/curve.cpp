@@ -109,8 +109,8 @@ void set_smooth_tangents(Curve& curve) noexcept {
         if (i > 0 && i + 1 < keys.size()) {
             const double before = slope_between(keys[i - 1], keys[i]);
             const double after = slope_between(keys[i], keys[i + 1]);
-            const bool goes_on = (before > 0.0 && after > 0.0) || (before < 0.0 && after < 0.0);
-            if (goes_on) slope = slope_between(keys[i - 1], keys[i + 1]);
+            const bool monotonic = (before > 0.0 && after > 0.0) || (before < 0.0 && after < 0.0);
+            if (monotonic) slope = slope_between(keys[i - 1], keys[i + 1]);
         }
         keys[i].arrive = keys[i].leave = slope;
     }

@@ -19,8 +19,8 @@ void advance(const Inertialize& parameters, InertializeState& state, double inpu
     const double strength = math::ln2 / (math::pi * std::max(parameters.halflife, 1e-6));
     const detail::Motion motion = detail::motion_of(strength, 1.0, dt);
     const double offset = state.offset, velocity = state.offset_velocity, before = state.value;
-    state.offset = motion.place_by_place * offset + motion.place_by_velocity * velocity;
-    state.offset_velocity = motion.velocity_by_place * offset + motion.velocity_by_velocity * velocity;
+    state.offset = motion.x_by_x * offset + motion.x_by_v * velocity;
+    state.offset_velocity = motion.v_by_x * offset + motion.v_by_v * velocity;
     state.value = input + state.offset;
     state.velocity = (state.value - before) / dt;
     state.input = input;

@@ -13,7 +13,7 @@ constexpr int refinements = 28;  ///< to a millionth of a row
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 /// A fit worse than the best by less than this part of the input's spread is as good: values held beyond the
 /// ends favour large shifts if the output is weaker than the input.
-constexpr double as_good_as = 0.1;
+constexpr double tie_margin = 0.1;
 constexpr double explained = 0.1;  ///< the part of the output's variance that an input must explain
 
 class Fit {
@@ -126,7 +126,7 @@ std::optional<double> lag(const Response& response, double longest) {
     const int reach = static_cast<int>(std::ceil(longest / spacing));
 
     const Fit fit(response);
-    const double margin = as_good_as * spread_of(wanted);
+    const double margin = tie_margin * spread_of(wanted);
     std::vector<double> errors(2 * static_cast<std::size_t>(reach) + 1);
     const auto error_at = [&](int shift) -> double& {
         return errors[static_cast<std::size_t>(shift + reach)];

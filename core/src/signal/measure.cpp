@@ -26,7 +26,7 @@ double size_of(const Step& step) {
 }  // namespace
 
 bool unstable(const Response& response) {
-    constexpr double far = 10.0, beyond_doubt = 1e6, grows = 1.1;
+    constexpr double far = 10.0, diverged_spans = 1e6, grows = 1.1;
     if (!usable(response, 3)) return false;
     const auto& [time, wanted, output] = response;
     const auto [low, high] = std::minmax_element(wanted.begin(), wanted.end());
@@ -42,7 +42,7 @@ bool unstable(const Response& response) {
         double& quarter = time[i] < begin + 0.5 * half ? before : last;
         quarter = std::max(quarter, outside);
     }
-    if (most > beyond_doubt * span) return true;
+    if (most > diverged_spans * span) return true;
     return last > far * span && last > grows * before;
 }
 

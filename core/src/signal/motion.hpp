@@ -15,7 +15,7 @@
 namespace tendril::signal::detail {
 
 struct Motion {
-    double place_by_place, place_by_velocity, velocity_by_place, velocity_by_velocity;
+    double x_by_x, x_by_v, v_by_x, v_by_v;
 };
 
 /// Strength in Hz, at least 0; damping at least 0; t at least 0, seconds.

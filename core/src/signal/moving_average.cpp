@@ -24,7 +24,7 @@ void push(MovingAverageState& state, double dt, double input) noexcept {
 }
 
 /// Drops entries that have left the window, and sums the others from the newest back.
-void turn(MovingAverageState& state) noexcept {
+void refill_old(MovingAverageState& state) noexcept {
     state.entries.erase(state.entries.begin(),
                         state.entries.begin() + static_cast<std::ptrdiff_t>(state.first));
     double time = 0.0, area = 0.0;
@@ -40,22 +40,22 @@ void turn(MovingAverageState& state) noexcept {
 /// Drops entries entirely older than the window; the newest stays.
 void drop_old(MovingAverageState& state, double window) noexcept {
     while (state.first + 1 < state.entries.size()) {
-        if (state.first == state.split) turn(state);
+        if (state.first == state.split) refill_old(state);
         if (time_in(state) - state.entries[state.first].dt < window) break;
         ++state.first;
     }
 }
 
-void take(MovingAverageState& state, double window, double dt, double input) noexcept {
+void add_sample(MovingAverageState& state, double window, double dt, double input) noexcept {
     push(state, dt, input);
     drop_old(state, window);
     const Entry& oldest = state.entries[state.first];
-    const double time = time_in(state), surplus = std::max(time - window, 0.0);
+    const double time = time_in(state), excess = std::max(time - window, 0.0);
     // Only if the window is shorter than the newest sample does it contain nothing else.
-    if (surplus >= time || state.first + 1 == state.entries.size()) {
+    if (excess >= time || state.first + 1 == state.entries.size()) {
         state.value = input;
     } else {
-        state.value = (area_in(state) - surplus * oldest.input) / (time - surplus);
+        state.value = (area_in(state) - excess * oldest.input) / (time - excess);
     }
 }
 
@@ -66,10 +66,10 @@ double step(const MovingAverage& parameters, MovingAverageState& state, double i
         state, input, dt,
         [&](double time) {
             MovingAverageState first;
-            take(first, parameters.window, time, input);
+            add_sample(first, parameters.window, time, input);
             return first;
         },
-        [&](double time) { take(state, parameters.window, time, input); });
+        [&](double time) { add_sample(state, parameters.window, time, input); });
 }
 
 }  // namespace tendril::signal

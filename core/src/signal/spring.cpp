@@ -27,10 +27,10 @@ bool in_range(const Spring<T>& spring) noexcept {
 /// The target shifted by the force.
 template <class T>
 auto shifted(const Spring<T>& spring, const T& target) noexcept {
-    const auto place = detail::wide(target);
-    if (spring.strength < no_strength) return place;
+    const auto position = detail::wide(target);
+    if (spring.strength < no_strength) return position;
     const double w = 2.0 * math::pi * spring.strength;
-    return detail::moved(place, detail::times(detail::wide(spring.force), 1.0 / (w * w)));
+    return detail::moved(position, detail::times(detail::wide(spring.force), 1.0 / (w * w)));
 }
 
 }  // namespace
@@ -59,10 +59,8 @@ T step(const Spring<T>& spring, SpringState<T>& state, const std::type_identity_
     }
     const Motion motion = motion_of(is_spring ? spring.strength : 0.0, spring.critical_damping, t);
     const auto error = displacement(goal, wide(state.value));
-    state.value = narrow<T>(
-        moved(goal, plus(times(error, motion.place_by_place), times(velocity, motion.place_by_velocity))));
-    state.velocity = narrow<Rate<T>>(
-        plus(times(error, motion.velocity_by_place), times(velocity, motion.velocity_by_velocity)));
+    state.value = narrow<T>(moved(goal, plus(times(error, motion.x_by_x), times(velocity, motion.x_by_v))));
+    state.velocity = narrow<Rate<T>>(plus(times(error, motion.v_by_x), times(velocity, motion.v_by_v)));
     state.previous_target = target;
     return state.value;
 }

@@ -17,14 +17,14 @@ static inline double bounded_dt(double dt) noexcept {
 template <class State, class Start, class Advance>
 double stepped(State& state, double input, double dt, const Start& start, const Advance& advance) noexcept {
     if (!is_input(input)) return state.value;
-    const bool passes = is_step(dt);
+    const bool advances = is_step(dt);
     if (!state.started) {
-        State first = start(bounded_dt(passes ? dt : min_dt));
+        State first = start(bounded_dt(advances ? dt : min_dt));
         first.value = bounded(first.value);
-        if (!passes) return first.value;
+        if (!advances) return first.value;
         first.started = true;
         state = std::move(first);
-    } else if (passes) {
+    } else if (advances) {
         advance(bounded_dt(dt));
         state.value = bounded(state.value);
     }

@@ -100,7 +100,7 @@ class IncidentFinder {
 
     /// Complete, and sorted by frame, after finish(). At most max_incidents; further ones are only counted.
     const std::vector<ChainIncident>& incidents() const noexcept { return found_; }
-    std::uint64_t left_off() const noexcept { return left_off_; }
+    std::uint64_t left_off() const noexcept { return dropped_; }
     std::uint64_t frames() const noexcept { return frames_; }
 
     static constexpr std::size_t max_incidents = 100'000;
@@ -117,7 +117,7 @@ class IncidentFinder {
     };
 
     void note(const ChainIncident& incident);
-    void last(Episode& episode, bool active, const ChainIncident& now);
+    void update_episode(Episode& episode, bool active, const ChainIncident& now);
     bool find_nan(const TraceFrame& frame);
     const char* nan_cause(const TraceFrame& frame) const noexcept;
     void find_lengths(const ReachPose& pose, bool aimed);
@@ -125,23 +125,23 @@ class IncidentFinder {
     void find_flips(const ReachPose& pose, bool jumped, bool aimed);
     FlipCause cause_of_flip(const ReachPose& before, const ReachPose& after, bool aimed) const;
     void find_rolls(const ReachPose& pose, std::span<const glm::quat> rotations);
-    bool changed_sides(const ReachPose& pose, bool jumped);
+    bool changed_side(const ReachPose& pose, bool jumped);
     struct Steps;
-    bool steps_far(Steps& steps, float step, IncidentKind kind, const char* cause);
+    bool detect_jump(Steps& steps, float step, IncidentKind kind, const char* cause);
     bool find_jumps(const ReachPose& pose);
     void find_misplaced(const ReachPose& pose, bool aimed);
     void find_repeated(const ReachPose& pose);
-    struct Hold;
-    void add_hold(const Hold& hold);
-    void close_beat();
+    struct Repeat;
+    void add_repeat(const Repeat& hold);
+    void close_cadence();
     bool both_moved(const ReachPose& a, const ReachPose& b) const noexcept;
     bool resumes(const ReachPose& pose) const;
     float inner_reach() const noexcept;
     /// The pose without the joints beyond the end effector.
     ReachPose reaching(const ReachPose& pose) const;
     /// Whether the joint moved more than `times` as far as target and pole target did.
-    static bool leads(const ReachPose& before, const ReachPose& after, std::size_t joint,
-                      float times) noexcept;
+    static bool outpaces_input(const ReachPose& before, const ReachPose& after, std::size_t joint,
+                               float times) noexcept;
     void find_missed(const ReachPose& pose);
     void follow(const ReachPose& pose);
     void find_jitter(const ReachPose& pose);
@@ -152,7 +152,7 @@ class IncidentFinder {
 
     IncidentOptions options_;
     std::vector<ChainIncident> found_;
-    std::uint64_t frames_ = 0, left_off_ = 0;
+    std::uint64_t frames_ = 0, dropped_ = 0;
     float reach_ = 0.0f;   ///< to the end effector, of the first finite frame
     std::size_t end_ = 0;  ///< the end effector
     std::vector<float> lengths_;
@@ -160,8 +160,7 @@ class IncidentFinder {
     std::vector<Episode> length_, limit_;
     std::set<std::pair<std::uint64_t, std::size_t>> displaced_;  ///< frame and joint: moved alone
 
-    // The latest consecutive finite frames, newest last. One that equals the one before it keeps that one's
-    // inputs: it was solved for those.
+    // The latest consecutive finite frames, newest last. A repeated frame keeps the inputs it was solved for.
     std::vector<ReachPose> recent_;
     ReachPose latest_;                  ///< with its own inputs
     std::vector<glm::quat> rotations_;  ///< of the newest in recent_
@@ -181,26 +180,26 @@ class IncidentFinder {
     };
     Steps steps_, pole_steps_;
     /// The latest frames in space, newest last.
-    struct Moment {
+    struct MotionSample {
         glm::vec3 root{0.0f}, tip{0.0f};
         std::optional<glm::vec3> target{};
     };
-    std::vector<Moment> moments_;
+    std::vector<MotionSample> samples_;
     std::uint64_t disturbed_ = 0;  ///< the latest frame with a flip or a wrong length, from 1
-    /// Frames that equal the one before them, up to the latest.
-    struct Held {
+    /// The current run of repeated frames.
+    struct RepeatRun {
         std::uint64_t frames = 0;
         float earlier_step = 0.0f;  ///< the tip's step before the last one
         glm::vec3 step{0.0f};       ///< the last step of the tip
-        bool moved = false;         ///< tip and target did in it
+        bool moved = false;         ///< whether tip and target did in it
         glm::vec3 target{0.0f};     ///< at the beginning
     };
-    Held held_;
-    struct Hold {
+    RepeatRun repeat_;
+    struct Repeat {
         ChainIncident incident{};
         bool fault = false, rested = false;  ///< the target did
     };
-    std::vector<Hold> beat_;  ///< the latest, as far apart as its first two are
+    std::vector<Repeat> cadence_;  ///< evenly spaced runs, newest last
     /// Sums over frames, to fit the tip's path with the target's of some frames ago.
     struct Following {
         struct Lagged {

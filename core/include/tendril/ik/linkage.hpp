@@ -269,7 +269,7 @@ class LinkageSolver {
     std::span<const LinkPlace> links() const noexcept;
     /// Of Linkage::points; metres. The origin for an index that is not there.
     glm::dvec3 point(std::size_t index) const noexcept;
-    /// A joint as the world has it: where it is, and its axis (unit; zero for a ball).
+    /// A joint's position and axis in the world (unit; zero for a ball).
     glm::dvec3 joint(std::size_t link) const noexcept;
     glm::dvec3 axis(std::size_t link) const noexcept;
 

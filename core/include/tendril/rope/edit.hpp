@@ -52,7 +52,7 @@ Expected<Edited> part_body(const World& world, BodyId body);
 using ClothLine = std::vector<glm::vec2>;
 
 /// Cuts a cloth along lines: removes the links that cross them, and splits off what comes apart. A particle
-/// on a line counts as left of it, with columns to the right and rows upwards. Refuses lines that cross no
+/// on a line is to its left, with columns to the right and rows upwards. Refuses lines that cross no
 /// link.
 Expected<Edited> cut_cloth(const World& world, BodyId cloth, std::span<const ClothLine> lines);
 

@@ -12,9 +12,9 @@ namespace tendril::ik::detail {
 namespace HWY_NAMESPACE {
 
 /// Metres: beyond this, floats are too coarse for the invariant of chain.hpp.
-constexpr float far_out = 1e3f;
+constexpr float precise_range = 1e3f;
 // Fractions of the allowed length error: between them a float cannot decide; rounding is 1/300 of it.
-constexpr float fits_below = 0.95f, loose_above = 1.05f;
+constexpr float fit_threshold = 0.95f, loose_threshold = 1.05f;
 
 /// False for NaN.
 HWY_INLINE Mask are_valid(const Points& p) {
@@ -29,7 +29,7 @@ HWY_INLINE Lanes largest(const Points& p, Lanes so_far) {
 /// Whether every bone of a register of chains is certainly at its length, and no joint too far out, which
 /// follows from the root and the reach. One pass without a root: |d^2 - l^2| <= 0.9 l a means that d is
 /// within 0.9 a of l. False if a coordinate is not finite.
-HWY_INLINE bool surely_fit(const Block& block, std::size_t i) {
+HWY_INLINE bool certainly_fits(const Block& block, std::size_t i) {
     Points from = load_points(block.joint(0) + i);
     const Lanes furthest = hn::Add(largest(from, zero()), load(block.reach() + i));
     Mask fits = hn::Le(furthest, all(0.99f * max_magnitude));
@@ -50,7 +50,7 @@ HWY_INLINE void compare(const Block& block, std::size_t bone, std::size_t i, Lan
     const Lanes size = load(block.length(bone) + i);
     off = hn::Abs(hn::Sub(hn::Sqrt(squared_distance(from, to)), size));
     const Lanes ends = largest(load_points(to), largest(load_points(from), zero()));
-    const Mask beyond = hn::Gt(ends, all(far_out));
+    const Mask beyond = hn::Gt(ends, all(precise_range));
     allowed = hn::Add(hn::Mul(hn::Max(all(1.0f), size), all(1e-4f)),
                       hn::IfThenElseZero(beyond, hn::Mul(ends, all(FLT_EPSILON))));
 }
@@ -65,8 +65,8 @@ HWY_INLINE Fit fit_of(const Block& block, std::size_t i) {
         Lanes off, allowed;
         compare(block, bone, i, off, allowed);
         fit.valid = hn::And(fit.valid, are_valid(load_points(block.joint(bone + 1) + i)));
-        fit.loose = hn::Or(fit.loose, hn::Gt(off, hn::Mul(allowed, all(loose_above))));
-        const Mask unclear = hn::AndNot(fit.loose, hn::Ge(off, hn::Mul(allowed, all(fits_below))));
+        fit.loose = hn::Or(fit.loose, hn::Gt(off, hn::Mul(allowed, all(loose_threshold))));
+        const Mask unclear = hn::AndNot(fit.loose, hn::Ge(off, hn::Mul(allowed, all(fit_threshold))));
         const Lanes squared = squared_distance(block.joint(bone) + i, block.joint(bone + 1) + i);
         const Mask blind = hn::And(fit.loose, hn::Lt(squared, all(math::coincidence)));
         fit.unclear = hn::Or(fit.unclear, hn::Or(unclear, blind));
@@ -92,7 +92,7 @@ HWY_INLINE bool classify_register(const Block& block, std::size_t i, Mask used) 
         hn::And(hn::Lt(distance, hn::Sub(nearest, rim)), hn::Gt(distance, hn::Mul(nearest, all(1.1e-3f))));
     Mask valid = hn::And(used, are_valid(target));
     Mask reachable = hn::And(within, unfolded), loose = none();
-    if (!surely_fit(block, i)) {
+    if (!certainly_fits(block, i)) {
         const Fit fit = fit_of(block, i);
         valid = hn::And(valid, fit.valid);
         reachable = hn::AndNot(fit.unclear, reachable);
@@ -115,7 +115,7 @@ HWY_INLINE void enforce_lengths(const Block& block, std::size_t i) {
     for (std::size_t bone = 0; bone < block.bones(); ++bone) {
         Lanes off, allowed;
         compare(block, bone, i, off, allowed);
-        const Mask fails = hn::Gt(off, hn::Mul(allowed, all(loose_above)));
+        const Mask fails = hn::Gt(off, hn::Mul(allowed, all(loose_threshold)));
         const Mask loose = hn::And(fails, equals(block.row(Row::Class) + i, Class::Reachable));
         store(hn::IfThenElse(loose, all(static_cast<float>(Activity::Active)), load(activity + i)),
               activity + i);
@@ -209,23 +209,24 @@ HWY_INLINE Mask may_be_closed(const Block& block, std::size_t i) {
     return hn::Le(squared_distance(block.joint(0) + i, block.joint(block.bones()) + i), hn::Mul(near, near));
 }
 
-Left begin(const Block& block, std::size_t lanes, bool every, bool planar) {
+Remaining begin(const Block& block, std::size_t lanes, bool every, bool planar) {
     const float near_line = planar ? 1.1f * static_cast<float>(tune::pole::straight) : 0.0f;
     const Floats d;
-    Left left;
+    Remaining left;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
         float* const found = block.row(Row::Class) + i;
         begin_register(block, i);
-        const Mask there = hn::Le(load(block.row(Row::Residual) + i), load(block.row(Row::Tolerance) + i));
+        const Mask converged =
+            hn::Le(load(block.row(Row::Residual) + i), load(block.row(Row::Tolerance) + i));
         const Mask reachable = equals(found, Class::Reachable);
-        const Mask left_to_go = hn::AndNot(there, reachable);
-        Mask collinear = may_be_collinear(block, i, left_to_go, near_line);
-        if (planar) collinear = hn::Or(collinear, hn::And(left_to_go, may_be_closed(block, i)));
+        const Mask unsolved = hn::AndNot(converged, reachable);
+        Mask collinear = may_be_collinear(block, i, unsolved, near_line);
+        if (planar) collinear = hn::Or(collinear, hn::And(unsolved, may_be_closed(block, i)));
         if (any(collinear)) {
             store(hn::IfThenElse(collinear, all(static_cast<float>(Class::Collinear)), load(found)), found);
             left.perturb = true;
         }
-        const Mask active = every ? reachable : hn::AndNot(there, reachable);
+        const Mask active = every ? reachable : hn::AndNot(converged, reachable);
         store(hn::IfThenElseZero(active, all(static_cast<float>(Activity::Active))),
               block.row(Row::Activity) + i);
         left.active += hn::CountTrue(d, active);

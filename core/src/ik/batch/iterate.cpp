@@ -68,7 +68,7 @@ HWY_INLINE void reach_both_ways(const Block& block, const Registers& registers) 
 
 /// Lanes that take the accelerated step in this iteration: with few bones it costs more than the passes, so
 /// every other iteration skips it.
-HWY_INLINE Mask has_its_turn(const Block& block, std::size_t i) {
+HWY_INLINE Mask is_accelerated(const Block& block, std::size_t i) {
     if (block.bones() >= few_bones) return hn::Not(none());
     const Lanes iteration = hn::Add(load(block.row(Row::Iterations) + i), all(1.0f));
     const Lanes half = hn::Mul(iteration, all(0.5f));
@@ -83,8 +83,8 @@ struct Gathered {
     explicit Gathered(const Block& in) : block(in) {}
 
     /// Adds what the accelerated step reads. `home_of` maps each lane to its original lane.
-    template <class Home>
-    void add(const Block& from, const LaneList& lanes, Home home_of) {
+    template <class JointAccess>
+    void add(const Block& from, const LaneList& lanes, JointAccess home_of) {
         const std::size_t bones = from.bones(), at = home.count;
         gather_lanes(from.joint(0), lanes.span(), block.joint(0) + at, Block::joint_rows(bones));
         gather_lanes(from.length(0), lanes.span(), block.length(0) + at, Block::length_rows(bones));
@@ -97,7 +97,7 @@ struct Gathered {
     }
 };
 
-HWY_INLINE Lanes near_enough(const Block& block, std::size_t i) {
+HWY_INLINE Lanes fit_tolerance(const Block& block, std::size_t i) {
     return hn::Max(hn::Mul(all(0.25f), load(block.row(Row::Tolerance) + i)),
                    hn::Mul(all(1e-6f), load(block.reach() + i)));
 }
@@ -111,16 +111,16 @@ HWY_INLINE Family whole_family(const Block& block, std::size_t i, Points& span) 
 /// The accelerated step, applied to those of `lanes` where it brings the tip nearer. If the first family of
 /// shapes is not good enough, the unchanged chain is added to `second`. `home` maps a lane to its original
 /// lane.
-template <class Home>
+template <class JointAccess>
 HWY_INLINE void reshape(const Block& block, std::size_t i, Mask lanes, float* shapes, Gathered& second,
-                        Home home) {
+                        JointAccess home) {
     const Lanes residual = load(block.row(Row::Residual) + i);
     const Shape one(shapes), two(shapes + Shape::floats(block.bones()));
     Points span;
     const Family family = whole_family(block, i, span);
-    const BestShape best = fit_shape<false>(block, i, family, near_enough(block, i), lanes, one, two);
-    const Mask short_of = hn::Or(hn::Not(best.found), hn::Gt(best.error, hn::Mul(all(0.5f), residual)));
-    if (const Mask other = hn::And(lanes, short_of); any(other)) {
+    const BestShape best = fit_shape<false>(block, i, family, fit_tolerance(block, i), lanes, one, two);
+    const Mask falls_short = hn::Or(hn::Not(best.found), hn::Gt(best.error, hn::Mul(all(0.5f), residual)));
+    if (const Mask other = hn::And(lanes, falls_short); any(other)) {
         HWY_ALIGN float errors[16];
         store(best.error, errors);
         LaneList to_second;
@@ -142,7 +142,7 @@ HWY_INLINE void reshape_around_longest(const Gathered& second, const Block& to, 
         Points span;
         const Family whole = whole_family(block, i, span);
         const Family family = family_around_longest(block, i, span, whole);
-        const BestShape best = fit_shape<true>(block, i, family, near_enough(block, i), lanes, one, two);
+        const BestShape best = fit_shape<true>(block, i, family, fit_tolerance(block, i), lanes, one, two);
         const Lanes bound = hn::Min(load(block.row(Row::Best) + i), load(block.row(Row::Residual) + i));
         const Mask better = hn::And(lanes, hn::Lt(best.error, bound));
         place_shape<true>(block, i, better, family, best, one, two);
@@ -151,64 +151,64 @@ HWY_INLINE void reshape_around_longest(const Gathered& second, const Block& to, 
 }
 
 /// The chains of a block that take the accelerated step in this iteration.
-struct Takers {
+struct StepLanes {
     std::array<Mask, block_lanes> lanes;  ///< one per active register
     std::size_t count = 0, registers = 0;
 };
 
-HWY_INLINE Takers find_takers(const Block& block, const Registers& registers) {
-    Takers takers;
+HWY_INLINE StepLanes find_step_lanes(const Block& block, const Registers& registers) {
+    StepLanes step_lanes;
     for (std::size_t k = 0; k < registers.count; ++k) {
         const std::size_t i = registers.first[k];
         const Mask active = active_lanes(block, i);
         const Lanes residual = residual_of(block, i);
         float* const row = block.row(Row::Residual) + i;
         store(hn::IfThenElse(active, residual, load(row)), row);
-        const Mask short_of = hn::AndNot(hn::Le(residual, load(block.row(Row::Tolerance) + i)), active);
-        takers.lanes[k] = hn::And(short_of, has_its_turn(block, i));
-        const std::size_t count = hn::CountTrue(Floats(), takers.lanes[k]);
-        takers.count += count;
-        takers.registers += count > 0 ? 1 : 0;
+        const Mask falls_short = hn::AndNot(hn::Le(residual, load(block.row(Row::Tolerance) + i)), active);
+        step_lanes.lanes[k] = hn::And(falls_short, is_accelerated(block, i));
+        const std::size_t count = hn::CountTrue(Floats(), step_lanes.lanes[k]);
+        step_lanes.count += count;
+        step_lanes.registers += count > 0 ? 1 : 0;
     }
-    return takers;
+    return step_lanes;
 }
 
 /// Whether gathering the chains side by side costs less than using their registers as they are. Moving a
 /// chain there and back takes about as long as the step of a register for one bone in eight.
-HWY_INLINE bool pays_to_gather(const Takers& takers) {
+HWY_INLINE bool should_gather(const StepLanes& step_lanes) {
     const std::size_t width = hn::Lanes(Floats());
-    const std::size_t saved = takers.registers - (takers.count + width - 1) / width;
-    return 8 * saved > takers.count;
+    const std::size_t saved = step_lanes.registers - (step_lanes.count + width - 1) / width;
+    return 8 * saved > step_lanes.count;
 }
 
 /// Takes the step. Also sets Row::Residual of active chains, after the passes and before this step.
-HWY_INLINE Takers take_step(const Block& block, const Registers& registers, const StepScratch& scratch) {
-    const Takers takers = find_takers(block, registers);
-    if (takers.count == 0) return takers;
+HWY_INLINE StepLanes take_step(const Block& block, const Registers& registers, const StepScratch& scratch) {
+    const StepLanes step_lanes = find_step_lanes(block, registers);
+    if (step_lanes.count == 0) return step_lanes;
     Gathered second(scratch.second);
     const auto own = [](std::size_t lane) { return lane; };
-    if (pays_to_gather(takers)) {
-        LaneList taking;
+    if (should_gather(step_lanes)) {
+        LaneList stepping;
         for (std::size_t k = 0; k < registers.count; ++k) {
             const std::size_t i = registers.first[k];
-            for_each_lane(takers.lanes[k], [&](std::size_t lane) { taking.add(i + lane); });
+            for_each_lane(step_lanes.lanes[k], [&](std::size_t lane) { stepping.add(i + lane); });
         }
         Gathered gathered(scratch.gathered);
-        gathered.add(block, taking, own);
+        gathered.add(block, stepping, own);
         const auto home = [&](std::size_t lane) { return gathered.home.lanes[lane]; };
-        for (std::size_t i = 0; i < taking.count; i += hn::Lanes(Floats())) {
-            const Mask lanes = hn::FirstN(Floats(), taking.count - i);
+        for (std::size_t i = 0; i < stepping.count; i += hn::Lanes(Floats())) {
+            const Mask lanes = hn::FirstN(Floats(), stepping.count - i);
             reshape(gathered.block, i, lanes, scratch.shapes, second, home);
         }
-        scatter_lanes(gathered.block.joint(1), taking.span(), block.joint(1), 3 * block.bones());
+        scatter_lanes(gathered.block.joint(1), stepping.span(), block.joint(1), 3 * block.bones());
     } else {
         for (std::size_t k = 0; k < registers.count; ++k) {
-            if (!any(takers.lanes[k])) continue;
-            reshape(block, registers.first[k], takers.lanes[k], scratch.shapes, second, own);
+            if (!any(step_lanes.lanes[k])) continue;
+            reshape(block, registers.first[k], step_lanes.lanes[k], scratch.shapes, second, own);
         }
     }
     reshape_around_longest(second, block, scratch.shapes);
-    return takers;
+    return step_lanes;
 }
 
 /// Saves the best poses of active chains before the joints change.
@@ -223,12 +223,13 @@ HWY_INLINE void save_best(const Block& block, std::size_t i) {
 }
 
 /// How the chains of a register continue after an iteration.
-struct Verdict {
-    Mask goes_on, perturb;
+struct Decision {
+    Mask continues, perturb;
 };
 
 /// Counts the iteration and updates the state that convergence.hpp keeps.
-HWY_INLINE Verdict note(const Block& block, std::size_t i, Mask active, Lanes residual, const Order& order) {
+HWY_INLINE Decision record_iteration(const Block& block, std::size_t i, Mask active, Lanes residual,
+                                     const IterateJob& job) {
     const auto row = [&](Row which) { return block.row(which) + i; };
     const auto update = [&](Row which, Lanes value) {
         store(hn::IfThenElse(active, value, load(row(which))), row(which));
@@ -241,7 +242,7 @@ HWY_INLINE Verdict note(const Block& block, std::size_t i, Mask active, Lanes re
     const Lanes idle = hn::IfThenZeroElse(progresses, hn::Add(load(row(Row::Idle)), one));
     const Mask is_slow = hn::Gt(residual, hn::Mul(all(slow_part), last));
     const Lanes slow = hn::IfThenElseZero(is_slow, hn::Add(load(row(Row::Slow)), one));
-    const Mask there = hn::Le(residual, load(row(Row::Tolerance)));
+    const Mask converged = hn::Le(residual, load(row(Row::Tolerance)));
     const Mask nearer = hn::And(active, hn::Lt(residual, best));
     update(Row::Idle, idle), update(Row::Slow, slow);
     update(Row::Nearest, hn::Min(nearest, residual));
@@ -249,25 +250,25 @@ HWY_INLINE Verdict note(const Block& block, std::size_t i, Mask active, Lanes re
     store(hn::IfThenElse(nearer, residual, best), row(Row::Best));
     store(hn::IfThenZeroElse(nearer, load(row(Row::Saved))), row(Row::Saved));
 
-    const Mask left = hn::And(active, hn::Lt(done, all(static_cast<float>(order.max_iterations))));
+    const Mask left = hn::And(active, hn::Lt(done, all(static_cast<float>(job.max_iterations))));
     const Mask stalled = hn::Ge(idle, all(stall_window));
     const Mask stuck = hn::Or(stalled, hn::Ge(slow, all(slow_window)));
     const Mask may = hn::Lt(load(row(Row::Perturbations)), all(max_perturbations));
-    Verdict verdict;
-    verdict.perturb = hn::And(hn::AndNot(there, left), hn::And(stuck, may));
-    verdict.goes_on = left;
-    if (!order.every) {
-        verdict.goes_on = hn::AndNot(hn::AndNot(verdict.perturb, hn::Or(there, stalled)), left);
+    Decision decision;
+    decision.perturb = hn::And(hn::AndNot(converged, left), hn::And(stuck, may));
+    decision.continues = left;
+    if (!job.every) {
+        decision.continues = hn::AndNot(hn::AndNot(decision.perturb, hn::Or(converged, stalled)), left);
     }
-    return verdict;
+    return decision;
 }
 
 /// Restores the best pose of chains that are done without having arrived.
 HWY_INLINE void restore_best(const Block& block, std::size_t i, Mask done) {
     float* const residual = block.row(Row::Residual) + i;
     const Lanes now = load(residual), best = load(block.row(Row::Best) + i);
-    const Mask there = hn::Le(now, load(block.row(Row::Tolerance) + i));
-    const Mask worse = hn::AndNot(there, hn::And(done, hn::Lt(best, now)));
+    const Mask converged = hn::Le(now, load(block.row(Row::Tolerance) + i));
+    const Mask worse = hn::AndNot(converged, hn::And(done, hn::Lt(best, now)));
     if (!any(worse)) return;
     for (std::size_t joint = 1; joint <= block.bones(); ++joint) {
         copy_points(worse, block.best(joint) + i, block.joint(joint) + i);
@@ -276,23 +277,24 @@ HWY_INLINE void restore_best(const Block& block, std::size_t i, Mask done) {
 }
 
 /// Completes an iteration after passes and step, for one register.
-HWY_INLINE void finish_iteration(const Block& block, std::size_t i, bool stepped, const Order& order,
-                                 Left& left) {
+HWY_INLINE void finish_iteration(const Block& block, std::size_t i, bool stepped, const IterateJob& job,
+                                 Remaining& left) {
     const Mask active = active_lanes(block, i);
     const Lanes residual = stepped ? residual_of(block, i) : load(block.row(Row::Residual) + i);
-    const Verdict verdict = note(block, i, active, residual, order);
-    restore_best(block, i, hn::AndNot(verdict.goes_on, active));
+    const Decision decision = record_iteration(block, i, active, residual, job);
+    restore_best(block, i, hn::AndNot(decision.continues, active));
     const auto code = [](Activity value) { return all(static_cast<float>(value)); };
-    const Lanes goes_on = hn::IfThenElse(verdict.perturb, code(Activity::Perturb), code(Activity::Active));
+    const Lanes continues = hn::IfThenElse(decision.perturb, code(Activity::Perturb), code(Activity::Active));
     float* const activity = block.row(Row::Activity) + i;
-    store(hn::IfThenElse(active, hn::IfThenElseZero(verdict.goes_on, goes_on), load(activity)), activity);
-    left.active += hn::CountTrue(Floats(), verdict.goes_on);
-    left.perturb = left.perturb || any(verdict.perturb);
+    store(hn::IfThenElse(active, hn::IfThenElseZero(decision.continues, continues), load(activity)),
+          activity);
+    left.active += hn::CountTrue(Floats(), decision.continues);
+    left.perturb = left.perturb || any(decision.perturb);
 }
 
-Left iterate(const Block& block, std::size_t lanes, const Order& order) {
-    Left left;
-    for (int iteration = 0; iteration < order.iterations && !left.perturb; ++iteration) {
+Remaining iterate(const Block& block, std::size_t lanes, const IterateJob& job) {
+    Remaining left;
+    for (int iteration = 0; iteration < job.iterations && !left.perturb; ++iteration) {
         const Registers registers = active_registers(block, lanes);
         left.active = 0;
         if (registers.count == 0) break;
@@ -302,9 +304,9 @@ Left iterate(const Block& block, std::size_t lanes, const Order& order) {
         } else {
             reach_both_ways<true>(block, registers);
         }
-        const Takers takers = take_step(block, registers, order.step);
+        const StepLanes step_lanes = take_step(block, registers, job.step);
         for (std::size_t k = 0; k < registers.count; ++k) {
-            finish_iteration(block, registers.first[k], any(takers.lanes[k]), order, left);
+            finish_iteration(block, registers.first[k], any(step_lanes.lanes[k]), job, left);
         }
     }
     return left;

@@ -59,9 +59,9 @@ struct Pose {
     /// The whole pose: full_pose_rows registers, of which the first pose_rows are independent.
     const Column& rows() const { return local; }
 
-    void set(std::size_t bone, const Rotations& turn, const Standing& standing) const {
-        local.set(bone, turn), outward.set(bone, standing.outward);
-        ends.set(2 * bone, standing.upper), ends.set(2 * bone + 1, standing.lower);
+    void set(std::size_t bone, const Rotations& turn, const BoundState& bound_state) const {
+        local.set(bone, turn), outward.set(bone, bound_state.outward);
+        ends.set(2 * bone, bound_state.upper), ends.set(2 * bone + 1, bound_state.lower);
     }
 };
 
@@ -77,11 +77,11 @@ struct Limb {
     Column changes;  ///< points: rotation vector of each joint in this step; only x for a hinge
     Column stopped;  ///< 2 per bone: 1 if the swing, and the hinge or twist, is stopped in this step
 
-    Limb(const Block& of, std::size_t lane, const LimitedOrder& order)
+    Limb(const Block& of, std::size_t lane, const LimitedJob& job)
         : block(of),
           i(lane),
-          limits(order.limits),
-          pose(Column(order.scratch), count()),
+          limits(job.limits),
+          pose(Column(job.scratch), count()),
           trial(pose.rows().after(full_pose_rows(count())), count()),
           arms(trial.rows().after(full_pose_rows(count()))),
           axes(arms.after(3 * count())),
@@ -162,20 +162,20 @@ HWY_INLINE void transport(const Limb& limb, Mask lanes, float* rotations) {
 
 /// Transports the rotations to the joints and clamps them into limb.pose. Returns the lanes in which a limit
 /// was violated.
-HWY_INLINE Mask take_pose(const Limb& limb, const float* rotations) {
+HWY_INLINE Mask load_clamped_pose(const Limb& limb, const float* rotations) {
     Mask violated = none(), turned = none();
     Rotations parent = no_rotation();
     for (std::size_t bone = 0; bone < limb.count(); ++bone) {
         const Rotations world = transported(limb, bone, rotations, turned);
         const Rotations turn = normalized(compose(conjugate(parent), world));
-        Standing standing;
-        const Rotations within = clamp(limb.limits[bone], turn, standing);
+        BoundState bound_state;
+        const Rotations within = clamp(limb.limits[bone], turn, bound_state);
         // A quaternion and its negative are one rotation.
         const Lanes cosine = hn::Add(hn::Mul(turn.w, within.w), dot(turn.v, within.v));
         const Lanes sign = hn::CopySign(all(1.0f), cosine), w = hn::Sub(turn.w, hn::Mul(within.w, sign));
         const Points v = minus(turn.v, times(within.v, sign));
         violated = hn::Or(violated, hn::Gt(hn::Add(hn::Mul(w, w), dot(v, v)), all(violation)));
-        limb.pose.set(bone, within, standing);
+        limb.pose.set(bone, within, bound_state);
         parent = compose(parent, within);
     }
     forward_kinematics(limb, limb.pose);
@@ -307,9 +307,9 @@ HWY_INLINE void turn_joints(const Limb& limb) {
             const Lanes scale = hn::Div(all(1.0f), hn::Sqrt(squared));
             turned = compose(Rotations{scale, times(rotated(conjugate(parent), change), scale)}, local);
         }
-        Standing standing;
-        const Rotations within = clamp(limit, turned, standing);
-        limb.trial.set(bone, within, standing);
+        BoundState bound_state;
+        const Rotations within = clamp(limit, turned, bound_state);
+        limb.trial.set(bone, within, bound_state);
         parent = limb.pose.world.rotations(bone);
     }
     forward_kinematics(limb, limb.trial);

@@ -50,15 +50,15 @@ HWY_INLINE Lanes sinc_of(Lanes squared) {
     }
     return sum;
 }
-HWY_INLINE Lanes other_leg(Lanes sine) {
+HWY_INLINE Lanes cosine_of(Lanes sine) {
     return hn::Sqrt(hn::Max(hn::Sub(all(1.0f), hn::Mul(sine, sine)), zero()));
 }
 
 /// Which bounds a joint is at.
-struct Standing {
+struct BoundState {
     Points outward;      ///< axis of a swing on the rim; zero inside
     Lanes upper, lower;  ///< 1 if the hinge or twist is at that end of its range
-    Standing() : outward{zero(), zero(), zero()}, upper(zero()), lower(zero()) {}
+    BoundState() : outward{zero(), zero(), zero()}, upper(zero()), lower(zero()) {}
 };
 
 /// Cosine and sine of a half-angle. The cosine is not negative.
@@ -67,15 +67,15 @@ struct HalfAngles {
 };
 
 /// Clamps to the range.
-HWY_INLINE HalfAngles clamp(const HalfRange& range, const HalfAngles& half, Standing& standing) {
+HWY_INLINE HalfAngles clamp(const HalfRange& range, const HalfAngles& half, BoundState& bound_state) {
     if (range.whole) return half;
     const Lanes sine = hn::Min(hn::Max(half.sine, all(range.min)), all(range.max));
     constexpr float near = 5e-5f;  // half of at_bound
-    standing.upper = hn::IfThenElseZero(hn::Ge(sine, all(range.max - near)), all(1.0f));
-    standing.lower = hn::IfThenElseZero(hn::Le(sine, all(range.min + near)), all(1.0f));
+    bound_state.upper = hn::IfThenElseZero(hn::Ge(sine, all(range.max - near)), all(1.0f));
+    bound_state.lower = hn::IfThenElseZero(hn::Le(sine, all(range.min + near)), all(1.0f));
     const Mask stays = hn::Eq(sine, half.sine);
     if (hn::AllTrue(Floats(), stays)) return half;
-    return {hn::IfThenElse(stays, half.cosine, other_leg(sine)), sine};
+    return {hn::IfThenElse(stays, half.cosine, cosine_of(sine)), sine};
 }
 
 /// The twist of a unit quaternion about an axis: `along` is its vector's component along the axis.
@@ -94,7 +94,7 @@ struct Swings {
 
 /// Clamps to the cone: along the swing's own direction, to the rim. Compares sines of half-angles, so no
 /// angle is measured.
-HWY_INLINE Swings clamp(const BatchLimit& limit, const Swings& swing, Standing& standing) {
+HWY_INLINE Swings clamp(const BatchLimit& limit, const Swings& swing, BoundState& bound_state) {
     const Mask upward = hn::Ge(swing.up, zero()), leftward = hn::Ge(swing.left, zero());
     const Lanes a = hn::IfThenElse(upward, all(limit.up), all(limit.down)),
                 b = hn::IfThenElse(leftward, all(limit.left), all(limit.right));
@@ -120,18 +120,18 @@ HWY_INLINE Swings clamp(const BatchLimit& limit, const Swings& swing, Standing& 
     const Lanes nu = hn::Mul(swing.up, a), nl = hn::Mul(swing.left, b);
     const Lanes size = hn::Add(hn::Mul(nu, nu), hn::Mul(nl, nl));
     const Lanes unit = hn::Div(all(1.0f), hn::Sqrt(hn::Max(size, all(1e-20f))));
-    standing.outward =
+    bound_state.outward =
         times(plus(times(all(limit.axis), nu), times(all(limit.side), nl)), hn::IfThenElseZero(on_rim, unit));
     return clamped;
 }
 
 /// Clamps the rotation of a bone relative to its parent, a unit quaternion. For a cone it is split as in
 /// LimitedJoint: first the twist about the bone, then the swing.
-HWY_INLINE Rotations clamp(const BatchLimit& limit, const Rotations& turn, Standing& standing) {
+HWY_INLINE Rotations clamp(const BatchLimit& limit, const Rotations& turn, BoundState& bound_state) {
     if (limit.kind == BatchLimit::Kind::Free) return turn;
     const Lanes up = dot(turn.v, all(limit.axis));
     if (limit.kind == BatchLimit::Kind::Hinge) {
-        const HalfAngles half = clamp(limit.range, twist_of(turn.w, up), standing);
+        const HalfAngles half = clamp(limit.range, twist_of(turn.w, up), bound_state);
         return {half.cosine, times(all(limit.axis), half.sine)};
     }
     const Lanes along = dot(turn.v, all(limit.bone)), left = dot(turn.v, all(limit.side));
@@ -142,8 +142,8 @@ HWY_INLINE Rotations clamp(const BatchLimit& limit, const Rotations& turn, Stand
     const Lanes cosine = hn::Add(hn::Mul(turn.w, c), hn::Mul(along, s));
     const Swings from{cosine, hn::Add(hn::Mul(up, c), hn::Mul(left, s)),
                       hn::Sub(hn::Mul(left, c), hn::Mul(up, s))};
-    const Swings swing = clamp(limit, from, standing);
-    const HalfAngles to = clamp(limit.range, twist, standing);
+    const Swings swing = clamp(limit, from, bound_state);
+    const HalfAngles to = clamp(limit.range, twist, bound_state);
     const Points bone = times(all(limit.bone), hn::Mul(swing.cosine, to.sine)),
                  axis = times(all(limit.axis),
                               hn::Sub(hn::Mul(swing.up, to.cosine), hn::Mul(swing.left, to.sine))),

@@ -26,12 +26,12 @@ constexpr Row row_of_error = Row::Residual, row_of_damping = Row::Best, row_of_m
 /// Initialises the state of a register's chains. Chains that have arrived and violate no limit are done
 /// already.
 HWY_INLINE void begin(const Limb& limb, float* rotations) {
-    const Mask asked = equals(limb.row(Row::Class), Class::Reachable);
-    const Mask violated = take_pose(limb, rotations);
+    const Mask requested = equals(limb.row(Row::Class), Class::Reachable);
+    const Mask violated = load_clamped_pose(limb, rotations);
     const Lanes tolerance = load(limb.row(Row::Tolerance));
-    const Mask rests = hn::AndNot(violated, hn::Le(load(limb.row(Row::Residual)), tolerance));
-    const Mask left = hn::AndNot(rests, asked);
-    if (const Mask stays = hn::And(asked, rests); any(stays)) transport(limb, stays, rotations);
+    const Mask at_goal = hn::AndNot(violated, hn::Le(load(limb.row(Row::Residual)), tolerance));
+    const Mask left = hn::AndNot(at_goal, requested);
+    if (const Mask stays = hn::And(requested, at_goal); any(stays)) transport(limb, stays, rotations);
     store(hn::IfThenElseZero(left, all(static_cast<float>(Activity::Active))), limb.row(Row::Activity));
     store(hn::IfThenElse(left, error_of(limb, limb.pose), load(limb.row(row_of_error))),
           limb.row(row_of_error));
@@ -57,7 +57,7 @@ HWY_INLINE void take_step(Limb& limb, Mask left, float last) {
     turn_joints(limb);
     const Lanes trial = error_of(limb, limb.trial);
     const Mask nearer = hn::And(left, hn::Lt(trial, error));
-    const Mask progresses = hn::Lt(trial, hn::Mul(error, all(1.0f - little)));
+    const Mask progresses = hn::Lt(trial, hn::Mul(error, all(1.0f - min_progress)));
     accept(limb, nearer);
     const auto update = [&](Row which, Lanes yes, Lanes no) {
         store(hn::IfThenElse(left, hn::IfThenElse(nearer, yes, no), load(limb.row(which))), limb.row(which));
@@ -71,7 +71,7 @@ HWY_INLINE void take_step(Limb& limb, Mask left, float last) {
     const Lanes done = hn::Add(load(limb.row(Row::Iterations)), all(1.0f));
     update(row_of_slow, slow, slow);
     update(Row::Iterations, done, done);
-    const Mask over = hn::Or(hn::Ge(slow, all(static_cast<float>(patience))), hn::Ge(done, all(last)));
+    const Mask over = hn::Or(hn::Ge(slow, all(static_cast<float>(max_slow_steps))), hn::Ge(done, all(last)));
     const Mask ends = hn::And(left, hn::Or(over, hn::Le(load(limb.row(row_of_error)), tolerance)));
     store(hn::IfThenZeroElse(ends, load(limb.row(Row::Activity))), limb.row(Row::Activity));
 }
@@ -80,11 +80,11 @@ HWY_INLINE void take_step(Limb& limb, Mask left, float last) {
 /// without converging are left to the scalar solver.
 HWY_INLINE void write_back(const Limb& limb, Mask left, float* rotations) {
     const Mask taken = hn::AndNot(left, hn::Gt(load(limb.row(Row::Iterations)), zero()));
-    const Mask there = hn::Le(load(limb.row(row_of_error)), load(limb.row(Row::Tolerance)));
-    const Mask arrived = hn::And(taken, there);
+    const Mask converged = hn::Le(load(limb.row(row_of_error)), load(limb.row(Row::Tolerance)));
+    const Mask arrived = hn::And(taken, converged);
     float* const found = limb.row(Row::Class);
     const Lanes scalar = all(static_cast<float>(Class::Scalar));
-    store(hn::IfThenElse(hn::AndNot(there, taken), scalar, load(found)), found);
+    store(hn::IfThenElse(hn::AndNot(converged, taken), scalar, load(found)), found);
     if (!any(arrived)) return;
     for (std::size_t bone = 0; bone < limb.count(); ++bone) {
         float* const joint = limb.block.joint(bone + 1) + limb.i;
@@ -95,14 +95,14 @@ HWY_INLINE void write_back(const Limb& limb, Mask left, float* rotations) {
 }
 
 /// Moves a chain to a lane of the tile.
-HWY_INLINE void move_chain(const Limb& limb, std::size_t lane, std::size_t to, const LimitedOrder& order) {
-    const Block &block = limb.block, &tile = order.tile;
+HWY_INLINE void move_chain(const Limb& limb, std::size_t lane, std::size_t to, const LimitedJob& job) {
+    const Block &block = limb.block, &tile = job.tile;
     const std::size_t from = limb.i + lane, bones = block.bones();
     copy_lane(block.joint(0) + from, tile.joint(0) + to, 3);
     copy_lane(block.length(0) + from, tile.length(0) + to, Block::length_rows(bones));
     copy_lane(block.target() + from, tile.target() + to, state_rows);
     for (std::size_t row = 0; row < pose_rows(bones); ++row) {
-        order.poses[row * block_lanes + to] = limb.pose.rows().lane(row, lane);
+        job.poses[row * block_lanes + to] = limb.pose.rows().lane(row, lane);
     }
 }
 
@@ -110,42 +110,42 @@ HWY_INLINE Mask active(const Limb& limb) {
     return equals(limb.row(Row::Activity), Activity::Active);
 }
 
-HWY_INLINE float last_iteration(const LimitedOrder& order) {
-    return static_cast<float>(std::min(order.max_iterations, tune::batch::max_steps));
+HWY_INLINE float last_iteration(const LimitedJob& job) {
+    return static_cast<float>(std::min(job.max_iterations, tune::batch::max_steps));
 }
 
 LaneList solve_limited(const Block& block, std::size_t lanes, float* rotations, std::size_t used,
-                       const LimitedOrder& order) {
+                       const LimitedJob& job) {
     const Floats d;
-    LaneList late;
+    LaneList leftover;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
-        Limb limb(block, i, order);
+        Limb limb(block, i, job);
         begin(limb, rotations);
         Mask left = active(limb);
-        for (; hn::CountTrue(d, left) > late_lanes(hn::Lanes(d)); left = active(limb)) {
-            take_step(limb, left, last_iteration(order));
+        for (; hn::CountTrue(d, left) > leftover_lanes(hn::Lanes(d)); left = active(limb)) {
+            take_step(limb, left, last_iteration(job));
         }
         write_back(limb, left, rotations);
         for_each_lane(left, [&](std::size_t lane) {
-            move_chain(limb, lane, used + late.count, order);
-            late.add(i + lane);
+            move_chain(limb, lane, used + leftover.count, job);
+            leftover.add(i + lane);
         });
     }
-    return late;
+    return leftover;
 }
 
-void step_limited(std::size_t used, const LimitedOrder& order) {
+void step_limited(std::size_t used, const LimitedJob& job) {
     for (std::size_t i = 0; i < used; i += hn::Lanes(Floats())) {
-        Limb limb(order.tile, i, order);
+        Limb limb(job.tile, i, job);
         const std::size_t rows = pose_rows(limb.count());
-        const auto at = [&](std::size_t row) { return order.poses + row * block_lanes + i; };
+        const auto at = [&](std::size_t row) { return job.poses + row * block_lanes + i; };
         for (std::size_t row = 0; row < rows; ++row) limb.pose.rows().set(row, load(at(row)));
         forward_kinematics(limb, limb.pose);
         Mask left = active(limb);
         for (int step = 0; step < tune::batch::steps && any(left); ++step, left = active(limb)) {
-            take_step(limb, left, last_iteration(order));
+            take_step(limb, left, last_iteration(job));
         }
-        write_back(limb, left, order.rotations);
+        write_back(limb, left, job.rotations);
         for (std::size_t row = 0; row < rows; ++row) store(limb.pose.rows().lanes(row), at(row));
     }
 }

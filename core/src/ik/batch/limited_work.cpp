@@ -6,9 +6,9 @@
 
 namespace tendril::ik::detail {
 
-LimitedOrder Work::limited_order(Scratch& scratch) const noexcept {
-    return {in_.limits->ready,   in_.options.max_iterations, scratch.tile.block,
-            scratch.poses.get(), scratch.rotations.get(),    scratch.limited.get()};
+LimitedJob Work::limited_job(Scratch& scratch) const noexcept {
+    return {in_.limits->prepared, in_.options.max_iterations, scratch.tile.block,
+            scratch.poses.get(),  scratch.rotations.get(),    scratch.limited.get()};
 }
 
 void Work::solve_limited_block(const Block& block, std::size_t index, std::size_t lanes,
@@ -16,13 +16,13 @@ void Work::solve_limited_block(const Block& block, std::size_t index, std::size_
     const std::size_t first = index * block_lanes;
     Tile& tile = scratch.tile;
     in_.unit.classify_limited(block, lanes);
-    const bool vectors = !in_.limits->ready.empty() && !in_.options.every_iteration;
-    LaneList late;
+    const bool vectors = !in_.limits->prepared.empty() && !in_.options.every_iteration;
+    LaneList leftover;
     if (vectors) {
-        run_limited_tile(block_lanes - most_late, scratch);
-        late = in_.unit.solve_limited(block, lanes, rotations(index), tile.used, limited_order(scratch));
+        run_limited_tile(block_lanes - max_leftover, scratch);
+        leftover = in_.unit.solve_limited(block, lanes, rotations(index), tile.used, limited_job(scratch));
     }
-    for (const std::size_t lane : late.span()) {
+    for (const std::size_t lane : leftover.span()) {
         tile.chains[tile.used++] = static_cast<std::uint32_t>(first + lane);
     }
     for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -49,7 +49,7 @@ void Work::solve_scalar_limited(const Block& block, std::size_t lane, std::size_
         for (int k = 0; k < 4; ++k) scalar.saved.rotations[i][k] = component(i, k);
         scalar.rest_directions[i] = in_.limits->rest_directions[i];
     }
-    Problem problem = take_out(block, lane, scratch);
+    Problem problem = load_problem(block, lane, scratch);
     load_limits(scalar, problem.options.limits);
     const Report answer = ik::detail::run(Method::Fabrik, problem, Unwatched());
     for (std::size_t i = 0; i < in_.bones; ++i) {
@@ -64,7 +64,7 @@ void Work::run_limited_tile(std::size_t most_left, Scratch& scratch) noexcept {
     Tile& tile = scratch.tile;
     const auto done = [&](std::size_t lane) { return tile.block.activity(lane) == Activity::Done; };
     while (tile.used > most_left) {
-        in_.unit.step_limited(tile.used, limited_order(scratch));
+        in_.unit.step_limited(tile.used, limited_job(scratch));
         for (std::size_t lane = 0; lane < tile.used; ++lane) {
             if (!done(lane)) continue;
             end_limited(lane, scratch);
@@ -99,7 +99,7 @@ void Work::end_limited(std::size_t lane, Scratch& scratch) noexcept {
                   4 * in_.bones);
         report(tile.block, lane, chain);
     }
-    write_home(lane, scratch);
+    write_back_joints(lane, scratch);
 }
 
 }  // namespace tendril::ik::detail

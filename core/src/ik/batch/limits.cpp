@@ -23,7 +23,7 @@ float inverse_square(float half_angle) noexcept {
     return 1.0f / (angle * angle);
 }
 
-std::optional<BatchLimit> ready(const Limit& limit, const glm::vec3& rest_direction) noexcept {
+std::optional<BatchLimit> prepared(const Limit& limit, const glm::vec3& rest_direction) noexcept {
     if (limit.stiffness > 0.0f) return std::nullopt;
     const LimitedJoint joint = limited_joint(limit, rest_direction);
     BatchLimit to;
@@ -49,12 +49,12 @@ BatchLimits batch_limits(std::span<const Limit> limits, std::span<const glm::vec
     all.limits.assign(limits.begin(), limits.end());
     all.rest_directions.assign(rest_directions.begin(), rest_directions.end());
     for (std::size_t i = 0; i < limits.size(); ++i) {
-        const std::optional<BatchLimit> each = ready(limits[i], rest_directions[i]);
+        const std::optional<BatchLimit> each = prepared(limits[i], rest_directions[i]);
         if (!each) {
-            all.ready.clear();
+            all.prepared.clear();
             break;
         }
-        all.ready.push_back(*each);
+        all.prepared.push_back(*each);
     }
     return all;
 }

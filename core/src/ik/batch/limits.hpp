@@ -30,7 +30,7 @@ struct BatchLimit {
 struct BatchLimits {
     std::vector<Limit> limits;               ///< as given, for the scalar solver
     std::vector<glm::vec3> rest_directions;  ///< one per bone
-    std::vector<BatchLimit> ready;           ///< empty if the register clamp does not support some limit
+    std::vector<BatchLimit> prepared;        ///< empty if the register clamp does not support some limit
 };
 
 /// The limits must be valid.

@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t max_chains = std::size_t{1} << 31, max_bones = 1'000'000;
 /// Starting a thread takes as long as solving about ten thousand bones.
-constexpr std::size_t bones_a_thread = 8192;
+constexpr std::size_t min_bones_per_thread = 8192;
 
 const VectorUnit& widest() noexcept {
     static const VectorUnit& unit = *vector_unit_named(vector_units().front());
@@ -330,7 +330,8 @@ ManySummary Batch::Parts::solve(Parts& parts, std::span<const glm::vec3> targets
     if (!fits || unit == nullptr || !check(scalar, parts.bones)) return refused_many(reports, parts.chains);
     Work work({parts.blocks.get(), parts.chains, parts.bones, targets, joints, reports, scalar, *unit,
                parts.limits.get(), parts.rotations.get()});
-    const std::size_t useful = std::min(parts.block_count(), parts.chains * parts.bones / bones_a_thread);
+    const std::size_t useful =
+        std::min(parts.block_count(), parts.chains * parts.bones / min_bones_per_thread);
     const auto count = static_cast<std::uint32_t>(std::clamp<std::size_t>(useful, 1, parts.scratch.size()));
     const auto piece = [&](std::uint32_t index) noexcept { work.run(*parts.scratch[index]); };
     tendril::detail::run_pieces(options.tasks, count, count, piece);

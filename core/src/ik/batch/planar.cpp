@@ -15,21 +15,21 @@ namespace tendril::ik::detail {
 namespace {
 
 /// Metres: from a root nearer to the origin than this, relative coordinates stay below max_magnitude.
-constexpr float far_away = 0.25f * max_magnitude;
+constexpr float precise_range = 0.25f * max_magnitude;
 
 }  // namespace
 
-Home Work::home(std::size_t chain) const noexcept {
+JointAccess Work::home(std::size_t chain) const noexcept {
     if (in_.joints != nullptr) return {&in_.joints[chain * (in_.bones + 1)].x, 3, 1};
     return {in_.blocks + chain / block_lanes * Block::chain_floats(in_.bones) + chain % block_lanes,
             3 * block_lanes, block_lanes};
 }
 
 /// Converts joints and targets to the plane's coordinates, and chooses the side of each chain.
-void Work::take_into_plane(const Block& block, std::size_t first, std::size_t lanes,
-                           Scratch& scratch) const noexcept {
+void Work::project_to_plane(const Block& block, std::size_t first, std::size_t lanes,
+                            Scratch& scratch) const noexcept {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const Home joints = home(first + lane);
+        const JointAccess joints = home(first + lane);
         const PlaneFrame frame = frame_.at(joints.joint(0));
         for (std::size_t i = 0; i <= in_.bones; ++i) block.set_point(i, lane, frame.local(joints.joint(i)));
         const glm::vec3 local = frame.local(block.target_of(lane));
@@ -38,23 +38,23 @@ void Work::take_into_plane(const Block& block, std::size_t first, std::size_t la
         block.at(Row::TargetZ, lane) = local.z;
         Side side = in_.options.plane->bend;
         block.at(Row::Side, lane) = static_cast<float>(side);
-        if (side == Side::Free) side = planar_side(take_out(block, lane, scratch));
+        if (side == Side::Free) side = planar_side(load_problem(block, lane, scratch));
         if (side == Side::Free) side = Side::Left;
         block.at(Row::Side, lane) = static_cast<float>(side);
     }
 }
 
 /// Called once lengths are enforced: turns chains within reach to their targets, on their sides.
-void Work::turn_to_targets(const Block& block, std::size_t first, std::size_t lanes,
-                           Scratch& scratch) const noexcept {
+void Work::rotate_to_targets(const Block& block, std::size_t first, std::size_t lanes,
+                             Scratch& scratch) const noexcept {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         const glm::vec3 root = home(first + lane).joint(0);
         // So far from the origin, coordinates relative to the root do not show whether all are in range.
         float* const found = block.row(Row::Class) + lane;
-        if (!(largest_coordinate(root) <= far_away) || block.class_of(lane) == Class::Invalid)
+        if (!(largest_coordinate(root) <= precise_range) || block.class_of(lane) == Class::Invalid)
             *found = static_cast<float>(Class::Scalar);
         if (block.class_of(lane) != Class::Reachable) continue;
-        Problem problem = take_out(block, lane, scratch);
+        Problem problem = load_problem(block, lane, scratch);
         transport_to_pole(problem, Unwatched());
         for (std::size_t i = 1; i <= in_.bones; ++i) block.set_point(i, lane, problem.joints[i]);
     }
@@ -65,9 +65,9 @@ void Work::turn_to_targets(const Block& block, std::size_t first, std::size_t la
 void Work::return_from_plane(const Block& block, std::size_t lane, std::size_t chain,
                              Scratch& scratch) const noexcept {
     if (block.class_of(lane) == Class::Invalid) return;
-    Problem problem = take_out(block, lane, scratch);
+    Problem problem = load_problem(block, lane, scratch);
     face_pole(problem, Unwatched());
-    const Home joints = home(chain);
+    const JointAccess joints = home(chain);
     const PlaneFrame frame = frame_.at(joints.joint(0));
     for (std::size_t i = 1; i <= in_.bones; ++i)
         joints.set_joint(i, frame.returned(problem.joints[i], joints.joint(i), scratch.scalar.reach));
@@ -78,7 +78,7 @@ void Work::solve_in_plane(std::size_t chain, Scratch& scratch) noexcept {
     Workspace& scalar = scratch.scalar;
     const float* const rows = in_.blocks + chain / block_lanes * Block::chain_floats(in_.bones) +
                               Block::joint_floats(in_.bones) + chain % block_lanes;
-    const Home joints = home(chain);
+    const JointAccess joints = home(chain);
     for (std::size_t i = 0; i <= in_.bones; ++i) scalar.joints[i] = joints.joint(i);
     for (std::size_t i = 0; i < in_.bones; ++i) scalar.lengths[i] = rows[i * block_lanes];
     scalar.reach = rows[in_.bones * block_lanes];

@@ -137,9 +137,9 @@ HWY_INLINE BestShape fit_shape(const Block& block, std::size_t i, const Family& 
     best.span = select(best.second, span, best.span);
     best.size = hn::IfThenElse(best.second, size, best.size);
     best.error = hn::IfThenElse(best.second, error, best.error);
-    const Mask goes_on = hn::AndNot(hn::Le(best.error, near), again);
+    const Mask continues = hn::AndNot(hn::Le(best.error, near), again);
     const Mask crosses_now = hn::Xor(hn::Lt(off, zero()), hn::Lt(at_low, zero()));
-    best.found = hn::Or(best.found, hn::And(goes_on, crosses_now));
+    best.found = hn::Or(best.found, hn::And(continues, crosses_now));
     return best;
 }
 

@@ -25,7 +25,7 @@ inline std::size_t shape_floats(std::size_t bones) noexcept {
     return 2 * 3 * bones * 16;
 }
 
-struct Order {
+struct IterateJob {
     int iterations;      ///< maximum in this call
     int max_iterations;  ///< maximum in total, counted in Row::Iterations
     bool every;          ///< whether converged chains continue
@@ -42,7 +42,7 @@ inline std::size_t full_pose_rows(std::size_t bones) noexcept {
     return pose_rows(bones) + 3 * (bones + 1) + 4 * bones;
 }
 /// For chains within limits.
-struct LimitedOrder {
+struct LimitedJob {
     std::span<const BatchLimit> limits;  ///< one per bone
     int max_iterations;
     Block tile;        ///< the chains that take long; only the root of its joints is read
@@ -52,10 +52,10 @@ struct LimitedOrder {
 };
 
 /// A register of `width` with at most this many active chains moves them to the tile.
-inline constexpr std::size_t late_lanes(std::size_t width) noexcept {
+inline constexpr std::size_t leftover_lanes(std::size_t width) noexcept {
     return static_cast<std::size_t>(static_cast<double>(width) * tune::batch::register_part);
 }
-inline constexpr std::size_t most_late = late_lanes(block_lanes);
+inline constexpr std::size_t max_leftover = leftover_lanes(block_lanes);
 
 /// Size of two poses of one register of chains, plus a step's data per bone.
 inline std::size_t limited_floats(std::size_t bones) noexcept {
@@ -63,7 +63,7 @@ inline std::size_t limited_floats(std::size_t bones) noexcept {
 }
 
 /// How many chains still iterate, and whether any of them waits for a perturbation first.
-struct Left {
+struct Remaining {
     std::size_t active = 0;
     bool perturb = false;
 };
@@ -75,7 +75,7 @@ struct Left {
 using Classify = void(const Block& block, std::size_t lanes);
 /// Writes the rest of the state, from Row::Residual on. In a plane, all chains that bend_to_pole may bend
 /// become Class::Collinear too.
-using Begin = Left(const Block& block, std::size_t lanes, bool every, bool planar);
+using Begin = Remaining(const Block& block, std::size_t lanes, bool every, bool planar);
 /// Classify for chains within limits: any chain not certainly reachable is left to the scalar solver
 /// unchanged.
 using ClassifyLimited = void(const Block& block, std::size_t lanes);
@@ -83,11 +83,11 @@ using ClassifyLimited = void(const Block& block, std::size_t lanes);
 /// glm::quat. A chain that does not converge is left to the scalar solver unchanged; but the last ones of a
 /// register move to the tile, from lane `used` on. Returns those, at most most_late per block.
 using SolveLimited = LaneList(const Block& block, std::size_t lanes, float* rotations, std::size_t used,
-                              const LimitedOrder& order);
+                              const LimitedJob& job);
 /// A few steps of the tile's first `used` lanes, without moving chains to the tile.
-using StepLimited = void(std::size_t used, const LimitedOrder& order);
+using StepLimited = void(std::size_t used, const LimitedJob& job);
 /// Iterates the active lanes until they are done, wait for a perturbation, or reach the order's iterations.
-using Iterate = Left(const Block& block, std::size_t lanes, const Order& order);
+using Iterate = Remaining(const Block& block, std::size_t lanes, const IterateJob& job);
 /// Sets targets and tolerances of the first `lanes` lanes; a negative tolerance means 1e-3 of the reach.
 using SetTargets = void(const Block& block, std::size_t lanes, const glm::vec3* targets, float tolerance);
 /// Copies between lists of `count` floats, chain after chain, and as many rows of a block.

@@ -11,7 +11,8 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr auto few = static_cast<std::size_t>(static_cast<double>(block_lanes) * tune::batch::block_part);
+constexpr auto min_active =
+    static_cast<std::size_t>(static_cast<double>(block_lanes) * tune::batch::block_part);
 
 /// Copies whole chains to consecutive lanes from `at` on.
 void gather_chains(const Block& from, const LaneList& lanes, const Block& to, std::size_t at) noexcept {
@@ -67,16 +68,16 @@ void Work::solve_block(std::size_t index, Scratch& scratch) noexcept {
     in_.unit.set_targets(block, lanes, &in_.targets[first], in_.options.tolerance.value_or(-1.0f));
     if (in_.options.plane && !planar_) return solve_angled_block(index, lanes, scratch);
     if (planar_) {
-        take_into_plane(block, first, lanes, scratch);
+        project_to_plane(block, first, lanes, scratch);
     } else if (in_.joints != nullptr) {
         take_joints(block, index, lanes);
     }
     if (in_.limits != nullptr) return solve_limited_block(block, index, lanes, scratch);
     in_.unit.classify(block, lanes);
-    if (planar_) turn_to_targets(block, first, lanes, scratch);
-    const Left left = in_.unit.begin(block, lanes, in_.options.every_iteration, planar_);
+    if (planar_) rotate_to_targets(block, first, lanes, scratch);
+    const Remaining left = in_.unit.begin(block, lanes, in_.options.every_iteration, planar_);
     for (std::size_t lane = 0; left.perturb && lane < lanes; ++lane) {
-        if (block.class_of(lane) == Class::Collinear) leave_line(block, lane, scratch);
+        if (block.class_of(lane) == Class::Collinear) bend_collinear(block, lane, scratch);
     }
     if (left.active > 0) iterate_block(block, lanes, scratch);
     LaneList active;
@@ -108,24 +109,25 @@ void Work::return_joints(const Block& block, std::size_t index, std::size_t lane
     in_.unit.copy_out(block.joint(0), lanes, 3 * each, &in_.joints[index * block_lanes * each].x);
 }
 
-/// Stops once only a few chains are active: they continue in the tile, with those of other blocks.
+/// Stops once few chains are active: these continue in the tile with other blocks' chains.
 void Work::iterate_block(const Block& block, std::size_t lanes, Scratch& scratch) const noexcept {
-    const bool alone = in_.options.every_iteration || in_.chains <= block_lanes;
+    const bool single_block = in_.options.every_iteration || in_.chains <= block_lanes;
     const int burst =
         in_.bones < tune::chain::few_bones ? tune::batch::first_burst_few_bones : tune::batch::first_burst;
     std::size_t active = 0;
     do {
-        active = iterate(block, lanes, alone ? in_.options.max_iterations : burst, scratch).active;
-    } while (active > (alone ? 0 : few));
+        active = iterate(block, lanes, single_block ? in_.options.max_iterations : burst, scratch).active;
+    } while (active > (single_block ? 0 : min_active));
 }
 
 /// Iterates a block or a tile, including perturbations.
-Left Work::iterate(const Block& block, std::size_t lanes, int iterations, Scratch& scratch) const noexcept {
-    const Order order{iterations,
-                      in_.options.max_iterations,
-                      in_.options.every_iteration,
-                      {scratch.shapes.get(), scratch.gathered.block, scratch.second.block}};
-    const Left left = in_.unit.iterate(block, lanes, order);
+Remaining Work::iterate(const Block& block, std::size_t lanes, int iterations,
+                        Scratch& scratch) const noexcept {
+    const IterateJob job{iterations,
+                         in_.options.max_iterations,
+                         in_.options.every_iteration,
+                         {scratch.shapes.get(), scratch.gathered.block, scratch.second.block}};
+    const Remaining left = in_.unit.iterate(block, lanes, job);
     for (std::size_t lane = 0; left.perturb && lane < lanes; ++lane) {
         if (block.activity(lane) == Activity::Perturb) perturb(block, lane, scratch);
     }
@@ -133,7 +135,7 @@ Left Work::iterate(const Block& block, std::size_t lanes, int iterations, Scratc
 }
 
 /// Copies one chain to the scalar workspace.
-Problem Work::take_out(const Block& block, std::size_t lane, Scratch& scratch) const noexcept {
+Problem Work::load_problem(const Block& block, std::size_t lane, Scratch& scratch) const noexcept {
     Workspace& scalar = scratch.scalar;
     for (std::size_t i = 0; i <= in_.bones; ++i) scalar.joints[i] = block.point(i, lane);
     for (std::size_t i = 0; i < in_.bones; ++i) scalar.lengths[i] = block.length(i)[lane];
@@ -148,9 +150,9 @@ Problem Work::take_out(const Block& block, std::size_t lane, Scratch& scratch) c
             scalar.saved};
 }
 
-/// Does what loop.cpp does with a stalled chain.
+/// Perturbs a stalled chain, as loop.cpp does.
 void Work::perturb(const Block& block, std::size_t lane, Scratch& scratch) const noexcept {
-    Problem problem = take_out(block, lane, scratch);
+    Problem problem = load_problem(block, lane, scratch);
     float& count = block.at(Row::Perturbations, lane);
     ik::detail::perturb(problem, static_cast<int>(count), Unwatched());
     count += 1.0f;
@@ -158,21 +160,21 @@ void Work::perturb(const Block& block, std::size_t lane, Scratch& scratch) const
     block.set_activity(lane, Activity::Active);
 }
 
-/// Does what loop.cpp does before the first iteration with a chain collinear with its target.
-void Work::leave_line(const Block& block, std::size_t lane, Scratch& scratch) const noexcept {
-    Problem problem = take_out(block, lane, scratch);
+/// Bends a chain that is collinear with its target, as loop.cpp does before the first iteration.
+void Work::bend_collinear(const Block& block, std::size_t lane, Scratch& scratch) const noexcept {
+    Problem problem = load_problem(block, lane, scratch);
     if (!bend_to_pole(problem, Unwatched())) {
         if (!is_collinear(problem)) return;
         bend_collinear_chain(problem, Unwatched());
     }
     restart(block, lane, problem);
     block.at(Row::Residual, lane) = block.at(Row::Last, lane);
-    const bool there = block.at(Row::Residual, lane) <= problem.tolerance;
-    if (there && !in_.options.every_iteration) block.set_activity(lane, Activity::Done);
+    const bool converged = block.at(Row::Residual, lane) <= problem.tolerance;
+    if (converged && !in_.options.every_iteration) block.set_activity(lane, Activity::Done);
 }
 
 void Work::solve_scalar(const Block& block, std::size_t lane, std::size_t chain, Scratch& scratch) noexcept {
-    Problem problem = take_out(block, lane, scratch);
+    Problem problem = load_problem(block, lane, scratch);
     const Report answer = ik::detail::run(Method::Fabrik, problem, Unwatched());
     for (std::size_t i = 1; i <= in_.bones; ++i) block.set_point(i, lane, scratch.scalar.joints[i]);
     report_fallback(chain, answer);
@@ -199,19 +201,19 @@ void Work::run_tile(std::size_t most_left, Scratch& scratch) noexcept {
     Tile& tile = scratch.tile;
     while (tile.used > most_left) {
         iterate(tile.block, tile.used, tune::batch::next_burst, scratch);
-        clear_done(scratch);
+        retire_done(scratch);
     }
 }
 
 /// Writes back the finished chains and closes the gaps.
-void Work::clear_done(Scratch& scratch) noexcept {
+void Work::retire_done(Scratch& scratch) noexcept {
     Tile& tile = scratch.tile;
     LaneList left, done;
     for (std::size_t lane = 0; lane < tile.used; ++lane) {
         (tile.block.activity(lane) != Activity::Done ? left : done).add(lane);
     }
     for (const std::size_t lane : done.span()) {
-        write_home(lane, scratch);
+        write_back_joints(lane, scratch);
         report(tile.block, lane, tile.chains[lane]);
     }
     if (left.count == tile.used) return;
@@ -224,7 +226,7 @@ void Work::clear_done(Scratch& scratch) noexcept {
 }
 
 /// Writes the joints of a chain in the tile back to its block or to the caller.
-void Work::write_home(std::size_t lane, Scratch& scratch) const noexcept {
+void Work::write_back_joints(std::size_t lane, Scratch& scratch) const noexcept {
     const Tile& tile = scratch.tile;
     if (planar_) return return_from_plane(tile.block, lane, tile.chains[lane], scratch);
     const std::size_t chain = tile.chains[lane], each = in_.bones + 1;
@@ -253,9 +255,9 @@ void Work::report(const Block& block, std::size_t lane, std::size_t chain) noexc
     if (in_.reports.empty()) return;
     ManyReport& report = in_.reports[chain];
     const float residual = block.at(Row::Residual, lane);
-    const bool there = residual <= block.at(Row::Tolerance, lane);
+    const bool converged = residual <= block.at(Row::Tolerance, lane);
     const bool stalled = block.at(Row::Idle, lane) >= static_cast<float>(tune::chain::stall_window);
-    Status status = there ? Status::Converged : stalled ? Status::Stalled : Status::IterationLimit;
+    Status status = converged ? Status::Converged : stalled ? Status::Stalled : Status::IterationLimit;
     if (found == Class::Straight) status = Status::Stretched;
     if (found == Class::Folded) status = Status::TooClose;
     report = {status, false, static_cast<int>(block.at(Row::Iterations, lane)), residual};

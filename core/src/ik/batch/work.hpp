@@ -44,9 +44,9 @@ struct Scratch {
 };
 
 /// Access to a chain's joints, in the caller's memory or the batch's.
-class Home {
+class JointAccess {
   public:
-    Home(float* first, std::size_t joint_stride, std::size_t coordinate_stride) noexcept
+    JointAccess(float* first, std::size_t joint_stride, std::size_t coordinate_stride) noexcept
         : first_(first), joint_(joint_stride), coordinate_(coordinate_stride) {}
     glm::vec3 joint(std::size_t i) const noexcept {
         const float* const p = first_ + i * joint_;
@@ -98,35 +98,35 @@ class Work {
     void solve_limited_block(const Block& block, std::size_t index, std::size_t lanes,
                              Scratch& scratch) noexcept;
     void iterate_block(const Block& block, std::size_t lanes, Scratch& scratch) const noexcept;
-    Left iterate(const Block& block, std::size_t lanes, int iterations, Scratch& scratch) const noexcept;
+    Remaining iterate(const Block& block, std::size_t lanes, int iterations, Scratch& scratch) const noexcept;
     void perturb(const Block& block, std::size_t lane, Scratch& scratch) const noexcept;
-    void leave_line(const Block& block, std::size_t lane, Scratch& scratch) const noexcept;
+    void bend_collinear(const Block& block, std::size_t lane, Scratch& scratch) const noexcept;
     void solve_scalar(const Block& block, std::size_t lane, std::size_t chain, Scratch& scratch) noexcept;
     void solve_scalar_limited(const Block& block, std::size_t lane, std::size_t chain,
                               Scratch& scratch) noexcept;
     // Chains in a plane (planar.cpp).
     void solve_angled_block(std::size_t index, std::size_t lanes, Scratch& scratch) noexcept;
-    void take_into_plane(const Block& block, std::size_t first, std::size_t lanes,
-                         Scratch& scratch) const noexcept;
-    void turn_to_targets(const Block& block, std::size_t first, std::size_t lanes,
-                         Scratch& scratch) const noexcept;
+    void project_to_plane(const Block& block, std::size_t first, std::size_t lanes,
+                          Scratch& scratch) const noexcept;
+    void rotate_to_targets(const Block& block, std::size_t first, std::size_t lanes,
+                           Scratch& scratch) const noexcept;
     void return_from_plane(const Block& block, std::size_t lane, std::size_t chain,
                            Scratch& scratch) const noexcept;
     void solve_in_plane(std::size_t chain, Scratch& scratch) noexcept;
-    Home home(std::size_t chain) const noexcept;
+    JointAccess home(std::size_t chain) const noexcept;
     void report_fallback(std::size_t chain, const Report& answer) noexcept;
     float* rotations(std::size_t index) const noexcept {
         return in_.rotations + index * 4 * in_.bones * block_lanes;
     }
-    Problem take_out(const Block& block, std::size_t lane, Scratch& scratch) const noexcept;
+    Problem load_problem(const Block& block, std::size_t lane, Scratch& scratch) const noexcept;
 
     void put_into_tile(const Block& from, const LaneList& lanes, std::size_t first,
                        Scratch& scratch) noexcept;
-    void write_home(std::size_t lane, Scratch& scratch) const noexcept;
+    void write_back_joints(std::size_t lane, Scratch& scratch) const noexcept;
     void fetch_joints(const Tile& tile, std::size_t lane) const noexcept;
     void run_tile(std::size_t most_left, Scratch& scratch) noexcept;
-    void clear_done(Scratch& scratch) noexcept;
-    LimitedOrder limited_order(Scratch& scratch) const noexcept;
+    void retire_done(Scratch& scratch) noexcept;
+    LimitedJob limited_job(Scratch& scratch) const noexcept;
     void run_limited_tile(std::size_t most_left, Scratch& scratch) noexcept;
     void move_limited(std::size_t from, std::size_t to, Scratch& scratch) const noexcept;
     void end_limited(std::size_t lane, Scratch& scratch) noexcept;

@@ -15,21 +15,21 @@ glm::dvec3 mix_points(const glm::dvec3& a, const glm::dvec3& b, double t) noexce
 }
 
 /// The part of a cubic from `t` on.
-Cubic rest_of(Cubic cubic, double t) noexcept {
+Cubic part_after(Cubic cubic, double t) noexcept {
     for (std::size_t level = 3; level > 0; --level)
         for (std::size_t i = 0; i < level; ++i) cubic[i] = mix_points(cubic[i], cubic[i + 1], t);
     return cubic;
 }
 
 /// The part of a cubic up to `t`.
-Cubic beginning_of(Cubic cubic, double t) noexcept {
+Cubic part_before(Cubic cubic, double t) noexcept {
     for (std::size_t level = 1; level <= 3; ++level)
         for (std::size_t i = 3; i >= level; --i) cubic[i] = mix_points(cubic[i - 1], cubic[i], t);
     return cubic;
 }
 
 /// The cubic relative to a centre.
-Cubic seen_from(const glm::dvec3& centre, const Cubic& cubic) noexcept {
+Cubic relative_to(const glm::dvec3& centre, const Cubic& cubic) noexcept {
     return {minus(cubic[0], centre), minus(cubic[1], centre), minus(cubic[2], centre),
             minus(cubic[3], centre)};
 }
@@ -103,11 +103,11 @@ double first_crossing(const Cubic& cubic, double radius) noexcept {
         Sextic c;
         double from, size;
     };
-    std::array<Interval, deepest + 2> waiting;  // at most one right half waits per depth
+    std::array<Interval, deepest + 2> pending;  // at most one right half waits per depth
     std::size_t count = 0;
-    waiting[count++] = {distance_excess(cubic, square), 0.0, 1.0};
+    pending[count++] = {distance_excess(cubic, square), 0.0, 1.0};
     while (count > 0) {
-        Interval& top = waiting[count - 1];
+        Interval& top = pending[count - 1];
         if (top.c[0] >= 0.0) return top.from;
         const int changes = sign_changes(top.c);
         if (changes == 1) return crossing(Powers(cubic), radius, top.from, top.from + top.size);
@@ -118,22 +118,21 @@ double first_crossing(const Cubic& cubic, double radius) noexcept {
         }
         const Sextic left = split(top.c);
         top.size *= 0.5;
-        waiting[count++] = {left, top.from, top.size};
+        pending[count++] = {left, top.from, top.size};
         top.from += top.size;
     }
     return -1.0;
 }
 
 /// Whether the distance rises all the way, judged by the signs of its slope's Bernstein coefficients.
-bool rises(Sextic c, double ignored, int splits = 0) noexcept {
+bool is_increasing(Sextic c, double slack, int splits = 0) noexcept {
     constexpr int most = 24;
     bool all = true;
-    for (std::size_t i = 0; i < degree; ++i) all = all && c[i + 1] - c[i] >= -ignored;
+    for (std::size_t i = 0; i < degree; ++i) all = all && c[i + 1] - c[i] >= -slack;
     if (all || splits == most) return true;
-    if (c[1] - c[0] < -ignored || c[degree] - c[degree - 1] < -ignored)
-        return false;  // the slopes at the ends
+    if (c[1] - c[0] < -slack || c[degree] - c[degree - 1] < -slack) return false;  // the slopes at the ends
     const Sextic left = split(c);
-    return rises(left, ignored, splits + 1) && rises(c, ignored, splits + 1);
+    return is_increasing(left, slack, splits + 1) && is_increasing(c, slack, splits + 1);
 }
 
 }  // namespace
@@ -182,30 +181,30 @@ const Path::Piece& Path::piece(std::size_t index) noexcept {
     return piece;
 }
 
-glm::dvec3 Path::point(const Place& place) noexcept {
-    if (on_ray(place)) return plus(end_, times(ray_, place.t));
-    return piece(place.piece).powers.at(place.t);
+glm::dvec3 Path::point(const PathParam& param) noexcept {
+    if (on_ray(param)) return plus(end_, times(ray_, param.t));
+    return piece(param.piece).powers.at(param.t);
 }
 
-PathPoint Path::sample(const Place& place, const glm::dvec3& before) noexcept {
-    if (on_ray(place)) return {plus(end_, times(ray_, place.t)), ray_};
-    const Piece& p = piece(place.piece);
-    const glm::dvec3 at = p.powers.at(place.t), slope = p.powers.slope(place.t);
+PathPoint Path::sample(const PathParam& param, const glm::dvec3& before) noexcept {
+    if (on_ray(param)) return {plus(end_, times(ray_, param.t)), ray_};
+    const Piece& p = piece(param.piece);
+    const glm::dvec3 at = p.powers.at(param.t), slope = p.powers.slope(param.t);
     const double squared = dot(slope, slope);
     // Where the slope vanishes, as at a cusp, a short chord into the longer part of the piece replaces it.
     if (squared > 1e-18 * p.speed * p.speed) return {at, times(slope, 1.0 / std::sqrt(squared))};
     const glm::dvec3 chord =
-        place.t < 0.5 ? minus(p.powers.at(place.t + 1e-3), at) : minus(at, p.powers.at(place.t - 1e-3));
+        param.t < 0.5 ? minus(p.powers.at(param.t + 1e-3), at) : minus(at, p.powers.at(param.t - 1e-3));
     return {at, direction_of(chord, 0.0).value_or(before)};
 }
 
-Place Path::next(const Place& from, const glm::dvec3& joint, double length) noexcept {
+PathParam Path::next(const PathParam& from, const glm::dvec3& joint, double length) noexcept {
     if (length == 0.0) return from;
     if (on_ray(from)) return {from.piece, from.t + length};
     double start = from.t;
     for (std::size_t k = from.piece; k < pieces(); ++k, start = 0.0) {
         const Cubic& whole = piece(k).cubic;
-        const Cubic rest = seen_from(joint, start > 0.0 ? rest_of(whole, start) : whole);
+        const Cubic rest = relative_to(joint, start > 0.0 ? part_after(whole, start) : whole);
         if (const double t = first_crossing(rest, length); t >= 0.0) return {k, start + (1.0 - start) * t};
     }
     // The end is nearer than the length, so the ray leaves the sphere once: |end + t ray - joint| = length.
@@ -215,8 +214,9 @@ Place Path::next(const Place& from, const glm::dvec3& joint, double length) noex
     return {pieces(), std::max(0.0, std::sqrt(off) - along)};
 }
 
-bool Path::recedes(const Place& from, const Place& to, const glm::dvec3& centre, double length) noexcept {
-    const double ignored = 1e-9 * length * length;
+bool Path::distance_grows(const PathParam& from, const PathParam& to, const glm::dvec3& centre,
+                          double length) noexcept {
+    const double slack = 1e-9 * length * length;
     double start = from.t;
     for (std::size_t k = from.piece; k < pieces() && k <= to.piece; ++k, start = 0.0) {
         const double stop = k == to.piece ? to.t : 1.0, by = stop - start;
@@ -228,13 +228,13 @@ bool Path::recedes(const Place& from, const Place& to, const glm::dvec3& centre,
             const glm::dvec3 arm = minus(p.powers.at(start), centre);
             if (dot(arm, p.powers.slope(start)) >= by * (length + by * p.speed) * p.bend) return true;
         }
-        Cubic cubic = rest_of(p.cubic, start);
-        if (stop < 1.0) cubic = beginning_of(cubic, by / (1.0 - start));
-        if (!rises(distance_excess(seen_from(centre, cubic), 0.0), ignored)) return false;
+        Cubic cubic = part_after(p.cubic, start);
+        if (stop < 1.0) cubic = part_before(cubic, by / (1.0 - start));
+        if (!is_increasing(distance_excess(relative_to(centre, cubic), 0.0), slack)) return false;
     }
     if (!on_ray(to)) return true;
     const double first = on_ray(from) ? from.t : 0.0;
-    return dot(plus(minus(end_, centre), times(ray_, first)), ray_) * (to.t - first) >= -ignored;
+    return dot(plus(minus(end_, centre), times(ray_, first)), ray_) * (to.t - first) >= -slack;
 }
 
 }  // namespace tendril::ik::detail

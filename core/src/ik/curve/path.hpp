@@ -32,7 +32,7 @@ struct Powers {
 };
 
 /// A place on the path: `t` in 0 to 1 on a piece, metres beyond the end on the ray that continues the last.
-struct Place {
+struct PathParam {
     std::size_t piece = 0;
     double t = 0.0;
 };
@@ -48,17 +48,18 @@ class Path {
 
     std::size_t pieces() const noexcept { return points_.size() - 1; }
     bool collapsed() const noexcept { return collapsed_; }
-    bool on_ray(const Place& place) const noexcept { return place.piece >= pieces(); }
+    bool on_ray(const PathParam& param) const noexcept { return param.piece >= pieces(); }
     const glm::dvec3& end() const noexcept { return end_; }
 
-    glm::dvec3 point(const Place& place) noexcept;
+    glm::dvec3 point(const PathParam& param) noexcept;
     /// `tangent`: unit; `before` where the path has no direction.
-    PathPoint sample(const Place& place, const glm::dvec3& before) noexcept;
+    PathPoint sample(const PathParam& param, const glm::dvec3& before) noexcept;
     /// The first place after `from` that is `length` metres from `joint`, which is the point at `from`.
-    Place next(const Place& from, const glm::dvec3& joint, double length) noexcept;
+    PathParam next(const PathParam& from, const glm::dvec3& joint, double length) noexcept;
     /// Whether the distance from `centre` grows all the way from one place to the other, one of which is
     /// `length` metres from it. Ignores dips of the squared distance by less than 1e-9 of length^2.
-    bool recedes(const Place& from, const Place& to, const glm::dvec3& centre, double length) noexcept;
+    bool distance_grows(const PathParam& from, const PathParam& to, const glm::dvec3& centre,
+                        double length) noexcept;
 
   private:
     glm::dvec3 control(std::ptrdiff_t index) const noexcept;

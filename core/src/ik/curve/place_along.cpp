@@ -53,13 +53,13 @@ bool is_valid(std::span<const glm::vec3> points, const CurveChain& chain, std::s
 /// Where the tip comes to lie, with all bones scaled by `factor`: metres beyond the end of the path, or, if
 /// negative, short of it.
 double overshoot(Path& path, std::span<const float> lengths, double factor) noexcept {
-    Place place;
-    glm::dvec3 joint = path.point(place);
+    PathParam param;
+    glm::dvec3 joint = path.point(param);
     for (const float each : lengths) {
-        place = path.next(place, joint, factor * static_cast<double>(each));
-        joint = path.point(place);
+        param = path.next(param, joint, factor * static_cast<double>(each));
+        joint = path.point(param);
     }
-    return path.on_ray(place) ? place.t : -length(minus(path.end(), joint));
+    return path.on_ray(param) ? param.t : -length(minus(path.end(), joint));
 }
 
 /// The factor at which the tip lies on the end of the path, or the nearer bound: regula falsi (Illinois: M.
@@ -118,21 +118,21 @@ struct Frame {
     }
 };
 
-void carry(Frame& frame, Path& path, const Place& from, const Place& to) noexcept {
+void transport(Frame& frame, Path& path, const PathParam& from, const PathParam& to) noexcept {
     constexpr double samples = 8.0;  // a piece
     for (std::size_t k = from.piece; k <= to.piece; ++k) {
         const double start = k == from.piece ? from.t : 0.0;
         const double stop = k == to.piece ? to.t : 1.0;
         const int count = k < path.pieces() ? 1 + static_cast<int>(samples * (stop - start)) : 1;
         for (int i = 1; i <= count; ++i) {
-            const Place place{k, start + (stop - start) * i / count};
-            frame.move_to(path.sample(place, frame.tangent));
+            const PathParam param{k, start + (stop - start) * i / count};
+            frame.move_to(path.sample(param, frame.tangent));
         }
     }
     frame.straighten();
 }
 
-glm::dvec3 upper_side(const glm::dvec3& up, const glm::dvec3& along) noexcept {
+glm::dvec3 up_side(const glm::dvec3& up, const glm::dvec3& along) noexcept {
     const auto side = direction_of(across(up, along), 1e-6 * length(up));
     return side ? *side : perpendicular(along);
 }
@@ -168,36 +168,36 @@ class Jumps {
         memory_.points = points.size();
     }
 
-    void root(const Place& place) noexcept {
-        if (!memory_.at.empty()) remember(0, place);
+    void root(const PathParam& param) noexcept {
+        if (!memory_.at.empty()) remember(0, param);
     }
     /// The bone from joint i - 1 to joint i, on the path. A joint beyond the first jump moves with it.
-    void bone(std::size_t i, const Place& from, const glm::dvec3& start, const Place& place,
+    void bone(std::size_t i, const PathParam& from, const glm::dvec3& start, const PathParam& param,
               double length) noexcept {
         if (memory_.at.empty()) return;
-        if (comparable_ && !jumped && length > 0.0 && !same_crossing(i, from, start, place, length))
+        if (comparable_ && !jumped && length > 0.0 && !same_crossing(i, from, start, param, length))
             jumped = i;
-        remember(i, place);
+        remember(i, param);
     }
 
     std::optional<std::size_t> jumped{};
 
   private:
-    void remember(std::size_t i, const Place& place) noexcept {
-        memory_.at[i] = static_cast<double>(place.piece) + place.t;
+    void remember(std::size_t i, const PathParam& param) noexcept {
+        memory_.at[i] = static_cast<double>(param.piece) + param.t;
     }
     /// The rule of CurveReport::jumped.
-    bool same_crossing(std::size_t i, const Place& from, const glm::dvec3& start, const Place& place,
+    bool same_crossing(std::size_t i, const PathParam& from, const glm::dvec3& start, const PathParam& param,
                        double length) noexcept {
-        const auto before = [](const Place& a, const Place& b) {
+        const auto before = [](const PathParam& a, const PathParam& b) {
             return a.piece != b.piece ? a.piece < b.piece : a.t < b.t;
         };
         const double at = std::max(0.0, memory_.at[i]);
         const auto piece = static_cast<std::size_t>(std::min(at, static_cast<double>(path_.pieces())));
-        Place was{piece, at - static_cast<double>(piece)};
+        PathParam was{piece, at - static_cast<double>(piece)};
         if (before(was, from)) was = from;
-        return before(was, place) ? path_.recedes(was, place, start, length)
-                                  : path_.recedes(place, was, start, length);
+        return before(was, param) ? path_.distance_grows(was, param, start, length)
+                                  : path_.distance_grows(param, was, start, length);
     }
 
     Path& path_;
@@ -250,13 +250,13 @@ CurveReport place_along(std::span<const glm::vec3> points, const CurveChain& cha
     report.factor = static_cast<float>(factor);
 
     Jumps jumps(path, points, memory);
-    Place place;
-    glm::dvec3 on_path = path.point(place);
-    jumps.root(place);
+    PathParam param;
+    glm::dvec3 on_path = path.point(param);
+    jumps.root(param);
     const glm::dvec3 up = wide(options.up);
-    const glm::dvec3 first_tangent = path.sample(place, rest_direction(0)).tangent;
-    Frame frame{on_path, first_tangent, upper_side(up, first_tangent)};
-    glm::dvec3 rest_before = rest_direction(0), rest_side = upper_side(up, rest_before);
+    const glm::dvec3 first_tangent = path.sample(param, rest_direction(0)).tangent;
+    Frame frame{on_path, first_tangent, up_side(up, first_tangent)};
+    glm::dvec3 rest_before = rest_direction(0), rest_side = up_side(up, rest_before);
 
     const double last_length = static_cast<double>(lengths.back());
     const double roll_start = static_cast<double>(options.roll_start);
@@ -271,9 +271,9 @@ CurveReport place_along(std::span<const glm::vec3> points, const CurveChain& cha
                                                           static_cast<double>(options.weight))));
     for (std::size_t i = 0; i < bones; ++i) {
         const double bone = factor * static_cast<double>(lengths[i]);
-        const Place next = path.next(place, on_path, bone);
+        const PathParam next = path.next(param, on_path, bone);
         const glm::dvec3 next_on_path = path.point(next);
-        jumps.bone(i + 1, place, on_path, next, bone);
+        jumps.bone(i + 1, param, on_path, next, bone);
         if (path.on_ray(next)) ++report.bones_past_end;
 
         // The side that turns least from the rest pose, then the path's, then the roll.
@@ -301,20 +301,20 @@ CurveReport place_along(std::span<const glm::vec3> points, const CurveChain& cha
         } else {
             state.rotations[i] = narrow(target);
         }
-        const double drawn =
+        const double length_drawn =
             static_cast<double>(lengths[i]) * (1.0 + static_cast<double>(weight) * (factor - 1.0));
-        joints[i + 1] = on_curve
-                            ? narrow(next_on_path)
-                            : math::moved(joints[i], wide(rotated(state.rotations[i], narrow(rest))), drawn);
-        carry(frame, path, place, next);
+        joints[i + 1] =
+            on_curve ? narrow(next_on_path)
+                     : math::moved(joints[i], wide(rotated(state.rotations[i], narrow(rest))), length_drawn);
+        transport(frame, path, param, next);
         along += static_cast<double>(lengths[i]);
-        given = given_next, place = next, on_path = next_on_path;
+        given = given_next, param = next, on_path = next_on_path;
     }
     report.jumped = jumps.jumped;
     const double off = length(minus(on_path, path.end()));
-    if (path.on_ray(place)) {
-        report.past_end = static_cast<float>(place.t);
-        if (place.t > 1e-6 * reach) report.status = Status::Stretched;
+    if (path.on_ray(param)) {
+        report.past_end = static_cast<float>(param.t);
+        if (param.t > 1e-6 * reach) report.status = Status::Stretched;
     } else {
         report.short_of_end = static_cast<float>(off);
     }

@@ -12,7 +12,7 @@
 namespace tendril::ik {
 
 // A step is only a jump if the next one is short again, so it is judged with that one.
-bool IncidentFinder::steps_far(Steps& steps, float step, IncidentKind kind, const char* cause) {
+bool IncidentFinder::detect_jump(Steps& steps, float step, IncidentKind kind, const char* cause) {
     const float least = std::max(jump_share * reach_, rounding_steps * options_.resolution);
     const auto far = [&](float length, float beside) {
         return length > least && length > jump_factor * beside;
@@ -52,34 +52,34 @@ bool IncidentFinder::find_jumps(const ReachPose& pose) {
                     ? "the pole target is on another side from one frame to the next, and the chain bends "
                       "there with it"
                     : "the pole target is on another side from one frame to the next";
-        steps_far(pole_steps_, math::distance(pole_was, pole_is), IncidentKind::PoleJump, cause);
+        detect_jump(pole_steps_, math::distance(pole_was, pole_is), IncidentKind::PoleJump, cause);
     }
-    return steps_far(steps_, math::distance(was, is), IncidentKind::TargetJump,
-                     "the target is somewhere else from one frame to the next");
+    return detect_jump(steps_, math::distance(was, is), IncidentKind::TargetJump,
+                       "the target is somewhere else from one frame to the next");
 }
 
 // The middle one of five frames, or the middle two of six, against the path of those around them.
 void IncidentFinder::find_misplaced(const ReachPose& pose, bool aimed) {
-    moments_.push_back({pose.root(), pose.joints[end_], aimed ? pose.target : std::nullopt});
-    if (moments_.size() > 6) moments_.erase(moments_.begin());
-    const std::size_t n = moments_.size();
+    samples_.push_back({pose.root(), pose.joints[end_], aimed ? pose.target : std::nullopt});
+    if (samples_.size() > 6) samples_.erase(samples_.begin());
+    const std::size_t n = samples_.size();
     if (n < 5 || frames_ < disturbed_ + 5) return;
-    const auto at = [&](std::size_t ago) -> const Moment& { return moments_[n - 1 - ago]; };
+    const auto at = [&](std::size_t ago) -> const MotionSample& { return samples_[n - 1 - ago]; };
     const bool all_aimed =
-        std::ranges::all_of(moments_, [](const Moment& m) { return m.target.has_value(); });
+        std::ranges::all_of(samples_, [](const MotionSample& m) { return m.target.has_value(); });
     const float rounding = rounding_steps * options_.resolution;
     const auto off = [](glm::vec3 before, glm::vec3 p, glm::vec3 after) {
         return math::length(p - 0.5f * (before + after));
     };
-    const float aside = off(at(3).tip, at(2).tip, at(1).tip);
+    const float offset = off(at(3).tip, at(2).tip, at(1).tip);
     const float steps = std::max({math::distance(at(4).tip, at(3).tip), math::distance(at(1).tip, at(0).tip),
                                   0.5f * math::distance(at(3).tip, at(1).tip)});
     const float asked = all_aimed ? off(*at(3).target, *at(2).target, *at(1).target) : 0.0f;
     ChainIncident found{
         .kind = IncidentKind::Misplaced, .frame = frames_ - 2, .last_frame = frames_ - 2, .joint = end_};
-    if (aside > std::max(leap_share * reach_, rounding) && aside > leap_steps * std::max(steps, asked)) {
-        found.amount = static_cast<double>(aside);
-        found.cause = 2.0f * off(at(3).root, at(2).root, at(1).root) > aside
+    if (offset > std::max(spike_share * reach_, rounding) && offset > spike_steps * std::max(steps, asked)) {
+        found.amount = static_cast<double>(offset);
+        found.cause = 2.0f * off(at(3).root, at(2).root, at(1).root) > offset
                           ? "the whole chain is aside for one frame"
                           : "the tip is aside for one frame";
         return note(found);
@@ -93,8 +93,8 @@ void IncidentFinder::find_misplaced(const ReachPose& pose, bool aimed) {
             sum += off(point(at(order[i - 1])), point(at(order[i])), point(at(order[i + 1])));
         return sum;
     };
-    const auto tip = [](const Moment& m) { return m.tip; };
-    const auto target = [](const Moment& m) { return *m.target; };
+    const auto tip = [](const MotionSample& m) { return m.tip; };
+    const auto target = [](const MotionSample& m) { return *m.target; };
     const float way = math::distance(at(5).tip, at(0).tip);
     if (!(way > 5.0f * std::max(moving_share * reach_, rounding)) ||
         bent(false, tip) < std::max(swapped_bends * bent(true, tip), swapped_way * way) ||
@@ -106,68 +106,69 @@ void IncidentFinder::find_misplaced(const ReachPose& pose, bool aimed) {
     note(found);
 }
 
-// Frames that equal the one before them: sure once tip and target move on, as they did before.
+// Frames that equal the one before: confirmed once tip and target move on as before.
 void IncidentFinder::find_repeated(const ReachPose& pose) {
     if (recent_.size() < 2) return;
     const ReachPose &before = recent_.back(), &earlier = recent_[recent_.size() - 2];
     if (pose.joints == before.joints) {
-        if (held_.frames == 0 && before.joints == earlier.joints) return;  // since the first frame
-        if (held_.frames++ > 0) return;
-        held_.step = before.joints[end_] - earlier.joints[end_];
-        held_.earlier_step = 0.0f;
+        if (repeat_.frames == 0 && before.joints == earlier.joints) return;  // since the first frame
+        if (repeat_.frames++ > 0) return;
+        repeat_.step = before.joints[end_] - earlier.joints[end_];
+        repeat_.earlier_step = 0.0f;
         if (recent_.size() > 2)
-            held_.earlier_step =
+            repeat_.earlier_step =
                 math::distance(earlier.joints[end_], recent_[recent_.size() - 3].joints[end_]);
-        held_.moved = both_moved(earlier, before);
-        held_.target = *before.target;
+        repeat_.moved = both_moved(earlier, before);
+        repeat_.target = *before.target;
         return;
     }
-    if (held_.frames > 0)
-        add_hold({{.kind = IncidentKind::Repeated,
-                   .frame = frames_ - held_.frames,
-                   .last_frame = frames_ - 1,
-                   .amount = static_cast<double>(held_.frames),
-                   .cause = "all joints are where they were a frame before, in the middle of a motion"},
-                  held_.moved && both_moved(before, pose) && resumes(pose),
-                  held_.target == *latest_.target});
-    held_ = {};
+    if (repeat_.frames > 0)
+        add_repeat({{.kind = IncidentKind::Repeated,
+                     .frame = frames_ - repeat_.frames,
+                     .last_frame = frames_ - 1,
+                     .amount = static_cast<double>(repeat_.frames),
+                     .cause = "all joints are where they were a frame before, in the middle of a motion"},
+                    repeat_.moved && both_moved(before, pose) && resumes(pose),
+                    repeat_.target == *latest_.target});
+    repeat_ = {};
 }
 
-void IncidentFinder::add_hold(const Hold& hold) {
-    if (beat_.size() > 1) {
-        const std::uint64_t spacing = beat_[1].incident.frame - beat_[0].incident.frame,
-                            apart = hold.incident.frame - beat_.back().incident.frame;
-        if (apart + 1 < spacing || apart > spacing + 1 || beat_.size() == max_incidents) close_beat();
+void IncidentFinder::add_repeat(const Repeat& hold) {
+    if (cadence_.size() > 1) {
+        const std::uint64_t spacing = cadence_[1].incident.frame - cadence_[0].incident.frame,
+                            apart = hold.incident.frame - cadence_.back().incident.frame;
+        if (apart + 1 < spacing || apart > spacing + 1 || cadence_.size() == max_incidents) close_cadence();
     }
-    beat_.push_back(hold);
+    cadence_.push_back(hold);
 }
 
-// Few are reported one by one, and the last of them may be the first of the next beat.
-void IncidentFinder::close_beat() {
-    const std::size_t count = beat_.size();
-    const auto faults = std::ranges::count(beat_, true, &Hold::fault),
-               rested = std::ranges::count(beat_, true, &Hold::rested);
+// Too few for a cadence are reported one by one; the last may start the next cadence.
+void IncidentFinder::close_cadence() {
+    const std::size_t count = cadence_.size();
+    const auto faults = std::ranges::count(cadence_, true, &Repeat::fault),
+               rested = std::ranges::count(cadence_, true, &Repeat::rested);
     const auto most = [&](std::ptrdiff_t some) { return 2 * static_cast<std::size_t>(some) > count; };
-    if (count < beat_least || (!most(rested) && !most(faults))) {
-        const Hold last = count > 0 ? beat_.back() : Hold{};
+    if (count < min_cadence || (!most(rested) && !most(faults))) {
+        const Repeat latest = count > 0 ? cadence_.back() : Repeat{};
         for (std::size_t i = 0; i + 1 < count; ++i)
-            if (beat_[i].fault) note(beat_[i].incident);
-        beat_.assign(count > 0 ? 1 : 0, last);
+            if (cadence_[i].fault) note(cadence_[i].incident);
+        cadence_.assign(count > 0 ? 1 : 0, latest);
         return;
     }
-    ChainIncident all = beat_.front().incident;
-    const ChainIncident last = beat_.back().incident;
+    ChainIncident all = cadence_.front().incident;
+    const ChainIncident latest = cadence_.back().incident;
     double held = 0.0;
-    for (const Hold& each : beat_) held += each.incident.amount;
-    const double span = static_cast<double>(last.frame - all.frame), fresh = span - (held - last.amount);
+    for (const Repeat& each : cadence_) held += each.incident.amount;
+    const double span = static_cast<double>(latest.frame - all.frame),
+                 new_frames = span - (held - latest.amount);
     const auto beats = static_cast<double>(count - 1);
-    beat_.clear();
+    cadence_.clear();
     if (most(rested)) return;
-    all.last_frame = last.last_frame;
+    all.last_frame = latest.last_frame;
     all.amount = held;
-    all.hertz = static_cast<double>(options_.fps) * fresh / span;
+    all.hertz = static_cast<double>(options_.fps) * new_frames / span;
     all.cause =
-        fresh != beats        ? "the chain is updated at another rate than the log"
+        new_frames != beats   ? "the chain is updated at another rate than the log"
         : span == 2.0 * beats ? "every second frame is new: the chain is updated at half the log's rate"
         : span == 3.0 * beats ? "every third frame is new: the chain is updated at a third of the log's rate"
                               : "the chain is updated at a lower rate than the log";
@@ -180,17 +181,17 @@ bool IncidentFinder::both_moved(const ReachPose& a, const ReachPose& b) const no
            math::distance(*a.target, *b.target) > moving;
 }
 
-// One frame that repeats is a fault. Over several a chain may also rest, but then it slows down before, or
-// starts in another direction or at another speed; unless its target went on.
+// One repeated frame is a fault. Several may be a rest: the chain then slows down before, or restarts in
+// another direction or at another speed; but not if its target moved on.
 bool IncidentFinder::resumes(const ReachPose& pose) const {
     const ReachPose& before = recent_.back();
-    if (held_.frames == 1 || math::distance(held_.target, *latest_.target) > moving_share * reach_)
+    if (repeat_.frames == 1 || math::distance(repeat_.target, *latest_.target) > moving_share * reach_)
         return true;
     const glm::vec3 step = pose.joints[end_] - before.joints[end_];
-    const float was = math::length(held_.step), is = math::length(step);
-    const float longest = resumed_faster * static_cast<float>(held_.frames + 1) * was;
-    return was > resumed_share * held_.earlier_step && is > resumed_share * was && is < longest &&
-           math::dot(held_.step, step) > resumed_cosine * was * is;
+    const float was = math::length(repeat_.step), is = math::length(step);
+    const float longest = resumed_faster * static_cast<float>(repeat_.frames + 1) * was;
+    return was > resumed_share * repeat_.earlier_step && is > resumed_share * was && is < longest &&
+           math::dot(repeat_.step, step) > resumed_cosine * was * is;
 }
 
 void IncidentFinder::find_missed(const ReachPose& pose) {
@@ -205,9 +206,9 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
     // A bone of another length moves the tip as well; that is reported.
     const bool whole_bones = std::ranges::none_of(length_, &Episode::open);
     const bool reachable = distance < reach_ - allowed && distance > inner + allowed && whole_bones;
-    const bool under_way = missed_frames_ > 0 && error < approach * missed_before_;
-    if (!reachable || error <= allowed || under_way) {
-        last(missed_, false, {});
+    const bool approaching = missed_frames_ > 0 && error < approach * missed_before_;
+    if (!reachable || error <= allowed || approaching) {
+        update_episode(missed_, false, {});
         missed_frames_ = reachable && error > allowed ? 1 : 0;
     } else {
         ++missed_frames_;
@@ -223,22 +224,22 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
                       .cause = "the target is within reach: look for a limit, or too few iterations"};
     for (const Episode& each : limit_)
         if (each.open) now.cause = "a joint is at its limit";
-    last(missed_, true, now);
+    update_episode(missed_, true, now);
 }
 
-// A target beyond reach counts as where the tip can be, on the way to it.
+// Replaces a target out of reach by the nearest point in reach on its line.
 void IncidentFinder::follow(const ReachPose& pose) {
     const glm::vec3 target = *pose.target - pose.root();
     const float moving = std::max(moving_share * reach_, options_.resolution);
     const auto moved = [&](glm::vec3 a, glm::vec3 b) { return math::distance(a, b) > moving; };
     if (!first_move_ && !targets_.empty() && moved(target, targets_.back())) first_move_ = frames_;
-    // A tip that jumps alone arrives from now on, or misses from now on.
+    // After a jump of the tip alone, following is measured anew.
     const glm::vec3 tip_now = pose.joints[end_] - pose.root();
     if (!followers_.empty()) {
         float longest = math::distance(target, targets_.back());
         for (std::size_t i = 1; i < targets_.size(); ++i)
             longest = std::max(longest, math::distance(targets_[i - 1], targets_[i]));
-        if (math::distance(tip_now, followers_.back()) > leap_steps * longest + leap_share * reach_) {
+        if (math::distance(tip_now, followers_.back()) > spike_steps * longest + spike_share * reach_) {
             targets_.clear();
             followers_.clear();
             for (Following& path : paths_) path.close();
@@ -291,7 +292,7 @@ void IncidentFinder::find_jitter(const ReachPose& pose) {
     if (tips_.size() == fast_jitter || tips_.size() == still_window) judge_jitter();
 }
 
-// A swing to and fro about the mean, along the axis where it is widest, that does not die away.
+// Jitter: an undamped oscillation about the mean, along the axis of largest variance.
 void IncidentFinder::judge_jitter() {
     if (jitter_judged_ || tips_.size() < 6) return;
     const std::size_t skipped = std::min<std::size_t>(4, tips_.size() / 4);  // the tip may still arrive
@@ -365,8 +366,8 @@ std::array<double, IncidentFinder::max_lag + 1> IncidentFinder::Following::left(
 }
 
 // The frames ago at which the target's path fits the tip's best, up to an offset and a scale: a tip that
-// misses its target is late all the same. A miss that changes spoils the fit of the positions, and hardly
-// that of steps; noise spoils that of short steps.
+// misses its target may still lag. A changing miss spoils the fit of positions more than of steps; noise
+// spoils the fit of short steps.
 std::size_t IncidentFinder::find_lag() const {
     const double least_rms = std::max(lag_share * static_cast<double>(reach_),
                                       static_cast<double>(rounding_steps * options_.resolution));
@@ -394,15 +395,15 @@ std::size_t IncidentFinder::find_lag() const {
 }
 
 void IncidentFinder::finish_following() {
-    last(missed_, false, {});
+    update_episode(missed_, false, {});
     judge_jitter();
-    // Held to the end, while the target goes on within reach.
+    // RepeatRun to the end, while the target goes on within reach.
     const bool limited = std::ranges::any_of(limit_, &Episode::open);
-    const double usual = beat_.size() >= beat_least ? beat_.back().incident.amount + 1.0 : 1.0;
-    if (static_cast<double>(held_.frames) > usual && held_.moved && !limited && !recent_.empty()) {
+    const double usual = cadence_.size() >= min_cadence ? cadence_.back().incident.amount + 1.0 : 1.0;
+    if (static_cast<double>(repeat_.frames) > usual && repeat_.moved && !limited && !recent_.empty()) {
         const glm::vec3 target = *latest_.target;
-        const std::uint64_t first = frames_ - held_.frames;
-        if (math::distance(held_.target, target) > moving_share * reach_ &&
+        const std::uint64_t first = frames_ - repeat_.frames;
+        if (math::distance(repeat_.target, target) > moving_share * reach_ &&
             math::distance(target, recent_.back().root()) < reach_) {
             std::erase_if(found_, [&](const ChainIncident& each) {
                 return each.kind == IncidentKind::Missed && each.frame >= first;
@@ -410,13 +411,14 @@ void IncidentFinder::finish_following() {
             note({.kind = IncidentKind::Repeated,
                   .frame = first,
                   .last_frame = frames_ - 1,
-                  .amount = static_cast<double>(held_.frames),
+                  .amount = static_cast<double>(repeat_.frames),
                   .cause = "all joints stay where they are to the end, and the target goes on"});
         }
     }
     const std::size_t best = find_lag();
-    // A lower rate is late by less than its beat.
-    const bool beats = beat_.size() >= beat_least && beat_[0].incident.frame + best < beat_[1].incident.frame;
+    // A lower update rate lags by less than its period.
+    const bool beats =
+        cadence_.size() >= min_cadence && cadence_[0].incident.frame + best < cadence_[1].incident.frame;
     if (best == 0 || beats) return;
     // Where the target was before the first frame is unknown.
     std::erase_if(found_, [&](const ChainIncident& each) {

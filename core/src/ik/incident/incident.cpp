@@ -1,4 +1,4 @@
-// Frames in, incidents out: what is not finite, what changes length, what is beyond its limit, what flips.
+// Finds incidents frame by frame: values that are not finite, wrong lengths, exceeded limits, flips.
 #include "tendril/ik/incident.hpp"
 
 #include <algorithm>
@@ -80,10 +80,10 @@ void IncidentFinder::note(const ChainIncident& incident) {
     if (found_.size() < max_incidents)
         found_.push_back(incident);
     else
-        ++left_off_;
+        ++dropped_;
 }
 
-void IncidentFinder::last(Episode& episode, bool active, const ChainIncident& now) {
+void IncidentFinder::update_episode(Episode& episode, bool active, const ChainIncident& now) {
     if (!active) {
         if (episode.open) note(episode.worst);
         episode.open = false;
@@ -150,8 +150,8 @@ void IncidentFinder::forget_motion() noexcept {
     tips_.clear();
     side_.reset();
     steps_ = pole_steps_ = {};
-    moments_.clear();
-    held_ = {};
+    samples_.clear();
+    repeat_ = {};
     missed_frames_ = 0;
 }
 
@@ -191,7 +191,7 @@ bool IncidentFinder::find_nan(const TraceFrame& frame) {
     ChainIncident now{.kind = IncidentKind::Nan, .frame = frames_, .last_frame = frames_};
     if (joint) now.joint = static_cast<std::size_t>(bad - frame.joints.begin());
     if (active && !nan_.open) now.cause = nan_cause(frame);
-    last(nan_, active, now);
+    update_episode(nan_, active, now);
     return active;
 }
 
@@ -210,19 +210,19 @@ void IncidentFinder::find_lengths(const ReachPose& pose, bool aimed) {
                 return std::abs(math::distance(pose.joints[from], pose.joints[to]) -
                                 math::distance(was[from], was[to]));
             };
-            if (changed(i - 1, i + 1) < alone_share * std::max(changed(i - 1, i), changed(i, i + 1)))
+            if (changed(i - 1, i + 1) < unmoved_share * std::max(changed(i - 1, i), changed(i, i + 1)))
                 displaced_.insert({frames_, i});
         }
         opened = opens;
         if (active) disturbed_ = frames_ + 1;
-        last(length_[i], active,
-             {.kind = IncidentKind::Length,
-              .frame = frames_,
-              .last_frame = frames_,
-              .joint = i + 1,
-              .amount = static_cast<double>(off),
-              .cause = beyond ? "the target is out of reach, and the bone gives way"
-                              : "nothing in the input explains it: lengths are not restored"});
+        update_episode(length_[i], active,
+                       {.kind = IncidentKind::Length,
+                        .frame = frames_,
+                        .last_frame = frames_,
+                        .joint = i + 1,
+                        .amount = static_cast<double>(off),
+                        .cause = beyond ? "the target is out of reach, and the bone gives way"
+                                        : "nothing in the input explains it: lengths are not restored"});
     }
 }
 
@@ -234,7 +234,7 @@ void IncidentFinder::find_limits(const ReachPose& pose) {
         const float bend =
             in_degrees(angle_between(at - pose.joints[limit.joint - 1], pose.joints[limit.joint + 1] - at));
         const float beyond = std::max(bend - limit.max, limit.min - bend);
-        last(
+        update_episode(
             limit_[i], beyond > limit_degrees,
             {.kind = IncidentKind::Limit,
              .frame = frames_,
@@ -259,20 +259,20 @@ void IncidentFinder::find_flips(const ReachPose& pose, bool jumped, bool aimed) 
         disturbed_ = frames_ + 1;
     };
     const bool straight_since = side_ && side_->straight_since;
-    const bool other_side = changed_sides(pose, jumped);
+    const bool other_side = changed_side(pose, jumped);
     if (recent_.empty()) return;
     const ReachPose& before = recent_.back();
     const auto cause = [&](const ReachPose& was) {
         return jumped ? FlipCause::TargetJump : cause_of_flip(was, pose, aimed);
     };
-    // What turns far, and moves so much further than what drives it, flips whatever angle the target
-    // describes: close to the root that is any. A damped solver takes some frames for it.
-    const auto swung = [&](const ReachPose& was, float degrees) -> std::optional<BoneTurn> {
+    // A bone that turns far and moves much further than its target flips, whatever the target's angle, which
+    // is arbitrary close to the root. A damped solver takes some frames for it.
+    const auto find_swing = [&](const ReachPose& was, float degrees) -> std::optional<BoneTurn> {
         const BoneTurn turn = furthest_turn(was, pose);
         const bool far = in_degrees(turn.radians) > degrees;
-        return far && leads(was, pose, turn.joint, swing_lead) ? std::optional(turn) : std::nullopt;
+        return far && outpaces_input(was, pose, turn.joint, swing_lead) ? std::optional(turn) : std::nullopt;
     };
-    if (const auto turn = swung(before, options_.flip_degrees)) return flip(*turn, cause(before));
+    if (const auto turn = find_swing(before, options_.flip_degrees)) return flip(*turn, cause(before));
     if (other_side) {
         const FlipCause why = cause(before);
         return flip(furthest_turn(before, pose),
@@ -280,7 +280,7 @@ void IncidentFinder::find_flips(const ReachPose& pose, bool jumped, bool aimed) 
     }
     if (recent_.size() <= swing_frames || (flipped_ && frames_ - flipped_at_ <= swing_frames)) return;
     const ReachPose& first = recent_.front();
-    if (const auto turn = swung(first, std::max(options_.flip_degrees, swing_degrees)))
+    if (const auto turn = find_swing(first, std::max(options_.flip_degrees, swing_degrees)))
         flip(*turn, cause(first));
 }
 
@@ -326,8 +326,8 @@ void IncidentFinder::find_rolls(const ReachPose& pose, std::span<const glm::quat
           .flip = FlipCause::Rolled});
 }
 
-bool IncidentFinder::leads(const ReachPose& before, const ReachPose& after, std::size_t joint,
-                           float times) noexcept {
+bool IncidentFinder::outpaces_input(const ReachPose& before, const ReachPose& after, std::size_t joint,
+                                    float times) noexcept {
     const auto moved = [&](glm::vec3 from, glm::vec3 to) {
         return math::distance(from - before.root(), to - after.root());
     };
@@ -336,7 +336,7 @@ bool IncidentFinder::leads(const ReachPose& before, const ReachPose& after, std:
     return moved(before.joints[joint], after.joints[joint]) > times * driven;
 }
 
-bool IncidentFinder::changed_sides(const ReachPose& pose, bool jumped) {
+bool IncidentFinder::changed_side(const ReachPose& pose, bool jumped) {
     if (end_ != 2) return false;
     const glm::vec3 line = pose.joints[end_] - pose.root(), elbow = pose.joints[1] - pose.root();
     const float length = math::length(line);
@@ -352,7 +352,7 @@ bool IncidentFinder::changed_sides(const ReachPose& pose, bool jumped) {
     if (side_) {
         const float turned = angle_between(side_->line, now.line);
         const glm::vec3 was = transported(side_->normal, side_->line, now.line);
-        // Whoever moves the pole target around the chain asks for the other side.
+        // Moving the pole target around the chain requests the other side.
         const bool asked = side_->pole.has_value() != now.pole.has_value() ||
                            (now.pole && angle_between(math::cross(now.line, *side_->pole),
                                                       math::cross(now.line, *now.pole)) > side_turn);
@@ -364,12 +364,12 @@ bool IncidentFinder::changed_sides(const ReachPose& pose, bool jumped) {
 }
 
 void IncidentFinder::finish() {
-    last(nan_, false, {});
-    for (Episode& each : length_) last(each, false, {});
-    for (Episode& each : limit_) last(each, false, {});
+    update_episode(nan_, false, {});
+    for (Episode& each : length_) update_episode(each, false, {});
+    for (Episode& each : limit_) update_episode(each, false, {});
     finish_following();
-    close_beat();
-    if (!beat_.empty() && beat_.back().fault) note(beat_.back().incident);
+    close_cadence();
+    if (!cadence_.empty() && cadence_.back().fault) note(cadence_.back().incident);
     std::ranges::stable_sort(found_, {}, &ChainIncident::frame);
     merge_scaled(found_, lengths_);
     // A joint out of its place changes both its bones over the same frames: one incident, the larger.

@@ -1,4 +1,4 @@
-// What counts as an incident. Shares are of the reach, unless they say otherwise.
+// Thresholds of incidents. Shares are fractions of the reach, unless noted.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ constexpr float in_degrees(float radians) noexcept {
 
 inline constexpr float length_share = 2e-3f;   ///< of the bone
 inline constexpr float rounding_steps = 4.0f;  ///< of the resolution: two points, in three coordinates
-inline constexpr float alone_share = 0.25f;    ///< of a bone's change: outer ends that stay; 60 arms tried
+inline constexpr float unmoved_share = 0.25f;  ///< of a bone's change: outer ends that stay; 60 arms tried
 inline constexpr float limit_degrees = 0.5f;   ///< beyond a limit
 
 inline constexpr float side_bend = 0.02f;       ///< less is straight, and has no side
@@ -27,14 +27,14 @@ inline constexpr float moving_share = 1e-3f;  ///< a step of less is still
 
 // Measured on the families of ik_incident_test.cpp and trace_test.cpp. "Arms" are those of the first.
 
-/// Of the step before: one that is shorter slows down, or starts anew. Several frames may be caught up at
+/// Fractions of the step before: shorter is slowing down or starting anew; several frames may be caught up at
 /// once. 120 arms that repeat 0 to 5 frames are all right, as with 0.1 to 0.95 and 1 to 4.
 inline constexpr float resumed_share = 0.6f, resumed_faster = 1.5f;
 /// Between the steps before and after: likewise with -0.5; some of the 120 are lost with 0.95.
 inline constexpr float resumed_cosine = 0.5f;
 
-/// Runs of repeated frames that make a beat.
-inline constexpr std::size_t beat_least = 4;
+/// Minimum number of runs of repeated frames in a cadence.
+inline constexpr std::size_t min_cadence = 4;
 /// Frames in swapped order: times the bends of the path with the two put right, and of the way of six frames.
 /// At constant speed 4 steps of second differences, halved, over 5 steps of way: 0.8; put right: 0.
 inline constexpr float swapped_bends = 4.0f, swapped_way = 0.5f;
@@ -52,8 +52,8 @@ inline constexpr double lag_scale = 0.5;
 inline constexpr std::size_t lag_frames = 8;  ///< moving ones, at least
 
 /// A tip leaps if its step is longer than so many of the target's and so much of the reach. With 6, or with
-/// 0.1, some of the 300 planted faults are not told; 1.5 and 0.005 do as well.
-inline constexpr float leap_steps = 3.0f, leap_share = 0.025f;
+/// 0.1, some of the 300 planted faults are missed; 1.5 and 0.005 do as well.
+inline constexpr float spike_steps = 3.0f, spike_share = 0.025f;
 
 inline constexpr float jitter_share = 2e-4f;
 inline constexpr std::size_t fast_jitter = 16;  ///< frames

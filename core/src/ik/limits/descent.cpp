@@ -52,10 +52,10 @@ void LimitedDescent::reach(Problem& problem, Watch watch) noexcept {
 /// One damped step, kept if it brings the tip nearer; otherwise one retry with more damping.
 template <class Watch>
 void LimitedDescent::step(Problem& problem, Watch watch) noexcept {
-    const Wanted wanted = wanted_of(problem);
+    const TipDelta wanted = requested_delta(problem);
     Normal normal = linearize(problem, wanted);
     for (int attempt = 0; attempt < 2; ++attempt) {
-        const Wanted by = projected_step(problem, Descent::Damped, damping_, wanted, normal);
+        const TipDelta by = projected_step(problem, Descent::Damped, damping_, wanted, normal);
         if (predicted_gain(normal, wanted, by) < min_gain) return convergence_.end();
         rotate_joints(problem, by);
         const float then = error_of(problem, problem.scratch.limited.trial);

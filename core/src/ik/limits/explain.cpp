@@ -51,7 +51,7 @@ class Explanation {
         return limited_joint(options_.limits[joint], scratch_.rest_directions[joint]);
     }
     /// Errors up to this have arrived.
-    float there() const noexcept { return fine * scratch_.reach; }
+    float tolerance() const noexcept { return fine * scratch_.reach; }
 
     Workspace& scratch_;
     LimitedScratch& limited_;
@@ -75,7 +75,7 @@ float Explanation::solve_on(std::span<const Limit> limits) noexcept {
     options.tip_orientation = options_.tip_orientation;
     load_limits(scratch_, limits, options_.plane.has_value());
     scratch_.saved.limits = {};
-    Problem problem{joints_, target_, there(), options, scratch_, scratch_.saved};
+    Problem problem{joints_, target_, tolerance(), options, scratch_, scratch_.saved};
     run_limited(Method::Fabrik, problem, Unwatched());
     return error_of(problem, limited_.pose);
 }
@@ -145,9 +145,9 @@ Outcome Explanation::best_freed() noexcept {
     for (const Candidate& each : candidates_) {
         if (each.joint == no_joint) break;
         const Outcome now = freed(each.joint);
-        if (now.over <= 2.0f * at_bound || now.error >= start_ * (1.0f - noticeable)) continue;
-        const bool nearer = std::max(now.error, there()) < std::max(best.error, there());
-        const bool as_near = now.error <= there() && best.error <= there() && now.over < best.over;
+        if (now.over <= 2.0f * at_bound || now.error >= start_ * (1.0f - min_gain_part)) continue;
+        const bool nearer = std::max(now.error, tolerance()) < std::max(best.error, tolerance());
+        const bool as_near = now.error <= tolerance() && best.error <= tolerance() && now.over < best.over;
         if (best.joint == no_joint || nearer || as_near) best = now;
     }
     return best;
@@ -163,7 +163,7 @@ JointAngles Explanation::needed_angles(const Outcome& freed) noexcept {
         // A different start may arrive within the joint's own limit: that says nothing about the range it
         // needs.
         const bool enough =
-            some.over > 2.0f * at_bound && some.error <= std::max(freed.error, 2.0f * there());
+            some.over > 2.0f * at_bound && some.error <= std::max(freed.error, 2.0f * tolerance());
         (enough ? high : low) = part;
         if (enough) needed = some.angles;
     }
@@ -183,7 +183,7 @@ std::optional<ActiveLimit> Explanation::find() noexcept {
     active.joint = found.joint;
     active.kind = joint.kind;
     active.enough =
-        found.error <= std::max(options_.tolerance.value_or(1e-3f * scratch_.reach), 2.0f * there());
+        found.error <= std::max(options_.tolerance.value_or(1e-3f * scratch_.reach), 2.0f * tolerance());
     return active;
 }
 

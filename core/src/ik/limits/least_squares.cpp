@@ -32,7 +32,7 @@ void add_ball(Normal& normal, const glm::vec3& arm, float scale, double by) noex
 }
 
 /// Removes an axis from a joint's freedoms and from the matrix. Returns whether any of it was left.
-bool forbid(JointFreedom& freedom, const glm::vec3& axis, float scale, Normal& normal) noexcept {
+bool remove_axis(JointFreedom& freedom, const glm::vec3& axis, float scale, Normal& normal) noexcept {
     const auto mobility = static_cast<double>(freedom.mobility);
     if (!freedom.ball) {
         if (freedom.count == 0) return false;
@@ -64,7 +64,7 @@ glm::dvec3 parts_of(const Normal& normal, const glm::dvec3& v) noexcept {
     return {dot(normal.both[0], v), dot(normal.both[1], v), dot(normal.both[2], v)};
 }
 
-Wanted damped_step(const Normal& normal, const Wanted& wanted, float damping) noexcept {
+TipDelta damped_step(const Normal& normal, const TipDelta& wanted, float damping) noexcept {
     const auto diagonal = static_cast<double>(damping);
     const Factors3 factors(normal.moves, diagonal);
     const glm::dvec3 move = wide(wanted.move);
@@ -82,7 +82,7 @@ Wanted damped_step(const Normal& normal, const Wanted& wanted, float damping) no
 
 /// Damps only eigenvectors of J J' with small singular values, like the solver without limits. With an
 /// orientation there are six rows, and all are damped.
-Wanted filtered_step(const Normal& normal, const Wanted& wanted, float damping) noexcept {
+TipDelta filtered_step(const Normal& normal, const TipDelta& wanted, float damping) noexcept {
     if (wanted.scale != 0.0f) return damped_step(normal, wanted, damping);
     const glm::dvec3 by = filtered_solution(normal.moves, wide(wanted.move), static_cast<double>(damping),
                                             tune::jacobian::small_singular, min_inverse);
@@ -90,7 +90,7 @@ Wanted filtered_step(const Normal& normal, const Wanted& wanted, float damping) 
 }
 
 /// The optimal step along the gradient, according to the linear model.
-Wanted steepest_step(const Normal& normal, const Wanted& wanted) noexcept {
+TipDelta steepest_step(const Normal& normal, const TipDelta& wanted) noexcept {
     const glm::dvec3 m = wide(wanted.move), r = wide(wanted.rotation);
     const glm::dvec3 move = plus(product(normal.moves, m), combined(normal, r)),
                      rotation = plus(parts_of(normal, m), product(normal.rotations, r));
@@ -101,8 +101,8 @@ Wanted steepest_step(const Normal& normal, const Wanted& wanted) noexcept {
 
 }  // namespace
 
-Wanted wanted_of(const Problem& problem) noexcept {
-    Wanted wanted;
+TipDelta requested_delta(const Problem& problem) noexcept {
+    TipDelta wanted;
     const LimitedPose& pose = problem.scratch.limited.pose;
     const float unit_length = 1.0f / problem.scratch.reach;
     wanted.move = times(minus(problem.target, pose.joints[problem.bones()]), unit_length);
@@ -123,7 +123,7 @@ Normal release_limits(LimitedScratch& scratch) noexcept {
     return scratch.normal;
 }
 
-Normal linearize(Problem& problem, const Wanted& wanted) noexcept {
+Normal linearize(Problem& problem, const TipDelta& wanted) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     const LimitedPose& pose = scratch.pose;
     const float unit_length = 1.0f / problem.scratch.reach;
@@ -157,7 +157,7 @@ Normal linearize(Problem& problem, const Wanted& wanted) noexcept {
             Bounds::Bound bound = freedom.bounds.at[k];
             bound.outward = rotated(parent, bound.outward);
             if (bound.both)
-                forbid(freedom, bound.outward, scale, normal);
+                remove_axis(freedom, bound.outward, scale, normal);
             else
                 freedom.bounds.at[open++] = bound;
         }
@@ -170,7 +170,7 @@ Normal linearize(Problem& problem, const Wanted& wanted) noexcept {
     return normal;
 }
 
-bool activate(Problem& problem, const Wanted& by, Normal& normal) noexcept {
+bool activate(Problem& problem, const TipDelta& by, Normal& normal) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     bool any = false;
     for (std::size_t n = 0; n < scratch.at_bounds; ++n) {
@@ -179,15 +179,15 @@ bool activate(Problem& problem, const Wanted& by, Normal& normal) noexcept {
             const glm::vec3 rotation = rotation_by(freedom, by), outward = freedom.bounds.at[k].outward;
             const float push = dot(rotation, outward);
             if (push <= 0.0f || push * push <= 1e-8f * dot(rotation, rotation)) continue;
-            any = forbid(freedom, outward, freedom.turns_tip ? by.scale : 0.0f, normal) || any;
+            any = remove_axis(freedom, outward, freedom.turns_tip ? by.scale : 0.0f, normal) || any;
         }
     }
     return any;
 }
 
-Wanted projected_step(Problem& problem, Descent descent, float damping, const Wanted& wanted,
-                      Normal& normal) noexcept {
-    Wanted by = wanted;
+TipDelta projected_step(Problem& problem, Descent descent, float damping, const TipDelta& wanted,
+                        Normal& normal) noexcept {
+    TipDelta by = wanted;
     for (int pass = 0; pass < 4; ++pass) {
         by = descent == Descent::Transpose  ? steepest_step(normal, wanted)
              : descent == Descent::Filtered ? filtered_step(normal, wanted, damping)
@@ -197,7 +197,7 @@ Wanted projected_step(Problem& problem, Descent descent, float damping, const Wa
     return by;
 }
 
-float predicted_gain(const Normal& normal, const Wanted& wanted, const Wanted& by) noexcept {
+float predicted_gain(const Normal& normal, const TipDelta& wanted, const TipDelta& by) noexcept {
     const glm::dvec3 m = wide(by.move), r = wide(by.rotation);
     const glm::dvec3 move = minus(wide(wanted.move), plus(product(normal.moves, m), combined(normal, r)));
     const glm::dvec3 rotation =
@@ -207,7 +207,7 @@ float predicted_gain(const Normal& normal, const Wanted& wanted, const Wanted& b
     return static_cast<float>(before - std::sqrt(dot(move, move) + dot(rotation, rotation)));
 }
 
-void rotate_joints(Problem& problem, const Wanted& by) noexcept {
+void rotate_joints(Problem& problem, const TipDelta& by) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     float maximum = 1.0f;
     for (std::size_t i = 0; i < problem.bones(); ++i) {
@@ -227,7 +227,7 @@ void rotate_joints(Problem& problem, const Wanted& by) noexcept {
 }
 
 void limited_step(Problem& problem, Descent descent, float damping) noexcept {
-    const Wanted wanted = wanted_of(problem);
+    const TipDelta wanted = requested_delta(problem);
     Normal normal = linearize(problem, wanted);
     rotate_joints(problem, projected_step(problem, descent, damping, wanted, normal));
 }

@@ -25,24 +25,24 @@ namespace tendril::ik::detail {
 
 /// The requested change, in reaches: the tip's displacement and, with a tip orientation, its rotation, scaled
 /// as in error_of. The solution of a step has the same form.
-struct Wanted {
+struct TipDelta {
     glm::vec3 move{0.0f}, rotation{0.0f};
     float scale = 0.0f;  ///< reaches per radian; 0 without an orientation
 };
-Wanted wanted_of(const Problem& problem) noexcept;
+TipDelta requested_delta(const Problem& problem) noexcept;
 
 /// Fills scratch.freedoms and the list of joints at a bound from the pose; no limit is active yet. Almost
 /// free if they are up to date.
-Normal linearize(Problem& problem, const Wanted& wanted) noexcept;
+Normal linearize(Problem& problem, const TipDelta& wanted) noexcept;
 /// Makes all limits inactive again, after linearize.
 Normal release_limits(LimitedScratch& scratch) noexcept;
 
 /// Activates the bounds that the rotations by `by` push against, and removes them from the matrix. Returns
 /// whether there were any.
-bool activate(Problem& problem, const Wanted& by, Normal& normal) noexcept;
+bool activate(Problem& problem, const TipDelta& by, Normal& normal) noexcept;
 
 /// Rotation vector, in the world, of an unlimited ball joint in this step; radians.
-static inline glm::vec3 free_rotation_by(const JointFreedom& freedom, const Wanted& by) noexcept {
+static inline glm::vec3 free_rotation_by(const JointFreedom& freedom, const TipDelta& by) noexcept {
     const glm::vec3 rotation = cross(freedom.arm, by.move);
     return by.scale == 0.0f || !freedom.turns_tip ? rotation : plus(rotation, times(by.rotation, by.scale));
 }
@@ -58,7 +58,7 @@ static inline glm::vec3 allowed_part(const JointFreedom& freedom, const glm::vec
     return freedom.ball ? minus(whole, some) : some;
 }
 /// The joint's rotation in this step: W J' by, with W the joints' mobilities.
-static inline glm::vec3 rotation_by(const JointFreedom& freedom, const Wanted& by) noexcept {
+static inline glm::vec3 rotation_by(const JointFreedom& freedom, const TipDelta& by) noexcept {
     return times(allowed_part(freedom, free_rotation_by(freedom, by)), freedom.mobility);
 }
 
@@ -69,15 +69,15 @@ enum class Descent {
 };
 
 /// Solves repeatedly until the step takes no joint out of its limit. `damping` is in reach squared.
-Wanted projected_step(Problem& problem, Descent descent, float damping, const Wanted& wanted,
-                      Normal& normal) noexcept;
+TipDelta projected_step(Problem& problem, Descent descent, float damping, const TipDelta& wanted,
+                        Normal& normal) noexcept;
 
 /// Decrease of the error in a step, in reaches, according to the linear model.
-float predicted_gain(const Normal& normal, const Wanted& wanted, const Wanted& by) noexcept;
+float predicted_gain(const Normal& normal, const TipDelta& wanted, const TipDelta& by) noexcept;
 
 /// Applies the step to every joint, scaled so that none rotates by more than a radian (beyond that the linear
 /// model is useless), from scratch.pose to scratch.trial.
-void rotate_joints(Problem& problem, const Wanted& by) noexcept;
+void rotate_joints(Problem& problem, const TipDelta& by) noexcept;
 
 /// Linearizes, solves and rotates: from scratch.pose to scratch.trial.
 void limited_step(Problem& problem, Descent descent, float damping) noexcept;

@@ -81,19 +81,19 @@ bool straighten_within_limits(Problem& problem, const Reachable& can, float allo
 }
 
 /// How the iterations ended for a pose that has not arrived.
-enum class End { Stalled, StalledInDescent, StalledAtOnce, StillOnItsWay };
+enum class End { Stalled, StalledInDescent, StalledAtOnce, Unfinished };
 
 Status status_of(Problem& problem, const Reachable& can, End end) noexcept {
     if (arrived(problem, can)) return can.status;
-    if (end == End::StillOnItsWay) return Status::IterationLimit;
+    if (end == End::Unfinished) return Status::IterationLimit;
     // As near as floats can resolve. Out of reach: about as near as a chain that is still straightening.
     const float reach = problem.scratch.reach;
-    const float there = std::max(
+    const float converged = std::max(
         problem.tolerance, can.status == Status::Converged ? 1e-5f * reach : can.residual + 1e-3f * reach);
-    if (end == End::Stalled) return limits_stop_tip(problem, there) ? Status::Limited : Status::Stalled;
-    if (error_of(problem, problem.scratch.limited.pose) <= there) return Status::Stalled;
-    const Seen seen = end == End::StalledAtOnce ? Seen::BeforeLastStep : Seen::Here;
-    return is_stopped_by_limits(problem, seen) ? Status::Limited : Status::Stalled;
+    if (end == End::Stalled) return limits_stop_tip(problem, converged) ? Status::Limited : Status::Stalled;
+    if (error_of(problem, problem.scratch.limited.pose) <= converged) return Status::Stalled;
+    const PoseUsed pose_used = end == End::StalledAtOnce ? PoseUsed::BeforeLastStep : PoseUsed::Current;
+    return is_stopped_by_limits(problem, pose_used) ? Status::Limited : Status::Stalled;
 }
 
 /// The loop's state besides the pose: `best` is the error of scratch.best.
@@ -112,9 +112,9 @@ void save_if_nearer(Problem& problem, Attempt& attempt) noexcept {
 }
 
 /// Detects whether the last solve by this method continues: unchanged chain, target nearby.
-void detect_drag(Method method, const Problem& problem, bool as_left, Attempt& attempt) noexcept {
+void detect_drag(Method method, const Problem& problem, bool unchanged, Attempt& attempt) noexcept {
     const LimitMemory& memory = problem.state.limits;
-    if (method != Method::Fabrik || !memory.valid || !as_left || problem.options.restarts) return;
+    if (method != Method::Fabrik || !memory.valid || !unchanged || problem.options.restarts) return;
     const float step = distance(minus(problem.target, problem.root()), memory.target);
     attempt.dragged = step <= tune::limits::dragged * problem.scratch.reach;
     if (attempt.dragged) attempt.allowance = tune::limits::follow * (step + problem.tolerance);
@@ -124,7 +124,7 @@ template <class Watch>
 Attempt prepare_attempt(Method method, Problem& problem, Watch watch) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     set_pole_allowance(problem);
-    const bool as_left = load_pose(problem, watch);
+    const bool unchanged = load_pose(problem, watch);
     Attempt attempt{reachable(problem), error_of(problem, scratch.pose)};
     scratch.best = scratch.pose;
     if (problem.options.snap_back > 0.0f) {
@@ -132,7 +132,7 @@ Attempt prepare_attempt(Method method, Problem& problem, Watch watch) noexcept {
         snap_back(problem, problem.options.snap_back, watch);
         load_pose(problem, watch);
     }
-    detect_drag(method, problem, as_left, attempt);
+    detect_drag(method, problem, unchanged, attempt);
     scratch.start = scratch.pose;
     problem.closed_form = straighten_within_limits(problem, attempt.can, attempt.allowance, watch);
     save_if_nearer(problem, attempt);
@@ -181,12 +181,12 @@ End solve_with_restarts(Problem& problem, Attempt& attempt, Watch watch) noexcep
     if (attempt.dragged) descent.continue_from(memory.damping, continued);
     bool over = false;
     while (problem.iteration < problem.options.max_iterations) {
-        const bool there = arrived(problem, attempt.can);
-        if (!there && !over && descent.stalled()) {
+        const bool converged = arrived(problem, attempt.can);
+        if (!converged && !over && descent.stalled()) {
             over = !next_start(problem, attempt, watch);
             if (!over) descent.restart(problem);
         }
-        if ((there || over) && !problem.options.every_iteration) break;
+        if ((converged || over) && !problem.options.every_iteration) break;
         ++problem.iteration;
         descent.iterate(problem, watch);
         report_iteration(problem, watch);
@@ -194,7 +194,7 @@ End solve_with_restarts(Problem& problem, Attempt& attempt, Watch watch) noexcep
     save_if_nearer(problem, attempt);
     memory = {true, false, minus(problem.target, problem.root()), descent.damping()};
     over = over || descent.stalled() || problem.restarts > 0;
-    if (!over || descent.exceeds_allowance()) return End::StillOnItsWay;
+    if (!over || descent.exceeds_allowance()) return End::Unfinished;
     return continued && problem.iteration == 1 ? End::StalledAtOnce : End::StalledInDescent;
 }
 
@@ -206,19 +206,19 @@ End continue_from(Method method, Problem& problem, Attempt& attempt, Watch watch
     bool stalled = false;
     const bool bends = method != Method::FabrikPlain;
     while (problem.iteration < problem.options.max_iterations) {
-        const bool there = arrived(problem, attempt.can);
+        const bool converged = arrived(problem, attempt.can);
         stalled = stalled || convergence.stalled();
-        const bool waits = !there && (problem.iteration == 0 || convergence.stalled());
-        if (waits && bends && bend_if_singular(problem, watch))
+        const bool stalls = !converged && (problem.iteration == 0 || convergence.stalled());
+        if (stalls && bends && bend_if_singular(problem, watch))
             convergence.restart(error_of(problem, problem.scratch.limited.pose));
-        if ((there || convergence.stalled()) && !problem.options.every_iteration) break;
+        if ((converged || convergence.stalled()) && !problem.options.every_iteration) break;
         ++problem.iteration;
         limited_iteration(method, problem, watch);
         save_if_nearer(problem, attempt);
         convergence.record(error_of(problem, problem.scratch.limited.pose));
         report_iteration(problem, watch);
     }
-    return stalled || convergence.stalled() ? End::Stalled : End::StillOnItsWay;
+    return stalled || convergence.stalled() ? End::Stalled : End::Unfinished;
 }
 
 }  // namespace
@@ -229,15 +229,15 @@ Report run_limited(Method method, Problem& problem, Watch watch) noexcept {
         load_pose(problem, watch);
         report_iteration(problem, watch);
         commit(problem);
-        const bool there = limited_residual(problem) <= problem.tolerance;
-        return {there ? Status::Converged : Status::Stretched, 0, limited_residual(problem)};
+        const bool converged = limited_residual(problem) <= problem.tolerance;
+        return {converged ? Status::Converged : Status::Stretched, 0, limited_residual(problem)};
     }
     Attempt attempt = prepare_attempt(method, problem, watch);
     report_iteration(problem, watch);
     const End end = method == Method::Fabrik ? solve_with_restarts(problem, attempt, watch)
                                              : continue_from(method, problem, attempt, watch);
-    const bool there = limited_residual(problem) <= problem.tolerance && is_turned(problem);
-    if (!there && error_of(problem, problem.scratch.limited.pose) != attempt.best) {
+    const bool converged = limited_residual(problem) <= problem.tolerance && is_turned(problem);
+    if (!converged && error_of(problem, problem.scratch.limited.pose) != attempt.best) {
         problem.scratch.limited.trial = problem.scratch.limited.best;
         accept_trial(problem, Phase::RestoreBest, watch);
     }

@@ -38,14 +38,14 @@ void limited_forward_reaching(Problem& problem, Watch watch) noexcept {
     const LimitedPose& from = problem.scratch.limited.pose;
     LimitedPose& to = problem.scratch.limited.trial;
     const std::size_t last = problem.bones() - 1;
-    const std::optional<glm::quat> asked = asked_orientation(problem);
+    const std::optional<glm::quat> requested = requested_orientation(problem);
     place(problem, Phase::ForwardReaching, last + 1, no_joint, from.joints[last + 1], to.joints[last + 1],
           problem.target, watch);
     for (std::size_t i = last + 1; i-- > 0;) {
         const glm::vec3 next = to.joints[i + 1];
         const float length = problem.lengths()[i];
-        if (i == last && asked) {
-            to.rotations[i] = *asked;
+        if (i == last && requested) {
+            to.rotations[i] = *requested;
             to.directions[i] = bone_direction(problem, to.rotations[i], i);
         } else {
             to.directions[i] = math::direction(from.joints[i], next, from.directions[i]);
@@ -63,14 +63,14 @@ void limited_forward_reaching(Problem& problem, Watch watch) noexcept {
 template <class Watch>
 void limited_backward_reaching(Problem& problem, Watch watch) noexcept {
     LimitedPose& pose = problem.scratch.limited.trial;
-    const std::optional<glm::quat> asked = asked_orientation(problem);
+    const std::optional<glm::quat> requested = requested_orientation(problem);
     place(problem, Phase::BackwardReaching, 0, no_joint, pose.joints[0], pose.joints[0], problem.root(),
           watch);
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         const glm::vec3 before = pose.joints[i];
         const float length = problem.lengths()[i];
-        if (i + 1 == problem.bones() && asked) {
-            pose.rotations[i] = *asked;
+        if (i + 1 == problem.bones() && requested) {
+            pose.rotations[i] = *requested;
             pose.directions[i] = bone_direction(problem, pose.rotations[i], i);
         } else {
             const glm::vec3 old = pose.directions[i];

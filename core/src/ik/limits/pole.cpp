@@ -24,7 +24,7 @@ float angle_between(const Problem& problem, const LimitedPose& before, const glm
 
 /// Turns scratch.pose about the line, into the rotations of scratch.trial. Returns whether the root's joint
 /// allows it.
-bool swivels(Problem& problem, const glm::vec3& line, float angle) noexcept {
+bool try_swivel(Problem& problem, const glm::vec3& line, float angle) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     const glm::quat by = rotation_about(line, angle);
     scratch.trial.local = scratch.pose.local;
@@ -33,17 +33,17 @@ bool swivels(Problem& problem, const glm::vec3& line, float angle) noexcept {
 }
 
 void swivel_as_far_as_allowed(Problem& problem, const glm::vec3& line, float angle) noexcept {
-    if (swivels(problem, line, angle)) return;
+    if (try_swivel(problem, line, angle)) return;
     float minimum = 0.0f, maximum = 1.0f;
     for (int i = 0; i < 10; ++i) {
         const float part = 0.5f * (minimum + maximum);
-        (swivels(problem, line, part * angle) ? minimum : maximum) = part;
+        (try_swivel(problem, line, part * angle) ? minimum : maximum) = part;
     }
-    swivels(problem, line, minimum * angle);
+    try_swivel(problem, line, minimum * angle);
 }
 
 /// Writes the pose mirrored at a line in the plane to scratch.trial. Returns whether the limits allow it.
-bool mirrors(const Problem& problem, const glm::vec3& line) noexcept {
+bool try_mirror(const Problem& problem, const glm::vec3& line) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     const glm::quat half = minimal_rotation(glm::vec3(1.0f, 0.0f, 0.0f), line), twice = compose(half, half);
     for (std::size_t i = 0; i < problem.bones(); ++i) {
@@ -58,7 +58,7 @@ bool mirrors(const Problem& problem, const glm::vec3& line) noexcept {
 
 /// Accepts the turn unless it costs more than rounding, by which forward kinematics moves the tip.
 template <class Watch>
-bool take_turned(Problem& problem, Watch watch) noexcept {
+bool accept_turned(Problem& problem, Watch watch) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     const float allowed = std::max(error_of(problem, scratch.pose), problem.tolerance);
     if (error_of(problem, scratch.trial) > allowed + 1e-6f * problem.scratch.reach) return false;
@@ -72,7 +72,7 @@ void mirror_within_limits(Problem& problem, Watch watch) noexcept {
     const Side side = planar_side(problem);
     if (side == Side::Free || side == problem.options.plane->bend) return;
     const glm::vec3 line = math::direction(problem.root(), problem.joints.back(), {1.0f, 0.0f, 0.0f});
-    if (mirrors(problem, line)) take_turned(problem, watch);
+    if (try_mirror(problem, line)) accept_turned(problem, watch);
 }
 
 }  // namespace
@@ -98,7 +98,7 @@ void face_pole_within_limits(Problem& problem, Watch watch) noexcept {
     if (std::abs(angle) <= at_bound) return;
     swivel_as_far_as_allowed(problem, line, angle);
     forward_kinematics(problem, scratch.trial);
-    if (take_turned(problem, watch)) remember_pose(problem);
+    if (accept_turned(problem, watch)) remember_pose(problem);
 }
 
 template void face_pole_within_limits(Problem&, Unwatched) noexcept;

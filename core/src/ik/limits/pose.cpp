@@ -14,16 +14,16 @@ glm::vec3 rotation_vector(const glm::quat& rotation) noexcept {
     return times(vector, angle / sine);
 }
 
-std::optional<glm::quat> asked_orientation(const Problem& problem) noexcept {
+std::optional<glm::quat> requested_orientation(const Problem& problem) noexcept {
     if (!problem.options.tip_orientation) return std::nullopt;
     return unit(*problem.options.tip_orientation);
 }
 
 std::optional<glm::vec3> orientation_error(const Problem& problem, const LimitedPose& pose) noexcept {
-    const std::optional<glm::quat> asked = asked_orientation(problem);
-    if (!asked) return std::nullopt;
+    const std::optional<glm::quat> requested = requested_orientation(problem);
+    if (!requested) return std::nullopt;
     const glm::quat& last = pose.rotations[problem.bones() - 1];
-    const glm::quat left = compose(*asked, conjugate(last));
+    const glm::quat left = compose(*requested, conjugate(last));
     return times(rotation_vector(left), tune::limits::orientation_arm * problem.scratch.reach);
 }
 

@@ -73,7 +73,7 @@ glm::vec3 rotation_vector(const glm::quat& rotation) noexcept;
 /// orientation, the square of the last bone's angle times a quarter of the reach.
 float error_of(const Problem& problem, const LimitedPose& pose) noexcept;
 /// The requested tip orientation, normalised; none without one.
-std::optional<glm::quat> asked_orientation(const Problem& problem) noexcept;
+std::optional<glm::quat> requested_orientation(const Problem& problem) noexcept;
 /// Rotation vector from the last bone's orientation to the requested one, times a quarter of the reach; none
 /// without a tip orientation.
 std::optional<glm::vec3> orientation_error(const Problem& problem, const LimitedPose& pose) noexcept;

@@ -71,14 +71,14 @@ JointAngles sampled_angles(const LimitedJoint& joint, std::uint64_t& state) noex
 }  // namespace
 
 bool is_singular(Problem& problem) noexcept {
-    const Wanted wanted = wanted_of(problem);
+    const TipDelta wanted = requested_delta(problem);
     linearize(problem, wanted);
-    const float asked = dot(wanted.move, wanted.move) + dot(wanted.rotation, wanted.rotation);
+    const float requested = dot(wanted.move, wanted.move) + dot(wanted.rotation, wanted.rotation);
     for (std::size_t i = 0; i < problem.bones(); ++i) {
         // Unweighted: a stiff joint is not a singular one.
         const JointFreedom& freedom = problem.scratch.limited.freedoms[i];
         const glm::vec3 rotation = allowed_part(freedom, free_rotation_by(freedom, wanted));
-        if (dot(rotation, rotation) > singular * singular * asked) return false;
+        if (dot(rotation, rotation) > singular * singular * requested) return false;
     }
     return true;
 }
@@ -86,15 +86,15 @@ bool is_singular(Problem& problem) noexcept {
 template <class Watch>
 void bend_within_limits(Problem& problem, Watch watch) noexcept {
     const glm::vec3 line = line_to_bend(problem), side = side_of(problem, line);
-    const glm::vec3 abouts[] = {cross(line, side), cross(side, line), times(side, -1.0f), side};
+    const glm::vec3 axes[] = {cross(line, side), cross(side, line), times(side, -1.0f), side};
     std::size_t best = 0;
-    float minimum = bend_in_arc(problem, abouts[0]);
-    for (std::size_t way = 1; way < 4; ++way) {
+    float minimum = bend_in_arc(problem, axes[0]);
+    for (std::size_t axis = 1; axis < 4; ++axis) {
         // Among equally good ways, the first is taken: rounding must not choose the side.
-        const float error = bend_in_arc(problem, abouts[way]);
-        if (error < minimum - alike * problem.scratch.reach) best = way, minimum = error;
+        const float error = bend_in_arc(problem, axes[axis]);
+        if (error < minimum - tie_error * problem.scratch.reach) best = axis, minimum = error;
     }
-    bend_in_arc(problem, abouts[best]);
+    bend_in_arc(problem, axes[best]);
     accept_trial(problem, Phase::Prepare, watch);
 }
 

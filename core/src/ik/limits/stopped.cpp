@@ -21,10 +21,10 @@ bool all_free(const Problem& problem) noexcept {
 }
 
 /// Descends within the limits until it stalls and returns the error.
-float descend_to_stall(Problem& problem, float there) noexcept {
+float descend_to_stall(Problem& problem, float converged) noexcept {
     LimitedDescent descent(problem, std::numeric_limits<float>::infinity());
     descent.continue_from(tune::limits::first_damping, false);
-    for (int step = 0; step < blame_steps && !descent.stalled() && descent.error() > there; ++step) {
+    for (int step = 0; step < blame_steps && !descent.stalled() && descent.error() > converged; ++step) {
         descent.iterate(problem, Unwatched());
     }
     return descent.error();
@@ -33,13 +33,13 @@ float descend_to_stall(Problem& problem, float there) noexcept {
 /// Like descend_to_stall, but bends the chain out of a singular pose. Of 730 straight arms whose target ahead
 /// is reachable, 338 more that FABRIK (2011) leaves on the line would blame a limit without this; for the
 /// other methods it changes nothing.
-float descend_past_singularity(Problem& problem, float there) noexcept {
+float descend_past_singularity(Problem& problem, float converged) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
-    const float error = descend_to_stall(problem, there);
-    if (error <= there || !is_singular(problem)) return error;
+    const float error = descend_to_stall(problem, converged);
+    if (error <= converged || !is_singular(problem)) return error;
     scratch.best = scratch.pose;
     bend_within_limits(problem, Unwatched());
-    const float bent = descend_to_stall(problem, there);
+    const float bent = descend_to_stall(problem, converged);
     if (bent < error) return bent;
     scratch.swap_pose(scratch.best);
     return error;
@@ -47,9 +47,10 @@ float descend_past_singularity(Problem& problem, float there) noexcept {
 
 }  // namespace
 
-bool is_stopped_by_limits(Problem& problem, Seen seen) noexcept {
-    const Wanted wanted = wanted_of(problem);
-    Normal normal = seen == Seen::Here ? linearize(problem, wanted) : release_limits(problem.scratch.limited);
+bool is_stopped_by_limits(Problem& problem, PoseUsed pose_used) noexcept {
+    const TipDelta wanted = requested_delta(problem);
+    Normal normal =
+        pose_used == PoseUsed::Current ? linearize(problem, wanted) : release_limits(problem.scratch.limited);
     while (activate(problem, wanted, normal)) {
     }
     float free = 0.0f, allowed = 0.0f;
@@ -60,17 +61,18 @@ bool is_stopped_by_limits(Problem& problem, Seen seen) noexcept {
         free += dot(torque, torque);
         allowed += dot(rotation, rotation);
     }
-    const float asked = dot(wanted.move, wanted.move) + dot(wanted.rotation, wanted.rotation);
+    const float requested = dot(wanted.move, wanted.move) + dot(wanted.rotation, wanted.rotation);
     // On a line with its target, every chain of ball joints would have bent.
-    if (free <= singular * singular * asked) return !all_free(problem);
+    if (free <= singular * singular * requested) return !all_free(problem);
     return free - allowed >= blamed_part * free;
 }
 
-bool limits_stop_tip(Problem& problem, float there) noexcept {
+bool limits_stop_tip(Problem& problem, float converged) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     const int steps = problem.least_squares_steps;
     scratch.start = scratch.pose;
-    const bool holds = descend_past_singularity(problem, there) > there && is_stopped_by_limits(problem);
+    const bool holds =
+        descend_past_singularity(problem, converged) > converged && is_stopped_by_limits(problem);
     scratch.swap_pose(scratch.start);
     problem.least_squares_steps = steps;  // do not count these as the method's
     return holds;

@@ -16,15 +16,14 @@ bool LinkageSolve::closed() const noexcept {
         const LinkTarget& each = goals_.targets[i];
         if (!each.exact) continue;
         const LinkPoint& point = work_.linkage.points[each.point];
-        glm::dvec3 gap = minus(work_.exact_places[i], work_.point_of(point.link, point.at));
+        glm::dvec3 gap = minus(work_.exact_positions[i], work_.point_of(point.link, point.at));
         if (work_.planar) gap = across(gap, work_.normal);
         if (!(length(gap) <= tolerance_)) return false;
     }
     return true;
 }
 
-double LinkageSolve::take_row(std::span<double> row, double error, double scale,
-                              std::size_t origin) noexcept {
+double LinkageSolve::add_row(std::span<double> row, double error, double scale, std::size_t origin) noexcept {
     for (std::size_t i = 0; i < row.size(); ++i) {
         error -= row[i] * work_.step[i];
         if (work_.held[i]) row[i] = 0.0;
@@ -37,20 +36,20 @@ double LinkageSolve::take_row(std::span<double> row, double error, double scale,
     return size / scale;
 }
 
-void LinkageSolve::take_rows(const LinkageWork::Block& block, std::size_t equations,
-                             std::size_t origin) noexcept {
+void LinkageSolve::add_rows(const LinkageWork::Block& block, std::size_t equations,
+                            std::size_t origin) noexcept {
     double scale = 0.0;
     for (std::size_t r = 0; r < block.count; ++r) scale = std::max(scale, norm_of(work_.row(r)));
     std::array<double, 6> left{};
     for (std::size_t r = 0; r < block.count; ++r)
-        left[r] = take_row(work_.row(r), block.errors[r], scale, 6 * origin + r);
+        left[r] = add_row(work_.row(r), block.errors[r], scale, 6 * origin + r);
     std::sort(left.begin(), left.end(), std::greater<>());
-    least_left_ = std::min(least_left_, left[equations - 1]);
+    rank_margin_ = std::min(rank_margin_, left[equations - 1]);
 }
 
-void LinkageSolve::find_return() noexcept {
+void LinkageSolve::find_correction() noexcept {
     work_.basis.clear();
-    least_left_ = 1.0;
+    rank_margin_ = 1.0;
     for (std::size_t i = 0; i < work_.joints.size(); ++i) {
         if (!work_.blocked[i]) continue;
         // A ball at its maximum turns no further outward: its columns stay free, but for this direction.
@@ -63,15 +62,15 @@ void LinkageSolve::find_return() noexcept {
     }
     if (!closes_) return;
     for (std::size_t i = 0; i < work_.linkage.closures.size(); ++i) {
-        take_rows(work_.closure_block(i), work_.equations_of(work_.linkage.closures[i]), i);
+        add_rows(work_.closure_block(i), work_.equations_of(work_.linkage.closures[i]), i);
     }
-    least_in_step_ = std::min(least_in_step_, least_left_);
+    min_rank_margin_ = std::min(min_rank_margin_, rank_margin_);
     if (!keeps_exact_) return;
     for (std::size_t i = 0; i < goals_.targets.size(); ++i) {
         if (!goals_.targets[i].exact) continue;
         LinkTarget kept = goals_.targets[i];
-        kept.to = work_.exact_places[i];
-        take_rows(work_.target_block(kept), work_.planar ? 2 : 3, work_.linkage.closures.size() + i);
+        kept.to = work_.exact_positions[i];
+        add_rows(work_.target_block(kept), work_.planar ? 2 : 3, work_.linkage.closures.size() + i);
     }
 }
 
@@ -80,14 +79,14 @@ void LinkageSolve::clear_step() noexcept {
         if (!work_.held[i]) work_.step[i] = 0.0;
 }
 
-bool LinkageSolve::hold_overstepped() noexcept {
+bool LinkageSolve::update_active_set() noexcept {
     bool changed = false;
     for (std::size_t i = 0; i < work_.joints.size(); ++i) {
         const std::size_t col = work_.column[i];
         if (!work_.ranged(i) || work_.held[col]) continue;
         const Link& link = work_.linkage.links[i];
         if (link.joint == LinkJoint::Ball) {
-            if (work_.blocked[i] || !work_.presses_outward(i)) continue;
+            if (work_.blocked[i] || !work_.pushes_outward(i)) continue;
             work_.blocked[i] = 1;
             changed = true;
             continue;
@@ -102,7 +101,7 @@ bool LinkageSolve::hold_overstepped() noexcept {
     return changed;
 }
 
-bool LinkageSolve::return_to_closures(double allowed) noexcept {
+bool LinkageSolve::project_to_closures(double allowed) noexcept {
     constexpr int enough = 12;
     work_.release();
     std::ranges::fill(work_.moved, 0.0);
@@ -113,12 +112,12 @@ bool LinkageSolve::return_to_closures(double allowed) noexcept {
         std::ranges::fill(work_.step, 0.0);
         do {
             clear_step();
-            find_return();
-        } while (hold_overstepped());
+            find_correction();
+        } while (update_active_set());
         for (std::size_t k = 0; k < work_.columns; ++k) work_.moved[k] += work_.step[k];
         // NaN is not within either.
         if (!(norm_of(work_.moved) <= allowed)) return false;
-        work_.take_step(std::min(1.0, widest_step / work_.widest()));
+        work_.take_step(std::min(1.0, max_turn_step / work_.max_turn()));
         work_.move_links();
     }
 }
@@ -126,17 +125,17 @@ bool LinkageSolve::return_to_closures(double allowed) noexcept {
 void LinkageSolve::assemble() noexcept {
     constexpr int restarts = 16;
     work_.nearest = work_.joints;
-    if (return_to_closures(1e9)) return;
-    put_back(work_.nearest);
+    if (project_to_closures(1e9)) return;
+    restore(work_.nearest);
     if (close_from_here()) return;
-    // Where the last solve left it: nothing new to find. Cut short: the next one goes on.
+    // Unchanged since the last solve, or out of iterations: the next solve continues.
     if (!descended_ || out_of_iterations_) return;
     work_.nearest = work_.joints;
     double least = cost();
     bool cut_short = false;  // the descent to the nearest pose
     std::uint64_t random = 1;
     for (int i = 0; i < restarts && !out_of_iterations_; ++i) {
-        work_.scatter(random, math::pi);
+        work_.randomize_step(random, math::pi);
         work_.take_step(1.0);
         work_.move_links();
         if (close_from_here()) {
@@ -149,7 +148,7 @@ void LinkageSolve::assemble() noexcept {
         cut_short = out_of_iterations_;
     }
     out_of_iterations_ = cut_short;
-    put_back(work_.nearest);
+    restore(work_.nearest);
 }
 
 bool LinkageSolve::close_from_here() noexcept {
@@ -158,13 +157,13 @@ bool LinkageSolve::close_from_here() noexcept {
     closes_ = true;
     if (closed()) return true;
     work_.kept = work_.joints;
-    // Where no pose closes it, Newton's steps lead nowhere.
-    if (cost() < 1e-4 * work_.size * work_.size && return_to_closures(0.1)) return true;
-    put_back(work_.kept);
+    // Newton's steps only help if a closed pose is near.
+    if (cost() < 1e-4 * work_.size * work_.size && project_to_closures(0.1)) return true;
+    restore(work_.kept);
     return false;
 }
 
-void LinkageSolve::put_back(const std::vector<JointPlace>& joints) noexcept {
+void LinkageSolve::restore(const std::vector<JointPlace>& joints) noexcept {
     work_.joints = joints;
     work_.move_links();
 }
@@ -172,7 +171,7 @@ void LinkageSolve::put_back(const std::vector<JointPlace>& joints) noexcept {
 std::size_t LinkageSolve::closure_rank() noexcept {
     std::ranges::fill(work_.step, 0.0);
     keeps_exact_ = false;
-    find_return();
+    find_correction();
     return work_.basis.rank();
 }
 

@@ -1,4 +1,4 @@
-// Descent: what the closures leave free goes where targets pull it, or drivers that were stopped.
+// Descent: moves the freedoms that closures leave towards targets, or towards drivers that stopped.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace tendril::ik::detail {
 namespace {
 
 constexpr double shortest_step = 1e-10;  ///< of a descent: it has ended
-constexpr double least_damping = 1e-3;   ///< the least damping once a step was in vain
+constexpr double retry_damping = 1e-3;   ///< minimum damping after a rejected step
 
 double largest_of(std::span<const double> step) noexcept {
     double largest = 0.0;
@@ -21,7 +21,7 @@ double largest_of(std::span<const double> step) noexcept {
 
 double LinkageSolve::target_weight(const LinkTarget& target) const noexcept {
     if (target.exact != (aim_ == Aim::ExactTargets)) return 0.0;
-    return heaviest_ > 0.0 ? target.weight / heaviest_ : 0.0;
+    return max_weight_ > 0.0 ? target.weight / max_weight_ : 0.0;
 }
 
 void LinkageSolve::add_equation(std::span<double> row, double error, double weight) noexcept {
@@ -48,7 +48,7 @@ void LinkageSolve::find_equations() noexcept {
         for (std::size_t i = 0; i < work_.linkage.closures.size(); ++i) {
             const LinkageWork::Block block = work_.closure_block(i);
             for (std::size_t r = 0; r < block.count; ++r) add_equation(work_.row(r), block.errors[r], 1.0);
-            work_.bend_closure(i, {-block.errors[0], -block.errors[1], -block.errors[2]});
+            work_.add_closure_curvature(i, {-block.errors[0], -block.errors[1], -block.errors[2]});
         }
     } else if (aim_ == Aim::Drivers) {
         for (const LinkDriver& each : goals_.drivers) {
@@ -63,13 +63,13 @@ void LinkageSolve::find_equations() noexcept {
             if (weight == 0.0) continue;
             const LinkageWork::Block block = work_.target_block(each);
             for (std::size_t r = 0; r < block.count; ++r) add_equation(work_.row(r), block.errors[r], weight);
-            work_.bend_point(each.point, times(work_.target_gap(each), -weight));
+            work_.add_point_curvature(each.point, times(work_.target_gap(each), -weight));
         }
     }
     find_curvature();
 }
 
-/// Adds the second derivatives of what is kept, by its multipliers, and keeps what the closures leave free.
+/// Adds the constraints' second derivatives, times their multipliers; projects onto the freedoms left.
 void LinkageSolve::find_curvature() noexcept {
     work_.basis.multipliers(work_.pull, work_.multiplier);
     for (std::size_t k = 0; k < work_.basis.rank();) {
@@ -81,9 +81,9 @@ void LinkageSolve::find_curvature() noexcept {
         const glm::dvec3 along{by[0], by[1], by[2]};
         const std::size_t closures = work_.linkage.closures.size();
         if (block < closures)
-            work_.bend_closure(block, along);
+            work_.add_closure_curvature(block, along);
         else if (block - closures < goals_.targets.size())
-            work_.bend_point(goals_.targets[block - closures].point, along);
+            work_.add_point_curvature(goals_.targets[block - closures].point, along);
     }
     const std::size_t count = work_.columns;
     double* c = work_.curvature.data();
@@ -155,7 +155,7 @@ bool LinkageSolve::solve_equations(double damping, bool curved) noexcept {
     return true;
 }
 
-/// How far a step along the gradient would move the targets' points.
+/// Metres by which a step along the gradient would move the targets' points.
 double LinkageSolve::pull_along_gradient() const noexcept {
     const std::size_t count = work_.columns;
     double slope = 0.0, square = 0.0;
@@ -168,7 +168,7 @@ double LinkageSolve::pull_along_gradient() const noexcept {
     return square > 0.0 ? slope / std::sqrt(square) : 0.0;
 }
 
-/// Newton's step, or that of Gauss and Newton where Newton's leads to no minimum.
+/// Newton's step, or a Gauss-Newton step where Newton's leads to no minimum.
 void LinkageSolve::find_descent(double damping) noexcept {
     find_equations();
     convex_ = !plain_ && solve_equations(damping, true);
@@ -176,14 +176,14 @@ void LinkageSolve::find_descent(double damping) noexcept {
     const std::size_t count = work_.columns;
     predicted_gain_ = 0.0;
     for (std::size_t i = 0; i < count; ++i) predicted_gain_ += work_.gradient[i] * work_.solution[i];
-    if (first_pull_ < 0.0 && aims_at_targets()) first_pull_ = pull_along_gradient();
+    if (initial_pull_ < 0.0 && aims_at_targets()) initial_pull_ = pull_along_gradient();
     if (convex_) return;
     double bend = 0.0;
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t k = 0; k < count; ++k)
             bend += work_.step[i] * work_.step[k] *
                     (work_.curvature[i * count + k] + work_.square[i < k ? k * count + i : i * count + k]);
-    turns_away_ = bend < 0.0;
+    curves_down_ = bend < 0.0;
 }
 
 bool LinkageSolve::at_bound(std::size_t link, double by) const noexcept {
@@ -192,14 +192,13 @@ bool LinkageSolve::at_bound(std::size_t link, double by) const noexcept {
     return by < 0.0 ? value <= each.minimum + bound_width * unit : value >= each.maximum - bound_width * unit;
 }
 
-/// Takes one damped step and returns to the closures. False if that gains nothing; the pose is then as it
-/// was.
+/// Takes one damped step and projects to the closures. False, and the pose is restored, if it gains nothing.
 bool LinkageSolve::descent_step(double damping) noexcept {
     work_.release();
     std::ranges::fill(work_.step, 0.0);
     for (bool again = true; again;) {
         clear_step();
-        find_return();
+        find_correction();
         find_descent(damping);
         // The active set: joints at the end of their range that the step presses against it.
         again = false;
@@ -208,19 +207,19 @@ bool LinkageSolve::descent_step(double damping) noexcept {
             if (!work_.ranged(i) || work_.held[col] || work_.blocked[i]) continue;
             const bool ball = work_.linkage.links[i].joint == LinkJoint::Ball;
             const double by = work_.step[col];
-            if (ball ? !work_.presses_outward(i) : (by == 0.0 || !at_bound(i, by))) continue;
+            if (ball ? !work_.pushes_outward(i) : (by == 0.0 || !at_bound(i, by))) continue;
             (ball ? work_.blocked[i] : work_.held[col]) = 1;
             if (!ball) work_.step[col] = 0.0;
             again = true;
         }
     }
-    note_active();
+    store_active();
     if (!(largest_of(work_.step) > shortest_step)) return false;
-    // Where the pull grows as it gives way, there is hardly any at first: a step is long all the same.
+    // Negative curvature: the gradient starts small and grows, so the step is made long.
     constexpr double leap = 0.1;
-    const double wide = work_.widest();
-    const bool leaps = !convex_ && turns_away_ && damping < least_damping;
-    double part = std::min(leaps ? std::max(1.0, leap / wide) : 1.0, widest_step / wide);
+    const double wide = work_.max_turn();
+    const bool leaps = !convex_ && curves_down_ && damping < retry_damping;
+    double part = std::min(leaps ? std::max(1.0, leap / wide) : 1.0, max_turn_step / wide);
     for (std::size_t i = 0; i < work_.joints.size(); ++i) {
         const Link& link = work_.linkage.links[i];
         const double by = work_.step[work_.column[i]];
@@ -234,14 +233,14 @@ bool LinkageSolve::descent_step(double damping) noexcept {
     work_.take_step(part);
     work_.move_links();
     ++iterations_;
-    const bool kept = !closes_ || return_to_closures(0.5 * predicted + 1e-9);
-    // The last step gains less than can be told from rounding.
+    const bool kept = !closes_ || project_to_closures(0.5 * predicted + 1e-9);
+    // The last step may gain less than rounding.
     const double after = cost();
     if (kept && (after < before || (at_minimum(before) && after <= before * (1.0 + 1e-13)))) {
-        turned_away_ = turned_away_ || (!convex_ && turns_away_ && aims_at_targets());
+        curved_down_ = curved_down_ || (!convex_ && curves_down_ && aims_at_targets());
         return true;
     }
-    put_back(work_.kept);
+    restore(work_.kept);
     return false;
 }
 
@@ -250,14 +249,14 @@ bool LinkageSolve::perturb() noexcept {
     std::uint64_t random = 1;
     work_.release();
     std::ranges::fill(work_.step, 0.0);
-    find_return();
-    work_.scatter(random, 0.02);
+    find_correction();
+    work_.randomize_step(random, 0.02);
     work_.basis.remove_from(work_.step);
     work_.kept = work_.joints;
     work_.take_step(1.0);
     work_.move_links();
-    if (!closes_ || return_to_closures(0.1)) return true;
-    put_back(work_.kept);
+    if (!closes_ || project_to_closures(0.1)) return true;
+    restore(work_.kept);
     return false;
 }
 
@@ -274,9 +273,9 @@ bool LinkageSolve::descend_from_here() noexcept {
         }
         if (!descent_step(damping)) {
             if (!(largest_of(work_.step) > shortest_step) || at_minimum(before)) break;
-            // Where closures are about to become dependent, Newton's step may lead nowhere, and the other on.
+            // Near dependent closures Newton's step may fail where a Gauss-Newton step works.
             plain_ = convex_;
-            if (!plain_) damping = std::max(damping * 16.0, least_damping);
+            if (!plain_) damping = std::max(damping * 16.0, retry_damping);
             continue;
         }
         moved = true;
@@ -292,18 +291,18 @@ bool LinkageSolve::descend_from_here() noexcept {
 
 void LinkageSolve::descend(Aim aim) noexcept {
     aim_ = aim;
-    heaviest_ = 0.0;
+    max_weight_ = 0.0;
     for (const LinkTarget& each : goals_.targets)
-        if (each.exact == (aim == Aim::ExactTargets)) heaviest_ = std::max(heaviest_, each.weight);
+        if (each.exact == (aim == Aim::ExactTargets)) max_weight_ = std::max(max_weight_, each.weight);
     const double start = cost();
     descended_ = descend_from_here();
     if (descended_ || convex_ || out_of_iterations_ || start <= 1e-12 * work_.size * work_.size) return;
-    // It is stretched out on one line with the target, where descent has no direction.
+    // Collinear with the target: no descent direction.
     work_.best = work_.joints;
     if (perturb()) {
         descended_ = descend_from_here() && cost() < 0.999 * start;
         if (descended_) return;
-        put_back(work_.best);
+        restore(work_.best);
     }
     descent_step(1.0);
 }

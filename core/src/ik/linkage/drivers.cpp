@@ -7,8 +7,8 @@
 namespace tendril::ik::detail {
 namespace {
 
-/// Where a driver counts as stopped, radians or sizes. A joint near a dead point is off it by the root of
-/// this; the closures' tolerance must be far finer, so as not to lose the side.
+/// Minimum substep, radians or sizes; below it a driver has stopped. A joint then is off a dead point by the
+/// root of this; the closures' tolerance must be far finer, or the solve could change sides.
 constexpr double finest_substep = 1e-7;
 
 }  // namespace
@@ -23,7 +23,7 @@ double LinkageSolve::driver_distance(const LinkDriver& driver) const noexcept {
     return (to - work_.driver_starts[driver.link]) / work_.unit_of(driver.link);
 }
 
-/// As the joints last moved; false if the drivers want another direction than that, or its reverse.
+/// Repeats the joints' last move, or its reverse; false if the drivers go another way.
 bool LinkageSolve::repeat_last_move(double part) noexcept {
     double along = 0.0, square = 0.0, wanted = 0.0;
     for (const LinkDriver& each : goals_.drivers) {
@@ -48,29 +48,29 @@ void LinkageSolve::find_tangent(double from, double to) noexcept {
         work_.step[work_.column[each.link]] = (to - from) * driver_distance(each);
     do {
         clear_step();
-        find_return();
-    } while (hold_overstepped());
+        find_correction();
+    } while (update_active_set());
 }
 
-/// One substep. Along the tangent; where branches may cross there is none, and it goes on as before.
-bool LinkageSolve::glide_by(double from, double to) noexcept {
+/// One substep along the tangent; where branches may cross there is none, and it repeats the last move.
+bool LinkageSolve::drive_substep(double from, double to) noexcept {
     constexpr double crossing = 1e-2;
     find_tangent(from, to);
-    if (least_left_ < crossing) {
+    if (rank_margin_ < crossing) {
         work_.release();
         std::ranges::fill(work_.step, 0.0);
-        if (repeat_last_move(to - from) && take_glide_step(to)) return true;
+        if (repeat_last_move(to - from) && take_drive_step(to)) return true;
         find_tangent(from, to);
     }
-    return take_glide_step(to);
+    return take_drive_step(to);
 }
 
 /// Takes the step, and returns to the closures with the drivers where they are at `to`.
-bool LinkageSolve::take_glide_step(double to) noexcept {
+bool LinkageSolve::take_drive_step(double to) noexcept {
     work_.kept = work_.joints;
     ++iterations_;
     const double predicted = length_of_step_ = norm_of(work_.step);
-    const bool wide = !(work_.widest() <= widest_step);
+    const bool wide = !(work_.max_turn() <= max_turn_step);
     if (!wide) {
         work_.take_step(1.0);
         for (const LinkDriver& each : goals_.drivers) {
@@ -81,19 +81,19 @@ bool LinkageSolve::take_glide_step(double to) noexcept {
             work_.joints[each.link].value = std::clamp(value, link.minimum, link.maximum);
         }
         work_.move_links();
-        // It ends where the tangent led, and not on another branch.
-        if (return_to_closures(0.5 * predicted)) {
+        // Rejects a correction to another branch.
+        if (project_to_closures(0.5 * predicted)) {
             for (std::size_t i = 0; i < work_.joints.size(); ++i)
                 work_.joints[i].last = work_.joints[i].value - work_.kept[i].value;
             return true;
         }
     }
-    note_active();
-    put_back(work_.kept);
+    store_active();
+    restore(work_.kept);
     return false;
 }
 
-void LinkageSolve::glide() noexcept {
+void LinkageSolve::drive() noexcept {
     double longest = 0.0;
     for (const LinkDriver& each : goals_.drivers) {
         work_.driver_starts[each.link] = work_.joints[each.link].value;
@@ -107,7 +107,7 @@ void LinkageSolve::glide() noexcept {
         if (!work_.straight[work_.column[each.link]]) longest_turn = std::max(longest_turn, distance);
     }
     if (longest == 0.0) return;
-    const double furthest = std::min(1.0, 0.9 * widest_step / longest_turn);
+    const double furthest = std::min(1.0, 0.9 * max_turn_step / longest_turn);
     double at = 0.0, by = furthest;
     while (at < 1.0) {
         if (iterations_ >= options_.max_iterations) {
@@ -115,8 +115,8 @@ void LinkageSolve::glide() noexcept {
             return;
         }
         const double to = by >= 1.0 - at ? 1.0 : at + by;
-        least_in_step_ = 1.0;
-        if (glide_by(at, to) && !jumped_branch()) {
+        min_rank_margin_ = 1.0;
+        if (drive_substep(at, to) && !jumped_branch()) {
             at = to;
             by = std::min(2.0 * by, furthest);
             work_.active.clear();

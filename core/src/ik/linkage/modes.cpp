@@ -1,4 +1,4 @@
-// Assembly modes: which one a pose is in, and the way to another.
+// Assembly modes: identifies a pose's mode, and finds another.
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +7,7 @@
 
 namespace tendril::ik::detail {
 
-/// mode(), with what is watched held if nothing is driven. Where the last solve ended it is known.
+/// mode(), with the watched joints held if nothing is driven. Cached for the last solve's final pose.
 int LinkageSolve::watched_mode() noexcept {
     if (goals_.drivers.empty())
         for (const std::size_t each : options_.watched) work_.driven[work_.column[each]] = 1;
@@ -48,12 +48,12 @@ bool LinkageSolve::jumped_branch() noexcept {
     // From 30 degrees off a singular pose a substep does not reach 30 beyond it: no joint turns by more than
     // widest_step.
     constexpr double far_from_singular = 0.5;
-    if (least_in_step_ > far_from_singular || length_of_step_ <= crossing) return false;
+    if (min_rank_margin_ > far_from_singular || length_of_step_ <= crossing) return false;
     std::size_t before_count = 0, count = 0;
     work_.best = work_.joints;
-    put_back(work_.kept);
+    restore(work_.kept);
     const int before = completed_mode(work_.factor, before_count);
-    put_back(work_.best);
+    restore(work_.best);
     const int after = completed_mode(work_.curvature, count);
     if (count != before_count) return false;
     // The sign of a determinant depends on the directions' own, which change by less than a right angle.
@@ -65,7 +65,7 @@ bool LinkageSolve::jumped_branch() noexcept {
             work_.square[i * count + k] = dot;
         }
     if (before * after * sign_of_determinant(work_.square, count) >= 0) return false;
-    put_back(work_.kept);
+    restore(work_.kept);
     return true;
 }
 
@@ -80,12 +80,12 @@ int LinkageSolve::mode() noexcept {
 
 namespace {
 
-/// As a multiple of whole turns, radians.
+/// Rounds to whole turns, radians.
 double whole_turns(double radians) noexcept {
     return 2.0 * math::pi * std::round(radians / (2.0 * math::pi));
 }
 
-/// How far a pose is from another, whole turns aside.
+/// Squared distance between two poses, modulo whole turns; radians and sizes.
 double distance_of_modes(const LinkageWork& work, const std::vector<JointPlace>& other) noexcept {
     double sum = 0.0;
     for (std::size_t i = 0; i < other.size(); ++i) {
@@ -109,7 +109,7 @@ bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const Lin
     const LinkageOptions options{.max_iterations = 100000};
     const auto take = [&] {
         work.joints = state.joints;
-        work.enter_ranges();
+        work.clamp_to_ranges();
         work.move_links();
     };
     take();
@@ -123,7 +123,7 @@ bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const Lin
     for (int start = 0; start < starts; ++start) {
         work.joints = here;
         work.move_links();
-        work.scatter(random, math::pi);
+        work.randomize_step(random, math::pi);
         work.take_step(1.0);
         work.move_links();
         LinkageSolve solve(work, goals, options);

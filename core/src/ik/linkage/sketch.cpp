@@ -33,11 +33,11 @@ bool joins(const SketchBar& bar, std::size_t point) noexcept {
 }
 
 /// `bar "coupler"`, or by its number where it has no name.
-std::string said(const char* kind, const std::string& name, std::size_t index) {
+std::string label(const char* kind, const std::string& name, std::size_t index) {
     return name.empty() ? std::string(kind) + " " + std::to_string(index)
                         : std::string(kind) + " \"" + name + "\"";
 }
-std::string sketch_number(double value) {
+std::string number_text(double value) {
     return std::string(tendril::detail::Shown(value).text());
 }
 Result sketch_refused(const std::string& what) {
@@ -59,11 +59,11 @@ class SketchTree {
         }
         for (std::size_t i = 0; i < sketch_.bars.size(); ++i)
             if (link_of_bar_[i] == unplaced)
-                return sketch_refused(said("bar", sketch_.bars[i].name, i) +
+                return sketch_refused(label("bar", sketch_.bars[i].name, i) +
                                       " must be joined to a pinned or guided point, got none");
         for (std::size_t i = 0; i < sketch_.motors.size(); ++i)
             if (!driven(i))
-                return sketch_refused(said("motor", sketch_.motors[i].name, i) +
+                return sketch_refused(label("motor", sketch_.motors[i].name, i) +
                                       " must turn a bar that no other motor turns, got one in a circle");
         for (std::size_t i = 0; i < sketch_.points.size(); ++i)
             linkage_.points.push_back(
@@ -78,8 +78,8 @@ class SketchTree {
         return std::move(linkage_);
     }
 
-    /// Of each bar's turning, and last of the ground's, what the closures leave free, by the joints' columns.
-    /// Pieces that float hang on any of their points.
+    /// For each bar, and last the ground: its rotation that the closures leave free, by the joints' columns.
+    /// Floating pieces hang on any of their points.
     std::vector<std::vector<double>> free_turning() {
         place_holds();
         for (std::size_t i = 0; i < sketch_.bars.size(); ++i) {
@@ -131,10 +131,10 @@ class SketchTree {
     Result check_parts() const {
         if (const Result bad = check_fields("linkage_from", sketch_, "sketch"); !bad) return bad;
         for (std::size_t i = 0; i < sketch_.bars.size(); ++i)
-            if (const Result bad = check_bar(sketch_.bars[i], said("bar", sketch_.bars[i].name, i)); !bad)
+            if (const Result bad = check_bar(sketch_.bars[i], label("bar", sketch_.bars[i].name, i)); !bad)
                 return bad;
         for (std::size_t i = 0; i < sketch_.motors.size(); ++i)
-            if (const Result bad = check_motor(sketch_.motors[i], said("motor", sketch_.motors[i].name, i));
+            if (const Result bad = check_motor(sketch_.motors[i], label("motor", sketch_.motors[i].name, i));
                 !bad)
                 return bad;
         if (sketch_.motors.empty()) return {};
@@ -144,8 +144,9 @@ class SketchTree {
             const bool grounded = against == ground_link;
             if (bodies[bar] == (grounded ? ground_link : bodies[against]))
                 return sketch_refused(
-                    said("motor", name, i) + " could not turn: " + said("bar", sketch_.bars[bar].name, bar) +
-                    " and " + (grounded ? "the ground" : said("bar", sketch_.bars[against].name, against)) +
+                    label("motor", name, i) +
+                    " could not turn: " + label("bar", sketch_.bars[bar].name, bar) + " and " +
+                    (grounded ? "the ground" : label("bar", sketch_.bars[against].name, against)) +
                     " would be one rigid body");
         }
         return {};
@@ -154,20 +155,20 @@ class SketchTree {
         const SketchPoint& point = sketch_.points[motor.point];
         if (!joins(sketch_.bars[motor.bar], motor.point))
             return sketch_refused(who + " must be at a point of its bar, got " +
-                                  said("point", point.name, motor.point));
+                                  label("point", point.name, motor.point));
         if (!(motor.minimum <= motor.maximum))
             return sketch_refused(who + " must have a minimum of at most its maximum, got " +
-                                  sketch_number(motor.minimum));
+                                  number_text(motor.minimum));
         if (motor.against == ground_link) {
             if (point.hold != SketchHold::Pinned)
                 return sketch_refused(who + " must be at a pinned point, or turn against a bar, got " +
-                                      said("point", point.name, motor.point));
+                                      label("point", point.name, motor.point));
         } else if (motor.against == motor.bar || !joins(sketch_.bars[motor.against], motor.point)) {
             return sketch_refused(who + " must turn against another bar at its point, got " +
-                                  said("bar", sketch_.bars[motor.against].name, motor.against));
+                                  label("bar", sketch_.bars[motor.against].name, motor.against));
         }
         if (const double angle = angle_of(motor); !(angle >= motor.minimum && angle <= motor.maximum))
-            return sketch_refused(who + " must be drawn within its range, got " + sketch_number(angle));
+            return sketch_refused(who + " must be drawn within its range, got " + number_text(angle));
         return {};
     }
 
@@ -197,7 +198,7 @@ class SketchTree {
                 place_bar(motor.bar, motor.point, ground_link, i);
                 return true;
             }
-            // Whichever of the two bars is there first has the other hang on it.
+            // The bar placed first becomes the parent of the other.
             const bool bar = link_of_bar_[motor.bar] != unplaced,
                        against = link_of_bar_[motor.against] != unplaced;
             if (bar == against) continue;
@@ -262,9 +263,9 @@ class SketchTree {
         link.minimum = motor.minimum;
         link.maximum = motor.maximum;
         link.rest = angle_of(motor);
-        if (bar == motor.against) link.axis = {0.0, 0.0, -1.0};  // it is the other that hangs on it
+        if (bar == motor.against) link.axis = {0.0, 0.0, -1.0};  // the other bar is the child
     }
-    /// As drawn: of all its turns, the nearest to 0 that is in the range, if one is.
+    /// The drawn angle plus full turns, radians: within the range if possible, as near to 0 as possible.
     double angle_of(const SketchMotor& motor) const noexcept {
         double angle = direction_of_bar(motor.bar, motor.point);
         if (motor.against != ground_link) angle -= direction_of_bar(motor.against, motor.point);
@@ -290,14 +291,14 @@ class SketchTree {
 
 using Bars = std::vector<std::size_t>;  ///< in order; the ground is the bar after the sketch's last
 
-/// Splits bars that are joined into those that turn alike in every motion that this set has by itself.
-std::vector<Bars> turning_alike(const LinkageSketch& sketch, const Bars& set) {
-    LinkageSketch alone{.points = sketch.points, .bars = {}, .motors = {}};
+/// Splits joined bars into sets that rotate alike in every motion of the whole set.
+std::vector<Bars> split_rigid(const LinkageSketch& sketch, const Bars& set) {
+    LinkageSketch subset{.points = sketch.points, .bars = {}, .motors = {}};
     for (const std::size_t bar : set)
-        if (bar < sketch.bars.size()) alone.bars.push_back(sketch.bars[bar]);
+        if (bar < sketch.bars.size()) subset.bars.push_back(sketch.bars[bar]);
     if (set.back() != sketch.bars.size())
-        for (SketchPoint& each : alone.points) each.hold = SketchHold::Free;
-    const std::vector<std::vector<double>> free = SketchTree(alone).free_turning();
+        for (SketchPoint& each : subset.points) each.hold = SketchHold::Free;
+    const std::vector<std::vector<double>> free = SketchTree(subset).free_turning();
     const auto alike = [&](std::size_t a, std::size_t b) {
         constexpr double rounding = 1e-6;  // for rows to whose rank 1e-9 of one counts
         return std::ranges::equal(free[a], free[b],
@@ -305,11 +306,11 @@ std::vector<Bars> turning_alike(const LinkageSketch& sketch, const Bars& set) {
     };
     std::vector<std::size_t> part(set.size());
     for (std::size_t i = 0; i < part.size(); ++i) part[i] = i;
-    for (std::size_t point = 0; point < alone.points.size(); ++point) {
+    for (std::size_t point = 0; point < subset.points.size(); ++point) {
         Bars here;
-        for (std::size_t i = 0; i < alone.bars.size(); ++i)
-            if (joins(alone.bars[i], point)) here.push_back(i);
-        if (alone.points[point].hold == SketchHold::Pinned) here.push_back(alone.bars.size());
+        for (std::size_t i = 0; i < subset.bars.size(); ++i)
+            if (joins(subset.bars[i], point)) here.push_back(i);
+        if (subset.points[point].hold == SketchHold::Pinned) here.push_back(subset.bars.size());
         for (const std::size_t a : here)
             for (const std::size_t b : here)
                 if (part[a] < part[b] && alike(a, b)) std::ranges::replace(part, Bars(part)[b], part[a]);
@@ -334,7 +335,7 @@ std::vector<std::size_t> rigid_bodies(const LinkageSketch& sketch) {
     while (!sets.empty()) {
         const Bars set = std::move(sets.back());
         sets.pop_back();
-        std::vector<Bars> parts = turning_alike(sketch, set);
+        std::vector<Bars> parts = split_rigid(sketch, set);
         if (parts.size() > 1)
             std::ranges::move(parts, std::back_inserter(sets));
         else

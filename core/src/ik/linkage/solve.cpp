@@ -15,7 +15,7 @@ LinkageSolve::LinkageSolve(LinkageWork& work, const LinkageGoals& goals,
     work_.release();
 }
 
-void LinkageSolve::note_active() noexcept {
+void LinkageSolve::store_active() noexcept {
     work_.active.clear();
     for (std::size_t i = 0; i < work_.joints.size(); ++i)
         if (work_.blocked[i] || (work_.held[work_.column[i]] && !work_.driven[work_.column[i]]))
@@ -52,10 +52,10 @@ void LinkageSolve::finish(LinkageReport& report) noexcept {
                 report.stopped_at = work_.joints[each.link].value;
             }
         }
-    const bool open = !(report.closed_to <= open_from());
+    const bool open = !(report.closed_to <= open_threshold());
     if (open)
         for (std::size_t i = 0; i < work_.linkage.closures.size(); ++i)
-            if (work_.gap_of(work_.linkage.closures[i]) > open_from()) work_.open.push_back(i);
+            if (work_.gap_of(work_.linkage.closures[i]) > open_threshold()) work_.open.push_back(i);
     using enum LinkageStatus;
     if (!open && !missed && !stopped_ && !beyond_range_) work_.active.clear();
     report.status = out_of_iterations_          ? IterationLimit
@@ -70,13 +70,13 @@ void LinkageSolve::finish(LinkageReport& report) noexcept {
     report.freedom = static_cast<int>(free_columns() - closure_rank());
 }
 
-/// Of points that moved much further than they were pulled at first, the one that moved most.
+/// Reports the target point that moved furthest, if far beyond its initial pull.
 void LinkageSolve::find_jump(LinkageReport& report) noexcept {
     constexpr double further = 4.0, least = 0.01;  // of the size
-    const double expected = std::max(further * first_pull_, least * work_.size);
+    const double expected = std::max(further * initial_pull_, least * work_.size);
     for (std::size_t i = 0; i < goals_.targets.size(); ++i) {
         const LinkTarget& target = goals_.targets[i];
-        const double moved = length(minus(work_.place_of(target), work_.target_starts[i]));
+        const double moved = length(minus(work_.position_of(target), work_.target_starts[i]));
         if (moved <= std::max(report.jump, expected) ||
             length(work_.target_gap(target)) <= reached * work_.size)
             continue;
@@ -91,37 +91,37 @@ LinkageReport LinkageSolve::run() noexcept {
     work_.open.clear();
     work_.move_links();
     if (!closed()) assemble();
-    const bool assembled = work_.largest_gap() <= open_from();
+    const bool assembled = work_.largest_gap() <= open_threshold();
     if (!assembled) {
         finish(report);
         return report;
     }
     hold_drivers();
-    glide();
+    drive();
     if (stopped_) {
         if (goals_.drivers.size() > 1) {
             std::ranges::fill(work_.driven, std::uint8_t{0});
             descend(Aim::Drivers);
             hold_drivers();
         }
-        // The straight way was barred, and it went another.
+        // The drivers may have arrived on another path.
         stopped_ = std::ranges::any_of(goals_.drivers, [&](const LinkDriver& each) {
             return !(std::abs(work_.driver_error(each)) <= reached);
         });
     }
     if (!goals_.targets.empty()) {
-        // A glide goes on along its branch; it is targets that draw it into another mode.
+        // Driving stays on its branch; only targets can change the mode.
         const int mode_before = watched_mode();
         for (std::size_t i = 0; i < goals_.targets.size(); ++i)
-            work_.target_starts[i] = work_.place_of(goals_.targets[i]);
+            work_.target_starts[i] = work_.position_of(goals_.targets[i]);
         descend(Aim::ExactTargets);
         for (std::size_t i = 0; i < goals_.targets.size(); ++i)
-            work_.exact_places[i] = work_.place_of(goals_.targets[i]);
+            work_.exact_positions[i] = work_.position_of(goals_.targets[i]);
         keeps_exact_ = true;
         descend(Aim::Targets);
         keeps_exact_ = false;
         report.passed_dead_point = mode_before * watched_mode() < 0;
-        if (turned_away_) find_jump(report);
+        if (curved_down_) find_jump(report);
     }
     finish(report);
     return report;

@@ -8,8 +8,8 @@
 
 namespace tendril::ik::detail {
 
-constexpr double widest_step = 0.5;  ///< of a joint in one step, radians: the tangent says little beyond
-constexpr double reached = 1e-6;     ///< a driver's or target's tolerance, radians or sizes
+constexpr double max_turn_step = 0.5;  ///< of a joint in one step, radians: the tangent says little beyond
+constexpr double reached = 1e-6;       ///< a driver's or target's tolerance, radians or sizes
 
 inline double norm_of(std::span<const double> step) noexcept {
     double sum = 0.0;
@@ -22,42 +22,41 @@ class LinkageSolve {
     LinkageSolve(LinkageWork& work, const LinkageGoals& goals, const LinkageOptions& options) noexcept;
     LinkageReport run() noexcept;
 
-    /// Closes the linkage by descent with the drivers where they are, from where it is.
-    /// Otherwise it ends with its closures as near as descent brings them.
+    /// Closes the linkage by descent from this pose, drivers fixed; false if it only brings closures nearer.
     bool close_from_here() noexcept;
-    /// The sign of the determinant of the closures by the joints that are not held: it changes at a
-    /// dead point of the held ones, and only there. 0 if these do not determine the pose.
+    /// Sign of the closures' determinant with respect to the free joints: it changes only at a dead point of
+    /// the held ones. 0 if these do not determine the pose.
     int mode() noexcept;
     void hold_drivers() noexcept;
-    /// Equations that are independent, in this pose.
+    /// Number of independent closure equations in this pose.
     std::size_t closure_rank() noexcept;
 
   private:
-    /// What a descent makes small.
+    /// The residual that a descent minimises.
     enum class Aim { Closures, Drivers, ExactTargets, Targets };
 
     bool closed() const noexcept;
-    /// Closures that are apart by more cannot be closed, however near a dead point the linkage is.
-    double open_from() const noexcept {
+    /// Gap, metres, from which a closure counts as open, even near a dead point.
+    double open_threshold() const noexcept {
         return std::max(tolerance_, 1e3 * std::max(1e-10 * work_.size, work_.rounding));
     }
     bool at_bound(std::size_t link, double by) const noexcept;
-    /// Newton's step on the closures, and on exact targets once they are there; leaves the basis of their
-    /// rows. Held columns of the step are given.
-    void find_return() noexcept;
+    /// Newton's step on closures and reached exact targets; leaves the basis of their rows. Held columns keep
+    /// their step.
+    void find_correction() noexcept;
     /// `origin`: the closure, or how many closures there are and the target.
-    void take_rows(const LinkageWork::Block& block, std::size_t equations, std::size_t origin) noexcept;
-    double take_row(std::span<double> row, double error, double scale, std::size_t origin) noexcept;
+    void add_rows(const LinkageWork::Block& block, std::size_t equations, std::size_t origin) noexcept;
+    double add_row(std::span<double> row, double error, double scale, std::size_t origin) noexcept;
     void clear_step() noexcept;
-    bool hold_overstepped() noexcept;
-    /// Newton's steps to the closures. False if they go further than `allowed`, or do not get there.
-    bool return_to_closures(double allowed) noexcept;
+    bool update_active_set() noexcept;
+    /// Newton's steps to the closures. False if they diverge or their norm exceeds `allowed`.
+    bool project_to_closures(double allowed) noexcept;
 
     void assemble() noexcept;
-    void glide() noexcept;
+    void drive() noexcept;
     void find_tangent(double from, double to) noexcept;
-    bool glide_by(double from, double to) noexcept;
-    bool take_glide_step(double to) noexcept;
+    bool drive_substep(double from, double to) noexcept;
+    bool take_drive_step(double to) noexcept;
     bool repeat_last_move(double part) noexcept;
     bool jumped_branch() noexcept;
     int completed_mode(std::span<double> free, std::size_t& count) noexcept;
@@ -77,10 +76,10 @@ class LinkageSolve {
     bool solve_equations(double damping, bool curved) noexcept;
     double cost() noexcept;
     double target_weight(const LinkTarget& target) const noexcept;
-    void put_back(const std::vector<JointPlace>& joints) noexcept;
+    void restore(const std::vector<JointPlace>& joints) noexcept;
     int watched_mode() noexcept;
     std::size_t free_columns() const noexcept;
-    void note_active() noexcept;
+    void store_active() noexcept;
     void find_jump(LinkageReport& report) noexcept;
     void finish(LinkageReport& report) noexcept;
 
@@ -90,22 +89,21 @@ class LinkageSolve {
     double tolerance_;
     int iterations_ = 0;
     Aim aim_ = Aim::Closures;
-    bool closes_ = true;  ///< closures are kept, not approached
-    /// The least that was left of a closure's equations by those before, as a part: near 0 where the rank is
-    /// about to fall, or has fallen.
-    double least_left_ = 1.0;
-    double least_in_step_ = 1.0;   ///< the smallest of these in a substep of a drive
-    double length_of_step_ = 0.0;  ///< of that substep, as predicted
-    bool keeps_exact_ = false;     ///< exact targets are, too
-    double heaviest_ = 0.0;        ///< of the weights of the aim's targets
-    bool descended_ = false;       ///< the last descent took a step
-    double predicted_gain_ = 0.0;  ///< of the last step of a descent
-    bool convex_ = true;           ///< the last step was Newton's: the curvature was positive
-    bool plain_ = false;           ///< use a Gauss-Newton step next
-    bool turns_away_ = false;      ///< the cost curves downwards along the last step
+    bool closes_ = true;  ///< closures are constraints, not goals
+    /// Smallest part of a closure row that is independent of the rows before; near 0 at a loss of rank.
+    double rank_margin_ = 1.0;
+    double min_rank_margin_ = 1.0;  ///< the smallest of these in a substep of a drive
+    double length_of_step_ = 0.0;   ///< of that substep, as predicted
+    bool keeps_exact_ = false;      ///< exact targets are constraints too
+    double max_weight_ = 0.0;       ///< of the weights of the aim's targets
+    bool descended_ = false;        ///< the last descent took a step
+    double predicted_gain_ = 0.0;   ///< of the last step of a descent
+    bool convex_ = true;            ///< the last step was Newton's: the curvature was positive
+    bool plain_ = false;            ///< use a Gauss-Newton step next
+    bool curves_down_ = false;      ///< the cost curves downwards along the last step
     /// Metres by which a step along the first gradient moves the targets' points. Negative until known.
-    double first_pull_ = -1.0;
-    bool turned_away_ = false;  ///< such a step was taken
+    double initial_pull_ = -1.0;
+    bool curved_down_ = false;  ///< whether a step with curves_down_ was taken
     bool stopped_ = false, out_of_iterations_ = false, beyond_range_ = false;
 };
 

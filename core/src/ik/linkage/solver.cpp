@@ -91,7 +91,7 @@ bool allows(const LinkageOptions& options, const detail::LinkageWork& work) noex
 /// Into the joints' ranges, with unit rotations.
 void take_state(detail::LinkageWork& work, const LinkageState& state) noexcept {
     work.joints = state.joints;
-    work.enter_ranges();
+    work.clamp_to_ranges();
 }
 
 }  // namespace

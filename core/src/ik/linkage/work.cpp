@@ -165,7 +165,7 @@ LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
     }
     const glm::dvec3 extent = minus(high, low);
     size = count > 0 ? std::max({extent.x, extent.y, extent.z}) : 0.0;
-    if (!(size >= 1e-9)) size = size_of_travel();
+    if (!(size >= 1e-9)) size = travel_size();
     rounding = 1e-14 * std::max({largest_coordinate(low), largest_coordinate(high), size});
     driven.resize(columns);
     held.resize(columns);
@@ -188,7 +188,7 @@ LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
     for (std::vector<double>* const each : {&gradient, &pull, &multiplier, &solution}) each->resize(columns);
     row_origin.resize(columns);
     target_starts.resize(linkage.points.size());
-    exact_places.resize(linkage.points.size());
+    exact_positions.resize(linkage.points.size());
     driver_starts.resize(count);
     residuals.reserve(linkage.points.size());
     active.reserve(count);
@@ -196,8 +196,8 @@ LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
     move_links();
 }
 
-/// Of a linkage all of whose joints and points are in one place.
-double LinkageWork::size_of_travel() const noexcept {
+/// Size of a linkage whose joints and points coincide: its longest slider travel, metres.
+double LinkageWork::travel_size() const noexcept {
     double travel = 0.0;
     for (const Link& each : linkage.links)
         if (each.joint == LinkJoint::Slider && std::isfinite(each.maximum - each.minimum))
@@ -205,11 +205,11 @@ double LinkageWork::size_of_travel() const noexcept {
     return travel >= 1e-9 ? travel : 1.0;
 }
 
-double LinkageWork::widest() const noexcept {
-    double widest = 0.0;
+double LinkageWork::max_turn() const noexcept {
+    double max_turn = 0.0;
     for (std::size_t i = 0; i < columns; ++i)
-        if (!straight[i]) widest = std::max(widest, std::abs(step[i]));
-    return widest;
+        if (!straight[i]) max_turn = std::max(max_turn, std::abs(step[i]));
+    return max_turn;
 }
 
 bool LinkageWork::ranged(std::size_t link) const noexcept {
@@ -244,7 +244,7 @@ void LinkageWork::move_links() noexcept {
     }
 }
 
-void LinkageWork::scatter(std::uint64_t& random, double range) noexcept {
+void LinkageWork::randomize_step(std::uint64_t& random, double range) noexcept {
     for (std::size_t i = 0; i < columns; ++i) {
         const auto bits = static_cast<std::int64_t>(math::random_bits(random));
         const double part = static_cast<double>(bits >> 11) * 0x1p-52;
@@ -257,7 +257,7 @@ void LinkageWork::release() noexcept {
     std::ranges::fill(blocked, std::uint8_t{0});
 }
 
-void LinkageWork::enter_ranges() noexcept {
+void LinkageWork::clamp_to_ranges() noexcept {
     for (std::size_t i = 0; i < joints.size(); ++i) {
         const Link& link = linkage.links[i];
         glm::dquat& turn = joints[i].turn;
@@ -286,7 +286,7 @@ glm::dvec3 LinkageWork::outward_of(std::size_t link) const noexcept {
     return parent == ground_link ? axis : rotated(places[parent].rotation, axis);
 }
 
-bool LinkageWork::presses_outward(std::size_t link) const noexcept {
+bool LinkageWork::pushes_outward(std::size_t link) const noexcept {
     if (length(vector_of_turn(joints[link].turn)) < linkage.links[link].maximum - bound_width) return false;
     const double* by = step.data() + column[link];
     return dot(outward_of(link), glm::dvec3(by[0], by[1], by[2])) > 0.0;
@@ -307,7 +307,7 @@ void LinkageWork::take_step(double part) noexcept {
         const glm::dquat turn = compose(turn_by_vector(vector), joint.turn);
         joint.turn = turn;
     }
-    enter_ranges();
+    clamp_to_ranges();
 }
 
 void LinkageWork::add_point(std::size_t link, const glm::dvec3& at, double sign) noexcept {
@@ -338,7 +338,7 @@ void LinkageWork::add_turn(std::size_t link, double sign) noexcept {
     }
 }
 
-/// Where one joint moves a point that an earlier one of its chain moves as well, that one turns the motion.
+/// Second derivatives: an earlier joint of the chain rotates the motion caused by a later one.
 void LinkageWork::add_curvature(std::size_t link, const glm::dvec3& at, const glm::dvec3& along) noexcept {
     const auto add = [&](std::size_t i, std::size_t k, double by) {
         curvature[i * columns + k] += by;
@@ -370,13 +370,13 @@ void LinkageWork::add_curvature(std::size_t link, const glm::dvec3& at, const gl
     }
 }
 
-void LinkageWork::bend_closure(std::size_t index, const glm::dvec3& along) noexcept {
+void LinkageWork::add_closure_curvature(std::size_t index, const glm::dvec3& along) noexcept {
     const Closure& closure = linkage.closures[index];
     add_curvature(closure.first, point_of(closure.first, closure.first_at), along);
     add_curvature(closure.second, point_of(closure.second, closure.second_at), times(along, -1.0));
 }
 
-void LinkageWork::bend_point(std::size_t point, const glm::dvec3& along) noexcept {
+void LinkageWork::add_point_curvature(std::size_t point, const glm::dvec3& along) noexcept {
     const LinkPoint& of = linkage.points[point];
     add_curvature(of.link, point_of(of.link, of.at), along);
 }
@@ -414,7 +414,7 @@ LinkageWork::Block LinkageWork::target_block(const LinkTarget& target) noexcept 
 }
 
 glm::dvec3 LinkageWork::target_gap(const LinkTarget& target) const noexcept {
-    const glm::dvec3 gap = minus(target.to, place_of(target));
+    const glm::dvec3 gap = minus(target.to, position_of(target));
     return planar ? across(gap, normal) : gap;
 }
 

@@ -17,10 +17,9 @@ namespace tendril::ik::detail {
 
 constexpr double bound_width = 1e-9;  ///< a joint so near to the end of its range is at it; radians or sizes
 
-/// Rows made orthonormal one by one, so that each gives way to those before it. Gram-Schmidt; a row that
-/// loses most of itself is treated twice (W. Kahan's rule: B. Parlett, "The Symmetric Eigenvalue Problem",
-/// 1980, 6.9). A row is nonzero only in its window, and loops that share no joints cost nothing to each
-/// other.
+/// Orthonormal rows by Gram-Schmidt: each is made orthogonal to those before it, twice if most of it cancels
+/// (W. Kahan's rule: B. Parlett, "The Symmetric Eigenvalue Problem", 1980, 6.9). A row is nonzero only in its
+/// window, so loops that share no joints cost each other nothing.
 class RowBasis {
   public:
     void reserve(std::size_t columns);
@@ -35,8 +34,8 @@ class RowBasis {
     /// The sign of the determinant of the rows' columns that are not `held`, as many as there are rows.
     /// `scratch`: columns * columns.
     int orientation(std::span<const std::uint8_t> held, std::span<double> scratch) const noexcept;
-    /// Of the rows as they were given, as many as the rank: what times them adds up to the part of `sum` that
-    /// they span.
+    /// Multipliers of the rows as given, as many as the rank, whose weighted sum is the part of `sum` that
+    /// the rows span.
     void multipliers(std::span<const double> sum, std::span<double> found) const noexcept;
 
   private:
@@ -84,33 +83,33 @@ struct LinkageWork {
     std::vector<std::uint8_t> blocked;  ///< balls at their maximum: they turn no further outward
     std::vector<double> step;
     std::vector<double> moved;        ///< the sum of the steps of a return to the closures
-    std::vector<JointPlace> kept;     ///< where a step began, to go back
+    std::vector<JointPlace> kept;     ///< at the start of a step, to restore
     std::vector<JointPlace> best;     ///< before a perturbation
     std::vector<JointPlace> nearest;  ///< of several restarts
     /// Goes by `part` of the step, within the ranges.
     void take_step(double part) noexcept;
     /// Fills the step with pseudo-random numbers up to `range`; drivers' stay 0.
-    void scatter(std::uint64_t& random, double range) noexcept;
+    void randomize_step(std::uint64_t& random, double range) noexcept;
     /// Only the drivers' columns are held.
     void release() noexcept;
     /// Brings the joints into their ranges, and balls to unit rotations.
-    void enter_ranges() noexcept;
+    void clamp_to_ranges() noexcept;
     /// The axis about which a ball is turned, in the world; unit.
     glm::dvec3 outward_of(std::size_t link) const noexcept;
     /// A ball at its maximum, which the step would turn further.
-    bool presses_outward(std::size_t link) const noexcept;
-    /// Of a hinge's or slider's value to its column.
+    bool pushes_outward(std::size_t link) const noexcept;
+    /// Units of a hinge's (radians) or slider's value (metres) per unit of its column.
     double unit_of(std::size_t link) const noexcept {
         return linkage.links[link].joint == LinkJoint::Slider ? size : 1.0;
     }
     bool ranged(std::size_t link) const noexcept;
-    /// The largest of the step, but for straight columns.
-    double widest() const noexcept;
+    /// Largest rotation in the step, radians; straight columns are ignored.
+    double max_turn() const noexcept;
 
-    // Equations. A block of rows has columns of the derivatives of what its errors are to add.
+    // Equations. A block holds the derivatives of its errors with respect to the columns.
     struct Block {
         std::size_t count = 0;
-        std::array<double, 6> errors{};  ///< what is missing
+        std::array<double, 6> errors{};  ///< closure residual
     };
     std::span<double> row(std::size_t index) noexcept {
         return {block_rows.data() + index * columns, columns};
@@ -126,7 +125,7 @@ struct LinkageWork {
     double gap_of(const Closure& closure) const noexcept;
     double largest_gap() const noexcept;
     double squared_gap(const Closure& closure) const noexcept;
-    glm::dvec3 place_of(const LinkTarget& target) const noexcept {
+    glm::dvec3 position_of(const LinkTarget& target) const noexcept {
         const LinkPoint& point = linkage.points[target.point];
         return point_of(point.link, point.at);
     }
@@ -141,14 +140,14 @@ struct LinkageWork {
     std::vector<double> multiplier;        ///< of the basis' rows
     std::vector<double> curvature;         ///< second derivatives, symmetric
     std::vector<double> factor, solution;
-    /// Add those of a closure's or point's position along a vector.
-    void bend_closure(std::size_t index, const glm::dvec3& along) noexcept;
-    void bend_point(std::size_t point, const glm::dvec3& along) noexcept;
+    /// Add the second derivatives of a closure's gap or a point's position along a vector.
+    void add_closure_curvature(std::size_t index, const glm::dvec3& along) noexcept;
+    void add_point_curvature(std::size_t point, const glm::dvec3& along) noexcept;
 
-    // Of the goals.
-    std::vector<glm::dvec3> target_starts;  ///< of targets: where their points were
-    std::vector<glm::dvec3> exact_places;   ///< and where exact ones keep them
-    std::vector<double> driver_starts;      ///< of each link
+    // The goals.
+    std::vector<glm::dvec3> target_starts;    ///< of targets: where their points were
+    std::vector<glm::dvec3> exact_positions;  ///< and where exact ones keep them
+    std::vector<double> driver_starts;        ///< of each link
 
     // The sign of LinkageSolve::mode(), for the pose and the held columns that it is of.
     int mode = 0;
@@ -163,7 +162,7 @@ struct LinkageWork {
     void add_point(std::size_t link, const glm::dvec3& at, double sign) noexcept;
     void add_turn(std::size_t link, double sign) noexcept;
     void add_curvature(std::size_t link, const glm::dvec3& at, const glm::dvec3& along) noexcept;
-    double size_of_travel() const noexcept;
+    double travel_size() const noexcept;
     glm::dvec3 turn_between(const Closure& closure) const noexcept;
 };
 

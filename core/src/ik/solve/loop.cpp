@@ -90,22 +90,22 @@ Report iterations(Method method, Problem& problem, const glm::vec3& goal, Watch 
     report_iteration(problem, goal, residual, watch);
     int slow = 0, perturbations = method == Method::FabrikPlain ? tune::chain::max_perturbations : 0;
     while (problem.iteration < options.max_iterations) {
-        const bool there = residual <= problem.tolerance;
-        const bool waits = convergence.stalled() || (method == Method::Fabrik && slow >= slow_window);
-        if (!there && waits && perturbations < tune::chain::max_perturbations) {
+        const bool converged = residual <= problem.tolerance;
+        const bool stalled = convergence.stalled() || (method == Method::Fabrik && slow >= slow_window);
+        if (!converged && stalled && perturbations < tune::chain::max_perturbations) {
             ++problem.perturbations;
             perturb(problem, perturbations++, watch);
             convergence.restart(problem.residual());
             slow = 0;
         }
-        if ((there || convergence.stalled()) && !options.every_iteration) break;
+        if ((converged || convergence.stalled()) && !options.every_iteration) break;
         ++problem.iteration;
         iterate(method, problem, watch);
         residual = problem.residual();
         report_iteration(problem, goal, residual, watch);
         slow = residual > slow_part * convergence.last() ? slow + 1 : 0;
-        const bool goes_on = residual > problem.tolerance || options.every_iteration;
-        if (convergence.record(residual) && goes_on) save(problem);
+        const bool continues = residual > problem.tolerance || options.every_iteration;
+        if (convergence.record(residual) && continues) save(problem);
     }
     if (residual > problem.tolerance && convergence.best() < residual) {
         restore(problem, watch);
@@ -166,11 +166,11 @@ Report run(Method method, Problem& problem, Watch watch) noexcept {
     Report report = solve_reached(method, problem, goal, watch);
     if (problem.target != goal) {
         report.residual = exact_distance(problem.joints.back(), goal);
-        const bool there = report.residual <= problem.tolerance;
+        const bool converged = report.residual <= problem.tolerance;
         // The requested target decides, not the eased one that was reached.
         const bool eased = report.status == Status::Converged || report.status == Status::TooClose;
-        if (there) report.status = Status::Converged;
-        if (!there && eased) report.status = Status::Stretched;
+        if (converged) report.status = Status::Converged;
+        if (!converged && eased) report.status = Status::Stretched;
         problem.target = goal;
     }
     if (free && (problem.options.rotations || problem.options.weight < 1.0f)) transport_rotations(problem);

@@ -42,7 +42,7 @@ glm::vec3 last_bone(const Problem& problem, const glm::quat& orientation) noexce
 
 /// Solves chains with nothing left to solve: only one bone, or the others have no length.
 template <class Watch>
-Report only_last(Problem& rest, Watch watch) noexcept {
+Report solve_last_bone(Problem& rest, Watch watch) noexcept {
     enforce_lengths(rest, watch);
     Report report;
     report.residual = exact_distance(rest.joints.back(), rest.target);
@@ -55,8 +55,8 @@ Report only_last(Problem& rest, Watch watch) noexcept {
 
 template <class Watch>
 Report run_with_tip_orientation(Method method, Problem& problem, Watch watch) noexcept {
-    const glm::quat& asked = *problem.options.tip_orientation;
-    const glm::quat orientation = unit_quaternion(asked.w, asked.x, asked.y, asked.z);
+    const glm::quat& requested = *problem.options.tip_orientation;
+    const glm::quat orientation = unit_quaternion(requested.w, requested.x, requested.y, requested.z);
     const glm::vec3 bone = last_bone(problem, orientation);
     Options options = problem.options;
     options.tip_orientation.reset();
@@ -73,7 +73,7 @@ Report run_with_tip_orientation(Method method, Problem& problem, Watch watch) no
         // One bone is solved equally well by any method; the two-bone solver would refuse it.
         const bool fits = method != Method::TwoBone || rest.bones() == 2;
         report = problem.scratch.reach > 0.0f ? run(fits ? method : Method::Fabrik, rest, watch)
-                                              : only_last(rest, watch);
+                                              : solve_last_bone(rest, watch);
         problem.iteration = rest.iteration;
         problem.stretch = rest.stretch;
     }

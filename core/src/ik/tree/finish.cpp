@@ -25,7 +25,7 @@ glm::quat rotation_of(const TreeScratch& scratch, std::span<const glm::vec3> joi
                             minus(joints[node.joint], joints[parent]));
 }
 
-void go_along(TreeScratch& scratch, std::span<glm::vec3> joints, std::size_t joint) noexcept {
+void follow_parent(TreeScratch& scratch, std::span<glm::vec3> joints, std::size_t joint) noexcept {
     const std::size_t parent = scratch.joints[joint].parent;
     const bool first = scratch.node_of[parent] != no_node;
     const glm::quat rotation = first ? rotation_of(scratch, joints, parent) : scratch.rotations[parent];
@@ -56,7 +56,7 @@ void finish(TreeScratch& scratch, std::span<glm::vec3> joints) noexcept {
     for (std::size_t k = 1; k < joints.size(); ++k) {
         const std::size_t node = scratch.node_of[k];
         if (node == no_node) {
-            go_along(scratch, joints, k);
+            follow_parent(scratch, joints, k);
         } else {
             const bool stays = same(scratch.at[node], scratch.start[scratch.nodes[node].joint]);
             joints[k] = stays ? scratch.start[k] : scratch.at[node];

@@ -78,10 +78,10 @@ class Iteration {
         best_ = now_;
         saved_ = true;
     }
-    void take(std::vector<glm::vec3>& places, const Fit& fit_of_them) noexcept {
-        if (fit_of_them.cost > now_.cost) save_best();
+    void take(std::vector<glm::vec3>& places, const Fit& new_fit) noexcept {
+        if (new_fit.cost > now_.cost) save_best();
         std::swap(scratch_.at, places);
-        now_ = fit_of_them;
+        now_ = new_fit;
     }
 
     TreeScratch& scratch_;

@@ -21,7 +21,7 @@ glm::dvec3 unit_or_x(const glm::dvec3& bone) noexcept {
 /// Adds the branch's parabola to its parent.
 void add_branch(Response& parent, const Response& branch) noexcept {
     add_square(parent.branches, branch.along, branch.stiffness);
-    parent.force = plus(parent.force, times(branch.along, branch.wish));
+    parent.force = plus(parent.force, times(branch.along, branch.pull));
 }
 
 void collect(TreeScratch& scratch, std::span<const glm::vec3> from, double damping) noexcept {
@@ -38,7 +38,7 @@ void collect(TreeScratch& scratch, std::span<const glm::vec3> from, double dampi
         r.free = factors.solve(r.force);
         r.per_tension = factors.solve(r.along);
         r.stiffness = 1.0 / dot(r.along, r.per_tension);
-        r.wish = dot(r.along, r.free) * r.stiffness;
+        r.pull = dot(r.along, r.free) * r.stiffness;
         add_branch(scratch.responses[node.parent], r);
     }
 }
@@ -53,7 +53,7 @@ void newton_step(TreeScratch& scratch, std::span<const glm::vec3> from, double d
         const Node& node = scratch.nodes[k];
         Response& r = scratch.responses[k];
         // From here on `free` is the move itself.
-        const double tension = r.stiffness * dot(r.along, scratch.responses[node.parent].free) - r.wish;
+        const double tension = r.stiffness * dot(r.along, scratch.responses[node.parent].free) - r.pull;
         r.free = plus(r.free, times(r.per_tension, tension));
         // In double: with little damping a move may be vast.
         const glm::vec3& parent = scratch.trial[node.parent];

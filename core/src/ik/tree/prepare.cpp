@@ -14,7 +14,7 @@ using namespace tune::tree;
 
 /// Whether the bone is at its length up to rounding and can be kept. Same tolerance as a chain, except that
 /// it is relative for bones under a metre.
-bool holds(const glm::vec3& from, const glm::vec3& to, float length) noexcept {
+bool has_length(const glm::vec3& from, const glm::vec3& to, float length) noexcept {
     const double wanted = static_cast<double>(length);
     const double furthest = std::max<double>(largest_coordinate(from), largest_coordinate(to));
     double allowed = 1e-4 * wanted + furthest * static_cast<double>(FLT_EPSILON);
@@ -28,7 +28,7 @@ void load_start(TreeScratch& scratch, std::span<const glm::vec3> joints) noexcep
         const glm::vec3& anchor = scratch.start[scratch.joints[k].parent];
         const float length = scratch.joints[k].length;
         scratch.start[k] =
-            holds(anchor, joints[k], length) ? joints[k] : at_length(anchor, joints[k], length);
+            has_length(anchor, joints[k], length) ? joints[k] : at_length(anchor, joints[k], length);
     }
 }
 
@@ -76,17 +76,17 @@ glm::dvec3 reachable(const TreeScratch& scratch, const Effector& effector) noexc
 }
 
 void collect_goals(TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
-    double heaviest = 0.0;
+    double max_weight = 0.0;
     scratch.lightest = 1.0;
     for (const Effector& effector : effectors) {
         if (scratch.path[effector.joint].furthest == 0.0) continue;  // it cannot move
-        heaviest = std::max(heaviest, static_cast<double>(effector.weight));
+        max_weight = std::max(max_weight, static_cast<double>(effector.weight));
     }
     // By joint, not by list order: sums at one node must not depend on the list.
     for (std::size_t k = 1; k < scratch.joints.size(); ++k) {
         if (scratch.effector_at[k] == no_joint || scratch.node_of[k] == 0) continue;
         const Effector& effector = effectors[scratch.effector_at[k]];
-        const double weight = std::max(min_weight, static_cast<double>(effector.weight) / heaviest);
+        const double weight = std::max(min_weight, static_cast<double>(effector.weight) / max_weight);
         scratch.lightest = std::min(scratch.lightest, weight);
         const glm::dvec3 goal = reachable(scratch, effector);
         Node& node = scratch.nodes[scratch.node_of[k]];
@@ -138,7 +138,7 @@ void prepare(TreeScratch& scratch, std::span<const glm::vec3> joints,
     assign_centroid_weights(scratch);
 }
 
-bool solve_at_rim(TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
+bool solve_out_of_reach(TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
     const Effector* const effector = only_one(scratch, effectors);
     if (!effector) return false;
     const Reachability& can = scratch.path[effector->joint];

@@ -142,8 +142,8 @@ TreeReport Tree::solve(std::span<glm::vec3> joints, std::span<const Effector> ef
     prepare(scratch, joints, effectors);
     TreeReport report;
     bool stalled = false;
-    const bool there = worst_residual(scratch, effectors) <= tolerance;
-    if ((!there || options.every_iteration) && !solve_at_rim(scratch, effectors)) {
+    const bool converged = worst_residual(scratch, effectors) <= tolerance;
+    if ((!converged || options.every_iteration) && !solve_out_of_reach(scratch, effectors)) {
         const TreeRun run = iterate(scratch, effectors, options, tolerance);
         report.iterations = run.iterations;
         stalled = run.stalled;

@@ -40,7 +40,7 @@ struct Response {
     glm::dvec3 force;              ///< force from its goal and branches
     glm::dvec3 along;              ///< unit vector along the bone
     glm::dvec3 free, per_tension;  ///< move without the bone; added move per unit of tension
-    double stiffness, wish;        ///< the branch's parabola, as seen from its parent; see newton.cpp
+    double stiffness, pull;        ///< the branch's parabola, as seen from its parent; see newton.cpp
 };
 
 struct TreeScratch {
@@ -96,7 +96,7 @@ double worst_residual(const TreeScratch& scratch, std::span<const Effector> effe
 
 /// A single effector whose target is at or beyond the rim of its reach has only one solution: straight
 /// towards the target, or folded against the longest bone. Applies it; false if this is not the case.
-bool solve_at_rim(TreeScratch& scratch, std::span<const Effector> effectors) noexcept;
+bool solve_out_of_reach(TreeScratch& scratch, std::span<const Effector> effectors) noexcept;
 
 /// Updates every bone's rotation by the minimal rotation from its initial direction to its current one.
 void transport_rotations(const TreeScratch& scratch, std::span<const glm::vec3> joints,

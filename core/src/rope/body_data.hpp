@@ -9,7 +9,7 @@
 namespace tendril::rope::detail {
 
 /// Particles are numbered from 0.
-struct Taken {
+struct BodyData {
     std::size_t row = 1;
     std::vector<std::uint32_t> cells{};  ///< as in Body
     std::vector<glm::dvec3> position{}, displacement{};
@@ -19,7 +19,7 @@ struct Taken {
 };
 
 /// Replaces a body by its edited form. `becomes`: the new particle of each old one.
-void put_back(State& state, BodyId id, const Taken& taken, const std::vector<std::size_t>& becomes);
+void replace_body(State& state, BodyId id, const BodyData& data, const std::vector<std::size_t>& becomes);
 
 /// Leaves out rows and columns without particles, and the cells of a grid without gaps.
 void crop(Body& body);
