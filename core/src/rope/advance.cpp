@@ -77,10 +77,10 @@ void apply_drive(State& state, Collider& collider, Scratch::Moving& moving) {
     constexpr double edge = max_magnitude;
     collider.goal = glm::clamp(collider.goal + (moving.middle - was), dvec3(-edge), dvec3(edge));
     if (moving.spins) {
-        const glm::dquat rotate_capsule = math::conjugate(moving.inverse_spin);
-        if (collider.half_goal) collider.half_goal = math::rotated(rotate_capsule, *collider.half_goal);
+        const glm::dquat rotation = math::conjugate(moving.inverse_spin);
+        if (collider.half_goal) collider.half_goal = math::rotated(rotation, *collider.half_goal);
         for (Pin& pin : state.pins)
-            if (pin.collider == collider.id) pin.goal = math::rotated(rotate_capsule, pin.goal);
+            if (pin.collider == collider.id) pin.goal = math::rotated(rotation, pin.goal);
     }
     double reach = static_cast<double>(size(collider.shape));
     if (const auto* const box = std::get_if<Box>(&collider.shape))
