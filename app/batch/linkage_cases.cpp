@@ -41,7 +41,7 @@ std::vector<double> driver_values(const JsonPlace& place) {
     return values;
 }
 
-std::vector<glm::dvec3> target_places(const JsonPlace& place) {
+std::vector<glm::dvec3> target_positions(const JsonPlace& place) {
     std::vector<glm::dvec3> places;
     if (!place.json().is_array() || place.json().empty() || !place.json()[0].is_array())
         return {place.dpoint()};
@@ -63,7 +63,7 @@ const auto& value_at(const Values& values, std::size_t row) {
 }
 
 /// Prefixes a refusal with the place.
-void at_place(const JsonPlace& place, auto require) {
+void with_path(const JsonPlace& place, auto require) {
     try {
         require();
     } catch (const Refused& refused) {
@@ -147,7 +147,7 @@ void read_drivers(const Json& drivers, const std::string& before, LinkageCase& t
     for (const auto& each : drivers.items()) {
         const std::string& joint = each.key();
         const JsonPlace at(each.value(), before + joint);
-        at_place(at, [&] { require_linkage_joint(to.part, joint); });
+        with_path(at, [&] { require_linkage_joint(to.part, joint); });
         std::vector<double> values = driver_values(at);
         check_rows(at, values.size(), to.rows());
         for (double& value : values) value = from_degrees(to.part, joint, value);
@@ -159,8 +159,8 @@ void read_targets(const Json& targets, const std::string& before, LinkageCase& t
     for (const auto& each : targets.items()) {
         const std::string& point = each.key();
         const JsonPlace at(each.value(), before + point);
-        at_place(at, [&] { static_cast<void>(require_linkage_point(to.part, point)); });
-        std::vector<glm::dvec3> places = target_places(at);
+        with_path(at, [&] { static_cast<void>(require_linkage_point(to.part, point)); });
+        std::vector<glm::dvec3> places = target_positions(at);
         check_rows(at, places.size(), to.rows());
         to.targets.emplace_back(point, std::move(places));
     }
@@ -180,7 +180,7 @@ void read_linkage_goals(const JsonPlace& place, LinkageCase& to) {
 
 }  // namespace
 
-void take_linkage_goals(const Json& goals, LinkageCase& to) {
+void override_linkage_goals(const Json& goals, LinkageCase& to) {
     const Json none = Json::object();
     const Json &drivers = goals.contains("drivers") ? goals["drivers"] : none,
                &targets = goals.contains("targets") ? goals["targets"] : none;

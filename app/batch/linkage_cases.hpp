@@ -37,7 +37,7 @@ inline constexpr std::size_t max_linkage_rows = 100'000;
 LinkageCase linkage_case_from_json(const JsonPlace& place);
 /// Replaces the case's "drivers" and "targets" of the same names. Throws std::runtime_error that begins with
 /// the argument: "--drive crank".
-void take_linkage_goals(const Json& goals, LinkageCase& to);
+void override_linkage_goals(const Json& goals, LinkageCase& to);
 /// Such goals from arguments: "crank=30", "crank=0:360:15", "P=1,2,0". Throws std::runtime_error.
 Json linkage_goals_from_arguments(const std::vector<std::string>& drivers,
                                   const std::vector<std::string>& targets);

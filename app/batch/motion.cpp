@@ -86,7 +86,7 @@ void print_notes(const std::vector<std::string>& notes, Output& out) {
 }
 
 /// The default output: beside the file, in its format if that can be written, else glTF.
-fs::path place_beside(const fs::path& file) {
+fs::path default_output(const fs::path& file) {
     const std::string ending = ends_as_export(file) ? file.extension().string() : ".glb";
     return file.parent_path() / (file.stem().string() + "_baked" + ending);
 }
@@ -164,7 +164,7 @@ void run_bake(const BakeOptions& options) {
         play_motion(character, options.motion, options.all ? nullptr : &options.clip);
     const Clip* const first = options.motion.empty() ? &clip_named(character, options.file, options.clip)
                                                      : &character.clips.front();
-    const fs::path out = options.out.empty() ? place_beside(options.file) : fs::path(options.out);
+    const fs::path out = options.out.empty() ? default_output(options.file) : fs::path(options.out);
     Outputs outputs;
     outputs.force = options.force;
     outputs.inputs = {options.file};

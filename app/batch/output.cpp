@@ -28,19 +28,19 @@ std::string_view head(std::string_view text, std::size_t count) {
 void Output::write(std::string_view text) {
     constexpr std::size_t block = 1 << 16;
     constexpr auto max_wait = std::chrono::milliseconds(200);
-    waiting_ += text;
-    if (waiting_.size() >= block || std::chrono::steady_clock::now() - flushed_ > max_wait) flush();
+    buffer_ += text;
+    if (buffer_.size() >= block || std::chrono::steady_clock::now() - flushed_ > max_wait) flush();
 }
 
 void Output::flush() {
     progress_->clear();
-    const bool written = std::fwrite(waiting_.data(), 1, waiting_.size(), stdout) == waiting_.size() &&
-                         std::fflush(stdout) == 0;
+    const bool written =
+        std::fwrite(buffer_.data(), 1, buffer_.size(), stdout) == buffer_.size() && std::fflush(stdout) == 0;
     if (!written && !failed_) {
         failed_ = true;
         throw std::runtime_error("cannot write the output: " + std::generic_category().message(errno));
     }
-    waiting_.clear();
+    buffer_.clear();
     flushed_ = std::chrono::steady_clock::now();
 }
 

@@ -21,7 +21,7 @@ class Output {
     void flush();
 
     Progress* progress_;
-    std::string waiting_;
+    std::string buffer_;
     std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
     bool failed_ = false;
 };

@@ -96,7 +96,7 @@ std::span<const ik::Method> paper_methods() {
 }
 
 std::optional<PaperRow> measure(const PaperTargets& targets, const PaperSolve& solve,
-                                const std::function<bool(double)>& go_on) {
+                                const std::function<bool(double)>& progress) {
     const std::size_t count = targets.targets.size();
     const std::size_t blocks = (count + block - 1) / block;
     std::vector<ik::Report> reports(count);
@@ -105,7 +105,7 @@ std::optional<PaperRow> measure(const PaperTargets& targets, const PaperSolve& s
     for (std::size_t round = 0; round < rounds; ++round) {
         std::vector<glm::vec3> joints = targets.starts;
         for (std::size_t i = 0; i < blocks; ++i) {
-            if (!go_on(static_cast<double>(round * blocks + i) / static_cast<double>(rounds * blocks)))
+            if (!progress(static_cast<double>(round * blocks + i) / static_cast<double>(rounds * blocks)))
                 return std::nullopt;
             const std::size_t from = i * block, to = std::min(count, from + block);
             fastest[i] = std::min(fastest[i], solve_block(targets, solve, from, to, joints, reports));

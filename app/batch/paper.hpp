@@ -49,9 +49,9 @@ struct PaperRow {
     std::optional<double> nanoseconds;
 };
 
-/// Solves all targets, several times for stable timings. `go_on` gets the progress, 0 to 1; if it returns
+/// Solves all targets, several times for stable timings. `progress` gets the progress, 0 to 1; if it returns
 /// false there is no row.
 std::optional<PaperRow> measure(const PaperTargets& targets, const PaperSolve& solve,
-                                const std::function<bool(double)>& go_on);
+                                const std::function<bool(double)>& progress);
 
 }  // namespace tendril::app

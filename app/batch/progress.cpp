@@ -9,13 +9,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto patience = 1000ms;       // before the first report
+constexpr auto first_delay = 1000ms;    // before the first report
 constexpr auto terminal_pause = 100ms;  // between two reports on a terminal
 constexpr auto line_pause = 5000ms;     // between two lines
 
 }  // namespace
 
-Progress::Progress() : terminal_(::isatty(STDERR_FILENO) == 1), next_(Clock::now() + patience) {}
+Progress::Progress() : terminal_(::isatty(STDERR_FILENO) == 1), next_(Clock::now() + first_delay) {}
 
 void Progress::show(const char* what, double done) {
     const auto now = Clock::now();

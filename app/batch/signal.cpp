@@ -89,7 +89,7 @@ void print_rates(const Filters& filters, const TimedSamples& rows, const std::at
 }
 
 /// The given filter of this kind, from which the fit starts; null if there is none.
-const signal::Filter* given_of(const Filters& filters, const signal::Kind& kind) {
+const signal::Filter* initial_filter(const Filters& filters, const signal::Kind& kind) {
     const auto found = std::find_if(filters.begin(), filters.end(), [&](const signal::Filter& filter) {
         return &signal::kind_of(filter) == &kind;
     });
@@ -104,7 +104,7 @@ void print_fits(const Filters& filters, const SignalSamples& samples, const std:
     Progress progress;
     for (std::size_t i = 0; i < kinds.size() && !ending; ++i) {
         progress.show("fitting", static_cast<double>(i) / static_cast<double>(kinds.size()));
-        fits.push_back(fit_kind(kinds[i], problem, given_of(filters, kinds[i])));
+        fits.push_back(fit_kind(kinds[i], problem, initial_filter(filters, kinds[i])));
     }
     rank(fits);
     Output out(progress);

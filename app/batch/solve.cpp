@@ -66,7 +66,7 @@ class JsonRows final : public Rows {
             json["curve"] = {{"bones_past_end", row.curve->bones_past_end},
                              {"past_end", number(row.curve->past_end)}};
         if (row.asked.normal) json["off_plane"] = number(row.report.off_plane);
-        json.erase("ran");  // scripts rely on the existing keys; the table has it
+        json.erase("ran");  // only in the table: scripts rely on the JSON keys
         json["microseconds"] = microseconds_json(row.microseconds);
         if (!row.linkage) {
             Json positions = Json::array();
@@ -154,7 +154,7 @@ void read_all(std::string_view text, const Json& goals, const std::function<bool
         if (!goals.empty() && !read.linkage)
             throw std::runtime_error("--drive and --target are for linkages, case \"" + read.name +
                                      "\" is none");
-        if (read.linkage) take_linkage_goals(goals, *read.linkage);
+        if (read.linkage) override_linkage_goals(goals, *read.linkage);
         return take(read, done);
     };
     const std::size_t first = text.find_first_not_of(" \t\r\n");

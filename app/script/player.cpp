@@ -53,7 +53,7 @@ bool Player::play(const ScriptLine& line, Stage& stage) {
         return true;
     }
     if (const auto* wait = std::get_if<Wait>(&line.action)) {
-        waiting_ = wait->ticks;
+        ticks_left_ = wait->ticks;
     } else if (const auto* command = std::get_if<RunCommand>(&line.action)) {
         run_command(line, *command, stage);
     } else if (const auto* screenshot = std::get_if<TakeScreenshot>(&line.action)) {
@@ -70,8 +70,8 @@ bool Player::play(const ScriptLine& line, Stage& stage) {
 void Player::advance(Stage& stage) {
     try {
         while (!done()) {
-            if (waiting_ > 0) {
-                --waiting_;
+            if (ticks_left_ > 0) {
+                --ticks_left_;
                 stage.tick(nullptr);
                 return;
             }

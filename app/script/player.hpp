@@ -35,16 +35,16 @@ class Player {
     /// Runs lines until one tick has passed or the script has ended. Throws ScriptFailure and the stage's
     /// errors, after which the script is over.
     void advance(Stage& stage);
-    bool done() const { return waiting_ == 0 && next_ >= script_.lines.size(); }
+    bool done() const { return ticks_left_ == 0 && next_ >= script_.lines.size(); }
 
   private:
     /// Returns whether the line took a tick.
     bool play(const ScriptLine& line, Stage& stage);
-    void end() { next_ = script_.lines.size(), waiting_ = 0; }
+    void end() { next_ = script_.lines.size(), ticks_left_ = 0; }
 
     Script script_;
     std::size_t next_ = 0;
-    int waiting_ = 0;
+    int ticks_left_ = 0;
 };
 
 }  // namespace tendril::app

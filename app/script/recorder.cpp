@@ -86,7 +86,7 @@ void Recorder::event(const Event& event) {
 }
 
 void Recorder::idle_tick() {
-    ++waiting_;
+    ++idle_ticks_;
 }
 
 void Recorder::command(const std::string& name, const Json& arguments, bool refused) {
@@ -97,12 +97,12 @@ void Recorder::command(const std::string& name, const Json& arguments, bool refu
 }
 
 std::string Recorder::text() const {
-    return text_ + wait_lines(waiting_);
+    return text_ + wait_lines(idle_ticks_);
 }
 
 void Recorder::flush_wait() {
-    text_ += wait_lines(waiting_);
-    waiting_ = 0;
+    text_ += wait_lines(idle_ticks_);
+    idle_ticks_ = 0;
 }
 
 void Recorder::line(const Json& json) {

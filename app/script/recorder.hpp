@@ -24,7 +24,7 @@ class Recorder {
     void flush_wait();
     void line(const Json& json);
     std::string text_;
-    int waiting_ = 0;
+    int idle_ticks_ = 0;
 };
 
 /// The script line of an event; null for events that are not recorded (a key without a name, the window's

@@ -58,7 +58,7 @@ struct RecordingStart {
     std::string path{};     ///< the scene's file, empty if none
     bool modified = false;  ///< it had unsaved changes
     float scale = 1.0f;     ///< the window's own scale for text and widgets
-    bool live = false;      ///< made in a window: the end of another program is an event
+    bool live = false;      ///< made in a window, where a child process ending is an event
     int line = 1;           ///< its line in the script
 };
 

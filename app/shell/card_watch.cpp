@@ -11,7 +11,7 @@ namespace tendril::app {
 namespace {
 
 /// Writing the state of a large part is slow: checks wait one tick for each so many of its bytes.
-constexpr std::size_t bytes_a_tick = 8192;
+constexpr std::size_t bytes_per_tick = 8192;
 /// Larger parts are never checked.
 constexpr std::size_t max_watched_bytes = 1u << 20;
 
@@ -50,7 +50,7 @@ void note_drag(RepeatedDrag& drag, glm::vec3 to, std::uint64_t moment) {
 }
 
 /// Whether the incident is the one that the cure was for: at the same joint, or for the same reason.
-bool comes_back(const RepeatedDrag& drag, const Json& incident) {
+bool recurs(const RepeatedDrag& drag, const Json& incident) {
     const auto same = [&](const char* member) {
         return drag.incident->value(member, Json()) == incident.value(member, Json());
     };
@@ -67,7 +67,7 @@ void note_incident(RepeatedDrag& drag, const std::string& kind, const Json& even
             const RepeatedDrag::Point last = drag.path[i - 1], here = drag.path[i];
             if (here.moment != moment || here.at == last.at) continue;
             drag.caused = moment;
-            if (drag.cured && !comes_back(drag, each)) {
+            if (drag.cured && !recurs(drag, each)) {
                 drag.path.erase(drag.path.begin(), drag.path.begin() + static_cast<std::ptrdiff_t>(i));
                 break;
             }
@@ -173,7 +173,7 @@ void watch_card(CardProgress& progress, const Card& card, const std::shared_ptr<
         });
     }
     progress.seen = undecided ? nullptr : part;
-    progress.ticks_to_wait = 1 + part->bytes() / bytes_a_tick;
+    progress.ticks_to_wait = 1 + part->bytes() / bytes_per_tick;
 }
 
 bool card_waits(const CardProgress& progress, const std::shared_ptr<const Part>& part) {

@@ -14,7 +14,7 @@ namespace tendril::app {
 void note_command(CardProgress& progress, const Card& card, const std::string& command, const Json& arguments,
                   bool changes, std::uint64_t moment, bool in_panel = false);
 /// Marks the steps whose conditions now hold as well. Calls `state` only if there may be such steps; for a
-/// large part not every tick. `dragging`: a drag is under way, and counts as repeated only once it ends.
+/// large part not every tick. `dragging`: a drag is under way; it counts once it ends.
 void watch_card(CardProgress& progress, const Card& card, const std::shared_ptr<const Part>& part,
                 const std::function<Json()>& state, bool dragging = false);
 /// Whether the next tick may find a step done even without an event.

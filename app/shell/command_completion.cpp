@@ -77,7 +77,7 @@ std::vector<std::string> first_of(std::vector<std::string> values, const std::st
 }
 
 /// Offers the possible continuations of a list after an element.
-void offer_ends(std::vector<CompletionRow>& rows, const std::string& line) {
+void add_endings(std::vector<CompletionRow>& rows, const std::string& line) {
     rows.insert(rows.begin(),
                 {{"]", "ends the list", "", line + "] "}, {",", "adds another", "", line + ","}});
 }
@@ -114,7 +114,7 @@ std::vector<CompletionRow> element_rows(const TypedLine& typed, const TypedValue
              line.substr(0, typed.last_at) + list.name + "=" + value.before + as_element(each, *of)});
     sort_by(rows, bare(value.text));
     if (rows.size() > max_rows) rows.erase(rows.begin() + max_rows, rows.end());
-    if (whole) offer_ends(rows, line);
+    if (whole) add_endings(rows, line);
     return rows;
 }
 

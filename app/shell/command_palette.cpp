@@ -71,26 +71,26 @@ CommandPalette::Offer CommandPalette::offer(const ShellFrame& frame) const {
     if (offer.typed.command == nullptr) {
         offer.found = search_commands(frame.commands, line, frame.workspace.lab, recent_);
     } else {
-        offer.ways = completions(offer.typed, line, frame.workspace);
+        offer.completions = completions(offer.typed, line, frame.workspace);
     }
     return offer;
 }
 
-void CommandPalette::forget() {
+void CommandPalette::reset() {
     line_.fill('\0');
     chosen_ = listed_choice_ = 0;
-    moved_ = take_caret_ = false;
-    complaint_.clear();
+    moved_ = focus_line_ = false;
+    error_.clear();
 }
 
-void CommandPalette::put(const std::string& line) {
+void CommandPalette::set_line(const std::string& line) {
     if (line.size() >= line_.size()) return;
     line_.fill('\0');
     std::copy(line.begin(), line.end(), line_.begin());
     chosen_ = 0;
     moved_ = false;
-    take_caret_ = true;
-    complaint_.clear();
+    focus_line_ = true;
+    error_.clear();
 }
 
 std::string CommandPalette::tabbed(const ShellFrame& frame) const {
@@ -99,7 +99,7 @@ std::string CommandPalette::tabbed(const ShellFrame& frame) const {
     const auto chosen = static_cast<std::size_t>(chosen_);
     if (chosen >= now.size()) return line;
     if (now.typed.command != nullptr)
-        return moved_ ? now.ways[chosen].line : completed(now.typed, line, now.ways, chosen);
+        return moved_ ? now.completions[chosen].line : completed(now.typed, line, now.completions, chosen);
     std::vector<std::string> names;
     for (const Command& command : frame.commands.all())
         if (!line.empty() && command.name.starts_with(line)) names.push_back(command.name);
@@ -120,7 +120,7 @@ int CommandPalette::on_tab(const ShellFrame& frame, ImGuiInputTextCallbackData& 
 
 bool CommandPalette::line_field(const ShellFrame& frame, bool appearing) {
     if (appearing) ImGui::SetWindowFocus();
-    if (appearing || take_caret_) ImGui::SetKeyboardFocusHere();
+    if (appearing || focus_line_) ImGui::SetKeyboardFocusHere();
     struct Context {
         CommandPalette& palette;
         const ShellFrame& frame;
@@ -129,9 +129,9 @@ bool CommandPalette::line_field(const ShellFrame& frame, bool appearing) {
         const auto& [palette, of] = *static_cast<Context*>(data->UserData);
         if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion) return palette.on_tab(of, *data);
         // Dear ImGui selects the whole line when it gets the focus; typing would replace it.
-        if (palette.take_caret_)
+        if (palette.focus_line_)
             data->CursorPos = data->SelectionStart = data->SelectionEnd = data->BufTextLen;
-        palette.take_caret_ = false;
+        palette.focus_line_ = false;
         return 0;
     };
     ImGui::SetNextItemWidth(-1.0f);
@@ -144,7 +144,7 @@ bool CommandPalette::line_field(const ShellFrame& frame, bool appearing) {
     if (ImGui::IsItemEdited()) {
         chosen_ = 0;
         moved_ = false;
-        complaint_.clear();
+        error_.clear();
     }
     return entered;
 }
@@ -167,9 +167,10 @@ std::vector<PaletteRow> CommandPalette::rows(const ShellFrame& frame, const Offe
         list.push_back({command->title, lab == nullptr ? "" : lab->title(), usage(*command),
                         frame.shortcuts.keys_for(command->name), command->help});
     }
-    for (const CompletionRow& way : offer.ways) {
-        const std::string help = way.help.empty() ? way.detail : way.help;
-        list.push_back({way.text, "", way.detail, way.given ? "given" : "", help, way.given});
+    for (const CompletionRow& completion : offer.completions) {
+        const std::string help = completion.help.empty() ? completion.detail : completion.help;
+        list.push_back({completion.text, "", completion.detail, completion.given ? "given" : "", help,
+                        completion.given});
     }
     return list;
 }
@@ -177,7 +178,7 @@ std::vector<PaletteRow> CommandPalette::rows(const ShellFrame& frame, const Offe
 void CommandPalette::status(const Offer& offer) const {
     const float room = ImGui::GetContentRegionAvail().x;
     const bool search = offer.typed.command == nullptr;
-    const std::string wrong = complaint_.empty() ? mistake(offer.typed) : complaint_;
+    const std::string wrong = error_.empty() ? mistake(offer.typed) : error_;
     if (!wrong.empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
         text_elided(wrong, room);
@@ -204,11 +205,11 @@ void CommandPalette::run(const std::string& name, SharedJson arguments, Emit& em
 }
 
 void CommandPalette::choose(const ShellFrame& frame, const Offer& offer, std::size_t row, Emit& emit) {
-    if (offer.typed.command != nullptr) return put(offer.ways[row].line);
+    if (offer.typed.command != nullptr) return set_line(offer.completions[row].line);
     const Command& command = *offer.found[row];
     const bool needs = std::any_of(command.arguments.begin(), command.arguments.end(),
                                    [](const Argument& a) { return a.required; });
-    if (needs) return put(begun(command, false));
+    if (needs) return set_line(begun(command, false));
     // Use the arguments of the command's shortcut: Ctrl+Q asks before it quits.
     const auto& keys = frame.shortcuts.all();
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const Shortcut& each) {
@@ -218,7 +219,7 @@ void CommandPalette::choose(const ShellFrame& frame, const Offer& offer, std::si
 }
 
 void CommandPalette::run(const ShellFrame& frame, Emit& emit) {
-    take_caret_ = true;
+    focus_line_ = true;
     try {
         TypedCommand typed = read_typed_command(line_.data());
         const Command* command = frame.commands.find(typed.name);
@@ -226,12 +227,12 @@ void CommandPalette::run(const ShellFrame& frame, Emit& emit) {
         check_arguments(*command, *typed.arguments);
         run(typed.name, std::move(typed.arguments), emit);
     } catch (const std::runtime_error& error) {
-        complaint_ = error.what();
+        error_ = error.what();
     }
 }
 
 void CommandPalette::enter(const ShellFrame& frame, const Offer& offer, Emit& emit) {
-    take_caret_ = true;
+    focus_line_ = true;
     const std::string line = line_.data();
     const auto row = static_cast<std::size_t>(chosen_);
     if (line.empty() && !moved_ && recent_.empty()) return;  // nothing was entered
@@ -240,11 +241,11 @@ void CommandPalette::enter(const ShellFrame& frame, const Offer& offer, Emit& em
             return choose(frame, offer, row, emit);
         return run(frame, emit);
     }
-    const bool goes_on = row < offer.ways.size() && offer.ways[row].line != line;
-    if (goes_on && moved_) return choose(frame, offer, row, emit);
+    const bool changes_line = row < offer.completions.size() && offer.completions[row].line != line;
+    if (changes_line && moved_) return choose(frame, offer, row, emit);
     run(frame, emit);
     // The line is valid but incomplete: continue with the unfinished or missing argument.
-    if (!complaint_.empty() && goes_on && !offer.ways[row].given && mistake(offer.typed).empty())
+    if (!error_.empty() && changes_line && !offer.completions[row].given && mistake(offer.typed).empty())
         choose(frame, offer, row, emit);
 }
 
@@ -253,7 +254,7 @@ void CommandPalette::frame(const ShellFrame& frame, Emit& emit) {
     const bool appearing = open && !was_open_;
     was_open_ = open;
     if (!open) return;
-    if (appearing) forget();
+    if (appearing) reset();
     const Offer before = offer(frame);
     begin_palette(rows(frame, before), before.typed.command != nullptr, frame.screen(), frame.layout.scale);
     const bool entered = line_field(frame, appearing);
@@ -271,7 +272,7 @@ void CommandPalette::frame(const ShellFrame& frame, Emit& emit) {
                          ImGui::GetTextLineHeight());
     status(now);
     if (clicked) {
-        take_caret_ = true;
+        focus_line_ = true;
         choose(frame, now, *clicked, emit);
     } else if (entered) {
         enter(frame, now, emit);

@@ -32,12 +32,12 @@ class CommandPalette {
     /// The rows that the list offers for the line.
     struct Offer {
         TypedLine typed{};
-        std::vector<const Command*> found{};  ///< if the line is a search
-        std::vector<CompletionRow> ways{};    ///< if it is a command
-        std::size_t size() const { return typed.command == nullptr ? found.size() : ways.size(); }
+        std::vector<const Command*> found{};       ///< if the line is a search
+        std::vector<CompletionRow> completions{};  ///< if it is a command
+        std::size_t size() const { return typed.command == nullptr ? found.size() : completions.size(); }
     };
     Offer offer(const ShellFrame& frame) const;
-    void forget();
+    void reset();
     /// The input line; returns whether Enter was pressed.
     bool line_field(const ShellFrame& frame, bool appearing);
     int on_tab(const ShellFrame& frame, ImGuiInputTextCallbackData& data);
@@ -53,15 +53,15 @@ class CommandPalette {
     /// Runs the line; if it is invalid, shows why and keeps it for editing.
     void run(const ShellFrame& frame, Emit& emit);
     void run(const std::string& name, SharedJson arguments, Emit& emit);
-    void put(const std::string& line);
+    void set_line(const std::string& line);
 
     std::array<char, 512> line_{};
     int chosen_ = 0;
     int listed_choice_ = 0;  ///< the choice when the list was last drawn
     bool moved_ = false;     ///< the user moved the choice since last editing the line
     bool was_open_ = false;
-    bool take_caret_ = false;  ///< give the line the focus, with the caret at its end
-    std::string complaint_;
+    bool focus_line_ = false;  ///< give the line the focus, with the caret at its end
+    std::string error_;
     std::vector<std::string> recent_;  ///< commands run from the palette, newest first
 };
 

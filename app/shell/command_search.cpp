@@ -29,8 +29,8 @@ bool takes(const Command& command, const std::string& word) {
     });
 }
 
-/// Of commands that match equally, people usually mean one that adds something, then one that changes it,
-/// last one that removes it, or everything. The first word of the title decides.
+/// Breaks ties between equal matches: commands that add come first, then those that change, remove, and
+/// remove everything. Read from the title's first word.
 enum class Verb { Adds, Changes, Removes, RemovesAll };
 
 Verb verb_of(const Command& command) {
@@ -80,7 +80,7 @@ std::vector<const Command*> search_commands(const CommandTable& table, const std
     const auto scope = [&](const Command& command) {
         return open_lab.empty() || command.lab == open_lab ? 0 : command.lab.empty() ? 1 : 2;
     };
-    // A command whose help alone has the words comes after those of other labs whose title or name has them.
+    // A match in the help alone ranks below other labs' matches in title or name.
     using Rank = std::tuple<bool, std::ptrdiff_t, bool, bool, int, Verb, int>;
     std::vector<std::pair<Rank, const Command*>> found;
     for (const Command& command : table.all()) {

@@ -17,7 +17,7 @@ namespace tendril::app {
 
 namespace fs = std::filesystem;
 
-bool FileDialog::lists(const fs::path& file) const {
+bool FileDialog::is_listed(const fs::path& file) const {
     const fs::path ending = file.extension();
     if (filming()) return ending == ".png" || ending == ".mp4";
     if (saving()) return ending == ".json";
@@ -26,21 +26,21 @@ bool FileDialog::lists(const fs::path& file) const {
                        [&](const FileKind& kind) { return has_ending(kind, file); });
 }
 
-void FileDialog::go_to(const fs::path& folder) {
+void FileDialog::open_folder(const fs::path& folder) {
     std::error_code error;
     fs::directory_iterator each(folder, error);
     if (error) {
-        complaint_ = folder.string() + ": " + error.message();
+        error_ = folder.string() + ": " + error.message();
         return;
     }
     folder_ = folder;
-    complaint_.clear();
+    error_.clear();
     entries_.clear();
     for (; each != fs::directory_iterator(); each.increment(error)) {
         if (error) break;
         const std::string name = each->path().filename().string();
         const bool is_folder = each->is_directory(error);
-        if (name.starts_with('.') || (!is_folder && !lists(each->path()))) continue;
+        if (name.starts_with('.') || (!is_folder && !is_listed(each->path()))) continue;
         entries_.push_back({name, is_folder});
     }
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
@@ -59,7 +59,7 @@ void FileDialog::take(Emit& emit) {
     fs::path path = fs::path(name_.data()).is_absolute() ? fs::path(name_.data()) : folder_ / name_.data();
     std::error_code error;
     if (fs::is_directory(path, error)) {
-        go_to(path);
+        open_folder(path);
         name_.fill('\0');
         return;
     }
@@ -75,7 +75,8 @@ void FileDialog::start(const Workspace& workspace, const Labs& labs) {
     for (FileRoute& route : file_routes(labs)) kinds_.push_back(std::move(route.kind));
     filter_ = 0;
     std::error_code error;
-    go_to(workspace.path.empty() ? fs::current_path(error) : fs::absolute(workspace.path).parent_path());
+    open_folder(workspace.path.empty() ? fs::current_path(error)
+                                       : fs::absolute(workspace.path).parent_path());
     if (filming()) video_.start(workspace, labs.find(workspace.lab)->labels_pictures(workspace));
     const std::string name = filming()  ? video_name(workspace, folder_)
                              : saving() ? workspace.path.filename().string()
@@ -88,11 +89,11 @@ void FileDialog::show_filter() {
     for (const FileKind& kind : kinds_) texts.push_back(kind_text(kind));
     std::vector<const char*> titles;
     for (const std::string& text : texts) titles.push_back(text.c_str());
-    if (choice_field("show", filter_, titles.data(), static_cast<int>(titles.size()))) go_to(folder_);
+    if (choice_field("show", filter_, titles.data(), static_cast<int>(titles.size()))) open_folder(folder_);
     explain("Which kinds of files are listed");
 }
 
-std::string FileDialog::why_no_files() const {
+std::string FileDialog::empty_message() const {
     if (std::ranges::any_of(entries_, [](const Entry& each) { return !each.folder; })) return {};
     if (filming()) return "No videos here yet.";
     if (saving()) return "No scenes here yet.";
@@ -120,8 +121,8 @@ bool FileDialog::list() {
             chosen = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
         }
     }
-    if (const std::string why = why_no_files(); !why.empty()) note(why);
-    if (!entered.empty()) go_to(entered);
+    if (const std::string why = empty_message(); !why.empty()) note(why);
+    if (!entered.empty()) open_folder(entered);
     return chosen;
 }
 
@@ -136,13 +137,13 @@ void FileDialog::frame(const Workspace& workspace, const Labs& labs, glm::vec2 s
     const glm::vec2 size =
         glm::max(glm::vec2(520.0f, filming() ? 540.0f : 420.0f) * scale, glm::vec2(0.5f, 0.6f) * screen);
     if (!begin_sheet(title(), screen, size)) emit("view.close");
-    if (ImGui::Button("Up")) go_to(folder_.parent_path());
+    if (ImGui::Button("Up")) open_folder(folder_.parent_path());
     explain("Shows the folder above this one");
     ImGui::SameLine();
     text_elided(folder_.string(), ImGui::GetContentRegionAvail().x, true);
     const float wrap = ImGui::GetContentRegionAvail().x;
     const float complaint =
-        complaint_.empty() ? 0.0f : ImGui::CalcTextSize(complaint_.c_str(), nullptr, false, wrap).y;
+        error_.empty() ? 0.0f : ImGui::CalcTextSize(error_.c_str(), nullptr, false, wrap).y;
     const float rows = filming() ? 2.0f + VideoOptions::rows : saving() ? 2.0f : 3.0f;
     ImGui::BeginChild("entries", {0.0f, -rows * ImGui::GetFrameHeightWithSpacing() - complaint}, true);
     bool done = list();
@@ -165,7 +166,7 @@ void FileDialog::frame(const Workspace& workspace, const Labs& labs, glm::vec2 s
     ImGui::SameLine();
     if (ImGui::Button("Cancel")) emit("view.close");
     explain("Esc: closes this and changes nothing");
-    if (!complaint_.empty()) note(complaint_);
+    if (!error_.empty()) note(error_);
     if (done) take(emit);
     ImGui::End();
 }

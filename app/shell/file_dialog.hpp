@@ -25,14 +25,14 @@ class FileDialog {
         bool folder;
     };
     void start(const Workspace& workspace, const Labs& labs);
-    void go_to(const std::filesystem::path& folder);
-    bool lists(const std::filesystem::path& file) const;
+    void open_folder(const std::filesystem::path& folder);
+    bool is_listed(const std::filesystem::path& file) const;
     /// Chooses the kind of files to list.
     void show_filter();
     /// The folders and files; true once a file is double-clicked.
     bool list();
     /// The message for a folder without any file that can be opened.
-    std::string why_no_files() const;
+    std::string empty_message() const;
     void take(Emit& emit);
     void send(const std::filesystem::path& path, Emit& emit);
 
@@ -48,7 +48,7 @@ class FileDialog {
     std::vector<FileKind> kinds_;  ///< kinds that can be opened
     int filter_ = 0;               ///< 0: all kinds; else the index of one, plus 1
     std::array<char, 1024> name_{};
-    std::string complaint_;
+    std::string error_;
     VideoOptions video_;
     UiState::FileDialog shown_ = UiState::FileDialog::None;
 };

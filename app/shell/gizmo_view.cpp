@@ -16,7 +16,7 @@ std::optional<Handle> dragged_handle(const Lab& lab, const Workspace& workspace,
 }
 
 /// Whether to report the drag: labs report moves of their own handles, but not their rotation.
-bool tells(const Pointer& pointer) {
+bool reports_drag(const Pointer& pointer) {
     const GizmoDrag* drag = pointer.dragged_part();
     return drag != nullptr && (pointer.drags_gizmo() || changed_by(drag->part()) == Drag::Rotation);
 }
@@ -39,7 +39,7 @@ void show_gizmo(DrawList& list, const Lab& lab, const View& view, const Pointer&
         draw_gizmo(list, {handle->frame, handle->drag, view.scale, handle->pick}, view.camera, view.palette,
                    pointer.hovered_part(), pointer.dragged_part());
     }
-    if (!tells(pointer)) return;
+    if (!reports_drag(pointer)) return;
     if (const auto now = dragged_handle(lab, view.workspace, pointer)) {
         list.labels.push_back({.at = now->frame.position,
                                .clearance = 26.0f * view.scale,
@@ -52,7 +52,7 @@ void show_gizmo(DrawList& list, const Lab& lab, const View& view, const Pointer&
 std::string gizmo_hint(const Lab& lab, const Workspace& workspace, const Pointer& pointer) {
     if (const auto part = pointer.hovered_part(); part && !pointer.busy())
         return together_hint(lab.together(workspace, changed_by(*part)), changed_by(*part));
-    if (!tells(pointer)) return {};
+    if (!reports_drag(pointer)) return {};
     const auto now = dragged_handle(lab, workspace, pointer);
     if (!now) return {};
     const GizmoDrag& drag = *pointer.dragged_part();

@@ -1,4 +1,4 @@
-// Mouse bindings for the camera: Tendril's own, or those of another program, for users who know that.
+// Mouse bindings for the camera: Tendril's own, or the ones a user knows from another program.
 #pragma once
 
 #include <optional>

@@ -12,7 +12,7 @@ namespace tendril::app {
 namespace {
 
 constexpr float drag_threshold = 4.0f;  ///< pixels; less is a click
-constexpr float slack = 4.0f;           ///< pixels beyond a handle's edge that still catch it
+constexpr float pick_margin = 4.0f;     ///< pixels beyond a handle's edge that still catch it
 constexpr int double_click_ticks = 20;
 constexpr float pixels_per_notch = 20.0f;   ///< for a drag that zooms
 constexpr float pixels_per_scroll = 15.0f;  ///< shift of the view per notch: about the fingers' own movement
@@ -77,8 +77,9 @@ void Pointer::take(const Event* event, const Input& input, const Scene& scene, E
     if (caught_ != no_pick && caught_in_ != &scene.lab) release(scene, emit);
     if (event != nullptr) {
         if (const auto* button = std::get_if<MousePress>(event)) {
-            if (button->down && doing_ == Doing::Nothing && !scene.over_panel) press(*button, input, scene);
-            if (!button->down && button->button == button_) let_go(input, scene, emit);
+            if (button->down && gesture_ == Gesture::Nothing && !scene.over_panel)
+                press(*button, input, scene);
+            if (!button->down && button->button == button_) release_button(input, scene, emit);
         } else if (std::holds_alternative<MouseMove>(*event)) {
             move(input, scene, emit);
         } else if (const auto* wheel = std::get_if<MouseWheel>(event)) {
@@ -87,16 +88,17 @@ void Pointer::take(const Event* event, const Input& input, const Scene& scene, E
                 emit_camera(emit, scene.workspace.camera, scrolled(*wheel, input, scene));
         } else if (const auto* focus = std::get_if<Focus>(event); focus != nullptr && !focus->focused) {
             release(scene, emit);
-        } else if (std::holds_alternative<KeyChange>(*event) && doing_ == Doing::Drag) {
+        } else if (std::holds_alternative<KeyChange>(*event) && gesture_ == Gesture::Drag) {
             // An axis key applies at once; for any other key, such as Ctrl+Z, do not drag until the mouse
             // moves.
             if (constraint(input) != constrained_) drag(input, scene, emit);
         }
     }
     last_ = input.mouse();
-    if (doing_ == Doing::Nothing) {
+    if (gesture_ == Gesture::Nothing) {
         const bool inside = !scene.over_panel && scene.camera.viewport().contains(input.mouse());
-        hovered_ = inside ? pick(scene.drawn, scene.camera, input.mouse(), slack * scene.scale) : no_pick;
+        hovered_ =
+            inside ? pick(scene.drawn, scene.camera, input.mouse(), pick_margin * scene.scale) : no_pick;
     }
 }
 
@@ -109,15 +111,15 @@ void Pointer::forget_missing(const Workspace& workspace, const Lab& lab) {
     if (!is_there(hovered_)) hovered_ = no_pick;
     if (!is_there(clicked_)) clicked_ = no_pick;
     if (caught_in_ != &lab || (is_there(caught_) && is_there(caught_handle_))) return;
-    doing_ = Doing::Nothing;
+    gesture_ = Gesture::Nothing;
     caught_ = caught_handle_ = no_pick;
     by_.reset();
     together_.clear();
 }
 
 void Pointer::release(const Scene& scene, Emit& emit) {
-    if (doing_ == Doing::Drag) caught_in_->drop(scene.workspace, caught_handle_, emit);
-    doing_ = Doing::Nothing;
+    if (gesture_ == Gesture::Drag) caught_in_->drop(scene.workspace, caught_handle_, emit);
+    gesture_ = Gesture::Nothing;
     caught_ = caught_handle_ = no_pick;
     by_.reset();
     together_.clear();
@@ -130,24 +132,24 @@ void Pointer::press(const MousePress& press, const Input& input, const Scene& sc
     caught_ = no_pick;
     const HeldKeys held{.shift = input.shift(), .ctrl = input.ctrl(), .alt = input.alt()};
     if (const auto action = mouse_action(mouse_preset(scene.workspace.settings), press.button, held)) {
-        doing_ = *action == MouseAction::Orbit ? Doing::Orbit
-                 : *action == MouseAction::Pan ? Doing::Pan
-                                               : Doing::Zoom;
+        gesture_ = *action == MouseAction::Orbit ? Gesture::Orbit
+                   : *action == MouseAction::Pan ? Gesture::Pan
+                                                 : Gesture::Zoom;
         return;
     }
     if (press.button != MouseButton::Left) return;
-    doing_ = Doing::Press;
-    caught_ = hovered_ = pick(scene.drawn, scene.camera, input.mouse(), slack * scene.scale);
+    gesture_ = Gesture::Press;
+    caught_ = hovered_ = pick(scene.drawn, scene.camera, input.mouse(), pick_margin * scene.scale);
     caught_in_ = &scene.lab;
     draggable_ = false;
     boxing_ = caught_ == no_pick && input.ctrl() && scene.lab.selects_by_box();
     const auto part = picked_part(caught_);
     stroking_ = !part && !input.ctrl() && scene.lab.takes_strokes(scene.workspace);
     const auto handle = part ? scene.lab.gizmo(scene.workspace) : scene.lab.handle(scene.workspace, caught_);
-    if (handle) take_hold(*handle, part ? part : handle->part, scene);
+    if (handle) begin_drag(*handle, part ? part : handle->part, scene);
 }
 
-void Pointer::take_hold(const Handle& handle, std::optional<GizmoPart> part, const Scene& scene) {
+void Pointer::begin_drag(const Handle& handle, std::optional<GizmoPart> part, const Scene& scene) {
     caught_handle_ = handle.pick;
     caught_frame_ = handle.frame;
     draggable_ = part.has_value() || has(handle.drag, Drag::Position);
@@ -165,8 +167,8 @@ bool Pointer::clicked_before(const Input& input, const Scene& scene) const {
            glm::distance(input.mouse(), clicked_at_) < drag_threshold * scene.scale;
 }
 
-void Pointer::let_go(const Input& input, const Scene& scene, Emit& emit) {
-    if (doing_ == Doing::Press && !picked_part(caught_)) {
+void Pointer::release_button(const Input& input, const Scene& scene, Emit& emit) {
+    if (gesture_ == Gesture::Press && !picked_part(caught_)) {
         const bool twice = clicked_before(input, scene);
         if (input.shift() || input.ctrl()) {
             scene.lab.click_more(scene.workspace, caught_, emit);
@@ -177,63 +179,63 @@ void Pointer::let_go(const Input& input, const Scene& scene, Emit& emit) {
         }
         if (stroking_ && caught_ == no_pick)
             scene.lab.stroke(scene.workspace, scene.pane, scene.camera, caught_at_, caught_at_, emit);
-        clicked_ = twice ? no_pick : caught_;  // a third click counts as a first one
+        clicked_ = twice ? no_pick : caught_;  // a third click starts anew
         clicked_at_ = input.mouse();
         since_click_ = 0;
     }
-    if (doing_ == Doing::Box) select_in_box(input.shift(), scene, emit);
-    if (doing_ == Doing::Stroke)
+    if (gesture_ == Gesture::Box) select_in_box(input.shift(), scene, emit);
+    if (gesture_ == Gesture::Stroke)
         scene.lab.stroke(scene.workspace, scene.pane, scene.camera, caught_at_, input.mouse(), emit);
     release(scene, emit);
 }
 
 void Pointer::move(const Input& input, const Scene& scene, Emit& emit) {
     const glm::vec2 by = input.mouse() - last_;
-    switch (doing_) {
-        case Doing::Nothing:
-        case Doing::Stray:
-        case Doing::Box:
-        case Doing::Stroke:
+    switch (gesture_) {
+        case Gesture::Nothing:
+        case Gesture::Stray:
+        case Gesture::Box:
+        case Gesture::Stroke:
             break;
-        case Doing::Orbit:
+        case Gesture::Orbit:
             emit_camera(emit, scene.workspace.camera, orbited(scene.workspace.camera, by));
             break;
-        case Doing::Pan:
+        case Gesture::Pan:
             emit_camera(emit, scene.workspace.camera, panned(scene.camera, by));
             break;
-        case Doing::Zoom:
+        case Gesture::Zoom:
             emit_camera(emit, scene.workspace.camera,
                         zoomed(scene.camera, caught_at_, -by.y / pixels_per_notch));
             break;
-        case Doing::Press:
+        case Gesture::Press:
             if (glm::distance(input.mouse(), caught_at_) < drag_threshold * scene.scale) break;
-            doing_ = stroking_            ? Doing::Stroke
-                     : draggable_         ? Doing::Drag
-                     : boxing_            ? Doing::Box
-                     : caught_ != no_pick ? Doing::Stray
-                     : is_drawing(scene)  ? Doing::Pan
-                                          : Doing::Orbit;
-            if (doing_ == Doing::Stroke) caught_ = caught_handle_ = no_pick;
-            if (doing_ == Doing::Drag) drag(input, scene, emit);
-            if (doing_ == Doing::Orbit)
+            gesture_ = stroking_            ? Gesture::Stroke
+                       : draggable_         ? Gesture::Drag
+                       : boxing_            ? Gesture::Box
+                       : caught_ != no_pick ? Gesture::Stray
+                       : is_drawing(scene)  ? Gesture::Pan
+                                            : Gesture::Orbit;
+            if (gesture_ == Gesture::Stroke) caught_ = caught_handle_ = no_pick;
+            if (gesture_ == Gesture::Drag) drag(input, scene, emit);
+            if (gesture_ == Gesture::Orbit)
                 emit_camera(emit, scene.workspace.camera,
                             orbited(scene.workspace.camera, input.mouse() - caught_at_));
-            if (doing_ == Doing::Pan)
+            if (gesture_ == Gesture::Pan)
                 emit_camera(emit, scene.workspace.camera, panned(scene.camera, input.mouse() - caught_at_));
             break;
-        case Doing::Drag:
+        case Gesture::Drag:
             drag(input, scene, emit);
             break;
     }
 }
 
 std::optional<Rect> Pointer::box() const {
-    if (doing_ != Doing::Box) return std::nullopt;
+    if (gesture_ != Gesture::Box) return std::nullopt;
     return Rect{glm::min(caught_at_, last_), glm::max(caught_at_, last_)};
 }
 
 std::optional<std::pair<glm::vec2, glm::vec2>> Pointer::stroke() const {
-    if (doing_ != Doing::Stroke) return std::nullopt;
+    if (gesture_ != Gesture::Stroke) return std::nullopt;
     return std::pair(caught_at_, last_);
 }
 
@@ -311,7 +313,8 @@ std::string Pointer::constraint(const Input& input) const {
 }
 
 Cursor Pointer::cursor() const {
-    if (doing_ == Doing::Drag || doing_ == Doing::Orbit || doing_ == Doing::Pan || doing_ == Doing::Zoom)
+    if (gesture_ == Gesture::Drag || gesture_ == Gesture::Orbit || gesture_ == Gesture::Pan ||
+        gesture_ == Gesture::Zoom)
         return Cursor::Grab;
     return hovered_ != no_pick ? Cursor::Hand : Cursor::Arrow;
 }

@@ -41,17 +41,17 @@ class Pointer {
     /// The hovered object of the lab; no_pick for a gizmo's part.
     PickId hovered() const { return hovered_part() ? no_pick : hovered_; }
     /// The dragged handle of the lab, also if it is dragged by its gizmo.
-    PickId dragged() const { return doing_ == Doing::Drag ? caught_handle_ : no_pick; }
+    PickId dragged() const { return gesture_ == Gesture::Drag ? caught_handle_ : no_pick; }
     std::optional<GizmoPart> hovered_part() const { return picked_part(hovered_); }
     /// The dragged part; null if the handle moves freely.
-    const GizmoDrag* dragged_part() const { return doing_ == Doing::Drag && by_ ? &*by_ : nullptr; }
+    const GizmoDrag* dragged_part() const { return gesture_ == Gesture::Drag && by_ ? &*by_ : nullptr; }
     /// Whether that part is the gizmo's, not one that the lab has drawn.
     bool drags_gizmo() const { return dragged_part() != nullptr && picked_part(caught_).has_value(); }
     /// The number of dragged handles.
     std::size_t dragged_count() const {
-        return doing_ == Doing::Drag ? std::max<std::size_t>(1, together_.size()) : 0;
+        return gesture_ == Gesture::Drag ? std::max<std::size_t>(1, together_.size()) : 0;
     }
-    bool busy() const { return doing_ != Doing::Nothing; }
+    bool busy() const { return gesture_ != Gesture::Nothing; }
     /// The axis or plane that a held key constrains the drag to; empty for the view plane.
     std::string constraint(const Input& input) const;
     /// The selection box being drawn, in window coordinates.
@@ -64,19 +64,19 @@ class Pointer {
 
   private:
     /// Stray: a drag that began on something that cannot be dragged.
-    enum class Doing { Nothing, Press, Stray, Drag, Orbit, Pan, Zoom, Box, Stroke };
+    enum class Gesture { Nothing, Press, Stray, Drag, Orbit, Pan, Zoom, Box, Stroke };
 
     void press(const MousePress& press, const Input& input, const Scene& scene);
-    void let_go(const Input& input, const Scene& scene, Emit& emit);
+    void release_button(const Input& input, const Scene& scene, Emit& emit);
     void move(const Input& input, const Scene& scene, Emit& emit);
     void drag(const Input& input, const Scene& scene, Emit& emit);
     void drag_together(const HandleFrame& to, const Scene& scene, Emit& emit) const;
     void select_in_box(bool add, const Scene& scene, Emit& emit) const;
     std::optional<glm::vec3> dragged_to(const Input& input, const Camera& camera) const;
-    void take_hold(const Handle& handle, std::optional<GizmoPart> part, const Scene& scene);
+    void begin_drag(const Handle& handle, std::optional<GizmoPart> part, const Scene& scene);
     bool clicked_before(const Input& input, const Scene& scene) const;
 
-    Doing doing_ = Doing::Nothing;
+    Gesture gesture_ = Gesture::Nothing;
     MouseButton button_ = MouseButton::Left;
     PickId hovered_ = no_pick;
     PickId caught_ = no_pick;         ///< the picked object

@@ -376,7 +376,7 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
         show_first_hint(frame),
         show_legend(frame.lab.legend(workspace), frame.layout.view, frame.colours(), frame.layout.scale),
         show_axis_gizmo(frame, emit)};
-    card_ring_ = show_card_halo(frame, lit_);
+    card_ring_ = show_card_halo(frame, highlighted_);
     if (workspace.ui.help) show_help(frame, emit);
     if (workspace.ui.settings) show_settings(frame, emit);
     palette_.frame(frame, emit);

@@ -59,7 +59,7 @@ class Shell {
     void keep_scroll(Scrolled& scrolled);
     std::map<std::pair<std::string, bool>, Scrolled> scrolled_;  ///< by lab, and whether it is the left panel
     std::vector<Rect> overlays_;
-    PickId lit_ = no_pick;  ///< the highlighted handle's; see show_card_halo()
+    PickId highlighted_ = no_pick;  ///< the highlighted handle's; see show_card_halo()
     std::optional<glm::vec2> card_ring_;
     CommandPalette palette_;
     Unfolding unfolding_;
@@ -84,8 +84,8 @@ Rect show_first_hint(const ShellFrame& frame);
 /// contents do not fit. Always call ImGui::End() after it.
 void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 padding, bool scrolls = false);
 
-/// Begins a window in the middle of the screen, of the wanted size in pixels or nearly that of the screen if
-/// that is smaller. Returns false once it is closed by Escape or the cross.
+/// Begins a window in the middle of the screen, of the wanted size in pixels, clamped to fit the
+/// screen. Returns false once it is closed by Escape or the cross.
 bool begin_sheet(const char* title, glm::vec2 screen, glm::vec2 wanted);
 
 }  // namespace tendril::app

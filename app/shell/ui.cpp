@@ -17,7 +17,7 @@ namespace {
 
 constexpr float base_text = 15.0f;  ///< pixels at scale 1
 
-// Latin, Greek for maths, the punctuation used in texts, and what stands for any other character.
+// Latin, Greek for maths, the punctuation used in texts, and the replacement character.
 constexpr ImWchar glyphs[] = {0x0020, 0x024F, 0x0370, 0x03FF, 0x2010, 0x205E, 0x20A0, 0x20BF,
                               0x2190, 0x2193, 0x2200, 0x2265, 0xFFFD, 0xFFFD, 0};
 

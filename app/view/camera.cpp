@@ -10,8 +10,8 @@ namespace {
 
 constexpr float quarter_turn = camera_range::pitch;
 
-float bounded(float value, float low, float high, float otherwise) {
-    return std::isfinite(value) ? std::clamp(value, low, high) : otherwise;
+float bounded(float value, float low, float high, float fallback) {
+    return std::isfinite(value) ? std::clamp(value, low, high) : fallback;
 }
 
 /// Clamps a pose to its valid range, so that no scene file or gesture can break the picture.

@@ -45,7 +45,7 @@ struct Stroke {
     std::int16_t rank = 0;  ///< where pickable strokes overlap the higher rank wins, then the nearer
 };
 
-/// Text beside a point. Of two labels that would overlap, the higher `rank` is kept.
+/// Text beside a point. If two labels would overlap, only the higher `rank` is drawn.
 struct Label {
     glm::vec3 at{0.0f};
     float clearance = 10.0f;  ///< pixels from the point to keep free

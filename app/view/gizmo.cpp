@@ -22,7 +22,7 @@ constexpr float box_half = 5.0f, box_alone = 82.0f, box_within = 56.0f;
 constexpr float plane_low = 22.0f, plane_high = 38.0f;
 constexpr std::int16_t gizmo_rank = 200;
 constexpr int ring_sides = 96;
-constexpr glm::vec4 unseen{0.0f};  ///< for strokes that only serve picking
+constexpr glm::vec4 transparent{0.0f};  ///< for strokes that only serve picking
 
 constexpr std::array<const char*, gizmo_parts> names{"move_x",   "move_y",  "move_z",   "move_yz",
                                                      "move_zx",  "move_xy", "rotate_x", "rotate_y",
@@ -138,7 +138,7 @@ class Drawing {
             rim.rank = gizmo_rank - 20;
         }
         for (const GizmoPart part : gizmo_.parts(camera_)) draw(part);
-        Stroke& middle = list_.sphere(centre_, px(middle_radius), Unit::Pixels, unseen);
+        Stroke& middle = list_.sphere(centre_, px(middle_radius), Unit::Pixels, transparent);
         middle.pick = gizmo_.middle;
         middle.layer = Layer::Overlay;
         middle.rank = gizmo_rank + 20;
@@ -181,7 +181,8 @@ class Drawing {
         const float width = px(lit(part) ? 4.0f : 3.0f);
         over(list_.line(centre_ + arrow_from * pixel_ * along, centre_ + cone * along, width, paint), part, 4)
             .pick = no_pick;
-        over(list_.line(centre_ + from * pixel_ * along, centre_ + cone * along, px(9.0f), unseen), part, 4);
+        over(list_.line(centre_ + from * pixel_ * along, centre_ + cone * along, px(9.0f), transparent), part,
+             4);
         Stroke& head = list_.bone(centre_ + cone * along, centre_ + tip * along,
                                   px(lit(part) ? cone_radius + 1.0f : cone_radius), px(0.5f), paint);
         head.unit = Unit::Pixels;
@@ -215,7 +216,7 @@ class Drawing {
         if (!has(gizmo_.what, Drag::Position))
             over(list_.line(centre_ + arrow_from * pixel_ * along, at, px(3.0f), paint), part, 4);
         solid(at, (lit(part) ? box_half + 1.0f : box_half) * pixel_, colour(part));
-        over(list_.sphere(at, px(box_half + 3.0f), Unit::Pixels, unseen), part, 6);
+        over(list_.sphere(at, px(box_half + 3.0f), Unit::Pixels, transparent), part, 6);
     }
 
     /// A cube in the overlay, with the same soft edges as in the scene.
@@ -252,7 +253,7 @@ class Drawing {
                  part, 8);
         const float middle = 0.5f * (plane_low + plane_high);
         const float radius = 0.5f * (plane_high - plane_low);
-        over(list_.sphere(at(middle, middle), px(radius), Unit::Pixels, unseen), part, 8);
+        over(list_.sphere(at(middle, middle), px(radius), Unit::Pixels, transparent), part, 8);
     }
 
     void dragged() {

@@ -18,7 +18,7 @@ bool finite(glm::vec3 v) {
     return std::isfinite(v.x + v.y + v.z) && glm::dot(v, v) < 1e30f;
 }
 
-glm::quat sound(const glm::quat& rotation) {
+glm::quat valid_rotation(const glm::quat& rotation) {
     const float length = glm::length(rotation);
     return length > 1e-6f && length < 1e6f ? rotation / length : glm::quat(1.0f, 0.0f, 0.0f, 0.0f);
 }
@@ -41,7 +41,7 @@ std::string formatted(const char* format, double a, double b = 0.0) {
 GizmoDrag::GizmoDrag(GizmoPart part, const HandleFrame& frame, const Ray& caught, float reach,
                      bool orthographic)
     : part_(part), from_(frame), reach_(reach > 1e-9f && std::isfinite(reach) ? reach : 1.0f) {
-    from_.rotation = sound(frame.rotation);
+    from_.rotation = valid_rotation(frame.rotation);
     if (!finite(from_.position)) from_.position = glm::vec3(0.0f);
     last_ = from_;
     const int axis = axis_of(part);
@@ -54,7 +54,7 @@ GizmoDrag::GizmoDrag(GizmoPart part, const HandleFrame& frame, const Ray& caught
                                                            : glm::vec3(0.0f, 0.0f, -1.0f);
     if (!orthographic && finite(way) && glm::length(way) > 1e-6f) {
         distance_ = glm::length(way);
-        nearness_ = 1.0f / distance_;
+        inverse_distance_ = 1.0f / distance_;
         sight_ = way / distance_;
     }
     edge_on_ = std::abs(glm::dot(sight_, axis_)) < ring_slant;
@@ -69,7 +69,7 @@ GizmoDrag::GizmoDrag(GizmoPart part, const HandleFrame& frame, const Ray& caught
 std::optional<glm::vec3> GizmoDrag::facing(const Ray& ray) const {
     if (!finite(ray.origin) || !finite(ray.direction)) return std::nullopt;
     glm::vec3 at;
-    if (nearness_ == 0.0f) {
+    if (inverse_distance_ == 0.0f) {
         at = ray.origin - from_.position;
         at -= glm::dot(at, sight_) * sight_;
     } else {
@@ -88,15 +88,15 @@ float GizmoDrag::along_axis(glm::vec3 at, glm::vec3 axis) const {
     const float slant = glm::length(across);
     if (slant < 1e-6f) return 0.0f;
     const float seen = glm::dot(at, across) / slant;
-    return seen / std::max(slant - seen * away * nearness_, min_slant);
+    return seen / std::max(slant - seen * away * inverse_distance_, min_slant);
 }
 
 /// The point where the line of sight through `at` meets the part's plane.
 glm::vec2 GizmoDrag::in_plane(glm::vec3 at) const {
     const float height = glm::dot(at, axis_), upright = glm::dot(sight_, axis_);
     const float side = upright < 0.0f ? -1.0f : 1.0f;
-    const float slant = side * std::max(side * (upright + height * nearness_), min_slant);
-    const glm::vec3 met = at - height / slant * (sight_ + nearness_ * at);
+    const float slant = side * std::max(side * (upright + height * inverse_distance_), min_slant);
+    const glm::vec3 met = at - height / slant * (sight_ + inverse_distance_ * at);
     return {glm::dot(met, u_), glm::dot(met, v_)};
 }
 

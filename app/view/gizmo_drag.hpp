@@ -50,7 +50,7 @@ class GizmoDrag {
     glm::vec3 axis_, u_, v_;  ///< the part's axis (along, about, or the plane's normal) and the two others
     glm::vec3 sight_;         ///< unit, from the eye to the centre
     float distance_ = 1.0f;   ///< from the eye to the centre
-    float nearness_ = 0.0f;   ///< inverse distance; 0 if lines of sight are parallel
+    float inverse_distance_ = 0.0f;  ///< inverse distance; 0 if lines of sight are parallel
     float reach_;
     bool edge_on_ = false;  ///< the ring is seen nearly edge-on
     glm::vec2 caught_{0.0f};

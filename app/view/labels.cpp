@@ -48,9 +48,9 @@ bool usable(const LabelRequest& r, const Rect& viewport) {
 }
 
 /// The boxes placed so far, by the grid cells they touch.
-class Taken {
+class PlacedBoxes {
   public:
-    Taken(const Rect& viewport, glm::vec2 cell, float gap)
+    PlacedBoxes(const Rect& viewport, glm::vec2 cell, float gap)
         : origin_(viewport.min), cell_(cell), gap_(gap), count_(glm::ivec2(viewport.size() / cell) + 1) {
         cells_.resize(static_cast<std::size_t>(count_.x) * static_cast<std::size_t>(count_.y));
     }
@@ -121,7 +121,7 @@ std::vector<PlacedLabel> place_labels(std::span<const LabelRequest> requests, co
                      [&](std::size_t a, std::size_t b) { return requests[a].rank > requests[b].rank; });
 
     const glm::vec2 cell = cell_size(requests, viewport);
-    Taken taken(viewport, cell, gap), blocked(viewport, cell, 0.0f);
+    PlacedBoxes taken(viewport, cell, gap), blocked(viewport, cell, 0.0f);
     for (const Rect& obstacle : obstacles) {
         if (overlap(obstacle, viewport, 0.0f)) blocked.add(obstacle);
     }

@@ -1,5 +1,5 @@
 // The colours of the picture, named by meaning. The meanings are the same in all labs and both themes; the
-// hues are those of Okabe and Ito (2008), which colour-blind people can distinguish.
+// hues are from Okabe and Ito (2008), which colour-blind people can distinguish.
 #pragma once
 
 #include <glm/vec3.hpp>

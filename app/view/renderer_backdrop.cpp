@@ -35,7 +35,7 @@ int Backdrop::draw_directly(const Key& key, const Palette& palette, const Frame&
     return calls;
 }
 
-void Backdrop::keep(const Key& key, const Palette& palette, const Frame& frame) {
+void Backdrop::cache(const Key& key, const Palette& palette, const Frame& frame) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     if (size_ != frame.framebuffer_size) {
         size_ = frame.framebuffer_size;
@@ -43,7 +43,7 @@ void Backdrop::keep(const Key& key, const Palette& palette, const Frame& frame) 
         glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size_.x, size_.y);
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_);
     }
-    kept_calls_ = draw_directly(key, palette, frame);
+    cached_calls_ = draw_directly(key, palette, frame);
 }
 
 int Backdrop::draw(const CameraPose& pose, std::span<const Rect> viewports, const Palette& palette,
@@ -62,15 +62,15 @@ int Backdrop::draw(const CameraPose& pose, std::span<const Rect> viewports, cons
         glBindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
         return draw_directly(key, palette, frame);
     }
-    if (kept_ != key) keep(key, palette, frame);
-    kept_ = key;
+    if (cached_ != key) cache(key, palette, frame);
+    cached_ = key;
     const glm::ivec2 size = frame.framebuffer_size;
     glDisable(GL_SCISSOR_TEST);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, frame.framebuffer);
     glBlitFramebuffer(0, 0, size.x, size.y, 0, 0, size.x, size.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
-    return kept_calls_;
+    return cached_calls_;
 }
 
 }  // namespace tendril::app

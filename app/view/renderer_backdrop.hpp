@@ -31,8 +31,7 @@ class Backdrop {
     Backdrop& operator=(const Backdrop&) = delete;
 
     /// Fills frame.framebuffer, and leaves it bound; draws the grid in each viewport. Returns the number of
-    /// draw calls; a copy counts as many as it saves, so that the number does not depend on the previous
-    /// frame.
+    /// draw calls. A cached copy counts as the calls it replaces, so the number is the same every frame.
     int draw(const CameraPose& pose, std::span<const Rect> viewports, const Palette& palette,
              const Frame& frame);
 
@@ -48,14 +47,14 @@ class Backdrop {
         bool operator==(const Key&) const = default;
     };
     int draw_directly(const Key& key, const Palette& palette, const Frame& frame) const;
-    void keep(const Key& key, const Palette& palette, const Frame& frame);
+    void cache(const Key& key, const Palette& palette, const Frame& frame);
 
     BackgroundPass background_;
     GridPass grid_;
     GLuint framebuffer_ = 0, colour_ = 0;
     glm::ivec2 size_{0};
-    std::optional<Key> last_, kept_;
-    int kept_calls_ = 0;  ///< the draw calls of the cached backdrop
+    std::optional<Key> last_, cached_;
+    int cached_calls_ = 0;  ///< the draw calls of the cached backdrop
 };
 
 }  // namespace tendril::app

@@ -10,7 +10,7 @@ namespace {
 
 /// Frame pixels per pixel of the shadows' buffer, each way.
 constexpr int coarseness = 4;
-/// Above this many window pixels of shadow in total, see thin_out().
+/// Above this many window pixels of shadow in total, see drop_faint().
 constexpr float max_pixels = 3e7f;
 /// Shadows with a strength below this are faint.
 constexpr float faint = 0.4f;
@@ -100,12 +100,12 @@ void ShadowPass::collect(const DrawList& list, const Camera& camera, float darkn
     for (const Stroke& stroke : list.strokes) {
         if (stroke.shadow) add(stroke, camera, darkness);
     }
-    thin_out();
+    drop_faint();
 }
 
-/// Thousands of strokes high above the ground shade it many times over, and since the darkest wins, a few of
-/// their shadows look the same as all. Keeps all shadows of strokes close to the ground.
-void ShadowPass::thin_out() {
+/// Thousands of faint shadows overlap, and only the darkest shows, so a few of them look the same. Keeps all
+/// shadows of strokes close to the ground.
+void ShadowPass::drop_faint() {
     constexpr std::size_t few = 500;
     const auto step = static_cast<std::size_t>(area_ / max_pixels) + 1;
     if (step == 1 || shadows_.size() <= few) return;

@@ -33,7 +33,7 @@ class ShadowPass {
     };
     void collect(const DrawList& list, const Camera& camera, float darkness);
     void add(const Stroke& stroke, const Camera& camera, float darkness);
-    void thin_out();
+    void drop_faint();
     void allocate(glm::ivec2 size);
 
     Program program_{"shadow.vert", "shadow.frag"};

@@ -60,8 +60,8 @@ class SkinPass::Sent {
     Sent& operator=(const Sent&) = delete;
 
     bool is_gone() const { return mesh_.expired(); }
-    GLuint picture(std::int32_t place, GLuint otherwise) const {
-        return place < 0 ? otherwise : pictures_[static_cast<std::size_t>(place)];
+    GLuint picture(std::int32_t place, GLuint fallback) const {
+        return place < 0 ? fallback : pictures_[static_cast<std::size_t>(place)];
     }
 
     /// Resends the vertices if the morph weights changed.
@@ -131,7 +131,7 @@ SkinPass::Sent& SkinPass::sent(const std::shared_ptr<const SkinnedMesh>& mesh) {
     return *place;
 }
 
-void SkinPass::forget_those_gone() {
+void SkinPass::erase_expired() {
     std::erase_if(sent_, [](const auto& each) { return each.second->is_gone(); });
 }
 
@@ -148,7 +148,7 @@ void SkinPass::send_matrices(const std::vector<AffineRows>& matrices) {
 }
 
 int SkinPass::draw(const std::vector<SkinDraw>& skins, bool solid, const Camera& camera, const Frame& frame) {
-    forget_those_gone();
+    erase_expired();
     int calls = 0;
     for (const SkinDraw& skin : skins) {
         if ((skin.opacity >= 1.0f) != solid || skin.opacity <= 0.0f || !skin.mesh ||

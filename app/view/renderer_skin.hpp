@@ -28,7 +28,7 @@ class SkinPass {
 
     Sent& sent(const std::shared_ptr<const SkinnedMesh>& mesh);
     void send_matrices(const std::vector<AffineRows>& matrices);
-    void forget_those_gone();
+    void erase_expired();
 
     Program program_{"skin.vert", "skin.frag"};
     GLuint matrices_ = 0, matrices_texture_ = 0, white_ = 0;

@@ -142,7 +142,7 @@ void StrokePass::prepare(const DrawList& list, const Camera& camera, const Frame
     sort(list, camera);
     instances_.clear();
     scene_count_ = 0;
-    for (const Place& place : order_) {
+    for (const SortEntry& place : order_) {
         instances_.push_back(instance(list.strokes[place.stroke], outlines_[place.outline], frame, camera));
         if ((place.key & overlay_bit) == 0) ++scene_count_;
     }

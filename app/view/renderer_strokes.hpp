@@ -33,10 +33,10 @@ class StrokePass {
         glm::vec2 mitre;
     };
     /// Sorts in drawing order.
-    struct Place {
+    struct SortEntry {
         std::uint64_t key;
         std::uint32_t stroke, outline;
-        bool operator<(const Place& other) const {
+        bool operator<(const SortEntry& other) const {
             return key != other.key ? key < other.key : stroke < other.stroke;
         }
     };
@@ -50,7 +50,7 @@ class StrokePass {
     Instances buffer_;
     // Members only to reuse their memory from frame to frame.
     std::vector<ProjectedStroke> outlines_;
-    std::vector<Place> order_;
+    std::vector<SortEntry> order_;
     std::vector<Instance> instances_;
     std::size_t scene_count_ = 0;
 };

@@ -17,9 +17,9 @@ inline bool can_be_built(glm::vec3 point) {
            std::abs(point.z) <= farthest_built;
 }
 
-inline glm::vec3 unit_or(glm::vec3 vector, glm::vec3 otherwise) {
+inline glm::vec3 unit_or(glm::vec3 vector, glm::vec3 fallback) {
     const float length = glm::length(vector);
-    return length > 1e-30f && std::isfinite(length) ? vector / length : otherwise;
+    return length > 1e-30f && std::isfinite(length) ? vector / length : fallback;
 }
 
 /// Casts the shadow of an invisible capsule.

@@ -12,7 +12,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr double closest = 1e-3;  ///< minimum distance of keys in time
+constexpr double min_spacing = 1e-3;  ///< minimum distance of keys in time
 constexpr int no_key = -1;
 
 enum class Grip { None, Key, Arrive, Leave };
@@ -89,8 +89,8 @@ class Editor {
         signal::CurveKey& key = curve_.keys[static_cast<std::size_t>(hit.key)];
         const double time = time_at(mouse.x), value = value_at(mouse.y);
         if (hit.grip == Grip::Key) {
-            const double low = hit.key > 0 ? key_at(hit.key - 1).time + closest : -1e9;
-            const double high = hit.key + 1 < count() ? key_at(hit.key + 1).time - closest : 1e9;
+            const double low = hit.key > 0 ? key_at(hit.key - 1).time + min_spacing : -1e9;
+            const double high = hit.key + 1 < count() ? key_at(hit.key + 1).time - min_spacing : 1e9;
             key.time = std::clamp(time, std::min(low, high), high);
             key.value = std::clamp(value, -1e6, 1e6);
             return;
@@ -106,8 +106,8 @@ class Editor {
         const double time = time_at(mouse.x);
         auto at = curve_.keys.begin();
         while (at != curve_.keys.end() && at->time < time) ++at;
-        if (at != curve_.keys.end() && at->time - time < closest) return no_key;
-        if (at != curve_.keys.begin() && time - (at - 1)->time < closest) return no_key;
+        if (at != curve_.keys.end() && at->time - time < min_spacing) return no_key;
+        if (at != curve_.keys.begin() && time - (at - 1)->time < min_spacing) return no_key;
         const signal::Piece piece = at == curve_.keys.begin() ? signal::Piece::Linear : (at - 1)->piece;
         const auto added = curve_.keys.insert(at, {.time = time, .value = value_at(mouse.y), .piece = piece});
         return static_cast<int>(added - curve_.keys.begin());

@@ -15,7 +15,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr double endless = 1e6;  ///< a limit this large only keeps numbers finite, and is not shown
+constexpr double no_limit = 1e6;  ///< a limit this large only keeps numbers finite, and is not shown
 
 /// "0.25", "1000": no trailing zeros.
 std::string plain_number(double value) {
@@ -26,7 +26,7 @@ std::string plain_number(double value) {
 }
 
 /// " m", "°": the unit with its leading space, if any.
-std::string behind(std::string unit) {
+std::string unit_suffix(std::string unit) {
     unit = unit.substr(0, unit.find(','));  // "°/s, no limit"
     if (unit == "deg") unit = "degrees";
     return unit.empty() || unit.starts_with("\xC2\xB0") ? unit : ' ' + unit;
@@ -34,8 +34,8 @@ std::string behind(std::string unit) {
 
 /// " 0 to 10 m."; just the unit if any number is allowed.
 std::string range_text(const RowAbove& row) {
-    const std::string unit = behind(unit_of(row.format.data()));
-    const bool low = row.low > -endless, high = row.high < endless;
+    const std::string unit = unit_suffix(unit_of(row.format.data()));
+    const bool low = row.low > -no_limit, high = row.high < no_limit;
     if (low && high) return ' ' + plain_number(row.low) + " to " + plain_number(row.high) + unit + '.';
     if (low) return ' ' + plain_number(row.low) + unit + " or more.";
     if (high) return ' ' + plain_number(row.high) + unit + " or less.";

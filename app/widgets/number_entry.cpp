@@ -47,7 +47,7 @@ void begin_editing(ImGuiID id, double value) {
     now.before = now.text;
 }
 
-ImVec4 reddened(const ImVec4& colour) {
+ImVec4 mixed_with_red(const ImVec4& colour) {
     const auto mixed = [](float from, float to) { return from + 0.4f * (to - from); };
     return {mixed(colour.x, 0.9f), mixed(colour.y, 0.15f), mixed(colour.z, 0.1f), 1.0f};
 }
@@ -66,7 +66,7 @@ std::optional<double> edited_text(const char* id, const std::string& unit, bool 
     const auto is_empty = [&] { return now.text[0] == '\0'; };
     const bool was_wrong = !is_empty() && !read(now.text.data(), unit, whole).value;
     if (was_wrong)
-        ImGui::PushStyleColor(ImGuiCol_FrameBg, reddened(ImGui::GetStyleColorVec4(ImGuiCol_FrameBg)));
+        ImGui::PushStyleColor(ImGuiCol_FrameBg, mixed_with_red(ImGui::GetStyleColorVec4(ImGuiCol_FrameBg)));
     const std::string text_id = std::string(id) + " text";
     // ImGui's own Tab goes to the next text field, and a number is not one until it is clicked.
     bool tabbed = false;

@@ -21,7 +21,7 @@ float tick_step(float range, int most) {
     return static_cast<float>(axis_step(static_cast<double>(range) / static_cast<double>(most)));
 }
 
-constexpr float far_away = 4000.0f;  ///< pixels beyond the plot at which points are clamped
+constexpr float clamp_margin = 4000.0f;  ///< pixels beyond the plot at which points are clamped
 
 class Plot {
   public:
@@ -155,7 +155,7 @@ class Plot {
     bool logarithmic() const { return axes_.min_y > 0.0f; }
     float y(float value) const {
         const float at = along_y(logarithmic() ? std::max(std::log10(std::max(value, 0.0f)), low_) : value);
-        return std::clamp(at, from_.y - far_away, to_.y + far_away);
+        return std::clamp(at, from_.y - clamp_margin, to_.y + clamp_margin);
     }
     /// The y pixel of a value, or of its base-10 logarithm on a logarithmic axis.
     float along_y(float power) const { return to_.y + (from_.y - to_.y) * (power - low_) / (high_ - low_); }

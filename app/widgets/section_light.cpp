@@ -15,7 +15,7 @@ ImGuiID key_of(std::string_view title, char what) {
 }
 
 /// An arrow in the middle of the window at height y: scroll down (1) or up (-1).
-void point_there(float y, float down, const ImVec4& colour) {
+void draw_arrow(float y, float down, const ImVec4& colour) {
     const float size = 0.55f * ImGui::GetTextLineHeight();
     const float x = ImGui::GetWindowPos().x + 0.5f * ImGui::GetWindowWidth();
     ImDrawList* const list = ImGui::GetWindowDrawList();
@@ -48,8 +48,7 @@ void light_section(const char* title) {
     ImVec4 colour = ImGui::GetStyleColorVec4(ImGuiCol_CheckMark);
     const float bottom = window.y + ImGui::GetWindowHeight();
     if (low.y < window.y || high.y > bottom) {
-        point_there(high.y > bottom ? bottom - line : window.y + line, high.y > bottom ? 1.0f : -1.0f,
-                    colour);
+        draw_arrow(high.y > bottom ? bottom - line : window.y + line, high.y > bottom ? 1.0f : -1.0f, colour);
         return;
     }
     colour.w = 0.16f;

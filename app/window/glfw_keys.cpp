@@ -8,15 +8,15 @@ namespace {
 
 /// `first` plus the offset of `code` from `first_code`: for runs of keys that both enumerations have in the
 /// same order.
-Key run(Key first, int code, int first_code) {
+Key key_in_run(Key first, int code, int first_code) {
     return static_cast<Key>(static_cast<int>(first) + code - first_code);
 }
 
-Key from_place(int code) {
-    if (code >= GLFW_KEY_A && code <= GLFW_KEY_Z) return run(Key::A, code, GLFW_KEY_A);
-    if (code >= GLFW_KEY_0 && code <= GLFW_KEY_9) return run(Key::Num0, code, GLFW_KEY_0);
-    if (code >= GLFW_KEY_KP_0 && code <= GLFW_KEY_KP_9) return run(Key::Num0, code, GLFW_KEY_KP_0);
-    if (code >= GLFW_KEY_F1 && code <= GLFW_KEY_F12) return run(Key::F1, code, GLFW_KEY_F1);
+Key from_position(int code) {
+    if (code >= GLFW_KEY_A && code <= GLFW_KEY_Z) return key_in_run(Key::A, code, GLFW_KEY_A);
+    if (code >= GLFW_KEY_0 && code <= GLFW_KEY_9) return key_in_run(Key::Num0, code, GLFW_KEY_0);
+    if (code >= GLFW_KEY_KP_0 && code <= GLFW_KEY_KP_9) return key_in_run(Key::Num0, code, GLFW_KEY_KP_0);
+    if (code >= GLFW_KEY_F1 && code <= GLFW_KEY_F12) return key_in_run(Key::F1, code, GLFW_KEY_F1);
     switch (code) {
         case GLFW_KEY_ESCAPE:
             return Key::Escape;
@@ -86,7 +86,7 @@ bool is_letter_or_sign(int code) {
 }  // namespace
 
 Key translated_key(int glfw_key, int scancode) {
-    const Key place = from_place(glfw_key);
+    const Key place = from_position(glfw_key);
     // The space bar and the number pad are the same everywhere.
     if (!is_letter_or_sign(glfw_key)) return place;
     const char* const written = glfwGetKeyName(glfw_key, scancode);

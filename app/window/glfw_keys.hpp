@@ -8,7 +8,7 @@
 namespace tendril::app {
 
 /// The key as labelled by the current layout: Ctrl+Z is at the key labelled Z. Keys of other scripts
-/// (Cyrillic, Greek) are named by their position on a US keyboard. The number pad counts as digits.
+/// (Cyrillic, Greek) are named by their position on a US keyboard. Number pad keys map to digits.
 Key translated_key(int glfw_key, int scancode);
 
 std::string utf8(unsigned codepoint);

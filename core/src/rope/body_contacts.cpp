@@ -130,10 +130,7 @@ void BodyContacts::choose_stiffness() {
 void BodyContacts::set_pushes(std::uint32_t number, std::span<const Side> sides) {
     ContactScratch& chain = chain_scratch(number);
     for (detail::NodePush& push : chain.pushes)
-        push = {.node = push.node,
-                .at = expected_position(number, push.node),
-                .force = dvec3(0.0),
-                .stiffness = {}};
+        push = {push.node, expected_position(number, push.node), dvec3(0.0), {}};
     for (const Side& side : sides) {
         const Contact& contact = s_.contacts[side.contact];
         const Response response = respond(contact);

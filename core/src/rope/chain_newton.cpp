@@ -23,8 +23,7 @@ constexpr int max_rejected = 3;   ///< consecutive steps that may be repeated
 /// times its weight stretches by a millionth.
 constexpr double min_compliance = 1e-8;
 constexpr double max_length_error = 1e-5;  ///< relative length error
-/// After this many divergences links keep their extra stiffness: a fold running along a rope would repeat
-/// them.
+/// After as many divergences links keep their extra stiffness: a running fold would repeat them.
 constexpr int max_divergences = 2;
 constexpr double first_extra_stiffness = 10.0;
 constexpr double max_growth = 0.25, max_turn = 0.5;

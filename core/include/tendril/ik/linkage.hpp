@@ -95,7 +95,7 @@ enum class ClosureKind : std::uint8_t {
     Frame   ///< and the links turn together: the angle between them stays as drawn
 };
 
-/// What closes a loop: a point of one link and one of another coincide. As drawn they may be apart.
+/// Closes a loop: a point of one link coincides with a point of another. As drawn they may be apart.
 struct Closure {
     std::string name{};
     ClosureKind kind = ClosureKind::Point;
@@ -222,7 +222,7 @@ struct LinkPlace {
 /// Solves one linkage. Holds its constants and scratch memory; all that persists is in the LinkageState.
 class LinkageSolver {
   public:
-    /// What check() refuses.
+    /// Fails if check() does.
     static Expected<LinkageSolver> make(const Linkage& linkage);
     ~LinkageSolver();
     LinkageSolver(LinkageSolver&&) noexcept;
@@ -231,8 +231,8 @@ class LinkageSolver {
     const Linkage& linkage() const noexcept;
     /// All hinges turn about one direction, all sliders are across it, and there are no balls.
     bool planar() const noexcept;
-    /// The largest extent of the linkage as drawn, metres. If all is drawn in one place, that of a slider's
-    /// range, or 1.
+    /// The largest extent of the linkage as drawn, metres. If all is drawn in one place, a slider's range,
+    /// or 1.
     double size() const noexcept;
     /// As drawn. It need not be closed: the first solve closes it.
     LinkageState initial_state() const;
@@ -267,7 +267,7 @@ class LinkageSolver {
     /// Computes places for a state, as saved or scrubbed to. False for a state of another linkage.
     bool place(const LinkageState& state) noexcept;
     std::span<const LinkPlace> links() const noexcept;
-    /// Of Linkage::points; metres. The origin for an index that is not there.
+    /// Position of Linkage::points[index], metres; the origin if there is no such point.
     glm::dvec3 point(std::size_t index) const noexcept;
     /// A joint's position and axis in the world (unit; zero for a ball).
     glm::dvec3 joint(std::size_t link) const noexcept;

@@ -58,7 +58,7 @@ struct SketchMotor {
     std::size_t point = 0;
     std::size_t bar = 0;
     std::size_t against = ground_link;  ///< another bar; by default the ground, to which the point is pinned
-    /// Of all turns of the angle as drawn, the joint starts with the nearest to 0 in this range.
+    /// The joint starts at the drawn angle, plus the full turns that bring it nearest to 0 in this range.
     double minimum = -std::numeric_limits<double>::infinity();
     double maximum = std::numeric_limits<double>::infinity();
     bool operator==(const SketchMotor&) const = default;

@@ -1,7 +1,7 @@
 // Well-known linkages from named lengths, in metres. Planar ones as sketches (linkage_from makes linkages of
 // them), for tests, benchmarks and presets alike. Each is drawn closed: with its driver at 0 where the
-// linkage closes there and is not flat, or where the struct says. Lengths that do not close as drawn are
-// refused by name, as are those of no length.
+// linkage closes there and is not flat, or where the struct says. Zero lengths and lengths that do not
+// close as drawn are refused by name.
 #pragma once
 
 #include <array>

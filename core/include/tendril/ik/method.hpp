@@ -32,8 +32,8 @@
 //     left to solve. Within limits it is damped least squares from the start, without twist.
 // (5) Not if a tendril::Chain is solved, which keeps its lengths.
 // (6) Within limits the rotations are always kept up to date, because limits are defined on them.
-// (7) A chain in a plane has limits of its own (Plane::limits); with them it counts as within limits, but its
-//     rotations are kept up to date only as without. It has no use for pole_turn and twist.
+// (7) A chain in a plane has its own limits (Plane::limits). It is solved as within limits, but its rotations
+//     are updated only as without, and pole_turn and twist have no effect.
 #pragma once
 
 #include <array>

@@ -73,8 +73,8 @@ class Solver {
 
     /// After a solve that ended Limited: the joint that stops the tip, that is, the one that brings the tip
     /// nearest to the target if it alone is freed. `joints` and `state` as the solve left them. None if
-    /// freeing no single joint brings it nearer, or if the input is invalid. Of all joints at their limits,
-    /// it tries the four whose limits stop most of the descent to the target.
+    /// freeing no single joint brings it nearer, or if the input is invalid. It tries the four joints whose
+    /// limits stop most of the descent to the target.
     ///
     /// Cost: at most 17 further solves of at most 60 iterations each, whatever the number of bones: one to
     /// find where the limits stop the tip, one or two for each of the four joints, eight to find the angle.

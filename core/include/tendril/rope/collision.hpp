@@ -12,8 +12,8 @@
 // augmented Lagrangian: C. Giles, E. Diaz, C. Yuksel, "Augmented Vertex Block Descent", 2025), so its error
 // vanishes at rest, but a blow may press ropes into each other for some substeps. Contacts within a cloth are
 // springs in its own implicit step, so that its layers rest on each other and lie still. Other contacts of
-// cloth, and those of tied bodies, are projected after the solve, alternating with lengths and colliders; the
-// other solvers project all contacts.
+// cloth, and contacts of tied bodies, are projected after the solve, alternating with lengths and colliders;
+// the other solvers project all contacts.
 //
 // A final check keeps segments from crossing each other, and particles from crossing triangles (R. Bridson,
 // R. Fedkiw, J. Anderson, "Robust Treatment of Collisions, Contact and Friction for Cloth Animation", 2002).

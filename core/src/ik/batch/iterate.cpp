@@ -108,9 +108,8 @@ HWY_INLINE Family whole_family(const Block& block, std::size_t i, Points& span) 
     return blend_of(span, minus(load_points(block.target() + i), root), load(block.reach() + i));
 }
 
-/// The accelerated step, applied to those of `lanes` where it brings the tip nearer. If the first family of
-/// shapes is not good enough, the unchanged chain is added to `second`. `home` maps a lane to its original
-/// lane.
+/// Applies the accelerated step to the `lanes` where it brings the tip nearer. If the first family of shapes
+/// is not good enough, adds the unchanged chain to `second`. `home` maps a lane to its original lane.
 template <class JointAccess>
 HWY_INLINE void reshape(const Block& block, std::size_t i, Mask lanes, float* shapes, Gathered& second,
                         JointAccess home) {

@@ -25,7 +25,7 @@ inline constexpr float jump_share = 0.15f;    ///< a target's step
 inline constexpr float jump_factor = 4.0f;    ///< times the steps before and after it
 inline constexpr float moving_share = 1e-3f;  ///< a step of less is still
 
-// Measured on the families of ik_incident_test.cpp and trace_test.cpp. "Arms" are those of the first.
+// Measured on the families of ik_incident_test.cpp and trace_test.cpp. "Arms" are the chains of the first.
 
 /// Fractions of the step before: shorter is slowing down or starting anew; several frames may be caught up at
 /// once. 120 arms that repeat 0 to 5 frames are all right, as with 0.1 to 0.95 and 1 to 4.

@@ -56,7 +56,7 @@ struct LimitedScratch {
     std::size_t at_bounds = 0;
     Normal normal;            ///< the matrix with no one-sided bound active
     bool linearized = false;  ///< whether `freedoms` to `normal` match `pose`
-    bool planar = false;      ///< whether `limits` are those of a chain in a plane
+    bool planar = false;      ///< whether `limits` are a planar chain's
     bool made = false;        ///< whether `limits` has been filled, for these rest directions
     LimitedPose pose;         ///< the current one
     LimitedPose trial;        ///< result of a step, not accepted yet

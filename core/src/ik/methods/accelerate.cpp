@@ -16,8 +16,8 @@
 // for the remaining distance to the target; or, if they are too short for that, they fold back along the
 // longest.
 //
-// Cost: O(n), usually one or two square roots per bone. Unlike those of a pass they do not depend on each
-// other, so the step takes about as long as the passes.
+// Cost: O(n), usually one or two square roots per bone. They are independent, unlike a
+// pass's, so the step takes about as long as the passes.
 #include "ik/methods/methods.hpp"
 
 #include <algorithm>

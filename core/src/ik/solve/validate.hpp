@@ -27,7 +27,7 @@ inline bool within(float value, float minimum, float maximum) noexcept {
 inline bool within(float value, FieldRange range) noexcept {
     return within(value, static_cast<float>(range.low), static_cast<float>(range.high));
 }
-/// Of start_stretch_ratio, which must be over the low end, and of max_stretch_scale.
+/// Ranges of start_stretch_ratio (low end excluded) and of max_stretch_scale.
 inline constexpr FieldRange stretch_starts{0.0, 1.0}, stretch_scales{1.0, 100.0};
 
 /// Unit length to 1e-3.
