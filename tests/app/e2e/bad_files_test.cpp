@@ -59,8 +59,7 @@ TEST_F(BadFiles, opened_while_the_program_runs_are_refused_and_the_scene_is_kept
     write(folder_ / "broken.json", "{\"tendril_scene\": 1, \"lab\"");
     write(folder_ / "large.json", "");
     std::filesystem::resize_file(folder_ / "large.json", 70u << 20);
-    ScriptText script;
-    script.command("chain.target", {{"to", {3, 2, 1}}});
+    ScriptText script = ScriptText().command("chain.target", {{"to", {3, 2, 1}}});
     const auto before = state_after(script);
     script.command("scene.open", {{"path", path("broken.json")}}, true);
     script.command("scene.open", {{"path", path("large.json")}}, true);

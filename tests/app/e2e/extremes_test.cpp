@@ -19,8 +19,7 @@ testing::AssertionResult survives(const ScriptText& script) {
 
 TEST(Extremes, windows_of_every_shape_with_every_sheet_open) {
     for (const char* open : {"f9", "?", "ctrl+k", "ctrl+,", "ctrl+o"}) {
-        ScriptText script;
-        script.key(open);
+        ScriptText script = ScriptText().key(open);
         for (const int width : {1, 40, 200, 640, 2000}) {
             for (const int height : {1, 40, 200, 600}) script.line({{"resize", {width, height}}}).wait(1);
         }
@@ -49,8 +48,7 @@ TEST(Extremes, a_wheel_that_turns_a_million_times) {
 }
 
 TEST(Extremes, a_mouse_that_is_kilometres_away) {
-    ScriptText script;
-    script.move({1e9f, -1e9f}).down().move({-1e9f, 1e9f}).up();
+    ScriptText script = ScriptText().move({1e9f, -1e9f}).down().move({-1e9f, 1e9f}).up();
     script.drag({{640, 400}, {1e9f, 1e9f}, {0, 0}}, "right")
         .drag({{640, 400}, {1e9f, 1e9f}, {0, 0}}, "middle");
     EXPECT_TRUE(survives(script));

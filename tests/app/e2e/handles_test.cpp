@@ -71,19 +71,15 @@ TEST(HandlesAtTheStart, are_where_the_first_frame_has_them) {
 }
 
 TEST(HandlesOutOfView, have_a_pixel_outside_or_none) {
-    ScriptText script;
-    script.command("camera.set",
-                   {{"target", {0, 0, -30}}, {"yaw_deg", 0}, {"pitch_deg", 0}, {"distance", 10}});
+    ScriptText script = ScriptText().command(
+        "camera.set", {{"target", {0, 0, -30}}, {"yaw_deg", 0}, {"pitch_deg", 0}, {"distance", 10}});
     const app::Json state = state_after(script);
     ASSERT_EQ(state.at("handles").size(), 9u);
-    for (const auto& each : state.at("handles")) {
-        EXPECT_TRUE(each.at("pixel").is_null()) << each.dump();
-    }
+    for (const auto& each : state.at("handles")) EXPECT_TRUE(each.at("pixel").is_null()) << each.dump();
 }
 
 TEST(HandlesOfALargeWindow, follow_its_size) {
-    ScriptText script;
-    script.line({{"resize", {1920, 1080}}});
+    ScriptText script = ScriptText().line({{"resize", {1920, 1080}}});
     const Played played = play(script, {.picture = true});
     EXPECT_EQ(played.picture.size, glm::ivec2(1920, 1080));
     const auto blob = find_blob(played.picture, {.colour = app::palette(app::Theme::Dark).target}, {300, 110},

@@ -57,9 +57,8 @@ TEST_P(Hostile, events_and_commands_break_nothing) {
     EXPECT_GT(steps, 20);
     EXPECT_FALSE(app.workspace().history.can_undo());
     const Json first = parse_json(start), back = parse_json(document_text(app));
-    for (const char* member : {"segments", "target", "mode", "iterations", "default_direction"}) {
+    for (const char* member : {"segments", "target", "mode", "iterations", "default_direction"})
         EXPECT_EQ(back[member], first[member]) << member;
-    }
 
     // Everything was recorded, and the player accepts all of it.
     EXPECT_NO_THROW(parse_script(app.recording(), app.commands()));

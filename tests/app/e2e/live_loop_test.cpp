@@ -95,9 +95,8 @@ TEST_F(LiveLoopTest, a_thousand_moves_between_two_frames_are_one) {
     const glm::vec2 target = handle(app_.state(), "target");
     turn({MouseMove{target}, MousePress{MouseButton::Left, true}});
     std::vector<Event> moves;
-    for (int i = 1; i <= 1000; ++i) {
+    for (int i = 1; i <= 1000; ++i)
         moves.push_back(MouseMove{target + static_cast<float>(i) * glm::vec2(-0.1f, -0.15f)});
-    }
     const int drawn = loop_.frames_drawn();
     turn(moves);
     turn();

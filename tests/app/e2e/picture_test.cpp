@@ -73,8 +73,7 @@ TEST(Picture, IsRefusedInWords) {
     EXPECT_TRUE(has(refusal({{"path", "a.jpg"}}), "path must end in .png, got a.jpg"));
     EXPECT_TRUE(has(refusal({{"path", "/nowhere/a.png"}}), "/nowhere/a.png"));
     EXPECT_TRUE(has(refusal(app::Json::object()), "path is missing")) << "without a window nothing is named";
-    ScriptText plots;
-    plots.command("lab.open", {{"name", "signal"}});
+    ScriptText plots = ScriptText().command("lab.open", {{"name", "signal"}});
     plots.command("view.picture", {{"path", (folder / "a.png").string()}});
     EXPECT_TRUE(has(run_script(plots).err, "more than a view of a scene"));
 }

@@ -22,8 +22,7 @@ using app::Image;
 using app::Json;
 
 ScriptText opened_race() {
-    ScriptText script;
-    script.command("chain.mode", {{"mode", "reach"}});
+    ScriptText script = ScriptText().command("chain.mode", {{"mode", "reach"}});
     script.command("race.open", {{"start", "straight"}});
     return script.command("chain.target", {{"to", {3, 3, 1}}});
 }
@@ -102,8 +101,7 @@ TEST(RacePicture, HasTheTitlesOfItsPanes) {
 
 TEST(RacePicture, LabelsOfOtherScenesAreThereOnRequest) {
     const TempFolder folder;
-    ScriptText script;
-    script.command("chain.select", {{"index", 2}});
+    ScriptText script = ScriptText().command("chain.select", {{"index", 2}});
     script.command("view.picture", sized(folder / "without.png"));
     script.command("view.picture", sized(folder / "with.png", {{"labels", true}}));
     script.command("view.picture", sized(folder / "clear.png", {{"labels", true}, {"transparent", true}}));

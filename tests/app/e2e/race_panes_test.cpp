@@ -10,8 +10,7 @@ namespace {
 using app::Json;
 
 ScriptText race() {
-    ScriptText script;
-    script.command("chain.mode", {{"mode", "reach"}});
+    ScriptText script = ScriptText().command("chain.mode", {{"mode", "reach"}});
     script.command("race.open", {{"start", "straight"}});
     script.command("chain.target", {{"to", {3, 3, 1}}});
     script.command("race.side_by_side", {{"on", true}});

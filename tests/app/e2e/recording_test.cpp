@@ -53,8 +53,7 @@ const Json& start_state() {
 // Everything in the window that is not the scene: panels, palette, help, keys, wheel over a list, resizing.
 TEST_F(Recording, holds_the_use_of_panels) {
     const glm::vec2 forward_radio = chain_panel::forward, target = handle(start_state(), "target");
-    ScriptText script;
-    script.click(forward_radio).wait(2);
+    ScriptText script = ScriptText().click(forward_radio).wait(2);
     script.key("ctrl+k").text("chain.add length=0.75").key("enter").wait(2);
     script.drag({target, {700, 250}, {650, 300}});
     script.key("ctrl+k").text("theme").key("enter").wait(1);
@@ -81,8 +80,7 @@ TEST_F(Recording, holds_the_use_of_panels) {
 TEST_F(Recording, holds_text_typed_into_a_field) {
     // A double click on the target's height opens the field.
     const glm::vec2 field = chain_panel::target_y;
-    ScriptText script;
-    script.command("view.fold", chain_panel::unfolded()).wait(2);
+    ScriptText script = ScriptText().command("view.fold", chain_panel::unfolded()).wait(2);
     script.click(field).click(field).wait(1).key("ctrl+a").text("1.25").key("enter").wait(3);
     const Json state = state_of(record_and_replay(script));
     EXPECT_EQ(state["target"], Json::array({7.0, 1.25, 0.0}))

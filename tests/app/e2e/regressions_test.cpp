@@ -82,8 +82,7 @@ TEST(OnceWrong, a_chain_that_was_dragged_and_exchanged_is_saved_and_opened) {
 }
 
 TEST(OnceWrong, a_step_of_time_is_taken_at_once) {
-    ScriptText script;
-    script.command("time.step").line({{"expect", "time.tick"}, {"equals", 1}});
+    ScriptText script = ScriptText().command("time.step").line({{"expect", "time.tick"}, {"equals", 1}});
     script.command("time.step").command("time.step").line({{"expect", "time.tick"}, {"equals", 3}});
     state_after(script);
 }
@@ -97,16 +96,14 @@ TEST(OnceWrong, a_key_that_is_held_does_not_turn_things_on_and_off) {
 }
 
 TEST(OnceWrong, equal_taps_each_count) {
-    ScriptText script;
-    script.key("ctrl+k").text("chain.add length=12345");
+    ScriptText script = ScriptText().key("ctrl+k").text("chain.add length=12345");
     for (int i = 0; i < 4; ++i) script.key("backspace");
     script.key("enter").wait(1).line({{"expect", "segments.8.length"}, {"equals", 1}});
     state_after(script);
 }
 
 TEST(OnceWrong, a_left_drag_over_nothing_leaves_the_selection) {
-    ScriptText script;
-    script.command("chain.select", {{"index", 2}}).drag({{640, 150}, {420, 200}});
+    ScriptText script = ScriptText().command("chain.select", {{"index", 2}}).drag({{640, 150}, {420, 200}});
     script.line({{"expect", "selected"}, {"equals", 2}});
     script.click({640, 150}).line({{"expect", "selected"}, {"equals", nullptr}});
     state_after(script);

@@ -11,11 +11,12 @@ namespace {
 
 using app::Json;
 
+ScriptText opened() {
+    return ScriptText().command("lab.open", {{"name", "signal"}});
+}
+
 ScriptText signal_lab() {
-    return ScriptText()
-        .command("lab.open", {{"name", "signal"}})
-        .command("signal.input", {{"kind", "hand"}})
-        .wait(10);
+    return opened().command("signal.input", {{"kind", "hand"}}).wait(10);
 }
 
 ScriptText dragged_ball(const ScriptText& before, float pixels) {
@@ -41,18 +42,13 @@ TEST(SignalInTheWindow, TheBallThatIsDraggedIsTheInput) {
 }
 
 TEST(SignalInTheWindow, DraggingTakesAWaveOver) {
-    const ScriptText before =
-        ScriptText().command("lab.open", {{"name", "signal"}}).wait(30).command("time.pause");
+    const ScriptText before = opened().wait(30).command("time.pause");
     ScriptText script = dragged_ball(before, -30.0f).up();
     EXPECT_EQ(state_after(script).at("input_kind"), "hand");
 }
 
 TEST(SignalInTheWindow, AResponseIsDrawnWithTheMouse) {
-    ScriptText script = ScriptText()
-                            .command("lab.open", {{"name", "signal"}})
-                            .command("time.pause")
-                            .command("signal.plot", {{"name", "fit"}})
-                            .wait(2);
+    ScriptText script = opened().command("time.pause").command("signal.plot", {{"name", "fit"}}).wait(2);
     script.drag({{450, 560}, {470, 560}, {500, 540}, {560, 500}, {600, 500}});
     script.command("signal.fit");
     const Json state = state_after(script);
@@ -75,8 +71,7 @@ double most_wanted_after(ScriptText script) {
 /// The axes make room for what was drawn, but only once the button is up: otherwise the value under a resting
 /// mouse would grow in every frame.
 TEST(SignalInTheWindow, TheAxesOfAResponseStayWhileItIsDrawn) {
-    ScriptText script = ScriptText()
-                            .command("lab.open", {{"name", "signal"}})
+    ScriptText script = opened()
                             .command("signal.preset", {{"name", "spring"}})
                             .command("signal.plot", {{"name", "fit"}})
                             .wait(150);
@@ -102,8 +97,7 @@ float row_of_input(const app::Image& picture, int column) {
 }
 
 TEST(SignalInTheWindow, AResponseIsDrawnWhereTheMouseIs) {
-    ScriptText script = ScriptText()
-                            .command("lab.open", {{"name", "signal"}})
+    ScriptText script = opened()
                             .command("signal.input", {{"kind", "square"}, {"period", 4}})
                             .command("signal.plot", {{"name", "fit"}})
                             .command("time.pause")
@@ -119,8 +113,7 @@ TEST(SignalInTheWindow, AResponseIsDrawnWhereTheMouseIs) {
 TEST(SignalInTheWindow, AFitThatAButtonBeginsGoesOnFromTickToTick) {
     const glm::vec2 fit{1060.0f, 306.0f};
     const ScriptText drawn =
-        ScriptText()
-            .command("lab.open", {{"name", "signal"}})
+        opened()
             .command("signal.input", {{"kind", "square"}, {"period", 4}})
             .command("time.pause")
             .command("signal.fit.draw",
@@ -142,8 +135,7 @@ TEST(SignalInTheWindow, AFitThatAButtonBeginsGoesOnFromTickToTick) {
 }
 
 TEST(SignalInTheWindow, AResponseIsShownWithTheOutputBall) {
-    const ScriptText before = ScriptText()
-                                  .command("lab.open", {{"name", "signal"}})
+    const ScriptText before = opened()
                                   .command("signal.input", {{"kind", "square"}, {"period", 4}})
                                   .wait(40)
                                   .command("signal.fit.record")
@@ -268,10 +260,8 @@ TEST(SignalInTheWindow, EachNumberSaysWhatItIsOf) {
 TEST(SignalInTheWindow, AFileIsTypedIntoThePanel) {
     const TempFolder folder;
     write(folder / "rows.csv", "dt,input\n0.5,7\n0.5,-7\n");
-    ScriptText script = ScriptText()
-                            .command("lab.open", {{"name", "signal"}})
-                            .command("view.fold", {{"section", "signal: Input"}, {"folded", false}})
-                            .wait(2);
+    ScriptText script =
+        opened().command("view.fold", {{"section", "signal: Input"}, {"folded", false}}).wait(2);
     script.click({170.0f, 466.0f}).text((folder / "rows.csv").c_str());
     EXPECT_EQ(state_after(script).at("input_kind"), "square") << "not before Enter";
     const Json state = state_after(script.key("enter").wait(10));

@@ -23,9 +23,8 @@ TEST_P(Signals, end_it_cleanly_with_everything_written) {
     Process process(
         program_command({"--headless", "--script", path("script.jsonl"), "--state", path("state.json"),
                          "--screenshot", path("picture.png"), "--record", path("record.jsonl")}));
-    for (int i = 0; i < 3000 && process.running() && !std::filesystem::exists(folder / "going.json"); ++i) {
+    for (int i = 0; i < 3000 && process.running() && !std::filesystem::exists(folder / "going.json"); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
     process.signal(GetParam());
     EXPECT_TRUE(succeeded(process.wait()));
     const app::Json state = app::parse_json(read(folder / "state.json"));
@@ -43,8 +42,7 @@ INSTANTIATE_TEST_SUITE_P(All, Signals, testing::Values(SIGINT, SIGTERM),
                          [](const auto& number) { return number.param == SIGINT ? "SIGINT" : "SIGTERM"; });
 
 TEST(Quit, ends_a_script_where_it_stands_with_everything_written) {
-    ScriptText script;
-    script.command("chain.target", {{"to", {3, 2, 1}}});
+    ScriptText script = ScriptText().command("chain.target", {{"to", {3, 2, 1}}});
     const std::string before = state_after(script)["target"].dump();
     script.command("quit").wait(1'000'000).command("chain.target", {{"to", {0, 0, 0}}});
     const Played played = play(script);

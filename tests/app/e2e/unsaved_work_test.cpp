@@ -76,8 +76,7 @@ TEST(UnsavedWork, AfterAnotherSceneWasOpenedASaveOnlySaves) {
 TEST(UnsavedWork, SavedMeanwhileIsAskedForNoMore) {
     const TempFolder folder;
     const std::string file = (folder / "arm.json").string();
-    ScriptText asked;
-    asked.command("chain.add", {{"length", 0.5}}).key("ctrl+q").wait(2);
+    ScriptText asked = ScriptText().command("chain.add", {{"length", 0.5}}).key("ctrl+q").wait(2);
     asked.command("scene.save", {{"path", file}}).wait(400);
     ScriptText plain;
     plain.command("chain.add", {{"length", 0.5}}).command("scene.save", {{"path", file}}).wait(400);

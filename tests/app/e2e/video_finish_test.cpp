@@ -9,6 +9,7 @@
 #include "app/live_loop.hpp"
 #include "app/window/offscreen_window.hpp"
 #include "tests/app/support/program.hpp"
+#include "tests/app/support/script_text.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/labels.hpp"
 #include "tests/says.hpp"
@@ -90,7 +91,7 @@ TEST_F(VideoFinish, TakesAnotherNameIfAnotherProgramHasWrittenItsFileMeanwhile) 
     write_frames();
     write(folder_ / "a.mp4", "another program's");
     for (int i = 0; i < 3000 && filming(); ++i) tick();
-    EXPECT_TRUE(test::says(toast(), "a.mp4 is not replaced The video is a-1.mp4")) << toast();
+    EXPECT_TRUE(test::says(toast(), "a.mp4 is not replaced The video is a-1.mp4"));
     EXPECT_EQ(folder_.names(), (std::vector<std::string>{"a-1.mp4", "a.mp4"}));
     EXPECT_EQ(read(folder_ / "a.mp4"), "another program's");
     EXPECT_EQ(read(folder_ / "a-1.mp4").size(), 11u * 64 * 64 * 4);
@@ -179,20 +180,11 @@ TEST_F(VideoReplay, IsNotWrittenWhereTheSessionEndedBefore) {
 TEST_F(VideoReplay, OfAHeadlessRecordingFindsTheFileAfterTheLastFrame) {
     install("sleep 0.2\n");
     const std::string recording = (folder_ / "r.jsonl").string();
-    write(folder_ / "s.jsonl", R"({"command": "chain.motion", "path": "circle"})"
-                               "\n"
-                               R"({"wait": 30})"
-                               "\n"
-                               R"({"key": "ctrl+k"})"
-                               "\n"
-                               R"({"text": "view.video path=)" +
-                                   (folder_ / "a.mp4").string() +
-                                   R"( width=64 height=64 from=0.3"})"
-                                   "\n"
-                                   R"({"key": "enter"})"
-                                   "\n"
-                                   R"({"wait": 40})"
-                                   "\n");
+    const std::string typed =
+        "view.video path=" + (folder_ / "a.mp4").string() + " width=64 height=64 from=0.3";
+    ScriptText script = ScriptText().command("chain.motion", {{"path", "circle"}}).wait(30);
+    script.key("ctrl+k").text(typed.c_str()).key("enter").wait(40);
+    write(folder_ / "s.jsonl", script.text());
     for (const std::vector<std::string>& arguments :
          {std::vector<std::string>{"--headless", "--script", (folder_ / "s.jsonl").string(), "--record",
                                    recording},

@@ -10,16 +10,6 @@ namespace {
 
 class ChainCommands : public ChainTest {};
 
-TEST_F(ChainCommands, StartIsEightMetresAlongXWithTheTargetOnTheTail) {
-    ASSERT_EQ(part().chain.size(), 8u);
-    for (std::size_t i = 0; i < 8; ++i) {
-        EXPECT_EQ(part().chain.position(i), glm::vec3(static_cast<float>(i), 0, 0));
-        EXPECT_EQ(part().chain.length(i), 1.0f);
-    }
-    EXPECT_EQ(part().mode, ChainMode::Backward);
-    EXPECT_EQ(part().target, glm::vec3(7, 0, 0));
-}
-
 TEST_F(ChainCommands, TargetAppliesTheModeOnceAndModeAloneMovesNothing) {
     run("chain.target", {{"to", {5, 2, 0}}});
     EXPECT_EQ(part().chain.position(7), glm::vec3(5, 2, 0));

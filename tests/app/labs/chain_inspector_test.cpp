@@ -95,7 +95,7 @@ TEST_F(ChainInspector, says_first_what_became_of_the_target) {
     run("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"min_deg", 0}, {"max_deg", 90}});
     run("chain.target", {{"to", {0.5, 0, 0}}});
     EXPECT_EQ(state().at("verdict").get<std::string>().rfind("Limited: 0.", 0), 0u) << state().at("verdict");
-    EXPECT_TRUE(test::says(text(), "Joint 1 (hinge) stops at 90 degrees the target needs")) << text();
+    EXPECT_TRUE(test::says(text(), "Joint 1 (hinge) stops at 90 degrees the target needs"));
 }
 
 TEST_F(ChainInspector, says_why_a_solve_stalled) {

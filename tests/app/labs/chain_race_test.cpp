@@ -212,7 +212,7 @@ TEST_F(ChainRace, ItsFilmIsNotNamedLikeItsPicture) {
     EXPECT_EQ(picture.rfind("tendril-", 0), 0u) << picture;
     EXPECT_EQ(picture.find("race"), std::string::npos) << picture;
     const std::string text = test::PanelReader().inspector(lab(), workspace);
-    EXPECT_TRUE(says(text, "Record the race Save a picture")) << text;
+    EXPECT_TRUE(says(text, "Record the race Save a picture"));
 }
 
 /// As written before races could be scrubbed.
@@ -258,8 +258,7 @@ TEST_F(ChainRace, TheLegendSaysWhoStoppedShortAndKeepsItsWidths) {
         if (status == ik::Status::Converged) continue;
         ++short_of_it;
         EXPECT_TRUE(
-            says(rows[i].numbers[0], status == ik::Status::Stalled ? "stalled after" : "stopped after"))
-            << rows[i].numbers[0];
+            says(rows[i].numbers[0], status == ik::Status::Stalled ? "stalled after" : "stopped after"));
     }
     EXPECT_GT(short_of_it, 0u);
     for (std::size_t step = 0; step <= race()->iterations(); ++step) {

@@ -64,7 +64,7 @@ TEST_F(StraightChain, IsCuredByOneButtonInOneStep) {
     for (const int count : {3, 5, 8, 33, 64}) {
         run("chain.preset", {{"name", "straight"}, {"count", count}});
         const std::size_t steps = workspace.history.size();
-        EXPECT_TRUE(test::says(inspector(), "Straight FABRIK (2011) Add a pole target")) << inspector();
+        EXPECT_TRUE(test::says(inspector(), "Straight FABRIK (2011) Add a pole target"));
         apply(reach_cure(part()));
         EXPECT_EQ(chain_verdict(part()).text, "Reached") << count;
         EXPECT_FALSE(reach_cure(part())) << "nothing is left to cure";
@@ -115,7 +115,7 @@ TEST_F(StraightChain, AFlipOverThePoleIsPreventedByItsButton) {
     std::vector<Incident> flips = drag(from, over);
     for (const Incident& each : drag(over, to)) flips.push_back(each);
     ASSERT_FALSE(flips.empty());
-    EXPECT_TRUE(test::says(flips.back().cause, "line the pole")) << flips.back().cause;
+    EXPECT_TRUE(test::says(flips.back().cause, "line the pole"));
     ASSERT_EQ(flips.back().buttons.size(), 1u);
     EXPECT_EQ(flips.back().buttons[0].title, "Move the pole");
     apply(flips.back().buttons[0]);

@@ -78,9 +78,8 @@ TEST_F(ChainStudy, the_last_step_of_every_solver_is_where_the_chain_ends) {
         run("chain.target", {{"to", {0.9, 1.1, 0.4}}});
         ASSERT_GT(trace().frames(), 0u) << ik::name(method);
         const std::vector<glm::vec3> last = trace().pose(trace().frames());
-        for (std::size_t i = 0; i < last.size(); ++i) {
+        for (std::size_t i = 0; i < last.size(); ++i)
             EXPECT_EQ(last[i], part().chain.position(i)) << ik::name(method) << " joint " << i;
-        }
         EXPECT_EQ(trace().residuals.size(), static_cast<std::size_t>(trace().report.iterations) + 1);
         run("microscope.close");
     }
@@ -237,22 +236,18 @@ TEST_F(ChainStudy, chain_report_and_trace_never_part) {
         ASSERT_TRUE(part().result) << after;
         EXPECT_EQ(part().result->report, trace().report) << after;
     };
-    run("microscope.open", {{"start", "straight"}});
-    expect_one("open");
-    run("chain.target", {{"to", {3, 3, 0}}});
-    expect_one("target");
-    run("chain.mode", {{"mode", "reach"}, {"iterations", 1}});
-    expect_one("mode");
-    run("chain.solver", {{"name", "ccd"}, {"iterations", 50}});
-    expect_one("solver");
-    run("chain.pull", {{"index", 3}, {"to", {1, 5, 0}}});
-    expect_one("pull");
-    run("chain.set_length", {{"index", 3}, {"length", 0.5}});
-    expect_one("set_length");
-    run("chain.limit", {{"index", 2}, {"kind", "hinge"}, {"max_deg", 30}});
-    expect_one("limit");
-    run("chain.limit", {{"index", 2}, {"kind", "free"}});
-    expect_one("free");
+    const auto then = [&](const char* command, const Json& arguments) {
+        run(command, arguments);
+        expect_one(command);
+    };
+    then("microscope.open", {{"start", "straight"}});
+    then("chain.target", {{"to", {3, 3, 0}}});
+    then("chain.mode", {{"mode", "reach"}, {"iterations", 1}});
+    then("chain.solver", {{"name", "ccd"}, {"iterations", 50}});
+    then("chain.pull", {{"index", 3}, {"to", {1, 5, 0}}});
+    then("chain.set_length", {{"index", 3}, {"length", 0.5}});
+    then("chain.limit", {{"index", 2}, {"kind", "hinge"}, {"max_deg", 30}});
+    then("chain.limit", {{"index", 2}, {"kind", "free"}});
     for (const glm::quat& rotation : part().reach.state.rotations) EXPECT_EQ(rotation, glm::quat(1, 0, 0, 0));
     run("chain.motion", {{"path", "circle"}});
     for (int i = 0; i < 5; ++i) labs.find(chain_lab)->step(workspace);

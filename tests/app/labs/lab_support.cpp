@@ -73,6 +73,11 @@ void LabTest::refuses(const char* name, const Json& arguments, const std::string
     EXPECT_TRUE(test::says(refused(name, arguments), words)) << name << " " << arguments;
 }
 
+void LabTest::tells(const std::string& words) const {
+    ASSERT_FALSE(workspace.ui.toasts.empty()) << words;
+    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, words));
+}
+
 std::string LabTest::opened_with(const std::string& at, const Json& value) const {
     Json scene = save_scene(workspace);
     scene["labs"][lab_][Json::json_pointer(at)] = value;

@@ -55,6 +55,8 @@ class LabTest : public testing::Test {
     void expect_refused(const char* name, const Json& arguments, const std::vector<std::string>& says);
     /// The same, with a message that has these words in this order; see says.hpp.
     void refuses(const char* name, const Json& arguments, const std::string& words);
+    /// Expects the latest toast to have these words in this order.
+    void tells(const std::string& words) const;
     /// Opens the scene with this value at a JSON pointer in the lab. Returns what refuses it; "blank: " and
     /// why, if the lab starts blank; or nothing.
     std::string opened_with(const std::string& at, const Json& value) const;

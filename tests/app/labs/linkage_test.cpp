@@ -84,8 +84,7 @@ TEST_F(LinkageTest, AMotorStopsAtADeadPointAndSaysWhy) {
     const auto incidents = lab().review(workspace, *before, part());
     ASSERT_EQ(incidents.size(), 1u);
     EXPECT_EQ(incidents[0].name, "crank");
-    EXPECT_TRUE(test::says(incidents[0].cause, "crank is at a dead point B, C and D are in line"))
-        << incidents[0].cause;
+    EXPECT_TRUE(test::says(incidents[0].cause, "crank is at a dead point B, C and D are in line"));
     // 2.5 + 2 against 2.2 and 3: the law of cosines.
     const double limit = glm::degrees(std::acos((2.2 * 2.2 + 9.0 - 4.5 * 4.5) / (2.0 * 2.2 * 3.0)));
     EXPECT_NEAR(incidents[0].degrees, limit, 0.1);
@@ -103,7 +102,7 @@ TEST_F(LinkageTest, ADragThroughADeadPointIsAnIncident) {
             all.push_back(each);
     }
     ASSERT_EQ(all.size(), 1u);
-    EXPECT_TRUE(test::says(all[0].cause, "passed a dead point B, C and D are in line")) << all[0].cause;
+    EXPECT_TRUE(test::says(all[0].cause, "passed a dead point B, C and D are in line"));
 }
 
 // The path of P bends round the target: the place that was the nearest ends, and P goes over to the other
@@ -125,8 +124,7 @@ TEST_F(LinkageTest, ADragAcrossAPathIsAnIncidentWhereThePointJumps) {
     ASSERT_EQ(all.size(), 1u);
     EXPECT_EQ(all[0].kind, Incident::Kind::Jump);
     EXPECT_EQ(all[0].name, "P");
-    EXPECT_TRUE(test::says(all[0].cause, "P jumped mm no longer the place nearest moved 50.0 mm"))
-        << all[0].cause;
+    EXPECT_TRUE(test::says(all[0].cause, "P jumped mm no longer the place nearest moved 50.0 mm"));
     // As far in one go, from where the target was, is no jump.
     run("linkage.let_go");
     EXPECT_TRUE(incidents_of("linkage.drag", {{"point", "P"}, {"to", {-1.5, 1.4, 0}}}, 1).empty());
@@ -222,9 +220,7 @@ TEST_F(LinkageTest, AStrokeOverAWalkerBeginsWhereItIsDrawn) {
     EXPECT_NEAR(place[1].get<double>(), drawn.y + ground, 1e-5);
     workspace.ui.toasts.clear();
     run("linkage.joint", {{"at", place}});
-    ASSERT_FALSE(workspace.ui.toasts.empty());
-    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "drawn by hand"))
-        << workspace.ui.toasts.back().text;
+    tells("drawn by hand");
 }
 
 /// How far from the path that is kept the present mode's goes, metres.
@@ -295,7 +291,7 @@ TEST_F(LinkageTest, CodeHasPoseModeAndLegs) {
     run("linkage.other_mode");
     run("linkage.range", {{"joint", "crank"}, {"max", 90}});
     const std::string code = lab().code(workspace);
-    EXPECT_TRUE(test::says(code, "links[0] maximum initial_state state joints value")) << code;
+    EXPECT_TRUE(test::says(code, "links[0] maximum initial_state state joints value"));
     run("linkage.preset", {{"name", "walker"}});
     EXPECT_TRUE(test::says(lab().code(workspace), "One of the twelve legs"));
 }

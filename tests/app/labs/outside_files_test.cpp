@@ -36,7 +36,7 @@ TEST_P(ReadsAFile, AWrongValueIsRefusedAndAFileAtFaultLeavesTheLabBlank) {
         std::ranges::replace(place, '/', '.');
         const std::string why = opened_with(pointer, pointer == of.number ? Json(-1e9) : Json("wing"));
         EXPECT_TRUE(why.starts_with(place + ": ")) << why;
-        EXPECT_TRUE(test::says(why, pointer == of.number ? "-1000000000.0" : "wing")) << why;
+        EXPECT_TRUE(test::says(why, pointer == of.number ? "-1000000000.0" : "wing"));
     }
     test::write(file_, "HIERARCHY\nROOT");
     EXPECT_TRUE(opened().starts_with("blank: walk.bvh, line 2: ")) << opened();

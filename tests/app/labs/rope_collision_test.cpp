@@ -12,22 +12,11 @@ class RopeCollisionTest : public RopeTest {
     /// A rope that falls across another one, which hangs between two pins.
     void crossed() {
         run("rope.clear");
-        run("rope.add", {{"name", "line"},
-                         {"from", {-0.5, 2, 0}},
-                         {"to", {0.5, 2, 0}},
-                         {"length", 1.05},
-                         {"pin_start", true},
-                         {"pin_end", true}});
-        run("rope.add", {{"name", "other"}, {"from", {0, 2.1, -0.4}}, {"to", {0, 2.1, 0.4}}});
+        add_rope("line", {-0.5, 2, 0}, {0.5, 2, 0},
+                 {{"length", 1.05}, {"pin_start", true}, {"pin_end", true}});
+        add_rope("other", {0, 2.1, -0.4}, {0, 2.1, 0.4});
     }
-    void add_sail() {
-        run("rope.cloth.add", {{"name", "sail"},
-                               {"corner", {2, 1, 0}},
-                               {"along", {1, 0, 0}},
-                               {"down", {0, -1, 0}},
-                               {"columns", 3},
-                               {"rows", 3}});
-    }
+    void add_sail() { add_cloth("sail", {2, 1, 0}, {1, 0, 0}, {0, -1, 0}, 3, 3); }
     void collide(const char* a, const char* b, bool on = true) {
         run("rope.collide", {{"a", a}, {"b", b}, {"on", on}});
     }

@@ -82,8 +82,7 @@ TEST_F(RopeCutCloth, ClicksCutFromOneToTheNext) {
 
 /// Along the line on the screen, all that it crosses, as one step to undo.
 TEST_F(RopeCutCloth, AStrokeCutsAcross) {
-    run("rope.add",
-        {{"name", "line"}, {"from", {3.5, 2.2, 0.2}}, {"to", {3.5, 0, 0.2}}, {"pin_start", true}});
+    add_rope("line", {3.5, 2.2, 0.2}, {3.5, 0, 0.2}, {{"pin_start", true}});
     const std::size_t whole = links();
     stroke({2.8f, 1.75f}, {4.2f, 1.25f});
     ASSERT_NE(world().find("cloth 2"), nullptr);
@@ -113,13 +112,7 @@ TEST_F(RopeCutCloth, AStrokeCutsAcross) {
 
 /// In the pane of a rival, what is there is cut.
 TEST_F(RopeCutCloth, AStrokeCutsWhatItsPaneShows) {
-    run("rope.race");
-    RopePart& changed = workspace.document.edit<RopePart>(rope_lab);
-    auto elsewhere = std::make_shared<NamedWorld>(*changed.world);
-    rope::State state = elsewhere->state();
-    for (glm::dvec3& each : state.position) each.x += 2.0;
-    elsewhere->put(std::move(state));
-    changed.rivals[0].world = elsewhere;
+    race_aside();
     stroke({4.8f, 1.5f}, {6.2f, 1.5f});
     EXPECT_EQ(world().find("cloth 2"), nullptr);
     stroke({4.8f, 1.5f}, {6.2f, 1.5f}, 1);
@@ -146,11 +139,7 @@ TEST_F(RopeCutCloth, AStrokeCutsAllLayers) {
     run("rope.clear");
     run("rope.collider.add",
         {{"name", "bar"}, {"kind", "capsule"}, {"a", {2.7, 1.8, 0}}, {"b", {4.3, 1.8, 0}}, {"radius", 0.1}});
-    run("rope.cloth.add", {{"corner", {3, 1.95, -0.8}},
-                           {"along", {1, 0, 0}},
-                           {"down", {0, 0, 1.6}},
-                           {"columns", 11},
-                           {"rows", 17}});
+    add_cloth("cloth", {3, 1.95, -0.8}, {1, 0, 0}, {0, 0, 1.6}, 11, 17);
     wait(90);
     stroke({2.8f, 1.5f}, {4.2f, 1.5f});
     EXPECT_EQ(world().state().bodies.size(), 3u);
@@ -160,8 +149,7 @@ TEST_F(RopeCutCloth, AStrokeCutsAllLayers) {
 /// cloth between its two lines is not.
 TEST_F(RopeCutCloth, AStrokeCutsEachLayerWhereItCrosses) {
     run("rope.clear");
-    run("rope.cloth.add",
-        {{"corner", {3, 2, 0}}, {"along", {1, 0, 0}}, {"down", {0, -2, 0}}, {"columns", 9}, {"rows", 17}});
+    add_cloth("cloth", {3, 2, 0}, {1, 0, 0}, {0, -2, 0}, 9, 17);
     auto folded = std::make_shared<NamedWorld>(world());
     rope::State state = folded->state();
     for (glm::dvec3& at : state.position)

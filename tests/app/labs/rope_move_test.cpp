@@ -14,13 +14,7 @@ class RopeMove : public RopeTest {
   protected:
     RopeMove() {
         run("rope.clear");
-        run("rope.cloth.add", {{"name", "sheet"},
-                               {"corner", {0, 2, 0}},
-                               {"along", {1, 0, 0}},
-                               {"down", {0, -0.8, 0.6}},
-                               {"columns", 6},
-                               {"rows", 6},
-                               {"pins", "corners"}});
+        add_cloth("sheet", {0, 2, 0}, {1, 0, 0}, {0, -0.8, 0.6}, 6, 6, "corners");
         wait(20);
     }
     const rope::Body& body(const char* name) const { return *world().find(name); }

@@ -165,8 +165,7 @@ TEST_F(RopePast, APoseOfManyLinksHasSomeHundredLinesFromEndToEnd) {
 
 TEST_F(RopePast, AClothIsFiveRowsAndFiveColumnsWithoutWhatIsTorn) {
     run("rope.clear");
-    run("rope.cloth.add",
-        {{"corner", {0, 2, 0}}, {"along", {2, 0, 0}}, {"down", {0, 0, 1}}, {"columns", 20}, {"rows", 12}});
+    add_cloth("cloth", {0, 2, 0}, {2, 0, 0}, {0, 0, 1}, 20, 12);
     float length = 0.0f;
     for (const auto& [from, to] : rope_lines(shared())) length += glm::length(to - from);
     EXPECT_NEAR(length, 5.0f * 2.0f + 5.0f * 1.0f, 1e-3f);

@@ -19,12 +19,8 @@ class RopeRace : public RopeTest {
   protected:
     RopeRace() {
         run("rope.clear");
-        run("rope.add", {{"from", {0, 2, 0}},
-                         {"to", {1, 2, 0}},
-                         {"segments", 64},
-                         {"length", 1.1},
-                         {"pin_start", true},
-                         {"pin_end", true}});
+        const Json slack{{"segments", 64}, {"length", 1.1}, {"pin_start", true}, {"pin_end", true}};
+        add_rope("rope", {0, 2, 0}, {1, 2, 0}, slack);
         run("rope.race");
     }
     const NamedWorld& rival(std::size_t i) const { return *part().rivals.at(i).world; }

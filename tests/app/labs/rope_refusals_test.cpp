@@ -91,8 +91,7 @@ TEST_F(RopeRefusals, WhatDoesNotGoTogether) {
     refuses("rope.hair.add", {{"centre", origin}, {"direction", origin}},
             "rope.hair.add direction finite length 0");
     refused("rope.add", {{"from", origin}, {"to", right}, {"name", "rope"}});
-    run("rope.cloth.add",
-        {{"corner", origin}, {"along", right}, {"down", {0, 1, 0}}, {"columns", 3}, {"rows", 3}});
+    add_cloth("cloth", origin, right, {0, 1, 0}, 3, 3);
     refused("rope.cut", {{"rope", "cloth"}, {"segment", 0}});
     run("rope.collider.add", {{"name", "far"}, {"kind", "sphere"}, {"centre", {9e8, 0, 0}}, {"radius", 1}});
     refuses("rope.collider.swing", {{"name", "far"}, {"by", {9e8, 0, 0}}}, "rope.collider.swing 1e9 m");

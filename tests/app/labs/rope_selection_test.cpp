@@ -69,13 +69,7 @@ TEST_F(RopeSelectionTest, ABoxTakesTheRopeThatHasMostInIt) {
 /// A box takes what it shows, not what is there in the first pane.
 TEST_F(RopeSelectionTest, ABoxInTheOtherPaneOfARaceTakesWhatIsThere) {
     single_rope(8);
-    run("rope.race");
-    RopePart& changed = workspace.document.edit<RopePart>(rope_lab);
-    auto elsewhere = std::make_shared<NamedWorld>(*changed.world);
-    rope::State state = elsewhere->state();
-    for (glm::dvec3& each : state.position) each.x += 2.0;
-    elsewhere->put(std::move(state));
-    changed.rivals[0].world = elsewhere;
+    race_aside();
     const auto box = [&](std::size_t pane, float from, float to) {
         std::vector<PickId> picks;
         for (const Handle& each : lab().selectable(workspace, pane))

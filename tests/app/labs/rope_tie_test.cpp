@@ -13,12 +13,8 @@ class RopeTieTest : public RopeTest {
     /// Two hanging ropes, the lower one's start 0.2 m below the upper one's end.
     void two_ropes() {
         run("rope.clear");
-        run("rope.add", {{"name", "above"},
-                         {"from", {0, 2, 0}},
-                         {"to", {0, 1.5, 0}},
-                         {"segments", 4},
-                         {"pin_start", true}});
-        run("rope.add", {{"name", "below"}, {"from", {0, 1.3, 0}}, {"to", {0, 0.8, 0}}, {"segments", 4}});
+        add_rope("above", {0, 2, 0}, {0, 1.5, 0}, {{"segments", 4}, {"pin_start", true}});
+        add_rope("below", {0, 1.3, 0}, {0, 0.8, 0}, {{"segments", 4}});
     }
     void tie_them(Json more = Json::object()) {
         Json arguments{{"a", "above"}, {"a_particle", 4}, {"b", "below"}, {"b_particle", 0}};
@@ -151,12 +147,7 @@ TEST_F(RopeTieTest, Refusals) {
     expect_refused("rope.tie",
                    {{"a", "above"}, {"a_particle", 0}, {"b", "below"}, {"b_particle", 1}, {"name", "tie"}},
                    {"tie"});
-    run("rope.cloth.add", {{"name", "sail"},
-                           {"corner", {0, 1, 0}},
-                           {"along", {1, 0, 0}},
-                           {"down", {0, -1, 0}},
-                           {"columns", 90},
-                           {"rows", 90}});
+    add_cloth("sail", {0, 1, 0}, {1, 0, 0}, {0, -1, 0}, 90, 90);
     // Few ties of a cloth cost little; from two a side on they cost as much as its elimination.
     const auto sewn = [](int at) {
         return Json{{"a", "above"}, {"a_particle", 0}, {"b", "sail"}, {"b_particle", at}};

@@ -577,7 +577,7 @@ TEST_F(SignalFitting, ItsProgressIsTold) {
     while (part().fits.size() < 2) lab().work(workspace);
     EXPECT_EQ(state().at("fitting"), true);
     const std::string running = reader.inspector(lab(), workspace);
-    EXPECT_TRUE(test::says(running, "2 14")) << running;
+    EXPECT_TRUE(test::says(running, "2 14"));
     EXPECT_NE(running.find("Cancel"), std::string::npos) << running;
     work();
     EXPECT_EQ(state().at("fitting"), false);

@@ -1,21 +1,21 @@
 // Each lab's verdict, in the inspector and in --state.
 #include "app/labs/rope/panel.hpp"
-#include "tests/app/labs/lab_support.hpp"
+#include "tests/app/labs/rope_support.hpp"
 #include "tests/app/support/panel_text.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
 
+class RopeVerdict : public RopeTest {
+  protected:
+    std::string said() const { return state()["verdict"]; }
+};
+
 class VerdictTest : public LabTest {
   protected:
     using LabTest::LabTest;
     std::string said() const { return state()["verdict"]; }
-};
-
-class RopeVerdict : public VerdictTest {
-  protected:
-    RopeVerdict() : VerdictTest("rope") {}
 };
 
 TEST_F(RopeVerdict, SaysWhetherLengthsHold) {
@@ -43,25 +43,18 @@ TEST_F(RopeVerdict, OfElasticRopesAsksForNothing) {
             run("rope.set", {{"rope", "line"}, {"stretch", 0.005}});
         wait(120);
         EXPECT_TRUE(said().starts_with("Stretched by ")) << how << ": " << said();
-        EXPECT_TRUE(test::says(state()["why"], "line stretch compliance")) << state()["why"];
+        EXPECT_TRUE(test::says(state()["why"], "line stretch compliance"));
     }
 }
 
 TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanABodyReaches) {
     run("rope.clear");
-    run("rope.add",
-        {{"name", "line"}, {"from", {0, 1, 0}}, {"to", {1, 1, 0}}, {"pin_start", true}, {"pin_end", true}});
+    add_rope("line", {0, 1, 0}, {1, 1, 0}, {{"pin_start", true}, {"pin_end", true}});
     run("rope.pin", {{"rope", "line"}, {"particle", 32}, {"at", {1.5, 1, 0}}});
     wait(60);
     EXPECT_TRUE(test::says(state()["why"], "pins line 1.50 m apart 1.00 m long"));
     run("rope.clear");
-    run("rope.cloth.add", {{"name", "sheet"},
-                           {"corner", {0, 1, 0}},
-                           {"along", {1, 0, 0}},
-                           {"down", {0, -1, 0}},
-                           {"columns", 5},
-                           {"rows", 5},
-                           {"pins", "corners"}});
+    add_cloth("sheet", {0, 1, 0}, {1, 0, 0}, {0, -1, 0}, 5, 5, "corners");
     run("rope.pin", {{"rope", "sheet"}, {"particle", 4}, {"at", {1.6, 1, 0}}});
     wait(60);
     EXPECT_TRUE(test::says(state()["why"], "pins sheet 1.60 m apart 1.00 m long"));
@@ -71,15 +64,12 @@ TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanABodyReaches) {
 /// From a pin along one rope, over the tie, and along the other to its pin.
 TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanTiedBodiesReach) {
     run("rope.clear");
-    run("rope.add",
-        {{"name", "left"}, {"from", {0, 1, 0}}, {"to", {0.6, 1, 0}}, {"segments", 8}, {"pin_start", true}});
-    run("rope.add",
-        {{"name", "right"}, {"from", {1.3, 1, 0}}, {"to", {2.1, 1, 0}}, {"segments", 8}, {"pin_end", true}});
+    add_rope("left", {0, 1, 0}, {0.6, 1, 0}, {{"segments", 8}, {"pin_start", true}});
+    add_rope("right", {1.3, 1, 0}, {2.1, 1, 0}, {{"segments", 8}, {"pin_end", true}});
     run("rope.tie", {{"a", "left"}, {"a_particle", 8}, {"b", "right"}, {"b_particle", 0}, {"length", 0.3}});
     wait(200);
     EXPECT_TRUE(said().starts_with("Lengths off by ")) << said();
-    EXPECT_TRUE(test::says(state()["why"], "pins left and right 2.10 m apart tied reach 1.70 m"))
-        << state()["why"];
+    EXPECT_TRUE(test::says(state()["why"], "pins left and right 2.10 m apart tied reach 1.70 m"));
     // With a tie as long as the gap, nothing is pulled.
     run("rope.tie.set", {{"name", "tie"}, {"length", 0.72}});
     wait(400);
@@ -87,33 +77,25 @@ TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanTiedBodiesReach) {
     // The shortest of several ways counts: over a tie between the middles, which takes both ropes in half.
     run("rope.tie", {{"a", "left"}, {"a_particle", 4}, {"b", "right"}, {"b_particle", 4}, {"length", 0.7}});
     wait(200);
-    EXPECT_TRUE(test::says(state()["why"], "2.10 m apart tied reach 1.40 m")) << state()["why"];
+    EXPECT_TRUE(test::says(state()["why"], "2.10 m apart tied reach 1.40 m"));
     // A tie between two pins.
     run("rope.tie", {{"a", "left"}, {"a_particle", 0}, {"b", "right"}, {"b_particle", 8}, {"length", 0.1}});
     EXPECT_EQ(said(), "A tie cannot close");
-    EXPECT_TRUE(test::says(state()["why"], "pins 2.10 m apart 0.10 m long Unpin")) << state()["why"];
+    EXPECT_TRUE(test::says(state()["why"], "pins 2.10 m apart 0.10 m long Unpin"));
     // Along a row of a cloth, from a tie to its corner.
     run("rope.clear");
-    run("rope.add",
-        {{"name", "line"}, {"from", {0, 2, 0}}, {"to", {0.5, 2, 0}}, {"segments", 4}, {"pin_start", true}});
-    run("rope.cloth.add", {{"name", "sheet"},
-                           {"corner", {0.8, 2, 0}},
-                           {"along", {1, 0, 0}},
-                           {"down", {0, -1, 0}},
-                           {"columns", 5},
-                           {"rows", 5}});
+    add_rope("line", {0, 2, 0}, {0.5, 2, 0}, {{"segments", 4}, {"pin_start", true}});
+    add_cloth("sheet", {0.8, 2, 0}, {1, 0, 0}, {0, -1, 0}, 5, 5);
     run("rope.pin", {{"rope", "sheet"}, {"particle", 4}});
     run("rope.tie", {{"a", "line"}, {"a_particle", 4}, {"b", "sheet"}, {"b_particle", 0}});
     wait(120);
-    EXPECT_TRUE(test::says(state()["why"], "pins line and sheet 1.80 m apart tied reach 1.50 m"))
-        << state()["why"];
+    EXPECT_TRUE(test::says(state()["why"], "pins line and sheet 1.80 m apart tied reach 1.50 m"));
 }
 
 /// What may stretch is not too short: the verdict says how far it is stretched.
 TEST_F(RopeVerdict, OfElasticRopesBetweenPinsBlamesNoPin) {
     run("rope.clear");
-    run("rope.add",
-        {{"name", "line"}, {"from", {0, 1, 0}}, {"to", {1, 1, 0}}, {"pin_start", true}, {"pin_end", true}});
+    add_rope("line", {0, 1, 0}, {1, 1, 0}, {{"pin_start", true}, {"pin_end", true}});
     run("rope.set", {{"rope", "line"}, {"stretch", 0.01}});
     run("rope.pin", {{"rope", "line"}, {"particle", 32}, {"at", {1.5, 1, 0}}});
     wait(120);
@@ -126,11 +108,7 @@ TEST_F(RopeVerdict, NamesThePinsWhateverTheSolverAndHoweverSlightTheError) {
         for (const double apart : {1.004, 1.5}) {
             run("rope.clear");
             run("rope.settings", {{"solver", solver}, {"iterations", 1}});
-            run("rope.add", {{"name", "line"},
-                             {"from", {0, 1, 0}},
-                             {"to", {1, 1, 0}},
-                             {"pin_start", true},
-                             {"pin_end", true}});
+            add_rope("line", {0, 1, 0}, {1, 1, 0}, {{"pin_start", true}, {"pin_end", true}});
             run("rope.pin", {{"rope", "line"}, {"particle", 32}, {"at", {apart, 1, 0}}});
             wait(60);
             const std::string text = test::PanelReader().inspector(lab(), workspace);
@@ -228,7 +206,7 @@ TEST_F(HumanoidVerdict, NamesTheOptionalBonesThatAreMissing) {
     run("humanoid.map", {{"bone", "LeftToes"}});
     EXPECT_EQ(said(), "Usable body");
     const std::string text = test::PanelReader().inspector(lab(), workspace);
-    EXPECT_TRUE(test::says(text, "20 of 22 bones mapped optional missing Chest LeftToes")) << text;
+    EXPECT_TRUE(test::says(text, "20 of 22 bones mapped optional missing Chest LeftToes"));
 }
 
 TEST_F(HumanoidVerdict, SaysWhetherItReaches) {

@@ -84,8 +84,7 @@ TEST_F(HumanoidFiles, TheResultIsJudgedAndAnExportTellsWhatIsNewInIt) {
     run("humanoid.export", {{"path", path("out.glb")}});
     const std::string told = workspace.ui.toasts.back().text;
     EXPECT_TRUE(test::says(told, std::to_string(count) + " in the written clip, " + std::to_string(count) +
-                                     " of them new " + report().findings[0].text.substr(0, 15)))
-        << told;
+                                     " of them new " + report().findings[0].text.substr(0, 15)));
     // Reopened, the file has what was told.
     run("humanoid.load", {{"path", path("out.glb")}});
     run("humanoid.clip", {{"index", 0}});
@@ -94,8 +93,7 @@ TEST_F(HumanoidFiles, TheResultIsJudgedAndAnExportTellsWhatIsNewInIt) {
     // A fault that the clip had before is not new.
     run("humanoid.load", {{"path", faulty()}});
     run("humanoid.export", {{"path", path("again.glb")}});
-    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "1 finding in the written clip none of them new"))
-        << workspace.ui.toasts.back().text;
+    tells("1 finding in the written clip none of them new");
     const std::string panel = [&] {
         run("view.fold", {{"section", "humanoid: Motion lint"}, {"folded", false}});
         run("humanoid.clip", {{"index", 0}});
@@ -128,7 +126,7 @@ TEST_F(HumanoidFiles, AnExportTellsOnWhatItWasJudged) {
         run("humanoid.foot_ik", {{"on", true}});
         run("humanoid.export", {{"path", path("out.glb")}});
         const std::string told = workspace.ui.toasts.back().text;
-        EXPECT_TRUE(test::says(told, "in the written clip")) << told;
+        EXPECT_TRUE(test::says(told, "in the written clip"));
         EXPECT_EQ(test::says(told, "in the written clip on this ground"), ground == std::string("stairs"))
             << told;
     }
@@ -136,14 +134,12 @@ TEST_F(HumanoidFiles, AnExportTellsOnWhatItWasJudged) {
 
 TEST_F(HumanoidFiles, AnExportTellsThatThereAreOtherClipsAndWritesThemAll) {
     run("humanoid.export", {{"path", path("one.glb")}, {"clip", "punch"}});
-    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "one.glb 1 of 2 clips: punch"))
-        << workspace.ui.toasts.back().text;
+    tells("one.glb 1 of 2 clips: punch");
     run("view.fold", {{"section", "humanoid: Export"}, {"folded", false}});
     const std::string panel = test::PanelReader().panel(lab(), workspace);
-    EXPECT_TRUE(test::says(panel, "Export clip Export all 1 of 2 clips: walk")) << panel;
+    EXPECT_TRUE(test::says(panel, "Export clip Export all 1 of 2 clips: walk"));
     run("humanoid.export", {{"path", path("all.bvh")}, {"all", true}});
-    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "all_walk.bvh others 2 clips worst joint"))
-        << workspace.ui.toasts.back().text;
+    tells("all_walk.bvh others 2 clips worst joint");
     for (const char* const name : {"walk", "punch"}) {
         const humanoid::Clip& clip = *std::ranges::find(part().loaded->clips(), name, &humanoid::Clip::name);
         const Character read = read_character(path((std::string("all_") + name + ".bvh").c_str()));
@@ -166,9 +162,7 @@ TEST_F(HumanoidFiles, AnotherCharacterTellsWhatItDiscards) {
     run("humanoid.curve", {{"first", "Spine"}});
     const HumanoidPart before = part();
     run("humanoid.load");
-    EXPECT_TRUE(
-        test::says(workspace.ui.toasts.back().text, "Discarded 1 fix 1 target 1 curve IK settings Undo"))
-        << workspace.ui.toasts.back().text;
+    tells("Discarded 1 fix 1 target 1 curve IK settings Undo");
     run("undo");
     EXPECT_TRUE(part() == before);
 }
@@ -225,8 +219,7 @@ TEST_F(HumanoidFiles, AllFaultsAreFixedInOneStep) {
     run("humanoid.cure", Json::object());
     EXPECT_TRUE(report().findings.empty());
     EXPECT_EQ(workspace.history.size(), steps + 1);
-    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "motion 2 faults fixed none left"))
-        << workspace.ui.toasts.back().text;
+    tells("motion 2 faults fixed none left");
     expect_refused("humanoid.cure", Json::object(), {"motion"});
     run("undo");
     EXPECT_TRUE(part() == before);
@@ -239,10 +232,9 @@ TEST_F(HumanoidFiles, AfterAllFixesItSaysWhatIsLeftAndWhy) {
     run("humanoid.clip", {{"name", "Robot_Dance"}});
     run("view.fold", {{"section", "humanoid: Motion lint"}, {"folded", false}});
     const std::string text = test::PanelReader().panel(lab(), workspace);
-    EXPECT_TRUE(test::says(text, "2 findings Fix all")) << text;
+    EXPECT_TRUE(test::says(text, "2 findings Fix all"));
     run("humanoid.cure", Json::object());
-    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "1 fault fixed 1 left Head limit no fix"))
-        << workspace.ui.toasts.back().text;
+    tells("1 fault fixed 1 left Head limit no fix");
 }
 
 TEST_F(HumanoidFiles, FindingsCallANodeByItsBone) {

@@ -170,7 +170,7 @@ TEST_F(HumanoidMotions, WhatWasGuessedOfItsFileIsSaid) {
     const auto notes = [&] { return state().at("character").at("notes").dump(); };
     const std::string before = notes();
     run("humanoid.motion.load", {{"path", path("wave.bvh")}});
-    EXPECT_TRUE(test::says(notes(), "At rest: Chest hips scaled unit")) << notes();
+    EXPECT_TRUE(test::says(notes(), "At rest: Chest hips scaled unit"));
     const Workspace again = reopened();
     EXPECT_TRUE(humanoid_part(again).loaded->edits.at(0).what == part().loaded->edits.at(0).what);
     run("humanoid.clip", {{"index", 0}});
@@ -185,17 +185,16 @@ TEST_F(HumanoidMotions, WhatCannotBeCarriedOverIsRefusedOrSaid) {
     refuses("humanoid.motion.load", {{"path", path("wave.vrma")}, {"clip", "run"}}, "wave.vrma no clip run");
     run("humanoid.motion.load", {{"path", path("wave.vrma")}});
     const std::string said = workspace.ui.toasts.back().text;
-    EXPECT_TRUE(test::says(said, "Clip wave wave.vrma At rest: Chest, UpperChest, Neck, Shoulder, Toes."))
-        << said;
+    EXPECT_TRUE(test::says(said, "Clip wave wave.vrma At rest: Chest, UpperChest, Neck, Shoulder, Toes."));
     EXPECT_EQ(said.find("hips"), said.npos) << "a line; the rest is in the panel";
     run("humanoid.load", {{"path", path("body.vrm")}});
     run("humanoid.motion.load", {{"path", path("wave.vrma")}});
-    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "wave_2 Every bone"));
+    tells("wave_2 Every bone");
     // A root and a control beside the body.
     test::write(folder_ / "rig.vrm", vrma("VRMC_vrm", true, true));
     run("humanoid.load", {{"path", path("rig.vrm")}});
     run("humanoid.motion.load", {{"path", path("wave.vrma")}});
-    EXPECT_TRUE(test::says(workspace.ui.toasts.back().text, "wave_2 Left as it is: pole."));
+    tells("wave_2 Left as it is: pole.");
     run("humanoid.map", {{"bone", "Hips"}});
     refuses("humanoid.motion.load", {{"path", path("wave.vrma")}}, "wave.vrma to.map Hips");
 }

@@ -165,7 +165,7 @@ TEST_F(HumanoidPanels, SayWhatIsMissing) {
     run("humanoid.map", {{"bone", "LeftHand"}});
     run("humanoid.map", {{"bone", "RightHand"}});
     const std::string text = reader_.panel(lab(), workspace);
-    EXPECT_TRUE(test::says(text, "off LeftHand RightHand")) << text;
+    EXPECT_TRUE(test::says(text, "off LeftHand RightHand"));
     run("humanoid.select", {{"node", "LeftHand"}});
     const std::string inspector = reader_.inspector(lab(), workspace);
     for (const char* says : {"Incomplete body", "LeftHand", "none", "LeftLowerArm"})
