@@ -1,20 +1,20 @@
 #include "app/labs/rig/unit_inputs.hpp"
 
 #include <algorithm>
-#include <tendril/rig/fields.hpp>
 #include <utility>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
-#include "app/labs/rig/definition_json.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/rig/values.hpp"
 
 namespace tendril::app {
 namespace {
 
+constexpr const char* of_words[] = {"transform", "translation", "rotation", "scale", "x", "y", "z", "value"};
+
 const char* words_of(rig::Of of) {
-    constexpr const char* words[] = {"transform", "translation", "rotation", "scale", "x", "y", "z", "value"};
-    return words[static_cast<std::size_t>(of)];
+    return of_words[static_cast<std::size_t>(of)];
 }
 
 const char* words_of(rig::Space space, rig::Pose pose) {
@@ -41,20 +41,9 @@ rig::Value part_of(const rig::Transform& pose, rig::Of of) {
     }
 }
 
-const char* unit_of(std::string_view field) {
-    constexpr std::pair<std::string_view, const char*> units[] = {{"max_speed", "\xC2\xB0/s"},
-                                                                  {"strength", "Hz"},
-                                                                  {"speed_increasing", "/s"},
-                                                                  {"speed_decreasing", "/s"},
-                                                                  {"target", "m"},
-                                                                  {"pole_target", "m"},
-                                                                  {"location", "m"},
-                                                                  {"roll_start_deg", "\xC2\xB0"},
-                                                                  {"roll_end_deg", "\xC2\xB0"},
-                                                                  {"interpolated_value", ""}};
-    for (const auto& [name, unit] : units)
-        if (name == field) return unit;
-    return "";
+const char* unit_of(const Field& field) {
+    const std::string_view unit = field.unit;
+    return unit == "deg" ? "\xC2\xB0" : unit == "deg/s" ? "\xC2\xB0/s" : unit == "1/s" ? "/s" : field.unit;
 }
 
 class Lister {
@@ -62,95 +51,87 @@ class Lister {
     Lister(const RigPart& part, const rig::Hierarchy& now, std::vector<UnitInput>& list)
         : part_(part), now_(now), list_(list) {}
 
-    /// All fields of an operation, or of a struct with rig::fields().
-    template <class T>
-    void all(const T& of, const std::string& path, const std::string& title) {
-        rig::fields(of, [&](const char* name, const auto& field) {
-            std::string words = name;
+    void all(std::span<const Field> table, const void* object, const std::string& path,
+             const std::string& title) {
+        for (const Field& field : table) {
+            std::string words = field.name;
             std::replace(words.begin(), words.end(), '_', ' ');
-            unit_ = unit_of(name);
-            list(field, path + '/' + name, title.empty() ? words : title + ' ' + words);
-        });
-    }
-
-    template <class T>
-    void list(const rig::Input<T>& input, const std::string& path, const std::string& title) {
-        UnitInput& row = add(path, title);
-        takes_value(row, input);
-        if (const T* literal = input.literal()) {
-            if constexpr (std::is_same_v<T, rig::Value>)
-                row.value = *literal;
-            else
-                row.value = rig::Value(*literal);
-        } else {
-            std::visit([&](const auto& source) { source_of(row, source); }, input.source);
+            if (!title.empty()) words = title + ' ' + words;
+            list(field, object, path + '/' + field.name, words);
         }
     }
 
-  private:
-    UnitInput& add(const std::string& path, const std::string& title) {
-        return list_.emplace_back(
-            UnitInput{.path = path, .title = title, .unit = unit_, .from = {}, .value = {}});
-    }
-    template <class T>
-    static void takes_value(UnitInput& row, const rig::Input<T>&) {
-        row.takes = UnitInput::Takes::Value;
-        if constexpr (!std::is_same_v<T, rig::Value>) row.type = rig::type_of(rig::Value(T()));
-    }
-    template <class T>
-    static void takes_value(UnitInput&, const T&) {}
-
-    void list(const rig::Item& item, const std::string& path, const std::string& title) {
-        UnitInput& row = add(path, title);
-        row.takes = path == "/root" || path == "/tip" ? UnitInput::Takes::Bone : UnitInput::Takes::Element;
-        if (const auto* name = std::get_if<std::string>(&item.which))
-            row.value = InputNames{{*name}, true};
+    void list(const Field& field, const void* object, const std::string& path, const std::string& title) {
+        const bool nested = field.type == FieldType::Struct;
+        if (nested && field.count != nullptr) {
+            if (field.table == fields<rig::Unit>) return;  // body units have their own rows
+            const std::size_t count = field.count(object);
+            for (std::size_t i = 0; i < count; ++i)
+                all(field.table(), field.address(object, i), path + '/' + std::to_string(i),
+                    count == 1 ? std::string("parent") : "parent " + std::to_string(i + 1));
+            return;
+        }
+        const void* const at =
+            field.address != nullptr && field.count == nullptr ? field.address(object, 0) : object;
+        const bool whole =
+            nested && (field.table == fields<rig::TransformFilter> || field.table == fields<signal::Curve>);
+        if (nested && !whole && at != nullptr) return all(field.table(), at, path, title);
+        UnitInput& row = list_.emplace_back(
+            UnitInput{.path = path, .title = title, .unit = unit_of(field), .from = {}, .value = {}});
+        if (field.type == FieldType::Input) {
+            row.takes = UnitInput::Takes::Value;
+            row.type = field.input->type;
+        }
+        if (at == nullptr)
+            row.from = "none";
         else
-            row.from = "each element";
+            value(row, field, at);
     }
-    void list(const rig::AimInputs& inputs, const std::string& path, const std::string& title) {
-        all(inputs, path, title);
-    }
-    template <class T>
-    void list(const std::optional<T>& field, const std::string& path, const std::string& title) {
-        if (field) return list(*field, path, title);
-        UnitInput& row = add(path, title);
-        row.from = "none";
-        takes_value(row, T());
-    }
-    void list(rig::AimTarget kind, const std::string& path, const std::string& title) {
-        add(path, title).value = InputChoice{static_cast<std::size_t>(kind), {"location", "direction"}};
-    }
-    void list(rig::Space space, const std::string& path, const std::string& title) {
-        add(path, title).value = InputChoice{space == rig::Space::Global ? 0u : 1u, {"global", "local"}};
-    }
-    void list(const std::vector<rig::ParentInputs>& parents, const std::string& path, const std::string&) {
-        for (std::size_t i = 0; i < parents.size(); ++i)
-            all(parents[i], path + '/' + std::to_string(i),
-                parents.size() == 1 ? std::string("parent") : "parent " + std::to_string(i + 1));
-    }
-    void list(const rig::TransformFilter& filter, const std::string& path, const std::string& title) {
-        add(path, title).value = InputFilter{filter};
-    }
-    void list(const std::vector<std::string>& names, const std::string& path, const std::string& title) {
-        UnitInput& row = add(path, title);
-        row.value = InputNames{names, true};
-        row.takes = UnitInput::Takes::Names;
-    }
-    void list(const rig::Body&, const std::string&, const std::string&) {}  // body units have their own rows
-    void list(bool flag, const std::string& path, const std::string& title) {
-        add(path, title).value = rig::Value(flag);
-    }
-    void list(const std::string& curve, const std::string& path, const std::string& title) {
-        UnitInput& row = add(path, title);
-        row.value = InputNames{{curve}, false};
-        row.takes = UnitInput::Takes::Curve;
-    }
-    void list(const std::array<double, 2>& range, const std::string& path, const std::string& title) {
-        add(path, title).value = InputRange{range[0], range[1]};
-    }
-    void list(const signal::Curve& curve, const std::string& path, const std::string& title) {
-        add(path, title).value = InputCurve{curve};
+
+  private:
+    /// `at`: what the field's accessors take; of a struct and of a list's owner, its address.
+    void value(UnitInput& row, const Field& field, const void* at) const {
+        switch (field.type) {
+            case FieldType::Input: {
+                const rig::Input<rig::Value> input = field.input->get(at);
+                if (const rig::Value* literal = input.literal()) row.value = *literal;
+                std::visit([&](const auto& source) { source_of(row, source); }, input.source);
+                break;
+            }
+            case FieldType::Item: {
+                const bool bone = field.of == std::string_view("bones");
+                row.takes = bone ? UnitInput::Takes::Bone : UnitInput::Takes::Element;
+                if (const auto* name = std::get_if<std::string>(&static_cast<const rig::Item*>(at)->which))
+                    row.value = InputNames{{*name}, true};
+                else
+                    row.from = "each element";
+                break;
+            }
+            case FieldType::Text: {
+                InputNames names{{}, field.count != nullptr};
+                for (std::size_t i = 0; names.elements && i < field.count(at); ++i)
+                    names.names.emplace_back(field.text(field.address(at, i)));
+                if (!names.elements) names.names.emplace_back(field.text(at));
+                row.takes = names.elements ? UnitInput::Takes::Names : UnitInput::Takes::Curve;
+                row.value = std::move(names);
+                break;
+            }
+            case FieldType::Flag:
+                row.value = rig::Value(field.number(at) != 0.0);
+                break;
+            case FieldType::Choice:
+                row.value = InputChoice{static_cast<std::size_t>(field.number(at)),
+                                        {field.choices.begin(), field.choices.end()}};
+                break;
+            case FieldType::Pair:
+                row.value = InputRange{field.number(at, 0), field.number(at, 1)};
+                break;
+            default:
+                if (field.table == fields<signal::Curve>)
+                    row.value = InputCurve{*static_cast<const signal::Curve*>(at)};
+                else
+                    row.value = InputFilter{*static_cast<const rig::TransformFilter*>(at)};
+        }
     }
 
     template <class T>
@@ -186,7 +167,6 @@ class Lister {
     const RigPart& part_;
     const rig::Hierarchy& now_;
     std::vector<UnitInput>& list_;
-    const char* unit_ = "";
 };
 
 }  // namespace
@@ -194,9 +174,11 @@ class Lister {
 std::vector<UnitInput> unit_inputs(const RigPart& part, const rig::Hierarchy& now, const rig::Unit& unit) {
     std::vector<UnitInput> list;
     Lister lister(part, now, list);
-    lister.list(unit.weight, "/weight", "weight");
-    lister.list(unit.when, "/when", "when");
-    std::visit([&](const auto& operation) { lister.all(operation, "", ""); }, unit.operation);
+    const std::span<const Field> table = fields<rig::Unit>();
+    for (const char* name : {"weight", "when"})
+        lister.list(*find_field(table, name), &unit, std::string("/") + name, name);
+    const Field& operation = *find_field(table, "unit");
+    lister.all(operation.kind(&unit).table(), operation.address(&unit, 0), "", "");
     return list;
 }
 
@@ -218,10 +200,16 @@ std::string input_text(const UnitInput& input, const rig::Value& value) {
 }
 
 Json with_input(const rig::Unit& unit, const std::string& path, Json value) {
-    Json whole = unit_json(unit);
-    whole[Json::json_pointer(path)] = std::move(value);
-    const std::string member = path.substr(1, path.find('/', 1) - 1);
-    return Json{{"name", unit.name}, {member, whole[member]}};
+    const std::size_t end = path.find('/', 1);
+    const std::string member = path.substr(1, end - 1);
+    Json arguments{{"name", unit.name}, {member, nullptr}};
+    if (member == "parents") {  // a list is set as a whole
+        const Field& operation = *find_field(fields<rig::Unit>(), "unit");
+        const Field& row = *find_field(operation.kind(&unit).table(), member);
+        arguments.update(save_fields({{&row, 1}, operation.address(&unit, 0)}));
+    }
+    arguments[Json::json_pointer(path)] = std::move(value);
+    return arguments;
 }
 
 std::vector<UnitRow> unit_rows(const RigPart& part) {
@@ -243,8 +231,6 @@ std::optional<UnitRow> unit_row(const RigPart& part, std::string_view name) {
 }
 
 namespace {
-
-constexpr const char* of_words[] = {"transform", "translation", "rotation", "scale", "x", "y", "z", "value"};
 
 /// As Rig::make: an input of T also accepts types that convert to T.
 bool converts(rig::Type from, rig::Type to) {

@@ -1,5 +1,5 @@
 // The inputs and outputs of a unit as a panel lists them: their sources, current values, possible
-// replacements and help texts. Based on rig::fields(), so that no operation is forgotten.
+// replacements and help texts. Based on the table of units, so that no operation is forgotten.
 #pragma once
 
 #include <optional>

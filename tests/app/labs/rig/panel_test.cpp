@@ -1,7 +1,6 @@
 // The contents of the Rig lab's panels: their lists, offers and edits.
 #include <algorithm>
 #include <set>
-#include <tendril/rig/fields.hpp>
 
 #include "app/document/refused.hpp"
 #include "app/labs/rig/definition_json.hpp"
