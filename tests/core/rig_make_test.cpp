@@ -83,15 +83,6 @@ TEST(RigMake, RefusesInputsThatNameWhatIsNotThere) {
     EXPECT_TRUE(test::says(refusal(with(ForEach{})), "unit first roots at least 1"));
 }
 
-TEST(RigMake, RefusesSpringsOutOfTheirRange) {
-    EXPECT_TRUE(
-        test::says(refusal(with(SpringInterpolate{.strength = -1.0})), "unit first strength 0 10000 Hz -1"));
-    EXPECT_TRUE(test::says(refusal(with(SpringInterpolate{.critical_damping = 1001.0})),
-                           "unit first critical_damping 0 1000 1001"));
-    EXPECT_TRUE(test::says(refusal(with(SpringInterpolate{.target_velocity_amount = 2.0})),
-                           "unit first target_velocity_amount 0 1 2"));
-}
-
 TEST(RigMake, RefusesInputsOfTheWrongType) {
     EXPECT_TRUE(test::says(refusal(with(EvaluateCurve{.value = FromElement{"hand"}})),
                            "unit first value number vector"));

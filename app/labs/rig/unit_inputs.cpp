@@ -76,64 +76,22 @@ class Lister {
         const bool whole =
             nested && (field.table == fields<rig::TransformFilter> || field.table == fields<signal::Curve>);
         if (nested && !whole && at != nullptr) return all(field.table(), at, path, title);
-        UnitInput& row = list_.emplace_back(
-            UnitInput{.path = path, .title = title, .unit = unit_of(field), .from = {}, .value = {}});
-        if (field.type == FieldType::Input) {
-            row.takes = UnitInput::Takes::Value;
-            row.type = field.input->type;
-        }
-        if (at == nullptr)
+        UnitInput& row = list_.emplace_back(UnitInput{
+            .path = path, .title = title, .unit = unit_of(field), .from = {}, .field = &field, .at = at});
+        if (at == nullptr) {
             row.from = "none";
-        else
-            value(row, field, at);
+        } else if (field.type == FieldType::Input) {
+            const rig::Input<rig::Value> input = field.input->get(at);
+            if (const rig::Value* literal = input.literal()) row.value = *literal;
+            std::visit([&](const auto& source) { source_of(row, source); }, input.source);
+        } else if (field.type == FieldType::Flag) {
+            row.value = field.number(at) != 0.0;
+        } else if (field.type == FieldType::Item && row.names().empty()) {
+            row.from = "each element";
+        }
     }
 
   private:
-    /// `at`: what the field's accessors take; of a struct and of a list's owner, its address.
-    void value(UnitInput& row, const Field& field, const void* at) const {
-        switch (field.type) {
-            case FieldType::Input: {
-                const rig::Input<rig::Value> input = field.input->get(at);
-                if (const rig::Value* literal = input.literal()) row.value = *literal;
-                std::visit([&](const auto& source) { source_of(row, source); }, input.source);
-                break;
-            }
-            case FieldType::Item: {
-                const bool bone = field.of == std::string_view("bones");
-                row.takes = bone ? UnitInput::Takes::Bone : UnitInput::Takes::Element;
-                if (const auto* name = std::get_if<std::string>(&static_cast<const rig::Item*>(at)->which))
-                    row.value = InputNames{{*name}, true};
-                else
-                    row.from = "each element";
-                break;
-            }
-            case FieldType::Text: {
-                InputNames names{{}, field.count != nullptr};
-                for (std::size_t i = 0; names.elements && i < field.count(at); ++i)
-                    names.names.emplace_back(field.text(field.address(at, i)));
-                if (!names.elements) names.names.emplace_back(field.text(at));
-                row.takes = names.elements ? UnitInput::Takes::Names : UnitInput::Takes::Curve;
-                row.value = std::move(names);
-                break;
-            }
-            case FieldType::Flag:
-                row.value = rig::Value(field.number(at) != 0.0);
-                break;
-            case FieldType::Choice:
-                row.value = InputChoice{static_cast<std::size_t>(field.number(at)),
-                                        {field.choices.begin(), field.choices.end()}};
-                break;
-            case FieldType::Pair:
-                row.value = InputRange{field.number(at, 0), field.number(at, 1)};
-                break;
-            default:
-                if (field.table == fields<signal::Curve>)
-                    row.value = InputCurve{*static_cast<const signal::Curve*>(at)};
-                else
-                    row.value = InputFilter{*static_cast<const rig::TransformFilter*>(at)};
-        }
-    }
-
     template <class T>
     static void source_of(UnitInput&, const T&) {}  // a literal
     void source_of(UnitInput& row, const rig::FromElement& from) const {
@@ -180,6 +138,19 @@ std::vector<UnitInput> unit_inputs(const RigPart& part, const rig::Hierarchy& no
     const Field& operation = *find_field(table, "unit");
     lister.all(operation.kind(&unit).table(), operation.address(&unit, 0), "", "");
     return list;
+}
+
+std::vector<std::string> UnitInput::names() const {
+    std::vector<std::string> all;
+    if (at != nullptr && is(FieldType::Item)) {
+        if (const auto* name = std::get_if<std::string>(&static_cast<const rig::Item*>(at)->which))
+            all.push_back(*name);
+    } else if (is(FieldType::Text)) {
+        if (field->count == nullptr) all.emplace_back(field->text(at));
+        for (std::size_t i = 0; field->count != nullptr && i < field->count(at); ++i)
+            all.emplace_back(field->text(field->address(at, i)));
+    }
+    return all;
 }
 
 bool is_speed_limit(const UnitInput& input) {
@@ -277,26 +248,17 @@ class Offers {
         : part_(part), row_(row), input_(input) {}
 
     std::vector<InputOffer> list(std::size_t index) {
-        switch (input_.takes) {
-            case UnitInput::Takes::Value:
-                if (!input_.literal()) literal();
-                for (const rig::Type type : types()) values(type);
-                break;
-            case UnitInput::Takes::Element:
-                if (row_.inner) offer("each element", {{"item", "each"}});
-                elements(false);
-                break;
-            case UnitInput::Takes::Bone:
-                elements(true);
-                break;
-            case UnitInput::Takes::Names:
-                one_of_names(index);
-                break;
-            case UnitInput::Takes::Curve:
-                for (const rig::NamedCurve& curve : definition().curves) offer(curve.name, curve.name);
-                break;
-            default:
-                break;
+        const std::string_view of = input_.field->of;
+        if (input_.is(FieldType::Input)) {
+            if (!input_.literal()) literal();
+            for (const rig::Type type : types()) values(type);
+        } else if (input_.is(FieldType::Item)) {
+            if (row_.inner && of != "bones") offer("each element", {{"item", "each"}});
+            elements(of == "bones");
+        } else if (of == "elements") {
+            one_of_names(index);
+        } else if (of == "curves") {
+            for (const rig::NamedCurve& curve : definition().curves) offer(curve.name, curve.name);
         }
         return std::move(offers_);
     }
@@ -305,14 +267,14 @@ class Offers {
     const rig::Definition& definition() const { return part_.rig.definition(); }
 
     void offer(std::string title, Json value) {
-        const auto* names = std::get_if<InputNames>(&input_.value);
-        const bool now = title == input_.from || (names != nullptr && title == names->names.front());
+        const std::vector<std::string> names = input_.names();
+        const bool now = title == input_.from || (!names.empty() && title == names.front());
         offers_.push_back({std::move(title), SharedJson(std::move(value)), now});
     }
 
     /// The type of the input, or else the types of a spring. A force must fit the spring's velocity.
     std::vector<rig::Type> types() const {
-        if (input_.type) return {*input_.type};
+        if (input_.type()) return {*input_.type()};
         if (input_.path == "/force") return {rig::type_of(part_.state.units[row_.at].outputs[1])};
         return {rig::Type::Number, rig::Type::Vector, rig::Type::Rotation};
     }
@@ -320,19 +282,15 @@ class Offers {
     /// Offers the current value as a literal.
     void literal() {
         const rig::Type type = types().front();
-        const auto* now = std::get_if<rig::Value>(&input_.value);
-        const bool fits = now != nullptr && (rig::type_of(*now) == type || !input_.type);
+        const auto& now = input_.value;
+        const bool fits = now && (rig::type_of(*now) == type || !input_.type());
         offer(type == rig::Type::Bool ? "a switch of its own" : "a value of its own",
               fits ? value_json(within_range(*now)) : zero_of(type));
     }
 
-    /// Literal weights are 0 to 1; relative weights and speeds are not negative.
     rig::Value within_range(rig::Value value) const {
-        auto* number = std::get_if<double>(&value);
-        if (number == nullptr) return value;
-        const bool weight = input_.path.ends_with("weight"), relative = input_.path.starts_with("/parents");
-        if (weight || input_.path == "/max_speed") *number = std::max(*number, 0.0);
-        if (weight && !relative) *number = std::min(*number, 1.0);
+        const FieldRange range = input_.field->range;
+        if (auto* number = std::get_if<double>(&value)) *number = std::clamp(*number, range.low, range.high);
         return value;
     }
 
@@ -394,7 +352,7 @@ class Offers {
     }
 
     /// An input of any type does no conversion.
-    bool fits(rig::Type from, rig::Type to) const { return input_.type ? converts(from, to) : from == to; }
+    bool fits(rig::Type from, rig::Type to) const { return input_.type() ? converts(from, to) : from == to; }
 
     void elements(bool bones) {
         for (const rig::Element& each : definition().elements)
@@ -402,7 +360,7 @@ class Offers {
     }
 
     void one_of_names(std::size_t index) {
-        const std::vector<std::string>& names = std::get<InputNames>(input_.value).names;
+        const std::vector<std::string> names = input_.names();
         for (const rig::Element& each : definition().elements) {
             if (std::ranges::count(names, each.name) > 0 &&
                 !(index < names.size() && names[index] == each.name))
@@ -412,8 +370,7 @@ class Offers {
             offers_.push_back(
                 {each.name, SharedJson(std::move(all)), index < names.size() && names[index] == each.name});
         }
-        const std::size_t fewest = input_.path == "/points" ? 2 : 1;
-        if (index >= names.size() || names.size() <= fewest) return;
+        if (index >= names.size() || names.size() <= input_.field->least) return;
         Json fewer = names;
         fewer.erase(index);
         offers_.push_back({"none: remove this " + one_of(input_.title), SharedJson(std::move(fewer)), false});
