@@ -124,8 +124,8 @@ class Check {
             const std::size_t count = list ? field.count(object) : 1;
             if (list && count > field.most)
                 return refuse({&above, field.name}, Text().add("at most ").add(double(field.most)), count);
-            if (list && count < field.least)
-                return refuse({&above, field.name}, Text().add("at least ").add(double(field.least)), count);
+            if (list && count < field.fewest)
+                return refuse({&above, field.name}, Text().add("at least ").add(double(field.fewest)), count);
             for (std::size_t i = 0; i < count; ++i) {
                 const void* const at = field.address(object, i);
                 if (at == nullptr) continue;

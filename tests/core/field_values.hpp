@@ -35,7 +35,7 @@ inline void collect_spots(std::span<const Field> table, void* object, const std:
             spots.push_back({&field, object, path});
             continue;
         }
-        if (field.resize != nullptr) field.resize(object, list ? std::max<std::size_t>(2, field.least) : 1);
+        if (field.resize != nullptr) field.resize(object, list ? std::max<std::size_t>(2, field.fewest) : 1);
         for (std::size_t i = 0; i < (list ? field.count(object) : 1); ++i) {
             if (field.type == FieldType::Rotation)
                 field.set(field.address_in(object, i), {0.0, 0.0, 0.0, 1.0});

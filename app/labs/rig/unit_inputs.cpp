@@ -370,7 +370,7 @@ class Offers {
             offers_.push_back(
                 {each.name, SharedJson(std::move(all)), index < names.size() && names[index] == each.name});
         }
-        if (index >= names.size() || names.size() <= input_.field->least) return;
+        if (index >= names.size() || names.size() <= input_.field->fewest) return;
         Json fewer = names;
         fewer.erase(index);
         offers_.push_back({"none: remove this " + one_of(input_.title), SharedJson(std::move(fewer)), false});

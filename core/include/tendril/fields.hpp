@@ -115,8 +115,8 @@ struct Field {
     /// Resizes a list, or an optional struct to 0 or 1. Null if the number of elements is fixed, or if the
     /// struct does not own the list.
     void (*resize)(void* object, std::size_t count) noexcept = nullptr;
-    std::size_t least = 0, most = static_cast<std::size_t>(-1);  ///< elements of a list
-    std::span<const char* const> names{};                        ///< of the elements: "left", "right"
+    std::size_t fewest = 0, most = static_cast<std::size_t>(-1);  ///< elements of a list
+    std::span<const char* const> names{};                         ///< of the elements: "left", "right"
     bool in_line = false;   ///< in files the named elements are members of the struct itself
     bool sparse = false;    ///< in files members at their default are left out
     bool required = false;  ///< files must have it: there is no default
@@ -180,7 +180,7 @@ struct Field {
     }
     constexpr Field up_to(std::size_t elements, std::size_t at_least = 0) const noexcept {
         Field row = *this;
-        row.most = elements, row.least = at_least;
+        row.most = elements, row.fewest = at_least;
         return row;
     }
     constexpr Field needed() const noexcept {
