@@ -5,6 +5,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/fields/input_json.hpp"
 
 namespace tendril::app {
 namespace {
@@ -90,7 +91,7 @@ FieldValue loaded(const JsonPlace& place, const Field& field) {
         case FieldType::Number:
             return {number_in_range(place, field)};
         case FieldType::Pair:
-            place.check_size(2, "numbers");
+            place.check_size(2, "numbers, [low, high]");
             return {number_in_range(place.element(0), field), number_in_range(place.element(1), field)};
         case FieldType::Rotation:
             return field.exact ? detail::to_field(place.drotation()) : detail::to_field(place.rotation());
@@ -147,7 +148,7 @@ Argument argument(const Field& field, const FieldText& text) {
         case FieldType::Index:
             result.type = ArgumentType::Text;
             break;
-        case FieldType::Struct:
+        default:
             break;
     }
     return result;
@@ -181,6 +182,7 @@ const void* element_of(const Field& field, const void* object, std::size_t index
 
 bool same_element(const Field& field, const void* a, const void* b) {
     if (field.type == FieldType::Text) return field.text(a) == field.text(b);
+    if (field.same != nullptr) return field.same(a, b);
     if (field.type == FieldType::Struct)
         return std::ranges::all_of(field.table(), [&](const Field& row) { return same_field(row, a, b); });
     const FieldValue one = field.get(a), other = field.get(b);
@@ -193,6 +195,11 @@ bool same_element(const Field& field, const void* a, const void* b) {
 bool same_field(const Field& field, const void* a, const void* b) {
     const std::size_t count = count_of(field, a);
     if (count != count_of(field, b)) return false;
+    if (field.type == FieldType::Kind)
+        return field.number(a) == field.number(b) &&
+               std::ranges::all_of(field.kind(a).table(), [&](const Field& row) {
+                   return same_field(row, field.address(a, 0), field.address(b, 0));
+               });
     for (std::size_t i = 0; i < count; ++i)
         if (!same_element(field, element_of(field, a, i), element_of(field, b, i))) return false;
     return true;
@@ -202,8 +209,9 @@ namespace {
 
 /// The text that an element of a list is known by; null if there is none.
 const Field* key_of(const Field& list) {
-    const bool has = list.type == FieldType::Struct && list.table().front().type == FieldType::Text;
-    return has ? &list.table().front() : nullptr;
+    if (list.type != FieldType::Struct) return nullptr;
+    const Field& first = list.table().front();
+    return first.type == FieldType::Text && !first.optional ? &first : nullptr;
 }
 
 /// A struct, and those around it.
@@ -224,9 +232,9 @@ struct Scope {
     }
 };
 
-/// An index of an element, which has no default although it is a number.
+/// Also an index of an element, which has no default although it is a number.
 bool is_required(const Field& field) {
-    return field.type == FieldType::Index && field.count == nullptr && !field.optional;
+    return field.required || (field.type == FieldType::Index && field.count == nullptr && !field.optional);
 }
 
 Json text_json(std::string_view text) {
@@ -239,6 +247,8 @@ Json save_element(const Field& field, const void* at, const Scope& scope) {
     if (field.type == FieldType::Struct)
         return save_struct({&scope, field.table(), at}, field.sparse ? field.fresh() : nullptr);
     if (field.type == FieldType::Text) return text_json(field.text(at));
+    if (field.type == FieldType::Input) return input_json(field.input->get(at));
+    if (field.type == FieldType::Item) return item_json(*static_cast<const rig::Item*>(at));
     if (field.type != FieldType::Index) return saved(field, field.get(at));
     const std::vector<std::string_view> names = scope.names(field.of);
     const double index = field.get(at)[0];
@@ -261,7 +271,15 @@ Json save_list(const Field& field, const Scope& scope) {
 /// Without the members that are as in `fresh`, if there is one.
 Json save_struct(const Scope& scope, const void* fresh) {
     Json json = Json::object();
+    for (const Field& field : scope.table)  // the kind comes first
+        if (field.type == FieldType::Kind)
+            json[field.name] = field.choices[static_cast<std::size_t>(field.number(scope.object))];
     for (const Field& field : scope.table) {
+        if (field.type == FieldType::Kind) {
+            json.update(
+                save_struct({&scope, field.kind(scope.object).table(), field.address(scope.object, 0)}));
+            continue;
+        }
         if (fresh != nullptr && !is_required(field) && same_field(field, scope.object, fresh)) continue;
         if (field.in_line)
             json.update(save_list(field, scope));
@@ -275,16 +293,36 @@ Json save_struct(const Scope& scope, const void* fresh) {
     return json;
 }
 
+/// What a missing field means.
+enum class Missing { Refused, Default, Kept };
+
 class Loader {
   public:
-    explicit Loader(bool all, std::span<const std::string_view> newer = {}) : all_(all), newer_(newer) {}
+    explicit Loader(Missing missing, bool only_known = false, std::span<const std::string_view> newer = {})
+        : missing_(missing), only_known_(only_known), newer_(newer) {}
 
     void fields(const JsonPlace& place, const Scope& scope) const {
         if (!place.json().is_object()) place.fail("expected an object, found " + json_summary(place.json()));
+        for (const Field& field : scope.table)
+            if (field.type == FieldType::Kind) kind(place, field, const_cast<void*>(scope.object));
+        if (only_known_) check_members(place, field_names(scope.table, scope.object));
+        beside(place, scope);
+    }
+
+  private:
+    void kind(const JsonPlace& place, const Field& field, void* object) const {
+        if (missing_ != Missing::Kept || place.has(field.name))
+            field.set(object, {choice_at(place[field.name], field)});
+    }
+    void beside(const JsonPlace& place, const Scope& scope) const {
         void* const object = const_cast<void*>(scope.object);
         for (const Field& field : scope.table) {
             if (field.in_line) {
                 list(place, field, scope);
+                continue;
+            }
+            if (field.type == FieldType::Kind) {
+                beside(place, {&scope, field.kind(object).table(), field.address(object, 0)});
                 continue;
             }
             const std::string name = file_name(field);
@@ -294,19 +332,19 @@ class Loader {
                     continue;
                 }
                 const bool newer = std::ranges::find(newer_, name) != newer_.end();
-                if (newer || !(all_ || is_required(field))) continue;
+                if (newer ||
+                    !(missing_ == Missing::Refused || (missing_ == Missing::Default && is_required(field))))
+                    continue;
             }
             const JsonPlace member = place[name.c_str()];
             if (field.count != nullptr)
                 list(member, field, scope);
-            else if (field.type == FieldType::Struct)
+            else if (field.address != nullptr)
                 nested(member, field, scope);
             else
                 value(member, field, object, scope);
         }
     }
-
-  private:
     void value(const JsonPlace& place, const Field& field, void* at, const Scope& scope) const {
         const bool nothing = place.json().is_null();
         if (field.type == FieldType::Text)
@@ -326,6 +364,7 @@ class Loader {
         }
         return {static_cast<double>(found - names.begin())};
     }
+    /// A struct, an input or an item.
     void nested(const JsonPlace& place, const Field& field, const Scope& scope) const {
         void* const object = const_cast<void*>(scope.object);
         const bool nothing = field.optional && place.json().is_null();
@@ -333,10 +372,17 @@ class Loader {
         if (!nothing) element(place, field, field.address_in(object), scope);
     }
     void element(const JsonPlace& place, const Field& field, void* at, const Scope& scope) const {
-        if (field.type == FieldType::Struct)
-            (field.sparse ? Loader(false) : *this).fields(place, {&scope, field.table(), at});
-        else
+        if (field.type == FieldType::Struct) {
+            const bool given = field.sparse && missing_ == Missing::Refused;
+            (given ? Loader(Missing::Default, only_known_) : *this)
+                .fields(place, {&scope, field.table(), at});
+        } else if (field.type == FieldType::Input) {
+            field.input->set(at, read_input(place, field.input->type));
+        } else if (field.type == FieldType::Item) {
+            *static_cast<rig::Item*>(at) = read_item(place);
+        } else {
             value(place, field, at, scope);
+        }
     }
     void list(const JsonPlace& place, const Field& field, const Scope& scope) const {
         void* const object = const_cast<void*>(scope.object);
@@ -344,7 +390,7 @@ class Loader {
             place.fail("expected an object, found " + json_summary(place.json()));
         for (std::size_t i = 0; i < field.names.size(); ++i) {
             const char* const name = field.names[i];
-            if (place.has(name) || !(field.optional || (field.in_line && !all_)))
+            if (place.has(name) || !(field.optional || (field.in_line && missing_ != Missing::Refused)))
                 element(place[name], field, field.address_in(object, i), scope);
         }
         if (!field.names.empty()) return;
@@ -355,7 +401,8 @@ class Loader {
             place.check_size(field.most, "elements");
         }
         for (std::size_t i = 0; i < field.count(object); ++i) {
-            element(place.element(i), field, field.address_in(object, i), scope);
+            const Loader fresh(missing_ == Missing::Kept ? Missing::Default : missing_, only_known_);
+            fresh.element(place.element(i), field, field.address_in(object, i), scope);
             if (key_of(field) != nullptr) check_key(place.element(i), field, object, i);
         }
     }
@@ -368,7 +415,8 @@ class Loader {
                 place[key.name].fail("there is another \"" + std::string(name) + "\"");
     }
 
-    bool all_;
+    Missing missing_;
+    bool only_known_;
     std::span<const std::string_view> newer_;
 };
 
@@ -379,11 +427,25 @@ Json save_fields(FieldsOf of) {
 }
 
 void load_all_fields(const JsonPlace& place, FieldsIn in, std::span<const std::string_view> newer) {
-    Loader(true, newer).fields(place, {nullptr, in.table, in.object});
+    Loader(Missing::Refused, false, newer).fields(place, {nullptr, in.table, in.object});
 }
 
 void load_fields(const JsonPlace& place, FieldsIn in) {
-    Loader(false).fields(place, {nullptr, in.table, in.object});
+    Loader(Missing::Default).fields(place, {nullptr, in.table, in.object});
+}
+
+void load_known_fields(const JsonPlace& place, FieldsIn in, bool edit) {
+    Loader(edit ? Missing::Kept : Missing::Default, true).fields(place, {nullptr, in.table, in.object});
+}
+
+std::vector<std::string> field_names(std::span<const Field> table, const void* object) {
+    std::vector<std::string> names;
+    for (const Field& field : table) {
+        names.push_back(file_name(field));
+        if (field.type != FieldType::Kind) continue;
+        for (const Field& each : field.kind(object).table()) names.push_back(file_name(each));
+    }
+    return names;
 }
 
 std::vector<Argument> field_arguments(std::span<const Field> table, std::span<const FieldText> texts) {

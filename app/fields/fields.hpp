@@ -73,8 +73,8 @@ struct FieldsIn {
 bool same_field(const Field& field, const void* a, const void* b);
 
 // In files an element of a list whose first row is a text is known by it: texts of a list are not empty and
-// differ, and an index is the text of its element. No text, no element and an infinite number are null. An
-// angle that old files have in radians, under its plain name, is read.
+// differ unless it is optional, and an index is the text of its element. No text, no element and an infinite
+// number are null. An angle that old files have in radians, under its plain name, is read.
 
 /// Includes nested structs and lists. A list with names leaves out its empty elements.
 Json save_fields(FieldsOf of);
@@ -83,6 +83,12 @@ Json save_fields(FieldsOf of);
 void load_fields(const JsonPlace& place, FieldsIn in);
 /// The same, but a missing field is an error, other than one of `newer`, which old files do not have.
 void load_all_fields(const JsonPlace& place, FieldsIn in, std::span<const std::string_view> newer = {});
+
+/// Refuses members that are no fields. `edit`: a variant without its kind's name, and fields without which
+/// there is no new struct, keep what they have too.
+void load_known_fields(const JsonPlace& place, FieldsIn in, bool edit = false);
+/// In files; those of the kind that a variant holds too.
+std::vector<std::string> field_names(std::span<const Field> table, const void* object);
 
 /// An optional argument for each field that has a text.
 std::vector<Argument> field_arguments(std::span<const Field> table, std::span<const FieldText> texts);

@@ -100,7 +100,7 @@ struct Scope {
 
 /// `at`: what the field's accessors take.
 bool fits(const Field& field, const void* at, const Scope& scope) noexcept {
-    if (field.type == FieldType::Text) return true;
+    if (field.type == FieldType::Text || field.type == FieldType::Item) return true;
     if (field.type != FieldType::Index) return field.fits(field, at);
     const double index = field.get(at)[0];
     return std::isnan(index) ? field.optional : index < static_cast<double>(scope.count(field.of));
@@ -124,14 +124,19 @@ class Check {
             const std::size_t count = list ? field.count(object) : 1;
             if (list && count > field.most)
                 return refuse({&above, field.name}, Text().add("at most ").add(double(field.most)), count);
+            if (list && count < field.fewest)
+                return refuse({&above, field.name}, Text().add("at least ").add(double(field.fewest)), count);
             for (std::size_t i = 0; i < count; ++i) {
                 const void* const at = field.address(object, i);
+                if (at == nullptr) continue;
                 const Place place{&above, field.name, list ? &field : nullptr, i};
-                if (field.type != FieldType::Struct && !fits(field, at, scope))
+                if (field.type == FieldType::Kind) {  // its fields are beside its name
+                    if (!passes({&scope, field.kind(object).table(), at}, above)) return false;
+                } else if (field.type == FieldType::Struct) {
+                    if (!passes({&scope, field.table(), at}, place)) return false;
+                } else if (!fits(field, at, scope)) {
                     return refuse(field, at, place);
-                if (field.type == FieldType::Struct && at != nullptr &&
-                    !passes({&scope, field.table(), at}, place))
-                    return false;
+                }
             }
         }
         return true;
@@ -148,10 +153,12 @@ class Check {
                           {"one of length",
                            std::sqrt(all[0] * all[0] + all[1] * all[1] + all[2] * all[2] + all[3] * all[3])});
         if (field.type == FieldType::Index && std::isnan(all[0])) return refuse(place, wanted, "none");
+        const bool vector = field.type == FieldType::Input && !std::isnan(all[3]);
+        const int size = vector ? 3 : field.size();
         std::size_t axis = 0;
-        while (static_cast<int>(axis) + 1 < field.size() && field.in_range(all[axis])) ++axis;
+        while (static_cast<int>(axis) + 1 < size && field.in_range(all[axis])) ++axis;
         const bool pair = field.type == FieldType::Pair;
-        const Place part{&place, pair ? ends[axis] : field.size() > 1 ? axes[axis] : ""};
+        const Place part{&place, pair ? ends[axis] : size > 1 ? axes[axis] : ""};
         if (field.type == FieldType::Index) return refuse(place, wanted, static_cast<std::size_t>(all[0]));
         if (field.whole() && std::abs(all[axis]) <= std::numeric_limits<int>::max())
             return refuse(part, wanted, static_cast<int>(all[axis]));

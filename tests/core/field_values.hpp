@@ -22,14 +22,20 @@ struct FieldSpot {
 inline void collect_spots(std::span<const Field> table, void* object, const std::string& above,
                           std::vector<FieldSpot>& spots) {
     for (const Field& field : table) {
-        if (field.type == FieldType::Text || field.type == FieldType::Index) continue;  // not numbers
+        using enum FieldType;
+        if (field.type == Text || field.type == Index || field.type == Input || field.type == Item)
+            continue;  // not numbers
+        if (field.type == Kind) {
+            collect_spots(field.kind(object).table(), field.address_in(object), above, spots);
+            continue;
+        }
         std::string path = above.empty() ? field.name : above + '.' + field.name;
         const bool list = field.count != nullptr, nested = field.type == FieldType::Struct;
         if (!list && !nested) {
             spots.push_back({&field, object, path});
             continue;
         }
-        if (field.resize != nullptr) field.resize(object, list ? 2 : 1);
+        if (field.resize != nullptr) field.resize(object, list ? std::max<std::size_t>(2, field.fewest) : 1);
         for (std::size_t i = 0; i < (list ? field.count(object) : 1); ++i) {
             if (field.type == FieldType::Rotation)
                 field.set(field.address_in(object, i), {0.0, 0.0, 0.0, 1.0});

@@ -16,6 +16,7 @@
 #include <tendril/ik/curve.hpp>
 #include <tendril/ik/mechanisms.hpp>
 #include <tendril/ik/options.hpp>
+#include <tendril/rig/unit.hpp>
 #include <tendril/rope/body.hpp>
 #include <tendril/rope/collider.hpp>
 #include <tendril/rope/hair_roots.hpp>
@@ -86,7 +87,10 @@ std::vector<Table> tables() {
                            table<rope::Capsule>("Capsule"),
                            table<rope::Plane>("Plane"),
                            table<rope::Box>("Box"),
-                           table<rope::Drive>("Drive")};
+                           table<rope::Drive>("Drive"),
+                           table<signal::Curve>("Curve"),
+                           table<rig::TransformFilter>("TransformFilter"),
+                           table<rig::Unit>("Unit")};
     for (const signal::Kind& kind : signal::kinds())
         all.push_back({kind.name, kind.fields, [&kind] {
                            const auto filter = std::make_shared<signal::Filter>(kind.blank());
@@ -200,6 +204,49 @@ TEST(Fields, AnOptionalStructCanBeEmptied) {
     EXPECT_EQ(plane.address(&options, 0), &*options.plane);
     plane.resize(&options, 0);
     EXPECT_FALSE(options.plane);
+}
+
+TEST(Fields, AVariantTakesTheKindOfAnIndexAndKeepsItsOwnAtOneThatIsNone) {
+    rig::Unit unit{.name = "u"};
+    const Field& kind = *find_field(fields<rig::Unit>(), "unit");
+    for (std::size_t i = 0; i < kind.choices.size(); ++i) {
+        kind.set(&unit, {static_cast<double>(i)});
+        EXPECT_EQ(unit.operation.index(), i);
+        EXPECT_EQ(kind.address(&unit, 0), std::visit([](auto& op) -> const void* { return &op; },
+                                                     static_cast<rig::Operation::Variant&>(unit.operation)));
+        for (const double none : {-1.0, 1e300, std::nan(""), 18.0}) kind.set(&unit, {none});
+        EXPECT_EQ(unit.operation.index(), i);
+    }
+    EXPECT_EQ(kind.kind(&unit).in_code, "tendril::rig::Spline");
+}
+
+TEST(Fields, AnInputOutOfRangeIsRefusedByAxisAndALinkIsNot) {
+    rig::Unit unit{.operation = rig::Aim{.primary = {.axis = glm::dvec3(0, std::nan(""), 0)}}};
+    auto& aim = std::get<rig::Aim>(unit.operation);
+    const auto refusal = [&] { return std::string(check_fields("call", unit, "it").message()); };
+    EXPECT_TRUE(says(refusal(), "call it.primary.axis.y must be got nan"));
+    aim.primary.axis = rig::FromUnit{"other"};
+    EXPECT_EQ(refusal(), "");
+    aim.secondary.emplace().weight = 2.0;
+    EXPECT_TRUE(says(refusal(), "call it.secondary.weight must be 0 to 1 got 2"));
+    unit.operation = rig::ForEach{.roots = {"a"}, .body = {{.weight = -1.0}}};
+    EXPECT_TRUE(says(refusal(), "call it.body[0].weight must be 0 to 1 got -1"));
+    unit.operation = rig::ForEach{};
+    EXPECT_TRUE(says(refusal(), "call it.roots must be at least 1 got 0"));
+}
+
+TEST(Fields, AWholeNumberThatTheTypeDoesNotHoldIsOutOfRange) {
+    ik::LinkageReport report;
+    const Field& stopped = *find_field(fields<ik::LinkageReport>(), "stopped");
+    for (const double bad : {-1.0, -1e300, 1e300, 1e308 * 10.0, -1e308 * 10.0}) {
+        stopped.set(&report, {bad});
+        EXPECT_TRUE(says(check_fields("call", report).message(), "stopped must be")) << bad;
+    }
+    for (const double bad : {-1.0, 256.0, std::nan("")})
+        EXPECT_EQ(detail::number_from<std::uint8_t>(bad), 255) << bad;
+    EXPECT_EQ(detail::number_from<int>(-1e300), std::numeric_limits<int>::min());
+    EXPECT_EQ(detail::number_from<std::int64_t>(9.3e18), std::numeric_limits<std::int64_t>::max());
+    EXPECT_EQ(detail::number_from<std::uint64_t>(1.8e19), 18'000'000'000'000'000'000u);
 }
 
 }  // namespace

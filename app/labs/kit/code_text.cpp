@@ -74,12 +74,93 @@ std::string pascal_text(std::string_view name) {
     return text;
 }
 
+std::string literal_code(bool value) {
+    return value ? "true" : "false";
+}
+std::string literal_code(double value) {
+    return double_text(value);
+}
+std::string literal_code(const glm::dvec3& value) {
+    return "glm::dvec3" + braced(value);
+}
+std::string literal_code(const glm::dquat& value) {
+    return "glm::dquat(" + double_text(value.w) + ", " + double_text(value.x) + ", " + double_text(value.y) +
+           ", " + double_text(value.z) + ')';
+}
+std::string literal_code(const rig::Transform& transform) {
+    const rig::Transform usual;
+    std::vector<std::string> texts;
+    if (transform.translation != usual.translation)
+        texts.push_back(".translation = " + braced(transform.translation));
+    if (transform.rotation != usual.rotation)
+        texts.push_back(".rotation = " + literal_code(transform.rotation));
+    if (transform.scale != usual.scale) texts.push_back(".scale = " + braced(transform.scale));
+    return "rig::Transform{" + joined(texts) + '}';
+}
+std::string literal_code(const rig::Value& value) {
+    return "rig::Value(" + std::visit([](const auto& held) { return literal_code(held); }, value) + ')';
+}
+
 namespace {
+
+/// "tendril::ik::Side" as "ik::Side"
+std::string library_name(std::string_view type) {
+    return std::string(type.substr(std::string_view("tendril::").size()));
+}
+
+std::string code(const rig::Item& item) {
+    const auto* name = std::get_if<std::string>(&item.which);
+    return name != nullptr ? string_text(*name) : "rig::ThisElement()";
+}
+
+std::string code(rig::Of of) {
+    constexpr const char* names[] = {"Transform", "Translation", "Rotation", "Scale",
+                                     "X",         "Y",           "Z",        "ControlValue"};
+    return std::string("rig::Of::") + names[static_cast<std::size_t>(of)];
+}
+std::string code(rig::Space space) {
+    return space == rig::Space::Global ? "rig::Space::Global" : "rig::Space::Local";
+}
+std::string code(rig::Pose pose) {
+    return pose == rig::Pose::Initial ? "rig::Pose::Initial" : "rig::Pose::Current";
+}
+std::string code(const rig::FromElement& from) {
+    const rig::FromElement usual;
+    std::string text = "rig::FromElement{.element = " + code(from.element);
+    if (from.of != usual.of) text += ", .of = " + code(from.of);
+    if (from.space != usual.space) text += ", .space = " + code(from.space);
+    if (from.pose != usual.pose) text += ", .pose = " + code(from.pose);
+    return text + '}';
+}
+std::string code(const rig::FromUnit& from) {
+    std::string text = "rig::FromUnit{.unit = " + string_text(from.unit);
+    if (from.output != rig::FromUnit().output) text += ", .output = " + string_text(from.output);
+    return text + '}';
+}
+std::string code(rig::Each each) {
+    constexpr const char* names[] = {"rig::Each::Ratio", "rig::Each::Index", "rig::Each::Count"};
+    return names[static_cast<std::size_t>(each)];
+}
+
+std::string code(const rig::Input<rig::Value>& input, bool any) {
+    return std::visit(
+        [&]<class Source>(const Source& source) {
+            if constexpr (!std::is_same_v<Source, rig::Value>)
+                return code(source);
+            else
+                return any ? literal_code(source)
+                           : std::visit([](const auto& held) { return literal_code(held); }, source);
+        },
+        input.source);
+}
 
 /// `at`: what the field's accessors take; of a struct, its address.
 std::string value_text(const Field& field, const void* at, const std::string& margin) {
     if (field.type == FieldType::Struct)
-        return struct_text({field.table(), at, field.fresh()}, margin + "    ");
+        return (field.optional ? library_name(field.kind(at).in_code) : "") +
+               struct_text({field.table(), at, field.fresh()}, margin + "    ");
+    if (field.type == FieldType::Input) return code(field.input->get(at), !field.input->type);
+    if (field.type == FieldType::Item) return code(*static_cast<const rig::Item*>(at));
     if (field.type == FieldType::Text) return string_text(field.text(at));
     const FieldValue value = field.get(at);
     const auto digits = [&](std::initializer_list<std::size_t> order) {
@@ -103,7 +184,7 @@ std::string value_text(const Field& field, const void* at, const std::string& ma
         case FieldType::Rotation:
             return '{' + digits({3, 0, 1, 2}) + '}';
         default:
-            return std::string(field.in_code.substr(std::string_view("tendril::").size())) +
+            return library_name(field.in_code) +
                    "::" + pascal_text(field.choices[static_cast<std::size_t>(value[0])]);
     }
 }
@@ -123,17 +204,31 @@ std::string list_text(const Field& field, const void* object, const std::string&
 std::vector<std::string> member_texts(FieldsOf of, const std::string& margin) {
     std::vector<std::string> texts;
     for (const Field& field : of.table) {
+        if (field.type == FieldType::Kind) {
+            const FieldKind& kind = field.kind(of.object);
+            texts.push_back('.' + std::string(field.in_code) + " = " + library_name(kind.in_code) +
+                            kind_text(kind.table(), field.address(of.object, 0), kind.fresh(), margin));
+            continue;
+        }
         const bool usual = of.fresh != nullptr && same_field(field, of.object, of.fresh);
         if (usual || (field.empty != nullptr && field.count == nullptr && field.empty(of.object))) continue;
-        const void* const at = field.type == FieldType::Struct && field.count == nullptr
-                                   ? field.address(of.object, 0)
-                                   : of.object;
+        const void* const at =
+            field.address != nullptr && field.count == nullptr ? field.address(of.object, 0) : of.object;
+        if (at == nullptr) continue;
         const bool other = field.type != FieldType::Choice && !field.in_code.empty();
         texts.push_back(
             '.' + std::string(other ? field.in_code : field.name) + " = " +
             (field.count != nullptr ? list_text(field, at, margin) : value_text(field, at, margin)));
     }
     return texts;
+}
+
+std::string kind_text(std::span<const Field> table, const void* object, const void* fresh,
+                      const std::string& margin) {
+    std::string text;
+    for (const std::string& each : member_texts({table, object, fresh}, margin + "    "))
+        text += (text.empty() ? "" : ",\n" + margin + "    ") + each;
+    return '{' + text + '}';
 }
 
 std::string struct_text(FieldsOf of, const std::string& margin) {

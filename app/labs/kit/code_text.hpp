@@ -7,6 +7,7 @@
 #include <string_view>
 #include <tendril/ik/limit.hpp>
 #include <tendril/ik/state.hpp>
+#include <tendril/rig/input.hpp>
 #include <tendril/signal/curve.hpp>
 #include <vector>
 
@@ -21,6 +22,14 @@ std::string literal(float value);
 std::string braced(const glm::vec3& value);
 std::string braced(const glm::dvec3& value);
 std::string braced(const glm::dquat& value);  ///< "{w, x, y, z}"
+/// A literal with its C++ type: "glm::dquat(w, x, y, z)", "rig::Value(0.5)", "rig::Transform{...}" without
+/// the members that have their default.
+std::string literal_code(bool value);
+std::string literal_code(double value);
+std::string literal_code(const glm::dvec3& value);
+std::string literal_code(const glm::dquat& value);
+std::string literal_code(const rig::Transform& value);
+std::string literal_code(const rig::Value& value);
 /// "22.5"
 std::string degrees_text(float radians);
 /// In quotes, with escapes.
@@ -32,6 +41,9 @@ std::string pascal_text(std::string_view name);
 /// without defaults each that is not empty. Members must be named, and declared in the order of, their
 /// fields. The elements of a list of structs are on a line each, after `margin`.
 std::vector<std::string> member_texts(FieldsOf of, const std::string& margin = {});
+/// "{.item = "hand", ...}" with a member per line, after `margin` and four blanks.
+std::string kind_text(std::span<const Field> table, const void* object, const void* fresh,
+                      const std::string& margin);
 /// "{.name = "A", .at = {1.0, 0.0}}"
 std::string struct_text(FieldsOf of, const std::string& margin = {});
 /// Separated by ", ".

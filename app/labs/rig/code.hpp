@@ -13,12 +13,6 @@ std::string rig_code(const RigPart& part);
 
 // Units and their memory as C++ source.
 
-/// "glm::dquat(w, x, y, z)"; "rig::Transform{...}" without the members that have their default.
-std::string rotation_code(const glm::dquat& rotation);
-std::string transform_code(const rig::Transform& transform);
-/// "rig::Value(0.5)"
-std::string value_code(const rig::Value& value);
-
 /// "rig::Unit{.name = "aim", .operation = rig::Aim{...}, ...}". Lists only inputs that differ from their
 /// default, one per line, indented by `margin`.
 std::string unit_code(const rig::Unit& unit, const std::string& margin);

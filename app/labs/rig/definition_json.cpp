@@ -1,13 +1,10 @@
 #include "app/labs/rig/definition_json.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <string_view>
-#include <tendril/rig/fields.hpp>
 #include <utility>
 
 #include "app/document/json_complete.hpp"
-#include "app/labs/kit/library_json.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/rig/values.hpp"
 
 namespace tendril::app {
@@ -152,173 +149,53 @@ rig::Definition read_definition(const JsonPlace& place) {
 
 namespace {
 
-constexpr std::size_t max_parents = 1'000, max_roots = 1'000;
+/// The members of a unit's curve, which older files and commands have beside its other inputs.
+constexpr const char* curve_members[] = {"keys", "source_min", "source_max", "target_min", "target_max"};
 
-/// Fields that are required in every operation.
-template <class T>
-constexpr bool is_required = false;
-template <>
-constexpr bool is_required<rig::Item> = true;
-template <>
-constexpr bool is_required<std::vector<rig::ParentInputs>> = true;
-template <>
-constexpr bool is_required<std::vector<std::string>> = true;
-template <>
-constexpr bool is_required<std::string> = true;
-
-class Reader {
-  public:
-    /// Reads an operation, or a struct with rig::fields(). `beside`: members that are read elsewhere.
-    template <class T>
-    static void all(const JsonPlace& place, T& of, std::vector<std::string> beside = {}) {
-        std::vector<std::string> known = std::move(beside);
-        rig::fields(of, [&](const char* name, auto&) { known.push_back(name); });
-        if constexpr (std::is_same_v<T, rig::EvaluateCurve>) add_curve_members(known);
-        check_members(place, known);
-        rig::fields(of, [&](const char* name, auto& field) {
-            using Field = std::remove_reference_t<decltype(field)>;
-            if (place.has(name) || is_required<Field>) read(place[name], field);
-        });
-        if constexpr (std::is_same_v<T, rig::EvaluateCurve>) read_curve_members(place, of.curve);
-    }
-
-  private:
-    static void read(const JsonPlace& place, rig::Item& item) { item = read_item(place); }
-    template <class T>
-    static void read(const JsonPlace& place, rig::Input<T>& input) {
-        input = read_input<T>(place);
-    }
-    static void read(const JsonPlace& place, rig::AimInputs& inputs) { all(place, inputs); }
-    template <class T>
-    static void read(const JsonPlace& place, std::optional<T>& field) {
-        if (place.json().is_null()) return field.reset();
-        read(place, field.emplace());
-    }
-    static void read(const JsonPlace& place, rig::AimTarget& kind) {
-        kind = static_cast<rig::AimTarget>(read_name(place, {"location", "direction"}));
-    }
-    static void read(const JsonPlace& place, rig::Space& space) {
-        space = read_name(place, {"global", "local"}) == 0 ? rig::Space::Global : rig::Space::Local;
-    }
-    static void read(const JsonPlace& place, std::vector<rig::ParentInputs>& parents) {
-        parents.clear();
-        place.for_each("parents", max_parents,
-                       [&](const JsonPlace& each) { all(each, parents.emplace_back()); });
-    }
-    static void read(const JsonPlace& place, rig::TransformFilter& filter) {
-        check_members(place, {"translation", "rotation", "scale"});
-        const auto axes = [&](const char* name, std::array<bool, 3>& passes) {
-            if (!place.has(name)) return;
-            const JsonPlace list = place[name];
-            list.check_size(3, "bools, for x, y and z");
-            for (std::size_t i = 0; i < 3; ++i) passes[i] = list.element(i).flag();
-        };
-        axes("translation", filter.translation);
-        axes("rotation", filter.rotation);
-        axes("scale", filter.scale);
-    }
-    static void read(const JsonPlace& place, std::vector<std::string>& roots) {
-        roots.clear();
-        place.for_each("elements", max_roots, [&](const JsonPlace& each) { roots.push_back(each.text()); });
-    }
-    static void read(const JsonPlace& place, rig::Body& body) { body.units() = read_units(place); }
-    static void read(const JsonPlace& place, bool& flag) { flag = place.flag(); }
-    static void read(const JsonPlace& place, std::string& text) { text = place.text(); }
-    static void read(const JsonPlace& place, std::array<double, 2>& range) {
-        place.check_size(2, "numbers, [low, high]");
-        for (std::size_t i = 0; i < 2; ++i) range[i] = place.element(i).real();
-    }
-    static void read(const JsonPlace& place, signal::Curve& curve) {
-        std::vector<std::string> known;
-        add_curve_members(known);
-        check_members(place, known);
-        read_curve_members(place, curve);
-    }
-};
-
-struct Writer {
-    template <class T>
-    static Json all(const T& of) {
-        Json json = Json::object();
-        rig::fields(of, [&](const char* name, const auto& field) { json[name] = write(field); });
-        return json;
-    }
-
-    static Json write(const rig::Item& item) { return item_json(item); }
-    template <class T>
-    static Json write(const rig::Input<T>& input) {
-        return input_json(input);
-    }
-    static Json write(const rig::AimInputs& inputs) { return all(inputs); }
-    template <class T>
-    static Json write(const std::optional<T>& field) {
-        return field ? write(*field) : Json(nullptr);
-    }
-    static Json write(rig::AimTarget kind) {
-        return kind == rig::AimTarget::Location ? "location" : "direction";
-    }
-    static Json write(rig::Space space) { return space == rig::Space::Global ? "global" : "local"; }
-    static Json write(const std::vector<rig::ParentInputs>& parents) {
-        Json list = Json::array();
-        for (const rig::ParentInputs& each : parents) list.push_back(all(each));
-        return list;
-    }
-    static Json write(const rig::TransformFilter& filter) {
-        return Json{
-            {"translation", filter.translation}, {"rotation", filter.rotation}, {"scale", filter.scale}};
-    }
-    static Json write(const std::vector<std::string>& roots) { return roots; }
-    static Json write(const rig::Body& body) { return units_json(body.units()); }
-    static Json write(bool flag) { return flag; }
-    static Json write(const std::string& text) { return text; }
-    static Json write(const std::array<double, 2>& range) { return range; }
-    static Json write(const signal::Curve& curve) { return curve_json(curve); }
-};
-
-/// Sets `operation` to the alternative of that index, with its defaults.
-template <std::size_t... index>
-void make_operation(rig::Operation& operation, std::size_t wanted, std::index_sequence<index...>) {
-    ((index == wanted ? static_cast<void>(operation.emplace<index>()) : void()), ...);
+/// The unit with its curve in one member, and those in its body likewise.
+Json with_curve(Json unit) {
+    if (!unit.is_object()) return unit;
+    for (const char* each : curve_members)
+        if (unit.contains(each) && (!unit.contains("curve") || unit["curve"].is_object())) {
+            unit["curve"][each] = unit[each];
+            unit.erase(each);
+        }
+    if (unit.contains("body") && unit["body"].is_array())
+        for (Json& each : unit["body"]) each = with_curve(each);
+    return unit;
 }
-constexpr auto all_operations = std::make_index_sequence<std::variant_size_v<rig::Operation::Variant>>();
 
-void make_operation(rig::Operation& operation, std::size_t wanted) {
-    make_operation(operation, wanted, all_operations);
+bool has_curve_members(const Json& json) {
+    if (json.is_array()) return std::ranges::any_of(json, has_curve_members);
+    return json.is_object() &&
+           (std::ranges::any_of(curve_members, [&](const char* each) { return json.contains(each); }) ||
+            (json.contains("body") && has_curve_members(json["body"])));
+}
+
+const Field& operation_field() {
+    return *find_field(fields<rig::Unit>(), "unit");
 }
 
 }  // namespace
 
 std::vector<std::string> operation_names() {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i)
-        names.emplace_back(rig::operation_name(i));
-    return names;
+    const auto names = operation_field().choices;
+    return {names.begin(), names.end()};
 }
 
 std::vector<std::string> unit_members() {
     std::vector<std::string> members{"weight", "when", "enabled"};
-    const auto add = [&](const std::string& name) {
-        if (std::find(members.begin(), members.end(), name) == members.end()) members.push_back(name);
+    const auto add = [&](const char* name) {
+        if (std::ranges::find(members, name) == members.end()) members.emplace_back(name);
     };
-    for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
-        rig::Operation operation;
-        make_operation(operation, i);
-        std::visit([&](auto& each) { rig::fields(each, [&](const char* name, auto&) { add(name); }); },
-                   operation);
-    }
-    std::vector<std::string> of_curves;
-    add_curve_members(of_curves);
-    for (const std::string& name : of_curves) add(name);
+    for (const FieldKind& kind : operation_field().kinds)
+        for (const Field& field : kind.table()) add(field.name);
+    for (const char* each : curve_members) add(each);
     return members;
 }
 
 Json unit_json(const rig::Unit& unit) {
-    Json json{{"unit", rig::operation_name(unit.operation.index())}, {"name", unit.name}};
-    json.update(std::visit([](const auto& operation) { return Writer::all(operation); }, unit.operation));
-    json["weight"] = input_json(unit.weight);
-    json["when"] = input_json(unit.when);
-    json["enabled"] = unit.enabled;
-    return json;
+    return save_fields(unit);
 }
 
 Json units_json(const std::vector<rig::Unit>& units) {
@@ -327,23 +204,15 @@ Json units_json(const std::vector<rig::Unit>& units) {
     return list;
 }
 
+void edit_unit(const JsonPlace& place, rig::Unit& unit, bool edit) {
+    if (!has_curve_members(place.json())) return load_known_fields(place, unit, edit);
+    const Json json = with_curve(place.json());
+    load_known_fields({json, place.where()}, unit, edit);
+}
+
 rig::Unit read_unit(const JsonPlace& place) {
-    const JsonPlace kind = place["unit"];
-    const std::string name = kind.text();
-    const std::vector<std::string> names = operation_names();
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) kind.fail("unknown unit " + json_summary(kind.json()));
     rig::Unit unit;
-    make_operation(unit.operation, static_cast<std::size_t>(found - names.begin()));
-    std::visit(
-        [&](auto& operation) {
-            Reader::all(place, operation, {"unit", "name", "weight", "when", "enabled"});
-        },
-        unit.operation);
-    if (place.has("name")) unit.name = place["name"].text();
-    if (place.has("weight")) unit.weight = read_input<double>(place["weight"]);
-    if (place.has("when")) unit.when = read_input<bool>(place["when"]);
-    if (place.has("enabled")) unit.enabled = place["enabled"].flag();
+    edit_unit(place, unit, false);
     return unit;
 }
 
@@ -372,128 +241,5 @@ void name_units(std::vector<rig::Unit>& units, std::set<std::string>& taken) {
             name_units(for_each->body.units(), taken);
     }
 }
-
-namespace {
-
-constexpr std::string_view of_names[] = {"transform", "translation", "rotation", "scale",
-                                         "x",         "y",           "z",        "value"};
-constexpr std::string_view each_names[] = {"ratio", "index", "count"};
-
-/// The part of an element that an input of T takes by default.
-template <class T>
-constexpr rig::Of taken = rig::Of::Translation;
-template <>
-constexpr rig::Of taken<bool> = rig::Of::ControlValue;
-template <>
-constexpr rig::Of taken<double> = rig::Of::ControlValue;
-template <>
-constexpr rig::Of taken<glm::dquat> = rig::Of::Rotation;
-template <>
-constexpr rig::Of taken<rig::Transform> = rig::Of::Transform;
-
-template <class T>
-T read_literal(const JsonPlace& place) {
-    if constexpr (std::is_same_v<T, rig::Value>) return read_any_value(place);
-    if constexpr (std::is_same_v<T, bool>) return place.flag();
-    if constexpr (std::is_same_v<T, double>) return place.real();
-    if constexpr (std::is_same_v<T, glm::dvec3>) return place.dpoint();
-    if constexpr (std::is_same_v<T, glm::dquat>) return read_rotation(place);
-    if constexpr (std::is_same_v<T, rig::Transform>) return read_transform(place);
-}
-
-const char* space_name(rig::Space space, rig::Pose pose) {
-    if (pose == rig::Pose::Current) return space == rig::Space::Global ? "global" : "local";
-    return space == rig::Space::Global ? "initial_global" : "initial_local";
-}
-
-rig::FromElement read_from_element(const JsonPlace& place, const char* key, rig::Of of) {
-    check_members(place, {key, "of", "space"});
-    rig::FromElement from;
-    const JsonPlace name = place[key];
-    if (key == std::string_view("item")) {
-        read_name(name, {"each"});
-        from.element = rig::ThisElement();
-    } else {
-        from.element = name.text();
-    }
-    from.of = of;
-    if (place.has("of")) from.of = static_cast<rig::Of>(read_name(place["of"], of_names));
-    if (place.has("space")) {
-        const std::size_t which =
-            read_name(place["space"], {"global", "local", "initial_global", "initial_local"});
-        from.space = which % 2 == 0 ? rig::Space::Global : rig::Space::Local;
-        from.pose = which < 2 ? rig::Pose::Current : rig::Pose::Initial;
-    }
-    return from;
-}
-
-rig::FromUnit read_from_unit(const JsonPlace& place) {
-    check_members(place, {"unit", "output"});
-    rig::FromUnit from;
-    from.unit = place["unit"].text();
-    if (place.has("output")) from.output = place["output"].text();
-    return from;
-}
-
-}  // namespace
-
-Json item_json(const rig::Item& item) {
-    if (const auto* name = std::get_if<std::string>(&item.which)) return *name;
-    return Json{{"item", "each"}};
-}
-
-rig::Item read_item(const JsonPlace& place) {
-    if (place.json().is_string()) return place.text();
-    if (!place.has("item"))
-        place.fail("expected the name of an element or {\"item\": \"each\"}, found " +
-                   json_summary(place.json()));
-    check_members(place, {"item"});
-    read_name(place["item"], {"each"});
-    return rig::ThisElement();
-}
-
-template <class T>
-Json input_json(const rig::Input<T>& input) {
-    if (const T* literal = input.literal()) return value_json(*literal);
-    if (const auto* from = std::get_if<rig::FromElement>(&input.source)) {
-        Json json = Json::object();
-        if (const auto* name = std::get_if<std::string>(&from->element.which))
-            json["element"] = *name;
-        else
-            json["item"] = "each";
-        json["of"] = of_names[static_cast<std::size_t>(from->of)];
-        json["space"] = space_name(from->space, from->pose);
-        return json;
-    }
-    if (const auto* from = std::get_if<rig::FromUnit>(&input.source))
-        return Json{{"unit", from->unit}, {"output", from->output}};
-    const auto each = static_cast<std::size_t>(std::get<rig::Each>(input.source));
-    return Json{{"each", each_names[each]}};
-}
-
-template <class T>
-rig::Input<T> read_input(const JsonPlace& place) {
-    const Json& json = place.json();
-    if (json.is_string()) return rig::FromElement{.element = place.text(), .of = taken<T>};
-    if (place.has("element")) return read_from_element(place, "element", taken<T>);
-    if (place.has("item")) return read_from_element(place, "item", taken<T>);
-    if (place.has("unit")) return read_from_unit(place);
-    if (!place.has("each")) return read_literal<T>(place);
-    check_members(place, {"each"});
-    return static_cast<rig::Each>(read_name(place["each"], each_names));
-}
-
-template Json input_json(const rig::Input<bool>&);
-template Json input_json(const rig::Input<double>&);
-template Json input_json(const rig::Input<glm::dvec3>&);
-template Json input_json(const rig::Input<glm::dquat>&);
-template Json input_json(const rig::Input<rig::Transform>&);
-template Json input_json(const rig::Input<rig::Value>&);
-template rig::Input<bool> read_input(const JsonPlace&);
-template rig::Input<double> read_input(const JsonPlace&);
-template rig::Input<glm::dvec3> read_input(const JsonPlace&);
-template rig::Input<glm::dquat> read_input(const JsonPlace&);
-template rig::Input<rig::Transform> read_input(const JsonPlace&);
-template rig::Input<rig::Value> read_input(const JsonPlace&);
 
 }  // namespace tendril::app

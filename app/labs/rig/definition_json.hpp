@@ -31,8 +31,7 @@ Json definition_json(const rig::Definition& definition);
 /// later reports the errors that involve several parts of the definition.
 rig::Definition read_definition(const JsonPlace& place);
 
-// Units as JSON. Reader and writer both go through rig::fields(), so a new operation appears in files,
-// commands and --state as soon as it is listed there.
+// Units as JSON, by their table of fields.
 
 inline constexpr std::size_t max_lab_units = 2'000;  ///< including those in bodies
 
@@ -44,6 +43,8 @@ Json units_json(const std::vector<rig::Unit>& units);
 /// begins with the JSON path for an unknown operation or member, or a form that the input does not accept.
 /// Rig::make checks whether names refer to anything.
 rig::Unit read_unit(const JsonPlace& place);
+/// Omitted members keep their value, also inside "primary", "secondary" and "filter".
+void edit_unit(const JsonPlace& place, rig::Unit& unit, bool edit = true);
 std::vector<rig::Unit> read_units(const JsonPlace& place);
 
 /// Names each unit without a name after its operation, avoiding those in `taken`: "aim", "aim 2".
@@ -55,26 +56,5 @@ void collect_names(const std::vector<rig::Unit>& units, std::set<std::string>& n
 std::vector<std::string> operation_names();
 /// Every member that any operation has, without duplicates; excludes "unit" and "name".
 std::vector<std::string> unit_members();
-
-// Inputs as JSON:
-//
-//     [0, 1, 2]                                                          a literal
-//     "head"                                                             an element: the input takes its part
-//     {"element": "head", "of": "translation", "space": "global"}        part of an element's pose
-//     {"element": "dial", "of": "value"}                                 the value of a control
-//     {"unit": "curve", "output": "result"}                              an output of another unit
-//     {"item": "each"}, {"each": "ratio"}                                inside a for-each
-//
-// Without "of" the input takes the part that fits its type: the transform, the translation, the rotation, or,
-// for numbers and bools, the value of a control. {"item": "each"} may have "of" and "space" too.
-
-Json item_json(const rig::Item& item);
-rig::Item read_item(const JsonPlace& place);
-
-/// T is one of bool, double, glm::dvec3, glm::dquat, rig::Transform and rig::Value.
-template <class T>
-Json input_json(const rig::Input<T>& input);
-template <class T>
-rig::Input<T> read_input(const JsonPlace& place);
 
 }  // namespace tendril::app

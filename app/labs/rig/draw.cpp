@@ -149,8 +149,7 @@ class Drawing {
     }
     bool is_b_spline(const rig::Unit& unit) const {
         for (const UnitInput& input : unit_inputs(p_.part, p_.elements, unit))
-            if (const auto* now = std::get_if<rig::Value>(&input.value); now && input.path == "/b_spline")
-                return *now == rig::Value(true);
+            if (input.value && input.path == "/b_spline") return *input.value == rig::Value(true);
         return false;
     }
     void curve(const std::vector<glm::vec3>& points, bool b_spline, float width) {

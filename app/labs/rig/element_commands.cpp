@@ -268,20 +268,11 @@ void add(RigPart& part, const Arguments& given) {
     add_unit(part, read_unit(JsonPlace(unit, "")), given.has("at") ? given.integer("at") : -1);
 }
 
-/// Changes a unit. Omitted members keep their value, also inside "primary", "secondary" and "filter".
 void set(RigPart& part, const Arguments& given) {
-    const rig::Unit& now = unit_named(part, given.text("name"));
-    Json unit = unit_json(now), changes = given.json();
-    for (const char* nested : {"primary", "secondary", "filter"}) {
-        if (!changes.contains(nested) || !changes[nested].is_object() || !unit.contains(nested)) continue;
-        if (unit[nested].is_object())
-            unit[nested].update(changes[nested]);
-        else
-            unit[nested] = changes[nested];
-        changes.erase(nested);
-    }
-    unit.update(changes);
-    set_unit(part, now.name, read_unit(JsonPlace(unit, "")));
+    rig::Unit unit = unit_named(part, given.text("name"));
+    const std::string name = unit.name;
+    edit_unit(JsonPlace(given.json(), ""), unit);
+    set_unit(part, name, std::move(unit));
 }
 
 void remove_unit(RigPart& part, const Arguments& given) {

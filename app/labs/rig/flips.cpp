@@ -25,7 +25,7 @@ double angle_of(const glm::dvec3& a, const glm::dvec3& b) {
 struct Moved {
     rig::ControlKind kind = rig::ControlKind::Transform;
     rig::Transform from{}, to{};  ///< global, before any unit moved it
-    double share = 0.0;  ///< the changed fraction of its range, for a float
+    double share = 0.0;           ///< the changed fraction of its range, for a float
 };
 
 bool has_place(rig::ControlKind kind) {
@@ -229,7 +229,7 @@ class Given {
     const std::vector<UnitInput>& all() const { return inputs_; }
     const rig::Value* value(std::string_view path) const {
         const auto found = std::ranges::find(inputs_, path, &UnitInput::path);
-        return found == inputs_.end() ? nullptr : std::get_if<rig::Value>(&found->value);
+        return found != inputs_.end() && found->value ? &*found->value : nullptr;
     }
     std::optional<glm::vec3> point(std::string_view path) const {
         const rig::Value* const given = value(path);
@@ -367,7 +367,7 @@ std::vector<glm::vec3> joints_between(const RigPart& part, const rig::Item& root
 }
 
 std::optional<ik::ReachPose> reach_pose(const Given& given, const RigPart& found, const RigPart& left,
-                                    const rig::Item& root, const rig::Item& tip) {
+                                        const rig::Item& root, const rig::Item& tip) {
     const auto target = given.point("/target");
     ik::ReachPose pose{joints_between(left, root, tip), {}, given.point("/pole_target")};
     // Uses the joints after the unit ran, which show how the chain is bent.

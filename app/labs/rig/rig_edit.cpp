@@ -5,8 +5,6 @@
 #include <set>
 #include <stdexcept>
 #include <string_view>
-#include <tendril/rig/fields.hpp>
-#include <type_traits>
 #include <utility>
 
 #include "app/document/json_complete.hpp"
@@ -283,75 +281,77 @@ std::size_t curve_named(const RigPart& part, const std::string& name) {
 
 namespace {
 
-template <class T>
-inline constexpr bool is_input = false;
-template <class T>
-inline constexpr bool is_input<rig::Input<T>> = true;
-template <class T>
-inline constexpr bool is_optional = false;
-template <class T>
-inline constexpr bool is_optional<std::optional<T>> = true;
-
 /// Calls `take(unit, member, kind, name)` for every name that units refer to, bodies included. The names can
-/// be changed if the units can.
+/// be changed; those of inputs are then set.
 template <class Take>
 class UsedNames {
   public:
     explicit UsedNames(const Take& take) : take_(take) {}
 
-    void of(auto& units) {
-        for (auto& unit : units) {
-            unit_ = &unit;
-            member("weight", unit.weight);
-            member("when", unit.when);
-            std::visit([&](auto& operation) { members("", operation); }, unit.operation);
-        }
+    void of(std::vector<rig::Unit>& units) {
+        for (rig::Unit& each : units) unit(each);
     }
 
   private:
-    template <class T>
-    void members(const std::string& place, T& of) {
-        rig::fields(of, [&](const char* name, auto& each) { member(place + name, each); });
-        if constexpr (std::is_same_v<std::remove_const_t<T>, rig::SetCurve>)
-            take_(*unit_, "curve", Named::Curve, of.curve);
+    void members(const std::string& place, std::span<const Field> table, void* object) {
+        for (const Field& field : table) {
+            if (field.address == nullptr) {
+                member(field, object, place + field.name);
+                continue;
+            }
+            const std::size_t count = field.count != nullptr ? field.count(object) : 1;
+            for (std::size_t i = 0; i < count; ++i) {
+                void* const at = field.address_in(object, i);
+                if (field.type == FieldType::Kind)
+                    members(place, field.kind(object).table(), at);
+                else if (at != nullptr && field.table == fields<rig::Unit>)
+                    unit(*static_cast<rig::Unit*>(at));
+                else if (at != nullptr && field.type == FieldType::Struct)
+                    members(place + field.name + (field.count ? '[' + std::to_string(i) + "]." : "."),
+                            field.table(), at);
+                else if (at != nullptr)
+                    member(field, at, place + field.name);
+            }
+        }
+    }
+    void unit(rig::Unit& unit) {
+        const std::string* const around = std::exchange(unit_, &unit.name);
+        members("", fields<rig::Unit>(), &unit);
+        unit_ = around;
     }
 
-    template <class T>
-    void member(const std::string& place, T& of) {
-        using Member = std::remove_const_t<T>;
-        if constexpr (std::is_same_v<Member, rig::Item>) {
-            if (auto* const element = std::get_if<std::string>(&of.which))
-                take_(*unit_, place, Named::Element, *element);
-        } else if constexpr (is_input<Member>) {
-            if (auto* const from = std::get_if<rig::FromElement>(&of.source)) member(place, from->element);
-            if (auto* const from = std::get_if<rig::FromUnit>(&of.source))
-                take_(*unit_, place, Named::Unit, from->unit);
-        } else if constexpr (is_optional<Member>) {
-            if (of) member(place, *of);
-        } else if constexpr (std::is_same_v<Member, rig::AimInputs>) {
-            members(place + ".", of);
-        } else if constexpr (std::is_same_v<Member, std::vector<rig::ParentInputs>>) {
-            for (std::size_t i = 0; i < of.size(); ++i)
-                members(place + "[" + std::to_string(i) + "].", of[i]);
-        } else if constexpr (std::is_same_v<Member, std::vector<std::string>>) {
-            for (auto& root : of) take_(*unit_, place, Named::Element, root);
-        } else if constexpr (std::is_same_v<Member, rig::Body>) {
-            this->of(of.units());
-        }  // the others refer to nothing
+    void member(const Field& field, void* at, const std::string& place) {
+        if (field.type == FieldType::Item) return element(*static_cast<rig::Item*>(at), place);
+        if (field.type == FieldType::Text && *field.of != '\0') {
+            const bool curve = field.of == std::string_view("curves");
+            std::string name(field.text(at));
+            take_(*unit_, place, curve ? Named::Curve : Named::Element, name);
+            if (name != field.text(at)) field.set_text(at, name);
+        }
+        if (field.type != FieldType::Input) return;
+        rig::Input<rig::Value> input = field.input->get(at);
+        if (input.literal() != nullptr) return;
+        if (auto* const from = std::get_if<rig::FromElement>(&input.source)) element(from->element, place);
+        if (auto* const from = std::get_if<rig::FromUnit>(&input.source))
+            take_(*unit_, place, Named::Unit, from->unit);
+        field.input->set(at, input);
+    }
+    void element(rig::Item& item, const std::string& place) {
+        if (auto* const name = std::get_if<std::string>(&item.which))
+            take_(*unit_, place, Named::Element, *name);
     }
 
     const Take& take_;
-    const rig::Unit* unit_ = nullptr;
+    const std::string* unit_ = nullptr;
 };
 
 }  // namespace
 
-std::optional<Use> first_use(const std::vector<rig::Unit>& units, Named kind,
-                             const std::set<std::string>& names) {
+std::optional<Use> first_use(std::vector<rig::Unit> units, Named kind, const std::set<std::string>& names) {
     std::optional<Use> found;
-    const auto take = [&](const rig::Unit& unit, const std::string& place, Named of,
+    const auto take = [&](const std::string& unit, const std::string& place, Named of,
                           const std::string& name) {
-        if (!found && of == kind && names.contains(name)) found = {unit.name, place, name};
+        if (!found && of == kind && names.contains(name)) found = {unit, place, name};
     };
     UsedNames(take).of(units);
     return found;
@@ -386,7 +386,7 @@ void rename_in(rig::Definition& definition, Named kind, const std::string& from,
                      [&](std::vector<rig::Unit>& units, std::size_t at) { units[at].name = to; });
         if (names.contains(to)) throw std::invalid_argument("to: there is already a unit " + quoted(to));
     }
-    const auto take = [&](const rig::Unit&, const std::string&, Named of, std::string& name) {
+    const auto take = [&](const std::string&, const std::string&, Named of, std::string& name) {
         if (of == kind && name == from) name = to;
     };
     UsedNames(take).of(definition.units);

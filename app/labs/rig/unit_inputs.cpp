@@ -1,20 +1,20 @@
 #include "app/labs/rig/unit_inputs.hpp"
 
 #include <algorithm>
-#include <tendril/rig/fields.hpp>
 #include <utility>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
-#include "app/labs/rig/definition_json.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/rig/values.hpp"
 
 namespace tendril::app {
 namespace {
 
+constexpr const char* of_words[] = {"transform", "translation", "rotation", "scale", "x", "y", "z", "value"};
+
 const char* words_of(rig::Of of) {
-    constexpr const char* words[] = {"transform", "translation", "rotation", "scale", "x", "y", "z", "value"};
-    return words[static_cast<std::size_t>(of)];
+    return of_words[static_cast<std::size_t>(of)];
 }
 
 const char* words_of(rig::Space space, rig::Pose pose) {
@@ -41,20 +41,9 @@ rig::Value part_of(const rig::Transform& pose, rig::Of of) {
     }
 }
 
-const char* unit_of(std::string_view field) {
-    constexpr std::pair<std::string_view, const char*> units[] = {{"max_speed", "\xC2\xB0/s"},
-                                                                  {"strength", "Hz"},
-                                                                  {"speed_increasing", "/s"},
-                                                                  {"speed_decreasing", "/s"},
-                                                                  {"target", "m"},
-                                                                  {"pole_target", "m"},
-                                                                  {"location", "m"},
-                                                                  {"roll_start_deg", "\xC2\xB0"},
-                                                                  {"roll_end_deg", "\xC2\xB0"},
-                                                                  {"interpolated_value", ""}};
-    for (const auto& [name, unit] : units)
-        if (name == field) return unit;
-    return "";
+const char* unit_of(const Field& field) {
+    const std::string_view unit = field.unit;
+    return unit == "deg" ? "\xC2\xB0" : unit == "deg/s" ? "\xC2\xB0/s" : unit == "1/s" ? "/s" : field.unit;
 }
 
 class Lister {
@@ -62,97 +51,47 @@ class Lister {
     Lister(const RigPart& part, const rig::Hierarchy& now, std::vector<UnitInput>& list)
         : part_(part), now_(now), list_(list) {}
 
-    /// All fields of an operation, or of a struct with rig::fields().
-    template <class T>
-    void all(const T& of, const std::string& path, const std::string& title) {
-        rig::fields(of, [&](const char* name, const auto& field) {
-            std::string words = name;
+    void all(std::span<const Field> table, const void* object, const std::string& path,
+             const std::string& title) {
+        for (const Field& field : table) {
+            std::string words = field.name;
             std::replace(words.begin(), words.end(), '_', ' ');
-            unit_ = unit_of(name);
-            list(field, path + '/' + name, title.empty() ? words : title + ' ' + words);
-        });
+            if (!title.empty()) words = title + ' ' + words;
+            list(field, object, path + '/' + field.name, words);
+        }
     }
 
-    template <class T>
-    void list(const rig::Input<T>& input, const std::string& path, const std::string& title) {
-        UnitInput& row = add(path, title);
-        takes_value(row, input);
-        if (const T* literal = input.literal()) {
-            if constexpr (std::is_same_v<T, rig::Value>)
-                row.value = *literal;
-            else
-                row.value = rig::Value(*literal);
-        } else {
+    void list(const Field& field, const void* object, const std::string& path, const std::string& title) {
+        const bool nested = field.type == FieldType::Struct;
+        if (nested && field.count != nullptr) {
+            if (field.table == fields<rig::Unit>) return;  // body units have their own rows
+            const std::size_t count = field.count(object);
+            for (std::size_t i = 0; i < count; ++i)
+                all(field.table(), field.address(object, i), path + '/' + std::to_string(i),
+                    count == 1 ? std::string("parent") : "parent " + std::to_string(i + 1));
+            return;
+        }
+        const void* const at =
+            field.address != nullptr && field.count == nullptr ? field.address(object, 0) : object;
+        const bool whole =
+            nested && (field.table == fields<rig::TransformFilter> || field.table == fields<signal::Curve>);
+        if (nested && !whole && at != nullptr) return all(field.table(), at, path, title);
+        UnitInput& row = list_.emplace_back(UnitInput{
+            .path = path, .title = title, .unit = unit_of(field), .from = {}, .field = &field, .at = at});
+        if (at == nullptr) {
+            row.from = "none";
+        } else if (field.type == FieldType::Input) {
+            const rig::Input<rig::Value> input = field.input->get(at);
+            if (const rig::Value* literal = input.literal()) row.value = *literal;
             std::visit([&](const auto& source) { source_of(row, source); }, input.source);
+        } else if (field.type == FieldType::Flag) {
+            row.value = field.number(at) != 0.0;
+        } else if (field.type == FieldType::Item && row.names().empty()) {
+            row.from = "each element";
         }
     }
 
   private:
-    UnitInput& add(const std::string& path, const std::string& title) {
-        return list_.emplace_back(
-            UnitInput{.path = path, .title = title, .unit = unit_, .from = {}, .value = {}});
-    }
-    template <class T>
-    static void takes_value(UnitInput& row, const rig::Input<T>&) {
-        row.takes = UnitInput::Takes::Value;
-        if constexpr (!std::is_same_v<T, rig::Value>) row.type = rig::type_of(rig::Value(T()));
-    }
-    template <class T>
-    static void takes_value(UnitInput&, const T&) {}
-
-    void list(const rig::Item& item, const std::string& path, const std::string& title) {
-        UnitInput& row = add(path, title);
-        row.takes = path == "/root" || path == "/tip" ? UnitInput::Takes::Bone : UnitInput::Takes::Element;
-        if (const auto* name = std::get_if<std::string>(&item.which))
-            row.value = InputNames{{*name}, true};
-        else
-            row.from = "each element";
-    }
-    void list(const rig::AimInputs& inputs, const std::string& path, const std::string& title) {
-        all(inputs, path, title);
-    }
-    template <class T>
-    void list(const std::optional<T>& field, const std::string& path, const std::string& title) {
-        if (field) return list(*field, path, title);
-        UnitInput& row = add(path, title);
-        row.from = "none";
-        takes_value(row, T());
-    }
-    void list(rig::AimTarget kind, const std::string& path, const std::string& title) {
-        add(path, title).value = InputChoice{static_cast<std::size_t>(kind), {"location", "direction"}};
-    }
-    void list(rig::Space space, const std::string& path, const std::string& title) {
-        add(path, title).value = InputChoice{space == rig::Space::Global ? 0u : 1u, {"global", "local"}};
-    }
-    void list(const std::vector<rig::ParentInputs>& parents, const std::string& path, const std::string&) {
-        for (std::size_t i = 0; i < parents.size(); ++i)
-            all(parents[i], path + '/' + std::to_string(i),
-                parents.size() == 1 ? std::string("parent") : "parent " + std::to_string(i + 1));
-    }
-    void list(const rig::TransformFilter& filter, const std::string& path, const std::string& title) {
-        add(path, title).value = InputFilter{filter};
-    }
-    void list(const std::vector<std::string>& names, const std::string& path, const std::string& title) {
-        UnitInput& row = add(path, title);
-        row.value = InputNames{names, true};
-        row.takes = UnitInput::Takes::Names;
-    }
-    void list(const rig::Body&, const std::string&, const std::string&) {}  // body units have their own rows
-    void list(bool flag, const std::string& path, const std::string& title) {
-        add(path, title).value = rig::Value(flag);
-    }
-    void list(const std::string& curve, const std::string& path, const std::string& title) {
-        UnitInput& row = add(path, title);
-        row.value = InputNames{{curve}, false};
-        row.takes = UnitInput::Takes::Curve;
-    }
-    void list(const std::array<double, 2>& range, const std::string& path, const std::string& title) {
-        add(path, title).value = InputRange{range[0], range[1]};
-    }
-    void list(const signal::Curve& curve, const std::string& path, const std::string& title) {
-        add(path, title).value = InputCurve{curve};
-    }
-
     template <class T>
     static void source_of(UnitInput&, const T&) {}  // a literal
     void source_of(UnitInput& row, const rig::FromElement& from) const {
@@ -186,7 +125,6 @@ class Lister {
     const RigPart& part_;
     const rig::Hierarchy& now_;
     std::vector<UnitInput>& list_;
-    const char* unit_ = "";
 };
 
 }  // namespace
@@ -194,10 +132,25 @@ class Lister {
 std::vector<UnitInput> unit_inputs(const RigPart& part, const rig::Hierarchy& now, const rig::Unit& unit) {
     std::vector<UnitInput> list;
     Lister lister(part, now, list);
-    lister.list(unit.weight, "/weight", "weight");
-    lister.list(unit.when, "/when", "when");
-    std::visit([&](const auto& operation) { lister.all(operation, "", ""); }, unit.operation);
+    const std::span<const Field> table = fields<rig::Unit>();
+    for (const char* name : {"weight", "when"})
+        lister.list(*find_field(table, name), &unit, std::string("/") + name, name);
+    const Field& operation = *find_field(table, "unit");
+    lister.all(operation.kind(&unit).table(), operation.address(&unit, 0), "", "");
     return list;
+}
+
+std::vector<std::string> UnitInput::names() const {
+    std::vector<std::string> all;
+    if (at != nullptr && is(FieldType::Item)) {
+        if (const auto* name = std::get_if<std::string>(&static_cast<const rig::Item*>(at)->which))
+            all.push_back(*name);
+    } else if (is(FieldType::Text)) {
+        if (field->count == nullptr) all.emplace_back(field->text(at));
+        for (std::size_t i = 0; field->count != nullptr && i < field->count(at); ++i)
+            all.emplace_back(field->text(field->address(at, i)));
+    }
+    return all;
 }
 
 bool is_speed_limit(const UnitInput& input) {
@@ -218,10 +171,16 @@ std::string input_text(const UnitInput& input, const rig::Value& value) {
 }
 
 Json with_input(const rig::Unit& unit, const std::string& path, Json value) {
-    Json whole = unit_json(unit);
-    whole[Json::json_pointer(path)] = std::move(value);
-    const std::string member = path.substr(1, path.find('/', 1) - 1);
-    return Json{{"name", unit.name}, {member, whole[member]}};
+    const std::size_t end = path.find('/', 1);
+    const std::string member = path.substr(1, end - 1);
+    Json arguments{{"name", unit.name}, {member, nullptr}};
+    if (member == "parents") {  // a list is set as a whole
+        const Field& operation = *find_field(fields<rig::Unit>(), "unit");
+        const Field& row = *find_field(operation.kind(&unit).table(), member);
+        arguments.update(save_fields({{&row, 1}, operation.address(&unit, 0)}));
+    }
+    arguments[Json::json_pointer(path)] = std::move(value);
+    return arguments;
 }
 
 std::vector<UnitRow> unit_rows(const RigPart& part) {
@@ -243,8 +202,6 @@ std::optional<UnitRow> unit_row(const RigPart& part, std::string_view name) {
 }
 
 namespace {
-
-constexpr const char* of_words[] = {"transform", "translation", "rotation", "scale", "x", "y", "z", "value"};
 
 /// As Rig::make: an input of T also accepts types that convert to T.
 bool converts(rig::Type from, rig::Type to) {
@@ -291,26 +248,17 @@ class Offers {
         : part_(part), row_(row), input_(input) {}
 
     std::vector<InputOffer> list(std::size_t index) {
-        switch (input_.takes) {
-            case UnitInput::Takes::Value:
-                if (!input_.literal()) literal();
-                for (const rig::Type type : types()) values(type);
-                break;
-            case UnitInput::Takes::Element:
-                if (row_.inner) offer("each element", {{"item", "each"}});
-                elements(false);
-                break;
-            case UnitInput::Takes::Bone:
-                elements(true);
-                break;
-            case UnitInput::Takes::Names:
-                one_of_names(index);
-                break;
-            case UnitInput::Takes::Curve:
-                for (const rig::NamedCurve& curve : definition().curves) offer(curve.name, curve.name);
-                break;
-            default:
-                break;
+        const std::string_view of = input_.field->of;
+        if (input_.is(FieldType::Input)) {
+            if (!input_.literal()) literal();
+            for (const rig::Type type : types()) values(type);
+        } else if (input_.is(FieldType::Item)) {
+            if (row_.inner && of != "bones") offer("each element", {{"item", "each"}});
+            elements(of == "bones");
+        } else if (of == "elements") {
+            one_of_names(index);
+        } else if (of == "curves") {
+            for (const rig::NamedCurve& curve : definition().curves) offer(curve.name, curve.name);
         }
         return std::move(offers_);
     }
@@ -319,14 +267,14 @@ class Offers {
     const rig::Definition& definition() const { return part_.rig.definition(); }
 
     void offer(std::string title, Json value) {
-        const auto* names = std::get_if<InputNames>(&input_.value);
-        const bool now = title == input_.from || (names != nullptr && title == names->names.front());
+        const std::vector<std::string> names = input_.names();
+        const bool now = title == input_.from || (!names.empty() && title == names.front());
         offers_.push_back({std::move(title), SharedJson(std::move(value)), now});
     }
 
     /// The type of the input, or else the types of a spring. A force must fit the spring's velocity.
     std::vector<rig::Type> types() const {
-        if (input_.type) return {*input_.type};
+        if (input_.type()) return {*input_.type()};
         if (input_.path == "/force") return {rig::type_of(part_.state.units[row_.at].outputs[1])};
         return {rig::Type::Number, rig::Type::Vector, rig::Type::Rotation};
     }
@@ -334,19 +282,15 @@ class Offers {
     /// Offers the current value as a literal.
     void literal() {
         const rig::Type type = types().front();
-        const auto* now = std::get_if<rig::Value>(&input_.value);
-        const bool fits = now != nullptr && (rig::type_of(*now) == type || !input_.type);
+        const auto& now = input_.value;
+        const bool fits = now && (rig::type_of(*now) == type || !input_.type());
         offer(type == rig::Type::Bool ? "a switch of its own" : "a value of its own",
               fits ? value_json(within_range(*now)) : zero_of(type));
     }
 
-    /// Literal weights are 0 to 1; relative weights and speeds are not negative.
     rig::Value within_range(rig::Value value) const {
-        auto* number = std::get_if<double>(&value);
-        if (number == nullptr) return value;
-        const bool weight = input_.path.ends_with("weight"), relative = input_.path.starts_with("/parents");
-        if (weight || input_.path == "/max_speed") *number = std::max(*number, 0.0);
-        if (weight && !relative) *number = std::min(*number, 1.0);
+        const FieldRange range = input_.field->range;
+        if (auto* number = std::get_if<double>(&value)) *number = std::clamp(*number, range.low, range.high);
         return value;
     }
 
@@ -408,7 +352,7 @@ class Offers {
     }
 
     /// An input of any type does no conversion.
-    bool fits(rig::Type from, rig::Type to) const { return input_.type ? converts(from, to) : from == to; }
+    bool fits(rig::Type from, rig::Type to) const { return input_.type() ? converts(from, to) : from == to; }
 
     void elements(bool bones) {
         for (const rig::Element& each : definition().elements)
@@ -416,7 +360,7 @@ class Offers {
     }
 
     void one_of_names(std::size_t index) {
-        const std::vector<std::string>& names = std::get<InputNames>(input_.value).names;
+        const std::vector<std::string> names = input_.names();
         for (const rig::Element& each : definition().elements) {
             if (std::ranges::count(names, each.name) > 0 &&
                 !(index < names.size() && names[index] == each.name))
@@ -426,8 +370,7 @@ class Offers {
             offers_.push_back(
                 {each.name, SharedJson(std::move(all)), index < names.size() && names[index] == each.name});
         }
-        const std::size_t fewest = input_.path == "/points" ? 2 : 1;
-        if (index >= names.size() || names.size() <= fewest) return;
+        if (index >= names.size() || names.size() <= input_.field->fewest) return;
         Json fewer = names;
         fewer.erase(index);
         offers_.push_back({"none: remove this " + one_of(input_.title), SharedJson(std::move(fewer)), false});

@@ -1,12 +1,11 @@
 // The inputs and outputs of a unit as a panel lists them: their sources, current values, possible
-// replacements and help texts. Based on rig::fields(), so that no operation is forgotten.
+// replacements and help texts. Based on the table of units, so that no operation is forgotten.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <string_view>
 #include <tendril/rig/unit.hpp>
-#include <variant>
 #include <vector>
 
 #include "app/document/json.hpp"
@@ -14,43 +13,24 @@
 
 namespace tendril::app {
 
-/// A choice among names: "location" or "direction".
-struct InputChoice {
-    std::size_t chosen = 0;
-    std::vector<const char*> names;
-};
-/// The axes of translation, rotation and scale that pass.
-struct InputFilter {
-    rig::TransformFilter passes;
-};
-/// Low and high end.
-struct InputRange {
-    double low = 0.0, high = 1.0;
-};
-/// Elements or a curve, by name.
-struct InputNames {
-    std::vector<std::string> names;
-    bool elements = true;
-};
-struct InputCurve {
-    signal::Curve curve;
-};
-
 struct UnitInput {
     std::string path;   ///< the path of its value in unit_json(): "/primary/target"
     std::string title;  ///< "primary target"
     const char* unit = "";
     /// The source: "head, translation", "unit curve"; empty for a literal.
     std::string from;
-    /// The literal or the current value; monostate if that varies between iterations of a for-each.
-    std::variant<std::monostate, rig::Value, InputChoice, InputFilter, InputRange, InputNames, InputCurve>
-        value;
+    const Field* field = nullptr;
+    const void* at = nullptr;  ///< what the field's accessors take, in the unit; null while it is empty
+    /// Of inputs and flags: the literal or the current value; none if that varies between iterations of a
+    /// for-each.
+    std::optional<rig::Value> value{};
     bool count = false;  ///< a whole number, such as a number of elements
 
-    /// Replacements that input_offers() lists. For values: of `type`, or of any type if that is empty.
-    enum class Takes : std::uint8_t { Nothing, Value, Element, Bone, Names, Curve } takes = Takes::Nothing;
-    std::optional<rig::Type> type{};
-
+    /// Of an input: the type of a literal; none: any.
+    std::optional<rig::Type> type() const { return field->input->type; }
+    bool is(FieldType type) const { return field->type == type; }
+    /// Elements or a curve, by name; empty for other fields.
+    std::vector<std::string> names() const;
     bool literal() const { return from.empty(); }
 };
 
@@ -87,8 +67,9 @@ struct InputOffer {
     SharedJson value;   ///< for with_input()
     bool now = false;   ///< the input has this value now
 };
-/// For an input whose `takes` is not Nothing. An input of values is also offered a literal. For names,
-/// `index` says which one to replace; an index equal to their number appends one. Cost: O(elements + units).
+/// Of inputs, items and names; empty for other fields. An input of values is also offered a literal. For
+/// names, `index` says which one to replace; an index equal to their number appends one. Cost: O(elements +
+/// units).
 std::vector<InputOffer> input_offers(const RigPart& part, const UnitRow& row, const UnitInput& input,
                                      std::size_t index = 0);
 

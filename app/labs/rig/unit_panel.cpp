@@ -7,7 +7,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
 #include "app/document/units.hpp"
-#include "app/labs/kit/library_json.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/rig/panel.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/unit_inputs.hpp"
@@ -83,27 +83,19 @@ void live_line(const std::string& title, const std::string& from, const std::str
 }
 
 std::string live_text(const UnitInput& input) {
-    struct ToText {
-        const UnitInput& input;
-        std::string operator()(std::monostate) const { return {}; }
-        std::string operator()(const rig::Value& value) const { return input_text(input, value); }
-        std::string operator()(const InputChoice& choice) const { return choice.names[choice.chosen]; }
-        std::string operator()(const InputFilter& filter) const {
-            return filter.passes == rig::TransformFilter() ? "all axes" : "some axes";
-        }
-        std::string operator()(const InputRange& range) const {
-            return fixed_text(range.low, 2) + " to " + fixed_text(range.high, 2);
-        }
-        std::string operator()(const InputNames& names) const {
-            std::string text;
-            for (const std::string& each : names.names) text += (text.empty() ? "" : ", ") + each;
-            return text;
-        }
-        std::string operator()(const InputCurve& curve) const {
-            return count_text(curve.curve.keys.size(), "key");
-        }
-    };
-    return std::visit(ToText{input}, input.value);
+    if (input.value) return input_text(input, *input.value);
+    const Field& field = *input.field;
+    if (input.is(FieldType::Choice)) return field.choices[static_cast<std::size_t>(field.number(input.at))];
+    if (input.is(FieldType::Pair))
+        return fixed_text(field.number(input.at, 0), 2) + " to " + fixed_text(field.number(input.at, 1), 2);
+    if (input.is(FieldType::Struct) && input.at != nullptr)
+        return field.table == fields<signal::Curve>
+                   ? count_text(static_cast<const signal::Curve*>(input.at)->keys.size(), "key")
+               : *static_cast<const rig::TransformFilter*>(input.at) == rig::TransformFilter() ? "all axes"
+                                                                                               : "some axes";
+    std::string text;
+    for (const std::string& each : input.names()) text += (text.empty() ? "" : ", ") + each;
+    return text;
 }
 
 void live_lines(const RigPanel& panel, const UnitRow& row) {
@@ -208,11 +200,6 @@ namespace {
 
 constexpr float max_literal = 1e9f;
 
-bool is_weight(const UnitInput& input) {
-    // Weights of a constraint's parents are relative and may exceed 1.
-    return input.path.ends_with("weight") && !input.path.starts_with("/parents");
-}
-
 class Fields {
   public:
     Fields(const RigPanel& panel, const UnitRow& row) : panel_(panel), row_(row) {}
@@ -220,11 +207,22 @@ class Fields {
     void row(const UnitInput& input) {
         input_ = &input;
         if (!input.literal()) return source_row();
-        if (input.takes == UnitInput::Takes::Value) {
+        if (input.is(FieldType::Input)) {
             chooser(input.title, nullptr);
             ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
         }
-        std::visit([&](const auto& value) { field(value); }, input.value);
+        if (input.value)
+            std::visit([&](const auto& literal) { literal_field(literal); }, *input.value);
+        else if (input.is(FieldType::Choice))
+            choice();
+        else if (input.is(FieldType::Pair))
+            range();
+        else if (!input.is(FieldType::Struct))
+            names();
+        else if (input.field->table == fields<signal::Curve>)
+            curve(*static_cast<const signal::Curve*>(input.at));
+        else
+            filter(*static_cast<const rig::TransformFilter*>(input.at));
     }
 
   private:
@@ -242,8 +240,9 @@ class Fields {
     /// The source, with the current value below it.
     void source_row() const {
         chooser(input_->title, &input_->from);
-        if (const auto* value = std::get_if<rig::Value>(&input_->value))
-            text_flush_right(elided(input_text(*input_, *value), ImGui::GetContentRegionAvail().x), true);
+        if (input_->value)
+            text_flush_right(elided(input_text(*input_, *input_->value), ImGui::GetContentRegionAvail().x),
+                             true);
     }
 
     /// A list of alternatives, opened by a field that shows the current one, or by a button.
@@ -261,20 +260,16 @@ class Fields {
         end_list();
     }
 
-    void field(std::monostate) const {}
-    void field(const rig::Value& value) {
-        std::visit([&](const auto& literal) { literal_field(literal); }, value);
-    }
-    void field(const InputChoice& choice) const {
-        int chosen = static_cast<int>(choice.chosen);
-        if (choice_field(input_->title.c_str(), chosen, choice.names.data(),
-                         static_cast<int>(choice.names.size())))
-            set(choice.names[static_cast<std::size_t>(chosen)]);
+    void choice() const {
+        const Field& field = *input_->field;
+        std::vector<const char*> names(field.choices.begin(), field.choices.end());
+        int chosen = static_cast<int>(field.number(input_->at));
+        if (choice_field(input_->title.c_str(), chosen, names.data(), static_cast<int>(names.size())))
+            set(names[static_cast<std::size_t>(chosen)]);
         explain(help().c_str());
     }
     /// One checkbox per axis.
-    void field(const InputFilter& filter) const {
-        rig::TransformFilter passes = filter.passes;
+    void filter(rig::TransformFilter passes) const {
         bool changed = false;
         ImGui::TextDisabled("%s", "passes on each axis");
         const auto axes = [&](const char* name, std::array<bool, 3>& on) {
@@ -296,36 +291,35 @@ class Fields {
                  {"rotation", passes.rotation},
                  {"scale", passes.scale}});
     }
-    void field(const InputRange& range) const {
-        float low = static_cast<float>(range.low), high = static_cast<float>(range.high);
-        const bool first =
-            number_field((input_->title + " low").c_str(), low, 0.01f, -max_literal, max_literal, "%.3f");
-        explain(help().c_str());
-        const bool second =
-            number_field((input_->title + " high").c_str(), high, 0.01f, -max_literal, max_literal, "%.3f");
-        explain(help().c_str());
-        if (first) set({number(low), range.high});
-        if (second) set({range.low, number(high)});
+    void range() const {
+        const FieldValue now = input_->field->get(input_->at);
+        for (std::size_t i = 0; i < 2; ++i) {
+            float shown = static_cast<float>(now[i]);
+            if (number_field((input_->title + (i == 0 ? " low" : " high")).c_str(), shown, 0.01f,
+                             -max_literal, max_literal, "%.3f"))
+                set(i == 0 ? Json{number(shown), now[1]} : Json{now[0], number(shown)});
+            explain(help().c_str());
+        }
     }
-    void field(const InputNames& names) const {
+    void names() const {
         const std::string& title = input_->title;
-        if (input_->takes != UnitInput::Takes::Names) return chooser(title, &names.names.front());
+        const std::vector<std::string> names = input_->names();
+        if (input_->field->count == nullptr) return chooser(title, &names.front());
         const std::string one = one_of(title), another = "another";
-        for (std::size_t i = 0; i < names.names.size(); ++i)
-            chooser(names.names.size() > 1 ? one + ' ' + std::to_string(i + 1) : one, &names.names[i], i);
-        chooser("add a " + one, &another, names.names.size());
+        for (std::size_t i = 0; i < names.size(); ++i)
+            chooser(names.size() > 1 ? one + ' ' + std::to_string(i + 1) : one, &names[i], i);
+        chooser("add a " + one, &another, names.size());
     }
-    void field(const InputCurve& curve) const {
-        signal::Curve edited = curve.curve;
+    void curve(signal::Curve edited) const {
         const auto& evaluate = std::get<rig::EvaluateCurve>(row_.unit->operation);
         const double width = edited.source_max - edited.source_min;
         double at = -1.0;  // outside the graph
         if (const double* literal = evaluate.value.literal()) at = *literal;
         for (const UnitInput& each : unit_inputs(panel_.part, panel_.now, *row_.unit))
-            if (const auto* value = std::get_if<rig::Value>(&each.value); value && each.path == "/value")
-                if (const auto* number = std::get_if<double>(value)) at = *number;
+            if (each.value && each.path == "/value")
+                if (const auto* number = std::get_if<double>(&*each.value)) at = *number;
         at = width != 0.0 ? (at - edited.source_min) / width : 0.0;
-        if (curve_editor("curve", edited, panel_.colours.accent, 11.0f, at)) set(curve_json(edited));
+        if (curve_editor("curve", edited, panel_.colours.accent, 11.0f, at)) set(save_fields(edited));
         note("Drag a key. Double-click adds one, right-click removes it.");
         const auto end = [&](const char* name, double& value, const char* what) {
             float shown = static_cast<float>(value);
@@ -333,7 +327,7 @@ class Fields {
             explain(what);
             if (!changed) return;
             value = static_cast<double>(shown);
-            set(curve_json(edited));
+            set(save_fields(edited));
         };
         end("from low", edited.source_min, "The value that is at the left end of the curve.");
         end("from high", edited.source_max, "The value that is at the right end of the curve.");
@@ -347,18 +341,15 @@ class Fields {
     }
     void literal_field(double value) const {
         float shown = static_cast<float>(value);
-        const bool weight = is_weight(*input_);
         const std::string unit = input_->unit;
         const bool angle = unit == "\xC2\xB0";
         const std::string format = is_speed_limit(*input_) ? "%.1f" + unit
                                    : unit.empty()          ? "%.3f"
                                                            : "%.3f " + unit;
-        const bool signed_number = angle || (unit.empty() && !weight);
-        if (number_field(input_->title.c_str(), shown,
-                         weight  ? 0.005f
-                         : angle ? 0.5f
-                                 : 0.01f,
-                         signed_number ? -max_literal : 0.0f, weight ? 1.0f : max_literal, format.c_str(),
+        const auto low = static_cast<float>(input_->field->range.low),
+                   high = static_cast<float>(input_->field->range.high);
+        const float step = high == 1.0f ? 0.005f : angle ? 0.5f : 0.01f;
+        if (number_field(input_->title.c_str(), shown, step, low, high, format.c_str(),
                          is_speed_limit(*input_) ? "no limit" : nullptr))
             set(number(shown));
         explain(help().c_str());

@@ -11,29 +11,6 @@
 namespace tendril::app {
 namespace {
 
-std::string joined(const auto& words) {
-    std::string text;
-    for (const auto& word : words) text += (text.empty() ? "" : ", ") + std::string(word);
-    return text;
-}
-
-double read_real(const JsonPlace& place, double most) {
-    if (most == most_given) return place.real();
-    const double value = place.json().is_number() ? place.json().get<double>() : std::nan("");
-    if (!(std::abs(value) <= most)) place.fail("expected a number, found " + json_summary(place.json()));
-    return value;
-}
-
-double real_at(const JsonPlace& place, std::size_t index, double most) {
-    return read_real(place.element(index), most);
-}
-
-glm::dvec3 read_vector(const JsonPlace& place, double most) {
-    if (!place.json().is_array() || place.json().size() != 3)
-        place.fail("expected a point [x, y, z], found " + json_summary(place.json()));
-    return {real_at(place, 0, most), real_at(place, 1, most), real_at(place, 2, most)};
-}
-
 /// Calls `take` with each component of a vector, or of a transform's vectors, and its counterpart in `other`.
 void for_each_in_vectors(Json& value, const Json& other, const auto& take) {
     constexpr std::size_t max_vector = 3;
@@ -45,81 +22,6 @@ void for_each_in_vectors(Json& value, const Json& other, const auto& take) {
 }
 
 }  // namespace
-
-void check_members(const JsonPlace& place, const std::vector<std::string>& known) {
-    if (!place.json().is_object()) place.fail("expected an object, found " + json_summary(place.json()));
-    for (const auto& [key, value] : place.json().items())
-        if (std::find(known.begin(), known.end(), key) == known.end())
-            place.fail("unknown member " + json_summary(Json(key)) + "; it takes: " + joined(known));
-}
-
-std::size_t read_name(const JsonPlace& place, std::span<const std::string_view> names) {
-    const std::string text = place.text();
-    const auto found = std::find(names.begin(), names.end(), text);
-    if (found == names.end())
-        place.fail("expected one of " + joined(names) + ", found " + json_summary(place.json()));
-    return static_cast<std::size_t>(found - names.begin());
-}
-
-glm::dquat read_rotation(const JsonPlace& place, double most) {
-    if (!place.json().is_array() || place.json().size() != 4)
-        place.fail("expected a rotation [x, y, z, w], found " + json_summary(place.json()));
-    return {real_at(place, 3, most), real_at(place, 0, most), real_at(place, 1, most),
-            real_at(place, 2, most)};
-}
-
-Json transform_json(const rig::Transform& transform) {
-    return Json{{"translation", dpoint(transform.translation)},
-                {"rotation", dquaternion(transform.rotation)},
-                {"scale", dpoint(transform.scale)}};
-}
-
-rig::Transform read_transform(const JsonPlace& place, const rig::Transform& otherwise, double most) {
-    check_members(place, {"translation", "rotation", "scale"});
-    rig::Transform transform = otherwise;
-    if (place.has("translation")) transform.translation = read_vector(place["translation"], most);
-    if (place.has("rotation")) transform.rotation = read_rotation(place["rotation"], most);
-    if (place.has("scale")) transform.scale = read_vector(place["scale"], most);
-    return transform;
-}
-
-Json value_json(const rig::Value& value) {
-    struct ToJson {
-        Json operator()(bool flag) const { return flag; }
-        Json operator()(double number) const { return number; }
-        Json operator()(const glm::dvec3& vector) const { return dpoint(vector); }
-        Json operator()(const glm::dquat& rotation) const { return dquaternion(rotation); }
-        Json operator()(const rig::Transform& transform) const { return transform_json(transform); }
-    };
-    return std::visit(ToJson(), value);
-}
-
-rig::Value read_value(const JsonPlace& place, rig::Type type, double most) {
-    switch (type) {
-        case rig::Type::Bool:
-            return place.flag();
-        case rig::Type::Number:
-            return read_real(place, most);
-        case rig::Type::Vector:
-            return read_vector(place, most);
-        case rig::Type::Rotation:
-            return read_rotation(place, most);
-        case rig::Type::Transform:
-            break;
-    }
-    return read_transform(place, {}, most);
-}
-
-rig::Value read_any_value(const JsonPlace& place, double most) {
-    const Json& json = place.json();
-    if (json.is_boolean()) return place.flag();
-    if (json.is_number()) return read_real(place, most);
-    if (json.is_array() && json.size() == 3) return read_vector(place, most);
-    if (json.is_array() && json.size() == 4) return read_rotation(place, most);
-    if (json.is_object()) return read_transform(place, {}, most);
-    place.fail("expected a bool, a number, [x, y, z], [x, y, z, w] or a transform, found " +
-               json_summary(json));
-}
 
 void check_unit(const JsonPlace& place, const rig::Value& value) {
     glm::dquat q(1.0, 0.0, 0.0, 0.0);
@@ -148,7 +50,10 @@ rig::Value read_control_value(const JsonPlace& place, rig::ControlKind kind, con
     if (kind != rig::ControlKind::Vector2d) return read_value(place, rig::type_of(kind), most);
     if (!place.json().is_array() || place.json().size() != 2)
         place.fail("expected two numbers [a, b], found " + json_summary(place.json()));
-    return glm::dvec3(real_at(place, 0, most), real_at(place, 1, most), 0.0);
+    const auto number = [&](std::size_t i) {
+        return std::get<double>(read_value(place.element(i), rig::Type::Number, most));
+    };
+    return glm::dvec3(number(0), number(1), 0.0);
 }
 
 Json touched(Json after, const Json& before) {

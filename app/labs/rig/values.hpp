@@ -1,5 +1,4 @@
-// Rig values as JSON, in commands, scene files and --state: a bool, a number, [x, y, z], [x, y, z, w],
-// {"translation", "rotation", "scale"}. Doubles round trip bit for bit.
+// Values of a rig's state and its controls as JSON, and as text for users.
 #pragma once
 
 #include <initializer_list>
@@ -13,34 +12,9 @@
 
 #include "app/document/json.hpp"
 #include "app/document/json_place.hpp"
+#include "app/fields/input_json.hpp"
 
 namespace tendril::app {
-
-/// Refuses any member that is not `known`: "units.2: unknown member "taget"; it takes: item, primary".
-void check_members(const JsonPlace& place, const std::vector<std::string>& known);
-/// The index in `names` of the text at `place`. Refuses other texts, and lists the valid ones.
-std::size_t read_name(const JsonPlace& place, std::span<const std::string_view> names);
-inline std::size_t read_name(const JsonPlace& place, std::initializer_list<std::string_view> names) {
-    return read_name(place, std::span(names.begin(), names.size()));
-}
-
-/// Limits for given values, and for values that a rig may reach on its own.
-inline constexpr double most_given = 1e9, max_reached = 1e100;
-
-// The readers below refuse numbers larger than `most` in magnitude.
-/// Accepts any length; the library normalises it.
-glm::dquat read_rotation(const JsonPlace& place, double most = most_given);
-
-Json transform_json(const rig::Transform& transform);
-/// Omitted members are taken from `otherwise`.
-rig::Transform read_transform(const JsonPlace& place, const rig::Transform& otherwise = {},
-                              double most = most_given);
-
-Json value_json(const rig::Value& value);
-/// Reads a value of that type.
-rig::Value read_value(const JsonPlace& place, rig::Type type, double most = most_given);
-/// Infers the type from the JSON form.
-rig::Value read_any_value(const JsonPlace& place, double most = most_given);
 
 /// Refuses rotations that are not of unit length, as a rig's own always are. Accepts all other types.
 void check_unit(const JsonPlace& place, const rig::Value& value);

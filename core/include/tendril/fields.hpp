@@ -1,6 +1,6 @@
-// The fields of a struct of settings or of a state, described once: name, unit and range, and the structs and
-// lists in it. Checks, files, commands, panels and exported code read the same rows. So can an engine's
-// editor, which can then show settings that it does not know:
+// The fields of a struct of settings or of a state, described once: name, unit and range, and the structs,
+// lists and variants in it. Checks, files, commands, panels and exported code read the same rows. So can an
+// engine's editor, which can then show settings that it does not know:
 //
 //     for (const Field& field : fields<rope::Settings>())
 //         if (field.type == FieldType::Number && !field.count) slider(field.name, field.slider());
@@ -22,11 +22,16 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "tendril/result.hpp"
 #include "tendril/vec3.hpp"
 
 namespace tendril {
+
+namespace rig {
+struct InputAccess;
+}
 
 enum class FieldType : std::uint8_t {
     Flag,     ///< 0 or 1
@@ -38,7 +43,10 @@ enum class FieldType : std::uint8_t {
     Choice,    ///< an index into `choices`
     Text,      ///< a std::string
     Index,     ///< of an element of the list `of`, which files call by its name
-    Struct     ///< has a table of its own
+    Struct,    ///< has a table of its own
+    Kind,      ///< a std::variant of structs: an index into `choices`, and the table of the one that it holds
+    Input,     ///< a rig::Input: a literal, or where its value comes from
+    Item       ///< a rig::Item: the name of an element of the list `of`, or the current one of a for-each
 };
 
 /// A field of any type, as up to four numbers.
@@ -58,10 +66,19 @@ inline constexpr FieldRange unit_length{0.999, 1.001};
 
 enum class FieldScale : std::uint8_t { Linear, Logarithmic };
 
+struct Field;
+/// A struct that a field may hold.
+struct FieldKind {
+    std::span<const Field> (*table)() noexcept;
+    const void* (*fresh)() noexcept;  ///< one with its default values
+    std::string_view in_code;         ///< "tendril::rig::Aim"
+};
+
 /// One field of a struct. `get`, `set` and `empty` take the struct; `set` checks nothing.
 ///
 /// A list of values or structs has a `count`. Its type, range and unit are those of an element, and `get`,
-/// `set` and `empty` take the address of one. A text has `text` and `set_text` instead.
+/// `set` and `empty` take the address of one, as those of an input or an item do. A text has `text` and
+/// `set_text` instead. Setting a variant's index gives it a fresh struct of that kind.
 struct Field {
     const char* name;       ///< as in files and commands: "gravity_scale"
     const char* unit = "";  ///< "m/s^2", "rad"; empty for none
@@ -73,7 +90,7 @@ struct Field {
     std::span<const char* const> choices{};
     std::string_view in_code{};             ///< a choice's enumeration: "tendril::ik::SketchHold"; else the
                                             ///< member, where it is not `name`
-    const char* of = "";                    ///< the list of an index, in a struct around this one
+    const char* of = "";                    ///< the list of an index or a name, in a struct around this one
     FieldRange usual{};                     ///< for sliders and random tests; empty: `range`
     FieldScale scale = FieldScale::Linear;  ///< how sliders map it
     FieldValue (*get)(const void* object) noexcept = nullptr;
@@ -84,20 +101,25 @@ struct Field {
     bool (*fits)(const Field& row, const void* object) noexcept = nullptr;
     std::string_view (*text)(const void* object) noexcept = nullptr;
     void (*set_text)(void* object, std::string_view text) = nullptr;
+    bool (*same)(const void* input, const void* other) = nullptr;  ///< of inputs and items
+    const rig::InputAccess* input = nullptr;                       ///< of inputs
 
     /// The table of a nested struct, and one with its default values; null for values.
     std::span<const Field> (*table)() noexcept = nullptr;
     const void* (*fresh)() noexcept = nullptr;
-    /// The address of a struct, null while an optional one is empty, or of a list's element.
+    std::span<const FieldKind> kinds{};  ///< of a variant, by index; of a struct, itself
+    /// The address of a struct, an input or an item, null while an optional one is empty; of what a variant
+    /// holds; or of a list's element.
     const void* (*address)(const void* object, std::size_t index) noexcept = nullptr;
     std::size_t (*count)(const void* object) noexcept = nullptr;
     /// Resizes a list, or an optional struct to 0 or 1. Null if the number of elements is fixed, or if the
     /// struct does not own the list.
     void (*resize)(void* object, std::size_t count) noexcept = nullptr;
-    std::size_t most = static_cast<std::size_t>(-1);  ///< elements of a list
-    std::span<const char* const> names{};             ///< of the elements: "left", "right"
-    bool in_line = false;  ///< in files the named elements are members of the struct itself
-    bool sparse = false;   ///< in files members at their default are left out
+    std::size_t fewest = 0, most = static_cast<std::size_t>(-1);  ///< elements of a list
+    std::span<const char* const> names{};                         ///< of the elements: "left", "right"
+    bool in_line = false;   ///< in files the named elements are members of the struct itself
+    bool sparse = false;    ///< in files members at their default are left out
+    bool required = false;  ///< files must have it: there is no default
 
     /// Bit i: method i honours it, without and within joint limits. See honours() in ik/method.hpp.
     std::uint16_t without_limits = 0xffff, within_limits = 0xffff;
@@ -111,7 +133,11 @@ struct Field {
     }
     bool whole() const noexcept {
         return type == FieldType::Flag || type == FieldType::Integer || type == FieldType::Choice ||
-               type == FieldType::Index;
+               type == FieldType::Index || type == FieldType::Kind;
+    }
+    /// The struct that `object` has here: the one that a variant holds, or a list's element.
+    const FieldKind& kind(const void* object) const noexcept {
+        return kinds[type == FieldType::Kind ? static_cast<std::size_t>(number(object)) : 0];
     }
     /// Reads or sets one number; the others keep their values.
     double number(const void* object, int axis = 0) const noexcept {
@@ -152,9 +178,26 @@ struct Field {
         row.sparse = true;
         return row;
     }
-    constexpr Field up_to(std::size_t elements) const noexcept {
+    constexpr Field up_to(std::size_t elements, std::size_t at_least = 0) const noexcept {
         Field row = *this;
-        row.most = elements;
+        row.most = elements, row.fewest = at_least;
+        return row;
+    }
+    constexpr Field needed() const noexcept {
+        Field row = *this;
+        row.required = true;
+        return row;
+    }
+    /// A text by which its struct is known, but which files may omit.
+    constexpr Field omissible() const noexcept {
+        Field row = *this;
+        row.optional = true;
+        return row;
+    }
+    /// Texts that name elements of a list.
+    constexpr Field naming(const char* list) const noexcept {
+        Field row = *this;
+        row.of = list;
         return row;
     }
     constexpr Field with_names(std::span<const char* const> of_elements,
@@ -232,17 +275,32 @@ FieldValue to_field(const Value& value) noexcept {
         return {value.x, value.y, value.z};
 }
 
+/// A whole number that the type does not hold becomes its largest one, and if signed and too low its lowest:
+/// out of every range, as it was. So does NaN.
+template <class Value>
+Value number_from(double given) noexcept {
+    if constexpr (std::is_enum_v<Value>) {
+        return static_cast<Value>(number_from<std::underlying_type_t<Value>>(given));
+    } else if constexpr (std::is_integral_v<Value>) {
+        using Limits = std::numeric_limits<Value>;
+        const auto low = static_cast<double>(Limits::min());
+        const double beyond = 2.0 * static_cast<double>(Limits::max() / 2 + 1);
+        if ((given >= low || given > low - 1.0) && given < beyond) return static_cast<Value>(given);
+        return std::is_signed_v<Value> && given < low ? Limits::min() : Limits::max();
+    } else {
+        return static_cast<Value>(given);
+    }
+}
+
 template <class Value>
 Value from_field(const FieldValue& given) noexcept {
     if constexpr (std::is_same_v<Value, bool>)
         return given[0] != 0.0;
-    else if constexpr (std::is_enum_v<Value>)
-        return static_cast<Value>(static_cast<int>(given[0]));
-    else if constexpr (std::is_arithmetic_v<Value>)
-        return static_cast<Value>(given[0]);
+    else if constexpr (std::is_enum_v<Value> || std::is_arithmetic_v<Value>)
+        return number_from<Value>(given[0]);
     else if constexpr (FieldPair<Value>::value)
-        return {static_cast<typename Value::value_type>(given[0]),
-                static_cast<typename Value::value_type>(given[1])};
+        return {number_from<typename Value::value_type>(given[0]),
+                number_from<typename Value::value_type>(given[1])};
     else if constexpr (std::is_same_v<Value, glm::quat>)
         return rotation_of(given);
     else if constexpr (std::is_same_v<Value, glm::dquat>)
@@ -258,8 +316,7 @@ inline FieldValue get_index(const void* at) noexcept {
                                                   : static_cast<double>(index)};
 }
 inline void set_index(void* at, const FieldValue& given) noexcept {
-    *static_cast<std::size_t*>(at) =
-        given[0] >= 0.0 ? static_cast<std::size_t>(given[0]) : static_cast<std::size_t>(-1);
+    *static_cast<std::size_t*>(at) = number_from<std::size_t>(given[0]);
 }
 
 /// "tendril::ik::SketchHold"; empty where the compiler does not say.
@@ -279,6 +336,27 @@ const void* fresh() noexcept {
     static const Value value{};
     return &value;
 }
+
+template <class Value>
+inline constexpr FieldKind kind_of{fields<Value>, fresh<Value>, type_name<Value>()};
+
+/// A variant, or a class derived from one.
+template <class... Kinds>
+std::type_identity<std::variant<Kinds...>> variant_of(const std::variant<Kinds...>&);
+
+template <class Variant>
+struct FieldKinds;
+template <class... Kinds>
+struct FieldKinds<std::variant<Kinds...>> {
+    using variant = std::variant<Kinds...>;
+    static constexpr FieldKind list[] = {kind_of<Kinds>...};
+    static constexpr std::size_t count = sizeof...(Kinds);
+
+    template <std::size_t... index>
+    static void hold(variant& value, std::size_t kind, std::index_sequence<index...>) noexcept {
+        ((index == kind ? static_cast<void>(value.template emplace<index>()) : void()), ...);
+    }
+};
 
 template <class Value>
 FieldValue get_value(const void* at) noexcept {
@@ -367,6 +445,35 @@ template <auto member>
 void set_text(void* object, std::string_view text) {
     member_of<member>(object) = text;
 }
+inline std::string_view get_text_at(const void* at) noexcept {
+    return *static_cast<const std::string*>(at);
+}
+inline void set_text_at(void* at, std::string_view text) {
+    *static_cast<std::string*>(at) = text;
+}
+
+template <auto member>
+using KindsOf = FieldKinds<typename decltype(variant_of(std::declval<const ValueOf<member>&>()))::type>;
+template <auto member>
+FieldValue get_kind(const void* object) noexcept {
+    return {static_cast<double>(member_of<member>(object).index())};
+}
+/// Keeps what it holds at an index that is none.
+template <auto member>
+void set_kind(void* object, const FieldValue& given) noexcept {
+    KindsOf<member>::hold(member_of<member>(object), number_from<std::size_t>(given[0]),
+                          std::make_index_sequence<KindsOf<member>::count>());
+}
+template <auto member>
+bool fits_kind(const Field&, const void* object) noexcept {
+    return !member_of<member>(object).valueless_by_exception();
+}
+template <auto member>
+const void* held_address(const void* object, std::size_t) noexcept {
+    const typename KindsOf<member>::variant& value = member_of<member>(object);
+    return std::visit([](const auto& each) -> const void* { return &each; }, value);
+}
+
 template <auto member>
 FieldValue get_index_field(const void* object) noexcept {
     return get_index(&member_of<member>(object));
@@ -462,12 +569,29 @@ constexpr Field field(const char* name, std::span<const char* const> choices) no
 template <auto member>
 constexpr Field nested(const char* name) noexcept {
     using Member = detail::ValueOf<member>;
+    using Struct = typename detail::FieldOptional<Member>::type;
     Field row{.name = name, .type = FieldType::Struct, .optional = detail::FieldOptional<Member>::value};
-    row.table = fields<typename detail::FieldOptional<Member>::type>;
-    row.fresh = detail::fresh<typename detail::FieldOptional<Member>::type>;
+    row.table = fields<Struct>;
+    row.fresh = detail::fresh<Struct>;
+    row.kinds = {&detail::kind_of<Struct>, 1};
     row.address = detail::struct_address<member>;
     if constexpr (detail::FieldOptional<Member>::value) row.resize = detail::resize_struct<member>;
     return row;
+}
+
+/// A row for a std::variant of structs with tables, or a class derived from one; `names` are those of its
+/// kinds, in order. Files have the name, and beside it the fields of the kind.
+template <auto member>
+constexpr Field kinds(const char* name, std::span<const char* const> names) noexcept {
+    return {.name = name,
+            .type = FieldType::Kind,
+            .range = {0.0, static_cast<double>(detail::KindsOf<member>::count) - 1.0},
+            .choices = names,
+            .get = detail::get_kind<member>,
+            .set = detail::set_kind<member>,
+            .fits = detail::fits_kind<member>,
+            .kinds = detail::KindsOf<member>::list,
+            .address = detail::held_address<member>};
 }
 
 /// A row for an array of structs with a table, or of values. For a vector or a span: .up_to() so many.
@@ -479,6 +603,10 @@ constexpr Field list(const char* name, FieldRange range = {0.0, 1.0}, const char
     if constexpr (detail::has_table<Element>) {
         row.table = fields<Element>;
         row.fresh = detail::fresh<Element>;
+        row.kinds = {&detail::kind_of<Element>, 1};
+    } else if constexpr (std::is_same_v<Element, std::string>) {
+        row.type = FieldType::Text;
+        row.text = detail::get_text_at, row.set_text = detail::set_text_at;
     } else {
         row = detail::value_row<Element>(name, range, unit);
         row.get = detail::get_value<Element>, row.set = detail::set_value<Element>;

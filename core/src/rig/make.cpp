@@ -159,10 +159,6 @@ class Builder {
         if (const auto* fabrik = std::get_if<Fabrik>(&unit.operation))
             return add_chain(unit, fabrik->root, fabrik->tip, 0, times, layout_.units[index]);
         if (const auto* spline = std::get_if<Spline>(&unit.operation)) {
-            constexpr std::size_t most = 4096;  // the maximum of ik::place_along
-            if (spline->points.size() < 2 || spline->points.size() > most)
-                return invalid(place + ": points takes 2 to 4096 elements, got " +
-                               std::to_string(spline->points.size()));
             for (const std::string& each : spline->points)
                 layout_.units[index].points.push_back(
                     static_cast<std::uint32_t>(layout_.elements.find(each)->second));

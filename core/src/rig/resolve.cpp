@@ -16,20 +16,6 @@ using detail::quoted;
 
 namespace {
 
-/// The Type of an input of T; -1 for one that takes any.
-template <class T>
-constexpr int type_index = -1;
-template <>
-constexpr int type_index<bool> = 0;
-template <>
-constexpr int type_index<double> = 1;
-template <>
-constexpr int type_index<glm::dvec3> = 2;
-template <>
-constexpr int type_index<glm::dquat> = 3;
-template <>
-constexpr int type_index<Transform> = 4;
-
 Type part_type(Of of) noexcept {
     switch (of) {
         case Of::Transform:
@@ -42,11 +28,6 @@ Type part_type(Of of) noexcept {
         default:
             return Type::Number;
     }
-}
-
-/// Inputs with this suffix are weights: 0 to 1.
-bool is_weight(std::string_view name) {
-    return name == "weight" || name.ends_with(".weight");
 }
 
 }  // namespace
@@ -68,20 +49,13 @@ Expected<std::vector<Output>> Resolver::resolve(Unit& unit, std::size_t index,
     any_types_.clear();
     place_ = "unit " + quoted(unit.name);
     std::vector<Output> outputs = rig::outputs(unit.operation);
-    field("weight", unit.weight);
-    field("when", unit.when);
-    std::visit(
-        [&](auto& operation) {
-            fields(operation, [&](const char* name, auto& member) { field(name, member); });
-        },
-        unit.operation);
-    if (auto* set = std::get_if<SetCurve>(&unit.operation)) {
-        const auto found = layout_.curves.find(set->curve);
-        if (found == layout_.curves.end())
-            refuse("curve: there is no curve " + quoted(set->curve));
-        else
-            set->resolved.index = static_cast<std::int32_t>(found->second);
-    }
+    check_values(fields<Unit>(), &unit);
+    rows(fields<Unit>(), &unit);
+    if (auto* set = std::get_if<SetCurve>(&unit.operation); set != nullptr && refusal_)
+        set->resolved.index = static_cast<std::int32_t>(layout_.curves.find(set->curve)->second);
+    if (auto* evaluate = std::get_if<EvaluateCurve>(&unit.operation))
+        if (const Result bad = signal::check(evaluate->curve); !bad)
+            refuse(std::string("curve: ") + bad.message());
     if (std::holds_alternative<SpringInterpolate>(unit.operation) && refusal_) spring(outputs);
     if (!refusal_) return refusal_;
     return outputs;
@@ -98,7 +72,56 @@ void Resolver::spring(std::vector<Output>& handed_out) {
     handed_out[1].type = rate;
 }
 
-void Resolver::field(const std::string& name, Item& item) {
+namespace {
+
+/// The units in a body are resolved by themselves.
+bool is_body(const Field& field) {
+    return field.type == FieldType::Struct && field.table == fields<Unit>;
+}
+
+}  // namespace
+
+void Resolver::check_values(std::span<const Field> table, const void* object) {
+    for (const Field& field : table) {
+        if (!refusal_ || is_body(field)) continue;
+        if (field.type == FieldType::Kind)
+            check_values(field.kind(object).table(), field.address(object, 0));
+        else
+            refusal_ = check_fields(place_.c_str(), {&field, 1}, object);
+    }
+}
+
+void Resolver::rows(std::span<const Field> table, void* object, const std::string& above) {
+    for (const Field& field : table) {
+        const std::string name = above + field.name;
+        if (is_body(field)) {
+            if (for_each_) refuse(name + ": a for-each cannot be inside another");
+        } else if (field.type == FieldType::Kind) {
+            rows(field.kind(object).table(), field.address_in(object), above);
+        } else if (field.count != nullptr) {
+            for (std::size_t i = 0; i < field.count(object); ++i)
+                row(field, field.address_in(object, i),
+                    field.type == FieldType::Struct ? name + '[' + std::to_string(i) + ']' : name);
+        } else {
+            row(field, field.address != nullptr ? field.address_in(object) : object, name);
+        }
+    }
+}
+
+/// `at`: what the field's accessors take; of a struct, its address.
+void Resolver::row(const Field& field, void* at, const std::string& name) {
+    if (at == nullptr) return;
+    if (field.type == FieldType::Struct) return rows(field.table(), at, name + '.');
+    if (field.type == FieldType::Input) return input(name, *field.input, at);
+    if (field.type == FieldType::Item) return item(name, *static_cast<Item*>(at));
+    if (field.type != FieldType::Text || *field.of == '\0') return;
+    const bool curve = field.of == std::string_view("curves");
+    const std::string to(field.text(at));
+    if (!(curve ? layout_.curves : layout_.elements).contains(to))
+        refuse(name + (curve ? ": there is no curve " : ": there is no element ") + quoted(to));
+}
+
+void Resolver::item(const std::string& name, Item& item) {
     item.resolved = {};
     if (std::holds_alternative<ThisElement>(item.which)) {
         if (!for_each_) refuse(name + R"(: {"item": "each"} only works inside a for-each)");
@@ -110,67 +133,25 @@ void Resolver::field(const std::string& name, Item& item) {
     item.resolved.index = static_cast<std::int32_t>(found->second);
 }
 
-void Resolver::field(const std::string& name, AimInputs& inputs) {
-    fields(inputs, [&](const char* member, auto& value) { field(name + "." + member, value); });
-}
-
-void Resolver::field(const std::string& name, std::vector<ParentInputs>& parents) {
-    if (parents.empty()) return refuse(name + " must not be empty");
-    for (std::size_t i = 0; i < parents.size(); ++i)
-        fields(parents[i], [&](const char* member, auto& value) {
-            field(name + "[" + std::to_string(i) + "]." + member, value);
-        });
-}
-
-void Resolver::field(const std::string& name, Body&) {
-    if (for_each_) refuse(name + ": a for-each cannot be inside another");
-}
-
-void Resolver::field(const std::string& name, std::vector<std::string>& roots) {
-    if (roots.empty()) return refuse(name + " must not be empty");
-    for (const std::string& root : roots)
-        if (!layout_.elements.contains(root)) return refuse(name + ": there is no element " + quoted(root));
-}
-
-void Resolver::field(const std::string& name, std::array<double, 2>& range) {
-    for (const double end : range) check_literal(name, end);
-}
-
-void Resolver::field(const std::string& name, Space& space) {
-    if (space != Space::Global && space != Space::Local) refuse(name + " must be global or local");
-}
-
-void Resolver::field(const std::string& name, signal::Curve& curve) {
-    if (const Result bad = signal::check(curve); !bad) refuse(name + ": " + bad.message());
-}
-
-template <class T>
-void Resolver::field(const std::string& name, Input<T>& input) {
-    Type type{};
-    if (T* literal = std::get_if<T>(&input.source)) {
-        const Value value(*literal);
-        type = type_of(value);
-        check_literal(name, value);
-    } else {
-        type = std::visit(
-            [&]<class Source>(Source& source) {
-                if constexpr (std::is_same_v<Source, T>)
-                    return Type::Bool;  // handled above
-                else
-                    return type_of_source(name, source);
-            },
-            input.source);
-    }
+void Resolver::input(const std::string& name, const InputAccess& access, void* at) {
+    Input<Value> input = access.get(at);
+    const Type type = std::visit([&](auto& source) { return type_of_source(name, source); }, input.source);
     if (!refusal_) return;
-    if constexpr (type_index<T> < 0) {
+    if (input.literal() == nullptr) access.set(at, input);
+    if (!access.type)
         any_types_.push_back(type);
-    } else if (const auto wanted = static_cast<Type>(type_index<T>); !converts(type, wanted)) {
-        refuse(name + " takes a " + rig::name(wanted) + ", got a " + rig::name(type));
-    }
+    else if (!converts(type, *access.type))
+        refuse(name + " takes a " + rig::name(*access.type) + ", got a " + rig::name(type));
+}
+
+/// Numbers are checked by the table.
+Type Resolver::type_of_source(const std::string& name, Value& literal) {
+    if (const Result bad = check(name.c_str(), literal); !bad) refuse(bad.message());
+    return type_of(literal);
 }
 
 Type Resolver::type_of_source(const std::string& name, FromElement& from) {
-    field(name, from.element);
+    item(name, from.element);
     if (from.of != Of::ControlValue || !refusal_) return part_type(from.of);
     if (from.element.resolved.index < 0) {
         refuse(name + ": only a control has a value, but a for-each visits elements of any kind");
@@ -210,25 +191,6 @@ Type Resolver::type_of_source(const std::string& name, FromUnit& from) {
 Type Resolver::type_of_source(const std::string& name, Each&) {
     if (!for_each_) refuse(name + R"(: {"each": ...} only works inside a for-each)");
     return Type::Number;
-}
-
-void Resolver::check_literal(const std::string& name, const Value& value) {
-    if (const auto* number = std::get_if<double>(&value)) {
-        const std::string got = ", got " + std::string(tendril::detail::Shown(*number).text());
-        if (name.starts_with("parents[") && !(*number >= 0.0)) refuse(name + " must not be negative" + got);
-        if (is_weight(name) && !name.starts_with("parents[") && !(*number >= 0.0 && *number <= 1.0))
-            refuse(name + " must be 0 to 1" + got);
-        if (name == "max_speed" && !(*number >= 0.0)) refuse(name + " must not be negative" + got);
-        const auto check_up_to = [&](const char* parameter, double maximum, const char* range) {
-            if (name == parameter && !(*number >= 0.0 && *number <= maximum))
-                refuse(name + " must be " + range + got);
-        };
-        check_up_to("strength", signal::max_strength, "0 to 1e4 Hz");
-        check_up_to("max_factor", 100.0, "0 to 100");
-        check_up_to("critical_damping", signal::max_damping, "0 to 1000");
-        check_up_to("target_velocity_amount", 1.0, "0 to 1");
-    }
-    if (const Result bad = check(name.c_str(), value); !bad) refuse(bad.message());
 }
 
 }  // namespace tendril::rig

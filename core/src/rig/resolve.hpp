@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tendril/fields.hpp"
 #include "tendril/rig/definition.hpp"
-#include "tendril/rig/fields.hpp"
 
 namespace tendril::rig {
 
@@ -34,29 +34,16 @@ class Resolver {
   private:
     void spring(std::vector<Output>& handed_out);
     void refuse(const std::string& what);
-    void field(const std::string& name, Item& item);
-    void field(const std::string& name, AimInputs& inputs);
-    void field(const std::string& name, std::vector<ParentInputs>& parents);
-    void field(const std::string& name, Body& body);
-    void field(const std::string& name, std::vector<std::string>& roots);
-    void field(const std::string&, std::string&) {}
-    void field(const std::string& name, std::array<double, 2>& range);
-    void field(const std::string& name, Space& space);
-    void field(const std::string& name, signal::Curve& curve);
-    void field(const std::string&, TransformFilter&) {}
-    void field(const std::string&, AimTarget&) {}
-    void field(const std::string&, bool&) {}
-    template <class T>
-    void field(const std::string& name, std::optional<T>& maybe) {
-        if (maybe) field(name, *maybe);
-    }
-    template <class T>
-    void field(const std::string& name, Input<T>& input);
+    void rows(std::span<const Field> table, void* object, const std::string& above = {});
+    void row(const Field& field, void* at, const std::string& name);
+    void item(const std::string& name, Item& item);
+    void input(const std::string& name, const InputAccess& access, void* at);
+    void check_values(std::span<const Field> table, const void* object);
 
+    Type type_of_source(const std::string& name, Value& literal);
     Type type_of_source(const std::string& name, FromElement& from);
     Type type_of_source(const std::string& name, FromUnit& from);
     Type type_of_source(const std::string& name, Each& each);
-    void check_literal(const std::string& name, const Value& value);
 
     const Definition& definition_;
     const detail::Layout& layout_;

@@ -9,6 +9,15 @@ Body::Body(Body&&) noexcept = default;
 Body& Body::operator=(const Body&) = default;
 Body& Body::operator=(Body&&) noexcept = default;
 Body::~Body() = default;
+std::size_t Body::size() const noexcept {
+    return units_.size();
+}
+const Unit& Body::operator[](std::size_t index) const noexcept {
+    return units_[index];
+}
+void Body::resize(std::size_t count) {
+    units_.resize(count);
+}
 bool Body::operator==(const Body& other) const {
     return units_ == other.units_;
 }
@@ -21,29 +30,6 @@ Operation& Operation::operator=(Operation&&) noexcept = default;
 Operation::~Operation() = default;
 bool Operation::operator==(const Operation& other) const {
     return static_cast<const Variant&>(*this) == static_cast<const Variant&>(other);
-}
-
-const char* operation_name(std::size_t index) noexcept {
-    constexpr const char* names[] = {"aim",
-                                     "aim_math",
-                                     "parent_constraint",
-                                     "offset_transform",
-                                     "set_transform",
-                                     "set_rotation",
-                                     "project_to_parent",
-                                     "from_two_vectors",
-                                     "transform_location",
-                                     "transform_direction",
-                                     "for_each",
-                                     "alpha_interpolate",
-                                     "spring_interpolate",
-                                     "evaluate_curve",
-                                     "set_curve",
-                                     "two_bone",
-                                     "fabrik",
-                                     "spline"};
-    static_assert(std::size(names) == std::variant_size_v<Operation::Variant>);
-    return names[index];
 }
 
 namespace {

@@ -196,13 +196,11 @@ std::vector<Json> bad(const Field& field) {
         case FieldType::Rotation:
             all.insert(all.end(), {Json::array({0, 0, 0, 0}), Json::array({0, 0, "z", 1}), 0});
             break;
-        case FieldType::Text:
-        case FieldType::Index:
-        case FieldType::Struct:
-            break;
         case FieldType::Point:
             all.insert(all.end(), {Json::array({0, high + by, 0}), Json::array({low - by, 0, 0}),
                                    Json::array({0, 0}), Json::array({0, 0, "z"})});
+            break;
+        default:
             break;
     }
     return all;

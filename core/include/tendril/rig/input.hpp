@@ -12,10 +12,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 
+#include "tendril/fields.hpp"
 #include "tendril/rig/hierarchy.hpp"
 #include "tendril/rig/transform.hpp"
 
@@ -94,6 +96,14 @@ struct Input {
 
     /// Null if it is not a literal.
     const T* literal() const noexcept { return std::get_if<0>(&source); }
+};
+
+/// Reads and sets inputs of any type; each row of a table for an input has one. `get` and `set` take the
+/// address of the Input. A literal that is set must have the input's type.
+struct InputAccess {
+    std::optional<Type> type;  ///< of a literal; none: any
+    Input<Value> (*get)(const void* input);
+    void (*set)(void* input, const Input<Value>& source);
 };
 
 }  // namespace tendril::rig

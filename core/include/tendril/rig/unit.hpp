@@ -23,7 +23,8 @@
 //
 // Every unit has a weight in [0, 1]. At 0 the item is unchanged, bit for bit; an operation without an item
 // outputs its input unchanged (FromTwoVectors: the identity). A for-each's weight multiplies its body's
-// weights.
+// weights. fields<Unit>() is the table of it all (tendril/fields.hpp): readers, writers, checks and panels
+// use it.
 #pragma once
 
 #include <array>
@@ -69,7 +70,7 @@ struct ParentInputs {
 };
 struct ParentConstraint {
     Item item{};
-    std::vector<ParentInputs> parents{};  ///< at least one
+    std::vector<ParentInputs> parents{};  ///< 1 to 1000
     Input<bool> maintain_offset = true;
     TransformFilter filter{};
     bool operator==(const ParentConstraint&) const = default;
@@ -128,13 +129,16 @@ class Body {
 
     std::vector<Unit>& units() noexcept { return units_; }
     const std::vector<Unit>& units() const noexcept { return units_; }
+    std::size_t size() const noexcept;
+    const Unit& operator[](std::size_t index) const noexcept;
+    void resize(std::size_t count);
     bool operator==(const Body& other) const;
 
   private:
     std::vector<Unit> units_;
 };
 struct ForEach {
-    std::vector<std::string> roots{};  ///< at least one
+    std::vector<std::string> roots{};  ///< 1 to 1000
     bool include_parent = true;        ///< the roots too
     bool recursive = true;             ///< all descendants, not only direct children
     Body body{};                       ///< must not contain a ForEach
@@ -187,7 +191,7 @@ struct Fabrik {
 /// The root goes to the first point. Each bone turns from its initial pose with the curve.
 struct Spline {
     Item root{}, tip{};
-    std::vector<std::string> points{};  ///< elements, such as controls; at least two
+    std::vector<std::string> points{};  ///< elements, such as controls; 2 to 4096
     Input<bool> b_spline = false;       ///< CurveKind::BSpline instead of Hermite
     Input<bool> fit = false;            ///< scales the lengths by one factor, so that the tip is on the end
     Input<double> max_factor = 2.0;  ///< limit of `fit`, in either direction; 0 to 100, below 1 counts as 1
@@ -233,3 +237,12 @@ struct Output {
 std::vector<Output> outputs(const Operation& operation);
 
 }  // namespace tendril::rig
+
+namespace tendril {
+template <>
+std::span<const Field> fields<rig::Unit>() noexcept;
+template <>
+std::span<const Field> fields<rig::TransformFilter>() noexcept;
+template <>
+std::span<const Field> fields<signal::Curve>() noexcept;
+}  // namespace tendril

@@ -153,24 +153,6 @@ std::span<const Field> fields<ik::LinkageState>() noexcept {
     return rows;
 }
 
-namespace ik {
-namespace {
-
-/// A row for a link of a report, if it has one. A negative number has no conversion to an index.
-template <auto member>
-constexpr Field link_row(const char* name) noexcept {
-    Field row = field<member>(name, {0, max_links});
-    row.set = [](void* object, const FieldValue& value) noexcept {
-        auto& link = tendril::detail::member_of<member>(object);
-        link.reset();
-        if (value[0] == value[0]) tendril::detail::set_index(&link.emplace(), value);
-    };
-    return row;
-}
-
-}  // namespace
-}  // namespace ik
-
 template <>
 std::span<const Field> fields<ik::LinkageReport>() noexcept {
     using namespace ik;
@@ -181,10 +163,10 @@ std::span<const Field> fields<ik::LinkageReport>() noexcept {
                                      field<&LinkageReport::residual>("residual", length, "m"),
                                      field<&LinkageReport::driver_residual>("driver_residual", length),
                                      field<&LinkageReport::freedom>("freedom", {-1e6, 1e6}),
-                                     link_row<&LinkageReport::stopped>("stopped"),
+                                     field<&LinkageReport::stopped>("stopped", {0, max_links}),
                                      field<&LinkageReport::stopped_at>("stopped_at", {-farthest, farthest}),
                                      field<&LinkageReport::passed_dead_point>("passed_dead_point"),
-                                     link_row<&LinkageReport::jumped>("jumped"),
+                                     field<&LinkageReport::jumped>("jumped", {0, max_links}),
                                      field<&LinkageReport::jump>("jump", length, "m")};
     return rows;
 }

@@ -2,7 +2,6 @@
 // as the lab does.
 #include "app/labs/rig/code.hpp"
 
-#include "app/labs/rig/presets.hpp"
 #include "rig_support.hpp"
 
 namespace tendril::app {
@@ -18,16 +17,6 @@ class RigCode : public RigTest {
         EXPECT_EQ(code().find(what), std::string::npos) << what << " is in:\n" << code();
     }
 };
-
-TEST_F(RigCode, HasEveryElementAndUnitOfEveryScene) {
-    for (const RigPreset& preset : rig_presets()) {
-        run("rig.preset", {{"name", preset.name}});
-        for (const rig::Element& each : part().rig.definition().elements)
-            expect_says(".name = \"" + each.name + '"');
-        for (const std::string& each : part().rig.unit_names()) expect_says(".name = \"" + each + '"');
-        EXPECT_EQ(lab().code(workspace), code());
-    }
-}
 
 TEST_F(RigCode, SaysOnlyWhatIsNotAsItIsByItself) {
     element("bone 1");

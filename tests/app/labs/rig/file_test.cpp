@@ -131,17 +131,6 @@ TEST_F(RigFile, WhatABackwardSolveLeftIsReadBackHoweverFarItIs) {
     EXPECT_EQ(rig_part(reopened()).backward, part().backward);
 }
 
-/// A unit's JSON in a file is also valid in the command.
-TEST_F(RigFile, AUnitOfAFileIsOneOfACommand) {
-    for (const Json& each : one_of_each()) unit(each);
-    const rig::Definition once = part().rig.definition();
-    const Json units = saved().at("units");
-    while (!part().rig.definition().units.empty())
-        run("rig.unit.remove", {{"name", part().rig.definition().units.back().name}});
-    for (const Json& each : units) unit(each);
-    EXPECT_EQ(part().rig.definition(), once);
-}
-
 TEST_F(RigFile, AnElementOfAFileIsOneOfACommand) {
     const rig::Definition once = part().rig.definition();
     const Json elements = saved().at("elements");

@@ -1,7 +1,6 @@
 // The contents of the Rig lab's panels: their lists, offers and edits.
 #include <algorithm>
 #include <set>
-#include <tendril/rig/fields.hpp>
 
 #include "app/document/refused.hpp"
 #include "app/labs/rig/definition_json.hpp"
@@ -108,11 +107,11 @@ TEST_F(RigPanels, ALiteralIsSetAndNothingElse) {
     run("rig.preset", {{"name", "fk"}});
     for (const rig::Unit& unit : part().rig.definition().units) {
         for (const UnitInput& each : inputs(unit.name)) {
-            const auto* value = std::get_if<rig::Value>(&each.value);
-            if (!each.literal() || value == nullptr) continue;
+            const auto& value = each.value;
+            if (!each.literal() || !value) continue;
             Json other;
-            if (const auto* on = std::get_if<bool>(value)) other = !*on;
-            if (const auto* literal = std::get_if<double>(value)) other = *literal - 0.25;
+            if (const auto* on = std::get_if<bool>(&*value)) other = !*on;
+            if (const auto* literal = std::get_if<double>(&*value)) other = *literal - 0.25;
             if (other.is_null()) continue;
             Json wanted = unit_json(*unit_row(part(), unit.name)->unit);
             wanted[Json::json_pointer(each.path)] = other;
@@ -128,15 +127,14 @@ TEST_F(RigPanels, InputsSayWhereTheyComeFromAndWhatTheyAreNow) {
     tick();
     const UnitInput value = input("ease", "/value");
     EXPECT_EQ(value.from, "shape, x, local");
-    EXPECT_EQ(std::get<rig::Value>(value.value), rig::Value(0.25));
+    EXPECT_EQ(value.value, rig::Value(0.25));
     const UnitInput result = input("set bulge", "/value");
     EXPECT_EQ(result.from, "unit late");
-    EXPECT_EQ(value_json(std::get<rig::Value>(result.value)), output("late"));
+    EXPECT_EQ(value_json(*result.value), output("late"));
     EXPECT_TRUE(input("ease", "/curve").literal());
     run("rig.preset", {{"name", "secondary"}});
     EXPECT_EQ(input("spring", "/target").from, "unit tip");
-    EXPECT_TRUE(std::holds_alternative<std::monostate>(input("strength", "/value").value))
-        << "another one in each round";
+    EXPECT_FALSE(input("strength", "/value").value) << "another one in each round";
 }
 
 class RigOffers : public RigPanels {
@@ -160,19 +158,20 @@ class RigOffers : public RigPanels {
             run("rig.unit.set", with_input(*unit_row(part(), unit)->unit, before.path, *offer.value));
         } catch (const Refused& refusal) {
             // The ends of a bone chain and the type of a spring may not fit the rest.
-            EXPECT_TRUE(before.takes == UnitInput::Takes::Bone || !before.type.has_value())
+            EXPECT_TRUE(before.field->of == std::string_view("bones") || !before.is(FieldType::Input) ||
+                        !before.type())
                 << unit << before.path << offer.title << refusal.what();
             ++refusals;
             return;
         }
         ++taken;
         const UnitInput now = input(unit, before.path);
-        const auto* names = std::get_if<InputNames>(&now.value);
+        const std::vector<std::string> names = now.names();
         const bool own = offer.title.starts_with("a value of") || offer.title.starts_with("a switch of");
         if (own) {
             EXPECT_TRUE(now.literal()) << unit << before.path;
-        } else if (before.takes != UnitInput::Takes::Names) {
-            EXPECT_EQ(names != nullptr ? names->names.front() : now.from, offer.title);
+        } else if (before.field->count == nullptr) {
+            EXPECT_EQ(names.empty() ? now.from : names.front(), offer.title);
         }
         run("undo");
     }
@@ -198,8 +197,7 @@ TEST_F(RigOffers, OneOfThemIsWhatItIsNow) {
         for (const UnitRow& row : unit_rows(part())) {
             for (const UnitInput& each : inputs(row.unit->name)) {
                 const std::vector<InputOffer> all = offers(row.unit->name, each);
-                EXPECT_TRUE(all.empty() || each.takes != UnitInput::Takes::Nothing) << each.path;
-                const bool literal = each.takes == UnitInput::Takes::Value && each.literal();
+                const bool literal = each.is(FieldType::Input) && each.literal();
                 if (all.empty() || each.from == "none") continue;
                 EXPECT_EQ(std::ranges::count_if(all, &InputOffer::now), literal ? 0 : 1)
                     << row.unit->name << each.path << each.from;
