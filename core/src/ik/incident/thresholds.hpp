@@ -11,8 +11,10 @@ constexpr float in_degrees(float radians) noexcept {
 
 inline constexpr float length_share = 2e-3f;   ///< of the bone
 inline constexpr float rounding_steps = 4.0f;  ///< of the resolution: two points, in three coordinates
-inline constexpr float alone_share = 0.25f;    ///< of a bone's change: outer ends that stay; 60 arms tried
-inline constexpr float limit_degrees = 0.5f;   ///< beyond a limit
+/// Of the resolution: both ends in three coordinates, now and in the first frame: 4 times the root of 3.
+inline constexpr float rounded_lengths = 6.93f;
+inline constexpr float alone_share = 0.25f;   ///< of a bone's change: outer ends that stay; 60 arms tried
+inline constexpr float limit_degrees = 0.5f;  ///< beyond a limit
 
 inline constexpr float side_bend = 0.02f;       ///< less is straight, and has no side
 inline constexpr float side_turn = 1.0472f;     ///< radians, 60 degrees: further, sides cannot be compared
