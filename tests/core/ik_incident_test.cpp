@@ -221,11 +221,11 @@ TEST(Incident, APoleTargetThatJumpsIsNamedForTheBendThatFollows) {
     for (unsigned seed = 0; seed < 60; ++seed) {
         Random random(seed);
         const auto targets = moving_target(random, 0, 120, 0.01f);
-        const bool jumps = seed % 2 == 0, follows = seed % 4 == 0;
+        const bool jumps = seed % 2 == 0, follows = seed % 4 == 0, back = seed % 3 == 0;
         const glm::vec3 from = 2.0f * glm::normalize(glm::cross(targets[60], random.in_ball()));
         IncidentFinder finder;
         for (std::size_t i = 0; i < 120; ++i) {
-            const glm::vec3 pole = jumps && i >= 60 ? -from : from;
+            const glm::vec3 pole = jumps && (back ? i == 60 : i >= 60) ? -from : from;
             const auto joints = arm(targets[i], follows ? pole : from);
             finder.add({.joints = joints, .target = targets[i], .pole = pole});
         }
@@ -237,6 +237,39 @@ TEST(Incident, APoleTargetThatJumpsIsNamedForTheBendThatFollows) {
         EXPECT_EQ(all[0].frame, 60u);
         EXPECT_NEAR(all[0].amount, 4.0, 0.01);
         EXPECT_EQ(std::string(all[0].cause).ends_with("the chain bends there with it"), follows);
+    }
+}
+
+TEST(Incident, ARootThatMovesIsNotBlamedOnTargetOrSolver) {
+    for (unsigned seed = 0; seed < 60; ++seed) {
+        Random random(seed);
+        const std::size_t late = seed % 3 == 0 ? 1 + seed % 6 : 0;
+        const bool stays = seed % 3 == 1;
+        const auto targets = moving_target(random, 0, 240, 0.01f);
+        const glm::vec3 side = beside(random, targets);
+        // It walks, or jumps, at frame 120, and stays there or comes back.
+        const auto root = [&](std::size_t i) {
+            if (late > 0) return glm::vec3(0.02f * static_cast<float>(i), 0.0f, 0.0f);
+            return stays && i >= 120    ? glm::vec3(0.2f, 0, 0)
+                   : !stays && i == 120 ? glm::vec3(0, 0.07f, 0)
+                                        : glm::vec3(0.0f);
+        };
+        const auto target = [&](std::size_t i) {
+            return targets[i] + (late > 0 ? root(i) : glm::vec3(0.0f));
+        };
+        const auto all = incidents_of(
+            240, {},
+            [&](std::size_t i) {
+                auto joints = arm(stays ? targets[i] : target(i - std::min(i, late)) - root(i), side);
+                for (glm::vec3& joint : joints) joint += root(i);
+                return joints;
+            },
+            target);
+        ASSERT_EQ(all.size(), 1u) << "seed " << seed << ": " << said(all);
+        EXPECT_EQ(all[0].kind, late > 0 ? IncidentKind::Lag : IncidentKind::Misplaced) << said(all);
+        if (late > 0) continue;
+        EXPECT_NEAR(all[0].amount, stays ? 0.2 : 0.07, 0.02);
+        EXPECT_EQ(all[0].frame, 120u);
     }
 }
 

@@ -123,7 +123,8 @@ std::unique_ptr<RawTrace> open_raw_trace(std::istream& in) {
              (first.starts_with('#') && first.find_first_of("([{<:=") == first.npos));
     const char begin = first[first.find_first_not_of(" \t")];
     const bool named = first.find("\"joints\"") != first.npos || first.find("\"tendril\"") != first.npos;
-    if ((begin == '{' || begin == '[') && (named || can_be_json(first)))
+    const bool block = begin == '{' && first.find_first_not_of(" \t{") == first.npos;  // over many lines
+    if ((begin == '{' || begin == '[') && !block && (named || can_be_json(first)))
         return open_json_trace(in, std::move(first), line);
     if (begins_table(first)) return open_table_trace(in, std::move(first), line);
     return open_log_trace(in, std::move(first), line);

@@ -66,9 +66,14 @@ enum class Meaning { Joint, Target, Pole };
 Meaning meaning_of(std::string_view name);
 /// Seconds that one of a column or word counts: 1e-3 of "time_ms" and "time [ms]"; 0 if it is no time.
 double time_unit(std::string_view name);
-/// Whether the text before a vector, or a column's name, says that the numbers are not a position:
-/// "elbow_rotation", "in RPY (radian)".
-bool names_no_position(std::string_view text);
+/// Whether a column's name says that the numbers are not a position: "elbow_rotation", "hand.rpy".
+bool names_no_position(std::string_view name);
+/// "left_elbow", "elbow.r" and "RightElbow" are the elbow of the left (0) or right (1) side. In lower case.
+struct Sided {
+    std::size_t side = 0;
+    std::string part{};
+};
+std::optional<Sided> sided(std::string_view name);
 /// Reads a line without its end; false at the end. Refuses one of over 16 MiB.
 bool read_line(std::istream& in, std::string& text, std::size_t& line);
 

@@ -26,6 +26,7 @@ struct TracedFrame {
     std::optional<glm::vec3> target, pole;
     std::vector<glm::quat> rotations;  ///< empty, or one a bone or a joint
     std::optional<float> dt;
+    float resolution = 0.0f;  ///< how far a coordinate of a joint may be off by rounding
     std::size_t line = 0;
     std::optional<std::size_t> end{};  ///< the joint that reaches for the target; without it, the last
 

@@ -131,25 +131,20 @@ Role role_of(const std::string& base) {
     return roles[static_cast<std::size_t>(meaning_of(base))];
 }
 
-/// "left_elbow", "elbow.r" and "RightElbow" are the elbow of the left (0) or right (1) side.
-struct Sided {
-    std::size_t side;
-    std::string part;
-};
-std::optional<Sided> sided(const std::string& base) {
+}  // namespace
+
+std::optional<Sided> sided(std::string_view base) {
     const auto parts = [](char c) { return c == '.' || c == '_' || c == ' ' || c == '-' || c == ':'; };
     for (const std::string_view name : {"left", "right", "l", "r"}) {
         if (base.size() < name.size() + 2) continue;
         const std::size_t side = name[0] == 'l' ? 0 : 1, rest = base.size() - name.size();
         if (base.starts_with(name) && (name.size() > 1 || parts(base[1])))
-            return Sided{side, base.substr(name.size() + (parts(base[name.size()]) ? 1 : 0))};
+            return Sided{side, std::string(base.substr(name.size() + (parts(base[name.size()]) ? 1 : 0)))};
         if (base.ends_with(name) && (name.size() > 1 || parts(base[rest - 1])))
-            return Sided{side, base.substr(0, rest - (parts(base[rest - 1]) ? 1 : 0))};
+            return Sided{side, std::string(base.substr(0, rest - (parts(base[rest - 1]) ? 1 : 0)))};
     }
     return std::nullopt;
 }
-
-}  // namespace
 
 double time_unit(std::string_view name) {
     double unit = 1.0;

@@ -91,15 +91,42 @@ TraceReader::TraceReader(std::istream& in, const ConventionChoice& choice, std::
 
 namespace {
 
-/// In the shortest text that reads back as this number.
-int decimals_of(double value) {
-    char text[32];
-    const auto [end, error] = std::to_chars(text, std::end(text), value, std::chars_format::fixed);
-    if (error != std::errc()) return std::abs(value) < 1.0 ? std::numeric_limits<double>::digits10 : 0;
-    return static_cast<int>(std::max<std::ptrdiff_t>(0, end - std::find(text, end, '.') - 1));
+/// The power of ten; the minimum of int for 0 and what is not finite.
+int size_of(double value) {
+    const double size = std::log10(std::abs(value));
+    return std::isfinite(size) ? static_cast<int>(std::floor(size)) : std::numeric_limits<int>::min();
 }
 
 }  // namespace
+
+void Rounding::add(double value) {
+    char text[32];
+    const auto [end, error] = std::to_chars(text, std::end(text), value, std::chars_format::fixed);
+    if (error != std::errc() || !std::isfinite(value) || value == 0.0) return;
+    const std::string_view digits(text, static_cast<std::size_t>(end - text));
+    const std::size_t point = std::min(digits.find('.'), digits.size());
+    // Of 1400 it is -2.
+    const int decimals = point < digits.size() ? static_cast<int>(digits.size() - point - 1)
+                                               : -static_cast<int>(point - 1 - digits.find_last_not_of('0'));
+    Digits& size = sizes_[size_of(value)];
+    size.decimals = size.values.empty() ? decimals : std::max(size.decimals, decimals);
+    if (size.values.size() < enough) size.values.insert(value);
+    all_ = std::max(all_, decimals);
+}
+
+double Rounding::of(double value) const {
+    const auto known = [](const auto& size) { return size.second.values.size() == enough; };
+    int decimals = all_;
+    if (const auto same = sizes_.find(size_of(value)); same != sizes_.end() && known(*same)) {
+        decimals = same->second.decimals;
+    } else if (value != 0.0) {
+        // Of significant digits, smaller numbers show how many there are.
+        for (auto below = sizes_.begin(); below != sizes_.upper_bound(size_of(value)); ++below)
+            if (known(*below) && below->second.decimals < all_)
+                decimals = std::min(all_, below->second.decimals - (size_of(value) - below->first));
+    }
+    return 0.5 * std::pow(10.0, -decimals);
+}
 
 bool TraceReader::next_raw(RawFrame& frame) {
     if (damaged_) return false;
@@ -117,7 +144,7 @@ bool TraceReader::next_raw(RawFrame& frame) {
             fail_line(frame.line, "expected " + std::to_string(chain->second) + " joints, as before, found " +
                                       std::to_string(frame.joints.size()));
         for (const glm::dvec3& joint : frame.joints)
-            for (int axis = 0; axis < 3; ++axis) decimals_ = std::max(decimals_, decimals_of(joint[axis]));
+            for (int axis = 0; axis < 3; ++axis) rounding_.add(joint[axis]);
         return true;
     } catch (const std::runtime_error& error) {
         if (joints_.empty()) throw;
@@ -207,10 +234,6 @@ void TraceReader::find_rate() {
     fps_known_ = true;
 }
 
-float TraceReader::resolution() const {
-    return static_cast<float>(0.5 * std::pow(10.0, -decimals_) * conventions_.metres());
-}
-
 bool TraceReader::next(TracedFrame& frame) {
     RawFrame raw;
     if (!first_.empty()) {
@@ -228,7 +251,13 @@ bool TraceReader::next(TracedFrame& frame) {
     if (const auto end = ends_.find(frame.chain); end != ends_.end()) frame.end = end->second;
     if (frame.end && *frame.end + 1 >= raw.joints.size()) frame.end.reset();
     frame.joints.clear();
-    for (const glm::dvec3& joint : raw.joints) frame.joints.push_back(conventions_.point(joint));
+    frame.resolution = 0.0f;
+    for (const glm::dvec3& joint : raw.joints) {
+        frame.joints.push_back(conventions_.point(joint));
+        for (int axis = 0; axis < 3; ++axis)
+            frame.resolution = std::max(
+                frame.resolution, static_cast<float>(rounding_.of(joint[axis]) * conventions_.metres()));
+    }
     const auto point = [&](const std::optional<glm::dvec3>& p) {
         return p ? std::optional(conventions_.point(*p)) : std::nullopt;
     };
@@ -262,7 +291,8 @@ class ChainTrial {
                      .target = frame.target,
                      .pole = frame.pole,
                      .rotations = frame.rotations,
-                     .dt = frame.dt});
+                     .dt = frame.dt,
+                     .resolution = frame.resolution});
         latest_.push_back(frame);
         if (latest_.size() > frames_before_flip + frames_after_flip + 1) latest_.pop_front();
         for (; seen_ < finder_.incidents().size(); ++seen_)
@@ -318,8 +348,7 @@ TraceFindings find_incidents(TraceReader& reader, const std::function<void()>& p
     while (reader.next(frame)) {
         auto chain = std::ranges::find(running, frame.chain, &ChainTrial::name);
         if (chain == running.end()) {
-            running.emplace_back(frame.chain, ik::IncidentOptions{.resolution = reader.resolution(),
-                                                                  .fps = static_cast<float>(reader.fps()),
+            running.emplace_back(frame.chain, ik::IncidentOptions{.fps = static_cast<float>(reader.fps()),
                                                                   .limits = reader.header().limits,
                                                                   .end_effector = frame.end});
             chain = running.end() - 1;

@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <tendril/ik/incident.hpp>
 #include <vector>
@@ -24,6 +25,24 @@
 #include "app/io/trace/retrace.hpp"
 
 namespace tendril::app {
+
+/// The last digits of coordinates, which may have a number of decimals or of significant digits: learned for
+/// each power of ten, where enough different ones were seen.
+class Rounding {
+  public:
+    void add(double value);
+    /// How far a coordinate may be off: half a unit of its last digit.
+    double of(double value) const;
+
+  private:
+    static constexpr std::size_t enough = 4;  ///< that all end in 0 by chance: 1e-4
+    struct Digits {
+        int decimals = 0;
+        std::set<double> values{};  ///< some
+    };
+    int all_ = 0;  ///< decimals, the most
+    std::map<int, Digits> sizes_;
+};
 
 class TraceReader {
   public:
@@ -38,8 +57,6 @@ class TraceReader {
     const Conventions& conventions() const { return conventions_; }
     double fps() const { return fps_; }
     bool fps_known() const { return fps_known_; }  ///< given, or from the times
-    /// How far a coordinate may be off by rounding, metres.
-    float resolution() const;
     const TraceHeader& header() const { return raw_->header; }
     /// For display: what was left out, where reading stopped.
     const std::vector<std::string>& notes() const { return notes_; }
@@ -59,7 +76,7 @@ class TraceReader {
         ends_;  ///< the end effector of a chain, found, unless it is the last joint
     std::vector<std::string> notes_;
     double fps_ = 60.0;
-    int decimals_ = 0;  ///< the most that a joint's coordinate was written with
+    Rounding rounding_;
     bool fps_known_ = false, damaged_ = false;
 };
 

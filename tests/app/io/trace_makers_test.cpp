@@ -33,6 +33,7 @@ std::string labelled(const std::vector<glm::dvec3>& joints, const char* format) 
 }
 
 using Joints = std::vector<glm::dvec3>;
+constexpr const char* blocks = "\n  x: %.4f\n  y: %.4f\n  z: %.4f\n}\n";
 const Maker makers[]{
     {"NumPy",
      [](const Joints& j, std::size_t) { return "[" + each_joint(j, "[%.4f %.4f %.4f]", "\n ") + "]\n"; }},
@@ -40,35 +41,16 @@ const Maker makers[]{
      [](const Joints& j, std::size_t) {
          return "arm = array([" + each_joint(j, "[ %.4f,  %.4f,  %.4f]", ",\n       ") + "])\n";
      }},
-    {"NumPy scalars",
-     [](const Joints& j, std::size_t) {
-         return each_joint(j, "(np.float64(%.4f), np.float64(%.4f), np.float64(%.4f))") + "\n";
-     }},
-    {"System.Numerics",
-     [](const Joints& j, std::size_t) { return each_joint(j, "<%.4f, %.4f, %.4f>") + "\n"; }},
-    {"XNA", [](const Joints& j, std::size_t) { return each_joint(j, "{X:%.4f Y:%.4f Z:%.4f}") + "\n"; }, 2,
-     "", "XNA"},
-    {"Babylon",
-     [](const Joints& j, std::size_t) { return each_joint(j, "{X: %.4f Y: %.4f Z: %.4f}") + "\n"; }, 1, "",
-     "Babylon"},
-    {"C# record",
-     [](const Joints& j, std::size_t) {
-         return each_joint(j, "Vector3 { X = %.4f, Y = %.4f, Z = %.4f }") + "\n";
-     }},
     {"Unreal",
      [](const Joints& j, std::size_t) {
          return "LogTemp: " + each_joint(j, "X=%.3f Y=%.3f Z=%.3f") + " Rotation: X=0.0 Y=0.0 Z=0.0 W=1.0\n";
      },
      0, "", "Unreal"},
-    {"Godot", [](const Joints& j, std::size_t) { return each_joint(j, "(%.4f, %.4f, %.4f)") + "\n"; }},
-    {"three.js", [](const Joints& j,
-                    std::size_t) { return each_joint(j, "Vector3 {x: %.4f, y: %.4f, z: %.4f}") + "\n"; }},
     {"glm",
      [](const Joints& j, std::size_t) {
          return each_joint(j, "vec3(%f, %f, %f)") + " rot quat(1.000000, {0.000000, 0.000000, 0.000000})\n";
      }},
     {"Eigen column", [](const Joints& j, std::size_t) { return labelled(j, ":\n%.4f\n%.4f\n%.4f\n"); }},
-    {"Eigen row", [](const Joints& j, std::size_t) { return labelled(j, ": %.4f %.4f  %.4f\n"); }},
     {"ROS",
      [](const Joints& j, std::size_t) {
          return "poses:\n" +
@@ -81,15 +63,7 @@ const Maker makers[]{
      3, "", "ROS"},
     {"Maya",
      [](const Joints& j, std::size_t) { return "[" + each_joint(j, "[%.4f, %.4f, %.4f]", ", ") + "]\n"; }},
-    {"Maya points",
-     [](const Joints& j, std::size_t) { return each_joint(j, "(%.4f, %.4f, %.4f, 1)") + "\n"; }},
     {"Maya selection", [](const Joints& j, std::size_t) { return labelled(j, " = %.4f %.4f %.4f //\n"); }},
-    {"Houdini",
-     [](const Joints& j, std::size_t) { return each_joint(j, "<hou.Vector3 [%.4f, %.4f, %.4f]>") + "\n"; }, 2,
-     "", "Houdini"},
-    {"Blender",
-     [](const Joints& j, std::size_t) { return each_joint(j, "<Vector (%.4f, %.4f, %.4f)>") + "\n"; }, 3, "",
-     "Blender"},
     {"Blender matrices",
      [](const Joints& j, std::size_t) {
          std::string text;
@@ -103,11 +77,6 @@ const Maker makers[]{
      3},
     {"MATLAB",
      [](const Joints& j, std::size_t) { return "p = [" + each_joint(j, "%.4f %.4f %.4f", "; ") + "]\n"; }},
-    {"JOML", [](const Joints& j, std::size_t) { return each_joint(j, "( %.4E  %.4E  %.4E)") + "\n"; }},
-    {"Python",
-     [](const Joints& j, std::size_t) { return each_joint(j, "{'x': %.4f, 'y': %.4f, 'z': %.4f}") + "\n"; }},
-    {"JSON objects",
-     [](const Joints& j, std::size_t) { return each_joint(j, "{\"x\":%.4f,\"y\":%.4f,\"z\":%.4f}") + "\n"; }},
     {"with rotations",
      [](const Joints& j, std::size_t) {
          return labelled(j, " position (%.4f, %.4f, %.4f) rotation (0.00, 90.00, 0.00) scale (1, 1, 1)\n");
@@ -168,6 +137,33 @@ const Maker makers[]{
      [](const Joints& j, std::size_t) {
          return each_joint(j, "(%.4f, %.4f, %.4f)") + " [[0.6 -0.8 0.0] [0.8 0.6 0.0] [0.0 0.0 1.0]]\n";
      }},
+    {"Protobuf text",
+     [](const Joints& j, std::size_t) {
+         return "shoulder {" + printed(j[0], blocks) + "elbow {" + printed(j[1], blocks) + "hand {" +
+                printed(j[2], blocks);
+     }},
+    {"Rust dbg!",
+     [](const Joints& j, std::size_t) {
+         return each_joint(j,
+                           "[src/arm.rs:12:5] joint = Vec3 {\n    x: %.4f,\n    y: %.4f,\n    z: %.4f,\n}\n",
+                           "") +
+                "[src/arm.rs:15:5] solved = true\n";
+     }},
+    {"nested JSON",
+     [](const Joints& j, std::size_t) {
+         return each_joint(
+                    j, "{\n  \"position\": {\n    \"x\": %.4f,\n    \"y\": %.4f,\n    \"z\": %.4f\n  }\n}\n",
+                    "") +
+                "\n";
+     }},
+    {"letters, one a line",
+     [](const Joints& j, std::size_t) {
+         return "p " + printed(j[0]) + "\nq " + printed(j[1]) + "\nr " + printed(j[2]) + "\n";
+     }},
+    {"other lines between",
+     [](const Joints& j, std::size_t i) {
+         return (i % 7 == 3 ? "camera (1.0, 2.0, 3.0)\n" : "") + labelled(j, " (%.4f, %.4f, %.4f) ") + "\n";
+     }},
     {"indexed",
      [](const Joints& j, std::size_t) {
          std::string text;
@@ -215,6 +211,127 @@ const Maker makers[]{
     {"CSV, not axes",
      [](const Joints& j, std::size_t) { return "7,8," + each_joint(j, "%.4f,%.4f,%.4f,1", ",") + "\n"; }, 2,
      "z-score,x label,a_x,a_y,a_z,a_w,b_x,b_y,b_z,b_w,c_x,c_y,c_z,c_w\n"}};
+
+/// How a program prints one vector: of shoulder, elbow, hand, target and pole target.
+struct VectorFormat {
+    const char* format;
+    int space = 2;            ///< of test::made::spaces
+    const char* engine = "";  ///< in the text of the conventions
+};
+const VectorFormat vector_formats[]{
+    {"(%.4f, %.4f, %.4f)"},
+    {"Vec3 { x: %.4f, y: %.4f, z: %.4f }"},
+    {"Vec3(%.4f, %.4f, %.4f)"},
+    {"vec3(%f, %f, %f)"},
+    {"SIMD3<Float>(%.4f, %.4f, %.4f)"},
+    {"{%.4f %.4f %.4f}"},
+    {"{X:%.4f Y:%.4f Z:%.4f}", 2, "XNA"},
+    {"{X: %.4f Y: %.4f Z: %.4f}", 1, "Babylon"},
+    {"X:%.4f Y:%.4f Z:%.4f"},
+    {"Vector3 { X = %.4f, Y = %.4f, Z = %.4f }"},
+    {"Float3(x=%.4f, y=%.4f, z=%.4f)"},
+    {"Vector3 {x: %.4f, y: %.4f, z: %.4f}"},
+    {"Vector3 { isVector3: true, x: %.4f, y: %.4f, z: %.4f }"},
+    {"Object { x: %.4f, y: %.4f, z: %.4f }"},
+    {"Point3 { coords: [[%.4f, %.4f, %.4f]] }"},
+    {"[[%.4f, %.4f, %.4f]]"},
+    {"{'x': %.4f, 'y': %.4f, 'z': %.4f}"},
+    {"{\"x\":%.4f,\"y\":%.4f,\"z\":%.4f}"},
+    {"{.x=%.4f, .y=%.4f, .z=%.4f}"},
+    {"LPoint3f(%.4f, %.4f, %.4f)"},
+    {"X=%.3f Y=%.3f Z=%.3f", 0, "Unreal"},
+    {"V(X=%.2f, Y=%.2f, Z=%.2f)", 0, "Unreal"},
+    {"<%.4f, %.4f, %.4f>"},
+    {"<hou.Vector3 [%.4f, %.4f, %.4f]>", 2, "Houdini"},
+    {"<Vector (%.4f, %.4f, %.4f)>", 3, "Blender"},
+    {"new Vector3(%.4ff, %.4ff, %.4ff)", 1, "Unity"},
+    {"Vector3(%.4f, %.4f, %.4f)", 2, "Godot"},
+    {"QVector3D(%.4f, %.4f, %.4f)"},
+    {"vmath.vector3(%.4f, %.4f, %.4f)"},
+    {"XMFLOAT3(%.4f, %.4f, %.4f)"},
+    {"float4(%.4f, %.4f, %.4f, 1.0)"},
+    {"Vector3<f32>(%.4f, %.4f, %.4f)"},
+    {"Vector3 [%.4f, %.4f, %.4f]"},
+    {"Float32[%.4f, %.4f, %.4f]"},
+    {"SVector{3, Float64}(%.4f, %.4f, %.4f)"},
+    {"Float32Array(3) [ %.4f, %.4f, %.4f ]"},
+    {"c(%.4f, %.4f, %.4f)"},
+    {"( %.4E  %.4E  %.4E)"},
+    {"tensor([%.4f, %.4f, %.4f], device='cuda:0')"},
+    {"Array([%.4f, %.4f, %.4f], dtype=float32)"},
+    {"(np.float64(%.4f), np.float64(%.4f), np.float64(%.4f))"},
+    {"(%.4f m, %.4f m, %.4f m)"},
+    {"%.4f, %.4f, %.4f |"},
+    {"%.4f  %.4f  %.4f"},
+    {"DenseVector 3-Double %.4f  %.4f  %.4f"},
+    {"%.6f,%.6f,%.6f|10.100000,20.000000,30.000000|1.000000,1.000000,1.000000", 8},
+    {"(%.4g, %.4g, %.4g)"},
+    {"(%.2e, %.2e, %.2e)"},
+    {"(%.3E %.3E %.3E)", 9},
+    {"(%.1f, %.1f, %.1f)", 4}};
+
+TEST(Trace, WordsBeforeEveryVectorAreItsType) {
+    const auto prefix = [](std::size_t i) {
+        return "[2026.11.29-02.44.02:016][" + std::to_string(i) + "]Arm: ";
+    };
+    for (const VectorFormat& each : vector_formats)
+        for (const int layout : {0, 1, 2, 3, 4})
+            for (const unsigned seed : {0u, 1u}) {
+                const bool listed = std::string_view("({[<").find(each.format[0]) != std::string_view::npos;
+                if (layout > 2 && !listed) continue;
+                const MadeTrace made = TraceMaker(seed).make(Plant::None);
+                const Space& space = test::made::spaces[each.space];
+                std::string text;
+                for (std::size_t i = 0; i < made.frames.size(); ++i) {
+                    const auto& frame = made.frames[i];
+                    const auto v = [&](const glm::dvec3& point) {
+                        return printed(space.of(point), each.format) + ' ';
+                    };
+                    const std::string a = v(frame.joints[0]), b = v(frame.joints[1]), c = v(frame.joints[2]),
+                                      target = v(frame.target),
+                                      pole = v(frame.pole.value_or(glm::dvec3(0, 9, 0)));
+                    if (layout == 0)
+                        text += prefix(i) + "shoulder: " + a + "elbow: " + b + "wrist: " + c +
+                                "target: " + target + "pole: " + pole + '\n';
+                    if (layout == 1)
+                        text += "shoulder: " + a + "\nelbow: " + b + "\nwrist: " + c + "\ntarget: " + target +
+                                "\npole: " + pole + '\n';
+                    if (layout == 2)
+                        for (const std::string side : {"left_", "right_"})
+                            text += side + "shoulder: " + a + side + "elbow: " + b + side + "hand: " + c +
+                                    side + "target: " + target + (side == "right_" ? "\n" : "");
+                    if (layout == 3)
+                        text += "Solving IK toward " + target + "\n -> chain " + a + b + c + '\n';
+                    if (layout == 4)
+                        for (const char* leg : {"leg 0: ", "leg 1: "})
+                            text += leg + a + b + c + "target " + target + '\n';
+                }
+                SCOPED_TRACE(text.substr(0, 500));
+                ASSERT_EQ(trace_refusal(text), "read");
+                const ReadTrace found = read_trace(text);
+                const std::size_t chains = layout == 2 || layout == 4 ? 2 : 1;
+                ASSERT_EQ(found.findings.chains.size(), chains);
+                for (const auto& chain : found.findings.chains) EXPECT_EQ(chain.frames, made.frames.size());
+                EXPECT_EQ(found.findings.count(), 0u) << found.text();
+                EXPECT_TRUE(found.notes.empty()) << found.notes[0];
+                EXPECT_NE(found.conventions.text().find(each.engine), std::string::npos)
+                    << found.conventions.text();
+                std::istringstream in(text);
+                TraceReader reader(
+                    in, {.up = space.up, .handed = space.handed, .unit = space.unit, .rotations = ""});
+                TracedFrame frame;
+                for (std::size_t i = 0; i < 10 * chains; ++i) {
+                    const auto& expected = made.frames[i / chains];
+                    ASSERT_TRUE(reader.next(frame));
+                    ASSERT_EQ(frame.joints.size(), 3u);
+                    ASSERT_TRUE(frame.target.has_value());
+                    constexpr float rounded = 9e-3f;  // metres, %.2e
+                    EXPECT_LT(glm::distance(*frame.target, glm::vec3(expected.target)), rounded);
+                    EXPECT_LT(glm::distance(frame.joints[1], glm::vec3(expected.joints[1])), rounded);
+                    EXPECT_EQ(frame.pole.has_value(), layout < 2);
+                }
+            }
+}
 
 TEST(Trace, LogsOfManyMakersAreRead) {
     for (const Maker& maker : makers)

@@ -43,7 +43,9 @@ enum class IncidentKind : std::uint8_t {
     Repeated,
     TargetJump,  ///< amount: metres
     PoleJump,    ///< the pole target jumps to another side of the line from root to target; amount: metres
-    /// One frame, or two in swapped order, off the path of the frames around them; amount: metres of the tip.
+    /// One frame, or two in swapped order, off the path of the frames around them, or a root that jumps away
+    /// from
+    /// its target; amount: metres of the tip, or of the root.
     Misplaced
 };
 /// "flip", "nan", "length", "limit", "missed", "lag", "jitter", "repeated", "target_jump", "pole_jump",
@@ -88,6 +90,7 @@ struct TraceFrame {
     std::span<const glm::quat> rotations{};  ///< unit, in the space of the joints, not of the
                                              ///< parent bone; empty, or at least one per bone
     std::optional<float> dt{};               ///< seconds since the frame before
+    float resolution = 0.0f;                 ///< as in the options, where it is larger from this frame on
 };
 
 class IncidentFinder {
@@ -127,7 +130,7 @@ class IncidentFinder {
     void find_rolls(const ReachPose& pose, std::span<const glm::quat> rotations);
     bool changed_side(const ReachPose& pose, bool jumped);
     struct Steps;
-    bool detect_jump(Steps& steps, float step, IncidentKind kind, const char* cause);
+    bool detect_jump(Steps& steps, glm::vec3 was, glm::vec3 is, IncidentKind kind, const char* cause);
     bool find_jumps(const ReachPose& pose);
     void find_misplaced(const ReachPose& pose, bool aimed);
     void find_repeated(const ReachPose& pose);
@@ -137,6 +140,7 @@ class IncidentFinder {
     bool both_moved(const ReachPose& a, const ReachPose& b) const noexcept;
     bool resumes(const ReachPose& pose) const;
     float inner_reach() const noexcept;
+    glm::vec3 within_reach(glm::vec3 target) const noexcept;  ///< from the root; as far as the tip can be
     /// The pose without the joints beyond the end effector.
     ReachPose reaching(const ReachPose& pose) const;
     /// Whether the joint moved more than `times` as far as target and pole target did.
@@ -176,9 +180,12 @@ class IncidentFinder {
     /// Steps of the target or the pole target. A jump is confirmed one frame later.
     struct Steps {
         float latest = 0.0f, before = 0.0f;
+        glm::vec3 from{0.0f};  ///< where the latest began, from the root
+        IncidentKind kind = IncidentKind::TargetJump;
         const char* cause = nullptr;  ///< of the latest, if it may be a jump
     };
     Steps steps_, pole_steps_;
+    bool root_jumped_ = false;  ///< and the tip did not meet its target since then
     /// The latest frames in space, newest last.
     struct MotionSample {
         glm::vec3 root{0.0f}, tip{0.0f};
@@ -220,6 +227,7 @@ class IncidentFinder {
         std::array<double, max_lag + 1> left() const noexcept;
     };
     std::vector<glm::vec3> targets_, followers_;  ///< and tips; relative to the root, newest last
+    std::vector<glm::vec3> roots_;                ///< of these frames
     std::array<Following, spans.size()> paths_{};
     glm::dvec3 origin_{0.0};
     std::optional<std::uint64_t> first_move_;

@@ -11,20 +11,26 @@
 
 namespace tendril::ik {
 
-// A step is only a jump if the next one is short again, so it is judged with that one.
-bool IncidentFinder::detect_jump(Steps& steps, float step, IncidentKind kind, const char* cause) {
+// A step is only a jump if the next one is short again, or leads back, so it is judged with that one.
+bool IncidentFinder::detect_jump(Steps& steps, glm::vec3 was, glm::vec3 is, IncidentKind kind,
+                                 const char* cause) {
     const float least = std::max(jump_share * reach_, rounding_steps * options_.resolution);
     const auto far = [&](float length, float beside) {
         return length > least && length > jump_factor * beside;
     };
-    if (steps.cause != nullptr && far(steps.latest, std::max(step, steps.before)))
-        note({.kind = kind,
+    const bool root = steps.kind == IncidentKind::Misplaced;
+    const float step = math::distance(was, is), back = root ? step : math::distance(steps.from, is);
+    if (steps.cause != nullptr && far(steps.latest, std::max(std::min(step, back), steps.before))) {
+        note({.kind = steps.kind,
               .frame = frames_ - 1,
               .last_frame = frames_ - 1,
+              .joint = root ? 0 : no_joint,
               .amount = static_cast<double>(steps.latest),
               .cause = steps.cause});
+        root_jumped_ = root_jumped_ || root;  // until the tip meets its target again
+    }
     const float before = steps.latest;
-    steps = {step, before, cause};
+    steps = {step, before, was, kind, cause};
     return far(step, before);
 }
 
@@ -46,16 +52,20 @@ bool IncidentFinder::find_jumps(const ReachPose& pose) {
             return in_degrees(angle_between(a, b)) > options_.flip_degrees;
         };
         const char* cause = nullptr;
-        if (turns(math::cross(was, pole_was), math::cross(is, pole_is)))
+        if (turns(math::cross(was, pole_was), math::cross(is, pole_is)) &&
+            math::distance(*pose.pole, *latest_.pole) > math::distance(pose.root(), latest_.root()))
             cause =
                 turns(bend(latest_, was), bend(pose, is))
                     ? "the pole target is on another side from one frame to the next, and the chain bends "
                       "there with it"
                     : "the pole target is on another side from one frame to the next";
-        detect_jump(pole_steps_, math::distance(pole_was, pole_is), IncidentKind::PoleJump, cause);
+        detect_jump(pole_steps_, pole_was, pole_is, IncidentKind::PoleJump, cause);
     }
-    return detect_jump(steps_, math::distance(was, is), IncidentKind::TargetJump,
-                       "the target is somewhere else from one frame to the next");
+    const bool root =
+        math::distance(pose.root(), latest_.root()) > math::distance(*pose.target, *latest_.target);
+    return detect_jump(steps_, was, is, root ? IncidentKind::Misplaced : IncidentKind::TargetJump,
+                       root ? "the root is somewhere else from one frame to the next, and the target is not"
+                            : "the target is somewhere else from one frame to the next");
 }
 
 // The middle one of five frames, or the middle two of six, against the path of those around them.
@@ -71,15 +81,20 @@ void IncidentFinder::find_misplaced(const ReachPose& pose, bool aimed) {
     const auto off = [](glm::vec3 before, glm::vec3 p, glm::vec3 after) {
         return math::length(p - 0.5f * (before + after));
     };
-    const float offset = off(at(3).tip, at(2).tip, at(1).tip);
-    const float steps = std::max({math::distance(at(4).tip, at(3).tip), math::distance(at(1).tip, at(0).tip),
-                                  0.5f * math::distance(at(3).tip, at(1).tip)});
     const float asked = all_aimed ? off(*at(3).target, *at(2).target, *at(1).target) : 0.0f;
     ChainIncident found{
         .kind = IncidentKind::Misplaced, .frame = frames_ - 2, .last_frame = frames_ - 2, .joint = end_};
-    if (offset > std::max(spike_share * reach_, rounding) && offset > spike_steps * std::max(steps, asked)) {
-        found.amount = static_cast<double>(offset);
-        found.cause = 2.0f * off(at(3).root, at(2).root, at(1).root) > offset
+    for (const auto point : {&MotionSample::tip, &MotionSample::root}) {
+        const auto p = [&](std::size_t ago) { return at(ago).*point; };
+        const float aside = off(p(3), p(2), p(1));
+        const float steps = std::max(
+            {math::distance(p(4), p(3)), math::distance(p(1), p(0)), 0.5f * math::distance(p(3), p(1))});
+        if (!(aside > std::max(spike_share * reach_, rounding) &&
+              aside > spike_steps * std::max(steps, asked)))
+            continue;
+        found.amount = static_cast<double>(aside);
+        found.cause = point == &MotionSample::root ? "the root is aside for one frame"
+                      : 2.0f * off(at(3).root, at(2).root, at(1).root) > aside
                           ? "the whole chain is aside for one frame"
                           : "the tip is aside for one frame";
         return note(found);
@@ -200,9 +215,11 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
     const float allowed = std::max(missed_share * reach_, rounding_steps * options_.resolution);
     const glm::vec3 tip = pose.joints[end_] - pose.root();
     float error = math::distance(tip, *pose.target - pose.root());
-    const auto latest = static_cast<std::ptrdiff_t>(std::min(targets_.size(), max_lag));
-    for (auto target = targets_.end() - latest; target != targets_.end(); ++target)
-        error = std::min(error, math::distance(tip, *target));
+    if (error <= allowed) root_jumped_ = false;
+    // Late targets are met as they were seen from the root then, or in space by a root that moved on.
+    for (std::size_t i = targets_.size() - std::min(targets_.size(), max_lag); i < targets_.size(); ++i)
+        for (const glm::vec3 target : {targets_[i], within_reach(targets_[i] + roots_[i] - pose.root())})
+            error = std::min(error, math::distance(tip, target));
     // A bone of another length moves the tip as well; that is reported.
     const bool whole_bones = std::ranges::none_of(length_, &Episode::open);
     const bool reachable = distance < reach_ - allowed && distance > inner + allowed && whole_bones;
@@ -216,6 +233,7 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
     missed_before_ = error;
     const bool whole = missed_frames_ == frames_ + 1;  // from the first frame on
     if (missed_frames_ < missed_run && !whole) return;
+    if (root_jumped_) return;  // that is reported
     ChainIncident now{.kind = IncidentKind::Missed,
                       .frame = frames_ + 1 - missed_frames_,
                       .last_frame = frames_,
@@ -241,20 +259,21 @@ void IncidentFinder::follow(const ReachPose& pose) {
             longest = std::max(longest, math::distance(targets_[i - 1], targets_[i]));
         if (math::distance(tip_now, followers_.back()) > spike_steps * longest + spike_share * reach_) {
             targets_.clear();
+            roots_.clear();
             followers_.clear();
             for (Following& path : paths_) path.close();
         }
     }
     targets_.push_back(target);
+    roots_.push_back(pose.root());
     followers_.push_back(tip_now);
     if (targets_.size() > max_lag + spans.back() + 1) {
         targets_.erase(targets_.begin());
+        roots_.erase(roots_.begin());
         followers_.erase(followers_.begin());
     }
-    const auto within_reach = [&](std::size_t ago) {
-        const glm::vec3 at = targets_[targets_.size() - 1 - ago];
-        const float away = math::length(at);
-        return glm::dvec3(away > 0.0f ? at * (std::clamp(away, inner_reach(), reach_) / away) : at);
+    const auto aim = [&](std::size_t ago) {
+        return glm::dvec3(within_reach(targets_[targets_.size() - 1 - ago]));
     };
     if (targets_.size() <= max_lag ||
         std::adjacent_find(targets_.end() - (max_lag + 1), targets_.end(), moved) == targets_.end())
@@ -267,9 +286,13 @@ void IncidentFinder::follow(const ReachPose& pose) {
         const glm::dvec3 from = span == 0 ? origin_ : glm::dvec3(followers_[followers_.size() - 1 - span]);
         paths_[i].add(tip - from);
         for (std::size_t lag = 0; lag <= max_lag; ++lag)
-            paths_[i].lags[lag].add(tip - from,
-                                    within_reach(lag) - (span == 0 ? origin_ : within_reach(lag + span)));
+            paths_[i].lags[lag].add(tip - from, aim(lag) - (span == 0 ? origin_ : aim(lag + span)));
     }
+}
+
+glm::vec3 IncidentFinder::within_reach(glm::vec3 target) const noexcept {
+    const float away = math::length(target);
+    return away > 0.0f ? target * (std::clamp(away, inner_reach(), reach_) / away) : target;
 }
 
 float IncidentFinder::inner_reach() const noexcept {

@@ -105,6 +105,7 @@ void IncidentFinder::add(const TraceFrame& frame) {
         ++frames_;
         return;
     }
+    options_.resolution = std::max(options_.resolution, frame.resolution);
     const std::size_t tip = frame.joints.size() - 1;
     end_ = std::clamp<std::size_t>(options_.end_effector.value_or(tip), 1, tip);
     ReachPose pose{.joints = {frame.joints.begin(), frame.joints.end()},
@@ -146,6 +147,7 @@ void IncidentFinder::forget_motion() noexcept {
     recent_.clear();
     rotations_.clear();
     targets_.clear();
+    roots_.clear();
     followers_.clear();
     tips_.clear();
     side_.reset();
@@ -199,7 +201,7 @@ void IncidentFinder::find_lengths(const ReachPose& pose, bool aimed) {
     bool opened = false;  // the bone before began to differ in this frame
     for (std::size_t i = 0; i < lengths_.size(); ++i) {
         const float length = math::distance(pose.joints[i], pose.joints[i + 1]), off = length - lengths_[i];
-        const float allowed = std::max(length_share * lengths_[i], rounding_steps * options_.resolution);
+        const float allowed = std::max(length_share * lengths_[i], rounded_lengths * options_.resolution);
         const bool beyond = aimed && off > 0.0f && math::distance(*pose.target, pose.root()) > reach_;
         const bool active = std::abs(off) > allowed;
         // Both bones of a joint change at once: it moved alone if the outer ends stayed as far apart.

@@ -11,6 +11,8 @@ constexpr float in_degrees(float radians) noexcept {
 
 inline constexpr float length_share = 2e-3f;   ///< of the bone
 inline constexpr float rounding_steps = 4.0f;  ///< of the resolution: two points, in three coordinates
+/// Of the resolution: both ends in three coordinates, now and in the first frame: 4 times the root of 3.
+inline constexpr float rounded_lengths = 6.93f;
 inline constexpr float unmoved_share = 0.25f;  ///< of a bone's change: outer ends that stay; 60 arms tried
 inline constexpr float limit_degrees = 0.5f;   ///< beyond a limit
 
