@@ -68,7 +68,7 @@ bool is(OutputKind kind, std::string_view text) {
         case OutputKind::Recording:
             return recording;
         case OutputKind::State:
-            return json && !scene && !recording && holds("\"handles\":") && holds("\"layout\":");
+            return json && !scene && !recording && holds("\"layout\":") && holds("\"strip\":");
         case OutputKind::Picture:
             return is_png(text) && !is_animated(text);
         case OutputKind::Video:

@@ -12,15 +12,6 @@ namespace {
 
 constexpr std::size_t max_keys = 1'000;
 
-struct End {
-    const char* name;
-    double signal::Curve::*value;
-};
-constexpr End ends[] = {{"source_min", &signal::Curve::source_min},
-                        {"source_max", &signal::Curve::source_max},
-                        {"target_min", &signal::Curve::target_min},
-                        {"target_max", &signal::Curve::target_max}};
-
 signal::Piece read_piece(const JsonPlace& place) {
     const std::string found = place.text();
     for (const auto piece : {signal::Piece::Constant, signal::Piece::Linear, signal::Piece::Cubic})
@@ -63,23 +54,6 @@ std::vector<signal::CurveKey> read_curve_keys(const JsonPlace& place) {
     std::vector<signal::CurveKey> keys;
     place.for_each("keys", max_keys, [&](const JsonPlace& each) { keys.push_back(read_key(each)); });
     return keys;
-}
-
-Json curve_json(const signal::Curve& curve) {
-    Json json{{"keys", curve_keys_json(curve)}};
-    for (const End& end : ends) json[end.name] = curve.*end.value;
-    return json;
-}
-
-void add_curve_members(std::vector<std::string>& names) {
-    names.emplace_back("keys");
-    for (const End& end : ends) names.emplace_back(end.name);
-}
-
-void read_curve_members(const JsonPlace& place, signal::Curve& curve) {
-    if (place.has("keys")) curve.keys = read_curve_keys(place["keys"]);
-    for (const End& end : ends)
-        if (place.has(end.name)) curve.*end.value = place[end.name].real();
 }
 
 }  // namespace tendril::app

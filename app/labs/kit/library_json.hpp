@@ -32,12 +32,6 @@ Json curve_keys_json(const signal::Curve& curve);
 /// the JSON path of the fault. Does not check the order of times: signal::check() does.
 std::vector<signal::CurveKey> read_curve_keys(const JsonPlace& place);
 
-Json curve_json(const signal::Curve& curve);
-
-/// Reads the curve members that are present and keeps the others.
-void read_curve_members(const JsonPlace& place, signal::Curve& curve);
-void add_curve_members(std::vector<std::string>& names);
-
 // The state that an IK solver keeps between solves, in scene files.
 //
 //     {"rotations": [[x, y, z, w], ...],

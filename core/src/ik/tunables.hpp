@@ -201,8 +201,8 @@ inline constexpr float first_move = 1.0f, max_move = 1.0f, move_grows = 2.0f, mo
 /// Active-set passes per step. 1: 150 chains are left; 3: 70.
 inline constexpr int passes = 2;
 /// A chain is left to the scalar solver after `max_slow_steps` successive steps that each removed less than
-/// `min_progress` of the error. 5: 102; 20: 53, but a chain that cannot arrive then uses up all steps.
-inline constexpr float min_progress = 0.1f;
+/// `min_decrease` of the error. 5: 102; 20: 53, but a chain that cannot arrive then uses up all steps.
+inline constexpr float min_decrease = 0.1f;
 inline constexpr int max_slow_steps = 8;
 
 }  // namespace batch

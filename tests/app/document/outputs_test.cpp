@@ -23,8 +23,8 @@ std::vector<Sample> samples() {
     const std::string png = "\x89PNG\r\n\x1a\n", header = std::string(25, '0') + "0000";
     return {{OutputKind::Scene, R"({"tendril_scene": 2, "labs": {"chain": {"handles": 1, "layout": 2}}})"},
             {OutputKind::Recording, R"({"recording":1,"scene":{"tendril_scene":2}})"},
-            {OutputKind::State, "{\"mode\": \"reach\",\n \"points\": \"" + std::string(300'000, '1') +
-                                    "\",\n \"handles\": [],\n \"layout\": {}}"},
+            {OutputKind::State, "{\"mode\": \"reach\",\n \"handles\": \"" + std::string(300'000, '1') +
+                                    "\",\n \"layout\": {\"strip\": {}}}"},
             {OutputKind::Picture, png + header + "IDAT"},
             {OutputKind::Video, png + header + "sRGB0acTL"},
             {OutputKind::Video, std::string("\0\0\0\x20", 4) + "ftypisom"},

@@ -72,7 +72,7 @@ class Mistakes : public testing::TestWithParam<Mistake> {};
 
 TEST_P(Mistakes, are_one_line_and_exit_code_2) {
     const TempFolder folder;
-    const std::pair<const char*, const char*> olds[]{{"state.json", R"({"handles": [], "layout": {}})"},
+    const std::pair<const char*, const char*> olds[]{{"state.json", R"({"layout": {"strip": {}}})"},
                                                      {"picture.png", "\x89PNG\r\n\x1a\nold"},
                                                      {"record.jsonl", R"({"recording":1})"}};
     for (const auto& [name, old] : olds) write(folder / name, old);

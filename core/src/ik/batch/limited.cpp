@@ -57,7 +57,7 @@ HWY_INLINE void take_step(Limb& limb, Mask left, float last) {
     turn_joints(limb);
     const Lanes trial = error_of(limb, limb.trial);
     const Mask nearer = hn::And(left, hn::Lt(trial, error));
-    const Mask progresses = hn::Lt(trial, hn::Mul(error, all(1.0f - min_progress)));
+    const Mask decreases = hn::Lt(trial, hn::Mul(error, all(1.0f - min_decrease)));
     accept(limb, nearer);
     const auto update = [&](Row which, Lanes yes, Lanes no) {
         store(hn::IfThenElse(left, hn::IfThenElse(nearer, yes, no), load(limb.row(which))), limb.row(which));
@@ -67,7 +67,7 @@ HWY_INLINE void take_step(Limb& limb, Mask left, float last) {
            hn::Min(by(damping, damping_grows), all(max_damping)));
     update(row_of_move, hn::Min(by(move, move_grows), all(max_move)), by(move, move_falls));
     update(row_of_error, trial, error);
-    const Lanes slow = hn::IfThenZeroElse(progresses, hn::Add(load(limb.row(row_of_slow)), all(1.0f)));
+    const Lanes slow = hn::IfThenZeroElse(decreases, hn::Add(load(limb.row(row_of_slow)), all(1.0f)));
     const Lanes done = hn::Add(load(limb.row(Row::Iterations)), all(1.0f));
     update(row_of_slow, slow, slow);
     update(Row::Iterations, done, done);
