@@ -306,9 +306,9 @@ class Table final : public RawTrace {
                 column.axis = point->axis;
                 if (column.role == Role::Joint) {
                     // Of two sides the second has the first one's joints.
-                    const std::string& name = side ? side->part : point->base;
-                    const auto [joint, is_new] = joints.try_emplace(name, joints.size());
-                    if (is_new) header.bones.push_back(name);
+                    const std::string& bone = side ? side->part : point->base;
+                    const auto [joint, is_new] = joints.try_emplace(bone, joints.size());
+                    if (is_new) header.bones.push_back(bone);
                     column.joint = joint->second;
                     ++axes[static_cast<std::size_t>(column.axis)];
                 }
