@@ -8,6 +8,7 @@
 #include "app/document/json_complete.hpp"
 #include "tests/app/support/child.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
@@ -82,7 +83,7 @@ TEST(JsonFile, of_100_megabytes_of_brackets_is_refused_in_no_memory) {
         if (message.find("larger than 64 MB") == message.npos) return 100;
         return static_cast<int>(std::min(99L, test::peak_megabytes() - before));
     });
-    EXPECT_LT(result, 8) << "megabytes, or 100 and more for the wrong answer";
+    EXPECT_LT(result, 8 * test::sanitizer_factor) << "megabytes, or 100 and more for the wrong answer";
     EXPECT_GE(result, 0);
 }
 
@@ -93,7 +94,7 @@ TEST(JsonFile, of_60_megabytes_of_brackets_is_refused_in_the_memory_of_its_text)
         if (message_of([&] { parse_json(brackets); }) != "line 1: nested deeper than 64") return 100;
         return static_cast<int>(std::min(99L, test::peak_megabytes() - before));
     });
-    EXPECT_LT(result, 8);
+    EXPECT_LT(result, 8 * test::sanitizer_factor);
     EXPECT_GE(result, 0);
 }
 
