@@ -49,7 +49,7 @@ std::span<const FieldText> field_texts();
 struct FieldsOf {
     template <class Struct>
     FieldsOf(const Struct& of) : table(fields<Struct>()), object(&of) {
-        if constexpr (std::default_initializable<Struct>) fresh = detail::fresh<Struct>();
+        if constexpr (std::default_initializable<Struct>) fresh = tendril::detail::fresh<Struct>();
     }
     template <class Struct>
     FieldsOf(const Struct&&) = delete;  // it would not outlive the call

@@ -52,15 +52,6 @@ Json report_json(ik::Method method, const ik::Report& report) {
             {"ran", ran_text(method, report)}};
 }
 
-Json active_limit_json(const ik::ActiveLimit& limit) {
-    return {{"joint", limit.joint},
-            {"kind", ik::name(limit.kind)},
-            {"bound", ik::name(limit.bound)},
-            {"limit_deg", degrees(limit.limit)},
-            {"needed_deg", degrees(limit.needed)},
-            {"enough", limit.enough}};
-}
-
 ik::Method method_from_name(const std::string& name, const std::string& where) {
     if (const auto method = ik::method_named(name)) return *method;
     throw std::runtime_error(where + ": expected one of " + method_names() + ", found " +

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <string>
-#include <tendril/ik/active_limit.hpp>
 #include <tendril/ik/limit.hpp>
 #include <tendril/ik/method.hpp>
 #include <tendril/ik/report.hpp>
@@ -30,9 +29,6 @@ ik::Limit limit_from_json(const Json& json, const std::string& where);
 /// {"solver", "status", "iterations", "residual", "ran"}; a residual that is not finite, or of refused input,
 /// is null. "ran" is ran_text().
 Json report_json(ik::Method method, const ik::Report& report);
-
-/// {"joint", "kind", "bound", "limit_deg", "needed_deg", "enough"}
-Json active_limit_json(const ik::ActiveLimit& limit);
 
 /// Throws std::runtime_error that begins with `where` and lists the names.
 ik::Method method_from_name(const std::string& name, const std::string& where);

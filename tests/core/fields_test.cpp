@@ -7,15 +7,25 @@
 #include <functional>
 #include <memory>
 #include <set>
+#include <tendril/chain/chain.hpp>
 #include <tendril/humanoid/feet.hpp>
 #include <tendril/humanoid/footsteps.hpp>
 #include <tendril/humanoid/hands.hpp>
 #include <tendril/humanoid/hold.hpp>
+#include <tendril/humanoid/lint.hpp>
 #include <tendril/humanoid/look_at.hpp>
 #include <tendril/humanoid/spring_chain.hpp>
+#include <tendril/ik/active_limit.hpp>
 #include <tendril/ik/curve.hpp>
+#include <tendril/ik/incident.hpp>
+#include <tendril/ik/many.hpp>
 #include <tendril/ik/mechanisms.hpp>
 #include <tendril/ik/options.hpp>
+#include <tendril/ik/state.hpp>
+#include <tendril/ik/tree.hpp>
+#include <tendril/ik/two_bone.hpp>
+#include <tendril/rig/aim.hpp>
+#include <tendril/rig/backward.hpp>
 #include <tendril/rig/unit.hpp>
 #include <tendril/rope/body.hpp>
 #include <tendril/rope/collider.hpp>
@@ -45,7 +55,8 @@ Table table(const char* name) {
 
 std::vector<Table> tables() {
     using namespace humanoid;
-    std::vector<Table> all{table<BodyOptions>("BodyOptions"),
+    std::vector<Table> all{table<FixedOptions>("FixedOptions"),
+                           table<BodyOptions>("BodyOptions"),
                            table<BodyTarget>("BodyTarget"),
                            table<BodyState>("BodyState"),
                            table<FeetOptions>("FeetOptions"),
@@ -58,12 +69,25 @@ std::vector<Table> tables() {
                            table<HoldState>("HoldState"),
                            table<LookAtOptions>("LookAtOptions"),
                            table<LookAtState>("LookAtState"),
+                           table<LintSettings>("LintSettings"),
                            table<SpringOptions>("SpringOptions"),
                            table<SpringChainState>("SpringChainState"),
                            table<ik::AngleLimit>("AngleLimit"),
                            table<ik::CurveOptions>("CurveOptions"),
                            table<ik::Limit>("Limit"),
                            table<ik::Options>("Options"),
+                           table<ik::TwoBoneOptions>("TwoBoneOptions"),
+                           table<ik::ManyOptions>("ManyOptions"),
+                           table<ik::TreeOptions>("TreeOptions"),
+                           table<ik::TreeJoint>("TreeJoint"),
+                           table<ik::Effector>("TreeEffector"),
+                           table<ik::FlipRule>("FlipRule"),
+                           table<ik::IncidentOptions>("IncidentOptions"),
+                           table<ik::Report>("Report"),
+                           table<ik::ActiveLimit>("ActiveLimit"),
+                           table<ik::PoleMemory>("PoleMemory"),
+                           table<ik::LimitMemory>("LimitMemory"),
+                           table<ik::LinkageOptions>("LinkageOptions"),
                            table<ik::Linkage>("Linkage"),
                            table<ik::LinkageSketch>("LinkageSketch"),
                            table<ik::LinkageState>("LinkageState"),
@@ -89,6 +113,10 @@ std::vector<Table> tables() {
                            table<rope::Box>("Box"),
                            table<rope::Drive>("Drive"),
                            table<signal::Curve>("Curve"),
+                           table<rig::AimOptions>("AimOptions"),
+                           table<rig::BackwardOptions>("BackwardOptions"),
+                           table<rig::CollectOptions>("CollectOptions"),
+                           table<rig::ParentConstraintOptions>("ParentConstraintOptions"),
                            table<rig::TransformFilter>("TransformFilter"),
                            table<rig::Unit>("Unit")};
     for (const signal::Kind& kind : signal::kinds())

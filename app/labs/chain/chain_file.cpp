@@ -10,42 +10,6 @@
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/kit/arguments.hpp"
 
-namespace {
-
-/// Limits of a saved report: steps; metres (points are at most 3.5e9 m apart).
-constexpr double max_steps = 1e9, max_distance = 1e10;
-
-}  // namespace
-
-template <>
-std::span<const tendril::Field> tendril::fields<tendril::ik::Report>() noexcept {
-    using ik::Report;
-    static const auto statuses = app::library_names<ik::Status, 7>();
-    static const Field rows[] = {field<&Report::status>("status", statuses),
-                                 field<&Report::iterations>("iterations", {0, max_steps}),
-                                 field<&Report::residual>("residual", {0, max_distance}, "m"),
-                                 field<&Report::closed_form>("closed_form"),
-                                 field<&Report::perturbations>("perturbations", {0, max_steps}),
-                                 field<&Report::least_squares_steps>("least_squares_steps", {0, max_steps}),
-                                 field<&Report::restarts>("restarts", {0, max_steps}),
-                                 field<&Report::off_plane>("off_plane", {0, max_distance}, "m")};
-    return rows;
-}
-
-template <>
-std::span<const tendril::Field> tendril::fields<tendril::ik::ActiveLimit>() noexcept {
-    using ik::ActiveLimit;
-    static const auto kinds = app::library_names<ik::JointKind, 7>();
-    static const auto bounds = app::library_names<ik::Bound, 8>();
-    static const Field rows[] = {field<&ActiveLimit::joint>("joint", {0, app::max_limited_segments}),
-                                 field<&ActiveLimit::kind>("kind", kinds),
-                                 field<&ActiveLimit::bound>("bound", bounds),
-                                 field<&ActiveLimit::limit>("limit", {-10, 10}, "rad"),
-                                 field<&ActiveLimit::needed>("needed", {-10, 10}, "rad"),
-                                 field<&ActiveLimit::enough>("enough")};
-    return rows;
-}
-
 namespace tendril::app {
 namespace {
 

@@ -184,8 +184,7 @@ void ChainProgram::curve() {
         say("};");
     }
     say("ik::CurveOptions options;");
-    for (const std::string& each : member_texts(chosen.options))
-        say("options" + each + ";");
+    for (const std::string& each : member_texts(chosen.options)) say("options" + each + ";");
     if (!weights.empty()) say("options.weights = weights;");
     line("");
     say("// Make these once. State and memory go with the joints from frame to frame.");
@@ -207,7 +206,7 @@ void ChainProgram::curve() {
 
 void ChainProgram::options() {
     const ReachSettings& chosen = part_.reach;
-    const ik::Options options = solver_options(chosen, ik::Solver(part_.chain).reach());
+    ik::Options options = solver_options(chosen, ik::Solver(part_.chain).reach());
     const auto set = [&](const std::string& what, const std::string& value, const char* comment = "") {
         say("options." + what + " = " + value + ";" + comment);
     };
@@ -216,19 +215,13 @@ void ChainProgram::options() {
     set("tolerance", literal(*options.tolerance),
         chosen.options.tolerance ? "  // metres" : "  // metres: 1e-3 of the reach");
     set("max_iterations", std::to_string(options.max_iterations));
-    if (options.pole) {
-        say("options.pole = glm::vec3" + braced(*options.pole) + ";  // the elbow or knee points at it");
-        if (options.pole_turn != plain_options.pole_turn) set("pole_turn", "ik::PoleTurn::EachJoint");
-    }
     plane();
-    if (options.snap_back != plain_options.snap_back) set("snap_back", literal(options.snap_back));
-    if (options.soft_zone != plain_options.soft_zone)
-        set("soft_zone", literal(options.soft_zone), "  // part of the reach");
-    const bool damped = chosen.method == ik::Method::Dls || chosen.method == ik::Method::SvdDls;
-    if (damped) set("damping", literal(options.damping), "  // part of the reach");
-    if (options.restarts) set("restarts", std::to_string(*options.restarts));
-    if (options.twist != plain_options.twist)
-        set("twist", literal(options.twist), ("  // " + degrees_text(options.twist) + " degrees").c_str());
+    options.tolerance.reset(), options.max_iterations = plain_options.max_iterations;
+    options.plane.reset(), options.limits = {};
+    for (const Field& field : fields<ik::Options>())
+        if (ik::honours(chosen.method, field, limit_count() > 0))
+            for (const std::string& each : member_texts({{&field, 1}, &options, &plain_options}))
+                say("options" + each + ";" + (field.name == std::string_view("twist") ? "  // radians" : ""));
 }
 
 void ChainProgram::plane() {

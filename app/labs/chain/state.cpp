@@ -20,7 +20,7 @@ Json reach_state(const ChainPart& part) {
     if (!part.result) return json;
     json["report"] = report_json(part.result->method, part.result->report);
     if (part.result->active_limit) {
-        json["active_limit"] = active_limit_json(*part.result->active_limit);
+        json["active_limit"] = save_fields(*part.result->active_limit);
         json["explanation"] = active_limit_text(*part.result->active_limit);
     }
     return json;

@@ -237,22 +237,17 @@ std::string struct_text(FieldsOf of, const std::string& margin) {
 
 std::vector<std::string> ik_memory_texts(const std::string& name, const ik::State& state) {
     std::vector<std::string> texts;
-    const auto set = [&](const char* what, const std::string& value) {
-        texts.push_back(name + '.' + what + " = " + value + ';');
-    };
+    const auto set = [&](const std::string& member) { texts.push_back(name + member + ';'); };
     if (state.limits.valid) {
-        set("limits.valid", "true");
-        if (state.limits.limited) set("limits.limited", "true");
-        set("limits.target", "glm::vec3" + braced(state.limits.target));
-        set("limits.damping", literal(state.limits.damping));
+        set(".limits.valid = true");
+        for (const std::string& each : member_texts(state.limits)) set(".limits" + each);
     }
-    if (state.side != ik::Side::Free) set("side", "tendril::ik::Side::" + pascal_text(ik::name(state.side)));
+    if (state.side != ik::Side::Free) set(".side = tendril::ik::Side::" + pascal_text(ik::name(state.side)));
     if (state.pole.valid) {
-        set("pole.valid", "true");
-        if (state.pole.turn == ik::PoleTurn::EachJoint) set("pole.turn", "tendril::ik::PoleTurn::EachJoint");
-        set("pole.pole", "glm::vec3" + braced(state.pole.pole));
-        set("pole.target", "glm::vec3" + braced(state.pole.target));
-        if (state.pole.twist != 0.0f) set("pole.twist", literal(state.pole.twist));
+        set(".pole.valid = true");
+        ik::PoleMemory pole = state.pole;
+        pole.joints.clear();
+        for (const std::string& each : member_texts(pole)) set(".pole" + each);
     }
     return texts;
 }

@@ -4,7 +4,6 @@
 //      "source_min": 0, "source_max": 1, "target_min": 0, "target_max": 1}
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <string>
@@ -17,14 +16,6 @@
 #include "app/document/names.hpp"
 
 namespace tendril::app {
-
-/// The library's names of enumerators that count from 0, for a table of fields.
-template <class Enum, std::size_t count>
-std::array<const char*, count> library_names() {
-    std::array<const char*, count> names{};
-    for (std::size_t i = 0; i < count; ++i) names[i] = ik::name(static_cast<Enum>(i));
-    return names;
-}
 
 /// The keys alone; tangents of 0 are omitted.
 Json curve_keys_json(const signal::Curve& curve);

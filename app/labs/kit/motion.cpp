@@ -10,6 +10,20 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/document/workspace.hpp"
+#include "app/fields/fields.hpp"
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Motion>() noexcept {
+    using app::Motion;
+    static constexpr auto paths = app::motion_paths.name_array();
+    static constexpr Field rows[] = {
+        field<&Motion::path>("path", paths),
+        field<&Motion::centre>("centre", {-max_magnitude, max_magnitude}, "m"),
+        field<&Motion::radius>("radius", {0.0, app::max_motion_radius}, "m"),
+        field<&Motion::period>("period", {app::min_period, app::max_period}, "s"),
+        field<&Motion::ticks>("ticks", {0.0, 36'000.0})};
+    return rows;
+}
 
 namespace tendril::app {
 
@@ -46,21 +60,13 @@ glm::vec3 motion_point(const Motion& motion, std::uint32_t ticks) {
 }
 
 Json save_motion(const Motion& motion) {
-    return {{"path", motion_paths.name(motion.path)},
-            {"centre", point(motion.centre)},
-            {"radius", number(motion.radius)},
-            {"period", number(motion.period)},
-            {"ticks", motion.ticks}};
+    return save_fields(motion);
 }
 
 Motion load_motion(const JsonPlace& place) {
     Motion motion;
-    motion.path = motion_paths.value(place["path"].text());
-    motion.centre = place["centre"].point();
-    motion.radius = place["radius"].number(0.0f, max_motion_radius);
-    motion.period = place["period"].number(min_period, max_period);
-    const int last = static_cast<int>(ticks_per_round(motion)) - 1;
-    motion.ticks = static_cast<std::uint32_t>(place["ticks"].integer(0, last));
+    load_all_fields(place, motion);
+    place["ticks"].integer(0, static_cast<int>(ticks_per_round(motion)) - 1);
     return motion;
 }
 

@@ -2,20 +2,16 @@
 #include "chain/checks.hpp"
 #include "chain/pull.hpp"
 #include "tendril/chain/chain.hpp"
+#include "tendril/magnitude.hpp"
 
 namespace tendril {
-namespace {
 
-constexpr int max_iterations = 100'000;
-
-Result check_options(const FixedOptions& options) noexcept {
-    if (options.iterations < 1 || options.iterations > max_iterations) {
-        return detail::refused("fixed", "options.iterations", "1 to 100000", options.iterations);
-    }
-    return detail::check_length("fixed", "options.tolerance", options.tolerance);
+template <>
+std::span<const Field> fields<FixedOptions>() noexcept {
+    static constexpr Field rows[] = {field<&FixedOptions::iterations>("iterations", {1, 100'000}),
+                                     field<&FixedOptions::tolerance>("tolerance", {0.0, max_magnitude}, "m")};
+    return rows;
 }
-
-}  // namespace
 
 Result Chain::forward(glm::vec3 target) {
     if (const Result bad = detail::check_point("forward", "target", target); !bad) return bad;
@@ -32,7 +28,7 @@ Result Chain::backward(glm::vec3 target) {
 FixedResult Chain::fixed(glm::vec3 target, const FixedOptions& options) {
     FixedResult result;  // the only return value, so that no message is copied
     result.outcome = detail::check_point("fixed", "target", target);
-    if (result.outcome) result.outcome = check_options(options);
+    if (result.outcome) result.outcome = check_fields("fixed", options, "options");
     if (!result.outcome || empty()) return result;
 
     result.residual = detail::distance(segments_.front().position, target);

@@ -71,27 +71,16 @@ glm::dquat limited(const glm::dquat& from, const glm::dquat& to, double radians)
 }
 
 Result check_axis(std::string_view operation, std::string_view argument, const glm::dvec3& axis) noexcept {
-    if (const Result bad = check_vector(operation, argument, axis); !bad) return bad;
     const double size = length(axis);
     return size > shortest ? Result() : refused(operation, argument, "longer than 1e-9", size);
 }
 
 }  // namespace
 
-Result check(const AimOptions& options, std::string_view operation) noexcept {
+Result check(const AimOptions& options, const char* operation) noexcept {
+    if (const Result bad = check_fields(operation, options); !bad) return bad;
     if (const Result bad = check_axis(operation, "primary.axis", options.primary.axis); !bad) return bad;
-    if (const Result bad = check_vector(operation, "primary.target", options.primary.target); !bad)
-        return bad;
-    if (const Result bad = check_weight(operation, "primary.weight", options.primary.weight); !bad)
-        return bad;
-    if (const Result bad = check_axis(operation, "secondary.axis", options.secondary.axis); !bad) return bad;
-    if (const Result bad = check_vector(operation, "secondary.target", options.secondary.target); !bad)
-        return bad;
-    if (const Result bad = check_weight(operation, "secondary.weight", options.secondary.weight); !bad)
-        return bad;
-    if (const Result bad = check_weight(operation, "weight", options.weight); !bad) return bad;
-    if (options.max_speed >= 0.0) return {};
-    return refused(operation, "max_speed", "at least 0", options.max_speed);
+    return check_axis(operation, "secondary.axis", options.secondary.axis);
 }
 
 AimResult aim(const Transform& item, const AimOptions& options, double dt) noexcept {
@@ -131,3 +120,25 @@ const char* name(AimWarning warning) noexcept {
 }
 
 }  // namespace tendril::rig
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rig::AimPart>() noexcept {
+    using rig::AimPart;
+    static constexpr const char* kinds[] = {"location", "direction"};
+    static constexpr FieldRange anywhere{-max_magnitude, max_magnitude};
+    static constexpr Field rows[] = {field<&AimPart::axis>("axis", anywhere),
+                                     field<&AimPart::target>("target", anywhere, "m"),
+                                     field<&AimPart::kind>("kind", kinds), field<&AimPart::weight>("weight")};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rig::AimOptions>() noexcept {
+    using rig::AimOptions;
+    static constexpr double unlimited = std::numeric_limits<double>::infinity();
+    static constexpr Field rows[] = {nested<&AimOptions::primary>("primary"),
+                                     nested<&AimOptions::secondary>("secondary"),
+                                     field<&AimOptions::weight>("weight"),
+                                     field<&AimOptions::max_speed>("max_speed", {0.0, unlimited}, "rad/s")};
+    return rows;
+}

@@ -8,10 +8,12 @@
 #include "rig/math.hpp"
 #include "rig/normal_equations.hpp"
 #include "rig/parameters.hpp"
+#include "tendril/magnitude.hpp"
 
 namespace tendril::rig {
 namespace {
 
+constexpr int most_iterations = 10'000;
 constexpr int parts = 9;  ///< residuals per bone: three each of translation, rotation, scale
 // Work, in steps of about 30 ns, as in Rig::work.
 constexpr std::uint64_t work_a_solved_bone = 4, multiplications_a_step = 48;
@@ -66,7 +68,7 @@ class Descent {
         std::vector<double> left = left_of(now);
         double cost = squared(left);
         damping_ = 1e-3;
-        const int most = std::clamp(options_.max_iterations, 1, 10'000);
+        const int most = std::clamp(options_.max_iterations, 1, most_iterations);
         for (iterations_ = 0; cost > 1e-24; ++iterations_) {
             if (iterations_ == most) {
                 stopped_ = true;
@@ -243,3 +245,13 @@ BackwardReport solve_backward(const Rig& rig, State& state, Workspace& workspace
 }
 
 }  // namespace tendril::rig
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rig::BackwardOptions>() noexcept {
+    using rig::BackwardOptions;
+    static constexpr Field rows[] = {
+        field<&BackwardOptions::max_iterations>("max_iterations", {1.0, rig::most_iterations}),
+        field<&BackwardOptions::metres_per_radian>("metres_per_radian", {0.0, max_magnitude}, "m/rad"),
+        field<&BackwardOptions::max_work>("max_work", {0.0, 1e15})};
+    return rows;
+}

@@ -22,3 +22,11 @@ double loop_ratio(std::size_t index, std::size_t count) noexcept {
 }
 
 }  // namespace tendril::rig
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rig::CollectOptions>() noexcept {
+    using rig::CollectOptions;
+    static constexpr Field rows[] = {field<&CollectOptions::include_parent>("include_parent"),
+                                     field<&CollectOptions::recursive>("recursive")};
+    return rows;
+}

@@ -94,3 +94,12 @@ Transform parent_constraint(const ConstraintChild& child, std::span<const Constr
 }
 
 }  // namespace tendril::rig
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rig::ParentConstraintOptions>() noexcept {
+    using rig::ParentConstraintOptions;
+    static constexpr Field rows[] = {field<&ParentConstraintOptions::maintain_offset>("maintain_offset"),
+                                     nested<&ParentConstraintOptions::filter>("filter"),
+                                     field<&ParentConstraintOptions::weight>("weight")};
+    return rows;
+}

@@ -1,6 +1,7 @@
 // Limits, reports and active limits as JSON.
 #include "app/io/solver_json.hpp"
 #include "app/document/json_complete.hpp"
+#include "app/fields/fields.hpp"
 
 #include <gtest/gtest.h>
 
@@ -109,14 +110,14 @@ TEST(SolverJson, reports_and_holds_are_finite_whatever_they_hold) {
     ran.restarts = 1;
     EXPECT_TRUE(test::says(ran_text(ik::Method::TwoBone, ran), "Two-bone least squares 1"));
     EXPECT_EQ(ran_text(ik::Method::Fabrik, {}), "FABRIK, accelerated");
-    const Json hold = active_limit_json({.joint = 1,
-                                         .kind = ik::JointKind::Hinge,
-                                         .bound = ik::Bound::Max,
-                                         .limit = std::numbers::pi_v<float> / 2,
-                                         .needed = std::numbers::pi_v<float>,
-                                         .enough = true});
+    const ik::ActiveLimit hold{.joint = 1,
+                               .kind = ik::JointKind::Hinge,
+                               .bound = ik::Bound::Max,
+                               .limit = std::numbers::pi_v<float> / 2,
+                               .needed = std::numbers::pi_v<float>,
+                               .enough = true};
     EXPECT_EQ(
-        hold.dump(),
+        save_fields(hold).dump(),
         R"({"joint":1,"kind":"hinge","bound":"max","limit_deg":90.0,"needed_deg":180.0,"enough":true})");
 }
 

@@ -33,6 +33,7 @@
 #include <vector>
 
 #include "tendril/chain/segment.hpp"
+#include "tendril/fields.hpp"
 #include "tendril/result.hpp"
 #include "tendril/vec3.hpp"
 
@@ -149,3 +150,6 @@ class Chain {
 };
 
 }  // namespace tendril
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::FixedOptions>() noexcept;

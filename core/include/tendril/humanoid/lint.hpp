@@ -37,9 +37,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "tendril/fields.hpp"
 #include "tendril/humanoid/bone_map.hpp"
 #include "tendril/humanoid/clip.hpp"
 #include "tendril/humanoid/ground.hpp"
@@ -128,3 +130,6 @@ Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& cl
                     const LintSettings& settings = {});
 
 }  // namespace tendril::humanoid
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::LintSettings>() noexcept;

@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include "tendril/fields.hpp"
 #include "tendril/ik/limit.hpp"
 
 namespace tendril::ik {
@@ -30,3 +32,6 @@ struct ActiveLimit {
 };
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::ActiveLimit>() noexcept;

@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "tendril/fields.hpp"
 #include "tendril/vec3.hpp"
 
 namespace tendril::ik {
@@ -98,3 +99,6 @@ FlipCause collinear_cause(const ReachPose& before, const ReachPose& after) noexc
 float angle_between(glm::vec3 a, glm::vec3 b) noexcept;
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::FlipRule>() noexcept;

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "tendril/fields.hpp"
 #include "tendril/ik/flip.hpp"
 #include "tendril/ik/observer.hpp"
 #include "tendril/quat.hpp"
@@ -240,3 +241,8 @@ class IncidentFinder {
 };
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::BendLimit>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::IncidentOptions>() noexcept;

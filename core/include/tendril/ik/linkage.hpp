@@ -292,6 +292,8 @@ class LinkageSolver {
 }  // namespace tendril::ik
 
 template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::LinkageOptions>() noexcept;
+template <>
 std::span<const tendril::Field> tendril::fields<tendril::ik::Link>() noexcept;
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::ik::LinkPoint>() noexcept;

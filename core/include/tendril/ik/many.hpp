@@ -39,6 +39,7 @@
 #include <span>
 #include <string_view>
 
+#include "tendril/fields.hpp"
 #include "tendril/ik/limit.hpp"
 #include "tendril/ik/plane.hpp"
 #include "tendril/ik/report.hpp"
@@ -176,3 +177,6 @@ ManySummary solve_many(Batch& batch, std::span<glm::vec3> joints, std::span<cons
                        std::span<ManyReport> reports, const ManyOptions& options = {}) noexcept;
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::ManyOptions>() noexcept;

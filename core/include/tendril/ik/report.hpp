@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+
+#include "tendril/fields.hpp"
 
 namespace tendril::ik {
 
@@ -36,3 +39,6 @@ struct Report {
 };
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Report>() noexcept;

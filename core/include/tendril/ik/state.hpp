@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "tendril/fields.hpp"
 #include "tendril/ik/plane.hpp"
 #include "tendril/ik/pole_turn.hpp"
 #include "tendril/quat.hpp"
@@ -75,3 +76,8 @@ Result check(const State& state, std::size_t bones) noexcept;
 Result local_rotations(const State& state, std::span<glm::quat> out) noexcept;
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::PoleMemory>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::LimitMemory>() noexcept;

@@ -36,6 +36,7 @@
 #include <optional>
 #include <span>
 
+#include "tendril/fields.hpp"
 #include "tendril/ik/observer.hpp"
 #include "tendril/ik/report.hpp"
 #include "tendril/quat.hpp"
@@ -118,3 +119,10 @@ class Tree {
 };
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::TreeJoint>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Effector>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::TreeOptions>() noexcept;

@@ -13,7 +13,9 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
+#include "tendril/fields.hpp"
 #include "tendril/ik/report.hpp"
 #include "tendril/vec3.hpp"
 
@@ -50,3 +52,6 @@ struct TwoBoneResult {
 TwoBoneResult two_bone(const TwoBone& limb, glm::vec3 target, const TwoBoneOptions& options = {}) noexcept;
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::TwoBoneOptions>() noexcept;

@@ -20,7 +20,9 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 
+#include "tendril/fields.hpp"
 #include "tendril/result.hpp"
 #include "tendril/rig/transform.hpp"
 
@@ -65,10 +67,15 @@ struct AimResult {
 
 /// Checks options from untrusted input. Refused: numbers that are not finite or over max_magnitude, zero
 /// axes, weights outside 0 to 1, a negative max_speed. aim() itself checks nothing.
-Result check(const AimOptions& options, std::string_view operation = "aim") noexcept;
+Result check(const AimOptions& options, const char* operation = "aim") noexcept;
 
 /// `item` is a global transform. `dt` in seconds matters only with max_speed: at 0, less or NaN no time
 /// passes, and a limited rotation does not turn.
 AimResult aim(const Transform& item, const AimOptions& options, double dt = 0.0) noexcept;
 
 }  // namespace tendril::rig
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rig::AimPart>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rig::AimOptions>() noexcept;

@@ -16,8 +16,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "tendril/fields.hpp"
 #include "tendril/rig/workspace.hpp"
 
 namespace tendril::rig {
@@ -58,3 +60,6 @@ BackwardReport solve_backward(const Rig& rig, State& state, Workspace& workspace
                               const BackwardOptions& options = {});
 
 }  // namespace tendril::rig
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rig::BackwardOptions>() noexcept;

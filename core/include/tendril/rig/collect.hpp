@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
+#include "tendril/fields.hpp"
 #include "tendril/rig/hierarchy.hpp"
 
 namespace tendril::rig {
@@ -24,3 +26,6 @@ Result collect_children(const Hierarchy& hierarchy, ElementId root, const Collec
 double loop_ratio(std::size_t index, std::size_t count) noexcept;
 
 }  // namespace tendril::rig
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rig::CollectOptions>() noexcept;

@@ -19,6 +19,7 @@
 #include <span>
 #include <string_view>
 
+#include "tendril/fields.hpp"
 #include "tendril/result.hpp"
 #include "tendril/rig/transform.hpp"
 
@@ -60,3 +61,8 @@ Transform parent_constraint(const ConstraintChild& child, std::span<const Constr
 Transform filtered(const Transform& from, const Transform& to, const TransformFilter& filter) noexcept;
 
 }  // namespace tendril::rig
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rig::TransformFilter>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rig::ParentConstraintOptions>() noexcept;

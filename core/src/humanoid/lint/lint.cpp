@@ -83,3 +83,18 @@ LintReport lint(const Skeleton& skeleton, const BoneMap& given, const Clip& clip
 }
 
 }  // namespace tendril::humanoid
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::humanoid::LintSettings>() noexcept {
+    using humanoid::LintSettings;
+    static constexpr FieldRange metres{0.0, 1e3}, degrees{0.0, 180.0};
+    static constexpr Field rows[] = {field<&LintSettings::rate>("rate", {0.0, 1000.0}, "1/s"),
+                                     field<&LintSettings::skating>("skating", metres, "m"),
+                                     field<&LintSettings::floating>("floating", metres, "m"),
+                                     field<&LintSettings::sinking>("sinking", metres, "m"),
+                                     field<&LintSettings::knee>("knee", degrees, "deg"),
+                                     field<&LintSettings::turn>("turn", degrees, "deg"),
+                                     field<&LintSettings::shift>("shift", {0.0, 1e3}),
+                                     field<&LintSettings::beyond>("beyond", degrees, "deg")};
+    return rows;
+}

@@ -339,3 +339,14 @@ ManySummary Batch::Parts::solve(Parts& parts, std::span<const glm::vec3> targets
 }
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::ManyOptions>() noexcept {
+    using ik::ManyOptions;
+    static constexpr Field rows[] = {field<&ManyOptions::tolerance>("tolerance", {0.0, max_magnitude}, "m"),
+                                     field<&ManyOptions::max_iterations>("max_iterations", {1, 1'000'000}),
+                                     field<&ManyOptions::every_iteration>("every_iteration"),
+                                     field<&ManyOptions::restarts>("restarts", {0, 1000}),
+                                     nested<&ManyOptions::plane>("plane")};
+    return rows;
+}

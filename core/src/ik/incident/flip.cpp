@@ -165,3 +165,12 @@ FlipCause collinear_cause(const ReachPose& before, const ReachPose& after) noexc
 }
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::FlipRule>() noexcept {
+    using ik::FlipRule;
+    static constexpr Field rows[] = {field<&FlipRule::degrees>("degrees", {1.0, 180.0}, "deg"),
+                                     field<&FlipRule::angle_share>("angle_share"),
+                                     field<&FlipRule::reach_share>("reach_share")};
+    return rows;
+}

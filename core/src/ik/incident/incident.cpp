@@ -7,6 +7,7 @@
 
 #include "ik/incident/thresholds.hpp"
 #include "ik/math.hpp"
+#include "tendril/magnitude.hpp"
 
 namespace tendril::ik {
 namespace {
@@ -391,3 +392,24 @@ void IncidentFinder::finish() {
 }
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::BendLimit>() noexcept {
+    using ik::BendLimit;
+    static constexpr Field rows[] = {field<&BendLimit::joint>("joint", {1.0, 1e6}),
+                                     field<&BendLimit::min>("min", {0.0, 180.0}, "deg"),
+                                     field<&BendLimit::max>("max", {0.0, 180.0}, "deg")};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::IncidentOptions>() noexcept {
+    using ik::IncidentOptions;
+    static constexpr Field rows[] = {
+        field<&IncidentOptions::flip_degrees>("flip_degrees", {1.0, 180.0}, "deg"),
+        field<&IncidentOptions::resolution>("resolution", {0.0, max_magnitude}, "m"),
+        field<&IncidentOptions::fps>("fps", {0.0, 1e6}, "1/s").over(),
+        list<&IncidentOptions::limits>("limits"),
+        field<&IncidentOptions::end_effector>("end_effector", {1.0, 1e6})};
+    return rows;
+}

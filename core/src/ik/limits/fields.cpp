@@ -8,7 +8,6 @@
 namespace tendril::ik {
 namespace {
 
-constexpr const char* kinds[] = {"free", "suture", "hinge", "gliding", "saddle", "pivot", "ball_and_socket"};
 constexpr double half_turn = static_cast<double>(detail::pi);
 constexpr FieldRange any_angle{-half_turn, half_turn}, half_angle{0.0, half_turn};
 
@@ -17,7 +16,7 @@ constexpr Field angle(const char* name, FieldRange range) noexcept {
     return field<member>(name, range, "rad");
 }
 
-constexpr Field kind = field<&Limit::kind>("kind", kinds);
+constexpr Field kind = field<&Limit::kind>("kind", detail::kind_names);
 constexpr Field axis = field<&Limit::axis>("axis", {-max_magnitude, max_magnitude});
 constexpr Field min = angle<&Limit::min>("min", any_angle), max = angle<&Limit::max>("max", any_angle);
 constexpr Field up = angle<&Limit::up>("up", half_angle), down = angle<&Limit::down>("down", half_angle),
@@ -30,7 +29,7 @@ constexpr Field stiffness = field<&Limit::stiffness>("stiffness", {0.0, max_stif
 }  // namespace
 
 const char* name(JointKind of) noexcept {
-    return kinds[static_cast<std::size_t>(of)];
+    return detail::kind_names[static_cast<std::size_t>(of)];
 }
 
 std::span<const Field> limit_fields(JointKind of) noexcept {

@@ -17,6 +17,9 @@
 
 namespace tendril::ik::detail {
 
+inline constexpr const char* kind_names[] = {"free",   "suture", "hinge",          "gliding",
+                                             "saddle", "pivot",  "ball_and_socket"};
+
 /// Angles within this distance of a bound are at it; radians.
 inline constexpr float at_bound = 1e-4f;
 inline constexpr float pi = 3.14159265f;

@@ -4,6 +4,7 @@
 #include "ik/linkage/solve.hpp"
 #include "math/checks.hpp"
 #include "math/elementary.hpp"
+#include "math/ranges.hpp"
 #include "tendril/magnitude.hpp"
 
 namespace tendril::ik {
@@ -80,9 +81,13 @@ bool aims(std::span<const LinkTarget> targets, const detail::LinkageWork& work) 
     return true;
 }
 
+constexpr Field solver_rows[] = {
+    field<&LinkageOptions::max_iterations>("max_iterations", {1, 1'000'000}),
+    field<&LinkageOptions::tolerance>("tolerance", {0.0, state_limit}, "m").over(),
+    index<&LinkageOptions::watched>("watched", "links")};
+
 bool allows(const LinkageOptions& options, const detail::LinkageWork& work) noexcept {
-    return options.max_iterations >= 1 && options.max_iterations <= 1000000 &&
-           (!options.tolerance || (*options.tolerance > 0.0 && *options.tolerance <= state_limit)) &&
+    return tendril::detail::are_in_range<solver_rows>(&options) &&
            std::ranges::all_of(options.watched, [&](std::size_t each) {
                return each < work.linkage.links.size() && work.linkage.links[each].joint != LinkJoint::Ball;
            });
@@ -188,3 +193,8 @@ std::span<const std::size_t> LinkageSolver::open_closures() const noexcept {
 }
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::LinkageOptions>() noexcept {
+    return ik::solver_rows;
+}

@@ -10,6 +10,7 @@
 #include "ik/pole/pole.hpp"
 #include "ik/solve/validate.hpp"
 #include "math/checks.hpp"
+#include "math/ranges.hpp"
 #include "tendril/ik/options.hpp"
 #include "tendril/ik/two_bone.hpp"
 
@@ -131,14 +132,17 @@ TwoBoneResult solve(const TwoBone& limb, const glm::vec3& target, const TwoBoneO
     return result;
 }
 
+constexpr Field two_bone_rows[] = {
+    field<&TwoBoneOptions::pole>("pole", {-max_magnitude, max_magnitude}, "m"),
+    field<&TwoBoneOptions::start_stretch_ratio>("start_stretch_ratio", stretch_starts).over(),
+    field<&TwoBoneOptions::max_stretch_scale>("max_stretch_scale", stretch_scales),
+    field<&TwoBoneOptions::twist>("twist", {-max_magnitude, max_magnitude}, "rad")};
+
 bool are_valid(const TwoBone& limb, const glm::vec3& target, const TwoBoneOptions& options) noexcept {
     using tendril::detail::is_point;
     return is_point(limb.root) && is_point(limb.mid) && is_point(limb.tip) && is_point(target) &&
            within(limb.upper, 0.0f, max_magnitude) && within(limb.lower, 0.0f, max_magnitude) &&
-           (!options.pole || is_point(*options.pole)) && options.start_stretch_ratio > 0.0f &&
-           within(options.start_stretch_ratio, stretch_starts) &&
-           within(options.max_stretch_scale, stretch_scales) &&
-           within(options.twist, -max_magnitude, max_magnitude);
+           tendril::detail::are_in_range<two_bone_rows>(&options);
 }
 
 }  // namespace
@@ -187,3 +191,8 @@ template Report two_bone_solve(Problem&, Watched) noexcept;
 
 }  // namespace detail
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::TwoBoneOptions>() noexcept {
+    return ik::two_bone_rows;
+}

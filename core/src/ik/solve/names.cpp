@@ -1,6 +1,7 @@
 // Names used in commands, files and messages.
 #include <cstddef>
 
+#include "ik/limits/joint.hpp"
 #include "tendril/ik/active_limit.hpp"
 #include "tendril/ik/method.hpp"
 #include "tendril/ik/observer.hpp"
@@ -8,6 +9,25 @@
 #include "tendril/ik/report.hpp"
 
 namespace tendril::ik {
+namespace {
+
+constexpr const char* statuses[] = {"Converged", "Stretched",      "TooClose",    "Limited",
+                                    "Stalled",   "IterationLimit", "InvalidInput"};
+constexpr const char* bounds[] = {"min", "max", "up", "down", "left", "right", "twist_min", "twist_max"};
+
+/// A saved report's: steps; metres, as points are at most 3.5e9 m apart.
+constexpr FieldRange steps{0.0, 1e9}, distances{0.0, 1e10}, angles{-10.0, 10.0};
+
+constexpr Field report_rows[] = {field<&Report::status>("status", statuses),
+                                 field<&Report::iterations>("iterations", steps),
+                                 field<&Report::residual>("residual", distances, "m"),
+                                 field<&Report::closed_form>("closed_form"),
+                                 field<&Report::perturbations>("perturbations", steps),
+                                 field<&Report::least_squares_steps>("least_squares_steps", steps),
+                                 field<&Report::restarts>("restarts", steps),
+                                 field<&Report::off_plane>("off_plane", distances, "m")};
+
+}  // namespace
 
 const char* name(Method method) noexcept {
     constexpr const char* names[] = {"fabrik", "fabrik_plain", "ccd",     "jacobian_transpose",
@@ -23,14 +43,11 @@ std::optional<Method> method_named(std::string_view text) noexcept {
 }
 
 const char* name(Status status) noexcept {
-    constexpr const char* names[] = {"Converged", "Stretched",      "TooClose",    "Limited",
-                                     "Stalled",   "IterationLimit", "InvalidInput"};
-    return names[static_cast<std::size_t>(status)];
+    return statuses[static_cast<std::size_t>(status)];
 }
 
 const char* name(Bound bound) noexcept {
-    constexpr const char* names[] = {"min", "max", "up", "down", "left", "right", "twist_min", "twist_max"};
-    return names[static_cast<std::size_t>(bound)];
+    return bounds[static_cast<std::size_t>(bound)];
 }
 
 const char* name(AngleFrom from) noexcept {
@@ -45,3 +62,20 @@ const char* name(Phase phase) noexcept {
 }
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Report>() noexcept {
+    return ik::report_rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::ActiveLimit>() noexcept {
+    using ik::ActiveLimit;
+    static constexpr Field rows[] = {field<&ActiveLimit::joint>("joint", {0.0, 1e6}),
+                                     field<&ActiveLimit::kind>("kind", ik::detail::kind_names),
+                                     field<&ActiveLimit::bound>("bound", ik::bounds),
+                                     field<&ActiveLimit::limit>("limit", ik::angles, "rad"),
+                                     field<&ActiveLimit::needed>("needed", ik::angles, "rad"),
+                                     field<&ActiveLimit::enough>("enough")};
+    return rows;
+}

@@ -15,6 +15,8 @@ namespace {
 
 constexpr const char* operation = "ik::State";
 constexpr glm::quat unturned{1.0f, 0.0f, 0.0f, 0.0f};
+/// From the root: two coordinates of at most 1e9 m, and a chain's reach beyond.
+constexpr FieldRange offsets{-4e9, 4e9};
 
 Result check_finite(const Argument& argument, const glm::vec3& p) noexcept {
     for (const float coordinate : {p.x, p.y, p.z}) {
@@ -76,3 +78,24 @@ Result local_rotations(const State& state, std::span<glm::quat> out) noexcept {
 }
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::PoleMemory>() noexcept {
+    using ik::PoleMemory;
+    static constexpr Field rows[] = {
+        field<&PoleMemory::turn>("turn", ik::detail::turn_names),
+        field<&PoleMemory::pole>("pole", ik::offsets, "m"),
+        field<&PoleMemory::target>("target", ik::offsets, "m"),
+        field<&PoleMemory::twist>("twist", {-max_magnitude, max_magnitude}, "rad"),
+        list<&PoleMemory::joints>("joints", ik::offsets, "m").up_to(1'000'001)};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::LimitMemory>() noexcept {
+    using ik::LimitMemory;
+    static constexpr Field rows[] = {field<&LimitMemory::limited>("limited"),
+                                     field<&LimitMemory::target>("target", ik::offsets, "m"),
+                                     field<&LimitMemory::damping>("damping", {0.0, 100.0})};
+    return rows;
+}

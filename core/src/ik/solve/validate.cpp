@@ -12,7 +12,7 @@
 namespace tendril::ik {
 namespace {
 
-constexpr const char *turns[] = {"whole_chain", "each_joint"}, *sides[] = {"free", "left", "right"};
+constexpr const char* sides[] = {"free", "left", "right"};
 constexpr FieldRange anywhere{-max_magnitude, max_magnitude};
 
 constexpr std::uint16_t bit(Method method) noexcept {
@@ -29,7 +29,7 @@ constexpr Field option_rows[] = {
     list<&Options::limits>("limits"),
     nested<&Options::plane>("plane"),
     field<&Options::pole>("pole", anywhere, "m"),
-    field<&Options::pole_turn>("pole_turn", turns).by(iterating, none),
+    field<&Options::pole_turn>("pole_turn", detail::turn_names).by(iterating, none),
     field<&Options::snap_back>("snap_back").by(iterating, all),
     field<&Options::tip_orientation>("tip_orientation", unit_length),
     field<&Options::soft_zone>("soft_zone"),

@@ -30,6 +30,8 @@ inline bool within(float value, FieldRange range) noexcept {
 /// Ranges of start_stretch_ratio (low end excluded) and of max_stretch_scale.
 inline constexpr FieldRange stretch_starts{0.0, 1.0}, stretch_scales{1.0, 100.0};
 
+inline constexpr const char* turn_names[] = {"whole_chain", "each_joint"};
+
 /// Unit length to 1e-3.
 inline bool is_unit(const glm::quat& q) noexcept {
     return within(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 0.998f, 1.002f);

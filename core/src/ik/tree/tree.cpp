@@ -8,6 +8,8 @@
 #include "ik/solve/validate.hpp"
 #include "ik/tree/workspace.hpp"
 #include "math/checks.hpp"
+#include "math/ranges.hpp"
+#include "tendril/magnitude.hpp"
 
 namespace tendril::ik {
 
@@ -31,10 +33,15 @@ Result check_joint(std::size_t index, const TreeJoint& joint) noexcept {
     return check_length("Tree", {"joints", index, "length"}, joint.length);
 }
 
-bool is_valid(const Effector& effector, std::size_t joints) noexcept {
-    return effector.joint < joints && tendril::detail::is_point(effector.target) &&
-           tendril::detail::is_length(effector.weight);
-}
+constexpr Field joint_rows[] = {index<&TreeJoint::parent>("parent", "joints", true),
+                                field<&TreeJoint::length>("length", {0.0, max_magnitude}, "m")};
+constexpr Field effector_rows[] = {index<&Effector::joint>("joint", "joints"),
+                                   field<&Effector::target>("target", {-max_magnitude, max_magnitude}, "m"),
+                                   field<&Effector::weight>("weight", {0.0, max_magnitude})};
+constexpr Field tree_rows[] = {field<&TreeOptions::tolerance>("tolerance", {0.0, max_magnitude}, "m"),
+                               field<&TreeOptions::max_iterations>("max_iterations", {1, 1'000'000}),
+                               field<&TreeOptions::every_iteration>("every_iteration"),
+                               field<&TreeOptions::plain>("plain")};
 
 /// Whether no two effectors with a weight share a joint.
 bool are_apart(TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
@@ -49,14 +56,14 @@ bool are_apart(TreeScratch& scratch, std::span<const Effector> effectors) noexce
 
 bool is_valid(TreeScratch& scratch, std::span<const glm::vec3> joints, std::span<const Effector> effectors,
               const TreeOptions& options) noexcept {
+    using namespace tendril::detail;
     if (joints.size() != scratch.joints.size()) return false;
-    if (options.tolerance && !tendril::detail::is_length(*options.tolerance)) return false;
-    if (options.max_iterations < 1 || options.max_iterations > 1'000'000) return false;
+    if (!are_in_range<tree_rows>(&options)) return false;
     for (const glm::vec3& joint : joints) {
-        if (!tendril::detail::is_point(joint)) return false;
+        if (!is_point(joint)) return false;
     }
     for (const Effector& effector : effectors) {
-        if (!is_valid(effector, joints.size())) return false;
+        if (effector.joint >= joints.size() || !are_in_range<effector_rows>(&effector)) return false;
     }
     if (!options.rotations.empty() && options.rotations.size() != joints.size()) return false;
     if (!std::all_of(options.rotations.begin(), options.rotations.end(), is_unit)) return false;
@@ -160,3 +167,18 @@ TreeReport Tree::solve(std::span<glm::vec3> joints, std::span<const Effector> ef
 }
 
 }  // namespace tendril::ik
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::TreeJoint>() noexcept {
+    return ik::joint_rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::Effector>() noexcept {
+    return ik::effector_rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::ik::TreeOptions>() noexcept {
+    return ik::tree_rows;
+}
