@@ -34,7 +34,7 @@ struct TrunkMass {
 };
 constexpr TrunkMass trunk_masses[]{{0.1117, 0.094}, {0.1633, 0.438}, {0.1596, 0.797}};
 constexpr double head_share = 0.0694, head_height = 1.2;
-constexpr double hand_share = 0.0061, hand_part = 0.25;    // of the lower arm's length, beyond the wrist
+constexpr double hand_share = 0.0061, hand_part = 0.25;    // lower arm lengths, beyond the wrist
 constexpr double foot_share = 0.0137, foot_part = 0.4415;  // from the heel to the tip of the toes
 
 // Fractions of the leg's length.

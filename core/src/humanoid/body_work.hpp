@@ -93,7 +93,7 @@ inline constexpr std::size_t max_rows = 3 * effector_count + 1 + max_contacts;  
 
 struct Body::Work {
     BodyJoints joints;
-    std::vector<std::int32_t> parents;  ///< of all nodes
+    std::vector<std::int32_t> parents;  ///< parent of each node
     std::vector<std::size_t> needed;    ///< mapped bones and all nodes above them, parents first
     std::vector<Bone> bones;
     std::vector<detail::Link> links;

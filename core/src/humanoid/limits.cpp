@@ -62,7 +62,7 @@ class DefaultLimits {
     /// Whether the shoulder is too short for a collar bone: where rigs have such a stub, the whole arm turns
     /// about it.
     bool is_stub(Bone shoulder, Bone upper, Bone lower, Bone hand) const {
-        constexpr double stub = 0.1;  // of the arm's length; a collar bone is a quarter of it
+        constexpr double stub = 0.1;  // arm lengths; a collar bone is 0.25
         for (const Bone each : {shoulder, upper, lower, hand})
             if (map_[each].node < 0) return false;
         const auto way = [&](Bone from, Bone to) {

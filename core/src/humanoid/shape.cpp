@@ -183,7 +183,7 @@ class Shape {
         }
         return best;
     }
-    /// Follows the column up from the hips to the node that the arms hang on, and on to the head.
+    /// Follows the column up from the hips to the node where the arms branch, and on to the head.
     void read_column(std::size_t hips, const Pair& legs) {
         Path column;
         auto next = highest_child(hips, legs);

@@ -1,6 +1,6 @@
-// Feet of IK rigs that hang outside the legs. Some exported rigs keep their control hierarchy: the foot is a
-// child of the root, where the animator moved it as an IK target, and the lower leg ends in nothing. Solvers
-// need the foot below the leg:
+// Feet of IK rigs that are not children of the legs. Some exported rigs keep their control hierarchy: the
+// foot is a child of the root, where the animator moved it as an IK target, and the lower leg has no child.
+// Solvers need the foot below the leg:
 //
 //     for (const LooseFoot& each : loose_feet(skeleton, match_bones(skeleton)))
 //         if (each.fits)

@@ -35,7 +35,7 @@ namespace tendril::humanoid {
 /// A part of the body's mass.
 struct MassPoint {
     std::size_t node = 0;  ///< the node that moves it
-    glm::dvec3 at{0.0};    ///< in the node's space
+    glm::dvec3 at{0.0};    ///< position in the node's space
     double share = 0.0;    ///< fraction of the body's mass; they sum to 1
     bool operator==(const MassPoint&) const = default;
 };

@@ -7,16 +7,16 @@
 //     const ik::CurveReport report = tail->bend(pose, points, {.weight = 0.5f});
 //
 // The curve begins at the chain's first node, wherever the pose has it, and runs through the control points.
-// They are in the space of the node that the chain hangs on, in metres: a tail's curve moves with the hips,
-// so IK may move the hips before or after bend(). Bend a spine before IK; hands and feet then still reach
-// their targets.
+// They are in the space of the chain's parent node, in metres: a tail's curve moves with the hips, so IK may
+// move the hips before or after bend(). Bend a spine before IK; hands and feet then still reach their
+// targets.
 //
 // Method: ik::place_along() (tendril/ik/curve.hpp) in the space of the points. The bones turn from the rest
 // pose no further than the curve requires: first all of them by the shortest arc from the first bone to the
 // curve's beginning, then each with the curve's rotation-minimising frame. Rest twist stays, and a curve that
 // moves a little rolls a little, unless it begins straight against the first bone's rest direction.
 //
-// Only rotations change, and with `fit` lengths. Nodes that hang on the chain follow. With a weight of 0 the
+// Only rotations change, and with `fit` lengths. Children of the chain's nodes follow. With a weight of 0 the
 // pose stays bit-identical.
 //
 // Cost: O(bones + control points + nodes of the skeleton). bend() does not allocate or throw.

@@ -15,11 +15,11 @@
 //  2. A foot in stance (its sole low over the clip's own floor, and slow) is locked: its toe keeps its
 //     horizontal position. Locked or not, rays from above the ankle, down through heel and toe, find the
 //     ground. The foot turns by the mean of the two normals and keeps the clip's height over its floor,
-//     measured from whichever of the two is supported (on level ground, the higher hit). A foot that is about
-//     to land, by how it brakes, goes to a place where its whole sole has ground under it, or, where treads
-//     are too short for that, as much of it as fits. When a lock is released, its offset eases out. A foot in
-//     the air is lifted over the ground ahead of it, as far as it comes before it lands, in time to rise
-//     steadily; it is kept back in front of a riser until it is above it.
+//     measured from whichever of the two is supported (on level ground, the higher hit). A foot that brakes
+//     to land goes to a place where its whole sole has ground under it, or, where treads are too short for
+//     that, as much of it as fits. When a lock is released, its offset eases out. A foot in the air is lifted
+//     over the ground ahead, up to where it lands, early enough to rise steadily; it waits in front of a
+//     riser until it is above it.
 //  3. The pelvis is lowered until the legs reach, by a critically damped spring, or faster than the spring
 //     if a foot on the ground needs it.
 //  4. Legs are solved in closed form. A knee stays on the side where the clip has it; a straight one bends
@@ -31,10 +31,10 @@
 // Hips, and knees and feet in the air, move relative to the clip no faster than `max_speed`, except along a
 // slope, which a foot follows at any speed; a jump of the ground eases in. A walk of 1 m/s passes no more
 // than 10 mm through slopes of up to 40 degrees and stairs of up to 0.18 m on 0.28 m. Faster walks or steeper
-// stairs may need more than `max_speed`: such a foot goes on through the edges, and the report says how deep
+// stairs may need more than `max_speed`: such a foot passes through the edges, and the report says how deep
 // and how late it is (`FootReport::depth`). A foot that goes down stairs may be late: it is kept above the
-// upper step until its heel is clear, and if the clip has put it down by then, the remaining way takes as
-// long as `max_speed` allows, 5 frames for 0.16 m. It counts as planted once it arrives.
+// upper step until its heel is clear, and if the clip has put it down by then, the rest of the way down takes
+// as long as `max_speed` requires, 5 frames for 0.16 m. It counts as planted once it arrives.
 //
 // Sources: R. S. Johansen, "Automated Semi-Procedural Animation for Character Locomotion", 2009 (feet on
 // uneven ground); L. Kovar, J. Schreiner, M. Gleicher, "Footskate Cleanup for Motion Capture Editing", SCA

@@ -1,4 +1,4 @@
-// Spring bones: ears, antennae or a tail that trail behind the bone they hang on.
+// Spring bones: ears, antennae or a tail that trail behind their parent bone.
 //
 //     Expected<SpringChain> ear = SpringChain::make(skeleton, map, *skeleton.find("ear_l"));
 //     SpringChainState state;                                 // a value: save it, put it back

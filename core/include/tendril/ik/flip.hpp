@@ -29,7 +29,7 @@ struct FlipRule {
 
 /// A chain in one frame: at least one joint, all finite. Metres, or one other unit throughout.
 struct ReachPose {
-    std::vector<glm::vec3> joints{};  ///< from the root on
+    std::vector<glm::vec3> joints{};  ///< root first
     std::optional<glm::vec3> target{};
     std::optional<glm::vec3> pole{};  ///< the pole target
 

@@ -85,7 +85,7 @@ struct IncidentOptions {
 
 /// At least two joints, the same number in every frame. Values may be NaN or infinite.
 struct TraceFrame {
-    std::span<const glm::vec3> joints;  ///< from the root on, metres
+    std::span<const glm::vec3> joints;  ///< from the root, metres
     std::optional<glm::vec3> target{}, pole{};
     std::span<const glm::quat> rotations{};  ///< unit, in the space of the joints, not of the
                                              ///< parent bone; empty, or at least one per bone

@@ -8,7 +8,7 @@
 //     const LinkageReport report = solver.solve(state, {.drivers = {&crank, 1}});
 //     draw(solver.point(*linkage.find_point("P")));
 //
-// The links form a tree: each hangs on an earlier one, or on the ground, by one joint. Closures close the
+// The links form a tree: one joint attaches each to an earlier link or to the ground. Closures close the
 // loops: two points or two frames coincide. Drivers give a joint a value; targets pull points to positions.
 //
 // A solve satisfies, in order of priority: closures and the joints' ranges; drivers; exact targets; weighted

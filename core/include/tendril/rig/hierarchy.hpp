@@ -211,7 +211,7 @@ class Hierarchy {
 
     std::vector<Node> nodes_;
     Node roots_;         ///< not an element: the roots are its children
-    Values values_[3];   ///< by Pose
+    Values values_[3];   ///< indexed by Pose
     Index free_ = none;  ///< the first free slot
     std::size_t size_ = 0;
     std::uint64_t recomputations_ = 0;
