@@ -34,9 +34,9 @@ class Standing {
              const Facing& at)
         : at_(at), feet_{foot_at_rest(skeleton, map, rest, true), foot_at_rest(skeleton, map, rest, false)} {}
 
-    /// The rotation from rest to standing. `with_leg`: the leg's turn. A foot that rests as if it stood keeps
-    /// its rest; any other (a bind pose in mid-run) turns with its leg and points like the other foot, or 30
-    /// degrees below level.
+    /// The rotation from rest to standing. `with_leg`: the leg's turn. A foot that could stand as it is at
+    /// rest keeps its rest; any other (a bind pose in mid-run) turns with its leg and points like the other
+    /// foot, or 30 degrees below level.
     glm::dquat turn(bool left, const glm::dquat& with_leg) const {
         const auto &own = feet_[left ? 0 : 1], &other = feet_[left ? 1 : 0];
         if (!own || stands(*own)) return {1.0, 0.0, 0.0, 0.0};

@@ -6,8 +6,8 @@
 //     place(skeleton, pose, placements);
 //
 // Keys are interpolated exactly as in glTF (glTF 2.0, appendix C, "Animation Sampler Interpolation Modes"):
-// before the first key and after the last one their values hold. Rotations take the short way: spherically
-// for Linear, by component and renormalised for Cubic.
+// the first value holds before the first key, the last one after the last. Rotations take the short way:
+// spherically for Linear, by component and renormalised for Cubic.
 //
 // Cost: O(log keys) per track.
 #pragma once

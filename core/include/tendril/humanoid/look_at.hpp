@@ -32,8 +32,8 @@ struct LookAtOptions {
     double neck_limit = 0.5;
     double head_limit = 0.9;
 
-    /// Half-angle of the view cone about the clip's gaze, 108 degrees; 0 to pi. If a target comes back
-    /// into view on the other side before the ease has ended, the gaze goes to it by way of the clip's gaze.
+    /// Half-angle of the view cone about the clip's gaze, by default 108 degrees; 0 to pi. If a target comes
+    /// back into view on the other side during the ease, the gaze goes to it by way of the clip's gaze.
     double view = 1.8849555921538759;
     double half_life = 0.1;  ///< for easing when a target enters or leaves the view; 1e-6 to 10
     double max_speed = 8.0;  ///< radians per second; 1e-6 to 1e3

@@ -14,8 +14,8 @@
 // does the same between T-poses.)
 //
 // Root. The topmost node above the hips travels with them over the ground; it neither rises nor turns. Its
-// other children travel with it. A helper beside the body that stands on one of its nodes at rest (within a
-// tenth of a leg), as IK targets do, follows that node; so do palm bones beside the hand.
+// other children travel with it. A helper beside the body that is at one of its nodes at rest (within a tenth
+// of a leg), like an IK target, follows that node; so do palm bones beside the hand.
 //
 // Feet. The hips move as the source's do, scaled by the ratio of the legs' lengths. The source's stances are
 // found as the lint finds them (lint.hpp), and are kept: the sole stands on the target's ground, and slides

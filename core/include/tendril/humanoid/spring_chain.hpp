@@ -37,7 +37,7 @@ struct SpringOptions {
     double strength = 2.0;
     double critical_damping = 0.3;  ///< 0 swings for ever, 1 is the fastest without overshoot; 0 to 10
     double weight = 1.0;            ///< fraction of the swing that the chain shows: 0 to 1
-    /// Maximum turn of a bone from its pose, 60 degrees; 0 to 179 degrees. Only colliders turn it farther.
+    /// Maximum turn of a bone from its pose, by default 60 degrees; 0 to 179. Only colliders turn it farther.
     double max_angle = 1.0471975511965976;
     double hit_radius = 0.0;  ///< metres between tips and colliders, in the character's space; 0 to 1000
     rig::Transform root{};    ///< where the character stands, as FeetOptions::root

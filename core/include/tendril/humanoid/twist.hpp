@@ -1,7 +1,7 @@
-// Twist spread along the bones of the arms, as flesh spreads it. Skin that follows two bones twisted against
-// each other collapses between them (the candy-wrapper artefact of linear blending; L. Kavan, S. Collins, J.
-// Zara, C. O'Sullivan, "Geometric skinning with approximate dual quaternion blending", ACM Transactions on
-// Graphics 27(4), 2008).
+// Spreads twist along the bones of the arms, as flesh does. Skin that follows two bones twisted against each
+// other collapses between them (the candy-wrapper artefact of linear blending; L. Kavan, S. Collins, J. Zara,
+// C. O'Sullivan, "Geometric skinning with approximate dual quaternion blending", ACM Transactions on Graphics
+// 27(4), 2008).
 //
 //     for (const TwistBone& bone : twist_bones(skeleton, map)) ...  // the mapped upper and lower arms
 //     const BoneTwist twist = bone_twist(bone, turn, end_turn);     // from the turns at both its ends

@@ -56,7 +56,7 @@ struct ManyOptions {
     int max_iterations = 100;
     /// Runs all max_iterations even after converging; for measuring and for comparing solvers.
     bool every_iteration = false;
-    /// For the scalar solver within limits, as Options::restarts.
+    /// As Options::restarts, for the scalar solver within limits.
     std::optional<int> restarts{};
     /// Keeps every chain in a plane of this normal through its own root, as Options::plane. No state is kept:
     /// with Side::Free a chain stays on its joints' side. Not for a batch with limits: a plane has its own.

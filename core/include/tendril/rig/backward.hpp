@@ -5,7 +5,7 @@
 // global pose and the wanted one, starting from the current control values. Method: Levenberg-Marquardt (D.
 // W. Marquardt, "An algorithm for least-squares estimation of nonlinear parameters", SIAM 11(2), 1963) with
 // derivatives from finite differences of forward solves, so no unit needs an inverse. Bool controls are tried
-// both ways, one after the other. Springs count as at rest.
+// both ways, one after the other. Springs are taken to be at rest.
 //
 // A difference that the rig cannot express remains as the residual of a bone.
 //

@@ -1,10 +1,10 @@
 // Makes a child follow the weighted mean of several parents, none of which need be its parent in the tree.
 //
-// With maintain_offset each parent's goal for the child is where the child would be if attached to that
-// parent in the initial pose, so only the parent's motion since then is passed on. Without it the goal is the
-// parent itself. Goals are averaged by weight: translations and scales linearly; rotations as quaternions in
-// the hemisphere of the first parent's, then normalised. So the child moves continuously while weights
-// change, including through zero, as long as one of them is not zero.
+// With maintain_offset each parent's goal for the child is the child's transform if it had been attached to
+// that parent in the initial pose, so only the parent's motion since then is passed on. Without it the goal
+// is the parent itself. Goals are averaged by weight: translations and scales linearly; rotations as
+// quaternions in the hemisphere of the first parent's, then normalised. So the child moves continuously while
+// weights change, including through zero, as long as one of them is not zero.
 //
 // The filter passes single axes, in the local space of the child's parent in the tree: translation, rotation
 // and scale per axis, rotation as Euler angles (euler.hpp). A rotation with all three angles passed, or none,
