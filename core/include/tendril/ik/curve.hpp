@@ -28,7 +28,7 @@
 namespace tendril::ik {
 
 enum class CurveKind : std::uint8_t {
-    Hermite,  ///< through all control points; tangents are half the vector from the previous to the next
+    Hermite,  ///< through all control points; tangents: half the vector from the previous point to the next
     BSpline   ///< uniform cubic from the first control point to the last; smoother, but only passes near the
               ///< others
 };
