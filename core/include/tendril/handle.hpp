@@ -13,7 +13,7 @@ struct Handle {
     std::uint32_t index = none;
     std::uint32_t generation = 0;  ///< odd while the slot is in use
 
-    /// Whether it was ever issued; its object may have been removed since.
+    /// Whether it was ever issued. The object may have been removed since.
     explicit operator bool() const noexcept { return index != none; }
     bool operator==(const Handle&) const = default;
 };

@@ -1,4 +1,4 @@
-// What an editing call returns: success, or an error code and a message that names the argument and its
+// The result of an editing call: success, or an error code and a message that names the argument and its
 // value.
 //
 // Nothing in the library throws, and it can be compiled without exceptions and RTTI. A refused call changes
@@ -12,7 +12,7 @@
 //     solver->solve(...);
 //
 // A broken precondition is not a refusal: reading `*expected` without a value is a bug in the calling
-// program. It ends the program with the message on stderr.
+// program, which ends with the message on stderr.
 #pragma once
 
 #include <cstddef>

@@ -8,7 +8,7 @@
 
 namespace tendril::detail {
 
-/// Checks position and length for their ranges; `argument` has no member.
+/// Checks the ranges of position and length; `argument` has no member.
 Result check_segment(std::string_view operation, const Argument& argument, const Segment& value) noexcept;
 
 }  // namespace tendril::detail

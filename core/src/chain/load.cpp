@@ -12,8 +12,8 @@
 namespace tendril {
 namespace {
 
-/// How far a bone may be from its length. Within 1e3 m that is the invariant. Further out, rounding a placed
-/// point costs up to half the spacing of floats per axis, up to 0.87 of the spacing in total.
+/// Tolerance of a bone's length. Within 1e3 m it is the invariant's. Further out, rounding a placed point
+/// costs up to half the spacing of floats per axis, up to 0.87 of the spacing in total.
 double allowed_error(const glm::vec3& from, const Segment& to) {
     const double allowed = 1e-4 * std::max(1.0, static_cast<double>(to.length));
     const double furthest =
@@ -37,7 +37,7 @@ std::size_t first_loose(std::span<const Segment> segments) {
     return std::min(i, segments.size());
 }
 
-/// Pulls towards the tail, from segment `first` on. A segment at the given position of its predecessor goes
+/// Pulls towards the tail, from segment `first` on. A segment given at its predecessor's position continues
 /// straight on.
 void recalculate_from(std::span<Segment> segments, std::size_t first, const glm::vec3& fallback) {
     if (first >= segments.size()) return;

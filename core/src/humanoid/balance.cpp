@@ -14,8 +14,8 @@ namespace {
 
 using namespace rig::detail;
 
-// De Leva's table 4, males: share of the body's mass, and centre, as a part of the segment's length from its
-// upper end. Heights of the trunk's three parts and the head: parts of the line from mid hips to neck.
+// De Leva's table 4, males: share of the body's mass, and centre, in segment lengths from the upper end.
+// Heights of the trunk's three parts and the head: fractions of the line from mid hips to neck.
 
 struct LimbMass {
     Bone bone, end;
@@ -34,10 +34,10 @@ struct TrunkMass {
 };
 constexpr TrunkMass trunk_masses[]{{0.1117, 0.094}, {0.1633, 0.438}, {0.1596, 0.797}};
 constexpr double head_share = 0.0694, head_height = 1.2;
-constexpr double hand_share = 0.0061, hand_part = 0.25;    // of the lower arm's length, beyond the wrist
+constexpr double hand_share = 0.0061, hand_part = 0.25;    // lower arm lengths, beyond the wrist
 constexpr double foot_share = 0.0137, foot_part = 0.4415;  // from the heel to the tip of the toes
 
-// Parts of the leg's length.
+// Fractions of the leg's length.
 constexpr double tip_part = 0.07, ball_width = 0.11, end_width = 0.08;
 constexpr double stands_below = 0.02, lifted_above = 0.08;
 
@@ -130,8 +130,8 @@ double standing_at(double height, double leg) noexcept {
     return inside * inside * (3.0 - 2.0 * inside);
 }
 
-/// Unit length up to 60 degrees of pitch. From there on it shrinks, to zero for a vertical sole, where it
-/// turns round.
+/// The sole's horizontal direction: unit length up to 60 degrees of pitch, then shrinking to zero for a
+/// vertical sole, where it reverses.
 glm::dvec3 seen_from_above(const glm::dvec3& sole) noexcept {
     const glm::dvec3 level{sole.x, 0.0, sole.z};
     const double size = std::max(length(level), 0.5 * length(sole));

@@ -65,7 +65,7 @@ struct BentChain::Plan {
              const ik::CurveOptions& options, double factor) noexcept;
 };
 
-/// False if the chain has no length. A bone without length points as the one before it, or else the next.
+/// False if the chain has no length. A bone without length points like the one before it, or else the next.
 bool BentChain::Plan::take_rest(const Skeleton& skeleton) {
     const std::vector<rig::Transform> pose = rest_pose(skeleton);
     if (!place_nodes(seen_from_points(parent(pose)), pose, placed)) return false;
@@ -186,11 +186,11 @@ ik::CurveReport BentChain::Plan::bend(std::span<rig::Transform> pose, std::span<
     return report;
 }
 
-/// Turns the nodes as the solve has turned the bones, and then each by the shortest arc to where its bone
-/// should point: a pose may move a node within its parent, and a scale may shear it.
+/// Turns the nodes as the solve turned the bones, then each by the shortest arc to where its bone should
+/// point: a pose may move a node within its parent, and a scale may shear it.
 void BentChain::Plan::lay(std::span<rig::Transform> pose, Placement at, const glm::dquat& swing,
                           const ik::CurveOptions& options, double factor) noexcept {
-    bool moved = false;  // the bones before the first one with a weight keep their bits
+    bool moved = false;  // bones before the first with a weight keep their bits
     for (std::size_t i = 0; i < bones(); ++i) {
         rig::Transform& local = pose[nodes[i]];
         glm::dvec3& end = pose[nodes[i + 1]].translation;

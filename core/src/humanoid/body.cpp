@@ -36,7 +36,7 @@ double mobility_of(Bone bone) noexcept {
     }
 }
 
-/// How far a limb may stop short of its full length, as part of that length: 0.7 mm for a leg of 0.85 m.
+/// How far a limb may stop short of full length, as a fraction of it: 0.7 mm for a leg of 0.85 m.
 constexpr double slack_part = 0.0008;
 
 /// The link of a bone; -1: the body lacks the bone.
@@ -58,7 +58,7 @@ Result check_targets(std::span<const BodyTarget> targets) noexcept {
                            effector_names[index]);
         seen |= 1u << index;
         char place[] = "targets[0]";
-        place[8] = static_cast<char>('0' + i);  // no effector twice, so at most 6
+        place[8] = static_cast<char>('0' + i);  // no effector comes twice, so at most 6
         if (const Result bad = check_fields("Body::solve", target, place); !bad) return bad;
     }
     return {};

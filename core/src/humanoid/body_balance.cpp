@@ -1,5 +1,5 @@
-// Balance in a body's solve: one equation that keeps the centre of mass over the feet. It is one-sided, as a
-// contact's: it acts once a step would take the centre out of the safe part of the support.
+// Balance in a body's solve: one equation that keeps the centre of mass over the feet. It is one-sided, like
+// a contact: it acts once a step would take the centre out of the safe part of the support.
 #include <algorithm>
 #include <array>
 
@@ -58,7 +58,7 @@ BodySolve::FootPlace BodySolve::foot_at(const Goal& goal, std::size_t side,
     const glm::dquat turn = math::compose(math::compose(above, link.turn), conjugate(link.start));
     const SolePoints& clip = clip_soles_[side];
     const glm::dvec3& was = work_.placements[link.node].position;
-    if (goal.target) {  // it may be out of reach: the foot supports where it is
+    if (goal.target) {  // the target may be out of reach: the foot supports where it is
         place.sole = moved_sole(clip, was, link.position, turn);
         return place;
     }
@@ -80,8 +80,8 @@ BodySolve::FootPlace BodySolve::foot_at(const Goal& goal, std::size_t side,
     return place;
 }
 
-/// The safe part of the support. A foot in the middle of a step supports as if it were not lifted. With a
-/// foot's target, heights are measured over the ground, because it may take the foot anywhere.
+/// The safe part of the support. A foot in the middle of a step supports as if it were not lifted. If a foot
+/// has a target, heights are measured over the ground, because the target may take the foot anywhere.
 Support BodySolve::safe_support(const std::array<SolePoints, 2>& soles,
                                 const std::array<SoleHeights, 2>& over) const noexcept {
     return find_support(*work_.soles, soles, foot_target_ ? sole_heights(soles, options_.ground) : over)
@@ -110,7 +110,7 @@ void BodySolve::roll_feet() noexcept {
     safe_ = safe_support(soles_, over_);
 }
 
-/// Allows the imbalance that the clip's pose already has.
+/// Allows the imbalance of the clip's own pose.
 void BodySolve::start_balance() noexcept {
     balances_ = false;
     if (!options_.balance || !work_.soles) return;
@@ -135,7 +135,7 @@ double BodySolve::measure_balance() noexcept {
     return 0.5 * balance_weight * outside_ * outside_;
 }
 
-/// Finds mass_arms_: the mass that each link's turn moves. A limb without a goal is no counterweight.
+/// Finds mass_arms_, from the mass that each link's turn moves. A limb without a goal is no counterweight.
 void BodySolve::find_mass_arms() noexcept {
     std::array<double, bone_count> mass{};
     std::array<glm::dvec3, bone_count> moment{};
@@ -179,11 +179,11 @@ void BodySolve::add_balance_row(const glm::dvec3& out, double by) noexcept {
 }
 
 /// The support moves with the feet: a foot that follows a target moves its part along, and one that rolls
-/// lifts its heel or its toes off the ground. Adds to the row of balance how this moves the point of the safe
-/// part nearest to the centre of mass along `out`.
+/// lifts its heel or its toes off the ground. Adds to the balance row how this moves, along `out`, the point
+/// of the safe part nearest to the centre of mass.
 void BodySolve::add_support_columns(std::size_t goal_index, std::size_t side,
                                     const glm::dvec3& out) noexcept {
-    constexpr double step = 1e-3;  // radians, and parts of the leg
+    constexpr double step = 1e-3;  // radians, and leg lengths
     const Goal& goal = goals_[goal_index];
     const Link& foot = end_of(goal.effector);
     const glm::dquat above = work_.links[static_cast<std::size_t>(foot.parent)].rotation;

@@ -14,7 +14,7 @@ using namespace rig::detail;
 
 namespace {
 
-/// The rotation that a target asks of its bone, blended in by its weight from the one without it.
+/// The rotation that a target asks of its bone, blended by its weight with the rotation without it.
 glm::dquat wanted_rotation(const Link& link, const BodyTarget& target, const glm::dquat& without) noexcept {
     const glm::dquat whole = math::compose(rig::normalised(*target.rotation), conjugate(link.rest));
     return rig::blend(without, whole, target.weight);
@@ -116,7 +116,7 @@ bool BodySolve::give(std::span<rig::Transform> pose) noexcept {
     return is_sound;
 }
 
-/// Replaces the last step by the part of it that keeps to the limit.
+/// Cuts the last step down to the limit.
 void BodySolve::cut_to(double limit, double part) noexcept {
     for (int i = 0; i < max_travel_cuts; ++i, part *= 0.5) {
         put_back();

@@ -27,14 +27,14 @@ inline constexpr double contact_range = 0.15;
 /// A residual that does not shrink straightens a limb. That is a stiffness: the second derivative, which
 /// Gauss-Newton drops. More than 1, because the joints of a limb turn together.
 inline constexpr double residual_stiffness = 2.0;
-/// Maximum changes of the active limits and contacts, per step.
+/// Maximum changes of the active set, limits and contacts, per step.
 inline constexpr int max_active_set_changes = 3;
 
 // The trust region (Levenberg and Marquardt): damping is `caution` times the residual times `damping_length`.
 
 inline constexpr double first_caution = 0.25, min_caution = 0.01, max_caution = 1e6;
 inline constexpr double caution_after_success = 0.5, caution_after_failure = 8.0;  ///< factors
-/// As far as a linear step holds good: about half a limb, metres.
+/// Range in which a linear step is valid: about half a limb, metres.
 inline constexpr double damping_length = 0.5;
 inline constexpr double min_damping = 1e-8;
 inline constexpr double max_step_turn = 0.5;  ///< radians per joint and step
@@ -67,7 +67,7 @@ inline constexpr int max_travel_cuts = 4;
 /// Share of a contact's deflection that a limb without a target keeps in the next solve.
 inline constexpr double deflection_kept = 0.7;
 
-/// How cautious the next step is.
+/// Sets the damping of the next step.
 class TrustRegion {
   public:
     double damping(double residual) const noexcept {

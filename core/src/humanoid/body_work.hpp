@@ -21,7 +21,7 @@ struct Link {
     Bone bone;
     std::size_t node;
     int parent;                      ///< a link; -1 for the hips
-    double mobility;                 ///< 1: turns as readily as an upper arm
+    double mobility;                 ///< how readily it turns; an upper arm: 1
     unsigned effectors;              ///< a bit for each effector that its turn moves
     glm::dquat rest;                 ///< the node's rotation in the T-pose
     glm::dvec3 hinge;                ///< unit axis; zero: no hinge
@@ -60,7 +60,7 @@ struct BodyLimb {
     }
 };
 
-/// The node farthest from a leaf bone's joint: a fingertip, the top of the head.
+/// The node farthest from the joint of a bone without children: a fingertip, the top of the head.
 struct Tip {
     int link;
     glm::dvec3 at;  ///< from the link, in its frame; metres
@@ -73,7 +73,7 @@ struct Volume {
     unsigned moved_by;  ///< a bit for each link whose turn moves it
     glm::dvec3 from{0.0}, to{0.0};
 };
-/// Two capsules that are kept apart, by the sum of their radii or by their distance at rest if that is less.
+/// Two capsules that are kept apart, by the sum of their radii or, if less, by their distance at rest.
 struct Pair {
     std::size_t first, second;
     double apart;  ///< metres, between their axes
@@ -93,7 +93,7 @@ inline constexpr std::size_t max_rows = 3 * effector_count + 1 + max_contacts;  
 
 struct Body::Work {
     BodyJoints joints;
-    std::vector<std::int32_t> parents;  ///< of all nodes
+    std::vector<std::int32_t> parents;  ///< parent of each node
     std::vector<std::size_t> needed;    ///< mapped bones and all nodes above them, parents first
     std::vector<Bone> bones;
     std::vector<detail::Link> links;
@@ -106,7 +106,7 @@ struct Body::Work {
     std::array<int, effector_count> ends{};
     TwistNodes twist;
 
-    std::vector<Placement> placements;  ///< of all nodes; only those in `needed` are current
+    std::vector<Placement> placements;  ///< for all nodes; only those in `needed` are current
     std::vector<glm::dquat> kept;       ///< turns before a step
     glm::dvec3 kept_shift{0.0};
     std::vector<glm::dvec3> first;  ///< positions of links, then tips, at the start of the solve

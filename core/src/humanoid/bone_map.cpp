@@ -26,7 +26,7 @@ constexpr const char* names[bone_count]{
 
 using Nodes = std::array<std::int32_t, bone_count>;
 
-/// Finds bones by name, one after the other; those found before restrict where the next may be.
+/// Finds bones by name, one after the other; those already found restrict where the next may be.
 class Names {
   public:
     /// Where names give no hips or head, takes them from the shape to find the spine.
@@ -68,8 +68,8 @@ class Names {
                 return node;
         return -1;
     }
-    /// The candidate with the most left and right nodes below it; among equals, one that is called hips, or
-    /// else the one nearest to the limbs.
+    /// The candidate with the most left and right nodes below it; among equals, one named hips, or else the
+    /// one nearest to the limbs.
     std::int32_t find_hips() const {
         std::int32_t best = -1;
         std::size_t most = 0;
@@ -85,7 +85,7 @@ class Names {
         }
         return best;
     }
-    /// The nearest ancestor that is one of these parts on this side; searches up to the hips.
+    /// The nearest ancestor, up to the hips, that is one of these parts on this side.
     std::int32_t above(std::int32_t node, Side side, std::initializer_list<Part> parts) const {
         for (std::int32_t each = parent(node); each >= 0 && each != at(Bone::Hips); each = parent(each))
             if (reading(each).side == side &&
@@ -93,7 +93,7 @@ class Names {
                 return first_of_split(each);
         return -1;
     }
-    /// The first piece of a limb bone in pieces: upperarm01, above upperarm02. "arm 1, arm 2" may be both
+    /// The first piece of a split limb bone: upperarm01, above upperarm02. "arm 1, arm 2" may be the two
     /// bones of an arm.
     std::int32_t first_of_split(std::int32_t node) const {
         const Part part = reading(node).part;
@@ -106,8 +106,8 @@ class Names {
             node = next;
         return node;
     }
-    /// The first such node from the root down with one of `parts` above it; one beside or below the hips if
-    /// there is one, since a file may have several rigs.
+    /// The first such node from the root down with one of `parts` above it, preferably beside or below the
+    /// hips, since a file may have several rigs.
     std::int32_t leg_node(Part part, Side side, std::initializer_list<Part> parts) const {
         const std::int32_t hips = at(Bone::Hips);
         for (const std::int32_t around : {hips >= 0 ? parent(hips) : -1, -1})
@@ -130,8 +130,8 @@ class Names {
         set(next(shoulder, 1), upper);
         if (upper >= 0) set(shoulder, above(upper, side, {Part::Shoulder, Part::ShoulderArm}));
 
-        // Legs may be siblings of the node named hips. A foot without a leg above it, as in IK rigs, is not
-        // the body's: attached() first (attach.hpp).
+        // Legs may be siblings of the node named hips. A foot without a leg above it, as in IK rigs, counts
+        // only once attached() (attach.hpp).
         const std::int32_t foot = leg_node(Part::Foot, side, {Part::LowerLeg, Part::Leg});
         lower =
             foot >= 0 ? above(foot, side, {Part::LowerLeg, Part::Leg}) : leg_node(Part::LowerLeg, side, {});
@@ -221,7 +221,7 @@ BoneMatch weigh(const Skeleton& skeleton, std::int32_t by_name, std::int32_t by_
     return match;
 }
 
-/// If bones of the palm begin side by side at the wrist, the one with the middle finger is the hand.
+/// If palm bones begin side by side at the wrist, the one with the middle finger is the hand.
 std::int32_t middle_of_palm(const Skeleton& skeleton, std::int32_t hand) {
     const auto node = [&](std::int32_t i) -> const Node& { return skeleton[static_cast<std::size_t>(i)]; };
     if (hand < 0 || node(hand).parent < 0 || !detail::is_palm_name(node(hand).name)) return hand;
@@ -233,8 +233,8 @@ std::int32_t middle_of_palm(const Skeleton& skeleton, std::int32_t hand) {
 }
 
 using Path = std::vector<std::int32_t>;
-/// The paths from below the last common ancestor down to each node, and on from there as long as nodes have
-/// one child. Mirrored limbs give equally long paths, whichever of their nodes have bones.
+/// The paths from below the last common ancestor down to each node, continued while nodes have one child.
+/// Mirrored limbs give equally long paths, whichever of their nodes have bones.
 std::array<Path, 2> apart(const Skeleton& skeleton, std::int32_t a, std::int32_t b) {
     const auto index = [](std::int32_t node) { return static_cast<std::size_t>(node); };
     const auto path_to = [&](std::int32_t node, std::int32_t other) {
@@ -251,8 +251,8 @@ std::array<Path, 2> apart(const Skeleton& skeleton, std::int32_t a, std::int32_t
     return paths;
 }
 
-/// Limbs with equally many nodes on both sides have their bones at the same ones. Where they differ, the side
-/// that agrees more with the shape is right.
+/// Limbs with equally many nodes on both sides get their bones at the same nodes. Where they differ, the side
+/// that agrees more with the shape wins.
 void agree(const Skeleton& skeleton, const ShapeReading& shape, BoneMap& map) {
     constexpr std::size_t bones = 4;
     for (const Bone first : {Bone::LeftShoulder, Bone::LeftUpperLeg}) {
@@ -294,7 +294,7 @@ void agree(const Skeleton& skeleton, const ShapeReading& shape, BoneMap& map) {
                 mirror(1 - better, i);
         }
     }
-    // Where two bones share a node, the better-founded one keeps it.
+    // Where two bones share a node, the one with the higher confidence keeps it.
     for (BoneMatch& match : map.bones)
         for (BoneMatch& other : map.bones)
             if (&match != &other && match.node >= 0 && match.node == other.node)
@@ -369,7 +369,7 @@ BoneMap match_bones(const Skeleton& skeleton) {
 
 namespace {
 
-/// The parent in a body with all bones; the hips are their own parent.
+/// The parent bone in a body with all bones; the hips are their own parent.
 Bone parent_of(Bone bone) noexcept {
     switch (bone) {
         case Bone::Hips:

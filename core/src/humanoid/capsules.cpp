@@ -17,7 +17,7 @@ class DefaultCapsules {
   public:
     DefaultCapsules(const Skeleton& skeleton, const BoneMap& map) : map_(map), placements_(skeleton.size()) {
         place(skeleton, rest_pose(skeleton), placements_);
-        // A figure of 1.8 m measures 1.45 m from the hips to the head plus one leg.
+        // In a figure of 1.8 m, hips to head plus one leg measure 1.45 m.
         size_ =
             (way({Bone::Hips, Bone::Head}) + way({Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot})) /
             1.45;

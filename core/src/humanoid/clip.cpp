@@ -84,8 +84,8 @@ glm::dquat finished(const glm::dquat& value) noexcept {
     return rig::normalised(value);
 }
 
-/// The first key after `time` by more than the float rounding of the key's time and the clip's duration:
-/// otherwise a step would come a frame late.
+/// The first key that is after `time` by more than the float rounding of key times and the clip's duration:
+/// without that margin a step would come a frame late.
 std::size_t next_key(const std::vector<double>& times, double time) noexcept {
     constexpr double rounded = 2.0 * std::numeric_limits<float>::epsilon();
     return static_cast<std::size_t>(
@@ -112,7 +112,7 @@ void sample_track(const Track<T>& track, double time, T& value) noexcept {
             cubic_of(key(last), track.values[3 * last + 2], key(next), track.values[3 * next], span, u));
 }
 
-/// A single node, from those above it; -1: the character's space.
+/// The placement of a single node, from those above it; -1: the character's space.
 Placement placed_node(const Skeleton& skeleton, std::span<const rig::Transform> pose,
                       std::int32_t node) noexcept {
     Placement result;
@@ -175,11 +175,11 @@ void sample(const Clip& clip, const Skeleton& skeleton, double time,
 
 namespace {
 
-/// How far a key's time may be off its frame, as a part of a step: files round times. Three decimals of a
+/// How far a key's time may be off its frame, as a fraction of a step: files round times. Three decimals of a
 /// sixtieth of a second are off by 0.03.
 constexpr double rounded_frame = 0.06;
 
-/// Key times of the track with the most keys; null if none has two.
+/// Key times of the track with the most keys; null if no track has two.
 const std::vector<double>* densest_times(const Clip& clip) noexcept {
     const std::vector<double>* densest = nullptr;
     const auto look_at = [&](const std::vector<double>& times) {
@@ -203,7 +203,7 @@ std::optional<Frames> own_frames(const Clip& clip) noexcept {
     return Frames{.count = own->size(), .step = step};
 }
 
-/// The exact rate for one that a file has rounded: the nearest whole number, or 1000/1001 of one as in
+/// The exact rate for a rate that a file has rounded: the nearest whole number, or 1000/1001 of one as in
 /// television (SMPTE 12M). Four decimals of a thirtieth of a second are 0.1 % off.
 double meant(double rate) noexcept {
     constexpr double television = 1000.0 / 1001.0;
@@ -221,7 +221,7 @@ bool has_curves(const Clip& clip) noexcept {
 }
 
 /// The mean of the steps that are about as long as the median one: missing keys make some longer, keys
-/// between frames some shorter. 0 if there are no two keys.
+/// between frames some shorter. 0 with fewer than two keys.
 double usual_step(const Clip& clip) {
     const std::vector<double>* const densest = densest_times(clip);
     if (!densest) return 0.0;

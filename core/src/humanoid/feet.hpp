@@ -10,7 +10,7 @@ namespace detail {
 
 struct FeetPlan {
     Soles soles;
-    std::size_t nodes;                          // number of nodes of the skeleton
+    std::size_t nodes;                          // number of nodes in the skeleton
     std::vector<std::int32_t> above_hips;       // from the root down to the hips' parent
     std::size_t hips;                           // node
     glm::dquat hips_at_rest;                    // rotation, in the character's space

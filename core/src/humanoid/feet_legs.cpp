@@ -10,15 +10,15 @@ using namespace rig::detail;
 
 namespace {
 
-/// A foot's goal that moves faster than this part of max_speed is a jump of the ground.
+/// A foot's goal that moves faster than this fraction of max_speed is a jump of the ground.
 constexpr double jump_part = 0.6;
-/// The part of max_speed at which a foot catches up with a goal that itself rises along a slope.
+/// The fraction of max_speed at which a foot catches up with a goal that itself rises along a slope.
 constexpr double catching_up = 0.3;
-/// The part of max_speed at which the hips are lowered for a foot that comes down.
+/// The fraction of max_speed at which the hips are lowered for a foot that comes down.
 constexpr double landing = 0.15;
-/// The part of max_speed at which a foot moves relative to the clip where it goes up and aside at once.
+/// The multiple of max_speed at which a foot that goes up and aside at once moves relative to the clip.
 constexpr double both_ways = 1.25;
-/// A foot moved away from an edge stands once at most this much of the shift remains, metres.
+/// A foot shifted away from an edge stands once no more than this of the shift remains, metres.
 constexpr double shifting = 0.001;
 
 /// Knees bend forwards.
@@ -26,7 +26,7 @@ Pole pole_of(const glm::dvec3& forward) noexcept {
     return {.direction = forward, .part = 0.1, .always = true};
 }
 
-/// The largest part of a way, 0 to 1, that `may` allows, by bisection.
+/// The largest fraction of a way, 0 to 1, that `may` allows, by bisection.
 template <class May>
 double part_of_way(const May& may) noexcept {
     if (may(1.0)) return 1.0;
@@ -38,7 +38,7 @@ double part_of_way(const May& may) noexcept {
 
 }  // namespace
 
-/// How far the hips must be lowered for the leg to reach; negative if it has length to spare.
+/// How far the hips must be lowered for the leg to reach; negative if the leg has length to spare.
 double FeetStep::missing(std::size_t i, double lift) const noexcept {
     const LimbPlacement& leg = legs_[i];
     const glm::dvec3 way = minus(plus(leg.end.position, goals_[i].slip), leg.upper.position);
@@ -68,7 +68,7 @@ void FeetStep::ease_lift(std::size_t i, double goal, double rise) const noexcept
         return;
     }
     if (std::abs(change - rise) > jump_part * most) foot.ease.value -= change - rise;
-    // Eases faster upwards: what the foot must clear may be near.
+    // Eases faster upwards: the edge to clear may be near.
     const double half_life = options_.lift_half_life * (foot.ease.value < 0.0 ? 0.85 : 1.0);
     const double sprung = step_spring(foot.ease, half_life, 0.0, dt_);
     const double limit = std::max(lift_limit(i), std::abs(rise) + catching_up * most);
@@ -109,7 +109,7 @@ glm::dvec3 FeetStep::target(std::size_t i, double lift) const noexcept {
     return plus(clips_[i].ankle, {slip.x, lift, slip.z});
 }
 
-/// How fast the knee moves relative to the clip, as part of max_speed, if the hips are raised by `along` and
+/// The knee's speed relative to the clip, as a fraction of max_speed, if the hips are raised by `along` and
 /// the ankle by `lift`.
 double FeetStep::knee_speed(std::size_t i, double along, double lift) const noexcept {
     const glm::dvec3 on_hips = target(i, lift - along);
@@ -139,7 +139,7 @@ void FeetStep::spare_standing_knees() noexcept {
     state_.drop = drop;
 }
 
-/// A foot whose leg is too short to reach down stays above its place, not beside it.
+/// A foot whose leg cannot reach down stays above its place, not beside it.
 void FeetStep::stay_above(std::size_t i) noexcept {
     FootState& foot = state_.feet[i];
     const double short_by = missing(i, foot.lift) - state_.drop;

@@ -13,9 +13,9 @@ using namespace rig::detail;
 
 namespace {
 
-/// Metres and m/s. If the hips move farther and faster than this in a step, the clip has jumped.
+/// If the hips move farther and faster than this in a step, the clip has jumped; metres and m/s.
 constexpr double jump = 1.0, jump_speed = 20.0;
-/// A leg that could not reach is used again once it falls short by less than this part of pelvis_drop.
+/// A leg that could not reach is used again once it falls short by less than this fraction of pelvis_drop.
 constexpr double reach_again = 0.9;
 
 /// Keeps the transforms that a step may change, to blend or restore them.
@@ -112,7 +112,7 @@ double FeetStep::first_base() const noexcept {
     return top && top->normal.y >= steepest_ && top->height >= floor_ ? top->height - floor_ : 0.0;
 }
 
-/// Mean height of the ground over the clip's floor; state_.base if there is nothing around to stand on.
+/// Mean height of the ground over the clip's floor; state_.base if there is no ground around to stand on.
 double FeetStep::ground_around() const noexcept {
     if (ground_.kind() == GroundKind::None) return 0.0;
     const double around = floor_ + state_.base, from = around + options_.max_step;
@@ -218,7 +218,7 @@ FeetReport Feet::step(std::span<rig::Transform> pose, const Ground& ground, doub
             report.feet[i].toe = leg.tail.apply(plan.soles.feet[i].toe);
         }
     }
-    // Extremely short or long bones may leave no usable numbers.
+    // Extremely short or long bones may give unusable numbers.
     bool is_sound = saved.is_sane() && check(next);
     for (const FootReport& foot : report.feet)
         is_sound = is_sound && detail::is_within(foot.heel) && detail::is_within(foot.toe);

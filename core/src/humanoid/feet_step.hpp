@@ -8,7 +8,7 @@
 
 namespace tendril::humanoid::detail {
 
-/// A foot this near to the ground stands, metres; includes what its leg falls short by.
+/// A foot this near to the ground stands, metres; the distance includes what its leg falls short by.
 inline constexpr double touching = 0.003;
 
 /// Advances a critically damped spring.

@@ -1,5 +1,4 @@
-// The field tables of the options and states of this room's headers. States list their members in the order
-// of their declaration.
+// The field tables of options and states in tendril/humanoid. States list their members in declaration order.
 #include "tendril/fields.hpp"
 
 #include "math/ranges.hpp"

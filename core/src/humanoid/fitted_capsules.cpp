@@ -14,10 +14,10 @@ namespace {
 using namespace rig::detail;
 
 constexpr std::size_t fewest = 16;  // points
-constexpr double inside = 0.8;      // part of the points that must be within the radius
-/// Part of the points ignored at each end of the line, and at each side when centring it.
+constexpr double inside = 0.8;      // fraction of the points that must be within the radius
+/// Fraction of the points ignored at each end of the line, and at each side when centring it.
 constexpr double at_ends = 0.02, at_sides = 0.15;
-/// How thin and thick a fit may be, and how far from the bone, in radii of the default.
+/// Minimum and maximum radius of a fit, and its maximum distance from the bone, in radii of the default.
 constexpr double thinnest = 0.4, thickest = 3.0, farthest_aside = 0.75;
 /// How far before and beyond the bone the line of a head or a hand may extend, in radii of the default.
 constexpr double before = 2.0, beyond = 4.0;
@@ -40,7 +40,7 @@ struct Line {
 /// The line moved to the middle of the points' cross-section; unmoved if that is farther away than `most`.
 Line centred(const Line& line, const Facing& facing, const std::vector<glm::dvec3>& points, double most) {
     Line moved = line;
-    // A body is as wide on both sides, and arms are as thick above as below: centre along these directions.
+    // Bodies are symmetric left and right, and arms above and below: centre along these directions.
     const glm::dvec3 aside = direction_of(across(facing.left, line.direction), 0.5)
                                  .value_or(direction_of(across(facing.up, line.direction), 1e-6)
                                                .value_or(perpendicular(line.direction)));
@@ -81,7 +81,7 @@ std::optional<PlacedCapsule> fitted(const PlacedCapsule& usual, const Facing& fa
                          plus(line.from, times(line.direction, high)), radius};
 }
 
-/// For each node its bone, or its nearest mapped ancestor's.
+/// For each node, its bone or its nearest mapped ancestor's bone.
 std::vector<std::optional<Bone>> bones_of_nodes(const Skeleton& skeleton, const BoneMap& map) {
     std::vector<std::optional<Bone>> bones(skeleton.size());
     for (const std::int32_t each : skeleton.order()) {

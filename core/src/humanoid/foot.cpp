@@ -10,19 +10,19 @@ using namespace rig::detail;
 
 constexpr glm::dvec3 up{0.0, 1.0, 0.0};
 
-/// Metres. On the first step, when no speed is known, a sole lower than this over the clip's floor stands.
+/// On the first step, when no speed is known, a sole lower than this over the clip's floor stands, metres.
 constexpr double standing = 0.015;
-/// A foot locks again once its offset has eased to this part of break_distance: otherwise a foot that slides
-/// in the clip would alternate between locked and released.
+/// A foot locks again once its offset has eased to this fraction of break_distance: otherwise a foot that
+/// slides in the clip would alternate between locked and released.
 constexpr double lock_again = 0.25;
-/// How fast the ground may turn a foot, radians per second.
+/// Maximum speed at which the ground turns a foot, radians per second.
 constexpr double turn_speed = 3.0;
 /// m/s. Higher speeds come from a tiny dt, not from motion.
 constexpr double fastest = 1e3;
-/// The slowest speed of a foot that goes to its foothold, m/s, and the fastest, as a part of max_speed.
+/// The slowest speed of a foot that goes to its foothold, m/s, and the fastest, as a fraction of max_speed.
 constexpr double slowest_shift = 0.4, fastest_shift = 0.6;
-/// A foot that the clip brakes so hard that it stops within this time, this near to its floor, is about to be
-/// put down; seconds, metres.
+/// A foot is about to land if the clip brakes it so hard that it stops within this time, this near to the
+/// floor; seconds, metres.
 constexpr double landing_time = 0.15, landing_height = 0.15;
 
 constexpr double waiting = 0.75, patience = 0.65, least_clearance = 0.02;
@@ -37,7 +37,7 @@ double height_over_floor(const FootClip& clip, const FootContext& context) noexc
 
 /// The ground below heel and toe, or why the foot cannot stand there.
 struct Footing {
-    std::optional<GroundHit> heel{}, toe{};  // only what can be stood on
+    std::optional<GroundHit> heel{}, toe{};  // only if a foot can stand there
     FootAlone alone = FootAlone::No;
 
     Footing(const glm::dvec3& heel_at, const glm::dvec3& toe_at, double from,
@@ -80,8 +80,8 @@ glm::dquat eased_turn(const glm::dquat& from, const glm::dquat& to, double left,
     return slerp(from, to, std::min(1.0 - left, most / angle));
 }
 
-/// Heel and toe relative to the ankle once the foot is turned, and how far the ankle slips, since the toe is
-/// the anchor.
+/// Heel and toe relative to the turned foot's ankle, and how far the ankle slips, since the toe is the
+/// anchor.
 struct Turned {
     glm::dvec3 heel, ball, toe, slip;
 
@@ -94,8 +94,8 @@ struct Turned {
     }
 };
 
-/// The part of its shift that a foot takes in this step: eased. To a foothold it goes no faster than a knee
-/// may move, nor so slowly that it never gets there.
+/// The part of its shift that a foot takes in this step: eased, but on its way to a foothold no faster than a
+/// knee may move, nor so slow that it never gets there.
 glm::dvec3 ease_shift(FootState& foot, const FootContext& context) noexcept {
     const double way = std::sqrt(foot.shift_x * foot.shift_x + foot.shift_z * foot.shift_z);
     if (!(way > 1e-9)) {
@@ -166,8 +166,8 @@ void choose_foothold(FootState& foot, const FootClip& clip, const std::optional<
     foot.shift_x = foot.shift_z = 0.0;
 }
 
-/// Holds a foot back on its way, so that it is above a riser before it gets there. A foot that is already far
-/// behind keeps its distance: otherwise it would fall further behind at each stair.
+/// Holds a foot back so that it is above a riser before it gets there. A foot that is already far behind
+/// keeps its distance: otherwise it would fall further behind at each stair.
 glm::dvec3 hold_back(FootState& foot, const glm::dvec3& by, const glm::dvec3& eased,
                      const FootContext& context) noexcept {
     const auto back = direction_of(times(by, -1.0), 1e-9);
@@ -183,7 +183,7 @@ glm::dvec3 hold_back(FootState& foot, const glm::dvec3& by, const glm::dvec3& ea
 }
 
 /// A foot comes down on its foothold from above: it is kept over the step that it has yet to cross, and its
-/// heel over a step behind it until it is clear of the edge, because a stretched leg lands it slightly short.
+/// heel over a step behind it until clear of the edge, because a stretched leg lands slightly short.
 double lift_over_landing(const FootClip& clip, const Turned& turned, const Footing& footing,
                          const glm::dvec3& way, double from, const FootContext& context) noexcept {
     const glm::dvec3 ankle = plus(clip.ankle, turned.slip);
@@ -257,7 +257,7 @@ FootGoal find_goal(FootState& foot, const FootClip& clip, const glm::dvec3& ease
                    const FootContext& context) noexcept {
     const double from = clip.ankle.y + context.base + context.options.ray_start;
     const glm::dvec3 before = foot.velocity;
-    foot.velocity = velocity_of(foot, clip, context);  // even without ground: braking is measured from it
+    foot.velocity = velocity_of(foot, clip, context);  // even without ground: braking is measured from this
     const auto footing_of = [&](const Turned& turned) {
         const glm::dvec3 ankle = plus(clip.ankle, turned.slip);
         return Footing(plus(ankle, turned.heel), plus(ankle, turned.toe), from, context);

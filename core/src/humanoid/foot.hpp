@@ -30,7 +30,7 @@ struct FootClip {
 struct FootGoal {
     double lift = 0.0;     // upwards, before the speed limit
     double contact = 0.0;  // the lift that puts the sole on the ground
-    double rise = 0.0;     // of the plane below the foot, along its way in this step
+    double rise = 0.0;     // rise of the plane below the foot, along its way in this step
     glm::dvec3 slip{0.0};  // horizontal
     double shifted = 0.0;  // horizontal, in this step, relative to the clip
 };
@@ -55,10 +55,10 @@ inline double height_of_plane(const GroundHit& hit, double x, double z) noexcept
 /// Why a foot cannot stand on what a ray found; No if it can.
 FootAlone judge(const std::optional<GroundHit>& hit, const FootContext& context) noexcept;
 
-/// The horizontal shift that takes a sole from where the clip puts it down to where it can stand: whole on
-/// ground without a step in it, or, where treads are too short for that, with one end over the edge of the
-/// highest. 0 if it stands so already, or nowhere within reach. The shortest shift wins, but one near to
-/// `before` is preferred.
+/// The horizontal shift from where the clip puts the sole down to where it can stand: whole on ground without
+/// a step in it, or, where treads are too short for that, with one end over the edge of the highest. 0 if it
+/// already stands like that, or cannot within reach. The shortest shift wins, but one near to `before` is
+/// preferred.
 glm::dvec3 find_foothold(const glm::dvec3& heel, const glm::dvec3& toe, double from, const glm::dvec3& before,
                          const FootContext& context) noexcept;
 
@@ -69,14 +69,14 @@ struct SoleInAir {
     std::array<glm::dvec3, 3> points;  // heel, ball, toe, as high as they are now
     glm::dvec3 moved;                  // horizontal, in this step, to where the points are now
     glm::dvec3 velocity, before;       // the clip's, in this step and the one before, m/s
-    double left = 1e9;                 // how far it still goes, if it is about to land
+    double left = 1e9;                 // remaining distance, if it is about to land
 };
 
 struct OverWay {
     /// How far the sole must be raised now so that each of its points is above the ground when it gets there,
     /// rising at a steady speed: the upper envelope of the ground ahead. Negative if it is high enough.
     double raise = -1e300;
-    /// The part of `moved` that takes it no nearer to an edge than it can rise.
+    /// The fraction of `moved` that takes it no nearer to an edge than it can rise in time.
     double part = 1.0;
 };
 

@@ -9,10 +9,10 @@ namespace {
 
 using namespace rig::detail;
 
-/// Where the ground below the sole is sampled, as parts of its length. The two in the middle must have ground
-/// below them.
+/// Where the ground below the sole is sampled, as fractions of its length. The two in the middle must have
+/// ground below them.
 constexpr std::array<double, 4> looks_along{0.0, 0.4, 0.75, 1.0};
-/// The distance of the farthest foothold, as a part of break_distance.
+/// The distance of the farthest foothold, as a fraction of break_distance.
 constexpr double farthest_foothold = 0.75;
 /// Weight of the distance from the previous foothold, relative to the distance from the clip's.
 constexpr double staying = 0.5;
@@ -117,8 +117,8 @@ glm::dvec3 find_foothold(const glm::dvec3& heel, const glm::dvec3& toe, double f
         const double size = length(shift);
         if (size > most) return;
         const double cost = size + staying * length(minus(shift, before));
-        // From best to worst: the whole sole with its margin; without it; one end in the air, with and
-        // without.
+        // From best to worst: the whole sole with the margin; without it; one end in the air, with it;
+        // without it.
         if (best_rank == best_stand && cost >= least) return;
         const Stand wide = sole.stand(shift, margin),
                     close = wide == Stand::Whole ? wide : sole.stand(shift, 0.0);

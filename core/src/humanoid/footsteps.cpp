@@ -12,10 +12,10 @@ namespace {
 
 using namespace rig::detail;
 
-// Parts of the leg's length.
+// Fractions of the leg's length.
 constexpr double longest_step = 0.9, usual_step = 0.5, shortest_step = 0.08, nearest_feet = 0.18,
                  highest_step = 0.5;
-constexpr double least_hold = 1e-4;  // the balance that holds the body back, as BodyState::outside
+constexpr double least_hold = 1e-4;  // minimum BodyState::outside that calls for a step
 constexpr double stands_under = 0.08;
 
 glm::dvec3 flat(const glm::dvec3& v) noexcept {
@@ -43,8 +43,8 @@ glm::dvec3 pull_of(const BodyState& body) noexcept {
     return pull;
 }
 
-/// How much higher the ground is below the sole shifted by `to` than below the clip's; nullopt where there is
-/// none, or where the step from the sole shifted by `from` is too high.
+/// How much higher the ground is below the sole shifted by `to` than below the clip's sole; nullopt where
+/// there is no ground, or where the step from the sole shifted by `from` is too high.
 std::optional<double> climb(const SolePoints& sole, const glm::dvec3& from, const glm::dvec3& to,
                             const Ground* ground, double leg) noexcept {
     if (ground == nullptr) return 0.0;
@@ -96,7 +96,7 @@ bool plan_step(FootstepsState& state, const Soles& soles, const glm::dvec3& cent
     const bool has_targets =
         std::any_of(body.weights.begin(), body.weights.end(), [](double each) { return each > 0.0; });
     const double leg = soles.leg;
-    if (!has_targets) {  // home, the farther foot first
+    if (!has_targets) {  // back to the clip, the farther foot first
         const double left = length(state.feet[0].to), right = length(state.feet[1].to);
         if (!(left > 0.0 || right > 0.0)) return false;
         return begin(state.feet[left >= right ? 0 : 1], glm::dvec3(0.0));
@@ -127,7 +127,7 @@ bool plan_step(FootstepsState& state, const Soles& soles, const glm::dvec3& cent
         glm::dvec3 way = minus(caught, other);
         way = plus(way, times(aside, std::max(nearest_feet * leg - dot(way, aside), 0.0)));
         way = shortened(way, longest_step * leg);
-        for (const double part : {1.0, 0.8, 0.6, 0.4}) {  // less far where the ground allows no more
+        for (const double part : {1.0, 0.8, 0.6, 0.4}) {  // a shorter step where the ground requires it
             const glm::dvec3 there = mix(stands[side], plus(other, way), part);
             if (length(minus(caught, there)) > length(minus(caught, stands[side])) - shortest_step * leg)
                 break;

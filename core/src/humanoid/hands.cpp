@@ -18,13 +18,13 @@ using tendril::detail::refused;
 constexpr Bone arms[2][4]{{Bone::LeftShoulder, Bone::LeftUpperArm, Bone::LeftLowerArm, Bone::LeftHand},
                           {Bone::RightShoulder, Bone::RightUpperArm, Bone::RightLowerArm, Bone::RightHand}};
 constexpr double off = 0.01;
-/// The arm's maximum reach, as a part of its length: a millimetre short, since a straight elbow has no side.
+/// The arm's maximum reach in arm lengths: a millimetre short, since a straight elbow has no side.
 constexpr double straightest = 0.998;
 
 struct Arm {
     Limb limb{};
     std::ptrdiff_t shoulder = -1;          // index in the limb's path; -1: none
-    glm::dvec3 direction{0.0}, pole{0.0};  // at rest: from the shoulder to the hand; where the elbow points
+    glm::dvec3 direction{0.0}, pole{0.0};  // at rest: from shoulder to hand; where the elbow points
 };
 
 bool is_fine(const HandTarget& target) noexcept {
@@ -61,7 +61,7 @@ glm::dquat shrug(const Arm& arm, const Placement& root, detail::Pose pose, LimbP
     return by;
 }
 
-/// How straight the arm may be. One that is straighter in the clip bends to the limit as the weight grows.
+/// Maximum straightness of the arm. An arm straighter in the clip bends to the limit as the weight grows.
 double straightest_of(const LimbPlacement& at, double weight) noexcept {
     const double full = at.upper_length() + at.lower_length();
     const double clip = length(minus(at.end.position, at.upper.position)) / std::max(full, 1e-9);
@@ -69,7 +69,7 @@ double straightest_of(const LimbPlacement& at, double weight) noexcept {
     return straightest + over * std::max(0.0, 1.0 - 5.0 * weight);
 }
 
-/// The elbow's pole for a straight arm: as at rest, turned with the body and the arm.
+/// The elbow's pole for a straight arm: the pole at rest, turned with the body and the arm.
 glm::dvec3 pole_of(const Arm& arm, const LimbPlacement& at, const glm::dquat& body) noexcept {
     const glm::dvec3 rest = rotated(body, arm.direction);
     const auto now = direction_of(minus(at.end.position, at.upper.position), 1e-9);

@@ -14,7 +14,7 @@ using namespace rig::detail;
 
 namespace {
 
-/// Metres and radians: below these a grip looks closed.
+/// Up to these a grip counts as closed, metres and radians.
 constexpr double closed_gap = 1e-5, closed_off = 5e-4;
 
 Result check_hand(std::string_view operation, const Argument& argument, Effector hand) noexcept {
@@ -115,7 +115,7 @@ Expected<Grip> grip_of(const Body& body, const Palm& palm, double reach) {
     const auto own_faces =
         own_fingers ? direction_of(across(glm::dvec3(0.0, -1.0, 0.0), *own_fingers), 1e-9) : std::nullopt;
     if (!own_faces) return refused("grip_of", name(bone), "level in the T-pose", "one that is not");
-    // Turns the fingers first, then the palm about them.
+    // Turns the fingers into place, then the palm about them.
     const glm::dquat first = minimal_rotation(*own_fingers, *fingers);
     const glm::dvec3 faced = rotated(first, *own_faces);
     const double angle = arctangent(dot(*fingers, cross(faced, *faces)), dot(faced, *faces));

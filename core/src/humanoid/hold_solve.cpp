@@ -13,33 +13,33 @@ using namespace rig::detail;
 
 namespace {
 
-// Tuned by tests/core/humanoid_hold_test.cpp. Costs are relative to a square metre of the object's way.
+// Tuned by tests/core/humanoid_hold_test.cpp. Costs are relative to displacing the object by a metre.
 
-/// Cost of a radian of an upper arm in one step. If larger, the object takes more steps to where it is asked
-/// to be.
+/// Cost of a radian of an upper arm in one step. If larger, the object takes more steps to its requested
+/// pose.
 constexpr double joint_damping = 0.02;
-/// From step to step the damping falls to this part of the last step's size: large steps are careful, small
-/// ones exact.
+/// From step to step the damping falls to this fraction of the last step's size: large steps are cautious,
+/// small ones exact.
 constexpr double damping_part = 0.1, min_joint_damping = 1e-6;
-/// How far a grip gives in one step, before its force has grown. If larger, grips take more steps to close.
+/// A grip's compliance in one step, before its force has grown. If larger, grips take more steps to close.
 constexpr double grip_give = 0.01;
-/// Largest force of a grip that the next step begins with: this, and this per metre that the object has given
-/// way.
+/// Maximum force of a grip at the start of a step: this, plus this per metre that the object has given way.
 constexpr double force_kept = 2.0;
-/// The second derivative of the grips, along their forces, like BodySolve's residual_stiffness.
+/// Weight of the grips' second derivatives along their forces, like BodySolve's residual_stiffness.
 constexpr double force_stiffness = 2.0;
-/// Part of a step by which it may pass a limit.
+/// Fraction of a step by which it may pass a limit.
 constexpr double limit_tolerance = 0.01;
-/// Steps that only close the grips, after those that did not settle.
+/// Further steps that only close the grips, if the solve has not settled.
 constexpr int closing_steps = 20;
 constexpr int max_hold_changes = 6;  ///< maximum changes of the set of limits, per step
 /// Maximum size of one step, radians and metres.
 constexpr double max_hold_step = 0.4;
-/// A smaller step ends the solve, if the grips are closed as well as they can be.
+/// A smaller step ends the solve if the grips are as closed as they can be.
 constexpr double hold_tolerance = 1e-7;
 /// Maximum move of an elbow or hand: metres per metre of the requested grips and the shoulders, plus metres.
 constexpr double jump_per_metre = 20.0, jump_slack = 1e-3;
-/// A joint is at a limit if a force over the first would turn it by the second, radians, but it cannot turn.
+/// A joint counts as at its limit if a force over the first would turn it by over the second, radians, but it
+/// cannot turn.
 constexpr double min_reported_force = 1e-5, min_reported_turn = 1e-3;
 /// An arm is straight if its bend is at most this much over its minimum, radians.
 constexpr double straight_slack = 0.03;
@@ -153,7 +153,7 @@ void HoldSolve::measure() noexcept {
             }
             continue;
         }
-        // Only the axes have to meet.
+        // Only the axes have to align.
         arm.axis = rotated(at_.rotation, *axis);
         const glm::dvec3 held = rotated(conjugate(off), arm.axis), about = cross(held, arm.axis);
         const double sine = length(about), angle = arctangent(sine, dot(held, arm.axis));
@@ -182,8 +182,8 @@ glm::dvec3 HoldSolve::object_column(const Row& row) const noexcept {
     return cross(row.along, arms_[row.arm].from);
 }
 
-/// Finds a step that closes the grips and takes the object towards its requested pose. Returns its size:
-/// radians, metres. Sets `failed_` if there is none.
+/// Finds a step that closes the grips and moves the object towards its requested pose. Returns its size,
+/// radians and metres. Sets `failed_` if there is none.
 double HoldSolve::find_step() noexcept {
     double object_stiffness = options_.turn_length * options_.turn_length;
     for (std::size_t i = 0; i < arm_count_; ++i)
@@ -205,14 +205,14 @@ double HoldSolve::find_step() noexcept {
     return size;
 }
 
-/// False if the equations have no solution in these numbers.
+/// False if the equations have no finite solution.
 bool HoldSolve::solve_rows() noexcept {
     RowEquations& e = equations_;
     e.count = row_count_;
     const glm::dvec3 way = times(minus(asked_.position, at_.position), pull_);
     const glm::dvec3 round = times(logarithm(math::compose(asked_.rotation, conjugate(at_.rotation))),
                                    pull_ * options_.turn_length * options_.turn_length * object_turns_);
-    // Where the grips cannot close, forces kept in full would grow without end.
+    // Where the grips cannot close, forces kept in full would grow without bound.
     const double most = force_kept + force_kept * length(way);
     const auto kept = [](const glm::dvec3& value, double largest) {
         const double size = length(value);
@@ -265,8 +265,8 @@ bool HoldSolve::solve_rows() noexcept {
     return true;
 }
 
-/// How far beyond its limit a turn would take the joint, in the character's space; `there` is where it would
-/// stop.
+/// How far beyond its limit a turn would take the joint, in the character's space; `there` is the turn at
+/// which it stops.
 glm::dvec3 HoldSolve::excess(const Joint& joint, const glm::dvec3& turn, glm::dquat& there) noexcept {
     Link& at = link(joint.link);
     const glm::dquat was = at.turn, parent = before(at);
@@ -380,7 +380,7 @@ void HoldSolve::run(std::span<rig::Transform> pose, HoldReport& report, HoldStat
     report.settled = false;
     while (iterations_ < options_.max_iterations && !report.settled && !failed_) report.settled = step();
     for (Arm& arm : arms_) arm.pull = arm.force, arm.twist = arm.torque;
-    // If limits keep the solve from settling, closes the grips from where they are, if that is possible.
+    // If limits keep the solve from settling, closes the grips from their current pose, if possible.
     if (!report.settled && !failed_ && apart() > hold_tolerance) {
         pull_ = 0.0;
         for (Arm& arm : arms_) arm.force = arm.torque = glm::dvec3(0.0);
@@ -388,7 +388,7 @@ void HoldSolve::run(std::span<rig::Transform> pose, HoldReport& report, HoldStat
         for (int i = 0; i < closing_steps && !step() && !failed_;) ++i;
     }
     report.iterations = iterations_;
-    if (!is_sound()) {  // numbers near the largest: stays as the body has reached
+    if (!is_sound()) {  // numbers near the largest: the pose before stays
         for (Link& each : work_.links) each.turn = each.own;
         at_ = asked_;
         report.settled = false;

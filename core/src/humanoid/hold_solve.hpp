@@ -31,20 +31,20 @@ class HoldSolve {
         const Grip* grip = nullptr;
         std::size_t end = 0;  ///< link of the hand
         const BodyLimb* limb = nullptr;
-        double least_bend = 0.0;             ///< radians; straighter is as good as straight
+        double least_bend = 0.0;             ///< radians; less bend counts as straight
         glm::dvec3 forearm{0.0};             ///< unit, in the lower arm's frame; zero: it has no length
         glm::dvec3 axis{0.0};                ///< Grip::axis in the character's space, unit or zero
         glm::dvec3 from{0.0};                ///< from the object's origin to the grip
         glm::dvec3 gap{0.0}, off{0.0};       ///< from the hand to its grip
-        glm::dvec3 force{0.0}, torque{0.0};  ///< the grip's on the hand
-        glm::dvec3 pull{0.0}, twist{0.0};    ///< the same while the object pulls, for the report
+        glm::dvec3 force{0.0}, torque{0.0};  ///< of the grip on the hand
+        glm::dvec3 pull{0.0}, twist{0.0};    ///< the same, while the object pulls; for the report
     };
     struct Row {
         std::size_t arm;
         bool turns;
         glm::dvec3 along;
     };
-    /// How a turn of the joint, or of the object, changes a row.
+    /// The derivative of a row with respect to a turn of the joint, or of the object.
     glm::dvec3 column(const Row& row, const Joint& joint) const noexcept;
     glm::dvec3 object_column(const Row& row) const noexcept;
     double row_length(const Row& row) const noexcept { return row.turns ? options_.turn_length : 1.0; }
@@ -66,7 +66,7 @@ class HoldSolve {
     bool solve_rows() noexcept;
     bool block() noexcept;
     void apply(double part) noexcept;
-    /// Part of a hand's twist that the lower arm takes, radians.
+    /// The share of a hand's twist that the lower arm takes, radians.
     double shared_twist(const Arm& arm) const noexcept;
     bool clamp_hand(const Arm& arm) noexcept;
     bool clamp(const Joint& joint) noexcept;
@@ -88,9 +88,9 @@ class HoldSolve {
     int iterations_ = 0;
     bool failed_ = false;                ///< no finite step was found
     double object_turns_ = 0.0;          ///< compliance
-    double damping_ = 0.0;               ///< of the next step
+    double damping_ = 0.0;               ///< damping of the next step
     double pull_ = 1.0;                  ///< 0: the object only follows the hands
-    glm::dvec3 shift_{0.0}, turn_{0.0};  ///< of the object in a step
+    glm::dvec3 shift_{0.0}, turn_{0.0};  ///< the object's move in a step
     RowEquations equations_{};
 };
 

@@ -13,7 +13,7 @@ namespace tendril::humanoid::detail {
 /// check(), with `operation` in the error message.
 Result check_map(std::string_view operation, const BoneMap& map, const Skeleton& skeleton) noexcept;
 
-/// BoneMap::is_usable(), with what is missing.
+/// BoneMap::is_usable(), with the missing bone in the error message.
 Result check_usable(std::string_view operation, const BoneMap& map) noexcept;
 
 /// The error for a node that is mapped to `bone` but is not below the hips.
@@ -28,7 +28,7 @@ inline bool is_within(const glm::dvec3& v) noexcept {
     return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
 }
 
-/// Numbers up to max_magnitude, and rotations of a length from 0.5 to 2: interpolated ones are not exactly
+/// Numbers up to max_magnitude, and rotations of length 0.5 to 2, since interpolated ones are not exactly
 /// unit.
 inline bool is_sane(const rig::Transform& local) noexcept {
     const glm::dquat& q = local.rotation;
@@ -45,7 +45,7 @@ inline bool is_sane(std::span<const rig::Transform> pose) noexcept {
     return first_invalid(pose) == pose.size();
 }
 
-/// A quaternion that can be normalised.
+/// Refuses a quaternion that cannot be normalised.
 inline Result check_rotation(std::string_view operation, const tendril::detail::Argument& argument,
                              const glm::dquat& q) noexcept {
     const double size = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);

@@ -7,7 +7,7 @@
 
 namespace tendril::humanoid::detail {
 
-/// From a rotation vector to a quaternion and back; logarithm() takes the short way.
+/// Convert a rotation vector to a quaternion and back; logarithm() takes the short way.
 glm::dquat exponential(const glm::dvec3& turn) noexcept;
 glm::dvec3 logarithm(const glm::dquat& q) noexcept;
 

@@ -96,7 +96,7 @@ void turn(rig::Transform& local, const Placement& above, const glm::dquat& by) n
     const glm::dvec3 axis{by.x, by.y, by.z};
     const double sine = length(axis);
     if (sine == 0.0) return;
-    // The axis in the parent's space, by the adjugate, whose sign is right for a mirrored parent, too.
+    // The axis in the parent's space, by the adjugate, which has the right sign even for a mirrored parent.
     const glm::dvec3 &x = above.axes[0], &y = above.axes[1], &z = above.axes[2];
     const glm::dvec3 seen{dot(cross(y, z), axis), dot(cross(z, x), axis), dot(cross(x, y), axis)};
     const double size = length(seen);

@@ -39,7 +39,7 @@ LimbPlacement place(const Limb& limb, const Placement& root, Pose pose) noexcept
 /// Updates everything below `above_upper`.
 void place_below(const Limb& limb, LimbPlacement& at, Pose pose) noexcept;
 
-/// Whether no number exceeds 1e12.
+/// Whether all numbers are at most 1e12.
 bool is_moderate(const Placement& placement) noexcept;
 
 /// `vector` in the local space of `at`: multiplied by the inverse of at.axes; 0 if their volume is
@@ -63,10 +63,10 @@ struct Bend {
 /// Where the middle joint of a straight limb goes.
 struct Pole {
     glm::dvec3 direction;  // unit length
-    double part;  // offset of the joint, in limb lengths, at which its own side counts as much as the pole
+    double part;  // offset of the joint, in limb lengths, at which its own side weighs as much as the pole
     bool always;  // the joint is never on the opposite side
 };
-/// Brings the limb's end to `target`, or as near as it may come. The middle joint keeps its side; the
+/// Brings the limb's end to `target`, or as near as it can get. The middle joint keeps its side; the
 /// straighter the limb, the stronger the pole.
 Bend bend_to(const LimbPlacement& at, const glm::dvec3& target, const Pole& pole,
              double straightest) noexcept;

@@ -17,7 +17,7 @@ float radians(double degrees) noexcept {
     return static_cast<float>(degrees * pi / 180.0);
 }
 
-/// Half-angles in degrees, named by where the bone goes. `out` is to the bone's own side, `in` to the other.
+/// Half-angles in degrees, by direction of the bone. `out` is to the bone's own side, `in` to the other.
 struct Ball {
     double forward, back, out, in, twist;
 };
@@ -62,7 +62,7 @@ class DefaultLimits {
     /// Whether the shoulder is too short for a collar bone: where rigs have such a stub, the whole arm turns
     /// about it.
     bool is_stub(Bone shoulder, Bone upper, Bone lower, Bone hand) const {
-        constexpr double stub = 0.1;  // of the arm's length; a collar bone is a quarter of it
+        constexpr double stub = 0.1;  // arm lengths; a collar bone is 0.25
         for (const Bone each : {shoulder, upper, lower, hand})
             if (map_[each].node < 0) return false;
         const auto way = [&](Bone from, Bone to) {
@@ -111,8 +111,8 @@ class DefaultLimits {
     ik::Limit hinge(Bone bone, const glm::dvec3& usual, double most) const {
         return ik::Limit::hinge(axis(bend_at_rest(bone, usual).value_or(usual)), 0.0f, radians(most));
     }
-    /// The axis of a lower limb's bend at rest, moved to the T-pose; nullopt if it is nearly straight, or
-    /// slightly overstretched: bent against `usual`.
+    /// The axis of a lower limb's bend at rest, taken to the T-pose; nullopt if nearly straight, or slightly
+    /// overstretched (bent against `usual`).
     std::optional<glm::dvec3> bend_at_rest(Bone bone, const glm::dvec3& usual) const {
         const Bone upper = static_cast<Bone>(static_cast<int>(bone) - 1);
         const auto end = detail::limb_child(bone);
@@ -135,7 +135,7 @@ class DefaultLimits {
 
     const BoneMap& map_;
     Facing facing_;
-    glm::dvec3 across_;  // to the left of where the character faces, whatever the map calls left
+    glm::dvec3 across_;  // to the left as the character faces, whatever the map calls left
     std::vector<rig::Transform> pose_;
     std::vector<Placement> rest_, t_;
 };

@@ -17,7 +17,7 @@ constexpr Bone column[]{Bone::Spine, Bone::Chest, Bone::UpperChest, Bone::Neck, 
 constexpr std::size_t neck = 3, head = 4;
 constexpr glm::dquat none{1.0, 0.0, 0.0, 0.0};
 
-/// A bone that turns: its index in the head's path, and in `column`.
+/// A bone that turns: its indices in the head's path and in `column`.
 struct Turning {
     std::size_t place = 0, bone = 0;
 };
@@ -26,8 +26,8 @@ double limited(double angle, double most) noexcept {
     return std::min(angle, most);
 }
 
-/// The direction to which the gaze turns next on its way to `wanted`: by way of the clip's gaze, `looks`, if
-/// the shortest arc would change sides outside the view, behind the head. All bones would turn over there.
+/// The gaze's next direction on its way to `wanted`: by way of the clip's gaze, `looks`, if the shortest arc
+/// would change sides behind the head, outside the view. All bones would turn over there.
 glm::dvec3 next_gaze(const glm::dvec3& gaze, const glm::dvec3& wanted, const glm::dvec3& looks,
                      double view) noexcept {
     const bool same_side = dot(gaze, wanted) >= dot(gaze, looks) * dot(wanted, looks);
@@ -65,7 +65,7 @@ struct LookAt::Plan {
               const LookAtOptions& options) const noexcept;
 };
 
-/// Each bone turns as if the head's gaze were fixed to it, by its share of the remaining way.
+/// Turns each bone as if the head's gaze were fixed to it, by its share of the remaining way.
 void LookAt::Plan::turn(detail::Pose pose, const Placement& root, const glm::dvec3& point, double weight,
                         const LookAtOptions& options) const noexcept {
     double left = 1.0;

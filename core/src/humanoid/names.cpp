@@ -20,7 +20,7 @@ bool is_digit(char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
-/// The bones of MikuMikuDance, longer names first.
+/// Bone names of MikuMikuDance, longer ones first.
 constexpr std::pair<std::string_view, std::string_view> japanese[]{
     {"センター", "pelvis"}, {"上半身", "spine"}, {"下半身", "lower half"},
     {"つま先", "toe"},      {"足先", "toe"},     {"手首", "wrist"},
@@ -72,7 +72,7 @@ std::vector<std::string> words_of(std::string_view original) {
     return words;
 }
 
-/// Whether a list, with a blank between words, has the word.
+/// Whether a blank-separated list contains the word.
 bool is_one_of(std::string_view word, std::string_view list) {
     for (std::size_t at = list.find(word); at != list.npos; at = list.find(word, at + 1)) {
         const std::size_t end = at + word.size();
@@ -82,7 +82,7 @@ bool is_one_of(std::string_view word, std::string_view list) {
     return false;
 }
 
-/// A node with one of these words in its name is not a bone of the body.
+/// A node with one of these words in its name is no bone of the body.
 constexpr std::string_view not_bones =
     "twist roll helper ik pole poletarget target end leaf tip nub top socket attach "
     "weapon prop hair skirt cloth cape tail ear eye eyes brow jaw mouth lip tongue "
@@ -127,7 +127,7 @@ Side side_of(std::string_view word) {
     return Side::None;
 }
 
-/// "leftarm", "lthigh", "handr": a side without a separator.
+/// Takes a side without a separator off: "leftarm", "lthigh", "handr".
 Side take_side(std::string& text) {
     for (const std::string_view side : {"left", "right", "l", "r"}) {
         const bool before = text.starts_with(side), after = text.ends_with(side);

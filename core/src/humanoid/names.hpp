@@ -45,8 +45,8 @@ NameReading read_name(std::string_view name, std::string_view ignored = {});
 std::string common_word(const Skeleton& skeleton);
 
 enum class Finger : std::uint8_t { Thumb, Index, Middle, Ring, Little };
-/// "LeftHandIndex2", "thumb_01_l", "Bip01 L Finger21" (the middle finger's second bone). nullopt for bones of
-/// the palm and for ends.
+/// "LeftHandIndex2", "thumb_01_l", "Bip01 L Finger21" (the middle finger's second bone). nullopt for palm
+/// bones and end joints.
 std::optional<Finger> finger_named(std::string_view name);
 /// "upperarm01.L" and "upperarm02.L"
 bool is_same_but_for_numbers(std::string_view a, std::string_view b);

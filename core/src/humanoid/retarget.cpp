@@ -19,11 +19,11 @@ using namespace rig::detail;
 
 constexpr std::size_t max_retargeted_keys = 100'000;
 
-/// Thigh plus shin of a person. The source is brought to that size before its steps are looked for: files in
-/// a wrong unit are frequent.
+/// Thigh plus shin of a person. The source is scaled to this size before its steps are found, since many
+/// files have a wrong unit.
 constexpr double person_leg = 0.85;  // metres
 
-constexpr double on_the_bone = 0.1;  // of a leg's length from a node at rest: helpers that near follow it
+constexpr double on_the_bone = 0.1;  // in leg lengths, at rest: helpers this near to a node follow it
 
 constexpr double flat_enough = 8.0;  // degrees from which a foot on the ground is not flat
 
@@ -56,7 +56,7 @@ std::vector<double> moments_of(const Clip& clip) {
              {&each.translation.times, &each.rotation.times, &each.scale.times})
             times.insert(times.end(), own->begin(), own->end());
     std::sort(times.begin(), times.end());
-    const double same = 1e-3 * frames.step;  // tracks of one file differ by their rounding
+    const double same = 1e-3 * frames.step;  // tracks of one file differ by rounding
     times.erase(std::unique(times.begin(), times.end(), [&](double a, double b) { return b - a < same; }),
                 times.end());
     return with_frames(times, frames);
@@ -69,11 +69,11 @@ double extent_of(const Skeleton& skeleton) {
     return sum;
 }
 
-/// Of the target's nodes, those that are the source's: of the same names, parents and rest, in one ratio of
-/// lengths, to the rounding of a file's 32-bit numbers. Empty if one has nodes that the other lacks, or if
-/// the maps name other bones.
+/// For each source node, the same node of the target: same name, parent and rest pose, up to one scale and to
+/// the rounding of a file's 32-bit numbers. Empty if a node differs or is missing in one of them, or if the
+/// maps differ.
 std::vector<std::size_t> same_nodes(const MappedSkeleton& from, const MappedSkeleton& to, double ratio) {
-    constexpr double same = 1e-5;  // of a person's metre, and of a unit quaternion
+    constexpr double same = 1e-5;  // in metres of a person, and for unit quaternions
     const double near = same * std::max(ratio, 1.0);
     const auto alike = [&](const rig::Transform& a, const rig::Transform& b) {
         return length(minus(times(a.translation, ratio), b.translation)) < near &&
@@ -102,7 +102,7 @@ std::vector<std::size_t> same_nodes(const MappedSkeleton& from, const MappedSkel
     return nodes;
 }
 
-/// Poses the limbs first, then the feet, then what follows them.
+/// Poses the limbs first, then the feet, then the helpers.
 class Retargeter {
   public:
     Retargeter(const MappedSkeleton& from, const Clip& clip, const MappedSkeleton& to)
@@ -158,8 +158,8 @@ class Retargeter {
     }
 
   private:
-    /// Fingers that both have, and hands whose palms both face down. Where bones of the palm hang beside the
-    /// one that is mapped, they follow it.
+    /// Pairs the hands, turned palms down if both palms are known, and the fingers that both have. Palm bones
+    /// beside the mapped hand follow it.
     void share_hand(bool left) {
         const std::size_t side = left ? 0 : 1;
         const Bone hand = left ? Bone::LeftHand : Bone::RightHand;
@@ -186,9 +186,9 @@ class Retargeter {
 
     // ------------------------------------------------------------------------------------------- helpers
 
-    /// What is not below the hips. The root above them travels along, and with it what hangs on it. Helpers
-    /// that stand on a node of the body at rest, as IK targets do, follow that node. Other roots stay, unless
-    /// they have such helpers.
+    /// Sorts the nodes that are not below the hips. The root above the hips travels with them, and so do its
+    /// other children. Helpers at a node of the body at rest, as IK targets are, follow that node. Other
+    /// roots stay, unless they have such helpers.
     void find_root() {
         const Skeleton& skeleton = to_.skeleton;
         const auto hips = now_.node(Bone::Hips);
@@ -214,7 +214,7 @@ class Retargeter {
             if (!leaders_[node]) result_.helpers.push_back(node);
         }
     }
-    /// Each stands as it does at rest, seen from the node that it follows.
+    /// Keeps each helper's rest pose relative to the node that it follows.
     void move_helpers() {
         place(to_.skeleton, pose_, placed_);
         for (const std::int32_t each : to_.skeleton.order()) {
@@ -227,7 +227,7 @@ class Retargeter {
                                  plus(now.position, rotated(turned, minus(own.position, rest.position)))};
                 for (int axis = 0; axis < 3; ++axis) wanted.axes[axis] = rotated(turned, own.axes[axis]);
                 pose_[node] = relative(above_of(node), wanted);
-                pose_[node].scale = rest_[node].scale;  // it gets no keys
+                pose_[node].scale = rest_[node].scale;  // scale gets no keys
             }
             placed_[node] = above_of(node) * placement(pose_[node]);
         }
@@ -235,7 +235,7 @@ class Retargeter {
 
     // ---------------------------------------------------------------------------------------------- feet
 
-    /// Needs both legs of both, whole.
+    /// Needs two whole legs in both figures.
     void plan_feet() {
         if (!was_.soles || !now_.soles) return;
         for (std::size_t i = 0; i < 2; ++i)
@@ -268,7 +268,7 @@ class Retargeter {
              .ground = was_.ground,
              .turn = turn_});
     }
-    /// Learns how feet and toes lie on the ground, from the frames in which they stand.
+    /// Learns how feet and toes lie on the ground from the frames in which they stand.
     void learn_level_feet(const lint_detail::FeetMotion& motion) {
         for (const bool left : {true, false}) {
             const lint_detail::Foot& foot = motion.feet[left ? 0 : 1];
@@ -340,7 +340,7 @@ class Retargeter {
 
     // --------------------------------------------------------------------------------------------- limbs
 
-    /// Every bone that both have turns as the source's does from its reference pose.
+    /// Turns every bone that both have from its reference pose as the source's bone turns from its own.
     void point_limbs(double time) {
         sample(clip_, skeleton_, time, source_pose_);
         place(skeleton_, source_pose_, source_);
@@ -365,8 +365,8 @@ class Retargeter {
             placed_[node] = above * placement(pose_[node]);
         }
     }
-    /// A node whose keys are local to another node than its parent (attach.hpp) needs keys to stay where it
-    /// is below its parent.
+    /// A node whose keys are local to a node other than its parent (attach.hpp) needs keys to stay in place
+    /// below its parent.
     bool moves(std::size_t node) const {
         return shared_[node] || travels_[node] || leaders_[node] || to_.skeleton[node].keys;
     }
@@ -391,21 +391,21 @@ class Retargeter {
         channel.scale.values.push_back(key.scale);
     }
 
-    const double size_;  // of the source here, times its own
+    const double size_;  // scale of skeleton_ and clip_ relative to the source
     const Skeleton skeleton_;
     const Clip clip_;
     const MappedSkeleton to_;
     detail::RetargetBody was_, now_;
-    std::vector<std::optional<std::size_t>> shared_;   // the source's node of each of the target's
-    std::vector<std::optional<std::size_t>> leaders_;  // what a helper follows
-    std::vector<bool> travels_;                        // roots that go along with the hips
+    std::vector<std::optional<std::size_t>> shared_;   // the source's node for each target node
+    std::vector<std::optional<std::size_t>> leaders_;  // the node that a helper follows
+    std::vector<bool> travels_;                        // roots that travel with the hips
     const std::vector<rig::Transform> rest_;
     glm::dquat turn_{1.0, 0.0, 0.0, 0.0};  // from the source's frame to the target's
     double scale_ = 1.0;
     Retargeted result_{};
     std::array<std::optional<detail::Limb>, 2> legs_{};
     std::vector<detail::Footing> footing_{};
-    double rate_ = 0.0;  // of the footing, frames per second
+    double rate_ = 0.0;  // frames per second of the footing
     std::vector<rig::Transform> pose_, source_pose_;
     std::vector<Placement> source_, placed_, rest_placed_;
 };

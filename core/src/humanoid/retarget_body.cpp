@@ -20,8 +20,8 @@ struct LegBones {
 constexpr LegBones leg_bones[2]{{Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot, Bone::LeftToes},
                                 {Bone::RightUpperLeg, Bone::RightLowerLeg, Bone::RightFoot, Bone::RightToes}};
 
-constexpr double upright_toes = 0.7;  // of their length that they rise or fall: over 45 degrees
-constexpr double level_feet = 0.01;   // of a leg's length between the heights of both feet at rest
+constexpr double upright_toes = 0.7;  // rise or fall in toe lengths: over 45 degrees
+constexpr double level_feet = 0.01;   // height difference of the feet at rest, in leg lengths
 
 }  // namespace
 
@@ -32,7 +32,7 @@ RetargetBody::RetargetBody(const MappedSkeleton& given) : body(given), at(facing
     hips = placed[node(Bone::Hips)].position;
     place(skeleton, t_pose(skeleton, body.map), placed);
     for (const Placement& each : placed) rotations.push_back(each.rotation());
-    // Forward may be reversed (Facing): the frame stays right-handed.
+    // Forward may be reversed (see Facing); this frame is always right-handed.
     frame = Placement{{cross(at.up, at.forward), at.up, at.forward}, glm::dvec3(0.0)}.rotation();
     find_feet(point_toes());
     for (const bool left : {true, false}) {
@@ -89,14 +89,14 @@ void RetargetBody::find_fingers(bool left) {
     }
 }
 
-/// From the wrist to the base of the middle finger, or else to the middle of the other fingers' bases, or of
-/// what else begins at the hand.
+/// The direction from the wrist to the base of the middle finger; failing that, the mean direction to the
+/// other fingers' bases, or to the hand's child nodes.
 std::optional<glm::dvec3> RetargetBody::hand_axis(bool left) const {
     const std::size_t hand = node(left ? Bone::LeftHand : Bone::RightHand);
     const auto& own = fingers[left ? 0 : 1];
     const auto base = [&](std::size_t finger) -> std::optional<glm::dvec3> {
         std::optional<glm::dvec3> found;
-        // What is between the hand and the finger may turn.
+        // Nodes between the hand and the finger may turn.
         for (std::int32_t node = own[finger][0]; node >= 0 && node != static_cast<std::int32_t>(hand);
              node = body.skeleton[static_cast<std::size_t>(node)].parent)
             if (const auto i = static_cast<std::size_t>(node); !is_palm_name(body.skeleton[i].name))
@@ -160,7 +160,7 @@ std::optional<glm::dquat> RetargetBody::palm_down(bool left) const {
 
 // -------------------------------------------------------------------------------------------------- feet
 
-/// In the zero pose of some files the toes point up or down.
+/// Points the toes forward: in the zero pose of some files they point up or down.
 bool RetargetBody::point_toes() {
     bool turned = false;
     for (const LegBones& bones : leg_bones) {
@@ -186,7 +186,7 @@ void RetargetBody::find_feet(bool toes_are_turned) {
     }
     leg = has_legs ? 0.5 * length_of_both : height;
     if (!has_legs) return;
-    // Soles are found in the rest pose. Where the feet do not stand in it, they do in the T-pose.
+    // Finds soles in the rest pose, or in the T-pose if the feet do not stand in the rest pose.
     std::vector<Placement> rest(placed.size());
     place(body.skeleton, rest_pose(body.skeleton), rest);
     const auto stands = [&](const LegBones& bones) {
@@ -208,7 +208,7 @@ void RetargetBody::find_feet(bool toes_are_turned) {
     if (!found) return;
     soles = *found;
     even_soles(rest, as_it_rests);
-    // Legs that are bent at rest are straight in the T-pose, which stands on the same floor.
+    // Legs bent at rest are straight in the T-pose, which stands on the same floor.
     double lowest = 1e9;
     for (const Sole& each : soles->feet)
         lowest =
@@ -225,8 +225,8 @@ void RetargetBody::find_feet(bool toes_are_turned) {
     }
 }
 
-/// On legs of unequal length both soles are as thick as the thinner one. If the rest pose does not show how
-/// thick, there is nothing below the lowest joint, as for the lint.
+/// On legs of unequal length both soles are as thick as the thinner one. If the rest pose does not show the
+/// thickness, soles end at the lowest joint, as for the lint.
 void RetargetBody::even_soles(const std::vector<Placement>& standing, bool shows_thickness) {
     std::array<double, 2> lowest{1e9, 1e9};
     for (std::size_t side = 0; side < 2; ++side)

@@ -1,5 +1,5 @@
-// A body in the pose in which two bodies are compared for retargeting: the T-pose, with hands, fingers and
-// feet straightened, too. Not installed.
+// A body in the reference pose of retargeting: the T-pose with hands, fingers and feet straightened, too. Not
+// installed.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace tendril::humanoid::detail {
 /// Nodes of one finger, from its base.
 using FingerNodes = std::array<std::int32_t, 3>;
 
-/// Heel, in the foot's axes; ball and tip of the toes, in those of the toes.
+/// Heel in the foot's axes; ball and toe tip in the toes' axes.
 using SoleTriple = std::array<glm::dvec3, 3>;
 
 /// A body in its reference pose.
@@ -33,9 +33,9 @@ struct RetargetBody {
     std::vector<Placement> placed{};       // all nodes, in the T-pose
     std::vector<glm::dquat> rotations{};   // the same, straightened
     std::optional<Soles> soles{};          // if it has legs; their floor is below its hips at rest
-    double ground = 0.0;  // height of what it stands on: its floor at rest, or 0 if it rests far from there
+    double ground = 0.0;  // height of the ground: its floor at rest, or 0 if the rest pose is far from that
     std::array<std::optional<glm::dvec3>, 2> tips{};  // below the tip of the toes, in the toes' space
-    /// What turns the fingers, left and right: the hand, or the last node at the wrist (CMU's
+    /// The nodes that turn the fingers, left and right: the hand, or the last node at the wrist (CMU's
     /// LeftFingerBase).
     std::array<std::size_t, 2> hands{};
     std::array<std::array<FingerNodes, 5>, 2> fingers{};  // by name: thumb to little, left and right
@@ -46,7 +46,7 @@ struct RetargetBody {
     SoleTriple sole(bool left, double above) const;
     /// Turns the node so that `up`, a direction of its own, points up.
     void level(std::size_t node, const glm::dvec3& up);
-    /// Points the foot forward: at rest many stand with their toes turned out.
+    /// Points the foot forward: many rest poses have the toes turned out.
     void straighten_foot(bool left);
     /// The rotation about the hand's axis that brings the index finger in front of the little one; nullopt:
     /// one of them is not known.
@@ -54,7 +54,7 @@ struct RetargetBody {
     void turn(std::size_t node, const glm::dquat& by);
 
   private:
-    /// Metres: nodes closer to each other than that share a place.
+    /// Nodes closer to each other than this, metres, are at one place.
     double shortest() const noexcept { return 1e-4 * leg + 1e-9; }
     std::optional<glm::dvec3> hand_axis(bool left) const;
     void find_fingers(bool left);

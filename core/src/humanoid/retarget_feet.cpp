@@ -15,19 +15,19 @@ constexpr double blend = 0.4;         // seconds over which a stance's displacem
 constexpr double hips_ease = 0.15;    // seconds within which the hips are lowered
 constexpr double lift_ease = 0.1;     // seconds within which a swinging foot is lifted
 constexpr double short_swing = 0.05;  // seconds: no step is shorter
-constexpr double short_hold = 0.1;    // seconds for which a foot must be still to be held above the floor
+constexpr double short_hold = 0.1;    // seconds that a foot must be still to be held off the floor
 constexpr double step_speed = 0.3;    // m/s: a slower foot has landed, or has not left yet
 constexpr double near_floor = 0.03;   // metres of the source
 constexpr double no_slide = 0.04;     // metres of the source: shorter slides of a standing foot are removed
 constexpr double no_height = 0.006;   // metres of the source: a foot below that has landed
 constexpr double no_sinking = 0.05;   // metres of the source: feet deeper in the ground are meant to be
-constexpr double straight = 0.995;    // of a leg's length, unless the source's is straighter
-constexpr double sole_part = 0.006;  // of a leg's length: points of the sole that near to the ground touch it
-constexpr double clear_part = 0.012;  // of a leg's length over the ground, at which a swinging foot may stay
-constexpr double same_pose = 0.01;    // of a leg's length, from a clip's begin to its end
+constexpr double straight = 0.995;    // in leg lengths, unless the source's leg is straighter
+constexpr double sole_part = 0.006;   // in leg lengths: points of the sole this near to the ground touch it
+constexpr double clear_part = 0.012;  // in leg lengths: a swinging foot is lifted up to this height
+constexpr double same_pose = 0.01;    // in leg lengths: maximum difference of first and last pose in a loop
 
-/// The frames of a clip, or three rounds of one that ends as it begins: the second round, which is the one
-/// that is used, then leads into the next.
+/// The frames of a clip, or three rounds of one that ends as it begins. Only the second round is used, which
+/// then leads into the next.
 class Rounds {
   public:
     explicit Rounds(const FootingTask& task) : frames_(task.frames.size()), loops_(loops(task)) {}
@@ -59,9 +59,9 @@ class Rounds {
 };
 
 struct Stand {
-    std::size_t first, last;              // of the rounds
-    std::size_t still_first, still_last;  // without landing and lifting off
-    double height = 0.0;                  // of the target's sole over its floor, metres
+    std::size_t first, last;              // frames of the rounds
+    std::size_t still_first, still_last;  // without landing and lift-off
+    double height = 0.0;                  // height of the target's sole over its floor, metres
 };
 
 class Planner {
@@ -110,7 +110,7 @@ class Planner {
         };
         for (const lint_detail::Stretch& each : lint_detail::stances_of(its, floor, task_.rate))
             mark(each.first, each.last);
-        // On stairs, or held in the air.
+        // Feet on stairs, or held in the air, stand too.
         for (std::size_t i = 0; i < stands.size();) {
             std::size_t end = i;
             while (end < stands.size() && its.still[end] && !stands[end]) ++end;
@@ -154,7 +154,7 @@ class Planner {
         }
     }
 
-    /// Raises or lowers the whole motion so that standing feet are on the floor without bending a leg. Those
+    /// Raises or lowers the whole motion so that standing feet are on the floor without bending a leg. Feet
     /// of a figure that sits or lies count only if it never stands.
     void find_shift() {
         const auto upright = [&](std::size_t foot) {
@@ -171,7 +171,7 @@ class Planner {
         shift_ = gaps.empty() ? task_.shift : lint_detail::middle_of(gaps);
     }
 
-    /// Keeps the sole where it is on the ground, or moves it with the ground of a motion on the spot.
+    /// Keeps the sole in place on the ground, or moves it with the ground of an in-place motion.
     void hold(std::size_t foot, const Stand& stand) {
         std::vector<glm::dvec3>& moves = moves_[foot];
         const std::vector<glm::dvec3> way = wanted_way(foot, stand);
@@ -191,15 +191,16 @@ class Planner {
             moves[i] = {moves[i].x - mean.x, up, moves[i].z - mean.z};
         }
     }
-    /// Above the target's floor. A foot that lands or lifts off is as high as the source's, in proportion.
+    /// The sole's height above the target's floor. A foot that lands or lifts off is as high as the source's,
+    /// scaled.
     double height_of(std::size_t foot, const Stand& stand, std::size_t i) const {
         if (stand.height != 0.0 || (i >= stand.still_first && i <= stand.still_last)) return stand.height;
         const std::size_t level = i < stand.still_first ? stand.still_first : stand.still_last;
         return task_.scale *
                std::max(0.0, pointed(foot, i).source_low - pointed(foot, level).source_low - no_height);
     }
-    /// Horizontal path of the sole during a stance. A small slide is a fault of the source; anything beyond
-    /// it is meant.
+    /// The sole's horizontal path during a stance. A small slide is a fault of the source and is removed; the
+    /// excess stays.
     std::vector<glm::dvec3> wanted_way(std::size_t foot, const Stand& stand) const {
         const glm::dvec3 ground = times(task_.motion.treadmill, 1.0 / task_.rate);
         std::vector<glm::dvec3> way{glm::dvec3(0.0)};
@@ -221,7 +222,7 @@ class Planner {
         }
         return way;
     }
-    /// Of the part of the sole that is on the ground.
+    /// The step of the part of the sole that is on the ground.
     glm::dvec3 pointed_step(std::size_t foot, std::size_t i) const {
         const std::size_t to = rounds_.step_to(i);
         const PointedFoot &was = task_.frames[to - 1].feet[foot], &now = task_.frames[to].feet[foot];
@@ -236,7 +237,7 @@ class Planner {
         return plus(minus(now.ankle, was.ankle), times(sum, 1.0 / weights));
     }
 
-    /// Between stances the displacement of the one fades out while that of the next fades in.
+    /// Between stances the displacement of one fades out while the next one's fades in.
     void swing(std::size_t foot) {
         std::vector<glm::dvec3>& moves = moves_[foot];
         const std::vector<Stand>& stands = stands_[foot];
@@ -259,7 +260,7 @@ class Planner {
         }
     }
 
-    /// Keeps a foot that is above the ground in the source above it here. The lift begins early.
+    /// Keeps a foot above the ground where the source's foot is above it. The lift begins early.
     void clear_ground(std::size_t foot) {
         std::vector<glm::dvec3>& moves = moves_[foot];
         std::vector<double> lifts(moves.size()), from_stand(moves.size(), 1e9);
@@ -288,8 +289,7 @@ class Planner {
     }
 
     /// How far to lower the hips to bring the foot within reach. No leg becomes straighter than `straight`,
-    /// unless the source's is and its foot is hardly moved: a leg that comes that near to its full length for
-    /// a frame snaps.
+    /// unless the source's is and its foot hardly moves: a leg that near to full length for one frame snaps.
     double missing(std::size_t foot, std::size_t i) const {
         const PointedFoot& its = pointed(foot, i);
         const glm::dvec3 pointed_way = minus(its.ankle, its.hip), way = plus(pointed_way, moves_[foot][i]);
@@ -303,7 +303,7 @@ class Planner {
         const std::size_t count = rounds_.size();
         drops_.assign(count, 0.0);
         for (std::size_t i = 0; i < count; ++i) drops_[i] = std::max({0.0, missing(0, i), missing(1, i)});
-        // The largest of those around, then two means over half as many: no frame gets less than it needs.
+        // The maximum over neighbours, then two means over half as many: no frame gets less than it needs.
         const std::size_t half = std::max<std::size_t>(seconds(0.5 * hips_ease), 1);
         drops_ = largest_around(drops_, 2 * half);
         for (int round = 0; round < 2; ++round) drops_ = mean_around(drops_, half);
@@ -331,7 +331,7 @@ class Planner {
     const FootingTask& task_;
     const Rounds rounds_;
     std::array<std::vector<Stand>, 2> stands_{};
-    std::array<std::vector<glm::dvec3>, 2> moves_{};  // of the ankles, after the shift
+    std::array<std::vector<glm::dvec3>, 2> moves_{};  // the ankles' moves, after the shift
     std::vector<double> drops_{};
     double shift_ = 0.0;
 };

@@ -1,7 +1,7 @@
-// Where the feet of a retargeted motion go, and how far the hips are moved for that. Not installed.
+// Plans the feet of a retargeted motion, and how far the hips move for them. Not installed.
 //
-// Each leg starts out pointing where the source's does. While the source's foot stands, the ankle is
-// displaced so that the sole stays on the ground; between stances one displacement blends into the next.
+// Each leg starts out pointing like the source's. While the source's foot stands, the ankle is displaced so
+// that the sole stays on the ground; between stances one displacement blends into the next.
 #pragma once
 
 #include <array>
@@ -25,16 +25,16 @@ struct PointedFrame {
     std::array<PointedFoot, 2> feet{};  ///< left, right
 };
 
-/// Both figures, as far as the plan needs them.
+/// The parts of both figures that the plan needs.
 struct FootingTask {
-    const lint_detail::FeetMotion& motion;  ///< of the source
+    const lint_detail::FeetMotion& motion;  ///< the source's feet
     const std::vector<PointedFrame>& frames;
     double rate = 30.0;                   ///< frames per second
-    double scale = 1.0;                   ///< from the source's metres to the target's
-    double leg = 1.0;                     ///< of the target
-    double floor = 0.0;                   ///< of the target
-    double shift = 0.0;                   ///< how far to raise the hips, judging by both rest poses
-    std::optional<double> stood_on{};     ///< the floor in the source's clip; none: feet hardly stand
+    double scale = 1.0;                   ///< target metres per source metre
+    double leg = 1.0;                     ///< the target's leg length
+    double floor = 0.0;                   ///< the target's floor
+    double shift = 0.0;                   ///< how far to raise the hips if no foot stands
+    std::optional<double> stood_on{};     ///< the floor of the source's clip; none: feet hardly stand
     double ground = 0.0;                  ///< the source's floor at rest
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};  ///< from the source's space to the target's
 };

@@ -14,7 +14,7 @@ using Path = std::vector<std::size_t>;
 
 struct Pair {
     std::size_t a, b;
-    double reach;  // the shorter one's
+    double reach;  // of the shorter limb
 };
 
 class Shape {
@@ -145,7 +145,7 @@ class Shape {
         if (before != bones[0] && *upper > 0) set(before, path[*upper - 1]);
         if (after && *upper + 3 < path.size()) set(*after, path[*upper + 3]);
     }
-    /// The two limbs, the left one first.
+    /// The two limbs, left first.
     std::pair<std::size_t, std::size_t> left_first(const Pair& pair, const glm::dvec3& left) const {
         const std::size_t a = end_[pair.a], b = end_[pair.b];
         const bool a_is_left = dot(minus(at(a), at(b)), left) > 0.0;
@@ -183,7 +183,7 @@ class Shape {
         }
         return best;
     }
-    /// Follows the column up from the hips to the node that the arms hang on, and on to the head.
+    /// Follows the column up from the hips to the node where the arms branch, and on to the head.
     void read_column(std::size_t hips, const Pair& legs) {
         Path column;
         auto next = highest_child(hips, legs);

@@ -85,7 +85,7 @@ Expected<Skeleton> Skeleton::make(std::vector<Node> nodes) {
         for (const std::int32_t node : made.order_) reached[static_cast<std::size_t>(node)] = true;
         auto lost =
             static_cast<std::size_t>(std::find(reached.begin(), reached.end(), false) - reached.begin());
-        // The node may only hang below the cycle: `count` steps up lead into it.
+        // The node may hang below the cycle: `count` steps up lead into it.
         for (std::size_t i = 0; i < count; ++i) lost = static_cast<std::size_t>(made.nodes_[lost].parent);
         return refused("Skeleton", Argument("nodes", lost, "parent"), "a node that is not below it",
                        made.nodes_[lost].parent);

@@ -17,7 +17,7 @@ using namespace rig::detail;
 using tendril::detail::refused;
 
 constexpr double shortest = 1e-9;
-constexpr double unmoved = 1e-7;  // metres: rounding when the same pose is computed again
+constexpr double unmoved = 1e-7;  // metres: rounding when a pose is computed again
 constexpr auto no_place = static_cast<std::size_t>(-1);
 
 enum class Time : std::uint8_t { Passes, Stands, Jumps };
@@ -25,11 +25,11 @@ enum class Time : std::uint8_t { Passes, Stands, Jumps };
 /// A node of the chain. Its tip is the mean position of its children.
 struct ChainNode {
     std::size_t node = 0;
-    std::size_t above = no_place;     // index in the chain of its parent; none for the first
+    std::size_t above = no_place;     // its parent's index in the chain; none for the first
     std::size_t mass = no_place;      // index of its tip's mass; none for a node without length
-    double length = 0.0;              // from the base to its tip, along the chain at rest
+    double length = 0.0;              // from the chain's base to its tip, at rest
     std::vector<std::size_t> ends{};  // its children
-    glm::dvec3 beyond{0.0};           // its tip if it has no children, in its own space
+    glm::dvec3 beyond{0.0};           // its tip in its own space, if it has no children
 };
 
 /// Deflection of a cantilever under its own weight at `part` (0 to 1) of its length, relative to its tip.
@@ -68,7 +68,7 @@ void spring(SpringMass& mass, const glm::dvec3& target, double strength, double 
             .has_velocity = true};
 }
 
-/// A mass's offset from its target, at most `reach`: a drag while paused, or a file, may put it anywhere.
+/// A mass's offset from its target, clamped to `reach`: a drag while paused, or a file, may put it anywhere.
 glm::dvec3 swing_of(const SpringMass& mass, double reach) noexcept {
     const glm::dvec3 way = minus(mass.position, mass.target);
     if (!signal::is_input(way)) return glm::dvec3(0.0);
@@ -76,8 +76,8 @@ glm::dvec3 swing_of(const SpringMass& mass, double reach) noexcept {
     return away > reach ? times(way, reach / away) : way;
 }
 
-/// The nearest direction to `points` in which the tip of a bone of that length is not inside a collider. In
-/// the plane of bone and collider the law of cosines gives the angle at the base. Colliders that overlap, and
+/// The direction nearest to `points` in which the tip of a bone of that length is outside all colliders. In
+/// the plane of bone and collider the law of cosines gives the angle at the base. Overlapping colliders, and
 /// the other end of a capsule, take more rounds.
 glm::dvec3 outside(std::span<const PlacedCapsule> colliders, double margin, const glm::dvec3& base,
                    double bone, glm::dvec3 points) noexcept {
@@ -108,7 +108,7 @@ glm::dvec3 outside(std::span<const PlacedCapsule> colliders, double margin, cons
     }
     return points;
 }
-/// A tip's remaining velocity after a collider turned its bone: nothing along the bone or back inside.
+/// A tip's remaining velocity after a collider turned its bone: no part along the bone or back inside.
 glm::dvec3 kept(const glm::dvec3& velocity, const glm::dvec3& inside, const glm::dvec3& free) noexcept {
     const glm::dvec3 left = across(velocity, free);
     const auto out = direction_of(across(minus(free, inside), free), 0.0);

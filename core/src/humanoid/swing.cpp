@@ -9,11 +9,11 @@ namespace {
 
 using namespace rig::detail;
 
-/// How far ahead of the foot the ground is sampled, metres, and in how many samples.
+/// How far ahead of the foot the ground is sampled, metres, and the number of samples.
 constexpr double farthest = 0.8;
 constexpr int looks = 8;
-/// A foot rises for what is ahead at this part of max_speed, and aims to be up this many seconds before the
-/// edge, because its lift lags behind its goal by as much.
+/// A foot rises for the ground ahead at this fraction of max_speed, and aims to be up this many seconds
+/// before the edge, because its lift lags behind its goal by as much.
 constexpr double rising = 0.6, early = 0.04;
 /// A foot that speeds up is assumed to do so for this many more seconds.
 constexpr double gaining = 0.1;

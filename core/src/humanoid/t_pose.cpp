@@ -27,16 +27,16 @@ std::optional<glm::dvec3> foot_at_rest(const Skeleton& skeleton, const BoneMap& 
     return direction_of(minus(rest[end].position, rest[node].position), 1e-9);
 }
 
-/// How a foot stands, judged by its rest pose.
+/// How a foot stands, derived from its rest pose.
 class Standing {
   public:
     Standing(const Skeleton& skeleton, const BoneMap& map, const std::vector<Placement>& rest,
              const Facing& at)
         : at_(at), feet_{foot_at_rest(skeleton, map, rest, true), foot_at_rest(skeleton, map, rest, false)} {}
 
-    /// The rotation from rest to standing. `with_leg`: how far the leg turns. A foot that rests as if it
-    /// stood keeps its rest; any other one (a bind pose in mid-run) turns with its leg and points where the
-    /// other foot does, or 30 degrees below level.
+    /// The rotation from rest to standing. `with_leg`: the leg's turn. A foot that could stand as it is at
+    /// rest keeps its rest; any other (a bind pose in mid-run) turns with its leg and points like the other
+    /// foot, or 30 degrees below level.
     glm::dquat turn(bool left, const glm::dquat& with_leg) const {
         const auto &own = feet_[left ? 0 : 1], &other = feet_[left ? 1 : 0];
         if (!own || stands(*own)) return {1.0, 0.0, 0.0, 0.0};
@@ -49,7 +49,7 @@ class Standing {
     }
 
   private:
-    /// Whether it points forward, out or in by at most 60 degrees, from 20 degrees above level to 70 below.
+    /// Whether it points forward: at most 60 degrees out or in, from 20 degrees above level to 70 below.
     bool stands(const glm::dvec3& foot) const {
         const double ahead = dot(foot, at_.forward), aside = dot(foot, at_.left), high = dot(foot, at_.up);
         return high < 0.342 && high > -0.94 && ahead > 0.5 * std::sqrt(ahead * ahead + aside * aside);

@@ -21,7 +21,7 @@ constexpr double told = 0.0302, lost = 0.0019;
 /// Radians; a smaller change is rounding.
 constexpr double min_twist = 1e-9;
 
-/// The nodes from below `above` down to `node`; empty if `node` is not a descendant of it.
+/// The nodes below `above` down to `node`; empty if `node` is not its descendant.
 std::vector<std::size_t> path(const Skeleton& skeleton, std::size_t above, std::size_t node) {
     std::vector<std::size_t> nodes;
     while (node != above) {

@@ -1,6 +1,6 @@
-// Feet of IK rigs that hang outside the legs. Some exported rigs keep their control hierarchy: the foot is a
-// child of the root, where the animator moved it as an IK target, and the lower leg ends in nothing. Solvers
-// need the foot below the leg:
+// Feet of IK rigs that are not children of the legs. Some exported rigs keep their control hierarchy: the
+// foot is a child of the root, where the animator moved it as an IK target, and the lower leg has no child.
+// Solvers need the foot below the leg:
 //
 //     for (const LooseFoot& each : loose_feet(skeleton, match_bones(skeleton)))
 //         if (each.fits)
@@ -20,13 +20,14 @@ namespace tendril::humanoid {
 
 struct LooseFoot {
     Bone bone = Bone::LeftFoot;
-    std::size_t foot = 0;  ///< a node named as the foot of this side, not below the leg
+    std::size_t foot = 0;  ///< node with the name of this side's foot, not below the leg
     std::size_t leg = 0;   ///< node of the lower leg
-    bool fits = false;     ///< at rest the foot is where the lower leg may end
+    bool fits = false;     ///< the foot's rest position is a plausible end of the lower leg
 };
 
-/// At most one per side, if the map has its lower leg and no named foot is below that. The foot fits where
-/// the last node below the lower leg is; without such a node, if it continues the leg at a usual length.
+/// At most one per side, if the map has its lower leg and no named foot is below it. A foot fits if it is
+/// where the last node below the lower leg is; without such a node, if it continues the leg at a usual
+/// length.
 std::vector<LooseFoot> loose_feet(const Skeleton& skeleton, const BoneMap& map);
 
 /// The skeleton with the node moved below `to`; it stays where it is, at rest and in clips. Refuses a node
@@ -35,8 +36,7 @@ Expected<Skeleton> attached(const Skeleton& skeleton, std::size_t node, std::siz
 /// The skeleton as it was before attached().
 Skeleton detached(const Skeleton& skeleton);
 
-/// Whether the node has the same place in both poses, to 1e-6 of its distance from the origin, and to 1e-3 in
-/// its axes.
+/// Whether two placements are the same, to 1e-6 of the distance from the origin, and to 1e-3 in their axes.
 bool is_same_place(const Placement& a, const Placement& b) noexcept;
 
 }  // namespace tendril::humanoid

@@ -35,14 +35,14 @@ namespace tendril::humanoid {
 /// A part of the body's mass.
 struct MassPoint {
     std::size_t node = 0;  ///< the node that moves it
-    glm::dvec3 at{0.0};    ///< in the node's space
-    double share = 0.0;    ///< fraction of the body's mass; all sum up to 1
+    glm::dvec3 at{0.0};    ///< position in the node's space
+    double share = 0.0;    ///< fraction of the body's mass; they sum to 1
     bool operator==(const MassPoint&) const = default;
 };
 
 struct Masses {
     std::vector<MassPoint> points{};
-    /// The centre of mass in the character's space. `placements` has one of every node.
+    /// The centre of mass in the character's space. `placements` has one for every node.
     glm::dvec3 centre(std::span<const Placement> placements) const noexcept;
     bool operator==(const Masses&) const = default;
 };
@@ -56,7 +56,7 @@ struct Support {
     static constexpr std::size_t max_corners = 12;
     std::array<glm::dvec3, max_corners> corners{};  ///< in order round the hull; y is the sole's height
     std::size_t count = 0;                          ///< 0: nothing stands
-    std::array<double, 2> standing{};               ///< left, right: 0 is in the air, 1 stands
+    std::array<double, 2> standing{};               ///< left, right: 0 in the air, 1 standing
     glm::dvec3 middle{0.0};                         ///< mean of the soles' points, inside the hull
 
     /// Horizontal distance of a point from the hull's edge, metres: positive inside; -max_magnitude if no
@@ -68,9 +68,9 @@ struct Support {
     Support shrunk(double part) const noexcept;
 };
 
-/// Heel and ball stand up to 0.02 of the leg's length above the ground, and not from 0.08 on. In between,
-/// their part of the hull shrinks towards the points that still stand, so that nothing jumps. Without a
-/// ground, the lowest of them is on it.
+/// Heel and ball stand if at most 0.02 of the leg's length above the ground, and are in the air from 0.08 on.
+/// In between, their part of the hull shrinks towards the points that still stand, so that nothing jumps.
+/// Without a ground, the lowest point counts as on it.
 Support find_support(const Soles& soles, const std::array<SolePoints, 2>& at,
                      const Ground* ground = nullptr) noexcept;
 Support find_support(const Soles& soles, std::span<const Placement> placements,

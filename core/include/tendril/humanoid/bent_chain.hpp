@@ -7,16 +7,16 @@
 //     const ik::CurveReport report = tail->bend(pose, points, {.weight = 0.5f});
 //
 // The curve begins at the chain's first node, wherever the pose has it, and runs through the control points.
-// They are in the space of the node that the chain hangs on, in metres: a tail's curve goes with the hips. So
-// it makes no difference to a tail whether IK moves the hips before or after bend(). For a spine it does:
-// bend it first, then hands and feet still reach their targets.
+// They are in the space of the chain's parent node, in metres: a tail's curve moves with the hips, so IK may
+// move the hips before or after bend(). Bend a spine before IK; hands and feet then still reach their
+// targets.
 //
 // Method: ik::place_along() (tendril/ik/curve.hpp) in the space of the points. The bones turn from the rest
 // pose no further than the curve requires: first all of them by the shortest arc from the first bone to the
 // curve's beginning, then each with the curve's rotation-minimising frame. Rest twist stays, and a curve that
 // moves a little rolls a little, unless it begins straight against the first bone's rest direction.
 //
-// Only rotations change, and with `fit` lengths. Nodes that hang on the chain follow. With a weight of 0 the
+// Only rotations change, and with `fit` lengths. Children of the chain's nodes follow. With a weight of 0 the
 // pose stays bit-identical.
 //
 // Cost: O(bones + control points + nodes of the skeleton). bend() does not allocate or throw.
@@ -42,18 +42,18 @@ class BentChain {
     BentChain(BentChain&&) noexcept;
     BentChain& operator=(BentChain&&) noexcept;
 
-    /// From first to last.
+    /// The chain's nodes, from first to last.
     std::span<const std::size_t> nodes() const noexcept;
     std::size_t bones() const noexcept { return nodes().empty() ? 0 : nodes().size() - 1; }
-    /// The space of the control points, in metres: the position and rotation of the chain's parent. `placed`:
-    /// of all nodes.
+    /// The space of the control points, in metres: the position and rotation of the chain's parent. `placed`
+    /// has one placement for every node.
     Placement space(std::span<const Placement> placed) const noexcept;
     /// At most `count` control points through the chain's joints, evenly spread along it. Empty if the pose
-    /// is not finite or of another skeleton. Allocates.
+    /// is not finite or belongs to another skeleton. Allocates.
     std::vector<glm::vec3> points_through(std::span<const rig::Transform> pose, std::size_t count) const;
 
-    /// `pose` holds the local transforms of all nodes; the chain's come back along the curve. `points`: 1 to
-    /// max_points, those after the first node. The rest pose takes the place of `options.up`. `memory`, for
+    /// `pose` holds the local transforms of all nodes; the chain's are replaced. `points`: the control points
+    /// after the first node, 1 to max_points. The rest pose takes the place of `options.up`. `memory`, for
     /// bones() bones, is only needed to report jumps. Status::InvalidInput for a pose, points or options that
     /// are not finite or out of range: nothing has changed.
     ik::CurveReport bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,

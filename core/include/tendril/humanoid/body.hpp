@@ -50,8 +50,8 @@ Bone bone_of(Effector effector) noexcept;
 
 struct BodyTarget {
     Effector effector = Effector::LeftHand;
-    glm::dvec3 position{0.0};  ///< metres, of the bone's joint, in the character's space
-    /// Rotation of the bone, in the character's space; blended in by `weight` (up to 1) and clamped to the
+    glm::dvec3 position{0.0};  ///< of the bone's joint, metres, in the character's space
+    /// The bone's rotation in the character's space; blended in by `weight` (up to 1) and clamped to the
     /// joint's limit. Without one a foot keeps the clip's rotation, so that it stays level, and a hand or the
     /// head turns with its parent bone.
     std::optional<glm::dquat> rotation{};
@@ -70,11 +70,11 @@ struct BodyOptions {
     int max_iterations = 20;  ///< 1 to 1000
     double tolerance = 2e-6;  ///< radians (metres for the hips), over 0 to 1; a smaller step ends the solve
     bool feet_stay = true;    ///< feet without a target stay where the clip has them
-    /// Part of a hand's twist that the lower arm takes: 0 to 1. Twist nodes (twist.hpp) then spread it along
+    /// Share of a hand's twist that the lower arm takes, 0 to 1. Twist nodes (twist.hpp) then spread it along
     /// the arm.
     double twist_share = 0.5;
     bool self_collision = true;  ///< keep apart the capsules passed to Body::make
-    /// Metres, 0 to 1: lets the pose relax towards the clip as if the targets had moved that far. For the
+    /// Lets the pose relax towards the clip as if the targets had moved this far, metres, 0 to 1. For the
     /// frames after a target is released; without it the rest of the body would stay pulled.
     double settle = 0.0;
     /// Keeps the centre of mass (balance.hpp) over the standing feet: hips and trunk move so that it stays in
@@ -82,7 +82,7 @@ struct BodyOptions {
     /// counterweight. The pose may be as far out of balance as the clip. No effect if find_soles() refuses
     /// the legs.
     bool balance = false;
-    /// Part of the support, from its edge to its middle, that the centre of mass keeps clear of: 0 to 0.9.
+    /// Fraction of the support, from edge to middle, that the centre of mass keeps clear of: 0 to 0.9.
     double reserve = 0.25;
     std::array<FootShift, 2> feet{};  ///< left, right; only feet that stay
     const Ground* ground =
@@ -95,7 +95,7 @@ struct BodyState {
     /// Each bone's rotation from the clip's pose, in its parent bone's frame, in the order of Body::bones().
     std::vector<glm::dquat> turns{};
     glm::dvec3 shift{0.0};                          ///< offset of the hips from the clip's, metres
-    std::array<glm::dvec3, effector_count> clip{};  ///< where the clip had the effectors, metres
+    std::array<glm::dvec3, effector_count> clip{};  ///< the effectors' positions in the clip, metres
     double deepest = 0.0;                           ///< deepest overlap of two capsules, metres
     std::array<glm::dvec3, effector_count> left{};  ///< from each effector to its target, metres
     std::array<double, effector_count> weights{};   ///< weights of the targets; 0: no target

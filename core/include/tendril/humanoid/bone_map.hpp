@@ -5,7 +5,7 @@
 // from which two equal limbs go down and a column goes up, for two equal limbs at the top of the column, and
 // for a head above them. If both agree, the match is nearly certain; if they differ, or only one finds the
 // bone, the confidence is lower. Where a limb has as many nodes as the one on the other side, both have their
-// bones at the same nodes. The reasons are in words.
+// bones at the same nodes. Reasons are given in words.
 //
 //     const BoneMap map = match_bones(skeleton);
 //     if (!map.is_usable()) ...  // map.missing lists the missing bones, or the map is not upright
@@ -54,7 +54,7 @@ inline constexpr std::size_t bone_count = 22;
 /// "LeftUpperArm"
 const char* name(Bone bone) noexcept;
 std::optional<Bone> bone_named(std::string_view name) noexcept;
-/// Whether a body cannot be solved without it: true for fifteen bones.
+/// Whether solving a body needs this bone: true for fifteen bones.
 bool is_needed(Bone bone) noexcept;
 /// Swaps left and right: LeftHand for RightHand. A bone without a side is returned unchanged.
 Bone mirrored(Bone bone) noexcept;
@@ -72,11 +72,11 @@ const char* name(RestPose pose) noexcept;
 
 struct BoneMap {
     std::array<BoneMatch, bone_count> bones{};
-    std::vector<Bone> missing{};  ///< by the last review(): of the fifteen needed ones, in enum order
-    bool upright = true;          ///< from hips to head, the rise exceeds the horizontal distance
+    std::vector<Bone> missing{};  ///< needed bones without a node at the last review(), in enum order
+    bool upright = true;          ///< the rise from hips to head exceeds the horizontal distance
     RestPose rest = RestPose::Other;
 
-    /// A body can be solved with it: it is upright, and each needed bone has a node, whether reviewed or not.
+    /// Whether a body can be solved with it: upright, with a node for each needed bone, reviewed or not.
     bool is_usable() const noexcept;
     BoneMatch& operator[](Bone bone) noexcept { return bones[static_cast<std::size_t>(bone)]; }
     const BoneMatch& operator[](Bone bone) const noexcept { return bones[static_cast<std::size_t>(bone)]; }

@@ -47,7 +47,7 @@ struct PlacedCapsule {
     glm::dvec3 from{0.0}, to{0.0};
     double radius = 0.0;
 };
-/// The capsule's bone must be mapped. `placements`: of all nodes.
+/// The capsule's bone must be mapped. `placements` has one for every node.
 PlacedCapsule place(const BodyCapsule& capsule, const BoneMap& map,
                     std::span<const Placement> placements) noexcept;
 

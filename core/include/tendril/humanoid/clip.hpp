@@ -6,8 +6,8 @@
 //     place(skeleton, pose, placements);
 //
 // Keys are interpolated exactly as in glTF (glTF 2.0, appendix C, "Animation Sampler Interpolation Modes"):
-// before the first key and after the last one their values hold. Rotations take the short way: spherically
-// for Linear, by component and renormalised for Cubic.
+// the first value holds before the first key, the last one after the last. Rotations take the short way:
+// spherically for Linear, by component and renormalised for Cubic.
 //
 // Cost: O(log keys) per track.
 #pragma once
@@ -25,7 +25,7 @@ namespace tendril::humanoid {
 enum class Interpolation : std::uint8_t {
     Step,  ///< keeps the key's value
     Linear,
-    Cubic  ///< Hermite's cubic by the keys' tangents
+    Cubic  ///< cubic Hermite with the keys' tangents
 };
 /// "step", "linear", "cubic"
 const char* name(Interpolation interpolation) noexcept;
@@ -53,7 +53,7 @@ struct Clip {
     std::string name{};
     double duration = 0.0;            ///< seconds, at least the time of the last key
     std::vector<Channel> channels{};  ///< at most one per node
-    double rate = 0.0;                ///< frames per second, as its file says; 0: it does not
+    double rate = 0.0;                ///< frames per second, from its file; 0: not given there
     bool operator==(const Clip&) const = default;
 };
 
@@ -74,10 +74,10 @@ struct Frames {
     double step = 0.0;      ///< seconds
     double time(std::size_t frame) const noexcept { return static_cast<double>(frame) * step; }
 };
-/// The clip at `rate` frames per second. If that is its own rate, the frames are its keys, all of them: files
-/// round the time between frames, and 127 steps of 0.0333333 s are a little less than 127 thirtieths. Own
-/// frames are the keys of a track, each within 0.06 steps of even times from 0 to the clip's end. Of two
-/// rates that differ by 0.1 %, as 30 and 29.97, the nearer one is its own.
+/// The clip at `rate` frames per second. If that is its own rate, every key is a frame: files round the time
+/// between frames, and 127 steps of 0.0333333 s are a little less than 127 thirtieths. A clip's own frames
+/// are the keys of a track, each within 0.06 steps of even times from 0 to the clip's end. Of two rates that
+/// differ by 0.1 %, as 30 and 29.97, the nearer one is its own.
 Frames frames_at(const Clip& clip, double rate) noexcept;
 /// Times of keys, increasing, and the frames between the first and the last. A frame within 0.06 steps of a
 /// key is that key: a second call adds nothing.

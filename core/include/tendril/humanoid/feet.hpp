@@ -15,11 +15,11 @@
 //  2. A foot in stance (its sole low over the clip's own floor, and slow) is locked: its toe keeps its
 //     horizontal position. Locked or not, rays from above the ankle, down through heel and toe, find the
 //     ground. The foot turns by the mean of the two normals and keeps the clip's height over its floor,
-//     measured from whichever of the two is supported (on level ground, the higher hit). A foot that is about
-//     to land, by how it brakes, goes to a place where its whole sole has ground under it, or, where treads
-//     are too short for that, as much of it as fits. When a lock is released, its offset eases out. A foot in
-//     the air is lifted over the ground ahead of it, as far as it comes before it lands, in time to rise
-//     steadily; it is kept back in front of a riser until it is above it.
+//     measured from whichever of the two is supported (on level ground, the higher hit). A foot that brakes
+//     to land goes to a place where its whole sole has ground under it, or, where treads are too short for
+//     that, as much of it as fits. When a lock is released, its offset eases out. A foot in the air is lifted
+//     over the ground ahead, up to where it lands, early enough to rise steadily; it waits in front of a
+//     riser until it is above it.
 //  3. The pelvis is lowered until the legs reach, by a critically damped spring, or faster than the spring
 //     if a foot on the ground needs it.
 //  4. Legs are solved in closed form. A knee stays on the side where the clip has it; a straight one bends
@@ -31,10 +31,10 @@
 // Hips, and knees and feet in the air, move relative to the clip no faster than `max_speed`, except along a
 // slope, which a foot follows at any speed; a jump of the ground eases in. A walk of 1 m/s passes no more
 // than 10 mm through slopes of up to 40 degrees and stairs of up to 0.18 m on 0.28 m. Faster walks or steeper
-// stairs may need more than `max_speed`: such a foot goes on through the edges, and the report says how deep
+// stairs may need more than `max_speed`: such a foot passes through the edges, and the report says how deep
 // and how late it is (`FootReport::depth`). A foot that goes down stairs may be late: it is kept above the
-// upper step until its heel is clear, and if the clip has put it down by then, the remaining way takes as
-// long as `max_speed` allows, 5 frames for 0.16 m. It counts as planted once it arrives.
+// upper step until its heel is clear, and if the clip has put it down by then, the rest of the way down takes
+// as long as `max_speed` requires, 5 frames for 0.16 m. It counts as planted once it arrives.
 //
 // Sources: R. S. Johansen, "Automated Semi-Procedural Animation for Character Locomotion", 2009 (feet on
 // uneven ground); L. Kovar, J. Schreiner, M. Gleicher, "Footskate Cleanup for Motion Capture Editing", SCA
@@ -53,10 +53,10 @@ namespace tendril::humanoid {
 
 /// Metres, seconds, radians.
 struct FeetOptions {
-    double weight = 1.0;  ///< 0 to 1, of the corrected pose; 0: the clip's pose, bit-identical
+    double weight = 1.0;  ///< weight of the corrected pose, 0 to 1; 0: the clip's pose, bit-identical
 
-    /// The character's space in the ground's, Y up in both. The movement of an in-place clip that the program
-    /// moves along belongs here.
+    /// From the character's space to the ground's, Y up in both. If the program moves an in-place clip along,
+    /// its movement belongs here.
     rig::Transform root{};
     /// Speed of an in-place clip that the program does not move: m/s in the ground's space. It is added to
     /// the feet's speed, and locked feet move backwards with the ground.
@@ -73,8 +73,8 @@ struct FeetOptions {
     double ray_start = 0.5;                 ///< above the ankle; 0 to 1e3
     double max_turn = 0.6108652381980153;   ///< 35 degrees: the ground turns a foot by at most this
     double max_slope = 0.7853981633974483;  ///< 45 degrees: steeper ground is ignored; both 0 to 85 degrees
-    double edge = 0.012;    ///< a sole keeps this distance to the edges of the step that it stands on; 0: it
-                            ///< stays where the clip puts it; 0 to 0.1
+    double edge = 0.012;    ///< distance of a sole from the edges of the step that it stands on, 0 to 0.1; 0:
+                            ///< it stays where the clip puts it
     double max_step = 0.5;  ///< ground this far above or below the root's is ignored; 0 to 1e3
     double root_radius = 0.3;        ///< radius of the disc whose mean height the root follows; 0 to 1e3
     double root_half_life = 0.05;    ///< 1e-6 to 10
@@ -95,20 +95,20 @@ const char* name(FootAlone why) noexcept;
 
 struct FootState {
     bool locked = false;
-    bool speed_known = false;               ///< measured since the foot was locked
+    bool speed_known = false;               ///< a speed has been measured since the foot was locked
     bool standing = false;                  ///< locked, and on the ground
     glm::dvec3 heel{0.0}, toe{0.0};         ///< in the clip, in the ground's space
-    glm::dvec3 velocity{0.0};               ///< of the toe in the clip, horizontal
+    glm::dvec3 velocity{0.0};               ///< horizontal velocity of the toe in the clip
     double lock_x = 0.0, lock_z = 0.0;      ///< where the toe is locked
     double shift_x = 0.0, shift_z = 0.0;    ///< remaining shift to where the whole sole stands
-    bool edges_known = false;               ///< that place was searched for since the foot was locked
+    bool edges_known = false;               ///< the foothold has been chosen since the foot was locked
     double offset_x = 0.0, offset_z = 0.0;  ///< offset of the toe from the clip
     double lift = 0.0;                      ///< lift of the ankle from the clip
     double goal = 0.0;                      ///< the lift without the ease
     signal::SpringState<double> ease{};     ///< offset of the lift from the goal; eases to 0
     glm::dvec3 knee{0.0};                   ///< offset of the knee from the clip
-    double planting = 0.0;                  ///< 0: as high over the ground as in the clip; 1: on it
-    glm::dquat turn{1.0, 0.0, 0.0, 0.0};    ///< by the ground
+    double planting = 0.0;                  ///< 0: as high over the ground as in the clip; 1: on the ground
+    glm::dquat turn{1.0, 0.0, 0.0, 0.0};    ///< rotation due to the ground
     FootAlone alone = FootAlone::No;
     bool operator==(const FootState&) const = default;
 };
@@ -133,7 +133,7 @@ struct FootReport {
     FootAlone alone = FootAlone::No;
     glm::dvec3 heel{0.0}, toe{0.0};  ///< in the corrected pose, in the ground's space
     double depth = 0.0;  ///< how far heel, ball or toe is below the ground, metres; at full weight
-    double late = 0.0;   ///< how far the foot still has to rise: max_speed allows no more. Metres
+    double late = 0.0;   ///< metres that the foot still has to rise, held back by max_speed
 };
 
 struct FeetReport {

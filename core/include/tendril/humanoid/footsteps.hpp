@@ -7,14 +7,14 @@
 //     place(skeleton, pose, solved);
 //     plan_step(steps, *soles, masses->centre(solved), placed, body_state, options.ground);
 //
-// The body falls towards its catching point: its centre of mass, moved by the largest miss of a target
-// (hands, head, hips), but by 0.5 to 0.9 of the leg's length. (The capture point of J. Pratt et al., "Capture
-// point: a step toward humanoid push recovery", 2006, of a body that moves slowly.) The foot nearer to that
-// point steps under it, at most 0.9 of the leg's length from the other foot, and never across; the other one
+// The body falls towards its capture point: its centre of mass, shifted by the largest remaining error of a
+// target (hands, head, hips), clamped to 0.5 to 0.9 of the leg's length. (J. Pratt et al., "Capture point: a
+// step toward humanoid push recovery", 2006, for a body that moves slowly.) The foot nearer to that point
+// steps under it, at most 0.9 of the leg's length from the other foot, and never across; the other one
 // follows if one step is not enough. Without targets, the feet step back to where the clip has them.
 //
-// A hand that goes to a target within 1.9 m at 1 m/s takes no more than two steps in most cases and four in
-// nearly all.
+// Moving a hand at 1 m/s to a target within 1.9 m takes at most two steps in most cases and four in nearly
+// all.
 //
 // Needs a clip that stands: while the clip lifts a foot, no step begins.
 //
@@ -29,19 +29,19 @@
 
 namespace tendril::humanoid {
 
-/// Part of the leg's length: targets missed by less than this need no step.
+/// Targets missed by less than this need no step, as a fraction of the leg's length.
 inline constexpr double no_step_within = 0.02;
 
 struct FootstepOptions {
     double seconds = 0.3;  ///< duration of a step: 0.05 to 5
-    double lift = 0.1;     ///< height of its arc, part of the leg's length: 0 to 1
+    double lift = 0.1;     ///< height of its arc, in leg lengths: 0 to 1
     bool operator==(const FootstepOptions&) const = default;
 };
 
 /// A foot's shift from its place in the clip, metres.
 struct Footstep {
     glm::dvec3 from{0.0}, to{0.0};
-    double part = 1.0;  ///< of the way from `from` to `to`: 0 to 1
+    double part = 1.0;  ///< progress from `from` to `to`: 0 to 1
     bool operator==(const Footstep&) const = default;
 };
 
@@ -49,7 +49,7 @@ struct FootstepsState {
     std::array<Footstep, 2> feet{};  ///< left, right
     /// Whether a foot is in the air.
     bool stepping() const noexcept { return feet[0].part < 1.0 || feet[1].part < 1.0; }
-    /// Whether a foot is, or goes, away from its place in the clip.
+    /// Whether a foot is away from its place in the clip, or on its way there or back.
     bool away() const noexcept { return *this != FootstepsState(); }
     bool operator==(const FootstepsState&) const = default;
 };
@@ -61,10 +61,10 @@ Result check(const FootstepsState& state) noexcept;
 std::array<FootShift, 2> advance_steps(FootstepsState& state, const Soles& soles, double dt,
                                        const FootstepOptions& options = {}) noexcept;
 
-/// Begins a step if none is under way and one is needed: the last solve, which left `body`, held the body
-/// back by its balance or a stretched leg, and a target is not reached. `clip`: placements of the pose before
-/// the solve. On `ground`, a foot steps only where there is some, and at most 0.5 of the leg's length up or
-/// down from where it stands. Returns whether a step began.
+/// Begins a step if none is under way and one is needed: in the last solve, which left `body`, balance or a
+/// stretched leg held the body back from a target. `clip`: placements of the pose before the solve. With
+/// `ground`, a foot steps only onto ground, at most 0.5 of the leg's length up or down from where it stands.
+/// Returns whether a step began.
 bool plan_step(FootstepsState& state, const Soles& soles, const glm::dvec3& centre,
                std::span<const Placement> clip, const BodyState& body,
                const Ground* ground = nullptr) noexcept;

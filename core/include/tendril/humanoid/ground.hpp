@@ -4,8 +4,8 @@
 //     if (!ground) return log(ground.message());  // "stairs: step_depth must be from 0.01 to 1e3 m, got 0"
 //     if (const auto hit = ground->below(ankle)) foot_height = hit->height;
 //
-// A plain value. Y is up, metres. Copying a mesh copies its triangles, so pass one that many characters walk
-// on by reference.
+// A plain value. Y is up, metres. Copying a mesh copies its triangles: pass one that many characters share by
+// reference.
 //
 // Cost of a ray: some 10 ns on flat ground, slopes and stairs, 30 on a terrain, 200 on a mesh of any size:
 // its triangles are sorted into a grid with about as many squares as triangles. Building it is linear.

@@ -29,7 +29,7 @@
 namespace tendril::humanoid {
 
 struct HandTarget {
-    glm::dvec3 position{0.0};  ///< the hand's joint, in the space of `root`
+    glm::dvec3 position{0.0};  ///< position of the hand's joint, in the space of `root`
     /// Rotation of the hand's node, in that space; unset: the hand turns with the forearm.
     std::optional<glm::dquat> rotation{};
     double weight = 0.0;  ///< clamped to 0 to 1
@@ -39,10 +39,10 @@ using HandTargets = std::array<HandTarget, 2>;  ///< left, right
 /// Radians, seconds.
 struct HandsOptions {
     rig::Transform root{};  ///< where the character stands, as FeetOptions::root
-    /// Half-angle of the view cone of the head, 115 degrees; 0 to pi, which sees everything.
+    /// Half-angle of the head's view cone, by default 115 degrees; 0 to pi, which sees everything.
     double view = 2.007128639793479;
     double half_life = 0.1;  ///< for easing when a target enters or leaves the view; 1e-6 to 10
-    double shoulder = 0.5;   ///< a shoulder turns by at most this; 0 to 1.48 (85 degrees)
+    double shoulder = 0.5;   ///< maximum turn of a shoulder; 0 to 1.48 (85 degrees)
     bool operator==(const HandsOptions&) const = default;
 };
 /// Names the member that is out of range.

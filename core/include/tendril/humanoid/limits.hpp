@@ -7,7 +7,7 @@
 //
 // A joint's angles are its bone's, relative to its parent bone, measured from the T-pose (t_pose.hpp); axes
 // are in the character's space. Limits work as for a chain (tendril/ik/limit.hpp), except that a hinge does
-// not restrict turns about other axes: they come from clips and are left alone.
+// not restrict turns about other axes: clips have them, and they are left alone.
 //
 // Source of the default angles: W. Greene, J. Heckman (eds.), "The Clinical Measurement of Joint Motion",
 // American Academy of Orthopaedic Surgeons, 1994, rounded; the spine's are divided among its bones.
@@ -22,7 +22,7 @@ namespace tendril::humanoid {
 /// Indexed by bone. The default limit of the hips is free: they place the whole body.
 using BodyLimits = std::array<ik::Limit, bone_count>;
 
-/// All free.
+/// All joints free.
 BodyLimits no_limits() noexcept;
 /// The limits of an adult. Elbows and knees are hinges; one bent by more than 5 degrees at rest turns about
 /// the axis of that bend, unless it is overstretched by under 15 degrees. A shoulder shorter than a tenth of
@@ -40,8 +40,8 @@ class BodyJoints {
     /// Refuses an invalid limit, with the bone's name: "LeftLowerArm: the hinge's min is over its max".
     static Expected<BodyJoints> make(const Skeleton& skeleton, const BoneMap& map, const BodyLimits& limits);
 
-    /// The joint's rotation from the T-pose, in the parent bone's frame. `placements`: of all nodes. The
-    /// identity if the bone is not mapped.
+    /// The joint's rotation from the T-pose, in the parent bone's frame; the identity if the bone is not
+    /// mapped. `placements` has one for every node.
     glm::dquat turn(Bone bone, std::span<const Placement> placements) const noexcept;
     ik::JointAngles measure(Bone bone, std::span<const Placement> placements) const noexcept;
     /// Radians beyond the limit; 0 within it, and for a bone that is free or not mapped.

@@ -64,9 +64,9 @@ struct Finding {
     double amount = 0.0;     ///< see the table above
     const char* unit = "";   ///< "mm", "deg", "m" or "times"
     bool goes_on = false;    ///< a jump from which the motion does not come back
-    bool snaps = false;      ///< a knee that is straight, or no longer straight, from one frame to the next
+    bool snaps = false;      ///< a knee that becomes straight, or stops being straight, within a frame
     bool has_cure = false;   ///< cure() can repair it
-    std::string text{};      ///< a sentence with all of that
+    std::string text{};      ///< all of this as a sentence
 };
 
 struct LintSettings {
@@ -75,7 +75,7 @@ struct LintSettings {
     double floating = 0.025;  ///< metres that a standing foot may be above the floor
     double sinking = 0.02;    ///< metres that a foot may be below it
     double knee = 6.0;        ///< degrees that a knee may jump, at 60 frames per second
-    double turn = 15.0;       ///< the same for other joints
+    double turn = 15.0;       ///< degrees that any other joint may jump, likewise
     double shift = 0.02;      ///< maximum jump of positions, times the figure's height at rest
     /// Joint limits, owned by the caller. Null: the default limits with wide tolerances, which report only
     /// poses that no human clip should have, above all knees that bend the wrong way.
@@ -86,7 +86,7 @@ struct LintSettings {
     const Ground* ground = nullptr;
 };
 
-/// The rest of a longer clip is not judged.
+/// Frames beyond this are not judged.
 inline constexpr std::size_t max_lint_frames = 500'000;
 
 struct LintReport {
@@ -110,7 +110,7 @@ double frame_rate(const Clip& clip) noexcept;
 LintReport lint(const Skeleton& skeleton, const BoneMap& map, const Clip& clip,
                 const LintSettings& settings = {});
 
-/// The findings of `after` that `before` lacks: of another kind or node, or elsewhere.
+/// The findings of `after` that `before` lacks: another kind, another node, or other frames.
 std::vector<Finding> new_findings(const LintReport& before, const LintReport& after);
 
 /// The clip without that fault, otherwise unchanged:
@@ -124,7 +124,7 @@ std::vector<Finding> new_findings(const LintReport& before, const LintReport& af
 ///   that does not come back is spread over a quarter of a second. Scale of a clip: its translations are
 ///   scaled to the skeleton's size. Axis of a clip: its roots are turned upright.
 /// The result has fewer findings than the clip, and no new ones: faults that the cure itself causes are cured
-/// with it. Refuses a finding that has no such cure, or of another clip. Cost: two to twenty calls of
+/// with it. Refuses a finding without such a cure, or one of another clip. Cost: two to twenty calls of
 /// lint().
 Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& clip, const Finding& finding,
                     const LintSettings& settings = {});

@@ -5,7 +5,7 @@
 //     ... each frame, after sample(), the feet and the body:
 //     const LookAtReport report = look->step(pose, {.target = ball}, dt, state);
 //
-// Each bone from the spine up takes its part of the way by rig::aim(), within its limit; the head takes the
+// Each bone from the spine up takes its share of the turn by rig::aim(), within its limit; the head takes the
 // rest. The turns are added to the clip's own movement: with a weight of 0 the pose stays bit-identical. A
 // target that leaves or enters the cone of view eases off or on by a critically damped spring, and the gaze
 // moves from one target to another no faster than `max_speed`.
@@ -26,14 +26,14 @@ struct LookAtOptions {
     double weight = 1.0;     ///< 0 to 1
     rig::Transform root{};   ///< where the character stands, as FeetOptions::root
 
-    double spine_part = 0.2;    ///< part of the way taken by the bones from Spine to UpperChest; 0 to 1
-    double neck_part = 0.3;     ///< part of the way taken by the neck; 0 to 1; with spine_part at most 1
+    double spine_part = 0.2;    ///< share of the turn taken by the bones from Spine to UpperChest; 0 to 1
+    double neck_part = 0.3;     ///< share of the turn taken by the neck; 0 to 1; with spine_part at most 1
     double spine_limit = 0.35;  ///< maximum turn of those spine bones together; 0 to pi
     double neck_limit = 0.5;
     double head_limit = 0.9;
 
-    /// Half-angle of the view cone about the clip's gaze, 108 degrees; 0 to pi. If a target comes back
-    /// into view on the other side before the ease has ended, the gaze goes to it by way of the clip's gaze.
+    /// Half-angle of the view cone about the clip's gaze, by default 108 degrees; 0 to pi. If a target comes
+    /// back into view on the other side during the ease, the gaze goes to it by way of the clip's gaze.
     double view = 1.8849555921538759;
     double half_life = 0.1;  ///< for easing when a target enters or leaves the view; 1e-6 to 10
     double max_speed = 8.0;  ///< radians per second; 1e-6 to 1e3

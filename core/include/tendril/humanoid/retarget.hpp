@@ -1,21 +1,21 @@
-// A clip of one skeleton, played on another.
+// Retargets a clip from one skeleton to another.
 //
 //     const Expected<Retargeted> walk = retarget({mocap, mocap_map}, clip, {robot, robot_map});
 //     if (!walk) return log(walk.message());  // "retarget: from.map must have Hips, got none"
 //     sample(walk->clip, robot, seconds, pose);
 //
-// Directions. Each bone that both maps have turns as the source's turns from its reference pose, in the frame
-// of its own character (facing()). The reference pose is the T-pose (t_pose.hpp) with hands, fingers and feet
-// straightened: the hand points along the arm, from the wrist to the middle finger, and the foot points
-// forward, from the ankle to the ball. So arms, hands and feet point in the same directions, whatever the
-// rest poses and the axes of the nodes are. Rotations are taken in the character's space: a bone that only
-// the source has, such as a third one in the spine, is included in the bones above it; one that only the
-// target has stays at rest. Fingers are matched by name. (VRM Consortium, "VRMC_vrm_animation-1.0", 2024,
+// Directions. Each bone that both maps have turns from its reference pose as the source's bone does, in the
+// frame of its own character (facing()). The reference pose is the T-pose (t_pose.hpp) with hands, fingers
+// and feet straightened: the hand points along the arm, from the wrist to the middle finger, and the foot
+// points forward, from the ankle to the ball. So arms, hands and feet point in the same directions, whatever
+// the rest poses and the axes of the nodes are. Rotations are taken in the character's space, so the bones
+// that follow one that only the source has, such as a third one in the spine, include its turn; one that only
+// the target has stays at rest. Fingers are matched by name. (VRM Consortium, "VRMC_vrm_animation-1.0", 2024,
 // does the same between T-poses.)
 //
-// Root. The topmost node above the hips travels with them over the ground; it neither rises nor turns.
-// Its other children travel with it. A helper beside the body that stands on one of its nodes at rest (within
-// a tenth of a leg), as IK targets do, follows that node; so do bones of the palm that hang beside the hand.
+// Root. The topmost node above the hips travels with them over the ground; it neither rises nor turns. Its
+// other children travel with it. A helper beside the body that is at one of its nodes at rest (within a tenth
+// of a leg), like an IK target, follows that node; so do palm bones beside the hand.
 //
 // Feet. The hips move as the source's do, scaled by the ratio of the legs' lengths. The source's stances are
 // found as the lint finds them (lint.hpp), and are kept: the sole stands on the target's ground, and slides
@@ -29,12 +29,12 @@
 //
 // A figure with the same nodes and rest pose, even in another size, gets the clip itself.
 //
-// Feet turn from how they stand at rest, whatever the clip does later. If the source's rest pose does not
-// stand on level ground, as a zero pose or a bind pose in mid-run, the stand is learned from frames in which
-// a foot carries the figure, which neither sits nor lies; without any, t_pose() gives it.
+// Feet turn relative to how they stand at rest, whatever the clip does later. If the source's rest pose does
+// not stand on level ground, such as a zero pose or a bind pose in mid-run, the standing pose is learned from
+// frames in which a foot carries a figure that neither sits nor lies; without any, t_pose() gives it.
 //
-// The target stands on its floor at rest, or on height 0 if its rest pose is far from there, as a BVH's often
-// is.
+// The target stands on its floor at rest, or on height 0 if its rest pose is far from its floor, as in many
+// BVH files.
 //
 // Cost: two passes over the keys, linear in their number. About 3700 instructions for each key and each node
 // of both skeletons, 1 to 2 µs: 2 s for 10 000 keys of 38 nodes on 67.
@@ -53,11 +53,11 @@ struct MappedSkeleton {
 };
 
 struct Retargeted {
-    Clip clip{};                   ///< for the target; has the source's name, duration and rate
+    Clip clip{};                   ///< for the target, with the source's name, duration and rate
     double scale = 1.0;            ///< scale of the hips' translation: the ratio of the legs' lengths
     std::vector<Bone> left_out{};  ///< bones of the source that the target lacks
     std::vector<Bone> at_rest{};   ///< bones of the target that the source lacks
-    /// Nodes of the target that are neither above nor below its hips, and follow no bone.
+    /// Nodes of the target that are neither above nor below its hips and follow no node.
     std::vector<std::size_t> helpers{};
 };
 

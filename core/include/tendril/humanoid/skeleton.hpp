@@ -25,10 +25,10 @@
 
 namespace tendril::humanoid {
 
-/// The space of a clip's keys of a node, if it is not the parent's.
+/// The space of a node's keys in clips, if it is not the parent's.
 struct KeySpace {
     std::int32_t parent = -1;  ///< index into the list; -1: the character's space
-    rig::Transform rest{};     ///< the node's, in this space
+    rig::Transform rest{};     ///< rest transform of the node in this space
     bool operator==(const KeySpace&) const = default;
 };
 
@@ -36,9 +36,9 @@ struct Node {
     std::string name{};        ///< unique, not empty
     std::int32_t parent = -1;  ///< index into the list; -1: a root
     rig::Transform rest{};     ///< local to the parent; metres
-    /// Set by attached(): the node has another parent than in its file, whose clips stay as they are.
+    /// Set by attached(): the node has another parent than in its file, and the file's clips stay unchanged.
     std::optional<KeySpace> keys{};
-    /// The parent that a clip's keys are local to.
+    /// The parent to which the keys of clips are local.
     std::int32_t key_parent() const noexcept { return keys ? keys->parent : parent; }
     const rig::Transform& key_rest() const noexcept { return keys ? keys->rest : rest; }
     bool operator==(const Node&) const = default;
@@ -59,7 +59,7 @@ class Skeleton {
     const Node& operator[](std::size_t node) const noexcept { return nodes_[node]; }
     /// Every node once, after its parent; siblings in the file's order.
     const std::vector<std::int32_t>& order() const noexcept { return order_; }
-    /// In the file's order.
+    /// Children in the file's order.
     std::span<const std::int32_t> children(std::size_t node) const noexcept;
     std::optional<std::size_t> find(std::string_view name) const noexcept;
     /// Whether `node` is `above` or one of its descendants.
@@ -88,7 +88,7 @@ struct Placement {
     /// to the others.
     glm::dquat rotation() const noexcept;
 };
-/// First `child`, then `parent`.
+/// Applies `child`, then `parent`.
 Placement operator*(const Placement& parent, const Placement& child) noexcept;
 Placement placement(const rig::Transform& transform) noexcept;
 

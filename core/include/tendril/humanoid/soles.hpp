@@ -7,8 +7,8 @@
 // near that height, otherwise a little below the lowest joint of the feet (a BVH rests with its hips at the
 // origin).
 //
-// Many captured figures do not stand as they rest: their feet point straight ahead or down at rest, with the
-// toes as high as the ankle. Their clips know better where the soles are.
+// Many captured figures do not stand in their rest pose: their feet point straight ahead or down at rest,
+// with the toes as high as the ankle. Their clips show where the soles are.
 //
 //     Expected<Soles> soles = find_soles(skeleton, map);
 //     const Soles walking = clip_soles(skeleton, map, *soles, walk);
@@ -32,7 +32,7 @@ struct Sole {
 struct Soles {
     std::array<Sole, 2> feet{};         ///< left, right
     double floor = 0.0;                 ///< height of the rest pose's floor, metres
-    glm::dvec3 forward{0.0, 0.0, 1.0};  ///< where the character faces at rest; horizontal, unit length
+    glm::dvec3 forward{0.0, 0.0, 1.0};  ///< direction the character faces at rest; horizontal, unit length
     double leg = 0.0;                   ///< length of thigh plus shin, metres; the mean of both legs
     bool operator==(const Soles&) const = default;
 };
@@ -41,9 +41,9 @@ struct Soles {
 /// legs without length or without a distance between them.
 Expected<Soles> find_soles(const Skeleton& skeleton, const BoneMap& map);
 
-/// The soles of a clip whose feet do not stand as they rest, learned from the frames in which they stand
-/// still, as the lint does (lint.hpp); `soles` unchanged if they do, or never stand still. `soles` must be
-/// find_soles()'s, and the clip must have passed check(). At most its first 10 000 frames are sampled.
+/// The soles of a clip whose feet do not stand as in the rest pose, learned from the frames in which they
+/// stand still, as the lint does (lint.hpp). Returns `soles` if they do, or never stand still. `soles` must
+/// be from find_soles(), and the clip must have passed check(). At most its first 10 000 frames are sampled.
 Soles clip_soles(const Skeleton& skeleton, const BoneMap& map, const Soles& soles, const Clip& clip);
 
 /// The clip's own floor: the median height of its soles while they are nearly still (toe under 0.3 m/s) and

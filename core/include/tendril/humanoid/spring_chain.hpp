@@ -1,4 +1,4 @@
-// Spring bones: ears, antennae or a tail that trail behind the bone they hang on.
+// Spring bones: ears, antennae or a tail that trail behind their parent bone.
 //
 //     Expected<SpringChain> ear = SpringChain::make(skeleton, map, *skeleton.find("ear_l"));
 //     SpringChainState state;                                 // a value: save it, put it back
@@ -36,8 +36,8 @@ struct SpringOptions {
     /// strength / sqrt(s^2 (6 - 4 s + s^2) / 3).
     double strength = 2.0;
     double critical_damping = 0.3;  ///< 0 swings for ever, 1 is the fastest without overshoot; 0 to 10
-    double weight = 1.0;            ///< 0 to 1: how much of its swing the chain shows
-    /// Maximum turn of a bone from its pose, 60 degrees; 0 to 179 degrees. Only colliders turn it farther.
+    double weight = 1.0;            ///< fraction of the swing that the chain shows: 0 to 1
+    /// Maximum turn of a bone from its pose, by default 60 degrees; 0 to 179. Only colliders turn it farther.
     double max_angle = 1.0471975511965976;
     double hit_radius = 0.0;  ///< metres between tips and colliders, in the character's space; 0 to 1000
     rig::Transform root{};    ///< where the character stands, as FeetOptions::root
@@ -74,8 +74,8 @@ class SpringChain {
     static constexpr double max_speed = 1e3;
 
     /// The node and all its descendants; `root` turns too, about its own joint. Refuses a map that fails
-    /// check(), a node out of range or without a parent, one that is or has below it a bone of the body, and
-    /// a chain without any length.
+    /// check(), a node out of range or without a parent, one that is a bone of the body or above one, and a
+    /// chain without any length.
     static Expected<SpringChain> make(const Skeleton& skeleton, const BoneMap& map, std::size_t root);
     ~SpringChain();
     SpringChain(SpringChain&&) noexcept;

@@ -1,7 +1,7 @@
-// Twist spread along the bones of the arms, as flesh spreads it. Skin that follows two bones twisted against
-// each other collapses between them (the candy-wrapper artefact of linear blending; L. Kavan, S. Collins, J.
-// Zara, C. O'Sullivan, "Geometric skinning with approximate dual quaternion blending", ACM Transactions on
-// Graphics 27(4), 2008).
+// Spreads twist along the bones of the arms, as flesh does. Skin that follows two bones twisted against each
+// other collapses between them (the candy-wrapper artefact of linear blending; L. Kavan, S. Collins, J. Zara,
+// C. O'Sullivan, "Geometric skinning with approximate dual quaternion blending", ACM Transactions on Graphics
+// 27(4), 2008).
 //
 //     for (const TwistBone& bone : twist_bones(skeleton, map)) ...  // the mapped upper and lower arms
 //     const BoneTwist twist = bone_twist(bone, turn, end_turn);     // from the turns at both its ends
@@ -13,7 +13,7 @@
 // along the lower arm; the upper arm's twist in the shoulder is spread along the upper arm.
 //
 // If a character has nodes for this (Unreal's lowerarm_twist_01_l), TwistNodes turns them; Body and Hands
-// call it. If not, the skinning has to do it, as the program's does.
+// call it. If not, the skinning has to spread the twist, as the program's does.
 #pragma once
 
 #include <span>
@@ -30,8 +30,8 @@ double twist_about(const glm::dvec3& axis, const glm::dquat& turn) noexcept;
 /// A bone of an arm, with the joints at its two ends.
 struct TwistBone {
     Bone bone = Bone::LeftLowerArm;
-    std::size_t above = 0, node = 0, end = 0;  ///< nodes of the parent bone, of this bone, of the next one
-    glm::dvec3 way{0.0};  ///< from its joint to the next at rest, in the space of its node; not zero
+    std::size_t above = 0, node = 0, end = 0;  ///< nodes of the parent bone, this bone and the next
+    glm::dvec3 way{0.0};  ///< from its joint to the next at rest, in its node's space; not zero
 
     /// Position along the bone of a point in the node's space: 0 at its joint, 1 at the next; clamped.
     double part(const glm::dvec3& point) const noexcept;
@@ -41,15 +41,15 @@ std::vector<TwistBone> twist_bones(const Skeleton& skeleton, const BoneMap& map)
 
 /// The twist of flesh about the bone, relative to the bone; radians.
 struct BoneTwist {
-    double near = 0.0, far = 0.0;  ///< at its joint, where it undoes the bone's own twist; at the next joint
+    double near = 0.0, far = 0.0;  ///< twist at its joint, where it undoes the bone's own, and at the next
+                                   ///< joint
     double at(double part) const noexcept { return near + (far - near) * part; }
 };
 /// `turn` is the bone's rotation relative to its parent bone, in the bone's own frame; `end_turn` is the next
 /// bone's rotation relative to this one, in this bone's frame. Both are unit, the identity if untwisted.
 BoneTwist bone_twist(const TwistBone& bone, const glm::dquat& turn, const glm::dquat& end_turn) noexcept;
 
-/// The nodes along an arm's bones that take a share of its twist, found by name: twist and roll bones. A
-/// value.
+/// The nodes along an arm's bones that take a share of its twist, found by name: twist and roll bones.
 class TwistNodes {
   public:
     /// Rotations of a bone and of the next one, each local to its parent bone.
@@ -60,10 +60,10 @@ class TwistNodes {
 
     static TwistNodes find(const Skeleton& skeleton, const BoneMap& map);
     bool empty() const noexcept { return nodes_.empty(); }
-    /// The twist nodes of that bone.
+    /// The twist nodes along the bone.
     std::vector<std::size_t> along(Bone bone) const;
 
-    /// `pose`: of all nodes, local to their parents.
+    /// `pose` holds the local transforms of all nodes.
     ArmTurns turns(std::span<const rig::Transform> pose) const noexcept;
     /// Turns the twist nodes in `pose` by their share of the twist that the bones have gained since `before`,
     /// according to their position along the bone. Without a change the pose stays bit-identical. Allocates

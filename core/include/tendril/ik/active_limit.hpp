@@ -11,7 +11,7 @@
 
 namespace tendril::ik {
 
-/// Names one of a limit's bounds.
+/// One bound of a limit.
 enum class Bound : std::uint8_t { Min, Max, Up, Down, Left, Right, TwistMin, TwistMax };
 /// "twist_max"
 const char* name(Bound bound) noexcept;
@@ -20,11 +20,11 @@ struct ActiveLimit {
     std::size_t joint = 0;  ///< index of the limited joint: the start of the limit's bone
     JointKind kind = JointKind::Free;
     Bound bound = Bound::Max;
-    /// Radians: where the joint stops, with the sign of the limit's field (down and right are positive). On
-    /// the rim of a cone, between two half-angles, it is less than either.
+    /// The angle at which the joint stops, radians, with the sign of the limit's field (down and right are
+    /// positive). On the rim of a cone, between two half-angles, less than either.
     float limit = 0.0f;
-    /// Radians: the angle that the target needs if only this joint were free; if that is not enough, the
-    /// angle that brings the tip nearest.
+    /// The angle that would reach the target if only this joint were free, radians; if none does, the angle
+    /// that brings the tip nearest.
     float needed = 0.0f;
     bool enough = false;  ///< whether freeing this joint alone lets the tip reach the target
 

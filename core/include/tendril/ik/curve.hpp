@@ -28,8 +28,8 @@
 namespace tendril::ik {
 
 enum class CurveKind : std::uint8_t {
-    Hermite,  ///< through all control points; tangents are half the vector from the point before to the next
-    BSpline   ///< uniform cubic, from the first control point to the last; smoother, but only passes near the
+    Hermite,  ///< through all control points; tangents: half the vector from the previous point to the next
+    BSpline   ///< uniform cubic from the first control point to the last; smoother, but only passes near the
               ///< others
 };
 /// "hermite", "b_spline"
@@ -38,29 +38,29 @@ const char* name(CurveKind kind) noexcept;
 struct CurveOptions {
     CurveKind kind = CurveKind::Hermite;
     /// Scales all bones by one factor, so that the tip lies on the last control point. The factor stays
-    /// between 1 / max_factor and max_factor; over 1 to 100. Where the curve folds more tightly than a bone,
-    /// the tip may jump over its end, and no factor fits: the report has the remaining distance. Costs two to
-    /// seven times as much.
+    /// between 1 / max_factor and max_factor, which is over 1, up to 100. Where the curve folds more tightly
+    /// than a bone, the tip may jump past the end and no factor fits: the report has the remaining distance.
+    /// Costs two to seven times as much.
     bool fit = false;
     float max_factor = 2.0f;
-    /// The direction that the bones' upper side faces where the curve begins. Parallel to the curve, or zero:
-    /// a fixed perpendicular.
+    /// The direction that the bones' upper side faces where the curve begins. If zero or parallel to the
+    /// curve, a fixed perpendicular is used.
     glm::vec3 up{0.0f, 1.0f, 0.0f};
     /// Roll about the first and the last bone, radians, right-handed, at most 1e6; between them in proportion
     /// to length.
     float roll_start = 0.0f, roll_end = 0.0f;
-    /// 0 to 1: how far each bone turns from the given pose to the curve; the root moves as far. `weights`
-    /// multiplies it for each bone, 0 to 1; empty: all 1.
+    /// Blend from the given pose to the curve, 0 to 1, for each bone's rotation and the root's position.
+    /// `weights` multiplies it per bone, 0 to 1; empty: all 1.
     float weight = 1.0f;
     std::span<const float> weights{};
     bool operator==(const CurveOptions& other) const noexcept;  ///< the same weights, not the same span
 };
 
-/// Where the joints were along the curve after the last call. A value, kept with the joints; only needed to
-/// report jumps.
+/// The joints' positions along the curve after the last call. Keep it with the joints; only needed to report
+/// jumps.
 struct CurveMemory {
     std::size_t points = 0;    ///< control points; 0: no memory
-    std::vector<double> at{};  ///< one per joint: piece of the curve, with the fraction along it
+    std::vector<double> at{};  ///< one per joint: piece of the curve plus the fraction along it
 
     CurveMemory() = default;
     explicit CurveMemory(std::size_t bones) : at(bones + 1) {}
@@ -75,12 +75,12 @@ struct CurveReport {
     float past_end = 0.0f;           ///< metres from the last control point to the tip, if it is beyond
     float short_of_end = 0.0f;       ///< metres from the tip to the last control point, if it is before
     float factor = 1.0f;             ///< scale of the bones
-    /// The first joint that is at another crossing than after the last call. It is at the same one if, from
-    /// its old position on the curve to its new one, the curve only moves away from the previous joint: then
-    /// no other crossing lies between. How far the joint moved does not matter, so a fast drag hides no jump,
-    /// and a joint that a flat curve sweeps along has not jumped.
+    /// The first joint that jumped to another crossing since the last call. It has not jumped if the curve
+    /// between its old and new positions only moves away from the previous joint: no other crossing lies
+    /// between. The distance does not matter, so a fast drag hides no jump, and a joint swept along by a flat
+    /// curve has not jumped.
     std::optional<std::size_t> jumped{};
-    /// All control points coincide: the curve has no direction. The chain lies along its first rest
+    /// All control points coincide, so the curve has no direction; the chain lies along its first rest
     /// direction.
     bool collapsed = false;
     bool operator==(const CurveReport&) const = default;
@@ -92,17 +92,17 @@ struct CurveChain {
     std::span<const glm::vec3> rest_directions{};  ///< unit, one per bone; empty: all along +X
 };
 
-/// `points`: control points, metres, 2 to 4096. `joints` (lengths.size() + 1) and `state` come back on the
-/// curve; with a weight under 1 they are also the start pose. `memory` needs as many joints, or none: then no
-/// jump is reported.
+/// `points`: control points, metres, 2 to 4096. `joints` (lengths.size() + 1) and `state` receive the new
+/// pose; with a weight under 1 they also give the start pose. `memory` needs as many joints, or none, which
+/// disables the report of jumps.
 ///
-/// The bones' upper sides at rest follow from `up` along the rest directions. The rotations turn these into
-/// the sides along the curve, so the twist of the rest pose stays.
+/// At rest the upper side starts at `up` and follows the rest directions by minimal rotations. The bones'
+/// rotations take it to the side along the curve, so the twist of the rest pose stays.
 CurveReport place_along(std::span<const glm::vec3> points, const CurveChain& chain,
                         std::span<glm::vec3> joints, State& state, CurveMemory& memory,
                         const CurveOptions& options = {}) noexcept;
 
-/// A point of the curve as drawn: `at` counts pieces, 0 to points.size() - 1. The origin without two points.
+/// A point of the curve as drawn: `at` counts pieces, 0 to points.size() - 1. The origin if under two points.
 glm::vec3 curve_point(std::span<const glm::vec3> points, CurveKind kind, float at) noexcept;
 
 }  // namespace tendril::ik

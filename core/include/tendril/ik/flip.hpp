@@ -1,8 +1,8 @@
-// Finds flips and their causes: a bone turns far in one frame while its target hardly moves. Judged from
-// positions alone, so it works for any solver in any engine.
+// Finds flips and their causes: a bone turns far in one frame while its target hardly moves. Needs only joint
+// positions, so it works for any solver in any engine.
 //
-// A bone's turn is explained if the target turned enough, as seen from the root, or the pole target did about
-// the line from root to target. Otherwise it is a flip.
+// A bone's turn is explained if the target turned enough as seen from the root, or the pole target turned
+// enough about the line from root to target. Otherwise it is a flip.
 //
 // Cost: O(joints). Nothing here throws; only copies of a pose allocate.
 #pragma once
@@ -18,8 +18,8 @@
 
 namespace tendril::ik {
 
-/// Flip: a bone turned by over `degrees` while the target (in a rig, each moved control) turned, as seen from
-/// the bone's root, by less than `angle_share` of that, or moved by less than `reach_share` of the reach.
+/// Flip: a bone turned by over `degrees` while target and pole target (in a rig, each moved control) turned
+/// by less than `angle_share` of that about the root, or moved by less than `reach_share` of the reach.
 struct FlipRule {
     float degrees = 30.0f;      ///< 1 to 180
     float angle_share = 0.2f;   ///< 0 to 1
@@ -28,9 +28,9 @@ struct FlipRule {
     bool operator==(const FlipRule&) const = default;
 };
 
-/// A chain in one frame: at least one joint; all finite. Metres, or any other unit throughout.
+/// A chain in one frame: at least one joint, all finite. Metres, or one other unit throughout.
 struct ReachPose {
-    std::vector<glm::vec3> joints{};  ///< from the root on
+    std::vector<glm::vec3> joints{};  ///< root first
     std::optional<glm::vec3> target{};
     std::optional<glm::vec3> pole{};  ///< the pole target
 
@@ -41,8 +41,8 @@ enum class FlipCause : std::uint8_t {
     TargetJump,   ///< the target jumped
     ThroughRoot,  ///< the target went through the root
     PassedPole,   ///< the line from root to target passed the pole target
-    Straight,     ///< the chain was all but straight, so every bend was equally near
-    Folded,       ///< likewise, folded onto one line
+    Straight,     ///< the chain was nearly straight, so no bend direction was preferred
+    Folded,       ///< the same for a chain folded onto one line
     ClosePole,    ///< the line came close to the pole target
     PassedAxis,   ///< without a pole target: the line passed an axis of the space, see passed_axis()
     Rolled,       ///< the bone turned about itself, which positions do not show
@@ -51,31 +51,31 @@ enum class FlipCause : std::uint8_t {
 /// For display, a clause: "the target's line passed the pole".
 const char* text(FlipCause cause) noexcept;
 
-/// The bone that turned the furthest (the first, if several turned equally far), and the end of it that moved
-/// further: an arm's elbow. Both poses relative to their roots.
+/// The bone that turned furthest (the first, if several tie), given by its end that moved further: an arm's
+/// elbow. Poses are compared relative to their roots.
 struct BoneTurn {
     std::size_t joint = 0;
     float radians = 0.0f;
 };
-/// Both poses have as many joints.
+/// Both poses must have the same number of joints.
 BoneTurn furthest_turn(const ReachPose& before, const ReachPose& after) noexcept;
 
-/// The flip between two poses with as many joints, one frame apart; a missing target is taken as still.
+/// The flip between two poses one frame apart, with equally many joints. A missing target counts as still.
 std::optional<BoneTurn> find_flip(const ReachPose& before, const ReachPose& after,
                                   const FlipRule& rule = {}) noexcept;
 
-/// The likely cause, from the two poses: the first that applies, in the order ThroughRoot, PassedPole,
-/// Straight or Folded, ClosePole, Unexplained.
+/// The likely cause: the first that applies, in the order ThroughRoot, PassedPole, Straight or Folded,
+/// ClosePole, Unexplained.
 FlipCause flip_cause(const ReachPose& before, const ReachPose& after) noexcept;
 
-// The single tests behind these judgements.
+// The individual tests.
 
 /// Sum of the bones' lengths.
 float reach_of(const ReachPose& pose) noexcept;
 /// Whether the target passed within a fiftieth of the reach of the root.
 bool went_through_root(const ReachPose& before, const ReachPose& after) noexcept;
 
-/// The bending plane has no direction while the line through root and target contains the pole target.
+/// How near the line from root to target came to the pole target, where the bend has no direction.
 struct PolePassage {
     bool passed = false;  ///< the pole target changed sides
     bool close = false;   ///< in one of the poses the line is within 10 degrees of the pole target
@@ -87,12 +87,11 @@ PolePassage pole_passage(const ReachPose& before, const ReachPose& after) noexce
 /// flip_cause() never returns PassedAxis, because Tendril's solvers do not bend towards an axis.
 bool passed_axis(const ReachPose& before, const ReachPose& after) noexcept;
 
-/// The distance of the joint, at least one, that is furthest from the line through the first and the last.
+/// The largest distance of a joint from the line through the first and the last. Needs at least one joint.
 float bend_of(std::span<const glm::vec3> joints) noexcept;
-/// Whether the chain was all but straight in either pose: every joint within a twentieth of the reach of that
-/// line.
+/// Whether the chain was nearly straight in either pose: bend_of() under a twentieth of the reach.
 bool was_straight(const ReachPose& before, const ReachPose& after) noexcept;
-/// The cause for such a chain: Straight, or Folded if its tip was within half its reach of the root.
+/// The cause if it was: Straight, or Folded if the tip was within half the reach of the root.
 FlipCause collinear_cause(const ReachPose& before, const ReachPose& after) noexcept;
 
 /// Radians, 0 to pi; 0 if either has no length.

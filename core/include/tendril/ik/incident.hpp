@@ -1,9 +1,9 @@
 // Finds faults in a chain's recorded motion, frame by frame: flips, NaN, bones that change length, joints
-// beyond their limits, tips that do not arrive, lag, jitter, repeated frames and jumps of the target. Judged
-// from joint positions and inputs alone, so the motion may come from any solver in any engine.
+// beyond their limits, tips that do not arrive, lag, jitter, repeated frames and jumps of the target. Needs
+// only joint positions and inputs, so the motion may come from any solver in any engine.
 //
 // Frames are added one by one; memory is bounded by the number of joints and of incidents, not of frames. A
-// lasting fault is one incident, from first frame to last. If a frame has no target, the tip is taken as the
+// lasting fault is one incident, from first frame to last. A frame without a target uses the tip as the
 // target: flips, NaN, lengths, limits and repeats are still found, but never blamed on the target.
 //
 // Cost: O(joints) a frame. Nothing throws.
@@ -31,22 +31,22 @@ enum class IncidentKind : std::uint8_t {
     /// ends hardly moved; amount: degrees that the bone turned.
     Flip,
     Nan,  ///< a joint, the target or the pole target is not finite; amount: 0
-    /// A bone's length differs from its first; amount: metres, negative if shorter. If a joint moved
-    /// alone, its two bones are one incident, the larger: they differ over the same frames, and at first the
-    /// distance of their outer ends changed less than a quarter as much. Bones of one factor: one incident.
+    /// A bone's length differs from the first frame's; amount: metres, negative if shorter. One incident for
+    /// all bones scaled by one factor, and one, the larger, for the two bones of a joint that moved alone:
+    /// both differ over the same frames, and at first their outer ends' distance changed under a quarter as
+    /// much.
     Length,
     Limit,   ///< a joint is beyond its limit; amount: degrees beyond it
-    Missed,  ///< the tip does not arrive, though the target is within reach; amount: metres short
+    Missed,  ///< the tip does not reach a target within its reach; amount: metres short
     Lag,     ///< the tip is where the target was some frames ago, 30 at most; amount: frames
     Jitter,  ///< the tip swings while the target is still; amount: metres to either side
-    /// Frames equal the one before them, in the middle of a motion; amount: frames. One incident for those
-    /// that come with a beat: the chain is updated at another rate than the log. None if the target is, too.
+    /// Frames that repeat the one before in mid-motion; amount: frames. Evenly spaced repeats are one
+    /// incident: the chain is updated at another rate than the log. None if the target repeats with them.
     Repeated,
     TargetJump,  ///< amount: metres
-    PoleJump,    ///< the pole target jumps to another side of the line from root to target; amount: metres
-    /// One frame, or two in swapped order, off the path of the frames around them, or a root that jumps away
-    /// from
-    /// its target; amount: metres of the tip, or of the root.
+    PoleJump,    ///< the pole target jumps to another side of the root-target line; amount: metres
+    /// One frame off the path of the frames around it, two frames in swapped order, or a root that jumps away
+    /// from its target; amount: metres that the tip or the root is off.
     Misplaced
 };
 /// "flip", "nan", "length", "limit", "missed", "lag", "jitter", "repeated", "target_jump", "pole_jump",
@@ -58,40 +58,40 @@ const char* unit(IncidentKind kind) noexcept;
 struct ChainIncident {
     IncidentKind kind = IncidentKind::Flip;
     std::uint64_t frame = 0, last_frame = 0;  ///< from 0
-    /// From 0 at the root. Flip: of the bone that turned most, the end that moved further. Length: the end of
-    /// the bone further from the root. no_joint for a target's jump or a repeated frame.
+    /// From 0 at the root. Flip: the end of the bone that turned most, the one that moved further. Length:
+    /// the bone's end further from the root. no_joint if no single joint is concerned.
     std::size_t joint = no_joint;
     double amount = 0.0;
-    double hertz = 0.0;  ///< a jitter's frequency; new poses a second of those repeated with a beat; else 0
-    const char* cause = "";                   ///< for display, a clause
+    double hertz = 0.0;      ///< Jitter: frequency; Repeated, evenly spaced: new poses a second; else 0
+    const char* cause = "";  ///< for display, a clause
     FlipCause flip = FlipCause::Unexplained;  ///< a flip's cause
 };
 
-/// The angle between the bone to a joint and the bone from it, in degrees; 0 is straight.
+/// Range of the angle between the two bones at a joint, in degrees; 0 is straight.
 struct BendLimit {
     std::size_t joint = 1;  ///< neither root nor tip
     float min = 0.0f, max = 180.0f;
 };
 
 struct IncidentOptions {
-    float flip_degrees = 30.0f;  ///< a bone that turns by more in a frame, ahead of its inputs, flips
+    float flip_degrees = 30.0f;  ///< a bone flips if it turns by more in a frame and outpaces its inputs
     /// Rounding error of a coordinate, metres: half a unit of the last digit written.
     float resolution = 0.0f;
     float fps = 60.0f;  ///< for frequencies
     std::vector<BendLimit> limits{};
     /// The joint that reaches for the target, from 1; empty or beyond the last: the last. The joints after it
-    /// are carried along: they may flip and change length, but neither arrive nor miss.
+    /// are carried along: checked for flips and lengths, but not for reaching the target.
     std::optional<std::size_t> end_effector{};
 };
 
 /// At least two joints, the same number in every frame. Values may be NaN or infinite.
 struct TraceFrame {
-    std::span<const glm::vec3> joints;  ///< from the root on, metres
+    std::span<const glm::vec3> joints;  ///< from the root, metres
     std::optional<glm::vec3> target{}, pole{};
     std::span<const glm::quat> rotations{};  ///< unit, in the space of the joints, not of the
                                              ///< parent bone; empty, or at least one per bone
     std::optional<float> dt{};               ///< seconds since the frame before
-    float resolution = 0.0f;                 ///< as in the options, where it is larger from this frame on
+    float resolution = 0.0f;                 ///< raises IncidentOptions::resolution from this frame on
 };
 
 class IncidentFinder {
@@ -114,7 +114,7 @@ class IncidentFinder {
     /// Paths are compared by position (0), and by steps over this many frames.
     static constexpr std::array<std::size_t, 3> spans{0, 1, 16};
 
-    /// A fault that lasts some frames, while `open`.
+    /// A fault that lasts several frames; `open` while it does.
     struct Episode {
         bool open = false;
         ChainIncident worst{};
@@ -141,7 +141,7 @@ class IncidentFinder {
     bool both_moved(const ReachPose& a, const ReachPose& b) const noexcept;
     bool resumes(const ReachPose& pose) const;
     float inner_reach() const noexcept;
-    glm::vec3 within_reach(glm::vec3 target) const noexcept;  ///< from the root; as far as the tip can be
+    glm::vec3 within_reach(glm::vec3 target) const noexcept;  ///< clamped to the tip's reach, from the root
     /// The pose without the joints beyond the end effector.
     ReachPose reaching(const ReachPose& pose) const;
     /// Whether the joint moved more than `times` as far as target and pole target did.
@@ -158,17 +158,17 @@ class IncidentFinder {
     IncidentOptions options_;
     std::vector<ChainIncident> found_;
     std::uint64_t frames_ = 0, dropped_ = 0;
-    float reach_ = 0.0f;   ///< to the end effector, of the first finite frame
+    float reach_ = 0.0f;   ///< to the end effector, in the first finite frame
     std::size_t end_ = 0;  ///< the end effector
     std::vector<float> lengths_;
     Episode nan_, missed_;
     std::vector<Episode> length_, limit_;
-    std::set<std::pair<std::uint64_t, std::size_t>> displaced_;  ///< frame and joint: moved alone
+    std::set<std::pair<std::uint64_t, std::size_t>> displaced_;  ///< frames and joints that moved alone
 
     // The latest consecutive finite frames, newest last. A repeated frame keeps the inputs it was solved for.
     std::vector<ReachPose> recent_;
-    ReachPose latest_;                  ///< with its own inputs
-    std::vector<glm::quat> rotations_;  ///< of the newest in recent_
+    ReachPose latest_;                  ///< the latest frame with its own inputs
+    std::vector<glm::quat> rotations_;  ///< for the newest pose in recent_
     std::uint64_t flipped_at_ = 0;
     bool flipped_ = false;
     /// The side to which a chain of two bones last bent.
@@ -181,12 +181,12 @@ class IncidentFinder {
     /// Steps of the target or the pole target. A jump is confirmed one frame later.
     struct Steps {
         float latest = 0.0f, before = 0.0f;
-        glm::vec3 from{0.0f};  ///< where the latest began, from the root
+        glm::vec3 from{0.0f};  ///< start of the latest step, from the root
         IncidentKind kind = IncidentKind::TargetJump;
-        const char* cause = nullptr;  ///< of the latest, if it may be a jump
+        const char* cause = nullptr;  ///< set if the latest step may be a jump
     };
     Steps steps_, pole_steps_;
-    bool root_jumped_ = false;  ///< and the tip did not meet its target since then
+    bool root_jumped_ = false;  ///< the tip has not met its target since
     /// The latest frames in space, newest last.
     struct MotionSample {
         glm::vec3 root{0.0f}, tip{0.0f};
@@ -199,16 +199,16 @@ class IncidentFinder {
         std::uint64_t frames = 0;
         float earlier_step = 0.0f;  ///< the tip's step before the last one
         glm::vec3 step{0.0f};       ///< the last step of the tip
-        bool moved = false;         ///< whether tip and target did in it
-        glm::vec3 target{0.0f};     ///< at the beginning
+        bool moved = false;         ///< tip and target moved in that step
+        glm::vec3 target{0.0f};     ///< at the start of the run
     };
     RepeatRun repeat_;
     struct Repeat {
         ChainIncident incident{};
-        bool fault = false, rested = false;  ///< the target did
+        bool fault = false, rested = false;  ///< `rested`: the target stood still, too
     };
     std::vector<Repeat> cadence_;  ///< evenly spaced runs, newest last
-    /// Sums over frames, to fit the tip's path with the target's of some frames ago.
+    /// Sums over frames, for fitting the tip's path to the target's path some frames earlier.
     struct Following {
         struct Lagged {
             glm::dvec3 sum{0.0};
@@ -218,23 +218,23 @@ class IncidentFinder {
         std::array<Lagged, max_lag + 1> lags{};
         glm::dvec3 sum{0.0};
         double square = 0.0, count = 0.0;
-        std::array<double, max_lag + 1> before{};  ///< squares left by earlier fits
+        std::array<double, max_lag + 1> before{};  ///< residual squares of earlier fits
         std::uint64_t frames = 0;
 
         void add(const glm::dvec3& tip) noexcept;
-        /// Starts a new fit and keeps the squares that the old one left.
+        /// Starts a new fit and keeps the residual squares of the old one.
         void close() noexcept;
-        /// For each lag, the sum of squares that the fit leaves.
+        /// For each lag, the fit's residual sum of squares.
         std::array<double, max_lag + 1> left() const noexcept;
     };
-    std::vector<glm::vec3> targets_, followers_;  ///< and tips; relative to the root, newest last
-    std::vector<glm::vec3> roots_;                ///< of these frames
+    std::vector<glm::vec3> targets_, followers_;  ///< targets and tips relative to the root, newest last
+    std::vector<glm::vec3> roots_;                ///< roots of the same frames
     std::array<Following, spans.size()> paths_{};
     glm::dvec3 origin_{0.0};
     std::optional<std::uint64_t> first_move_;
     float missed_before_ = 0.0f;
     std::size_t missed_frames_ = 0;
-    // Tip positions since the target stands still.
+    // Tip positions since the target came to rest.
     std::vector<glm::vec3> tips_;
     std::uint64_t still_since_ = 0;
     bool jitter_judged_ = false;

@@ -10,9 +10,9 @@
 // division, so several registers of chains take the same step side by side. Chains that take long are
 // gathered and solved together.
 //
-// Results: bit for bit as Solver with Method::Fabrik, whatever the vector unit, the number of threads and the
-// other chains. The exception is targets out of reach or too close, which are solved in float where Solver
-// uses double (equal to 1e-4 of the reach). If a target is so close to the limit of reach that floats cannot
+// Results are bitwise equal to Solver's with Method::Fabrik, whatever the vector unit, the number of threads
+// and the other chains. Exceptions are targets out of reach or too close: solved in float where Solver uses
+// double, they agree to 1e-4 of the reach. If a target is so close to the limit of reach that floats cannot
 // decide, the scalar solver takes the chain: ManyReport::scalar_fallback. In a plane, sides are decided from
 // float coordinates: a converged chain may differ in its last bits (tests: 1 % of chains; all within 1e-4 of
 // the reach).
@@ -20,16 +20,15 @@
 // With limits, one per bone and shared by all chains, the vector units take damped least-squares steps over
 // the joint rotations, with every joint clamped to its limit (K. Levenberg, "A method for the solution of
 // certain non-linear problems in least squares", 1944). A chain that does not converge within 30 steps or
-// `max_iterations`, or that stops improving, is solved by the scalar solver from its original pose. So is a
-// chain whose target is out of reach, and every chain with `every_iteration`, with a stiff joint, or with a
-// flat cone (a suture).
-// Poses differ from the scalar solver's: both converge, each within the limits to 0.1 degrees.
+// `max_iterations`, or that stops improving, is solved by the scalar solver from its original pose. So are
+// chains whose target is out of reach, and all chains with `every_iteration`, a stiff joint, or a flat cone
+// (a suture). Poses differ from the scalar solver's: both converge, each within the limits to 0.1 degrees.
 //
 // Cost: O(bones) per iteration and chain. Compared with calling Solver::solve per chain, to tolerance, with
 // 1000 chains and copying all joints in and out (tests/bench/ik_many.cpp), throughput is 8 to 18 times higher
 // with AVX-512 and 6 to 15 times with AVX2, best near full reach. Within limits it is 3 to 20 and 2 to 16
 // times, best for hinges and worst for long chains of cones far from full reach. In a plane it is 1.4 to 2.1
-// times: most of a solve there is coordinates and sides, which are scalar. It pays off from four chains on,
+// times: there, most of a solve is coordinates and sides, which are scalar. It pays off from four chains on,
 // but hardly if most targets fall back to the scalar solver.
 #pragma once
 
@@ -58,11 +57,11 @@ struct ManyOptions {
     int max_iterations = 100;
     /// Runs all max_iterations even after converging; for measuring and for comparing solvers.
     bool every_iteration = false;
-    /// For the scalar solver within limits, as Options::restarts.
+    /// As Options::restarts, for the scalar solver within limits.
     std::optional<int> restarts{};
     /// Keeps every chain in a plane of this normal through its own root, as Options::plane. No state is kept:
-    /// with Side::Free a chain stays on the side that its joints are on. Not in a batch with limits: a plane
-    /// has its own. Rotations are not maintained. The work is divided as follows:
+    /// with Side::Free a chain stays on its joints' side. Not for a batch with limits: a plane has its own.
+    /// Rotations are not maintained. The work is divided as follows:
     ///
     ///   iterations                       vector units, as for chains in space
     ///   coordinates and sides, once      scalar, in double: bounds the gain, see above
@@ -168,7 +167,7 @@ class Batch {
 ManySummary solve_many(Batch& batch, std::span<const glm::vec3> targets, std::span<ManyReport> reports = {},
                        const ManyOptions& options = {}) noexcept;
 
-/// The same for joints that the caller owns: of all chains, root first, chain after chain. The solve starts
+/// The same for joints that the caller owns: all chains, one after the other, root first. The solve starts
 /// from them and writes them back. The batch's own joints do not change; lengths, limits and rotations are
 /// the batch's. Bitwise equal to set_joints, solve_many and copy_joints, but faster, because the joints only
 /// pass through the nearest cache. A chain with a joint that set_joints would refuse gets

@@ -1,7 +1,7 @@
-// Well-known linkages from named lengths, in metres. Planar ones as sketches (linkage_from makes linkages of
-// them), for tests, benchmarks and presets alike. Each is drawn closed: with its driver at 0 where the
-// linkage closes there and is not flat, or where the struct says. Zero lengths and lengths that do not
-// close as drawn are refused by name.
+// Well-known linkages from named lengths, in metres, for tests, benchmarks and presets. Planar ones are
+// sketches (see linkage_from()). Each is drawn closed, with its driver at 0 if the linkage closes there and
+// is not flat, otherwise where the struct says. Zero lengths and lengths that do not close as drawn are
+// refused by name.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct FourBar {
 };
 Expected<LinkageSketch> four_bar(const FourBar& lengths = {});
 
-/// Crank at the origin with its end B; the slider S moves along the line y = offset, on the side of +X.
+/// Crank at the origin, with B at its end; the slider S moves along the line y = offset, on the side of +X.
 struct SliderCrank {
     double crank = 1.0, rod = 3.0, offset = 0.0;
 };
@@ -35,7 +35,7 @@ struct Peaucellier {
 };
 Expected<LinkageSketch> peaucellier(const Peaucellier& lengths = {});
 
-/// O is fixed; P is O's image of T, `scale` times as far. Two degrees of freedom, no driver.
+/// O is fixed; P copies the motion of T, `scale` times as large. Two degrees of freedom, no driver.
 struct Pantograph {
     double arm = 1.0;  ///< from O to the elbow A, and from the elbow to P
     double scale = 2.0;
@@ -47,7 +47,7 @@ Expected<LinkageSketch> pantograph(const Pantograph& lengths = {});
 struct ScissorLift {
     std::size_t stages = 3;  ///< 1 to 32
     double bar = 1.0;
-    double angle = 0.6;  ///< of `lift` as drawn, radians, over 0 to pi / 2
+    double angle = 0.6;  ///< value of `lift` as drawn, radians, over 0 to pi / 2
 };
 Expected<LinkageSketch> scissor_lift(const ScissorLift& lengths = {});
 
@@ -68,14 +68,14 @@ struct Delta {
     double width = 0.06;
 };
 Expected<Linkage> delta(const Delta& lengths = {});
-/// The motors' angles for a position of the platform, in closed form: the elbows outside. none if out of
+/// The motors' angles for a position of the platform, in closed form, elbows outward. nullopt if out of
 /// reach.
 std::optional<std::array<double, 3>> delta_motors(const Delta& lengths, const glm::dvec3& platform) noexcept;
 
 /// A platform on six legs (V. Gough 1954, D. Stewart 1965): base in z = 0, platform above it. Legs 2k and 2k
-/// + 1 stand on the base at 120 k degrees less and more base_angle, and lean apart: their tops are where
-/// platform_angle is left to the tops of their neighbours, at 120 k -+ 60 degrees. Drivers leg_0 to leg_5,
-/// their lengths. Point platform, its centre; also base_0..., top_0...
+/// + 1 stand on the base at 120 k degrees -+ base_angle and lean apart: their tops are at 120 k degrees -+
+/// (60 degrees - platform_angle). Drivers leg_0 to leg_5, the legs' lengths. Point platform, its centre; also
+/// base_0..., top_0...
 struct Stewart {
     double base_radius = 1.0, platform_radius = 0.6, height = 1.0;  ///< height as drawn
     double base_angle = 0.25, platform_angle = 0.25;                ///< half the angle of a pair, radians

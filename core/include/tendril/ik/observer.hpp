@@ -32,7 +32,7 @@ struct Step {
     int iteration = 0;  ///< from 1; 0 before the first
     Phase phase = Phase::Prepare;
     int order = 0;                     ///< counts the elementary steps of the solve from 0
-    std::size_t joint = 0;             ///< the one that moves
+    std::size_t joint = 0;             ///< the joint that moves
     std::size_t neighbour = no_joint;  ///< the joint whose distance is kept, or the centre of rotation
     glm::vec3 from{0.0f}, to{0.0f};    ///< metres
 };

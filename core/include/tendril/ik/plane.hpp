@@ -8,15 +8,15 @@
 // number of iterations and their cost are the same; coordinates and sides add about 70 ns per bone and solve.
 //
 // Sides. In a plane a chain has no swivel: it bends to the left or to the right of the line from root to tip,
-// seen from the tip of the normal. A chain of several bones is on the side on which the sum of its joints'
-// offsets from the line is, each weighted by the adjacent lengths. A solve keeps the side: it first turns the
-// whole chain towards the target, and mirrors it if it ends on the wrong side. So if the target passes close
-// by the root, the chain swings around it. A straight chain bends to this side. Within limits a chain is
-// mirrored only if the mirrored pose is within them too; if it is not, State::side has the actual side.
+// seen from the tip of the normal. For several bones, the side is the sign of the sum of the joints' offsets
+// from the line, weighted by the adjacent lengths. A solve keeps the side: it first turns the whole chain
+// towards the target, and mirrors it if it ends on the wrong side. So if the target passes close by the root,
+// the chain swings around it. A straight chain bends to the side it was on. Within limits a chain is mirrored
+// only if the mirrored pose is within them too; if it is not, State::side has the actual side.
 //
 // If the offsets cancel out, as in an S, rounding decides the side: the chain may be mirrored, that is, jump,
-// while the target glides. Straight and folded chains do not take on such shapes, except with CCD: a chain
-// that is folded up, its tip at its root, is first placed on an arc.
+// while the target glides. Straight and folded chains do not take such shapes, except with CCD: a chain
+// folded with its tip at its root is first placed on an arc.
 #pragma once
 
 #include <cstdint>

@@ -37,9 +37,9 @@ struct PoleMemory {
 /// while the target is dragged (Options::restarts).
 struct LimitMemory {
     bool valid = false;      ///< whether there was such a solve; if not, the rest is unused
-    bool limited = false;    ///< whether it ended Limited or Stalled: then every step must gain
+    bool limited = false;    ///< ended Limited or Stalled; the next stops at a step without gain
     glm::vec3 target{0.0f};  ///< metres from the root
-    float damping = 0.0f;    ///< in its last least-squares step, in reach squared; 0 to 100
+    float damping = 0.0f;    ///< damping of its last least-squares step, in squares of the reach; 0 to 100
 
     bool operator==(const LimitMemory&) const = default;
 };
@@ -55,7 +55,7 @@ struct State {
     std::vector<glm::quat> rotations{};
     PoleMemory pole{};
     LimitMemory limits{};
-    Side side = Side::Free;  ///< in a plane: where the last solve left the chain; Free before the first
+    Side side = Side::Free;  ///< side on which the last solve left a chain in a plane; Free before the first
 
     std::size_t bones() const noexcept { return rotations.size(); }
     /// Back to the initial state, for a chain that returns to its rest pose. Does not allocate.

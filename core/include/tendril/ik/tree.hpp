@@ -25,8 +25,8 @@
 // the effectors in the list.
 //
 // Branches without an effector are not solved: each moves rigidly with its parent bone, turned by the minimal
-// rotation of that bone. A branch that hangs on the root itself, or on a bone that does not move, stays where
-// it is.
+// rotation of that bone. A branch attached to the root itself, or to a bone that does not move, stays in
+// place.
 //
 // Bones keep their lengths as in chain.hpp.
 #pragma once

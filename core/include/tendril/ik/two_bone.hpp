@@ -37,8 +37,8 @@ struct TwoBoneOptions {
     /// 100. With a maximum of 1 they never lengthen.
     float start_stretch_ratio = 1.0f;
     float max_stretch_scale = 1.0f;
-    /// Rotates the bend about the line from root to target, right-handed, radians: away from the pole, or
-    /// without one from its current side (so again with every solve).
+    /// Rotates the bend about the line from root to target, right-handed, radians, starting at the pole;
+    /// without a pole at the current side, so every solve rotates it further.
     float twist = 0.0f;
 };
 

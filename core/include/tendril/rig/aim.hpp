@@ -44,8 +44,8 @@ struct AimOptions {
     AimPart primary{};
     AimPart secondary{.axis = {0.0, 1.0, 0.0}, .weight = 0.0};
     double weight = 1.0;  ///< for both parts; 0: returns the input transform, bit for bit
-    /// Maximum turn in radians per second; 0: it does not turn. (For a rig's Aim unit, in degrees, 0 means no
-    /// limit.)
+    /// Maximum turn in radians per second; 0: no turn. (In a rig's Aim unit, where it is in degrees, 0 means
+    /// no limit.)
     double max_speed = std::numeric_limits<double>::infinity();
 };
 
@@ -65,11 +65,11 @@ struct AimResult {
     AimWarning primary = AimWarning::None, secondary = AimWarning::None;
 };
 
-/// Checks options from untrusted input. Refused: numbers that are not finite or over max_magnitude, zero
-/// axes, weights outside 0 to 1, a negative max_speed. aim() itself checks nothing.
+/// Checks options from untrusted input. Refuses numbers that are not finite or over max_magnitude, zero axes,
+/// weights outside 0 to 1, and a negative max_speed. aim() itself checks nothing.
 Result check(const AimOptions& options, const char* operation = "aim") noexcept;
 
-/// `item` is a global transform. `dt` in seconds matters only with max_speed: at 0, less or NaN no time
+/// `item` is a global transform. `dt` in seconds matters only with max_speed: if it is not over 0, no time
 /// passes, and a limited rotation does not turn.
 AimResult aim(const Transform& item, const AimOptions& options, double dt = 0.0) noexcept;
 

@@ -5,7 +5,7 @@
 // global pose and the wanted one, starting from the current control values. Method: Levenberg-Marquardt (D.
 // W. Marquardt, "An algorithm for least-squares estimation of nonlinear parameters", SIAM 11(2), 1963) with
 // derivatives from finite differences of forward solves, so no unit needs an inverse. Bool controls are tried
-// both ways, one after the other. Springs count as at rest.
+// both ways, one after the other. Springs are taken to be at rest.
 //
 // A difference that the rig cannot express remains as the residual of a bone.
 //
@@ -26,11 +26,11 @@ namespace tendril::rig {
 
 struct BackwardOptions {
     int max_iterations = 100;  ///< per descent, of which each bool control adds one; clamped to 1 to 10 000
-    /// Metres that weigh as much as one radian, or as a scale difference of 1; 0 or less: the mean bone
-    /// length of the rig.
+    /// Metres that weigh as much as one radian or a scale difference of 1; 0 or less: the rig's mean bone
+    /// length.
     double metres_per_radian = 0.0;
-    /// Maximum work over all descents, in the steps of Rig::work; 0: no limit. Counted, not timed, so that a
-    /// solve that hits it gives the same result on every machine.
+    /// Maximum work over all descents, in the steps of Rig::work; 0: no limit. Counted, not timed, so a solve
+    /// that hits it gives the same result on every machine.
     std::uint64_t max_work = 0;
 };
 
@@ -46,8 +46,8 @@ struct BackwardReport {
     std::optional<std::size_t> worst{};
     int iterations = 0;  ///< in the last descent
     int solves = 0;      ///< forward solves in total
-    /// max_iterations or max_work ended the solve: better values may exist. With 0 iterations the controls
-    /// are unchanged.
+    /// Whether max_iterations or max_work ended the solve: better values may exist. With 0 iterations the
+    /// controls are unchanged.
     bool stopped = false;
 };
 

@@ -16,9 +16,9 @@ struct CollectOptions {
     bool operator==(const CollectOptions&) const = default;
 };
 
-/// Appends the elements below `root`, depth first, children in the order in which they were added. Refused: a
-/// handle of no element. O(elements appended); allocates only if `elements` has to grow. For several roots
-/// call it once for each: index, count and ratio start anew with each root.
+/// Appends the elements below `root`, depth first, children in the order in which they were added. Refuses a
+/// handle without an element. O(elements appended); allocates only if `elements` has to grow. For several
+/// roots call it once for each: index, count and ratio start anew with each root.
 Result collect_children(const Hierarchy& hierarchy, ElementId root, const CollectOptions& options,
                         std::vector<ElementId>& elements);
 

@@ -25,7 +25,7 @@ namespace tendril::rig {
 enum class ControlKind : std::uint8_t { Transform, Position, Rotation, Float, Bool, Vector2d };
 /// "vector2d"
 const char* name(ControlKind kind) noexcept;
-/// The type of its value.
+/// The type of a control's value.
 Type type_of(ControlKind kind) noexcept;
 
 struct Control {
@@ -39,22 +39,22 @@ struct Control {
     bool operator==(const Control&) const = default;
 };
 
-/// Refused: axes other than two different ones of three, bounds that are not finite or over max_magnitude, a
-/// minimum over its maximum. `what` begins the message.
+/// Refuses axes that are equal or not 0 to 2, bounds that are not finite or over max_magnitude, and a minimum
+/// over its maximum. `what` begins the message.
 Result check(const char* what, const Control& control) noexcept;
 
 /// The value of a control at rest.
 Value rest_value(const Control& control, const Transform& initial) noexcept;
 
-/// Clamps every bounded component. `value` has the type of the kind.
+/// Clamps every bounded component. `value` must have the kind's type.
 Value clamped(const Control& control, const Value& value) noexcept;
 
-/// The pose, within its parent, of a control with this value. `base` is its pose at rest: it provides the
-/// parts that the value lacks, and the frame in which a Vector2d moves.
+/// The pose within its parent of a control with this value. `base`, its pose at rest, gives the parts that
+/// the value lacks, and the frame in which a Vector2d moves.
 Transform posed(const Control& control, const Transform& base, const Value& value) noexcept;
 
-/// Refused: a type that the kind does not have, a number that is not finite or over max_magnitude, a rotation
-/// of length 0, a scale of 0. `what` begins the message.
+/// Refuses a value of another type, a number that is not finite or over max_magnitude, a rotation of length
+/// 0, and a scale of 0. `what` begins the message.
 Result check_value(const char* what, const Control& control, const Value& value) noexcept;
 
 }  // namespace tendril::rig

@@ -1,4 +1,4 @@
-// Explains an element's pose: the change that each unit made in a forward solve, in order.
+// Explains an element's pose: the change that each unit made to it in a forward solve, in order.
 #pragma once
 
 #include <cstddef>

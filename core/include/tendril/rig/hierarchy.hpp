@@ -49,7 +49,7 @@ enum class Pose : std::uint8_t { Initial, Input, Current };
 enum class Space : std::uint8_t { Local, Global };
 /// Whether the children of a written element move with it (and keep their local transform) or stay.
 enum class Propagate : std::uint8_t { No, Yes };
-/// Which transform would have to be computed on reading.
+/// The transform that reading would have to compute first.
 enum class Pending : std::uint8_t { None, Local, Global };
 
 /// "bone", "null", "control"
@@ -63,7 +63,7 @@ class Hierarchy {
   public:
     Hierarchy() = default;
     Hierarchy(const Hierarchy&) = default;
-    /// Leaves an empty one.
+    /// Leaves `other` empty.
     Hierarchy(Hierarchy&& other) noexcept : Hierarchy() { swap(other); }
     Hierarchy& operator=(const Hierarchy&) = default;
     Hierarchy& operator=(Hierarchy&& other) noexcept {
@@ -75,13 +75,13 @@ class Hierarchy {
     // Elements. An empty parent handle means none: an element without a parent is a root. Children are in the
     // order in which they were added.
 
-    /// `local` becomes its transform in all three poses. Refused: a parent that does not exist, a transform
-    /// that checked() refuses. O(1).
+    /// `local` becomes its transform in all three poses. Refuses a parent that does not exist, and a
+    /// transform that checked() refuses. O(1).
     Expected<ElementId> add(ElementKind kind, ElementId parent, const Transform& local);
     /// Removes the element with everything below it. O(elements removed).
     Result remove(ElementId element) noexcept;
     /// Moves an element below another parent, after its existing children. In every pose it keeps its
-    /// transform in the space `keep`. Refused: a parent that is the element itself or below it. O(depth).
+    /// transform in the space `keep`. Refuses the element itself, or one below it, as parent. O(depth).
     Result set_parent(ElementId element, ElementId parent, Space keep = Space::Global) noexcept;
     void clear() noexcept;
 
@@ -113,17 +113,17 @@ class Hierarchy {
     /// removed, and its value is unchanged until the next write: other reads do not affect it, and it may be
     /// passed to a write.
     const Transform& get(ElementId element, Space space, Pose pose = Pose::Current) noexcept;
-    /// Refused: a stale handle, a transform that checked() refuses. Normalises the rotation.
+    /// Refuses a stale handle, and a transform that checked() refuses. Normalises the rotation.
     Result set(ElementId element, Space space, const Transform& transform,
                Propagate propagate = Propagate::Yes, Pose pose = Pose::Current) noexcept;
-    /// set() without checks, for transforms computed by functions of this folder: accepts a scale of 0 that
-    /// results from a blend or a product.
+    /// set() without checks, for transforms computed by the functions of tendril/rig: accepts a scale of 0
+    /// that results from a blend or a product.
     void put(ElementId element, Space space, const Transform& transform, Propagate propagate = Propagate::Yes,
              Pose pose = Pose::Current) noexcept;
 
     /// The transform that get() would have to compute; changes nothing. A pending local transform below an
-    /// ancestor that has moved since counts as global: the ancestor's global comes first. O(1) if get() is,
-    /// otherwise O(depth).
+    /// ancestor that has moved since is reported as global: the ancestor's global comes first. O(1) if get()
+    /// is, otherwise O(depth).
     Pending pending(ElementId element, Pose pose = Pose::Current) const noexcept;
     /// The transform that get() would return; nullopt if pending() names that space. Changes nothing.
     std::optional<Transform> known(ElementId element, Space space, Pose pose = Pose::Current) const noexcept;
@@ -155,8 +155,8 @@ class Hierarchy {
     /// The bookkeeping of one element in one pose.
     struct Stamp {
         std::uint64_t version = 0;         ///< version of the stored global; unique
-        std::uint64_t parent_version = 0;  ///< with which the stored global was composed or set
-        std::uint64_t verified = 0;        ///< `change` at which the stored global was last valid
+        std::uint64_t parent_version = 0;  ///< the parent's, when the stored global was composed or set
+        std::uint64_t verified = 0;        ///< `change` when the stored global was last valid
         Index first_pending = none;        ///< head of the list of children whose local is pending
         Index previous_pending = none, next_pending = none;  ///< its neighbours in the parent's list
         Index down = none;                                   ///< scratch of refresh()
@@ -211,7 +211,7 @@ class Hierarchy {
 
     std::vector<Node> nodes_;
     Node roots_;         ///< not an element: the roots are its children
-    Values values_[3];   ///< by Pose
+    Values values_[3];   ///< indexed by Pose
     Index free_ = none;  ///< the first free slot
     std::size_t size_ = 0;
     std::uint64_t recomputations_ = 0;

@@ -1,15 +1,15 @@
-// A child that follows the weighted mean of several parents, none of which need be its parent in the tree.
+// Makes a child follow the weighted mean of several parents, none of which need be its parent in the tree.
 //
-// With maintain_offset each parent's goal for the child is where the child would be if attached to that
-// parent in the initial pose, so only the parent's motion since then is passed on. Without it the goal is the
-// parent itself. Goals are averaged by weight: translations and scales linearly; rotations as quaternions in
-// the hemisphere of the first parent's, then normalised. So the child moves continuously while weights
-// change, including through zero, as long as one of them is not zero.
+// With maintain_offset each parent's goal for the child is the child's transform if it had been attached to
+// that parent in the initial pose, so only the parent's motion since then is passed on. Without it the goal
+// is the parent itself. Goals are averaged by weight: translations and scales linearly; rotations as
+// quaternions in the hemisphere of the first parent's, then normalised. So the child moves continuously while
+// weights change, including through zero, as long as one of them is not zero.
 //
-// The filter lets single axes through, in the local space of the child's parent in the tree: translation,
-// rotation and scale per axis, rotation as Euler angles (euler.hpp). A rotation with all three angles passed,
-// or none, is not decomposed. At the pole (second angle at 90 degrees) the first and third angles turn about
-// the same line; a filter that separates them jumps there, as in every comparable tool.
+// The filter passes single axes, in the local space of the child's parent in the tree: translation, rotation
+// and scale per axis, rotation as Euler angles (euler.hpp). A rotation with all three angles passed, or none,
+// is not decomposed. At the pole (second angle at 90 degrees) the first and third angles turn about the same
+// line; a filter that separates them jumps there, as in every comparable tool.
 //
 // All in double precision and absolute coordinates: exact to 1e-11 m at 10 km from the origin. O(parents),
 // about 60 ns each; a filter on the rotation adds 130 ns.
@@ -31,7 +31,7 @@ struct ConstraintParent {
     double weight = 1.0;         ///< 0 or more, relative to the others'; less, or NaN, counts as 0
 };
 
-/// The axes that the filter lets through.
+/// The axes that the filter passes.
 struct TransformFilter {
     std::array<bool, 3> translation{true, true, true};
     std::array<bool, 3> rotation{true, true, true};
@@ -49,7 +49,7 @@ struct ParentConstraintOptions {
 struct ConstraintChild {
     Transform global{};          ///< now
     Transform initial_global{};  ///< in the initial pose; for maintain_offset
-    Transform space{};           ///< global, of its parent in the tree; the identity for a root
+    Transform space{};           ///< global transform of its parent in the tree; the identity for a root
 };
 
 /// The child's new global transform. Without parents, with all weights 0, or with a filter that passes

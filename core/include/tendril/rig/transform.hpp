@@ -29,16 +29,16 @@ struct Transform {
 };
 static_assert(sizeof(Transform) == 10 * sizeof(double) && std::is_trivially_copyable_v<Transform>);
 
-/// Compares the numbers: a rotation and its negative, which turn alike, are different.
+/// Compares the numbers: a rotation and its negative, the same turn, are different.
 bool operator==(const Transform& a, const Transform& b) noexcept;
 
-/// `input` with its rotation made unit length (a unit one keeps its bits). Refused: numbers that are not
-/// finite or over max_magnitude, a rotation shorter than 1e-6, a scale of 0. `operation` and `argument` are
-/// for the message: "set: transform.scale.y must be non-zero, got 0".
+/// `input` with its rotation made unit length (a unit one keeps its bits). Refuses numbers that are not
+/// finite or over max_magnitude, a rotation shorter than 1e-6, and a scale of 0. `operation` and `argument`
+/// are for the message: "set: transform.scale.y must be non-zero, got 0".
 Expected<Transform> checked(const Transform& input, std::string_view operation,
                             std::string_view argument = "transform") noexcept;
 
-/// Where a child with this local transform is, in the space of `parent`.
+/// The transform of a child with this local transform, in the space in which `parent` is given.
 Transform compose(const Transform& parent, const Transform& child) noexcept;
 /// The inverse of compose(): the local transform below `parent` of an element at `global`. The inverse of a
 /// scale under 1e-100 is taken as 0.

@@ -37,12 +37,12 @@ struct Box {
 };
 using Shape = std::variant<Sphere, Capsule, Plane, Box>;
 
-/// The nearest point of a surface, as seen from a point.
+/// Signed distance from a point to a surface, with the normal there.
 struct SurfaceDistance {
     double distance = 0.0;             ///< metres, below zero inside
     glm::dvec3 normal{0.0, 1.0, 0.0};  ///< unit, outward; arbitrary but fixed at a centre or on an axis
 };
-/// For any point and any shape that check() accepts; never NaN.
+/// Never NaN, for any point and any shape that check() accepts.
 SurfaceDistance surface_distance(const Shape& shape, const glm::dvec3& point) noexcept;
 
 /// The reference point of a shape: the centre of a sphere or box, the middle of a capsule, a plane's point.
@@ -51,7 +51,7 @@ glm::vec3 centre(const Shape& shape) noexcept;
 Shape moved(const Shape& shape, const glm::vec3& centre) noexcept;
 /// "sphere", "capsule", "plane", "box"
 const char* kind(const Shape& shape) noexcept;
-/// The fields of the shape's kind; as object pass the variant's alternative.
+/// The fields of the shape's kind; their object is the variant's alternative.
 std::span<const Field> shape_fields(const Shape& shape) noexcept;
 /// Half of the smallest extent, metres: the radius of a sphere or capsule, a box's smallest half extent; 1
 /// for a plane, which has none.
@@ -61,7 +61,7 @@ float size(const Shape& shape) noexcept;
 /// length 0. The message names `operation`, the member and its value.
 Result check(const char* operation, const Shape& shape) noexcept;
 
-/// A collider's steady motion. It carries bodies by friction and pushes those in its way.
+/// A collider's steady motion. It carries bodies along by friction and pushes those in its way.
 struct Drive {
     glm::vec3 velocity{0.0f};          ///< m/s
     glm::vec3 axis{0.0f, 1.0f, 0.0f};  ///< through the centre, any length; (0, 0, 0): upright
@@ -74,7 +74,7 @@ inline constexpr float max_drive = 1e4f, max_spin = 1e3f;  ///< m/s along each a
 struct Collider {
     ColliderId id;
     Shape shape;           ///< current
-    glm::dvec3 goal{0.0};  ///< where the centre is going
+    glm::dvec3 goal{0.0};  ///< destination of the centre
     double seconds = 0.0;  ///< simulated time until it arrives; 0: within the next substep
     /// For a capsule that turns as it moves: half the vector from `a` to `b` at its goal.
     std::optional<glm::dvec3> half_goal{};

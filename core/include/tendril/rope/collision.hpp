@@ -3,9 +3,9 @@
 //     world.set_collides(line, line, true);   // a rope and itself
 //     world.set_collides(line, other, true);  // two ropes
 //
-// Off by default, and free while off. Ropes and cloth collide at their radius everywhere: contacts are
-// between segments, and between particles and triangles of cloth. Parts of a body closer than pi times its
-// radius, measured along it, never touch. Hair does not collide.
+// Off by default, at no cost. Ropes and cloth collide at their radius everywhere: contacts are between
+// segments, and between particles and triangles of cloth. Parts of a body closer than pi times its radius,
+// measured along it, never touch. Hair does not collide.
 //
 // With Solver::Direct, contacts of ropes and their friction (Settings::friction) are solved together with
 // lengths and colliders. A contact is a Lagrange multiplier that continues from substep to substep (an
@@ -17,9 +17,9 @@
 //
 // A final check keeps segments from crossing each other, and particles from crossing triangles (R. Bridson,
 // R. Fedkiw, J. Anderson, "Robust Treatment of Collisions, Contact and Friction for Cloth Animation", 2002).
-// It corrects such a step; if that fails, all bodies that collide with each other take only a part of it,
-// pins included (Advance::held_back). A collider may then overlap a body for a while. Edits (set_radius,
-// move, pins dragged while paused) are not checked.
+// It corrects such a step; if that fails, all colliding bodies take only a part of it, pins included
+// (Advance::held_back). A collider may then overlap a body for a while. Edits (set_radius, move, pins dragged
+// while paused) are not checked.
 //
 // Cost: ropes that collide but are apart cost a tenth to a fifth more; ropes in contact four to seven times
 // as much as without, and a heap of cloth five to eight times.

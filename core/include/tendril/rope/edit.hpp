@@ -25,8 +25,8 @@ struct Resolution {
 
 struct Edited {
     World world;
-    /// For each old particle of the body: the new one that it became, or the nearest. Both are numbered from
-    /// the body's first particle; the pieces that came off follow.
+    /// For each old particle of the body, the new one that it became, or the nearest. Both are numbered from
+    /// the body's first particle; particles of the pieces that came off follow.
     std::vector<std::size_t> becomes;
     std::vector<BodyId> pieces{};  ///< bodies that came off it, in the order of particles
 };
@@ -48,11 +48,11 @@ Expected<Edited> reverse(const World& world, BodyId rope);
 /// handle. Costs as much as a copy of the world, even if nothing has come apart.
 Expected<Edited> part_body(const World& world, BodyId body);
 
-/// A polyline in the coordinates of a cloth's grid: {column, row}, at most one beyond the edge.
+/// A polyline in a cloth's grid coordinates, {column, row}, at most one beyond the edge.
 using ClothLine = std::vector<glm::vec2>;
 
 /// Cuts a cloth along lines: removes the links that cross them, and splits off what comes apart. A particle
-/// on a line is to its left, with columns to the right and rows upwards. Refuses lines that cross no
+/// on a line counts as left of it, with columns to the right and rows upwards. Refuses lines that cross no
 /// link.
 Expected<Edited> cut_cloth(const World& world, BodyId cloth, std::span<const ClothLine> lines);
 

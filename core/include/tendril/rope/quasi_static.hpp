@@ -1,5 +1,5 @@
 // Quasi-static drag: moves a pin or a collider while the simulation is paused, and displaces bodies in its
-// way as if they had no weight or speed. Nothing else moves; moves in progress resume with time.
+// way as if they had no weight or speed. Nothing else moves; moves in progress resume when time runs.
 //
 // Method: in a copy of the world gravity is 0, damping is full, and every link's rest length is its current
 // length, except for stiff links (direct solver, no compliance) that are over 5 % off. Eight substeps move
@@ -20,7 +20,7 @@ struct PinPlace {
 };
 
 /// Moves several pins at once, at the cost of one. Pins free particles, and detaches those that a collider
-/// holds. Refuses a particle that is named twice; if one is refused nothing moves.
+/// holds. Refuses a particle that is named twice; if any is refused, nothing moves.
 Result drag_pins(World& world, Workspace& workspace, std::span<const PinPlace> pins);
 /// The same for one pin.
 Result drag_pin(World& world, Workspace& workspace, std::size_t particle, const glm::dvec3& to);

@@ -7,7 +7,7 @@
 // * Relaxation satisfies one distance after the other, `iterations` times (T. Jakobsen, "Advanced Character
 //   Physics", GDC 2001; M. Mueller et al., "Position Based Dynamics", 2007). How far a rope stretches then
 //   depends on the iterations and on the substep.
-// * Xpbd does the same with compliance: with enough iterations the stretch is a material's (M. Macklin, M.
+// * Xpbd does the same with compliance: with enough iterations the stretch is physical (M. Macklin, M.
 //   Mueller, N. Chentanez, "XPBD", 2016).
 // * Direct solves all distances along a rope at once: their linearisation is tridiagonal, O(n) per pass. The
 //   tension of the previous substep is applied implicitly, because it makes a fine rope stiff sideways (M.
@@ -61,13 +61,13 @@ struct Settings {
     float gravity_scale = 1.0f;  ///< -max_scale to max_scale
     /// Acceleration in addition to gravity, m/s^2.
     glm::vec3 external{0.0f};
-    /// Velocity of the air, m/s, each coordinate up to max_wind. It pushes cloth by its faces, ropes and hair
-    /// by their thickness. Colliders do not block it. At 0 there is no air, unless `still_air` is set.
+    /// Velocity of the air, m/s, each coordinate up to max_wind. It pushes the faces of cloth, and ropes and
+    /// hair by their thickness. Colliders do not block it. At 0 there is no air, unless `still_air` is set.
     glm::vec3 wind{0.0f};
     /// Maximum of gusts relative to the wind, in each coordinate, 0 to 1. Gusts are a fixed pattern that
     /// drifts with the wind (State::drift); a change of wind or substep does not shift it.
     float gusts = 0.3f;
-    /// Whether air at rest resists too: cloth then falls at the speed at which drag balances its weight.
+    /// Whether air at rest has drag too: cloth then falls at the speed at which drag balances its weight.
     bool still_air = false;
     /// Strain per newton, 1/N, 0 to max_compliance: how much a metre of rope stretches under one newton.
     /// Relaxation ignores it.

@@ -18,7 +18,7 @@ namespace tendril::rope {
 /// A pinned particle.
 struct Pin {
     std::size_t particle = 0;
-    glm::dvec3 goal{0.0};  ///< where it is going; if attached: relative to the collider's centre
+    glm::dvec3 goal{0.0};  ///< destination; if attached, relative to the collider's centre
     double seconds = 0.0;  ///< simulated time until it arrives; 0: within the next substep
     ColliderId collider;   ///< moves the pin; empty: none
     bool operator==(const Pin&) const = default;
@@ -47,8 +47,8 @@ struct State {
     bool operator==(const State&) const = default;
 };
 
-/// Assigns handles to the bodies (and colliders, and ties) of a hand-made state, in their order, in slots
-/// from 0, unless the first has one.
+/// Assigns handles to the bodies, colliders and ties of a hand-made state, in order from slot 0. A list whose
+/// first element has a handle keeps its own.
 void number_slots(State& state);
 
 }  // namespace tendril::rope

@@ -15,18 +15,18 @@ struct TieShape {
     float strength = 0.0f;  ///< newtons; a tie that pulls harder tears. 0: never
 };
 
-/// Keeps two particles at a distance, as a rod without mass: it pulls and pushes. Bodies that ties join are
-/// solved together, each a part of one system (see Settings). Two pinned particles are not moved.
+/// Keeps two particles at a distance, as a rod without mass: it pulls and pushes. Bodies joined by ties are
+/// solved together, as one system (see Settings). Two pinned particles are not moved.
 struct Tie {
     TieId id;
     std::uint32_t a = 0, b = 0;  ///< particles
     float length = 0.0f;         ///< metres; 0: the particles coincide
     float strength = 0.0f;       ///< newtons at which it tears; 0: never
-    /// The distance that it enforces now, metres. A tie made between particles too far apart, or too close,
+    /// The distance currently enforced, metres. A tie made between particles too far apart, or too close,
     /// draws them to its length at tie_speed.
     float now = 0.0f;
-    /// Newtons, from the last solve; negative in compression, never if length is 0. A load only once `now` is
-    /// `length`; until then the force that draws the ends together at tie_speed.
+    /// Newtons, from the last solve; negative in compression, never if length is 0. Until `now` is `length`
+    /// it is not a load, but the force that moves the ends at tie_speed.
     float tension = 0.0f;
     bool operator==(const Tie&) const = default;
 };

@@ -49,12 +49,12 @@ namespace tendril::rope {
 struct Advance {
     int substeps = 0;
     std::uint64_t dropped = 0;  ///< substeps over longest_frame or max_substeps, not simulated
-    int passes = 0;  ///< solver passes over the linked bodies that took most, summed over substeps; Direct
+    int passes = 0;  ///< solver passes over the linked bodies that needed most, summed over substeps; Direct
                      ///< may solve a single chain more often
     std::uint64_t work = 0;         ///< links solved and distances to colliders computed: where the time goes
     int shortened = 0;              ///< substeps in which max_pass_work cut passes
     std::uint64_t unresolved = 0;   ///< times a particle was left inside colliders: no way out exists, or the
-                                    ///< search for one took too long
+                                    ///< search for it took too long
     std::uint64_t unconverged = 0;  ///< times lengths and contacts of a rope did not converge to 0.1 % in the
                                     ///< available steps; a rope without a solution is stretched, and
                                     ///< not counted
@@ -158,14 +158,14 @@ class World {
     /// Moves a collider evenly to `to` in the next `seconds` of simulated time, 0: within the next substep.
     /// It pushes bodies in its way.
     Result move_collider(ColliderId collider, const glm::vec3& to, double seconds = 0.0) noexcept;
-    /// The same for both ends of a capsule, each along a straight line, so that it turns. It takes the radius
-    /// of `to` at once.
+    /// The same for both ends of a capsule, each along a straight line, so that it turns. The radius of `to`
+    /// applies at once.
     Result move_capsule(ColliderId capsule, const Capsule& to, double seconds = 0.0) noexcept;
-    /// Moves and turns a collider steadily, in addition to the above, until the next call. A plane stays
-    /// where it is, and its surface moves along itself: a conveyor belt, a ground that passes by.
+    /// Moves and turns a collider steadily, in addition to the above, until the next call. A plane stays in
+    /// place and its surface moves along itself: a conveyor belt, a ground that passes by.
     Result drive_collider(ColliderId collider, const Drive& drive) noexcept;
     Result set_collider(ColliderId collider, const Shape& shape) noexcept;  ///< takes effect at once
-    /// Unpins the particles attached to it.
+    /// Also unpins the particles attached to it.
     Result remove_collider(ColliderId collider) noexcept;
     const Collider* find(ColliderId collider) const noexcept;
 
@@ -175,9 +175,9 @@ class World {
     /// Seconds that have passed since the last substep: at least 0, less than a substep.
     double pending() const noexcept;
     /// Positions of the particles from `first` on at the end of the frame, pending() after the last substep.
-    /// Fills `particles` as far as there are any. Pins are exactly where their moves have them then; free
-    /// particles go on as in the last substep, but no deeper into colliders. Without pending time these are
-    /// the state's positions. O(particles x colliders).
+    /// Elements past the last particle stay unwritten. Pins are exactly where their moves put them then; free
+    /// particles continue as in the last substep, but no deeper into colliders. Without pending time these
+    /// are the state's positions. O(particles x colliders).
     void pose(std::span<glm::dvec3> particles, std::size_t first = 0) const noexcept;
     /// The same for a collider.
     Shape pose(const Collider& collider) const noexcept;

@@ -21,7 +21,7 @@
 
 namespace tendril::signal {
 
-/// Seconds (30 years): a dt outside is clamped.
+/// A dt is clamped to this range, seconds (up to 30 years).
 inline constexpr double min_dt = 1e-9, max_dt = 1e9;
 
 /// Limit of all outputs. Only unbounded growth reaches it: an unstable filter, or a constant force without a

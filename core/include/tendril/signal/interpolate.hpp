@@ -1,5 +1,5 @@
-// interp_to: moves part of the way to a target in each step, an ease-out that never overshoots. In two
-// versions: as in game engines, which depends on the frame rate, and exact, which does not.
+// interp_to: moves part of the way to a target in each step, an ease-out that never overshoots. Two versions:
+// the one of game engines, which depends on the frame rate, and an exact one, which does not.
 //
 //     door = interp_to(door, open ? 90.0f : 0.0f, dt, 8.0);
 //

@@ -1,8 +1,8 @@
-// The costs and benefits of a filter, measured on a given input: lag, overshoot, settling time, jitter. Pure
-// functions over rows. A measure that the input cannot determine is empty.
+// Measures a filter on a given input: lag, overshoot, settling time, jitter. Pure functions over rows. A
+// measure that the input does not determine is empty.
 //
 // Lag, overshoot and settling time compare the output with the filters' output without memory (immediate(),
-// run.hpp), so a filter that scales or bends is not penalised for that.
+// run.hpp), so a filter is not penalised for scaling or shaping its input.
 #pragma once
 
 #include <optional>
@@ -28,10 +28,10 @@ enum class Following {
     Unstable        ///< the output diverges: unstable()
 };
 
-/// Whether the output diverges. It does if it is not finite somewhere; or exceeds the range of `wanted` by
-/// more than 1e6 times its span; or by more than 10 times its span, and in the last quarter of the time a
-/// tenth further than in the quarter before. A bounded resonance is not unstable; one without damping is.
-/// False if `wanted` does not change. Cost: O(rows).
+/// Whether the output diverges: it is not finite somewhere; or exceeds the range of `wanted` by more than 1e6
+/// times its span; or by more than 10 times its span, and in the last quarter of the time a tenth further
+/// than in the quarter before. A bounded resonance is not unstable; one without damping is. False if `wanted`
+/// does not change. Cost: O(rows).
 bool unstable(const Response& response);
 
 /// Seconds: the shift of `wanted` that best fits `output` (least squares, linear between rows, constant
@@ -60,9 +60,9 @@ std::optional<double> overshoot(const Response& response);
 /// steps, or if the output has not settled when the input moves on.
 std::optional<double> settling_time(const Response& response);
 
-/// The remaining part of the input's jitter: the root mean square of the changes of slope of `output`, over
-/// the same for `input`. Slopes rather than differences, to allow for uneven times. Empty if the input has no
-/// jitter.
+/// The fraction of the input's jitter that remains: the root mean square of the changes of slope of `output`,
+/// over the same for `input`. Slopes rather than differences, to allow for uneven times. Empty if the input
+/// has no jitter.
 std::optional<double> jitter(std::span<const double> time, std::span<const double> input,
                              std::span<const double> output);
 

@@ -40,10 +40,9 @@ struct FrameRate {
 /// 15, 30, 60, 144 Hz, and 60 Hz jittered.
 std::span<const FrameRate> usual_rates() noexcept;
 
-// The filters get the same input at all frame rates, so that they alone cause any difference. During each
-// frame of the slowest rate the input is constant at its value at the end of that frame, and the frames of
-// the other rates are split there. Frames start at time 0, where the first sample's dt begins; a run has at
-// most 1e6 frames.
+// The filters get the same input at all frame rates, so any difference is theirs. During each frame of the
+// slowest rate the input is constant at its value at the end of that frame, and the frames of the other rates
+// are split there. Frames start at time 0, where the first sample's dt begins; a run has at most 1e6 frames.
 
 /// The filters at one frame rate.
 struct RateRun {
@@ -61,7 +60,7 @@ struct RateComparison {
 RateComparison compare_rates(std::span<const Filter> filters, std::span<const Sample> samples,
                              std::span<const FrameRate> rates = usual_rates());
 
-/// The outputs of the same runs at each of the ascending `times`: one list per rate. Between two frames: the
+/// The outputs of the same runs at each of the ascending `times`: one list per rate. Between two frames, the
 /// output of a frame that ended at that time.
 std::vector<std::vector<double>> outputs_at(std::span<const Filter> filters, std::span<const Sample> samples,
                                             std::span<const double> times,

@@ -1,4 +1,4 @@
-// The filters that change a value rather than its motion: dead zone and hysteresis. For curves see curve.hpp.
+// Filters that change a value rather than its motion: dead zone and hysteresis. For curves see curve.hpp.
 // Cost: a few ns.
 #pragma once
 

@@ -8,7 +8,7 @@ namespace {
 
 using namespace rig::detail;
 
-/// Directions of one pose, unit vectors: from the hips to the head, and from the feet to the hips.
+/// Unit vectors of one pose: from the hips to the head, and from the feet to the hips.
 struct Stance {
     glm::dvec3 torso, legs;
 };
@@ -33,7 +33,7 @@ glm::dvec3 nearest_axis(const glm::dvec3& direction) {
     return axis;
 }
 
-/// Some forty poses of a clip, and the range of the left foot in them.
+/// Some forty poses of a clip, and the left foot's range in them.
 struct Poses {
     std::vector<Stance> stances;
     double swing = 0.0;  ///< diagonal of the foot's bounds relative to the hips, metres
@@ -65,8 +65,8 @@ std::optional<Poses> poses_of(const Skeleton& skeleton, const BoneMap& map, cons
 
 constexpr double aligned = 0.9;  // cosine of 26 degrees
 
-/// Whether the clip carries its figure upright, on average within 45 degrees: then only the rest pose lies,
-/// as in files that store their motion relative to an arbitrary pose.
+/// Whether the figure is upright in the clip, on average within 45 degrees: then only the rest pose lies, as
+/// in files that store motion relative to an arbitrary pose.
 bool stands_in(const Poses& poses) {
     glm::dvec3 sum(0.0);
     for (const Stance& each : poses.stances) sum = plus(sum, plus(each.torso, each.legs));

@@ -12,7 +12,7 @@ namespace {
 using namespace rig::detail;
 
 /// Degrees by which decent clips exceed the default limits: most for captured heads mapped to the end of the
-/// neck, least for knees; for elbows less than the 40 by which they bend backwards.
+/// neck, least for knees; for elbows less than the 40 of an elbow that bends backwards.
 double tolerance(Bone bone) noexcept {
     switch (bone) {
         case Bone::LeftLowerLeg:
@@ -34,7 +34,7 @@ struct Arm {
 constexpr Arm arms[]{{Bone::LeftShoulder, Bone::LeftUpperArm, Bone::LeftLowerArm},
                      {Bone::RightShoulder, Bone::RightUpperArm, Bone::RightLowerArm}};
 
-/// Radians by which an elbow is beyond what an arm can do. Rigs divide an arm's twist between collar bone,
+/// Radians by which an elbow exceeds the range of the arm. Rigs divide an arm's twist between collar bone,
 /// upper arm and forearm as they like, so only the sum matters: the elbow may bend to any side to which the
 /// upper arm can twist it, seen from the chest.
 double elbow_excess(const BodyJoints& joints, const Arm& arm, const std::vector<Placement>& placed) {
@@ -50,19 +50,19 @@ double elbow_excess(const BodyJoints& joints, const Arm& arm, const std::vector<
                  twist = arctangent(dot(seen, axis), dot(seen, forward));
     const double twisted = std::max({0.0, static_cast<double>(shoulder.twist_min) - twist,
                                      twist - static_cast<double>(shoulder.twist_max)});
-    // To the nearest side to which it may bend; to straight, if twisted by over a right angle too far.
+    // The turn to the nearest allowed side; to straight, if twisted by over a right angle too far.
     const double aside = std::sin(bend) * std::sin(twisted);
     double backwards =
         twisted < 0.5 * pi ? arctangent(aside, std::sqrt(std::max(0.0, 1.0 - aside * aside))) : bend;
-    // Captures that turn the forearm instead of the upper arm: up to 60 degrees, bent by 66, in
+    // Some captures turn the forearm instead of the upper arm: up to 60 degrees, bent by 66, in
     // cmu_91_50.fbx.
     if (twisted < 60.0 / degrees && backwards < 65.0 / degrees) backwards = 0.0;
     return std::max(backwards, bend - static_cast<double>(elbow.max));
 }
 
-/// The smallest turn that brings a ball joint within its limit, radians. The excesses of cone and twist are
-/// too large where the bone points nearly against its rest, since any twist is a swing to another side there.
-/// By compass search (T. Kolda, R. Lewis, V. Torczon, SIAM Review 45(3), 2003).
+/// The smallest turn that brings a ball joint within its limit, radians, by compass search (T. Kolda, R.
+/// Lewis, V. Torczon, SIAM Review 45(3), 2003). The excesses of cone and twist are too large where the bone
+/// points nearly against its rest, since any twist is a swing to another side there.
 double least_turn(const ik::Limit& limit, const glm::dvec3& along, const glm::dquat& turn) {
     const ik::detail::LimitedJoint joint = ik::detail::limited_joint(limit, math::narrow(along));
     const glm::quat wanted(static_cast<float>(turn.w), static_cast<float>(turn.x), static_cast<float>(turn.y),
@@ -98,7 +98,7 @@ double least_turn_of_hinge(const ik::Limit& limit, const glm::dquat& turn) {
     return 2.0 * half_angle_between(rotation_about(axis, within), turn);
 }
 
-/// How far a joint is beyond its limit, radians; for a ball joint the smallest turn if that is over `most`.
+/// How far a joint is beyond its limit, radians; for a ball joint over `most`, the smallest turn back.
 double excess_of(const BodyJoints& joints, Bone bone, const std::vector<Placement>& placed, bool by_default,
                  double most) {
     for (const Arm& arm : arms)

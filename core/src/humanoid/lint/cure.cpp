@@ -47,11 +47,10 @@ double likeness(const glm::dvec3&, const glm::dvec3&) {
     return 1.0;
 }
 
-/// After the keys from `first` to `last` have got new values: gives a cubic track new tangents at these keys
-/// and the ones next to them, the slopes between neighbouring keys. Exporters derive the tangents of the
-/// neighbours from the bad values, too. Negates quaternions where the sign changes, since a cubic does not
-/// take the short way; the rest of the track follows, so that its keys keep their signs relative to each
-/// other.
+/// Call after changing the keys from `first` to `last`. Gives a cubic track new tangents at these keys and
+/// their neighbours, the slopes between neighbouring keys, since exporters derive the neighbours' tangents
+/// from the bad values, too. Negates quaternions where the sign changes, since a cubic does not take the
+/// short way, and the rest of the track with them, so that its keys keep their relative signs.
 template <class T>
 void refit_tangents(Track<T>& track, double first, double last) {
     if (track.interpolation != Interpolation::Cubic) return;
@@ -89,8 +88,8 @@ void bridge(const Channel& was, Track<T>& track, double before, double first, do
     refit_tangents(track, first, last);
 }
 
-/// Spreads the jump between two times over the keys around it: those before it make half of the way early,
-/// those after it the other half late.
+/// Spreads the jump between two times over the keys around it: those before it take half of it early, those
+/// after it the other half late.
 template <class T>
 void spread(const Channel& was, Track<T>& track, double before, double after) {
     const T from = value_at(was, before, track), to = value_at(was, after, track);
@@ -162,7 +161,7 @@ bool is_of_foot(const Finding& finding) {
            finding.fault == Fault::Sinking || finding.snaps;
 }
 
-/// Changes the keys around the finding.
+/// The clip with the keys around the finding changed.
 Clip mended(const Skeleton& skeleton, const BoneMap& map, const Clip& clip, const Finding& finding,
             double rate) {
     Clip cured = clip;
@@ -222,7 +221,7 @@ double fastest_turn(const Clip& clip, std::int32_t node, const LintReport& repor
     return most;
 }
 
-/// Whether a joint of a leg turns faster than it did, and than lint tolerates.
+/// Whether a leg joint turns faster than before, and than the lint tolerates.
 bool turns_faster(const BoneMap& map, const Clip& before, const Clip& after, const LintSettings& settings,
                   const LintReport& report) {
     for (const Bone bone : {Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot, Bone::RightUpperLeg,
@@ -236,14 +235,13 @@ bool turns_faster(const BoneMap& map, const Clip& before, const Clip& after, con
     return false;
 }
 
-/// Cures to try in turn, until nothing new is wrong with the clip and no joint turns faster.
+/// Cures to try in turn, until the clip has no new finding and no joint turns faster.
 constexpr lint_detail::FootCure foot_cures[]{{.ease = 0.15, .nearer = 0.005},
                                              {.ease = 0.3, .nearer = 0.005},
                                              {.ease = 0.15, .nearer = 0.0025},
                                              {.ease = 0.3, .nearer = 0.0025},
                                              {.ease = 0.6, .nearer = 0.0025}};
-/// Maximum number of further faults cured along with the first: a foot that is brought down to the floor may
-/// slide there.
+/// Maximum number of further faults cured with the first: a foot brought down to the floor may slide there.
 constexpr std::size_t most_more = 4;
 
 bool is_same(const Finding& a, const Finding& b, double rate) {
@@ -276,7 +274,7 @@ Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& cl
         return tendril::detail::refused("cure", "finding", "one of this clip",
                                         std::string_view(finding.text));
     const LintReport before = lint(skeleton, map, clip, settings);
-    std::optional<Clip> fallback;  // one that turns a joint faster
+    std::optional<Clip> fallback;  // a cure that turns a joint faster
     for (const lint_detail::FootCure& how : foot_cures) {
         Expected<Clip> cured = cured_once(skeleton, map, clip, finding, settings, how);
         if (!cured) return cured;

@@ -1,11 +1,11 @@
-// The cure of a foot that slides, floats or sinks: its leg is solved in closed form so that it stands, and
+// Cures a foot that slides, floats or sinks: solves its leg in closed form so that the foot stands, and
 // blends into the clip's motion before and after. Faults of one foot that follow each other closely are cured
-// together. If the leg is too short, the hips are lowered, and the other foot stays where it is.
+// together. If the leg is too short, the hips are lowered, and the other foot stays in place.
 //
 // Also cures a leg that snaps straight. Near its full length, the smallest move of the foot turns the knee by
 // any angle. Soft IK (A. Nicholas, "Soft IK", 2009) avoids that: over the last part, the distance from hip to
-// foot approaches the leg's full length exponentially. Every leg solved here is soft, from the first frame in
-// which it is that long to the last: a leg soft in one frame and straight in the next would snap.
+// foot approaches the leg's full length exponentially. Every leg solved here is soft from the first frame in
+// which it is that long to the last: a leg that is soft in one frame and straight in the next would snap.
 #include "humanoid/lint/lint.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 using namespace rig::detail;
 
 constexpr double stands = 0.02, swings = 0.08;  // metres above the floor
-constexpr double deepest = 0.1;                 // of a leg's length: the hips are lowered by at most this
+constexpr double deepest = 0.1;                 // in leg lengths: maximum lowering of the hips
 
 /// The corrections, from the first frame that changes to the last.
 struct Plan {
@@ -48,7 +48,7 @@ std::vector<glm::dvec3> moves_of(const Foot& foot, const Finding& finding, const
         }
         moves.push_back({-slid.x, 0.0, -slid.z});
     }
-    // A foot that slid stands in the middle of its path, which keeps the correction small.
+    // A sliding foot is put in the middle of its path, which keeps the correction small.
     for (glm::dvec3& move : moves) move = plus(move, times(plus(low, high), 0.5));
     return moves;
 }
@@ -75,7 +75,7 @@ class CuredLeg {
     detail::LimbPlacement placed(std::vector<rig::Transform>& pose) const {
         return detail::place(limb_, Placement{}, pose);
     }
-    /// Whether the leg is so long in the clip that soft IK shortens it.
+    /// Whether the clip stretches the leg so far that soft IK shortens it.
     bool is_soft(std::size_t frame) const { return lengths_[frame] > hard(); }
     /// The distance from hip to foot after soft IK, metres.
     double softened(double far) const {
@@ -84,8 +84,8 @@ class CuredLeg {
     }
 
     /// Brings the leg's end to a position, or as near as `longest` lets it; the end keeps its rotation. The
-    /// knee keeps its side; but the further it must bend, the more it takes the side to which it bends in the
-    /// whole clip, because a straight leg shows none.
+    /// knee keeps its side, but the further it must bend, the more it takes the side to which it bends in the
+    /// whole clip, because a straight leg has none.
     void bring(const glm::dvec3& to, double longest, std::vector<rig::Transform>& pose) const {
         detail::LimbPlacement at = placed(pose);
         const glm::dvec3 way = minus(to, at.upper.position);
@@ -99,7 +99,7 @@ class CuredLeg {
 
   private:
     double hard() const noexcept { return full_ - soft_; }
-    /// How far the knee of a leg of that length is from the line, about, in leg lengths.
+    /// Approximate distance of the knee from the line, for a leg of that length; in leg lengths.
     double bend(double far) const {
         return full_ > 0.0 ? 0.5 * std::sqrt(std::max(1.0 - far * far / (full_ * full_), 0.0)) : 0.0;
     }
@@ -170,7 +170,7 @@ class CuredLegs {
   private:
     struct Goal {
         glm::dvec3 at;
-        double longest;  ///< length of the leg, metres: by soft IK, from where the hip is in the clip
+        double longest;  ///< length of the leg, metres: by soft IK, from the hip's position in the clip
     };
     Goal goal(const CuredLeg& leg, const glm::dvec3& move) {
         const detail::LimbPlacement at = leg.placed(pose_);
@@ -226,7 +226,7 @@ class Blend {
     std::size_t around_;
 };
 
-/// `height`: of the foot above the floor in a frame of the clip.
+/// `height`: the foot's height above the floor in a frame of the clip.
 template <class Height>
 Plan plan_of(CuredLegs& legs, const Blend& blend, std::size_t around, Height height) {
     auto [first, last] = blend.range();
@@ -236,7 +236,7 @@ Plan plan_of(CuredLegs& legs, const Blend& blend, std::size_t around, Height hei
     std::vector<double> needed;
     for (std::size_t i = first; i <= last; ++i) {
         plan.moves.push_back(blend.at(i));
-        // Only a standing foot must reach its position; a swinging one is brought nearer to the hip instead.
+        // Only a standing foot must reach its position; a swinging one moves nearer to the hip instead.
         const double above = (height(i) + plan.moves.back().y - stands) / (swings - stands);
         needed.push_back(fading(std::max(above, 0.0)) * legs.missing(i, plan.moves.back()));
     }
@@ -251,7 +251,7 @@ Plan plan_of(CuredLegs& legs, const Blend& blend, std::size_t around, Height hei
     return plan;
 }
 
-/// The finding with the same faults of that foot before and after it, each within `near` frames of the next.
+/// The finding, and the same faults of that foot before and after it, each within `near` frames of the next.
 std::vector<Finding> together(const Check& check, const Finding& found, std::size_t near) {
     LintReport report = check.report;
     Check feet{check.skeleton, check.map, check.clip, check.settings, check.height, report};

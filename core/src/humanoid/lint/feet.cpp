@@ -10,13 +10,13 @@ namespace {
 using namespace rig::detail;
 
 // A stance begins under the speed `enter`, ends over `leave`, and stays lower than `low`. A standing foot
-// that is pulled away for a moment without being lifted has not taken a step.
+// that slips briefly without being lifted has not taken a step.
 constexpr double enter = 0.6, leave = 1.2, low = 0.03;  // m/s, m
 constexpr double lifted = 0.025, shortest_step = 0.1;   // m, s
 constexpr double landing = 0.05;                        // s
 
-/// A stance without its ends, in which the foot lands or leaves: from the first to the last still frame. A
-/// foot that is never still slides throughout: a fixed time is cut from both ends.
+/// A stance without its landing and lift-off: from the first to the last still frame. A foot that is never
+/// still slides throughout: a fixed time is cut from both ends.
 Stretch without_ends(const Stretch& stance, const Foot& foot, double rate) {
     Stretch core = stance;
     while (core.first < core.last && !foot.still[core.first]) ++core.first;
@@ -87,7 +87,7 @@ void check_floating(Check& check, const Foot& foot, double limit) {
 void check_sinking(Check& check, const Foot& foot, double limit) {
     const double floor = check.report.floor, most = 0.12;
     for (const Stretch& each : stretches(foot.height.size(), check.report.rate, 0.03, [&](std::size_t i) {
-             // How far a sole reaches below its bones is known only for a level foot.
+             // The height of a sole below its bones is known only for a level foot.
              const double below = floor - foot.height[i];
              return below > limit + (foot.tilt[i] > 30.0 ? 0.04 : 0.0);
          })) {
@@ -95,7 +95,7 @@ void check_sinking(Check& check, const Foot& foot, double limit) {
         for (std::size_t i = each.first; i <= each.last; ++i)
             if (foot.height[i] < foot.height[worst]) worst = i;
         const double amount = 1000.0 * (floor - foot.height[worst]);
-        if (amount > 1000.0 * most) continue;  // a different floor: stairs, a pit
+        if (amount > 1000.0 * most) continue;  // another floor: stairs, a pit
         check.add(Fault::Sinking, foot.node, worst, each.first, each.last, amount, "mm",
                   "is " + shown(amount) + " mm below the floor");
     }
@@ -110,7 +110,7 @@ std::vector<Stretch> stances_of(const Foot& foot, double floor, double rate) {
     for (std::size_t i = 0; i < foot.height.size(); ++i) {
         const double height = foot.height[i];
         if (foot.still[i]) stood_at = height;
-        // A moving foot that is lifted, if only by 8 mm, takes a step.
+        // A moving foot that is lifted, even by 8 mm, takes a step.
         const bool steps = foot.speed[i] > 0.4 && height > stood_at + 0.008;
         stepped |= steps;
         stands = height - floor < low && !steps && foot.speed[i] < (stands ? leave : enter);
@@ -131,7 +131,7 @@ std::vector<Stretch> stances_of(const Foot& foot, double floor, double rate) {
     return found;
 }
 
-/// Includes points in between: the motion of a rigid foot is linear in the point.
+/// Also covers the points in between: the motion of a rigid foot is linear in the point.
 glm::dvec3 smallest_move(const Foot& foot, std::size_t frame, const glm::dvec3& ground) {
     glm::dvec3 best(1e9);
     const auto take = [&](const glm::dvec3& a, const glm::dvec3& b) {
@@ -179,7 +179,7 @@ void check_feet(Check& check) {
     check.report.has_floor = true;
     check.report.floor = *floor;
     const double unknown = motion.knows_soles ? 0.0 : 0.015;
-    // For an in-place clip the ground's speed is a guess, and real hips vary their speed within a step. If no
+    // For an in-place clip the ground's speed is a guess, and real hips vary in speed within a step. If no
     // foot is ever still, the moment of landing is unknown.
     const double slide = std::max(check.settings.skating + unknown + (motion.always_slides ? 0.02 : 0.0),
                                   0.15 * level(motion.treadmill));

@@ -47,8 +47,8 @@ struct FeetMotion {
     std::vector<glm::dvec3> hips{};  ///< by frame
     glm::dvec3 treadmill{0.0};       ///< the ground's velocity under a figure that walks in place, m/s
     bool always_slides = false;      ///< no foot is ever still
-    bool rests_on_ground = false;    ///< the rest pose stands flat near height 0
-    bool knows_soles = false;        ///< feet stand as in the rest pose, which then tells where the soles are
+    bool rests_on_ground = false;    ///< in the rest pose the feet stand flat near height 0
+    bool knows_soles = false;        ///< feet stand as in the rest pose, which then gives the soles
 };
 FeetMotion feet_motion(const Check& check);
 

@@ -56,13 +56,13 @@ Rest look_at_rest(std::vector<Foot>& feet, double hips) {
     if (!rest.is_ground)
         for (Foot& foot : feet)
             for (SolePoint& point : foot.points) point.above -= ground;
-    // The tip of the toes yields and dips a little as a foot rolls off: count it as 15 mm higher.
+    // The toe tip gives and dips a little as a foot rolls off: count it as 15 mm higher.
     for (Foot& foot : feet)
         if (foot.points.size() == 3) foot.points.back().above -= 0.015;
     return rest;
 }
 
-/// Where a point is and which way is up there, as if the ground were a level floor at height 0.
+/// A point's position and the up direction there, as if the ground were a level floor at height 0.
 struct OnGround {
     glm::dvec3 position, up;
 };
@@ -78,7 +78,7 @@ OnGround on_ground(const Ground* ground, const glm::dvec3& position) {
 /// Whether the hips are up over a foot, and the head over the hips, relative to their distances at rest.
 bool is_upright(const Check& check, std::int32_t foot, const std::vector<Placement>& rest,
                 const std::vector<Placement>& now) {
-    constexpr double risen = 0.6;  // of those; hips are up by 0.5 on a chair, a head by 0.1 if one lies
+    constexpr double risen = 0.6;  // fraction of those; on a chair hips are at 0.5, a lying head at 0.1
     const auto rises = [&](std::int32_t from, std::int32_t to) {
         if (from < 0 || to < 0) return true;
         const auto a = static_cast<std::size_t>(from), b = static_cast<std::size_t>(to);
@@ -121,7 +121,7 @@ void measure_heights(Foot& foot) {
 }
 
 /// The median velocity of the lowest point of both feet, over the frames in which it is near the ground. 0
-/// for a figure that travels, and within less than half a step.
+/// for a figure that travels, and for less than half a step.
 glm::dvec3 treadmill_of(const FeetMotion& motion, double rate) {
     const std::size_t frames = motion.hips.size();
     constexpr double half_step = 0.3;  // seconds
@@ -181,8 +181,8 @@ bool find_still(std::vector<Foot>& feet, double below) {
     return any;
 }
 
-/// Whether standing feet are tilted as at rest. If the rest pose stands on the ground, it is believed if a
-/// fifth of them are; otherwise, if most are.
+/// Whether standing feet are tilted as at rest: a fifth of them if the rest pose stands on the ground,
+/// otherwise most.
 bool stands_as_it_rests(const std::vector<Foot>& feet, bool rests_on_ground, double rate) {
     std::vector<double> tilts;
     for (const Foot& foot : feet)
@@ -194,8 +194,8 @@ bool stands_as_it_rests(const std::vector<Foot>& feet, bool rests_on_ground, dou
     return static_cast<double>(tilts.size()) < min_stance * rate || 5 * alike >= tilts.size();
 }
 
-/// Learns the points' heights above the ground, and the feet's up directions, from the frames in which they
-/// carry.
+/// Learns the points' heights above the ground, and the feet's up directions, from the frames in which feet
+/// carry the figure.
 void learn_soles(std::vector<Foot>& feet) {
     double ground = std::numeric_limits<double>::max();
     std::vector<double> heights;

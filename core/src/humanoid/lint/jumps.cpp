@@ -31,9 +31,9 @@ class Moves {
 };
 
 /// How far frames i to i + held - 1 depart from those before and after; 0 if they do not. They depart if
-/// shifting them back leaves a smooth motion: one in which a cubic through the two frames before and the two
-/// after meets each frame. So a fast motion, which turns by tens of degrees within a frame and changes as
-/// fast, is no departure, and hides none.
+/// shifting them back leaves a smooth motion: a cubic through the two frames before and the two after meets
+/// each frame. So a fast motion, which turns by tens of degrees a frame and changes as fast, is no departure,
+/// and hides none.
 double spike(const Moves& moves, std::ptrdiff_t i, std::ptrdiff_t held, double minimum) {
     constexpr double times_the_roughness = 8.0;
     const auto frames = static_cast<double>(held);
@@ -64,7 +64,7 @@ double step(const Moves& moves, std::ptrdiff_t i, double minimum) {
     return far > times_the_change * change ? far : 0.0;
 }
 
-/// Whether to judge a track. One that steps does so on purpose: all of it, or (skip_steps) where two keys are
+/// Whether to judge a track. Steps are intended: in all of a Step track, or (skip_steps) where two keys are
 /// at one time, as in files whose curves are held and interpolated in turn.
 template <class T>
 bool is_judged(const Track<T>& track) {
@@ -87,7 +87,7 @@ void skip_steps(const Check& check, const Track<T>& track, std::vector<glm::dvec
     }
 }
 
-/// `unit`: of the track, in metres or degrees.
+/// `unit`: size of the track's unit, in metres or degrees.
 template <class T, class Member>
 void check_track(Check& check, const Channel& channel, const Track<T>& track, Member member, double unit,
                  double minimum, bool turns) {
@@ -131,7 +131,7 @@ const Track<glm::dquat>* rotation_of(const Clip& clip, std::int32_t node) noexce
     return nullptr;
 }
 
-/// Degrees by which the knee is bent; 0: straight.
+/// The knee's bend in degrees; 0: straight.
 double bend_of(const Check& check, const Leg& leg, const std::vector<Placement>& placed) {
     const auto at = [&](Bone bone) {
         return placed[static_cast<std::size_t>(check.map[bone].node)].position;
@@ -140,8 +140,8 @@ double bend_of(const Check& check, const Leg& leg, const std::vector<Placement>&
     return arctangent(length(cross(thigh, shin)), dot(thigh, shin)) * degrees;
 }
 
-/// A leg that snaps straight within a frame and stays so, or the reverse: its knee accelerates towards
-/// straight and stops at once.
+/// Finds legs that snap straight within a frame and stay straight, or the reverse: the knee accelerates
+/// towards straight and stops at once.
 void check_snaps(Check& check, std::int32_t node, const std::vector<double>& bends) {
     const double minimum = check.settings.knee * slower(check.report.rate);
     const auto snap = [&](double from, double before, double straight, double after) {
@@ -182,7 +182,7 @@ std::vector<Outlier> outliers(const std::vector<glm::dvec3>& list, double minimu
     if (count < 6) return found;
     const Moves moves(list);
     for (std::ptrdiff_t i = 1; i < count; ++i) {
-        // Look for departures of one to three frames first: they would also look like two jumps.
+        // Departures of one to three frames first: they would also look like two jumps.
         double amount = 0.0;
         std::ptrdiff_t until = count;
         for (std::ptrdiff_t held = 1; held <= 3 && amount == 0.0 && i + held < count; ++held) {

@@ -21,7 +21,7 @@ struct Flips {
     double most = 0.0;                                       // degrees that it turns the long way round
 };
 
-/// Keys between two flips are on the other side, too.
+/// Keys between two flips are in the opposite hemisphere, too.
 void find_flips(const Check& check, const Channel& channel, Flips& all) {
     const Track<glm::dquat>& track = channel.rotation;
     if (track.interpolation == Interpolation::Step) return;
@@ -65,7 +65,7 @@ void check_scale_keys(Check& check, const Channel& channel) {
     }
 }
 
-/// A figure of implausible height.
+/// Reports a figure of implausible height.
 void check_height(Check& check) {
     if (!check.map.is_usable() || check.report.frames == 0) return;
     const double height = check.height;

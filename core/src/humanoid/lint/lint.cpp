@@ -43,7 +43,7 @@ LintReport blank_report(const Clip& clip, const LintSettings& settings) {
 
 namespace {
 
-/// The largest extent of the nodes at rest, which for a lying figure is its length.
+/// The largest extent of the nodes at rest; for a lying figure, its length.
 double height_of(const Skeleton& skeleton) {
     std::vector<Placement> placements(skeleton.size());
     place(skeleton, rest_pose(skeleton), placements);

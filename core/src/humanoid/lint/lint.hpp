@@ -53,7 +53,7 @@ struct Outlier {
 /// frame i - 1 to frame i; moves[0] is not read.
 std::vector<Outlier> outliers(const std::vector<glm::dvec3>& moves, double minimum);
 
-/// A factor for thresholds that are given for 60 frames per second: at fewer, more happens in each frame.
+/// Scales thresholds given for 60 frames per second: at fewer, more happens in each frame.
 inline double slower(double rate) noexcept {
     return (2.0 + 60.0 / rate) / 3.0;
 }

@@ -9,7 +9,7 @@
 
 namespace tendril::humanoid::lint_detail {
 
-/// The value at a time of the channel's track of that type: translation or rotation.
+/// The value of the channel's translation or rotation, by track type, at a time.
 inline glm::dvec3 value_at(const Channel& channel, double time, const Track<glm::dvec3>&) {
     rig::Transform local;
     sample(channel, time, local);
