@@ -65,8 +65,8 @@ App::~App() = default;
 
 void App::start_from(const RecordingStart& start) {
     replays_ = start.live;
-    if (const auto unread = load_scene(workspace_, start.scene); !unread.empty())
-        throw std::runtime_error(unread.front().text);
+    for (const LabNote& each : load_scene(workspace_, start.scene))
+        if (!each.whole) throw std::runtime_error(each.text);
     if (labs_.find(start.lab) == nullptr)
         throw std::runtime_error("lab: there is no lab \"" + start.lab + "\"");
     workspace_.open_lab(start.lab);
@@ -100,10 +100,15 @@ void App::start_recording(bool live) {
     }
     workspace_.forget_pasts();
     workspace_.openings.clear();  // the opening's motion is part of the recorded scene
+    Json scene = save_scene(workspace_);
+    if (const auto edited = scene.find("stand_ins"); edited != scene.end()) {
+        scene["labs"].update(*edited);  // what was seen is replayed
+        scene.erase(edited);
+    }
     recorder_.emplace(RecordingStart{.version = version_string,
                                      .size = size_,
                                      .lab = workspace_.lab,
-                                     .scene = save_scene(workspace_),
+                                     .scene = std::move(scene),
                                      .settings = save_settings(workspace_.settings),
                                      .path = workspace_.path.string(),
                                      .modified = workspace_.modified(),

@@ -75,10 +75,8 @@ Script read_script(const SessionOptions& options, const CommandTable& commands) 
 bool open_given(App& app, const std::string& file) {
     Workspace& workspace = app.workspace();
     if (file_route(app.labs(), file).lab == nullptr) {
-        const std::vector<UnreadLab> unread = load_scene_file(workspace, file);
-        for (const UnreadLab& each : unread)
-            if (!workspace.outputs.in_window) complain(each.text);
-        return unread.empty();
+        const std::vector<LabNote> notes = load_scene_file(workspace, file);
+        return std::ranges::all_of(notes, &LabNote::whole);
     }
     const std::uint64_t beginnings = workspace.beginnings;
     app.commands().run(workspace, "file.open", {{"path", file}});

@@ -9,8 +9,8 @@ namespace tendril::app {
 void print_code(const std::string& scene) {
     const Labs labs;
     Workspace workspace = make_blank_workspace(labs);
-    for (const UnreadLab& each : load_scene_file(workspace, scene))
-        if (each.lab == workspace.lab) throw std::runtime_error(scene + ": " + each.text);
+    for (const LabNote& each : load_scene_file(workspace, scene))
+        if (each.lab == workspace.lab && !each.whole) throw std::runtime_error(scene + ": " + each.text);
     const std::string code = labs.find(workspace.lab)->code(workspace);
     if (code.empty())
         throw std::runtime_error(scene + ": the lab " + workspace.lab + " has no code to print");

@@ -180,12 +180,12 @@ void Autosave::recover(Workspace& workspace, const fs::path& file) {
     const Json scene = read_json_file(file);
     std::string path;
     if (scene.is_object() && scene.contains("path")) path = json_text(scene["path"], "path");
-    const std::vector<UnreadLab> unread =
+    const std::vector<LabNote> notes =
         load_scene(workspace, scene, {.folder = fs::path(path).parent_path(), .whole = false});
     workspace.path = path;
     workspace.saved = Document();
     workspace.recovered = adopted(file);
-    for (const UnreadLab& each : unread) workspace.toast(each.text, ToastKind::Refusal);
+    tell(workspace, notes);
 }
 
 }  // namespace tendril::app

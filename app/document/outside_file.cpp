@@ -13,6 +13,8 @@ namespace tendril::app {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr std::uint64_t max_crc32 = 0xffff'ffff;
+
 std::optional<std::uint32_t> crc32_of(const fs::path& file) {
     std::error_code error;
     if (!fs::is_regular_file(file, error)) return std::nullopt;
@@ -75,6 +77,7 @@ Json save_outside_file(const OutsideFile& file) {
 }
 
 OutsideFile named_file(const JsonPlace& place) {
+    if (const auto sum = place.optional("crc32")) static_cast<void>(sum->count(max_crc32));
     const auto path = place.optional("path");
     // Older scenes store only the path of a ground.
     const std::string file = (path && !place.optional("file") ? *path : place["file"]).text();
@@ -95,15 +98,24 @@ void find_moved_files(Json& part, const fs::path& scene_folder) {
     });
 }
 
-std::string changed_file(const Json& part) {
-    std::string changed;
+std::string changed_files_text(const Json& part) {
+    std::string names;
+    bool several = false;
     for_each_file(part, [&](const Json& each) {
         const fs::path path = text_of(each, "path"),
                        file = is_there(path) ? path : fs::path(text_of(each, "file"));
-        if (each.contains("crc32") && each["crc32"] != crc32_of(file).value_or(0))
-            changed = file.filename().string();
+        // Anything but a checksum is for load() to refuse.
+        const auto sum = each.find("crc32");
+        const std::uint64_t saved =
+            sum != each.end() && sum->is_number_unsigned() ? sum->get<std::uint64_t>() : max_crc32 + 1;
+        const std::string name = file.filename().string();
+        if (saved > max_crc32 || saved == crc32_of(file).value_or(0) || names.find(name) != names.npos)
+            return;
+        several = !names.empty();
+        names += (several ? ", " : "") + name;
     });
-    return changed;
+    return names.empty() ? names
+                         : names + (several ? " have" : " has") + " changed since the scene was saved";
 }
 
 std::vector<std::string> names_of_uri(const std::string& uri) {

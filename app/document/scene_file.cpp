@@ -9,6 +9,7 @@
 #include "app/document/atomic_file.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/outside_file.hpp"
+#include "app/document/text.hpp"
 
 namespace tendril::app {
 namespace fs = std::filesystem;
@@ -42,40 +43,75 @@ auto converted(const std::string& where, const Call& call) {
     }
 }
 
-/// The lab's part, or a blank one that keeps the JSON, and `unread` says why.
-std::shared_ptr<const Part> load_part(const Part& blank, const Json& json, int version,
+/// A lab in a scene file.
+struct SavedLab {
+    const Json& json;
+    const Json* stand_in;  ///< what the lab was edited to while `json` could not be read; null: nothing
+};
+
+/// The lab's part. Where that cannot be read, what stands in for it or a blank one, which keep the JSON.
+std::shared_ptr<const Part> load_part(const Part& blank, const SavedLab& saved, int version,
                                       const std::string& lab, const SceneLoading& loading,
-                                      std::vector<UnreadLab>& unread) {
+                                      std::vector<LabNote>& notes) {
+    const auto upgraded = [&](const Json& json, const std::string& where) {
+        Json now = json;
+        if (version != scene_version) converted(where, [&] { blank.upgrade(now, version); });
+        return now;
+    };
+    const auto read = [&](Json json, const std::string& where) {
+        find_moved_files(json, loading.folder);
+        std::shared_ptr<const Part> part = converted(where, [&] { return blank.load(json, where); });
+        if (const std::string changed = changed_files_text(json); !changed.empty())
+            notes.push_back({lab, changed + '.', true});
+        return part;
+    };
     const std::string where = "labs." + lab;
-    auto saved = std::make_shared<Json>(json);
-    if (version != scene_version) converted(where, [&] { blank.upgrade(*saved, version); });
-    Json found = *saved;
-    find_moved_files(found, loading.folder);
-    const std::shared_ptr<Part> part = blank.clone();
+    Json kept = upgraded(saved.json, where);
+    std::string why;
     try {
-        return converted(where, [&] { return blank.load(found, where); });
+        std::shared_ptr<const Part> part = read(kept, where);
+        if (saved.stand_in != nullptr)
+            notes.push_back({lab,
+                             "The " + lab +
+                                 " lab is as it was saved with all its files; changes made while they were "
+                                 "missing are left out.",
+                             true});
+        return part;
     } catch (const OutsideFileError& error) {
-        part->unread_why = error.what();
+        why = error.what();
     } catch (const std::runtime_error& error) {
-        const std::string changed = changed_file(found);
+        Json found = kept;
+        find_moved_files(found, loading.folder);
+        const std::string changed = changed_files_text(found);
         if (loading.whole && changed.empty()) throw;
-        part->unread_why = error.what();
-        if (!changed.empty())
-            part->unread_why = changed + " has changed since the scene was saved (" + part->unread_why + ')';
+        why = changed.empty() ? error.what() : changed + " (" + error.what() + ')';
     }
-    part->unread = std::move(saved);
-    unread.push_back({lab, stand_in_note(lab, *part)});
+    std::shared_ptr<Part> part = blank.clone();
+    if (saved.stand_in != nullptr) {
+        const std::string instead = "stand_ins." + lab;
+        try {
+            part = read(upgraded(*saved.stand_in, instead), instead)->clone();
+            part->replaces_unread = true;
+        } catch (const OutsideFileError& error) {
+            why += "; " + std::string(error.what());
+        }
+    }
+    part->unread_why = why;
+    part->unread = std::make_shared<const Json>(std::move(kept));
+    notes.push_back({lab, stand_in_note(lab, *part)});
     return part;
 }
 
-Document load_document(const Document& blank, const Json& labs, int version, const SceneLoading& loading,
-                       std::vector<UnreadLab>& unread) {
+Document load_document(const Document& blank, const Json& labs, const Json* stand_ins, int version,
+                       const SceneLoading& loading, std::vector<LabNote>& notes) {
     Document document = blank;
     for (const auto& [name, json] : labs.items()) {
         const auto known = blank.parts().find(name);
         if (known == blank.parts().end())
             throw std::runtime_error("labs: there is no lab " + json_summary(Json(name)));
-        document.set(name, load_part(*known->second, json, version, name, loading, unread));
+        const SavedLab saved{json,
+                             stand_ins != nullptr ? optional_member(*stand_ins, name.c_str()) : nullptr};
+        document.set(name, load_part(*known->second, saved, version, name, loading, notes));
     }
     return document;
 }
@@ -148,39 +184,51 @@ std::string stand_in_note(const std::string& lab, const Part& part) {
                       "Put the file back and open the scene again.");
 }
 
-Json save_scene(const Workspace& workspace) {
-    Json labs = Json::object();
-    for (const auto& [name, part] : workspace.document.parts()) {
-        if (name == workspace.lab || !workspace.openings.contains(name))
-            labs[name] = part->unread && !part->replaces_unread ? *part->unread : part->save();
+namespace {
+
+Json save_scene(const Workspace& workspace, const Document& document) {
+    Json labs = Json::object(), stand_ins = Json::object();
+    for (const auto& [name, part] : document.parts()) {
+        if (name != workspace.lab && workspace.openings.contains(name)) continue;
+        labs[name] = part->unread ? *part->unread : part->save();
+        if (part->replaces_unread) stand_ins[name] = part->save();
     }
-    return Json{{"tendril_scene", scene_version},
-                {"lab", workspace.lab},
-                {"camera", save_camera(workspace.camera)},
-                {"paused", !workspace.clock.playing && !workspace.ui.plays_after_dialog},
-                {"speed", workspace.clock.speed},
-                {"labs", std::move(labs)}};
+    Json scene{{"tendril_scene", scene_version},
+               {"lab", workspace.lab},
+               {"camera", save_camera(workspace.camera)},
+               {"paused", !workspace.clock.playing && !workspace.ui.plays_after_dialog},
+               {"speed", workspace.clock.speed},
+               {"labs", std::move(labs)}};
+    if (!stand_ins.empty()) scene["stand_ins"] = std::move(stand_ins);
+    return scene;
+}
+
+}  // namespace
+
+Json save_scene(const Workspace& workspace) {
+    return save_scene(workspace, workspace.document);
 }
 
 namespace {
 
-/// The document as saved to that file. Asks first if the file still has what a lab could not read, and the
-/// lab has been edited since.
+/// The document as saved to that file. A save over the scene's own file drops what it still has of labs that
+/// could not be read and were edited since, and asks first; any other file gets both.
 Document as_saved(Workspace& workspace, const fs::path& path) {
     Document saved = workspace.document;
     std::string lost;
-    for (const auto& [lab, part] : workspace.document.parts()) {
-        if (!part->replaces_unread) continue;
-        lost += (lost.empty() ? "" : "; ") + ("the " + lab + " lab, which could not be read: ") +
-                part->unread_why;
-        const std::shared_ptr<Part> own = part->clone();
-        own->unread = nullptr;
-        own->replaces_unread = false;
-        saved.set(lab, own);
-    }
     std::error_code none;
-    const bool loses = !lost.empty() && fs::equivalent(path, workspace.path, none);
-    workspace.outputs.confirm(loses ? shown_path(path) + " still has the old contents of " + lost : "");
+    if (fs::equivalent(path, workspace.path, none))
+        for (const auto& [lab, part] : workspace.document.parts()) {
+            if (!part->replaces_unread) continue;
+            lost += (lost.empty() ? "" : "; ") + ("the " + lab + " lab, which could not be read: ") +
+                    part->unread_why;
+            const std::shared_ptr<Part> own = part->clone();
+            own->unread = nullptr;
+            own->replaces_unread = false;
+            saved.set(lab, own);
+        }
+    workspace.outputs.confirm(lost.empty() ? ""
+                                           : shown_path(path) + " still has the old contents of " + lost);
     return saved;
 }
 
@@ -188,7 +236,7 @@ struct Scene {
     Document document;
     std::string lab;
     CameraPose camera;
-    std::vector<UnreadLab> unread;
+    std::vector<LabNote> notes;
     std::optional<bool> paused;  ///< older scenes do not store it
     std::optional<float> speed;
 };
@@ -199,8 +247,11 @@ Scene read_scene(const Workspace& workspace, const Json& json, const SceneLoadin
     const std::string whole;
     const Json& labs = json_member(json, "labs", whole);
     if (!labs.is_object()) throw std::runtime_error("labs: expected an object, found " + json_summary(labs));
+    const Json* stand_ins = optional_member(json, "stand_ins");
+    if (stand_ins != nullptr && !stand_ins->is_object())
+        throw std::runtime_error("stand_ins: expected an object, found " + json_summary(*stand_ins));
     Scene scene{{}, workspace.lab, {}, {}, {}, {}};
-    scene.document = load_document(workspace.blank, labs, version, loading, scene.unread);
+    scene.document = load_document(workspace.blank, labs, stand_ins, version, loading, scene.notes);
     if (const Json* found = optional_member(json, "paused")) scene.paused = json_bool(*found, "paused");
     if (const Json* found = optional_member(json, "speed"))
         scene.speed = json_number(*found, "speed", static_cast<float>(slowest), static_cast<float>(fastest));
@@ -227,7 +278,7 @@ std::string loading_fault(const Workspace& workspace, const std::string& text) {
 
 }  // namespace
 
-std::vector<UnreadLab> load_scene(Workspace& workspace, const Json& json, const SceneLoading& loading) {
+std::vector<LabNote> load_scene(Workspace& workspace, const Json& json, const SceneLoading& loading) {
     Scene scene = read_scene(workspace, json, loading);
     scene.document = sharing_equal_parts(scene.document, workspace.document);
 
@@ -242,11 +293,19 @@ std::vector<UnreadLab> load_scene(Workspace& workspace, const Json& json, const 
         workspace.clock.looks_back = workspace.ui.plays_after_dialog = false;
     }
     if (scene.speed) workspace.clock.speed = *scene.speed;
-    return std::move(scene.unread);
+    return std::move(scene.notes);
+}
+
+void tell(Workspace& workspace, const std::vector<LabNote>& notes) {
+    for (const LabNote& each : notes) {
+        workspace.toast(each.text, each.whole ? ToastKind::Info : ToastKind::Refusal);
+        if (!workspace.outputs.in_window) complain(each.text);
+    }
 }
 
 void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
-    const std::string text = json_to_text(save_scene(workspace));
+    Document saved = as_saved(workspace, path);
+    const std::string text = json_to_text(save_scene(workspace, saved));
     if (text.size() > max_file_bytes)
         throw std::runtime_error(
             "the scene would be too large to open again: " + std::to_string(text.size()) + " bytes");
@@ -257,7 +316,6 @@ void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
                                  " was not overwritten, because the scene would not open again: " + fault +
                                  ". Save it under another name");
     remove_torn_files(path.has_parent_path() ? path.parent_path() : fs::path("."));
-    Document saved = as_saved(workspace, path);
     workspace.writes().write(path, OutputKind::Scene, text);
     workspace.document = std::move(saved);
     workspace.path = path;
@@ -265,13 +323,13 @@ void save_scene_file(Workspace& workspace, const std::filesystem::path& path) {
     if (!fault.empty()) workspace.toast("Saved, but the file does not open: " + fault, ToastKind::Refusal);
 }
 
-std::vector<UnreadLab> load_scene_file(Workspace& workspace, const std::filesystem::path& path) {
+std::vector<LabNote> load_scene_file(Workspace& workspace, const std::filesystem::path& path) {
     const Outputs::Stamp stamp = Outputs::stamp_of(path);  // before reading: later changes are noticed
     const std::string text = read_text_file(path);
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    std::vector<UnreadLab> unread;
+    std::vector<LabNote> notes;
     try {
-        unread = load_scene(workspace, parse_json(text), {.folder = folder});
+        notes = load_scene(workspace, parse_json(text), {.folder = folder});
     } catch (const ParseError& error) {
         throw std::runtime_error(path.string() + ": " + error.what());
     } catch (const std::runtime_error& error) {
@@ -281,8 +339,8 @@ std::vector<UnreadLab> load_scene_file(Workspace& workspace, const std::filesyst
     workspace.outputs.own(path, stamp);
     workspace.path = path;
     workspace.saved = workspace.document;
-    for (const UnreadLab& each : unread) workspace.toast(each.text, ToastKind::Refusal);
-    return unread;
+    tell(workspace, notes);
+    return notes;
 }
 
 }  // namespace tendril::app

@@ -263,8 +263,9 @@ std::shared_ptr<Part> LinkagePart::load(const Json& json, const std::string& whe
     if (const auto& motors = part->shape->sketch.motors;
         !part->copies.empty() && part->find_drive(motors.front().name) == nullptr)
         place["drivers"].fail("a walker needs its driver \"" + motors.front().name + "\"");
-    const LinkageResult solved = part->result;
+    LinkageResult solved = part->result;
     report_in_pose(*part);  // of older files; places the links, too
+    solved.freedom = part->result.freedom;
     if (place.optional("result")) part->result = solved;
     return part;
 }

@@ -135,6 +135,7 @@ void report_in_pose(LinkagePart& part) {
         places.assign(solver.links().begin(), solver.links().end());
     };
     place(part.state, part.links);
+    part.result.freedom = solver.freedom(part.state);
     for (LinkageCopy& each : part.copies) place(each.state, each.links);
 }
 

@@ -365,7 +365,8 @@ TEST_F(SceneWithAFile, OpensWithoutTheFileAndSavesTheLabUnchanged) {
     save_scene_file(again, folder_ / "project/s.json");
     EXPECT_EQ(read_json_file(folder_ / "project/s.json")["labs"], saved["labs"]);
     table.run(again, "file.edit", Json::object());
-    EXPECT_EQ(save_scene(again)["labs"]["file"]["edits"], 1) << "it was edited as it is now";
+    EXPECT_EQ(save_scene(again)["labs"], saved["labs"]);
+    EXPECT_EQ(save_scene(again)["stand_ins"]["file"]["edits"], 1) << "it was edited as it is now";
     table.run(again, "undo", Json::object());
     EXPECT_EQ(save_scene(again)["labs"], saved["labs"]);
 }
@@ -389,8 +390,7 @@ TEST_F(SceneWithAFile, IsAskedForBeforeASaveDropsWhatTheFileHas) {
     open_and_edit();
     for (int i = 0; i < 2; ++i) EXPECT_TRUE(test::says(saved("s.json"), "s.json still has file lab --force"));
     EXPECT_EQ(test::read(folder_ / "s.json"), text);
-    EXPECT_EQ(saved("other.json"), "") << "the old one is still there";
-    EXPECT_EQ(note(), "");
+    EXPECT_EQ(saved("other.json"), "") << "which has both";
     open_and_edit();
     again.outputs.in_window = true;
     EXPECT_TRUE(test::says(saved("s.json"), "Do the same again"));
@@ -402,6 +402,33 @@ TEST_F(SceneWithAFile, IsAskedForBeforeASaveDropsWhatTheFileHas) {
     EXPECT_EQ(saved("s.json"), "");
 }
 
+/// In another file, and in an autosave, which is read from the same JSON.
+TEST_F(SceneWithAFile, KeepsWhatCouldNotBeReadBesideItsEdits) {
+    save("s.json", "model.glb");
+    std::filesystem::remove(folder_ / "model.glb");
+    Workspace again = workspace();
+    load_scene_file(again, folder_ / "s.json");
+    command_table().run(again, "file.edit", Json::object());
+    save_scene_file(again, folder_ / "other.json");
+    for (int i = 0; i < 2; ++i) {
+        again = workspace();
+        const std::vector<LabNote> notes = load_scene_file(again, folder_ / "other.json");
+        ASSERT_EQ(notes.size(), 1u);
+        EXPECT_TRUE(test::says(notes[0].text, "model.glb is missing Saving replaces"));
+        EXPECT_FALSE(notes[0].whole);
+        EXPECT_EQ(again.document.get<FilePart>("file").edits, 1);
+        save_scene_file(again, folder_ / "yet_another.json");
+        std::filesystem::rename(folder_ / "yet_another.json", folder_ / "other.json");
+    }
+    test::write(folder_ / "model.glb", "the model");
+    const std::vector<LabNote> notes = load_scene_file(again, folder_ / "other.json");
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_TRUE(test::says(notes[0].text, "as it was saved changes are left out"));
+    EXPECT_TRUE(notes[0].whole);
+    EXPECT_EQ(again.document.get<FilePart>("file").edits, 7);
+    EXPECT_FALSE(save_scene(again).contains("stand_ins"));
+}
+
 /// A wrong value is refused, unless the file explains it.
 TEST_F(SceneWithAFile, StartsBlankOnlyWhereItsFileIsAtFault) {
     save("s.json", "model.glb");
@@ -409,17 +436,24 @@ TEST_F(SceneWithAFile, StartsBlankOnlyWhereItsFileIsAtFault) {
     const auto opened = [&](const Json& edits) {
         Json changed = scene;
         changed["labs"]["file"]["edits"] = edits;
-        std::string blank;
+        std::string notes;
         const std::string refused = message_of([&] {
             Workspace again = workspace();
-            for (const UnreadLab& each : load_scene(again, changed)) blank += each.lab + ": " + each.text;
+            for (const LabNote& each : load_scene(again, changed))
+                notes += (each.whole ? "" : "blank: ") + each.lab + ": " + each.text;
         });
-        return blank.empty() ? refused : "blank: " + blank;
+        return notes.empty() ? refused : notes;
     };
     for (const Json& wrong : {Json(10), Json(-1), Json("seven"), Json(nullptr)})
         EXPECT_TRUE(opened(wrong).starts_with("labs.file.edits: expected a whole number")) << wrong;
+    for (const Json& wrong : {Json(-1), Json("x"), Json(0.5), Json(1e300), Json(0x1'0000'0000)}) {
+        Json changed = scene;
+        changed["labs"]["file"]["models"][0]["crc32"] = wrong;
+        Workspace again = workspace();
+        EXPECT_TRUE(test::says(message_of([&] { load_scene(again, changed); }), "models.0.crc32: expected"));
+    }
     test::write(folder_ / "model.glb", "another model");
-    EXPECT_EQ(opened(10), "");
+    EXPECT_EQ(opened(10), "file: model.glb has changed since the scene was saved.");
     test::write(folder_ / "model.glb", "short");
     EXPECT_TRUE(test::says(opened(7), "blank: file: model.glb has changed (labs.file.edits: expected"))
         << opened(7);

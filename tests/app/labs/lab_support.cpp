@@ -85,7 +85,7 @@ std::string LabTest::opened_with(const std::string& at, const Json& value) const
     const Document before = other.document;
     try {
         std::string why;
-        for (const UnreadLab& each : load_scene(other, scene)) why += "blank: " + each.text;
+        for (const LabNote& each : load_scene(other, scene)) why += "blank: " + each.text;
         EXPECT_TRUE(why.empty() || save_scene(other).at("labs") == scene.at("labs")) << "its JSON is kept";
         return why;
     } catch (const std::runtime_error& error) {

@@ -162,7 +162,7 @@ std::span<const Field> fields<ik::LinkageReport>() noexcept {
                                      field<&LinkageReport::closed_to>("closed_to", length, "m"),
                                      field<&LinkageReport::residual>("residual", length, "m"),
                                      field<&LinkageReport::driver_residual>("driver_residual", length),
-                                     field<&LinkageReport::freedom>("freedom", {-1e6, 1e6}),
+                                     field<&LinkageReport::freedom>("freedom", {0, 1e6}),
                                      field<&LinkageReport::stopped>("stopped", {0, max_links}),
                                      field<&LinkageReport::stopped_at>("stopped_at", {-farthest, farthest}),
                                      field<&LinkageReport::passed_dead_point>("passed_dead_point"),
@@ -175,7 +175,7 @@ template <>
 std::span<const Field> fields<ik::LinkageFreedom>() noexcept {
     using namespace ik;
     static constexpr Field rows[] = {field<&LinkageFreedom::counted>("counted", {-1e6, 1e6}),
-                                     field<&LinkageFreedom::actual>("actual", {-1e6, 1e6})};
+                                     field<&LinkageFreedom::actual>("actual", {0, 1e6})};
     return rows;
 }
 
