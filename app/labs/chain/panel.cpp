@@ -410,25 +410,22 @@ std::string why_unused(const ReachSettings& reach, const Field& option) {
 }
 
 /// A row of the solver's settings, greyed where the method ignores it.
-template <auto option>
-void solver_row(const ReachSettings& reach, const char* name, MoreRows& more, Emit& emit,
+void solver_row(const ReachSettings& reach, const Field& field, MoreRows& more, Emit& emit,
                 std::optional<double> otherwise = {}) {
     FieldRows(reach, "chain.solver", emit)
         .under(more)
-        .row(name, {.otherwise = otherwise, .why_not = why_unused(reach, field_of<option>())});
+        .row(field.name, {.otherwise = otherwise, .why_not = why_unused(reach, field)});
 }
 
 void option_rows(const ReachSettings& reach, float length, MoreRows& more, Emit& emit) {
-    using ik::Options;
-    solver_row<&Options::max_iterations>(reach, "iterations", more, emit);
-    FieldRows(reach, "chain.solver", emit)
-        .under(more)
-        .row("tolerance", {.otherwise = reach_tolerance(reach, length)});
-    solver_row<&Options::snap_back>(reach, "snap_back", more, emit);
-    solver_row<&Options::soft_zone>(reach, "soft_zone", more, emit);
-    solver_row<&Options::damping>(reach, "damping", more, emit);
-    solver_row<&Options::twist>(reach, "twist", more, emit);
-    solver_row<&Options::restarts>(reach, "restarts", more, emit, default_restarts);
+    for (const Field& field : fields<ReachSettings>()) {
+        const std::string_view name = field.name;
+        if (name.starts_with("pole")) continue;  // below its switch
+        std::optional<double> otherwise;
+        if (name == "tolerance") otherwise = reach_tolerance(reach, length);
+        if (name == "restarts") otherwise = default_restarts;
+        solver_row(reach, field, more, emit, otherwise);
+    }
     more.add("", {"chain.solver", {"default_tolerance", "default_restarts"}}, false, [&reach, &emit] {
         if (row_button("Default tolerance", 1, reach.options.tolerance.has_value(),
                        "A thousandth of the reach"))
@@ -456,7 +453,7 @@ void pole_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
         if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});
         explain("Where the pole target is. Drag the pink ball to move it.");
     });
-    solver_row<&ik::Options::pole_turn>(part.reach, "pole_turn", more, emit);
+    solver_row(part.reach, *find_field(fields<ReachSettings>(), "pole_turn"), more, emit);
 }
 
 }  // namespace
