@@ -31,7 +31,7 @@ class CharacterMemory : public LabTest {
     CharacterMemory() : LabTest(humanoid_lab) {}
 };
 
-/// Another unit makes a character of its own, with all its keys.
+/// Changing the unit creates a new character with all its keys.
 TEST_F(CharacterMemory, OfUndoStaysWithinItsBound) {
     constexpr std::size_t bound = 8u << 20;
     run("humanoid.load", {{"path", source_path("tests/app/golden/antennae.bvh")}});

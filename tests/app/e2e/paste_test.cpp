@@ -1,4 +1,4 @@
-// Ctrl+V over the view: the lab that takes points gets them, every other says where they go.
+// Ctrl+V over the view: a lab that takes points gets them, the others say which lab does.
 #include <atomic>
 #include <optional>
 
@@ -17,7 +17,7 @@ using namespace app;
 class Paste : public testing::Test {
   protected:
     void take(const Event& event) { app_.tick(&event); }
-    /// As the loop sends it.
+    /// Pastes as the window's loop does.
     void paste(const std::string& text) {
         take(KeyChange{Key::Ctrl, true});
         take(TextInput{text});
@@ -82,7 +82,7 @@ TEST_F(Paste, IntoATextFieldOrUnderADialogMovesNothing) {
     EXPECT_TRUE(toasts().empty());
 }
 
-TEST_F(Paste, InAnotherLabSaysWherePointsGoAndNothingElse) {
+TEST_F(Paste, InAnotherLabSaysWherePointsGo) {
     for (const auto& lab : app_.labs().all()) {
         if (lab->name() == chain_lab) continue;
         app_.run({"lab.open", Json{{"name", lab->name()}}});
@@ -116,7 +116,7 @@ TEST_F(Paste, InTheWindowReadsTheClipboardAndIsReplayed) {
     EXPECT_EQ(parse_json(read(folder / "state.json"))["segments"], app_.state()["segments"]);
 }
 
-/// Neither asks for the text: the menu's row, and the command that the palette runs.
+/// Neither the menu's row nor the palette's command requests the text itself.
 TEST_F(Paste, FromTheMenuAndThePaletteReadsTheClipboardAndIsReplayed) {
     const std::atomic<bool> ending{false};
     LiveLoop loop(app_, *window_, {.config = false, .ending = ending});
@@ -165,8 +165,8 @@ TEST_F(Paste, OfNothingSaysSo) {
     EXPECT_TRUE(says(told(), "clipboard no text"));
 }
 
-/// The clipboard's junk is no incident of the lab.
-TEST_F(Paste, OfJunkIsNoIncident) {
+/// Junk in the clipboard is not an incident of the lab.
+TEST_F(Paste, OfJunkIsNotAnIncident) {
     app_.run({"chain.preset", Json{{"name", "reaching_arm"}}});
     paste("Remember the milk");
     EXPECT_TRUE(says(told(), "clipboard no points line 1"));

@@ -8,7 +8,7 @@ std::size_t segments(const app::Json& state) {
     return state.at("segments").size();
 }
 
-/// Ctrl+Q in a scene with or without a change; one segment more shows that the program went on.
+/// Ctrl+Q in a scene with or without a change; an additional segment shows that the program continued.
 app::Json after_ctrl_q(bool changed, const ScriptText& then = {}) {
     ScriptText script;
     if (changed) script.command("chain.add", {{"length", 0.5}});

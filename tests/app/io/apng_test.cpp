@@ -92,7 +92,7 @@ TEST(AnimatedPng, WritesOnlyWhatChanged) {
     EXPECT_LT(often.size(), once.size() + 50 * 100);
 }
 
-TEST(AnimatedPng, ShowsAFrameForSoManyTicks) {
+TEST(AnimatedPng, ShowsAFrameForItsNumberOfTicks) {
     const auto seconds = [](const app::VideoFormat& format) {
         const Apng read = read_apng(written({picture({4, 4}, 0), picture({4, 4}, 1)}, format));
         EXPECT_EQ(read.frames[0].numerator * read.frames[1].denominator,

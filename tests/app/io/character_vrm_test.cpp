@@ -1,5 +1,5 @@
-// The bones that a VRM file names are its bone map, whatever its nodes are called and wherever they are; its
-// springs are the character's.
+// The bones that a VRM file names are its bone map, whatever its nodes are called and wherever they are; the
+// character gets its springs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ std::string version_0() {
     return bones + "]";
 }
 
-TEST(VrmCharacter, bones_are_those_that_the_file_names) {
+TEST(VrmCharacter, BonesAreTheOnesThatTheFileNames) {
     for (const bool is_new : {true, false}) {
         const Character character = is_new ? read("VRMC_vrm", version_1()) : read("VRM", version_0());
         ASSERT_TRUE(character.bones);
@@ -60,7 +60,7 @@ TEST(VrmCharacter, bones_are_those_that_the_file_names) {
     }
 }
 
-TEST(VrmCharacter, names_that_lead_nowhere_are_refused_and_said) {
+TEST(VrmCharacter, InvalidNamesAreRefusedWithAMessage) {
     const auto says = [](const std::string& bones, const std::string& words) {
         const std::string said = test::message_of([&] { read("VRMC_vrm", bones); });
         EXPECT_TRUE(test::has(said, words));
@@ -115,7 +115,7 @@ TEST(VrmCharacter, springs_swing_and_decay_as_in_vrm) {
             }
         }
     }
-    // Extremes stay within what a spring takes.
+    // Extreme values are clamped to a spring's ranges.
     for (const VrmSpring& each :
          {VrmSpring{0, 0.0, 0.0, {}}, VrmSpring{0, 1e3, 1.0, {}}, VrmSpring{0, 0.0, 1.0, {0.0, 1e3, 0.0}}}) {
         const SpringRate rate = spring_rate(each, 0.0, {0.0, -1.0, 0.0});
@@ -138,7 +138,7 @@ Character with_hair(const std::string& extensions) {
 const std::string hips_and_head_0 =
     R"("humanoid":{"humanBones":[{"bone":"hips","node":0},{"bone":"head","node":1}]})";
 
-TEST(VrmCharacter, springs_of_both_versions_are_the_characters) {
+TEST(VrmCharacter, SpringsOfBothVersionsBecomeTheCharacters) {
     const Character old = with_hair(
         R"("VRM":{)" + hips_and_head_0 +
         R"(,"secondaryAnimation":{"boneGroups":[{"stiffiness":2,"dragForce":0.3,"gravityPower":0,"bones":[2,4]},)"
@@ -160,7 +160,7 @@ TEST(VrmCharacter, springs_of_both_versions_are_the_characters) {
     EXPECT_TRUE(with_hair(R"("VRM":{)" + hips_and_head_0 + "}").springs.empty());
 }
 
-TEST(VrmCharacter, colliders_of_both_versions_are_the_springs) {
+TEST(VrmCharacter, CollidersOfBothVersionsBecomeTheSprings) {
     // Radius and hit radius; a sphere on the head, for VRM 0.x with Unity's z; and all that may be wrong.
     const Character old = with_hair(
         R"("VRM":{)" + hips_and_head_0 +
