@@ -196,7 +196,7 @@ TEST(VrmCharacter, CollidersOfBothVersionsBecomeTheSprings) {
     EXPECT_EQ(large.springs[0].colliders[1].to, glm::dvec3(0.0, 0.8, 0.0));
 }
 
-TEST(VrmCharacter, CollidersAndConstraintsThatAreNotFollowedAreSaid) {
+TEST(VrmCharacter, UnsupportedCollidersAndConstraintsAreReported) {
     const auto hair = [](const std::string& extended) {
         return with_hair(
             R"("VRMC_springBone":{"colliders":[{"node":1,"shape":{"sphere":{"radius":0.5}},"extensions":{)"
@@ -237,13 +237,13 @@ TEST(VrmCharacter, CollidersAndConstraintsThatAreNotFollowedAreSaid) {
     EXPECT_TRUE(constrained("7", R"({"other":{}})").empty());
 }
 
-TEST(VrmCharacter, of_colliders_that_are_named_again_and_again_the_first_256_are_looked_at) {
+TEST(VrmCharacter, OfEndlesslyRepeatedCollidersTheFirst256AreUsed) {
     const auto times = [](int count, const std::string& each) {
         std::string all = each;
         for (int i = 1; i < count; ++i) all += "," + each;
         return all;
     };
-    // 2000 times the same group of 2000, which are nothing until the last, in each of 60 springs: 240
+    // 2000 times the same group of 2000 colliders, all invalid except the last, in each of 60 springs: 240
     // million.
     const std::string groups = times(2000, "0"), old_shapes = times(1999, "7") + R"(,{"radius":1})",
                       shapes = times(1999, "7") + ",0";

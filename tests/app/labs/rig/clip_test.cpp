@@ -47,7 +47,7 @@ TEST_F(RigClips, ADialThatTurnsIsExpressedInEveryFrame) {
 }
 
 /// The antennae lag behind, which no value of the head's control can produce.
-TEST_F(RigClips, WhatSpringsAddCannotBeExpressed) {
+TEST_F(RigClips, SpringMotionCannotBeExpressed) {
     walking_head();
     run("rig.clip.record", {{"seconds", 1}});
     solve_clip();
@@ -63,7 +63,7 @@ TEST_F(RigClips, WhatSpringsAddCannotBeExpressed) {
     EXPECT_GT(runs[0].at("degrees"), 1.0);
 }
 
-TEST_F(RigClips, TheSameAfterSavingAndOpeningInTheMiddle) {
+TEST_F(RigClips, ContinuesTheSameAfterSavingHalfway) {
     walking_head();
     run("rig.clip.record", {{"seconds", 0.5}});
     run("rig.clip.solve");
@@ -95,7 +95,7 @@ TEST_F(RigClips, IsUndoneCancelledAndCleared) {
     EXPECT_EQ(left().done(), done);
 }
 
-TEST_F(RigClips, AScaleThatTheRigDoesNotHaveIsNotExpressed) {
+TEST_F(RigClips, AScaleThatTheRigLacksIsNotExpressed) {
     run("rig.preset", {{"name", "loop"}});
     const auto scale = [&](double by) {
         run("rig.element.set", {{"name", "arm 2 joint 6"}, {"transform", {{"scale", {1, by, 1}}}}});
@@ -124,7 +124,7 @@ TEST_F(RigClips, AScaleThatTheRigDoesNotHaveIsNotExpressed) {
     EXPECT_EQ(left().left.front().scale, 0.0f);
 }
 
-TEST_F(RigClips, AClipOfOtherBonesIsRefused) {
+TEST_F(RigClips, AClipForOtherBonesIsRefused) {
     walking_head();
     run("rig.clip.record", {{"seconds", 0.2}});
     run("rig.clip.solve");
@@ -136,14 +136,14 @@ TEST_F(RigClips, AClipOfOtherBonesIsRefused) {
     EXPECT_TRUE(lab().working(workspace));
 }
 
-TEST_F(RigClips, WhatIsTooLongIsRefused) {
+TEST_F(RigClips, TooLongClipsAreRefused) {
     expect_refused("rig.clip.record", {{"seconds", 1}}, {"no bones"});
     walking_head();
     run("rig.preset", {{"name", "fk"}});
     expect_refused("rig.clip.record", Json::object(), {"nothing has been played"});
 }
 
-TEST_F(RigClips, FilesThatAreNoClipsAreRefused) {
+TEST_F(RigClips, OtherFilesAreRefused) {
     walking_head();
     play(20);
     set("head", {{"translation", {0.1, 1, 0}}});
