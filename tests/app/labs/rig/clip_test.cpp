@@ -212,7 +212,7 @@ class RigBackward : public RigTest {
     std::mt19937 random_{17};
 };
 
-TEST_F(RigBackward, AimGivesEveryPoseBack) {
+TEST_F(RigBackward, AimRestoresEveryPose) {
     run("rig.preset", {{"name", "aim"}});
     for (int i = 0; i < 150; ++i) {
         const double x = random(-1, 1), y = random(-1, 1), side = random(-0.8, 0.8), up = random(0.2, 1.2);
@@ -223,7 +223,7 @@ TEST_F(RigBackward, AimGivesEveryPoseBack) {
     }
 }
 
-TEST_F(RigBackward, FkGivesEveryPoseBack) {
+TEST_F(RigBackward, FkRestoresEveryPose) {
     run("rig.preset", {{"name", "fk"}});
     for (int i = 0; i < 150; ++i) {
         set_number("dial");
@@ -232,7 +232,7 @@ TEST_F(RigBackward, FkGivesEveryPoseBack) {
     }
 }
 
-TEST_F(RigBackward, LoopGivesEveryPoseBack) {
+TEST_F(RigBackward, LoopRestoresEveryPose) {
     run("rig.preset", {{"name", "loop"}});
     for (int i = 0; i < 150; ++i) {
         set_number("dial");
@@ -240,8 +240,8 @@ TEST_F(RigBackward, LoopGivesEveryPoseBack) {
     }
 }
 
-/// One bone of a tentacle is pulled off, which no value of any control can produce.
-TEST_F(RigBackward, WhatItCannotExpressIsSaidWithBoneAndAmount) {
+/// One bone of a tentacle is pulled away, which no value of any control can produce.
+TEST_F(RigBackward, AnInexpressiblePoseIsReportedWithBoneAndAmount) {
     run("rig.preset", {{"name", "loop"}});
     for (int i = 0; i < 100; ++i) {
         set_number("dial");

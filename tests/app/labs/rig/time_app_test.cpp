@@ -64,7 +64,7 @@ void click(App& app, glm::vec2 at) {
 constexpr glm::vec2 replay{297.0f, 664.0f}, other_strip{338.0f, 664.0f}, back{378.0f, 664.0f},
     on{411.0f, 664.0f};
 
-TEST_F(RigTimeApp, ReplayShowsItAgainAndTheStripKeepsStill) {
+TEST_F(RigTimeApp, ReplayRepeatsItAndTheStripStaysInPlace) {
     walking_head(app_);
     for (int i = 0; i < 120; ++i) app_.tick(nullptr);
     const std::uint64_t end = part_of(app_).take.now();
