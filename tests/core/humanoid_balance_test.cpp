@@ -105,7 +105,7 @@ TEST_F(HumanoidBalance, BothFeetSupportTheRestPose) {
     EXPECT_EQ(support.nearest({0.0, 1.0, 0.0}), glm::dvec3(0.0, 1.0, 0.0));
 }
 
-TEST_F(HumanoidBalance, ARotationIsBlendedInOnceHoweverLongItIsHeld) {
+TEST_F(HumanoidBalance, ARotationIsBlendedInOnceForAnyDuration) {
     const auto turned = [&](bool balance, int frames) {
         BodyTarget foot{.effector = Effector::LeftFoot,
                         .position = at(Bone::LeftFoot, rest),
@@ -121,7 +121,7 @@ TEST_F(HumanoidBalance, ARotationIsBlendedInOnceHoweverLongItIsHeld) {
     for (const int frames : {1, 10, 60}) EXPECT_NEAR(turned(true, frames), once, 0.02) << frames;
 }
 
-TEST_F(HumanoidBalance, ARotationOfNoWeightHasNoEffect) {
+TEST_F(HumanoidBalance, ARotationOfZeroWeightHasNoEffect) {
     const auto foot = [&](bool balance, double weight, bool rotated) {
         BodyTarget target{.effector = Effector::LeftFoot,
                           .position = at(Bone::LeftFoot, rest) + glm::dvec3(0.0, 0.3, 0.3),

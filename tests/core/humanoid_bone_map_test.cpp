@@ -241,7 +241,7 @@ Naming nameless() {
     return names;
 }
 
-TEST(BoneMap, WithoutNamesFindsThemByShapeWhereverTheFigureFaces) {
+TEST(BoneMap, WithoutNamesFindsThemByShapeInAnyDirection) {
     for (const double turn : {0.0, 0.7, 1.6, 3.1, -2.2}) {
         SCOPED_TRACE(turn);
         const Skeleton skeleton = make_figure(nameless(), turn);

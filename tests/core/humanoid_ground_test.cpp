@@ -19,7 +19,7 @@ double height(const Ground& ground, double x, double z, double from = 100.0) {
     return hit ? hit->height : std::numeric_limits<double>::quiet_NaN();
 }
 
-TEST(Ground, IsAsHighAsItsDefinition) {
+TEST(Ground, HasTheHeightOfItsDefinition) {
     const Ground flat = *Ground::flat(0.3), slope = *Ground::slope(0.3), stairs = *Ground::stairs(0.15, 0.3);
     EXPECT_FALSE(Ground().below({0, 1, 0}));
     EXPECT_EQ(Ground().kind(), GroundKind::None);

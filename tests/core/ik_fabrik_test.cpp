@@ -139,7 +139,7 @@ TEST(IkFabrik, EveryStartOnTheLineConverges) {
     }
 }
 
-TEST(IkFabrik, TheKickIsTowardsThePole) {
+TEST(IkFabrik, ThePerturbationIsTowardsThePole) {
     const Lengths lengths(4, 1.0f);
     for (const glm::vec3 pole : {glm::vec3(1, 5, 0), glm::vec3(1, -5, 0), glm::vec3(2, 0, 3)}) {
         KeptSolver solver(lengths);

@@ -172,7 +172,7 @@ Counts count_on_the_line(bool ahead, int arms, std::uint64_t seed) {
     return counts;
 }
 
-TEST(IkSingular, OnTheLineOfRandomArms) {
+TEST(IkSingular, RandomArmsOnTheLineReachAndBlameFewLimits) {
     for (const bool ahead : {false, true}) {
         const Counts counts = count_on_the_line(ahead, 1000, given_seed() + ahead);
         EXPECT_GE(counts.reached, 500);

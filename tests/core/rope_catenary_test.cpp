@@ -127,7 +127,7 @@ TEST(RopeCatenary, PlainRelaxationSagsByItsKnownAmount) {
 }
 
 /// Far from the origin, floats cannot resolve a rope's motion; doubles can.
-TEST(RopeCatenary, AThousandKilometresOut) {
+TEST(RopeCatenary, AThousandKilometresOutItHangsTheSame) {
     World world = world_with({.damping = 1.0f});
     const float far = 1e6f - 8.0f;
     world.add_rope("rope", {.from = {far, 0, -far},

@@ -32,7 +32,7 @@ TEST(RopeFriction, HoldsOnASlopeUpToItsTangent) {
 }
 
 /// Beyond that angle, it slides with the rest of its weight: g (sin - mu cos) t^2 / 2.
-TEST(RopeFriction, SlidesBeyond) {
+TEST(RopeFriction, SlidesBeyondTheTangent) {
     for (const Solver solver : all_solvers)
         for (const bool across : {false, true})
             for (const float friction : {0.0f, 0.2f, 0.5f}) {

@@ -55,7 +55,7 @@ TEST(SolverJson, FieldsOfOtherKindsAreIgnored) {
     EXPECT_EQ(read({{"kind", "free"}, {"axis", 0}}), ik::Limit::of(ik::JointKind::Free));
 }
 
-TEST(SolverJson, angles_come_back_bit_for_bit_however_often_they_are_saved) {
+TEST(SolverJson, AnglesAreSavedBitForBitAnyNumberOfTimes) {
     std::mt19937 random(7);
     constexpr float pi = std::numbers::pi_v<float>;
     std::uniform_real_distribution<float> any(-pi, pi), half(0.0f, pi);

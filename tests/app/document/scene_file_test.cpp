@@ -251,7 +251,7 @@ TEST(SceneFile, ErrorsOnDiskNameFileAndLine) {
     EXPECT_EQ(workspace.path, "old.json");
 }
 
-TEST(SceneFile, ThatAnotherProgramChangesWhileItIsOpenedIsNotOverwritten) {
+TEST(SceneFile, ChangedByAnotherProgramIsNotOverwritten) {
     struct Racing : TestPart {
         std::filesystem::path file;
         std::shared_ptr<Part> load(const Json& json, const std::string& where) const override {
@@ -334,7 +334,7 @@ class SceneWithAFile : public testing::Test {
     const TempFolder folder_;
 };
 
-TEST_F(SceneWithAFile, FindsItWhereBothHaveMovedTogether) {
+TEST_F(SceneWithAFile, FindsItAfterBothHaveMovedTogether) {
     for (const auto& [scene, model] : {std::pair{"project/s.json", "project/model.glb"},
                                        {"project/s.json", "project/models/model.glb"},
                                        {"project/scenes/s.json", "project/models/model.glb"}}) {
@@ -370,7 +370,7 @@ TEST_F(SceneWithAFile, OpensWithoutTheFileAndSavesTheLabUnchanged) {
     EXPECT_EQ(save_scene(again)["labs"], saved["labs"]);
 }
 
-TEST_F(SceneWithAFile, IsAskedForBeforeASaveDropsWhatTheFileHas) {
+TEST_F(SceneWithAFile, AsksBeforeASaveDropsALabOfTheFile) {
     save("s.json", "model.glb");
     std::filesystem::remove(folder_ / "model.glb");
     const std::string text = test::read(folder_ / "s.json");
@@ -403,7 +403,7 @@ TEST_F(SceneWithAFile, IsAskedForBeforeASaveDropsWhatTheFileHas) {
 }
 
 /// A wrong value is refused, unless the file explains it.
-TEST_F(SceneWithAFile, StartsBlankOnlyWhereItsFileIsAtFault) {
+TEST_F(SceneWithAFile, StartsBlankOnlyIfItsFileIsInvalid) {
     save("s.json", "model.glb");
     const Json scene = read_json_file(folder_ / "s.json");
     const auto opened = [&](const Json& edits) {

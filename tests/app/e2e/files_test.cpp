@@ -150,7 +150,7 @@ TEST_F(Files, ThatNoLabReadsAreRefusedAndChangeNothing) {
     }
 }
 
-TEST(SavedScene, IsToldWithItsFolder) {
+TEST(SavedScene, IsReportedWithItsFolder) {
     const auto window = app::open_offscreen({1280, 720});
     app::App program(*window);
     const TempFolder folder;

@@ -70,7 +70,7 @@ TEST(HandlesAtTheStart, AreWhereTheFirstFrameShowsThem) {
     }
 }
 
-TEST(HandlesOutOfView, have_a_pixel_outside_or_none) {
+TEST(HandlesOutOfView, HaveAPixelOutsideOrNone) {
     ScriptText script = ScriptText().command(
         "camera.set", {{"target", {0, 0, -30}}, {"yaw_deg", 0}, {"pitch_deg", 0}, {"distance", 10}});
     const app::Json state = state_after(script);

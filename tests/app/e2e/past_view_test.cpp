@@ -392,7 +392,7 @@ TEST(ChainsPast, AReplayEndsWithThePastItShows) {
     }
 }
 
-TEST(ChainsPast, AReplayGoesOnWhereOnlySomeMomentsAreKept) {
+TEST(ChainsPast, AReplayContinuesWithOnlySomeMomentsKept) {
     // A chain this large keeps every fourth moment.
     ScriptText script = ScriptText().command("chain.preset", {{"name", "start"}, {"count", 100000}});
     for (int i = 1; i <= 90; ++i) script.command("chain.target", {{"to", {100, i, 0}}});

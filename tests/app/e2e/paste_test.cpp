@@ -31,7 +31,7 @@ class Paste : public testing::Test {
     App app_{*window_};
 };
 
-TEST_F(Paste, OfASmallArmFramesItAndOfOneInViewDoesNot) {
+TEST_F(Paste, ASmallArmIsFramedAndOneInViewIsNot) {
     app_.run({"scene.new", Json::object()});
     const CameraPose before = app_.workspace().camera;
     paste("0 0 0\n3 1 0\n6 0 1");
@@ -45,7 +45,7 @@ TEST_F(Paste, OfASmallArmFramesItAndOfOneInViewDoesNot) {
     EXPECT_NE(app_.workspace().camera, near) << "it was outside";
 }
 
-TEST_F(Paste, OfAnotherChainDropsTheFlipsOfTheOneBefore) {
+TEST_F(Paste, AnotherChainDropsTheLastOnesFlips) {
     const auto flip = [&] {
         app_.workspace().rewind.note({.kind = Incident::Kind::Flip, .joint = 1, .cause = "it was straight"});
     };
@@ -61,7 +61,7 @@ TEST_F(Paste, OfAnotherChainDropsTheFlipsOfTheOneBefore) {
     EXPECT_EQ(incidents(), 0u) << "that was the pasted chain's";
 }
 
-TEST_F(Paste, OfJunkIsRefusedAndTypedTextIsNoPaste) {
+TEST_F(Paste, JunkIsRefusedAndTypedTextIsNoPaste) {
     const Json before = app_.state();
     paste("1 2 3\n4 5 six");
     ASSERT_EQ(toasts().size(), 1u);
@@ -160,7 +160,7 @@ TEST_F(Paste, FromTheMenuAndThePaletteReadsTheClipboardAndIsReplayed) {
     EXPECT_EQ(parse_json(read(folder / "state.json"))["segments"], app_.state()["segments"]);
 }
 
-TEST_F(Paste, OfNothingSaysSo) {
+TEST_F(Paste, AnEmptyPasteIsReported) {
     paste("");
     EXPECT_TRUE(says(told(), "clipboard no text"));
 }

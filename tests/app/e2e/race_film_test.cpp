@@ -179,7 +179,7 @@ TEST(RaceFilm, IsTheSameEveryTimeAndTakesItsLook) {
     EXPECT_EQ(read_apng(read(folder / "a.png")).size, glm::ivec2(200, 150));
 }
 
-TEST(RaceFilm, LastsFourToTwelveSecondsHoweverManyIterations) {
+TEST(RaceFilm, LastsFourToTwelveSecondsForAnyIterations) {
     using app::race_film_seconds;
     for (const std::size_t few : {1u, 2u, 4u, 11u}) EXPECT_NEAR(race_film_seconds(few), 4.0, 1e-4) << few;
     EXPECT_NEAR(race_film_seconds(20), 6.0, 1e-4) << "four iterations a second";

@@ -87,7 +87,7 @@ TEST(TypedNumbers, ChangeNothingBeforeEnter) {
     EXPECT_EQ(left.at("camera"), before.at("camera"));
 }
 
-TEST(TypedNumbers, AreWorkedOutWithTheirUnits) {
+TEST(TypedNumbers, AreEvaluatedWithTheirUnits) {
     for (const auto& [text, iterations] : {std::pair("7*6", 42), {"1e2/4", 25}, {"(1+2)^2", 9}}) {
         const Played played = play(typed_iterations(text).key("enter").wait(30));
         EXPECT_EQ(played.state.at("solve").at("iterations"), iterations) << text;

@@ -73,7 +73,7 @@ TEST(UnsavedWork, AfterAnotherSceneWasOpenedASaveOnlySaves) {
 }
 
 /// Saving answers the question.
-TEST(UnsavedWork, SavedMeanwhileIsAskedForNoMore) {
+TEST(UnsavedWork, SavedMeanwhileIsNotAskedForAgain) {
     const TempFolder folder;
     const std::string file = (folder / "arm.json").string();
     ScriptText asked = ScriptText().command("chain.add", {{"length", 0.5}}).key("ctrl+q").wait(2);

@@ -148,7 +148,7 @@ class VideoReplay : public VideoFinish {
 
 LABEL(slow, "VideoReplay.*");
 
-TEST_F(VideoReplay, IsCancelledAgainThoughFfmpegIsDoneAtOnce) {
+TEST_F(VideoReplay, IsCancelledAgainEvenIfFfmpegIsDoneAtOnce) {
     begin("exec sleep 30\n");
     for (int i = 0; i < 40; ++i) tick();
     press("escape");
@@ -156,7 +156,7 @@ TEST_F(VideoReplay, IsCancelledAgainThoughFfmpegIsDoneAtOnce) {
     expect_same_again("");
 }
 
-TEST_F(VideoReplay, IsWrittenAgainThoughFfmpegTakesLonger) {
+TEST_F(VideoReplay, IsWrittenAgainEvenIfFfmpegTakesLonger) {
     begin("");
     for (int i = 0; i < 3000 && filming(); ++i) tick();
     EXPECT_FALSE(filming());
@@ -166,7 +166,7 @@ TEST_F(VideoReplay, IsWrittenAgainThoughFfmpegTakesLonger) {
     expect_same_again("sleep 1\n");
 }
 
-TEST_F(VideoReplay, IsNotWrittenWhereTheSessionEndedBefore) {
+TEST_F(VideoReplay, IsNotWrittenIfTheSessionEndedEarlier) {
     begin("exec sleep 30\n");
     for (int i = 0; i < 10; ++i) tick();
     EXPECT_TRUE(filming());

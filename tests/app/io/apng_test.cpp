@@ -65,7 +65,7 @@ TEST(AnimatedPng, ReadsBackPixelForPixel) {
 }
 
 /// Larger than a chunk, and than zlib's buffer.
-TEST(AnimatedPng, LargeFramesAreManyChunks) {
+TEST(AnimatedPng, LargeFramesAreSplitIntoChunks) {
     const std::vector<Image> frames{noise({500, 300}, 1), noise({500, 300}, 2)};
     const std::string bytes = written(frames, {.transparent = true});
     EXPECT_GT(bytes.size(), 1'000'000u);

@@ -132,7 +132,7 @@ TEST(CharacterReference, joints_of_random_files_are_where_another_reader_puts_th
     }
 }
 
-TEST(CharacterReference, joints_of_files_of_others_are_within_2_mm) {
+TEST(CharacterReference, JointsOfThirdPartyFilesAreWithin2Mm) {
     if (!fs::is_directory(tendril::test::characters_folder()))
         GTEST_SKIP() << tendril::test::characters_folder() << " is not there";
     if (!has_python()) GTEST_SKIP() << "python3 is not there";

@@ -201,7 +201,7 @@ TEST(CharacterSkin, WrongNumbersAreRefusedWithTheirPath) {
          "nodes[2] is below itself");
 }
 
-TEST(CharacterSkin, those_of_others_stay_around_their_bones) {
+TEST(CharacterSkin, ThirdPartySkinsStayAroundTheirBones) {
     namespace fs = std::filesystem;
     if (!fs::is_directory(tendril::test::characters_folder()))
         GTEST_SKIP() << tendril::test::characters_folder() << " is not there";

@@ -67,7 +67,7 @@ TEST_F(ChainCommands, ClearTakesADirectionForBonesWithoutOne) {
     refused("chain.clear", {{"default_direction", {0, 5, 0}}});
 }
 
-TEST_F(ChainCommands, PresetsAreSoundAtEverySize) {
+TEST_F(ChainCommands, PresetsAreValidAtEverySize) {
     for (const char* name : {"start", "arm", "snake", "coil", "random", "tentacle", "spine", "tail"}) {
         for (const int count : {1, 2, 3, 50, 3000}) {
             run("chain.preset", {{"name", name}, {"count", count}, {"seed", 7}});

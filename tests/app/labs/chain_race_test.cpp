@@ -215,7 +215,7 @@ TEST_F(ChainRace, ItsFilmIsNotNamedLikeItsPicture) {
 }
 
 /// As written by versions whose races could not be scrubbed.
-TEST_F(ChainRace, OfAnOlderFileIsShownAtItsEnd) {
+TEST_F(ChainRace, FromAnOlderFileIsShownAtItsEnd) {
     race_of(6);
     run("chain.target", {{"to", {3, 3, 1}}});
     run("race.show", {{"iteration", 2}});

@@ -51,7 +51,7 @@ TEST_F(ChainSelection, DeleteRemovesAllOfThem) {
 }
 
 /// One by one this would take hours and run out of time.
-TEST_F(ChainSelection, ManyAreDoneAtOnce) {
+TEST_F(ChainSelection, ThousandsAreSetAtOnce) {
     run("chain.preset", {{"name", "start"}, {"count", 100'000}});
     run("chain.mode", {{"mode", "reach"}});
     Json most = Json::array();

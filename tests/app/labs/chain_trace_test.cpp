@@ -168,7 +168,7 @@ TEST_F(ChainTrace, ATargetOrPoleThatIsNotFiniteIsHeldOrLeftOut) {
     }
 }
 
-TEST_F(ChainTrace, ALongOneIsShownAroundItsFirstIncidentOrFromAFrame) {
+TEST_F(ChainTrace, ALongTraceIsShownAroundItsFirstIncidentOrFromAFrame) {
     MadeTrace made = test::made::TraceMaker(7).make(Plant::FlipForNothing);
     made.frames.insert(made.frames.begin(), 2000, made.frames.front());
     const std::string path = file("long.jsonl", made, Format::JsonLines);

@@ -201,7 +201,7 @@ TEST(CodeText, EscapesCharactersThatALiteralCannotHold) {
     EXPECT_EQ(string_text("Bär"), "\"Bär\"");
 }
 
-TEST(HumanoidCode, SetsWhatDiffersFromTheDefault) {
+TEST(HumanoidCode, SetsOnlyNonDefaultValues) {
     HumanoidPart part;
     part.ik.target(humanoid::Effector::LeftHand) =
         humanoid::BodyTarget{.effector = humanoid::Effector::LeftHand, .position = {0.3, 1.2, 0.4}};

@@ -443,7 +443,7 @@ TEST_F(LinkageReading, NeitherBarsNorPinsLeaveAMotorInsideOneBody) {
     expect_refused("linkage.pin", {{"point", "B"}}, {std::string("linkage.pin: ") + words});
 }
 
-TEST_F(LinkageReading, WhereMoreBarsMeetTwoOfThemAreChosen) {
+TEST_F(LinkageReading, IfMoreBarsMeetTwoAreChosen) {
     draw_arm();
     run("linkage.bar", {{"from", "A"}, {"to", {1, 2, 0}}});
     expect_refused("linkage.motor.add", {{"point", "A"}}, {"3 bars", "A", "bar and against"});

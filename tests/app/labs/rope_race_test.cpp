@@ -124,7 +124,7 @@ TEST_F(RopeRace, ResetRestartsIt) {
 }
 
 /// After a cut in one world only, as when a rope tears only there, a drag lets go in all worlds.
-TEST_F(RopeRace, ADragLetsGoInEveryWorldByItsOwnNames) {
+TEST_F(RopeRace, ADragIsReleasedInEveryWorldByItsOwnNames) {
     run("rope.hold", {{"rope", "rope"}, {"particle", 40}, {"at", {0.6, 1.9, 0.2}}});
     RopePart& changed = workspace.document.edit<RopePart>(rope_lab);
     RopePart same = part_of_rival(changed, changed.rivals[0]);

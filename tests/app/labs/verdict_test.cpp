@@ -103,7 +103,7 @@ TEST_F(RopeVerdict, OfElasticRopesBetweenPinsBlamesNoPin) {
 }
 
 /// No more iterations and no shorter steps can help there, so it recommends none.
-TEST_F(RopeVerdict, NamesThePinsWhateverTheSolverAndHoweverSlightTheError) {
+TEST_F(RopeVerdict, NamesThePinsForAnySolverAndAnyError) {
     for (const char* solver : {"direct", "xpbd", "relaxation"}) {
         for (const double apart : {1.004, 1.5}) {
             run("rope.clear");

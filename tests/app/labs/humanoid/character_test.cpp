@@ -50,7 +50,7 @@ TEST_F(HumanoidCharacter, IsTheStickFigureAtFirst) {
     }
 }
 
-TEST_F(HumanoidCharacter, ComesFromAFileAsItRests) {
+TEST_F(HumanoidCharacter, LoadsFromAFileWithItsOnlyClip) {
     const std::string path = write("figure.bvh", bvh_figure());
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
     run("humanoid.load", {{"path", path}});
@@ -107,7 +107,7 @@ TEST_F(HumanoidCharacter, HasTheBonesThatTheUserPicks) {
     EXPECT_EQ(bones().at("LeftHand").at("node"), "LeftHand_End");
 }
 
-TEST_F(HumanoidCharacter, GivesANodeToOneBoneAlone) {
+TEST_F(HumanoidCharacter, ANodeBelongsToASingleBone) {
     run("humanoid.map", {{"bone", "LeftHand"}, {"node", "RightHand"}});
     EXPECT_EQ(bones().at("LeftHand").at("node"), "RightHand");
     EXPECT_FALSE(bones().contains("RightHand"));
@@ -138,7 +138,7 @@ TEST_F(HumanoidCharacter, RestsInTPoseOnRequest) {
     run("humanoid.t_pose", {{"on", false}});
 }
 
-TEST_F(HumanoidCharacter, HasTheSizeThatItsUnitGives) {
+TEST_F(HumanoidCharacter, HasTheSizeOfItsUnit) {
     run("humanoid.load", {{"path", write("figure.bvh", bvh_figure())}});
     run("humanoid.scale", {{"metres", 0.0254}});
     EXPECT_NEAR(bone("Hips").y, 95 * 0.0254, 1e-9);

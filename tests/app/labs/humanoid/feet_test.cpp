@@ -65,7 +65,7 @@ TEST_F(HumanoidFeet, TouchTheGroundWithHeelAndToe) {
     }
 }
 
-TEST_F(HumanoidFeet, WithoutIkKeepToTheClip) {
+TEST_F(HumanoidFeet, WithoutIkFollowTheClip) {
     run("humanoid.clip", {{"name", "walk"}, {"time", 0.4}});
     const Json before = state().at("character");
     run("humanoid.ground", {{"kind", "stairs"}});
@@ -216,7 +216,7 @@ TEST_F(HumanoidFeet, ExplainWhyTheyNeverStand) {
 }
 
 /// One joint of each planted foot is on the ground, whatever the rest pose is.
-TEST_F(HumanoidFeet, StandWithoutAGapWhereTheClipKnowsTheSoles) {
+TEST_F(HumanoidFeet, StandWithoutAGapOnSolesLearnedFromTheClip) {
     const std::filesystem::path path = test::characters_folder() / "cmu_12_01_walk.bvh";
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
     run("humanoid.load", {{"path", path.string()}});

@@ -200,7 +200,7 @@ TEST_F(HumanoidMotions, UnretargetableMotionsAreRefusedOrReported) {
 }
 
 /// Motions and fixes keep the unit, axes, bones and limits that they were made with.
-TEST_F(HumanoidMotions, OpenAsSavedWhateverTheOrderOfEdits) {
+TEST_F(HumanoidMotions, OpenAsSavedForAnyOrderOfEdits) {
     const std::string faulty = tendril::test::source_path("tests/app/golden/faulty_walk.bvh");
     test::write(folder_ / "figure.bvh", bvh_figure());
     const std::vector<std::pair<const char*, Json>> edits{

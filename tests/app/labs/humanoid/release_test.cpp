@@ -170,7 +170,7 @@ TEST_F(HumanoidRelease, ANewTargetOfTheSameHandIsReachedAtOnce) {
     EXPECT_LT(glm::distance(bone("RightHand"), wanted), 1e-3);
 }
 
-TEST_F(HumanoidRelease, IsSavedUndoneAndGoesOnTheSame) {
+TEST_F(HumanoidRelease, IsSavedUndoneAndContinuesTheSame) {
     begin_anew(true);
     reach_with_both_hands();
     const Json held = state();

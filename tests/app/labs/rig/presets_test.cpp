@@ -135,7 +135,7 @@ TEST_F(RigPresets, WeightsAndColourFollowTheirControlsThroughCurves) {
 }
 
 /// The difference between frame rates is small beside the springs' motion, but visible.
-TEST_F(RigPresets, TheAntennaeTrailMuchTheSameAtEveryFrameRate) {
+TEST_F(RigPresets, TheAntennaeTrailAboutEquallyAtEveryFrameRate) {
     open("secondary");
     tick(1);
     const auto antenna = [&] { return translation("right 6") - translation("head"); };

@@ -407,7 +407,7 @@ TEST_F(SeveralSet, ReadingComputesAll) {
 }
 
 /// One by one this would take minutes and run out of time.
-TEST_F(SeveralSet, ThousandsAreDoneAtOnce) {
+TEST_F(SeveralSet, ThousandsAreSetAtOnce) {
     Json elements = Json::array();
     for (std::size_t i = 0; i < max_lab_elements; ++i) {
         Json each{{"name", "e" + std::to_string(i)}, {"kind", i % 2 == 0 ? "control" : "bone"}};

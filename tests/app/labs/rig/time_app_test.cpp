@@ -116,7 +116,7 @@ TEST_F(RigTimeApp, AMarkIsClicked) {
     EXPECT_FALSE(app_.workspace().ui.incident) << "one looks elsewhere";
 }
 
-TEST_F(RigTimeApp, AClipIsSolvedThoughTimeIsPausedAndStaysResponsive) {
+TEST_F(RigTimeApp, AClipIsSolvedInAPauseAndStaysResponsive) {
     walking_head(app_);
     app_.run({"time.pause"});
     app_.run({"rig.clip.record", Json{{"seconds", 1.0}}});
