@@ -32,7 +32,7 @@ class HumanoidBalance : public testing::Test {
         const auto at = placed(pose);
         return find_support(soles, at).margin(masses.centre(at));
     }
-    /// Moves the targets from rest to their goals over `frames` frames.
+    /// Moves the targets from rest to their goals in two thirds of `frames`.
     struct Reached {
         std::vector<rig::Transform> pose;
         BodyReport report;

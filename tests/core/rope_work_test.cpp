@@ -23,7 +23,7 @@ World bodies(const rope::Settings& settings) {
 
 TEST(RopeWork, ASubstepIsBounded) {
     const std::vector<std::vector<rope::Shape>> traps{
-        // Two walls with no room between them, two that everything is behind, and a rod without end.
+        // Two walls with no room between them, two that leave no point free, and a rod without end.
         {rope::Plane{{0, 0.01f, 0}, {0, -1, 0}}, rope::Plane{{0, -0.01f, 0}, {0, 1, 0}}},
         {rope::Plane{{0, 5, 0}, {0, 1, 0}}, rope::Plane{{0, -5, 0}, {0, -1, 0}}},
         {rope::Capsule{{-1e9f, 0, 0}, {1e9f, 0, 0}, 0.3f}, rope::Sphere{{0, 0, 0}, 0.5f}},
@@ -58,7 +58,7 @@ TEST(RopeWork, SkippedWorkIsCounted) {
     EXPECT_EQ(few.advance(1.0 / 60.0).shortened, 0);
     EXPECT_EQ(few.advance(1.0 / 60.0).unresolved, 0u);
     World shut = bodies({});
-    shut.add_collider("above", rope::Plane{{0, 6, 0}, {0, 1, 0}});  // everything is behind either plane
+    shut.add_collider("above", rope::Plane{{0, 6, 0}, {0, 1, 0}});  // every point is behind one of the two
     shut.add_collider("below", rope::Plane{{0, 5, 0}, {0, -1, 0}});
     EXPECT_EQ(shut.advance(1.0 / 240.0).unresolved, shut.size());
 }
