@@ -19,7 +19,7 @@ std::string element(const std::string& where, std::size_t index) {
     return where + "." + std::to_string(index);
 }
 
-/// Requires a list of `count` values, or of 1 to max_bones if that is 0.
+/// Requires a list of `count` values, or of 1 to max_bones if `count` is 0.
 const Json& check_list(const Json& json, std::size_t count, const char* what, const std::string& where) {
     const bool fits = count == 0 ? !json.empty() && json.size() <= max_bones : json.size() == count;
     if (json.is_array() && fits) return json;

@@ -34,7 +34,7 @@ struct Case {
     ik::Side bend = ik::Side::Free;
     std::vector<ik::AngleLimit> angle_limits;  ///< one per bone, or empty
     std::vector<glm::vec3> curve;              ///< control points; empty: the chain reaches for the target
-    std::optional<LinkageCase> linkage;        ///< instead of all these
+    std::optional<LinkageCase> linkage;        ///< replaces all of the above
 };
 
 /// Throws std::runtime_error that begins with the JSON path of the error: "cases.3.lengths.0".

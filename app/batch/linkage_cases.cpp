@@ -18,7 +18,7 @@ constexpr const char* drive_form = "JOINT=VALUE or JOINT=FROM:TO:STEP";
 constexpr const char* target_form = "POINT=X,Y,Z";
 constexpr double furthest = 1e6;  ///< degrees or metres, as in linkage.drive
 
-/// The values from the first to the last, which may pass the end by rounding only.
+/// The values from "from" to "to"; the last may exceed the end only by rounding.
 std::vector<double> range_values(const JsonPlace& place) {
     const double from = place["from"].real(-furthest, furthest), to = place["to"].real(-furthest, furthest),
                  step = place["step"].real(-furthest, furthest);
@@ -62,7 +62,7 @@ const auto& value_at(const Values& values, std::size_t row) {
     return values[std::min(row, values.size() - 1)];
 }
 
-/// Prefixes a refusal with the place.
+/// Adds the JSON path to a refusal.
 void with_path(const JsonPlace& place, auto require) {
     try {
         require();
@@ -79,7 +79,7 @@ double argument_number(std::string_view text, const std::string& option) {
     return value;
 }
 
-/// The name, and the numbers after it between separators. `form` is for messages: "JOINT=VALUE".
+/// A name, and the numbers after it between separators. `form` is for messages: "JOINT=VALUE".
 std::pair<std::string, std::vector<double>> named_numbers(const std::string& argument,
                                                           const std::string& option, const char* form,
                                                           char separator) {
@@ -142,7 +142,7 @@ std::vector<double> LinkageCase::column_values() const {
 
 namespace {
 
-/// Each driver's place is `before` and its name.
+/// Paths in messages are `before` followed by the driver's name.
 void read_drivers(const Json& drivers, const std::string& before, LinkageCase& to) {
     for (const auto& each : drivers.items()) {
         const std::string& joint = each.key();
@@ -184,7 +184,7 @@ void override_linkage_goals(const Json& goals, LinkageCase& to) {
     const Json none = Json::object();
     const Json &drivers = goals.contains("drivers") ? goals["drivers"] : none,
                &targets = goals.contains("targets") ? goals["targets"] : none;
-    // Erase the replaced ones first: they may have another number of values.
+    // Erase replaced ones first, since their number of values may differ.
     std::erase_if(to.drivers, [&](const auto& each) { return drivers.contains(each.first); });
     std::erase_if(to.targets, [&](const auto& each) { return targets.contains(each.first); });
     read_drivers(drivers, "--drive ", to);

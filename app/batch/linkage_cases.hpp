@@ -4,9 +4,9 @@
 //    "drivers": {"crank": {"from": 0, "to": 360, "step": 15}}}
 //   {"linkage": "delta", "targets": {"platform": [[0, 0, -0.5], [0.1, 0, -0.5]]}}
 //
-// "linkage" is a preset, with "lengths" where they differ from it, or a linkage as in a scene file. A
-// driver's value is a number (degrees or metres), a list of them or a range; a target's is a point or a list.
-// A list gives a row per element, each from the pose before; all lists of a case are equally long.
+// "linkage" is a preset, with "lengths" that differ from it, or a linkage as in a scene file. A driver's
+// value is a number (degrees or metres), a list of numbers or a range; a target's is a point or a list. A
+// list gives a row per element, each from the pose before; all lists of a case are equally long.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ namespace tendril::app {
 
 struct LinkageCase {
     LinkagePart part;
-    /// By the names of joints and points; radians or metres. One value, or one for each row.
+    /// Keyed by joint and point names; radians or metres. One value, or one for each row.
     std::vector<std::pair<std::string, std::vector<double>>> drivers{};
     std::vector<std::pair<std::string, std::vector<glm::dvec3>>> targets{};
 
@@ -35,13 +35,13 @@ inline constexpr std::size_t max_linkage_rows = 100'000;
 
 /// Throws std::runtime_error that begins with the JSON path of the error.
 LinkageCase linkage_case_from_json(const JsonPlace& place);
-/// Replaces the case's "drivers" and "targets" of the same names. Throws std::runtime_error that begins with
-/// the argument: "--drive crank".
+/// Replaces the case's "drivers" and "targets" by the given ones of the same names. Throws std::runtime_error
+/// that begins with the argument: "--drive crank".
 void override_linkage_goals(const Json& goals, LinkageCase& to);
-/// Such goals from arguments: "crank=30", "crank=0:360:15", "P=1,2,0". Throws std::runtime_error.
+/// Parses goals from arguments: "crank=30", "crank=0:360:15", "P=1,2,0". Throws std::runtime_error.
 Json linkage_goals_from_arguments(const std::vector<std::string>& drivers,
                                   const std::vector<std::string>& targets);
-/// A row as JSON: as --state, with the members that only a solve has.
+/// A row as JSON: as in --state, with additional members of a solve.
 Json linkage_row_json(const LinkagePart& part);
 
 }  // namespace tendril::app

@@ -62,7 +62,7 @@ void print_lines(const LintReport& report, const Clip& clip, Output& out) {
     }
 }
 
-/// Replaces the character's clips by the motion's, or by the named one. Returns lines to print about that.
+/// Replaces the character's clips by the motion's, or by the named one. Returns lines to print about it.
 std::vector<std::string> play_motion(Character& character, const std::string& motion,
                                      const std::string* clip) {
     const humanoid::BoneMap map = bone_map(character);

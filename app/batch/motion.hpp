@@ -9,7 +9,7 @@ namespace tendril::app {
 
 struct LintOptions {
     std::string file;    ///< path of the character
-    std::string motion;  ///< path of a file with motions of another; empty: its own clips
+    std::string motion;  ///< path of a file with another character's clips; empty: the character's own
     bool json = false;   ///< one JSON object instead of lines
 };
 /// Prints the faults of each of the file's clips. Returns the number of findings. Throws std::runtime_error
@@ -22,7 +22,7 @@ struct BakeOptions {
     std::string clip;    ///< by name; empty: the first
     bool all = false;    ///< every clip, each to a file of its own
     std::string ground = "none";
-    bool travel = false;          ///< a clip that walks in place travels at the speed of its standing foot
+    bool travel = false;          ///< moves a clip that walks in place at its standing foot's speed
     std::optional<double> fps{};  ///< frames per second; the clip's own by default
     std::string out;              ///< path; empty: FILE_baked beside the file
     bool force = false;           ///< replaces glTF, GLB and BVH files that exist

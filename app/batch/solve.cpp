@@ -85,7 +85,7 @@ class JsonRows final : public Rows {
 
 class CsvRows final : public Rows {
   public:
-    /// `more`: columns that all cases have beyond the usual ones.
+    /// `more`: additional columns that all cases have.
     explicit CsvRows(std::vector<std::string> more) : more_(std::move(more)) {}
     void begin(Output& out) override {
         std::string line = "name,solver,status,iterations,residual,microseconds";
@@ -194,7 +194,7 @@ Survey check(std::string_view text, const Json& goals, Progress& progress, const
     return survey;
 }
 
-/// Its residual is the distance by which the tip misses the curve's end.
+/// The residual is the distance by which the tip misses the curve's end.
 Row place(const Case& asked, std::vector<glm::vec3>& joints) {
     joints = asked.start;
     ik::State state(asked.lengths.size());

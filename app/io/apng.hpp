@@ -1,7 +1,7 @@
 // Animated PNG, which browsers and image viewers play: Portable Network Graphics (PNG) Specification, third
 // edition, W3C 2025, https://www.w3.org/TR/png-3/: chunks acTL, fcTL and fdAT. Lossless, with an alpha
-// channel. After the first frame only the rectangle that changed is written. Holds two frames in memory, and
-// the changed part of one, filtered.
+// channel. After the first frame only the changed rectangle is written. Memory: two frames, and the changed
+// part of one, filtered.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ class ApngFile final : public VideoFile {
     void write_head();
     void write_control(const Area& area);
     void write_pixels(const Image& frame, const Area& area);
-    /// The frame's part in PNG format: each row follows the number of its filter.
+    /// The frame's part in PNG format: each row begins with its filter type.
     std::vector<std::uint8_t> filtered(const Image& frame, const Area& area) const;
 
     VideoFormat format_;

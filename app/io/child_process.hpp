@@ -29,7 +29,7 @@ class ChildProcess {
     void write(std::string_view bytes, double seconds = 30.0);
     /// Closes its input and returns whether it has ended, successfully or not.
     bool ended_after_input();
-    /// Once it has ended: whether with exit code 0 and nothing on stderr.
+    /// After it has ended: whether it exited with code 0 and wrote nothing to stderr.
     bool succeeded() const;
     /// Closes its input, waits for at most `seconds`, and throws if it has not succeeded by then.
     void finish(double seconds);

@@ -17,7 +17,7 @@ using DrawOver = std::function<void(const std::vector<Pane>&, const Palette&)>;
 
 /// Draws the scene in a picture of `size` pixels. With `transparent` it has no background, and transparent
 /// surfaces and shadows have partial alpha. `over` may be empty. Needs a current context; throws
-/// std::runtime_error if the driver has not enough memory.
+/// std::runtime_error if the driver runs out of memory.
 Image draw_picture(Renderer& renderer, const DrawScene& draw, const CameraPose& pose, glm::ivec2 size,
                    const Palette& palette, bool transparent, const DrawOver& over);
 

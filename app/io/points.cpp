@@ -46,7 +46,7 @@ class PointReader {
     [[noreturn]] void fail(const std::string& what) const {
         throw std::runtime_error("line " + std::to_string(line_) + ": " + what);
     }
-    /// The text at the present place, for a message.
+    /// The text at the current position, for a message.
     std::string found() const {
         std::size_t end = at_ + 1;
         while (end < text_.size() && end - at_ < 40 && text_[end] != '\n' && !separates(text_[end])) ++end;

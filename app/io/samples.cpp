@@ -231,8 +231,8 @@ void check_order(const Table& table, const Columns& columns, double time, double
         table.fail(columns.time, "time", "at most 1e9 s after " + decimal(before), decimal(time));
 }
 
-/// Computes dt from absolute times. The first sample's dt is unknown and is set to the next one's, wherever
-/// time begins.
+/// Computes dt from absolute times. The first sample's dt is unknown and is set to the second one's, whatever
+/// the first time is.
 void difference(TimedSamples& rows) {
     for (std::size_t i = 1; i < rows.times.size(); ++i) {
         rows.samples[i].dt = rows.times[i] - rows.times[i - 1];

@@ -11,8 +11,8 @@ namespace tendril::app {
 const char* solver_title(ik::Method method);
 
 /// The solvers that ran in a solve: "FABRIK, accelerated + least squares, 3 restarts", or "FABRIK,
-/// accelerated, 1 perturbation" for a chain that had stalled or was collinear. A method keeps its name within
-/// limits, where FABRIK omits its accelerated step and two bones continue with least-squares steps.
+/// accelerated, 1 perturbation" for a chain that had stalled or was collinear. Methods keep their names with
+/// limits, although FABRIK then omits its accelerated step and two bones continue with least-squares steps.
 std::string ran_text(ik::Method method, const ik::Report& report);
 
 }  // namespace tendril::app

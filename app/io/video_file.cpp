@@ -11,7 +11,7 @@ namespace tendril::app {
 FrameTime frame_time(const VideoFormat& format) {
     const auto every = static_cast<unsigned>(format.every);
     if (format.speed == 1.0) return {every, 60};
-    // Exact to a hundredth of a percent of the speed.
+    // The speed is exact to 0.01 %.
     return {100 * every, static_cast<unsigned>(std::lround(6000.0 * format.speed))};
 }
 

@@ -39,27 +39,27 @@ struct View {
 };
 
 /// A frame that can be grabbed. Dragging it moves it in the view plane or along a held axis, if `drag` allows
-/// that; its gizmo, if shown, does the rest.
+/// that; other changes are made with its gizmo, if shown.
 struct Handle {
     using Frame = HandleFrame;
     std::string name;       ///< as in --state: "target", "segment.3"
     PickId pick = no_pick;  ///< the pick of the strokes drawn at the frame
     Frame frame;
     Drag drag = Drag::Position;
-    /// Dragging it drags this part of a gizmo: a knob on its rail, a ring that is always shown.
+    /// Dragging it acts as this part of a gizmo: a knob on its rail, a ring that is always shown.
     std::optional<GizmoPart> part{};
 };
 
-/// The handles that one gizmo drags when several things are selected.
+/// The handles that one drag of the gizmo moves when several things are selected.
 struct Together {
     std::vector<Handle> handles;
-    std::string staying;  ///< which selected things stay behind, and why; empty if none
+    std::string staying;  ///< which selected things do not move, and why; empty if none
 };
 
-/// A lab's response to text from the clipboard.
+/// A lab's answer to text from the clipboard.
 struct TakenText {
     std::optional<CommandCall> command;
-    std::string what;  ///< with a command: what the text holds, "points". Without: the reason for refusing it
+    std::string what;  ///< with a command: the contents, "points"; without: the reason for refusing
 };
 
 /// A sphere that should be in view.
@@ -74,23 +74,23 @@ Bounds bounds_of(glm::vec3 low, glm::vec3 high, float smallest = 0.5f);
 /// Frames `bounds` in the open lab's view, unless they are in view and large enough to be seen.
 void frame_unless_seen(Workspace& workspace, const Bounds& bounds);
 
-/// A colour of the picture and what it means.
+/// A colour in the scene and its meaning.
 struct LegendRow {
     std::string name;
     glm::vec3 colour{1.0f};
     bool ring = false;
-    std::vector<std::string> numbers{};  ///< beside it, in columns; omitted if there is no room
+    std::vector<std::string> numbers{};  ///< shown beside it in columns, if there is room
     /// The widest text of each number: its column keeps that width while the numbers change.
     std::vector<std::string> widest{};
 };
 
-/// A starting scene for the tests that run over every lab: they send it random events and commands, and the
-/// replay must end in the same state. Small ones also seed the scene fuzzer.
+/// A starting scene for tests that run over every lab: they send it random events and commands, and a replay
+/// must end in the same state. Small scenes also seed the scene fuzzer.
 struct TestScene {
     std::string name;
     std::vector<CommandCall> commands;  ///< set it up from a blank document
     std::vector<std::string> words;     ///< names that exist here, for commands that take any text
-    int ticks = 120;                    ///< to run before its state is compared
+    int ticks = 120;                    ///< ticks to run before its state is compared
 };
 
 /// A kind of file that a lab reads, as a row of Lab::files().
@@ -99,12 +99,12 @@ struct FileKind {
     std::vector<std::string> endings;  ///< in lower case: ".bvh"
     std::string command;               ///< opens such a file, given as `path`
     ArgumentList arguments{};          ///< further arguments
-    /// Whether the file's text begins like one of this kind. Decides if several kinds share the ending, or
-    /// if no kind has it. Null: the ending alone decides.
+    /// Whether a file's text begins like this kind. Decides if several kinds share the extension, or if no
+    /// kind has it. Null: the extension alone decides.
     bool (*begins)(std::string_view text) = nullptr;
 };
 
-/// Only the first functions must be overridden: names, blank part, commands, drawing. The rest are optional.
+/// Only the first functions must be overridden: names, blank part, commands, drawing.
 class Lab {
   public:
     virtual ~Lab() = default;
@@ -127,8 +127,8 @@ class Lab {
     /// Commands that turn the blank part into the scene that a new window opens on, preferably one that
     /// moves by itself. Those that change a setting are skipped if the user has already chosen it.
     virtual std::vector<CommandCall> opening() const { return {}; }
-    /// Commands that stop motions of the opening that would interfere with the user. Run once, before the
-    /// first change in the lab or the first press on something in it; not an undo step.
+    /// Commands that stop motions of the opening that would disturb the user. Run once, before the first
+    /// change in the lab or the first press on something in it; not an undo step.
     virtual std::vector<CommandCall> calm() const { return {}; }
 
     // time
@@ -136,8 +136,7 @@ class Lab {
     virtual bool moving(const Workspace&) const { return false; }
     /// One tick: clock.speed * tick_seconds pass in the lab.
     virtual void step(Workspace&) const {}
-    /// Rough number of elementary steps in a tick; 0: too few to count. The fuzzer skips scenes that are
-    /// slow.
+    /// Rough number of elementary steps in a tick; 0: negligible. The fuzzer skips slow scenes.
     virtual std::uint64_t tick_work(const Workspace&) const { return 0; }
     /// Seconds that have passed in the lab, for the clock in the top bar.
     virtual double seconds(const Workspace& workspace) const {
@@ -166,7 +165,7 @@ class Lab {
 
     // the mouse
     virtual std::vector<Handle> handles(const Workspace&) const { return {}; }
-    /// The handle with that pick, if any. Searches handles() by default.
+    /// The handle with that pick, if any. By default, searches handles().
     virtual std::optional<Handle> handle(const Workspace& workspace, PickId pick) const;
     /// The handle whose gizmo is shown; --state names its parts "head.move_x". Its drags go to drag() with
     /// the handle's pick.
@@ -207,9 +206,9 @@ class Lab {
     virtual void double_click(const Workspace& workspace, PickId pick, Emit& emit) const {
         click(workspace, pick, emit);
     }
-    /// The effect of the mouse at that pick, for the status line.
+    /// The effect of the mouse on that pick, for the status line.
     virtual std::string hint(const Workspace&, PickId) const { return {}; }
-    /// Whether pictures and videos have the labels and the legend if the request does not say.
+    /// Whether pictures and videos have labels and legend if the request does not specify it.
     virtual bool labels_pictures(const Workspace&) const { return false; }
     /// The sphere that the camera frames: around all handles by default.
     virtual Bounds bounds(const Workspace& workspace, bool selection_only) const;
@@ -229,7 +228,7 @@ class Lab {
     // for the shell's tables
     virtual std::vector<Shortcut> shortcuts() const { return {}; }
     virtual std::vector<LabSetting> settings() const { return {}; }
-    /// Mouse gestures in this lab, in addition to those of every lab.
+    /// Mouse gestures of this lab, in addition to those that every lab has.
     virtual std::vector<MouseHelp> mouse_help() const { return {}; }
 
     // output

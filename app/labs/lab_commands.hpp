@@ -5,7 +5,7 @@
 
 namespace tendril::app {
 
-/// The mouse preset for turning and shifting the view.
+/// The mouse preset for orbiting and panning the view.
 LabSetting mouse_setting();
 /// The effect of the wheel, or two fingers on a touchpad, in the view.
 LabSetting scroll_setting();

@@ -15,7 +15,7 @@ class Labs {
     /// Appends a lab; its name must be new. Throws std::logic_error otherwise.
     void add(std::unique_ptr<Lab> lab);
     const std::vector<std::unique_ptr<Lab>>& all() const { return labs_; }
-    /// Null if there is none of that name.
+    /// Null if there is no lab of that name.
     const Lab* find(std::string_view name) const;
 
   private:

@@ -8,7 +8,7 @@
 
 namespace tendril::app {
 
-/// The target of a script: the program, or a test's substitute.
+/// Receives a script's actions: the program, or a test's substitute.
 class Stage {
   public:
     virtual ~Stage() = default;

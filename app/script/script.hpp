@@ -58,7 +58,7 @@ struct RecordingStart {
     std::string path{};     ///< the scene's file, empty if none
     bool modified = false;  ///< it had unsaved changes
     float scale = 1.0f;     ///< the window's own scale for text and widgets
-    bool live = false;      ///< made in a window, where a child process ending is an event
+    bool live = false;      ///< recorded in a window, where a child process's end is an event
     int line = 1;           ///< its line in the script
 };
 
@@ -69,7 +69,7 @@ struct Script {
 
 /// Throws std::runtime_error, "line 7: <reason>", for a line that is not JSON, has an unknown form, a wrong
 /// type or an unknown member, or names an unknown command. Blank lines are skipped. A command's own arguments
-/// are checked when it runs.
+/// are checked only when it runs.
 Script parse_script(std::string_view text, const CommandTable& commands);
 
 }  // namespace tendril::app

@@ -18,7 +18,7 @@ namespace {
 struct Axis {
     glm::vec3 direction;
     const char* letter;  ///< empty for negative axes
-    const char* view;    ///< argument of camera.view: the view from there
+    const char* view;    ///< argument of camera.view for the view from there
     const char* title;
 };
 
@@ -38,7 +38,7 @@ glm::vec3 colour_of_axis(const Palette& colours, std::size_t axis) {
     return all[axis % 3];
 }
 
-/// A small window of its own, so that the mouse around it still reaches the view.
+/// Uses a small window of its own, so that the mouse around it still reaches the view.
 bool end_button(const End& end, float radius, bool& hovered) {
     const Axis& axis = axes[end.axis];
     ImGui::SetNextWindowPos({end.at.x - radius, end.at.y - radius});

@@ -1,4 +1,4 @@
-// The axes in the corner of the view, which show the viewing direction. A click on one looks along it.
+// The axis gizmo in the view's corner, which shows the viewing direction. A click on an axis looks along it.
 #pragma once
 
 #include "app/shell/shell.hpp"

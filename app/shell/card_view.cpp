@@ -19,7 +19,7 @@ namespace tendril::app {
 namespace {
 
 constexpr float max_panel_share = 0.5f;
-/// The handles of larger parts are not searched for the one to highlight.
+/// In larger parts, handles are not searched for the one to highlight.
 constexpr std::size_t max_shown_bytes = 1u << 20;
 
 enum class Fold { Steps, Current, Title };
@@ -141,7 +141,7 @@ void footer(const ShellFrame& frame, const Measure& m, Emit& emit) {
     if (ImGui::IsItemHovered()) tooltip("Sets up the scene that this card is about; undo restores yours");
 }
 
-/// Finds a handle, by its pick if that is known, since listing many handles is slow.
+/// Finds a handle by its pick if known, since listing many handles is slow.
 std::optional<Handle> handle_named(const ShellFrame& frame, const std::string& name, PickId& known) {
     const Workspace& workspace = frame.workspace;
     if (known != no_pick) {

@@ -10,12 +10,12 @@
 namespace tendril::app {
 namespace {
 
-/// Writing the state of a large part is slow: checks wait one tick for each so many of its bytes.
+/// Writing the state of a large part is slow: checks wait one tick per this many bytes.
 constexpr std::size_t bytes_per_tick = 8192;
 /// Larger parts are never checked.
 constexpr std::size_t max_watched_bytes = 1u << 20;
 
-/// Whether the command is the one in the line, with the arguments that matter.
+/// Whether the command is the line's, with the arguments that matter.
 bool matches(const CardLine& line, const std::string& command, const Json& arguments) {
     if (line.command != command) return false;
     const auto& wanted = line.arguments->items();
@@ -32,7 +32,7 @@ const CardCondition* avoided(const CardStep& step) {
     return found == step.when.end() ? nullptr : &*found;
 }
 
-/// The position to which the command moved something: its argument that is null in the line.
+/// The position that the command moved something to: the argument that is null in the line.
 std::optional<glm::vec3> moved_to(const CardLine& line, const Json& arguments) {
     for (const auto& [key, value] : line.arguments->items()) {
         const auto given = arguments.find(key);
@@ -49,7 +49,7 @@ void note_drag(RepeatedDrag& drag, glm::vec3 to, std::uint64_t moment) {
     drag.path.push_back({moment, to});
 }
 
-/// Whether the incident is the one that the cure was for: at the same joint, or for the same reason.
+/// Whether the incident is the one that was cured: at the same joint, or for the same reason.
 bool recurs(const RepeatedDrag& drag, const Json& incident) {
     const auto same = [&](const char* member) {
         return drag.incident->value(member, Json()) == incident.value(member, Json());
@@ -57,8 +57,8 @@ bool recurs(const RepeatedDrag& drag, const Json& incident) {
     return same("joint") || same("cause");
 }
 
-/// Records where the drag was at the last incident of that kind, if it caused that incident. After the cure
-/// another joint may jump for its own reason, such as a jump of the mouse: the drag then restarts there.
+/// Records where the drag was when it last caused an incident of that kind. After the cure, another joint may
+/// jump for a different reason, such as a jump of the mouse: the drag then restarts there.
 void note_incident(RepeatedDrag& drag, const std::string& kind, const Json& events) {
     for (const Json& each : events) {
         const auto moment = each.at("tick").get<std::uint64_t>();
@@ -79,7 +79,7 @@ void note_incident(RepeatedDrag& drag, const std::string& kind, const Json& even
     }
 }
 
-/// Whether the cured drag has passed the place where it once caused the incident, to the other side.
+/// Whether the cured drag has crossed the place where it caused the incident.
 bool passed_again(const RepeatedDrag& drag, float within) {
     if (!drag.cured) return false;
     float side = 0.0f;       // the side on which it was, well away from the place

@@ -8,16 +8,16 @@
 
 namespace tendril::app {
 
-/// Records that a command ran at that moment: steps that wait only for it are done. `changes`: it may have
-/// changed the scene. `in_panel`: it comes from a panel or the palette, which completes no step that asks for
-/// a handle.
+/// Records that a command ran at that moment, which completes steps that wait only for it. `changes`: it may
+/// have changed the scene. `in_panel`: it comes from a panel or the palette, and completes no step that asks
+/// for a handle.
 void note_command(CardProgress& progress, const Card& card, const std::string& command, const Json& arguments,
                   bool changes, std::uint64_t moment, bool in_panel = false);
-/// Marks the steps whose conditions now hold as well. Calls `state` only if there may be such steps; for a
-/// large part not every tick. `dragging`: a drag is under way; it counts once it ends.
+/// Marks steps whose conditions now hold too. Calls `state` only if there may be such steps, and for a large
+/// part not every tick. `dragging`: a drag is under way; it counts once it ends.
 void watch_card(CardProgress& progress, const Card& card, const std::shared_ptr<const Part>& part,
                 const std::function<Json()>& state, bool dragging = false);
-/// Whether the next tick may find a step done even without an event.
+/// Whether the next tick may complete a step even without an event.
 bool card_waits(const CardProgress& progress, const std::shared_ptr<const Part>& part);
 
 /// Index of the first step that is not done; the number of steps if all are.

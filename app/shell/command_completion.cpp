@@ -25,7 +25,7 @@ std::string bare(const std::string& value) {
     return value.starts_with('"') ? value.substr(1) : value;
 }
 
-/// The part of a value being typed, and the part before it: the whole value, or the last element of a list.
+/// The part of a value being typed, and the text before it: the whole value, or a list's last element.
 struct TypedValue {
     std::string before{}, text{};
     bool element = false, closed = false;  ///< closed: a list that has its "]"

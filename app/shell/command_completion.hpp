@@ -20,7 +20,7 @@ struct CompletionRow {
     bool given = false;  ///< the line already contains it
 };
 
-/// Typing more narrows a longer list down.
+/// Further rows are omitted until typing narrows the list.
 inline constexpr std::size_t max_rows = 200;
 
 /// At most max_rows completions; none for a line without a command. Values that begin with the typed text

@@ -44,8 +44,8 @@ Verb verb_of(const Command& command) {
     return begins_word(title, "every") || begins_word(title, "all") ? Verb::RemovesAll : Verb::Removes;
 }
 
-/// Distance of a command from the query. For each word: 0 if the title has it at the start of a word; more
-/// for the name, the inside of the title, the help, or an argument's name. None if a word is nowhere.
+/// Distance of a command from the query. Each word adds 0 if a word of the title begins with it, more for the
+/// name, the inside of the title, the help, or an argument's name. None if a word is nowhere.
 std::optional<int> distance(const Command& command, const std::vector<std::string>& words) {
     const std::string title = lower_case(command.title), name = lower_case(command.name),
                       help = lower_case(command.help);

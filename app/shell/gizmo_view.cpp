@@ -10,7 +10,7 @@
 namespace tendril::app {
 namespace {
 
-/// The current state of the dragged handle: the gizmo's, or one that the lab has drawn.
+/// The dragged handle in its current state: the gizmo's, or one drawn by the lab.
 std::optional<Handle> dragged_handle(const Lab& lab, const Workspace& workspace, const Pointer& pointer) {
     return pointer.drags_gizmo() ? lab.gizmo(workspace) : lab.handle(workspace, pointer.dragged());
 }
@@ -83,7 +83,7 @@ std::vector<NamedGrip> gizmo_grips(const DrawList& drawn, const Lab& lab, const 
 
 namespace {
 
-/// The present state of the handle that a held key constrains; none for a gizmo's part, or one that rotates.
+/// The handle that a held key constrains, in its current state; none for a gizmo's part or a rotation.
 std::optional<Handle> constrained_handle(const Lab& lab, const Workspace& workspace, const Pointer& pointer,
                                          const Input& input) {
     if (pointer.dragged() == no_pick || pointer.drags_gizmo() || pointer.constraint(input).empty())

@@ -8,13 +8,13 @@ namespace tendril::app {
 
 class Pointer;
 
-/// Includes a label for the size of the drag.
+/// Also draws a label for the size of the drag.
 void show_gizmo(DrawList& list, const Lab& lab, const View& view, const Pointer& pointer);
 
 /// The current drag of a part, for the status line: "Turning 35.2° about X."; empty without one.
 std::string gizmo_hint(const Lab& lab, const Workspace& workspace, const Pointer& pointer);
 
-/// A part that can be caught, "head.rotate_x", and a pixel where it can be.
+/// A part that can be grabbed, "head.rotate_x", and a pixel where it can be.
 struct NamedGrip {
     std::string name;
     glm::vec2 pixel;
@@ -27,7 +27,7 @@ std::vector<NamedGrip> gizmo_grips(const DrawList& drawn, const Lab& lab, const 
 /// that the handle has moved from there.
 void show_constraint(DrawList& list, const Lab& lab, const View& view, const Pointer& pointer,
                      const Input& input);
-/// The same for the status line: "Moving 0.42 m along Z, 0.40 m nearer."; empty without such a drag.
+/// The same as text for the status line: "Moving 0.42 m along Z, 0.40 m nearer."; empty without such a drag.
 std::string constraint_hint(const Lab& lab, const Workspace& workspace, const Camera& camera,
                             const Pointer& pointer, const Input& input);
 

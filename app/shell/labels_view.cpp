@@ -15,7 +15,7 @@ namespace tendril::app {
 
 namespace {
 
-/// The rectangles of the picture's balls, in pixels, which labels should avoid.
+/// The rectangles of the scene's balls, in pixels, for labels to avoid.
 std::vector<Rect> balls_of(const DrawList& drawn, const Camera& camera) {
     std::vector<Rect> boxes;
     for (const Stroke& stroke : drawn.strokes) {

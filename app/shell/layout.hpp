@@ -16,8 +16,8 @@ struct Layout {
 };
 
 /// Everything is in window coordinates. `timeline`: height of the time strip at scale 1. In a narrow window
-/// the panels shrink before the middle does; a folded panel leaves a slim strip to unfold it. `canvas`, 0 to
-/// 1, is the fraction of the middle, from the left, that the lab's own picture takes from the 3D view.
+/// the panels shrink before the middle does; a folded panel leaves a slim strip to unfold it. `canvas`: the
+/// fraction of the middle, from the left, that the lab's own plots take from the 3D view, 0 to 1.
 Layout lay_out(glm::vec2 window, float scale, const Settings& settings, float timeline, float canvas = 0.0f);
 
 }  // namespace tendril::app

@@ -90,7 +90,7 @@ void show_help(const ShellFrame& frame, Emit& emit) {
     if (!begin_sheet("Keys and mouse", frame.screen(), {1180.0f * scale, 690.0f * scale})) {
         emit("view.help", {{"open", false}});
     }
-    // Three columns if there is room, which shows all of it; else two, or one.
+    // Three columns if there is room for all of them; else two, or one.
     const float room = ImGui::GetContentRegionAvail().x;
     const int columns = room > 1040.0f * scale ? 3 : room > 720.0f * scale ? 2 : 1;
     const float mouse = std::min(190.0f * scale, 0.45f * room), keys = columns > 1 ? 150.0f * scale : mouse;
@@ -128,7 +128,7 @@ static void setting_row(const LabSetting& setting, const Settings& settings, Emi
     explain(setting.help.c_str());
 }
 
-/// A list, which closes on a choice: a button or slider would move under the mouse as the text grows.
+/// A list that closes on a choice: a button or slider would move under the mouse as the text grows.
 static void text_size_row(const Settings& settings, Emit& emit) {
     static constexpr std::array percents{50, 75, 90, 100, 110, 125, 150, 175, 200, 250, 300};
     const int now = static_cast<int>(std::lround(100.0f * settings.text_scale));
@@ -177,7 +177,7 @@ void show_toasts(const ShellFrame& frame) {
     const Palette& colours = frame.colours();
     const Rect& view = frame.layout.view;
     const Rect legend = legend_box(frame.lab.legend(frame.workspace), view, scale);
-    // As wide as the view, or wider, over the panels, if the view is too narrow for legible text.
+    // As wide as the view; wider, over the panels, if the view is too narrow for legible text.
     const float margin = 32.0f * scale, legible = std::min(380.0f * scale, frame.screen().x - margin);
     const float widest =
         std::max(120.0f, std::min(520.0f * scale, std::max(view.size().x - margin, legible)));

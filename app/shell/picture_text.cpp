@@ -29,7 +29,7 @@ class CurrentContext {
     ImGuiContext* before_;
 };
 
-/// By the picture's size alone: as large as in a window with a view of that size, and legible at 1280 x 720.
+/// Depends only on the picture's size: as in a window with a view of that size, and legible at 1280 x 720.
 float text_scale(glm::ivec2 size) {
     return std::max(0.7f, std::min(static_cast<float>(size.x) / 800.0f, static_cast<float>(size.y) / 600.0f));
 }
@@ -84,7 +84,7 @@ void PictureText::look_at(std::span<const Pane> panes, const CameraPose& pose,
     ImGui::EndFrame();
 }
 
-/// Needs a frame, to measure texts.
+/// Needs an ImGui frame, to measure texts.
 void PictureText::count_covered(std::span<const Pane> panes, const CameraPose& pose,
                                 std::span<const LegendRow> legend) {
     for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -1,5 +1,5 @@
-// Draws the labels, titles and legend of the view into a picture, by the functions that draw them in the
-// window, with fonts rasterised for the picture.
+// Draws the view's labels, titles and legend into a picture, with the functions that draw them in the window
+// and fonts rasterised for the picture.
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@ class PictureText {
     PictureText(const PictureText&) = delete;
     PictureText& operator=(const PictureText&) = delete;
 
-    /// Counts the strokes that the legend would cover in each corner, so that draw() takes the freest one of
-    /// all pictures of a video. Without this, draw() goes by its first picture.
+    /// Counts the strokes that the legend would cover in each corner, so that draw() uses the emptiest corner
+    /// of all pictures of a video. Without this, draw() decides by its first picture.
     void look_at(std::span<const Pane> panes, const CameraPose& pose, std::span<const LegendRow> legend);
     /// Draws over the scene, into the bound framebuffer. The panes were drawn with that camera and palette.
     void draw(std::span<const Pane> panes, const CameraPose& pose, std::span<const PaneTitle> titles,

@@ -57,8 +57,8 @@ bool is_drawing(const Pointer::Scene& scene) {
            });
 }
 
-/// Fingers never move exactly vertically: if the two directions have different effects, only the larger
-/// counts.
+/// Fingers never move exactly vertically: if the two directions have different effects, only the larger one
+/// is used.
 CameraPose scrolled(const MouseWheel& wheel, const Input& input, const Pointer::Scene& scene) {
     const auto pan = [&](glm::vec2 notches) {
         return panned(scene.camera, pixels_per_scroll * glm::clamp(notches, -100.0f, 100.0f));
@@ -73,7 +73,7 @@ CameraPose scrolled(const MouseWheel& wheel, const Input& input, const Pointer::
 
 void Pointer::take(const Event* event, const Input& input, const Scene& scene, Emit& emit) {
     since_click_ = std::min(since_click_ + 1, 1000);
-    // An object caught in another lab is meaningless in this one.
+    // An object grabbed in another lab is meaningless in this one.
     if (caught_ != no_pick && caught_in_ != &scene.lab) release(scene, emit);
     if (event != nullptr) {
         if (const auto* button = std::get_if<MousePress>(event)) {
@@ -268,7 +268,7 @@ void Pointer::drag(const Input& input, const Scene& scene, Emit& emit) {
     scene.lab.drag(scene.workspace, caught_handle_, frame, emit);
 }
 
-/// Relative to where they were caught: a handle stopped by a limit is back in position when the others are.
+/// Relative to the grab positions: a handle stopped by a limit catches up when the others return.
 void Pointer::drag_together(const HandleFrame& to, const Scene& scene, Emit& emit) const {
     const HandleFrame& from = caught_frame_;
     const bool turns = changed_by(by_->part()) == Drag::Rotation;

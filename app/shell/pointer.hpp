@@ -32,7 +32,7 @@ class Pointer {
     /// Handles this tick's event. Emits camera.set and the lab's drag and click commands, which run
     /// afterwards.
     void take(const Event* event, const Input& input, const Scene& scene, Emit& emit);
-    /// Drops references to hovered, caught and dragged objects that no longer exist. Call before drawing and
+    /// Drops references to hovered, grabbed and dragged objects that no longer exist. Call before drawing and
     /// after anything that may have changed the scene.
     void forget_missing(const Workspace& workspace, const Lab& lab);
     /// Ends any interaction, without a click; drops a dragged handle.
@@ -45,7 +45,7 @@ class Pointer {
     std::optional<GizmoPart> hovered_part() const { return picked_part(hovered_); }
     /// The dragged part; null if the handle moves freely.
     const GizmoDrag* dragged_part() const { return gesture_ == Gesture::Drag && by_ ? &*by_ : nullptr; }
-    /// Whether that part is the gizmo's, not one that the lab has drawn.
+    /// Whether that part belongs to the gizmo and was not drawn by the lab.
     bool drags_gizmo() const { return dragged_part() != nullptr && picked_part(caught_).has_value(); }
     /// The number of dragged handles.
     std::size_t dragged_count() const {

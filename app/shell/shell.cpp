@@ -36,7 +36,7 @@ std::string with_keys(const ShellFrame& frame, const char* title, std::string_vi
     return keys.empty() ? title : std::string(title) + " (" + keys + ")";
 }
 
-/// The strip along a panel's inner edge that resizes and folds it.
+/// The strip along a panel's inner edge; drag to resize or fold it.
 void panel_edge(const Rect& rect, bool left, float scale, Emit& emit) {
     const float x = left ? rect.max.x : rect.min.x;
     const float grip = 5.0f * scale;
@@ -284,8 +284,8 @@ void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 p
     ImGui::PopStyleColor();
 }
 
-/// Content that became shorter cannot keep its scroll position. Once it is as long as before, as after undo,
-/// the position is restored, unless the user has scrolled since.
+/// Content that became shorter cannot keep its scroll position. When it is long again, as after undo, the
+/// position is restored, unless the user has scrolled since.
 void Shell::keep_scroll(Scrolled& scrolled) {
     constexpr float same = 1.0f;  // pixels
     const float now = ImGui::GetScrollY(), most = ImGui::GetScrollMaxY();

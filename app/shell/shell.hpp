@@ -43,7 +43,7 @@ struct ShellFrame {
 class Shell {
   public:
     void frame(const ShellFrame& frame, Emit& emit);
-    /// Rectangles that the last frame drew on the scene: hint, legend and axis gizmo.
+    /// Rectangles that the last frame drew over the scene: hint, legend and axis gizmo.
     const std::vector<Rect>& overlays() const { return overlays_; }
     /// The position of the ring of the card's current step in the last frame, if it was drawn.
     const std::optional<glm::vec2>& card_ring() const { return card_ring_; }
@@ -52,14 +52,14 @@ class Shell {
     void side_panel(const ShellFrame& frame, bool left, Emit& emit);
 
     float overflow_[2] = {0.0f, 0.0f};  ///< how far each side panel can scroll
-    /// A panel's scroll position: the wanted one, and the present one while the content is too short.
+    /// A panel's scroll position: the wanted one, and the present one while its content is too short.
     struct Scrolled {
         float wanted = 0.0f, shown = 0.0f, most = 0.0f;
     };
     void keep_scroll(Scrolled& scrolled);
     std::map<std::pair<std::string, bool>, Scrolled> scrolled_;  ///< by lab, and whether it is the left panel
     std::vector<Rect> overlays_;
-    PickId highlighted_ = no_pick;  ///< the highlighted handle's; see show_card_halo()
+    PickId highlighted_ = no_pick;  ///< pick of the highlighted handle; see show_card_halo()
     std::optional<glm::vec2> card_ring_;
     CommandPalette palette_;
     Unfolding unfolding_;

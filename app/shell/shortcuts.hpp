@@ -18,8 +18,8 @@ class CommandTable;
 
 class Shortcuts {
   public:
-    /// Rows of a lab follow the others of their section; a lab's own sections come before the last one,
-    /// *Help*. A row without a title gets its command's.
+    /// A lab's rows follow the others of their section; its own sections come before the last one, *Help*. A
+    /// row without a title gets its command's.
     Shortcuts(const Labs& labs, const CommandTable& commands);
 
     /// A row with the same title as an earlier one is another key for it.
@@ -30,7 +30,7 @@ class Shortcuts {
     std::string keys_for(std::string_view command) const;
     /// "Ctrl+Shift+Z, Ctrl+Y": every key that does the same.
     std::string all_keys_for(const Shortcut& wanted) const;
-    /// Mouse gestures common to all labs, then of the lab of that name; if that is empty, of every lab.
+    /// Mouse gestures common to all labs, then those of the named lab; of every lab if the name is empty.
     std::vector<MouseHelp> mouse_help(std::string_view lab = {}, MousePreset preset = MousePreset::Tendril,
                                       Scroll scroll = Scroll::Zoom) const;
     /// Both lists as Markdown tables, for the README.

@@ -37,7 +37,7 @@ class Ui {
     /// Whether the mouse (the keyboard) belongs to a panel instead of the scene.
     bool wants_mouse() const;
     bool wants_text() const;
-    /// The state of a number being typed, for the program to handle.
+    /// The number being typed, for the program to handle.
     NumberEditing& numbers() { return numbers_; }
 
   private:

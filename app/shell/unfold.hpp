@@ -1,4 +1,4 @@
-// Unfolds the sections that hide the rows to which a card's step or a palette's command leads.
+// Unfolds the sections that hide the rows of a card's step or a palette's command.
 #pragma once
 
 #include "app/labs/card.hpp"

@@ -11,7 +11,7 @@
 namespace tendril::app {
 namespace {
 
-/// `pixels` is 0 while the size is the view's.
+/// `pixels` is 0 while the size follows the view.
 void size_field(const char* name, int& pixels, int view, const char* help) {
     int shown = pixels > 0 ? pixels : view;
     if (integer_field(name, shown, min_picture, max_picture)) pixels = shown == view ? 0 : shown;

@@ -14,8 +14,8 @@ class VideoOptions {
   public:
     static constexpr float rows = 9.0f;  ///< rows that frame() writes
 
-    /// Call when the dialog opens. Keeps earlier choices, except for the seconds and the labels. `labels`:
-    /// whether the lab wants them.
+    /// Call when the dialog opens. Keeps earlier choices, except for seconds and labels. `labels`: whether
+    /// the lab wants labels.
     void start(const Workspace& workspace, bool labels);
     void frame();
     /// Adds the format's extension to a name without one.

@@ -36,7 +36,7 @@ Rect in_range(const Rect& viewport) {
     return {low, glm::max(pixels(viewport.max), low + 1.0f)};
 }
 
-/// Tangent of half the vertical field of view. In a view narrower than 5:4 the field's width is kept instead
+/// Tangent of half the vertical field of view. In views narrower than 5:4 the field's width is kept instead
 /// of its height, so that a scene that fits a wide window still fits when panels or large text make the view
 /// narrow.
 float half_field(const CameraPose& pose, float aspect) {

@@ -63,7 +63,7 @@ class Camera {
 /// Camera moves; each returns the new pose, clamped to its valid range. Pixels are mouse movements.
 CameraPose orbited(const CameraPose& pose, glm::vec2 pixels);
 CameraPose panned(const Camera& camera, glm::vec2 pixels);
-/// One notch is a factor of 1.15; the point under the cursor in the target's plane stays there.
+/// One notch is a factor of 1.15; the point under the cursor in the target's plane stays in place.
 CameraPose zoomed(const Camera& camera, glm::vec2 cursor, float notches);
 /// Fits the sphere into the viewport, keeping the direction. A radius of 0 only moves the target.
 CameraPose framed(const CameraPose& pose, const Rect& viewport, glm::vec3 centre, float radius);

@@ -40,9 +40,9 @@ struct Stroke {
     Unit unit = Unit::Metres;
     Shade shade = Shade::Lit;
     Layer layer = Layer::Scene;
-    bool shadow = false;  ///< darkens the ground beneath it
+    bool shadow = false;  ///< casts a contact shadow on the ground
     PickId pick = no_pick;
-    std::int16_t rank = 0;  ///< where pickable strokes overlap the higher rank wins, then the nearer
+    std::int16_t rank = 0;  ///< of overlapping pickable strokes the higher rank wins, then the nearer
 };
 
 /// Text beside a point. If two labels would overlap, only the higher `rank` is drawn.
@@ -59,8 +59,8 @@ struct DrawList {
     std::vector<Label> labels;
     Mesh mesh{};
     std::vector<SkinDraw> skins{};  ///< drawn with the mesh, or over the scene's strokes if transparent
-    Mesh veil{};                    ///< transparent surfaces of the scene: everything behind them shows
-    Mesh overlay{};                 ///< over the scene, under the overlay strokes
+    Mesh veil{};                    ///< transparent surfaces, through which the scene shows
+    Mesh overlay{};                 ///< drawn over the scene, under the overlay strokes
 
     void clear() {
         strokes.clear(), labels.clear(), mesh.clear(), skins.clear(), veil.clear(), overlay.clear();

@@ -77,7 +77,7 @@ void Edges::join() {
     joined_.clear();
 }
 
-/// The lean of a cut perpendicular to `tangent`, on the screen, for a line of that direction.
+/// The mitre of a line of that direction for a cut perpendicular to `tangent` on the screen.
 float Edges::mitre(glm::vec3 point, glm::vec3 tangent, glm::vec3 direction) const {
     constexpr float most = 2.0f;
     const float pixel = camera_.metres_per_pixel(point);

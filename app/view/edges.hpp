@@ -35,15 +35,15 @@ class Edges {
 
     /// `normal` points to the visible side.
     void outline(glm::vec3 a, glm::vec3 b, glm::vec3 normal, glm::vec3 colour);
-    /// The same between two vertices of the mesh.
+    /// The same between two vertices of the list's mesh.
     void outline(std::uint32_t a, std::uint32_t b, glm::vec3 normal, glm::vec3 colour);
     /// Mitres outlines where exactly two meet in a vertex. Call it after adding all of them.
     void join();
     /// An edge between two visible faces; slightly in front of them, to avoid z-fighting.
     void crease(glm::vec3 a, glm::vec3 b, glm::vec3 normal, glm::vec3 colour);
 
-    /// A round piece so thin that one shade suffices. Consecutive pieces with the same tangent where they
-    /// meet show no seams, even where they are so thin that they fade.
+    /// A round piece so thin that one shade suffices. Consecutive pieces with the same tangent at their joint
+    /// show no seams, even where they are so thin that they fade.
     void thread(glm::vec3 a, glm::vec3 b, glm::vec3 tangent_a, glm::vec3 tangent_b, float radius,
                 glm::vec3 colour);
 

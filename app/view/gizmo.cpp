@@ -197,7 +197,7 @@ class Drawing {
         for (int i = 0; i < ring_sides; ++i) {
             const glm::vec3 a = on_ring(gizmo_.frame, about, radius, ring_angle(i));
             const glm::vec3 b = on_ring(gizmo_.frame, about, radius, ring_angle(i + 1));
-            // The tolerance makes a ring that faces the eye near all round.
+            // With this tolerance, a ring that faces the eye counts as near all round.
             const bool hidden = glm::dot(0.5f * (a + b) - centre_, sight) > 0.02f * radius;
             Stroke& stroke = list_.line(a, b,
                                         px(hidden      ? 1.5f

@@ -1,6 +1,6 @@
-// Handles for editing a frame: arrows and planes move it, rings turn it, boxes scale it, each along the
-// frame's own axes. x is red, y green, z blue; the size on the screen is constant. Drawn over the scene; its
-// parts are picked by their own ids.
+// Handles for editing a frame: arrows and planes move it, rings rotate it, boxes scale it, each along the
+// frame's own axes. x is red, y green, z blue; the size on the screen is constant. Drawn over the scene; each
+// part has its own pick id.
 #pragma once
 
 #include <array>
@@ -53,7 +53,7 @@ const char* name(GizmoPart part);
 /// The property that dragging the part changes.
 Drag changed_by(GizmoPart part);
 bool is_plane(GizmoPart part);
-/// 0 to 2: the axis it moves or scales along, turns about, or, for a plane, its normal.
+/// 0 to 2: the axis it moves or scales along or rotates about; for a plane, its normal.
 int axis_of(GizmoPart part);
 
 /// Labs use ids below this.
@@ -73,7 +73,7 @@ struct Gizmo {
     float reach(Drag of, const Camera& camera) const;
     /// The parts that can be dragged in this view: no arrow that points at the eye, no plane that is edge-on.
     std::vector<GizmoPart> parts(const Camera& camera) const;
-    /// Points where a part can be caught, the best first.
+    /// Points where a part can be grabbed, the best first.
     std::vector<glm::vec3> grips(GizmoPart part, const Camera& camera) const;
 };
 

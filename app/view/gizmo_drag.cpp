@@ -100,7 +100,7 @@ glm::vec2 GizmoDrag::in_plane(glm::vec3 at) const {
     return {glm::dot(met, u_), glm::dot(met, v_)};
 }
 
-/// Radians about the axis. A ring that is edge-on turns by as much as its near side is pulled.
+/// Radians about the axis. An edge-on ring rotates by as much as its near side is pulled.
 float GizmoDrag::about_axis(glm::vec3 at) const {
     if (!edge_on_) {
         const glm::vec2 met = in_plane(at);

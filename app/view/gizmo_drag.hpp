@@ -1,10 +1,10 @@
 // Dragging one part of a gizmo: converts lines of sight to frames, without window or drawing.
 //
-// Everything is measured in the plane through the centre that faces the eye, which a line of sight always
-// meets nearby. From there points on an axis or plane follow by perspective, so the caught point stays under
-// the pointer. Where an axis points at the eye, a plane is edge-on, or the pointer nears a plane's horizon,
-// one pixel would span kilometres; there the drag continues linearly instead. So a small move of the pointer
-// is always a small move of the frame.
+// Everything is measured in the plane through the centre that faces the eye, which every line of sight meets
+// nearby. Points on an axis or plane follow from there by perspective, so the grabbed point stays under the
+// pointer. Where an axis points at the eye, a plane is edge-on, or the pointer nears a plane's horizon, one
+// pixel would span kilometres; there the drag continues linearly. So a small move of the pointer is always a
+// small move of the frame.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -17,7 +17,7 @@ namespace tendril::app {
 
 class GizmoDrag {
   public:
-    /// `caught`: the line of sight where the part was caught. `reach`: metres from the centre to the ring or
+    /// `caught`: the line of sight where the part was grabbed. `reach`: metres from the centre to the ring or
     /// the box; dragging a box by that much doubles the scale. `orthographic`: lines of sight are parallel.
     GizmoDrag(GizmoPart part, const HandleFrame& frame, const Ray& caught, float reach, bool orthographic);
 
@@ -33,7 +33,7 @@ class GizmoDrag {
     const HandleFrame& from() const { return from_; }
     /// For a ring: radians since it was caught, including whole turns.
     double turned() const { return turned_; }
-    /// For a ring: where it was caught, in radians about its axis.
+    /// For a ring: the angle where it was grabbed, in radians about its axis.
     double caught_at() const { return caught_at_; }
     /// Describes the change so far, to `now`: "35.2° about X", "0.25 m along X", "1.50 times along X".
     std::string text(const HandleFrame& now) const;

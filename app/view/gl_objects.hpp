@@ -58,7 +58,7 @@ class Instances {
     Instances& operator=(const Instances&) = delete;
 
     void send(const void* data, std::size_t bytes);
-    /// The corners are gl_VertexID 0 to 3, in the order of a triangle strip.
+    /// The corners are gl_VertexID 0 to 3, in triangle strip order.
     void draw(std::size_t first, std::size_t count) const;
 
   private:

@@ -11,9 +11,9 @@
 
 namespace tendril::app {
 
-/// `surface` maps points of the unit sphere to positions in metres and must keep the outside outside. A
+/// `surface` maps points of the unit sphere to positions in metres and must not turn the sphere inside out. A
 /// vertex normal is the area-weighted mean of its triangles' normals. Appends nothing if any point is not
-/// finite or has a coordinate beyond 1e9. Calls `surface` once for each of some 2 400 points.
+/// finite or has a coordinate beyond 1e9. Calls `surface` once for each of about 2 400 points.
 void globe(DrawList& list, const Camera& camera, const std::function<glm::vec3(glm::vec3)>& surface,
            glm::vec3 colour);
 

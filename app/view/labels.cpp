@@ -10,8 +10,8 @@
 namespace tendril::app {
 namespace {
 
-/// Directions from a point to its label, best first. Diagonals come first because lines through a point are
-/// mostly horizontal or vertical; right before left, in reading direction; above before below.
+/// Directions from a point to its label, best first. Diagonals come first because most lines through a point
+/// are horizontal or vertical; right before left, in reading direction; above before below.
 constexpr std::array<glm::vec2, 8> sides{{
     {0.7f, -0.7f},
     {0.7f, 0.7f},
@@ -96,7 +96,7 @@ class PlacedBoxes {
     std::vector<Rect> boxes_;
 };
 
-/// About one label per cell, and a bounded number of cells.
+/// The cell size for about one label per cell and a bounded number of cells.
 glm::vec2 cell_size(std::span<const LabelRequest> requests, const Rect& viewport) {
     glm::vec2 sum(0.0f);
     float count = 0.0f;

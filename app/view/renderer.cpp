@@ -21,7 +21,7 @@ namespace {
 
 constexpr float veil_opacity = 0.13f;  ///< opacity of one layer; a hollow body has two
 
-/// Earlier drawing, such as the panels', may have left these in any state.
+/// Resets state that earlier drawing, such as the panels', may have changed.
 void reset_state() {
     glDisable(GL_CULL_FACE);
     glDisable(GL_STENCIL_TEST);
@@ -68,7 +68,7 @@ void Renderer::draw(std::span<const Pane> panes, const CameraPose& pose, const P
     leave_plain_state();
 }
 
-/// Everything but the backdrop.
+/// Draws everything except the backdrop.
 void Renderer::draw_scene(const DrawList& list, const Camera& camera, const Palette& palette,
                           const Frame& frame) {
     const PixelRect viewport = pixel_rect(camera.viewport(), frame);

@@ -30,8 +30,8 @@ class Backdrop {
     Backdrop(const Backdrop&) = delete;
     Backdrop& operator=(const Backdrop&) = delete;
 
-    /// Fills frame.framebuffer, and leaves it bound; draws the grid in each viewport. Returns the number of
-    /// draw calls. A cached copy counts as the calls it replaces, so the number is the same every frame.
+    /// Fills frame.framebuffer and leaves it bound; draws the grid in each viewport. Returns the number of
+    /// draw calls; a cached copy counts as the calls it replaces, so the number is the same every frame.
     int draw(const CameraPose& pose, std::span<const Rect> viewports, const Palette& palette,
              const Frame& frame);
 

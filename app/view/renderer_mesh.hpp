@@ -12,7 +12,7 @@ void set_surface_uniforms(const Program& program, const Camera& camera, const Fr
 class MeshPass {
   public:
     /// Draws into the bound framebuffer; the GL viewport must be all of it. Returns the number of draw calls:
-    /// 0 for an empty mesh, else 1. Below an opacity of 1 it does not write depth, so it hides nothing.
+    /// 0 for an empty mesh, else 1. With an opacity below 1, it does not write depth and so hides nothing.
     int draw(const Mesh& mesh, const Camera& camera, const Frame& frame, float opacity = 1.0f);
 
   private:

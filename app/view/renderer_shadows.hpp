@@ -1,7 +1,7 @@
 // Contact shadows on the ground.
 //
 // Shadows are drawn into a buffer of their own, smaller than the frame because they are soft, where the
-// darker one wins: adding them up would turn a chain's shadow solid black. That buffer is then drawn over the
+// darker shadow wins: adding them would turn a chain's shadow solid black. That buffer is then drawn over the
 // ground.
 #pragma once
 
@@ -19,8 +19,7 @@ class ShadowPass {
     ShadowPass(const ShadowPass&) = delete;
     ShadowPass& operator=(const ShadowPass&) = delete;
 
-    /// Draws the shadows' buffer, and leaves it bound if there are any shadows. Returns the number of draw
-    /// calls.
+    /// Draws the shadows' buffer; leaves it bound if there are shadows. Returns the number of draw calls.
     int prepare(const DrawList& list, const Camera& camera, float darkness, PixelRect viewport);
     /// Draws the shadows over the bound framebuffer, in the GL viewport, which must be the camera's.
     int draw(const Camera& camera) const;

@@ -40,7 +40,7 @@ struct SkinPart {
     float cutoff = 0.0f;        ///< fragments with a smaller alpha are discarded
 };
 
-/// A blend shape: the displacement of the vertices from `first` on at a weight of 1.
+/// A blend shape: at weight 1, the displacement of the vertices from `first` on.
 struct MorphTarget {
     std::string name{};
     std::uint32_t first = 0;
@@ -65,7 +65,7 @@ struct SkinnedMesh {
 struct SkinDraw {
     std::shared_ptr<const SkinnedMesh> mesh{};
     std::vector<AffineRows> matrices{};  ///< one per joint
-    std::vector<float> morph_weights{};  ///< one per morph; missing ones are the morphs' own
+    std::vector<float> morph_weights{};  ///< one per morph; missing weights are the morphs' own
     float opacity = 1.0f;                ///< 1: solid; less: transparent
     glm::vec3 tint{1.0f};                ///< multiplies every colour
     /// One per vertex; they may use matrices beyond those for the mesh's joints. Null: the mesh's weights.

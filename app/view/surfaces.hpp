@@ -34,8 +34,7 @@ struct ClothGrid {
     int columns = 0, rows = 0;
     std::span<const glm::vec3> positions;
     /// The remaining triangles of each of the (columns - 1) x (rows - 1) cells, row by row; empty: all.
-    /// ClothGrid::upper is the triangle at the cell's first row and column; ClothGrid::lower is the other
-    /// one.
+    /// `upper` is the triangle at the cell's first row and column, `lower` the other one.
     std::span<const std::uint8_t> cells{};
 
     static constexpr std::uint8_t upper = 1, lower = 2, whole = 3;

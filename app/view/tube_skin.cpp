@@ -56,7 +56,7 @@ void TubeSkin::cover(std::span<const Ring> rings) {
     edges_.join();
 }
 
-/// Appends a ring's corners, and returns the index of the first.
+/// Appends a ring's corners and returns the index of the first one.
 std::uint32_t TubeSkin::corners(const Ring& ring) {
     const std::uint32_t first = list_.mesh.next();
     const float up = std::sin(ring.lean), out = std::cos(ring.lean);

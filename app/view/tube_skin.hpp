@@ -20,7 +20,7 @@ struct Ring {
     float lean = 0.0f;                       ///< radians that the surface's normal leans towards the axis
     float tube_radius = 0.0f;                ///< metres
     float pixels = 0.0f;                     ///< the tube's radius in pixels
-    unsigned outside = 0;  ///< the borders of the view that it is beyond, one bit per border
+    unsigned outside = 0;  ///< the view's borders that the ring is beyond, one bit per border
     bool first = false;    ///< no band connects it to the previous ring
     glm::vec3 colour{1.0f};
 };

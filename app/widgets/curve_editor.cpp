@@ -32,8 +32,8 @@ class Editor {
         left_ -= side, right_ += side;
     }
 
-    /// The visible range of time and value. It follows from the keys, except during a drag: there it must not
-    /// change, else a position would mean a different value in every frame.
+    /// The visible range of time and value. It follows from the keys, but is frozen during a drag, since
+    /// otherwise a position would mean a different value in every frame.
     struct View {
         double left = 0.0, right = 1.0, low = 0.0, high = 1.0;
     };
@@ -156,7 +156,7 @@ class Editor {
     double left_ = 0.0, right_ = 1.0, low_ = 0.0, high_ = 1.0;
 };
 
-/// While the mouse button is held on the last item: the view of the frame in which it went down.
+/// The view; while the mouse button is held on the last item, the view when it went down.
 Editor::View view_of_drag(Editor::View view) {
     const bool held = ImGui::IsItemActive() && !ImGui::IsItemActivated();
     ImGuiStorage& kept = *ImGui::GetStateStorage();

@@ -1,4 +1,4 @@
-// Panels and handles do not change the document; they emit commands.
+// Panels and handles change the document only by emitting commands.
 #pragma once
 
 #include <string>

@@ -15,7 +15,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr double no_limit = 1e6;  ///< a limit this large only keeps numbers finite, and is not shown
+constexpr double no_limit = 1e6;  ///< limits this large only keep numbers finite, and are not shown
 
 /// "0.25", "1000": no trailing zeros.
 std::string plain_number(double value) {

@@ -9,7 +9,7 @@
 
 namespace tendril::app {
 
-/// A scope for ids: a row drawn while it exists may have the name of a row in another section.
+/// A scope for ids: rows drawn while it exists may reuse names of rows in other sections.
 class [[nodiscard]] IdScope {
   public:
     explicit IdScope(const char* name);
@@ -18,7 +18,7 @@ class [[nodiscard]] IdScope {
     IdScope& operator=(const IdScope&) = delete;
 };
 
-/// A heading, with space above it, over the rows that are drawn while it exists.
+/// A heading, with space above it, for the rows drawn while it exists.
 struct [[nodiscard]] PanelSection {
     explicit PanelSection(const char* title);
     IdScope ids;
@@ -41,25 +41,25 @@ bool number_field(const char* name, float& value, float speed, float low, float 
                   const char* at_zero = nullptr);
 bool integer_field(const char* name, int& value, int low, int high);
 bool integer_slider(const char* name, int& value, int low, int high);
-/// A line of text. Typing takes effect on Enter, Tab or a click elsewhere, and Escape cancels it; `hint` is
-/// shown while it is empty. `value` follows what is typed in any case, for a button beside it.
+/// A line of text. Typing takes effect on Enter, Tab or a click elsewhere; Escape cancels it. `hint` is shown
+/// while the line is empty. `value` always follows what is typed, for a button beside the field.
 bool text_field(const char* name, std::string& value, const char* hint);
 /// Call before an ImGui::InputText() of that id and text. Text that is too wide for the next item and is not
-/// being typed into is shown here instead, cut in the middle, until it is clicked; a tooltip shows all of it.
-/// True: it is shown, so that there is nothing to type into in this frame.
+/// being edited is shown here instead, cut in the middle, until it is clicked; a tooltip shows all of it.
+/// Returns true if it is shown, so that there is nothing to edit in this frame.
 bool shows_cut_text(const char* id, const std::string& text);
 bool point_field(const char* name, glm::vec3& value, float speed, float most = 1e9f,
                  const char* format = "%.3f m");
 /// The name on its own line, with three fields side by side below it.
 bool vector_field(const char* name, glm::vec3& value, float speed, glm::vec3 low, glm::vec3 high,
                   const char* format);
-/// Keeps the height of the rows below `top`, a cursor position in the window, while the mouse is in it: a
-/// click that removes a row must not bring the next rows under the mouse. They are at least `min_height`
+/// Keeps the height of the rows below `top`, a cursor position in the window, while the mouse is over them: a
+/// click that removes a row must not move the next rows under the mouse. They are at least `min_height`
 /// pixels high.
 void keep_room(const char* id, float top, float min_height = 0.0f);
 /// The height of so many lines of dim text.
 float note_height(int lines);
-/// A note that comes and goes by itself, in space for so many lines; empty: no note.
+/// A note that appears and disappears, in space for so many lines; empty: no note.
 void kept_note(const char* id, const std::string& text, int lines);
 /// A radio button: one of several exclusive options.
 bool option_button(const char* title, bool chosen, const char* tooltip = nullptr);
@@ -83,7 +83,7 @@ void explain(const char* text);
 
 /// A button in a row of `of` equal buttons, or fewer if they would be too small. A long tooltip is wrapped.
 bool row_button(const char* title, int of, bool enabled = true, const char* tooltip = nullptr);
-/// One of a row of buttons, of which the chosen one is lit.
+/// One of a row of buttons; the chosen one is lit.
 bool row_option(const char* title, int of, bool chosen, const char* tooltip = nullptr);
 
 /// Ends a row of buttons that is not full.

@@ -23,7 +23,7 @@ struct SearchText {
 
     bool empty() const { return text[0] == '\0'; }
 };
-/// The line to type into; count the rows below it in `hits`. Returns true if Escape cleared it.
+/// The line to type into; count the rows below it in `hits`. Returns true if Escape cleared the text.
 bool search_line(const char* id, const char* hint, SearchText& typed);
 /// Whether `text` contains `part`, ignoring case.
 bool contains_text(std::string_view text, std::string_view part);
@@ -39,15 +39,15 @@ struct OpenList {
 struct ListRoom {
     float width = 0.0f;  ///< width of its rows, in pixels; 0: enough for most names
     int rows = 10;
-    std::optional<glm::vec3> swatch{};  ///< the colour that the choice in the field means
+    std::optional<glm::vec3> swatch{};  ///< the colour that the field's choice stands for
 };
 
-/// Begins the list of a field. If it returns true, add rows and call end_list(). With `shown` the field is a
-/// row with a name, otherwise a small button beside the next item.
+/// Begins the list of a field. If it returns true, add rows and call end_list(). With `shown`, the field is a
+/// named row; otherwise it is a small button beside the next item.
 bool begin_list(const char* name, const std::string* shown, ListRoom room = {});
 /// The same for the button above, which `pressed` opens.
 bool begin_list_of_button(const char* id, bool pressed, ListRoom room = {});
-/// True when the row is chosen. With `why_not` it cannot be, and the reason follows its greyed title.
+/// Returns true when the row is chosen. With `why_not` it cannot be, and the reason follows its greyed title.
 bool list_row(const std::string& title, bool chosen, const char* why_not = nullptr,
               const std::optional<glm::vec3>& swatch = {});
 void end_list();

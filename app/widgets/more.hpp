@@ -1,5 +1,5 @@
-// The rows of a section that are rarely needed: they are collected while the section is drawn, and come last,
-// below a head "More" that is folded at first. The head counts the values that differ from their defaults.
+// A section's rarely needed rows. They are collected while the section is drawn and come last, below a
+// heading "More" that is folded at first. The heading counts the values that differ from their defaults.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace tendril::app {
 
-/// The command and arguments that a row sets, so that palette and cards can find it. Empty for a reading.
+/// The command and arguments that a row sets, so that palette and cards find it. Empty for read-only rows.
 struct RowOf {
     std::string command{};
     std::vector<std::string> arguments{};
@@ -16,13 +16,13 @@ struct RowOf {
 
 class MoreRows {
   public:
-    /// `label` is in the head's tooltip, empty for none; `draw` must be valid until the end of the section.
+    /// `label` is listed in the heading's tooltip unless empty; `draw` must be valid until the section ends.
     void add(std::string label, RowOf of, bool changed, std::function<void()> draw);
 
     bool empty() const { return rows_.empty(); }
     /// "More", or "More (2 changed)".
     std::string title() const;
-    /// The head; true in a frame in which it is clicked.
+    /// Draws the heading; true in a frame in which it is clicked.
     bool head(bool open) const;
     void draw() const;
 

@@ -17,7 +17,7 @@ namespace tendril::app {
 
 struct RowSearch;
 
-/// The last row that has a field: its position, and its number's range, for explain().
+/// The last row with a field: its position, and its number's range, for explain().
 struct RowAbove {
     int frame = -1;         ///< the frame in which it was drawn
     glm::vec2 from{0.0f};   ///< start of its name
@@ -27,8 +27,7 @@ struct RowAbove {
     std::array<char, 48> format{};  ///< for the unit
 };
 
-/// The text field that is being typed into; its text outlives the frame in which another item takes the
-/// focus.
+/// The text field being edited; its text outlives the frame in which another item takes the focus.
 struct TextEditing {
     unsigned id = 0;  ///< the field's; 0: none
     int frame = 0;    ///< the last frame in which it was drawn
@@ -37,7 +36,7 @@ struct TextEditing {
     int wanted_until = 0;  ///< the last frame in which it may
 };
 
-/// The interface's state of number fields: the one being edited, and its text. ImGui's UserData points to it.
+/// The state of number fields: the one being edited, and its text. ImGui's UserData points to it.
 struct NumberEditing {
     unsigned id = 0;     ///< the field's; 0: none
     int frame = 0;       ///< the last frame in which it was drawn

@@ -342,7 +342,7 @@ float value_at(const Curve& curve, float x) {
 
 namespace {
 
-/// While the mouse button is held on the last item: the axes of the frame in which it went down.
+/// The axes; while the mouse button is held on the last item, the axes when it went down.
 PlotAxes axes_of_stroke(const char* id, PlotAxes axes) {
     const bool held = ImGui::IsItemActive() && !ImGui::IsItemActivated();
     ImGuiStorage& kept = *ImGui::GetStateStorage();

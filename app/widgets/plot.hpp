@@ -23,30 +23,30 @@ struct PlotAxes {
     const char* x_unit = "";
     const char* y = "";
     const char* y_unit = "";
-    /// The y axis is logarithmic and begins at the power of ten below this; lower values are drawn at its
-    /// edge, which reads "0" if a value is 0. 0: the axis is linear, from the lowest value to the highest.
+    /// Logarithmic y axis from the power of ten below this; lower values are drawn at its edge, which reads
+    /// "0" if a value is 0. 0: a linear axis, from the lowest value to the highest.
     float min_y = 1e-6f;
     float from_x = 0.0f;                ///< start of the x axis
     float min_x = 1.0f;                 ///< the x axis ends here or beyond
     float low_y = 0.0f, high_y = 0.0f;  ///< linear y axis: a range it includes, if low < high
     bool fixed_y = false;               ///< shows exactly that range, with marks where curves leave it
-    float level = 0.0f;                 ///< a dashed line at this y, if positive
-    float at_x = -1.0f;                 ///< a line at this x, if not negative
+    float level = 0.0f;                 ///< draws a dashed line at this y, if positive
+    float at_x = -1.0f;                 ///< draws a line at this x, if not negative
     /// Window pixels of the x axis's ends, to align it with another widget; used if left < right. Otherwise
     /// the axis fills the available width.
     float left = 0.0f, right = 0.0f;
     bool whole_x = false;    ///< x is a count: marks at whole numbers only
     bool reads_all = false;  ///< the mouse reads every curve at its x instead of the nearest point
     bool named = false;      ///< writes the names of single-point curves, where there is room
-    /// For a plot that is drawn into: low_y, high_y, from_x and min_x are frozen while the mouse button is
-    /// down, else a position would mean a different value in every frame.
+    /// For plots that the user draws into: low_y, high_y, from_x and min_x are frozen while the mouse button
+    /// is down, since otherwise a position would mean a different value in every frame.
     bool keeps_axes = false;
 };
 
 /// The value of a curve at x, interpolated linearly; NaN outside its points.
 float value_at(const Curve& curve, float x);
 
-/// The mouse's move in a frame with its left button down, as values of both axes.
+/// The mouse's move in one frame with the left button down, in values of both axes.
 struct PlotStroke {
     bool drawn = false;
     glm::vec2 from{0.0f}, to{0.0f};

@@ -1,5 +1,5 @@
-// Finds the rows of a command's argument in a panel, and the folded sections around them. While a search is
-// on, panels are drawn out of sight with everything unfolded.
+// Finds the rows of a command's arguments in a panel, and the folded sections around them. During a search,
+// panels are drawn out of sight with everything unfolded.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 namespace tendril::app {
 
 struct RowSearch {
-    std::string title;  ///< title of a section to find as well; may be empty
+    std::string title;  ///< title of a section to find too; may be empty
     std::string command;
     std::vector<std::string> arguments{};
     std::vector<std::string> inside{};  ///< the folded sections around the row being drawn
     std::vector<std::string> found{};   ///< the folded sections around a row of the command
 };
 
-/// Null unless a search is on.
+/// Null unless a search is running.
 RowSearch* row_search();
 /// Every row of a command calls this.
 void note_row_of(std::string_view command, std::string_view argument);
-/// Draws a panel out of sight, with a search on.
+/// Draws a panel out of sight for a search.
 class SearchWindow {
   public:
     explicit SearchWindow(RowSearch& search);

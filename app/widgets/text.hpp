@@ -7,7 +7,7 @@ namespace tendril::app {
 
 /// The text if it fits into `width` pixels, else as much of it as fits and "...".
 std::string elided(const std::string& text, float width);
-/// Cuts out of the middle instead, and keeps more of the end, where a path has the file's name.
+/// Cuts in the middle instead, and keeps more of the end, where a path has the file's name.
 std::string elided_in_middle(const std::string& text, float width);
 /// Cuts after a whole word instead; empty if not even the first word fits.
 std::string elided_at_word(const std::string& text, float width);

@@ -93,7 +93,7 @@ class Strip {
         list_->AddRectFilled({left, base_ - high}, {right, base_},
                              ImGui::GetColorU32({bar.colour.r, bar.colour.g, bar.colour.b, 1.0f}));
     }
-    /// A flag at the earliest time that the head can go back to.
+    /// A flag at the earliest time that the head can reach.
     void flag(float share) {
         const float x = from_ + span_ * share, top = base_ - 11.0f * unit();
         const ImU32 colour = ImGui::GetColorU32(ImGuiCol_Text);

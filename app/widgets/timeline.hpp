@@ -6,7 +6,7 @@
 
 namespace tendril::app {
 
-/// The steps of a solve: `ends[i]` is the last step of iteration i; `ends[0]` is the start's, before the
+/// The steps of a solve: `ends[i]` is the last step of iteration i; `ends[0]` is the last step before the
 /// first iteration. `step` is 0 to ends.back(). True in a frame in which the user moved the head.
 bool step_timeline(const char* id, int& step, const std::vector<int>& ends);
 

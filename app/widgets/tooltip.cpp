@@ -96,7 +96,7 @@ Tooltip::~Tooltip() {
 
 namespace {
 
-/// Whether the item was clicked: its tooltip would hide the result, until the mouse has left the item.
+/// Whether the item was clicked; its tooltip then stays hidden until the mouse has left, to show the result.
 bool was_clicked() {
     const double hovered_since =
         ImGui::GetTime() - static_cast<double>(ImGui::GetCurrentContext()->HoveredIdTimer);

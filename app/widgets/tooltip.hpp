@@ -10,7 +10,7 @@
 
 namespace tendril::app {
 
-/// Everything drawn while one exists is in the tooltip of the last item. Text wraps.
+/// While one exists, everything drawn is in the tooltip of the last item. Text wraps.
 class Tooltip {
   public:
     Tooltip();

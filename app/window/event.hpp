@@ -29,8 +29,8 @@ struct MouseWheel {
     float by = 0.0f;
     float sideways = 0.0f;
 };
-/// A key went down (repeats send further downs) or up. Keys are named by their labels in the keyboard's
-/// layout. Question goes down and up at once, after the key that typed it, with or without Shift.
+/// A key went down (also on repeats) or up. Keys are named by their labels in the keyboard's layout. Question
+/// goes down and up at once, after the key that typed it, with or without Shift.
 struct KeyChange {
     Key key = Key::Unknown;
     bool down = true;
@@ -54,7 +54,7 @@ struct Focus {
 };
 struct CloseRequest {};
 /// The program that encodes a video has ended, successfully or not. Its timing is not deterministic, so it is
-/// an event for the recording.
+/// recorded as an event.
 struct VideoEnd {};
 
 using Event = std::variant<MouseMove, MousePress, MouseWheel, KeyChange, KeyTap, TextInput, Resize, Drop,

@@ -6,8 +6,8 @@
 namespace tendril::app {
 namespace {
 
-/// `first` plus the offset of `code` from `first_code`: for runs of keys that both enumerations have in the
-/// same order.
+/// `first` plus the offset of `code` from `first_code`, for runs of keys in the same order in both
+/// enumerations.
 Key key_in_run(Key first, int code, int first_code) {
     return static_cast<Key>(static_cast<int>(first) + code - first_code);
 }

@@ -1,5 +1,5 @@
-// The common part of windows without a screen: they have no events, the clipboard is a string, and they draw
-// into a framebuffer object, so that the picture does not depend on how the context is created.
+// Shared by windows without a screen: they have no events, the clipboard is a string, and they draw into a
+// framebuffer object, so that the picture does not depend on how the context is created.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace tendril::app {
 
-/// 8-bit RGBA and 24 bits of depth. Needs its context current for as long as it lives.
+/// 8-bit RGBA and 24 bits of depth. Its context must be current as long as it lives.
 class OffscreenFramebuffer {
   public:
     explicit OffscreenFramebuffer(glm::ivec2 size);

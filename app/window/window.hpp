@@ -21,8 +21,8 @@ class Window {
     virtual glm::ivec2 size() const = 0;
     /// Size in pixels, as for glViewport.
     virtual glm::ivec2 framebuffer_size() const = 0;
-    /// The system's scale for text and widgets, in window coordinates: 1 on a standard screen, 2 on a dense
-    /// one. (1 on both if window coordinates are already scaled, as under Wayland.)
+    /// The system's scale for text and widgets, in window coordinates: 1 on a standard screen, 2 on a
+    /// high-density one. (1 on both if window coordinates are already scaled, as under Wayland.)
     virtual float content_scale() const { return 1.0f; }
     /// The GL name of the framebuffer to draw in.
     virtual unsigned framebuffer() const { return 0; }

@@ -62,8 +62,8 @@ bool is_word_of_its_own(const std::string& path, const std::string& literal) {
     return (literal == "rope" && hangs) || (literal == "rig" && path == "app/labs/humanoid/state.cpp");
 }
 
-/// The table itself; the subcommands of the solvers, which belong to no lab; and the readers of VRM files and
-/// of traces, which have a member with a lab's name.
+/// Exceptions: the table itself; the subcommands of the solvers, which belong to no lab; and the readers of
+/// VRM files and of traces, which have a member with a lab's name.
 bool may_name(const std::string& path, const std::string& lab) {
     return path == "app/labs/labs.cpp" || path.starts_with("app/labs/" + lab + "/") ||
            path.starts_with("app/batch/") || path == "app/io/character/gltf_vrm.cpp" ||
@@ -90,7 +90,7 @@ TEST(LabsAreFolders, NothingOutsideALabNamesIt) {
     EXPECT_GT(in_own_folder, 100) << "names are found where they may stand";
 }
 
-TEST(LabsAreFolders, TheTableIsOneLineALab) {
+TEST(LabsAreFolders, TheTableHasOneLinePerLab) {
     const fs::path top = source_path("");
     const std::string table = read(top / "app/labs/labs.cpp");
     const app::Labs labs;

@@ -33,7 +33,7 @@ TEST(ChainEdit, AddLengthStartsAtTheOriginAndGoesAlongTheDefaultDirection) {
     EXPECT_EQ(chain.reach(), 2.5f);
 }
 
-TEST(ChainEdit, AddLengthGoesOnAlongTheLastSegment) {
+TEST(ChainEdit, AddLengthContinuesTheLastSegment) {
     Chain chain;
     expect_ok(chain.add(Segment{{0, 0, 0}, 1}));
     expect_ok(chain.add(Segment{{3, 3, 0}, 1}));
@@ -50,7 +50,7 @@ TEST(ChainEdit, AddLengthAfterALinkWithoutDirectionTakesTheDefaultOne) {
     expect_positions(chain, {{0, 0, 0}, {0, 2, 0}, {0, 2, 0}, {1, 2, 0}});
 }
 
-TEST(ChainEdit, AddSegmentLiesTowardsItsPosition) {
+TEST(ChainEdit, AddSegmentPointsAtItsPosition) {
     Chain chain;
     expect_ok(chain.add(Segment{{1, 1, 1}, 9}));
     expect_ok(chain.add(Segment{{1, 1, 8}, 2}));
@@ -64,15 +64,15 @@ TEST(ChainEdit, SegmentsAtOnePointMakeAStraightChain) {
     expect_positions(chain, {{2, 2, 2}, {2, 3, 2}, {2, 4, 2}, {2, 5, 2}, {2, 6, 2}, {2, 7, 2}});
 }
 
-TEST(ChainEdit, ASegmentGivenAtAnyPointOfTheChainCarriesNoDirection) {
+TEST(ChainEdit, ASegmentPlacedOnAPointOfTheChainHasNoDirection) {
     Chain chain = straight(4);
-    expect_ok(chain.add(Segment{{1, 0, 0}, 2}));  // where segment 1 is: continues straight, no fold
+    expect_ok(chain.add(Segment{{1, 0, 0}, 2}));  // on segment 1: continues straight, no fold
     expect_positions(chain, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {5, 0, 0}});
     expect_ok(chain.add(Segment{{1, 0.001f, 0}, 1}));  // a millimetre off is another position
     EXPECT_LT(chain.position(5).x, chain.position(4).x);
 }
 
-TEST(ChainEdit, InsertSegmentAtATakenPointIsInsertLength) {
+TEST(ChainEdit, InsertSegmentOnAnExistingPointIsInsertLength) {
     for (const std::size_t index : {0u, 1u, 3u}) {
         Chain given = straight(4), by_length = straight(4);
         expect_ok(given.insert(index, Segment{{2, 0, 0}, 0.5f}));
@@ -91,7 +91,7 @@ TEST(ChainEdit, InsertSegmentIsReLaid) {
     expect_positions(chain, {{0, 0, 0}, {0, 1, 0}, second, second + step * scale});
 }
 
-TEST(ChainEdit, InsertSegmentAsHeadTiesTheOldHeadByItsOwnLength) {
+TEST(ChainEdit, InsertSegmentAtTheHeadKeepsTheOldHeadsLength) {
     Chain chain;
     expect_ok(chain.add(Segment{{0, 0, 0}, 3}));
     expect_ok(chain.add(Segment{{1, 0, 0}, 1}));
@@ -101,7 +101,7 @@ TEST(ChainEdit, InsertSegmentAsHeadTiesTheOldHeadByItsOwnLength) {
     EXPECT_EQ(chain.length(1), 3.0f);
 }
 
-TEST(ChainEdit, InsertLengthCarriesTheRestAlongAndKeepsTheShape) {
+TEST(ChainEdit, InsertLengthShiftsTheRestAndKeepsTheShape) {
     Chain chain;
     expect_ok(chain.add(Segment{{0, 0, 0}, 1}));
     expect_ok(chain.add(Segment{{1, 0, 0}, 1}));
@@ -112,7 +112,7 @@ TEST(ChainEdit, InsertLengthCarriesTheRestAlongAndKeepsTheShape) {
     expect_positions(chain, {{0, 0, 0}, {0.5f, 0, 0}, {1.5f, 0, 0}, {1.5f, 1, 0}, {1.5f, 3, 0}});
 }
 
-TEST(ChainEdit, InsertLengthAsHeadMovesNothingElse) {
+TEST(ChainEdit, InsertLengthAtTheHeadMovesNothingElse) {
     Chain chain;
     expect_ok(chain.add(Segment{{4, 4, 4}, 2}));
     expect_ok(chain.add(Segment{{4, 9, 4}, 1}));
@@ -172,7 +172,7 @@ TEST(ChainEdit, LengthZeroIsLegal) {
     expect_positions(chain, {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}});
 }
 
-TEST(ChainEdit, RecalculateLeavesAChainThatHolds) {
+TEST(ChainEdit, RecalculateLeavesAValidChainUnchanged) {
     Chain chain;
     chain.recalculate();
     for (int i = 0; i < 5; ++i) expect_ok(chain.add(Segment{glm::vec3(i * i, 3 - i, i), 1.0f}));
@@ -198,12 +198,12 @@ TEST(ChainEdit, AHundredThousandAddsAreQuick) {
     EXPECT_TRUE(Holds(chain));
 }
 
-TEST(ChainEdit, DefaultDirectionMayBeAlmostAUnitVector) {
+TEST(ChainEdit, DefaultDirectionMayBeSlightlyOffUnitLength) {
     const Chain chain = along(glm::vec3(0.577f, 0.577f, 0.577f));
     EXPECT_NEAR(distance(chain.default_direction(), glm::vec3(0)), 1.0, 1e-7);
 }
 
-TEST(ChainEdit, ADefaultDirectionThatIsAUnitVectorStaysBitForBit) {
+TEST(ChainEdit, AUnitDefaultDirectionStaysBitForBit) {
     Random random(5);  // so that a saved direction loads unchanged
     for (int i = 0; i < 1000; ++i) {
         const glm::vec3 any = random.point(1.0f);
@@ -230,13 +230,13 @@ TEST(ChainEdit, SetPositionsKeepsAPoseBitForBit) {
     }
 }
 
-TEST(ChainEdit, SetPositionsLaysFromTheFirstThatIsNotAtItsLength) {
+TEST(ChainEdit, SetPositionsReLaysFromTheFirstWrongLength) {
     Chain chain = straight(4);
     expect_ok(chain.set_positions(std::vector<glm::vec3>{{0, 0, 0}, {0, 1, 0}, {0, 1, 3}, {0, 1, 3}}));
     expect_positions(chain, {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 1, 2}});
 }
 
-TEST(ChainEdit, SetPositionsRefusesAndChangesNothing) {
+TEST(ChainEdit, ARefusedSetPositionsChangesNothing) {
     Chain chain = straight(2);
     const Chain before = chain;
     for (const std::size_t count : {3u, 1u, 0u}) {
@@ -258,20 +258,20 @@ std::vector<Segment> copy_of(const Chain& chain) {
     return {chain.segments().begin(), chain.segments().end()};
 }
 
-TEST(ChainLoad, FoldedAndCoincidingLinksThatHoldAreKept) {
+TEST(ChainLoad, ValidFoldedAndCoincidingLinksAreKept) {
     const std::vector<Segment> given{
         {{0, 0, 0}, 1}, {{1, 0, 0}, 1}, {{0, 0, 0}, 1}, {{0, 0, 0}, 0}, {{0, 0, 2}, 2}};
     EXPECT_EQ(copy_of(*Chain::from_segments(given)), given);
 }
 
-TEST(ChainLoad, ALooseLinkIsReLaidFromThereOn) {
+TEST(ChainLoad, ABrokenLinkIsReLaidFromThereOn) {
     const Chain chain =
         *Chain::from_segments({{{0, 0, 0}, 1}, {{0, 1, 0}, 1}, {{0, 9, 0}, 1}, {{5, 2, 0}, 2}});
     EXPECT_TRUE(same_bits(chain.position(1), {0, 1, 0}));
     expect_positions(chain, {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}, {2, 2, 0}});
 }
 
-TEST(ChainLoad, LinksAreLooseBeyondTheInvariantOnly) {
+TEST(ChainLoad, LinksAreBrokenOnlyBeyondTheInvariant) {
     EXPECT_EQ(Chain::from_segments({{{0, 0, 0}, 0}, {{1.00009f, 0, 0}, 1}})->position(1).x, 1.00009f);
     EXPECT_EQ(Chain::from_segments({{{0, 0, 0}, 0}, {{1.00011f, 0, 0}, 1}})->position(1).x, 1.0f);
     EXPECT_EQ(Chain::from_segments({{{0, 0, 0}, 0}, {{500.04f, 0, 0}, 500}})->position(1).x, 500.04f);
@@ -287,18 +287,18 @@ TEST(ChainLoad, SegmentsAtOnePointMakeAStraightChain) {
     }
 }
 
-TEST(ChainLoad, AHeapAtTheEndGoesStraightOn) {
+TEST(ChainLoad, CoincidingPointsAtTheEndGoStraightOn) {
     std::vector<Segment> given{{{0, 0, 0}, 1}, {{0, 1, 0}, 1}};
     given.insert(given.end(), 3, Segment{{0, 1, 0}, 2});
     expect_positions(*Chain::from_segments(given), {{0, 0, 0}, {0, 1, 0}, {0, 3, 0}, {0, 5, 0}, {0, 7, 0}});
 }
 
-TEST(ChainLoad, NothingIsAChainToo) {
+TEST(ChainLoad, NoSegmentsAreAValidChain) {
     EXPECT_TRUE(Chain::from_segments({})->empty());
     EXPECT_EQ(Chain::from_segments({}, {0, 0, 0}).code(), ErrorCode::InvalidArgument);
 }
 
-// What is refused, with which message, and that a refusal changes nothing.
+// Refused calls: each gives its message and changes nothing.
 
 const float bad_lengths[] = {-1.0f, -1e-30f, nan, infinity, -infinity, 1e10f, 1000000064.0f};
 const float bad_coordinates[] = {nan, infinity, -infinity, 1e10f, -1e10f, 1000000064.0f};
@@ -356,7 +356,7 @@ TEST(ChainRefusals, BadCoordinates) {
             EXPECT_EQ(Chain::from_segments({{}, {point, 1}}).code(), ErrorCode::InvalidArgument);
         }
     }
-    Chain empty;  // an empty chain does nothing, but still refuses invalid input
+    Chain empty;  // a call on an empty chain does nothing, but still refuses invalid input
     EXPECT_EQ(empty.forward(glm::vec3(nan)).code(), ErrorCode::InvalidArgument);
     EXPECT_EQ(empty.with_index(0, glm::vec3(nan)).code(), ErrorCode::InvalidArgument);
 }
@@ -376,7 +376,7 @@ TEST(ChainRefusals, BadIndices) {
     }
 }
 
-TEST(ChainRefusals, AnEmptyChainTakesAddOnly) {
+TEST(ChainRefusals, AnEmptyChainAcceptsAddOnly) {
     Chain chain;
     expect_refused(ErrorCode::OutOfRange, chain, [&] { return chain.insert(0, 1.0f); });
     expect_refused(ErrorCode::OutOfRange, chain, [&] { return chain.insert(0, Segment{}); });
@@ -407,7 +407,7 @@ TEST(ChainRefusals, BadDirections) {
     }
 }
 
-TEST(ChainRefusals, TheLimitsThemselvesAreAccepted) {
+TEST(ChainRefusals, LimitValuesAreAccepted) {
     Chain chain;
     expect_ok(chain.add(Segment{glm::vec3(1e9f, -1e9f, 1e9f), 1e9f}));
     expect_ok(chain.add(1e9f));

@@ -71,7 +71,7 @@ TEST(ChainMemory, AFailedEditChangesNothing) {
     EXPECT_TRUE(same_bits(chain, before));
 }
 
-TEST(ChainMemory, PullsAndRemovalsNeedNone) {
+TEST(ChainMemory, PullsAndRemovalsAllocateNothing) {
     Chain chain = straight(50);
     without_memory([&] {
         expect_ok(chain.forward({1, 2, 3}));

@@ -28,7 +28,7 @@ TEST(ChainModes, ForwardPullsFromTheHead) {
 TEST(ChainModes, BackwardPullsFromTheTail) {
     Chain chain;
     for (const float length : {9.0f, 1.0f, 2.0f}) expect_ok(chain.add(length));
-    expect_ok(chain.backward({3, 4, 0}));  // the tail was at (3,0,0), the middle at (1,0,0)
+    expect_ok(chain.backward({3, 4, 0}));  // the tail was at (3,0,0), the middle joint at (1,0,0)
     const glm::vec3 p1 = glm::vec3(3, 4, 0) + glm::vec3(-2, -4, 0) * (2.0f / std::sqrt(20.0f));
     const glm::vec3 to = -p1;
     expect_positions(chain, {p1 + to / std::sqrt(to.x * to.x + to.y * to.y), p1, {3, 4, 0}});
@@ -44,7 +44,7 @@ TEST(ChainModes, FixedIsForwardThenBackwardToTheTail) {
     EXPECT_NEAR(result.residual, distance(chain.position(0), {1, 2, 3}), 1e-6);
 }
 
-TEST(ChainModes, FixedComesToATargetWithinReach) {
+TEST(ChainModes, FixedReachesATargetWithinReach) {
     Chain chain = straight(6);
     const FixedResult result = chain.fixed({2, 3, 0.5f}, {.iterations = 500, .tolerance = 1e-3f});
     EXPECT_LE(result.residual, 1e-3f);
@@ -120,7 +120,7 @@ TEST(ChainModes, AStepBetweenCoincidingPointsGoesAlongTheDefaultDirection) {
     expect_positions(chain, {{1, 0.0007f, 0}, {1, -0.9993f, 0}});
 }
 
-TEST(ChainModes, AChainOfZeroLengthsGathersOnTheTarget) {
+TEST(ChainModes, AChainOfZeroLengthsCollapsesOntoTheTarget) {
     Chain chain = straight(5, 0.0f);
     for (const glm::vec3 target : targets) {
         expect_ok(chain.forward(target));
@@ -144,8 +144,8 @@ TEST(ChainModes, HugeLengthsStayFinite) {
     EXPECT_TRUE(Holds(chain));
 }
 
-// Random operations: the invariant holds after every operation, a refusal leaves the chain bitwise unchanged,
-// and a pinned point is bitwise at its pin. Prints the seed; TENDRIL_SEED=<number> sets it.
+// Random operations: the invariant holds after every one, a refusal leaves the chain bitwise unchanged, and a
+// pinned point is bitwise at its pin. Prints the seed; TENDRIL_SEED=<number> sets it.
 
 float hostile_number(Random& random) {
     constexpr float numbers[] = {nan,    infinity, -infinity, 1e9f,   -1e9f,   1e10f,  -1e10f,
@@ -171,13 +171,13 @@ glm::vec3 some_point(const Chain& chain, Random& random) {
 std::size_t some_index(const Chain& chain, Random& random) {
     constexpr std::size_t hostile[] = {SIZE_MAX, SIZE_MAX - 1, SIZE_MAX / 2, SIZE_MAX / 16, 1u << 31};
     if (random.chance(25)) return hostile[random.below(std::size(hostile))];
-    return random.below(chain.size() + 1);  // sometimes one too many
+    return random.below(chain.size() + 1);  // one past the end at times
 }
 
 /// The exact position that a pull must give a point.
 struct Pin {
     bool set = false;
-    Result outcome{};  ///< of the call; if refused, nothing has moved
+    Result outcome{};  ///< the call's; if refused, nothing has moved
     std::size_t index = 0;
     glm::vec3 position{0.0f};
 };
@@ -233,7 +233,7 @@ Pin operate(Chain& chain, Random& random) {
     return {};
 }
 
-/// Saving and loading keeps every bit, unless the chain is outside the range that can be loaded.
+/// Whether saving and loading keeps every bit; true if the chain is outside the range that can be loaded.
 bool comes_back(const Chain& chain) {
     const auto segments = chain.segments();
     for (const Segment& segment : segments) {
@@ -270,7 +270,7 @@ TEST(ChainProperty, AHundredThousandHostileOperations) {
     }
     std::printf("%d refused, %d pulled, %d ended within 1e3 m, at most %zu segments\n", refused, pinned, near,
                 longest);
-    EXPECT_GT(refused, 5'000);  // enough of each to be a test
+    EXPECT_GT(refused, 5'000);  // enough of each for a fair test
     EXPECT_GT(pinned, 20'000);
     EXPECT_GT(near, 30'000);
 }

@@ -10,15 +10,15 @@
 
 namespace tendril::test {
 
-/// A value of a struct: `at` is what the field's accessors take, `path` how an error names it.
+/// A field of a struct: `at` is the struct its accessors take, `path` its name in errors.
 struct FieldSpot {
     const Field* field;
     void* at;
     std::string path;
 };
 
-/// The values of a struct, its structs and its lists. Fills what is empty: optional structs, and lists with
-/// two elements, but for those that are not the struct's own.
+/// Collects the fields of a struct and of everything nested in it. First fills empty optional structs, and
+/// gives resizable lists two elements or their minimum.
 inline void collect_spots(std::span<const Field> table, void* object, const std::string& above,
                           std::vector<FieldSpot>& spots) {
     for (const Field& field : table) {
@@ -50,7 +50,7 @@ inline void collect_spots(std::span<const Field> table, void* object, const std:
     }
 }
 
-/// At that part of each range, from 0 to 1.
+/// The value at a fraction `part`, 0 to 1, of each axis' range.
 inline FieldValue value_in_range(const Field& field, double part) {
     if (field.type == FieldType::Rotation) return {0.6, 0.0, 0.0, 0.8};
     const double low = std::max(field.range.low, -1e9), high = std::min(field.range.high, 1e9);
@@ -61,7 +61,7 @@ inline FieldValue value_in_range(const Field& field, double part) {
     return all;
 }
 
-/// Values of which one number, any of them, is out of range.
+/// Values with exactly one number out of range, for every axis.
 inline std::vector<FieldValue> values_out_of_range(const Field& field) {
     std::vector<FieldValue> all;
     if (field.type == FieldType::Flag) return all;

@@ -167,7 +167,7 @@ TEST_P(EveryTable, ANumberOutOfRangeIsRefusedByNameAndValue) {
     }
 }
 
-TEST_P(EveryTable, AValueThatIsSetIsRead) {
+TEST_P(EveryTable, AValueThatIsSetCanBeRead) {
     for (const FieldSpot& spot : spots) {
         std::vector<FieldValue> others;
         for (const FieldSpot& each : spots) others.push_back(each.field->get(each.at));
@@ -200,7 +200,7 @@ TEST(Fields, AListThatIsTooLongIsRefused) {
     EXPECT_TRUE(says(check_fields("solve", state, "state").message(), "solve state.turns at most 22"));
 }
 
-TEST(Fields, AnIndexIsOfAListAroundIt) {
+TEST(Fields, AnIndexRefersToAListAroundIt) {
     ik::LinkageSketch sketch{.points = {{.name = "A"}}, .bars = {{.points = {0}}}, .motors = {{}}};
     const auto refusal = [&] { return std::string(check_fields("call", sketch).message()); };
     EXPECT_EQ(refusal(), "");
@@ -234,7 +234,7 @@ TEST(Fields, AnOptionalStructCanBeEmptied) {
     EXPECT_FALSE(options.plane);
 }
 
-TEST(Fields, AVariantTakesTheKindOfAnIndexAndKeepsItsOwnAtOneThatIsNone) {
+TEST(Fields, AVariantSwitchesByIndexAndIgnoresInvalidOnes) {
     rig::Unit unit{.name = "u"};
     const Field& kind = *find_field(fields<rig::Unit>(), "unit");
     for (std::size_t i = 0; i < kind.choices.size(); ++i) {
@@ -263,7 +263,7 @@ TEST(Fields, AnInputOutOfRangeIsRefusedByAxisAndALinkIsNot) {
     EXPECT_TRUE(says(refusal(), "call it.roots must be at least 1 got 0"));
 }
 
-TEST(Fields, AWholeNumberThatTheTypeDoesNotHoldIsOutOfRange) {
+TEST(Fields, AWholeNumberBeyondItsTypeIsOutOfRange) {
     ik::LinkageReport report;
     const Field& stopped = *find_field(fields<ik::LinkageReport>(), "stopped");
     for (const double bad : {-1.0, -1e300, 1e300, 1e308 * 10.0, -1e308 * 10.0}) {

@@ -32,7 +32,7 @@ class HumanoidBalance : public testing::Test {
         const auto at = placed(pose);
         return find_support(soles, at).margin(masses.centre(at));
     }
-    /// Follows targets from rest: as many frames as a hand needs.
+    /// Moves the targets from rest to their goals in two thirds of `frames`.
     struct Reached {
         std::vector<rig::Transform> pose;
         BodyReport report;
@@ -70,15 +70,15 @@ class HumanoidBalance : public testing::Test {
     Body body = *Body::make(skeleton, map, default_limits(skeleton, map));
 };
 
-TEST_F(HumanoidBalance, MassesAreThoseOfThePaper) {
+TEST_F(HumanoidBalance, MassesAreThePapers) {
     double sum = 0.0;
     for (const MassPoint& each : masses.points) sum += each.share;
     EXPECT_EQ(masses.points.size(), 16u);
     EXPECT_NEAR(sum, 1.0, 1e-12);
     const glm::dvec3 centre = masses.centre(placed(rest));
     EXPECT_NEAR(centre.x, 0.0, 1e-12);
-    // An adult's centre of mass is at 0.55 to 0.58 of the height; arms raised to the sides lift it by a
-    // little.
+    // An adult's centre of mass is at 0.55 to 0.58 of the height; raising the arms to the sides lifts it
+    // slightly.
     EXPECT_GT(centre.y, 0.54 * 1.8);
     EXPECT_LT(centre.y, 0.60 * 1.8);
 }
@@ -93,11 +93,11 @@ TEST_F(HumanoidBalance, AMapWithoutANeededBoneIsRefusedReviewedOrNot) {
     }
 }
 
-TEST_F(HumanoidBalance, TwoFeetSupportTheRestPose) {
+TEST_F(HumanoidBalance, BothFeetSupportTheRestPose) {
     const Support support = find_support(soles, placed(rest));
     EXPECT_EQ(support.standing, (std::array{1.0, 1.0}));
     ASSERT_GE(support.count, 6u);
-    // From the heels, 5 cm behind the ankles, to the tips, 6 cm ahead of the balls.
+    // Support runs from the heels, 5 cm behind the ankles, to the tips, 6 cm ahead of the balls.
     EXPECT_NEAR(support.margin({0.0, 1.0, -0.05}), 0.0, 1e-9);
     EXPECT_NEAR(support.margin({0.1, 1.0, 0.15 + 0.07 * soles.leg}), 0.0, 1e-3);
     EXPECT_NEAR(support.margin({0.0, 3.0, 1.15 + 0.07 * soles.leg}), -1.0, 1e-3);
@@ -105,7 +105,7 @@ TEST_F(HumanoidBalance, TwoFeetSupportTheRestPose) {
     EXPECT_EQ(support.nearest({0.0, 1.0, 0.0}), glm::dvec3(0.0, 1.0, 0.0));
 }
 
-TEST_F(HumanoidBalance, ARotationIsBlendedInOnceHoweverLongItIsHeld) {
+TEST_F(HumanoidBalance, ARotationIsBlendedInOnceForAnyDuration) {
     const auto turned = [&](bool balance, int frames) {
         BodyTarget foot{.effector = Effector::LeftFoot,
                         .position = at(Bone::LeftFoot, rest),
@@ -121,7 +121,7 @@ TEST_F(HumanoidBalance, ARotationIsBlendedInOnceHoweverLongItIsHeld) {
     for (const int frames : {1, 10, 60}) EXPECT_NEAR(turned(true, frames), once, 0.02) << frames;
 }
 
-TEST_F(HumanoidBalance, ARotationOfNoWeightHasNoEffect) {
+TEST_F(HumanoidBalance, ARotationOfZeroWeightHasNoEffect) {
     const auto foot = [&](bool balance, double weight, bool rotated) {
         BodyTarget target{.effector = Effector::LeftFoot,
                           .position = at(Bone::LeftFoot, rest) + glm::dvec3(0.0, 0.3, 0.3),
@@ -149,7 +149,7 @@ TEST_F(HumanoidBalance, ARisingFootLeavesTheSupportWithoutAJump) {
         }
         before = now;
     }
-    EXPECT_NEAR(before, -(0.1 - 0.5 * 0.11 * soles.leg), 0.02);  // beside the right foot
+    EXPECT_NEAR(before, -(0.1 - 0.5 * 0.11 * soles.leg), 0.02);  // outside the right foot
 }
 
 double area_of(const Support& support) {
@@ -171,14 +171,14 @@ TEST_F(HumanoidBalance, APitchingFootChangesTheSupportWithoutAJump) {
                 const double pitch = 2.0 * 3.14159265358979 * i / 7200.0;
                 const glm::dquat turn = glm::angleAxis(roll, glm::dvec3(0.0, 0.0, 1.0)) *
                                         glm::angleAxis(pitch, glm::dvec3(1.0, 0.0, 0.0));
-                for (std::size_t side = 0; side < (both ? 2 : 1); ++side) {  // about the toe, or the heel
+                for (std::size_t side = 0; side < (both ? 2 : 1); ++side) {  // pivots on the toe or heel
                     glm::dvec3& far = pitch < 3.14159265358979 ? at[side].heel : at[side].toe;
                     const glm::dvec3 near = pitch < 3.14159265358979 ? at[side].toe : at[side].heel;
                     far = near + turn * (far - near);
                 }
                 const Support now = find_support(soles, at);
                 ASSERT_GT(now.count, 0u);
-                if (i > 0 && i != 3600) {  // there the other end takes over
+                if (i > 0 && i != 3600) {  // at 3600 the other end of the foot takes over
                     EXPECT_NEAR(area_of(now), area_of(before), 1e-3) << i << ' ' << roll;
                     EXPECT_LT(glm::distance(now.middle, before.middle), 2e-3) << i << ' ' << roll;
                 }
@@ -188,7 +188,7 @@ TEST_F(HumanoidBalance, APitchingFootChangesTheSupportWithoutAJump) {
     }
 }
 
-TEST_F(HumanoidBalance, MassesAreFiniteHoweverTheNodesAreScaled) {
+TEST_F(HumanoidBalance, MassesAreFiniteForAnyNodeScale) {
     for (int exponent = -300; exponent <= 300; exponent += 10) {
         const double scale = std::pow(10.0, exponent);
         for (std::size_t i = 0; i < skeleton.size(); ++i) {
@@ -212,17 +212,17 @@ TEST_F(HumanoidBalance, MassesAreFiniteHoweverTheNodesAreScaled) {
     }
 }
 
-TEST_F(HumanoidBalance, NothingStandsInTheAir) {
+TEST_F(HumanoidBalance, NothingIsSupportedInTheAir) {
     const Ground ground = *Ground::flat(-1.0);
     const Support support = find_support(soles, placed(rest), &ground);
     EXPECT_EQ(support.count, 0u);
     EXPECT_LT(support.margin({0.0, 0.0, 0.0}), -1e8);
 }
 
-TEST_F(HumanoidBalance, HipsGoBackWhenAHandReachesAhead) {
+TEST_F(HumanoidBalance, HipsMoveBackWhenAHandReachesAhead) {
     const std::vector<BodyTarget> targets{{Effector::RightHand, {-0.2, 1.1, 0.95}}};
     const Reached off = reach(targets, false), on = reach(targets, true);
-    EXPECT_LT(margin(off.pose), -0.04);  // leans like a plank
+    EXPECT_LT(margin(off.pose), -0.04);  // leans without moving the hips
     EXPECT_GT(margin(on.pose), 0.02);
     EXPECT_LT(on.report.residual, 1e-3);
     EXPECT_LT(at(Bone::Hips, on.pose).z, at(Bone::Hips, off.pose).z - 0.08);
@@ -234,7 +234,7 @@ TEST_F(HumanoidBalance, BodySquatsOnTheBallsOfTheFeetToReachTheFloor) {
     EXPECT_GT(margin(on.pose), 0.005);
     EXPECT_LT(on.report.residual, 2e-3);
     EXPECT_LT(at(Bone::Hips, on.pose).y, 0.7);
-    // Where the ankles turn no further, the heels rise; the balls neither sink nor slide.
+    // At the limits of the ankles the heels rise; the balls neither sink nor slide.
     for (const SolePoints& sole : sole_points(soles, placed(on.pose))) {
         EXPECT_GT(sole.heel.y, -0.005);
         EXPECT_NEAR(sole.toe.y, 0.0, 0.005);
@@ -242,17 +242,17 @@ TEST_F(HumanoidBalance, BodySquatsOnTheBallsOfTheFeetToReachTheFloor) {
     }
 }
 
-TEST_F(HumanoidBalance, HandStopsShortWhereTheBodyWouldFall) {
+TEST_F(HumanoidBalance, HandStopsShortBeforeTheBodyFalls) {
     const std::vector<BodyTarget> targets{{Effector::RightHand, {-0.2, 1.0, 1.6}}};
     const Reached off = reach(targets, false), on = reach(targets, true);
     EXPECT_LT(margin(off.pose), -0.4);
     EXPECT_GT(margin(on.pose), 0.0);
     EXPECT_GT(on.report.residual, 0.3);
-    EXPECT_GT(on.report.outside, 0.0);  // the hand pulls it out of the safe part, by a little
+    EXPECT_GT(on.report.outside, 0.0);  // the hand pulls the centre of mass slightly out of the safe area
     EXPECT_LT(on.report.outside, 0.02);
 }
 
-TEST_F(HumanoidBalance, AFootSupportsWhereItIsNotWhereItIsAskedToBe) {
+TEST_F(HumanoidBalance, AFootSupportsWhereItIsNotAtItsTarget) {
     const glm::dvec3 foot = at(Bone::LeftFoot, rest), hand = at(Bone::RightHand, rest);
     for (const double far : {0.3, 0.6, 1.0, 2.0, 3.0}) {
         BodyState state;
@@ -276,11 +276,11 @@ TEST_F(HumanoidBalance, AFootSupportsWhereItIsNotWhereItIsAskedToBe) {
         }
         EXPECT_GT(margin(pose), -0.01) << far;
         EXPECT_LT(last.outside, 0.04) << far;
-        EXPECT_LT(moved, 1e-4) << far;  // it rests
+        EXPECT_LT(moved, 1e-4) << far;  // the pose is at rest
     }
 }
 
-TEST_F(HumanoidBalance, StandsWhereverAFootAndAHandAreAskedToGo) {
+TEST_F(HumanoidBalance, RarelyLosesBalanceForAnyFootAndHandTargets) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     int falls = 0;
@@ -296,7 +296,7 @@ TEST_F(HumanoidBalance, StandsWhereverAFootAndAHandAreAskedToGo) {
     EXPECT_LE(falls, 3);
 }
 
-TEST_F(HumanoidBalance, AClipThatIsOutOfBalanceMayStaySo) {
+TEST_F(HumanoidBalance, AnUnbalancedClipMayStaySo) {
     std::vector<rig::Transform> pose = rest;
     const auto hips = static_cast<std::size_t>(map[Bone::Hips].node);
     pose[hips].rotation = glm::angleAxis(0.3, glm::dvec3(1.0, 0.0, 0.0));  // leans, feet off the floor behind
@@ -331,16 +331,16 @@ TEST_F(HumanoidBalance, SmallMovesOfTheTargetGiveSmallMovesOfThePose) {
             before = now;
         }
     }
-    EXPECT_LT(worst, 13.0 * 0.005);  // as fast as without balance: body.hpp
+    EXPECT_LT(worst, 13.0 * 0.005);  // as fast as without balance (body.hpp)
 }
 
-/// Sizes from a doll to a giant.
+/// Body sizes from a doll to a giant.
 class HumanoidBalanceSizes : public HumanoidBalance, public testing::WithParamInterface<double> {
   protected:
     HumanoidBalanceSizes() : HumanoidBalance(GetParam()) {}
 };
 
-TEST_P(HumanoidBalanceSizes, NeverStandsWorseAndReachesAsNearlyAsTheFeetAllow) {
+TEST_P(HumanoidBalanceSizes, BalanceNeverGetsWorseAndReachIsNearlyKept) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     int rescued = 0;
@@ -352,10 +352,10 @@ TEST_P(HumanoidBalanceSizes, NeverStandsWorseAndReachesAsNearlyAsTheFeetAllow) {
         const Reached off = reach(targets, false, 120), on = reach(targets, true, 120);
         const double before = margin(off.pose) / scale_, after = margin(on.pose) / scale_;
         EXPECT_GT(after, std::min(before, 0.0) - 0.002) << i;
-        // Crouching to reach behind itself lifts the heels, which takes support away from where it leans.
+        // Crouching to reach behind lifts the heels, which shrinks the support on the side it leans to.
         EXPECT_GT(after, scale_ > 10.0 ? -0.035 : -0.015) << i << ": " << x << ' ' << y << ' ' << z;
         if (before < 0.0 && after > 0.0) ++rescued;
-        // The hand gives up about what the centre of mass would have been out of balance by.
+        // The hand gives up about as much as the centre of mass would have been out of balance.
         EXPECT_LT(on.report.residual / scale_,
                   off.report.residual / scale_ + (z > 0.0 ? 1.5 : 2.5) * std::max(0.06 - before, 0.0) + 0.05)
             << i << ": " << x << ' ' << y << ' ' << z;

@@ -29,7 +29,7 @@ constexpr std::size_t tail_bones = 8;
 Skeleton with_tail() {
     std::vector<Node> nodes = make_figure({}).nodes();
     std::int32_t parent = 0;
-    glm::dquat turned(1.0, 0.0, 0.0, 0.0);  // of the parent
+    glm::dquat turned(1.0, 0.0, 0.0, 0.0);  // the parent's rotation
     for (std::size_t i = 0; i <= tail_bones; ++i) {
         const glm::dquat turn =
             glm::angleAxis(0.7 * static_cast<double>(i), glm::normalize(glm::dvec3(1, 2, 3)));
@@ -53,7 +53,7 @@ struct Tail {
         place(skeleton, pose, at);
         return at;
     }
-    /// Turned, bent and moved at random, its lengths as at rest.
+    /// The rest pose, randomly rotated, bent and moved; bone lengths as at rest.
     template <class Random>
     Pose random_pose(Random& random) const {
         Pose pose = rest;
@@ -92,7 +92,7 @@ bool is_finite(const Pose& pose) {
     return true;
 }
 
-/// The joints lie where ik::place_along() has them, wherever the hips are and whatever the pose was.
+/// Joints lie where ik::place_along() puts them, wherever the hips are and whatever the pose was.
 TEST(BentChain, LiesAlongItsCurve) {
     Tail tail;
     std::mt19937 random(1);
@@ -128,7 +128,7 @@ TEST(BentChain, LiesAlongItsCurve) {
     }
 }
 
-TEST(BentChain, KeepsAPoseThatItsCurveGoesThrough) {
+TEST(BentChain, KeepsAPoseThatLiesOnItsCurve) {
     Tail tail;
     Pose pose = tail.rest;
     const Points straight = tail.chain.points_through(pose, 4);
@@ -137,7 +137,7 @@ TEST(BentChain, KeepsAPoseThatItsCurveGoesThrough) {
     EXPECT_EQ(tail.chain.bend(pose, straight).status, ik::Status::Converged);
     for (std::size_t i = 0; i < pose.size(); ++i)
         EXPECT_LT(angle_between(pose[i].rotation, tail.rest[i].rotation), 1e-5) << i;
-    // A spine that is bowed at rest has the same rotations on a curve through its joints.
+    // A spine that is bowed at rest keeps its rotations on a curve through its joints.
     std::vector<Node> nodes = tail.skeleton.nodes();
     for (Node& each : nodes)
         if (each.name.starts_with("tail"))
@@ -152,7 +152,7 @@ TEST(BentChain, KeepsAPoseThatItsCurveGoesThrough) {
         EXPECT_LT(angle_between(pose[i].rotation, rest[i].rotation), 5e-3) << i;
 }
 
-TEST(BentChain, KeepsThePosesBitsWithoutWeight) {
+TEST(BentChain, AtWeightZeroKeepsThePosesBits) {
     Tail tail;
     std::mt19937 random(2);
     for (int i = 0; i < 50; ++i) {
@@ -162,7 +162,7 @@ TEST(BentChain, KeepsThePosesBitsWithoutWeight) {
         EXPECT_NE(tail.chain.bend(pose, points, {.fit = true, .weight = 0.0f}).status,
                   ik::Status::InvalidInput);
         EXPECT_TRUE(same_bits(pose, given));
-        // The first half of the bones follows the pose, and all else but the tail.
+        // The first half of the bones follows the pose, as does everything but the tail.
         std::array<float, tail_bones> weights{};
         for (std::size_t k = 4; k < tail_bones; ++k) weights[k] = 1.0f;
         EXPECT_NE(tail.chain.bend(pose, points, {.weights = weights}).status, ik::Status::InvalidInput);
@@ -171,7 +171,7 @@ TEST(BentChain, KeepsThePosesBitsWithoutWeight) {
             pose[tail.chain.nodes()[k]] = given[tail.chain.nodes()[k]];
         EXPECT_TRUE(same_bits(pose, given));
     }
-    // Half way, a bone is half way.
+    // At weight one half, a bone is half way.
     Pose half = tail.rest, full = tail.rest;
     const Points aside{{0.3f, 0.05f, -0.4f}, {0.8f, 0.05f, -0.4f}};
     EXPECT_EQ(tail.chain.bend(half, aside, {.weight = 0.5f}).status, ik::Status::Converged);
@@ -183,8 +183,8 @@ TEST(BentChain, KeepsThePosesBitsWithoutWeight) {
     }
 }
 
-/// What hangs on a spine follows it; nothing else turns.
-TEST(BentChain, CarriesWhatHangsOnIt) {
+/// Everything attached to a spine follows it; nothing else turns.
+TEST(BentChain, CarriesItsChildren) {
     const Skeleton skeleton = make_figure({});
     BentChain spine = *BentChain::make(skeleton, *skeleton.find("Spine"), *skeleton.find("Neck"));
     ASSERT_EQ(spine.bones(), 3u);
@@ -208,8 +208,8 @@ TEST(BentChain, CarriesWhatHangsOnIt) {
     EXPECT_EQ(is[*skeleton.find("LeftFoot")], was[*skeleton.find("LeftFoot")]);
 }
 
-/// The points are in the parent's space: however the hips move, the bones turn alike.
-TEST(BentChain, GoesWithItsParent) {
+/// The points are in the parent's space: bone rotations are the same wherever the hips move.
+TEST(BentChain, FollowsItsParent) {
     Tail tail;
     std::mt19937 random(3);
     const Points points = random_points(random, 4, 0.3f);
@@ -258,8 +258,8 @@ TEST(BentChain, RollsFromItsStartToItsEnd) {
     }
 }
 
-/// Onto a straight curve every bone turns by the same shortest arc, wherever that leads.
-TEST(BentChain, TurnsNoFartherThanItMust) {
+/// On a straight curve every bone turns by the same shortest arc, in any direction.
+TEST(BentChain, TurnsByTheShortestArc) {
     Tail tail;
     std::mt19937 random(7);
     std::normal_distribution<double> normal;
@@ -277,8 +277,8 @@ TEST(BentChain, TurnsNoFartherThanItMust) {
     }
 }
 
-/// A clip may move a node within its parent: its bone is then as long as the clip has it, and on the curve.
-TEST(BentChain, FollowsTheCurveWithTheBonesOfThePose) {
+/// A clip may translate a node within its parent: its bone then has the clip's length, and lies on the curve.
+TEST(BentChain, FollowsTheCurveWithThePosesLengths) {
     Tail tail;
     std::mt19937 random(8);
     std::normal_distribution<double> normal;
@@ -301,15 +301,14 @@ TEST(BentChain, FollowsTheCurveWithTheBonesOfThePose) {
     }
 }
 
-/// A curve that swings, rises and closes to a loop: from frame to frame no bone turns much more than the
-/// curve does.
-TEST(BentChain, DoesNotJumpInRollWhileItsCurveLoops) {
+/// On a curve that swings, rises and closes to a loop, no bone turns much more per frame than the curve does.
+TEST(BentChain, RollDoesNotJumpOnALoopingCurve) {
     Tail tail;
     Pose before;
     for (int frame = 0; frame <= 720; ++frame) {
         const float angle = glm::radians(0.5f * static_cast<float>(frame));
         Points points;
-        for (int i = 1; i <= 12; ++i) {  // a helix about the tail's way, whose circles grow and shrink again
+        for (int i = 1; i <= 12; ++i) {  // a helix about the tail whose radius grows and shrinks again
             const float along = static_cast<float>(i) / 12.0f, radius = 0.2f * std::sin(0.5f * angle);
             const float turn = 6.3f * along + angle;
             points.push_back({radius * (std::cos(turn) - std::cos(angle)),
@@ -327,7 +326,7 @@ TEST(BentChain, DoesNotJumpInRollWhileItsCurveLoops) {
     }
 }
 
-/// A mirrored or scaled parent changes nothing about where the joints lie.
+/// A mirrored or scaled parent does not change the joints' positions.
 TEST(BentChain, LiesAlongItsCurveUnderAScale) {
     std::mt19937 random(4);
     for (const glm::dvec3 scale : {glm::dvec3(2.0), glm::dvec3(0.01), glm::dvec3(-1.0, 1.0, 1.0)}) {
@@ -361,7 +360,7 @@ TEST(BentChain, LiesAlongItsCurveUnderAScale) {
     }
 }
 
-TEST(BentChain, SurvivesAnyInput) {
+TEST(BentChain, AnyInputGivesFinitePoses) {
     Tail tail;
     std::mt19937 random(5);
     const glm::vec3 root(0.0f, 0.05f, -0.1f);
@@ -381,7 +380,7 @@ TEST(BentChain, SurvivesAnyInput) {
             EXPECT_NE(report.status, ik::Status::InvalidInput);
             EXPECT_TRUE(is_finite(pose));
         }
-    // Refused as a whole.
+    // These are refused and change nothing.
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const Points good{{0.1f, 0.0f, -0.5f}};
     const std::array<float, 3> three{1.0f, 1.0f, 1.0f};
@@ -407,7 +406,7 @@ TEST(BentChain, SurvivesAnyInput) {
     EXPECT_TRUE(tail.chain.points_through(bad, 3).empty());
 }
 
-TEST(BentChain, SaysWhatItCannotBend) {
+TEST(BentChain, RefusesBadChainsByName) {
     const Skeleton skeleton = with_tail();
     const std::size_t first = *skeleton.find("tail 0"), last = *skeleton.find("tail 8");
     const auto refusal = [&](std::size_t from, std::size_t to) {

@@ -27,7 +27,7 @@ class HumanoidBodySwitch : public testing::Test {
         if (made) report = *made;
         return positions_of(skeleton, pose);
     }
-    /// Solves until nothing moves any more.
+    /// Solves until the pose is at rest.
     std::vector<glm::dvec3> settled(const std::vector<BodyTarget>& targets) {
         std::vector<glm::dvec3> at;
         for (int i = 0; i < 40; ++i) at = solve(targets);
@@ -51,7 +51,7 @@ class HumanoidBodySwitch : public testing::Test {
     std::mt19937 engine{5};
 };
 
-TEST_F(HumanoidBodySwitch, a_hand_that_is_let_go_moves_nothing_but_its_arm) {
+TEST_F(HumanoidBodySwitch, ReleasingAHandMovesOnlyItsArm) {
     int reached = 0;
     for (int i = 0; i < 100; ++i) {
         state = {};
@@ -66,7 +66,7 @@ TEST_F(HumanoidBodySwitch, a_hand_that_is_let_go_moves_nothing_but_its_arm) {
     EXPECT_GT(reached, 30);
 }
 
-TEST_F(HumanoidBodySwitch, the_trunk_stays_where_only_a_foot_is_held_and_settles_then) {
+TEST_F(HumanoidBodySwitch, TheTrunkSettlesGraduallyWhenOnlyAFootIsHeld) {
     const BodyTarget foot{Effector::LeftFoot, {0.15, 0.3, 0.2}}, hand{Effector::RightHand, {-0.2, 0.8, 0.9}};
     const auto before = settled({foot, hand});
     auto now = solve({foot});
@@ -80,7 +80,7 @@ TEST_F(HumanoidBodySwitch, the_trunk_stays_where_only_a_foot_is_held_and_settles
     EXPECT_LT(farthest(now, settled({foot}), Bone::RightUpperArm), 0.05);
 }
 
-TEST_F(HumanoidBodySwitch, what_the_other_target_kept_away_is_reached_once_that_is_let_go) {
+TEST_F(HumanoidBodySwitch, ReleasingATargetLetsTheOtherOneBeReached) {
     const std::vector<BodyTarget> both{{Effector::LeftHand, {0.9, 1.3, 0.2}},
                                        {Effector::RightHand, {-1.2, 1.3, 0.2}}};
     settled(both);
@@ -89,7 +89,7 @@ TEST_F(HumanoidBodySwitch, what_the_other_target_kept_away_is_reached_once_that_
     EXPECT_LT(residual(Effector::LeftHand), 1e-3);
 }
 
-TEST_F(HumanoidBodySwitch, weights_that_change_slowly_change_the_pose_slowly_and_count_in_the_end) {
+TEST_F(HumanoidBodySwitch, WeightsBlendSlowlyAndScaleTheResiduals) {
     for (int i = 0; i < 8; ++i) {
         state = {};
         std::vector<BodyTarget> targets{{Effector::LeftHand, near({1.4, 1.3, 0.2}, 0.3)},
@@ -112,7 +112,7 @@ TEST_F(HumanoidBodySwitch, weights_that_change_slowly_change_the_pose_slowly_and
     }
 }
 
-TEST_F(HumanoidBodySwitch, settling_brings_the_rest_of_the_body_back_and_keeps_the_hand) {
+TEST_F(HumanoidBodySwitch, SettlingReturnsTheBodyAndKeepsTheHand) {
     const std::vector<BodyTarget> both{{Effector::LeftHand, {0.3, 1.2, 0.4}},
                                        {Effector::RightHand, {-0.2, 0.8, 0.9}}};
     const glm::dvec3 alone = settled({both[0]})[node(Bone::Head)];

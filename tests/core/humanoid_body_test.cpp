@@ -40,7 +40,7 @@ class HumanoidBody : public testing::TestWithParam<bool> {
   protected:
     HumanoidBody() { place(skeleton, rest, placements); }
     std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
-    /// Within the default limits; limbs turn by about `amount` radians.
+    /// A pose within the default limits; limbs turn by about `amount` radians.
     std::vector<rig::Transform> random_pose(RandomPoses& random, double amount) {
         std::vector<rig::Transform> pose;
         do {
@@ -106,7 +106,7 @@ LABEL(slow, "Limits/HumanoidBody.targets_where_the_clip_has_the_effectors_change
 LABEL(slow, "Limits/HumanoidBody.follows_targets_in_and_out_of_reach_without_a_leap/*");
 LABEL(slow, "Limits/HumanoidBody.a_slow_target_gives_a_slow_pose_and_a_still_one_a_still_pose/*");
 
-TEST_P(HumanoidBody, reaches_five_targets_within_a_millimetre) {
+TEST_P(HumanoidBody, ReachesFiveTargetsWithinAMillimetre) {
     RandomPoses random(1);
     for (int i = 0; i < 400; ++i) {
         const auto targets = targets_of(random_pose(random, 0.5));
@@ -122,7 +122,7 @@ TEST_P(HumanoidBody, reaches_five_targets_within_a_millimetre) {
     }
 }
 
-TEST_P(HumanoidBody, a_stiff_joint_turns_less_and_the_hand_arrives) {
+TEST_P(HumanoidBody, AStiffJointTurnsLessAndTheHandArrives) {
     RandomPoses random(7);
     double turned[2]{};
     for (int i = 0; i < 100; ++i) {
@@ -146,7 +146,7 @@ TEST_P(HumanoidBody, a_stiff_joint_turns_less_and_the_hand_arrives) {
     EXPECT_LT(turned[1], 0.5 * turned[0]);
 }
 
-TEST_P(HumanoidBody, is_finite_keeps_lengths_and_limits_for_any_targets) {
+TEST_P(HumanoidBody, KeepsLengthsAndLimitsForAnyTargets) {
     RandomPoses random(2);
     const double sizes[]{0.3, 1.0, 5.0, 1e3, 1e9};
     for (int i = 0; i < 10000; ++i) {
@@ -239,7 +239,7 @@ TEST_P(HumanoidBody, follows_targets_in_and_out_of_reach_without_a_leap) {
     }
 }
 
-TEST_P(HumanoidBody, conflicting_targets_are_shared_by_weight_and_still) {
+TEST_P(HumanoidBody, ConflictingTargetsAreSharedByWeight) {
     const std::vector<BodyTarget> targets{{Effector::LeftHand, {3.0, 1.3, 0.0}, {}, 1.0},
                                           {Effector::RightHand, {-3.0, 1.3, 0.0}, {}, 3.0},
                                           {Effector::LeftFoot, {0.1, 0.09, 0.0}, {}, 1e-3},
@@ -275,7 +275,7 @@ TEST_P(HumanoidBody, targets_where_the_clip_has_the_effectors_change_nothing) {
     }
 }
 
-TEST_P(HumanoidBody, without_a_target_the_pose_stays_to_the_bit) {
+TEST_P(HumanoidBody, WithoutTargetsThePoseStaysBitForBit) {
     RandomPoses random(6);
     const auto clip = random_pose(random, 1.0);
     auto pose = clip;
@@ -290,7 +290,7 @@ TEST_P(HumanoidBody, without_a_target_the_pose_stays_to_the_bit) {
     EXPECT_EQ(state, BodyState{});
 }
 
-TEST_P(HumanoidBody, one_hand_reaches_by_its_arm_and_the_feet_stay) {
+TEST_P(HumanoidBody, OneHandReachesByItsArmAndTheFeetStay) {
     auto pose = rest;
     BodyState state;
     const auto report =
@@ -306,7 +306,7 @@ TEST_P(HumanoidBody, one_hand_reaches_by_its_arm_and_the_feet_stay) {
     EXPECT_GT(moved(Bone::LeftLowerArm), 0.1);
 }
 
-TEST_P(HumanoidBody, hips_that_sink_bend_the_knees_forward) {
+TEST_P(HumanoidBody, SinkingHipsBendTheKneesForward) {
     auto pose = rest;
     BodyState state;
     const auto report = body.solve(pose, std::vector<BodyTarget>{{Effector::Hips, {0.0, 0.75, 0.0}}}, state);
@@ -316,7 +316,7 @@ TEST_P(HumanoidBody, hips_that_sink_bend_the_knees_forward) {
     for (const Bone knee : {Bone::LeftLowerLeg, Bone::RightLowerLeg}) EXPECT_GT(now[node(knee)].z, 0.2);
 }
 
-TEST_P(HumanoidBody, a_hand_takes_its_targets_rotation_and_shares_the_twist) {
+TEST_P(HumanoidBody, AHandTakesItsTargetsRotationAndSharesTheTwist) {
     const glm::dquat half = glm::angleAxis(1.2, glm::dvec3(1, 0, 0));  // about the forearm's rest direction
     auto pose = rest;
     BodyState state;
@@ -335,9 +335,8 @@ TEST_P(HumanoidBody, a_hand_takes_its_targets_rotation_and_shares_the_twist) {
     }
 }
 
-TEST_P(HumanoidBody, nodes_between_bones_and_above_them_turn_along) {
-    // The same figure below a root that is rotated, moved and twice as large, with a node in the middle of a
-    // forearm.
+TEST_P(HumanoidBody, NodesBetweenBonesAndAboveThemTurnAlong) {
+    // The same figure below a rotated, moved and doubled root, with a node in the middle of a forearm.
     std::vector<Node> nodes{
         {"root", -1, {{1.0, 0.5, -2.0}, glm::angleAxis(0.7, glm::dvec3(0, 1, 0)), {2.0, 2.0, 2.0}}}};
     for (const Node& each : skeleton.nodes()) {
@@ -364,7 +363,7 @@ TEST_P(HumanoidBody, nodes_between_bones_and_above_them_turn_along) {
     EXPECT_LT(report->residual, 2e-3);
 }
 
-TEST_P(HumanoidBody, what_it_cannot_use_is_refused_and_nothing_moves) {
+TEST_P(HumanoidBody, BadInputIsRefusedAndNothingMoves) {
     auto pose = rest;
     BodyState state;
     const auto refused = [&](const std::vector<BodyTarget>& targets, const BodyOptions& options = {}) {
@@ -398,7 +397,7 @@ TEST_P(HumanoidBody, what_it_cannot_use_is_refused_and_nothing_moves) {
 INSTANTIATE_TEST_SUITE_P(Limits, HumanoidBody, testing::Bool(),
                          [](const auto& each) { return each.param ? "default" : "none"; });
 
-TEST(HumanoidBodyMap, SaysWhichNodeIsNotBelowTheHips) {
+TEST(HumanoidBodyMap, NamesTheBoneThatIsNotBelowTheHips) {
     std::vector<Node> nodes;
     const Skeleton figure = make_figure({});
     for (std::size_t i = 0; i < figure.size(); ++i) nodes.push_back(figure[i]);

@@ -11,11 +11,11 @@ namespace {
 
 using Naming = std::map<std::string, std::string>;
 
-/// How a maker names the bones: the words for the sides, and the names in the order of `keys`, with $ for the
-/// side. An empty name leaves the bone out.
+/// A naming convention: the words for the sides, and the names in the order of `keys`, with $ for the side.
+/// An empty name leaves the bone out.
 struct Habit {
     const char *maker, *left, *right, *pattern;
-    double confidence = 0.9;  ///< at least, of every bone; 0.6 is the shape's alone
+    double confidence = 0.9;  ///< minimum for every bone; shape alone gives 0.6
 
     Naming names() const {
         constexpr const char* keys[]{
@@ -169,7 +169,7 @@ void expect_all_right(const Skeleton& skeleton, const BoneMap& map, const Naming
     EXPECT_TRUE(map.is_usable());
 }
 
-TEST(BoneMap, FindsTheBonesByEveryHabitOfNaming) {
+TEST(BoneMap, RecognisesEveryNamingConvention) {
     for (const Habit& habit : habits) {
         SCOPED_TRACE(habit.maker);
         const Skeleton skeleton = make_figure(habit.names());
@@ -179,7 +179,7 @@ TEST(BoneMap, FindsTheBonesByEveryHabitOfNaming) {
     }
 }
 
-TEST(BoneMap, ALimbInPiecesBeginsWithTheFirst) {
+TEST(BoneMap, ASplitLimbBeginsAtItsFirstPiece) {
     const Habit& maker = *std::find_if(std::begin(habits), std::end(habits), [](const Habit& each) {
         return each.maker == std::string("MakeHuman");
     });
@@ -201,8 +201,8 @@ TEST(BoneMap, ALimbInPiecesBeginsWithTheFirst) {
     expect_all_right(split, match_bones(split), names, maker.confidence);
 }
 
-/// With names that say nothing, or another bone's, on one side only.
-TEST(BoneMap, AFigureLikeItsMirrorImageHasAMapLikeItsMirrorImage) {
+/// Some bones of one side have names that say nothing, or another bone's name.
+TEST(BoneMap, AMirroredFigureHasAMirroredMap) {
     std::mt19937 random(9);
     int count = 0;
     for (int round = 0; round < 2000; ++round) {
@@ -241,7 +241,7 @@ Naming nameless() {
     return names;
 }
 
-TEST(BoneMap, WithoutNamesFindsThemByShapeWhereverTheFigureFaces) {
+TEST(BoneMap, WithoutNamesFindsThemByShapeInAnyDirection) {
     for (const double turn : {0.0, 0.7, 1.6, 3.1, -2.2}) {
         SCOPED_TRACE(turn);
         const Skeleton skeleton = make_figure(nameless(), turn);
@@ -252,7 +252,7 @@ TEST(BoneMap, WithoutNamesFindsThemByShapeWhereverTheFigureFaces) {
     }
 }
 
-TEST(BoneMap, LessBonesOfTheSpineAreTheFirstOnes) {
+TEST(BoneMap, AShortSpineFillsItsFirstBones) {
     const Skeleton two = make_figure({{"UpperChest", ""}, {"Chest", "Spine1"}});
     EXPECT_EQ(match_bones(two)[Bone::UpperChest].node, -1);
     EXPECT_EQ(two[static_cast<std::size_t>(match_bones(two)[Bone::Chest].node)].name, "Spine1");
@@ -261,7 +261,7 @@ TEST(BoneMap, LessBonesOfTheSpineAreTheFirstOnes) {
     EXPECT_TRUE(match_bones(one).is_usable()) << "fifteen are enough";
 }
 
-TEST(BoneMap, SaysWhatIsMissing) {
+TEST(BoneMap, ListsTheMissingBones) {
     Naming names;
     for (const char* key : {"LeftHand", "LeftHand end", "LeftLowerArm"}) names[key] = "";
     const BoneMap map = match_bones(make_figure(names));
@@ -269,8 +269,8 @@ TEST(BoneMap, SaysWhatIsMissing) {
     EXPECT_FALSE(map.is_usable());
 }
 
-/// As in RobotExpressive: Body has a child named Hips, which the spine follows, and the legs beside it.
-TEST(BoneMap, HipsBesideTheLegsAreNotTheBodys) {
+/// As in RobotExpressive: Body has a child named Hips that carries the spine; the legs are its siblings.
+TEST(BoneMap, TheCommonParentOfSpineAndLegsIsTheHips) {
     const Skeleton figure = make_figure({});
     const BoneMap before = match_bones(figure);
     ASSERT_TRUE(before.is_usable());
@@ -288,7 +288,7 @@ TEST(BoneMap, HipsBesideTheLegsAreNotTheBodys) {
         EXPECT_EQ(map[bone].node, before[bone].node) << name(bone);
 }
 
-TEST(BoneMap, AHandAloneIsNoBody) {
+TEST(BoneMap, AHandAloneIsNotABody) {
     std::vector<Node> nodes{{"hand_l", -1, {}}};
     for (int finger = 0; finger < 5; ++finger) {
         for (int bone = 0; bone < 3; ++bone) {
@@ -304,8 +304,8 @@ TEST(BoneMap, AHandAloneIsNoBody) {
     EXPECT_GE(map.missing.size(), 14u);
 }
 
-/// A figure on all fours with a level spine, although every bone has a human name.
-TEST(BoneMap, WhatGoesOnAllFoursIsNotSolvedAsABody) {
+/// A figure on all fours with a level spine, all its bones under human names.
+TEST(BoneMap, AFigureOnAllFoursIsNotABody) {
     Skeleton figure = make_figure({});
     std::vector<Node> nodes = figure.nodes();
     for (Node& node : nodes) {
@@ -320,7 +320,7 @@ TEST(BoneMap, WhatGoesOnAllFoursIsNotSolvedAsABody) {
     EXPECT_FALSE(map.is_usable());
 }
 
-TEST(BoneMap, TellsHowTheArmsAreHeld) {
+TEST(BoneMap, ReportsTheRestPoseOfTheArms) {
     for (const auto& [down, rest] :
          {std::pair(0.0, RestPose::T), std::pair(45.0, RestPose::A), std::pair(85.0, RestPose::Other)}) {
         std::vector<Node> nodes = make_figure({}).nodes();
@@ -335,7 +335,7 @@ TEST(BoneMap, TellsHowTheArmsAreHeld) {
     }
 }
 
-TEST(BoneMap, OfAnythingComesOutWhole) {
+TEST(BoneMap, AnySkeletonGivesAValidMap) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> place(-1.0, 1.0);
     for (int round = 0; round < 300; ++round) {
@@ -364,8 +364,8 @@ TEST(BoneMap, OfAnythingComesOutWhole) {
     }
 }
 
-// Seen in a robot whose forearm has a bone for each finger's part of the palm: any of them could be the hand.
-TEST(BoneMap, TheHandIsTheBoneOfThePalmWithTheMiddleFinger) {
+// From a robot whose forearm has a palm bone for each finger: any of them could be the hand.
+TEST(BoneMap, TheHandIsTheMiddleFingersPalmBone) {
     const Skeleton plain = make_figure({{"LeftHand", "Palm3.L"}, {"LeftHand end", "Ring1.L"}});
     std::vector<Node> nodes;
     for (std::size_t i = 0; i < plain.size(); ++i) nodes.push_back(plain[i]);

@@ -16,7 +16,7 @@ namespace {
 class HumanoidContact : public testing::TestWithParam<bool> {
   protected:
     std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
-    /// The penetration of hands and lower arms into trunk, head and legs, recomputed from the pose, metres.
+    /// Penetration of hands and lower arms into trunk, head and legs, recomputed from the pose, metres.
     double penetration(const std::vector<rig::Transform>& pose) {
         place(skeleton, pose, placements);
         double deepest = 0.0;
@@ -49,16 +49,16 @@ class HumanoidContact : public testing::TestWithParam<bool> {
     std::vector<Placement> placements = std::vector<Placement>(skeleton.size());
 };
 
-/// A target's rotation is applied after the solve, so it may press the hand into the body: the report says
-/// so.
-TEST_P(HumanoidContact, a_hand_that_is_turned_into_the_body_is_reported) {
+/// A target's rotation is applied after the solve, so it may press the hand into the body; the report then
+/// says so.
+TEST_P(HumanoidContact, AHandRotatedIntoTheBodyIsReported) {
     BodyState state;
     double deepest = 0.0;
     for (int degrees = -180; degrees < 180; degrees += 20) {
         const double half = 0.5 * glm::radians(static_cast<double>(degrees));
         std::vector<BodyTarget> targets{{Effector::LeftHand, {0.2, 1.15, 0.05}}};
         targets[0].rotation = glm::dquat(std::cos(half), 0.0, std::sin(half), 0.0);
-        if (degrees > 0) {  // a head that is turned to a hand in front of it
+        if (degrees > 0) {  // the head turned into a hand in front of it
             targets[0] = {Effector::LeftHand, {0.05, 1.7, 0.12}};
             targets.push_back({Effector::Head, {0.0, 1.55, 0.0}});
             targets[1].rotation = glm::dquat(std::cos(0.3 * half), std::sin(0.3 * half), 0.0, 0.0);
@@ -75,7 +75,7 @@ TEST_P(HumanoidContact, a_hand_that_is_turned_into_the_body_is_reported) {
     EXPECT_GE(deepest, GetParam() ? 0.0 : 0.005);  // limits keep the hand out
 }
 
-TEST_P(HumanoidContact, a_hand_dragged_through_the_body_slides_around_it) {
+TEST_P(HumanoidContact, AHandDraggedThroughTheBodySlidesAroundIt) {
     const std::pair<glm::dvec3, glm::dvec3> ways[]{
         {{0.1, 1.15, 0.5}, {0.1, 1.15, -0.4}},    // the waist, from the front
         {{0.45, 1.15, 0.1}, {-0.45, 1.15, 0.1}},  // from the side
@@ -109,12 +109,12 @@ TEST_P(HumanoidContact, a_hand_dragged_through_the_body_slides_around_it) {
     }
 }
 
-TEST_P(HumanoidContact, an_animation_that_passes_its_fist_through_the_waist_does_not) {
+TEST_P(HumanoidContact, AClipWithAFistThroughTheWaistIsCorrected) {
     BodyState state;
     double deepest = 0.0, clip_deepest = 0.0;
     std::vector<glm::dvec3> before, clip_before;
     for (int frame = 0; frame <= 120; ++frame) {
-        // The right arm swings down and across, bent at the elbow: the hand passes through the belly.
+        // The right arm swings down and across with a bent elbow: the hand passes through the belly.
         const double part = 0.5 - 0.5 * std::cos(2.0 * 3.14159265358979 * frame / 120.0);
         auto pose = rest;
         pose[node(Bone::RightUpperArm)].rotation = glm::angleAxis(part * 1.2, glm::dvec3(0, 0, 1));
@@ -131,11 +131,11 @@ TEST_P(HumanoidContact, an_animation_that_passes_its_fist_through_the_waist_does
         }
         before = now, clip_before = clip;
     }
-    EXPECT_GT(clip_deepest, 0.05);  // the clip does pass through it
+    EXPECT_GT(clip_deepest, 0.05);  // the clip itself passes through
     EXPECT_LT(deepest, 5e-3);
 }
 
-TEST_P(HumanoidContact, what_is_clear_of_the_body_keeps_its_pose) {
+TEST_P(HumanoidContact, AHandClearOfTheBodyKeepsItsPose) {
     auto pose = rest;
     pose[node(Bone::LeftUpperArm)].rotation = glm::angleAxis(0.4, glm::dvec3(0, 0, 1));
     const auto clip = positions_of(skeleton, pose);
@@ -144,7 +144,7 @@ TEST_P(HumanoidContact, what_is_clear_of_the_body_keeps_its_pose) {
     EXPECT_LT(farthest(clip, positions_of(skeleton, pose)), 1e-9);
 }
 
-TEST_P(HumanoidContact, any_targets_give_finite_poses_and_hardly_ever_a_hand_in_the_body) {
+TEST_P(HumanoidContact, AnyTargetsGiveFinitePosesAndRarelyContact) {
     std::mt19937 engine(3);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     int deep = 0;
@@ -166,7 +166,7 @@ TEST_P(HumanoidContact, any_targets_give_finite_poses_and_hardly_ever_a_hand_in_
     EXPECT_LE(deep, 20);
 }
 
-TEST_P(HumanoidContact, a_capsule_with_a_fault_is_refused) {
+TEST_P(HumanoidContact, AnInvalidCapsuleIsRefused) {
     auto bad = capsules;
     bad[2].radius = -1.0;
     EXPECT_TRUE(test::says(std::string(Body::make(skeleton, map, no_limits(), bad).message()),
@@ -176,7 +176,7 @@ TEST_P(HumanoidContact, a_capsule_with_a_fault_is_refused) {
 INSTANTIATE_TEST_SUITE_P(Limits, HumanoidContact, testing::Bool(),
                          [](const auto& each) { return each.param ? "default" : "none"; });
 
-TEST(HumanoidCapsules, lines_come_nearest_where_they_do) {
+TEST(HumanoidCapsules, NearestPointsOfLinesMatchASearch) {
     std::mt19937 engine(4);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     for (int i = 0; i < 200; ++i) {
@@ -185,7 +185,7 @@ TEST(HumanoidCapsules, lines_come_nearest_where_they_do) {
             const double x = any(engine), y = any(engine), z = any(engine);
             each = {x, y, z};
         }
-        if (i % 10 == 0) ends[1] = ends[0];                              // no length
+        if (i % 10 == 0) ends[1] = ends[0];                              // a point
         if (i % 10 == 1) ends[3] = ends[2] + 2.0 * (ends[1] - ends[0]);  // parallel
         const PlacedCapsule a{ends[0], ends[1], 0.1}, b{ends[2], ends[3], 0.2};
         double least = 1e9;
@@ -201,7 +201,7 @@ TEST(HumanoidCapsules, lines_come_nearest_where_they_do) {
     }
 }
 
-TEST(HumanoidCapsules, defaults_follow_the_size_of_the_figure) {
+TEST(HumanoidCapsules, DefaultsFollowTheFiguresSize) {
     const Skeleton figure = make_figure({});
     std::vector<Node> nodes = figure.nodes();
     nodes.front().rest.scale = glm::dvec3(2.0);

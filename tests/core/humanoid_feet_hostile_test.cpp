@@ -94,7 +94,7 @@ TEST_F(FeetHostile, AnyPoseOnAnyGroundGivesFinitePosesOfTheSameLengths) {
     }
 }
 
-TEST_F(FeetHostile, WhatIsRefusedChangesNothing) {
+TEST_F(FeetHostile, RefusedInputChangesNothing) {
     FeetState state;
     const Ground flat = *Ground::flat();
     std::vector<rig::Transform> good = rest_pose(skeleton);
@@ -127,7 +127,7 @@ TEST_F(FeetHostile, WhatIsRefusedChangesNothing) {
     EXPECT_FALSE(check(broken));
 }
 
-TEST_F(FeetHostile, BonesOfNoLengthAndPosesWithoutScaleAreEndured) {
+TEST_F(FeetHostile, ZeroLengthBonesAndZeroScalesAreAccepted) {
     FeetState state;
     for (const double scale : {0.0, 1e-30, -1.0, 3.0}) {
         std::vector<rig::Transform> made = rest_pose(skeleton);
@@ -162,7 +162,7 @@ TEST_F(FeetHostile, TheSameStateGivesTheSameBitsAndNoStepAllocates) {
     play(100, 200, [&](int frame) { EXPECT_EQ(made, first[static_cast<std::size_t>(frame - 100)]); });
 }
 
-TEST_F(FeetHostile, LegsThatAreNotOnTheHipsAreRefused) {
+TEST_F(FeetHostile, LegsNotBelowTheHipsAreRefused) {
     std::vector<Node> nodes = skeleton.nodes();
     const auto leg = static_cast<std::size_t>(map[Bone::LeftUpperLeg].node);
     nodes.push_back({"ground", -1, {}});

@@ -8,7 +8,7 @@
 namespace tendril::test {
 namespace {
 
-TEST(FeetMany, AreWhatEachIsAloneOnAnyNumberOfThreads) {
+TEST(FeetMany, EqualSeparateSolvesOnAnyNumberOfThreads) {
     constexpr std::size_t count = 100;
     const Skeleton skeleton = make_figure({});
     const Clip clip = FigureWalk(skeleton).clip();
@@ -36,7 +36,7 @@ TEST(FeetMany, AreWhatEachIsAloneOnAnyNumberOfThreads) {
     for (const int threads : {1, 3, 1000}) EXPECT_EQ(play(threads), alone) << threads;
 }
 
-TEST(FeetMany, WhatIsMissingIsInvalid) {
+TEST(FeetMany, MissingInputIsInvalid) {
     std::vector<FeetJob> jobs(3);
     step_many(jobs, Ground(), 0.1);
     for (const FeetJob& job : jobs) EXPECT_FALSE(job.report.valid);

@@ -1,4 +1,4 @@
-// The places where the clip puts the feet down on stairs, before they count as planted.
+// Where feet come down on stairs, before they are planted.
 #include <gtest/gtest.h>
 
 #include "humanoid_feet_support.hpp"
@@ -6,7 +6,7 @@
 namespace tendril::test {
 namespace {
 
-TEST(FeetOnStairs, UpwardsComeDownWhereTheyStandThen) {
+TEST(FeetOnStairs, UpwardsFeetComeDownWhereTheyThenStand) {
     const Skeleton skeleton = make_figure({});
     const Clip clip = FigureWalk(skeleton).clip();
     for (const Ground& stairs : {*Ground::stairs(0.15, 0.3), *Ground::stairs(0.1, 0.35)}) {
@@ -33,7 +33,7 @@ TEST(FeetOnStairs, UpwardsComeDownWhereTheyStandThen) {
                     }
                     if (!down[i] || !report.feet[i].planted) continue;
                     down[i] = false;
-                    if (shifts[i]) {  // to a tread that its whole sole stands on, which it comes down to
+                    if (shifts[i]) {  // moved to a tread with room for the whole sole, where it comes down
                         EXPECT_GT(strike[i], foot.lift - 0.06) << frame;
                         EXPECT_LT(strike[i], foot.lift + 0.16) << frame;
                     } else {

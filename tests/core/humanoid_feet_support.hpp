@@ -10,21 +10,21 @@
 
 namespace tendril::test {
 
-/// How a walk is played.
+/// Parameters of a walk.
 struct Stroll {
-    double rate = 60.0, speed = 1.0;  // frames per second; relative to the clip's own speed
+    double rate = 60.0, speed = 1.0;  // frames per second; speed relative to the clip's
     double start = 0.0, seconds = 8.0;
     double heading = 0.0;  // about Y
     glm::dvec3 from{0.0};
     FeetOptions options{};
 };
 
-/// The maximum over all frames: metres; `stretch` is a fraction of the leg's length.
+/// Maxima over all frames, metres; `stretch` is a fraction of the leg's length.
 struct Measured {
     double sink = 0.0, floating = 0.0, skate = 0.0;  // of planted feet
-    double beyond = 0.0;  // a joint's motion per frame relative to the clip, at 60 frames/s
+    double beyond = 0.0;  // motion of a joint per frame relative to the clip, at 60 frames/s
     double stretch = 0.0;
-    int planted = 0, alone = 0, feet = 0;  // frames of a foot
+    int planted = 0, alone = 0, feet = 0;  // frames, counted per foot
     double climbed = 0.0;
 
     void add(const Measured& other) {

@@ -10,7 +10,7 @@ namespace {
 
 const double swing_pi = std::acos(-1.0);
 
-/// The heel, the ball below the toes' node, and the tip of the toes.
+/// Points of a sole: the heel, the ball below the toes' node, and the tip of the toes.
 std::array<glm::dvec3, 3> sole_of(const Walker& walker, const Placement& rest, const FootReport& foot,
                                   std::size_t side) {
     const Placement& toes = walker.now(side == 0 ? Bone::LeftToes : Bone::RightToes);
@@ -20,7 +20,7 @@ std::array<glm::dvec3, 3> sole_of(const Walker& walker, const Placement& rest, c
 
 class FeetSwing : public ::testing::Test {
   protected:
-    /// Metres; the clip walks at 1 m/s times the speed.
+    /// Maximum depth of the soles in the ground, metres; the clip walks at 1 m/s times `speed`.
     double through(const Ground& ground, double heading, double z, double speed, double start) {
         Walker walker(skeleton, clip);
         std::vector<Placement> rest(skeleton.size());
@@ -69,8 +69,8 @@ TEST_F(FeetSwing, ClearsStairsUpAndDown) {
                         << start;
 }
 
-TEST_F(FeetSwing, ASlopeThatIsFollowedFastIsNoJump) {
-    // The lift of the foot is the slope's rise, not an ease that comes after it.
+TEST_F(FeetSwing, AFastSlopeIsNoJump) {
+    // The foot is lifted by the slope's rise at once, not by an ease that lags behind.
     Walker walker(skeleton, clip);
     FeetState state;
     Stroll stroll;

@@ -63,12 +63,12 @@ class FeetWalk : public ::testing::Test {
     const Clip clip = FigureWalk(skeleton).clip();
 };
 
-TEST_F(FeetWalk, StandsWhereItIsPlantedAndNothingJumps) {
+TEST_F(FeetWalk, PlantedFeetStandStillAndNothingJumps) {
     for (const NamedGround& each : grounds()) {
         Measured all;
         int round = 0;
         Walker walker(skeleton, clip);
-        // Up, down, along and across, through the loop seams of the clip.
+        // Walks up, down, along and across, through the loop seams of the clip.
         const std::pair<double, double> ways[]{
             {0.0, -1.0}, {pi, 8.0}, {0.5 * pi, 3.1}, {0.25 * pi, 0.0}, {2.4, 8.0}};
         for (const auto& [heading, z] : ways)
@@ -93,14 +93,14 @@ TEST_F(FeetWalk, StandsWhereItIsPlantedAndNothingJumps) {
     }
 }
 
-TEST_F(FeetWalk, OnTheVeryEdgeOfAStepItDoesNotSayThatItStandsWhereItSticksInTheStep) {
+TEST_F(FeetWalk, AtTheEdgeOfAStepPlantedFeetNeitherFloatNorSink) {
     Walker walker(skeleton, clip);
     Measured all;
     for (const double start : {0.0, 0.13, 0.26, 0.37, 0.55, 0.8})
         for (const double speed : {0.5, 1.0}) {
             Stroll stroll{.speed = speed, .start = start, .heading = pi};
             stroll.from.z = 8.0;
-            stroll.options.edge = 0.0;  // feet stay where they come down
+            stroll.options.edge = 0.0;  // feet keep the position where they come down
             for (const Ground& ground : {*Ground::stairs(0.1, 0.35), *Ground::stairs(0.18, 0.28)})
                 all.add(walker.walk(ground, stroll));
         }
@@ -108,7 +108,7 @@ TEST_F(FeetWalk, OnTheVeryEdgeOfAStepItDoesNotSayThatItStandsWhereItSticksInTheS
     EXPECT_LT(all.floating, 0.005);
 }
 
-TEST_F(FeetWalk, OnTheFloorItIsTheClipButForTheKneesSide) {
+TEST_F(FeetWalk, OnFlatGroundItStaysCloseToTheClip) {
     Walker walker(skeleton, clip);
     FeetState state;
     for (int frame = 0; frame < 200; ++frame) {
@@ -121,7 +121,7 @@ TEST_F(FeetWalk, OnTheFloorItIsTheClipButForTheKneesSide) {
     }
 }
 
-TEST_F(FeetWalk, WhereThereIsNothingToStandOnTheClipIsLeftAlone) {
+TEST_F(FeetWalk, WithoutSuitableGroundTheClipIsLeftAlone) {
     const std::vector<glm::dvec3> points{{-90, -3, -90}, {90, -3, -90}, {0, -3, 90}};
     const std::vector<std::uint32_t> triangle{0, 1, 2};
     const Ground steep = *Ground::slope(60.0 * pi / 180.0), deep = *Ground::mesh(points, triangle),
@@ -149,7 +149,7 @@ TEST_F(FeetWalk, WhereThereIsNothingToStandOnTheClipIsLeftAlone) {
     EXPECT_TRUE(test::says(name(FootAlone::TooSteep), "too steep"));
 }
 
-TEST_F(FeetWalk, WhatTheLegCannotReachIsLeftAloneAndSaid) {
+TEST_F(FeetWalk, ATargetOutOfTheLegsReachIsReported) {
     Walker walker(skeleton, clip);
     FeetState state;
     Stroll stroll;
@@ -163,7 +163,7 @@ TEST_F(FeetWalk, WhatTheLegCannotReachIsLeftAloneAndSaid) {
     EXPECT_GT(alone, 10);
 }
 
-TEST_F(FeetWalk, AFigureThatStartsOnTheStairsStandsOnThem) {
+TEST_F(FeetWalk, AFigureThatStartsOnStairsStandsOnThem) {
     const Ground stairs = *Ground::stairs(0.15, 0.3);
     const Skeleton skeleton_at_rest = make_figure({});
     Walker walker(skeleton_at_rest, {.duration = 1.0});
@@ -183,7 +183,7 @@ TEST_F(FeetWalk, AFigureThatStartsOnTheStairsStandsOnThem) {
     }
 }
 
-TEST_F(FeetWalk, AFootIsTurnedByTheGroundUpToALimit) {
+TEST_F(FeetWalk, AFootTiltsWithTheGroundUpToALimit) {
     Walker walker(skeleton, {.duration = 1.0});
     const auto turn_on = [&](double degrees) {
         FeetState state;
@@ -199,7 +199,7 @@ TEST_F(FeetWalk, AFootIsTurnedByTheGroundUpToALimit) {
     EXPECT_NEAR(turn_on(42.0), 35.0, 1e-6);
 }
 
-TEST_F(FeetWalk, WeightZeroAndNoGroundAreTheClipToTheBit) {
+TEST_F(FeetWalk, AtWeightZeroOrWithoutGroundItIsTheClipBitForBit) {
     for (const bool has_ground : {true, false}) {
         Walker walker(skeleton, clip);
         FeetState state;
@@ -213,7 +213,7 @@ TEST_F(FeetWalk, WeightZeroAndNoGroundAreTheClipToTheBit) {
     }
 }
 
-TEST_F(FeetWalk, HalfTheWeightIsHalfTheWay) {
+TEST_F(FeetWalk, HalfTheWeightIsHalfTheCorrection) {
     Walker walker(skeleton, {.duration = 1.0});
     Stroll stroll;
     stroll.from.z = 0.15;
@@ -227,7 +227,7 @@ TEST_F(FeetWalk, HalfTheWeightIsHalfTheWay) {
     EXPECT_GT(hips_at(1.0), hips_at(0.0) + 0.1);
 }
 
-TEST_F(FeetWalk, AClipInPlaceIsTheWalkWhenItsRootIsMoved) {
+TEST_F(FeetWalk, AnInPlaceClipWithAMovingRootIsTheSameWalk) {
     Clip in_place = clip;
     Track<glm::dvec3>& hips = in_place.channels[0].translation;
     for (std::size_t i = 0; i < hips.times.size(); ++i) hips.values[i].z -= hips.times[i] * FigureWalk::speed;
@@ -246,7 +246,7 @@ TEST_F(FeetWalk, AClipInPlaceIsTheWalkWhenItsRootIsMoved) {
     }
 }
 
-TEST_F(FeetWalk, AClipInPlaceGoesByTheRootsSpeed) {
+TEST_F(FeetWalk, AnInPlaceClipUsesTheRootsVelocity) {
     Clip in_place = clip;
     Track<glm::dvec3>& hips = in_place.channels[0].translation;
     for (std::size_t i = 0; i < hips.times.size(); ++i) hips.values[i].z -= hips.times[i] * FigureWalk::speed;
@@ -274,7 +274,7 @@ TEST_F(FeetWalk, AClipInPlaceGoesByTheRootsSpeed) {
     }
 }
 
-// A standing figure that slides: its feet have the speed that the test sets.
+// A standing figure that slides: its feet move at the test's speed.
 class FeetSlide : public ::testing::Test {
   protected:
     void slide(double speed, double seconds) {
@@ -295,15 +295,15 @@ class FeetSlide : public ::testing::Test {
     double x = 0.0, lift = 0.0;
 };
 
-/// It looks ahead by its speed and by how it brakes, so the speed must not be that before the gap.
-TEST_F(FeetSlide, KnowsItsSpeedOverAGapInTheGround) {
+/// Feet look ahead by speed and braking, so the speed from before the gap must not be used.
+TEST_F(FeetSlide, MeasuresSpeedOverAGapInTheGround) {
     slide(2.0, 0.2);
     ground = Ground();
     slide(0.5, 0.2);
     EXPECT_NEAR(state.feet[0].velocity.x, 0.5, 1e-9);
 }
 
-TEST_F(FeetSlide, IsLockedWhenSlowAndLetGoWhenFast) {
+TEST_F(FeetSlide, LocksWhenSlowAndReleasesWhenFast) {
     slide(2.0, 0.2);
     EXPECT_FALSE(report.feet[0].planted);
     slide(0.4, 0.2);
@@ -317,7 +317,7 @@ TEST_F(FeetSlide, IsLockedWhenSlowAndLetGoWhenFast) {
     EXPECT_FALSE(report.feet[0].planted);
 }
 
-TEST_F(FeetSlide, ALockBreaksAtItsDistanceAndEasesWithItsHalfLife) {
+TEST_F(FeetSlide, ALockBreaksAtItsDistanceAndDecaysWithItsHalfLife) {
     slide(0.0, 0.1);
     slide(0.29, 0.2 / 0.29 - 0.03);
     EXPECT_TRUE(report.feet[0].planted);
@@ -332,7 +332,7 @@ TEST_F(FeetSlide, ALockBreaksAtItsDistanceAndEasesWithItsHalfLife) {
     EXPECT_NEAR(offset(), 0.25 * begin, 1e-6);
 }
 
-TEST_F(FeetSlide, AFootThatLeapsGoesAlongWithTheClip) {
+TEST_F(FeetSlide, AFootThatLeapsFollowsTheClip) {
     slide(0.0, 0.1);
     slide(0.25, 0.2);
     const double begin = offset();
@@ -343,7 +343,7 @@ TEST_F(FeetSlide, AFootThatLeapsGoesAlongWithTheClip) {
         << "what the lock moved it by eases, and no more";
 }
 
-TEST_F(FeetSlide, IsLowUpToFiveCentimetres) {
+TEST_F(FeetSlide, PlantsUpToFiveCentimetresHigh) {
     slide(0.0, 0.1);
     EXPECT_TRUE(report.feet[0].planted);
     for (lift = 0.0; lift < 0.045; lift += 0.002) slide(0.0, 1.0 / 60.0);
@@ -365,7 +365,7 @@ TEST_F(FeetSlide, InStanceTheSoleComesDownToTheGround) {
     EXPECT_NEAR(report.feet[0].toe.y, 0.3, 1e-6) << "out of stance it is as high as in the clip";
 }
 
-TEST_F(FeetSlide, NoTimeChangesNothingAndAnotherPoseStartsAnew) {
+TEST_F(FeetSlide, ZeroTimeChangesNothingAndANewPoseStartsOver) {
     slide(0.25, 0.5);
     const auto step_still = [&](double at) {
         std::vector<rig::Transform> pose = rest_pose(skeleton);

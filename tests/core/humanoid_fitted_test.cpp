@@ -12,7 +12,7 @@
 namespace tendril::test {
 namespace {
 
-/// The figure as tubes around its bones, each with a radius of its own and offset from its bone.
+/// The figure as tubes around its bones, each with its own radius and offset from its bone.
 class FittedCapsules : public testing::Test {
   protected:
     struct Tube {
@@ -35,7 +35,7 @@ class FittedCapsules : public testing::Test {
     double between(double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(engine);
     }
-    /// Points on the tubes; `stray` of each 100 are up to three times as far out.
+    /// Points on the tubes; `stray` of each 100 are 1.5 to 3 times as far out.
     std::vector<SkinPoint> points(int stray) {
         std::vector<SkinPoint> result;
         for (std::size_t i = 0; i < tubes.size(); ++i) {
@@ -43,7 +43,7 @@ class FittedCapsules : public testing::Test {
             const glm::dvec3 way = glm::normalize(tube.to - tube.from);
             const glm::dvec3 u = glm::normalize(glm::cross(way, glm::dvec3(0.3, 0.2, 0.9)));
             const glm::dvec3 v = glm::cross(way, u);
-            // A free end is a capsule's: it extends a radius beyond the line.
+            // Free ends are round like a capsule's, a radius beyond the line.
             const double over = ends_free(usual[i].bone) ? tube.radius : 0.0;
             for (int k = 0; k < 800; ++k) {
                 double place = between(-over, glm::length(tube.to - tube.from) + over);
@@ -62,7 +62,7 @@ class FittedCapsules : public testing::Test {
     static bool ends_free(Bone bone) {
         return bone == Bone::Head || bone == Bone::LeftHand || bone == Bone::RightHand;
     }
-    /// Expects radii within 5 %, and lines within `line` radii of those of the tubes.
+    /// Expects radii within 5 % of the tubes', and lines within `line` radii of theirs.
     void expect_tubes(const std::vector<BodyCapsule>& fitted, double line) {
         std::vector<Placement> rest(skeleton.size());
         place(skeleton, rest_pose(skeleton), rest);
@@ -89,15 +89,15 @@ class FittedCapsules : public testing::Test {
     std::vector<Tube> tubes;
 };
 
-TEST_F(FittedCapsules, have_the_radii_of_the_body) {
+TEST_F(FittedCapsules, HaveTheRadiiOfTheBody) {
     expect_tubes(fitted_capsules(skeleton, map, points(0)), 0.05);
 }
 
-TEST_F(FittedCapsules, do_not_heed_what_stands_off) {
+TEST_F(FittedCapsules, IgnoreOutliers) {
     expect_tubes(fitted_capsules(skeleton, map, points(12)), 0.15);
 }
 
-TEST_F(FittedCapsules, are_the_same_whatever_turns_and_scales_the_nodes_have) {
+TEST_F(FittedCapsules, DoNotDependOnNodeRotationsAndScales) {
     const std::vector<SkinPoint> cloud = points(0);
     const auto plain = fitted_capsules(skeleton, map, cloud);
     std::vector<Node> nodes = skeleton.nodes();
@@ -121,7 +121,7 @@ TEST_F(FittedCapsules, are_the_same_whatever_turns_and_scales_the_nodes_have) {
     }
 }
 
-TEST_F(FittedCapsules, are_the_defaults_where_points_are_few_or_far_too_near_or_out) {
+TEST_F(FittedCapsules, AreTheDefaultsIfPointsAreFewOrTooNearOrFar) {
     EXPECT_EQ(fitted_capsules(skeleton, map, {}), usual);
     std::vector<SkinPoint> cloud = points(0);
     std::vector<SkinPoint> few;
@@ -134,7 +134,7 @@ TEST_F(FittedCapsules, are_the_defaults_where_points_are_few_or_far_too_near_or_
     }
 }
 
-TEST_F(FittedCapsules, leave_out_points_that_are_nowhere) {
+TEST_F(FittedCapsules, IgnorePointsThatAreNotFinite) {
     std::vector<SkinPoint> cloud = points(0);
     const auto before = fitted_capsules(skeleton, map, cloud);
     for (const double bad :
@@ -147,7 +147,7 @@ TEST_F(FittedCapsules, leave_out_points_that_are_nowhere) {
     EXPECT_EQ(fitted_capsules(skeleton, map, cloud), before);
 }
 
-TEST_F(FittedCapsules, keep_hands_out_and_let_the_body_rest) {
+TEST_F(FittedCapsules, KeepHandsOutAndLeaveTheBodyAtRest) {
     const auto capsules = fitted_capsules(skeleton, map, points(0));
     Body body = *Body::make(skeleton, map, default_limits(skeleton, map), capsules);
     const auto rest = rest_pose(skeleton);

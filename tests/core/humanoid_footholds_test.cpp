@@ -1,4 +1,4 @@
-// Positions of feet on stairs: the whole sole on treads; and how smoothly they get there.
+// Footholds on stairs: the whole sole on a tread, reached smoothly.
 #include <gtest/gtest.h>
 
 #include <tendril/humanoid/lint.hpp>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double footholds_pi = 3.141592653589793;
 
-/// How far a line of the sole from heel to toe is in the ground.
+/// Maximum depth of the line from heel to toe in the ground.
 double sole_depth(const Ground& ground, const FootReport& foot) {
     double depth = 0.0;
     for (int i = 0; i <= 12; ++i) {
@@ -36,7 +36,7 @@ class Footholds : public ::testing::Test {
     Walker walker{skeleton, clip};
 };
 
-TEST_F(Footholds, APlantedSoleIsWhollyOnTreads) {
+TEST_F(Footholds, APlantedSoleIsFullyOnTreads) {
     for (const auto& [height, depth] : {std::pair(0.1, 0.35), std::pair(0.15, 0.3), std::pair(0.18, 0.28)})
         for (const bool up : {true, false})
             for (const double speed : {0.7, 1.0})
@@ -82,7 +82,7 @@ TEST_F(Footholds, KneesDoNotPop) {
                         pops += each.fault == Fault::KneePop;
                 }
     EXPECT_EQ(runs, 96);
-    EXPECT_LE(pops, 9);  // 43 when feet stood wherever the clip put them
+    EXPECT_LE(pops, 9);  // 43 without footholds
 }
 
 TEST_F(Footholds, AFootTooFastForTheStairsIsReported) {

@@ -1,4 +1,4 @@
-// Steps of a body that reaches farther than its feet let it.
+// Steps of a body that reaches farther than its feet allow.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr double frame = 1.0 / 60.0;
 
 class HumanoidFootsteps : public testing::Test {
   protected:
-    /// A frame of a body that stands at rest and reaches.
+    /// One frame of a body that reaches from its rest pose.
     BodyReport solve(std::vector<BodyTarget> targets, double dt = frame) {
         BodyOptions options{.balance = true};
         options.ground = ground;
@@ -32,7 +32,7 @@ class HumanoidFootsteps : public testing::Test {
         if (dt > 0.0 && plan_step(steps, soles, masses.centre(solved), clip, state, ground)) ++begun;
         return report ? *report : BodyReport();
     }
-    /// Moves the right hand from where it is at rest to `to` at 1 m/s, then waits for 3 s.
+    /// Moves the right hand from its rest position to `to` at 1 m/s, then waits for 3 s.
     BodyReport reach(const glm::dvec3& to) {
         const glm::dvec3 from{-0.72, 1.45, 0.0};
         const int frames = static_cast<int>(glm::distance(from, to) / frame) + 1;
@@ -57,23 +57,23 @@ class HumanoidFootsteps : public testing::Test {
     int begun = 0;
 };
 
-TEST_F(HumanoidFootsteps, AFootStepsToWhereTheBodyIsCaught) {
+TEST_F(HumanoidFootsteps, StepsToCatchTheBody) {
     const BodyReport report = reach({-0.2, 1.0, 1.6});
     EXPECT_GE(begun, 1);
     EXPECT_LE(begun, 2);
     EXPECT_FALSE(steps.stepping());
-    EXPECT_LT(report.residual, 0.03);  // half a metre short without a step
+    EXPECT_LT(report.residual, 0.03);  // half a metre without a step
     EXPECT_GT(margin(), 0.0);
     EXPECT_GT(std::max(steps.feet[0].to.z, steps.feet[1].to.z), 0.3);
 }
 
-TEST_F(HumanoidFootsteps, NoStepIsTakenThatIsNotNeeded) {
+TEST_F(HumanoidFootsteps, ANearTargetNeedsNoStep) {
     reach({-0.2, 1.1, 0.95});
     EXPECT_EQ(begun, 0);
     EXPECT_FALSE(steps.away());
 }
 
-TEST_F(HumanoidFootsteps, AStepRisesAndLandsInTime) {
+TEST_F(HumanoidFootsteps, AStepRisesAndLandsOnTime) {
     steps.feet[1] = {{}, {0.0, 0.0, 0.4}, 0.0};
     double highest = 0.0;
     int frames = 0;
@@ -113,7 +113,7 @@ TEST_F(HumanoidFootsteps, WithoutTargetsTheFeetStepBack) {
     EXPECT_EQ(state, BodyState());
 }
 
-TEST_F(HumanoidFootsteps, WithoutTimeNothingSteps) {
+TEST_F(HumanoidFootsteps, ZeroTimeTakesNoStep) {
     for (int i = 0; i < 100; ++i) solve({{Effector::RightHand, {-0.2, 1.0, 1.6}}}, 0.0);
     EXPECT_FALSE(steps.away());
 }
@@ -121,7 +121,7 @@ TEST_F(HumanoidFootsteps, WithoutTimeNothingSteps) {
 TEST_F(HumanoidFootsteps, OnStairsAFootLandsOnAStep) {
     const Ground stairs = *Ground::stairs(0.12, 0.4);
     ground = &stairs;
-    // The character stands on the level ground before the first step.
+    // The character starts on level ground, before the first step.
     const auto hips = static_cast<std::size_t>(map[Bone::Hips].node);
     rest[hips].translation.z -= 0.3;
     const glm::dvec3 from{-0.72, 1.45, -0.3}, to{-0.2, 1.2, 1.3};
@@ -157,7 +157,7 @@ TEST_F(HumanoidFootsteps, AFootClimbsOneStairAfterAnother) {
         up[side] = stairs.highest(sole.toe.x, sole.toe.z)->height;
         EXPECT_NEAR(sole.toe.y, up[side], 0.03) << side;
     }
-    // From the ground of the clip, the second stair is more than half a leg up.
+    // Above the clip's ground, the second stair is more than half a leg up.
     EXPECT_GT(0.6, 0.5 * soles.leg);
     EXPECT_GT(std::max(up[0], up[1]), 0.59);
 }

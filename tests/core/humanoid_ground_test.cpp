@@ -1,4 +1,4 @@
-// Grounds have the heights of their definitions, meshes those of their triangles, however many there are.
+// Grounds have the heights of their definitions, and meshes the heights of their triangles, of any number.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ double height(const Ground& ground, double x, double z, double from = 100.0) {
     return hit ? hit->height : std::numeric_limits<double>::quiet_NaN();
 }
 
-TEST(Ground, IsAsHighAsItsDefinition) {
+TEST(Ground, HasTheHeightOfItsDefinition) {
     const Ground flat = *Ground::flat(0.3), slope = *Ground::slope(0.3), stairs = *Ground::stairs(0.15, 0.3);
     EXPECT_FALSE(Ground().below({0, 1, 0}));
     EXPECT_EQ(Ground().kind(), GroundKind::None);
@@ -38,7 +38,7 @@ TEST(Ground, IsAsHighAsItsDefinition) {
     EXPECT_LT(normal.z, 0.0) << "what rises along +Z faces -Z";
 }
 
-TEST(Ground, RefusesWhatIsNoneAndNamesIt) {
+TEST(Ground, RefusesInvalidGroundsByName) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_TRUE(test::says(Ground::stairs(0.15, 0.0).message(), "stairs step_depth 0.01 1e3 0"));
     EXPECT_TRUE(test::says(Ground::slope(nan).message(), "slope angle -1.5 1.5 nan"));
@@ -59,7 +59,7 @@ TEST(Ground, RefusesWhatIsNoneAndNamesIt) {
     EXPECT_FALSE(Ground::mesh(broken, good));
 }
 
-TEST(Ground, RaysFromNowhereHitNothing) {
+TEST(Ground, RaysFromInvalidPointsHitNothing) {
     const double nan = std::numeric_limits<double>::quiet_NaN(),
                  infinite = std::numeric_limits<double>::infinity();
     const std::vector<glm::dvec3> points{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
@@ -100,12 +100,12 @@ struct Triangles {
     }
 };
 
-TEST(Ground, AMeshIsAsHighAsItsHighestTriangleBelowTheRay) {
+TEST(Ground, AMeshReturnsTheHighestTriangleBelowTheRay) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> number(-4.0, 4.0);
     for (int round = 0; round < 30; ++round) {
         Triangles mesh;
-        const double size = round % 3 == 0 ? 4.0 : 0.5;  // many overlaps, or few
+        const double size = round % 3 == 0 ? 4.0 : 0.5;  // many overlaps, or few of them
         for (int i = 0; i < 1 + round * 7; ++i) {
             const glm::dvec3 middle(number(random), number(random), number(random));
             glm::dvec3 corners[3];
@@ -134,7 +134,7 @@ TEST(Ground, AMeshIsAsHighAsItsHighestTriangleBelowTheRay) {
     }
 }
 
-TEST(Ground, ATerrainAndAMeshOfItAreTheSameAndHaveNoGaps) {
+TEST(Ground, ATerrainAndItsMeshAreEqualWithoutGaps) {
     HeightField field{.x = -1.0, .z = -2.0, .cell = 0.25, .columns = 33, .heights = {}};
     const auto wave = [](double x, double z) { return 0.2 * std::sin(1.3 * x) * std::cos(0.9 * z); };
     for (int row = 0; row < 41; ++row)
@@ -152,7 +152,7 @@ TEST(Ground, ATerrainAndAMeshOfItAreTheSameAndHaveNoGaps) {
             mesh.add(corner(column + 1, row + 1), corner(column + 1, row), corner(column, row + 1));
         }
     const Ground ground = mesh.ground();
-    for (double x = -1.0; x <= 7.0; x += 0.03125)  // on many edges and corners
+    for (double x = -1.0; x <= 7.0; x += 0.03125)  // hits many edges and corners
         for (double z = -2.0; z <= 8.0; z += 0.03125) {
             const auto a = terrain.below({x, 5, z}), b = ground.below({x, 5, z});
             ASSERT_TRUE(a) << x << ' ' << z;
@@ -165,7 +165,7 @@ TEST(Ground, ATerrainAndAMeshOfItAreTheSameAndHaveNoGaps) {
     EXPECT_FALSE(ground.below({-1.01, 5, 0}));
 }
 
-TEST(Ground, ALargeMeshWithOneVastTriangleInItStaysSmall) {
+TEST(Ground, ALargeMeshWithOneHugeTriangleStaysSmall) {
     Triangles mesh;
     for (int i = 0; i < 100; ++i)
         for (int k = 0; k < 100; ++k) {

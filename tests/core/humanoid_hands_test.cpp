@@ -1,5 +1,5 @@
-// Hands on their targets: within a millimetre if the arm reaches; at weight 0 bitwise unchanged; no other
-// bone than the arm's changes.
+// Hands on their targets: within a millimetre if the arm reaches; at weight 0 bitwise unchanged; only the
+// arm's bones change.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ class HandIk : public ::testing::Test {
         for (int i = 0; i < 4; ++i) q[i] = number(-1.0, 1.0);
         return rig::normalised(q);
     }
-    /// Random arms, the rest unchanged.
+    /// A pose with random arms, the rest unchanged.
     std::vector<rig::Transform> pose() {
         std::vector<rig::Transform> made = rest_pose(skeleton);
         for (const Bone bone : {Bone::LeftUpperArm, Bone::LeftLowerArm, Bone::LeftHand, Bone::RightUpperArm,
@@ -40,7 +40,7 @@ class HandIk : public ::testing::Test {
     glm::dvec3 at(const std::vector<rig::Transform>& of, Bone bone) const {
         return placed(of)[node(bone)].position;
     }
-    /// In front of the left arm, within its reach.
+    /// A random point in front of the left arm, within its reach.
     glm::dvec3 near_left() {
         for (;;) {
             const glm::dvec3 from(number(-0.5, 0.5), number(-0.5, 0.5), number(-0.2, 0.5));
@@ -57,7 +57,7 @@ class HandIk : public ::testing::Test {
 
 LABEL(slow, "HandIk.BetweenTheTwoItIsSmooth");
 
-TEST_F(HandIk, AtFullWeightTheHandIsOnItsTargetAndTurnedAsItIs) {
+TEST_F(HandIk, AtFullWeightTheHandHasItsTargetsPoseAndRotation) {
     for (int round = 0; round < 1000; ++round) {
         std::vector<rig::Transform> made = pose();
         const std::vector<rig::Transform> before = made;
@@ -79,7 +79,7 @@ TEST_F(HandIk, AtFullWeightTheHandIsOnItsTargetAndTurnedAsItIs) {
     }
 }
 
-TEST_F(HandIk, AtWeightZeroAndUnderTheHundredthThePoseIsTheClipsToTheBit) {
+TEST_F(HandIk, BelowWeightOneHundredthThePoseIsTheClips) {
     for (int round = 0; round < 100; ++round) {
         std::vector<rig::Transform> made = pose();
         const std::vector<rig::Transform> before = made;
@@ -122,7 +122,7 @@ TEST_F(HandIk, BetweenTheTwoItIsSmooth) {
     }
 }
 
-TEST_F(HandIk, ThePunchGoesToThePostAndBack) {
+TEST_F(HandIk, APunchHitsThePostAndReturns) {
     const signal::Curve hook = *weight_curve(0.2, 0.5, 0.6, 0.9);
     const glm::dvec3 post(-0.1, 1.4, 0.4);
     HandsState state;
@@ -151,7 +151,7 @@ TEST_F(HandIk, ThePunchGoesToThePostAndBack) {
     }
 }
 
-TEST_F(HandIk, AShoulderHelpsAsFarAsItMay) {
+TEST_F(HandIk, TheShoulderHelpsWithinItsLimit) {
     const std::vector<rig::Transform> clip = rest_pose(skeleton);
     HandTargets targets;
     targets[0] = {.position = {0.05, 1.5, 0.57}, .weight = 1.0};  // 59 cm from the arm's root; it reaches 54
@@ -167,7 +167,7 @@ TEST_F(HandIk, AShoulderHelpsAsFarAsItMay) {
     EXPECT_GT(residual(0.5), 28.0) << "out of reach it points there";
 }
 
-TEST_F(HandIk, OutOfViewTheWeightEases) {
+TEST_F(HandIk, OutOfViewTheWeightFades) {
     HandsState state;
     HandTargets targets;
     targets[0] = {.position = {0.3, 1.3, 0.35}, .weight = 1.0};
@@ -191,7 +191,7 @@ TEST_F(HandIk, OutOfViewTheWeightEases) {
     for (std::size_t i = 1; i < weights.size(); ++i) EXPECT_LT(std::abs(weights[i] - weights[i - 1]), 0.13);
 }
 
-TEST_F(HandIk, RefusedIsRefusedAsAWhole) {
+TEST_F(HandIk, ARefusalChangesNothing) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<rig::Transform> made = rest_pose(skeleton);
     const std::vector<rig::Transform> before = made;
@@ -213,7 +213,7 @@ TEST_F(HandIk, RefusedIsRefusedAsAWhole) {
     EXPECT_FALSE(Hands::make(skeleton, BoneMap()));
 }
 
-TEST_F(HandIk, AnyPoseAndTargetGiveFinitePosesWithoutMemory) {
+TEST_F(HandIk, AnyInputGivesFinitePosesWithoutAllocating) {
     HandsState state;
     for (int round = 0; round < 2000; ++round) {
         std::vector<rig::Transform> made = rest_pose(skeleton);

@@ -1,4 +1,4 @@
-// Hands that hold one thing: the grips close within the limits, and the object yields as little as possible.
+// Hands that hold one object: the grips close within the limits, and the object yields as little as possible.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct Holder {
         place(skeleton, pose, placed);
         return *report;
     }
-    /// As often as frames do, until the body has arrived.
+    /// Solves frame after frame until the body has arrived.
     HoldReport settle(const HeldObject& object, int frames = 25) {
         body_state = {}, state = {};
         HoldReport report;
@@ -40,7 +40,7 @@ struct Holder {
         return report;
     }
     const Placement& at(Bone bone) const { return placed[static_cast<std::size_t>(map[bone].node)]; }
-    /// The gap and the turn that the pose itself has, whatever the report says.
+    /// The gap measured in the pose itself, independently of the report.
     double gap(const Grip& grip, const ObjectPose& object) const {
         return glm::distance(at(bone_of(grip.hand)).position,
                              object.position + object.rotation * grip.position);
@@ -80,7 +80,7 @@ class Randoms {
         const double x = from(-size, size), y = from(-size, size), z = from(-size, size);
         return {x, y, z};
     }
-    /// About a random axis, by up to `most`.
+    /// A random rotation by up to `most` radians.
     glm::dquat turn(double most) {
         const double angle = from(0.0, most);
         return glm::angleAxis(angle, glm::normalize(within(1.0) + glm::dvec3(0.0, 1e-3, 0.0)));
@@ -90,7 +90,7 @@ class Randoms {
     std::mt19937 engine_{7};
 };
 
-/// Both hands on the rim, palms inward, free to turn about it.
+/// Both hands on a rim, palms inward, free to turn about it.
 std::vector<Grip> rim(const Body& body, double radius) {
     return {*grip_of(body, {Effector::LeftHand, {radius, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 1, 0}}, 0.08),
             *grip_of(body, {Effector::RightHand, {-radius, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, 0.08)};
@@ -117,12 +117,12 @@ TEST(HumanoidHold, ClosesTheGripsWithinTheLimits) {
             ++all, there += report.moved < 1e-4 && report.turned < 1e-3;
         }
     }
-    EXPECT_GT(there, all / 2);  // the rest of the poses do not exist, or are not found
+    EXPECT_GT(there, all / 2);  // other poses do not exist, or are not found
     EXPECT_LT(there, all);
 }
 
-/// Objects that some pose of the arms holds: the object goes where it is asked to be.
-TEST(HumanoidHold, GoesWhereAPoseHoldsIt) {
+/// Objects held by a known pose of the arms: the object goes exactly where asked.
+TEST(HumanoidHold, ReachesAPoseThatIsPossible) {
     Randoms random;
     for (const double turn : {0.0, 0.7}) {
         Holder holder(true, true, turn);
@@ -156,15 +156,15 @@ TEST(HumanoidHold, GoesWhereAPoseHoldsIt) {
     }
 }
 
-/// How far a pose is from the asked one, as the solver counts it.
+/// Distance of a pose from the asked one, by the solver's measure.
 double distance_from(const ObjectPose& asked, const ObjectPose& pose) {
     const glm::dquat turn = asked.rotation * glm::inverse(pose.rotation);
     const double angle = 2.0 * std::atan2(glm::length(glm::dvec3(turn.x, turn.y, turn.z)), std::abs(turn.w));
     return std::hypot(glm::distance(asked.position, pose.position), HoldOptions{}.turn_length * angle);
 }
 
-/// Free arms: a pose is held where both hands are within reach of their shoulders. Random search, narrowing.
-TEST(HumanoidHold, GivesWayAsLittleAsItCan) {
+/// Free arms hold a pose if both hands are within reach of their shoulders. Random search, narrowing.
+TEST(HumanoidHold, TheObjectYieldsAsLittleAsPossible) {
     Randoms random;
     Holder holder(false, false);
     const std::vector<Grip> grips{{Effector::LeftHand, {0.2, 0, 0}}, {Effector::RightHand, {-0.2, 0, 0}}};
@@ -203,7 +203,7 @@ TEST(HumanoidHold, GivesWayAsLittleAsItCan) {
     EXPECT_GT(gave, 8);
 }
 
-TEST(HumanoidHold, SharesWhatIsTooLong) {
+TEST(HumanoidHold, AnObjectTooLongIsSharedByBothHands) {
     Holder holder(false);
     const std::vector<Grip> grips{{Effector::LeftHand, {1.2, 0, 0}}, {Effector::RightHand, {-1.2, 0, 0}}};
     const HoldReport report = holder.settle({grips, {{0.0, 1.4, 0.2}}});
@@ -211,12 +211,12 @@ TEST(HumanoidHold, SharesWhatIsTooLong) {
     EXPECT_NEAR(report.grips[0].gap, report.grips[1].gap, 2e-3);
     const double apart =
         glm::distance(holder.at(Bone::LeftHand).position, holder.at(Bone::RightHand).position);
-    EXPECT_GT(apart, 1.4);  // both arms straight out
+    EXPECT_GT(apart, 1.4);  // both arms are straight
     EXPECT_NEAR(report.grips[0].gap + report.grips[1].gap, 2.4 - apart, 5e-3);
     EXPECT_TRUE(report.grips[0].straight && report.grips[1].straight);
 }
 
-TEST(HumanoidHold, SaysWhichArmIsStraight) {
+TEST(HumanoidHold, ReportsTheArmThatIsStraight) {
     Holder holder;
     const std::vector<Grip> grips = rim(holder.body, 0.2);
     for (const double side : {1.0, -1.0}) {
@@ -228,7 +228,7 @@ TEST(HumanoidHold, SaysWhichArmIsStraight) {
     }
 }
 
-/// A wheel turned like one: the hands go round with the rim.
+/// Steering a wheel: the hands follow the rim.
 TEST(HumanoidHold, HandsFollowAWheel) {
     Holder holder;
     const std::vector<Grip> grips = rim(holder.body, 0.19);
@@ -241,7 +241,7 @@ TEST(HumanoidHold, HandsFollowAWheel) {
     }
 }
 
-TEST(HumanoidHold, JumpsOnlyWhereItSaysSo) {
+TEST(HumanoidHold, OnlyReportedJumpsOccur) {
     Holder holder;
     Randoms random;
     const std::vector<Grip> grips = rim(holder.body, 0.2);
@@ -268,7 +268,7 @@ TEST(HumanoidHold, JumpsOnlyWhereItSaysSo) {
     EXPECT_LT(jumps, steps / 100);
 }
 
-/// What was pushed aside between two frames has jumped, also while the other hand joins.
+/// An object pushed aside between two frames has jumped, also while the other hand joins.
 TEST(HumanoidHold, ReportsAJump) {
     Holder holder;
     const std::vector<Grip> grips = rim(holder.body, 0.2);
@@ -284,8 +284,8 @@ TEST(HumanoidHold, ReportsAJump) {
     }
 }
 
-/// The object is still; a hand takes another place on it, and comes back.
-TEST(HumanoidHold, AHandThatChangesItsGripHasNotJumped) {
+/// The object is still; a hand moves to another place on it and comes back.
+TEST(HumanoidHold, ChangingAGripIsNotAJump) {
     Holder holder;
     std::vector<Grip> grips = rim(holder.body, 0.2);
     const ObjectPose asked{{0.0, 1.25, 0.35}};
@@ -298,7 +298,7 @@ TEST(HumanoidHold, AHandThatChangesItsGripHasNotJumped) {
     }
 }
 
-TEST(HumanoidHold, IterationsAreAtMostThoseAllowed) {
+TEST(HumanoidHold, IterationsStopSoonAfterTheLimit) {
     Holder holder;
     const std::vector<Grip> grips = rim(holder.body, 0.2);
     for (const int most : {1, 5}) {
@@ -310,7 +310,7 @@ TEST(HumanoidHold, IterationsAreAtMostThoseAllowed) {
     }
 }
 
-/// A direction's length says nothing.
+/// The length of a direction has no effect.
 TEST(HumanoidHold, PalmsMayBeOfAnyLength) {
     const Holder holder;
     const Palm palm{.hand = Effector::LeftHand, .fingers = {0, 0, 1}, .faces = {-1, 0, 0.5}};
@@ -331,7 +331,7 @@ TEST(HumanoidHold, PalmsMayBeOfAnyLength) {
                      "palm.faces across the fingers"));
 }
 
-TEST(HumanoidHold, AllocatesNothingOnceItRuns) {
+TEST(HumanoidHold, AllocatesNothingInLaterFrames) {
     Holder holder;
     const std::vector<Grip> grips = rim(holder.body, 0.2);
     holder.hold({grips, {{0.1, 1.2, 0.4}}});
@@ -355,7 +355,7 @@ TEST(HumanoidHold, OneHandHolds) {
     EXPECT_LT(report.moved, 1e-3);
     EXPECT_FALSE(report.grips[0].holds);
     EXPECT_LT(holder.gap(grips[0], report.object), 1e-5);
-    // The palm is where it was put, and faces left.
+    // The palm is at its grip, and faces left.
     const Placement& hand = holder.at(Bone::RightHand);
     const glm::dvec3 palm = hand.rotation() * glm::dvec3(0, -1, 0),
                      fingers = hand.rotation() * glm::dvec3(-1, 0, 0);
@@ -364,7 +364,7 @@ TEST(HumanoidHold, OneHandHolds) {
     EXPECT_GT(fingers.z, 0.9);
 }
 
-TEST(HumanoidHold, RefusesByName) {
+TEST(HumanoidHold, RefusesBadInputByName) {
     Holder holder;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<rig::Transform> rest = rest_pose(holder.skeleton);
@@ -411,7 +411,7 @@ TEST(HumanoidHold, RefusesByName) {
     EXPECT_TRUE(says(grip_of(holder.body, {}, nan).message(), "reach nan"));
 }
 
-/// Whatever is asked, nothing is NaN and every limit holds.
+/// For any request, nothing is NaN and every limit holds.
 TEST(HumanoidHold, StaysFinite) {
     Randoms random;
     Holder holder;

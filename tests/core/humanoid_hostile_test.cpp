@@ -1,6 +1,6 @@
-// Every library function that takes a skeleton, map or pose, with unsuitable input: maps of another
-// character, with duplicate nodes, with a bone above its parent; poses that are not finite, or enormous.
-// Either it is refused and nothing changes, or the output is finite and passes the input checks.
+// Every library function that takes a skeleton, map or pose, with unsuitable input: another character's map,
+// duplicate nodes, a bone above its parent; non-finite or enormous poses. Either it is refused and nothing
+// changes, or the output is finite and passes the input checks.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,7 +46,7 @@ class HostileHumanoid : public testing::Test {
   protected:
     double unit() { return static_cast<double>(random.bits() >> 11) * 0x1p-53; }
     double between(double from, double to) { return from + (to - from) * unit(); }
-    /// Any double.
+    /// Any double: non-finite values too.
     double any() {
         constexpr double numbers[]{0.0,
                                    -0.0,
@@ -127,7 +127,7 @@ class HostileHumanoid : public testing::Test {
     Random random{20261126};
 };
 
-TEST_F(HostileHumanoid, APoseThatIsNotSaneIsRefusedByAllAndAlwaysLeavesTheStateSane) {
+TEST_F(HostileHumanoid, AnInvalidPoseIsRefusedAndTheStateStaysValid) {
     std::size_t refused = 0, taken = 0;
     for (int round = rounds(400); round > 0; --round) {
         const Skeleton body = skeleton();
@@ -241,7 +241,7 @@ TEST_F(HostileHumanoid, APoseThatIsNotSaneIsRefusedByAllAndAlwaysLeavesTheStateS
     EXPECT_GT(taken, 0u);
 }
 
-TEST_F(HostileHumanoid, WhatCannotRefuseTakesAMapThatDoesNotFitForOneWithoutBones) {
+TEST_F(HostileHumanoid, AMapThatDoesNotFitCountsAsEmpty) {
     for (int round = rounds(1000); round > 0; --round) {
         const Skeleton body = skeleton();
         BoneMap map = map_of(body);
@@ -274,7 +274,7 @@ TEST_F(HostileHumanoid, WhatCannotRefuseTakesAMapThatDoesNotFitForOneWithoutBone
         const LintReport report = lint(body, map, clip);
         for (const Finding& each : report.findings) static_cast<void>(cure(body, map, clip, each));
         static_cast<void>(cure(body, map, clip, {.node = 9999, .has_cure = true}));
-        // A finding of another clip, on a single frame.
+        // A finding from another clip, with a single frame.
         Clip still = clip;
         still.duration = 0.0;
         for (const Fault fault : {Fault::Skating, Fault::Floating, Fault::Sinking})
@@ -289,7 +289,7 @@ TEST_F(HostileHumanoid, WhatCannotRefuseTakesAMapThatDoesNotFitForOneWithoutBone
     }
 }
 
-TEST(HumanoidMap, IsRefusedWithTheBonesName) {
+TEST(HumanoidMap, IsRefusedByItsBonesName) {
     const Skeleton body = make_figure({});
     const BoneMap good = match_bones(body);
     EXPECT_TRUE(check(good, body));

@@ -1,4 +1,4 @@
-// Joint limits of a body: their reference T-pose, the defaults, and limits learned from clips.
+// Joint limits of a body: the T-pose they refer to, the defaults, and limits learned from clips.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ class HumanoidLimits : public testing::Test {
     std::vector<Placement> placements = std::vector<Placement>(skeleton.size());
 };
 
-TEST_F(HumanoidLimits, the_figure_faces_forward) {
+TEST_F(HumanoidLimits, TheFigureFacesForward) {
     const Facing at = facing(skeleton, map);
     EXPECT_NEAR(at.left.x, 1.0, 1e-12);
     EXPECT_NEAR(at.forward.z, 1.0, 1e-12);
@@ -43,8 +43,8 @@ TEST_F(HumanoidLimits, the_figure_faces_forward) {
     EXPECT_NEAR(facing(turned, match_bones(turned)).forward.x, 1.0, 1e-12);
 }
 
-TEST_F(HumanoidLimits, an_a_pose_is_brought_into_a_t_pose) {
-    // Arms that rest 40 degrees down, feet that rest turned outward.
+TEST_F(HumanoidLimits, AnAPoseIsTurnedIntoATPose) {
+    // At rest, the arms hang 40 degrees down and the feet turn outward.
     std::vector<Node> nodes = skeleton.nodes();
     nodes[node(Bone::LeftUpperArm)].rest.rotation = glm::angleAxis(-40.0 * degree, glm::dvec3(0, 0, 1));
     nodes[node(Bone::RightUpperArm)].rest.rotation = glm::angleAxis(40.0 * degree, glm::dvec3(0, 0, 1));
@@ -68,14 +68,14 @@ TEST_F(HumanoidLimits, an_a_pose_is_brought_into_a_t_pose) {
     EXPECT_EQ(its.excess(Bone::LeftUpperArm, placements), 0.0f);
 }
 
-/// A bind pose in mid-run: one leg is kicked back, and its sole looks at the sky.
-TEST_F(HumanoidLimits, a_foot_that_does_not_stand_at_rest_is_measured_from_standing) {
+/// A bind pose in mid-run: one leg is kicked back, its sole facing up.
+TEST_F(HumanoidLimits, AFootOffTheGroundAtRestIsMeasuredFromStanding) {
     for (const double kicked : {100.0, 130.0, 160.0}) {
         std::vector<Node> nodes = skeleton.nodes();
         nodes[node(Bone::RightLowerLeg)].rest.rotation = glm::angleAxis(kicked * degree, glm::dvec3(1, 0, 0));
         const Skeleton running = *Skeleton::make(nodes);
         const BodyJoints its = *BodyJoints::make(running, map, default_limits(running, map));
-        // Standing, both feet are in the middle of their range. The leg of the other is not quite straight.
+        // Standing, both feet are in the middle of their range. The other leg is not quite straight.
         place(running, rest_pose(skeleton), placements);
         const ik::JointAngles right = its.measure(Bone::RightFoot, placements);
         EXPECT_NEAR(right.up, its.measure(Bone::LeftFoot, placements).up, 2.0 * degree) << kicked;
@@ -86,8 +86,8 @@ TEST_F(HumanoidLimits, a_foot_that_does_not_stand_at_rest_is_measured_from_stand
     }
 }
 
-/// Elbows and knees that a rest pose overstretches a little bend as all others do.
-TEST_F(HumanoidLimits, an_overstretched_rest_does_not_turn_a_hinge_round) {
+/// Elbows and knees slightly overstretched at rest bend about the usual axes.
+TEST_F(HumanoidLimits, AnOverstretchedRestDoesNotReverseAHinge) {
     std::vector<Node> nodes = skeleton.nodes();
     const double by = 8.0 * degree;
     nodes[node(Bone::LeftLowerArm)].rest.rotation = glm::angleAxis(by, glm::dvec3(0, 1, 0));
@@ -102,7 +102,7 @@ TEST_F(HumanoidLimits, an_overstretched_rest_does_not_turn_a_hinge_round) {
     }
 }
 
-TEST_F(HumanoidLimits, both_sides_turn_alike) {
+TEST_F(HumanoidLimits, BothSidesTurnAlike) {
     std::mt19937 engine(1);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     for (std::size_t i = 0; i < bone_count; ++i) {
@@ -123,8 +123,8 @@ TEST_F(HumanoidLimits, both_sides_turn_alike) {
     }
 }
 
-/// Knees, thighs and spine bend the same way if the map has left and right exchanged.
-TEST_F(HumanoidLimits, exchanged_sides_bend_the_same_way) {
+/// Knees, thighs and spine bend the same way if the map swaps left and right.
+TEST_F(HumanoidLimits, SwappedSidesBendTheSameWay) {
     BoneMap exchanged = map;
     for (std::size_t i = 0; i < bone_count; ++i) exchanged.bones[i] = map[mirrored(static_cast<Bone>(i))];
     review(exchanged, skeleton);
@@ -135,8 +135,8 @@ TEST_F(HumanoidLimits, exchanged_sides_bend_the_same_way) {
     }
 }
 
-/// A shoulder bone that is next to nothing is no collar bone: the whole arm turns there.
-TEST_F(HumanoidLimits, a_stub_of_a_shoulder_turns_as_the_arm_does) {
+/// A very short shoulder bone is no collar bone: the whole arm turns there.
+TEST_F(HumanoidLimits, AShoulderStubTurnsAsTheArmDoes) {
     EXPECT_GT(excess(Bone::LeftShoulder, 70.0, {0, 0, -1}), 45.0f);
     std::vector<Node> nodes = skeleton.nodes();
     for (const Bone bone : {Bone::LeftShoulder, Bone::RightShoulder}) {
@@ -151,7 +151,7 @@ TEST_F(HumanoidLimits, a_stub_of_a_shoulder_turns_as_the_arm_does) {
     EXPECT_GT(excess(Bone::LeftShoulder, 80.0, {0, 1, 0}), 20.0f) << "not to the back, as no arm does";
 }
 
-TEST_F(HumanoidLimits, joints_bend_the_way_they_do_in_people) {
+TEST_F(HumanoidLimits, JointsBendAsInPeople) {
     EXPECT_EQ(excess(Bone::LeftLowerArm, 100.0, {0, -1, 0}), 0.0f);  // the hand forward
     EXPECT_NEAR(excess(Bone::LeftLowerArm, 20.0, {0, 1, 0}), 20.0f, 1e-2);
     EXPECT_NEAR(excess(Bone::LeftLowerArm, 160.0, {0, -1, 0}), 10.0f, 1e-2);
@@ -167,13 +167,13 @@ TEST_F(HumanoidLimits, joints_bend_the_way_they_do_in_people) {
     EXPECT_NEAR(angles(Bone::LeftLowerArm, glm::angleAxis(1.0, glm::dvec3(0, -1, 0))).up, 1.0, 1e-5);
 }
 
-TEST_F(HumanoidLimits, a_hinge_says_nothing_about_other_turns) {
+TEST_F(HumanoidLimits, AHingeLimitsOnlyItsOwnAxis) {
     EXPECT_EQ(excess(Bone::LeftLowerArm, 50.0, {1, 0, 0}), 0.0f);
 }
 
-TEST_F(HumanoidLimits, an_elbow_that_rests_bent_bends_about_that_axis) {
+TEST_F(HumanoidLimits, AnElbowBentAtRestBendsAboutThatAxis) {
     std::vector<Node> nodes = skeleton.nodes();
-    // Bent upwards by 20 degrees.
+    // Bent upwards by 20 degrees at rest.
     nodes[node(Bone::LeftLowerArm)].rest.rotation = glm::angleAxis(20.0 * degree, glm::dvec3(0, 0, 1));
     const Skeleton bent = *Skeleton::make(nodes);
     const BodyLimits its = default_limits(bent, match_bones(bent));
@@ -183,7 +183,7 @@ TEST_F(HumanoidLimits, an_elbow_that_rests_bent_bends_about_that_axis) {
     EXPECT_NEAR(straight.y, -1.0f, 1e-6f);
 }
 
-TEST_F(HumanoidLimits, learned_ones_hold_the_clip_and_little_more) {
+TEST_F(HumanoidLimits, LearnedLimitsHoldTheClipAndLittleMore) {
     Clip clip{"swing", 2.0, {}};
     Channel arm{node(Bone::LeftUpperArm)}, elbow{node(Bone::LeftLowerArm)};
     for (int i = 0; i <= 8; ++i) {
@@ -212,11 +212,11 @@ TEST_F(HumanoidLimits, learned_ones_hold_the_clip_and_little_more) {
     EXPECT_NEAR(of_arm.up, 0.5, 0.06);
     EXPECT_NEAR(of_arm.left, 0.3, 0.05);
     EXPECT_LT(of_arm.twist_max - of_arm.twist_min, 0.1);
-    // A joint that no clip turns keeps its limit.
+    // A joint that no clip turns keeps its default limit.
     EXPECT_EQ(learned[static_cast<std::size_t>(Bone::Neck)], limits[static_cast<std::size_t>(Bone::Neck)]);
 }
 
-TEST_F(HumanoidLimits, a_limit_with_a_fault_is_refused_by_its_bones_name) {
+TEST_F(HumanoidLimits, AnInvalidLimitIsRefusedByItsBonesName) {
     BodyLimits bad = limits;
     bad[static_cast<std::size_t>(Bone::LeftLowerArm)].min = 3.0f;
     const auto made = BodyJoints::make(skeleton, map, bad);

@@ -1,4 +1,4 @@
-// Lint checks that need no feet: keys, jumps and scales, on skeletons of no particular creature.
+// Lint checks that need no feet: keys, jumps and scales, on skeletons of any kind.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ Skeleton snake() {
     return *Skeleton::make(std::move(nodes));
 }
 
-/// It winds: every joint swings on its own sine, and the first one also moves forward.
+/// A winding motion: every joint swings on its own sine, and the first one also moves forward.
 Clip winding(double rate, int frames, double phase = 0.0) {
     Clip clip{.name = "wind", .duration = (frames - 1) / rate, .channels = {}};
     for (std::size_t node = 0; node < 5; ++node) {
@@ -63,7 +63,7 @@ std::string texts(const LintReport& report) {
     return all;
 }
 
-TEST(Lint, finds_nothing_in_a_clean_clip) {
+TEST(Lint, FindsNothingInACleanClip) {
     for (const double rate : {24.0, 30.0, 60.0, 120.0}) {
         for (int i = 0; i < 20; ++i) {
             const LintReport report = lint_of(winding(rate, 50 + 7 * i, i));
@@ -75,7 +75,7 @@ TEST(Lint, finds_nothing_in_a_clean_clip) {
     }
 }
 
-TEST(Lint, says_the_frame_rate_that_keys_have) {
+TEST(Lint, ReportsTheFrameRateOfTheKeys) {
     EXPECT_EQ(frame_rate(winding(30.0, 40)), 30.0);
     EXPECT_NEAR(frame_rate(winding(29.97, 400)), 29.97, 1e-9);
     EXPECT_EQ(frame_rate({}), 60.0);
@@ -85,13 +85,13 @@ TEST(Lint, says_the_frame_rate_that_keys_have) {
     EXPECT_EQ(frame_rate(winding(2.0, 40)), 60.0) << "too slow to be a frame rate";
     for (const double slow : {5.0, 8.0, 12.5, 15.0, 18.0})
         EXPECT_NEAR(frame_rate(winding(slow, 40)), slow, 1e-9);
-    Clip rounded = winding(30.0, 100);  // as a file with three decimals stores it
+    Clip rounded = winding(30.0, 100);  // as files with three decimals store it
     for (Channel& channel : rounded.channels)
         for (double& time : channel.rotation.times) time = std::floor(time * 1000.0) / 1000.0;
     EXPECT_NEAR(frame_rate(rounded), 30.0, 0.01);
 }
 
-TEST(Lint, finds_a_flipped_key_and_mends_it) {
+TEST(Lint, FindsAFlippedKeyAndFixesIt) {
     Clip clip = winding(30.0, 60);
     glm::dquat& key = clip.channels[2].rotation.values[17];
     key = -key;
@@ -111,7 +111,7 @@ TEST(Lint, finds_a_flipped_key_and_mends_it) {
     EXPECT_EQ(cured(clip, finding), winding(30.0, 60));
 }
 
-TEST(Lint, a_stretch_of_flipped_keys_is_one_finding) {
+TEST(Lint, ARunOfFlippedKeysIsOneFinding) {
     Clip clip = winding(30.0, 60);
     for (std::size_t i = 20; i < 31; ++i) clip.channels[3].rotation.values[i] *= -1.0;
     const LintReport report = lint_of(clip);
@@ -122,7 +122,7 @@ TEST(Lint, a_stretch_of_flipped_keys_is_one_finding) {
     EXPECT_TRUE(lint_of(clip).findings.empty());
 }
 
-TEST(Lint, FlipsOfAllJointsOfAClipAreOneFindingAndOneCure) {
+TEST(Lint, FlipsOfAllJointsOfAClipAreOneFindingAndOneFix) {
     Random random(5);
     Clip clip = winding(30.0, 200);
     for (const std::size_t node : {0u, 2u, 3u})
@@ -139,7 +139,7 @@ TEST(Lint, FlipsOfAllJointsOfAClipAreOneFindingAndOneCure) {
     EXPECT_EQ(cured(clip, finding), winding(30.0, 200));
 }
 
-TEST(Lint, mends_the_tangents_of_a_flipped_cubic_key_too) {
+TEST(Lint, FixesTheTangentsOfAFlippedCubicKeyToo) {
     Clip clip{.name = "cubic", .duration = 2.0, .channels = {{.node = 1}}};
     auto& track = clip.channels[0].rotation;
     track.interpolation = Interpolation::Cubic;
@@ -160,7 +160,7 @@ TEST(Lint, mends_the_tangents_of_a_flipped_cubic_key_too) {
     EXPECT_GT(mended[5].x, 0.0);
 }
 
-TEST(Lint, finds_a_joint_that_stands_apart_for_a_frame) {
+TEST(Lint, FindsAJointThatIsDisplacedForOneFrame) {
     Random random(71);
     for (int i = 0; i < 100; ++i) {
         const double rate = i % 2 == 0 ? 30.0 : 60.0;
@@ -186,7 +186,7 @@ TEST(Lint, finds_a_joint_that_stands_apart_for_a_frame) {
     }
 }
 
-TEST(Lint, finds_a_jump_after_which_the_motion_goes_on) {
+TEST(Lint, FindsAJumpAfterWhichTheMotionContinues) {
     Clip clip = winding(60.0, 120);
     auto& values = clip.channels[0].translation.values;
     for (std::size_t i = 50; i < values.size(); ++i) values[i] += glm::dvec3(0.0, 0.0, 0.25);
@@ -205,7 +205,7 @@ TEST(Lint, finds_a_jump_after_which_the_motion_goes_on) {
     EXPECT_EQ(mended.channels[0].translation.values[90], values[90]);
 }
 
-/// The same keys with cubic interpolation, as exporters write it.
+/// The same keys with cubic interpolation, as written by exporters.
 void make_cubic(Clip& clip) {
     const auto convert = [](auto& track) {
         const auto keys = track.values;
@@ -238,7 +238,7 @@ double largest_turn(const Clip& clip, std::size_t node, double rate) {
     return largest;
 }
 
-TEST(Lint, a_jump_is_measured_in_metres_below_a_scaled_node) {
+TEST(Lint, AJumpIsMeasuredInMetresBelowAScaledNode) {
     std::vector<Node> nodes = snake().nodes();
     nodes[0].rest.scale = glm::dvec3(0.01);
     for (std::size_t i = 1; i < nodes.size(); ++i) nodes[i].rest.translation *= 100.0;
@@ -257,7 +257,7 @@ TEST(Lint, a_jump_is_measured_in_metres_below_a_scaled_node) {
     EXPECT_NEAR(report.findings[0].amount, 250.0, 1.0);
 }
 
-TEST(Lint, a_mended_jump_leaves_nothing_between_cubic_keys) {
+TEST(Lint, AFixedJumpLeavesNothingBetweenCubicKeys) {
     for (const auto& [goes_on, frame] :
          {std::pair{false, 50u}, {false, 51u}, {false, 52u}, {false, 90u}, {true, 50u}, {true, 73u}}) {
         Clip clip = winding(60.0, 120);
@@ -274,14 +274,14 @@ TEST(Lint, a_mended_jump_leaves_nothing_between_cubic_keys) {
         ASSERT_NE(jump, report.findings.end()) << texts(report);
         EXPECT_GT(largest_turn(clip, 2, 60.0), 5.0 * calm);
         for (const double sign :
-             {1.0, -1.0}) {  // the keys after the jump as the other quaternion of the pair
+             {1.0, -1.0}) {  // -1: the keys after the jump are the other quaternion of the pair
             Clip turned = clip;
             auto& values = turned.channels[2].rotation.values;
             for (std::size_t i = 3 * (frame + 1); i < values.size(); ++i) values[i] = values[i] * sign;
             const Clip mended = cured(turned, *jump);
             EXPECT_LT(largest_turn(mended, 2, 60.0), goes_on ? 8.0 * calm : 1.5 * calm)
                 << goes_on << frame << sign;
-            for (const double seconds : {0.3, 1.9}) {  // far from the jump nothing changes
+            for (const double seconds : {0.3, 1.9}) {  // far from the jump, nothing changes
                 std::vector<rig::Transform> was(5), now(5);
                 sample(turned, snake(), seconds, was);
                 sample(mended, snake(), seconds, now);
@@ -291,7 +291,7 @@ TEST(Lint, a_mended_jump_leaves_nothing_between_cubic_keys) {
     }
 }
 
-TEST(Lint, keys_that_are_held_on_purpose_do_not_jump) {
+TEST(Lint, KeysHeldOnPurposeDoNotJump) {
     Clip clip = winding(60.0, 60);
     auto& track = clip.channels[1].rotation;
     track.interpolation = Interpolation::Step;
@@ -300,9 +300,9 @@ TEST(Lint, keys_that_are_held_on_purpose_do_not_jump) {
     EXPECT_TRUE(lint_of(clip).findings.empty());
 }
 
-/// Curves that are held and interpolated in turn become one track, with two keys at each step. No frame lies
-/// between them.
-TEST(Lint, two_keys_of_one_moment_are_a_step_on_purpose) {
+/// Curves that alternate between held and interpolated become one track, with two keys at each step. No frame
+/// lies between the two.
+TEST(Lint, TwoKeysAtOneTimeAreAnIntendedStep) {
     for (const bool turns : {true, false})
         for (const double rate : {24.0, 60.0}) {
             Clip clip = winding(rate, 60);
@@ -322,7 +322,7 @@ TEST(Lint, two_keys_of_one_moment_are_a_step_on_purpose) {
             else
                 step_at(channel.translation, [](const glm::dvec3& v) { return v + glm::dvec3(0, 0.4, 0); });
             EXPECT_TRUE(lint_of(clip).findings.empty()) << texts(lint_of(clip));
-            // Without the second key it takes a whole frame, and nobody meant it.
+            // Without the second key the jump takes a whole frame and is not intended.
             const auto erase = [](auto& track) {
                 track.times.erase(track.times.begin() + 20);
                 track.values.erase(track.values.begin() + 20);
@@ -337,7 +337,7 @@ TEST(Lint, two_keys_of_one_moment_are_a_step_on_purpose) {
         }
 }
 
-TEST(Lint, finds_a_clip_of_another_size) {
+TEST(Lint, FindsAClipOfAnotherSize) {
     Clip clip = winding(30.0, 30);
     const Skeleton skeleton = snake();
     for (std::size_t node = 1; node < 5; ++node) {
@@ -361,7 +361,7 @@ TEST(Lint, finds_a_clip_of_another_size) {
     EXPECT_TRUE(lint(longer, map, *mended).findings.empty());
 }
 
-TEST(Lint, finds_a_scale_of_nothing_and_of_the_other_side) {
+TEST(Lint, FindsZeroAndNegativeScales) {
     for (const double by : {0.0, -1.0}) {
         Clip clip = winding(30.0, 30);
         clip.channels[2].scale = {Interpolation::Linear, {0.0, 0.5}, {glm::dvec3(1.0), {1.0, by, 1.0}}};
@@ -377,9 +377,8 @@ TEST(Lint, finds_a_scale_of_nothing_and_of_the_other_side) {
     }
 }
 
-/// Keys of a node that was attached elsewhere stay in its old parent's space, and so do the sizes they are
-/// compared with.
-TEST(Lint, compares_keys_of_an_attached_node_with_its_rest_in_their_own_space) {
+/// Keys of an attached node stay in its old parent's space, and so do the sizes they are compared with.
+TEST(Lint, ComparesKeysOfAnAttachedNodeInTheirOwnSpace) {
     std::vector<Node> nodes = snake().nodes();
     nodes.push_back({"side", 0, {.translation = {0.0, 0.5, 0.0}, .scale = {-0.01, 0.01, 0.01}}});
     Skeleton skeleton = *Skeleton::make(nodes);
@@ -397,7 +396,7 @@ TEST(Lint, compares_keys_of_an_attached_node_with_its_rest_in_their_own_space) {
         EXPECT_EQ(lint(*moved, match_bones(*moved), clip).findings.size(), 1u) << name;
         channel.scale = {};
     }
-    // Of another size they are found to be so.
+    // A clip a hundred times as large is found.
     for (const char* name : {"joint1", "joint2", "joint3", "joint4"})
         clip.channels[*skeleton.find(name)].translation = {
             Interpolation::Linear, {0.0}, {skeleton[*skeleton.find(name)].rest.translation}};
@@ -412,8 +411,8 @@ TEST(Lint, compares_keys_of_an_attached_node_with_its_rest_in_their_own_space) {
     EXPECT_EQ(report.findings[0].fault, Fault::Scale);
 }
 
-/// What attach.hpp says: below a bone that is scaled unevenly, a node keeps its position but not its axes.
-TEST(Lint, an_attached_node_keeps_its_position_below_an_uneven_scale) {
+/// As attach.hpp says: below a bone that is scaled unevenly, a node keeps its position but not its axes.
+TEST(Lint, AnAttachedNodeKeepsItsPositionBelowAnUnevenScale) {
     std::vector<Node> nodes = snake().nodes();
     nodes.push_back({"side", 0, {.translation = {0.3, 0.5, 0.0}}});
     const Skeleton before = *Skeleton::make(nodes), after = *attached(before, 4, 5);
@@ -437,7 +436,7 @@ TEST(Lint, an_attached_node_keeps_its_position_below_an_uneven_scale) {
     }
 }
 
-/// Feet that stand still while the hips rise until the legs are straight, and stop there at once.
+/// The feet stand still while the hips rise until the legs are straight, and then stop abruptly.
 Clip snapping_legs(const Skeleton& skeleton) {
     Clip clip{.name = "rise", .duration = 1.5, .channels = {}};
     for (const char* name :
@@ -465,7 +464,7 @@ Clip snapping_legs(const Skeleton& skeleton) {
     return clip;
 }
 
-TEST(Lint, softens_a_leg_that_snaps_straight_and_leaves_its_foot_within_5_mm) {
+TEST(Lint, SoftensALegThatSnapsStraightWithin5MmOfItsFoot) {
     const Skeleton skeleton = make_figure({});
     const BoneMap map = match_bones(skeleton);
     const Clip clip = snapping_legs(skeleton);
@@ -501,7 +500,7 @@ TEST(Lint, softens_a_leg_that_snaps_straight_and_leaves_its_foot_within_5_mm) {
     EXPECT_FALSE(cure(skeleton, map, clip, other));
 }
 
-TEST(Lint, takes_clips_of_one_frame_and_of_none_and_very_long_ones) {
+TEST(Lint, AcceptsEmptySingleFrameAndVeryLongClips) {
     EXPECT_TRUE(lint_of({}).findings.empty());
     EXPECT_TRUE(lint_of(winding(30.0, 1)).findings.empty());
     EXPECT_TRUE(lint_of(winding(30.0, 2)).findings.empty());

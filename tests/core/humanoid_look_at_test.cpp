@@ -21,7 +21,7 @@ class HeadLook : public ::testing::Test {
     double turned(const std::vector<rig::Transform>& made, Bone bone) const {
         return 2.0 * std::acos(std::min(1.0, std::abs(made[node(bone)].rotation.w)));
     }
-    /// Radians between the gaze and the target.
+    /// Angle between the gaze and the target, radians.
     double left(const std::vector<rig::Transform>& made, const glm::dvec3& target) const {
         std::vector<Placement> placements(skeleton.size());
         place(skeleton, made, placements);
@@ -36,7 +36,7 @@ class HeadLook : public ::testing::Test {
     const LookAt look = *LookAt::make(skeleton, map);
 };
 
-TEST_F(HeadLook, IsOnTheTargetAndSpreadOverTheBones) {
+TEST_F(HeadLook, ReachesTheTargetSpreadOverTheBones) {
     for (int round = 0; round < 500; ++round) {
         const double yaw = number(-1.0, 1.0), pitch = number(-0.5, 0.5);
         const glm::dvec3 way(std::sin(yaw) * std::cos(pitch), std::sin(pitch),
@@ -70,7 +70,7 @@ TEST_F(HeadLook, StaysWithinItsLimits) {
     }
 }
 
-TEST_F(HeadLook, WeightZeroIsTheClipToTheBitAndTheRestIsSmooth) {
+TEST_F(HeadLook, AtWeightZeroIsTheClipAndOtherwiseSmooth) {
     const glm::dvec3 target(2.0, 1.2, 1.5);
     const std::vector<rig::Transform> clip = rest_pose(skeleton);
     double before = left(clip, target);
@@ -89,7 +89,7 @@ TEST_F(HeadLook, WeightZeroIsTheClipToTheBitAndTheRestIsSmooth) {
     EXPECT_LT(before, 1e-6);
 }
 
-TEST_F(HeadLook, ATargetThatGoesAroundNeverMakesTheHeadLeap) {
+TEST_F(HeadLook, ATargetThatCirclesNeverMakesTheHeadJump) {
     for (const double view : {1.2, LookAtOptions().view, 1.91, 2.0, 2.2, 2.5, 2.8}) {
         SCOPED_TRACE(view);
         LookAtState state;
@@ -114,7 +114,7 @@ TEST_F(HeadLook, ATargetThatGoesAroundNeverMakesTheHeadLeap) {
     }
 }
 
-TEST_F(HeadLook, RefusesWhatIsNoTargetAndNeedsNoMemory) {
+TEST_F(HeadLook, RefusesInvalidTargetsAndAllocatesNothing) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<rig::Transform> made = rest_pose(skeleton);
     const std::vector<rig::Transform> before = made;

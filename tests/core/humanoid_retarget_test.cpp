@@ -35,7 +35,7 @@ struct RetargetFigure {
     const Placement& of(const std::vector<Placement>& all, Bone bone) const {
         return all[static_cast<std::size_t>(map[bone].node)];
     }
-    /// Thigh and shin, the mean of both sides.
+    /// Mean length of the two legs: thigh plus shin.
     double leg() const {
         const auto all = placed(rest_pose(skeleton));
         const auto between = [&](Bone a, Bone b) {
@@ -61,7 +61,7 @@ class RetargetDice {
     std::mt19937 engine_;
 };
 
-/// Limbs of any length, in a rest pose and with axes of their own, turned about Y, with some bones missing.
+/// A body with limbs of any length, its own rest pose and bone axes, turned about Y, some bones missing.
 RetargetFigure random_body(RetargetDice& random, bool has_extras) {
     std::vector<Node> nodes{{"root", -1, {.rotation = random.turn(3.0)}}};
     RetargetFigure body;
@@ -101,7 +101,7 @@ RetargetFigure random_body(RetargetDice& random, bool has_extras) {
     return body;
 }
 
-/// The same body, whose left foot was a child of the root in its file (attach.hpp).
+/// The same body, with a left foot that was a child of the root in its file (attach.hpp).
 RetargetFigure with_loose_foot(RetargetFigure body) {
     const std::size_t foot = static_cast<std::size_t>(body.map[Bone::LeftFoot].node);
     std::vector<Node> nodes = body.skeleton.nodes();
@@ -113,7 +113,7 @@ RetargetFigure with_loose_foot(RetargetFigure body) {
     return body;
 }
 
-/// High above the ground, which would hold the feet.
+/// A clip high above the ground, so that ground contact does not hold the feet.
 Clip random_clip(RetargetDice& random, const RetargetFigure& body) {
     Clip clip{.name = "any", .duration = 1.0, .channels = {}};
     for (std::size_t node = 0; node < body.skeleton.size(); ++node) {
@@ -142,7 +142,7 @@ glm::dmat3 frame_of(const RetargetFigure& body) {
     return {glm::cross(at.up, at.forward), at.up, at.forward};
 }
 
-TEST(HumanoidRetarget, limbs_point_where_those_of_the_source_do_and_hips_move_in_proportion) {
+TEST(HumanoidRetarget, LimbsPointAsTheSourcesAndHipsMoveInProportion) {
     constexpr std::pair<Bone, Bone> limbs[]{
         {Bone::LeftUpperArm, Bone::LeftLowerArm},   {Bone::LeftLowerArm, Bone::LeftHand},
         {Bone::RightUpperArm, Bone::RightLowerArm}, {Bone::RightLowerArm, Bone::RightHand},
@@ -170,7 +170,7 @@ TEST(HumanoidRetarget, limbs_point_where_those_of_the_source_do_and_hips_move_in
                 EXPECT_LT(glm::distance(turn * direction(from, was), direction(to, now)), 1e-6)
                     << i << ' ' << humanoid::name(upper) << " at " << time;
             }
-            // Since the first moment: at rest not all of them are on the ground.
+            // Relative to the first frame: at rest not all of them are on the ground.
             const auto moved = [](const RetargetFigure& body, const std::vector<Placement>& all,
                                   const std::vector<Placement>& first) {
                 return body.of(all, Bone::Hips).position - body.of(first, Bone::Hips).position;
@@ -182,8 +182,8 @@ TEST(HumanoidRetarget, limbs_point_where_those_of_the_source_do_and_hips_move_in
     }
 }
 
-/// Also in a file that has its nodes in another order.
-TEST(HumanoidRetarget, AFigureWithTheSameNodesGetsTheClipItself) {
+/// This holds also for a file with its nodes in another order.
+TEST(HumanoidRetarget, AnEqualFigureGetsTheClipItself) {
     RetargetDice random(3);
     for (int i = 0; i < 10; ++i) {
         RetargetFigure body = random_body(random, i % 2 == 0);
@@ -212,7 +212,7 @@ TEST(HumanoidRetarget, AFigureWithTheSameNodesGetsTheClipItself) {
             expected.node = static_cast<std::size_t>(moved(static_cast<std::int32_t>(expected.node)));
             EXPECT_EQ(there->clip.channels.at(k), expected);
         }
-        // In another size it has longer steps; with a leg of another length it is another figure.
+        // At another size the steps are longer; with another leg length it is another figure.
         std::vector<Node> large = body.skeleton.nodes();
         for (Node& each : large) {
             each.rest.translation *= 2.0;
@@ -235,7 +235,7 @@ TEST(HumanoidRetarget, AFigureWithTheSameNodesGetsTheClipItself) {
     }
 }
 
-TEST(HumanoidRetarget, the_root_travels_and_helpers_follow_the_bones_that_they_stand_on) {
+TEST(HumanoidRetarget, TheRootTravelsAndHelpersFollowTheirBones) {
     RetargetDice random(11);
     for (int i = 0; i < 20; ++i) {
         const RetargetFigure from = random_body(random, true);
@@ -286,7 +286,7 @@ TEST(HumanoidRetarget, the_root_travels_and_helpers_follow_the_bones_that_they_s
 
 // ------------------------------------------------------------------------------------------------- walks
 
-/// The figure with other proportions, arms hanging at rest, toes turned out, and hands that point anywhere.
+/// The figure with other proportions, arms hanging at rest, toes turned out, and hands rotated.
 RetargetFigure other_figure(double legs, double feet, double hips) {
     RetargetFigure body{make_figure({}), {}};
     std::vector<Node> nodes = body.skeleton.nodes();
@@ -339,7 +339,7 @@ Clip long_walk(const RetargetFigure& body) {
     return walk;
 }
 
-TEST(HumanoidRetarget, a_walk_stands_on_other_legs_and_its_hands_point_the_same_way) {
+TEST(HumanoidRetarget, AWalkFitsOtherLegsAndHandsKeepTheirDirection) {
     const RetargetFigure from{make_figure({}), match_bones(make_figure({}))};
     const Clip walk = long_walk(from);
     for (const auto& [legs, feet, hips] : {std::array{0.6, 1.0, 1.0}, {1.4, 0.6, 1.5}, {1.0, 1.4, 0.7}}) {
@@ -387,8 +387,8 @@ TEST(HumanoidRetarget, a_walk_stands_on_other_legs_and_its_hands_point_the_same_
     }
 }
 
-/// The first frames of the walk: none (no keys), one, and so on.
-TEST(HumanoidRetarget, AClipMayHaveAsFewFramesAsItLikes) {
+/// Clips of the walk's first frames: 0 (no keys) to 5.
+TEST(HumanoidRetarget, AClipMayHaveAnyNumberOfFrames) {
     const RetargetFigure from{make_figure({}), match_bones(make_figure({}))}, to = other_figure(0.8, 1, 1);
     for (std::size_t frames = 0; frames < 6; ++frames)
         for (const Bone missing : {Bone::Head, Bone::LeftFoot, Bone::RightLowerLeg}) {
@@ -416,7 +416,7 @@ TEST(HumanoidRetarget, AClipMayHaveAsFewFramesAsItLikes) {
 }
 
 /// A figure that stands for a second and then lies down on its back.
-TEST(HumanoidRetarget, HowAFigureLiesSaysNothingOfHowItStands) {
+TEST(HumanoidRetarget, LyingDownDoesNotChangeHowItStands) {
     const RetargetFigure from{make_figure({}), match_bones(make_figure({}))}, to = other_figure(0.7, 1, 1);
     const auto clip = [&](int frames) {
         Clip made{.name = "lie", .duration = (frames - 1) / 30.0, .channels = {{.node = 0}}};
@@ -445,7 +445,7 @@ TEST(HumanoidRetarget, HowAFigureLiesSaysNothingOfHowItStands) {
     }
 }
 
-TEST(HumanoidRetarget, feet_stand_level_on_legs_of_unequal_length) {
+TEST(HumanoidRetarget, FeetStandLevelOnLegsOfUnequalLength) {
     const RetargetFigure from{make_figure({}), match_bones(make_figure({}))};
     RetargetFigure to = from;
     std::vector<Node> nodes = to.skeleton.nodes();
@@ -471,7 +471,7 @@ TEST(HumanoidRetarget, feet_stand_level_on_legs_of_unequal_length) {
     EXPECT_NEAR(sum[0] / count[0], sum[1] / count[1], 0.003);
 }
 
-TEST(HumanoidRetarget, toes_that_point_up_in_a_zero_pose_lie_flat_on_the_ground) {
+TEST(HumanoidRetarget, ToesThatPointUpInAZeroPoseLieFlatOnTheGround) {
     const RetargetFigure from{make_figure({}), match_bones(make_figure({}))};
     RetargetFigure to = from;
     std::vector<Node> nodes = to.skeleton.nodes();
@@ -495,7 +495,7 @@ TEST(HumanoidRetarget, toes_that_point_up_in_a_zero_pose_lie_flat_on_the_ground)
     }
 }
 
-TEST(HumanoidRetarget, bones_of_the_palm_beside_the_hand_turn_with_it) {
+TEST(HumanoidRetarget, PalmBonesBesideTheHandTurnWithIt) {
     RetargetDice random(13);
     const RetargetFigure from{make_figure({}), match_bones(make_figure({}))};
     RetargetFigure to = from;
@@ -517,7 +517,7 @@ TEST(HumanoidRetarget, bones_of_the_palm_beside_the_hand_turn_with_it) {
     }
 }
 
-TEST(HumanoidRetarget, fingers_are_carried_over_by_their_names) {
+TEST(HumanoidRetarget, FingersAreMatchedByName) {
     const auto with_fingers = [](const std::vector<std::string>& names, double bent) {
         const Skeleton figure = make_figure({});
         std::vector<Node> nodes = figure.nodes();
@@ -531,7 +531,7 @@ TEST(HumanoidRetarget, fingers_are_carried_over_by_their_names) {
         body.map = match_bones(body.skeleton);
         return body;
     };
-    // The target's are bent at rest, and one has a bone of the palm.
+    // The target's fingers are bent at rest, and it has a palm bone.
     const RetargetFigure from = with_fingers({"LeftHandMiddle1", "LeftHandMiddle2", "LeftHandMiddle3"}, 0.0),
                          to = with_fingers(
                              {"middle_metacarpal_l", "middle_01_l", "middle_02_l", "middle_03_l"}, -0.2);
@@ -559,7 +559,7 @@ TEST(HumanoidRetarget, fingers_are_carried_over_by_their_names) {
     }
 }
 
-TEST(HumanoidRetarget, it_says_which_bones_only_one_of_them_has) {
+TEST(HumanoidRetarget, ListsTheBonesThatOnlyOneOfThemHas) {
     RetargetDice random(5);
     const RetargetFigure full = random_body(random, true), plain = random_body(random, false);
     const Clip clip = random_clip(random, full);
@@ -571,7 +571,7 @@ TEST(HumanoidRetarget, it_says_which_bones_only_one_of_them_has) {
     for (const Channel& each : made->clip.channels) EXPECT_NE(full.skeleton[each.node].name, "Neck");
 }
 
-TEST(HumanoidRetarget, what_does_not_fit_is_refused) {
+TEST(HumanoidRetarget, UnsuitableInputIsRefused) {
     RetargetDice random(9);
     const RetargetFigure body = random_body(random, true);
     const Clip clip = random_clip(random, body);

@@ -25,7 +25,7 @@ std::vector<Node> line(std::size_t count) {
     return nodes;
 }
 
-TEST(Skeleton, StandsInTheFilesOrderAndIsWorkedOutFromTheRootsDown) {
+TEST(Skeleton, KeepsTheFilesOrderAndEvaluatesRootsFirst) {
     // 2 is the root; 0 is a child of 1, which is a child of 2.
     const auto skeleton =
         Skeleton::make({{"hand", 1, {}}, {"arm", 2, {}}, {"root", -1, {}}, {"other", -1, {}}});
@@ -38,7 +38,7 @@ TEST(Skeleton, StandsInTheFilesOrderAndIsWorkedOutFromTheRootsDown) {
     EXPECT_FALSE(skeleton->find("leg"));
 }
 
-TEST(Skeleton, RefusesWhatIsNoTreeAndSaysWhere) {
+TEST(Skeleton, RefusesInvalidTreesAndSaysWhere) {
     const auto message = [](std::vector<Node> nodes) {
         return std::string(Skeleton::make(std::move(nodes)).message());
     };
@@ -62,7 +62,7 @@ glm::dmat4 matrix(const rig::Transform& t) {
            glm::scale(glm::dmat4(1.0), t.scale);
 }
 
-TEST(Skeleton, NodesAreWhereTheProductOfMatricesPutsThem) {
+TEST(Skeleton, NodesAreWhereTheMatrixProductPutsThem) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> number(-2.0, 2.0);
     for (int round = 0; round < 200; ++round) {
@@ -90,7 +90,7 @@ TEST(Skeleton, NodesAreWhereTheProductOfMatricesPutsThem) {
     }
 }
 
-TEST(Placement, RotationIsThatOfATransformWhateverItsScale) {
+TEST(Placement, RotationEqualsATransformsAtAnyScale) {
     std::mt19937 random(4);
     std::normal_distribution<double> number;
     for (int round = 0; round < 1000; ++round) {
@@ -120,7 +120,7 @@ rig::Transform at(const Clip& clip, double time) {
     return pose[0];
 }
 
-TEST(Clip, StepLinearAndCubicAreAsGltfDefinesThem) {
+TEST(Clip, InterpolationIsAsGltfDefinesIt) {
     Channel channel{.translation = {Interpolation::Step, {1.0, 2.0}, {{1, 0, 0}, {5, 0, 0}}}};
     EXPECT_EQ(at(one_channel(channel, 2.0), 0.0).translation.x, 1.0) << "before the first key its value";
     EXPECT_EQ(at(one_channel(channel, 2.0), 1.999).translation.x, 1.0);
@@ -128,7 +128,7 @@ TEST(Clip, StepLinearAndCubicAreAsGltfDefinesThem) {
     EXPECT_EQ(at(one_channel(channel, 2.0), 9.0).translation.x, 5.0);
     channel.translation.interpolation = Interpolation::Linear;
     EXPECT_DOUBLE_EQ(at(one_channel(channel, 2.0), 1.25).translation.x, 2.0);
-    // A cubic through x = t^3 from 1 to 3, its tangents 3 t^2: exact everywhere.
+    // A cubic through x = t^3 from 1 to 3 with tangents 3 t^2: exact everywhere.
     const auto cube = [](double t) { return glm::dvec3(t * t * t, 0, 0); };
     const auto slope = [](double t) { return glm::dvec3(3 * t * t, 0, 0); };
     channel.translation = {
@@ -137,7 +137,7 @@ TEST(Clip, StepLinearAndCubicAreAsGltfDefinesThem) {
         EXPECT_NEAR(at(one_channel(channel, 3.0), t).translation.x, t * t * t, 1e-12);
 }
 
-TEST(Clip, RotationsGoTheShortWayAndStayUnits) {
+TEST(Clip, RotationsTakeTheShortWayAndStayUnit) {
     const glm::dquat none(1, 0, 0, 0), turned = glm::angleAxis(1.2, glm::dvec3(0, 1, 0));
     for (const glm::dquat& to : {turned, -turned}) {
         const Channel channel{.rotation = {Interpolation::Linear, {0.0, 1.0}, {none, to}}};
@@ -153,7 +153,7 @@ TEST(Clip, RotationsGoTheShortWayAndStayUnits) {
                 1.0, 1e-12);
 }
 
-TEST(Clip, HasAsManyFramesAsKeysThoughTheirTimesAreRounded) {
+TEST(Clip, HasAsManyFramesAsKeysDespiteRoundedTimes) {
     Clip clip{.name = "walk", .duration = 0.0, .channels = {{.node = 0}}};
     for (int i = 0; i < 4511; ++i) {
         clip.channels[0].translation.times.push_back(i * 0.0333333);
@@ -167,7 +167,7 @@ TEST(Clip, HasAsManyFramesAsKeysThoughTheirTimesAreRounded) {
     EXPECT_EQ(frames_at(Clip{.name = "still", .duration = 0.0, .channels = {}}, 30.0).count, 1u);
 }
 
-TEST(Clip, StepsComeWithTheFrameOfTheirKeyThoughFilesRoundTimes) {
+TEST(Clip, StepsHappenAtTheirKeysFrameDespiteRoundedTimes) {
     for (const double rate : {1001.0 / 30.0, 15.0, 24.0, 30.0, 60.0, 120.0, 452.0}) {
         Clip clip{.name = "steps", .channels = {{.node = 0}}};
         auto& [interpolation, times, values] = clip.channels[0].translation;
@@ -186,7 +186,7 @@ TEST(Clip, StepsComeWithTheFrameOfTheirKeyThoughFilesRoundTimes) {
     }
 }
 
-TEST(Clip, RefusesWhatDoesNotFitAndSaysWhere) {
+TEST(Clip, RefusesInvalidClipsAndSaysWhere) {
     const Skeleton skeleton = *Skeleton::make(line(2));
     const auto message = [&](const Channel& channel, double duration = 5.0) {
         return std::string(check(one_channel(channel, duration), skeleton).message());

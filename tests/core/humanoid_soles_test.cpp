@@ -43,7 +43,7 @@ TEST(Soles, TurnWithTheFigure) {
     }
 }
 
-TEST(Soles, AreAheadWhereTheCharacterFaces) {
+TEST(Soles, PointWhereTheCharacterFaces) {
     std::map<std::string, std::string> exchanged;
     for (const FigureNode& each : figure_nodes()) {
         const std::string key = each.key;
@@ -62,7 +62,7 @@ TEST(Soles, AreAheadWhereTheCharacterFaces) {
         }
 }
 
-TEST(Soles, WithoutToesGoByTheLeg) {
+TEST(Soles, EstimateTheToesFromTheLegs) {
     const Skeleton skeleton =
         make_figure({{"LeftToes", ""}, {"LeftToes end", ""}, {"RightToes", ""}, {"RightToes end", ""}});
     const Soles soles = *find_soles(skeleton, match_bones(skeleton));
@@ -73,7 +73,7 @@ TEST(Soles, WithoutToesGoByTheLeg) {
     expect_near(points[0].heel, {0.1, 0, -0.05}, 0.001);
 }
 
-TEST(Soles, FindTheFloorOfAFigureWhoseHipsAreTheOrigin) {
+TEST(Soles, FindTheFloorIfTheHipsAreTheOrigin) {
     std::vector<Node> nodes = make_figure({}).nodes();
     nodes[0].rest.translation = glm::dvec3(0.0);
     const Skeleton skeleton = *Skeleton::make(nodes);
@@ -81,7 +81,7 @@ TEST(Soles, FindTheFloorOfAFigureWhoseHipsAreTheOrigin) {
     EXPECT_NEAR(soles.floor, -1.0, 0.005);
 }
 
-TEST(Soles, AreInTheBonesOwnSpaces) {
+TEST(Soles, AreInTheirBonesSpaces) {
     // Rotating and scaling every bone must not move joints or sole points.
     const Skeleton plain = make_figure({});
     std::vector<Placement> placements(plain.size());
@@ -109,7 +109,7 @@ TEST(Soles, AreInTheBonesOwnSpaces) {
     expect_near(at_rest(turned, soles)[1].toe, {-0.1, 0, 0.15});
 }
 
-TEST(Soles, OfAClipKnowItsFloor) {
+TEST(Soles, FindTheFloorOfAClip) {
     const Skeleton skeleton = make_figure({});
     const Soles soles = *find_soles(skeleton, match_bones(skeleton));
     Clip clip = FigureWalk(skeleton).clip();
@@ -119,7 +119,7 @@ TEST(Soles, OfAClipKnowItsFloor) {
     EXPECT_NEAR(clip_floor(skeleton, soles, {}), 0.0, 1e-9) << "a clip without keys is the rest pose";
 }
 
-/// The figure with feet that point straight down at rest, as captured figures have them.
+/// The figure with feet that point straight down at rest, as in captured figures.
 Skeleton pointing_figure() {
     std::vector<Node> nodes = make_figure({}).nodes();
     for (Node& node : nodes)
@@ -128,14 +128,14 @@ Skeleton pointing_figure() {
     return *Skeleton::make(nodes);
 }
 
-TEST(Soles, AreLearnedFromAClipWhoseFeetDoNotStandAsTheyRest) {
+TEST(Soles, AreLearnedFromAClipIfFeetDoNotRestFlat) {
     const Skeleton plain = make_figure({}), pointing = pointing_figure();
     const Clip walk = FigureWalk(plain).clip();
     const BoneMap map = match_bones(pointing);
     const Soles rest = *find_soles(pointing, map), learned = clip_soles(pointing, map, rest, walk);
     EXPECT_NE(learned, rest);
     const Soles right = *find_soles(plain, match_bones(plain));
-    // In stance they are where those of the plain figure are.
+    // In stance they match the plain figure's.
     std::vector<rig::Transform> pose(plain.size());
     std::vector<Placement> placements(plain.size());
     for (const double phase : {0.15, 0.25, 0.35}) {
@@ -152,7 +152,7 @@ TEST(Soles, AreLearnedFromAClipWhoseFeetDoNotStandAsTheyRest) {
     EXPECT_EQ(clip_soles(pointing, map, rest, Clip()), rest) << "nothing to learn from";
 }
 
-TEST(Soles, RefuseAMapThatCannotBeUsed) {
+TEST(Soles, RefuseAnUnusableMap) {
     const Skeleton skeleton = make_figure({});
     BoneMap map = match_bones(skeleton);
     map[Bone::LeftFoot].node = -1;

@@ -68,7 +68,7 @@ double aside(const Antenna& antenna) {
     return antenna.state.masses.back().position.x - antenna.state.masses.back().target.x;
 }
 
-TEST(SpringChain, SwingsOutByTheBook) {
+TEST(SpringChain, SwingsOutAsTheAnalyticSolution) {
     for (const double damping : {0.1, 0.35, 0.7}) {
         Antenna antenna(3);
         const SpringOptions options{.strength = 3.0, .critical_damping = damping};
@@ -76,7 +76,7 @@ TEST(SpringChain, SwingsOutByTheBook) {
         double x = 0.0;
         for (int i = 0; i < 100; ++i) antenna.step({x += v * dt, 1.0, 0.0}, options, dt);
         EXPECT_LT(std::abs(aside(antenna)), 1e-9) << "an even motion is followed without lag";
-        // It stops dead: y'' + 2 z w y' + w^2 y = 0 from y = 0 at y' = v.
+        // The base stops dead: y'' + 2 z w y' + w^2 y = 0 from y = 0 at y' = v.
         const double wd = w * std::sqrt(1.0 - damping * damping);
         for (int i = 1; i <= 200; ++i) {
             antenna.step({x, 1.0, 0.0}, options, dt);
@@ -86,7 +86,7 @@ TEST(SpringChain, SwingsOutByTheBook) {
     }
 }
 
-TEST(SpringChain, IsDrivenByItsBaseByTheBook) {
+TEST(SpringChain, ShakenAtItsBaseMatchesTheAnalyticAmplitude) {
     for (const double shaken : {0.5, 1.0, 2.0, 3.0, 5.0, 8.0}) {
         Antenna antenna(4);
         const double z = 0.3, w0 = two_pi * 3.0, w = two_pi * shaken, a = 0.005, dt = 1.0 / 240;
@@ -102,7 +102,7 @@ TEST(SpringChain, IsDrivenByItsBaseByTheBook) {
     }
 }
 
-TEST(SpringChain, BendsLikeABeamWhereItsBaseSpeedsUp) {
+TEST(SpringChain, BendsLikeABeamUnderAcceleration) {
     Antenna antenna(8);
     const double a = 2.0, dt = 1.0 / 240, w = two_pi * 2.0;
     for (int i = 0; i < 2400; ++i)
@@ -116,7 +116,7 @@ TEST(SpringChain, BendsLikeABeamWhereItsBaseSpeedsUp) {
     }
 }
 
-/// Tip positions of an antenna of six joints, twice a second for 4 s of a dance, in steps of about `dt`.
+/// Tip positions of an antenna of six joints, every 0.5 s for 4 s of a dance, in steps of about `dt`.
 std::vector<glm::dvec3> danced(double dt, std::mt19937* jitter) {
     Antenna antenna(6);
     std::vector<glm::dvec3> tips;
@@ -155,7 +155,7 @@ TEST(SpringChain, FrameRatesMakeLittleDifference) {
     EXPECT_LT(worst(15.0, nullptr), 0.08);
 }
 
-TEST(SpringChain, KeepsLengthsAndConeAndAllElse) {
+TEST(SpringChain, KeepsLengthsConeAndAllOtherNodes) {
     std::mt19937 random(5);
     const auto number = [&](double from, double to) {
         return std::uniform_real_distribution<double>(from, to)(random);
@@ -211,7 +211,7 @@ TEST(SpringChain, TheTipFollowsLaterThanTheRoot) {
     EXPECT_GT(when[5], when[0]);
 }
 
-TEST(SpringChain, WeightBlendsFromThePoseToTheBit) {
+TEST(SpringChain, WeightBlendsFromTheExactPose) {
     Antenna still(4), half(4), whole(4);
     for (int frame = 0; frame < 20; ++frame) {
         const glm::dvec3 at(0.002 * frame * frame, 1.0, 0.0);
@@ -230,7 +230,7 @@ TEST(SpringChain, WeightBlendsFromThePoseToTheBit) {
     }
 }
 
-TEST(SpringChain, WithoutTimeItStandsWhereItsMassesAre) {
+TEST(SpringChain, WithoutTimeThePoseStaysAtItsMasses) {
     Antenna antenna(4);
     std::vector<rig::Transform> last;
     for (int frame = 0; frame < 10; ++frame) last = antenna.step({0.02 * frame, 1.0, 0.0}, {}, 1.0 / 60);
@@ -243,7 +243,7 @@ TEST(SpringChain, WithoutTimeItStandsWhereItsMassesAre) {
     }
 }
 
-TEST(SpringChain, IsCarriedWithoutASwingAndDraggedWithOne) {
+TEST(SpringChain, TeleportDoesNotSwingAndDraggingDoes) {
     Antenna carried(4), dragged(4), put(4);
     for (Antenna* each : {&carried, &dragged, &put})
         for (int frame = 0; frame < 10; ++frame) each->step({0.0, 1.0, 0.0}, {}, 1.0 / 60);
@@ -263,7 +263,7 @@ TEST(SpringChain, IsCarriedWithoutASwingAndDraggedWithOne) {
     EXPECT_EQ(put.report.angle, 0.0) << "1 200 m/s is no motion";
 }
 
-TEST(SpringChain, TeleportedNowhereItKeepsItsVelocity) {
+TEST(SpringChain, ATeleportInPlaceKeepsTheVelocity) {
     Antenna antenna(4), other(4);
     for (int frame = 0; frame < 60; ++frame) {
         const glm::dvec3 at(0.1 * std::sin(0.2 * frame), 1.0, 0.0);
@@ -277,7 +277,7 @@ TEST(SpringChain, TeleportedNowhereItKeepsItsVelocity) {
     EXPECT_GT(other.report.angle, 0.01);
 }
 
-/// A character a hundred times as large swings by the same angles.
+/// A character a hundred times as large swings by equal angles.
 TEST(SpringChain, SizeMakesNoDifference) {
     Antenna small(4), large(4);
     for (int frame = 0; frame < 60; ++frame) {
@@ -319,7 +319,7 @@ TEST(SpringChain, StaysOutsideAColliderWithLengthsKept) {
                 const auto apart = [&](const glm::dvec3& point) {
                     return gap({point, point, options.hit_radius}, collider);
                 };
-                // A bone that begins too deep inside cannot reach the surface.
+                // A bone that starts too deep inside cannot reach the surface.
                 const double reachable = std::min(0.0, apart(points[i]) + 0.1);
                 if (!is_sphere && reachable < 0.0) continue;
                 ASSERT_GE(apart(points[i + 1]), reachable - 1e-6)
@@ -348,7 +348,7 @@ TEST(SpringChain, LeansOnAColliderAndLeavesItWithoutABounce) {
     antenna.chain.step(pose, {}, 0.0, antenna.state, {&wall, 1});
     EXPECT_EQ(antenna.state, before) << "no time passes";
     EXPECT_LT(glm::distance(antenna.tip(pose), antenna.tip(leaning)), 1e-9);
-    // The collider leaves: back to its pose, by no more than the spring alone overshoots.
+    // The collider is removed: the chain returns to its pose and overshoots no more than by its spring.
     double other_side = 0.0;
     const double start = -antenna.tip(leaning).x;
     ASSERT_GT(start, 0.02);
@@ -358,8 +358,8 @@ TEST(SpringChain, LeansOnAColliderAndLeavesItWithoutABounce) {
     EXPECT_LT(antenna.report.angle, 1e-4);
 }
 
-/// Colliders out of reach change no bit.
-TEST(SpringChain, CollidersThatItDoesNotTouchChangeNothing) {
+/// Colliders out of reach do not change a bit.
+TEST(SpringChain, UntouchedCollidersChangeNothing) {
     Antenna alone(5), beside(5);
     const PlacedCapsule far[]{{{3.0, 1.0, 0.0}, {3.0, 2.0, 0.0}, 0.5}, {{0.0, -3.0, 0.0}, {}, 0.1}};
     for (int frame = 0; frame < 120; ++frame) {
@@ -373,7 +373,7 @@ TEST(SpringChain, CollidersThatItDoesNotTouchChangeNothing) {
     }
 }
 
-TEST(SpringChain, TakesBranchesAndASingleNode) {
+TEST(SpringChain, AcceptsBranchesAndASingleNode) {
     std::vector<Node> nodes = make_figure({}).nodes();
     const auto head = static_cast<std::int32_t>(*make_figure({}).find("Head"));
     const auto add = [&](const char* name, std::int32_t parent, glm::dvec3 at) {
@@ -412,7 +412,7 @@ TEST(SpringChain, TakesBranchesAndASingleNode) {
     EXPECT_FALSE(SpringChain::make(skeleton, map, skeleton.size()));
 }
 
-TEST(SpringChain, StandsAnythingWithoutMemory) {
+TEST(SpringChain, SurvivesAnyInputWithoutAllocating) {
     std::mt19937 random(11);
     const auto number = [&](double from, double to) {
         return std::uniform_real_distribution<double>(from, to)(random);

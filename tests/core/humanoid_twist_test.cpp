@@ -15,8 +15,8 @@ namespace {
 constexpr double one_degree = 3.14159265358979323846 / 180.0;
 const glm::dvec3 along{1.0, 0.0, 0.0};
 
-/// The figure with extra nodes on its left arm: at half of the lower arm and, below that, at its end; at a
-/// quarter of the upper arm; and one for something else.
+/// The figure with extra nodes on its left arm: halfway along the lower arm and, below that, at its end; a
+/// quarter along the upper arm; and one of another name.
 Skeleton with_twist_nodes() {
     std::vector<Node> nodes = make_figure({}).nodes();
     const auto add = [&](const char* name, const char* parent, glm::dvec3 at) {
@@ -30,7 +30,7 @@ Skeleton with_twist_nodes() {
     add("lowerarm_twist_02_l", "lowerarm_twist_01_l", {0.13, 0.0, 0.0});
     add("upperarm_twist_01_l", "LeftUpperArm", {0.07, 0.0, 0.0});
     add("elbow_pad_l", "LeftLowerArm", {0.05, 0.0, -0.05});
-    // A rest rotation about another axis than the bone's.
+    // A rest rotation about an axis other than the bone's.
     nodes.back().rest.rotation = nodes[nodes.size() - 2].rest.rotation =
         glm::angleAxis(0.7, glm::normalize(glm::dvec3(0.3, 1.0, 0.2)));
     return *Skeleton::make(nodes);
@@ -55,7 +55,7 @@ class HumanoidTwist : public testing::Test {
     TwistNodes nodes = TwistNodes::find(skeleton, map);
 };
 
-TEST(HumanoidTwistAngle, is_what_was_turned_about_the_axis_before_any_swing) {
+TEST(HumanoidTwistAngle, IsTheRotationAboutTheAxisBeforeTheSwing) {
     std::mt19937 engine(5);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     for (int i = 0; i < 2000; ++i) {
@@ -70,7 +70,7 @@ TEST(HumanoidTwistAngle, is_what_was_turned_about_the_axis_before_any_swing) {
     }
 }
 
-TEST(HumanoidTwistAngle, goes_to_nothing_evenly_where_the_swing_nears_half_a_turn) {
+TEST(HumanoidTwistAngle, FadesOutAsTheSwingNearsHalfATurn) {
     double last = 0.0;
     for (int i = 0; i <= 18000; ++i) {
         const glm::dquat turn =
@@ -85,7 +85,7 @@ TEST(HumanoidTwistAngle, goes_to_nothing_evenly_where_the_swing_nears_half_a_tur
     EXPECT_NEAR(last, 0.0, 1e-9);
 }
 
-TEST_F(HumanoidTwist, only_twist_nodes_that_hang_on_an_arm_are_found) {
+TEST_F(HumanoidTwist, FindsOnlyTwistNodesBelowAnArm) {
     EXPECT_EQ(nodes.along(Bone::LeftLowerArm),
               (std::vector{node("lowerarm_twist_01_l"), node("lowerarm_twist_02_l")}));
     EXPECT_EQ(nodes.along(Bone::LeftUpperArm), (std::vector{node("upperarm_twist_01_l")}));
@@ -105,7 +105,7 @@ TEST_F(HumanoidTwist, only_twist_nodes_that_hang_on_an_arm_are_found) {
     }
 }
 
-TEST_F(HumanoidTwist, nodes_turn_by_their_place_along_the_bone) {
+TEST_F(HumanoidTwist, NodesTurnByTheirPlaceAlongTheBone) {
     auto pose = rest;
     const auto before = nodes.turns(pose);
     pose[node("LeftHand")].rotation = glm::angleAxis(170.0 * one_degree, along);
@@ -118,7 +118,7 @@ TEST_F(HumanoidTwist, nodes_turn_by_their_place_along_the_bone) {
     EXPECT_EQ(pose[node("elbow_pad_l")], rest[node("elbow_pad_l")]);
 }
 
-TEST_F(HumanoidTwist, what_does_not_twist_keeps_its_bits) {
+TEST_F(HumanoidTwist, WithoutTwistThePoseKeepsItsBits) {
     std::mt19937 engine(6);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     for (int i = 0; i < 200; ++i) {
@@ -135,7 +135,7 @@ TEST_F(HumanoidTwist, what_does_not_twist_keeps_its_bits) {
     }
 }
 
-TEST_F(HumanoidTwist, a_body_whose_hand_is_twisted_takes_its_twist_nodes_along) {
+TEST_F(HumanoidTwist, ABodyTurnsTwistNodesWithTheHand) {
     Body body = *Body::make(skeleton, map);
     BodyState state;
     auto pose = rest;
@@ -151,7 +151,7 @@ TEST_F(HumanoidTwist, a_body_whose_hand_is_twisted_takes_its_twist_nodes_along) 
     EXPECT_NEAR(turned(pose, "lowerarm_twist_02_l"), 170.0, 0.1) << "at the wrist";
 }
 
-TEST_F(HumanoidTwist, and_so_does_hand_ik) {
+TEST_F(HumanoidTwist, HandIkTurnsTwistNodesToo) {
     const Hands hands = *Hands::make(skeleton, map);
     HandsState state;
     auto pose = rest;

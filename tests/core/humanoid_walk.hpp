@@ -27,12 +27,12 @@ class FigureWalk {
   private:
     struct Foot {
         glm::dvec3 ankle;
-        double pitch, bend;  // toes up; toes relative to the foot; radians
+        double pitch, bend;  // positive raises the toes; toes relative to the foot; radians
     };
     static glm::dquat about_x(double angle) { return glm::angleAxis(angle, glm::dvec3(1, 0, 0)); }
     static double smooth(double u) { return u * u * (3.0 - 2.0 * u); }
 
-    /// The foot since heel strike, with the hips then at z = 0.
+    /// The foot's pose after heel strike, with the hips then at z = 0.
     static Foot standing(double phase) {
         const glm::dvec3 ankle(0, 0.09, 0), heel(0, 0, -0.05), ball(0, 0.02, 0.15);
         const auto turned = [&](const glm::dvec3& about, double pitch) {

@@ -43,7 +43,7 @@ ik::Options iterations(int count) {
     return options;
 }
 
-TEST(IkCcd, GoesWhereTheTextbookGoes) {
+TEST(IkCcd, MatchesTheTextbook) {
     Random random(1);
     double worst = 0.0;
     for (int k = 0; k < 300; ++k) {
@@ -65,7 +65,7 @@ TEST(IkCcd, GoesWhereTheTextbookGoes) {
     EXPECT_LT(worst, 2e-5);
 }
 
-TEST(IkCcd, TurnsEveryJointOnceFromTheTipOn) {
+TEST(IkCcd, TurnsEveryJointOnceFromTheTip) {
     Random random(2);
     const Lengths lengths{1.0f, 0.7f, 0.9f, 0.4f};
     Joints joints = some_pose(lengths, random);
@@ -84,7 +84,7 @@ TEST(IkCcd, TurnsEveryJointOnceFromTheTipOn) {
     EXPECT_EQ(order, recorder.steps.front().order + 3) << "what moves at once shares its number";
 }
 
-TEST(IkCcd, TakesTheTipOrTheTargetOnAJointAndHalfATurn) {
+TEST(IkCcd, HandlesATipOrTargetOnAJointAndHalfATurn) {
     const Lengths three(3, 1.0f);
     const Joints folded{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 0, 0}};
     const Joints ring{{0, 0, 0}, {1, 0, 0}, {0.5f, 0.8660254f, 0}, {0, 0, 0}};
@@ -98,7 +98,7 @@ TEST(IkCcd, TakesTheTipOrTheTargetOnAJointAndHalfATurn) {
     }
 }
 
-TEST(IkCcd, ReachesInTheMiddleOfItsRange) {
+TEST(IkCcd, ReachesTargetsInTheMiddleOfItsRange) {
     Random random(3);
     int reached = 0;
     for (int k = 0; k < 500; ++k) {
@@ -119,7 +119,7 @@ TEST(IkCcd, LengthsDoNotDriftInAThousandIterations) {
     EXPECT_TRUE(Holds(joints, lengths));
 }
 
-TEST(IkCcd, BearsAnything) {
+TEST(IkCcd, SurvivesAnyInput) {
     expect_bears_anything(Method::Ccd, 2000);
 }
 

@@ -1,4 +1,4 @@
-// Chains placed along curves: cases of an independent implementation, the rule itself on random curves,
+// Chains placed along curves: cases from an independent implementation, the rule itself on random curves,
 // frames, fit, weights, jumps, and hostile input.
 #include <gtest/gtest.h>
 
@@ -79,8 +79,8 @@ void matches(const Json& expected) {
     EXPECT_EQ(report.bones_past_end, expected.at("bones_past_end").get<std::size_t>());
 }
 
-TEST(IkCurve, a_small_case_worked_out_by_hand) {
-    // Two points make a straight line of constant speed.
+TEST(IkCurve, ASmallCaseByHand) {
+    // Two points give a straight line of constant speed.
     Placed chain({0.5f, 0.25f, 1.0f});
     const CurveReport report = chain.place({{1, 1, 1}, {1, 2, 1}});
     EXPECT_EQ(chain.joints, (Points{{1, 1, 1}, {1, 1.5f, 1}, {1, 1.75f, 1}, {1, 2.75f, 1}}));
@@ -89,7 +89,7 @@ TEST(IkCurve, a_small_case_worked_out_by_hand) {
     EXPECT_FLOAT_EQ(report.past_end, 0.75f);
 }
 
-TEST(IkCurve, agrees_with_an_independent_implementation) {
+TEST(IkCurve, AgreesWithAnIndependentImplementation) {
     std::ifstream file(reference_path("spline.json"));
     if (!file) GTEST_SKIP() << "spline.json is not here";
     const Json cases = Json::parse(file).at("cases");
@@ -100,8 +100,8 @@ TEST(IkCurve, agrees_with_an_independent_implementation) {
     }
 }
 
-// The rule, by brute force: no point of the curve between a joint and the next is as far as the bone is long.
-TEST(IkCurve, each_joint_is_the_first_point_at_its_bones_length) {
+// By brute force: between a joint and the next, no point of the curve is a bone's length away.
+TEST(IkCurve, EachJointIsTheFirstPointAtItsBonesLength) {
     Random random(71);
     for (int trial = 0; trial < 300; ++trial) {
         const CurveKind kind = trial % 2 ? CurveKind::BSpline : CurveKind::Hermite;
@@ -114,7 +114,7 @@ TEST(IkCurve, each_joint_is_the_first_point_at_its_bones_length) {
             ASSERT_NEAR(glm::distance(chain.joints[i], chain.joints[i + 1]), length, 1e-6f);
             const double from = chain.memory.at[i], to = chain.memory.at[i + 1];
             ASSERT_LT(from, to);
-            if (from >= static_cast<double>(points.size() - 1)) continue;  // beyond the end
+            if (from >= static_cast<double>(points.size() - 1)) continue;  // beyond the curve's end
             const double last = std::min(to, static_cast<double>(points.size() - 1));
             for (int k = 0; k < 200; ++k) {
                 const auto at = static_cast<float>(from + (last - from) * k / 200.0);
@@ -127,7 +127,7 @@ TEST(IkCurve, each_joint_is_the_first_point_at_its_bones_length) {
     }
 }
 
-TEST(IkCurve, both_kinds_begin_and_end_on_the_control_points) {
+TEST(IkCurve, BothKindsBeginAndEndOnTheControlPoints) {
     Random random(5);
     for (const CurveKind kind : {CurveKind::Hermite, CurveKind::BSpline}) {
         const Points points = random_points(random, 6);
@@ -140,7 +140,7 @@ TEST(IkCurve, both_kinds_begin_and_end_on_the_control_points) {
 
 // ---------------------------------------------------------------------------------------------- rotations
 
-TEST(IkCurve, rotations_take_the_rest_directions_to_the_bones) {
+TEST(IkCurve, RotationsTakeTheRestDirectionsToTheBones) {
     Random random(9);
     for (int trial = 0; trial < 200; ++trial) {
         Points rest(12);
@@ -155,16 +155,16 @@ TEST(IkCurve, rotations_take_the_rest_directions_to_the_bones) {
     }
 }
 
-TEST(IkCurve, along_its_rest_pose_a_chain_does_not_rotate) {
+TEST(IkCurve, AlongItsRestPoseAChainDoesNotRotate) {
     Placed chain(std::vector<float>(8, 0.25f));
     chain.place({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}});
     for (const glm::quat& each : chain.state.rotations) EXPECT_NEAR(std::abs(each.w), 1.0f, 1e-6f);
 }
 
-TEST(IkCurve, a_loop_in_a_plane_causes_no_roll) {
+TEST(IkCurve, ALoopInAPlaneCausesNoRoll) {
     Points circle;
     for (int i = 0; i <= 32; ++i) {
-        const float angle = 6.2831853f * static_cast<float>(i) / 16.0f;  // twice round
+        const float angle = 6.2831853f * static_cast<float>(i) / 16.0f;  // goes round twice
         circle.emplace_back(std::cos(angle), 0.0f, std::sin(angle));
     }
     Placed chain(std::vector<float>(60, 0.2f));
@@ -173,7 +173,7 @@ TEST(IkCurve, a_loop_in_a_plane_causes_no_roll) {
         EXPECT_LE(glm::distance(turned(each, {0, 1, 0}), glm::vec3(0, 1, 0)), 1e-5f);
 }
 
-TEST(IkCurve, roll_is_spread_from_the_first_bone_to_the_last) {
+TEST(IkCurve, RollIsSpreadFromTheFirstBoneToTheLast) {
     Placed chain({1, 2, 1, 1});
     chain.place({{0, 0, 0}, {5, 0, 0}}, {.roll_start = 0.2f, .roll_end = 1.0f});
     const float expected[]{0.2f, 0.4f, 0.8f, 1.0f};
@@ -184,7 +184,7 @@ TEST(IkCurve, roll_is_spread_from_the_first_bone_to_the_last) {
 }
 
 // On a helix of slope b a rotation-minimising frame turns by 2 pi (1 - sin(slope)) a turn against the normal.
-TEST(IkCurve, frames_on_a_helix_turn_as_its_geometry_says) {
+TEST(IkCurve, FramesOnAHelixTurnAsItsGeometrySays) {
     constexpr float pitch = 0.5f, two_pi = 6.2831853f;
     Points helix;
     for (int i = 0; i <= 64; ++i) {
@@ -194,7 +194,7 @@ TEST(IkCurve, frames_on_a_helix_turn_as_its_geometry_says) {
     const float turn = std::hypot(two_pi, pitch);
     Placed chain(std::vector<float>(100, turn / 50.0f));
     chain.place(helix, {.up = {1, 0, 0}});
-    const auto roll_at = [&](std::size_t bone) {  // of the side against the direction to the axis
+    const auto roll_at = [&](std::size_t bone) {  // the side's angle from the direction to the axis
         const glm::vec3 at = 0.5f * (chain.joints[bone] + chain.joints[bone + 1]);
         const glm::vec3 along = glm::normalize(chain.joints[bone + 1] - chain.joints[bone]);
         const glm::vec3 out = glm::normalize(glm::vec3(at.x, 0, at.z));
@@ -208,7 +208,7 @@ TEST(IkCurve, frames_on_a_helix_turn_as_its_geometry_says) {
 
 // ------------------------------------------------------------------------------------------- fit, weights
 
-TEST(IkCurve, a_fitted_chain_ends_on_the_last_control_point) {
+TEST(IkCurve, AFittedChainEndsOnTheLastControlPoint) {
     Random random(13);
     int fitted = 0;
     for (int trial = 0; trial < 300; ++trial) {
@@ -235,14 +235,14 @@ TEST(IkCurve, a_fitted_chain_ends_on_the_last_control_point) {
     EXPECT_GE(fitted, 90) << "of 150 curves with folds, at some of which the tip jumps over the end";
 }
 
-TEST(IkCurve, a_fit_stops_at_its_limit_and_reports_what_is_left) {
+TEST(IkCurve, AFitStopsAtItsLimitAndReportsTheRest) {
     Placed chain(std::vector<float>(4, 1.0f));
     const CurveReport report = chain.place({{0, 0, 0}, {10, 0, 0}}, {.fit = true, .max_factor = 1.5f});
     EXPECT_FLOAT_EQ(report.factor, 1.5f);
     EXPECT_NEAR(report.short_of_end, 4.0f, 1e-5f);
 }
 
-TEST(IkCurve, weights_leave_bones_where_they_are_and_keep_lengths) {
+TEST(IkCurve, WeightsLeaveBonesInPlaceAndKeepLengths) {
     Random random(17);
     const Points points = random_points(random, 5);
     Placed rest(std::vector<float>(9, 0.2f)), none(rest), half(rest), root_half(rest), whole(rest);
@@ -268,7 +268,7 @@ TEST(IkCurve, weights_leave_bones_where_they_are_and_keep_lengths) {
 
 // ---------------------------------------------------------------------------------------- small movements
 
-TEST(IkCurve, a_small_movement_moves_joints_little_unless_a_jump_is_reported) {
+TEST(IkCurve, ASmallChangeMovesJointsLittleUnlessAJumpIsReported) {
     Random random(23);
     int jumps = 0;
     for (int trial = 0; trial < 400; ++trial) {
@@ -290,8 +290,8 @@ TEST(IkCurve, a_small_movement_moves_joints_little_unless_a_jump_is_reported) {
     EXPECT_LT(jumps, 60);
 }
 
-// The first joint that leaves its crossing while the control points go straight from one place to another: by
-// brute force, halving each step in which a joint moves far along the curve until the points hardly move.
+// Finds the first joint that leaves its crossing while the control points move along straight lines. By brute
+// force: halves each step in which a joint moves far along the curve, until the points hardly move.
 class BruteForce {
   public:
     BruteForce(const std::vector<float>& lengths, const Points& from, const Points& to)
@@ -337,9 +337,8 @@ class BruteForce {
     std::optional<std::size_t> first_{};
 };
 
-// Beyond small steps a joint may leave its crossing and come back to it on the way, which the rule does not
-// see.
-TEST(IkCurve, a_jump_is_another_crossing_however_far_the_curve_moved) {
+// In larger steps a joint may leave its crossing and come back to it in between, which the rule does not see.
+TEST(IkCurve, AJumpIsAnotherCrossingForAnyMotion) {
     Random random(29);
     int jumps = 0;
     for (const float step : {3e-2f, 1e-1f, 3e-1f}) {
@@ -362,7 +361,7 @@ TEST(IkCurve, a_jump_is_another_crossing_however_far_the_curve_moved) {
 
 // ------------------------------------------------------------------------------------------------ hostile
 
-TEST(IkCurve, degenerate_curves_give_finite_chains_of_their_lengths) {
+TEST(IkCurve, DegenerateCurvesGiveFiniteChainsOfTheirLengths) {
     Random random(31);
     std::vector<Points> curves{{{1, 2, 3}, {1, 2, 3}},
                                Points(64, {5, 5, 5}),
@@ -410,7 +409,7 @@ TEST(IkCurve, degenerate_curves_give_finite_chains_of_their_lengths) {
         }
 }
 
-TEST(IkCurve, bad_input_is_refused_and_changes_nothing) {
+TEST(IkCurve, BadInputIsRefusedAndChangesNothing) {
     const Points good{{0, 0, 0}, {1, 1, 0}};
     Placed chain({0.5f, 0.5f});
     const Placed before = chain;
@@ -433,7 +432,7 @@ TEST(IkCurve, bad_input_is_refused_and_changes_nothing) {
     EXPECT_EQ(chain.memory, before.memory);
 }
 
-TEST(IkCurve, needs_no_memory) {
+TEST(IkCurve, AllocatesNothing) {
     Random random(3);
     const Points points = random_points(random, 8);
     Placed chain(std::vector<float>(30, 0.1f));

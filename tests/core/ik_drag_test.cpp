@@ -1,4 +1,4 @@
-// Dragging a target where limits forbid it: the chain follows from its state, without jumps or searches.
+// Dragging a target against limits: the chain follows from its state, without jumps or new searches.
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 
@@ -33,7 +33,7 @@ double furthest_moved(const Joints& from, const Joints& to) {
     return furthest;
 }
 
-TEST(IkDrag, NoJointGoesFurtherThanTwentyTimesTheTargetAndTheTolerance) {
+TEST(IkDrag, NoJointMovesFurtherThanTwentyTimesTheTargetAndTheTolerance) {
     Random random(given_seed());
     int frames = 0, bent = 0, worst = 0;
     for (int k = 0; k < 150 && !HasFailure(); ++k) {
@@ -47,7 +47,7 @@ TEST(IkDrag, NoJointGoesFurtherThanTwentyTimesTheTargetAndTheTolerance) {
             const ik::Report report = it.solver.solve(Method::Fabrik, it.joints, it.target, options);
             EXPECT_EQ(report.restarts, 0);
             EXPECT_TRUE(WithinLimits(it.arm, it.joints, it.solver.rotations()));
-            bent += report.perturbations > 0;  // a singular pose cannot be left in a small step
+            bent += report.perturbations > 0;  // a singular pose cannot be left by a small step
             if (report.perturbations > 0) continue;
             const double moved = furthest_moved(before, it.joints);
             EXPECT_LE(moved, 20.0 * (step + 1e-3 * it.arm.reach()) * 1.001) << k << " " << i;
@@ -58,7 +58,7 @@ TEST(IkDrag, NoJointGoesFurtherThanTwentyTimesTheTargetAndTheTolerance) {
     EXPECT_LE(bent, frames / 100);
 }
 
-TEST(IkDrag, ATargetThatStandsStillMovesNothing) {
+TEST(IkDrag, AStillTargetMovesNothing) {
     Random random(given_seed() + 1);
     int still = 0, limited = 0;
     for (int k = 0; k < 200; ++k) {
@@ -74,8 +74,8 @@ TEST(IkDrag, ATargetThatStandsStillMovesNothing) {
     EXPECT_GE(limited, 190);
 }
 
-/// A fresh search in each frame would find better poses, and jump to them. On average that must gain little.
-TEST(IkDrag, FollowsAboutAsNearAsASearchInEveryFrame) {
+/// A new search in each frame would find better poses, and jump to them. The average gain must be small.
+TEST(IkDrag, FollowsAboutAsCloselyAsASearchInEveryFrame) {
     Random random(given_seed() + 2);
     double followed = 0.0, searched = 0.0;
     for (int k = 0; k < 40; ++k) {
@@ -99,8 +99,8 @@ TEST(IkDrag, FollowsAboutAsNearAsASearchInEveryFrame) {
     EXPECT_LE(followed, 1.15 * searched);
 }
 
-/// The last solve's results are not searched again: neither its verdict, nor where FABRIK's passes lead.
-TEST(IkDrag, AFrameOfAForbiddenTargetIsOneIteration) {
+/// The last solve is not searched again: neither its verdict, nor the result of FABRIK's passes.
+TEST(IkDrag, AFrameOfAnUnreachableTargetIsOneIteration) {
     Random random(given_seed() + 3);
     int frames = 0, iterations = 0, limited = 0;
     for (int k = 0; k < 100; ++k) {
@@ -111,7 +111,7 @@ TEST(IkDrag, AFrameOfAForbiddenTargetIsOneIteration) {
             const ik::Report report =
                 it.solver.solve(Method::Fabrik, it.joints, it.target, {.limits = it.arm.limits});
             if (report.status == Status::Converged) break;
-            if (i < 10) continue;  // the search ends while there is still a little to gain
+            if (i < 10) continue;  // a search may end with a little left to gain
             ++frames;
             iterations += report.iterations;
             limited += report.status == Status::Limited;
@@ -139,7 +139,7 @@ TEST(IkDrag, AFrameOfATargetWithinTheLimitsIsOneIterationOrLess) {
         Joints joints = start;
         for (int i = 1; i <= 40; ++i, ++frames) {
             Joints part = start;
-            between.state = state;  // a pose within the limits, part of the way to another
+            between.state = state;  // a pose within the limits, part of the way to another one
             between.solve(Method::Fabrik, part, b,
                           {.limits = arm.limits, .weight = 0.005f * static_cast<float>(i)});
             const ik::Report report =
@@ -153,7 +153,7 @@ TEST(IkDrag, AFrameOfATargetWithinTheLimitsIsOneIterationOrLess) {
     EXPECT_GE(arrived, 0.98 * frames);
 }
 
-TEST(IkDrag, ANumberOfRestartsThatIsGivenHoldsInEverySolve) {
+TEST(IkDrag, AGivenNumberOfRestartsHoldsInEverySolve) {
     Random random(3);
     int restarted = 0;
     for (int k = 0; k < 20; ++k) {
@@ -171,7 +171,7 @@ TEST(IkDrag, ANumberOfRestartsThatIsGivenHoldsInEverySolve) {
     EXPECT_GE(restarted, 18);
 }
 
-TEST(IkDrag, AJumpOfTheTargetOrOfThePoseIsANewSearch) {
+TEST(IkDrag, AJumpOfTheTargetOrOfThePoseStartsANewSearch) {
     Random random(4);
     int after_jump = 0, after_move = 0;
     for (int k = 0; k < 20; ++k) {

@@ -1,4 +1,4 @@
-// The limit that keeps the tip from the target, its value, and the angle that the target needs.
+// Explanations: the limit that keeps the tip from the target, its value, and the angle that the target needs.
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 
@@ -19,7 +19,7 @@ Limit wide_ball(double half_angle, double twist) {
     return limit;
 }
 
-/// Bones along +X at rest.
+/// An arm with its bones along +X at rest.
 Arm arm_of(Lengths lengths, std::vector<Limit> limits) {
     Arm arm{std::move(lengths), {}, std::move(limits)};
     arm.rest.assign(arm.lengths.size(), {1, 0, 0});
@@ -44,7 +44,7 @@ float span(float a, float b, double angle) {
     return static_cast<float>(std::sqrt(a * a + b * b + 2 * a * b * std::cos(angle * degree)));
 }
 
-TEST(IkExplain, AnElbowJustOutOfItsRangeIsNamedWithTheAngleOfTheLawOfCosines) {
+TEST(IkExplain, AnElbowJustOutOfRangeIsNamedWithTheLawOfCosinesAngle) {
     const glm::vec3 directions[] = {{1, 0, 0}, {0.48f, 0.6f, 0.64f}, {0, -1, 0}, {-0.6f, 0, 0.8f}};
     for (const Limit& shoulder : {Limit(), wide_ball(170, 170)}) {
         for (const double needed : {150.0, 162.0, 175.0}) {
@@ -70,7 +70,7 @@ TEST(IkExplain, AnElbowJustOutOfItsRangeIsNamedWithTheAngleOfTheLawOfCosines) {
     }
 }
 
-TEST(IkExplain, TheLowerBoundToo) {
+TEST(IkExplain, ALowerBoundIsNamedToo) {
     const Arm arm = arm_of({1, 1}, {Limit(), Limit::hinge({0, 0, 1}, radians(40), radians(145))});
     const auto [report, hold] = explained(arm, glm::vec3(0, 1, 0) * span(1, 1, 15));
     EXPECT_EQ(report.status, Status::Limited);
@@ -80,7 +80,7 @@ TEST(IkExplain, TheLowerBoundToo) {
     EXPECT_NEAR(degrees(hold->needed), 15, 0.5);
 }
 
-TEST(IkExplain, ASwingIsNamedByItsSide) {
+TEST(IkExplain, ASwingIsNamedByItsAxis) {
     Limit shoulder = Limit::of(JointKind::BallAndSocket);
     shoulder.up = radians(60), shoulder.down = radians(30), shoulder.left = radians(40);
     shoulder.right = radians(20);
@@ -117,13 +117,13 @@ TEST(IkExplain, TwistIsNamedToo) {
     EXPECT_NEAR(degrees(hold->needed), 90, 1.0);
 }
 
-TEST(IkExplain, OfSeveralThatHoldTheOneThatHelpsMostIsNamed) {
-    // All three are at their limits, but only the first, next to the root, can bring the tip there alone.
+TEST(IkExplain, TheLimitThatHelpsMostIsNamed) {
+    // All three are at their limits, but only the first, next to the root, can bring the tip there by itself.
     const Limit stiff = Limit::hinge({0, 0, 1}, radians(-10), radians(10));
     const Arm arm = arm_of({0.2f, 0.2f, 2.0f}, {stiff, stiff, stiff});
     Joints bent{{0, 0, 0}};
     double direction = 0;
-    for (const double turn : {10.0, 10.0, 60.0}) {  // the last alone would have to turn by 60
+    for (const double turn : {10.0, 10.0, 60.0}) {  // by itself, the last one would have to turn by 60
         direction += turn;
         bent.push_back(bent.back() + arm.lengths[bent.size() - 1] * glm::vec3(std::cos(radians(direction)),
                                                                               std::sin(radians(direction)),
@@ -142,7 +142,7 @@ TEST(IkExplain, OfSeveralThatHoldTheOneThatHelpsMostIsNamed) {
     }
 }
 
-TEST(IkExplain, WhereNothingHoldsNothingIsNamed) {
+TEST(IkExplain, WithoutAHoldingLimitNothingIsNamed) {
     const Arm arm = arm_of({1, 1}, {Limit(), Limit::hinge({0, 0, 1}, 0, radians(145))});
     EXPECT_FALSE(explained(arm, {0.9f, 0.9f, 0}).hold.has_value());  // reached
     EXPECT_FALSE(explained(arm, {0, 5, 0}).hold.has_value());        // out of reach
@@ -154,8 +154,8 @@ TEST(IkExplain, WhereNothingHoldsNothingIsNamed) {
     EXPECT_FALSE(solver.explain({joints.data(), 2}, {1, 1, 0}, options).has_value());
 }
 
-/// For arms of all kinds: the named joint is at its limit, raising it helps, explaining changes nothing.
-TEST(IkExplain, WhatIsNamedHelps) {
+/// On arms of all kinds: the named joint is at its limit, raising it helps, explaining changes nothing.
+TEST(IkExplain, RaisingTheNamedLimitHelps) {
     Random random(given_seed());
     int limited = 0, named = 0;
     for (int k = 0; k < 400 && !HasFailure(); ++k) {

@@ -1,5 +1,5 @@
 // FABRIK and the loop around every method: the two passes by hand, reachability, collinear singularities,
-// snap-back, the soft zone, and the pose that is kept if nothing helps.
+// snap-back, the soft zone, and the pose kept if nothing helps.
 #include <algorithm>
 #include <array>
 
@@ -32,7 +32,7 @@ TEST(IkFabrik, OneIterationIsTwoPulls) {
     EXPECT_LE(report.residual, 1e-5f);
 }
 
-TEST(IkFabrik, WhatIsThereAlreadyIsNotTouched) {
+TEST(IkFabrik, AReachedTargetMovesNothing) {
     const Lengths lengths{1.0f, 2.0f, 0.5f};
     Random random(1);
     for (const Method method : iterating_methods) {
@@ -66,7 +66,7 @@ TEST(IkFabrik, OutOfReachTheChainLiesStraight) {
     }
 }
 
-TEST(IkFabrik, AMillionTimesFurtherIsTheSameStraightLine) {
+TEST(IkFabrik, AMillionTimesFurtherGivesTheSameStraightLine) {
     const Lengths lengths(10, 1.0f);
     KeptSolver solver(lengths);
     Joints joints = straight_joints(lengths, {0, 1, 0});
@@ -75,7 +75,7 @@ TEST(IkFabrik, AMillionTimesFurtherIsTheSameStraightLine) {
     expect_near(joints, straight_joints(lengths, {0, 0, 1}));
 }
 
-TEST(IkFabrik, TooCloseTheOthersFoldBackAlongTheLongest) {
+TEST(IkFabrik, TooCloseTheOtherBonesFoldBackAlongTheLongest) {
     Random random(3);
     for (int i = 0; i < 500; ++i) {
         Lengths lengths = some_lengths(1 + random.below(8), random);
@@ -99,7 +99,7 @@ TEST(IkFabrik, TooCloseTheOthersFoldBackAlongTheLongest) {
     }
 }
 
-TEST(IkFabrik, OnTheRootAFoldedChainStaysWhereItLies) {
+TEST(IkFabrik, ATargetAtTheRootLeavesAFoldedChainInPlace) {
     const Lengths lengths{3.0f, 0.5f, 0.5f};
     KeptSolver solver(lengths);
     for (const glm::vec3 along : {glm::vec3(0, 1, 0), glm::vec3(0, -0.6f, 0.8f)}) {
@@ -110,7 +110,7 @@ TEST(IkFabrik, OnTheRootAFoldedChainStaysWhereItLies) {
     }
 }
 
-/// Straight or folded on the line through the target, in any direction, from any root.
+/// Starts straight or folded on the line through the target, in any direction, from any root.
 TEST(IkFabrik, EveryStartOnTheLineConverges) {
     Random random(4);
     for (int i = 0; i < 2000; ++i) {
@@ -128,7 +128,7 @@ TEST(IkFabrik, EveryStartOnTheLineConverges) {
         }
         const float off = random.chance(4) ? between(random, 0.0f, 0.01f) : part(random);
         const float far = (nearest + (reach - nearest) * off) * (random.chance(2) ? -1.0f : 1.0f);
-        // Slightly off the line is as hard: by a thousandth of the reach, or a millionth.
+        // Starts slightly off the line are as hard: by a thousandth of the reach, or a millionth.
         const float beside = random.chance(2) ? 0.0f : (random.chance(2) ? 1e-3f : 1e-6f) * reach;
         const glm::vec3 target = root + along * far + some_direction(random) * beside;
         KeptSolver solver(lengths);
@@ -139,7 +139,7 @@ TEST(IkFabrik, EveryStartOnTheLineConverges) {
     }
 }
 
-TEST(IkFabrik, TheKickIsTowardsThePole) {
+TEST(IkFabrik, ThePerturbationIsTowardsThePole) {
     const Lengths lengths(4, 1.0f);
     for (const glm::vec3 pole : {glm::vec3(1, 5, 0), glm::vec3(1, -5, 0), glm::vec3(2, 0, 3)}) {
         KeptSolver solver(lengths);
@@ -152,16 +152,16 @@ TEST(IkFabrik, TheKickIsTowardsThePole) {
     }
 }
 
-TEST(IkFabrik, SnapBackStartsNearerToRest) {
+TEST(IkFabrik, SnapBackStartsCloserToRest) {
     const Lengths lengths(3, 1.0f);
     const std::array<glm::vec3, 3> rest{{{0, 1, 0}, {0, 1, 0}, {0, 1, 0}}};
     KeptSolver solver(lengths, rest);
     const Joints start{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
     Joints joints = start;
-    // All the way: the rest pose, which already reaches the target.
+    // At 1: the rest pose, which already reaches the target.
     EXPECT_EQ(solver.solve(Method::Fabrik, joints, {0, 3, 0}, {.snap_back = 1.0f}).iterations, 0);
     expect_near(joints, straight_joints(lengths, {0, 1, 0}));
-    // Half way for the first joint: (0.5, 0.5) from the root, scaled to its length.
+    // At 0.5, the first joint is at (0.5, 0.5) from the root, scaled to its length.
     Recorder recorder;
     joints = start;
     solver.solve(Method::FabrikPlain, joints, {1, 1, 1}, {.snap_back = 0.5f}, &recorder);
@@ -170,7 +170,7 @@ TEST(IkFabrik, SnapBackStartsNearerToRest) {
     EXPECT_LE(distance(recorder.steps.front().to, {std::sqrt(0.5f), std::sqrt(0.5f), 0.0f}), 1e-6);
 }
 
-TEST(IkFabrik, EveryIterationGoesOnAndTellsEach) {
+TEST(IkFabrik, EveryIterationRunsAndReportsItsResidual) {
     const Lengths lengths(5, 1.0f);
     KeptSolver solver(lengths);
     Joints joints = straight_joints(lengths, {0, 1, 0});
@@ -183,7 +183,7 @@ TEST(IkFabrik, EveryIterationGoesOnAndTellsEach) {
     EXPECT_EQ(residuals[5], report.residual);
     EXPECT_EQ(residuals[6], -1.0f);
     for (int i = 0; i < 6; ++i) EXPECT_GE(residuals[static_cast<std::size_t>(i)], 0.0f);
-    // A shorter buffer is filled as far as it goes.
+    // A shorter buffer is filled to its end.
     residuals.fill(-1.0f);
     options.residuals = std::span(residuals).first(2);
     solver.solve(Method::FabrikPlain, joints, {-2, 1, 1}, options);
@@ -191,14 +191,14 @@ TEST(IkFabrik, EveryIterationGoesOnAndTellsEach) {
     EXPECT_EQ(residuals[2], -1.0f);
 }
 
-TEST(IkFabrik, WhatIsNotAtItsLengthIsLaidFirst) {
+TEST(IkFabrik, TornChainsAreLaidToTheirLengthsFirst) {
     const Lengths lengths{1.0f, 1.0f, 0.0f, 1.0f};
     KeptSolver solver(lengths);
     Joints torn{{0, 0, 0}, {0, 7, 0}, {0, 7, 3}, {9, 9, 9}, {9, 9, 9}};
     const Report report = solver.solve(Method::Fabrik, torn, {1.5f, 1, 0});
     EXPECT_EQ(report.status, Status::Converged);
     EXPECT_TRUE(Holds(torn, lengths));
-    // All joints in one point: placed along the rest directions, then off the line.
+    // All joints at one point: laid along the rest directions, then off the line.
     Joints heap(5, glm::vec3(2, 2, 2));
     EXPECT_EQ(solver.solve(Method::Fabrik, heap, {4, 2, 2}).status, Status::Converged);
     EXPECT_TRUE(Holds(heap, lengths));
@@ -236,7 +236,7 @@ TEST(IkFabrik, ZeroBonesAndBonesOfNoLength) {
     }
 }
 
-TEST(IkFabrik, AChainIsSolvedAsItsJointsAre) {
+TEST(IkFabrik, AChainGivesTheSameAsItsJoints) {
     Random random(6);
     for (int i = 0; i < 100; ++i) {
         const Lengths lengths = some_lengths(1 + random.below(10), random);

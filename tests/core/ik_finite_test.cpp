@@ -1,4 +1,4 @@
-// All output is finite, with every option at the ends of its documented range.
+// All output is finite, also with options at the ends of their documented ranges.
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 
@@ -41,7 +41,7 @@ bool are_finite(std::span<const glm::vec3> points) {
     });
 }
 
-TEST(IkFinite, WithOptionsAtTheEndsOfTheirRanges) {
+TEST(IkFinite, OptionsAtTheEndsOfTheirRanges) {
     Random random(given_seed());
     for (int number = 0; number < 6000 && !::testing::Test::HasFailure(); ++number) {
         const Method method = ik::all_methods[random.below(ik::all_methods.size())];
@@ -60,7 +60,7 @@ TEST(IkFinite, WithOptionsAtTheEndsOfTheirRanges) {
             const Joints before = joints;
             const glm::vec3 target = hostile_target(joints, arm.lengths, random);
             const ik::Report report = solver.solve(method, joints, target, options);
-            if (report.status == ik::Status::InvalidInput) {  // an earlier solve left the range
+            if (report.status == ik::Status::InvalidInput) {  // moved out of range by an earlier solve
                 EXPECT_TRUE(same_bits(joints, before));
                 break;
             }
@@ -73,8 +73,8 @@ TEST(IkFinite, WithOptionsAtTheEndsOfTheirRanges) {
     }
 }
 
-/// A case that has failed: damped least squares within limits, with hardly any damping.
-TEST(IkFinite, DampingOfNearlyNothingWithinLimits) {
+/// A case that once failed: damped least squares within limits, almost without damping.
+TEST(IkFinite, AlmostNoDampingWithinLimits) {
     Random random(77);
     for (int number = 0; number < 2000; ++number) {
         const Arm arm = some_arm(random, 1 + random.below(4));
@@ -94,7 +94,7 @@ TEST(IkFinite, DampingOfNearlyNothingWithinLimits) {
     }
 }
 
-/// A target at the end of the range from near the origin: lengths are kept. Beyond it nothing moves.
+/// Lengths are kept for a target at the end of the range. Beyond it nothing moves.
 TEST(IkFinite, FarTargetsKeepLengths) {
     Random random(78);
     for (int number = 0; number < 500; ++number) {

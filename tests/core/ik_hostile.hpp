@@ -22,7 +22,7 @@ inline float some_span(std::span<const float> lengths, float least, float most, 
     return std::max(reach * between(random, least, most), hole + 0.02f * reach);
 }
 
-/// 1 mm to 1 km, sometimes 0.
+/// Lengths of 1 mm to 1 km, sometimes 0.
 inline Lengths hostile_lengths(Random& random) {
     Lengths lengths(1 + random.below(random.chance(4) ? 40 : 8));
     const float scales[] = {1e-3f, 0.1f, 1.0f, 1.0f, 30.0f, 1e3f};
@@ -35,7 +35,7 @@ inline Lengths hostile_lengths(Random& random) {
     return lengths;
 }
 
-/// Straight, folded, or random.
+/// A straight, folded or random pose.
 inline Joints hostile_pose(std::span<const float> lengths, Random& random) {
     const glm::vec3 root = random.chance(3) ? random.point(100.0f) : glm::vec3(0.0f);
     const glm::vec3 along = random.chance(2) ? glm::vec3(1, 0, 0) : some_direction(random);
@@ -48,7 +48,7 @@ inline Joints hostile_pose(std::span<const float> lengths, Random& random) {
     return joints;
 }
 
-/// On a joint, on the line, on the rim, on the root, far away, or anywhere.
+/// A target on a joint, on the line, on the rim, on the root, far away, or anywhere.
 inline glm::vec3 hostile_target(const Joints& joints, std::span<const float> lengths, Random& random) {
     const glm::vec3 root = joints.front();
     const auto reach = static_cast<float>(reach_of(lengths));
@@ -103,7 +103,7 @@ inline void expect_bears_anything(ik::Method method, int solves) {
         options.max_iterations = 1 + static_cast<int>(random.below(40));
         options.every_iteration = random.chance(5);
         if (random.chance(4)) options.damping = 1e-6f;
-        // Further out, the spacing of floats exceeds the tolerance of bone lengths.
+        // Farther out, the spacing of floats exceeds the tolerance of bone lengths.
         const bool near = reach_of(lengths) < 500.0;
         if (random.chance(3) && near) options.pole = hostile_target(start, lengths, random);
         if (random.chance(2)) options.pole_turn = ik::PoleTurn::EachJoint;

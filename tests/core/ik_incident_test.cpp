@@ -1,5 +1,5 @@
-// Families of recorded arms with one fault each: lag, repeated poses, a crossed axis, a hand beyond the joint
-// that reaches.
+// Families of recorded arms with one fault each: lag, repeated poses, a crossed axis, a hand beyond the end
+// effector.
 #include "tendril/ik/incident.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ class Random {
     std::mt19937 random_;
 };
 
-/// Two bones of 0.5 m from the origin, bent towards `side`.
+/// Two bones of 0.5 m from the origin, with the elbow towards `side`.
 std::vector<glm::vec3> arm(glm::vec3 target, glm::vec3 side) {
     const float far = glm::length(target), d = std::clamp(far, 0.01f, 0.99999f);
     const glm::vec3 line = target / far, off = glm::normalize(side - line * glm::dot(side, line));
@@ -61,7 +61,7 @@ std::string said(const std::vector<ChainIncident>& incidents) {
     return text;
 }
 
-/// Targets of many kinds, at a given speed in shares of the reach a frame.
+/// Targets of several kinds, moving at a fraction `speed` of the reach per frame.
 std::vector<glm::vec3> moving_target(Random& random, std::size_t kind, std::size_t frames, float speed) {
     const glm::vec3 centre = random.uniform(0.45f, 0.65f) * glm::normalize(random.in_ball());
     const glm::vec3 a = glm::normalize(random.in_ball()), b = glm::normalize(glm::cross(a, random.in_ball()));
@@ -74,16 +74,16 @@ std::vector<glm::vec3> moving_target(Random& random, std::size_t kind, std::size
         if (kind == 0) at = centre + radius * (std::cos(t) * a + std::sin(t) * b);
         if (kind == 1) at = centre + radius * (std::sin(t) * a + std::sin(1.7f * t) * b);
         if (kind == 2) at = centre + radius * std::sin(t) * a;
-        if (kind == 3) {  // from place to place
+        if (kind == 3) {  // straight from point to point
             along += speed / glm::distance(from, to);
             if (along >= 1.0f) along = 0.0f, from = to, to = centre + radius * random.in_ball();
             at = glm::mix(from, to, along);
         }
-        if (kind == 4) {  // a hand
+        if (kind == 4) {  // a moving hand
             way = 0.9f * way + 0.5f * speed * random.in_ball() - 0.02f * (at - centre);
             at += way;
         }
-        if (kind == 5 && i % 20 == 0) at = centre + radius * random.in_ball();  // somewhere else at once
+        if (kind == 5 && i % 20 == 0) at = centre + radius * random.in_ball();  // a sudden jump
         targets.push_back(at);
     }
     return targets;
@@ -95,8 +95,8 @@ std::size_t lag_in(const std::vector<ChainIncident>& incidents) {
     return 0;
 }
 
-// 150 late, 150 not: with noise, and tips that miss by an offset or a share.
-TEST(Incident, LagIsFoundBehindNoiseAndMisses) {
+// 150 lag, 150 do not; with noise, and tips that miss by an offset or by a fraction.
+TEST(Incident, FindsLagDespiteNoiseAndMisses) {
     std::size_t found = 0;
     for (unsigned seed = 0; seed < 300; ++seed) {
         Random random(seed);
@@ -125,7 +125,7 @@ TEST(Incident, FindsAPoseRepeatedOverAnyNumberOfFrames) {
     for (unsigned seed = 0; seed < 120; ++seed) {
         Random random(seed);
         const std::size_t held = seed % 6, first = 30 + random.below(20);
-        // Either the target goes on, or it stands still too, and is caught up with or not.
+        // The target moves on, or it stands still too, and the chain catches up with it or stays late.
         const bool target_goes_on = seed % 3 == 0, catches_up = seed % 2 == 0;
         const auto targets = moving_target(random, 0, 120, 0.015f);
         const glm::vec3 side = 2.0f * glm::normalize(random.in_ball());
@@ -146,15 +146,15 @@ TEST(Incident, FindsAPoseRepeatedOverAnyNumberOfFrames) {
     }
 }
 
-/// A pole target far from the line to any target of moving_target().
+/// A pole target far off the line to any of the targets.
 glm::vec3 beside(Random& random, const std::vector<glm::vec3>& targets) {
     glm::vec3 sum(0.0f);
     for (const glm::vec3& each : targets) sum += each;
     return 2.0f * glm::normalize(glm::cross(sum, random.in_ball()));
 }
 
-// Updated in every n-th frame, or in 5 of 6 (n = 0); the target likewise, or in every frame.
-TEST(Incident, AChainUpdatedAtALowerRateIsOneIncidentAndNoneIfItsTargetIsToo) {
+// The chain is updated in every n-th frame, or in 5 of 6 (n = 0); the target likewise, or in every frame.
+TEST(Incident, ALowerUpdateRateIsOneIncidentUnlessTheTargetSharesIt) {
     for (unsigned seed = 0; seed < 80; ++seed) {
         Random random(seed);
         const std::size_t n = std::array{2u, 3u, 4u, 0u}[seed % 4];
@@ -191,7 +191,7 @@ TEST(Incident, AHeldPoseThatCatchesUpDoesNotFlip) {
     }
 }
 
-TEST(Incident, AFrameAsideOrTwoSwappedAreOneIncident) {
+TEST(Incident, ADisplacedFrameOrTwoSwappedOnesAreOneIncident) {
     for (unsigned seed = 0; seed < 120; ++seed) {
         Random random(seed);
         std::size_t at = 40 + random.below(60);
@@ -217,7 +217,7 @@ TEST(Incident, AFrameAsideOrTwoSwappedAreOneIncident) {
     }
 }
 
-TEST(Incident, APoleTargetThatJumpsIsNamedForTheBendThatFollows) {
+TEST(Incident, APoleTargetThatJumpsIsTheNamedCause) {
     for (unsigned seed = 0; seed < 60; ++seed) {
         Random random(seed);
         const auto targets = moving_target(random, 0, 120, 0.01f);
@@ -240,14 +240,14 @@ TEST(Incident, APoleTargetThatJumpsIsNamedForTheBendThatFollows) {
     }
 }
 
-TEST(Incident, ARootThatMovesIsNotBlamedOnTargetOrSolver) {
+TEST(Incident, AMovingRootIsNotBlamedOnTargetOrSolver) {
     for (unsigned seed = 0; seed < 60; ++seed) {
         Random random(seed);
         const std::size_t late = seed % 3 == 0 ? 1 + seed % 6 : 0;
         const bool stays = seed % 3 == 1;
         const auto targets = moving_target(random, 0, 240, 0.01f);
         const glm::vec3 side = beside(random, targets);
-        // It walks, or jumps, at frame 120, and stays there or comes back.
+        // The root walks, or jumps at frame 120 and stays there or comes back.
         const auto root = [&](std::size_t i) {
             if (late > 0) return glm::vec3(0.02f * static_cast<float>(i), 0.0f, 0.0f);
             return stays && i >= 120    ? glm::vec3(0.2f, 0, 0)
@@ -273,8 +273,8 @@ TEST(Incident, ARootThatMovesIsNotBlamedOnTargetOrSolver) {
     }
 }
 
-// The elbow changes sides at the farthest point of a way out and back.
-TEST(Incident, AnArmThatIsAllButStraightFlipsForThat) {
+// The elbow changes sides at the farthest point of a move out and back.
+TEST(Incident, AFlipOfANearlyStraightArmIsExplained) {
     for (unsigned seed = 0; seed < 60; ++seed) {
         Random random(seed);
         const bool straight = seed % 2 == 0;
@@ -305,8 +305,8 @@ TEST(Incident, AChainThatSlowsDownAndRestsIsNotRepeated) {
     }
 }
 
-// An arm without a pole target, bent towards an axis that its target's line passes at 0.2 degrees or so.
-TEST(Incident, AFlipAtAReferenceAxisSaysSo) {
+// An arm without a pole target, bent towards an axis that its target's line misses by 0.02 to 0.4 degrees.
+TEST(Incident, AFlipAtAReferenceAxisIsExplained) {
     for (unsigned seed = 0; seed < 60; ++seed) {
         Random random(seed);
         glm::vec3 axis(0.0f);
@@ -322,7 +322,7 @@ TEST(Incident, AFlipAtAReferenceAxisSaysSo) {
         ASSERT_GE(all.size(), 1u) << "seed " << seed;
         EXPECT_EQ(all[0].flip, FlipCause::PassedAxis) << "seed " << seed << ": " << all[0].cause;
         EXPECT_NEAR(static_cast<double>(all[0].frame), 30.0, 1.0);
-        // Nowhere near an axis, the same flip stays unexplained.
+        // Far from any axis, the same flip is unexplained.
         const auto away = [&](std::size_t i) {
             return 0.8f *
                    glm::normalize(glm::vec3(1, 1, 1) + 0.01f * static_cast<float>(i) * glm::vec3(1, -1, 0));
@@ -339,11 +339,11 @@ TEST(Incident, AFlipAtAReferenceAxisSaysSo) {
     }
 }
 
-TEST(Incident, TwoBonesThatStretchAreTwoAndAJointOutOfItsPlaceIsOne) {
+TEST(Incident, TwoStretchedBonesAreTwoIncidentsADisplacedJointOne) {
     for (unsigned seed = 0; seed < 60; ++seed) {
         Random random(seed);
         const bool stretches = seed % 2 == 0;
-        const std::size_t ramp = 1 + 5 * (seed / 2 % 2);  // frames
+        const std::size_t ramp = 1 + 5 * (seed / 2 % 2);  // frames to full size
         const auto targets = moving_target(random, 0, 60, 0.002f);
         const glm::vec3 side = 2.0f * glm::normalize(random.in_ball());
         const float amount = random.uniform(0.06f, 0.1f);
@@ -364,7 +364,7 @@ TEST(Incident, TwoBonesThatStretchAreTwoAndAJointOutOfItsPlaceIsOne) {
     }
 }
 
-TEST(Incident, TheJointThatReachesMayHaveOthersBeyondIt) {
+TEST(Incident, JointsMayFollowTheEndEffector) {
     Random random(5);
     const auto targets = moving_target(random, 0, 120, 0.01f);
     const auto with_hand = [&](std::size_t i) {
@@ -382,7 +382,7 @@ TEST(Incident, TheJointThatReachesMayHaveOthersBeyondIt) {
         120, {.end_effector = 2},
         [&](std::size_t i) {
             auto joints = with_hand(std::min<std::size_t>(i, 80));
-            joints[3].y += 1e-6f * static_cast<float>(i);  // the hand still moves
+            joints[3].y += 1e-6f * static_cast<float>(i);  // the hand is still moving
             return joints;
         },
         target, glm::vec3(0, 2, 0));

@@ -14,10 +14,10 @@ using ik::Options;
 using ik::Report;
 using ik::Status;
 
-const Lengths lengths{1.0f, 0.5f};  // two bones, so that every method accepts them
+const Lengths lengths{1.0f, 0.5f};  // two, accepted by every method
 constexpr Report refused{Status::InvalidInput, 0, 0.0f};
 
-/// `why`: what check_input() says, as test::says() has it.
+/// `why`: the message of check_input(), in the form of test::says().
 void expect_refused(const std::string& why, const Options& options, glm::vec3 target = {0.5f, 0.5f, 0.5f},
                     Joints start = {{0, 0, 0}, {1, 0, 0}, {1, 0.5f, 0}}) {
     for (const Method method : ik::all_methods) {
@@ -33,7 +33,7 @@ void expect_refused(const std::string& why, const Options& options, glm::vec3 ta
     }
 }
 
-TEST(IkInput, NumbersThatAreNoneOrTooLarge) {
+TEST(IkInput, NonFiniteAndTooLargeNumbersAreRefused) {
     for (const float bad : {nan, infinity, -infinity, 1.1e9f, -2e9f}) {
         for (int axis = 0; axis < 3; ++axis) {
             glm::vec3 point(0.5f);
@@ -50,7 +50,7 @@ TEST(IkInput, NumbersThatAreNoneOrTooLarge) {
     }
 }
 
-TEST(IkInput, AnyOptionOutOfItsRange) {
+TEST(IkInput, AnyOptionOutOfRangeIsRefused) {
     const auto each = [](std::span<const Field> table, auto object_in) {
         for (const Field& row : table) {
             if (row.get == nullptr || row.count != nullptr) continue;
@@ -65,7 +65,7 @@ TEST(IkInput, AnyOptionOutOfItsRange) {
     each(fields<ik::Plane>(), [](Options& options) { return static_cast<void*>(&options.plane.emplace()); });
 }
 
-TEST(IkInput, LimitsOfAnotherNumberOrWithAFault) {
+TEST(IkInput, LimitsOfTheWrongCountOrWithAFaultAreRefused) {
     const std::vector<Limit> good(2), one(1), three(3);
     expect_refused("limits 2 in number 1", {.limits = one});
     expect_refused("limits", {.limits = three});
@@ -82,7 +82,7 @@ TEST(IkInput, LimitsOfAnotherNumberOrWithAFault) {
     }
 }
 
-TEST(IkInput, TheWrongNumberOfJointsOrBones) {
+TEST(IkInput, AWrongNumberOfJointsOrBonesIsRefused) {
     KeptSolver solver(Lengths(4, 1.0f));
     Joints joints(4);
     EXPECT_EQ(solver.solve(Method::Fabrik, joints, {1, 1, 1}), refused);
@@ -98,7 +98,7 @@ TEST(IkInput, TheWrongNumberOfJointsOrBones) {
     EXPECT_TRUE(same_bits(joints, start));
 }
 
-TEST(IkInput, AChainThatWouldLeaveItsRangeStays) {
+TEST(IkInput, AChainThatWouldLeaveItsRangeDoesNotMove) {
     Chain chain = straight(3, 8e8f);
     const Chain before = chain;
     KeptSolver solver(chain);
@@ -106,7 +106,7 @@ TEST(IkInput, AChainThatWouldLeaveItsRangeStays) {
     EXPECT_TRUE(same_bits(chain, before));
 }
 
-TEST(IkInput, ASolverTakesWhatAChainTakes) {
+TEST(IkInput, ASolverRefusesBadLengthsAndDirections) {
     using ik::Solver;
     EXPECT_EQ(Solver::make(Lengths{1.0f, -1.0f}).code(), ErrorCode::InvalidArgument);
     EXPECT_FALSE(Solver::make(Lengths{nan}));
@@ -132,7 +132,7 @@ glm::vec3 hostile_point(const Joints& joints, Random& random) {
     return random.point(ranges[random.below(7)]);
 }
 
-TEST(IkInput, HostileButValidInputNeverMakesNoNumber) {
+TEST(IkInput, HostileButValidInputNeverGivesNaN) {
     Random random(20261121);
     for (int i = 0; i < 20'000; ++i) {
         Lengths some(random.below(7));

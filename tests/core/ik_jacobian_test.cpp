@@ -34,7 +34,7 @@ Vector solved(Matrix a, Vector b) {
     return b;
 }
 
-/// By rows; column 3 i + k is axis k x (tip - joint i).
+/// Rows of the Jacobian; column 3 i + k is axis k x (tip - joint i).
 Matrix jacobian(const Joints& joints) {
     Matrix j(3);
     for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
@@ -66,7 +66,7 @@ Matrix squared(const Matrix& j, double damping) {
     return result;
 }
 
-/// The tip after the joints turn, to first order.
+/// The tip after rotating the joints, to first order.
 glm::dvec3 moved_tip(const Joints& joints, const Matrix& j, const Vector& turns) {
     glm::dvec3 tip(joints.back());
     for (std::size_t c = 0; c < turns.size(); ++c) tip += glm::dvec3(j[0][c], j[1][c], j[2][c]) * turns[c];
@@ -110,7 +110,7 @@ Joints open_pose(std::span<const float> lengths, Random& random) {
     }
 }
 
-/// One iteration towards a target so near that squares of the turns are negligible.
+/// One iteration towards a target so near that second-order terms are negligible.
 void expect_first_order(Method method, float damping, bool damped) {
     Random random(11);
     for (int k = 0; k < 100; ++k) {
@@ -133,7 +133,7 @@ void expect_first_order(Method method, float damping, bool damped) {
     }
 }
 
-TEST(IkJacobian, TransposeTakesTheStepThatIsBestAlongTheGradient) {
+TEST(IkJacobian, TransposeTakesTheOptimalStepAlongTheGradient) {
     expect_first_order(Method::JacobianTranspose, 0.1f, false);
 }
 
@@ -147,8 +147,8 @@ TEST(IkJacobian, TheSvdLeavesLargeSingularValuesUndamped) {
     expect_first_order(Method::SvdDls, 5.0f, false);
 }
 
-TEST(IkJacobian, TheSvdDampsTheDirectionThatIsAllButLost) {
-    // Nearly straight along x: y and z move freely, x hardly at all.
+TEST(IkJacobian, TheSvdDampsTheNearlySingularDirection) {
+    // Nearly straight along x: y and z are free, x is nearly lost.
     const Lengths lengths(4, 0.25f);
     const Joints start{{0, 0, 0}, {0.25f, 0, 0}, {0.4999f, 0.005f, 0}, {0.7499f, 0.005f, 0}, {0.9999f, 0, 0}};
     ik::Options options;
@@ -184,7 +184,7 @@ TEST(IkJacobian, AllJointsTurnAtOnce) {
     }
 }
 
-TEST(IkJacobian, TheDampedOnesReachEverythingInTheReference) {
+TEST(IkJacobian, DampedMethodsReachEveryReferenceTarget) {
     const auto path = reference_path("solve.json");
     std::ifstream file(path);
     if (!file) GTEST_SKIP() << path << " is not there";
@@ -207,7 +207,7 @@ TEST(IkJacobian, TheDampedOnesReachEverythingInTheReference) {
     }
 }
 
-TEST(IkJacobian, TheDampedOnesReachInAHundredIterationsUpToTheRim) {
+TEST(IkJacobian, DampedMethodsReachUpToTheRimInAHundredIterations) {
     Random random(13);
     for (const Method method : {Method::Dls, Method::SvdDls}) {
         int most = 0;
@@ -226,7 +226,7 @@ TEST(IkJacobian, TheDampedOnesReachInAHundredIterationsUpToTheRim) {
     }
 }
 
-TEST(IkJacobian, EveryDampingLeadsThere) {
+TEST(IkJacobian, EveryDampingConverges) {
     Random random(14);
     for (const float damping : {1e-6f, 1e-3f, 0.1f, 0.5f}) {
         for (const Method method : {Method::Dls, Method::SvdDls}) {
@@ -243,7 +243,7 @@ TEST(IkJacobian, EveryDampingLeadsThere) {
     }
 }
 
-TEST(IkJacobian, BearsAnything) {
+TEST(IkJacobian, SurvivesAnyInput) {
     for (const Method method : {Method::JacobianTranspose, Method::Dls, Method::SvdDls}) {
         SCOPED_TRACE(name(method));
         expect_bears_anything(method, 1000);

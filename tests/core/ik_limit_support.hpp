@@ -25,7 +25,7 @@ inline double degrees(double radians) {
 /// An arm with limits and a rest pose.
 struct Arm {
     Lengths lengths;
-    Joints rest;  ///< directions
+    Joints rest;  ///< rest directions of the bones
     std::vector<ik::Limit> limits;
 
     float reach() const { return static_cast<float>(reach_of(lengths)); }
@@ -65,7 +65,7 @@ inline glm::dvec3 turned(glm::dvec3 v, glm::dvec3 axis, double angle) {
            axis * (glm::dot(axis, v) * (1.0 - std::cos(angle)));
 }
 
-/// By how much an angle is outside a range, modulo a full turn.
+/// Amount by which an angle is outside a range, modulo a full turn.
 inline double out_of_range(double angle, double min, double max) {
     if (angle >= min && angle <= max) return 0.0;
     const double turn = 360.0 * degree;
@@ -73,7 +73,7 @@ inline double out_of_range(double angle, double min, double max) {
     return std::min(apart(angle, min), apart(angle, max));
 }
 
-/// Distance to a quarter of an ellipse by search: it falls to one minimum and rises again.
+/// Distance to a quarter of an ellipse, by searching its single minimum.
 inline double to_ellipse(double a, double b, double x, double y) {
     x = std::abs(x), y = std::abs(y);
     if (a > 0.0 && b > 0.0 && (x / a) * (x / a) + (y / b) * (y / b) <= 1.0) return 0.0;
@@ -93,7 +93,7 @@ inline double to_ellipse(double a, double b, double x, double y) {
     return std::min(best, far(low));
 }
 
-/// Radians over the limit for a rotation matrix.
+/// Excess over the limit for a rotation matrix, radians.
 inline double over_limit(const ik::Limit& limit, glm::vec3 rest, const glm::dmat3& turn) {
     if (limit.kind == ik::JointKind::Free) return 0.0;
     const Frame frame = frame_of(limit, rest);
@@ -131,7 +131,7 @@ inline ::testing::AssertionResult WithinLimits(const Arm& arm, std::span<const g
         const double length = arm.lengths[i];
         const glm::dvec3 from(joints[i]), bone = glm::dvec3(joints[i + 1]) - from;
         const glm::dvec3 said = matrix_of(rotations[i]) * glm::normalize(glm::dvec3(arm.rest[i])) * length;
-        // The resolution of directions in floats that far out.
+        // The resolution of float directions at that distance.
         const double rounding = 1e-6 * (glm::length(from) + static_cast<double>(arm.reach()));
         if (!(glm::length(bone - said) <= 1e-3 * length + rounding)) {
             return ::testing::AssertionFailure() << "bone " << i << " does not lie as its rotation says";
@@ -159,7 +159,7 @@ inline ik::Limit some_cone(Random& random, glm::vec3 axis) {
     return limit;
 }
 
-/// From a minimum down to -`below` to a maximum up to `above`, radians.
+/// A hinge with a minimum down to -`below` and a maximum up to `above`, radians.
 inline ik::Limit some_hinge(Random& random, glm::vec3 bone, float below, float above) {
     const glm::vec3 axis = some_axis(random, bone);
     const float min_angle = -below * part(random);
@@ -180,7 +180,7 @@ inline const char* name(ArmKind kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
-/// Shoulder, elbow, wrist, two joints of a finger.
+/// Joint by index: shoulder, elbow, wrist, and two joints of a finger.
 inline ik::Limit human_joint(std::size_t index) {
     constexpr ik::JointKind kinds[] = {ik::JointKind::BallAndSocket, ik::JointKind::Hinge,
                                        ik::JointKind::Gliding, ik::JointKind::Hinge, ik::JointKind::Hinge};
@@ -223,7 +223,7 @@ inline Arm some_arm(Random& random, std::size_t bones) {
     return some_arm(random, arm_kinds[random.below(arm_kinds.size())], bones);
 }
 
-/// The tip of a random pose within the limits, from angles, with matrices in double.
+/// The tip of a random pose within the limits, built from angles by matrices in double.
 inline glm::vec3 some_tip(const Arm& arm, Random& random) {
     glm::dmat3 all(1.0);
     glm::dvec3 tip(0.0);

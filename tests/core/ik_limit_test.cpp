@@ -14,7 +14,7 @@ glm::quat about(glm::vec3 axis, double angle) {
     return glm::angleAxis(radians(angle), glm::normalize(axis));
 }
 
-TEST(IkLimit, PresetsAreWithoutFaultAndHaveTheirFreedoms) {
+TEST(IkLimit, PresetsAreValidWithTheirFreedoms) {
     const auto freedoms = [](const Limit& limit) {
         if (limit.kind == JointKind::Hinge) return 1;
         return (limit.up + limit.down > 0) + (limit.left + limit.right > 0) +
@@ -37,7 +37,7 @@ TEST(IkLimit, PresetsAreWithoutFaultAndHaveTheirFreedoms) {
     EXPECT_GT(pivot.twist_max, 4 * pivot.up);
 }
 
-TEST(IkLimit, FaultSaysWhatIsWrong) {
+TEST(IkLimit, FaultNamesTheError) {
     const auto said = [](auto change, Limit limit) {
         change(limit);
         const char* text = fault(limit);
@@ -64,7 +64,7 @@ TEST(IkLimit, FaultSaysWhatIsWrong) {
     EXPECT_EQ(said([](Limit& l) { l.axis = {nan, 0, 0}, l.kind = JointKind::Free; }, hinge), "nothing");
 }
 
-TEST(IkLimit, AnAxisAlongTheBoneIsFoundOnlyWithTheBone) {
+TEST(IkLimit, AnAxisAlongTheBoneIsFoundOnlyGivenTheBone) {
     const Limit hinge = Limit::hinge(x * -3.0f, 0, 1);
     EXPECT_EQ(fault(hinge), nullptr);
     EXPECT_TRUE(test::says(fault(hinge, x), "hinge axis along bone"));
@@ -74,7 +74,7 @@ TEST(IkLimit, AnAxisAlongTheBoneIsFoundOnlyWithTheBone) {
     EXPECT_EQ(fault(Limit::hinge(z * 2e-6f, 0, 1), x), nullptr);
 }
 
-TEST(IkLimit, AnglesAreNamedAsTheHeaderSays) {
+TEST(IkLimit, AnglesMatchTheHeader) {
     Limit ball = Limit::of(JointKind::BallAndSocket);  // axis +Z, bone +X
     EXPECT_NEAR(degrees(measure(ball, x, about(z, 30)).up), 30, 1e-3);
     EXPECT_NEAR(degrees(measure(ball, x, about(y, 20)).left), 20, 1e-3);
@@ -94,7 +94,7 @@ TEST(IkLimit, AnglesAreNamedAsTheHeaderSays) {
     }
 }
 
-TEST(IkLimit, ExcessIsTheWayBack) {
+TEST(IkLimit, ExcessIsTheShortestWayBack) {
     const Limit hinge = Limit::hinge(z, 0, radians(145));
     const auto over = [](const Limit& limit, glm::quat turn) {
         return degrees(excess(limit, measure(limit, x, turn)));
@@ -102,7 +102,7 @@ TEST(IkLimit, ExcessIsTheWayBack) {
     EXPECT_EQ(over(hinge, about(z, 100)), 0);
     EXPECT_NEAR(over(hinge, about(z, 162)), 17, 1e-2);
     EXPECT_NEAR(over(hinge, about(z, -10)), 10, 1e-2);
-    EXPECT_NEAR(over(hinge, about(z, -170)), 45, 1e-2);  // past the back it is nearer to 145
+    EXPECT_NEAR(over(hinge, about(z, -170)), 45, 1e-2);  // past the back it is closer to 145
     EXPECT_NEAR(over(hinge, about(y, 10)), 10, 1e-2);
     EXPECT_NEAR(over(hinge, about(x, 10)), 10, 1e-2);
     const Limit ball = Limit::of(JointKind::BallAndSocket);
@@ -111,7 +111,7 @@ TEST(IkLimit, ExcessIsTheWayBack) {
     EXPECT_NEAR(over(ball, about(x, degrees(ball.twist_max) + 7)), 7, 1e-2);
 }
 
-TEST(IkLimit, AnglesAndExcessAreThoseMeasuredIndependently) {
+TEST(IkLimit, AnglesAndExcessMatchAnIndependentMeasurement) {
     Random random(11);
     for (int k = 0; k < 20000; ++k) {
         const glm::vec3 bone = some_direction(random);

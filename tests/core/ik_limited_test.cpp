@@ -66,7 +66,7 @@ TEST(IkLimited, HoldsWhateverTheTargetHundredThousandTimes) {
     }
 }
 
-/// Percentage of targets, made from poses within the limits, that solves from rest reach to 1 %.
+/// Percentage of reachable targets (tips of poses within the limits) that solves from rest reach to 1 %.
 double arrived(Method method, ArmKind kind, std::size_t bones, int count, std::uint64_t seed) {
     Random random(seed);
     int there = 0;
@@ -85,7 +85,7 @@ double arrived(Method method, ArmKind kind, std::size_t bones, int count, std::u
     return 100.0 * there / count;
 }
 
-TEST(IkLimited, FromRestItArrivesWhereSomePoseDoes) {
+TEST(IkLimited, ReachesTargetsOfPossiblePosesFromRest) {
     for (const ArmKind kind : arm_kinds) {
         for (const std::size_t bones : {4u, 5u}) {
             for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
@@ -97,8 +97,8 @@ TEST(IkLimited, FromRestItArrivesWhereSomePoseDoes) {
     }
 }
 
-/// The other methods do not restart; they reach as many targets as before.
-TEST(IkLimited, TheOtherMethodsArriveAsOftenAsTheyDid) {
+/// The other methods do not restart; their success rate must not drop.
+TEST(IkLimited, TheOtherMethodsKeepTheirSuccessRate) {
     const auto all = [](Method method) {
         double sum = 0;
         for (const ArmKind kind : arm_kinds) sum += arrived(method, kind, 5, 200, 7);
@@ -111,7 +111,7 @@ TEST(IkLimited, TheOtherMethodsArriveAsOftenAsTheyDid) {
     EXPECT_GE(all(Method::SvdDls), 75);
 }
 
-TEST(IkLimited, TwoBonesArriveWhereSomePoseDoes) {
+TEST(IkLimited, TwoBonesReachTargetsOfPossiblePoses) {
     Random random(5);
     int there = 0;
     for (int k = 0; k < 500; ++k) {
@@ -132,7 +132,7 @@ TEST(IkLimited, AnElbowBehindAShoulderNeedsTheShouldersTwist) {
     shoulder.up = shoulder.down = shoulder.left = shoulder.right = radians(20);
     shoulder.twist_min = radians(-170), shoulder.twist_max = radians(170);
     arm.limits = {shoulder, ik::Limit::hinge({0, 0, 1}, 0, radians(145))};
-    // Straight ahead and to the right: the elbow bends about +Z, to the left, unless the shoulder twists.
+    // Ahead and to all sides: the elbow bends about +Z, to the left, unless the shoulder twists.
     for (int k = 0; k < 16; ++k) {
         const float about = radians(22.5 * k - 168);
         const glm::vec3 target{1.4f, 0.9f * std::cos(about), 0.9f * std::sin(about)};
@@ -144,7 +144,7 @@ TEST(IkLimited, AnElbowBehindAShoulderNeedsTheShouldersTwist) {
     }
 }
 
-TEST(IkLimited, OutOfReachItSaysWhatHoldsIt) {
+TEST(IkLimited, OutOfReachTheStatusNamesTheCause) {
     Arm arm{{1, 1, 1}, {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}, {}};
     arm.limits.assign(3, ik::Limit::hinge({0, 0, 1}, radians(-90), radians(90)));
     const auto solve = [&](glm::vec3 target) {
@@ -155,15 +155,15 @@ TEST(IkLimited, OutOfReachItSaysWhatHoldsIt) {
     const ik::Report straight = solve({2.4f, 3.2f, 0});
     EXPECT_EQ(straight.status, Status::Stretched);
     EXPECT_NEAR(straight.residual, 1.0f, 3e-4f);
-    const ik::Report aside = solve({0, 0, 4});  // out of the plane of its hinges
+    const ik::Report aside = solve({0, 0, 4});  // off the plane of its hinges
     EXPECT_EQ(aside.status, Status::Limited);
-    EXPECT_NEAR(aside.residual, std::hypot(4.0f, 1.0f), 2e-3f);  // folded, its tip comes no nearer than 1
+    EXPECT_NEAR(aside.residual, std::hypot(4.0f, 1.0f), 2e-3f);  // folded, the tip is still 1 from the root
     EXPECT_EQ(solve({0.5f, 0.5f, 0.8f}).status, Status::Limited);
     EXPECT_NEAR(solve({0.5f, 0.5f, 0.8f}).residual, std::hypot(0.8f, 1.0f - std::sqrt(0.5f)), 2e-3f);
     EXPECT_EQ(solve({1.5f, 1.5f, 0}).status, Status::Converged);
 }
 
-TEST(IkLimited, TheWorseEndIsNotTaken) {
+TEST(IkLimited, ASolveNeverEndsFartherFromTheTarget) {
     Random random(given_seed() + 1);
     for (int k = 0; k < 3000 && !HasFailure(); ++k) {
         const Arm arm = hostile_arm(random);
@@ -186,7 +186,7 @@ TEST(IkLimited, TheWorseEndIsNotTaken) {
     }
 }
 
-TEST(IkLimited, AStartThatIsOverIsBroughtWithin) {
+TEST(IkLimited, AStartOverItsLimitsIsBroughtWithin) {
     Arm arm{{1, 1}, {{1, 0, 0}, {1, 0, 0}}, {}};
     arm.limits.assign(2, ik::Limit::hinge({0, 0, 1}, 0, radians(45)));
     for (const Method method : ik::all_methods) {
@@ -197,7 +197,7 @@ TEST(IkLimited, AStartThatIsOverIsBroughtWithin) {
     }
 }
 
-TEST(IkLimited, SolvedAgainNothingMoves) {
+TEST(IkLimited, ASecondSolveMovesNothing) {
     Random random(3);
     for (int k = 0; k < 300; ++k) {
         const Arm arm = some_arm(random, 5);
@@ -214,8 +214,8 @@ TEST(IkLimited, SolvedAgainNothingMoves) {
     }
 }
 
-/// A target that moves along a line in small steps, with the arm following.
-TEST(IkLimited, AnArmThatFollowsSeldomJumps) {
+/// The target moves along a line in small steps, and the arm follows.
+TEST(IkLimited, AnArmThatFollowsRarelyJumps) {
     Random random(21);
     int steps = 0, jumps = 0;
     for (int k = 0; k < 100; ++k) {
@@ -236,11 +236,11 @@ TEST(IkLimited, AnArmThatFollowsSeldomJumps) {
             jumps += furthest > 0.05 * static_cast<double>(arm.reach());
         }
     }
-    // Where the line leaves the arm's workspace, the arm must sometimes switch poses.
+    // If the line leaves the arm's workspace, the arm must sometimes switch poses.
     EXPECT_LE(jumps, steps / 300) << "of " << steps;
 }
 
-TEST(IkLimited, WatchedItGoesTheSameWayAndTheStepsLeadThere) {
+TEST(IkLimited, AnObserverChangesNothingAndItsStepsReplay) {
     Random random(given_seed() + 2);
     for (int k = 0; k < 3000 && !HasFailure(); ++k) {
         const Arm arm = hostile_arm(random);
@@ -258,7 +258,7 @@ TEST(IkLimited, WatchedItGoesTheSameWayAndTheStepsLeadThere) {
     }
 }
 
-TEST(IkLimited, EightPullsForFourBonesThenWhatTheLimitsAdd) {
+TEST(IkLimited, AnIterationOfFourBonesIsEightPulls) {
     Random random(4);
     const Arm arm = some_arm(random, ArmKind::Cones, 4);
     KeptSolver solver = arm.solver();
@@ -275,7 +275,7 @@ TEST(IkLimited, EightPullsForFourBonesThenWhatTheLimitsAdd) {
     EXPECT_EQ(from_root, 4);
 }
 
-TEST(IkLimited, APoleIsFacedAsFarAsTheRootLetsIt) {
+TEST(IkLimited, APoleIsFacedAsFarAsTheRootAllows) {
     Arm arm{{1, 1}, {{1, 0, 0}, {1, 0, 0}}, {ik::Limit(), ik::Limit::hinge({0, 0, 1}, 0, radians(145))}};
     const glm::vec3 target{1.2f, 0, 0};
     const auto elbow = [&](const ik::Limit& root, glm::vec3 pole) {
@@ -292,12 +292,12 @@ TEST(IkLimited, APoleIsFacedAsFarAsTheRootLetsIt) {
     ik::Limit root = ik::Limit::of(ik::JointKind::BallAndSocket);
     root.up = root.down = root.left = root.right = radians(90);
     root.twist_min = radians(-60), root.twist_max = radians(60);
-    const glm::vec3 held = elbow(root, {0, 5, 0});  // at rest it bends to -Y; it may turn by about 60 degrees
+    const glm::vec3 held = elbow(root, {0, 5, 0});  // bent to -Y at rest; it may turn by about 60 degrees
     EXPECT_GT(held.y, -0.7f);
     EXPECT_LT(held.y, 0.5f);
 }
 
-TEST(IkLimited, AnAxisAlongTheBoneMovesNothing) {
+TEST(IkLimited, AnAxisAlongTheBoneIsRefused) {
     Arm arm{{1, 1}, {{1, 0, 0}, {1, 0, 0}}, {ik::Limit(), ik::Limit::hinge({1, 0, 0}, 0, 1)}};
     for (const Method method : ik::all_methods) {
         KeptSolver solver = arm.solver();

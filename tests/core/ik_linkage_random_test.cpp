@@ -1,5 +1,4 @@
-// Random linkages: closed wherever they are driven and dragged, from any state, there and back; and hostile
-// ones.
+// Random linkages: closed for any drive and drag, from any state, there and back; and hostile ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +14,7 @@ namespace {
 
 using namespace linkage;
 
-/// How much the sketch's bars have changed their lengths, and its pins their places.
+/// The largest change of a bar's length or a pin's position.
 double distortion(const LinkageSketch& sketch, const LinkageSolver& solver) {
     double largest = 0.0;
     const auto length_of = [&](std::size_t a, std::size_t b) {
@@ -32,8 +31,8 @@ double distortion(const LinkageSketch& sketch, const LinkageSolver& solver) {
     return largest;
 }
 
-// 10^5 poses were run once, with `linkages` 2000.
-TEST(Linkage, random_ones_stay_closed_wherever_they_are_driven_and_drawn) {
+// 10^5 poses were run once, with `linkages` set to 2000.
+TEST(Linkage, RandomOnesStayClosedWhenDrivenAndDragged) {
     constexpr int linkages = 20;
     Random random(21);
     int poses = 0, driven = 0, reached = 0;
@@ -56,7 +55,7 @@ TEST(Linkage, random_ones_stay_closed_wherever_they_are_driven_and_drawn) {
             if (!drive) continue;
             ++driven;
             reached += report.status == LinkageStatus::Reached;
-            // No ranges: a driver that is not there is at a dead point, where no freedom is left.
+            // Without ranges, a driver stops only at a dead point, with no freedom left.
             if (report.status == LinkageStatus::Reached) continue;
             ASSERT_EQ(report.status, LinkageStatus::DeadPoint) << trial << " " << i;
             ASSERT_EQ(report.stopped, machine.link("motor"));
@@ -66,7 +65,7 @@ TEST(Linkage, random_ones_stay_closed_wherever_they_are_driven_and_drawn) {
     EXPECT_GE(reached, driven / 2);
 }
 
-TEST(Linkage, closes_from_any_state_where_a_pose_exists) {
+TEST(Linkage, ClosesFromAnyStateIfAPoseExists) {
     Random random(4);
     int closed = 0;
     constexpr int trials = 100;
@@ -79,8 +78,8 @@ TEST(Linkage, closes_from_any_state_where_a_pose_exists) {
     EXPECT_GE(closed, trials - 1);
 }
 
-// Forward and back again, at any pace: the pose is the same, unless a dead point or another end came between.
-TEST(Linkage, random_ones_come_back_the_way_they_went) {
+// Forward and back at any pace gives the same pose, unless a dead point came in between.
+TEST(Linkage, RandomOnesReturnOnTheSamePath) {
     Random random(33);
     int compared = 0;
     for (int trial = 0; trial < 100; ++trial) {
@@ -101,7 +100,7 @@ TEST(Linkage, random_ones_come_back_the_way_they_went) {
     EXPECT_GE(compared, 25);
 }
 
-/// In space, of all kinds, with ranges, far away or tiny; closures that may contradict each other.
+/// A linkage in space: all kinds of joints, ranges, any scale; closures may contradict each other.
 Linkage random_linkage(Random& random) {
     constexpr float scales[] = {1.0f, 1.0f, 1e-4f, 1e6f};
     const float scale = scales[random.below(4)];
@@ -148,7 +147,7 @@ void in_range(const Linkage& linkage, const LinkageState& state) {
     }
 }
 
-TEST(Linkage, whatever_it_is_and_is_asked_for_it_stays_finite_and_in_range) {
+TEST(Linkage, AnyLinkageStaysFiniteAndInRange) {
     constexpr int linkages = 60;  // 5000 were run once
     Random random(44);
     for (int trial = 0; trial < linkages; ++trial) {
@@ -167,7 +166,7 @@ TEST(Linkage, whatever_it_is_and_is_asked_for_it_stays_finite_and_in_range) {
                 machine.state, {{&driver, drive ? 1u : 0u}, {&target, draw}}, {.max_iterations = 200});
             ASSERT_NE(report.status, LinkageStatus::InvalidInput) << trial;
             const bool open = !machine.solver.open_closures().empty();
-            // Short of iterations it may be either.
+            // At the iteration limit, either is possible.
             if (report.status != LinkageStatus::IterationLimit) {
                 ASSERT_EQ(open, report.status == LinkageStatus::Open) << trial << " " << i;
             }
@@ -179,8 +178,8 @@ TEST(Linkage, whatever_it_is_and_is_asked_for_it_stays_finite_and_in_range) {
     }
 }
 
-// A net of 200 links, some of no length, held at places that no pose brings together, with ranges of nothing.
-TEST(Linkage, two_hundred_links_that_contradict_each_other_end_in_a_word) {
+// A net of 200 links, some of no length, pinned at places that no pose can join, with empty ranges.
+TEST(Linkage, TwoHundredContradictingLinksEndWithAStatus) {
     Random random(9);
     for (const bool space : {false, true}) {
         Linkage linkage;

@@ -1,4 +1,4 @@
-// Linkages that are driven and inspected by names, and random ones.
+// Linkages driven and inspected by name, and random ones.
 #pragma once
 
 #include <cmath>
@@ -14,12 +14,12 @@ namespace tendril::test::linkage {
 
 using namespace ik;
 
-/// Degrees, in radians.
+/// Radians of an angle in degrees.
 inline double deg(double degrees) {
     return degrees * std::numbers::pi / 180.0;
 }
 
-/// A linkage that is driven and looked at by names.
+/// A linkage driven and inspected by name.
 struct Machine {
     explicit Machine(const Expected<Linkage>& linkage)
         : solver(std::move(*LinkageSolver::make(*linkage))), state(solver.initial_state()) {}
@@ -44,13 +44,13 @@ struct Machine {
     LinkageState state;
 };
 
-/// In the plane; each coordinate from -range to range.
+/// A point in the plane; each coordinate from -range to range.
 inline glm::dvec3 random_place(Random& random, float range) {
     const double x = random.around(range), y = random.around(range);
     return {x, y, 0.0};
 }
 
-/// A crank, and dyads on it: each new point is joined by two bars to two points before.
+/// A crank with dyads: each new point is joined by two bars to two earlier points.
 inline LinkageSketch random_sketch(Random& random) {
     LinkageSketch sketch;
     const auto place = [&] { return glm::dvec2(random_place(random, 2.0f)); };
@@ -67,7 +67,7 @@ inline LinkageSketch random_sketch(Random& random) {
         std::size_t other = sketch.points.size() - 1;
         if (other == one) other = 0;
         if (random.chance(4)) {
-            // One bar, to a point that slides.
+            // One bar, to a sliding point.
             sketch.points.push_back({"S" + std::to_string(count), place(), SketchHold::Guided,
                                      3.0 * static_cast<double>(random.part())});
             bar(one, sketch.points.size() - 1);

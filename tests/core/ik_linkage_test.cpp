@@ -34,7 +34,7 @@ FourBar four_bar_of(const Json& lengths) {
             {lengths.at("coupler_point")[0], lengths.at("coupler_point")[1]}};
 }
 
-/// Two turns, in steps of so many degrees; the rows are a turn.
+/// Drives two turns in steps of `step` degrees; the rows cover one turn.
 void follows(Machine& machine, const std::string& driver, const Json& rows, int step,
              const std::vector<std::string>& points) {
     const int spacing = 360 / static_cast<int>(rows.size());
@@ -57,7 +57,7 @@ void follows(Machine& machine, const std::string& driver, const Json& rows, int 
     EXPECT_LE(furthest, 1e-5);
 }
 
-TEST(Linkage, agrees_with_an_independent_implementation_over_whole_turns) {
+TEST(Linkage, AgreesWithAnIndependentImplementationOverWholeTurns) {
     std::ifstream file(reference_path("linkage.json"));
     if (!file) GTEST_SKIP() << "linkage.json is not here";
     const Json cases = Json::parse(file);
@@ -89,7 +89,7 @@ TEST(Linkage, agrees_with_an_independent_implementation_over_whole_turns) {
 
 // ------------------------------------------------------------------------------------------- closed forms
 
-TEST(Linkage, peaucellier_draws_a_straight_line) {
+TEST(Linkage, PeaucellierDrawsAStraightLine) {
     Machine machine{peaucellier()};
     for (int degrees = -50; degrees <= 50; ++degrees) {
         ASSERT_EQ(machine.drive("crank", deg(degrees)).status, LinkageStatus::Reached);
@@ -97,7 +97,7 @@ TEST(Linkage, peaucellier_draws_a_straight_line) {
     }
 }
 
-TEST(Linkage, a_pantograph_enlarges_and_a_scissor_lift_lifts) {
+TEST(Linkage, APantographEnlargesAndAScissorLiftLifts) {
     Machine machine{pantograph({1.0, 2.5})};
     Random random(3);
     for (int i = 0; i < 50; ++i) {
@@ -117,7 +117,7 @@ glm::dquat turned_by(const glm::dvec3& vector) {
     return angle > 0.0 ? glm::angleAxis(angle, vector / angle) : glm::dquat(1.0, 0.0, 0.0, 0.0);
 }
 
-TEST(Linkage, a_stewart_platform_is_where_its_legs_put_it) {
+TEST(Linkage, AStewartPlatformIsWhereItsLegsPutIt) {
     const Stewart lengths;
     Machine machine(stewart(lengths));
     Random random(11);
@@ -137,7 +137,7 @@ TEST(Linkage, a_stewart_platform_is_where_its_legs_put_it) {
     }
 }
 
-TEST(Linkage, a_delta_robot_meets_its_closed_form_and_stays_level) {
+TEST(Linkage, ADeltaRobotMatchesItsClosedFormAndStaysLevel) {
     const Delta lengths;
     Machine machine(delta(lengths));
     Random random(12);
@@ -158,7 +158,7 @@ TEST(Linkage, a_delta_robot_meets_its_closed_form_and_stays_level) {
 
 // --------------------------------------------------------------------------------------- out of reach
 
-TEST(Linkage, a_dead_point_is_where_the_closed_form_has_it_and_says_which_driver) {
+TEST(Linkage, ADeadPointMatchesTheClosedFormAndNamesItsDriver) {
     Machine machine{four_bar({.ground = 3.0, .crank = 2.0, .coupler = 1.5, .rocker = 1.2})};
     const double dead = std::acos((3.0 * 3.0 + 2.0 * 2.0 - 2.7 * 2.7) / (2.0 * 3.0 * 2.0));
     ASSERT_EQ(machine.drive("crank", deg(10)).status, LinkageStatus::Reached);
@@ -170,13 +170,13 @@ TEST(Linkage, a_dead_point_is_where_the_closed_form_has_it_and_says_which_driver
         EXPECT_NEAR(report.stopped_at, dead, 1e-6);
         EXPECT_NEAR(machine.value("crank"), dead, 1e-6);
     }
-    // And back, on the same side.
+    // Back again, on the same side.
     EXPECT_EQ(machine.drive("crank", deg(10)).status, LinkageStatus::Reached);
     EXPECT_LE(glm::length(machine.point("C") - before), 1e-6);
 }
 
-TEST(Linkage, closures_that_contradict_each_other_are_named_and_as_near_as_can_be) {
-    // A triangle of bars over a ground that is too long for them.
+TEST(Linkage, ContradictingClosuresAreNamedAndLeastFarApart) {
+    // Two arms that are too short to meet over the ground.
     Linkage linkage;
     linkage.links = {{"left", ground_link, LinkJoint::Hinge, {0, 0, 0}},
                      {"right", ground_link, LinkJoint::Hinge, {5, 0, 0}}};
@@ -190,8 +190,8 @@ TEST(Linkage, closures_that_contradict_each_other_are_named_and_as_near_as_can_b
     EXPECT_EQ(machine.solver.open_closures()[0], 0u);
 }
 
-TEST(Linkage, contradicting_closures_come_as_near_as_brute_force_finds) {
-    // A four-bar whose coupler would have to be at a third place, too. Whatever pose it begins in.
+TEST(Linkage, ContradictingClosuresComeAsCloseAsBruteForce) {
+    // A four-bar with a coupler point that is closed on a third place, too, from any starting pose.
     Random random(17);
     for (int trial = 0; trial < 8; ++trial) {
         const glm::dvec3 place = glm::dvec3(1.5, 0.5, 0.0) + random_place(random, 3.0f);
@@ -230,7 +230,7 @@ TEST(Linkage, contradicting_closures_come_as_near_as_brute_force_finds) {
         ASSERT_EQ(machine.solver.solve(machine.state).status, LinkageStatus::Open);
         const auto value = [&](std::size_t link) { return machine.state.joints[link].value; };
         EXPECT_LE(squares({value(0), value(1), value(2)}), 1.02 * least) << trial;
-        // The next frame leaves it there.
+        // The next frame keeps the pose.
         const LinkageState before = machine.state;
         const LinkageReport report = machine.solver.solve(machine.state);
         EXPECT_EQ(report.status, LinkageStatus::Open);
@@ -239,13 +239,13 @@ TEST(Linkage, contradicting_closures_come_as_near_as_brute_force_finds) {
     }
 }
 
-TEST(Linkage, a_straight_arm_bends_to_a_place_on_its_line) {
+TEST(Linkage, AStraightArmBendsToAPointOnItsLine) {
     LinkageSketch sketch;
     sketch.points = {{"O", {0, 0}, SketchHold::Pinned}, {"A", {1, 0}}, {"B", {2, 0}}};
     sketch.bars = {{"upper", {0, 1}}, {"lower", {1, 2}}};
     Machine machine{Expected<LinkageSketch>(sketch)};
     EXPECT_EQ(machine.reach("B", {1.2, 0.0, 0.0}).status, LinkageStatus::Reached);
-    // Stretched out beyond its reach it stays, frame after frame.
+    // Stretched towards a target out of reach, it keeps its pose in the next frame.
     ASSERT_EQ(machine.reach("B", {4.0, 0.0, 0.0}).status, LinkageStatus::TargetMissed);
     const LinkageState stretched = machine.state;
     machine.reach("B", {4.0, 0.0, 0.0});
@@ -253,7 +253,7 @@ TEST(Linkage, a_straight_arm_bends_to_a_place_on_its_line) {
         EXPECT_NEAR(machine.state.joints[i].value, stretched.joints[i].value, 1e-4);
 }
 
-TEST(Linkage, a_place_out_of_reach_is_approached_as_near_as_brute_force_comes) {
+TEST(Linkage, AnUnreachablePointIsApproachedAsBruteForceDoes) {
     Random random(5);
     int missed = 0;
     for (int trial = 0; trial < 40; ++trial) {
@@ -273,7 +273,7 @@ TEST(Linkage, a_place_out_of_reach_is_approached_as_near_as_brute_force_comes) {
         for (int degrees = 0; degrees < 360; degrees += 2) look(deg(degrees));
         const double coarse = at;
         for (int i = -40; i <= 40; ++i) look(coarse + deg(0.05 * i));
-        // A target draws to the nearest place that descent leads to: it starts in reach of the nearest.
+        // Descent finds the nearest local minimum: start close to the global one.
         machine.drive("crank", at - 0.3);
         const LinkageReport report = machine.reach("P", to);
         EXPECT_EQ(report.status, LinkageStatus::TargetMissed);
@@ -283,8 +283,8 @@ TEST(Linkage, a_place_out_of_reach_is_approached_as_near_as_brute_force_comes) {
     EXPECT_GE(missed, 30);
 }
 
-TEST(Linkage, legs_that_cannot_all_have_their_lengths_come_as_near_as_they_can) {
-    // A planar five-bar with two cranks that would pull the middle apart.
+TEST(Linkage, ContradictingDriversComeAsCloseAsPossible) {
+    // A planar five-bar with two cranks that would tear it apart in the middle.
     LinkageSketch sketch;
     sketch.points = {{"A", {0, 0}, SketchHold::Pinned},
                      {"B", {0, 1}},
@@ -317,7 +317,7 @@ TEST(Linkage, legs_that_cannot_all_have_their_lengths_come_as_near_as_they_can) 
 
 // ------------------------------------------------------------------------------------------------- modes
 
-TEST(Linkage, the_other_mode_is_the_mirrored_one_and_again_the_first) {
+TEST(Linkage, TheOtherModeIsTheMirrorImageAndItsOtherTheFirst) {
     Machine machine{four_bar()};
     machine.drive("crank", deg(40));
     const LinkageState first = machine.state;
@@ -334,7 +334,7 @@ TEST(Linkage, the_other_mode_is_the_mirrored_one_and_again_the_first) {
     EXPECT_FALSE(machine.solver.other_mode(machine.state, std::vector<LinkDriver>{{0, nan}}));
 }
 
-TEST(Linkage, a_parallelogram_stays_one_through_the_poses_where_it_is_flat) {
+TEST(Linkage, AParallelogramStaysOneThroughItsFlatPoses) {
     Machine machine{four_bar({.ground = 2.0, .crank = 1.0, .coupler = 2.0, .rocker = 1.0})};
     for (int degrees = 1; degrees <= 720; ++degrees) {
         const LinkageReport report = machine.drive("crank", deg(degrees));
@@ -345,8 +345,8 @@ TEST(Linkage, a_parallelogram_stays_one_through_the_poses_where_it_is_flat) {
     }
 }
 
-TEST(Linkage, a_target_that_pulls_it_past_a_dead_point_is_reported) {
-    // The rocker's motor cannot turn it over; the crank's end pulled round does.
+TEST(Linkage, ATargetThatPullsItPastADeadPointIsReported) {
+    // The rocker's motor cannot pass its dead point; a pull on the crank's end does.
     Machine machine{four_bar({.ground = 3.0, .crank = 1.0, .coupler = 2.5, .rocker = 2.0})};
     const std::size_t watched[] = {machine.link("rocker")};
     const std::size_t crank[] = {machine.link("crank")};
@@ -368,7 +368,7 @@ TEST(Linkage, a_target_that_pulls_it_past_a_dead_point_is_reported) {
 
 // ------------------------------------------------------------------------------------ ranges, priorities
 
-TEST(Linkage, a_range_stops_a_driver_and_is_named) {
+TEST(Linkage, ARangeStopsADriverAndIsNamed) {
     LinkageSketch sketch = *four_bar();
     sketch.motors.push_back({"rocker", 3, 2, ground_link, 0.0, deg(120)});
     Machine machine{Expected<LinkageSketch>(sketch)};
@@ -384,7 +384,7 @@ TEST(Linkage, a_range_stops_a_driver_and_is_named) {
     EXPECT_EQ(machine.solver.active()[0], machine.link("rocker"));
     EXPECT_EQ(report.stopped, machine.link("crank"));
     EXPECT_NEAR(machine.value("rocker"), deg(120), 1e-6);
-    // Its own range, too.
+    // The driver's own range stops it, too.
     sketch.motors = {{"crank", 0, 0, ground_link, -1.0, 0.5}};
     Machine own{Expected<LinkageSketch>(sketch)};
     report = own.drive("crank", 2.0);
@@ -393,8 +393,8 @@ TEST(Linkage, a_range_stops_a_driver_and_is_named) {
     EXPECT_EQ(report.stopped, own.link("crank"));
 }
 
-TEST(Linkage, a_target_meets_ranges_of_hinges_sliders_and_balls) {
-    // A slider along X, a ball on it, and an arm of 1 m along X.
+TEST(Linkage, ATargetRespectsRangesOfHingesSlidersAndBalls) {
+    // A slider along X, a ball joint on it, and an arm of 1 m along X.
     Linkage linkage;
     linkage.links = {{"carriage", ground_link, LinkJoint::Slider, {0, 0, 0}, {1, 0, 0}, 0.0, -0.5, 0.5},
                      {"arm", 0, LinkJoint::Ball, {0, 0, 0}}};
@@ -405,7 +405,7 @@ TEST(Linkage, a_target_meets_ranges_of_hinges_sliders_and_balls) {
     for (int i = 0; i < 100; ++i) {
         const glm::dvec3 to = 2.0 * glm::dvec3(random.point(1.0f));
         const LinkageReport report = machine.reach("hand", to);
-        // The nearest point of the swept caps, by brute force over the slider.
+        // The nearest point of all caps, by brute force over the slider.
         double nearest = 1e9;
         for (int k = -500; k <= 500; ++k) {
             const glm::dvec3 from = to - glm::dvec3(0.001 * k, 0.0, 0.0);
@@ -419,8 +419,8 @@ TEST(Linkage, a_target_meets_ranges_of_hinges_sliders_and_balls) {
     }
 }
 
-TEST(Linkage, in_a_plane_that_is_tilted_only_the_part_in_it_counts) {
-    // The four-bar, turned about X.
+TEST(Linkage, InATiltedPlaneOnlyTheInPlanePartCounts) {
+    // The four-bar, rotated about X.
     const auto tilted = [](const glm::dvec3& at) {
         return glm::dvec3(at.x, 0.6 * at.y - 0.8 * at.z, 0.8 * at.y + 0.6 * at.z);
     };
@@ -439,7 +439,7 @@ TEST(Linkage, in_a_plane_that_is_tilted_only_the_part_in_it_counts) {
     EXPECT_LE(glm::length(machine.point("P") - tilted(flat.point("P"))), 1e-6);
 }
 
-TEST(Linkage, exact_targets_come_before_weighted_ones_and_drivers_before_both) {
+TEST(Linkage, ExactTargetsPrecedeWeightedOnesAndDriversPrecedeBoth) {
     LinkageSketch sketch;
     sketch.points = {{"O", {0, 0}, SketchHold::Pinned}, {"A", {1, 0}}, {"B", {2, 0.2}}, {"C", {3, 0}}};
     sketch.bars = {{"one", {0, 1}}, {"two", {1, 2}}, {"three", {2, 3}}};
@@ -449,8 +449,8 @@ TEST(Linkage, exact_targets_come_before_weighted_ones_and_drivers_before_both) {
     EXPECT_EQ(report.status, LinkageStatus::TargetMissed);
     EXPECT_LE(machine.solver.residuals()[0], 1e-6);
     EXPECT_GT(machine.solver.residuals()[1], 1.0);
-    // Of all poses with C there, A is as near to its target as it can be: on the circle about C that the two
-    // other bars reach, or on its own towards the target.
+    // Over all poses with C at its target, A is as close to its own as possible: on its circle about O, where
+    // the two other bars still reach C.
     double nearest = 1e9;
     const double two = glm::length(glm::dvec2(1.0, 0.2));
     for (int i = 0; i < 36000; ++i) {
@@ -463,7 +463,7 @@ TEST(Linkage, exact_targets_come_before_weighted_ones_and_drivers_before_both) {
     report = machine.solver.solve(machine.state, {{&driver, 1}, targets});
     EXPECT_LE(report.driver_residual, 1e-12);
     EXPECT_LE(machine.solver.residuals()[0], 1e-6);
-    // Two that cannot both be: the heavier one comes nearer.
+    // Two targets in conflict: the heavier one comes closer.
     for (const double weight : {1.0, 100.0}) {
         const LinkTarget apart[] = {{3, {0, 9, 0}, weight}, {2, {0, -9, 0}, 1.0}};
         machine.solver.solve(machine.state, {{}, apart});
@@ -474,14 +474,14 @@ TEST(Linkage, exact_targets_come_before_weighted_ones_and_drivers_before_both) {
 
 // ------------------------------------------------------------------------------------------------ freedom
 
-TEST(Linkage, counts_freedom_as_gruebler_does_and_as_it_is) {
+TEST(Linkage, CountsFreedomByGrueblerAndActually) {
     const auto freedom = [](Machine machine) { return machine.solver.freedom(machine.state); };
     EXPECT_EQ(freedom(Machine(four_bar())), (LinkageFreedom{1, 1}));
     EXPECT_EQ(freedom(Machine(jansen())), (LinkageFreedom{1, 1}));
     EXPECT_EQ(freedom(Machine(pantograph())), (LinkageFreedom{2, 2}));
     EXPECT_EQ(freedom(Machine(delta())), (LinkageFreedom{3, 3}));
     EXPECT_EQ(freedom(Machine(stewart())), (LinkageFreedom{6, 6}));
-    // A third rocker is one too many by the count; as it is parallel, the linkage moves all the same.
+    // By the count, a third rocker is one too many; as it is parallel, the linkage still moves.
     LinkageSketch sketch;
     const SketchHold pinned = SketchHold::Pinned;
     sketch.points = {{"A", {0, 0}, pinned}, {"B", {1, 0}, pinned}, {"C", {2, 0}, pinned},
@@ -496,7 +496,7 @@ TEST(Linkage, counts_freedom_as_gruebler_does_and_as_it_is) {
         ASSERT_LE(report.closed_to, 1e-6);
         ASSERT_EQ(report.freedom, 0);
     }
-    // A truss: nothing moves, and a target is only missed.
+    // A truss: nothing moves, and a target is simply missed.
     sketch.points[5].at.x = 2.2;
     EXPECT_FALSE(linkage_from(sketch)) << "its motor could not turn";
     sketch.motors.clear();
@@ -509,7 +509,7 @@ TEST(Linkage, counts_freedom_as_gruebler_does_and_as_it_is) {
 
 // ------------------------------------------------------------------------------------------------ sketches
 
-TEST(Linkage, a_sketch_knows_its_linkage_through_edits) {
+TEST(Linkage, ASketchGivesItsLinkageAfterEdits) {
     LinkageSketch sketch = *jansen();
     ASSERT_TRUE(remove_point(sketch, *sketch.find_point("foot")));
     EXPECT_EQ(sketch.bars[*sketch.find_bar("ghi")].points.size(), 2u);
@@ -523,7 +523,7 @@ TEST(Linkage, a_sketch_knows_its_linkage_through_edits) {
     EXPECT_FALSE(sketch.find_bar("m"));
     EXPECT_FALSE(remove_point(sketch, 99));
     EXPECT_FALSE(remove_bar(sketch, 99));
-    // A motor between two bars: its angle is the one between them, whichever hangs on the other.
+    // A motor between two bars: its angle is between them, whichever of them is the parent.
     LinkageSketch elbow;
     elbow.points = {{"O", {0, 0}, SketchHold::Pinned}, {"A", {1, 0}}, {"B", {1, 1}}};
     elbow.bars = {{"upper", {0, 1}}, {"lower", {1, 2}}};
@@ -538,7 +538,7 @@ TEST(Linkage, a_sketch_knows_its_linkage_through_edits) {
     EXPECT_NEAR(reversed.point("B").x, 1.0 + std::sqrt(0.5), 1e-9);
 }
 
-TEST(Linkage, what_cannot_be_a_linkage_is_refused_by_name_and_place) {
+TEST(Linkage, InvalidLinkagesAreRefusedByNameAndPlace) {
     const LinkageSketch good = *four_bar();
     const auto refused = [&](auto change, const char* words) {
         LinkageSketch sketch = good;
@@ -606,7 +606,7 @@ TEST(Linkage, what_cannot_be_a_linkage_is_refused_by_name_and_place) {
     EXPECT_TRUE(says(four_bar({.crank = nan}).message(), "four_bar crank nan"));
 }
 
-TEST(Linkage, bad_goals_change_nothing) {
+TEST(Linkage, BadGoalsChangeNothing) {
     Machine machine{four_bar()};
     machine.drive("crank", 0.7);
     const LinkageState before = machine.state;
@@ -633,7 +633,7 @@ TEST(Linkage, bad_goals_change_nothing) {
     EXPECT_EQ(empty.solve(none).status, LinkageStatus::Reached);
 }
 
-TEST(Linkage, far_turns_take_several_solves_and_say_so) {
+TEST(Linkage, FarTurnsTakeSeveralSolvesAndAreReported) {
     Machine machine{four_bar()};
     const LinkageReport report = machine.drive("crank", 1e8);
     EXPECT_EQ(report.status, LinkageStatus::IterationLimit);
@@ -641,8 +641,8 @@ TEST(Linkage, far_turns_take_several_solves_and_say_so) {
     EXPECT_GT(machine.value("crank"), 50.0);
 }
 
-// A workspace remembers nothing, and solving needs no memory.
-TEST(Linkage, a_new_solver_gives_the_same_bits_and_none_allocates) {
+// A workspace keeps nothing between solves, and solving allocates nothing.
+TEST(Linkage, ANewSolverGivesTheSameBitsAndNoneAllocates) {
     Machine machine{jansen()};
     Random random(2);
     for (int i = 0; i < 100; ++i) {

@@ -1,4 +1,4 @@
-// Linkages: a report's claims are true, whatever was driven; and every step continues along its branch.
+// Linkages: a report's claims are true for any drive, and every step continues along its branch.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr SketchHold pinned = SketchHold::Pinned;
 
 // -------------------------------------------------------------------------------------- drivers that stop
 
-/// Two cranks of 1 m and an elbow between them.
+/// Two cranks of 1 m, joined by an elbow.
 LinkageSketch five_bar() {
     LinkageSketch sketch;
     sketch.points = {
@@ -33,7 +33,7 @@ LinkageSketch five_bar() {
 }
 
 // 20000 solves were run once.
-TEST(Linkage, a_dead_point_has_a_driver_that_is_not_at_its_value) {
+TEST(Linkage, AtADeadPointADriverIsOffItsValue) {
     Machine machine{Expected<LinkageSketch>(five_bar())};
     Random random(7);
     const std::size_t left = machine.link("left"), right = machine.link("right");
@@ -57,7 +57,7 @@ TEST(Linkage, a_dead_point_has_a_driver_that_is_not_at_its_value) {
     EXPECT_GE(reached, 100);
 }
 
-TEST(Linkage, a_range_that_stops_drivers_is_named_whatever_the_pose) {
+TEST(Linkage, ARangeThatStopsDriversIsNamedInAnyPose) {
     Random random(5);
     int limited = 0;
     for (int trial = 0; trial < 60; ++trial) {
@@ -92,13 +92,13 @@ TEST(Linkage, a_range_that_stops_drivers_is_named_whatever_the_pose) {
 
 struct Drag {
     int jumps = 0;
-    double at = 0.0;             ///< part of the way
+    double at = 0.0;             ///< fraction of the path
     double jump = 0.0;           ///< metres
-    double largest_other = 0.0;  ///< move of the point in a frame without a jump, in steps of the target
-    int most_iterations = 0;     ///< without a jump
+    double largest_other = 0.0;  ///< move of the point in a frame without a jump, relative to the target's
+    int most_iterations = 0;     ///< in a frame without a jump
 };
 
-/// A point drawn in a straight line, in so many steps.
+/// Drags a point along a straight line in `steps` steps.
 Drag drag(Machine machine, const std::string& point, const glm::dvec3& from, const glm::dvec3& to,
           int steps) {
     Drag result;
@@ -123,8 +123,8 @@ Drag drag(Machine machine, const std::string& point, const glm::dvec3& from, con
     return result;
 }
 
-// Where the target leaves the evolute of the coupler curve, the place that was nearest is none any more.
-TEST(Linkage, a_target_whose_point_jumps_is_named_once_however_finely_it_is_drawn) {
+// As the target leaves the coupler curve's evolute, the nearest point of the curve vanishes.
+TEST(Linkage, AJumpOfATargetsPointIsReportedOnceAtAnyStep) {
     for (const int steps : {50, 200, 1000}) {
         const Drag coupler = drag(Machine{four_bar()}, "P", {-1.5, 1.4, 0}, {3, 1.4, 0}, steps);
         EXPECT_EQ(coupler.jumps, 1) << steps;
@@ -133,7 +133,7 @@ TEST(Linkage, a_target_whose_point_jumps_is_named_once_however_finely_it_is_draw
         const Drag foot = drag(Machine{jansen()}, "foot", {-60, -60, 0}, {20, -60, 0}, steps);
         EXPECT_EQ(foot.jumps, 1) << steps;
         EXPECT_GT(foot.jump, 15.0) << steps;
-        // The crank's end runs round where the target passes its axis, and does not jump.
+        // The crank's end turns quickly as the target passes its axis, but does not jump.
         for (const double beside : {0.2, -0.4}) {
             const Drag crank = drag(Machine{slider_crank()}, "B", {1.5, beside, 0}, {-1.5, beside, 0}, steps);
             EXPECT_EQ(crank.jumps, 0) << steps;
@@ -142,8 +142,8 @@ TEST(Linkage, a_target_whose_point_jumps_is_named_once_however_finely_it_is_draw
     }
 }
 
-// A target that goes far pulls hard at once: what follows it is seldom called a jump.
-TEST(Linkage, a_target_that_is_put_elsewhere_hardly_ever_makes_a_point_jump) {
+// A distant target pulls hard at once: the motion that follows is rarely called a jump.
+TEST(Linkage, ADistantTargetRarelyCausesAReportedJump) {
     Machine machine{four_bar()};
     Random random(6);
     int jumps = 0;
@@ -152,7 +152,7 @@ TEST(Linkage, a_target_that_is_put_elsewhere_hardly_ever_makes_a_point_jump) {
     EXPECT_LE(jumps, 50);
 }
 
-TEST(Linkage, a_target_out_of_reach_takes_few_iterations_a_frame) {
+TEST(Linkage, AnUnreachableTargetTakesFewIterationsPerFrame) {
     const auto circles = [](Machine machine, const char* point, const glm::dvec3& centre, double radius) {
         int most = 0;
         for (int i = -5; i < 240; ++i) {
@@ -182,7 +182,7 @@ TEST(Linkage, a_target_out_of_reach_takes_few_iterations_a_frame) {
 
 // ----------------------------------------------------------------------------------------- change points
 
-/// From where it is drawn on, twice round.
+/// Drives two turns from the starting angle, and two back.
 void stays_a_parallelogram(const FourBar& lengths, double step) {
     Machine machine{four_bar(lengths)};
     for (const double sign : {1.0, -1.0}) {
@@ -198,22 +198,22 @@ void stays_a_parallelogram(const FourBar& lengths, double step) {
     }
 }
 
-TEST(Linkage, a_parallelogram_stays_one_in_steps_of_any_length) {
+TEST(Linkage, AParallelogramStaysOneForAnyStep) {
     for (const double ground : {1.0, 1.5, 2.0, 3.0})
         for (const double degrees :
              {1.0, 1.25, 2.0, 3.0, 5.0, 7.5, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 90.0, 179.0, 180.0, 360.0})
             stays_a_parallelogram({.ground = ground, .crank = 1.0, .coupler = ground, .rocker = 1.0},
                                   deg(degrees));
-    // Steps that end near a flat pose, and not in it.
+    // Steps that end close to a flat pose, but not in it.
     for (int exponent = -14; exponent <= -2; ++exponent)
         for (const double sign : {-1.0, 1.0})
             stays_a_parallelogram({.ground = 2.0, .crank = 1.0, .coupler = 2.0, .rocker = 1.0},
                                   deg(15) + sign * std::pow(10.0, exponent) / 12.0);
 }
 
-// Where the shortest and the longest bar are as long as the others together, two branches cross: in large
-// steps the linkage takes the one that it takes in small ones.
-TEST(Linkage, at_a_change_point_large_steps_go_on_as_small_ones_do) {
+// If the shortest and the longest bar are together as long as the other two, two branches cross: large steps
+// follow the same branch as small ones.
+TEST(Linkage, AtAChangePointLargeStepsContinueLikeSmallOnes) {
     const FourBar lengths{.ground = 3.0, .crank = 1.0, .coupler = 2.5, .rocker = 1.5};
     for (const double degrees : {5.0, 10.0, 15.0, 30.0, 45.0}) {
         Machine fine{four_bar(lengths)}, coarse{four_bar(lengths)};
@@ -229,7 +229,7 @@ TEST(Linkage, at_a_change_point_large_steps_go_on_as_small_ones_do) {
     }
 }
 
-// Bars that are almost those of a change point: the branches keep a small distance, which a drive keeps to.
+// Bars close to a change point's: the branches are a small distance apart, and a drive stays on its own.
 TEST(Linkage, ADriveStaysOnItsBranchWhereTwoNearlyMeet) {
     Random random(53);
     const auto part = [&] { return static_cast<double>(random.part()); };
@@ -259,8 +259,7 @@ TEST(Linkage, ADriveStaysOnItsBranchWhereTwoNearlyMeet) {
     EXPECT_GT(steps, 5000);
 }
 
-// A crank and a rocker about axes that cross nowhere, and a coupler between two balls that turns about
-// itself.
+// A crank and a rocker about skew axes, and a coupler between two balls that is free to spin about itself.
 TEST(Linkage, ADriveInSpaceStaysOnItsBranchWhereTwoNearlyMeet) {
     Random random(11);
     const auto part = [&] { return static_cast<double>(random.part()); };
@@ -274,7 +273,7 @@ TEST(Linkage, ADriveInSpaceStaysOnItsBranchWhereTwoNearlyMeet) {
         const auto tip = [&](double angle) {
             return crank * glm::dvec3(std::cos(angle), std::sin(angle), 0.0);
         };
-        // The coupler's square is free + reach * cos(the rocker's angle - phase).
+        // The squared length of the coupler is free + reach * cos(the rocker's angle - phase).
         struct Span {
             double free, reach, phase;
         };
@@ -283,7 +282,7 @@ TEST(Linkage, ADriveInSpaceStaysOnItsBranchWhereTwoNearlyMeet) {
             const double a = glm::dot(d, x), b = glm::dot(d, y);
             return Span{rocker * rocker + glm::dot(d, d), 2.0 * rocker * std::hypot(a, b), std::atan2(b, a)};
         };
-        // Just as long as it must be to reach all round: the two branches nearly meet at `meet`.
+        // Just long enough to reach all round: the two branches nearly meet at `meet`.
         double square = 0.0, meet = 0.0;
         for (double width = 0.01, from = 0.0, to = deg(360); width > 1e-11; width *= 0.01) {
             for (double angle = from; angle < to; angle += width)
@@ -314,9 +313,9 @@ TEST(Linkage, ADriveInSpaceStaysOnItsBranchWhereTwoNearlyMeet) {
     EXPECT_GT(steps, 2000);
 }
 
-/// L. Henneberg's moves (1911) make all frames in the plane that are rigid with no bar too many, trusses,
-/// prisms and K3,3 among them: a joint on two bars; a joint in the middle of a bar, on a third.
-TEST(Linkage, AFrameIsOneRigidBodyUntilABarIsTakenOut) {
+/// L. Henneberg's two moves (1911) generate all minimally rigid frames in the plane, trusses, prisms and K3,3
+/// among them: a joint on two bars; a joint in the middle of a bar, with a third.
+TEST(Linkage, AFrameIsOneRigidBodyUntilABarIsRemoved) {
     Random random(29);
     for (int i = 0; i < 60; ++i) {
         LinkageSketch sketch;
@@ -391,7 +390,7 @@ TEST(Linkage, AHeldBallBalancesLikeOneLinkWithItsParent) {
 
 // ------------------------------------------------------------------------------------------- other modes
 
-TEST(Linkage, what_moves_freely_has_no_other_mode) {
+TEST(Linkage, AFreeMechanismHasNoOtherMode) {
     Machine loose{four_bar()};
     const LinkageState before = loose.state;
     EXPECT_FALSE(loose.solver.other_mode(loose.state, {}));
@@ -403,7 +402,7 @@ TEST(Linkage, what_moves_freely_has_no_other_mode) {
     EXPECT_FALSE(pendulum.solver.other_mode(pendulum.state, {}));
     const LinkDriver driver{0, 0.0};
     EXPECT_FALSE(pendulum.solver.other_mode(pendulum.state, {&driver, 1}));
-    // A truss has one: its mirror image.
+    // A truss has another mode: its mirror image.
     sketch.points = {{"A", {0, 0}, pinned}, {"B", {1, 2}}, {"C", {3, 0}, pinned}};
     sketch.bars = {{"a", {0, 1}}, {"b", {1, 2}}};
     Machine truss{Expected<LinkageSketch>(sketch)};
@@ -412,7 +411,7 @@ TEST(Linkage, what_moves_freely_has_no_other_mode) {
     EXPECT_LE(glm::length(truss.point("B") - glm::dvec3(1, -2, 0)), 1e-6);
 }
 
-TEST(Linkage, other_modes_are_found_without_memory) {
+TEST(Linkage, OtherModesAreFoundWithoutAllocating) {
     for (const Expected<LinkageSketch>& sketch : {four_bar(), slider_crank({1.0, 3.0, 0.5}), jansen()}) {
         Machine machine{sketch};
         const std::size_t driven =
@@ -432,7 +431,7 @@ TEST(Linkage, other_modes_are_found_without_memory) {
     }
 }
 
-TEST(Linkage, a_name_that_is_not_there_is_found_nowhere) {
+TEST(Linkage, AnUnknownNameIsNotFound) {
     const LinkageSketch sketch = *four_bar();
     const Linkage linkage = *linkage_from(sketch);
     for (const char* name : {"nobody", "", "Crank", "cran", "crank "}) {
@@ -447,13 +446,13 @@ TEST(Linkage, a_name_that_is_not_there_is_found_nowhere) {
 
 // ------------------------------------------------------------------------------------- ranges, size, freedom
 
-TEST(Linkage, a_motors_range_may_be_any_turn_of_its_angle) {
+TEST(Linkage, AMotorsRangeMayIncludeAnyTurnOfItsAngle) {
     LinkageSketch sketch;
     sketch.points = {{"O", {0, 0}, pinned},
                      {"A", {-std::cos(deg(172)), -std::sin(deg(172))}},
                      {"B", {0, -2 * std::sin(deg(172))}}};
     sketch.bars = {{"upper", {0, 1}}, {"lower", {1, 2}}};
-    // From O, at 172 degrees, to B, at -172.
+    // From O (172 degrees) to B (-172).
     const double bend = deg(16);
     sketch.motors = {{"elbow", 1, 1, 0, -0.5, 0.5}};
     const Expected<Linkage> elbow = linkage_from(sketch);
@@ -469,7 +468,7 @@ TEST(Linkage, a_motors_range_may_be_any_turn_of_its_angle) {
     }
 }
 
-TEST(Linkage, four_bars_of_all_lengths_that_close_can_be_drawn) {
+TEST(Linkage, FourBarsOfAllLengthsThatCloseCanBeDrawn) {
     for (const FourBar& lengths :
          {FourBar{1, 1, 1, 1}, FourBar{1, 1, 2, 2}, FourBar{2, 1, 2, 1}, FourBar{2, 2, 1, 1}}) {
         const Expected<LinkageSketch> sketch = four_bar(lengths);
@@ -483,7 +482,7 @@ TEST(Linkage, four_bars_of_all_lengths_that_close_can_be_drawn) {
     }
 }
 
-TEST(Linkage, is_not_open_while_iterations_are_what_it_lacks) {
+TEST(Linkage, IsNotOpenAtTheIterationLimit) {
     Random random(4);
     int unfinished = 0;
     for (int trial = 0; trial < 40; ++trial) {
@@ -495,7 +494,7 @@ TEST(Linkage, is_not_open_while_iterations_are_what_it_lacks) {
         for (int i = 0; i < 400; ++i) {
             const LinkageStatus status = machine.solver.solve(hasty, {}, {.max_iterations = 1}).status;
             if (status == LinkageStatus::Reached) break;
-            // A minimum that is not closed ends in Open, and only that.
+            // Only a minimum that does not close ends in Open.
             if (status == LinkageStatus::Open) break;
             ASSERT_EQ(status, LinkageStatus::IterationLimit);
             ++unfinished;
@@ -505,7 +504,7 @@ TEST(Linkage, is_not_open_while_iterations_are_what_it_lacks) {
     EXPECT_GE(unfinished, 20);
 }
 
-TEST(Linkage, a_stage_whose_joints_and_points_coincide_moves) {
+TEST(Linkage, AStageWithCoincidingJointsAndPointsMoves) {
     Linkage linkage;
     linkage.links = {{"x", ground_link, LinkJoint::Slider, {0, 0, 0}, {1, 0, 0}},
                      {"y", 0, LinkJoint::Slider, {0, 0, 0}, {0, 1, 0}}};
@@ -522,7 +521,7 @@ TEST(Linkage, a_stage_whose_joints_and_points_coincide_moves) {
     EXPECT_EQ(LinkageSolver::make(linkage)->size(), 4.0);
 }
 
-TEST(Linkage, freedom_is_the_poses_and_not_the_last_solves) {
+TEST(Linkage, FreedomDependsOnThePoseNotOnTheLastSolve) {
     Linkage linkage;
     linkage.links = {{"arm", ground_link, LinkJoint::Ball, {0, 0, 0}}};
     linkage.links[0].maximum = deg(60);
@@ -532,7 +531,7 @@ TEST(Linkage, freedom_is_the_poses_and_not_the_last_solves) {
     LinkageSolver fresh = std::move(*LinkageSolver::make(linkage));
     EXPECT_EQ(machine.solver.freedom(machine.state), fresh.freedom(machine.state));
     EXPECT_EQ(machine.solver.freedom(machine.state).actual, 3);
-    // Asking for it forgets nothing of the solve.
+    // The call does not change the solve's result.
     ASSERT_EQ(machine.solver.active().size(), 1u);
     EXPECT_EQ(machine.solver.active()[0], 0u);
 }

@@ -21,7 +21,7 @@ TEST(SolveMany, LooseJointsAreLaidToTheirLengthsFirst) {
     }
 }
 
-TEST(SolveMany, JointsOnAGridThatCoincideAreLaidAsTheScalarSolverLaysThem) {
+TEST(SolveMany, CoincidingJointsOnAGridAreLaidLikeTheScalarSolvers) {
     Random random(12);
     const auto grid = [&] {
         const auto whole = [&] { return static_cast<float>(random.below(4)); };
@@ -40,7 +40,7 @@ TEST(SolveMany, JointsOnAGridThatCoincideAreLaidAsTheScalarSolverLaysThem) {
     expect_same(crowd, solve_many(crowd, options), solve_each(crowd, options), 1e-4);
 }
 
-TEST(SolveMany, RootsThatWalkTakeTheirChainsAlong) {
+TEST(SolveMany, MovingRootsCarryTheirChains) {
     Random random(13);
     const Crowd crowd = some_crowd(300, 6, random, 0.3f, 0.8f);
     Batch batch = batch_of(crowd);
@@ -63,7 +63,7 @@ TEST(SolveMany, RootsThatWalkTakeTheirChainsAlong) {
     }
 }
 
-TEST(SolveMany, ABadTargetHarmsNoOther) {
+TEST(SolveMany, ABadTargetHarmsNoOtherChain) {
     Random random(14);
     Crowd crowd = some_crowd(260, 5, random);
     const Answer good = solve_many(crowd, {});
@@ -85,7 +85,7 @@ TEST(SolveMany, ABadTargetHarmsNoOther) {
     }
 }
 
-TEST(SolveMany, HostileNumbersNeverMakeWhatIsNotANumber) {
+TEST(SolveMany, HostileNumbersNeverGiveNaN) {
     Random random(15);
     const float hostile[] = {0.0f, -0.0f, 1e-30f, 1e-6f, 3e-4f, 1.0f,     -1.0f,
                              1e3f, 1e6f,  1e9f,   -1e9f, nan,   infinity, 1e-42f};
@@ -125,7 +125,7 @@ TEST(SolveMany, HostileNumbersNeverMakeWhatIsNotANumber) {
 
 TEST(SolveMany, JointsLeftTooFarOutAreInvalidNextTime) {
     Crowd crowd;
-    // Straight towards a target that is out of reach, exceeding the range of coordinates.
+    // Straight towards a target out of reach, beyond the range of coordinates.
     crowd.add({1e9f, 1e9f}, {{0, 5e8f, 0}, {5e8f, 9.9e8f, 1}, {1e9f, 1e8f, 0}}, {1, 1e9f, 0});
     crowd.add({1, 1}, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {0, 1.5f, 0});
     Batch batch = batch_of(crowd);
@@ -141,7 +141,7 @@ TEST(SolveMany, JointsLeftTooFarOutAreInvalidNextTime) {
     EXPECT_TRUE(same_bits(joints_of(batch)[0], after[0]));
 }
 
-TEST(SolveMany, OptionsOutOfRangeAndListsOfTheWrongSizeMoveNothing) {
+TEST(SolveMany, BadOptionsAndListsOfTheWrongSizeMoveNothing) {
     Random random(16);
     const Crowd crowd = some_crowd(5, 3, random);
     Batch batch = batch_of(crowd);
@@ -167,7 +167,7 @@ TEST(SolveMany, OptionsOutOfRangeAndListsOfTheWrongSizeMoveNothing) {
     EXPECT_NE(joints_of(batch), before);
 }
 
-TEST(SolveMany, NeedsNoMemoryAndDoesWithoutThreadsWhereThereIsNone) {
+TEST(SolveMany, NeedsNoMemoryWithOrWithoutThreads) {
     Random random(17);
     const Crowd crowd = some_crowd(4000, 10, random, 0.0f, 1.1f);
     const Answer expected = solve_many(crowd, {});
@@ -204,7 +204,7 @@ TEST(Batch, StartsStraightAndKeepsWhatItIsGiven) {
     EXPECT_EQ(none.size(), 0u);
 }
 
-TEST(Batch, AllJointsAtOnceAreThoseOfEachChain) {
+TEST(Batch, AllJointsAtOnceEqualEachChains) {
     Random random(20);
     for (const std::size_t bones : {1u, 2u, 3u, 4u, 7u, 10u}) {
         for (const std::size_t chains : {0u, 1u, 3u, 4u, 5u, 63u, 64u, 65u, 200u}) {
@@ -227,7 +227,7 @@ TEST(Batch, AllJointsAtOnceAreThoseOfEachChain) {
     }
 }
 
-TEST(Batch, RefusesWhatIsOutOfRangeAndKeepsWhatItWas) {
+TEST(Batch, RefusesInputOutOfRangeAndStaysUnchanged) {
     EXPECT_EQ(Batch::make(1, 0).code(), ErrorCode::InvalidArgument);
     EXPECT_EQ(Batch::make(1, 1'000'001).code(), ErrorCode::InvalidArgument);
     EXPECT_EQ(Batch::make((std::size_t{1} << 31) + 1, 1).code(), ErrorCode::InvalidArgument);

@@ -1,4 +1,4 @@
-// solve_many over the caller's joints: bitwise the same as over the batch's own, which stay unchanged.
+// solve_many over the caller's joints: bitwise equal to a solve of the batch's own, which stay unchanged.
 #include "ik_limit_support.hpp"
 #include "ik_many_support.hpp"
 
@@ -29,10 +29,10 @@ Batch batch_of_lengths(const Crowd& crowd, int threads = 1) {
     return batch;
 }
 
-TEST(SolveManyJoints, AreSolvedAsTheBatchsOwnToTheBit) {
+TEST(SolveManyJoints, SolvesTheCallersJointsBitForBitLikeItsOwn) {
     Random random(61);
     for (const std::size_t bones : {1u, 2u, 3u, 4u, 10u, 31u}) {
-        // Some out of reach, some near full reach: those move between blocks.
+        // Some are out of reach, some near full reach: those move between blocks.
         const Crowd crowd = some_crowd(501, bones, random, 0.0f, 1.05f);
         for (const int threads : {1, 3}) {
             Batch batch = batch_of_lengths(crowd, threads);
@@ -49,7 +49,7 @@ TEST(SolveManyJoints, AreSolvedAsTheBatchsOwnToTheBit) {
     }
 }
 
-TEST(SolveManyJoints, WithinLimitsTooAndWithTheBatchsRotations) {
+TEST(SolveManyJoints, AlsoWithinLimitsWithTheBatchsRotations) {
     Random random(62);
     const Arm arm = some_arm(random, ArmKind::Cones, 5);
     Crowd crowd;
@@ -102,7 +102,7 @@ TEST(SolveManyJoints, ABadJointHarmsNoOtherChain) {
     }
 }
 
-TEST(SolveManyJoints, OfTheWrongNumberAreRefused) {
+TEST(SolveManyJoints, AWrongNumberIsRefused) {
     Random random(64);
     const Crowd crowd = some_crowd(5, 3, random);
     Batch batch = batch_of_lengths(crowd);

@@ -1,5 +1,5 @@
 // solve_many within limits: joints stay within their limits, every target that the scalar solver reaches is
-// reached, and cases that the vector units cannot do are bitwise the scalar solver's answer.
+// reached, and cases beyond the vector units are bitwise the scalar solver's answer.
 #include "ik_limited_support.hpp"
 #include "ik_many_scalar.hpp"
 
@@ -9,7 +9,7 @@ namespace {
 using ik::Limit;
 using Rotations = std::vector<glm::quat>;
 
-/// One arm for a whole crowd, each at rest at a position of its own.
+/// One arm for a whole crowd, each at rest at its own position.
 struct LimitedCrowd {
     Arm arm;
     Crowd crowd;
@@ -88,7 +88,7 @@ std::string difference(const LimitedAnswer& a, const LimitedAnswer& b) {
     return difference(a.answer, b.answer);
 }
 
-TEST(SolveManyWithinLimits, EveryJointKeepsItsLimitAndTipsArriveWhereTheScalarSolverBringsThem) {
+TEST(SolveManyWithinLimits, KeepsLimitsAndReachesWhatTheScalarSolverReaches) {
     Random random(51);
     for (const ArmKind kind : arm_kinds) {
         for (const std::size_t bones : {2u, 3u, 5u, 10u}) {
@@ -111,7 +111,7 @@ TEST(SolveManyWithinLimits, EveryJointKeepsItsLimitAndTipsArriveWhereTheScalarSo
     }
 }
 
-TEST(SolveManyWithinLimits, HingesAndConesHardlyEverNeedTheScalarSolver) {
+TEST(SolveManyWithinLimits, HingesAndConesRarelyNeedTheScalarSolver) {
     Random random(52);
     for (const std::size_t bones : {3u, 10u, 30u}) {
         Arm arm;
@@ -134,7 +134,7 @@ TEST(SolveManyWithinLimits, HingesAndConesHardlyEverNeedTheScalarSolver) {
     }
 }
 
-TEST(SolveManyWithinLimits, VectorUnitsThreadsAndCompanyChangeNoBit) {
+TEST(SolveManyWithinLimits, VectorUnitsThreadsAndNeighboursChangeNoBit) {
     Random random(53);
     for (const ArmKind kind : {ArmKind::Cones, ArmKind::Human}) {
         const LimitedCrowd all = limited_crowd(900, 9, kind, random);
@@ -152,7 +152,7 @@ TEST(SolveManyWithinLimits, VectorUnitsThreadsAndCompanyChangeNoBit) {
     }
 }
 
-TEST(SolveManyWithinLimits, WhatVectorsCannotDoIsTheScalarSolversAnswer) {
+TEST(SolveManyWithinLimits, FallbacksAreTheScalarSolversAnswer) {
     Random random(54);
     LimitedCrowd all = limited_crowd(60, 4, ArmKind::Human, random);
     for (std::size_t i = 0; i < all.crowd.size(); i += 2) {  // out of reach
@@ -172,7 +172,7 @@ TEST(SolveManyWithinLimits, WhatVectorsCannotDoIsTheScalarSolversAnswer) {
 }
 
 /// Two chains whose fallbacks look like one dragged chain: the scalar solver must not treat them as such.
-TEST(SolveManyWithinLimits, AFallbackRemembersNothingOfTheChainBeforeIt) {
+TEST(SolveManyWithinLimits, AFallbackDoesNotDependOnTheChainBeforeIt) {
     Random random(59);
     for (int round = 0; round < 20; ++round) {
         LimitedCrowd all = limited_crowd(1, 4, ArmKind::Human, random);
@@ -189,7 +189,7 @@ TEST(SolveManyWithinLimits, AFallbackRemembersNothingOfTheChainBeforeIt) {
     }
 }
 
-TEST(SolveManyWithinLimits, AChainThatHasArrivedStaysToTheBit) {
+TEST(SolveManyWithinLimits, AChainThatHasArrivedStaysBitForBit) {
     Random random(55);
     const LimitedCrowd all = limited_crowd(300, 6, ArmKind::Human, random);
     Batch batch = batch_of(all);
@@ -202,7 +202,7 @@ TEST(SolveManyWithinLimits, AChainThatHasArrivedStaysToTheBit) {
     }
 }
 
-TEST(SolveManyWithinLimits, RotationsFollowJointsThatAreThereAlready) {
+TEST(SolveManyWithinLimits, RotationsFollowJointsThatNeedNotMove) {
     Random random(58);
     Arm arm;
     for (int i = 0; i < 4; ++i) {
@@ -219,7 +219,7 @@ TEST(SolveManyWithinLimits, RotationsFollowJointsThatAreThereAlready) {
         all.crowd.joints[i] = bent.answer.joints[i];
         all.crowd.targets[i] = bent.answer.joints[i].back();
     }
-    const LimitedAnswer stays = solve_limited(all);  // from rotations at rest
+    const LimitedAnswer stays = solve_limited(all);  // starting from rotations at rest
     int stayed = 0;
     for (std::size_t i = 0; i < all.crowd.size(); ++i) {
         if (stays.answer.reports[i].scalar_fallback || stays.answer.reports[i].iterations > 0) continue;
@@ -230,7 +230,7 @@ TEST(SolveManyWithinLimits, RotationsFollowJointsThatAreThereAlready) {
     EXPECT_GT(stayed, 10);
 }
 
-TEST(SolveManyWithinLimits, WhatIsPutBackGoesOnWithTheSameBits) {
+TEST(SolveManyWithinLimits, ARestoredBatchContinuesWithTheSameBits) {
     Random random(56);
     const LimitedCrowd all = limited_crowd(200, 5, ArmKind::Cones, random);
     Batch batch = batch_of(all);
@@ -257,7 +257,7 @@ TEST(SolveManyWithinLimits, WhatIsPutBackGoesOnWithTheSameBits) {
     EXPECT_EQ(once, again);
 }
 
-TEST(SolveManyWithinLimits, BadTargetsAndJointsThatWereMovedHarmNobody) {
+TEST(SolveManyWithinLimits, BadTargetsAndMovedJointsHarmNoOtherChain) {
     Random random(57);
     LimitedCrowd all = limited_crowd(300, 5, ArmKind::Human, random);
     for (std::size_t i = 0; i < all.crowd.size(); ++i) {
@@ -278,7 +278,7 @@ TEST(SolveManyWithinLimits, BadTargetsAndJointsThatWereMovedHarmNobody) {
     }
 }
 
-TEST(Batch, RefusesLimitsThatAreNone) {
+TEST(Batch, RefusesInvalidLimits) {
     Batch batch = *Batch::make(3, 2);
     Rotations rotations(6, glm::quat(1, 0, 0, 0));
     EXPECT_EQ(batch.set_rotations(rotations).code(), ErrorCode::NotFound);
@@ -299,7 +299,7 @@ TEST(Batch, RefusesLimitsThatAreNone) {
     EXPECT_EQ(batch.copy_rotations(rotations).code(), ErrorCode::NotFound);
 }
 
-TEST(SolveManyWithinLimits, LimitsWithOtherRestDirectionsCountAnew) {
+TEST(SolveManyWithinLimits, LimitsWithOtherRestDirectionsStartOver) {
     std::vector<ik::Limit> limits(3,
                                   ik::Limit::of(ik::JointKind::Suture));  // flat: left to the scalar solver
     for (ik::Limit& limit : limits) limit.axis = {0, 0, 1}, limit.up = limit.down = 0.5f;

@@ -1,4 +1,4 @@
-// Shared by the tests of solve_many: a crowd of chains, solved at once. One by one: ik_many_scalar.hpp.
+// Shared by the tests of solve_many: a crowd of chains, solved together. One by one: ik_many_scalar.hpp.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -87,7 +87,7 @@ inline double furthest(std::span<const glm::vec3> a, std::span<const glm::vec3> 
     return most;
 }
 
-/// Expects joints equal to `part` of the reach, and equal reports.
+/// Expects joints equal to within `part` of the reach, and equal reports.
 inline void expect_same(const Crowd& crowd, const Answer& many, const Answer& each, double part) {
     for (std::size_t i = 0; i < crowd.size(); ++i) {
         const double reach = reach_of(crowd.lengths[i]);

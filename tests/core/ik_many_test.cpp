@@ -4,7 +4,7 @@
 namespace tendril::test::ik_many_test {
 namespace {
 
-TEST(SolveMany, TenThousandChainsAsTheScalarSolverWithForcedIterations) {
+TEST(SolveMany, TenThousandChainsMatchTheScalarSolverAtFixedIterations) {
     Random random(1);
     const Crowd crowd = some_crowd(10'000, 10, random);
     const ManyOptions options{.max_iterations = 20, .every_iteration = true};
@@ -16,10 +16,10 @@ TEST(SolveMany, TenThousandChainsAsTheScalarSolverWithForcedIterations) {
     EXPECT_GE(equal, crowd.size() * 999 / 1000) << "of " << crowd.size() << " equal to the bit";
 }
 
-TEST(SolveMany, EachChainStopsWhereTheScalarSolverStops) {
+TEST(SolveMany, EachChainStopsWithTheScalarSolver) {
     Random random(2);
     for (const std::size_t bones : {2u, 3u, 5u, 10u, 31u}) {
-        const Crowd crowd = some_crowd(700, bones, random, 0.0f, 1.2f);  // some beyond reach, some at the rim
+        const Crowd crowd = some_crowd(700, bones, random, 0.0f, 1.2f);  // some out of reach, some at the rim
         for (const int most : {1, 7, 8, 9, 100, 1000}) {
             const ManyOptions options{.max_iterations = most};
             expect_same(crowd, solve_many(crowd, options), solve_each(crowd, options), 1e-4);
@@ -27,7 +27,7 @@ TEST(SolveMany, EachChainStopsWhereTheScalarSolverStops) {
     }
 }
 
-TEST(SolveMany, AToleranceThatFloatsCannotKeepStalls) {
+TEST(SolveMany, AToleranceBelowFloatPrecisionStalls) {
     Random random(18);
     const Crowd crowd = some_crowd(500, 6, random, 0.1f, 0.95f);
     const ManyOptions options{.tolerance = 0.0f, .max_iterations = 2000};
@@ -37,7 +37,7 @@ TEST(SolveMany, AToleranceThatFloatsCannotKeepStalls) {
     EXPECT_GT(std::count_if(many.reports.begin(), many.reports.end(), stalled), 5);
 }
 
-TEST(SolveMany, FarFromTheOriginChainsAreSolvedAsTheScalarSolverSolvesThem) {
+TEST(SolveMany, ChainsFarFromTheOriginMatchTheScalarSolver) {
     Random random(19);
     for (const float far : {900.0f, 2e3f, 3e4f, 1e6f}) {
         Crowd crowd;
@@ -91,7 +91,7 @@ TEST(SolveMany, EveryNumberOfChainsGivesTheSameBits) {
 
 TEST(SolveMany, EveryNumberOfThreadsGivesTheSameBits) {
     Random random(6);
-    // Near the rim some take hundreds of iterations: those are solved outside their blocks.
+    // Near the rim, some take hundreds of iterations: those are solved outside their blocks.
     const Crowd crowd = some_crowd(5000, 10, random, 0.05f, 0.999f);
     const ManyOptions options{.max_iterations = 1000};
     const Answer one = solve_many(crowd, options);
@@ -123,7 +123,7 @@ Crowd hostile_crowd(std::size_t chains, std::size_t bones, Random& random) {
     return crowd;
 }
 
-TEST(SolveMany, HostileChainsAreSolvedAsTheScalarSolverSolvesThem) {
+TEST(SolveMany, HostileChainsMatchTheScalarSolver) {
     Random random(21);
     for (const std::size_t bones : {1u, 2u, 3u, 7u, 8u, 12u, 31u}) {
         const Crowd crowd = hostile_crowd(1500, bones, random);
@@ -146,7 +146,7 @@ TEST(SolveMany, HostileChainsAreSolvedAsTheScalarSolverSolvesThem) {
     }
 }
 
-TEST(SolveMany, TheSummaryCountsWhatTheReportsSay) {
+TEST(SolveMany, TheSummaryCountsTheReports) {
     Random random(22);
     Crowd crowd = hostile_crowd(2000, 6, random);
     for (std::size_t i = 0; i < crowd.size(); i += 7) crowd.targets[i].z = nan;
@@ -171,7 +171,7 @@ TEST(SolveMany, AWholeCrowdOfStragglersIsSolved) {
     expect_same(crowd, solve_many(crowd, options), solve_each(crowd, options), 1e-4);
 }
 
-TEST(SolveMany, ATargetThatComesAndGoesOnOneLineIsFollowed) {
+TEST(SolveMany, ATargetMovingBackAndForthOnALineIsFollowed) {
     Batch batch = *Batch::make(200, 6);
     std::vector<ManyReport> reports(batch.size());
     for (int frame = 0; frame < 60; ++frame) {

@@ -10,7 +10,7 @@ using ik::Method;
 using ik::Options;
 using ik::Status;
 
-TEST(IkMemory, SolvingTakesNone) {
+TEST(IkMemory, SolvingAllocatesNothing) {
     Random random(7);
     for (const Method method : ik::all_methods) {
         const std::size_t bones = method == Method::TwoBone ? 2 : 12;
@@ -42,7 +42,7 @@ TEST(IkMemory, SolvingTakesNone) {
     }
 }
 
-TEST(IkMemory, NorForAChain) {
+TEST(IkMemory, SolvingAChainAllocatesNothing) {
     Chain chain = straight(20);
     KeptSolver solver(chain);
     Status status = Status::InvalidInput;

@@ -30,7 +30,7 @@ Recorder expect_faithful(Method method, const Lengths& lengths, const Joints& st
     }
     int order = 0;
     for (const ik::Step& step : recorder.steps) {
-        EXPECT_GE(step.order, order);  // a step that moves nothing leaves a gap
+        EXPECT_GE(step.order, order);  // steps that move nothing leave gaps
         EXPECT_TRUE(step.joint < start.size());
         order = step.order;
     }
@@ -50,7 +50,7 @@ Options some_options(Random& random, const std::vector<Limit>& limits, std::size
     return options;
 }
 
-TEST(IkObserver, TheStepsLeadToTheEnd) {
+TEST(IkObserver, ReplayedStepsGiveTheResult) {
     Random random(8);
     std::vector<Limit> limits(12, Limit::of(ik::JointKind::BallAndSocket));
     limits[1] = Limit::hinge({0, 0, 1}, -1.0f, 1.0f);
@@ -88,11 +88,11 @@ TEST(IkObserver, OneIterationOfFourBonesIsEightPulls) {
     const std::vector<std::pair<std::size_t, std::size_t>> expected{{3, 4}, {2, 3}, {1, 2}, {0, 1},
                                                                     {1, 0}, {2, 1}, {3, 2}, {4, 3}};
     EXPECT_EQ(pulls, expected);
-    EXPECT_EQ(recorder.steps.size(), 10u);  // plus the tip to the target and the root to its position
+    EXPECT_EQ(recorder.steps.size(), 10u);  // plus tip to target and root to its position
     EXPECT_EQ(recorder.iterations, (std::vector<int>{0, 1}));
 }
 
-TEST(IkObserver, OutOfReachIsOneAnswer) {
+TEST(IkObserver, OutOfReachIsASingleAnswer) {
     const Lengths lengths(3, 1.0f);
     const Recorder recorder =
         expect_faithful(Method::Fabrik, lengths, straight_joints(lengths), {0, 5, 0}, {});

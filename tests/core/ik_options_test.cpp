@@ -39,7 +39,7 @@ Outcome solve(Method method, const Case& each, Change change) {
     return outcome;
 }
 
-/// Sets one option to a value other than its default. Both options of stretching, as neither acts alone.
+/// Sets one option to a value other than its default. Sets both stretch options, as neither acts alone.
 void set(const Field& option, ik::Options& options, std::span<float> residuals, const Case& each) {
     const float reach = each.arm.reach();
     const ik::Options changed{.tolerance = 0.1f * reach,
@@ -65,7 +65,7 @@ void set(const Field& option, ik::Options& options, std::span<float> residuals, 
     else if (name == "residuals")
         options.residuals = residuals;
     else if (name == "plane")
-        options.plane = changed.plane, options.limits = {};  // it has its own
+        options.plane = changed.plane, options.limits = {};  // a plane has limits of its own
     else
         option.set(&options, option.get(&changed));
     if (name == "start_stretch_ratio") options.max_stretch_scale = changed.max_stretch_scale;
@@ -107,7 +107,7 @@ int changed_cases(Method method, const Field& option, bool limited) {
     return changed;
 }
 
-TEST(IkOptions, TheTableSaysWhichMethodHonoursWhat) {
+TEST(IkOptions, TheTableListsTheOptionsOfEachMethod) {
     for (const Method method : ik::all_methods) {
         for (const Field& option : fields<ik::Options>()) {
             for (const bool limited : {false, true}) {
@@ -130,7 +130,7 @@ TEST(IkOptions, TwoBoneNeedsTwoBones) {
 
 // ---- Weight
 
-/// The directions of the bones.
+/// Unit vectors along the bones.
 Joints directions(const Joints& joints) {
     Joints result;
     for (std::size_t i = 1; i < joints.size(); ++i)
@@ -142,7 +142,7 @@ double angle_between(glm::vec3 a, glm::vec3 b) {
     return std::atan2(distance(glm::cross(a, b), {0, 0, 0}), double(glm::dot(a, b)));
 }
 
-TEST(IkWeight, BonesTurnPartOfTheWayAndKeepTheirLengths) {
+TEST(IkWeight, BonesTurnByTheWeightAndKeepTheirLengths) {
     Random random(32);
     for (const Method method : iterating_methods) {
         for (int number = 0; number < 40; ++number) {
@@ -159,7 +159,7 @@ TEST(IkWeight, BonesTurnPartOfTheWayAndKeepTheirLengths) {
             const Joints from = directions(start), to = directions(whole), is = directions(some);
             for (std::size_t i = 0; i < is.size(); ++i) {
                 const double all = angle_between(from[i], to[i]);
-                if (all > 3.1) continue;  // half a turn: any way is the shortest
+                if (all > 3.1) continue;  // half a turn: the direction of turning is free
                 EXPECT_NEAR(angle_between(from[i], is[i]), double(weight) * all, 2e-3);
                 EXPECT_NEAR(angle_between(is[i], to[i]), (1.0 - double(weight)) * all, 2e-3);
             }
@@ -167,7 +167,7 @@ TEST(IkWeight, BonesTurnPartOfTheWayAndKeepTheirLengths) {
     }
 }
 
-TEST(IkWeight, WhatLiesBetweenIsWithinItsLimits) {
+TEST(IkWeight, BlendedPosesAreWithinTheirLimits) {
     Random random(33);
     for (int number = 0; number < 200; ++number) {
         const Arm arm = some_arm(random, 2 + random.below(4));
@@ -197,7 +197,7 @@ TEST(IkWeight, AStretchIsBlendedToo) {
 
 // ---- What actually ran
 
-TEST(IkReport, SaysWhatRan) {
+TEST(IkReport, CountsStepsRestartsAndPerturbations) {
     Random random(34);
     int steps = 0, restarts = 0, closed = 0, perturbations = 0;
     for (int number = 0; number < 100; ++number) {

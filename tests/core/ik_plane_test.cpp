@@ -1,4 +1,4 @@
-// Chains in a plane: they stay in it, keep their side, arrive like solid ones, and hold limits of angles.
+// Chains in a plane: they stay in it, keep their side, arrive like chains in space, and respect angle limits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ Frame some_frame(Random& random) {
 
 constexpr Frame flat{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
 
-/// Random, straight, folded, or forwards and backwards on one line.
+/// How a chain starts: random, straight, folded, or back and forth on one line.
 enum class Start { Random, Straight, Folded, Collinear };
 
 Joints start_pose(Start start, const Lengths& lengths, const Frame& frame, float line, Random& random) {
@@ -52,7 +52,7 @@ double off(const Joints& joints, glm::vec3 normal) {
     return furthest;
 }
 
-/// How far to the left of the line from root to tip the chain bends, as a fraction of its reach.
+/// Signed bend of the chain to the left of the line from root to tip, as a fraction of its reach.
 double bend(const Joints& joints, const Lengths& lengths, const Frame& frame) {
     const double reach = reach_of(lengths);
     const glm::dvec3 root = joints.front(), line = glm::dvec3(joints.back()) - root;
@@ -65,7 +65,7 @@ double bend(const Joints& joints, const Lengths& lengths, const Frame& frame) {
     return sum / (2.0 * reach * reach);
 }
 
-/// By how much a bone's angle is outside its limit, radians.
+/// Amount by which a bone's angle is outside its limit, radians.
 double excess(const Joints& joints, std::span<const AngleLimit> limits, const Frame& frame) {
     double most = 0.0, before = 0.0;
     for (std::size_t i = 0; i < limits.size(); ++i) {
@@ -89,8 +89,8 @@ ik::Options in_plane(const Frame& frame, std::span<const AngleLimit> limits = {}
     return options;
 }
 
-// 100 000 chains, once: all arrive, off the plane by at most 1e-7 R, 99.9 percent of those from random poses
-// in at most 9 iterations and of the others in 3 (solid: 6 and 16).
+// 100 000 chains, once: all arrive, at most 1e-7 R off the plane; 99.9 percent in at most 9 iterations from
+// random poses, and in 3 from the others (in space: 6 and 16).
 TEST(IkPlane, ChainsOfAllStartsArriveInThePlane) {
     Random random(1);
     std::array<std::vector<int>, 4> iterations;
@@ -126,7 +126,7 @@ TEST(IkPlane, ChainsOfAllStartsArriveInThePlane) {
     }
 }
 
-// Whatever else is asked for.
+// For every combination of other options.
 TEST(IkPlane, EveryMethodAndOptionStaysInThePlane) {
     Random random(2);
     for (int number = 0; number < 2000; ++number) {
@@ -161,7 +161,7 @@ TEST(IkPlane, EveryMethodAndOptionStaysInThePlane) {
 }
 
 // 440 000 steps of each method, once, from straight chains of 2 to 12 bones: the side never changes, and no
-// joint moves by more than 9 steps of the target (CCD, which curls the chain: 178 times more than 50).
+// joint moves by more than 9 target steps (CCD, which curls the chain: by more than 50 in 178 cases).
 TEST(IkPlane, TheSideIsKeptWhileTheTargetPassesTheRoot) {
     Random random(3);
     for (int number = 0; number < 12; ++number) {
@@ -178,7 +178,7 @@ TEST(IkPlane, TheSideIsKeptWhileTheTargetPassesTheRoot) {
         KeptSolver solver(lengths);
         for (float x = 0.95f * reach; x > -0.95f * reach; x -= step) {
             solver.solve(ik::Method::Fabrik, joints, {x, 0.05f * reach, 0.3f}, options);
-            options.plane->bend = Side::Free;  // from now on the chain's own
+            options.plane->bend = Side::Free;  // then the chain keeps its own
             ASSERT_EQ(solver.state.side, wanted) << number << " at " << x;
             const double now = bend(joints, lengths, flat);
             ASSERT_TRUE(std::abs(now) < 2e-4 || (now > 0.0) == (wanted == Side::Left))
@@ -192,9 +192,9 @@ TEST(IkPlane, TheSideIsKeptWhileTheTargetPassesTheRoot) {
     }
 }
 
-// A chain that is folded up, its tip at its root or not, does not stay a zigzag, whose side rounding decides.
-// Of 1 100 000 steps, once, along lines that pass the root at 0.05 to 0.5 R: one is longer than this.
-TEST(IkPlane, AFoldedChainUnfoldsAndGlides) {
+// A folded chain, its tip at its root or not, does not stay a zigzag, whose side is decided by rounding. Of 1
+// 100 000 steps, once, along lines that pass the root at 0.05 to 0.5 R, one is longer than this.
+TEST(IkPlane, AFoldedChainUnfoldsSmoothly) {
     Random random(3);
     for (int number = 0; number < 60; ++number) {
         const std::size_t bones = 2 + static_cast<std::size_t>(number) % 11;
@@ -236,7 +236,7 @@ TEST(IkPlane, AStraightChainBendsToItsSide) {
         options.plane->bend = side;
         solver.solve(ik::Method::Fabrik, joints, {3, 0, 0}, options);
         EXPECT_EQ(bend(joints, lengths, flat) > 0.0, side == Side::Left);
-        // The state remembers it while the chain is straight.
+        // The state keeps the side while the chain is straight.
         options.plane->bend = Side::Free;
         solver.solve(ik::Method::Fabrik, joints, {9, 0, 0}, options);
         EXPECT_EQ(solver.state.side, side);
@@ -246,7 +246,7 @@ TEST(IkPlane, AStraightChainBendsToItsSide) {
     }
 }
 
-TEST(IkPlane, APoleChoosesItsSide) {
+TEST(IkPlane, APoleChoosesTheSide) {
     const Lengths lengths{1, 1, 1};
     KeptSolver solver(lengths);
     Joints joints = straight_joints(lengths);
@@ -259,13 +259,13 @@ TEST(IkPlane, APoleChoosesItsSide) {
     solver.solve(ik::Method::Fabrik, joints, {2, 0, 0}, options);
     EXPECT_EQ(solver.state.side, Side::Left);
     EXPECT_GT(bend(joints, lengths, flat), 0.0);
-    options.pole = glm::vec3(1, 0, 5);  // on the line: the side asked for
+    options.pole = glm::vec3(1, 0, 5);  // on the line: the requested side is used
     options.plane->bend = Side::Right;
     solver.solve(ik::Method::Fabrik, joints, {2, 0, 0}, options);
     EXPECT_EQ(solver.state.side, Side::Right);
 }
 
-TEST(IkPlane, TwoBonesHaveTheClosedForm) {
+TEST(IkPlane, TwoBonesMatchTheClosedForm) {
     const Lengths lengths{1.0f, 0.8f};
     for (const Side side : {Side::Left, Side::Right}) {
         KeptSolver solver(lengths);
@@ -286,8 +286,8 @@ TEST(IkPlane, TwoBonesHaveTheClosedForm) {
     }
 }
 
-// 6 000 chains of 3 to 40 bones each, once: all of them, with limits from the base among them or not.
-TEST(IkPlane, WithinLimitsReachesWhatPosesWithinThemReach) {
+// 6 000 chains of 3 to 40 bones each, once: all arrive, with or without limits measured from the base.
+TEST(IkPlane, ReachesTargetsOfPosesWithinTheLimits) {
     Random random(4);
     for (const bool mixed : {false, true}) {
         int arrived = 0;
@@ -348,8 +348,8 @@ TEST(IkPlane, TheLimitThatStopsTheTipIsNamed) {
     EXPECT_NEAR(std::abs(active->limit), 0.2f, 1e-3f);
 }
 
-// A chain that has arrived keeps its bits; one that did not, in another plane, is moved into this one.
-TEST(IkPlane, WhatNeedNotMoveKeepsItsBits) {
+// A chain that has arrived keeps its bits; one in another plane is moved into this one.
+TEST(IkPlane, AnArrivedChainKeepsItsBits) {
     Random random(5);
     const Frame frame = some_frame(random);
     const Lengths lengths = some_lengths(6, random);
@@ -366,7 +366,7 @@ TEST(IkPlane, WhatNeedNotMoveKeepsItsBits) {
     }
 }
 
-/// Chains of all starts with targets in and out of reach, beside the plane.
+/// Chains with all kinds of starts and targets in and out of reach, off the plane.
 struct FlatCrowd {
     FlatCrowd(std::size_t count, const Lengths& of, Random& random) : frame(some_frame(random)), lengths(of) {
         const auto reach = static_cast<float>(reach_of(lengths));
@@ -390,7 +390,7 @@ struct FlatCrowd {
     Joints joints, targets;
 };
 
-TEST(IkPlane, ManyAtOnceAreSolvedAsOne) {
+TEST(IkPlane, ManyEqualTheScalarSolver) {
     Random random(9);
     const std::size_t chains = 250;
     std::size_t all = 0, equal = 0, fallbacks = 0;
@@ -424,7 +424,7 @@ TEST(IkPlane, ManyAtOnceAreSolvedAsOne) {
                 if (i == 3) continue;
                 ASSERT_LE(off(Joints(found.begin(), found.end()), crowd.frame.normal), 1e-6 * reach);
             }
-            // The batch's own joints, other threads and other registers give the same.
+            // The batch's own joints, other thread counts and other vector units give the same.
             auto own = ik::Batch::make(chains, bones).value();
             ASSERT_TRUE(own.set_lengths(crowd.lengths));
             for (const std::string_view unit : ik::vector_units()) {
@@ -440,7 +440,7 @@ TEST(IkPlane, ManyAtOnceAreSolvedAsOne) {
     EXPECT_LE(fallbacks, all * 5 / 100);
 }
 
-TEST(IkPlane, ManyWithinLimitsAreLeftToTheScalarSolver) {
+TEST(IkPlane, ManyWithinLimitsUseTheScalarSolver) {
     Random random(10);
     const std::size_t chains = 60, bones = 5;
     const FlatCrowd crowd(chains, some_lengths(bones, random), random);
@@ -462,7 +462,7 @@ TEST(IkPlane, ManyWithinLimitsAreLeftToTheScalarSolver) {
     }
 }
 
-TEST(IkPlane, AnObserverSeesTheWorld) {
+TEST(IkPlane, AnObserverSeesWorldCoordinates) {
     Random random(6);
     const Frame frame = some_frame(random);
     const Lengths lengths = some_lengths(5, random);
@@ -522,7 +522,7 @@ TEST(IkPlane, BadPlanesAreRefused) {
     const ik::Limit solid[2]{};
     both.limits = solid;
     EXPECT_EQ(status(both), Status::InvalidInput);
-    // Numbers at the ends of their ranges do no harm.
+    // Numbers at the ends of their ranges are safe.
     Random random(8);
     for (int number = 0; number < 300; ++number) {
         Lengths bones(1 + random.below(5));

@@ -1,4 +1,4 @@
-// A target that crosses the line to the pole: the chain must not flip to the other side at once.
+// A target that crosses the line to the pole: the chain must not flip to the other side in one step.
 #include <algorithm>
 
 #include "ik_support.hpp"
@@ -10,10 +10,10 @@ using ik::Method;
 using ik::PoleTurn;
 
 struct Sweep {
-    double step = 0.0;  ///< of the target, metres
+    double step = 0.0;  ///< target motion per solve, metres
     PoleTurn turn = PoleTurn::WholeChain;
-    glm::dvec3 normal{0.0};  ///< of the plane of the arc
-    bool forgets = false;    ///< a new state for every solve
+    glm::dvec3 normal{0.0};  ///< normal of the arc's plane
+    bool forgets = false;    ///< reset the state before every solve
 };
 
 glm::dvec3 turned_about(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
@@ -32,7 +32,7 @@ double worst_ratio(Method method, const Lengths& lengths, const Sweep& sweep) {
     const ik::Options options{.tolerance = 1e-4f, .pole = pole, .pole_turn = sweep.turn};
     const auto at = [&](double angle) { return glm::vec3(turned_about(middle, sweep.normal, angle)); };
     glm::vec3 target = at(-1.0);
-    for (int i = 0; i < 100; ++i) solver.solve(method, joints, target, options);  // until it is at rest
+    for (int i = 0; i < 100; ++i) solver.solve(method, joints, target, options);  // settle first
     double worst = 0.0;
     for (double angle = -1.0; angle <= 1.0; angle += sweep.step / radius) {
         if (sweep.forgets) solver.state.reset();
@@ -49,8 +49,8 @@ double worst_ratio(Method method, const Lengths& lengths, const Sweep& sweep) {
     return worst;
 }
 
-TEST(IkPoleSweep, NoJointLeapsAsTheTargetCrossesThePole) {
-    for (const std::size_t bones : {5u, 6u}) {  // six segments, and six bones
+TEST(IkPoleSweep, NoJointJumpsAsTheTargetCrossesThePole) {
+    for (const std::size_t bones : {5u, 6u}) {  // five and six bones
         const Lengths lengths(bones, 1.0f);
         for (const double step : {0.025, 0.005, 0.0005}) {
             for (const PoleTurn turn : {PoleTurn::WholeChain, PoleTurn::EachJoint}) {
@@ -68,13 +68,13 @@ TEST(IkPoleSweep, NoJointLeapsAsTheTargetCrossesThePole) {
     }
 }
 
-TEST(IkPoleSweep, WithoutTheStateItDoes) {
+TEST(IkPoleSweep, WithoutStateJointsJump) {
     const Lengths lengths(5, 1.0f);
     EXPECT_GT(worst_ratio(Method::Fabrik, lengths, {0.025, PoleTurn::WholeChain, {0, 0, 1}, true}), 50.0);
     EXPECT_GT(worst_ratio(Method::Fabrik, lengths, {0.005, PoleTurn::WholeChain, {0, 0, 1}, true}), 50.0);
 }
 
-TEST(IkPoleSweep, NorForTheOtherMethods) {
+TEST(IkPoleSweep, OtherMethodsDoNotJump) {
     const Lengths lengths(5, 1.0f);
     for (const Method method : iterating_methods) {
         for (const PoleTurn turn : {PoleTurn::WholeChain, PoleTurn::EachJoint}) {

@@ -13,7 +13,7 @@ double size(glm::dvec3 v) {
     return std::sqrt(dot(v, v));
 }
 
-/// The component of `v` at right angles to the line.
+/// The component of `v` perpendicular to the line.
 glm::dvec3 off(glm::dvec3 v, glm::dvec3 line) {
     return v - line * (dot(v, line) / dot(line, line));
 }
@@ -42,7 +42,7 @@ Options facing(glm::vec3 pole, PoleTurn turn = PoleTurn::WholeChain) {
     return options;
 }
 
-TEST(IkPole, TheBendFacesItAfterOneSolveWhateverTheMethod) {
+TEST(IkPole, TheBendFacesThePoleAfterOneSolveByAnyMethod) {
     Random random(1);
     for (int k = 0; k < 2000; ++k) {
         const Lengths lengths = some_lengths(2 + random.below(10), random);
@@ -59,7 +59,7 @@ TEST(IkPole, TheBendFacesItAfterOneSolveWhateverTheMethod) {
     }
 }
 
-TEST(IkPole, TheTurnMovesNeitherRootNorTip) {
+TEST(IkPole, FacingThePoleMovesNeitherRootNorTip) {
     Random random(2);
     for (const PoleTurn turn : {PoleTurn::WholeChain, PoleTurn::EachJoint}) {
         for (int k = 0; k < 500; ++k) {
@@ -69,7 +69,7 @@ TEST(IkPole, TheTurnMovesNeitherRootNorTip) {
             Recorder recorder;
             KeptSolver(lengths).solve(Method::Fabrik, joints, target, facing(random.point(3.0f), turn),
                                       &recorder);
-            // The trailing pole steps are the final turn.
+            // The pole steps at the end are the final turn.
             auto step = recorder.steps.rbegin();
             for (; step != recorder.steps.rend() && step->phase == ik::Phase::Pole; ++step) {
                 if (step->iteration == 0) break;
@@ -81,7 +81,7 @@ TEST(IkPole, TheTurnMovesNeitherRootNorTip) {
     }
 }
 
-TEST(IkPole, EachJointComesToFaceItInItsOwnPlane) {
+TEST(IkPole, EachJointFacesThePoleInItsOwnPlane) {
     Random random(3);
     int faced = 0, all = 0;
     for (int k = 0; k < 200; ++k) {
@@ -104,7 +104,7 @@ TEST(IkPole, EachJointComesToFaceItInItsOwnPlane) {
     EXPECT_GT(faced, all * 98 / 100);
 }
 
-TEST(IkPole, SolvedAgainAndAgainItComesToRest) {
+TEST(IkPole, RepeatedSolvesComeToRest) {
     Random random(4);
     for (int k = 0; k < 500; ++k) {
         const Lengths lengths = some_lengths(2 + random.below(8), random);
@@ -116,7 +116,7 @@ TEST(IkPole, SolvedAgainAndAgainItComesToRest) {
         KeptSolver solver(lengths);
         solver.solve(Method::Fabrik, joints, target, facing(pole));
         Joints settled = joints;
-        // The tip was within tolerance of the target; now it moves onto the line to it.
+        // The tip was within tolerance of the target; it now moves onto the line to it.
         for (int again = 0; again < 10; ++again) solver.solve(Method::Fabrik, joints, target, facing(pole));
         for (std::size_t i = 0; i < joints.size(); ++i) {
             EXPECT_LT(distance(joints[i], settled[i]), 0.02 * reach);
@@ -129,7 +129,7 @@ TEST(IkPole, SolvedAgainAndAgainItComesToRest) {
     }
 }
 
-TEST(IkPole, OnTheLineItLeavesThePlaneAsItIs) {
+TEST(IkPole, APoleOnTheLineKeepsThePlane) {
     const Lengths lengths(4, 0.25f);
     Joints joints{{0, 0, 0}, {0.25f, 0, 0}, {0.5f, 0, 0}, {0.75f, 0, 0}, {1, 0, 0}};
     KeptSolver solver(lengths);
@@ -141,8 +141,8 @@ TEST(IkPole, OnTheLineItLeavesThePlaneAsItIs) {
     }
 }
 
-/// Facing the pole at once would be half a turn in a few steps. The chain turns at a limited rate.
-TEST(IkPole, ThroughTheLineItTurnsNoFasterThanItMay) {
+/// To face the pole at once would take half a turn in a few steps. The chain turns at a limited rate.
+TEST(IkPole, APoleCrossingTheLineTurnsTheChainAtALimitedRate) {
     const Lengths lengths(4, 0.25f);
     for (const PoleTurn turn : {PoleTurn::WholeChain, PoleTurn::EachJoint}) {
         Joints joints = straight_joints(lengths);
@@ -162,12 +162,12 @@ TEST(IkPole, ThroughTheLineItTurnsNoFasterThanItMay) {
         EXPECT_GT(worst, 1e-4) << "it goes with it";
         EXPECT_LT(worst, 1e-3) << "5e-4, and 20 times 1e-5";
         for (int k = 0; k < 3000; ++k) solve(-0.01f);
-        if (turn == PoleTurn::EachJoint) continue;  // from so near, joints see the pole on different sides
+        if (turn == PoleTurn::EachJoint) continue;  // so near, joints see the pole on different sides
         EXPECT_LT(off_its_pole(joints, lengths, {0.3f, -0.01f, 0.0003f}), 1e-3) << "it has caught up";
     }
 }
 
-TEST(IkPole, APoleThatIsNewOrJumpsIsFacedAtOnce) {
+TEST(IkPole, ANewOrJumpedPoleIsFacedAtOnce) {
     Random random(5);
     const Lengths lengths(6, 1.0f / 6.0f);
     const glm::vec3 target(0.1f, 0.6f, 0.2f);
@@ -213,11 +213,11 @@ class Walk {
 };
 
 struct Jumps {
-    double worst = 0.0;  ///< metres a joint moved in one step
+    double worst = 0.0;  ///< largest motion of a joint in one step, metres
     int steps = 0, unfaced = 0;
 };
 
-/// Chains of 1 m, solved for the walk's start and then along it, each from the pose before.
+/// Chains of 1 m, solved for the walk's start and then along it, each from its last pose.
 Jumps walk(Method method, PoleTurn turn, std::size_t bones, int paths, int steps, Random& random) {
     Jumps jumps;
     for (int path = 0; path < paths; ++path) {
@@ -226,7 +226,7 @@ Jumps walk(Method method, PoleTurn turn, std::size_t bones, int paths, int steps
         for (float& length : lengths) length /= reach;
         const double longest = *std::max_element(lengths.begin(), lengths.end());
         const glm::vec3 pole = some_offset(random, 0.15f, 1.5f);
-        // A long bone leaves an inner hole whose edge is as steep as full reach: keep clear of it, too.
+        // A long bone leaves an inner hole with an edge as steep as full reach: stay clear of it, too.
         const double least = std::max(0.05, 2.0 * longest - 1.0 + (bones == 2 ? 0.06 : 0.02));
         if (least > 0.9) continue;
         Walk walk(pole, least, 0.99, random);
@@ -261,9 +261,9 @@ TEST(IkPole, TheDefaultNeverJumpsAlongARandomPath) {
     }
 }
 
-TEST(IkPole, NeitherDoesEachJointByItself) {
+TEST(IkPole, EachJointMethodNeverJumpsEither) {
     Random random(given_seed());
-    // Not three: turned into one plane, they can end up folded on a line, which no smooth motion can leave.
+    // Not with three: turned into one plane, they can fold onto a line, which no smooth motion can leave.
     for (const std::size_t bones : {2u, 5u, 6u, 10u}) {
         const Jumps jumps = walk(Method::Fabrik, PoleTurn::EachJoint, bones, 10, 4000, random);
         std::printf("%2zu bones: %.2f mm\n", bones, 1e3 * jumps.worst);
@@ -271,7 +271,7 @@ TEST(IkPole, NeitherDoesEachJointByItself) {
     }
 }
 
-TEST(IkPole, NorDoTheOtherMethods) {
+TEST(IkPole, OtherMethodsNeverJumpEither) {
     Random random(given_seed());
     for (const Method method : {Method::FabrikPlain, Method::Dls, Method::SvdDls}) {
         const Jumps jumps = walk(method, PoleTurn::WholeChain, 6, 8, 3000, random);
@@ -283,7 +283,7 @@ TEST(IkPole, NorDoTheOtherMethods) {
     EXPECT_LT(jumps.worst, 0.005);
 }
 
-TEST(IkPole, BearsAnything) {
+TEST(IkPole, SurvivesAnyInput) {
     Random random(given_seed());
     for (int k = 0; k < 4000; ++k) {
         SCOPED_TRACE("solve " + std::to_string(k));

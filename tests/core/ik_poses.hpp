@@ -1,4 +1,4 @@
-// Shared by solver tests, without a solver: lengths, poses, and the promise that every solve keeps.
+// Shared by solver tests, without a solver: lengths, poses, and the invariants of every solve.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ inline glm::vec3 some_direction(Random& random) {
     }
 }
 
-/// 0 to 1
+/// A random number from 0 to 1.
 inline float part(Random& random) {
     return 0.5f + 0.5f * random.around(1.0f);
 }
@@ -45,7 +45,7 @@ inline float between(Random& random, float least, float most) {
     return least + (most - least) * part(random);
 }
 
-/// Evaluated in this order by every compiler, unlike `some_direction(random) * part(random)`.
+/// Evaluated in the same order by every compiler, unlike `some_direction(random) * part(random)`.
 inline glm::vec3 some_offset(Random& random, float least, float most) {
     const glm::vec3 direction = some_direction(random);
     return direction * between(random, least, most);
@@ -56,7 +56,7 @@ inline glm::quat some_turn(Random& random, float largest) {
     return glm::angleAxis(random.around(largest), axis);
 }
 
-/// Every bone in a random direction.
+/// Every bone points in a random direction.
 inline Joints some_pose(std::span<const float> lengths, Random& random, glm::vec3 root = {0, 0, 0}) {
     Joints joints{root};
     for (const float length : lengths) joints.push_back(joints.back() + some_direction(random) * length);
@@ -69,7 +69,7 @@ inline Lengths some_lengths(std::size_t bones, Random& random) {
     return lengths;
 }
 
-/// The promise of chain.hpp, for joints alone.
+/// The invariants of chain.hpp, for bare joints.
 inline ::testing::AssertionResult Holds(std::span<const glm::vec3> joints, std::span<const float> lengths) {
     for (std::size_t i = 0; i < joints.size(); ++i) {
         const glm::vec3 p = joints[i];

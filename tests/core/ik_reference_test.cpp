@@ -1,5 +1,5 @@
-// Expected results from an independent source (skipped if missing), and a few cases that are always present.
-// Every chain starts straight along +X.
+// Expected results from an independent source (skipped if missing), and a few built-in cases. Every chain
+// starts straight along +X.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -62,13 +62,13 @@ std::vector<Case> read_cases(std::istream& file) {
     return cases;
 }
 
-/// 1e-4 m if stretched, 1 % of a fold's residual, otherwise the tolerance.
+/// Tolerance of the residual: 1e-4 m if stretched, 1 % if folded, otherwise `tolerance`.
 double allowed(const Case& example, double tolerance) {
     if (example.status == Status::Stretched) return 1e-4;
     return example.status == Status::TooClose ? 0.01 * example.residual : tolerance;
 }
 
-/// Whatever the method did: the chain holds, and the report is true.
+/// For any method: the chain's invariants hold, and the report is true.
 void expect_honest(const Case& example, const Report& report, const Joints& joints, double tolerance) {
     EXPECT_TRUE(Holds(joints, example.lengths));
     EXPECT_TRUE(same_bits(joints.front(), glm::vec3(0.0f)));
@@ -110,11 +110,11 @@ void check_all(const std::vector<Case>& cases) {
     }
 }
 
-TEST(IkReference, OwnCases) {
+TEST(IkReference, BuiltInCases) {
     check_all(own_cases());
 }
 
-TEST(IkReference, CasesOfAnIndependentSource) {
+TEST(IkReference, CasesFromAnIndependentSource) {
     const auto path = reference_path("solve.json");
     std::ifstream file(path);
     if (!file) GTEST_SKIP() << path << " is not there";
@@ -123,7 +123,7 @@ TEST(IkReference, CasesOfAnIndependentSource) {
     check_all(cases);
 }
 
-TEST(IkReference, PlainFabrikSaysThatItStallsOnALine) {
+TEST(IkReference, PlainFabrikReportsThatItStallsOnALine) {
     const Lengths lengths(5, 1.0f);
     for (const float x : {4.0f, 2.0f, -2.5f}) {
         KeptSolver solver(lengths);

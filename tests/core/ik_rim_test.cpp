@@ -55,7 +55,7 @@ Tally solve_band(std::size_t bones, const float (&band)[2], int may_take, bool e
 }
 
 void check_band(std::size_t bones, const float (&band)[2], bool equal, bool from_straight) {
-    const int may_take = 12;  // also for 3 bones, which may take 20
+    const int may_take = 12;  // also for 3 bones, where 20 are allowed
     const Tally tally = solve_band(bones, band, may_take, equal, from_straight);
     SCOPED_TRACE(std::to_string(bones) + " bones, up to " + std::to_string(band[1]) + ", most " +
                  std::to_string(tally.most));
@@ -63,14 +63,14 @@ void check_band(std::size_t bones, const float (&band)[2], bool equal, bool from
     EXPECT_LE(tally.travel, 1.05 * tally.plain_travel);
 }
 
-TEST(IkRim, TwelveIterationsReachFromAnyPoseAndFromStraight) {
+TEST(IkRim, TwelveIterationsReachTheRimFromAnyPose) {
     for (const auto& [equal, straight] : {std::pair{true, false}, {true, true}, {false, false}})
         for (const std::size_t bones : {3u, 10u, 30u})
             for (const auto& band : bands) check_band(bones, band, equal, straight);
 }
 
-/// The inner rim: a bone longer than all others together, and a target that only a folded chain reaches.
-TEST(IkRim, ATargetThatIsJustNotTooClose) {
+/// The inner rim: one bone longer than all others together, and a target that only a folded chain reaches.
+TEST(IkRim, ATargetAtTheInnerRimIsReached) {
     Random random(11);
     for (int i = 0; i < 1000; ++i) {
         Lengths lengths = some_lengths(2 + random.below(6), random);

@@ -1,5 +1,5 @@
 // Chains on a line with their target, within limits: every descent method leaves the line if the limits allow
-// it, and no limit is blamed unless it keeps the tip from the target.
+// it, and a limit is blamed only if it keeps the tip from the target.
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 
@@ -31,7 +31,7 @@ Solved solved(const Arm& arm, Method method, glm::vec3 target, int most = 100) {
     return {report, joints, {solver.rotations().begin(), solver.rotations().end()}};
 }
 
-TEST(IkSingular, ATargetBehindAHingeThatBendsToOneSideOnly) {
+TEST(IkSingular, ReachesATargetBehindAOneSidedHinge) {
     const glm::vec3 target{-1.9f, 0, 0};
     for (const glm::vec3 axis : {glm::vec3(0, 0, 1), glm::vec3(0, 1, 0), glm::vec3(0, -0.6f, 0.8f)}) {
         for (const bool positive : {true, false}) {
@@ -42,7 +42,7 @@ TEST(IkSingular, ATargetBehindAHingeThatBendsToOneSideOnly) {
                 for (const Method method : iterating_methods) {
                     SCOPED_TRACE(std::string(name(method)) + (positive ? " +" : " -"));
                     const ik::Report report = solved(arm, method, target).report;
-                    if (method == Method::FabrikPlain) {  // the collinear singularity
+                    if (method == Method::FabrikPlain) {  // stalls on the line
                         EXPECT_NE(report.status, Status::Limited);
                         continue;
                     }
@@ -54,7 +54,7 @@ TEST(IkSingular, ATargetBehindAHingeThatBendsToOneSideOnly) {
     }
 }
 
-TEST(IkSingular, AJointWithoutAnyRoomLeavesItToTheOthers) {
+TEST(IkSingular, ALockedJointLeavesTheMotionToTheOthers) {
     const Limit locked = Limit::hinge({0, 0, 1}, 0, 0), elbow = Limit::hinge({0, 1, 0}, 0, radians(145));
     const Arm arm = straight_arm({1, 0.5f, 1}, {Limit(), locked, elbow});
     for (const Method method : numerical_methods) {
@@ -65,8 +65,8 @@ TEST(IkSingular, AJointWithoutAnyRoomLeavesItToTheOthers) {
     }
 }
 
-TEST(IkSingular, AHingesPlaneDecidesWhereTheTargetIsOutOfIt) {
-    // The tip has to come back within the plane; only the limits forbid the rest.
+TEST(IkSingular, AnOffPlaneTargetIsApproachedWithinTheHingesPlane) {
+    // The tip has to come back within the plane; only the limits forbid more.
     const Arm arm =
         straight_arm({1, 1, 1}, std::vector<Limit>(3, Limit::hinge({0, 0, 1}, radians(-90), radians(90))));
     for (const Method method : numerical_methods) {
@@ -76,9 +76,9 @@ TEST(IkSingular, AHingesPlaneDecidesWhereTheTargetIsOutOfIt) {
     }
 }
 
-TEST(IkSingular, WhereTheLimitsDoHoldTheTipItSaysSo) {
+TEST(IkSingular, LimitsThatDoHoldTheTipAreReported) {
     const Limit stiff = Limit::of(ik::JointKind::Suture);
-    // It points at the target but cannot fold; no first derivative shows that the limit is to blame.
+    // It points at the target but cannot fold; no first derivative shows that the limit holds it.
     const Arm arm = straight_arm({1, 1}, {Limit(), stiff});
     for (const Method method : iterating_methods) {
         for (const float at : {-0.8f, 0.8f}) {
@@ -90,7 +90,7 @@ TEST(IkSingular, WhereTheLimitsDoHoldTheTipItSaysSo) {
     }
 }
 
-TEST(IkSingular, LimitsThatLimitNothingAreNotBlamed) {
+TEST(IkSingular, LimitsWithoutEffectAreNotBlamed) {
     Random random(given_seed());
     for (int k = 0; k < 300; ++k) {
         const Lengths lengths = some_lengths(1 + random.below(6), random);
@@ -114,7 +114,7 @@ Arm some_straight_arm(Random& random) {
     return arm;
 }
 
-TEST(IkSingular, OutOfReachTheLimitsOfAStraightArmAreNotBlamed) {
+TEST(IkSingular, OutOfReachAStraightArmsLimitsAreNotBlamed) {
     Random random(given_seed());
     int stretched = 0, blaming = 0;
     for (int k = 0; k < 500; ++k) {
@@ -130,11 +130,11 @@ TEST(IkSingular, OutOfReachTheLimitsOfAStraightArmAreNotBlamed) {
     EXPECT_LE(blaming, stretched / 20);
 }
 
-/// The result of another method for targets that the default method reaches.
+/// Results of a method for targets that the default method reaches.
 struct Count {
     int there = 0;
-    int blaming = 0;  ///< Limited
-    int unjust = 0;   ///< of these, least squares continues to the target
+    int blaming = 0;  ///< ended as Limited
+    int unjust = 0;   ///< of these, those that least squares still solves
 };
 
 struct Counts {
@@ -166,13 +166,13 @@ Counts count_on_the_line(bool ahead, int arms, std::uint64_t seed) {
             if (one.report.status != Status::Limited) continue;
             ++counts.by[m].blaming;
             counts.by[m].unjust += goes_on(Method::Dls, arm, one, target, arm.limits);
-            EXPECT_TRUE(goes_on(Method::Fabrik, arm, one, target, {}));  // without limits nothing holds it
+            EXPECT_TRUE(goes_on(Method::Fabrik, arm, one, target, {}));  // without limits, nothing holds it
         }
     }
     return counts;
 }
 
-TEST(IkSingular, OnTheLineOfRandomArms) {
+TEST(IkSingular, RandomArmsOnTheLineReachAndBlameFewLimits) {
     for (const bool ahead : {false, true}) {
         const Counts counts = count_on_the_line(ahead, 1000, given_seed() + ahead);
         EXPECT_GE(counts.reached, 500);
@@ -186,7 +186,7 @@ TEST(IkSingular, OnTheLineOfRandomArms) {
             }
             const bool plain = method == Method::FabrikPlain;
             EXPECT_GE(by.there, counts.reached * (plain ? 20 : 80) / 100) << "of " << counts.reached;
-            // The limits led these into another pose, in which they do keep the tip from the target.
+            // The limits led these into another pose, where they do keep the tip from the target.
             EXPECT_LE(by.blaming, counts.reached * (plain ? 20 : 12) / 100) << "of " << counts.reached;
             EXPECT_LE(by.unjust, counts.reached * 3 / 100) << "of " << counts.reached;
         }

@@ -12,7 +12,7 @@ const Lengths lengths(4, 1.0f);
 
 struct Result {
     Report report;
-    double out;  ///< distance of the tip from the root
+    double out;  ///< distance of the tip from its root
 };
 
 Result reach_for(float distance_from_root, float zone) {
@@ -34,7 +34,7 @@ TEST(IkSoftReach, NothingChangesBeforeTheZone) {
     }
 }
 
-TEST(IkSoftReach, InTheZoneItStaysShortAndSaysSo) {
+TEST(IkSoftReach, InTheZoneItStaysShortAndReportsIt) {
     for (const float far : {3.5f, 3.9f, 4.0f, 5.0f, 100.0f}) {
         const Result result = reach_for(far, 0.2f);
         EXPECT_EQ(result.report.status, Status::Stretched) << far;
@@ -51,7 +51,7 @@ TEST(IkSoftReach, IsContinuousAndNeverSnaps) {
     for (int i = 1; i <= 300; ++i) {
         const double out = reach_for(2.7f + 0.01f * static_cast<float>(i), 0.3f).out;
         const double step = out - before;
-        if (out < 3.99) {  // beyond, the steps are rounding errors
+        if (out < 3.99) {  // beyond, steps are rounding errors
             EXPECT_GT(step, 0.0) << i;
         }
         EXPECT_LE(step, 0.0101) << i;
@@ -66,7 +66,7 @@ TEST(IkSoftReach, WithoutAZoneItSnaps) {
     EXPECT_NEAR(reach_for(4.2f, 0.0f).out, 4.0, 1e-5);
 }
 
-TEST(IkSoftReach, TheWholeReachMayBeSoftAndNothingFoldsTooFar) {
+TEST(IkSoftReach, TheWholeReachMayBeSoftWithoutFoldingTooFar) {
     const Lengths heavy{2.0f, 0.3f};
     KeptSolver solver(heavy);
     for (const float far : {0.2f, 1.0f, 1.6f, 1.71f, 1.8f, 2.2f, 9.0f}) {

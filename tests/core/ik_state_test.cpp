@@ -37,7 +37,7 @@ Scene some_scene(Random& random, int number) {
     return scene;
 }
 
-/// A frame: the target moves, sometimes far, and the chain follows. All results are appended to `out`.
+/// One frame: the target moves, sometimes far, and the chain follows. All results are appended to `out`.
 void frame(ik::Solver& solver, Scene& scene, Random& random, std::vector<float>& out) {
     const float reach = scene.arm.reach();
     scene.target =
@@ -83,13 +83,13 @@ TEST(IkState, RollbackGivesTheSameBits) {
         scene.joints = saved.joints, scene.state = saved.state, scene.target = saved.target;
         EXPECT_TRUE(same_bits(play(solver, scene, 2, 100), first)) << number;
         EXPECT_EQ(scene.state, end) << number;
-        // Any solver can continue.
+        // Any solver can continue the solve.
         Scene elsewhere = saved;
         EXPECT_TRUE(same_bits(play(other, elsewhere, 2, 100), first)) << number;
     }
 }
 
-TEST(IkState, RotationsAreKeptUpWhereTheyAreWanted) {
+TEST(IkState, RotationsAreUpdatedIfRequested) {
     Random random(73);
     for (int number = 0; number < 140; ++number) {
         Scene scene = some_scene(random, number);
@@ -108,7 +108,7 @@ TEST(IkState, RotationsAreKeptUpWhereTheyAreWanted) {
     }
 }
 
-TEST(IkState, RotationsStayWhereTheyAreNotWanted) {
+TEST(IkState, RotationsStayIfNotRequested) {
     const Lengths lengths(5, 1.0f);
     KeptSolver solver(lengths);
     Joints joints = straight_joints(lengths);
@@ -121,7 +121,7 @@ TEST(IkState, RotationsStayWhereTheyAreNotWanted) {
     EXPECT_EQ(solver.state, before);
 }
 
-TEST(IkState, ABadOneIsRefused) {
+TEST(IkState, AnInvalidStateIsRefused) {
     const Lengths lengths(2, 1.0f);
     const State good(2);
     EXPECT_TRUE(check(good, 2));

@@ -1,4 +1,4 @@
-// Stiff joints: they rotate less, the others make up for it, and the tip arrives all the same.
+// Stiff joints: they rotate less, the other joints compensate, and the tip still arrives.
 #include "ik_limited_support.hpp"
 #include "tests/says.hpp"
 
@@ -11,7 +11,7 @@ using ik::Status;
 
 constexpr float stiffnesses[] = {0.0f, 0.5f, 0.9f, ik::max_stiffness};
 
-/// Six bones in a bow, whose joints turn freely, or within wide cones.
+/// Six bones in a bow, with free joints or within wide cones.
 Arm bow(bool cones) {
     Arm arm;
     for (int i = 0; i < 6; ++i) {
@@ -28,14 +28,14 @@ Arm bow(bool cones) {
     return arm;
 }
 
-/// How far a joint turned from rest, radians.
+/// Rotation of a joint from rest, radians.
 double turn_of(std::span<const glm::quat> rotations, std::size_t joint) {
     const glm::dmat3 m = local_turn(rotations, joint);
     return std::acos(std::clamp(0.5 * (m[0][0] + m[1][1] + m[2][2] - 1.0), -1.0, 1.0));
 }
 
 struct Outcome {
-    double stiff = 0.0, others = 0.0;  ///< mean turns, degrees
+    double stiff = 0.0, others = 0.0;  ///< mean rotations, degrees
     int arrived = 0;
 };
 
@@ -49,7 +49,7 @@ Outcome outcome(Method method, bool cones, float stiffness) {
     Outcome result;
     for (int k = 0; k < targets; ++k) {
         Joints joints = arm.at_rest();
-        // Well within reach: a straight chain has only one pose.
+        // Well within reach, as a straight chain has only one pose.
         const glm::vec3 target = 0.75f * joints.back() + random.point(0.4f);
         KeptSolver solver = arm.solver();
         ik::Options options;
@@ -66,7 +66,7 @@ Outcome outcome(Method method, bool cones, float stiffness) {
     return result;
 }
 
-TEST(IkStiffness, StiffJointsTurnLessTheOthersMoreAndTheTipArrives) {
+TEST(IkStiffness, StiffJointsTurnLessOthersMoreAndTheTipArrives) {
     for (const Method method : {Method::Fabrik, Method::FabrikPlain, Method::Ccd, Method::JacobianTranspose,
                                 Method::Dls, Method::SvdDls}) {
         for (const bool cones : {false, true}) {
@@ -83,7 +83,7 @@ TEST(IkStiffness, StiffJointsTurnLessTheOthersMoreAndTheTipArrives) {
     }
 }
 
-/// Stiff joints still turn when they must: every reachable target is reached.
+/// Stiff joints still turn if they must: every reachable target is reached.
 TEST(IkStiffness, NoStiffnessKeepsATargetOutOfReach) {
     Random random(9);
     int reached = 0, reached_stiff = 0;
@@ -106,8 +106,8 @@ TEST(IkStiffness, NoStiffnessKeepsATargetOutOfReach) {
     EXPECT_GE(reached_stiff, reached - 3);
 }
 
-/// Only differences count.
-TEST(IkStiffness, JointsThatAreAllEquallyStiffAreSolvedAsIfNoneWere) {
+/// Only differences of stiffness count.
+TEST(IkStiffness, EquallyStiffJointsAreSolvedLikeFreeOnes) {
     Random random(21);
     for (const Method method : {Method::Fabrik, Method::FabrikPlain, Method::Ccd, Method::JacobianTranspose,
                                 Method::Dls, Method::SvdDls}) {
@@ -125,8 +125,8 @@ TEST(IkStiffness, JointsThatAreAllEquallyStiffAreSolvedAsIfNoneWere) {
     }
 }
 
-/// A pose in which only stiff joints can turn towards the target is not singular: nothing is bent.
-TEST(IkStiffness, AStiffLimbIsNotTakenForAStraightOne) {
+/// A pose in which only stiff joints can turn towards the target is not singular: it is not perturbed.
+TEST(IkStiffness, AStiffLimbIsNotMistakenForAStraightOne) {
     Arm arm{{0.5f, 0.5f, 0.5f}, {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}, std::vector<Limit>(3)};
     arm.limits[1].stiffness = ik::max_stiffness;
     Joints joints{{0, 0, 0}, {0.5f, 0, 0}, {0.5f, 0.5f, 0}, {0.8f, 0.9f, 0}};

@@ -18,7 +18,7 @@ double angle_between(glm::quat a, glm::quat b) {
     return std::atan2(glm::length(v), turn[0][0] + turn[1][1] + turn[2][2] - 1.0);
 }
 
-TEST(IkTip, EveryMethodLaysTheLastBoneAsAsked) {
+TEST(IkTip, EveryMethodGivesTheTipItsOrientation) {
     Random random(given_seed());
     for (int k = 0; k < 2000 && !HasFailure(); ++k) {
         const Lengths lengths = some_lengths(2 + random.below(6), random);
@@ -37,7 +37,7 @@ TEST(IkTip, EveryMethodLaysTheLastBoneAsAsked) {
             EXPECT_LE(distance(last, asked * rest.back() * lengths.back()), 1e-4);
             EXPECT_LE(angle_between(solver.rotations().back(), asked), 1e-5);
             EXPECT_NEAR(report.residual, distance(joints.back(), target), 1e-5);
-            // What the chain without its last bone can reach decides.
+            // The status depends on the reach of the chain without its last bone.
             const Lengths others(lengths.begin(), lengths.end() - 1);
             const double away = distance(target - asked * rest.back() * lengths.back(), {});
             const double reach = reach_of(others), longest = *std::max_element(others.begin(), others.end());
@@ -72,7 +72,7 @@ TEST(IkTip, TheTwoBoneSolverPlacesAHandOnAnArm) {
               Status::InvalidInput);
 }
 
-TEST(IkTip, OneBoneIsJustLaid) {
+TEST(IkTip, ASingleBoneTakesTheOrientation) {
     KeptSolver solver(Lengths{2});
     Joints joints{{1, 1, 1}, {3, 1, 1}};
     const glm::quat up = glm::angleAxis(radians(90), glm::vec3(0, 0, 1));
@@ -84,14 +84,14 @@ TEST(IkTip, OneBoneIsJustLaid) {
     EXPECT_NEAR(off.residual, std::sqrt(8.0f), 1e-5f);
 }
 
-/// The pose that made the target also made the orientation.
-TEST(IkTip, WithinLimitsMostArrive) {
+/// The orientation comes from the same pose as the target.
+TEST(IkTip, WithinLimitsMostTargetsAreReached) {
     Random random(6);
     int there = 0, turned_so = 0;
     constexpr int count = 1000;
     for (int k = 0; k < count; ++k) {
         const Arm arm = some_arm(random, ArmKind::Cones, 5);
-        // A first solve finds some pose within the limits, whatever its target.
+        // A first solve gives some pose within the limits, for any target.
         KeptSolver maker = arm.solver();
         Joints made = arm.at_rest();
         maker.solve(Method::Fabrik, made, some_tip(arm, random),
@@ -115,7 +115,7 @@ TEST(IkTip, WithinLimitsMostArrive) {
     EXPECT_GE(turned_so, count * 95 / 100);
 }
 
-TEST(IkTip, AWristThatCannotIsLimited) {
+TEST(IkTip, AWristBeyondItsLimitIsLimited) {
     Arm arm{{1, 1, 0.3f}, {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}, {}};
     arm.limits = {ik::Limit::of(ik::JointKind::Suture), ik::Limit::of(ik::JointKind::Suture),
                   ik::Limit::of(ik::JointKind::Gliding)};

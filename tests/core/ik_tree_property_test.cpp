@@ -1,5 +1,5 @@
-// A tree of chains with random and hostile input: how often it converges, that its invariant always holds,
-// that the order of effectors does not matter, and that solving allocates nothing.
+// A tree of chains with random and hostile input: how often it converges, whether its invariant holds,
+// whether the order of effectors matters, and whether solving allocates.
 #include <cstdio>
 #include <map>
 
@@ -27,7 +27,7 @@ struct Tally {
 
 enum class Which { Body, Spider, Random };
 
-/// Targets from one random pose, so that they are reachable; the start is another.
+/// Targets come from a random pose, so that they are reachable; the start is another one.
 Tally converge(Which which, float straight, int solves) {
     Random random(21 + static_cast<std::uint64_t>(which));
     Tally tally;
@@ -44,7 +44,7 @@ Tally converge(Which which, float straight, int solves) {
     return tally;
 }
 
-TEST(IkTreeProperty, ConvergesWhereItCan) {
+TEST(IkTreeProperty, ConvergesOnReachableTargets) {
     const struct {
         Which which;
         const char* name;
@@ -66,7 +66,7 @@ TEST(IkTreeProperty, ConvergesWhereItCan) {
     }
 }
 
-TEST(IkTreeProperty, MovesTheJointsNoFurtherThanPlainPullsDo) {
+TEST(IkTreeProperty, MovesTheJointsNoFurtherThanPlainPulls) {
     double plain_travel = 0.0, travel = 0.0;
     Random random(24);
     for (int i = 0; i < 300; ++i) {
@@ -86,7 +86,7 @@ TEST(IkTreeProperty, MovesTheJointsNoFurtherThanPlainPullsDo) {
     EXPECT_LE(travel, 1.05 * plain_travel);
 }
 
-TEST(IkTreeProperty, TheOrderOfTheEffectorsIsNothingToIt) {
+TEST(IkTreeProperty, TheOrderOfTheEffectorsDoesNotMatter) {
     Random random(25);
     for (int i = 0; i < 300; ++i) {
         Figure figure = random_figure(random);
@@ -139,7 +139,7 @@ TEST(IkTreeProperty, NeverEndsWorseThanItBegan) {
                 }
                 return distance(effector.target, glm::vec3(0.0f)) <= way;
             });
-        if (!reachable) continue;  // solved for the nearest reachable targets instead: another loss
+        if (!reachable) continue;  // solved for the nearest reachable targets: another loss
         const double before = loss();
         tree.solve(places, figure.effectors, {.max_iterations = 1 + static_cast<int>(random.below(20))});
         ASSERT_LE(loss(), before * (1.0 + 1e-5) + 1e-9) << i;
@@ -203,7 +203,7 @@ TEST(IkTreeProperty, ThirtyThousandHostileSolves) {
         for (const float residual : residuals) ASSERT_TRUE(std::isfinite(residual)) << i;
     }
     std::printf("%d refused, %d solved\n", refused, solved);
-    EXPECT_GT(refused, 3'000);  // enough of each to be a test
+    EXPECT_GT(refused, 3'000);  // enough of each for a fair test
     EXPECT_GT(solved, 10'000);
 }
 
@@ -258,7 +258,7 @@ TEST(IkTreeProperty, ThousandsOfEffectorsAndALongChain) {
     std::vector<float> residuals(100);
     const TreeReport report = tree.solve(places, effectors, {.residuals = residuals});
     EXPECT_TRUE(Holds(joints, places));
-    EXPECT_LT(report.residual, 0.1f * residuals[0]);  // not there yet: too far for so few iterations
+    EXPECT_LT(report.residual, 0.1f * residuals[0]);  // on its way: too far for so few iterations
 }
 
 }  // namespace

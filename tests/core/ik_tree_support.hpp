@@ -27,7 +27,7 @@ using ik::TreeReport;
 using TreeJointList = std::vector<TreeJoint>;
 using Places = std::vector<glm::vec3>;
 
-/// The joints must be valid: an invalid one ends the program.
+/// Makes a tree of valid joints: an invalid one ends the program.
 inline Tree tree_of(std::span<const ik::TreeJoint> joints) {
     return Tree::make(joints).value();
 }
@@ -73,7 +73,7 @@ inline Figure spider() {
     return figure;
 }
 
-/// 5 to 200 joints, bushy or in long chains; effectors on any joints, from few to a third.
+/// A tree of 5 to 200 joints, bushy or in long chains; effectors on any joints, from few to a third.
 inline Figure random_figure(Random& random) {
     Figure figure;
     const std::size_t count = 5 + random.below(196);

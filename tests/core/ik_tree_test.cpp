@@ -12,7 +12,7 @@ std::string refusal(const TreeJointList& joints) {
     return Tree::make(joints).message();
 }
 
-TEST(IkTree, RefusesWhatIsNoTree) {
+TEST(IkTree, RefusesInvalidTrees) {
     EXPECT_TRUE(test::says(refusal({}), "Tree joints none"));
     EXPECT_TRUE(test::says(refusal({{0, 0.0f}}), "Tree joints[0].parent no_joint root 0"));
     EXPECT_TRUE(test::says(refusal({{no_joint, 0}, {1, 1}}), "Tree joints[1].parent before 1"));
@@ -24,7 +24,7 @@ TEST(IkTree, RefusesWhatIsNoTree) {
         test::says(refusal({{no_joint, 0}, {0, infinity}}), "Tree joints[1].length finite 0 1e9 inf"));
 }
 
-TEST(IkTree, KnowsItsSizeAndReach) {
+TEST(IkTree, ReportsItsSizeAndReach) {
     const Tree tree = tree_of(body().joints);
     EXPECT_EQ(tree.size(), 15u);
     EXPECT_NEAR(tree.reach(), 4 * 0.15 + 0.18 + 0.3 + 0.27 + 0.1, 1e-6);
@@ -53,7 +53,7 @@ TEST(IkTree, PlainOnOneChainIsPlainFabrik) {
     }
 }
 
-TEST(IkTree, OneChainComesWhereTheChainSolverComes) {
+TEST(IkTree, OneChainMatchesTheChainSolver) {
     Random random(4);
     for (int i = 0; i < 500; ++i) {
         const TreeJointList joints = chain_of(10, 0.1f);
@@ -96,13 +96,13 @@ TEST(IkTree, TooCloseItFolds) {
     }
 }
 
-TEST(IkTree, OneOutOfReachDoesNotKeepTheOthers) {
+TEST(IkTree, ATargetOutOfReachDoesNotHinderTheOthers) {
     Figure figure = body();
     Tree tree = tree_of(figure.joints);
     Random random(6);
     int others = 0;
     for (int i = 0; i < 200; ++i) {
-        // The left hand's path is straight from the root; the other targets remain reachable.
+        // The left hand's path is straight from the root; the other targets are still reachable.
         const glm::vec3 away = random_direction(random);
         aim(figure.effectors, straight_pose(figure.joints, away));
         figure.effectors[0].target += random_direction(random) * 0.05f;
@@ -120,7 +120,7 @@ TEST(IkTree, OneOutOfReachDoesNotKeepTheOthers) {
     EXPECT_GE(others, 190);
 }
 
-TEST(IkTree, HowFarOffATargetLiesAddsNothingToItsWeight) {
+TEST(IkTree, ATargetsDistanceDoesNotChangeItsWeight) {
     Figure figure = body();
     Tree tree = tree_of(figure.joints);
     Random random(16);
@@ -138,7 +138,7 @@ TEST(IkTree, HowFarOffATargetLiesAddsNothingToItsWeight) {
     }
 }
 
-/// Root, one bone, two arms of two; the hands' targets are further apart than the arms reach.
+/// A root, one bone and two arms of two bones; the hands' targets are further apart than the arms reach.
 Figure torn() {
     Figure figure;
     const std::size_t chest = grow(figure.joints, 0, {1.0f});
@@ -157,8 +157,8 @@ TEST(IkTree, EqualWeightsShareTheLossEqually) {
     EXPECT_NEAR(places[1].x, 0.0f, 2e-3f);
 }
 
-TEST(IkTree, TheHeavierComesNearer) {
-    // Each is within reach, but not both: as one's weight grows, the loss moves to the other.
+TEST(IkTree, TheHeavierEffectorComesCloser) {
+    // Either target is within reach, but not both: as one's weight grows, the loss moves to the other.
     Figure figure = torn();
     figure.effectors[0].target = {1.2f, 0.9f, 0.0f};
     figure.effectors[1].target = {-1.2f, 0.9f, 0.0f};
@@ -183,7 +183,7 @@ TEST(IkTree, TheHeavierComesNearer) {
     }
 }
 
-TEST(IkTree, WeightsDoNotMatterWhereAllCanBeHad) {
+TEST(IkTree, WeightsDoNotMatterIfAllTargetsAreReachable) {
     Figure figure = body();
     Tree tree = tree_of(figure.joints);
     Random random(9);
@@ -197,7 +197,7 @@ TEST(IkTree, WeightsDoNotMatterWhereAllCanBeHad) {
     }
 }
 
-TEST(IkTree, AnInnerJointMovesTheWayToItAndTheRestGoesAlong) {
+TEST(IkTree, AnEffectorOnAnInnerJointMovesTheRestRigidly) {
     const TreeJointList joints = chain_of(6);
     Tree tree = tree_of(joints);
     Random random(10);
@@ -217,7 +217,7 @@ TEST(IkTree, AnInnerJointMovesTheWayToItAndTheRestGoesAlong) {
     }
 }
 
-TEST(IkTree, WhatHangsOnTheRootOrOnAStillJointStays) {
+TEST(IkTree, BranchesWithoutEffectorsAboveTheRootStay) {
     Figure figure = body();
     const std::size_t leg = grow(figure.joints, 0, {0.4f, 0.4f});
     Tree tree = tree_of(figure.joints);
@@ -231,7 +231,7 @@ TEST(IkTree, WhatHangsOnTheRootOrOnAStillJointStays) {
     for (std::size_t k : {std::size_t{0}, leg - 1, leg}) EXPECT_TRUE(same_bits(places[k], before[k])) << k;
 }
 
-TEST(IkTree, WhereAllAreThereNothingMoves) {
+TEST(IkTree, ReachedTargetsMoveNothing) {
     Figure figure = spider();
     Tree tree = tree_of(figure.joints);
     Random random(12);
@@ -257,7 +257,7 @@ TEST(IkTree, WeightlessEffectorsAreOnlyMeasured) {
     EXPECT_NEAR(static_cast<double>(residuals[2]), distance(with[2], {2, 0, 0}), 1e-5);
 }
 
-TEST(IkTree, TheRootDoesNotMoveForAnybody) {
+TEST(IkTree, TheRootNeverMoves) {
     Tree tree = tree_of(chain_of(4));
     Places places = straight_pose(chain_of(4));
     std::vector<float> residuals(2);
@@ -269,7 +269,7 @@ TEST(IkTree, TheRootDoesNotMoveForAnybody) {
     EXPECT_TRUE(same_bits(places[0], {0, 0, 0}));
 }
 
-TEST(IkTree, BonesOfNoLengthTieTheirJoints) {
+TEST(IkTree, ZeroLengthBonesKeepTheirJointsTogether) {
     TreeJointList joints = only_root();
     grow(joints, 0, {0.0f, 1.0f, 0.0f, 1.0f, 1.0f, 0.0f, 0.0f});
     Tree tree = tree_of(joints);
@@ -282,7 +282,7 @@ TEST(IkTree, BonesOfNoLengthTieTheirJoints) {
     EXPECT_TRUE(same_bits(places[1], places[0]) && same_bits(places[7], places[5]));
 }
 
-TEST(IkTree, TellsTheWorstResidualOfEveryIteration) {
+TEST(IkTree, ReportsTheWorstResidualOfEveryIteration) {
     Figure figure = body();
     Tree tree = tree_of(figure.joints);
     Random random(13);
@@ -305,7 +305,7 @@ TEST(IkTree, TellsTheWorstResidualOfEveryIteration) {
     EXPECT_EQ(residuals[30], -1.0f);
 }
 
-TEST(IkTree, StraightLinesAreLeft) {
+TEST(IkTree, StraightChainsLeaveTheirLine) {
     for (const std::size_t bones : {2u, 3u, 4u, 10u, 30u}) {
         const TreeJointList joints = chain_of(bones, 0.5f);
         const float reach = 0.5f * static_cast<float>(bones);
@@ -323,7 +323,7 @@ TEST(IkTree, StraightLinesAreLeft) {
     }
 }
 
-TEST(IkTree, PlainSaysThatItStalledOnTheLine) {
+TEST(IkTree, PlainReportsThatItStalledOnTheLine) {
     Tree tree = tree_of(chain_of(4));
     Places places = straight_pose(chain_of(4));
     const std::vector<Effector> effectors{{4, {2.5f, 0, 0}}};
@@ -334,7 +334,7 @@ TEST(IkTree, EveryBranchLeavesItsLine) {
     Figure figure = spider();
     Tree tree = tree_of(figure.joints);
     for (const float part : {0.9f, 0.6f, 0.2f, -0.3f}) {
-        // The spine is straight, all legs straight at right angles to it; feet are drawn in along their legs.
+        // The spine is straight, all legs straight and square to it; the feet are pulled in along their legs.
         Places places(figure.joints.size(), glm::vec3(0.0f));
         for (std::size_t k = 1; k < places.size(); ++k) {
             const bool of_back =

@@ -26,15 +26,15 @@ glm::vec3 reachable(const TwoBone& limb, Random& random) {
     return limb.root + some_offset(random, least, most);
 }
 
-/// The component of a point at right angles to the line from root to target, normalised.
+/// The component of a point perpendicular to the line from root to target, normalised.
 glm::dvec3 side(const TwoBone& limb, glm::vec3 target, glm::dvec3 point) {
     const glm::dvec3 line = unit(glm::dvec3(target) - glm::dvec3(limb.root));
     const glm::dvec3 arm = point - glm::dvec3(limb.root);
     return unit(arm - line * dot(arm, line));
 }
 
-/// Where the middle joint belongs: the law of cosines gives the angle at the root, in the plane of the pole,
-/// rotated by the twist (Rodrigues).
+/// Expected middle joint: the law of cosines gives the angle at the root, in the plane of the pole, rotated
+/// by the twist (Rodrigues).
 glm::dvec3 expected_mid(const TwoBone& limb, glm::vec3 target, glm::dvec3 towards, double scale,
                         double twist) {
     const glm::dvec3 root(limb.root), arm = glm::dvec3(target) - root, line = unit(arm);
@@ -46,7 +46,7 @@ glm::dvec3 expected_mid(const TwoBone& limb, glm::vec3 target, glm::dvec3 toward
     return root + line * (a * std::cos(angle)) + bend * (a * std::sin(angle));
 }
 
-TEST(IkTwoBone, IsRightToTheLastBitsOfAFloat) {
+TEST(IkTwoBone, IsAccurateToFloatPrecision) {
     Random random(1);
     double worst = 0.0;
     for (int k = 0; k < 20'000; ++k) {
@@ -67,7 +67,7 @@ TEST(IkTwoBone, IsRightToTheLastBitsOfAFloat) {
     EXPECT_LT(worst, 1e-6);
 }
 
-TEST(IkTwoBone, WithoutAPoleItKeepsTheSideThatItBendsTo) {
+TEST(IkTwoBone, WithoutAPoleItKeepsItsBendSide) {
     Random random(2);
     for (int k = 0; k < 5000; ++k) {
         const TwoBone limb = some_limb(random);
@@ -91,7 +91,7 @@ TEST(IkTwoBone, WithoutAPoleItKeepsTheSideThatItBendsTo) {
     }
 }
 
-TEST(IkTwoBone, AStraightOneBendsToAFixedSide) {
+TEST(IkTwoBone, AStraightLimbBendsToAFixedSide) {
     const TwoBone straight{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, 1.0f, 1.0f};
     for (const glm::vec3 target : {glm::vec3(1.5f, 0, 0), glm::vec3(-1.5f, 0, 0), glm::vec3(0, 1, 0)}) {
         const TwoBoneResult a = ik::two_bone(straight, target), b = ik::two_bone(straight, target);
@@ -108,7 +108,7 @@ TEST(IkTwoBone, APoleOnTheLineKeepsTheSide) {
     EXPECT_LT(distance(result.mid, limb.mid), 1e-6);
 }
 
-TEST(IkTwoBone, OutOfReachItIsStraightAndTooCloseItIsFolded) {
+TEST(IkTwoBone, OutOfReachItIsStraightAndTooCloseFolded) {
     const TwoBone limb{{0, 0, 0}, {0, 1, 0}, {0, 1.5f, 0}, 1.0f, 0.5f};
     const TwoBoneResult out = ik::two_bone(limb, {0, 0, 4});
     EXPECT_EQ(out.status, Status::Stretched);
@@ -126,7 +126,7 @@ TEST(IkTwoBone, OutOfReachItIsStraightAndTooCloseItIsFolded) {
     EXPECT_LT(distance(behind.tip, {0, 0, 0.5f}), 1e-6);
 }
 
-TEST(IkTwoBone, StretchingNeverCostsATargetThatIsInReach) {
+TEST(IkTwoBone, StretchingNeverMissesATargetWithinReach) {
     const TwoBone limb{{0, 0, 0}, {1, 0, 0}, {1.1f, 0, 0}, 1.0f, 0.1f};
     for (const float start : {0.3f, 0.8f}) {
         for (float far = 0.91f; far < 1.09f; far += 0.005f) {
@@ -138,7 +138,7 @@ TEST(IkTwoBone, StretchingNeverCostsATargetThatIsInReach) {
     }
 }
 
-TEST(IkTwoBone, StretchesAsItIsTold) {
+TEST(IkTwoBone, StretchesByItsOptions) {
     const TwoBone limb{{0, 0, 0}, {1, 1, 0}, {2, 0, 0}, 1.0f, 1.0f};
     const TwoBoneOptions options{
         .pole = glm::vec3(0, 5, 0), .start_stretch_ratio = 0.8f, .max_stretch_scale = 1.5f};
@@ -152,7 +152,7 @@ TEST(IkTwoBone, StretchesAsItIsTold) {
     EXPECT_FLOAT_EQ(at(3.2f).residual, 0.2f);
     // The elbow keeps its angle while the bones grow: only the size changes.
     EXPECT_NEAR(at(2.4f).mid.y / at(1.6f).mid.y, 1.5f, 1e-5f);
-    // With a ratio of 1 it is straight before it stretches.
+    // With a ratio of 1, it is straight before it stretches.
     const TwoBoneResult full = ik::two_bone(limb, {2.5f, 0, 0}, {.max_stretch_scale = 2.0f});
     EXPECT_EQ(full.status, Status::Converged);
     EXPECT_LT(distance(full.mid, {1.25f, 0, 0}), 1e-6);
@@ -174,7 +174,7 @@ TEST(IkTwoBone, StretchesAsItIsTold) {
     }
 }
 
-/// Smooth paths give smooth joints, including where the bones start or stop stretching, and where they turn.
+/// Smooth paths give smooth joints, also where the bones start or stop stretching, and where they turn.
 TEST(IkTwoBone, FollowsWithoutJumps) {
     Random random(4);
     for (int path = 0; path < 40; ++path) {
@@ -205,7 +205,7 @@ TEST(IkTwoBone, FollowsWithoutJumps) {
     }
 }
 
-TEST(IkTwoBone, TheSolverGivesTheSame) {
+TEST(IkTwoBone, MatchesTheChainSolver) {
     Random random(5);
     for (int k = 0; k < 2000; ++k) {
         const TwoBone limb = some_limb(random);
@@ -232,7 +232,7 @@ TEST(IkTwoBone, TheSolverGivesTheSame) {
     }
 }
 
-TEST(IkTwoBone, BadNumbersLeaveItWhereItIs) {
+TEST(IkTwoBone, InvalidNumbersMoveNothing) {
     const TwoBone good{{0, 0, 0}, {1, 1, 0}, {2, 0, 0}, 1.5f, 1.5f};
     const glm::vec3 target(1, 1, 1);
     for (const float bad : {nan, infinity, -infinity, 2e9f}) {
@@ -257,7 +257,7 @@ TEST(IkTwoBone, BadNumbersLeaveItWhereItIs) {
     EXPECT_EQ(ik::two_bone(negative, target).status, Status::InvalidInput);
 }
 
-TEST(IkTwoBone, BearsAnything) {
+TEST(IkTwoBone, SurvivesAnyInput) {
     Random random(given_seed());
     const float sizes[] = {0.0f, 1e-20f, 1e-3f, 1.0f, 1.0f, 7.0f, 1e3f, 1e9f};
     const auto any_point = [&] {

@@ -11,7 +11,7 @@ namespace tendril::test {
 
 struct Jobs {
     std::uint64_t calls = 0, pieces = 0;
-    bool backwards = false, aside = false;  ///< aside: one thread per piece
+    bool backwards = false, aside = false;  ///< aside: each piece on its own thread
 };
 
 inline void run_on_jobs(void* user, TaskFunction task, void* context, std::uint32_t count) {

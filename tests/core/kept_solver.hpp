@@ -12,7 +12,7 @@ namespace tendril::test {
 
 class KeptSolver {
   public:
-    /// The bones must be valid: an invalid one ends the program.
+    /// Makes a solver of valid bones: an invalid one ends the program.
     explicit KeptSolver(std::span<const float> lengths, std::span<const glm::vec3> rest_directions = {})
         : KeptSolver(ik::Solver::make(lengths, rest_directions).value()) {}
     explicit KeptSolver(const Chain& chain) : KeptSolver(ik::Solver(chain)) {}

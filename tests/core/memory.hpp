@@ -7,11 +7,11 @@
 namespace tendril::test {
 
 inline constexpr std::size_t unlimited = ~std::size_t{0};
-/// How many allocations succeed from now on: for the operators that chain_memory_test.cpp replaces. What code
-/// without exceptions leaks when one fails is no leak of the test.
+/// Sets how many more allocations succeed, for the operators in chain_memory_test.cpp. Code built without
+/// exceptions may leak when one fails; the test does not count that.
 void allow_allocations(std::size_t count);
 
-/// False: an allocation failed.
+/// Returns false if an allocation failed.
 template <class Call>
 bool with_allocations(std::size_t count, Call call) {
     allow_allocations(count);

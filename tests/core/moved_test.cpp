@@ -1,4 +1,4 @@
-// Objects that were moved from refuse, or are empty: none reads data that it no longer has.
+// Moved-from objects refuse calls or are empty: none reads data that it no longer has.
 #include <gtest/gtest.h>
 
 #include <tendril/humanoid/bent_chain.hpp>
@@ -27,7 +27,7 @@ void take(T& from) {
     const T taken(std::move(from));
 }
 
-TEST(Moved, AChainsSolversRefuse) {
+TEST(Moved, ChainSolversRefuse) {
     const float lengths[] = {1.0f, 1.0f};
     auto solver = *ik::Solver::make(lengths);
     take(solver);
@@ -67,7 +67,7 @@ TEST(Moved, AChainsSolversRefuse) {
     EXPECT_EQ(batch.size() + batch.bones(), 0u);
 }
 
-TEST(Moved, ReadingAnObjectThatIsThereAllocatesNothing) {
+TEST(Moved, ReadingAValidObjectAllocatesNothing) {
     const float lengths[] = {1.0f, 1.0f};
     const auto solver = *ik::Solver::make(lengths);
     const auto linkage = *ik::LinkageSolver::make(*linkage_from(*ik::four_bar({})));
@@ -78,7 +78,7 @@ TEST(Moved, ReadingAnObjectThatIsThereAllocatesNothing) {
     EXPECT_EQ(read, 2u + linkage.linkage().links.size());
 }
 
-TEST(Moved, ALinkagesSolverRefuses) {
+TEST(Moved, LinkageSolversRefuse) {
     auto solver = *ik::LinkageSolver::make(*linkage_from(*ik::four_bar({})));
     ik::LinkageState state = solver.initial_state(), none;
     take(solver);
@@ -95,7 +95,7 @@ TEST(Moved, ALinkagesSolverRefuses) {
     EXPECT_TRUE(solver.planar());
 }
 
-TEST(Moved, ARopesWorkspaceRefuses) {
+TEST(Moved, RopeWorkspacesRefuse) {
     rope::World world;
     ASSERT_TRUE(world.add_rope({}));
     const rope::World before = world;
@@ -137,7 +137,7 @@ TEST(Moved, AMovedFromRigIsEmpty) {
     EXPECT_EQ(tree.size(), 1u);
 }
 
-TEST(Moved, ABodysSolversRefuse) {
+TEST(Moved, BodySolversRefuse) {
     using namespace humanoid;
     std::vector<Node> nodes = make_figure({}).nodes();
     const auto tail = static_cast<std::int32_t>(nodes.size());

@@ -19,14 +19,14 @@ class Random {
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
         return z ^ (z >> 31);
     }
-    /// 0 <= result < count
+    /// An integer, 0 <= result < count.
     std::size_t below(std::size_t count) { return static_cast<std::size_t>(bits() % count); }
     bool chance(std::size_t one_in) { return below(one_in) == 0; }
-    /// -range to range, in steps of 2^-20 of it; exact when `range` is a power of two.
+    /// A number from -range to range, in steps of 2^-20 of it; exact if `range` is a power of two.
     float around(float range) {
         return (static_cast<float>(below(1u << 21)) - 1048576.0f) * (1.0f / 1048576.0f) * range;
     }
-    /// 0 to 1
+    /// A number from 0 to 1.
     float part() { return std::abs(around(1.0f)); }
     glm::vec3 point(float range) {
         const float x = around(range), y = around(range), z = around(range);

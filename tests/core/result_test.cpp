@@ -1,4 +1,4 @@
-// Result and Expected: how calls are refused, and their messages.
+// Result and Expected: refusals and their messages.
 #include <gtest/gtest.h>
 #include <cmath>
 #include <limits>
@@ -14,7 +14,7 @@
 namespace tendril::test {
 namespace {
 
-TEST(Result, is_fine_unless_something_is_wrong) {
+TEST(Result, IsOkUnlessAnErrorIsSet) {
     const Result fine;
     EXPECT_TRUE(fine);
     EXPECT_EQ(fine.code(), ErrorCode::None);
@@ -26,7 +26,7 @@ TEST(Result, is_fine_unless_something_is_wrong) {
     EXPECT_STREQ(name(bad.code()), "OutOfRange");
 }
 
-TEST(Result, HandsOutTheReasonWithoutTheOperation) {
+TEST(Result, ReasonIsTheMessageWithoutTheOperation) {
     for (const auto& [message, reason] : {std::pair{"linkage_from: bar \"bc\": no", "bar \"bc\": no"},
                                           {"index 9", "index 9"},
                                           {"", ""},
@@ -38,7 +38,7 @@ TEST(Result, HandsOutTheReasonWithoutTheOperation) {
     }
 }
 
-TEST(Result, is_copied_with_its_message) {
+TEST(Result, CopiesItsMessage) {
     const Result bad(ErrorCode::NotFound, "no such body");
     Result copy;
     copy = bad;
@@ -52,16 +52,16 @@ TEST(Result, is_copied_with_its_message) {
     EXPECT_STREQ(copy.message(), "");
 }
 
-TEST(Result, cuts_a_long_message_between_characters) {
+TEST(Result, CutsALongMessageBetweenCharacters) {
     std::string text(Result::max_message - 1, 'a');
-    text += "\xc3\xa9 and more";  // a two-byte character across the end
+    text += "\xc3\xa9 and more";  // a two-byte character across the limit
     const Result bad(ErrorCode::InvalidArgument, text);
     EXPECT_EQ(std::string(bad.message()), std::string(Result::max_message - 1, 'a'));
     const std::string whole(Result::max_message, 'b');
     EXPECT_EQ(Result(ErrorCode::InvalidArgument, whole).message(), whole);
 }
 
-TEST(Expected, holds_a_value_or_the_reason_why_not) {
+TEST(Expected, HoldsAValueOrAnError) {
     Expected<std::unique_ptr<int>> value(std::make_unique<int>(7));
     ASSERT_TRUE(value);
     EXPECT_TRUE(value.error().ok());
@@ -77,12 +77,12 @@ TEST(Expected, holds_a_value_or_the_reason_why_not) {
     EXPECT_STREQ(none.error().message(), "twice");
 }
 
-TEST(ExpectedDeathTest, ends_the_program_where_a_value_is_read_that_is_not_there) {
+TEST(ExpectedDeathTest, ReadingAMissingValueEndsTheProgram) {
     const Expected<int> none(Result(ErrorCode::AlreadyExists, "twice"));
     EXPECT_DEATH(static_cast<void>(*none), "a value was read where there is none: twice");
 }
 
-TEST(Says, NamesAndValuesInTheirOrderWhateverIsBetween) {
+TEST(Says, FindsNamesAndValuesInOrder) {
     const std::string message = "rope.pin: particle must be 0 to 99999, got -1";
     EXPECT_TRUE(says(message, "rope.pin particle 0 99999 -1"));
     EXPECT_TRUE(says(message, "-1"));
@@ -101,7 +101,7 @@ TEST(Says, NamesAndValuesInTheirOrderWhateverIsBetween) {
 
 // The task callback: every piece runs once, on the program's workers if any, with the same bits in any order.
 
-TEST(Tasks, SolveManyRunsOnTheProgramsOwnWorkersAndGivesTheSameBits) {
+TEST(Tasks, SolveManyUsesTheProgramsWorkersAndGivesTheSameBits) {
     Random random(41);
     const Crowd crowd = some_crowd(5000, 10, random, 0.05f, 1.1f);
     const Answer expected = solve_many(crowd, {});

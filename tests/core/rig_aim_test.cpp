@@ -1,4 +1,4 @@
-// The promises of aim(), including degenerate targets.
+// Guarantees of aim(), also for degenerate targets.
 #include <gtest/gtest.h>
 
 #include "rig_rigs.hpp"
@@ -33,7 +33,7 @@ glm::dvec3 way_to(const AimPart& part, const Transform& item) {
     return unit(part.kind == AimTarget::Location ? part.target - item.translation : part.target);
 }
 
-TEST(RigAim, ThePrimaryAxisPointsAtItsTargetAndTheSecondaryAsNearlyAsThatAllows) {
+TEST(RigAim, ThePrimaryAxisHitsItsTargetTheSecondaryAsNearlyAsPossible) {
     Random random(1);
     for (int i = 0; i < 2'000; ++i) {
         const Transform item = some_transform(random);
@@ -70,7 +70,7 @@ TEST(RigAim, AWeightBlendsTheAxisTowardsTheTarget) {
     AimOptions options{.primary = {{1, 0, 0}, {0, 1, 0}, AimTarget::Direction, 0.5}};
     const auto axis = [&](const glm::dvec3& local) { return aim({}, options).transform.rotation * local; };
     EXPECT_LE(distance(axis({1, 0, 0}), unit({1, 1, 0})), 1e-15);
-    options.weight = 0.5;  // a quarter in total
+    options.weight = 0.5;  // 0.25 in total
     EXPECT_LE(distance(axis({1, 0, 0}), unit({3, 1, 0})), 1e-15);
     options.primary.weight = 0.0;
     options.secondary = {{0, 1, 0}, {0, 0, 1}, AimTarget::Direction, 1.0};
@@ -78,7 +78,7 @@ TEST(RigAim, AWeightBlendsTheAxisTowardsTheTarget) {
     EXPECT_LE(distance(axis({1, 0, 0}), {1, 0, 0}), 1e-15);
 }
 
-TEST(RigAim, AWeightOfZeroLeavesTheItemToTheBit) {
+TEST(RigAim, AWeightOfZeroLeavesTheItemBitForBit) {
     Random random(3);
     for (int i = 0; i < 100; ++i) {
         AimOptions options = some_options(random);
@@ -128,7 +128,7 @@ TEST(RigAim, TheOppositeDirectionIsHalfATurn) {
     }
 }
 
-TEST(RigAim, APartWithNothingToGoByIsSkippedWithAWarning) {
+TEST(RigAim, ADegeneratePartIsSkippedWithAWarning) {
     Random random(5);
     const Transform item = some_transform(random);
     const AimPart good{{1, 0, 0}, {0, 1, 0}, AimTarget::Direction, 1.0};
@@ -178,7 +178,7 @@ TEST(RigAim, AMaximumSpeedLimitsTheTurn) {
         EXPECT_TRUE(same_bits(aim({}, options, dt).transform, Transform{}));
 }
 
-TEST(RigAim, OptionsFromOutsideAreChecked) {
+TEST(RigAim, InvalidOptionsAreRefused) {
     const auto message = [](auto change) {
         AimOptions options;
         change(options);
@@ -198,7 +198,7 @@ TEST(RigAim, OptionsFromOutsideAreChecked) {
     EXPECT_TRUE(test::says(message([](AimOptions& o) { o.max_speed = -1; }), "aim max_speed 0 -1"));
 }
 
-// The parent constraint, and the collections of a for-each.
+// The parent constraint, and the elements of a for-each.
 
 using Parents = std::vector<ConstraintParent>;
 
@@ -211,7 +211,7 @@ ConstraintParent some_parent(Random& random, double weight = 1.0) {
     return {global, some_transform(random), weight};
 }
 
-TEST(RigParentConstraint, OneParentIsFollowedWithItsOffsetOrWithout) {
+TEST(RigParentConstraint, OneParentIsFollowedWithAndWithoutOffset) {
     Random random(1);
     for (int i = 0; i < 200; ++i) {
         const ConstraintChild child = some_child(random);
@@ -225,7 +225,7 @@ TEST(RigParentConstraint, OneParentIsFollowedWithItsOffsetOrWithout) {
     }
 }
 
-TEST(RigParentConstraint, AParentThatHasNotMovedLeavesTheChildAtItsInitialPose) {
+TEST(RigParentConstraint, AParentAtRestKeepsTheChildAtItsInitialPose) {
     Random random(2);
     ConstraintChild child = some_child(random);
     child.initial_global.scale = {1, 2, 3};
@@ -246,7 +246,7 @@ TEST(RigParentConstraint, WeightsAreRelativeToEachOther) {
     EXPECT_LE(distance(parent_constraint(child, parents, {.maintain_offset = false}), mean), 1e-14);
 }
 
-TEST(RigParentConstraint, WithNothingToFollowTheChildStaysToTheBit) {
+TEST(RigParentConstraint, WithoutActiveParentsTheChildStaysBitForBit) {
     Random random(4);
     const ConstraintChild child = some_child(random);
     Parents parents{some_parent(random, 0.0), some_parent(random, -1.0),
@@ -260,7 +260,7 @@ TEST(RigParentConstraint, WithNothingToFollowTheChildStaysToTheBit) {
     EXPECT_FALSE(same_bits(parent_constraint(child, parents), child.global));
 }
 
-TEST(RigParentConstraint, AWeightOfHalfGoesHalfTheWay) {
+TEST(RigParentConstraint, AWeightOfHalfMovesTheChildHalfWay) {
     Random random(14);
     const ConstraintChild child = some_child(random);
     const Parents parents{some_parent(random), some_parent(random)};
@@ -343,7 +343,7 @@ TEST(RigParentConstraint, AWeightMovesTheChildContinuously) {
     }
 }
 
-TEST(RigParentConstraint, TenKilometresOutNothingFlipsOrShakes) {
+TEST(RigParentConstraint, TenKilometresFromTheOriginIsAsAccurate) {
     Random random(7);
     const ConstraintChild near = some_child(random);
     const Parents parents{some_parent(random), some_parent(random, 2.0)};
@@ -369,7 +369,7 @@ TEST(RigParentConstraint, RotationsAreAveragedOnTheFirstParentsHemisphere) {
     EXPECT_LE(distance(parent_constraint(child, parents, options).rotation, about({0, 0, 1}, 40)), 1e-15);
     parents[1].global.rotation = -parents[1].global.rotation;
     EXPECT_LE(distance(parent_constraint(child, parents, options).rotation, about({0, 0, 1}, 40)), 1e-15);
-    // What counts is the child's pose under the first parent, not that parent's own rotation.
+    // The child's pose under the first parent decides, not that parent's own rotation.
     ConstraintChild turned;
     turned.initial_global.rotation = about({0, 0, 1}, 179);
     const Parents offset{{}, {.global = {.rotation = about({0, 0, 1}, 4)}}};
@@ -381,7 +381,7 @@ TEST(RigParentConstraint, RotationsAreAveragedOnTheFirstParentsHemisphere) {
     EXPECT_LE(distance(parent_constraint(child, parents, options).rotation, {0, 1, 0, 0}), 1e-15);
 }
 
-TEST(RigCollect, DepthFirstFromTheRootInTheOrderOfAdding) {
+TEST(RigCollect, DepthFirstFromTheRootInOrderOfCreation) {
     Hierarchy tree;
     const auto add = [&](ElementId parent) { return *tree.add(ElementKind::Bone, parent, {}); };
     const ElementId root = add({}), a = add(root), b = add(root), a1 = add(a), b1 = add(b), a2 = add(a),
@@ -417,7 +417,7 @@ namespace {
 
 // Springs as units: parameters out of range, and when springs move.
 
-/// Parameters from controls may have any value.
+/// Parameters driven by controls may have any value.
 TEST(RigSpring, ASpringsParametersAreClampedWithAWarning) {
     Definition definition;
     definition.elements = {
@@ -457,7 +457,7 @@ TEST(RigSpring, AForceWithoutASpringMovesWithTime) {
     EXPECT_NEAR(std::get<double>(rig.unit("drift").outputs[1]), 2.0, 1e-9);
 }
 
-TEST(RigSpring, ASpringThatTurnsRoundMovesOn) {
+TEST(RigSpring, ASpringAtATurningPointStillMoves) {
     Definition definition;
     definition.elements = {
         {.name = "dial", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Float}}};
@@ -469,7 +469,7 @@ TEST(RigSpring, ASpringThatTurnsRoundMovesOn) {
     Held rig(definition);
     rig.solve(0.25);
     ASSERT_TRUE(rig.control("dial", 1.0));
-    // Each step is a quarter of a swing: every second one ends at a turning point, at rest.
+    // Each step is a quarter of a cycle: every second one ends at a turning point, at rest.
     for (int i = 0; i < 12; ++i) EXPECT_TRUE(rig.solve(0.25)) << i;
 }
 

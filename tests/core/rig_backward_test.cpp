@@ -41,7 +41,7 @@ BackwardReport there_and_back(const Definition& definition, std::uint64_t seed, 
         if (!definition.elements[i].control) continue;
         EXPECT_TRUE(rig.rig.set_control(rig.state, i, rest[i]));
     }
-    // Only the bones keep their pose.
+    // Keep only the bones' pose.
     return solve_backward(rig.rig, rig.state, rig.workspace);
 }
 
@@ -53,7 +53,7 @@ void expect_nothing_left(const BackwardReport& report, std::uint64_t seed) {
     }
 }
 
-TEST(RigBackward, GivesThePoseBackWhereverTheRigCanExpressIt) {
+TEST(RigBackward, RecoversAnyPoseThatTheRigCanExpress) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         expect_nothing_left(there_and_back(fk_rig(4), seed, 100), seed);
         expect_nothing_left(there_and_back(fk_rig(4, false), seed, 100), seed);
@@ -63,7 +63,7 @@ TEST(RigBackward, GivesThePoseBackWhereverTheRigCanExpressIt) {
     }
 }
 
-TEST(RigBackward, SaysWhatARigCannotExpressAndAtWhichBone) {
+TEST(RigBackward, ReportsTheBoneThatCannotReachItsPose) {
     Held rig(fk_rig(4));
     // A bone longer than any control can make it.
     ASSERT_TRUE(rig.rig.set_element(rig.state, rig.element("b3"), Space::Local, at(0, 1.5, 0)));
@@ -77,11 +77,11 @@ TEST(RigBackward, SaysWhatARigCannotExpressAndAtWhichBone) {
     EXPECT_LT(report.elements[rig.element("b1")].metres, 0.05);
 }
 
-TEST(RigBackward, KeepsToTheLimitsOfControls) {
+TEST(RigBackward, RespectsTheLimitsOfControls) {
     Held rig(aim_rig());
     ASSERT_TRUE(rig.control("look", glm::dvec3(1, 1, 0)));
     rig.solve();
-    // Beyond the control's reach.
+    // Out of the control's range.
     Transform head = rig.local("head");
     head.rotation = turned(80, {0, 1, 0}).rotation;
     rig.state.elements.put(rig.rig.id(rig.element("head")), Space::Local, head);
@@ -93,8 +93,8 @@ TEST(RigBackward, KeepsToTheLimitsOfControls) {
     EXPECT_EQ(*report.worst, rig.element("head"));
 }
 
-/// Two bones on one control, with targets that it cannot satisfy both.
-TEST(RigBackward, SharesWhatIsLeftByLeastSquares) {
+/// Two bones on one control, with targets that cannot both be satisfied.
+TEST(RigBackward, SharesTheResidualByLeastSquares) {
     Definition definition;
     definition.elements = {
         {.name = "a"},
@@ -124,7 +124,7 @@ TEST(RigBackward, SharesWhatIsLeftByLeastSquares) {
 
 /// A bone 1 m from the control that rotates it, with a position target at rest and a rotation target at a
 /// right angle: at the minimum of d^2 + r^2 a^2 the derivative is zero.
-TEST(RigBackward, MetresPerRadianSaysWhatARotationCounts) {
+TEST(RigBackward, MetresPerRadianWeightsRotations) {
     Definition definition;
     definition.elements = {
         {.name = "root"},
@@ -143,13 +143,13 @@ TEST(RigBackward, MetresPerRadianSaysWhatARotationCounts) {
         solve_backward(rig.rig, rig.state, rig.workspace, {.metres_per_radian = radius});
         const glm::dvec3 tip = rig.global("bone").translation;
         const double angle = std::atan2(tip.y, tip.x), r = radius > 0.0 ? radius : 1.0;
-        // The root's rotation has a target too, at rest.
+        // The root's rotation also has a target, at rest.
         EXPECT_NEAR(std::sin(angle) - r * r * (right - angle) + r * r * angle, 0.0, 1e-4) << radius;
         EXPECT_NEAR(tip.z, 0.0, 1e-6);
     }
 }
 
-TEST(RigBackward, CountsScaleAsLeftToo) {
+TEST(RigBackward, ResidualsIncludeScale) {
     Held rig({.elements = {{.name = "a"}, {.name = "b", .parent = "a", .initial = at(1, 0, 0)}}});
     rig.state.elements.put(rig.rig.id(1), Space::Local, at(1, 0.1, 0));
     rig.state.elements.put(rig.rig.id(0), Space::Global, {.scale = {1, 1, 1.5}}, Propagate::No);
@@ -175,7 +175,7 @@ TEST(RigBackward, TriesSwitchesBothWays) {
     expect_nothing_left(report, 0);
 }
 
-/// Fourteen rotation controls, all turned, with a bound on the work.
+/// Solves fourteen rotation controls, all turned, with a limit on the work.
 BackwardReport bounded(const BackwardOptions& options, State& state) {
     Held rig(fk_rig(14));
     const State rest = rig.state;
@@ -191,7 +191,7 @@ BackwardReport bounded(const BackwardOptions& options, State& state) {
     return report;
 }
 
-TEST(RigBackward, StopsWhereItsWorkEndsAndSaysSo) {
+TEST(RigBackward, StopsAtItsWorkLimitAndReportsIt) {
     State state, whole_state;
     const BackwardReport whole = bounded({}, whole_state);
     EXPECT_FALSE(whole.stopped);
@@ -212,7 +212,7 @@ TEST(RigBackward, StopsWhereItsWorkEndsAndSaysSo) {
         } else {
             EXPECT_EQ(state, whole_state);
         }
-        // A forward solve counts as at least Rig::work, so this bounds solves too.
+        // A forward solve counts as at least Rig::work, so the limit bounds solves too.
         const std::uint64_t one = Held(fk_rig(14)).rig.work();
         EXPECT_LE(static_cast<std::uint64_t>(report.solves) * one, work + 2 * one);
     }
@@ -257,7 +257,7 @@ TEST(RigBackward, ARigWithoutControlsOrBonesIsSolvedAtOnce) {
     EXPECT_EQ(solve_backward(bones.rig, bones.state, bones.workspace).elements[0].metres, 0.0);
 }
 
-TEST(RigExplain, SaysWhoMovedItAndHowFar) {
+TEST(RigExplain, NamesTheUnitsThatMovedAnElementAndByHowMuch) {
     Held rig(fk_rig(2));
     ASSERT_TRUE(rig.control("c0", turned(90, {0, 0, 1}).rotation));
     rig.solve();

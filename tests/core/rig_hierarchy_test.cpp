@@ -1,4 +1,4 @@
-// The poses that each write leaves pending, the cost of reading, and the values read.
+// Poses that each write leaves pending, the cost of reading, and the values read.
 #include "memory.hpp"
 #include "rig_line.hpp"
 #include "rig_support.hpp"
@@ -11,7 +11,7 @@ namespace {
 using namespace rig;
 using enum Space;
 
-TEST(RigHierarchy, EachWriteMakesPendingWhatThePageSays) {
+TEST(RigHierarchy, EachWriteMakesPendingWhatTheSpecificationSays) {
     RigLine line;
     EXPECT_EQ(line.flags(), "nnnn");
     line.expect_set(line.middle, Global, moved(5, 2, 0), Propagate::Yes);
@@ -30,7 +30,7 @@ TEST(RigHierarchy, EachWriteMakesPendingWhatThePageSays) {
     EXPECT_EQ(line.flags(), "nnll");
 }
 
-TEST(RigHierarchy, ReadingWorksOutWhatIsPendingAboveAndNothingElse) {
+TEST(RigHierarchy, ReadingResolvesOnlyPendingAncestors) {
     RigLine line;
     line.expect_set(line.root, Global, moved(3, 1, 0), Propagate::Yes);
     EXPECT_EQ(line.flags(), "lggg");
@@ -40,7 +40,7 @@ TEST(RigHierarchy, ReadingWorksOutWhatIsPendingAboveAndNothingElse) {
     EXPECT_EQ(line.flags(), "nnng");
 }
 
-TEST(RigHierarchy, ChildrenThatStayKeepTheirGlobalToTheBit) {
+TEST(RigHierarchy, ChildrenThatStayKeepTheirGlobalBitForBit) {
     Random random(2);
     RigLine line;
     for (const ElementId each : {line.root, line.middle, line.tip, line.other})
@@ -53,7 +53,7 @@ TEST(RigHierarchy, ChildrenThatStayKeepTheirGlobalToTheBit) {
     }
 }
 
-TEST(RigHierarchy, WhatWasSetIsReadBackToTheBit) {
+TEST(RigHierarchy, AValueThatIsSetIsReadBackBitForBit) {
     Random random(3);
     RigLine line;
     for (int i = 0; i < 100; ++i) {
@@ -64,7 +64,7 @@ TEST(RigHierarchy, WhatWasSetIsReadBackToTheBit) {
     }
 }
 
-TEST(RigHierarchy, MovingAFingersBaseRecomputesTheThreeThatFollowIt) {
+TEST(RigHierarchy, MovingAFingersBaseRecomputesItsThreeChildren) {
     Hierarchy tree;
     std::vector<ElementId> bones{*tree.add(ElementKind::Bone, {}, moved(0, 1, 0))};
     const auto grow = [&](ElementId from, int count) {
@@ -81,7 +81,7 @@ TEST(RigHierarchy, MovingAFingersBaseRecomputesTheThreeThatFollowIt) {
     ASSERT_EQ(tree.size(), 100u);
     tree.resolve_all();
 
-    const ElementId base = bones[40 + 10];  // of the first finger
+    const ElementId base = bones[40 + 10];  // base of the first finger
     ASSERT_EQ(tree.child_count(base), 1u);
     const std::uint64_t before = tree.recomputations();
     ASSERT_TRUE(tree.set(base, Global, moved(1, 2, 3)).ok());
@@ -93,7 +93,7 @@ TEST(RigHierarchy, MovingAFingersBaseRecomputesTheThreeThatFollowIt) {
     EXPECT_EQ(tree.recomputations() - before, 4u);
 }
 
-TEST(RigHierarchy, ALeafOfALargeTreeRecomputesItsAncestorsAndNothingElse) {
+TEST(RigHierarchy, ALeafOfALargeTreeRecomputesOnlyItsAncestors) {
     Hierarchy tree;
     std::vector<ElementId> all{*tree.add(ElementKind::Null, {}, {})};
     while (all.size() < 11'111)
@@ -108,7 +108,7 @@ TEST(RigHierarchy, ALeafOfALargeTreeRecomputesItsAncestorsAndNothingElse) {
     EXPECT_EQ(tree.recomputations() - before, 5u) << "its brother has only itself to do";
 }
 
-TEST(RigHierarchy, WhatWasReadCanBeReadBesideAndWritten) {
+TEST(RigHierarchy, AReferenceStaysValidAcrossReadsAndWrites) {
     Random random(15);
     RigLine line;
     for (const ElementId each : {line.root, line.middle, line.tip, line.other})
@@ -151,13 +151,13 @@ TEST(RigHierarchy, ALineOf100000DoesNotOverflowTheStack) {
     EXPECT_FALSE(copy == tree);
 }
 
-TEST(RigHierarchy, RotationsStayUnitLengthAndNumbersFinite) {
+TEST(RigHierarchy, RotationsStayUnitAndNumbersFinite) {
     Hierarchy tree;
     Random random(8);
     ElementId at;
     for (int i = 0; i < 400; ++i) {
         Transform local = some_transform(random);
-        local.scale = {1e9, -1e9, 1e-9};  // 1e3600 at the end if it were unbounded
+        local.scale = {1e9, -1e9, 1e-9};  // 1e3600 at the end if unbounded
         at = *tree.add(ElementKind::Null, at, local);
     }
     EXPECT_TRUE(is_finite(tree.get(at, Global)));
@@ -189,10 +189,10 @@ TEST(RigHierarchy, ReadingAndWritingAllocateNothing) {
     EXPECT_EQ(line.flags(), "nnnn");
 }
 
-// A hierarchy against one that recomputes everything after each write, and against itself read at other
+// Compares a hierarchy with one that recomputes everything after each write, and with itself read at other
 // times.
 
-/// A literal implementation without laziness: every transform is always up to date, computed with GLM.
+/// A literal implementation without lazy updates: every transform is always up to date, computed with GLM.
 class Naive {
   public:
     struct Element {
@@ -323,7 +323,7 @@ struct Trio {
         if (random.chance(50)) return copy_pose(random);
         set(random);
     }
-    /// The deviation of one answer.
+    /// Deviation of one value from the naive one.
     double read(int at, Space space, int pose) {
         const Naive::Element& wanted = naive.elements[std::size_t(at)];
         const Transform& got = tree.get(id(at), space, pose_of(pose));
@@ -360,7 +360,7 @@ TEST(RigHierarchyProperty, AgreesWithANaiveImplementationOverManyEdits) {
     std::printf("100 000 edits, worst relative deviation %.2g\n", worst);
 }
 
-TEST(RigHierarchyProperty, ReadingChangesNoAnswer) {
+TEST(RigHierarchyProperty, ReadingChangesNoResult) {
     Random edits(77), reads(78);
     Trio trio;  // only `also` is read
     for (int i = 0; i < 20'000; ++i) {
@@ -380,7 +380,7 @@ TEST(RigHierarchyProperty, ReadingChangesNoAnswer) {
     });
 }
 
-TEST(RigHierarchyProperty, WhatIsPendingIsWhatIsNotKnown) {
+TEST(RigHierarchyProperty, APendingPoseIsExactlyAnUnknownOne) {
     Random edits(5), reads(6);
     Trio trio;
     int seen[3]{};
@@ -404,7 +404,7 @@ TEST(RigHierarchyProperty, WhatIsPendingIsWhatIsNotKnown) {
     for (const int count : seen) EXPECT_GT(count, 100);
 }
 
-TEST(RigHierarchyProperty, ACopyGoesOnAsTheOriginalDoes) {
+TEST(RigHierarchyProperty, ACopyContinuesLikeTheOriginal) {
     Random random(11);
     Trio trio;
     for (int i = 0; i < 2'000; ++i) trio.edit(random);
@@ -449,7 +449,7 @@ TEST(RigTransform, RelativeUndoesComposing) {
     EXPECT_LE(worst, 1e-14);
 }
 
-TEST(RigTransform, TheInverseOfAScaleOfZeroCountsAsZero) {
+TEST(RigTransform, TheInverseOfZeroScaleIsZero) {
     Transform flat;
     flat.scale = {0, 1e-300, 2};
     const Transform local = relative(flat, {{1, 2, 3}, {1, 0, 0, 0}, {4, 5, 6}});
@@ -468,7 +468,7 @@ TEST(RigTransform, NoProductBecomesInfinite) {
     }
 }
 
-TEST(RigTransform, BlendingBeginsAtTheOneAndEndsAtTheOtherToTheBit) {
+TEST(RigTransform, BlendingStartsAndEndsBitForBit) {
     Random random(4);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (int i = 0; i < 100; ++i) {
@@ -486,7 +486,7 @@ TEST(RigTransform, BlendingBeginsAtTheOneAndEndsAtTheOtherToTheBit) {
     EXPECT_LE(distance(small, about({1, 0, 0}, 0.25e-4)), 1e-15);
 }
 
-TEST(RigTransform, WhatIsNormalisedStaysToTheBit) {
+TEST(RigTransform, NormalisingTwiceChangesNothing) {
     Random random(9);
     for (int i = 0; i < 10'000; ++i) {
         const glm::dquat once = some_rotation(random), twice = normalised(once);
@@ -532,7 +532,7 @@ TEST(RigEuler, ThePolesAreClean) {
     }
 }
 
-TEST(RigUnits, AWeightOfZeroLeavesTheItemToTheBit) {
+TEST(RigUnits, AWeightOfZeroLeavesTheItemBitForBit) {
     Random random(10);
     for (int i = 0; i < 100; ++i) {
         const Transform item = some_transform(random), other = some_transform(random);
@@ -547,7 +547,7 @@ TEST(RigUnits, AWeightOfZeroLeavesTheItemToTheBit) {
     }
 }
 
-TEST(RigUnits, AnOffsetIsInTheItemsOwnSpace) {
+TEST(RigUnits, AnOffsetIsInTheItemsSpace) {
     const Transform item{{1, 0, 0}, about({0, 0, 1}, 90), {2, 2, 2}};
     const Transform all = offset_transform(item, {{1, 0, 0}, about({1, 0, 0}, 90), {3, 1, 1}});
     EXPECT_LE(distance(all, {{1, 2, 0}, item.rotation * about({1, 0, 0}, 90), {6, 2, 2}}), 1e-15);
@@ -555,7 +555,7 @@ TEST(RigUnits, AnOffsetIsInTheItemsOwnSpace) {
     EXPECT_LE(distance(half, {{1, 1, 0}, item.rotation * about({1, 0, 0}, 45), {4, 2, 2}}), 1e-15);
 }
 
-TEST(RigUnits, ProjectedToTheSameParentInAnotherPoseAChildFollowsIt) {
+TEST(RigUnits, ProjectedToItsParentInAnotherPoseAChildFollows) {
     Random random(12);
     const Transform child = some_transform(random), before = some_transform(random),
                     after = some_transform(random);

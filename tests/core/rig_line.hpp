@@ -1,4 +1,4 @@
-// The small tree that tests of the hierarchy share.
+// A small tree, shared by tests of the hierarchy.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace tendril::test {
 
-/// Three elements in a line, 1 m apart along Y, and a fourth beside the last; all have been read.
+/// Three elements in a line, 1 m apart along Y, and a fourth beside the last; all have been read once.
 struct RigLine {
     rig::Hierarchy tree;
     rig::ElementId root = *tree.add(rig::ElementKind::Bone, {}, moved(0, 1, 0));

@@ -29,7 +29,7 @@ Definition with(Operation operation) {
     return rig;
 }
 
-TEST(RigMake, RefusesElementsThatMakeNoTree) {
+TEST(RigMake, RefusesElementsThatAreNotATree) {
     EXPECT_TRUE(test::says(refusal({.elements = {{.name = "a"}, {.name = "a"}}}), "element a another name"));
     EXPECT_TRUE(test::says(refusal({.elements = {{.name = ""}}}), "elements[0] name empty"));
     EXPECT_TRUE(test::says(refusal({.elements = {{.name = "a", .parent = "b"}}}), "element a b parent"));
@@ -47,7 +47,7 @@ TEST(RigMake, RefusesElementsThatMakeNoTree) {
                            "element a control settings"));
 }
 
-TEST(RigMake, TakesParentsAfterTheirChildren) {
+TEST(RigMake, AcceptsParentsAfterTheirChildren) {
     Held rig({.elements = {{.name = "child", .parent = "parent", .initial = at(1, 0, 0)},
                            {.name = "parent", .initial = at(0, 1, 0)}}});
     EXPECT_EQ(rig.global("child").translation, glm::dvec3(1, 1, 0));
@@ -66,7 +66,7 @@ TEST(RigMake, RefusesControlsOutOfOrder) {
     EXPECT_NE(control({.minimum = glm::dvec3(std::numeric_limits<double>::infinity(), 0, 0)}), "");
 }
 
-TEST(RigMake, RefusesInputsThatNameWhatIsNotThere) {
+TEST(RigMake, RefusesInputsWithUnknownNames) {
     EXPECT_TRUE(test::says(refusal(with(SetTransform{.item = "nobody"})), "unit first item nobody"));
     EXPECT_TRUE(test::says(refusal(with(Aim{.item = "hand", .primary = {.target = FromElement{"nobody"}}})),
                            "unit first primary.target nobody"));
@@ -101,7 +101,7 @@ TEST(RigMake, RefusesInputsOfTheWrongType) {
     EXPECT_TRUE(test::says(refusal(chained), "unit second rotation unit first output speed"));
 }
 
-TEST(RigMake, GivesATransformWhereAVectorOrARotationIsTaken) {
+TEST(RigMake, AcceptsATransformForAVectorOrARotation) {
     Definition rig = with(AimMath{.transform = at(1, 2, 3)});
     rig.units.push_back({.name = "at", .operation = TransformLocation{.location = FromUnit{"first"}}});
     rig.units.push_back(
@@ -109,7 +109,7 @@ TEST(RigMake, GivesATransformWhereAVectorOrARotationIsTaken) {
     EXPECT_EQ(refusal(rig), "");
 }
 
-TEST(RigMake, RefusesWhatOnlyAForEachKnowsOutsideOfOne) {
+TEST(RigMake, RefusesForEachInputsOutsideAForEach) {
     EXPECT_TRUE(
         test::says(refusal(with(SetTransform{.item = ThisElement()})), "unit first item each for-each"));
     EXPECT_TRUE(
@@ -125,7 +125,7 @@ TEST(RigMake, RefusesWhatOnlyAForEachKnowsOutsideOfOne) {
     EXPECT_TRUE(test::says(refusal(outside), "unit late rotation unit inner for-each"));
 }
 
-TEST(RigMake, RefusesNumbersOutOfTheirRange) {
+TEST(RigMake, RefusesNumbersOutOfRange) {
     Definition heavy = with(SetTransform{.item = "hand"});
     heavy.units[0].weight = 1.5;
     EXPECT_TRUE(test::says(refusal(heavy), "unit first weight 0 1 1.5"));
@@ -141,7 +141,7 @@ TEST(RigMake, RefusesNumbersOutOfTheirRange) {
     EXPECT_NE(refusal(with(EvaluateCurve{.curve = {.keys = {{.time = 1}, {.time = 1}}}})), "");
 }
 
-TEST(RigMake, RefusesTwoUnitsOfOneName) {
+TEST(RigMake, RefusesTwoUnitsWithOneName) {
     Definition rig =
         with(ForEach{.roots = {"root"}, .body = {{.name = "first", .operation = FromTwoVectors{}}}});
     EXPECT_TRUE(test::says(refusal(rig), "unit first another name"));
@@ -149,14 +149,14 @@ TEST(RigMake, RefusesTwoUnitsOfOneName) {
     EXPECT_TRUE(test::says(refusal(rig), "unit name empty"));
 }
 
-TEST(RigMake, RefusesChainsThatAreNone) {
+TEST(RigMake, RefusesInvalidChains) {
     EXPECT_TRUE(test::says(refusal(with(Fabrik{.root = "hand", .tip = "root"})),
                            "unit first tip root below root hand"));
     EXPECT_TRUE(
         test::says(refusal(with(TwoBone{.root = "root", .tip = "hand"})), "unit first two root hand 1"));
 }
 
-// Rig::with_unit gives the rig that Rig::make would, or the same refusal.
+// Rig::with_unit gives the same rig or the same refusal as Rig::make.
 
 /// All units in the order of Rig::unit_names.
 std::vector<Unit*> all_units(Definition& definition) {
@@ -183,7 +183,7 @@ void expect_same(const Rig& rig, const Rig& made, const Rig& before, const State
     EXPECT_EQ(one, other);
 }
 
-TEST(RigWithUnit, IsTheRigThatMakeReturns) {
+TEST(RigWithUnit, GivesTheSameRigAsMake) {
     int taken = 0, refused = 0, loops = 0;
     for (std::uint64_t seed = 0; seed < 4500; ++seed) {
         const Definition definition = Maker(seed, true).definition();
@@ -246,12 +246,12 @@ TEST(RigWithUnit, RefusesAnUnknownName) {
 namespace tendril::test {
 namespace {
 
-// The tree itself: order, handles, reparenting, and refusals.
+// The tree itself: order, handles, changes of parent, and refusals.
 
 using namespace rig;
 using enum Space;
 
-TEST(RigElements, ElementsAreFoundInTheOrderOfAdding) {
+TEST(RigElements, ElementsAreInOrderOfCreation) {
     RigLine line;
     const Hierarchy& tree = line.tree;
     EXPECT_EQ(tree.first_child({}), line.root);
@@ -271,7 +271,7 @@ TEST(RigElements, ElementsAreFoundInTheOrderOfAdding) {
     EXPECT_FALSE(tree.next_depth_first(line.tip, line.tip));
 }
 
-TEST(RigElements, AHandleOfWhatIsGoneFindsNothing) {
+TEST(RigElements, AHandleOfARemovedElementFindsNothing) {
     RigLine line;
     ASSERT_TRUE(line.tree.remove(line.middle).ok());
     EXPECT_EQ(line.tree.size(), 1u);
@@ -322,7 +322,7 @@ TEST(RigElements, RefusesWithoutChangingAnything) {
             "remove: element must be the handle of an existing element, got an empty handle");
 }
 
-TEST(RigElements, AnotherParentKeepsThePlaceOrTheLocal) {
+TEST(RigElements, ANewParentKeepsTheGlobalOrLocalPose) {
     for (const Space keep : {Local, Global}) {
         RigLine line;
         line.expect_set(line.other, Global, moved(4, 4, 4), Propagate::Yes);
@@ -337,7 +337,7 @@ TEST(RigElements, AnotherParentKeepsThePlaceOrTheLocal) {
     }
 }
 
-TEST(RigElementsDeathTest, ReadingWhatIsNotThereEndsTheProgramWithAMessage) {
+TEST(RigElementsDeathTest, ReadingAMissingElementEndsTheProgramWithAMessage) {
     RigLine line;
     EXPECT_DEATH(line.tree.get({}, Local), "get: element must be the handle of an existing element");
 }

@@ -6,7 +6,7 @@
 
 namespace tendril::rig {
 
-/// `sane`: no numbers that are huge or at the edge of the accepted range.
+/// `sane`: without numbers that are huge or at the ends of their ranges.
 class Maker {
   public:
     explicit Maker(std::uint64_t seed, bool sane = false) : random_(seed), sane_(sane) {}

@@ -1,5 +1,5 @@
-// A literal implementation of a rig's solve as specified: looks names up each time and prepares nothing.
-// Single operations use the library's functions, which have tests of their own.
+// A literal implementation of a rig's solve as specified: looks up names each time and prepares nothing.
+// Single operations are the library's own, with separate tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 namespace tendril::rig {
 
-/// Covers everything but bone chains and aims with a speed limit.
+/// Supports everything but bone chains and aims with a speed limit.
 class NaiveRig {
   public:
     explicit NaiveRig(Definition definition) : definition_(std::move(definition)) {
@@ -117,7 +117,7 @@ class NaiveRig {
         if constexpr (std::is_same_v<T, Value>) {
             return value;
         } else {
-            // A whole pose can stand for the part of it that is needed.
+            // A whole pose is accepted for one of its parts.
             const auto* pose = std::get_if<Transform>(&value);
             if constexpr (std::is_same_v<T, glm::dvec3>)
                 if (pose) return pose->translation;

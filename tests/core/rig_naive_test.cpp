@@ -26,7 +26,7 @@ double apart(const Value& a, const Value& b) {
         a);
 }
 
-/// Neither bone chains nor aims with a speed limit.
+/// Whether the naive rig supports it: no bone chains, and no aims with a speed limit.
 bool is_plain(const std::vector<Unit>& units) {
     return std::ranges::all_of(units, [](const Unit& unit) {
         const Operation& what = unit.operation;
@@ -39,7 +39,7 @@ bool is_plain(const std::vector<Unit>& units) {
     });
 }
 
-TEST(RigNaive, ASolveIsWhatTheSpecificationSaysWordByWord) {
+TEST(RigNaive, ASolveMatchesTheLiteralSpecification) {
     std::size_t compared = 0;
     for (std::uint64_t seed = 0; compared < 20'000; ++seed) {
         Maker maker(seed, true);
@@ -58,7 +58,7 @@ TEST(RigNaive, ASolveIsWhatTheSpecificationSaysWordByWord) {
             const double dt = random.chance(3) ? 0.0 : 1.0 / 30;
             rig.solve(dt);
             naive.solve(dt);
-            bool warned = false;  // something is out of range, and left out
+            bool warned = false;  // some value is out of range and ignored
             for (const UnitState& unit : rig.state.units) warned |= unit.warning == Warning::OutOfRange;
             if (warned) break;
             for (const Element& element : definition.elements)

@@ -33,7 +33,7 @@ TEST(RigAimReference, AgreesWithAnIndependentImplementation) {
         const rig::AimOptions options{.primary = part_of(example.at("primary")),
                                       .secondary = part_of(example.at("secondary")),
                                       .weight = example.at("weight")};
-        for (int i = 0; i < 20; ++i) {  // from any rotation
+        for (int i = 0; i < 20; ++i) {  // each from a random rotation
             rig::Transform item = some_transform(random);
             item.translation = vector_of(example.at("position"));
             const rig::AimResult aimed = rig::aim(item, options);

@@ -49,7 +49,7 @@ struct Held {
     }
 };
 
-/// A head that aims at a 2D control in front of it, with roll from a second control in the first one's space.
+/// A head that aims at a 2D control in front of it, with roll from a second control below the first.
 inline Definition aim_rig() {
     Definition rig;
     rig.elements = {
@@ -74,8 +74,7 @@ inline Definition aim_rig() {
     return rig;
 }
 
-/// A tentacle of `count` bones along y, each below the one before and constrained to its own rotation
-/// control.
+/// A tentacle of `count` bones along y, each a child of the last and constrained to its own rotation control.
 inline Definition fk_rig(int count = 4, bool maintain_offset = true) {
     Definition rig;
     for (int i = 0; i < count; ++i) {
@@ -98,7 +97,7 @@ inline Definition fk_rig(int count = 4, bool maintain_offset = true) {
     return rig;
 }
 
-/// An arm of `count` bones along x that one dial curls: each bone turns by its ratio of the dial.
+/// An arm of `count` bones along x that one dial curls: each bone rotates by its ratio of the dial.
 inline Definition loop_rig(int count = 5, bool propagate = true) {
     Definition rig;
     for (int i = 0; i < count; ++i)

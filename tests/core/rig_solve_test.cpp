@@ -15,7 +15,7 @@ void expect_near(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-9)
         << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
 }
 
-TEST(RigSolve, SolvingTwiceGivesWhatSolvingOnceGives) {
+TEST(RigSolve, SolvingTwiceEqualsSolvingOnce) {
     for (const Definition& definition : {aim_rig(), fk_rig(), loop_rig(), loop_rig(5, false)}) {
         Held rig(definition);
         for (std::size_t i = 0; i < definition.elements.size(); ++i) {
@@ -33,7 +33,7 @@ TEST(RigSolve, SolvingTwiceGivesWhatSolvingOnceGives) {
     }
 }
 
-TEST(RigSolve, EachElementKnowsItsPlaceAmongThoseOfItsRoot) {
+TEST(RigSolve, EachElementHasItsRatioWithinItsRoot) {
     Definition definition;
     definition.elements = {{.name = "a"},
                            {.name = "a1", .parent = "a"},
@@ -41,7 +41,7 @@ TEST(RigSolve, EachElementKnowsItsPlaceAmongThoseOfItsRoot) {
                            {.name = "b"},
                            {.name = "b1", .parent = "b"}};
     definition.curves = {{.name = "sum"}};
-    // Each moves by its own (ratio, index, count).
+    // Each moves by its own ratio.
     const auto along = [](const char* name, Each each, glm::dvec3 axis) {
         return Unit{.name = name,
                     .operation = SetTransform{.item = ThisElement(),
@@ -60,7 +60,7 @@ TEST(RigSolve, EachElementKnowsItsPlaceAmongThoseOfItsRoot) {
     expect_near(rig.local("b1").translation, {0, 0, 0});  // a single one
 }
 
-TEST(RigSolve, AWeightOfZeroLeavesEverythingToTheBit) {
+TEST(RigSolve, AWeightOfZeroLeavesEverythingBitForBit) {
     Definition definition = aim_rig();
     definition.elements[1].initial.rotation = glm::normalize(glm::dquat(0.3, 0.1, -0.7, 0.2));
     definition.elements.push_back({.name = "tip", .parent = "head", .initial = at(0, 0.2, 0.1)});
@@ -84,7 +84,7 @@ TEST(RigSolve, AWeightOfZeroLeavesEverythingToTheBit) {
                 EXPECT_EQ(rig.state.elements.get(id, space), original.elements.get(id, space))
                     << operation_name(operation.index());
             }
-        // If disabled, or if `when` is false: neither.
+        // The same holds if it is disabled, or if `when` is false.
         definition.units[0].weight = 1.0;
         definition.units[0].enabled = false;
         Held off(definition);
@@ -132,7 +132,7 @@ TEST(RigSolve, ChainsReachTheirTargets) {
             EXPECT_NEAR(glm::length(rig.global("b").translation), 1.0, 1e-6);
             EXPECT_LT(rig.global("b").translation.z, 0.0) << "the elbow points at its pole";
         }
-        // The same 10 km out.
+        // The same, 10 km from the origin.
         ASSERT_TRUE(rig.rig.set_element(rig.state, 0, Space::Global, at(1e4, 0, 1e4)));
         ASSERT_TRUE(rig.control("target", glm::dvec3(1e4 + 1, 0.8, 1e4 + 0.3)));
         rig.solve();
@@ -140,7 +140,7 @@ TEST(RigSolve, ChainsReachTheirTargets) {
     }
 }
 
-// Three bones along +Y, and a curve through three controls.
+// Three bones along +Y, and a curve with three control points.
 Definition spline_rig() {
     Definition definition;
     definition.elements = {{.name = "a", .initial = at(0, 0, 0)},
@@ -159,7 +159,7 @@ Definition spline_rig() {
     return definition;
 }
 
-TEST(RigSolve, ASplineLaysBonesAlongACurveAndRollsThemWithIt) {
+TEST(RigSolve, ASplineLaysBonesOnACurveAndRollsThem) {
     Definition definition = spline_rig();
     Held rig(definition);
     rig.solve();
@@ -215,7 +215,7 @@ TEST(RigSolve, ASplineFitsItsBonesToTheCurve) {
     EXPECT_GT(std::get<double>(loose.unit("spline").outputs[0]), 0.1);
 }
 
-TEST(RigSolve, ASplineWithOtherPointsFollowsThose) {
+TEST(RigSolve, ASplineFollowsItsNewPoints) {
     Definition definition = spline_rig();
     const Rig rig = *Rig::make(definition);
     std::get<Spline>(definition.units[0].operation).points = {"r", "q", "p"};
@@ -226,7 +226,7 @@ TEST(RigSolve, ASplineWithOtherPointsFollowsThose) {
     expect_near(changed.global("a").translation, {5, 1, 0}, 1e-9);
 }
 
-TEST(RigSolve, ASplineSaysHowMuchLiesPastItsCurve) {
+TEST(RigSolve, ASplineReportsTheLengthPastItsCurve) {
     Definition definition = spline_rig();
     std::get<Spline>(definition.units[0].operation).points = {"p", "q"};
     Held rig(definition);
@@ -237,8 +237,8 @@ TEST(RigSolve, ASplineSaysHowMuchLiesPastItsCurve) {
     EXPECT_NEAR(std::get<double>(outputs[0]), 1.5, 1e-5);
 }
 
-// A roll of 2e8 degrees is beyond what the library takes; a bone of no length is not.
-TEST(RigSolve, ASplineThatCannotBeLaidLeavesItsBonesAndSaysSo) {
+// A roll of 2e8 degrees is out of range; a bone of no length is valid.
+TEST(RigSolve, AnUnsolvableSplineWarnsAndLeavesItsBones) {
     Definition definition = spline_rig();
     std::get<Spline>(definition.units[0].operation).roll_end_deg = 2e8;
     Held rig(definition);
@@ -253,7 +253,7 @@ TEST(RigSolve, ASplineThatCannotBeLaidLeavesItsBonesAndSaysSo) {
     EXPECT_NEAR(glm::distance(pointed.global("c").translation, pointed.global("d").translation), 1.0, 1e-9);
 }
 
-TEST(RigSolve, ASplineNeedsTwoPointsThatExist) {
+TEST(RigSolve, ASplineNeedsTwoExistingPoints) {
     Definition definition = spline_rig();
     auto& spline = std::get<Spline>(definition.units[0].operation);
     spline.points = {"p"};
@@ -265,7 +265,7 @@ TEST(RigSolve, ASplineNeedsTwoPointsThatExist) {
     EXPECT_TRUE(test::says(Rig::make(definition).message(), "spline max_factor 0 to 100 101"));
 }
 
-TEST(RigSolve, AChainOfHalfWeightTurnsHalfTheWay) {
+TEST(RigSolve, AChainOfHalfWeightTurnsHalfWay) {
     Definition definition;
     definition.elements = {{.name = "a"},
                            {.name = "b", .parent = "a", .initial = at(0, 1, 0)},
@@ -288,7 +288,7 @@ TEST(RigSolve, AChainOfHalfWeightTurnsHalfTheWay) {
     }
 }
 
-TEST(RigSolve, CurvesAreWrittenAndBeginAnewEachSolve) {
+TEST(RigSolve, CurvesAreWrittenAndStartOverInEachSolve) {
     Definition definition = loop_rig(1);
     definition.curves = {{.name = "smile", .value = 0.25}};
     definition.units = {
@@ -309,7 +309,7 @@ TEST(RigSolve, CurvesAreWrittenAndBeginAnewEachSolve) {
     EXPECT_FALSE(rig.rig.set_curve(rig.state, 1, 0.0));
 }
 
-TEST(RigSolve, WarnsOfWhatItLeavesOutAndKeepsThePose) {
+TEST(RigSolve, SkippedUnitsWarnAndKeepThePose) {
     Definition definition = aim_rig();
     auto& aim = std::get<Aim>(definition.units[0].operation);
     aim.primary.target = FromElement{"head"};
@@ -343,7 +343,7 @@ TEST(RigSolve, WarnsOfWhatItLeavesOutAndKeepsThePose) {
     EXPECT_EQ(out_of_range.unit("turn").warning, Warning::None) << "a warning lasts as long as its reason";
 }
 
-/// One element: the first round is also the last.
+/// With a single element, the first iteration is also the last.
 TEST(RigSolve, AWarningInABodyLastsAsLongAsItsReason) {
     Definition definition;
     definition.elements = {
@@ -371,7 +371,7 @@ TEST(RigSolve, AWarningInABodyLastsAsLongAsItsReason) {
     EXPECT_EQ(warning(false, 3.0), Warning::None) << "a unit that does not run warns of nothing";
 }
 
-TEST(RigSolve, GrowthBeyondRangeIsLeftOut) {
+TEST(RigSolve, GrowthOutOfRangeIsIgnored) {
     Definition definition;
     for (int i = 0; i < 40; ++i)
         definition.elements.push_back(

@@ -1,4 +1,4 @@
-// User-set values and a rig's memory, and how both survive edits and rollbacks.
+// Values set by the user, a rig's memory, and how both survive edits and rollbacks.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -14,7 +14,7 @@ void expect_near(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-9)
         << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
 }
 
-TEST(RigState, SpringsTrailAndComeToRest) {
+TEST(RigState, SpringsLagAndComeToRest) {
     Definition definition;
     definition.elements = {
         {.name = "head", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Position}},
@@ -30,7 +30,7 @@ TEST(RigState, SpringsTrailAndComeToRest) {
     const double soon = std::get<glm::dvec3>(rig.unit("trail").outputs[0]).x;
     EXPECT_GT(soon, 0.0);
     EXPECT_LT(soon, 0.2);
-    // Without time, nothing with memory moves.
+    // Without time, units with memory do not move.
     const State before = rig.state;
     rig.solve(0.0);
     EXPECT_EQ(before, rig.state);
@@ -41,7 +41,7 @@ TEST(RigState, SpringsTrailAndComeToRest) {
     EXPECT_NEAR(std::get<glm::dvec3>(rig.unit("trail").outputs[0]).x, 1.0, 1e-6);
 }
 
-TEST(RigState, AnAimOfLimitedSpeedTurnsNoFaster) {
+TEST(RigState, AnAimOfLimitedSpeedStaysWithinIt) {
     Definition definition = aim_rig();
     std::get<Aim>(definition.units[0].operation).max_speed = 90.0;
     Held rig(definition);
@@ -63,7 +63,7 @@ TEST(RigState, AnAimOfLimitedSpeedTurnsNoFaster) {
                 glm::normalize(rig.global("look").translation - head.translation), 1e-9);
 }
 
-TEST(RigState, ControlsKeepWithinTheirLimits) {
+TEST(RigState, ControlsStayWithinTheirLimits) {
     Held rig(aim_rig());
     ASSERT_TRUE(rig.control("look", glm::dvec3(5, -7, 3)));
     rig.solve();
@@ -79,7 +79,7 @@ TEST(RigState, ControlsKeepWithinTheirLimits) {
     expect_near(rig.global("look").translation, {0, 2, 2});
 }
 
-TEST(RigState, AControlWhoseLimitsLeaveOutItsRestBeginsAtTheNearestEnd) {
+TEST(RigState, AControlWithRestOutsideItsLimitsStartsAtTheNearestEnd) {
     Definition definition;
     definition.elements = {
         {.name = "square",
@@ -96,17 +96,17 @@ TEST(RigState, AControlWhoseLimitsLeaveOutItsRestBeginsAtTheNearestEnd) {
         expect_near(rig.global("place").translation, {0, 2, 3});
         rig.solve();
     }
-    // This moves its rest position, and its value is relative to that.
+    // This moves the rest pose; the control's value is relative to it.
     ASSERT_TRUE(rig.rig.set_element(rig.state, 0, Space::Global, at(4, 4, 4)));
     expect_near(rig.global("square").translation, {4, 4, 4});
     ASSERT_TRUE(rig.control("square", glm::dvec3(0)));
     expect_near(rig.global("square").translation, {4, 4, 4});
-    // One end is enough, and no solve is needed first.
+    // One limit is enough, and no solve is needed first.
     ASSERT_TRUE(rig.rig.set_element(rig.state, 1, Space::Global, at(5, 5, 5)));
     expect_near(rig.global("place").translation, {0, 5, 5});
 }
 
-TEST(RigState, LimitsThatAKindDoesNotHaveDoNotMatter) {
+TEST(RigState, LimitsThatAKindDoesNotUseAreIgnored) {
     const glm::dvec3 low(0, 0, 5), high(1, 1, -5);
     Definition square, dial;
     square.elements = {{.name = "square",
@@ -118,7 +118,7 @@ TEST(RigState, LimitsThatAKindDoesNotHaveDoNotMatter) {
     EXPECT_EQ(rest_value({.kind = ControlKind::Bool}, {}), Value(false));
 }
 
-TEST(RigState, AnEditThatChangesATypeForgetsWhatWasRemembered) {
+TEST(RigState, ChangingATypeClearsItsMemory) {
     Definition definition;
     definition.elements = {{.name = "bone", .initial = at(1, 0, 0)}, {.name = "other"}};
     definition.curves = {{.name = "smile", .value = 0.25}};
@@ -143,7 +143,7 @@ TEST(RigState, AnEditThatChangesATypeForgetsWhatWasRemembered) {
     EXPECT_EQ(state.units[0].outputs[0], Value(glm::dvec3(1, 2, 3)));
 }
 
-TEST(RigState, AGlobalPoseIsTheOneThatASolveBeginsWithBelowAMovedControlToo) {
+TEST(RigState, AGlobalPoseIsKeptBelowAMovedControl) {
     Definition definition;
     definition.elements = {{.name = "control", .kind = ElementKind::Control},
                            {.name = "a", .parent = "control", .initial = at(1, 0, 0)},
@@ -169,7 +169,7 @@ TEST(RigState, AGlobalPoseIsTheOneThatASolveBeginsWithBelowAMovedControlToo) {
     }
 }
 
-TEST(RigState, AChainThatIsGivenOtherEndsIsSolved) {
+TEST(RigState, AChainWithNewEndsIsSolved) {
     Definition definition;
     for (int i = 0; i < 5; ++i)
         definition.elements.push_back({.name = numbered("b", i),
@@ -185,7 +185,7 @@ TEST(RigState, AChainThatIsGivenOtherEndsIsSolved) {
         reach.tip = tip;
         const Rig edited = Rig::make(definition).value();
         Workspace workspace(edited);
-        // Adopted, and as an older file may contain it.
+        // Once adopted, once as an older file may contain it.
         for (State state : {edited.adopted(rig.rig, rig.state), rig.state}) {
             edited.solve(state, 0.0, workspace);
             EXPECT_EQ(state.units[0].warning, Warning::None) << root << ' ' << tip;
@@ -195,7 +195,7 @@ TEST(RigState, AChainThatIsGivenOtherEndsIsSolved) {
     }
 }
 
-TEST(RigState, WhatIsRememberedOfAnElementStaysWithIt) {
+TEST(RigState, MemoryStaysWithItsElement) {
     Definition definition;
     for (const char* name : {"left", "right"})
         definition.elements.push_back({.name = name, .kind = ElementKind::Control});
@@ -211,7 +211,7 @@ TEST(RigState, WhatIsRememberedOfAnElementStaysWithIt) {
     rig.solve(0.1);
     const std::vector<UnitMemory> before = rig.state.units[1].memory;
     ASSERT_NE(before[0], before[1]);
-    // In reverse order, with a third between them, and one removed.
+    // In reverse order, with a new one in between; then with one removed.
     definition.elements.push_back({.name = "new", .parent = "right"});
     std::get<ForEach>(definition.units[0].operation).roots = {"right", "left"};
     const Rig edited = Rig::make(definition).value();
@@ -226,7 +226,7 @@ TEST(RigState, WhatIsRememberedOfAnElementStaysWithIt) {
     EXPECT_EQ(fewer.adopted(edited, state).units[1].memory, std::vector<UnitMemory>{before[0]});
 }
 
-TEST(RigState, TheInputPoseIsWhereASolveBegins) {
+TEST(RigState, TheInputPoseIsTheStartOfASolve) {
     Held rig(loop_rig(3));
     ASSERT_TRUE(rig.control("dial", 1.0));
     rig.solve();
@@ -240,7 +240,7 @@ TEST(RigState, TheInputPoseIsWhereASolveBegins) {
     EXPECT_FALSE(rig.rig.set_element(rig.state, 99, Space::Global, {}));
 }
 
-TEST(RigState, AnEditKeepsWhatIsStillThere) {
+TEST(RigState, AnEditKeepsTheStateOfOldElements) {
     Held rig(loop_rig(3));
     ASSERT_TRUE(rig.control("dial", 1.0));
     rig.solve();
@@ -263,8 +263,8 @@ TEST(RigState, AllocatesNothing) {
     }
 }
 
-/// A switch that a unit inverts works without time; easing waits for time.
-TEST(RigState, WhatDoesNotEaseFollowsWithoutTime) {
+/// A unit that inverts a switch needs no time; easing waits for time.
+TEST(RigState, UnitsWithoutEasingFollowWithoutTime) {
     Definition definition;
     definition.elements = {
         {.name = "dial", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Float}}};
@@ -283,8 +283,8 @@ TEST(RigState, WhatDoesNotEaseFollowsWithoutTime) {
     EXPECT_LT(std::get<double>(rig.unit("eased").outputs[0]), 0.5);
 }
 
-/// A workspace keeps no state, not even the lengths that a solver was made for while a scale changes slowly.
-TEST(RigState, WorkspacesCanBeThrownAwayWhileBonesGrow) {
+/// A workspace keeps no state, not even the lengths of a cached solver while a scale changes slowly.
+TEST(RigState, WorkspacesCanBeReplacedWhileBonesGrow) {
     Definition definition;
     definition.elements = {{.name = "size", .kind = ElementKind::Control, .control = Control{}},
                            {.name = "goal",

@@ -30,12 +30,12 @@ inline glm::dquat some_rotation(Random& random) {
     const double y = some_double(random, 1.0), z = some_double(random, 1.0);
     return rig::normalised({w, x, y, z});
 }
-/// 0.5 to 2 in magnitude, of either sign.
+/// A factor of magnitude 0.5 to 2, of either sign.
 inline double some_factor(Random& random) {
     const double size = std::exp2(some_double(random, 1.0));
     return random.chance(6) ? -size : size;
 }
-/// Half are scaled, some uniformly, some not.
+/// Half of them scaled, some uniformly, some not.
 inline rig::Transform some_transform(Random& random, double range = 2.0) {
     rig::Transform made;
     made.translation = some_vector(random, range);
@@ -59,13 +59,13 @@ inline double norm(const glm::dquat& q) {
 inline double distance(const glm::dvec3& a, const glm::dvec3& b) {
     return norm(glm::dvec3{a.x - b.x, a.y - b.y, a.z - b.z});
 }
-/// Between rotations, not quaternions: q and -q have distance 0.
+/// Distance between rotations, not quaternions: 0 for q and -q.
 inline double distance(const glm::dquat& a, const glm::dquat& b) {
     const double minus = norm(glm::dquat{a.w - b.w, a.x - b.x, a.y - b.y, a.z - b.z});
     const double plus = norm(glm::dquat{a.w + b.w, a.x + b.x, a.y + b.y, a.z + b.z});
     return std::min(minus, plus);
 }
-/// The maximum over translation, rotation and scale; translation and scale are relative if greater than 1.
+/// The maximum distance of translation, rotation and scale; relative for translation and scale above 1.
 inline double distance(const rig::Transform& a, const rig::Transform& b) {
     return std::max({distance(a.translation, b.translation) / std::max(1.0, norm(b.translation)),
                      distance(a.rotation, b.rotation),

@@ -12,9 +12,9 @@ constexpr rope::Settings weightless{.damping = 1.0f, .gravity = glm::vec3(0.0f),
 
 LABEL(slow, "RopeAir.ASailTakesItsCurve");
 
-/// A strip of cloth held at two edges bulges in a steady wind. The pressure on it falls with the cosine of
-/// its slope and its tension is the same everywhere, so it takes the curve y = -a log cos(x / a), of which
-/// half the length is a artanh sin(x / a) (the catenary of equal strength, G. Coriolis 1836).
+/// A strip of cloth held at two edges bulges in a steady wind. Its pressure falls with the cosine of the
+/// slope and its tension is uniform, so it takes the curve y = -a log cos(x / a), with a half length of a
+/// artanh sin(x / a) (the catenary of equal strength, G. Coriolis 1836).
 TEST(RopeAir, ASailTakesItsCurve) {
     for (const double chord : {0.9, 0.7}) {
         for (const float wind : {2.0f, 3.0f}) {
@@ -53,7 +53,7 @@ TEST(RopeAir, ASailTakesItsCurve) {
     }
 }
 
-/// A sheet of even mass that lies flat, of which each particle has what its triangles weigh.
+/// A flat sheet of even mass; each particle has the mass of its share of the triangles.
 World flat_sheet(int size, double density) {
     World world = world_with({.damping = 0.0f, .gusts = 0.0f, .still_air = true});
     world.add_cloth(
@@ -72,7 +72,7 @@ World flat_sheet(int size, double density) {
     return World(state);
 }
 
-/// It falls at the speed at which its drag is its weight; gravity of half a substep is not yet in it.
+/// At terminal speed drag equals weight; half a substep of gravity is not yet included.
 TEST(RopeAir, ASheetFallsAtItsTerminalSpeed) {
     for (const double density : {0.06, 0.2, 0.9}) {
         for (const int size : {2, 11}) {
@@ -114,8 +114,8 @@ TEST(RopeAir, HairLeansInTheWind) {
     }
 }
 
-/// What hangs in air at rest swings less and less; without air it goes on.
-TEST(RopeAir, ResistsWhereItIsAtRest) {
+/// In still air a pendulum's swing decays; without air it goes on.
+TEST(RopeAir, StillAirSlowsAPendulum) {
     double reach[2] = {};
     for (const bool still_air : {false, true}) {
         World world = world_with({.damping = 0.0f, .still_air = still_air});

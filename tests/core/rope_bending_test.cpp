@@ -5,8 +5,8 @@
 namespace tendril::test {
 namespace {
 
-/// A rod of 1 m that weighs `density` kg/m, clamped at the origin; it points along `way`. Two pinned
-/// particles clamp it in the middle of the link between them. Its tip weighs `tip` kg more.
+/// A rod of 1 m with `density` kg/m, clamped at the origin; it points along `way`. Two pinned particles clamp
+/// it in the middle of the link between them. Its tip has `tip` kg more.
 World clamped(int segments, const glm::vec3& way, float bending, float density, double tip, double substep) {
     World world = world_with({.substep = substep, .damping = 3.0f});
     const float length = static_cast<float>(segments) / (static_cast<float>(segments) - 0.5f);
@@ -55,9 +55,9 @@ TEST(RopeBendingTest, AColumnBucklesUnderItsOwnWeight) {
         }
 }
 
-/// Simply supported at both ends a rod sags by 5 q L^4 / (384 EI): here one end slides, hung on a long
+/// Simply supported at both ends, a rod sags by 5 q L^4 / (384 EI). Here one end slides, tied to a long
 /// thread.
-TEST(RopeBendingTest, ATiedRodIsAsStiff) {
+TEST(RopeBendingTest, ARodHungByATieIsAsStiff) {
     World world = world_with({.damping = 3.0f});
     world.add_rope("rod", {.segments = 32, .density = 0.1f, .bending = 2.0f, .pin_start = true});
     world.add_rope("thread", {.from = {1, 20, 0}, .to = {1, 0, 0}, .segments = 2, .pin_start = true});
@@ -110,7 +110,7 @@ TEST(RopeBendingTest, AStiffRopeSpansABall) {
     EXPECT_LT(end_height(0.0f), 0.0);
 }
 
-TEST(RopeBendingTest, OnlyARopeHasIt) {
+TEST(RopeBendingTest, OnlyRopesHaveBendingStiffness) {
     World world;
     world.add_rope("rope", {});
     world.add_cloth("cloth", {});

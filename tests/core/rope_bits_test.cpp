@@ -1,4 +1,4 @@
-// The same bits with every vector unit and without; no allocation in advance().
+// The same bits with every vector unit and with none; no allocation in advance().
 #include "memory.hpp"
 #include "rope_support.hpp"
 #include "tendril/ik/many.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 using rope::Solver;
 
-/// Equal ropes side by side, so that registers are full, half full and single; whips, contacts, a cloth.
+/// Equal ropes side by side, so that registers are full, half full and single; whips, contacts and a cloth.
 World wild_scene(const rope::Settings& settings) {
     World world = world_with(settings);
     Random random(101);
@@ -37,7 +37,7 @@ World wild_scene(const rope::Settings& settings) {
     return world;
 }
 
-/// Jerks pins to and fro, so that ropes crack like whips.
+/// Jerks pins back and forth, so that ropes crack like whips.
 void stir(World& world, Random& random) {
     for (int i = 0; i < 3; ++i) {
         const std::size_t which = random.below(world.state().pins.size());
@@ -48,7 +48,7 @@ void stir(World& world, Random& random) {
     world.move_collider("ball", random.point(0.4f) + glm::vec3(0, 0.6f, 0), 0.1);
 }
 
-TEST(RopeBits, EveryVectorUnitHasTheSame) {
+TEST(RopeBits, EveryVectorUnitGivesTheSame) {
     for (const rope::Settings& settings :
          {rope::Settings{}, rope::Settings{.compliance = 1e-3f, .friction = 0.1f},
           rope::Settings{.substep = 1.0 / 60.0, .damping = 0.0f}}) {
@@ -69,8 +69,8 @@ TEST(RopeBits, EveryVectorUnitHasTheSame) {
     }
 }
 
-/// A rope in one point: its system is singular, and the direct solver gets NaN.
-TEST(RopeBits, ARopeInOnePointIsFiniteInEveryUnit) {
+/// A rope with all particles at one point: its system is singular, and the direct solver gets NaN.
+TEST(RopeBits, ARopeAtOnePointIsFiniteInEveryUnit) {
     for (const int segments : {7, 18, 31}) {
         World first;
         first.add_rope({.from = {1, 2, 3}, .to = {1, 2, 3}, .segments = segments, .pin_start = true});
@@ -87,8 +87,8 @@ TEST(RopeBits, ARopeInOnePointIsFiniteInEveryUnit) {
     }
 }
 
-/// Once buffers have their size; near colliders and far from them.
-TEST(RopeBits, TimePassesWithoutMemory) {
+/// After buffers have reached their size; near and far from colliders.
+TEST(RopeBits, AdvancingAllocatesNothing) {
     for (const Solver solver : all_solvers) {
         World world = wild_scene({.solver = solver});
         world.move_collider("ball", {30, 30, 30});

@@ -13,7 +13,7 @@ const Capsule& capsule_of(const rope::World& world, rope::ColliderId id) {
     return std::get<Capsule>(world.find(id)->shape);
 }
 
-TEST(RopeCapsule, EndsMoveEvenlyAndArriveWhereTheyAreSent) {
+TEST(RopeCapsule, EndsMoveEvenlyToTheirGoals) {
     rope::World world;
     rope::Workspace workspace;
     const Capsule from{{0, 0, 0}, {0, 1, 0}, 0.1f}, to{{0.4f, 0, 0}, {0.4f, 0.2f, 0.8f}, 0.2f};
@@ -33,7 +33,7 @@ TEST(RopeCapsule, EndsMoveEvenlyAndArriveWhereTheyAreSent) {
     EXPECT_EQ(capsule_of(world, id), there) << "and stays";
 }
 
-TEST(RopeCapsule, OneThatOnlyMovesDoesWhatMovingAColliderDoes) {
+TEST(RopeCapsule, ATranslatedCapsuleEqualsAMovedCollider) {
     rope::World moved, turned;
     rope::Workspace workspace;
     const Capsule from{{-1, 0, 0}, {1, 0, 0}, 0.1f};
@@ -50,13 +50,13 @@ TEST(RopeCapsule, OneThatOnlyMovesDoesWhatMovingAColliderDoes) {
         EXPECT_LE(glm::length(moved.position(i) - turned.position(i)), 1e-6) << i;
 }
 
-/// A bar that swings through a fast quarter turn pushes a rope in its path, however thin it is.
-TEST(RopeCapsule, PushesWhatItMeetsWhileItTurns) {
+/// A bar that swings through a fast quarter turn pushes a rope in its path, at any thickness.
+TEST(RopeCapsule, ATurningCapsulePushesARope) {
     rope::World world;
     rope::Workspace workspace;
     const Capsule from{{0, 0, 0}, {1, 0, 0}, 0.02f}, to{{0, 0, 0}, {0, 0, 1}, 0.02f};
     const rope::ColliderId id = *world.add_collider(from);
-    // Its end moves along a line: half way it reaches 0.71 m, and the rope hangs at 0.57 m.
+    // Its end moves along a line: half way it reaches 0.71 m; the rope hangs at 0.57 m.
     const rope::BodyId line = *world.add_rope({.from = {0.4f, 1, 0.4f},
                                                .to = {0.4f, -0.5f, 0.4f},
                                                .segments = 30,
@@ -72,15 +72,15 @@ TEST(RopeCapsule, PushesWhatItMeetsWhileItTurns) {
                 std::max(deepest, 0.01 - surface_distance(world.find(id)->shape, world.position(p)).distance);
     }
     EXPECT_LT(deepest, 1e-4);
-    // The bar pushed the rope along: near the bar's height, none of it is behind the bar.
+    // The bar pushed the rope along: at the height of the bar, none of it is behind the bar.
     for (std::size_t p = first; p < first + count; ++p)
         if (std::abs(world.position(p).y) < 0.05) {
             EXPECT_LT(world.position(p).x, 0.1) << p;
         }
 }
 
-/// Friction moves what lies on it with the surface below, and not where the surface is still.
-TEST(RopeCapsule, TakesAlongWhatLiesOnItAsFarAsThatPointMoves) {
+/// Friction moves a body with the surface point below it, and not where the surface is at rest.
+TEST(RopeCapsule, CarriesABodyAsFarAsThePointBelowItMoves) {
     rope::World world;
     rope::Workspace workspace;
     rope::Settings settings;
@@ -93,7 +93,7 @@ TEST(RopeCapsule, TakesAlongWhatLiesOnItAsFarAsThatPointMoves) {
         lying[i] = *world.add_rope(
             {.from = {x - 0.05f, 0.11f, 0}, .to = {x + 0.05f, 0.11f, 0}, .segments = 2, .radius = 0.01f});
     }
-    // End b moves sideways, end a stays.
+    // End b moves sideways, end a is fixed.
     ASSERT_TRUE(world.move_capsule(id, {{0, 0, 0}, {2, 0, 0.3f}, 0.1f}, 0.5));
     world.advance(0.25, workspace);
     world.advance(0.25, workspace);
@@ -101,7 +101,7 @@ TEST(RopeCapsule, TakesAlongWhatLiesOnItAsFarAsThatPointMoves) {
     EXPECT_NEAR(world.position(*world.particle(lying[1], 1)).z, 0.285, 0.03);
 }
 
-TEST(RopeCapsule, RefusesWhatIsNone) {
+TEST(RopeCapsule, RefusesInvalidMoves) {
     rope::World world;
     const rope::ColliderId ball = *world.add_collider(rope::Sphere{});
     const rope::ColliderId bar = *world.add_collider(Capsule{});

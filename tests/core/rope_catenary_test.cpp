@@ -1,4 +1,4 @@
-// A rope that hangs from both ends comes to rest as a catenary. Relaxation misses it by a known amount.
+// A rope that hangs from both ends comes to rest as a catenary. Relaxation misses it by a known error.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -16,7 +16,7 @@ using rope::Solver;
 struct Hung {
     float span, length;
     int segments;
-    double sag;  ///< of the catenary
+    double sag;  ///< sag of the catenary
 };
 
 std::vector<Hung> own_cases() {
@@ -26,13 +26,13 @@ std::vector<Hung> own_cases() {
     return cases;
 }
 
-/// The present relative error of the sag.
+/// The current relative error of the sag.
 double sag_error(const World& world, const Hung& hung) {
     return -lowest(world) / hung.sag - 1.0;
 }
 
-/// The default damping, 0.1 per second, halves a swing in 14 s: released on its parabola, a rope swings by 2
-/// % of its sag for a while, is within 1 % after 25 s and within 0.2 % after a minute.
+/// The default damping of 0.1 per second halves a swing in 14 s. Released on its parabola, a rope swings by 2
+/// % of its sag at first, is within 1 % after 25 s and within 0.2 % after a minute.
 void check_defaults(const std::vector<Hung>& cases) {
     for (const Hung& hung : cases) {
         SCOPED_TRACE(std::to_string(hung.span) + " m, " + std::to_string(hung.length) + " m of rope");
@@ -52,11 +52,11 @@ void check_defaults(const std::vector<Hung>& cases) {
     }
 }
 
-TEST(RopeCatenary, OfTheSpec) {
+TEST(RopeCatenary, CasesOfTheSpecification) {
     check_defaults(own_cases());
 }
 
-TEST(RopeCatenary, OfAnIndependentSource) {
+TEST(RopeCatenary, CasesOfAnIndependentSource) {
     const auto path = reference_path("rope.json");
     std::ifstream file(path);
     if (!file) GTEST_SKIP() << path << " is not there";
@@ -65,7 +65,7 @@ TEST(RopeCatenary, OfAnIndependentSource) {
     for (const auto& json : reference.at("catenary")) {
         const Hung hung{json.at("span").get<float>(), json.at("length").get<float>(),
                         json.at("segments").get<int>(), json.at("sag").get<double>()};
-        EXPECT_NEAR(hung.sag, catenary_sag(hung.span, hung.length), 1e-6);  // the theory is the same
+        EXPECT_NEAR(hung.sag, catenary_sag(hung.span, hung.length), 1e-6);  // both have the same theory
         const auto same = [&](const Hung& own) { return own.span == hung.span && own.length == hung.length; };
         const std::vector<Hung> own = own_cases();
         if (std::none_of(own.begin(), own.end(), same))
@@ -74,7 +74,7 @@ TEST(RopeCatenary, OfAnIndependentSource) {
     check_defaults(cases);
 }
 
-TEST(RopeCatenary, OfAnySpanAndLength) {
+TEST(RopeCatenary, AnySpanAndLength) {
     Random random(41);
     for (int i = 0; i < 8; ++i) {
         const float span = 0.3f + 0.7f * std::abs(random.around(1.0f));
@@ -83,15 +83,15 @@ TEST(RopeCatenary, OfAnySpanAndLength) {
         World world = world_with({.damping = 1.0f});
         hang_between(world, span, length, segments);
         run(world, 20.0);
-        // A polygon hangs slightly less deep than a curve of its length.
+        // A polygon hangs slightly higher than a curve of its length.
         const Hung hung{span, length, segments, catenary_sag(span, length)};
         EXPECT_LE(std::abs(sag_error(world, hung)), 0.005) << span << ' ' << length << ' ' << segments;
         EXPECT_LE(stretch(world), 1e-5);
     }
 }
 
-/// Pins above one another, and both in one point: no curve at all.
-TEST(RopeCatenary, WithoutWidthHangsStraightDown) {
+/// Pins above one another, or both at one point: no curve at all.
+TEST(RopeCatenary, WithoutASpanItHangsStraightDown) {
     for (const float lower : {0.0f, 0.5f}) {
         World world = world_with({.damping = 1.0f});
         world.add_rope("rope", {.from = {0, 0, 0},
@@ -101,13 +101,13 @@ TEST(RopeCatenary, WithoutWidthHangsStraightDown) {
                                 .pin_start = true,
                                 .pin_end = true});
         run(world, 10.0);
-        EXPECT_NEAR(lowest(world), -0.5 * (2.0 + lower), 0.05);  // to a segment
+        EXPECT_NEAR(lowest(world), -0.5 * (2.0 + lower), 0.05);  // to within a segment
         EXPECT_LE(stretch(world), 1e-4);
     }
 }
 
-/// The measured excess sag of relaxation: it must remain the plain method.
-TEST(RopeCatenary, PlainRelaxationSagsByWhatItAlwaysDid) {
+/// The measured excess sag of relaxation: it must not change.
+TEST(RopeCatenary, PlainRelaxationSagsByItsKnownAmount) {
     struct Measured {
         int iterations;
         double substep, too_much;
@@ -127,7 +127,7 @@ TEST(RopeCatenary, PlainRelaxationSagsByWhatItAlwaysDid) {
 }
 
 /// Far from the origin, floats cannot resolve a rope's motion; doubles can.
-TEST(RopeCatenary, AThousandKilometresOut) {
+TEST(RopeCatenary, AThousandKilometresOutItHangsTheSame) {
     World world = world_with({.damping = 1.0f});
     const float far = 1e6f - 8.0f;
     world.add_rope("rope", {.from = {far, 0, -far},

@@ -18,8 +18,8 @@ inline bool pierces(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& 
            glm::dot(glm::cross(a - c, x - c), n) > 0.0;
 }
 
-/// How many segments of bodies that collide pierce a triangle of a whole cloth, but for those within two
-/// particles of it.
+/// The number of segments of colliding bodies that pierce a triangle of a whole cloth, except for those
+/// within two particles of it.
 inline int pierced(const World& world) {
     const rope::State& state = world.state();
     const auto body_of = [&](std::size_t i) -> const rope::Body& {

@@ -12,8 +12,8 @@ namespace {
 
 using glm::dvec3;
 
-/// One fold of a cloth along 0: layers `gap` apart, and half a circle between them. `at` becomes the place
-/// along the layers, and the result the height above the lower one.
+/// Folds a cloth at 0: layers `gap` apart with half a circle between them. Sets `at` to the position along
+/// the layers and returns the height above the lower one.
 double fold(double& at, double gap) {
     const double quarter = 0.25 * pi * gap;
     if (std::abs(at) >= quarter) {
@@ -26,7 +26,7 @@ double fold(double& at, double gap) {
     return 0.5 * gap * (1.0 + std::sin(turned));
 }
 
-/// A cloth folded in four that lies on the ground.
+/// A cloth folded in four, lying on the ground.
 World folded(int size, float radius) {
     World world;
     world.add_collider("ground", rope::Plane{{0, 0, 0}, {0, 1, 0}});
@@ -61,7 +61,7 @@ TEST(RopeClothCollision, FoldedInFourItKeepsTheThicknessOfItsLayers) {
     for (int second = 1; second <= 30; ++second) {
         were = world.state().position;
         run(world, 1.0);
-        // Four particles that lie above each other, far from the creases.
+        // Four particles above each other, far from the creases.
         const auto height = [&](int column, int row) {
             return world.core().position(static_cast<std::size_t>(row * size + column)).y / (2.0 * radius);
         };
@@ -112,7 +112,7 @@ World hammock() {
     return world;
 }
 
-TEST(RopeClothCollision, ARopeAndAClothLieOnAnother) {
+TEST(RopeClothCollision, ARopeAndAClothRestOnACloth) {
     World world = hammock();
     for (int frame = 0; frame < 240; ++frame) {
         if (frame == 10) {
@@ -125,8 +125,8 @@ TEST(RopeClothCollision, ARopeAndAClothLieOnAnother) {
     for (const char* each : {"rope", "small"})
         for (const dvec3& p : points_of(world, each)) EXPECT_GT(p.y, 0.6) << each;
     EXPECT_LT(world.length_error(),
-              0.025);  // contacts are projected in turns with lengths, which leaves 2.2 %
-    // It carries them: without them it sags less.
+              0.025);  // contacts and lengths are projected in turns, which leaves 2.2 %
+    // Both load it: without them it sags less.
     const double loaded = lowest(world);
     world.remove("rope");
     world.remove("small");

@@ -8,7 +8,7 @@ namespace {
 
 using rope::ClothShape;
 
-/// Horizontal at the height of the origin, 1 m along each side.
+/// A horizontal cloth at the height of the origin, 1 m along each side.
 ClothShape flat(int side, ClothShape::Pins pins) {
     return {.corner = {0, 0, 0},
             .along = {1, 0, 0},
@@ -18,7 +18,7 @@ ClothShape flat(int side, ClothShape::Pins pins) {
             .pins = pins};
 }
 
-/// The maximum over all frames.
+/// The maximum stretch over all frames.
 double worst_stretch(World& world, double seconds) {
     double worst = 0.0;
     for (int i = 0; i < static_cast<int>(seconds * 60.0); ++i) {
@@ -43,7 +43,7 @@ TEST(RopeClothSizes, HangsByTwoCornersWithinOnePercent) {
     }
 }
 
-/// Solved exactly it has -1.28 J per kilogram after a second; what a step leaves unsolved takes little.
+/// An exact solution has -1.28 J per kilogram after a second; the unsolved rest of a step takes little.
 TEST(RopeClothSizes, SwingsWithNearlyAllOfItsEnergy) {
     for (const int side : {30, 32, 34}) {
         World world;
@@ -53,7 +53,7 @@ TEST(RopeClothSizes, SwingsWithNearlyAllOfItsEnergy) {
     }
 }
 
-/// Falling onto it, folding over it, and at rest.
+/// The cloth falls onto the ball, folds over it, and comes to rest.
 TEST(RopeClothSizes, FallsOnABallWithinOnePercent) {
     const struct {
         int side;
@@ -68,7 +68,7 @@ TEST(RopeClothSizes, FallsOnABallWithinOnePercent) {
     }
 }
 
-/// It falls freely: the middle of its free edge is where that of a swinging door would be.
+/// In free fall, the middle of the free edge is where a swinging door's would be.
 TEST(RopeClothSizes, FallsAsFastAtAnyResolution) {
     for (const int side : {4, 12, 24, 48}) {
         World world;
@@ -101,8 +101,8 @@ TEST(RopeClothSizes, ACornerThatIsPulledFastComesBack) {
     }
 }
 
-/// It slides down a slope like a rigid body; if friction holds it, it creeps by a few mm/s.
-TEST(RopeClothSizes, SlidesWhereFrictionDoesNotHoldIt) {
+/// It slides down a slope like a rigid body; held by friction, it creeps by a few mm/s.
+TEST(RopeClothSizes, SlidesUnlessFrictionHoldsIt) {
     const double angle = 20.0 * pi / 180.0;
     const glm::vec3 normal(static_cast<float>(std::sin(angle)), static_cast<float>(std::cos(angle)), 0.0f);
     const glm::vec3 down_slope(normal.y, -normal.x, 0.0f);
@@ -146,7 +146,7 @@ TEST(RopeClothSizes, LinksDoNotPassASmallBall) {
     EXPECT_GT(world.position(12).y, -0.6f);  // still hanging over it
 }
 
-TEST(RopeClothSizes, HasTheSameBitsInEveryUnit) {
+TEST(RopeClothSizes, GivesTheSameBitsInEveryUnit) {
     for (const int side : {2, 3, 7, 17, 40}) {
         World first;
         first.add_collider("ball", rope::Sphere{{0.5f, -0.4f, 0.5f}, 0.3f});
@@ -162,7 +162,7 @@ TEST(RopeClothSizes, HasTheSameBitsInEveryUnit) {
     }
 }
 
-/// With particles of any mass at any position.
+/// Particles have any mass and position.
 TEST(RopeClothSizes, StaysFiniteFromAnyState) {
     Random random(7);
     for (int i = 0; i < 60; ++i) {

@@ -1,4 +1,4 @@
-// Cloth and hair on the same solver: cloth tears where it is pulled, hair follows a head.
+// Cloth and hair on the same solver: cloth tears where it is pulled, and hair follows a head.
 #include <glm/gtc/quaternion.hpp>
 
 #include "rope_support.hpp"
@@ -79,7 +79,7 @@ TEST(RopeCloth, LiesOnABall) {
     EXPECT_LT(lowest(world), -0.4);
 }
 
-/// Pulled at one corner beyond its strength: it tears there and nowhere else.
+/// Pulled at one corner beyond its strength, it tears there and nowhere else.
 TEST(RopeCloth, TearsWhereItIsPulled) {
     World world;
     world.add_cloth("cloth", {.columns = 8, .rows = 8, .tear = 0.2f, .pins = ClothShape::Pins::Row});
@@ -98,13 +98,13 @@ TEST(RopeCloth, TearsWhereItIsPulled) {
         return std::count_if(world.state().links.begin(), world.state().links.end(),
                              [&](const Link& link) { return link.a == particle || link.b == particle; });
     };
-    EXPECT_GE(touches(0), 3);  // of 5: shear links bear less
+    EXPECT_GE(touches(0), 3);  // of 5: shear links are weaker
     EXPECT_LT(touches(54), 12);
     EXPECT_NO_THROW(World{world.state()});
 }
 
 /// Cloth of minimal strength tears at once; cloth that must not tear never does.
-TEST(RopeCloth, TearsOnlyWhereItMay) {
+TEST(RopeCloth, TearsOnlyIfItMay) {
     for (const float tear : {0.0f, 0.01f}) {
         World world;
         world.add_cloth("cloth", {.columns = 6, .rows = 6, .tear = tear, .pins = ClothShape::Pins::Corners});
@@ -173,7 +173,7 @@ TEST(RopeHair, FollowsItsCollider) {
 }
 
 /// Bend links keep hair from hanging straight down: stiffer hair stands out further.
-TEST(RopeHair, StandsOutTheStifferItIs) {
+TEST(RopeHair, StifferHairStandsOutFurther) {
     double reach[2];
     const float bends[] = {1e-3f, 10.0f};
     for (int i = 0; i < 2; ++i) {

@@ -1,4 +1,4 @@
-// The four shapes of colliders: distances, normals, and never a NaN.
+// The four shapes of colliders: distances, normals, and no NaN.
 #include <glm/gtc/quaternion.hpp>
 
 #include "rope_support.hpp"
@@ -20,7 +20,7 @@ void expect_surface(const Shape& shape, const dvec3& point, double distance, con
     EXPECT_LE(glm::length(surface.normal - normal), 1e-6);
 }
 
-TEST(RopeCollider, KnowsItsSurface) {
+TEST(RopeCollider, DistanceAndNormalOfEachShape) {
     expect_surface(Sphere{{1, 0, 0}, 0.5f}, {3, 0, 0}, 1.5, {1, 0, 0});
     expect_surface(Sphere{{1, 0, 0}, 0.5f}, {1, -0.1, 0}, -0.4, {0, -1, 0});
     expect_surface(Capsule{{0, 0, 0}, {0, 2, 0}, 0.25f}, {1, 1, 0}, 0.75, {1, 0, 0});
@@ -49,7 +49,7 @@ std::vector<Shape> thin_shapes() {
             Plane{{1, 2, 3}, {1e-6f, 0, 0}}};
 }
 
-TEST(RopeCollider, HasAWayOutWhereThereIsNoTelling) {
+TEST(RopeCollider, DegenerateShapesStillGiveANormal) {
     for (const Shape& shape : thin_shapes()) {
         const dvec3 middle(centre(shape));
         for (const dvec3& off :
@@ -61,8 +61,8 @@ TEST(RopeCollider, HasAWayOutWhereThereIsNoTelling) {
     }
 }
 
-/// From the centre, the axis, an edge, a corner: moving along the normal by the distance ends on the surface.
-TEST(RopeCollider, TheWayOutEndsOnTheSurface) {
+/// From the centre, the axis, an edge or a corner: the distance along the normal leads to the surface.
+TEST(RopeCollider, DistanceAndNormalLeadToTheSurface) {
     const Shape shapes[] = {Sphere{{0, 0, 0}, 0.5f}, Capsule{{-1, 0, 0}, {1, 0.5f, 0}, 0.3f},
                             Box{{0, 0, 0}, {0.5f, 0.5f, 0.5f}, glm::quat(0.9f, 0.1f, 0.2f, 0.3f)},
                             Plane{{0, 0.1f, 0}, {1, 2, 3}}};
@@ -74,7 +74,7 @@ TEST(RopeCollider, TheWayOutEndsOnTheSurface) {
             const SurfaceDistance surface = surface_distance(shape, point);
             const dvec3 on = point - surface.distance * surface.normal;
             EXPECT_NEAR(surface_distance(shape, on).distance, 0.0, 1e-7) << kind(shape);
-            // Nothing is nearer in any direction.
+            // No direction leads closer than the distance.
             const dvec3 aside = point + dvec3(random.point(1.0f)) * (0.5 * std::abs(surface.distance));
             EXPECT_LE(std::abs(surface_distance(shape, aside).distance - surface.distance),
                       glm::length(aside - point) + 1e-9)

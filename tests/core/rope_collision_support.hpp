@@ -1,4 +1,4 @@
-// Shared by tests of bodies that collide: crossed ropes, knots, and whether they are still intact.
+// Shared by tests of bodies that collide: crossed ropes, knots, and whether they still hold.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +42,7 @@ inline double segment_distance(const glm::dvec3& a0, const glm::dvec3& a1, const
     return best;
 }
 
-/// Between the centre lines of two ropes.
+/// The smallest distance between the centre lines of two ropes.
 inline double distance_between(const World& world, const char* a, const char* b) {
     const std::vector<glm::dvec3> p = points_of(world, a), q = points_of(world, b);
     double best = std::numeric_limits<double>::infinity();
@@ -52,10 +52,10 @@ inline double distance_between(const World& world, const char* a, const char* b)
     return best;
 }
 
-/// The Gauss linking integral of two polygons over 4 pi: of two closed ones how often they are linked, an
-/// integer, which changes by one where segments pass through each other. Of open ones it changes by one in
-/// the same way, and continuously as they move. Exact for each pair of segments (A. Banchoff, 1976; the
-/// formula of K. Klenin, J. Langowski, 2000).
+/// The Gauss linking integral of two polygons over 4 pi. For closed ones it is an integer, how often they are
+/// linked, and changes by one if segments pass through each other. For open ones it also jumps by one, and
+/// otherwise changes continuously. Exact for each pair of segments (A. Banchoff, 1976; formula by K. Klenin,
+/// J. Langowski, 2000).
 inline double gauss_integral(const std::vector<glm::dvec3>& p, const std::vector<glm::dvec3>& q) {
     double sum = 0.0;
     for (std::size_t i = 0; i + 1 < p.size(); ++i)
@@ -80,9 +80,9 @@ inline double gauss_integral(const std::vector<glm::dvec3>& p, const std::vector
     return sum / (4.0 * pi);
 }
 
-/// The determinant of the knot that a polygon makes, closed in front of all of it, as seen along a general
-/// direction: 1 of an unknotted one, 3 of a trefoil, 5 of a figure eight (Fox's colourings). Segments that
-/// pass through each other change it.
+/// The knot determinant of a polygon that is closed in front of all of it, as seen along a general direction:
+/// 1 if unknotted, 3 for a trefoil, 5 for a figure eight (Fox's colourings). Segments that pass through each
+/// other change it.
 inline int knot_determinant(std::vector<glm::dvec3> p) {
     const glm::dvec3 towards = glm::normalize(glm::dvec3(0.117, 0.293, 0.871));
     const glm::dvec3 right = glm::normalize(glm::cross(towards, glm::dvec3(0.31, 0.95, 0.02)));
@@ -95,7 +95,7 @@ inline int knot_determinant(std::vector<glm::dvec3> p) {
     const std::size_t count = p.size();
     const auto end_of = [&](std::size_t i) { return p[(i + 1) % count]; };
     struct Crossing {
-        double over, under;  // where along the polygon
+        double over, under;  // positions along the polygon
     };
     std::vector<Crossing> crossings;
     for (std::size_t i = 0; i < count; ++i)

@@ -18,10 +18,10 @@ namespace {
 using glm::dvec3;
 
 constexpr float radius = 0.01f;
-const char* const below = "rope";  // as the test's World names them
+const char* const below = "rope";  // its name in the test's World
 const char* const on_top = "rope 2";
 
-/// A rope with weights at its ends is dropped on another one, across it.
+/// A rope with weights at its ends, dropped across another one.
 World crossed(int segments, double weight = 1.0) {
     World world;
     world.add_rope(below, {.from = {-0.5f, 1, 0},
@@ -43,7 +43,7 @@ World crossed(int segments, double weight = 1.0) {
     return World(std::move(state));
 }
 
-/// A rope closed by a detour far up or down.
+/// Closes a rope by a detour far up or down.
 std::vector<dvec3> closed(std::vector<dvec3> points, double height) {
     const dvec3 first = points.front(), last = points.back();
     points.push_back({last.x, height, last.z});
@@ -51,7 +51,7 @@ std::vector<dvec3> closed(std::vector<dvec3> points, double height) {
     points.push_back(first);
     return points;
 }
-/// How often the two are linked if the lower one is closed far above and the upper one far below.
+/// The linking number if the lower rope is closed far above and the upper one far below.
 int linked(const World& world) {
     return static_cast<int>(std::lround(
         gauss_integral(closed(points_of(world, below), 100), closed(points_of(world, on_top), -100))));
@@ -102,7 +102,7 @@ TEST(RopeCollision, AtRestTheyKeepTheirThickness) {
     EXPECT_LT(apart, 1.02 * 2 * radius);
     ASSERT_FALSE(world.state().contacts.empty());
     EXPECT_LT(stretch(world, on_top), 1e-3);
-    // What they carry is the upper one's weight.
+    // The contacts carry the upper rope's weight.
     dvec3 force(0.0);
     for (const rope::BodyContact& contact : world.state().contacts) force += contact.force;
     double mass = 0.0;
@@ -251,7 +251,7 @@ TEST(RopeCollision, ThreadsGiveTheSameBits) {
     EXPECT_TRUE(same_bits(alone.state(), shared.state()));
 }
 
-TEST(RopeCollision, WhatIsNearIsFoundWhateverTheWorkspaceRemembers) {
+TEST(RopeCollision, ContactsDoNotDependOnTheWorkspacesMemory) {
     World world = crossed(48, 0.3);
     collide(world, on_top, on_top);
     rope::World afresh = world.core();
@@ -270,7 +270,7 @@ TEST(RopeCollision, WhatIsNearIsFoundWhateverTheWorkspaceRemembers) {
 TEST(RopeCollision, OtherSolversAndTiedRopesDoNotPassEither) {
     for (const rope::Solver solver : all_solvers) {
         World world = crossed(32, 0.2);
-        if (solver == rope::Solver::Direct) {  // tied: the ends of the lower one to each other
+        if (solver == rope::Solver::Direct) {  // the ends of the lower one, to each other
             const rope::Body lower = *world.find(below);
             allow(world.core().tie(lower.first, lower.first + lower.count - 1, {.length = 1.0f}).error());
         }
@@ -295,7 +295,7 @@ TEST(RopeCollision, EditsKeepThePairs) {
     run(world, 0.5);
     const std::string rest = world.cut(on_top, 3);
     EXPECT_TRUE(world.collides(lower, world.id(rest)));
-    EXPECT_FALSE(world.collides(upper, world.id(rest)));  // the whole did not collide with itself
+    EXPECT_FALSE(world.collides(upper, world.id(rest)));  // it did not collide with itself before
     world.remove(below);
     EXPECT_TRUE(world.state().collisions.empty());
     EXPECT_TRUE(world.state().contacts.empty());
@@ -307,7 +307,7 @@ TEST(RopeCollision, EditsKeepThePairs) {
     EXPECT_FALSE(world.collides(upper, upper));
 }
 
-TEST(RopeCollision, RefusesWhatCannotCollide) {
+TEST(RopeCollision, RefusesBodiesThatCannotCollide) {
     World world = crossed(4);
     const rope::BodyId lower = world.id(below);
     const auto hair = world.core().add_hair({.roots = {{}}});
@@ -360,7 +360,7 @@ World thrown(Random& random) {
     return world;
 }
 
-/// How deep anything is in a collider, metres: so high a resting one may lift it.
+/// Penetration of the deepest point in a collider, metres: resting colliders may lift it by as much.
 double depth(const World& world) {
     double deepest = 0.0;
     const auto& at = world.state().position;
@@ -395,7 +395,7 @@ void play_thrown(int seed) {
         std::vector<std::vector<dvec3>> now = ropes();
         for (std::size_t a = 0; a < now.size(); ++a)
             for (std::size_t b = a + 1; b < now.size(); ++b) {
-                // Where two segments pass through each other, the integral jumps by one.
+                // If two segments pass through each other, the integral jumps by one.
                 const double change = gauss_integral(now[a], now[b]) - gauss_integral(before[a], before[b]);
                 ASSERT_LT(std::abs(change), 0.6) << "substep " << substep;
             }
@@ -403,7 +403,7 @@ void play_thrown(int seed) {
         if (substep % 4 == 3) {
             ASSERT_EQ(pierced(world), 0) << "substep " << substep;
         }
-        // Ties that close do work.
+        // Closing ties do work.
         if (world.settings().solver != rope::Solver::Direct || !world.state().ties.empty()) continue;
         ASSERT_LT(world.energy() - energy, (0.01 + deep) * all) << "substep " << substep;
     }
@@ -413,8 +413,8 @@ TEST(RopeCollision, NothingPassesInRandomScenes) {
     for (int seed = 0, end = rounds(100); seed < end; ++seed) play_thrown(seed);
 }
 
-TEST(RopeCollision, ContactsFollowTheParticlesOfRopesThatAreDividedAnew) {
-    // A rope that takes no part comes first, so that its particles move the numbers of the others.
+TEST(RopeCollision, ContactsFollowResampledRopes) {
+    // The first rope takes no part, and its particles shift the indices of the others.
     World world;
     world.add_rope("first", {.from = {5, 0, 0}, .to = {6, 0, 0}, .segments = 8});
     world.add_rope(below, {.from = {-0.5f, 1, 0},
@@ -442,8 +442,8 @@ TEST(RopeCollision, ContactsFollowTheParticlesOfRopesThatAreDividedAnew) {
     EXPECT_TRUE(anew->world.state().contacts.empty());
 }
 
-// Chains are sorted by island after collisions are noted: a body between two that collide renumbers them.
-TEST(RopeCollision, WhatLiesBetweenTwoInTheListOfBodiesChangesNothing) {
+// Chains are sorted by island after collisions are found: a body between two that collide renumbers them.
+TEST(RopeCollision, ABodyBetweenTwoOthersInTheListChangesNothing) {
     const auto fallen = [](bool between) {
         World world;
         world.add_rope(below, {.from = {-0.5f, 1, 0},

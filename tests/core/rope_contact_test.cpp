@@ -29,7 +29,7 @@ double deepest(const World& world) {
     return most;
 }
 
-/// The distance of a point from the axis of a rope, metres.
+/// Distance of a point from the axis of a rope, metres.
 double nearest_segment(const World& world, const dvec3& point) {
     double least = 1e9;
     for (const rope::Link& link : world.state().links) {
@@ -56,9 +56,9 @@ const Still still_shapes[] = {
     {"box of no thickness", Box{{0, 0, 0}, {0.5f, 0, 0.5f}, glm::quat(1, 0, 0, 0)}},
 };
 
-/// Dropped onto it, or started with the middle inside it, with particles on the centre, the axis and the
+/// Ropes dropped onto a collider, or with the middle inside it and particles on the centre, the axis and the
 /// edges; with and without a radius.
-TEST(RopeContact, NothingStaysInsideAnyKind) {
+TEST(RopeContact, NothingStaysInsideAnyShape) {
     for (const Solver solver : all_solvers)
         for (const Still& still : still_shapes)
             for (const float height : {0.8f, 0.0f})
@@ -77,7 +77,7 @@ TEST(RopeContact, NothingStaysInsideAnyKind) {
                 }
 }
 
-TEST(RopeContact, NorAnyKindThatMoves) {
+TEST(RopeContact, NothingStaysInsideAMovingShape) {
     for (const Solver solver : all_solvers)
         for (const Still& still : still_shapes) {
             if (size(still.shape) == 0.0f) continue;
@@ -97,8 +97,8 @@ TEST(RopeContact, NorAnyKindThatMoves) {
         }
 }
 
-/// A free end that its pinned neighbour pulls below the ground comes out 1 m away, under a ball.
-TEST(RopeContact, WhatComesOutOfOneDoesNotEndInAnother) {
+/// A free end is pulled below the ground by its pinned neighbour and comes out 1 m away, under a ball.
+TEST(RopeContact, LeavingOneColliderDoesNotEndInAnother) {
     for (const Solver solver : all_solvers) {
         World world = world_with({.solver = solver});
         world.add_collider("ground", Plane{});
@@ -119,7 +119,7 @@ TEST(RopeContact, LiesOnTheGround) {
             EXPECT_NEAR(world.position(i).y, 0.03, 1e-3) << name(solver);
             EXPECT_LE(glm::length(glm::dvec3(world.velocity(i))), 5e-3) << name(solver);
         }
-        // The solver leaves no error; depenetration and friction add little.
+        // The solver leaves no error; depenetration and friction add only a little.
         EXPECT_LE(world.find("rope")->stretch, 1e-3) << name(solver);
         EXPECT_LE(stretch(world), 5e-3) << name(solver);
     }
@@ -138,7 +138,7 @@ TEST(RopeContact, DrapesOverASphere) {
     EXPECT_NEAR(std::abs(world.position(64).x), 0.42, 0.05);
 }
 
-/// Half its radius per substep: the fastest speed at which the spec requires a taut rope to be carried.
+/// Half the sphere's radius per substep: the spec requires a taut rope to be carried up to this speed.
 TEST(RopeContact, AFastSphereCarriesATautRope) {
     const float radius = 0.3f;
     for (const Solver solver : all_solvers)
@@ -197,14 +197,14 @@ TEST(RopeContact, ASmallSphereDoesNotSlipThroughASegment) {
                     nearest = std::min(
                         nearest, nearest_segment(world, dvec3(centre(world.find_collider("ball")->shape))));
                 });
-                // Relaxation yields a little: the adjacent segments pull back.
+                // Relaxation gives way a little: the neighbouring segments pull back.
                 const double asked = static_cast<double>(radius) + 0.02;
                 EXPECT_GE(nearest, asked - 0.15 * asked) << name(solver) << ' ' << radius << ' ' << aside;
                 EXPECT_GT(world.position(2).y, low) << name(solver) << ' ' << radius << ' ' << aside;
             }
 }
 
-/// The same for a thin rod and a thin plank, which could pass between particles.
+/// The same for a thin rod and a thin plank, which could slip between particles.
 TEST(RopeContact, ASegmentHangsOverAThinRod) {
     const Shape thin[] = {Capsule{{0.05f, 0, -1}, {0.05f, 0, 1}, 0.02f},
                           Box{{0.05f, 0, 0}, {0.02f, 0.02f, 1.0f}, glm::quat(1, 0, 0, 0)}};
@@ -221,7 +221,7 @@ TEST(RopeContact, ASegmentHangsOverAThinRod) {
 }
 
 /// A fast rope that passes a ball must not be stopped, even if it crosses the ball's bounding box.
-TEST(RopeContact, AThrownRopeFliesPast) {
+TEST(RopeContact, AThrownRopeFliesPastABall) {
     for (const float from : {0.9f, 0.5f}) {
         std::array<World, 2> worlds{world_with({.gravity = {0, 0, 0}}), world_with({.gravity = {0, 0, 0}})};
         for (World& world : worlds) {
@@ -239,7 +239,7 @@ TEST(RopeContact, AThrownRopeFliesPast) {
     }
 }
 
-/// Past the end of a long slanted bar, through its bounding box, with few iterations.
+/// The same past the end of a long slanted bar, with few iterations.
 TEST(RopeContact, AThrownRopeFliesPastABar) {
     for (const int iterations : {1, 2, 3, 16}) {
         std::array<World, 2> worlds{world_with({.iterations = iterations, .gravity = {0, 0, 0}}),

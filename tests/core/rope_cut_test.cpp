@@ -13,7 +13,7 @@ using rope::Body;
 using rope::BodyId;
 using rope::Link;
 
-/// Its pieces: the cloth itself first, and then what came off.
+/// Cuts a cloth and returns the pieces: the cloth itself first.
 std::vector<BodyId> cut(rope::World& world, BodyId cloth, std::span<const rope::ClothLine> lines) {
     rope::Edited edited = allowed(rope::cut_cloth(world, cloth, lines));
     world = std::move(edited.world);
@@ -60,7 +60,7 @@ void expect_parted(const rope::State& state) {
     }
 }
 
-/// What falls off is a cloth of its own: its motion, pins and ties stay with its particles, and the grids are
+/// A piece that falls off is a cloth of its own: motion, pins and ties stay with its particles, and grids are
 /// no larger than the pieces.
 TEST(RopeCut, APieceIsAClothOfItsOwn) {
     rope::World world;
@@ -100,8 +100,8 @@ TEST(RopeCut, APieceIsAClothOfItsOwn) {
     for (const BodyId each : pieces) EXPECT_LT(world.length_error(*world.find(each)), 0.03);
 }
 
-/// A slit parts nothing; a ring leaves a hole, and what was in it.
-TEST(RopeCut, ASlitPartsNothingAndARingDoes) {
+/// A slit separates nothing; a ring leaves a hole and a separate piece.
+TEST(RopeCut, ASlitSeparatesNothingAndARingDoes) {
     rope::World world;
     const BodyId cloth = allowed(world.add_cloth({.columns = 9, .rows = 9}));
     const rope::ClothLine slit[] = {{{1.5f, 4.5f}, {6.5f, 4.5f}}};
@@ -109,7 +109,7 @@ TEST(RopeCut, ASlitPartsNothingAndARingDoes) {
     EXPECT_TRUE(world.find(cloth)->cells.empty());
     const rope::ClothLine ring[] = {{{2.5f, 2.5f}, {5.5f, 2.5f}, {5.5f, 5.5f}, {2.5f, 5.5f}, {2.5f, 2.5f}}};
     const std::vector<BodyId> pieces = cut(world, cloth, ring);
-    ASSERT_EQ(pieces.size(), 3u);  // the slit halves what was in it
+    ASSERT_EQ(pieces.size(), 3u);  // the slit halves the piece inside
     EXPECT_EQ(world.find(pieces[0])->count, 72u);
     EXPECT_EQ(world.find(pieces[0])->particle_in(4 * 9 + 4), 72u);
     EXPECT_EQ(world.find(pieces[1])->count, 6u);
@@ -117,7 +117,7 @@ TEST(RopeCut, ASlitPartsNothingAndARingDoes) {
     expect_parted(world.state());
 }
 
-/// All at once, and nothing between them: two slits and a line across their ends leave four pieces.
+/// All lines cut together: two slits and a line across their ends leave four pieces.
 TEST(RopeCut, SeveralLinesAreOneCut) {
     rope::World world;
     const BodyId cloth = allowed(world.add_cloth({.columns = 9, .rows = 9}));
@@ -134,7 +134,7 @@ TEST(RopeCut, SeveralLinesAreOneCut) {
     expect_parted(world.state());
 }
 
-TEST(RopeCut, RefusesWhatCutsNothing) {
+TEST(RopeCut, RefusesLinesThatCutNothing) {
     rope::World world;
     const BodyId cloth = allowed(world.add_cloth({.columns = 5, .rows = 6}));
     const BodyId rope = allowed(world.add_rope({}));
@@ -154,8 +154,8 @@ TEST(RopeCut, RefusesWhatCutsNothing) {
     EXPECT_EQ(why(cloth, {beside, across}), "");
 }
 
-/// Divided more finely and coarsely, a piece with gaps keeps its mass, momentum, pins and gaps.
-TEST(RopeCut, APieceCanBeDivided) {
+/// Resampled finer or coarser, a piece with gaps keeps its mass, momentum, pins and gaps.
+TEST(RopeCut, APieceCanBeResampled) {
     rope::World world;
     rope::Workspace workspace;
     const BodyId cloth = allowed(world.add_cloth(
@@ -180,8 +180,8 @@ TEST(RopeCut, APieceCanBeDivided) {
     }
 }
 
-/// A single row or column is divided along itself only.
-TEST(RopeCut, AThreadCanBeDivided) {
+/// A single row or column is resampled only along itself.
+TEST(RopeCut, AThreadCanBeResampled) {
     rope::World world;
     const BodyId cloth = allowed(world.add_cloth({.columns = 9, .rows = 9}));
     const rope::ClothLine lines[] = {{{-1, 7.5f}, {9, 7.5f}}, {{7.5f, -1}, {7.5f, 7.5f}}};
@@ -209,8 +209,8 @@ TEST(RopeCut, AThreadCanBeDivided) {
     expect_parted(world.state());
 }
 
-/// Torn cloth comes apart too, when asked.
-TEST(RopeCut, TornClothIsParted) {
+/// Torn cloth is separated, too, on request.
+TEST(RopeCut, TornClothIsSeparated) {
     rope::World world;
     rope::Workspace workspace;
     const BodyId cloth =
@@ -227,12 +227,12 @@ TEST(RopeCut, TornClothIsParted) {
     EXPECT_EQ(total_mass(edited.world), total_mass(world));
     for (std::size_t i = 0; i < world.size(); ++i)
         EXPECT_EQ(edited.world.position(edited.becomes[i]), world.position(i));
-    // Nothing is left to part.
+    // Nothing is left to separate.
     EXPECT_TRUE(allowed(rope::part_body(edited.world, cloth)).pieces.empty());
 }
 
-/// A piece costs what it is, and moves as a whole cloth of its shape.
-TEST(RopeCut, APieceMovesAsAClothOfItsShape) {
+/// A piece costs only its own size, and moves like a whole cloth of its shape.
+TEST(RopeCut, APieceMovesLikeAClothOfItsShape) {
     rope::World cut_world, whole;
     rope::Workspace workspace;
     const rope::ClothShape shape{.corner = {0, 2, 0},
@@ -263,7 +263,7 @@ TEST(RopeCut, APieceMovesAsAClothOfItsShape) {
         EXPECT_LT(glm::distance(cut_world.position(i), whole.position(i)), 1e-3) << i;
 }
 
-/// Random cuts of cloths with pins and ties while they move.
+/// Random cuts through moving cloths with pins and ties.
 TEST(RopeCut, RandomCutsKeepParticlesMassAndMomentum) {
     for (unsigned seed = 1; seed <= 12; ++seed) {
         Random random(seed);

@@ -1,4 +1,4 @@
-// Grounds that move and boxes that rotate: friction carries the bodies on them.
+// Driven grounds and boxes: friction carries the bodies on them.
 #include "rope_support.hpp"
 
 namespace tendril::test {
@@ -24,8 +24,8 @@ dvec3 mean_velocity(const World& world) {
     return sum / static_cast<double>(world.size());
 }
 
-/// It speeds up with friction times gravity, then goes along.
-TEST(RopeDrive, AMovingGroundCarriesWhatLiesOnIt) {
+/// The body accelerates by friction times gravity, up to the speed of the ground.
+TEST(RopeDrive, AMovingGroundCarriesBodies) {
     for (const rope::Solver solver : all_solvers) {
         for (const bool cloth : {false, true}) {
             World world = world_with({.solver = solver, .damping = 0.0f, .friction = 0.2f});
@@ -46,8 +46,8 @@ TEST(RopeDrive, AMovingGroundCarriesWhatLiesOnIt) {
     }
 }
 
-/// A turntable: what lies near its middle goes round with it.
-TEST(RopeDrive, ATurntableTakesARopeRound) {
+/// A turntable: a rope near its middle rotates with it.
+TEST(RopeDrive, ATurntableRotatesARope) {
     World world = world_with({.friction = 1.0f});
     world.add_collider("table", rope::Plane{});
     allow(world.drive_collider(world.state().colliders[0].id, {.spin = 1.0f}));
@@ -58,7 +58,7 @@ TEST(RopeDrive, ATurntableTakesARopeRound) {
     EXPECT_LT(glm::length(0.5 * (place(world, 0) + place(world, 8)) - dvec3(0, 0.02, 0)), 0.03);
 }
 
-/// A box that moves and turns carries a rope and a cloth that lie on it.
+/// A moving and turning box carries a rope and a cloth that lie on it.
 TEST(RopeDrive, ATurningBoxCarries) {
     for (const bool cloth : {false, true}) {
         World world = world_with({.friction = 1.0f});
@@ -80,7 +80,7 @@ TEST(RopeDrive, ATurningBoxCarries) {
     }
 }
 
-/// A capsule that turns pushes what it meets, and a rolling ball winds.
+/// A capsule that turns pushes a rope out of its way.
 TEST(RopeDrive, ABeamSweepsARope) {
     World world = world_with({});
     world.add_collider("beam", rope::Capsule{{-1, 0.5f, 0}, {1, 0.5f, 0}, 0.1f});
@@ -100,8 +100,8 @@ TEST(RopeDrive, ABeamSweepsARope) {
     EXPECT_GT(std::abs(place(world, rope.first + rope.count - 1).x - before), 0.1);
 }
 
-/// What is attached goes round with it.
-TEST(RopeDrive, TurnsWhatIsAttached) {
+/// A particle attached to a driven ball rotates with it.
+TEST(RopeDrive, RotatesAttachedParticles) {
     World world = world_with({});
     world.add_collider("ball", rope::Sphere{{0, 1, 0}, 0.3f});
     world.add_rope("line", {.from = {0.3f, 1, 0}, .to = {0.3f, 0, 0}, .segments = 8});

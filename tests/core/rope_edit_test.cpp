@@ -25,13 +25,13 @@ World three_ropes() {
     return world;
 }
 
-/// The invariant of every world: its state is accepted.
+/// Expects a valid world: its state can be loaded.
 void expect_sound(const World& world) {
     EXPECT_NO_THROW(World{world.state()});
     for (const rope::Link& link : world.state().links) EXPECT_LT(std::max(link.a, link.b), world.size());
 }
 
-TEST(RopeEdit, CutPartsARope) {
+TEST(RopeEdit, CutSplitsARope) {
     World world = three_ropes();
     EXPECT_EQ(world.cut("b", 1), "b 2");
     const Body *first = world.find("b"), *second = world.find("b 2");
@@ -59,7 +59,7 @@ TEST(RopeEdit, CutPartsARope) {
 }
 
 /// The whole rope hangs on its pin; after a cut, only the remaining part.
-TEST(RopeEdit, TensionKnowsOfACut) {
+TEST(RopeEdit, ACutUpdatesTheTension) {
     World world = world_with({.damping = 2.0f});
     world.add_rope("rope", {.from = {0, 0, 0}, .to = {0, -1, 0}, .segments = 10, .pin_start = true});
     run(world, 2.0);
@@ -93,8 +93,8 @@ TEST(RopeEdit, RemovingRenumbers) {
     EXPECT_TRUE(world.state().links.empty() && world.state().pins.empty() && world.state().bodies.empty());
 }
 
-/// A rope moves as if the removed ones had never existed; only its slot differs.
-TEST(RopeEdit, RemovedOnesLeaveNoTrace) {
+/// A rope moves as if the removed ropes had never existed; only its slot differs.
+TEST(RopeEdit, RemovedBodiesLeaveNoTrace) {
     World with = three_ropes(), without;
     without.add_rope("c",
                      {.from = {2, 0, 0}, .to = {2, 1, 0}, .segments = 4, .pin_start = true, .pin_end = true});
@@ -107,8 +107,8 @@ TEST(RopeEdit, RemovedOnesLeaveNoTrace) {
     EXPECT_TRUE(same_bits(left, without.state()));
 }
 
-/// It goes on there as it would have here: pins, velocities and tensions go with it.
-TEST(RopeEdit, AMovedBodyGoesOnAsItWas) {
+/// A moved body goes on as it would have in its old place: pins, velocities and tensions move with it.
+TEST(RopeEdit, AMovedBodyKeepsItsMotion) {
     World world = three_ropes();
     run(world, 0.3);
     World other = world;
@@ -129,14 +129,14 @@ TEST(RopeEdit, AMovedBodyGoesOnAsItWas) {
     EXPECT_TRUE(same_bits(before, other.state()));
 }
 
-TEST(RopeEdit, APinIsTakenToItsGoalInItsTime) {
+TEST(RopeEdit, APinReachesItsGoalOnTime) {
     World world = three_ropes();
     const std::size_t end = world.particle("a", 4);
     EXPECT_FALSE(world.pinned(end));
     world.pin(end, {0.5f, 0.5f, 0}, 0.5);
     EXPECT_TRUE(world.pinned(end));
     world.advance(0.25);
-    EXPECT_LE(distance(world.position(end), {0.25f, 0.75f, 0}), 1e-5);  // evenly
+    EXPECT_LE(distance(world.position(end), {0.25f, 0.75f, 0}), 1e-5);  // half way
     world.advance(0.25);
     EXPECT_LE(distance(world.position(end), {0.5f, 0.5f, 0}), 1e-6);
     run(world, 1.0);
@@ -144,7 +144,7 @@ TEST(RopeEdit, APinIsTakenToItsGoalInItsTime) {
     world.pin(end, {0, 1, 0});  // within the next substep
     world.advance(1.0 / 240.0);
     EXPECT_EQ(world.position(end), glm::vec3(0, 1, 0));
-    world.advance(0.1);  // that was 170 m/s: released at once, it would fly off at that speed
+    world.advance(0.1);  // it moved at 170 m/s: released at once, it would fly off
     world.unpin(end);
     EXPECT_FALSE(world.pinned(end));
     run(world, 1.0);
@@ -231,7 +231,7 @@ TEST(RopeEdit, MaterialsChangeInPlace) {
     EXPECT_EQ(world.find(rope)->radius, 0.125f);
     EXPECT_NEAR(world.length(*world.find(rope)), 2.0, 1e-6);
     run(named, 4.0);
-    EXPECT_NEAR(named.position(10).y, -2.0f, 1e-3);  // twice as long, and twice the tension
+    EXPECT_NEAR(named.position(10).y, -2.0f, 1e-3);  // twice as long, under twice the tension
     EXPECT_NEAR(world.state().links[0].tension, 2.0 * 9.81 * mass * 10.0 / 11.0, 0.1);
     for (const rope::Link& link : world.state().links)
         EXPECT_EQ(link.compliance, link.kind == rope::Link::Kind::Bend    ? 0.5f

@@ -37,14 +37,14 @@ rope::World edited_scene() {
     return world.core();
 }
 
-/// What a change asks of its body: how far its particles may have to go, metres.
+/// The requested change of a body: how far its particles may have to move, metres.
 struct Asked {
     rope::BodyId body;
     double metres = 0.0;
     bool renumbers = false, stiffens = false;
 };
 
-/// One random change of one body. A refusal leaves everything as it was.
+/// Makes a random change to a random body. A refused one changes nothing.
 Asked edit(rope::World& world, Random& random) {
     const std::vector<Body> bodies = world.state().bodies;
     const Body body = bodies[random.below(bodies.size())];
@@ -53,7 +53,7 @@ Asked edit(rope::World& world, Random& random) {
     const auto within = [&](double low, double high) {
         return low + (high - low) * static_cast<double>(random.below(1000)) / 999.0;
     };
-    // A state that a refused edit would have changed.
+    // Compares with the state before, which a refusal must not change.
     const auto check = [&](const Result& result, const rope::State& before) {
         if (!result) {
             EXPECT_TRUE(same_bits(before, world.state())) << result.message();
@@ -120,7 +120,7 @@ glm::dvec3 momentum_of(const rope::World& world, const Body& body) {
     return sum;
 }
 
-/// The longest link of a body, or the distance that it should have.
+/// The longest link of a body, measured or at rest.
 double longest_link(const rope::World& world, const Body& body) {
     double longest = 0.0;
     for (const Link& link : world.state().links)
@@ -137,7 +137,7 @@ double nearest(const rope::World& world, const Body& body, const glm::dvec3& at)
     return least;
 }
 
-/// At the moment of an edit, nothing is anywhere else.
+/// Expects that an edit itself moves nothing.
 void expect_no_jump(const rope::World& before, const rope::World& after, const Asked& asked, int number) {
     const Body& was = *before.find(asked.body);
     const Body& now = *after.find(asked.body);
@@ -185,13 +185,13 @@ void change_at_random(int edits, std::uint32_t seed) {
     rope::Workspace one, four;
     allow(four.use_threads(4));
     for (int i = 0; i < edits; ++i) {
-        if (i % 100 == 0) world = edited_scene();  // torn, it would be dull
+        if (i % 100 == 0) world = edited_scene();  // a torn scene would be dull
         const rope::World before = world;
         Random again = random;
         const Asked asked = edit(world, random);
         expect_no_jump(before, world, asked, i);
         if (testing::Test::HasFatalFailure()) return;
-        // Undone, and done again on four threads: the same bits.
+        // Undone and redone on four threads: the same bits.
         rope::World replayed = before;
         edit(replayed, again);
         ASSERT_TRUE(same_bits(replayed.state(), world.state())) << i;
@@ -202,8 +202,8 @@ void change_at_random(int edits, std::uint32_t seed) {
         ASSERT_TRUE(rope::World::from_state(world.state())) << i;
         expect_finite(world, i);
         if (testing::Test::HasFatalFailure()) return;
-        // Nothing goes further in a substep than was asked, but for what would have gone there anyway. A
-        // stiffer material straightens what it was folded to, and what tears is let go: that may be fast.
+        // Nothing moves further in a substep than asked, or than it would have moved anyway. Not so for
+        // stiffer materials, which straighten folds, and for tears, which release: both may be fast.
         const double way =
             asked.metres + (asked.renumbers ? longest_link(before, *before.find(asked.body)) : 0.0);
         rope::World unedited = before;
@@ -218,11 +218,11 @@ void change_at_random(int edits, std::uint32_t seed) {
     }
 }
 
-TEST(RopeEdits, AtRandomKeepWhatTheyDoNotChange) {
+TEST(RopeEdits, RandomEditsKeepWhatTheyDoNotChange) {
     change_at_random(400, 71);
 }
 
-/// For a long night: --gtest_also_run_disabled_tests.
+/// For long manual runs: --gtest_also_run_disabled_tests.
 TEST(RopeEdits, DISABLED_AHundredThousandAtRandom) {
     for (std::uint32_t seed = 0; seed < 100; ++seed) change_at_random(1000, seed);
 }

@@ -1,4 +1,4 @@
-// A soft rope is as soft as its material, independent of iterations, substep and number of segments.
+// A soft rope has its material's stiffness, independent of iterations, substep and number of segments.
 #include "rope_support.hpp"
 
 namespace tendril::test {
@@ -13,7 +13,7 @@ Settings soft(Solver solver, float compliance, int iterations) {
     return {.iterations = iterations, .solver = solver, .damping = 2.0f, .compliance = compliance};
 }
 
-/// Straight down from one end, 1 m of 1 kg/m. Returns how much longer it gets, metres.
+/// Hangs a rope of 1 m and 1 kg/m straight down from one end. Returns by how much it gets longer, metres.
 double hangs_longer(const Settings& settings, int segments) {
     World world = world_with(settings);
     world.add_rope("rope", {.from = {0, 0, 0}, .to = {0, -1, 0}, .segments = segments, .pin_start = true});
@@ -21,14 +21,14 @@ double hangs_longer(const Settings& settings, int segments) {
     return -lowest(world) - 1.0;
 }
 
-/// Link k of n bears the n - k particles below it, each of m = 1/n: C m g / n times the sum of n - k, which
+/// Link k of n carries the n - k particles below it, each of m = 1/n: C m g / n times the sum of n - k, which
 /// is C m g (n + 1) / 2; in the limit of large n, C g / 2.
 double theory(float compliance, int segments) {
     const double n = segments;
     return static_cast<double>(compliance) * gravity * (n + 1.0) / (2.0 * n);
 }
 
-TEST(RopeElastic, HangsLongerByItsOwnWeight) {
+TEST(RopeElastic, StretchesUnderItsOwnWeight) {
     for (const int segments : {1, 8, 32, 100}) {
         for (const float compliance : {1e-3f, 1e-2f, 5e-2f}) {
             const double expected = theory(compliance, segments);
@@ -38,7 +38,7 @@ TEST(RopeElastic, HangsLongerByItsOwnWeight) {
     }
 }
 
-TEST(RopeElastic, XpbdDoesOnceTheIterationsSuffice) {
+TEST(RopeElastic, XpbdMatchesGivenEnoughIterations) {
     for (const int segments : {1, 8, 16}) {
         const double expected = theory(1e-2f, segments);
         EXPECT_NEAR(hangs_longer(soft(Solver::Xpbd, 1e-2f, 200), segments) / expected, 1.0, 0.01) << segments;
@@ -55,7 +55,7 @@ TEST(RopeElastic, IterationsDoNotMatter) {
     EXPECT_NEAR(hangs_longer(soft(Solver::Xpbd, 1e-2f, 400), 8) / xpbd, 1.0, 2e-3);
 }
 
-TEST(RopeElastic, NorDoesTheSubstep) {
+TEST(RopeElastic, TheSubstepDoesNotMatter) {
     for (const double substep : {1.0 / 60.0, 1.0 / 1000.0}) {
         Settings settings = soft(Solver::Direct, 1e-2f, 16);
         settings.substep = substep;
@@ -64,7 +64,7 @@ TEST(RopeElastic, NorDoesTheSubstep) {
 }
 
 /// Between two pins: the same curve for any number of segments, deeper for softer ropes.
-TEST(RopeElastic, SagDoesNotHangOnTheNumberOfSegments) {
+TEST(RopeElastic, SagDoesNotDependOnTheNumberOfSegments) {
     const auto sag = [](float compliance, int segments) {
         World world = world_with(soft(Solver::Direct, compliance, 16));
         hang_between(world, 1.0f, 1.1f, segments);
@@ -78,8 +78,8 @@ TEST(RopeElastic, SagDoesNotHangOnTheNumberOfSegments) {
                 1e-4);  // no jump from stiff to inextensible
 }
 
-/// Tension is what a link bears, in newtons: n - k particles hang below link k.
-TEST(RopeElastic, TensionIsWhatHangsBelow) {
+/// The tension of link k, in newtons, is the weight of the n - k particles below it.
+TEST(RopeElastic, TensionIsTheWeightBelow) {
     for (const Solver solver : {Solver::Xpbd, Solver::Direct}) {
         for (const float compliance : {0.0f, 1e-3f}) {
             World world = world_with(soft(solver, compliance, solver == Solver::Xpbd ? 400 : 16));
@@ -97,7 +97,7 @@ TEST(RopeElastic, TensionIsWhatHangsBelow) {
 }
 
 /// A weight on a spring: a period of 2 pi sqrt(m C L).
-TEST(RopeElastic, BouncesInTheTimeThatItMust) {
+TEST(RopeElastic, BouncesWithThePeriodOfASpring) {
     const float compliance = 2e-2f;
     Settings settings = soft(Solver::Direct, compliance, 16);
     settings.damping = 0.0f;
@@ -122,7 +122,7 @@ TEST(RopeElastic, BouncesInTheTimeThatItMust) {
 }
 
 /// Relaxation ignores compliance.
-TEST(RopeElastic, RelaxationStaysAsItIs) {
+TEST(RopeElastic, RelaxationDoesNotChange) {
     EXPECT_EQ(hangs_longer(soft(Solver::Relaxation, 0.0f, 16), 8),
               hangs_longer(soft(Solver::Relaxation, 0.1f, 16), 8));
 }

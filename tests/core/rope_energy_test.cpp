@@ -6,14 +6,14 @@ namespace {
 
 using rope::Settings;
 
-/// Weight times length: the energy scale that percentages refer to.
+/// Weight times length: the energy scale of all percentages.
 double scale(const World& world) {
     double mass = 0.0;
     for (const double each : world.state().mass) mass += each;
     return mass * 9.81 * world.length(*world.find("rope"));
 }
 
-/// The maximum of energy over its start within `seconds`, as a fraction of scale().
+/// Maximum energy gain over the start within `seconds`, as a fraction of scale().
 double most_gained(World& world, int seconds) {
     run_substeps(world, 2, [] {});
     const double start = energy(world), of = scale(world);
@@ -24,7 +24,7 @@ double most_gained(World& world, int seconds) {
     return most;
 }
 
-/// Horizontal, bent so that it is nowhere in balance, at rest.
+/// A horizontal rope at rest, bent so that no part of it is in balance.
 World let_go(int segments, bool both_ends) {
     World world = world_with({.damping = 0.0f});
     world.add_rope("rope", {.from = {0, 0, 0},
@@ -41,7 +41,7 @@ class RopeEnergy : public testing::TestWithParam<std::tuple<int, bool>> {};
 TEST_P(RopeEnergy, NeverGrowsInAMinute) {
     const auto [segments, both_ends] = GetParam();
     World world = let_go(segments, both_ends);
-    if (both_ends) {  // it hangs nearly still: a wind blows first
+    if (both_ends) {  // it hangs nearly still, so a wind blows first
         Settings settings = world.settings();
         settings.external = {3, 2, 4};
         world.set_settings(settings);
@@ -58,8 +58,8 @@ INSTANTIATE_TEST_SUITE_P(Ropes, RopeEnergy, testing::Combine(testing::Values(16,
                                     (std::get<1>(of.param) ? "_both_ends" : "_one_end");
                          });
 
-/// Thrown, rotating, in free fall: nothing holds it and nothing may accelerate it.
-TEST(RopeEnergyFree, NeitherDoesThatOfOneThrown) {
+/// Thrown and rotating without gravity: nothing holds it, and nothing may accelerate it.
+TEST(RopeEnergyFree, AThrownRopeGainsNoEnergy) {
     World world = world_with({.damping = 0.0f, .gravity = {0, 0, 0}});
     world.add_rope("rope", {.from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 24, .length = 1.2f});
     rope::State state = world.state();
@@ -68,7 +68,7 @@ TEST(RopeEnergyFree, NeitherDoesThatOfOneThrown) {
     for (glm::dvec3& moved : state.displacement)
         moved = glm::dvec3(random.point(2.0f)) * state.settings.substep;
     world = World(state);
-    run_substeps(world, 240, [] {});  // the length constraints first take their part
+    run_substeps(world, 240, [] {});  // first, the length constraints take their part
     const double start = energy(world);
     double most = 0.0;
     run_substeps(world, 60 * 240, [&] { most = std::max(most, energy(world)); });
@@ -77,8 +77,8 @@ TEST(RopeEnergyFree, NeitherDoesThatOfOneThrown) {
     EXPECT_LE(stretch(world), 1e-3);
 }
 
-/// Every particle thrown in a random direction, with one end held: it cracks like a whip all over.
-TEST(RopeEnergyFree, NeitherDoesThatOfOneThatThrashes) {
+/// Every particle is thrown in a random direction, with one end held: the rope cracks like a whip all over.
+TEST(RopeEnergyFree, AThrashingRopeGainsNoEnergy) {
     for (const double substep : {1.0 / 240.0, 1.0 / 60.0}) {
         for (const int segments : {16, 256}) {
             World world = world_with({.substep = substep, .damping = 0.0f});
@@ -103,8 +103,8 @@ TEST(RopeEnergyFree, NeitherDoesThatOfOneThatThrashes) {
     }
 }
 
-/// Without external forces, the centre of mass and the momentum are constant.
-TEST(RopeEnergyFree, MomentumStays) {
+/// Without external forces, centre of mass and momentum are constant.
+TEST(RopeEnergyFree, MomentumIsConserved) {
     for (const rope::Solver solver : all_solvers) {
         World world = world_with({.solver = solver, .damping = 0.0f, .gravity = {0, 0, 0}});
         world.add_rope("rope", {.from = {0, 0, 0}, .to = {1, 0, 0}, .segments = 12, .length = 1.2f});

@@ -8,7 +8,7 @@ using rope::Capsule;
 using rope::Plane;
 using rope::Solver;
 
-/// Placed on a slope of `angle` radians and released; returns how far it slides in `seconds`.
+/// Puts a rope on a slope of `angle` radians; returns how far it slides in `seconds`.
 double slides(Solver solver, float friction, double angle, double seconds, bool across = false) {
     World world = world_with({.solver = solver, .damping = 0.0f, .friction = friction});
     const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
@@ -31,8 +31,8 @@ TEST(RopeFriction, HoldsOnASlopeUpToItsTangent) {
             }
 }
 
-/// Beyond that angle it slides with the rest of its weight: g (sin - mu cos) t^2 / 2.
-TEST(RopeFriction, SlidesBeyond) {
+/// Beyond that angle, it slides with the rest of its weight: g (sin - mu cos) t^2 / 2.
+TEST(RopeFriction, SlidesBeyondTheTangent) {
     for (const Solver solver : all_solvers)
         for (const bool across : {false, true})
             for (const float friction : {0.0f, 0.2f, 0.5f}) {
@@ -44,7 +44,7 @@ TEST(RopeFriction, SlidesBeyond) {
 }
 
 /// A rope sliding on level ground stops after v^2 / (2 mu g).
-TEST(RopeFriction, StopsWhatSlides) {
+TEST(RopeFriction, ASlidingRopeStops) {
     for (const Solver solver : all_solvers) {
         World world = world_with({.solver = solver, .damping = 0.0f, .friction = 0.4f});
         world.add_collider("ground", Plane{});
@@ -58,8 +58,8 @@ TEST(RopeFriction, StopsWhatSlides) {
     }
 }
 
-/// A moving collider takes along what lies on it as far as friction allows; without friction, nothing.
-TEST(RopeFriction, WhatMovesCarries) {
+/// A moving collider carries a body as far as friction allows; without friction, not at all.
+TEST(RopeFriction, AMovingColliderCarriesARope) {
     for (const float friction : {0.8f, 0.0f}) {
         World world = world_with({.damping = 0.0f, .friction = friction});
         world.add_collider("plank", rope::Box{{0, -0.1f, 0}, {2, 0.1f, 1}, {1, 0, 0, 0}});
@@ -67,28 +67,27 @@ TEST(RopeFriction, WhatMovesCarries) {
         run(world, 0.25);
         world.move_collider("plank", {1.0f, -0.1f, 0}, 1.0);
         run(world, 1.0);
-        // The plank starts at 1 m/s at once: until the rope is as fast, it slips by v^2 / (2 mu g).
+        // The plank moves at 1 m/s at once: until the rope is as fast, it slips by v^2 / (2 mu g).
         const double carried = friction > 0.0f ? 1.0 - 1.0 / (2.0 * 0.8 * 9.81) : 0.0;
         EXPECT_NEAR(world.position(8).x, carried, 0.01) << friction;
     }
 }
 
 /// The maximum ratio of rope on both sides of a post of radius r, two metres in all, before it runs:
-/// Euler-Eytelwein's e^(mu pi), with the weight of the rope on the post pressing it on:
-///     T' = rho g r cos + mu (T + rho g r sin) around it, so long = (short + k) e^(mu pi) + k, k = 2 mu r /
-///     (1 + mu^2)
+/// Euler-Eytelwein's e^(mu pi), where the weight of the rope on the post adds pressure. T' = rho g r cos + mu
+/// (T + rho g r sin) around it, so long = (short + k) e^(mu pi) + k, k = 2 mu r / (1 + mu^2)
 double max_ratio(double friction, double r) {
     const double euler = std::exp(friction * pi), k = 2.0 * friction * r / (1.0 + friction * friction);
     const double shorter = (2.0 - k - k * euler) / (1.0 + euler);
     return (2.0 - shorter) / shorter;
 }
 
-/// Two metres hang over a level post, `ratio` times as much on one side. Returns how far they have run.
+/// Hangs two metres over a level post, `ratio` times as much on one side. Returns how far it has run.
 double runs_off(Solver solver, float friction, double ratio, int segments, double seconds) {
     World world = world_with({.iterations = 64, .solver = solver, .damping = 0.3f, .friction = friction});
     const float radius = 0.08f;
     world.add_collider("post", Capsule{{0, 0, -1}, {0, 0, 1}, radius});
-    // Around the upper half at the rope's own radius, straight down on both sides.
+    // Around the upper half at the rope's radius, straight down on both sides.
     const double r = 0.1, hanging = 2.0, round = pi * r, left = hanging / (1.0 + ratio);
     world.add_rope("rope", {.from = {0, 0, 0},
                             .to = {1, 0, 0},
@@ -114,7 +113,7 @@ double runs_off(Solver solver, float friction, double ratio, int segments, doubl
     return world.state().position[0].y - start;
 }
 
-/// It first settles by a few millimetres: it starts as a curve and becomes a polygon, which vibrates.
+/// The rope first settles by a few millimetres: its curve becomes a polygon, which vibrates.
 TEST(RopeFriction, APostHoldsUpToEulersRatio) {
     for (const float friction : {0.1f, 0.2f, 0.3f, 0.5f}) {
         const double holds = max_ratio(0.95 * friction, 0.1), slips = max_ratio(1.05 * friction, 0.1);
@@ -125,12 +124,12 @@ TEST(RopeFriction, APostHoldsUpToEulersRatio) {
     }
 }
 
-TEST(RopeFriction, WithoutAnyItRunsOff) {
+TEST(RopeFriction, WithoutFrictionItRunsOff) {
     EXPECT_GE(runs_off(Solver::Direct, 0.0f, 1.2, 128, 1.0), 0.3);
 }
 
-/// A body's own friction holds it where the settings' would not, on every kind of solver.
-TEST(RopeFriction, OfABodyIsItsOwn) {
+/// A body with its own friction stays where the settings' friction would let it slide, with every solver.
+TEST(RopeFriction, ABodyMayHaveItsOwnFriction) {
     for (const Solver solver : all_solvers) {
         World world = world_with({.solver = solver, .damping = 0.0f, .friction = 0.1f});
         const float c = std::cos(0.3f), s = std::sin(0.3f);

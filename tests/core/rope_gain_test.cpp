@@ -12,7 +12,7 @@ using rope::ClothShape;
 using rope::Shape;
 using rope::Solver;
 
-/// Logarithmic: as likely to double as to halve.
+/// A random number, uniform in the logarithm.
 float between(Random& random, float low, float high) {
     return low * std::pow(high / low, random.part());
 }
@@ -71,7 +71,7 @@ void add_cloth(World& world, Random& random, std::size_t most) {
                            .pins = pins[random.below(3)]});
 }
 
-/// Whether anything touches a collider at the start: its motion is then no fall.
+/// Whether anything touches a collider at the start: if so, it does not just fall.
 bool touches(const World& world) {
     for (const rope::Collider& collider : world.state().colliders)
         for (const rope::Link& link : world.state().links)
@@ -113,7 +113,7 @@ double potential(const World& world) {
     return sum;
 }
 
-/// Maximum energy above the start, less 1 % of the potential energy lost, joules.
+/// Maximum energy gain over the start, less 1 % of the potential energy lost, joules.
 double gained(World& world, double seconds) {
     run_substeps(world, 2, [] {});
     const double start = world.energy(), high = potential(world);
@@ -125,13 +125,13 @@ double gained(World& world, double seconds) {
     return most;
 }
 
-TEST(RopeGain, NothingGainsEnergyByWhatItMeets) {
+TEST(RopeGain, NothingGainsEnergyInContact) {
     const int scenes = rounds(160);
     double worst = 0.0;
     for (int seed = 1; seed <= scenes; ++seed) {
         Random random(static_cast<std::uint64_t>(seed));
         World world = some_world(random, is_thorough());
-        // Lengths accurate to a fraction of a percent account for this fraction of the weight times 1 m.
+        // An error of lengths of a fraction of a percent allows for this fraction of the weight times 1 m.
         const double part = gained(world, 1.5) / weight(world);
         EXPECT_LE(part, 2.5e-3) << seed << ": " << name(world.settings().solver) << ", " << world.size()
                                 << " particles, substep " << world.settings().substep;
@@ -160,7 +160,7 @@ World stiff_rope(Random& random) {
     }
 }
 
-TEST(RopeGain, AStiffRopeGainsNoEnergyByWhatItMeets) {
+TEST(RopeGain, AStiffRopeGainsNoEnergyInContact) {
     for (int seed = 50, end = seed + rounds(26); seed < end; ++seed) {
         Random random(static_cast<std::uint64_t>(seed));
         World world = stiff_rope(random);
@@ -180,7 +180,7 @@ TEST(RopeGain, AStiffRopeGainsNoEnergyByWhatItMeets) {
     }
 }
 
-/// Both were once thrown, with 2212 and 344 joules.
+/// Two cases that once were thrown, with 2212 and 344 joules.
 TEST(RopeGain, ARopeIsNotThrownByAThinBar) {
     const struct {
         int segments;
@@ -250,7 +250,7 @@ Shape shape_through_the_ground(Random& random) {
 /// A collider that appears inside a body, or moves there, does not throw it.
 TEST(RopeGain, NoBodyIsThrownByAColliderThatAppears) {
     for (const Solver solver : all_solvers) {
-        // Relaxation and XPBD store nothing in links, so stretch comes back as motion.
+        // Relaxation and XPBD store no energy in links, so stretch comes back as motion.
         const double bound = solver == Solver::Direct ? 6.0 : 25.0;
         for (const Subject kind : all_subjects) {
             for (std::uint64_t seed = 1; seed <= 8; ++seed) {

@@ -39,7 +39,7 @@ void pull_about(World& world, Random& random) {
     world.unpin(held);
 }
 
-/// The relative deviation from a stone's fall, in half a second without pins.
+/// Relative deviation from a stone's fall, in half a second without pins.
 double unlike_a_stone(World world) {
     world.set_settings({.damping = 0.0f});
     for (std::size_t i = 0; i < world.size(); ++i)
@@ -58,7 +58,7 @@ LABEL(slow, "RopeGesture.AClothHangsAgainAndFallsAsAStoneDoes");
 TEST(RopeGesture, AClothHangsAgainAndFallsAsAStoneDoes) {
     const int gestures = rounds(3);
     for (const rope::ClothMaterial& material : rope::cloth_materials) {
-        // Each takes seconds, so the smallest of the first alone is repeated unless more is requested.
+        // Each takes seconds, so only the first material's smallest cloth is repeated by default.
         const bool first = &material == std::begin(rope::cloth_materials);
         for (const int side : {12, 18, 24}) {
             if (!first && side > 12 && !is_thorough()) continue;
@@ -68,7 +68,7 @@ TEST(RopeGesture, AClothHangsAgainAndFallsAsAStoneDoes) {
             const double hanging = mean_height(calm);
             double worst = 0.0;
             const bool repeats = is_thorough() || (first && side == 12);
-            // Another gesture for each size.
+            // A different gesture for each size.
             const int from = repeats ? 1 : side / 6 - 1, to = repeats ? gestures : from;
             for (int seed = from; seed <= to; ++seed) {
                 Random random(static_cast<std::uint64_t>(seed));
@@ -77,8 +77,7 @@ TEST(RopeGesture, AClothHangsAgainAndFallsAsAStoneDoes) {
                 run(world, 5.0);
                 const double off = std::abs(mean_height(world) - hanging) / hanging;
                 worst = std::max(worst, off);
-                // Of its height: some fold otherwise than before and rest 3.4 % off; once it hung 3 to 23 %
-                // off.
+                // Relative to its height: some fold in another way and rest 3.4 % off; it once was 3 to 23 %.
                 EXPECT_LE(off, 0.035) << what << ' ' << seed;
                 EXPECT_LE(unlike_a_stone(world), 0.02) << what << ' ' << seed;
             }

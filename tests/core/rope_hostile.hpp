@@ -11,7 +11,7 @@
 
 namespace tendril::test {
 
-/// Plausible numbers, sometimes the worst ones.
+/// Plausible numbers, at times the worst ones.
 class HostileNumbers {
   public:
     explicit HostileNumbers(std::uint64_t seed) : random(seed) {}
@@ -49,10 +49,10 @@ class HostileNumbers {
     }
 };
 
-/// One edit, usually a sensible one. Refusals are ignored.
+/// Makes one edit, usually a sensible one. Refusals are ignored.
 class HostileEditor {
   public:
-    /// Clears a world that exceeds about `particles`: small worlds go through more.
+    /// Clears a world of more than about `particles`: small worlds go through more edits.
     HostileEditor(rope::World& world, rope::Workspace& workspace, HostileNumbers& hostile,
                   std::size_t particles = 80)
         : world_(world),

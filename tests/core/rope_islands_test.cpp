@@ -70,7 +70,7 @@ Advance play(rope::World& world, Workspace& workspace, int frames) {
     return sum;
 }
 
-TEST(RopeIslands, NoBodyNoticesAnother) {
+TEST(RopeIslands, NoBodyAffectsAnother) {
     constexpr int bodies = 15;
     for (const rope::Solver solver : all_solvers) {
         const rope::Settings settings{.solver = solver};
@@ -90,12 +90,12 @@ TEST(RopeIslands, NoBodyNoticesAnother) {
     }
 }
 
-/// A rope whose pins are further apart than its length cannot be solved; a rope between colliders has the
-/// same bits beside it as alone.
-TEST(RopeIslands, NoBodyNoticesOneThatCannotBeSolved) {
+/// A rope whose pins are further apart than its length cannot be solved. Beside it, a rope between colliders
+/// has the same bits as alone.
+TEST(RopeIslands, AnUnsolvableRopeAffectsNoOther) {
     const auto add_lying = [](rope::World& world) {
         for (const float x : {0.0f, 0.35f}) allow(world.add_collider(rope::Sphere{{x, 0, 0}, 0.2f}).error());
-        // In the notch, where each particle is pushed out of one ball and into the other.
+        // In the notch, each particle is pushed out of one ball and into the other.
         allow(world
                   .add_rope({.from = {0.175f, 0.5f, -0.05f},
                              .to = {0.18f, 0.5f, 0.05f},
@@ -121,7 +121,7 @@ bool same(const Advance& a, const Advance& b) {
            a.shortened == b.shortened && a.unresolved == b.unresolved && a.unconverged == b.unconverged;
 }
 
-/// A world, and the same world after running on one thread.
+/// A world before and after running on one thread.
 struct Played {
     Played(rope::World world, int count) : start(std::move(world)), end(start), frames(count) {
         Workspace workspace;
@@ -153,8 +153,8 @@ TEST(RopeIslands, ThreadsGiveTheSameBits) {
     }
 }
 
-/// Threads share a cloth that is large enough, whichever comes first and whether or not any comes.
-TEST(RopeIslands, ThreadsThatShareACloth) {
+/// Threads share a large cloth, in any order of arrival and even if some never come.
+TEST(RopeIslands, ThreadsShareACloth) {
     rope::World start = world_with({.iterations = 5});
     add_ground(start);
     for (const float high : {0.2f, 0.6f}) {
@@ -179,7 +179,7 @@ TEST(RopeIslands, ThreadsThatShareACloth) {
     }
 }
 
-/// A small world does not use a second thread.
+/// A small world uses one thread only.
 TEST(RopeIslands, LittleWorkNeedsNoCallback) {
     rope::World world = some_world({}, 6, 4);
     Workspace workspace;
@@ -189,7 +189,7 @@ TEST(RopeIslands, LittleWorkNeedsNoCallback) {
     EXPECT_EQ(jobs.calls, 0u);
 }
 
-TEST(RopeIslands, NumbersOfThreadsOutOfRangeAreRefused) {
+TEST(RopeIslands, ThreadCountsOutOfRangeAreRefused) {
     Workspace workspace;
     for (const int threads : {0, -1, 257}) {
         const Result refused = workspace.use_threads(threads);
@@ -199,8 +199,8 @@ TEST(RopeIslands, NumbersOfThreadsOutOfRangeAreRefused) {
     EXPECT_TRUE(workspace.use_threads(256).ok());
 }
 
-/// A hand-made state may have links between bodies: these are solved together, so that the second rope
-/// follows the first at the distance of the link.
+/// A hand-made state may have links between bodies. These are solved together, so that the second rope
+/// follows the first at the link's length.
 TEST(RopeIslands, LinksBetweenBodiesJoinThem) {
     for (const rope::Solver solver : all_solvers) {
         rope::World apart = world_with({.iterations = 64, .solver = solver, .gravity = {0, 0, 0}});
@@ -219,8 +219,8 @@ TEST(RopeIslands, LinksBetweenBodiesJoinThem) {
     }
 }
 
-/// The same bits with threads, with random links between bodies.
-TEST(RopeIslands, ThreadsGiveTheSameBitsOfJoinedBodies) {
+/// Threads give the same bits, also with random links between bodies.
+TEST(RopeIslands, ThreadsGiveTheSameBitsForJoinedBodies) {
     Random random(8);
     rope::State state = some_world({}, 24, 16).state();
     for (int i = 0; i < 12; ++i) {

@@ -123,7 +123,7 @@ TEST(RopeMemory, AnEditWithoutMemoryChangesNothing) {
     }
 }
 
-TEST(RopeMemory, AStepWithoutMemoryLeavesASoundWorld) {
+TEST(RopeMemory, AStepWithoutMemoryLeavesAValidWorld) {
     FullWorld made;
     EXPECT_TRUE(made.world.pin(2, {0, 2, 6}, 0.3));  // tears the tie and the cloth's neighbours
     EXPECT_TRUE(made.world.set_tie(made.tie, {.strength = 5.0f}));

@@ -23,7 +23,7 @@ T allowed(Expected<T> given) {
 class World : public rope::World {
   public:
     World() = default;
-    /// Bodies and colliders get default names.
+    /// Gives bodies and colliders default names.
     explicit World(rope::State state) : rope::World(allowed(from_state(std::move(state)))) {
         bodies_.resize(this->state().body_slots.size());
         for (const rope::Body& body : this->state().bodies) name_body(body.id, "");
@@ -71,7 +71,7 @@ class World : public rope::World {
         return name_body(allowed(rope::World::cut(id(rope), segment)), "", name);
     }
 
-    /// A null handle if nothing has the name.
+    /// The handle of a named body; null if there is none.
     rope::BodyId id(std::string_view body) const {
         for (const rope::Body& each : state().bodies)
             if (name(each) == body) return each.id;
@@ -117,7 +117,7 @@ class World : public rope::World {
         return rope::World::advance(seconds, workspace_, {.max_substeps = max_substeps});
     }
 
-    // In single precision, for comparison with inputs.
+    // A position in single precision, for comparison with inputs.
     glm::vec3 position(std::size_t particle) const { return glm::vec3(rope::World::position(particle)); }
     glm::vec3 velocity(std::size_t particle) const { return glm::vec3(rope::World::velocity(particle)); }
 
@@ -126,7 +126,7 @@ class World : public rope::World {
         if (names.size() <= slot) names.resize(slot + 1);
         names[slot] = name;
     }
-    /// `wanted`, or the first free one of "rope", "rope 2", ...
+    /// Returns `wanted`, or the first free name of "rope", "rope 2", ...
     std::string name_body(rope::BodyId id, std::string wanted, const std::string& stem = {}) {
         static constexpr const char* kinds[] = {"rope", "cloth", "hair"};
         if (bodies_.size() <= id.index) bodies_.resize(id.index + 1);

@@ -1,4 +1,4 @@
-// One stiff segment that swings: its period, how long it keeps its energy, and the effect of damping.
+// One stiff segment that swings: its period, how long it keeps its energy, and its damping.
 #include "rope_support.hpp"
 
 namespace tendril::test {
@@ -35,12 +35,12 @@ double period(World& world, int swings) {
     return 0.0;
 }
 
-/// The energy above that at rest.
+/// Energy above the energy at rest.
 double swing(const World& world, double length) {
     return energy(world) + world.state().mass[1] * earth_gravity * length;
 }
 
-TEST(RopePendulum, SwingsInTheTimeThatItMust) {
+TEST(RopePendulum, HasTheTheoreticalPeriod) {
     for (const float length : {0.5f, 1.0f, 2.0f}) {
         World world = pendulum(length, 0.1f, {.damping = 0.0f});
         const double expected = 2.0 * pi * std::sqrt(length / earth_gravity);
@@ -48,8 +48,8 @@ TEST(RopePendulum, SwingsInTheTimeThatItMust) {
     }
 }
 
-/// Wider swings take longer: 1 + a^2/16 + 11 a^4/3072 times as long.
-TEST(RopePendulum, SwingsLongerTheWider) {
+/// Wider swings take longer, by a factor of 1 + a^2/16 + 11 a^4/3072.
+TEST(RopePendulum, WiderSwingsTakeLonger) {
     for (const float amplitude : {0.3f, 0.5f, 1.0f}) {
         World world = pendulum(1.0f, amplitude, {.damping = 0.0f});
         const double a = amplitude, longer = 1.0 + a * a / 16.0 + 11.0 * a * a * a * a / 3072.0;
@@ -58,7 +58,7 @@ TEST(RopePendulum, SwingsLongerTheWider) {
     }
 }
 
-TEST(RopePendulum, ThePeriodDoesNotHangOnTheSubstep) {
+TEST(RopePendulum, ThePeriodDoesNotDependOnTheSubstep) {
     for (const double substep : {1.0 / 960.0, 1.0 / 120.0, 1.0 / 60.0}) {
         World world = pendulum(1.0f, 0.1f, {.substep = substep, .damping = 0.0f});
         EXPECT_NEAR(period(world, 5) / (2.0 * pi * std::sqrt(1.0 / earth_gravity)), 1.0, 0.005) << substep;
@@ -68,7 +68,7 @@ TEST(RopePendulum, ThePeriodDoesNotHangOnTheSubstep) {
 TEST(RopePendulum, KeepsNineTenthsOfItsEnergyForAMinute) {
     for (const float length : {0.5f, 1.0f}) {
         World world = pendulum(length, 0.5f, {.damping = 0.0f});
-        run_substeps(world, 2, [] {});  // energy is that of one substep ago
+        run_substeps(world, 2, [] {});  // the energy reported is one substep old
         const double start = swing(world, length);
         double most = 0.0;
         run_substeps(world, 60 * 240, [&] { most = std::max(most, swing(world, length)); });
@@ -77,8 +77,8 @@ TEST(RopePendulum, KeepsNineTenthsOfItsEnergyForAMinute) {
     }
 }
 
-/// The spec on plain projection: it loses 92 % in a minute. Relaxation must stay plain.
-TEST(RopePendulum, PlainRelaxationLosesNearlyAllOfIt) {
+/// Plain projection loses 92 % in a minute, as the spec says. Relaxation must stay plain.
+TEST(RopePendulum, PlainRelaxationLosesMostOfIt) {
     World world = pendulum(1.0f, 0.5f, {.solver = Solver::Relaxation, .damping = 0.0f});
     run_substeps(world, 2, [] {});
     const double start = swing(world, 1.0);
@@ -86,13 +86,13 @@ TEST(RopePendulum, PlainRelaxationLosesNearlyAllOfIt) {
     EXPECT_NEAR(1.0 - swing(world, 1.0) / start, 0.92, 0.02);
 }
 
-/// Velocity decays as exp(-c t), so the swing as exp(-c t / 2) and its energy as exp(-c t).
-TEST(RopePendulum, DampingTakesWhatItSays) {
+/// Velocity decays as exp(-c t), so the amplitude as exp(-c t / 2) and its energy as exp(-c t).
+TEST(RopePendulum, DampingMatchesItsRate) {
     for (const float damping : {0.1f, 0.5f, 2.0f}) {
         World free = pendulum(1.0f, 0.1f, {.damping = 0.0f});
         World damped = pendulum(1.0f, 0.1f, {.damping = damping});
         const double seconds = std::min(10.0, 3.0 / static_cast<double>(damping));
-        const auto mean_swing = [&](World& world) {  // over one period, since only motion is damped
+        const auto mean_swing = [&](World& world) {  // mean over one period, since only motion is damped
             double sum = 0.0;
             run_substeps(world, 480, [&] { sum += swing(world, 1.0); });
             return sum;
@@ -105,7 +105,7 @@ TEST(RopePendulum, DampingTakesWhatItSays) {
 }
 
 /// Damping is a rate per second, not per substep.
-TEST(RopePendulum, DampingDoesNotHangOnTheSubstep) {
+TEST(RopePendulum, DampingDoesNotDependOnTheSubstep) {
     double left[2];
     const double substeps[] = {1.0 / 240.0, 1.0 / 1920.0};
     for (int i = 0; i < 2; ++i) {
@@ -122,7 +122,7 @@ TEST(RopePendulum, DampingDoesNotHangOnTheSubstep) {
 }
 
 /// Gravity, its scale and wind add up to one acceleration: a pendulum swings about any direction.
-TEST(RopePendulum, SwingsAboutWhereverIsDown) {
+TEST(RopePendulum, SwingsAboutTheDirectionOfAcceleration) {
     const Settings turned{
         .damping = 0.5f, .gravity = {0, -9.81f, 0}, .gravity_scale = 0.5f, .external = {4.905f, 0, 0}};
     World world = pendulum(1.0f, 0.1f, turned);

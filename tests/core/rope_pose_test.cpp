@@ -1,4 +1,4 @@
-// Between steps: positions at a frame's own time, with frames that are no whole number of substeps.
+// Poses between steps: positions at a frame's time, for frames that are not a whole number of substeps.
 #include <vector>
 
 #include "random.hpp"
@@ -22,7 +22,7 @@ std::vector<dvec3> pose_of(const rope::World& world) {
     return pose;
 }
 
-/// A hanging rope, in weightlessness straight down, whose start is moved at 10 m/s.
+/// A rope in weightlessness, straight down; its start is moved at 10 m/s.
 struct Drawn {
     rope::World world;
     rope::Workspace workspace;
@@ -50,7 +50,7 @@ double seconds_of_frame(double rate, Random& random) {
     return rate > 0.0 ? 1.0 / rate : 0.002 + 0.028 * static_cast<double>(random.part());
 }
 
-TEST(RopePose, IsWhereAPinWasToldToBeAtTheFramesOwnTime) {
+TEST(RopePose, APinIsAtItsGoalAtTheFramesTime) {
     for (const double rate : {60.0, 75.0, 90.0, 144.0, 0.0}) {
         Random random(7);
         Drawn drawn;
@@ -58,14 +58,14 @@ TEST(RopePose, IsWhereAPinWasToldToBeAtTheFramesOwnTime) {
             drawn.frame(seconds_of_frame(rate, random));
             const std::vector<dvec3> pose = pose_of(drawn.world);
             ASSERT_LT(glm::distance(pose[0], goal_at(drawn.time)), 1e-9) << rate << " Hz, frame " << i;
-            // What hangs from it moves as evenly.
+            // The rest of the rope moves as evenly.
             for (std::size_t p = 1; p < pose.size(); ++p)
                 ASSERT_NEAR(pose[p].x, goal_at(drawn.time).x, even) << rate << " Hz, frame " << i;
         }
     }
 }
 
-/// Told with the frame's length alone, the pin still is where it was told to be in each picture.
+/// Given only the frame's length, the pin still is at its goal in every frame.
 TEST(RopePose, IsExactForAPinWithoutThePendingTime) {
     for (const double rate : {75.0, 90.0, 144.0, 0.0}) {
         Random random(7);
@@ -94,7 +94,7 @@ TEST(RopePose, IsTheStateAtTheEndOfAStep) {
     EXPECT_EQ(world.pending(), 0.0);
 }
 
-/// A falling bob: what the steps sample, the pose has in between, to the fall of one substep.
+/// In free fall, poses lie between the steps' samples, to within the fall of one substep.
 TEST(RopePose, FallsEvenlyBetweenSteps) {
     rope::World world;
     rope::Workspace workspace;
@@ -113,7 +113,7 @@ TEST(RopePose, FallsEvenlyBetweenSteps) {
     }
 }
 
-/// Between the last step before contact and the one after it nothing is drawn inside a collider.
+/// Between the last step before contact and the next one, nothing is drawn inside a collider.
 TEST(RopePose, EntersNoCollider) {
     rope::World world;
     rope::Workspace workspace;
@@ -135,7 +135,7 @@ TEST(RopePose, EntersNoCollider) {
     }
 }
 
-TEST(RopePose, CarriesWhatIsAttached) {
+TEST(RopePose, CarriesAttachedParticles) {
     rope::World world;
     rope::Workspace workspace;
     const auto bar = *world.add_collider(rope::Capsule{{0, 1, 0}, {1, 1, 0}, 0.05f});
@@ -155,7 +155,7 @@ TEST(RopePose, CarriesWhatIsAttached) {
     }
 }
 
-/// One particle, and a list from anywhere, are the same as all at once.
+/// A single particle, and a list from any start, equal the whole pose.
 TEST(RopePose, GivesPartsOfTheWorld) {
     Drawn drawn;
     drawn.frame(1.0 / 144.0);

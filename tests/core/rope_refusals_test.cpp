@@ -17,7 +17,7 @@ World some_world() {
     return world;
 }
 
-/// Expects `call` to throw with a message that contains all `words`, and the world to stay unchanged.
+/// Expects `call` to throw a message that contains all `words`, and the world to stay unchanged.
 void expect_refused(World& world, const std::function<void()>& call,
                     std::initializer_list<const char*> words) {
     const rope::State before = world.state();
@@ -37,7 +37,7 @@ void expect_refused(World& world, const std::function<void()>& call,
 
 LABEL(slow, "RopeRefusals.AtTheLimitOfParticles");
 
-TEST(RopeRefusals, OfClothAndHair) {
+TEST(RopeRefusals, InvalidClothAndHair) {
     World world = some_world();
     const auto cloth = [&](const rope::ClothShape& shape, const char* what, const char* value) {
         expect_refused(world, [&] { world.add_cloth(shape); }, {"add_cloth", what, value});
@@ -59,7 +59,7 @@ TEST(RopeRefusals, OfClothAndHair) {
     hair({.roots = one, .attach = {7, 3}}, "attach", "7");
 }
 
-TEST(RopeRefusals, OfEverythingElse) {
+TEST(RopeRefusals, AllOtherInvalidInput) {
     World world = some_world();
     const auto refused = [&](const std::function<void()>& call, std::initializer_list<const char*> words) {
         expect_refused(world, call, words);

@@ -52,7 +52,7 @@ TEST(RopeReport, ContactTakesTheEnergyOfAFallOntoTheGround) {
     }
 }
 
-TEST(RopeReport, CountsWhatNeitherIsHeldNorFalls) {
+TEST(RopeReport, CountsParticlesThatNeitherHangNorFall) {
     for (const rope::Solver solver : all_solvers) {
         World world = world_with({.solver = solver});
         constexpr float edge = max_magnitude;
@@ -61,7 +61,7 @@ TEST(RopeReport, CountsWhatNeitherIsHeldNorFalls) {
     }
 }
 
-/// A strand that is too short for its two pins.
+/// A strand too short for its two pins.
 TEST(RopeReport, CountsFallbacks) {
     World hair = world_with({});
     hair.add_hair("hair", {.roots = {{{0, 0, 0}, {0, -1, 0}}}, .length = 0.5f, .segments = 10});

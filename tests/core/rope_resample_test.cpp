@@ -1,4 +1,4 @@
-// Bodies resampled, reversed, and made longer or wider while they move.
+// Bodies that are resampled, reversed, and made longer or wider while they move.
 #include <glm/vec3.hpp>
 #include <string>
 
@@ -11,7 +11,7 @@ namespace {
 using rope::Body;
 using rope::Link;
 
-/// Replaces the state, with the names it had.
+/// Replaces the state and keeps the names.
 std::vector<std::size_t> apply(World& world, Expected<rope::Edited> edited) {
     allow(edited.error());
     world.core() = std::move(edited->world);
@@ -21,7 +21,7 @@ std::vector<std::size_t> divide(World& world, const char* body, std::size_t colu
     return apply(world, rope::resample(world, world.id(body), {columns, rows}));
 }
 
-/// Where a point that is that part of the way along a rope is now.
+/// The current position of a point at the fraction `part` along a rope.
 glm::dvec3 along(const World& world, const char* name, double part) {
     const Body& body = *world.find(name);
     const double at = part * static_cast<double>(body.count - 1);
@@ -59,7 +59,7 @@ TEST(RopeResample, ARopeKeepsItsShapeAndMotion) {
         EXPECT_EQ(world.state().pins.size(), 2u);
         EXPECT_LT(glm::length(momentum(world) - momentum(before)), 1e-9) << segments;
         EXPECT_NO_THROW(World{world.state()});
-        // It goes on much as it would have.
+        // It moves on much as before.
         World coarse = before;
         run(world, 0.25), run(coarse, 0.25);
         EXPECT_LT(distance(along(world, "rope", 1.0), along(coarse, "rope", 1.0)), 0.12) << segments;
@@ -67,8 +67,8 @@ TEST(RopeResample, ARopeKeepsItsShapeAndMotion) {
     }
 }
 
-/// Twice as many segments, and half as many, are the same rope again.
-TEST(RopeResample, SubdividedAndMergedItIsTheSame) {
+/// Doubled and then halved in number of segments, it is the same rope again.
+TEST(RopeResample, SubdividingAndMergingRestoresIt) {
     World world = swinging();
     const rope::State before = world.state();
     divide(world, "rope", 33);
@@ -80,7 +80,7 @@ TEST(RopeResample, SubdividedAndMergedItIsTheSame) {
     EXPECT_EQ(world.state().links.size(), before.links.size());
 }
 
-/// Refused if there were fewer particles than pins and ties need; what holds it stays where it is.
+/// Too few particles for the pins and ties are refused; pinned and tied points stay in place.
 TEST(RopeResample, PinsAndTiesStayOnTheirPoints) {
     World world;
     world.add_rope("a", {.segments = 12});
@@ -167,7 +167,7 @@ TEST(RopeResample, ATornClothStaysTorn) {
     World world;
     world.add_cloth("cloth", {.columns = 9, .rows = 9, .pins = rope::ClothShape::Pins::Row});
     rope::State state = world.state();
-    // Torn between the columns 4 and 5.
+    // Torn between columns 4 and 5.
     std::erase_if(state.links, [](const Link& link) {
         const auto a = link.a % 9, b = link.b % 9;
         return std::min(a, b) <= 4 && std::max(a, b) >= 5;
@@ -180,7 +180,7 @@ TEST(RopeResample, ATornClothStaysTorn) {
     EXPECT_NEAR(world.length(*world.find("cloth")), 1.0, 1e-6);
 }
 
-TEST(RopeResample, AReversedRopeMovesAsItDid) {
+TEST(RopeResample, AReversedRopeKeepsItsMotion) {
     World world = swinging();
     const rope::TieId tie =
         allowed(world.core().tie(world.particle("rope", 4), world.particle("after", 2), {.length = 3}));
@@ -201,8 +201,8 @@ TEST(RopeResample, AReversedRopeMovesAsItDid) {
     EXPECT_FALSE(rope::reverse(other, {}));
 }
 
-/// The same pull stretches a rope by as much, however finely it is divided and however long it is.
-TEST(RopeResample, StretchIsTheMaterials) {
+/// The same pull gives the same strain, for any number of segments and any length.
+TEST(RopeResample, StretchDependsOnTheMaterialOnly) {
     for (const int segments : {4, 32}) {
         World world = world_with({.damping = 3.0f});
         world.add_rope("rope",
@@ -227,7 +227,7 @@ TEST(RopeResample, StretchIsTheMaterials) {
     }
 }
 
-TEST(RopeResample, LengthAndWidthAreASideEach) {
+TEST(RopeResample, LengthAndWidthAreOneSideEach) {
     World world;
     world.add_cloth("cloth", {.along = {1, 0, 0}, .down = {0, -0.5f, 0}, .columns = 9, .rows = 7});
     world.add_rope("rope", {});

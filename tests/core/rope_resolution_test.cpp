@@ -23,7 +23,7 @@ double deepest_inside(const World& world) {
     return depth;
 }
 
-/// Four metres of rope between points three metres apart, with balls coming up from below.
+/// Four metres of rope between points three metres apart, with balls that rise from below.
 World hung_over(int segments, int balls, float radius) {
     World world;
     world.add_rope("rope", {.from = {0, 0, 0},
@@ -49,7 +49,7 @@ TEST(RopeResolution, KeepsItsLengthOverBallsWithAnyNumberOfSegments) {
             unconverged += world.advance(1.0 / 60.0).unconverged;
             ASSERT_LE(stretch(world), thousandth) << segments << ' ' << i;
         }
-        // In two of 360 substeps links of the longest still resist turning when the steps are used up.
+        // In two of 360 substeps, links of the longest rope still turn when the steps are used up.
         EXPECT_LE(unconverged, segments > 4000 ? 2u : 0u) << segments;
         EXPECT_LE(deepest_inside(world), 1e-4) << segments;
         EXPECT_GT(world.position(static_cast<std::size_t>(segments / 2)).y, -1.2) << segments;  // held up
@@ -60,18 +60,18 @@ TEST(RopeResolution, KeepsItsLengthOverBallsWithAnyNumberOfSegments) {
     }
 }
 
-/// So many that they overlap, and each link touches several. Their motion stretches it only for a while.
+/// So many balls that they overlap and each link touches several. Their motion stretches it only briefly.
 TEST(RopeResolution, KeepsItsLengthOverManyBalls) {
     World world = hung_over(1024, 64, 0.05f);
     for (int i = 0; i < 120; ++i) {
         world.advance(1.0 / 60.0);
         EXPECT_LE(deepest_inside(world), 1e-4) << i;
-        if (i < 90) continue;  // half a second after
+        if (i < 90) continue;  // half a second after they stop
         ASSERT_LE(stretch(world), thousandth) << i;
     }
 }
 
-/// It falls in folds that run along it faster than a segment in a substep.
+/// It falls in folds that run along it at more than a segment per substep.
 TEST(RopeResolution, KeepsItsLengthFallingOnBallsAndAFloor) {
     for (const int segments : {256, 1024}) {
         World world;
@@ -88,7 +88,7 @@ TEST(RopeResolution, KeepsItsLengthFallingOnBallsAndAFloor) {
     }
 }
 
-/// Links may be much longer than the bar is thick, and much shorter.
+/// Links may be much longer or much shorter than the bar is thick.
 TEST(RopeResolution, KeepsItsLengthTautOverAThinBar) {
     for (const int segments : {16, 64, 256})
         for (const float friction : {0.0f, 0.5f, 1.0f}) {
@@ -109,7 +109,7 @@ TEST(RopeResolution, KeepsItsLengthTautOverAThinBar) {
 }
 
 /// A nearby collider that is not touched changes no bit.
-TEST(RopeResolution, SwingsBesideABeamAsWithoutOne) {
+TEST(RopeResolution, ABeamThatIsNotTouchedChangesNothing) {
     std::array<World, 2> worlds{world_with({.damping = 0.0f}), world_with({.damping = 0.0f})};
     for (World& world : worlds)
         world.add_rope("rope", {.to = {0.2f, -0.98f, 0}, .segments = 16, .radius = 0.01f, .pin_start = true});
@@ -123,8 +123,8 @@ TEST(RopeResolution, SwingsBesideABeamAsWithoutOne) {
     EXPECT_GE(widest, 0.9 * 0.2);
 }
 
-/// A ball drags a rope that is too short: it stretches smoothly, and recovers once the ball has left.
-TEST(RopeResolution, StretchesWhereItHasToAndComesBack) {
+/// A ball drags a rope that is too short: it stretches smoothly, and recovers after the ball has left.
+TEST(RopeResolution, StretchesIfItMustAndRecovers) {
     World world;
     world.add_rope("rope",
                    {.from = {-1, 0, 0}, .to = {1, 0, 0}, .segments = 64, .pin_start = true, .pin_end = true});

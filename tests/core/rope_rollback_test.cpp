@@ -1,5 +1,5 @@
 // A copy of a world is equivalent: after any edits with any numbers, a copy and a world made from its state
-// continue bit for bit the same. Rollback and scene files depend on this.
+// continue bitwise equal. Rollback and scene files depend on this.
 #include <cmath>
 
 #include "rope_hostile.hpp"
@@ -11,8 +11,8 @@ namespace {
 
 using rope::State;
 
-/// Random edits and frames on one world; after each, a copy and a world made from its state run beside it.
-/// Makes `operations` of them, with a new world every 400.
+/// Makes `operations` random edits and frames on one world, with a new world every 400. After each, a copy
+/// and a world made from its state run beside it.
 void play(std::uint64_t seed, int operations) {
     HostileNumbers hostile(seed);
     rope::World world;
@@ -37,7 +37,7 @@ void play(std::uint64_t seed, int operations) {
     }
 }
 
-TEST(RopeRollback, ACopyIsTheOriginalWhateverWasDone) {
+TEST(RopeRollback, ACopyEqualsTheOriginalAfterAnyEdits) {
     for (std::uint64_t seed = 201; seed <= 204; ++seed) play(seed, 1500);
 }
 
@@ -80,7 +80,7 @@ void ticks(rope::World& world, rope::Workspace& workspace, int from) {
     }
 }
 
-TEST(RopeRollback, PutBackItGoesTheSameWay) {
+TEST(RopeRollback, ARestoredStateContinuesTheSame) {
     for (const rope::Solver solver : all_solvers) {
         std::vector<std::string> units{"none"};
         for (const std::string_view unit : ik::vector_units()) units.emplace_back(unit);

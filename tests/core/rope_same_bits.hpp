@@ -1,5 +1,5 @@
-// Bitwise equality of rope states: every field of every struct. Structured bindings take the structs apart,
-// so that a new field does not compile until it is added here.
+// Bitwise equality of rope states: every field of every struct. Structured bindings list the fields, so that
+// a new field does not compile until it is added here.
 #pragma once
 
 #include <cstring>

@@ -71,11 +71,11 @@ void add_some_body(World& world, Random& random) {
 }
 
 struct Found {
-    double depth = 0.0;  ///< above the allowed depth, metres
+    double depth = 0.0;  ///< in excess of the allowed depth, metres
     std::string what = {};
 };
 
-/// Whether there is room for a ball nearby: all that the bound requires.
+/// Whether there is room for a ball nearby, which is all that the bound requires.
 bool has_room(const World& world, const dvec3& near, double radius, Random& random) {
     for (int i = 0; i < 400; ++i) {
         const dvec3 at = near + dvec3(random.point(i < 200 ? 0.05f : 1.0f));
@@ -102,7 +102,7 @@ void look(const World& world, Random& random, Found& worst) {
         }
 }
 
-/// One scene of half a second, with colliders that change direction.
+/// Plays one scene of half a second, with colliders that change direction.
 void play(std::uint64_t seed, Found& worst) {
     Random random(seed);
     World world = world_with({.substep = random.chance(4) ? 1.0 / 60.0 : 1.0 / 240.0,
@@ -156,8 +156,8 @@ TEST_P(RopeScenes, NothingFreeStaysInside) {
     EXPECT_EQ(failed, 0) << "of 2500";
 }
 
-/// One of 10^5 others, in which a free end moved 0.89 m out of a plane and into a capsule.
-TEST(RopeScene, TheWayOutOfAPlaneDoesNotEndInACapsule) {
+/// One of 10^5 other scenes, in which a free end moved 0.89 m out of a plane and into a capsule.
+TEST(RopeScene, LeavingAPlaneDoesNotEndInACapsule) {
     Found worst;
     play(1'077'508, worst);
     EXPECT_LE(worst.depth, 0.0) << worst.what;

@@ -20,8 +20,8 @@ World busy_world(rope::Solver solver) {
     return world;
 }
 
-/// Everything that two states can differ in; one generation stands for all handles.
-TEST(RopeState, EveryFieldCountsWhenStatesAreCompared) {
+/// All fields in which two states can differ; one generation represents all handles.
+TEST(RopeState, ComparisonCoversEveryField) {
     const World world = busy_world(rope::Solver::Direct);
     void (*const changes[])(State&) = {
         [](State& s) { s.settings.wind.x = 1.0f; },
@@ -55,17 +55,17 @@ TEST(RopeState, EveryFieldCountsWhenStatesAreCompared) {
     }
     State other = world.state();
     other.displacement[0].x =
-        -other.displacement[0].x;  // a pinned particle's: no value changes, but a bit does
+        -other.displacement[0].x;  // a pinned particle: the value is the same, but not its bits
     EXPECT_EQ(world.state(), other);
     EXPECT_FALSE(same_bits(world.state(), other));
 }
 
 struct Broken {
-    const char* word;  ///< that the refusal must contain
+    const char* word;  ///< required in the refusal's message
     void (*how)(State&);
 };
 
-TEST(RopeState, BrokenOnesAreRefused) {
+TEST(RopeState, InvalidStatesAreRefused) {
     const Broken all[] = {
         {"substep", [](State& s) { s.settings.substep = 0.0; }},
         {"gravity", [](State& s) { s.settings.gravity.x = nan; }},
@@ -130,7 +130,7 @@ TEST(RopeState, BrokenOnesAreRefused) {
     }
 }
 
-/// Any graph of links: rings, stars, duplicates, across bodies.
+/// Any graph of links: rings, stars, duplicates, and links across bodies.
 TEST(RopeState, AnyGraphOfLinksWorks) {
     Random random(91);
     for (int round = 0; round < 60; ++round) {
@@ -151,13 +151,13 @@ TEST(RopeState, AnyGraphOfLinksWorks) {
         world = World(state);
         for (int i = 0; i < 60; ++i) world.advance(1.0 / 60.0);
         EXPECT_TRUE(all_finite(world)) << round;
-        // Nothing flies off, although the lengths conflict.
+        // Nothing flies off, even with conflicting lengths.
         for (const glm::dvec3& p : world.state().position) EXPECT_LE(glm::length(p), 40.0) << round;
     }
 }
 
 /// A world accepts any state that it reached itself, however heavy, wide or tight.
-TEST(RopeState, ItsOwnIsNotRefused) {
+TEST(RopeState, ItsOwnStateIsAccepted) {
     World tight;
     tight.add_rope("rope",
                    {.to = {1, 0, 0}, .segments = 4, .length = 1e-12f, .pin_start = true, .pin_end = true});
@@ -174,15 +174,15 @@ TEST(RopeState, ItsOwnIsNotRefused) {
     }
 }
 
-/// Coordinates are bounded: what falls or is thrown past the bound stops there, and can be saved.
-TEST(RopeState, ItsOwnIsNotRefusedAtTheEdgeOfTheWorld) {
+/// Coordinates are bounded: a body that falls or is thrown past the bound stops there and can be saved.
+TEST(RopeState, ItsOwnStateIsAcceptedAtTheEdgeOfTheWorld) {
     World world = world_with({.substep = 0.1, .gravity = {1e4f, -1e4f, 0}, .gravity_scale = 1e3f});
     world.add_rope("rope", {.from = {-9e8f, 9e8f, 9e8f}, .to = {-9e8f, 9e8f, 9e8f}, .segments = 5});
     world.add_cloth("cloth", {.corner = {9e8f, 0, 0}, .columns = 3, .rows = 3});
     world.add_collider("ball", rope::Sphere{{9.9e8f, 9.9e8f, 9.9e8f}, 1.0f});
     world.add_collider("rod", rope::Capsule{{1e9f, 0, 0}, {1e9f, 1e9f, 1.0f}, 1.0f});
     for (int i = 0; i < 60; ++i) {
-        if (i == 20) world.attach(0, "ball");  // twice as far away as anything is from the origin
+        if (i == 20) world.attach(0, "ball");  // twice as far away as the largest coordinate
         if (i == 30) world.set_settings({.substep = 1e-5, .longest_frame = 1e-3f});
         if (i == 40) world.set_settings({.substep = 0.1});  // motion from 1e-5 s continues in 0.1 s
         if (i == 50) world.move_collider("rod", {1e9f, -5e8f, 0}, 0.5);
@@ -192,7 +192,7 @@ TEST(RopeState, ItsOwnIsNotRefusedAtTheEdgeOfTheWorld) {
     }
 }
 
-TEST(RopeState, BodiesThatWouldReachOverTheEdgeAreRefused) {
+TEST(RopeState, BodiesBeyondTheEdgeAreRefused) {
     World world;
     const auto refused = [&](auto add) {
         const std::string message = message_of<std::invalid_argument>(add);

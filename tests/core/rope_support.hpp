@@ -77,7 +77,7 @@ inline double lowest(const World& world) {
     return y;
 }
 
-/// The theoretical sag of a rope of that length between two points `span` apart.
+/// The theoretical sag of a rope of `length` between two points `span` apart.
 inline double catenary_sag(double span, double length) {
     double low = 1e-3 * span, high = 1e3 * span;
     for (int i = 0; i < 200; ++i) {
@@ -88,7 +88,7 @@ inline double catenary_sag(double span, double length) {
 }
 
 inline double stretch(const World& world, const char* body = "rope") {
-    return world.length_error(*world.find(body));  // measured, not as reported
+    return world.length_error(*world.find(body));  // as measured, not as reported
 }
 inline double energy(const World& world, const char* body = "rope") {
     return world.energy(*world.find(body));

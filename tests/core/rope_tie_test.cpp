@@ -12,7 +12,7 @@ using rope::Solver;
 std::size_t particle_of(const World& world, const char* body, std::size_t index) {
     return world.find(body)->first + index;
 }
-/// Counts from the end with a negative index.
+/// Ties two particles; a negative index counts from the end.
 rope::TieId tie(World& world, const char* a, int of_a, const char* b, int of_b,
                 const rope::TieShape& shape = {}) {
     const auto at = [&](const char* body, int i) {
@@ -63,7 +63,7 @@ TEST(RopeTie, KeepsMomentumOfFreeBodies) {
     EXPECT_LT(stretch(moving, "rope"), 1e-3);
 }
 
-/// Cloth of every size takes part in the solve: at rest its ties carry its weight, and keep their lengths.
+/// Cloth of every size is part of the solve: at rest its ties carry its weight and keep their lengths.
 TEST(RopeTie, TiesCarryTheWeightOfACloth) {
     for (const int side : {6, 17, 28}) {
         World world = world_with({.damping = 6.0f});
@@ -142,7 +142,7 @@ TEST(RopeTie, KeepsTheSpinOfACloth) {
     EXPECT_LT(moving.length_error(), 2e-3);
 }
 
-/// A cloth on a line, cut in two across: each piece keeps its ties, which hold its weight.
+/// A cloth hung on a line and cut in two: each piece keeps its ties, and these hold its weight.
 TEST(RopeTie, PiecesOfACutClothKeepTheirTies) {
     World whole = world_with({.damping = 3.0f});
     whole.add_rope("line", {.from = {0, 2, 0},
@@ -219,13 +219,13 @@ TEST(RopeTie, ClothStaysOnItsRope) {
     EXPECT_LT(stretch(world, "line"), 1e-3);
 }
 
-/// The cable of a bridge whose deck weighs far more than it, with the same load at equal distances along the
-/// span: its hangers meet a parabola, y = 4 d x (s - x) / s^2 below its ends.
+/// The cable of a bridge with a much heavier deck, which loads it equally at equal distances along the span:
+/// its hangers lie on a parabola, y = 4 d x (s - x) / s^2 below its ends.
 TEST(RopeTie, CableOfABridgeIsAParabola) {
     constexpr int hangers = 15, segments = 256;
     constexpr double span = 4.0, sag = 0.5, slope = 4.0 * sag / span;
     const auto below = [](double x) { return 4.0 * sag * x * (span - x) / (span * span); };
-    // The length of the parabola from its vertex to where it has a slope.
+    // Length of the parabola from its vertex to the point of a given slope.
     const auto arc = [](double m) {
         return span / (4.0 * slope) * (m * std::sqrt(1.0 + m * m) + std::asinh(m));
     };
@@ -293,9 +293,8 @@ std::string add_tied_body(World& world, Random& random) {
 
 class RopeTieScenes : public testing::TestWithParam<std::uint64_t> {};
 
-/// Bodies with ties of every length and strength, some drawn together from afar, some torn and untied while
-/// they run: nothing is ever NaN. Where no tie draws anything, nothing gains energy, among balls at rest or
-/// without.
+/// Bodies with ties of any length and strength, some pulled together from afar, some torn or untied while
+/// they run: nothing is ever NaN. If no tie pulls, nothing gains energy, with or without a ball at rest.
 TEST_P(RopeTieScenes, StayFiniteAndGainNoEnergy) {
     double worst = 0.0;
     for (std::uint64_t seed = GetParam(); seed < GetParam() + 250; ++seed) {
@@ -328,7 +327,7 @@ TEST_P(RopeTieScenes, StayFiniteAndGainNoEnergy) {
             if (i == 20 && !world.state().ties.empty()) allow(world.core().untie(world.state().ties[0].id));
         }
     }
-    EXPECT_LT(worst, 0.01);  // of the energy of a fall of a metre
+    EXPECT_LT(worst, 0.01);  // relative to the energy of a fall of a metre
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, RopeTieScenes, testing::Range<std::uint64_t>(0, 1000, 250));
 
@@ -352,7 +351,7 @@ TEST(RopeTie, StaysOnItsParticleThroughEdits) {
     EXPECT_TRUE(world.state().ties.empty());
 }
 
-TEST(RopeTie, Refusals) {
+TEST(RopeTie, RefusesInvalidTies) {
     World world;
     world.add_rope("rope", {.segments = 4});
     const auto refused = [](const auto& given) { return std::string(given.error().message()); };

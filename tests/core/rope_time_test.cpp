@@ -1,4 +1,4 @@
-// Time is simulated in fixed substeps: the division into frames does not matter, and dropped time is counted.
+// Time is simulated in fixed substeps: the division into frames has no effect, and dropped time is counted.
 #include "rope_support.hpp"
 
 namespace tendril::test {
@@ -8,7 +8,7 @@ using rope::Advance;
 using rope::Settings;
 using rope::Solver;
 
-/// A moving scene with every kind of body.
+/// A moving scene with bodies of every kind.
 World scene(Solver solver) {
     World world = world_with({.solver = solver});
     world.add_rope("rope",
@@ -29,7 +29,7 @@ double farthest_apart(const World& a, const World& b) {
     return most;
 }
 
-TEST(RopeTime, NorDoRaggedCuts) {
+TEST(RopeTime, RaggedFramesGiveTheSameResult) {
     Random random(51);
     World whole = scene(Solver::Direct);
     for (int i = 0; i < 60; ++i) whole.advance(1.0 / 60.0);
@@ -37,7 +37,7 @@ TEST(RopeTime, NorDoRaggedCuts) {
         World ragged = scene(Solver::Direct);
         double left = 1.0;
         while (left > 0.0) {
-            // From a microsecond to a quarter of a second, and empty calls.
+            // Frames from a microsecond to a quarter of a second, and empty calls.
             double frame = std::pow(10.0, -6.0 + 5.398 * static_cast<double>(random.below(1001)) / 1000.0);
             if (random.chance(5)) frame = 0.0;
             frame = std::min(frame, left);
@@ -66,7 +66,7 @@ TEST(RopeTime, ASubstepIsDueWithinAMillionthOfItsLength) {
     EXPECT_EQ(world.advance(h * (0.5 - 0.5e-6)).substeps, 1);
 }
 
-TEST(RopeTime, WhatIsOverTheLongestFrameIsDroppedAndCounted) {
+TEST(RopeTime, TimeBeyondTheLongestFrameIsDroppedAndCounted) {
     World world;
     const Advance ten = world.advance(10.0);
     EXPECT_EQ(ten.substeps, 60);  // a quarter of a second
@@ -84,7 +84,7 @@ TEST(RopeTime, WhatIsOverTheLongestFrameIsDroppedAndCounted) {
     EXPECT_EQ(world.state().dropped, 2460u);
 }
 
-TEST(RopeTime, SoIsWhatIsOverTheMostSubsteps) {
+TEST(RopeTime, TimeBeyondTheMaximumSubstepsIsDroppedAndCounted) {
     World some = scene(Solver::Direct), all = scene(Solver::Direct);
     const Advance cut = some.advance(0.1 + 0.3 / 240.0, 10);
     EXPECT_EQ(cut.substeps, 10);
@@ -97,8 +97,8 @@ TEST(RopeTime, SoIsWhatIsOverTheMostSubsteps) {
     EXPECT_EQ(some.advance(0.05).substeps, 12);
 }
 
-/// Less than a substep over in each of many frames adds up: it is simulated or counted.
-TEST(RopeTime, NoTimeIsLostUnseen) {
+/// Less than a substep dropped in each of many frames adds up: it is simulated or counted.
+TEST(RopeTime, AllTimeIsSimulatedOrCounted) {
     World world;
     const double over = 0.4 / 240.0;
     for (int i = 0; i < 1000; ++i) world.advance(0.25 + over);
@@ -111,7 +111,7 @@ TEST(RopeTime, NoTimeIsLostUnseen) {
     EXPECT_NEAR(static_cast<double>(other.state().substeps + other.state().dropped), 16.0, 1.0);
 }
 
-TEST(RopeTime, NoTimeIsNoStepAndBadTimeIsRefused) {
+TEST(RopeTime, ZeroTimeTakesNoStepAndBadTimeIsRefused) {
     World world = scene(Solver::Direct);
     world.advance(0.3 / 240.0);
     const rope::State before = world.state();
@@ -125,8 +125,8 @@ TEST(RopeTime, NoTimeIsNoStepAndBadTimeIsRefused) {
     }
 }
 
-/// Changing the substep in flight changes no speed.
-TEST(RopeTime, SpeedOutlivesANewSubstep) {
+/// A change of substep does not change speeds.
+TEST(RopeTime, ANewSubstepKeepsTheSpeed) {
     World world = world_with({.damping = 0.0f, .gravity = {0, 0, 0}, .external = {1, 0, 0}});
     world.add_rope("rope", {.from = {0, 0, 0}, .to = {0, 1, 0}, .segments = 4});
     run(world, 1.0);

@@ -9,7 +9,7 @@ using rope::ClothShape;
 using rope::Link;
 using rope::Solver;
 
-/// A flag on a pole along y; it points along x. Its edge on the pole is its first row.
+/// Adds a flag on a pole along y, pointing along x. Its edge on the pole is its first row.
 void raise_flag(World& world, float length, int rows, ClothShape::Pins pins = ClothShape::Pins::Row) {
     world.add_cloth("flag", {.corner = {0, 0, 0},
                              .along = {0, -0.6f * length, 0},
@@ -22,11 +22,11 @@ void raise_flag(World& world, float length, int rows, ClothShape::Pins pins = Cl
                              .pins = pins});
 }
 
-/// Of the middle of the flag's free edge, across the wind, over 6 s after 4 s.
+/// Motion of the middle of the flag's free edge across the wind, over 6 s after the first 4 s.
 struct Flutter {
-    double amplitude = 0.0;  ///< metres, from its mean: root of the mean square
+    double amplitude = 0.0;  ///< root mean square from its mean, metres
     double frequency = 0.0;  ///< crossings of the mean, Hz
-    double height = 0.0;     ///< of the edge, metres, in the mean
+    double height = 0.0;     ///< mean height of the edge, metres
 };
 
 Flutter flutter_of(World& world) {
@@ -54,7 +54,7 @@ Flutter flutter_of(World& world) {
 LABEL(slow, "RopeWind.Fl*");
 LABEL(slow, "RopeWind.NoWindThrowsAFlag");
 
-/// Flags beat with a Strouhal number, frequency times length over wind, of some tenths.
+/// Flags beat with a Strouhal number (frequency times length over wind) of some tenths.
 TEST(RopeWind, FlagsFlutter) {
     for (const float length : {0.5f, 1.0f, 2.0f}) {
         for (const float wind : {3.0f, 6.0f, 12.0f}) {
@@ -75,7 +75,7 @@ TEST(RopeWind, FlagsFlutter) {
     }
 }
 
-/// Without gusts too, once it is out of its plane: the wind drives the waves.
+/// Without gusts too, once out of its plane: the wind drives the waves.
 TEST(RopeWind, FluttersWithoutGusts) {
     World world = world_with({.wind = {8, 0, 0.2f}, .gusts = 0.0f});
     raise_flag(world, 1.0f, 20);
@@ -93,8 +93,8 @@ TEST(RopeWind, ChangesNothingAtZero) {
     EXPECT_EQ(calm.state().position, still.state().position);
 }
 
-/// The frames that time passes in change nothing.
-TEST(RopeWind, IsTheSameHoweverTimeIsDivided) {
+/// The division of time into frames changes nothing.
+TEST(RopeWind, TheDivisionOfTimeDoesNotMatter) {
     World whole = world_with({.wind = {5, 1, 2}}), parts = world_with({.wind = {5, 1, 2}});
     raise_flag(whole, 1.0f, 10);
     raise_flag(parts, 1.0f, 10);
@@ -103,8 +103,8 @@ TEST(RopeWind, IsTheSameHoweverTimeIsDivided) {
     EXPECT_EQ(whole.state().position, parts.state().position);
 }
 
-/// A slight change of the wind, or of the substep, changes the air slightly: the gusts stay where they are.
-TEST(RopeWind, AChangeMovesNoGust) {
+/// A slight change of wind or substep changes the air slightly: the gusts stay where they are.
+TEST(RopeWind, ASlightChangeKeepsTheGusts) {
     World steady = world_with({.wind = {5, 0, 1}, .gusts = 1.0f});
     raise_flag(steady, 1.0f, 10);
     run(steady, 10.0);
@@ -130,7 +130,7 @@ TEST(RopeWind, AChangeMovesNoGust) {
     }
 }
 
-/// At rest there is nothing to see: a flag without wind hangs.
+/// A flag without wind hangs still.
 TEST(RopeWind, AFlagHangsWithoutWind) {
     World world = world_with({.damping = 2.0f});
     raise_flag(world, 1.0f, 12);
@@ -138,8 +138,8 @@ TEST(RopeWind, AFlagHangsWithoutWind) {
     EXPECT_LE(top_speed(world), 0.02);
 }
 
-/// As seen by a steady wind, no cloth gains energy: it ends up drifting along, never faster.
-TEST(RopeWind, TakesAFreeClothAlong) {
+/// Relative to a steady wind, cloth gains no energy: it ends up drifting with it, never faster.
+TEST(RopeWind, CarriesAFreeCloth) {
     for (const Solver solver : all_solvers) {
         for (const float wind : {1.0f, 20.0f, 1000.0f}) {
             World world = world_with({.solver = solver,
@@ -158,9 +158,9 @@ TEST(RopeWind, TakesAFreeClothAlong) {
     }
 }
 
-/// Random winds that change at once, gusts at their maximum: a pinned flag is never faster than the air.
-/// Direct also keeps it within its reach and a quarter, the worst of 360 winds (1.45 m), and once the wind
-/// stops only what its taut links hold becomes motion.
+/// Random winds that change suddenly, with gusts at their maximum: a pinned flag is never faster than the
+/// air. With the direct solver it also stays within 1.25 of its reach, the worst of 360 winds (1.45 m), and
+/// once the wind stops, only energy held by taut links becomes motion.
 TEST(RopeWind, NoWindThrowsAFlag) {
     for (const Solver solver : all_solvers) {
         Random random(3);
@@ -183,7 +183,7 @@ TEST(RopeWind, NoWindThrowsAFlag) {
             ASSERT_TRUE(all_finite(world)) << which;
             const double air = std::sqrt(3.0) * (1.0 + std::sqrt(3.0)) * most;
             EXPECT_LE(fastest, air) << which;
-            if (solver != Solver::Direct) continue;  // the others stretch it
+            if (solver != Solver::Direct) continue;  // other solvers stretch it
             EXPECT_LE(farthest, 1.25 * std::hypot(1.0, 0.6)) << which;
             rope::Settings settings = world.settings();
             settings.wind = glm::vec3(0.0f);

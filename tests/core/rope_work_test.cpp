@@ -1,11 +1,11 @@
-// The work of a substep is bounded, whatever the settings and wherever the colliders are.
+// The work of a substep is bounded for any settings and any position of colliders.
 #include "rope_support.hpp"
 
 namespace tendril::test {
 namespace {
 
-/// The maximum number of links and contacts that a substep may visit: passes over everything, the searches
-/// for ways out, and links near thin colliders.
+/// The maximum number of links and contacts that a substep may visit: passes over everything, searches for
+/// ways out, and links near thin colliders.
 std::uint64_t max_work(const World& world) {
     const std::size_t particles = world.size(), links = world.state().links.size();
     const std::size_t pairs = world.state().colliders.size() * (particles + 14 * links);
@@ -21,9 +21,9 @@ World bodies(const rope::Settings& settings) {
     return world;
 }
 
-TEST(RopeWork, OfASubstepIsBounded) {
+TEST(RopeWork, ASubstepIsBounded) {
     const std::vector<std::vector<rope::Shape>> traps{
-        // No room between two walls, none at all behind both, and no end to a rod.
+        // Two walls with no room between them, two that leave no point free, and a rod without end.
         {rope::Plane{{0, 0.01f, 0}, {0, -1, 0}}, rope::Plane{{0, -0.01f, 0}, {0, 1, 0}}},
         {rope::Plane{{0, 5, 0}, {0, 1, 0}}, rope::Plane{{0, -5, 0}, {0, -1, 0}}},
         {rope::Capsule{{-1e9f, 0, 0}, {1e9f, 0, 0}, 0.3f}, rope::Sphere{{0, 0, 0}, 0.5f}},
@@ -50,7 +50,7 @@ TEST(RopeWork, OfASubstepIsBounded) {
 }
 
 /// Skipped work is reported.
-TEST(RopeWork, WhatTheBoundLeavesOutIsCounted) {
+TEST(RopeWork, SkippedWorkIsCounted) {
     World world = bodies({.iterations = 10'000, .solver = rope::Solver::Relaxation});
     EXPECT_EQ(world.advance(1.0 / 240.0).shortened, 1);
     EXPECT_EQ(world.advance(0.0).shortened, 0);
@@ -58,13 +58,13 @@ TEST(RopeWork, WhatTheBoundLeavesOutIsCounted) {
     EXPECT_EQ(few.advance(1.0 / 60.0).shortened, 0);
     EXPECT_EQ(few.advance(1.0 / 60.0).unresolved, 0u);
     World shut = bodies({});
-    shut.add_collider("above", rope::Plane{{0, 6, 0}, {0, 1, 0}});  // everything is behind one of them
+    shut.add_collider("above", rope::Plane{{0, 6, 0}, {0, 1, 0}});  // every point is behind one of the two
     shut.add_collider("below", rope::Plane{{0, 5, 0}, {0, -1, 0}});
     EXPECT_EQ(shut.advance(1.0 / 240.0).unresolved, shut.size());
 }
 
-/// The budget of a substep suffices if there is room: a rope wedged between balls.
-TEST(RopeWork, WedgedParticlesStillFindTheirWayOut) {
+/// If there is room, the budget of a substep suffices: a rope wedged between balls.
+TEST(RopeWork, WedgedParticlesStillGetOut) {
     World world;
     world.add_rope({.from = {-1, 0.3f, 0}, .to = {1, 0.3f, 0}, .segments = 128, .radius = 0.01f});
     for (int i = 0; i < 40; ++i) {
@@ -78,9 +78,9 @@ TEST(RopeWork, WedgedParticlesStillFindTheirWayOut) {
     EXPECT_EQ(unresolved, 0u);
 }
 
-/// A ball pressed into a trough: the way out from between them is long, and most directions lead further in.
-/// Each of 13 particles searches in the same substep.
-TEST(RopeWork, WhatABallPressesIntoATroughFindsItsWayOut) {
+/// A ball pressed into a trough: the way out is long, and most directions lead further in. Each of 13
+/// particles searches in the same substep.
+TEST(RopeWork, ParticlesPressedIntoATroughGetOut) {
     Random random(10994);
     for (int i = 0; i < 200; ++i) {
         World world = world_with({.solver = all_solvers[random.below(3)]});

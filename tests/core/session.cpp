@@ -101,7 +101,7 @@ rope::Shape some_collider(Random& random) {
     }
 }
 
-/// Ropes of two lengths, some whipping, a cloth that tears, and hair on a ball.
+/// A world of ropes of two lengths, some whipping, a cloth that tears, and hair on a ball.
 test::World some_world(int number, Random& random) {
     rope::Settings settings;
     settings.solver = static_cast<rope::Solver>(number % 3);

@@ -1,11 +1,11 @@
-// Fixed sessions over the library, and the hashes that they must give under every compiler and optimisation.
+// Fixed sessions over the library, and the hashes they must give with every compiler and optimisation.
 #pragma once
 
 #include <cstdint>
 
 namespace tendril::test {
 
-/// The expected session_hash(). A change means that saved scenes and recordings play differently.
+/// The expected session_hash(). If it changes, saved scenes and recordings play differently.
 inline constexpr std::uint64_t golden_session_hash = 0xf7b7c11b0c7f4723u;
 
 /// Runs 20 000 pseudo-random edits and pulls and hashes the bits of every position after each (64-bit
@@ -29,7 +29,7 @@ std::uint64_t curve_hash();
 /// The expected linkage_hash().
 inline constexpr std::uint64_t golden_linkage_hash = 0x9f277fbe0ecdff6cu;
 
-/// Drives and draws six linkages 60 times each, and hashes the bits of every joint and point.
+/// Drives and drags six linkages 60 times each, and hashes the bits of every joint and point.
 std::uint64_t linkage_hash();
 
 /// The expected rope_hash().

@@ -11,7 +11,7 @@
 namespace tendril::test {
 namespace {
 
-/// Multiples of 2^-16 from -1 to 1, exact.
+/// A vector with multiples of 2^-16 from -1 to 1, exact.
 glm::dvec3 some_vector(Random& random) {
     const auto part = [&] { return (static_cast<double>(random.below(1u << 17)) - 65536.0) / 65536.0; };
     const double x = part(), y = part(), z = part();
@@ -26,7 +26,7 @@ void add(Fnv& hash, const std::vector<rig::Transform>& pose) {
     }
 }
 
-/// A bar in both hands, of which one is turned as its grip.
+/// A bar held in both hands; only the left grip sets a rotation.
 void add_hold(Fnv& hash, Body& body, const std::vector<rig::Transform>& rest, Random& random) {
     std::vector<Grip> grips{{Effector::LeftHand, {0.1875, 0.0, 0.0}},
                             {Effector::RightHand, {-0.1875, 0.0, 0.0}}};
@@ -44,7 +44,7 @@ void add_hold(Fnv& hash, Body& body, const std::vector<rig::Transform>& rest, Ra
     }
 }
 
-/// The spine along a curve.
+/// Bends the spine along a curve.
 void add_bend(Fnv& hash, const Skeleton& skeleton, const std::vector<rig::Transform>& rest, Random& random) {
     BentChain spine = *BentChain::make(skeleton, *skeleton.find("Spine"), *skeleton.find("Head"));
     for (int frame = 0; frame < 20; ++frame) {
@@ -72,7 +72,7 @@ std::uint64_t humanoid_hash() {
     const Ground stairs = *Ground::stairs(0.125, 0.25);
     BodyState free_state, held_state;
     FeetState feet_state;
-    // Without a map the left arm is not a bone of the body: it swings.
+    // A map without bones leaves the left arm to the spring chain.
     SpringChain arm = *SpringChain::make(skeleton, BoneMap(), *skeleton.find("LeftShoulder"));
     SpringChainState arm_state;
     for (int frame = 0; frame < 300; ++frame) {

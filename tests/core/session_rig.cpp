@@ -12,7 +12,7 @@ namespace {
 
 using namespace rig;
 
-/// Multiples of 2^-16, exact.
+/// A multiple of 2^-16, exact.
 double some_number(Random& random) {
     return (static_cast<double>(random.below(1u << 18)) - 131072.0) / 65536.0;
 }

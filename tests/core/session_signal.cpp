@@ -18,13 +18,13 @@ using signal::SpringState;
 double around(Random& random, float range) {
     return static_cast<double>(random.around(range));
 }
-/// A time, exact in a float: from 1/256 to 8 s.
+/// A time from 1/256 to 8 s, exact in a float.
 double some_dt(Random& random) {
     const int power = static_cast<int>(random.below(12)) - 8;
     return std::ldexp(1.0, power);
 }
 
-/// Parameters that are exact in a float, from 0 to 4.
+/// A filter with parameters from 0 to 4 that are exact in a float.
 Filter some_filter(const signal::Kind& kind, Random& random) {
     for (;;) {
         Filter filter = kind.blank();

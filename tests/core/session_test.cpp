@@ -36,7 +36,7 @@ TEST(Session, SignalsEndInTheSameBitsInEveryBuild) {
     EXPECT_EQ(signal_hash(), golden_signal_hash);
 }
 
-TEST(Session, characters_give_the_same_bits) {
+TEST(Session, CharactersEndInTheSameBitsInEveryBuild) {
     EXPECT_EQ(humanoid_hash(), golden_humanoid_hash);
 }
 

@@ -1,4 +1,4 @@
-// Batches of springs and values against single ones.
+// Batches of springs and values compared with single ones.
 #include "tendril/signal/batch.hpp"
 
 #include <cstdio>
@@ -54,7 +54,7 @@ bool same_bits(const Floats& a, const Floats& b) {
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0);
 }
 
-/// Every kind of damping, strengths from 0 to stiff.
+/// Springs with every kind of damping, and strengths from 0 to stiff.
 Springs some_springs(std::size_t count, Random& random) {
     Springs springs;
     for (std::size_t i = 0; i < count; ++i) {
@@ -68,11 +68,11 @@ Springs some_springs(std::size_t count, Random& random) {
     return springs;
 }
 
-/// The weight of a velocity relative to a distance.
+/// Scale of a velocity relative to a distance.
 double rate_of(const Spring<>& spring, double dt) {
     return std::max(turn * spring.strength, 1.0 / dt);
 }
-/// The magnitude of the terms of a step, as in batch.hpp.
+/// Magnitude of the terms of a step, as in batch.hpp.
 double size_of(const Spring<>& spring, const SpringState<>& state, double target, double dt) {
     const double w = turn * spring.strength, velocity = std::abs(target - state.previous_target) / dt;
     const double shift = w > 0.0
@@ -82,7 +82,7 @@ double size_of(const Spring<>& spring, const SpringState<>& state, double target
     return std::abs(state.value) + std::abs(target) + shift + std::abs(state.velocity) / rate_of(spring, dt);
 }
 
-TEST(SignalBatch, SpringsAreAsOneByOne) {
+TEST(SignalBatch, SpringsMatchSingleOnes) {
     Random random(1);
     double worst = 0.0, worst_swing = 0.0;
     for (int round = 0; round < 200; ++round) {
@@ -144,7 +144,7 @@ TEST(SignalBatch, AllVectorUnitsGiveTheSameBits) {
     }
 }
 
-TEST(SignalBatch, AnyPartMayBeSteppedApart) {
+TEST(SignalBatch, PartsMayBeSteppedSeparately) {
     Random random(3);
     Springs whole = some_springs(97, random), parts = whole;
     for (int turns = 0; turns < 5; ++turns) {
@@ -165,7 +165,7 @@ TEST(SignalBatch, AnyPartMayBeSteppedApart) {
     }
 }
 
-TEST(SignalBatch, InterpToIsAsOneByOne) {
+TEST(SignalBatch, InterpToMatchesSingleValues) {
     Random random(4);
     Floats current, target, speed;
     for (int i = 0; i < 4001; ++i) {
@@ -187,7 +187,7 @@ TEST(SignalBatch, InterpToIsAsOneByOne) {
     }
 }
 
-TEST(SignalBatch, WhatIsOutOfRangeIsLeftAlone) {
+TEST(SignalBatch, ValuesOutOfRangeAreLeftAlone) {
     const float bad[] = {single(not_a_number), single(infinity), -1.0f, 1.1e9f};
     for (const float each : bad) {
         Random random(5);
@@ -223,7 +223,7 @@ TEST(SignalBatch, WhatIsOutOfRangeIsLeftAlone) {
     }
 }
 
-TEST(SignalBatch, IsFiniteHoweverHard) {
+TEST(SignalBatch, ExtremeInputsStayFinite) {
     Random random(7);
     const double dts[] = {5e-324, 1e-9, 1e-3, 1.0, 3600.0, 1e9, 1e300};
     for (int round = 0; round < 300; ++round) {
@@ -248,7 +248,7 @@ TEST(SignalBatch, IsFiniteHoweverHard) {
     }
 }
 
-TEST(SignalBatch, WithoutDampingNoEnergyIsGainedInHours) {
+TEST(SignalBatch, WithoutDampingHoursOfSteppingGainNoEnergy) {
     Springs springs;
     for (int i = 0; i < 64; ++i) springs.add(std::exp2(0.2 * i - 3.0), 0.0, 0.0, 0.0, 0.0);
     for (float& value : springs.value) value = 1.0f;

@@ -1,4 +1,4 @@
-// Properties of every kind of filter.
+// Properties shared by every kind of filter.
 #include <set>
 
 #include "signal_support.hpp"
@@ -44,7 +44,7 @@ TEST(SignalFilter, RefusalsNameTheParameterAndItsValue) {
     EXPECT_TRUE(test::says(message(signal::Hysteresis{.low = 1.0, .high = 0.5}), "hysteresis low high 1"));
 }
 
-/// Any filter that check() accepts; parameters at the ends of their ranges as often as between.
+/// A filter that check() accepts; parameters are at the ends of their ranges as often as in between.
 Filter some_filter(Random& random) {
     for (;;) {
         const Kind& kind = signal::kinds()[random.below(signal::kinds().size())];
@@ -71,7 +71,7 @@ double some_input(Random& random) {
     return random.chance(6) ? odd[random.below(8)] : around(random, random.chance(3) ? 1e9 : 2.0);
 }
 
-TEST(SignalFilter, NeverPutsOutWhatIsNotANumber) {
+TEST(SignalFilter, NeverOutputsNaN) {
     Random random(1);
     for (int i = 0; i < 6000; ++i) {
         const Filter filter = some_filter(random);
@@ -113,7 +113,7 @@ TEST(SignalFilter, RefusedInputsAndTimesChangeNothing) {
     }
 }
 
-TEST(SignalFilter, TheFirstStepReturnsWhatTheInputAloneSays) {
+TEST(SignalFilter, TheFirstStepDependsOnTheInputOnly) {
     const double input = 0.75;
     for (const Kind& kind : signal::kinds()) {
         const std::string name = kind.name;
@@ -124,7 +124,7 @@ TEST(SignalFilter, TheFirstStepReturnsWhatTheInputAloneSays) {
     EXPECT_EQ(signal::immediate(signal::RateLimit{}, not_a_number), 0.0);
 }
 
-TEST(SignalFilter, TheStateOfAnotherKindIsTakenAsFresh) {
+TEST(SignalFilter, AStateOfAnotherKindStartsOver) {
     FilterState state;
     signal::step(signal::Spring<>{}, state, 5.0, 0.1);
     EXPECT_EQ(signal::step(signal::SmoothDamp{}, state, not_a_number, 0.1), 0.0);
@@ -209,7 +209,7 @@ TEST(SignalCurve, RefusalsNameTheKey) {
     EXPECT_EQ(message({{.time = -3.0}, {.time = 7.0}}), "");
 }
 
-TEST(SignalCurve, IsFiniteHoweverItsKeysLie) {
+TEST(SignalCurve, IsFiniteForAnyKeys) {
     Random random(1);
     for (int i = 0; i < 3000; ++i) {
         Curve curve;
@@ -220,7 +220,7 @@ TEST(SignalCurve, IsFiniteHoweverItsKeysLie) {
             CurveKey key{.time = odd[random.below(5)], .value = odd[random.below(5)]};
             key.arrive = odd[random.below(5)], key.leave = odd[random.below(5)];
             key.piece = static_cast<Piece>(random.below(3));
-            curve.keys.push_back(key);  // unsorted and equal times too: not refused here, but finite
+            curve.keys.push_back(key);  // unsorted and equal times too: accepted here, and finite
         }
         if (random.chance(2)) signal::set_smooth_tangents(curve);
         for (const double time : {-1e9, 0.0, 5e-324, 0.25, 0.5, 0.75, 1.0, 1e9, not_a_number})

@@ -12,7 +12,7 @@ using signal::Filter;
 using signal::Response;
 using signal::Sample;
 
-/// A signal as a function of time.
+/// Samples a function of time.
 std::vector<Sample> sampled(const std::function<double(double)>& of, double seconds, double hz) {
     std::vector<Sample> samples;
     for (int i = 0; i <= static_cast<int>(seconds * hz); ++i) samples.push_back({1.0 / hz, of(i / hz)});
@@ -37,7 +37,7 @@ Rows rows(const std::function<double(double)>& wanted, const std::function<doubl
     return all;
 }
 
-TEST(SignalMeasure, LagIsTheShiftThatFitsBest) {
+TEST(SignalMeasure, LagIsTheBestFittingShift) {
     for (const double shift : {-0.21, -0.003, 0.0, 0.0042, 0.05, 0.3, 0.77}) {
         const auto bump = [](double t) { return std::exp(-20.0 * (t - 2.0) * (t - 2.0)); };
         const Rows late = rows(bump, [&](double t) { return bump(t - shift); });
@@ -56,7 +56,7 @@ TEST(SignalMeasure, LagIsTheShiftThatFitsBest) {
     EXPECT_NEAR(*signal::lag(periodic.response()), 0.1, 0.01) << "not a period more";
 }
 
-TEST(SignalMeasure, NothingIsSaidOfWhatDoesNotChange) {
+TEST(SignalMeasure, AConstantSignalHasNoMeasures) {
     const auto flat = [](double) { return 2.0; };
     const auto wave = [](double t) { return std::sin(turn * t); };
     EXPECT_FALSE(signal::lag(rows(flat, wave).response()));
@@ -99,14 +99,14 @@ TEST(SignalMeasure, OvershootAndSettlingOfSprings) {
     EXPECT_EQ(*signal::measure({&pass, 1}, sampled(step_at_one, 2.0, 60.0)).settling_time, 0.0);
 }
 
-TEST(SignalMeasure, WhatRunsAwayIsUnstableAndNothingElseIsSaidOfIt) {
+TEST(SignalMeasure, ARunawayIsUnstableWithoutOtherMeasures) {
     const auto square = sampled([](double t) { return std::fmod(t, 2.0) < 1.0 ? 1.0 : -1.0; }, 10.0, 60.0);
     const Filter explodes = filter_of("spring_semi_implicit", {{"strength", 8.0}, {"critical_damping", 1.0}});
     const signal::Measures measures = signal::measure({&explodes, 1}, square);
     EXPECT_EQ(measures.following, signal::Following::Unstable);
     EXPECT_FALSE(measures.lag || measures.overshoot || measures.settling_time || measures.jitter);
     EXPECT_GT(measures.rate_difference, 1e3);
-    // The same filter at a sufficient frame rate, and any exact spring.
+    // The same filter at a sufficient frame rate, and exact springs, are stable.
     const auto fast = sampled([](double t) { return std::fmod(t, 2.0) < 1.0 ? 1.0 : -1.0; }, 10.0, 75.0);
     EXPECT_EQ(signal::measure({&explodes, 1}, fast).following, signal::Following::Follows);
     for (const double damping : {0.02, 0.35, 1.0, 3.0}) {
@@ -115,8 +115,8 @@ TEST(SignalMeasure, WhatRunsAwayIsUnstableAndNothingElseIsSaidOfIt) {
     }
 }
 
-TEST(SignalMeasure, ARunawayIsFarOutsideAndGoesOn) {
-    const auto wave = [](double t) { return std::sin(turn * t); };  // spans 2: far is beyond 21
+TEST(SignalMeasure, ARunawayIsFarOutOfRangeAndGrowing) {
+    const auto wave = [](double t) { return std::sin(turn * t); };  // spans 2: beyond 21 is far
     const auto outcome = [&](const std::function<double(double)>& output) {
         return signal::unstable(rows(wave, output).response());
     };
@@ -135,7 +135,7 @@ TEST(SignalMeasure, ARunawayIsFarOutsideAndGoesOn) {
     EXPECT_FALSE(signal::unstable({}));
 }
 
-TEST(SignalMeasure, WhatMovesByItselfHasNoLag) {
+TEST(SignalMeasure, IndependentMotionHasNoLag) {
     const auto wave = [](double t) { return std::sin(turn * t); };
     const auto verdict = [&](const std::function<double(double)>& output) {
         const Rows all = rows(wave, output);
@@ -146,7 +146,7 @@ TEST(SignalMeasure, WhatMovesByItselfHasNoLag) {
     EXPECT_FALSE(verdict(other).lag);
     EXPECT_TRUE(verdict(other).jitter) << "what is left of the input's jitter is still a number";
     EXPECT_EQ(verdict([](double) { return 3.0; }).following, signal::Following::DoesNotFollow);
-    // Slightly more and slightly less than a tenth of the variance is the input's.
+    // The input's share of the variance is slightly above and slightly below a tenth.
     EXPECT_EQ(verdict([&](double t) { return wave(t) + 2.9 * other(t); }).following,
               signal::Following::Follows);
     EXPECT_EQ(verdict([&](double t) { return wave(t) + 3.2 * other(t); }).following,
@@ -178,7 +178,7 @@ TEST(SignalMeasure, ASpikeIsNoStep) {
     EXPECT_TRUE(signal::steps_of(rows(triangle, triangle).response()).empty());
 }
 
-TEST(SignalMeasure, AFilterIsNotBlamedForScaling) {
+TEST(SignalMeasure, ScalingIsNotCountedAsAnError) {
     const Filter scale = filter_of("scale_bias_clamp", {{"scale", -20.0}, {"bias", 100.0}});
     const signal::Measures measures = signal::measure({&scale, 1}, sampled(step_at_one, 3.0, 60.0));
     EXPECT_NEAR(*measures.lag, 0.0, 1e-6);
@@ -187,7 +187,7 @@ TEST(SignalMeasure, AFilterIsNotBlamedForScaling) {
     EXPECT_NEAR(*measures.jitter, 20.0, 1e-9) << "but that is what is left of the input's";
 }
 
-TEST(SignalMeasure, JitterIsWhatIsLeftOfSecondDifferences) {
+TEST(SignalMeasure, JitterIsTheRemainingPartOfSecondDifferences) {
     Random random(1);
     Rows noisy;
     double time = 0.0;
@@ -209,7 +209,7 @@ double difference_of(const Filter& filter, std::span<const Sample> samples) {
     return signal::compare_rates({&filter, 1}, samples).difference;
 }
 
-TEST(SignalRates, TheDifferenceIsTheFiltersOwn) {
+TEST(SignalRates, TheDifferenceComesFromTheFilterOnly) {
     Random random(2);
     std::vector<Sample> noise;
     for (int i = 0; i < 300; ++i) noise.push_back({1.0 / 60.0, around(random, 2.0)});
@@ -220,7 +220,7 @@ TEST(SignalRates, TheDifferenceIsTheFiltersOwn) {
         for (const char* exact : {"spring", "exponential_decay", "rate_limit", "moving_average", "dead_zone",
                                   "hysteresis", "curve", "scale_bias_clamp"})
             EXPECT_LT(difference_of(filter_of(exact), *samples), 1e-9) << exact;
-        // Except for the last 1e-4, where interp_to_exact snaps.
+        // Except for the last 1e-4, at which interp_to_exact snaps.
         EXPECT_LT(difference_of(filter_of("interp_to_exact"), *samples), 2e-4);
         for (const char* inexact : {"interp_to", "smooth_damp", "one_euro"})
             EXPECT_GT(difference_of(filter_of(inexact), *samples), 5e-3) << inexact;
@@ -229,8 +229,8 @@ TEST(SignalRates, TheDifferenceIsTheFiltersOwn) {
     }
 }
 
-TEST(SignalRates, StepsGoAsThePageHasThem) {
-    // Half a second after the first step, at speed 10; 15 Hz has had seven steps, 7/15 s.
+TEST(SignalRates, StepsMatchTheDocumentedExample) {
+    // Half a second after the step, at speed 10; at 15 Hz there have been seven steps, 7/15 s.
     std::vector<Sample> step(60, {1.0 / 60.0, 1.0});
     for (int i = 0; i < 4; ++i) step[static_cast<std::size_t>(i)].input = 0.0;
     const Filter filter = filter_of("interp_to", {{"speed", 10.0}});
@@ -244,7 +244,7 @@ TEST(SignalRates, StepsGoAsThePageHasThem) {
     EXPECT_NEAR(1.0 - outputs[3][1], 0.0056, 1e-4) << "its frames are cut at those of 15 Hz";
 }
 
-TEST(SignalRates, AtItsOwnRateItIsThePlainRun) {
+TEST(SignalRates, AtItsOwnRateItEqualsThePlainRun) {
     const auto samples =
         sampled([](double t) { return std::sin(7.0 * t) + 0.2 * std::sin(31.0 * t); }, 3.0, 60.0);
     const Filter chain[] = {filter_of("one_euro"), filter_of("spring"), filter_of("moving_average")};
@@ -267,12 +267,12 @@ TEST(SignalRates, AtItsOwnRateItIsThePlainRun) {
     EXPECT_NEAR(high - low, once.difference, 1e-12) << "outputs_at shows the same runs";
 }
 
-TEST(SignalRates, FramesLastAsSaid) {
+TEST(SignalRates, FramesHaveTheSpecifiedLengths) {
     const Filter filter = filter_of("curve");
     const std::vector<Sample> samples(600, {1.0 / 60.0, 1.0});
     const signal::RateComparison comparison = signal::compare_rates({&filter, 1}, samples);
     ASSERT_EQ(comparison.runs.size(), 5u);
-    const std::size_t counts[] = {150, 300, 600, 1560};  // 144 Hz: 1440, and 120 cuts
+    const std::size_t counts[] = {150, 300, 600, 1560};  // 144 Hz: 1440 frames, and 120 cuts
     for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(comparison.runs[i].time.size(), counts[i]);
     const signal::RateRun& jittered = comparison.runs[4];
     EXPECT_TRUE(jittered.rate.jittered);
@@ -292,7 +292,7 @@ TEST(SignalRates, FramesLastAsSaid) {
     EXPECT_TRUE(signal::compare_rates({&filter, 1}, samples, {}).runs.empty());
 }
 
-TEST(SignalRates, BadRowsAreLeftOut) {
+TEST(SignalRates, InvalidRowsAreIgnored) {
     const Filter spring = filter_of("spring");
     std::vector<Sample> good = sampled([](double t) { return std::cos(3.0 * t); }, 2.0, 60.0), bad = good;
     bad.insert(bad.begin() + 30,

@@ -30,7 +30,7 @@ TEST(SignalSmoothing, ExponentialDecayHalvesEveryHalflife) {
     }
 }
 
-TEST(SignalSmoothing, RateLimitMovesAtMostSoFast) {
+TEST(SignalSmoothing, RateLimitBoundsTheRate) {
     const signal::Filter filter = filter_of("rate_limit", {{"rise", 2.0}, {"fall", 8.0}});
     EXPECT_EQ(outputs(filter, 0.125, {0.0, 1.0, 1.0, -5.0, -0.625}),
               (std::vector<double>{0.0, 0.25, 0.5, -0.5, -0.625}));
@@ -81,7 +81,7 @@ TEST(SignalSmoothing, TheSemiImplicitSpringExplodesUnder60Point7Frames) {
 }
 
 /// After a jump the filter continues exactly like a fresh one.
-TEST(SignalSmoothing, OneEuroStartsAnewAtAJump) {
+TEST(SignalSmoothing, OneEuroStartsOverAfterAJump) {
     const signal::OneEuro plain{.min_cutoff = 1.0, .beta = 0.5},
         resets{.min_cutoff = 1.0, .beta = 0.5, .reset_jump = 0.5};
     signal::MotionState slow, anew, fresh;
@@ -101,7 +101,7 @@ TEST(SignalSmoothing, OneEuroStartsAnewAtAJump) {
     EXPECT_LT(anew.value, 6.0);
 }
 
-TEST(SignalSmoothing, OneEuroIsSteadyAtRestAndQuickInMotion) {
+TEST(SignalSmoothing, OneEuroIsSteadyAtRestAndFastInMotion) {
     const signal::OneEuro filter{.min_cutoff = 1.0, .beta = 0.5};
     Random random(3);
     signal::MotionState rest, motion;
@@ -122,7 +122,7 @@ TEST(SignalSmoothing, OneEuroIsSteadyAtRestAndQuickInMotion) {
     EXPECT_NEAR(state.velocity, 7.7173, 1e-4);
 }
 
-/// The page's definition, from all samples.
+/// The documented definition, computed from all samples.
 double mean_of_last(const std::deque<std::pair<double, double>>& samples, double window) {
     double time = 0.0, area = 0.0;
     for (auto sample = samples.rbegin(); sample != samples.rend() && time < window; ++sample) {
@@ -133,7 +133,7 @@ double mean_of_last(const std::deque<std::pair<double, double>>& samples, double
     return time > 0.0 ? area / time : samples.back().second;
 }
 
-TEST(SignalSmoothing, MovingAverageCountsTheOldestInPart) {
+TEST(SignalSmoothing, MovingAverageWeightsTheOldestSampleInPart) {
     Random random(4);
     for (const double window : {0.0, 0.03, 0.2, 1.0, 100.0}) {
         const signal::MovingAverage filter{window};
@@ -150,7 +150,7 @@ TEST(SignalSmoothing, MovingAverageCountsTheOldestInPart) {
     }
 }
 
-TEST(SignalSmoothing, MovingAverageForgetsWhatLeftIt) {
+TEST(SignalSmoothing, MovingAverageKeepsNothingOfOldSamples) {
     const signal::MovingAverage filter{0.1};
     signal::MovingAverageState state;
     signal::step(filter, state, 1e9, 0.01);
@@ -170,7 +170,7 @@ TEST(SignalShaping, DeadZoneAndHysteresis) {
               (std::vector<double>{1, 0, 1, 1}));
 }
 
-TEST(SignalInertialize, LetsTheInputThroughWhereItDoesNotJump) {
+TEST(SignalInertialize, PassesAnInputWithoutJumps) {
     const signal::Filter filter = filter_of("inertialize", {{"threshold", 0.5}});
     std::vector<double> wave;
     for (int i = 0; i < 200; ++i) wave.push_back(3.0 * std::sin(0.1 * i));
@@ -178,8 +178,8 @@ TEST(SignalInertialize, LetsTheInputThroughWhereItDoesNotJump) {
     EXPECT_EQ(outputs(filter_of("inertialize", {{"halflife", 0.0}}), 0.1, {0.0, 5.0}).back(), 5.0);
 }
 
-TEST(SignalInertialize, TakesAJumpOutSmoothly) {
-    // Two slopes with a jump of 5 between them: position and velocity of the output are continuous.
+TEST(SignalInertialize, ReplacesAJumpByASmoothTransition) {
+    // Two slopes with a jump of 5 in between: position and velocity of the output are continuous.
     const signal::Filter filter = filter_of("inertialize", {{"halflife", 0.2}, {"threshold", 1.0}});
     const double dt = 1.0 / 2000.0;
     std::vector<double> cut;
@@ -189,7 +189,7 @@ TEST(SignalInertialize, TakesAJumpOutSmoothly) {
     for (std::size_t i = 2; i < smooth.size(); ++i) {
         const double velocity = (smooth[i] - smooth[i - 1]) / dt,
                      before = (smooth[i - 1] - smooth[i - 2]) / dt;
-        // w^2 times 5, and 2 w times a relative velocity of 5, with w = 2 ln 2 / 0.2 s.
+        // Bound: w^2 times 5, and 2 w times a relative velocity of 5, with w = 2 ln 2 / 0.2 s.
         ASSERT_LT(std::abs(velocity - before), 320.0 * dt) << "row " << i;
     }
     EXPECT_NEAR(smooth[2000 + 4000], cut[2000 + 4000], 0.01) << "after ten half-lives";
@@ -200,7 +200,7 @@ TEST(SignalInertialize, TakesAJumpOutSmoothly) {
     EXPECT_NEAR(4.0 - signal::value(state), 4.0 * (1.0 + 2.0 * std::log(2.0)) / 4.0, 1e-9);
 }
 
-TEST(SignalInertialize, NoiseThatAlwaysJumpsStaysWithinBounds) {
+TEST(SignalInertialize, NoiseWithConstantJumpsStaysBounded) {
     const signal::Filter filter = filter_of("inertialize", {{"halflife", 0.3}, {"threshold", 0.01}});
     Random random(5);
     signal::FilterState state;
@@ -222,13 +222,13 @@ using signal::interp_to_exact;
 glm::dquat about(const glm::dvec3& axis, double angle) {
     return glm::angleAxis(angle, axis);
 }
-/// Radians, the shorter way.
+/// Angle between two rotations by the shorter way, radians.
 double angle_between(const glm::dquat& a, const glm::dquat& b) {
     const glm::dquat between = a * glm::conjugate(b);
     return 2.0 * std::atan2(glm::length(glm::dvec3(between.x, between.y, between.z)), std::abs(between.w));
 }
 
-TEST(SignalInterpolate, ExactlyItDoesNot) {
+TEST(SignalInterpolate, TheExactFormDoesNotDependOnFrameRate) {
     const signal::Filter filter = filter_of("interp_to_exact", {{"speed", 10.0}});
     for (const double hz : {30.0, 60.0, 144.0}) {
         EXPECT_NEAR(1.0 - reached(filter, hz, 0.5), std::exp(-5.0), 1e-6) << hz << " Hz";
@@ -240,7 +240,7 @@ TEST(SignalInterpolate, ExactlyItDoesNot) {
         const double whole = interp_to_exact(from, to, dt, speed);
         const double halves = interp_to_exact(interp_to_exact(from, to, dt / 2, speed), to, dt / 2, speed);
         EXPECT_NEAR(whole, halves, 1e-9 * (1.0 + std::abs(to - from)));
-        const double near = to + 1e-5;  // where interp_to already snaps
+        const double near = to + 1e-5;  // close enough for interp_to to snap
         EXPECT_NEAR(interp_to_exact(interp_to_exact(near, to, dt / 2, speed), to, dt / 2, speed) - to,
                     1e-5 * std::exp(-speed * dt), 1e-12);
     }
@@ -275,7 +275,7 @@ TEST(SignalInterpolate, RotationsTakeTheShortWay) {
         const glm::dvec3 axis = glm::normalize(glm::dvec3(random.point(1.0f)) + glm::dvec3(0, 0, 1.5));
         const double angle = between(random, 0.01, 3.1);
         const glm::dquat from = about({1, 0, 0}, around(random, 3.0)), to = about(axis, angle) * from;
-        const double sign = random.chance(2) ? -1.0 : 1.0;  // the same rotation
+        const double sign = random.chance(2) ? -1.0 : 1.0;  // the same rotation with either sign
         const glm::dquat mid = interp_to(from, to * sign, 0.25, 1.0);
         EXPECT_NEAR(angle_between(from, mid), 0.25 * angle, 1e-9);
         EXPECT_NEAR(angle_between(mid, to), 0.75 * angle, 1e-9);
@@ -314,7 +314,7 @@ Json reference(const char* name) {
     return file ? Json::parse(file) : Json();
 }
 
-/// The filter of a case; each parameter must be in the kind's table.
+/// A case's filter; each parameter must be in the kind's table.
 Filter filter_of(const std::string& kind, const Json& parameters) {
     const signal::Kind* const found = signal::find_kind(kind);
     EXPECT_NE(found, nullptr) << kind;
@@ -335,7 +335,7 @@ Filter filter_of(const std::string& kind, const Json& parameters) {
     return filter;
 }
 
-/// Returns the maximum deviation.
+/// Plays a case and returns the maximum deviation.
 double play(const Json& example, const std::string& kind) {
     SCOPED_TRACE(example.at("name").get<std::string>());
     const Filter filter = filter_of(kind, example.at("params"));

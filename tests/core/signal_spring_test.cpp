@@ -28,7 +28,7 @@ SpringState<> moving(double place, double velocity) {
     return {.value = place, .velocity = velocity, .previous_target = 0.0, .started = true};
 }
 
-TEST(SignalSpring, IsTheClosedForm) {
+TEST(SignalSpring, MatchesTheClosedForm) {
     Random random(1);
     for (int i = 0; i < 20'000; ++i) {
         const double strength = std::exp2(around(random, 5.0)), t = std::exp2(around(random, 8.0)) / strength;
@@ -63,7 +63,7 @@ TEST(SignalSpring, IsContinuousAcrossCriticalDamping) {
     }
 }
 
-TEST(SignalSpring, DoesNotDependOnHowTimeIsCut) {
+TEST(SignalSpring, DoesNotDependOnTheDivisionOfTime) {
     for (const double damping : {0.0, 0.05, 0.4, 0.9999, 1.0, 1.0001, 1.3, 5.0, 100.0}) {
         for (const double strength : {0.0, 0.2, 1.0, 8.0}) {
             const Spring<> spring{.strength = strength, .critical_damping = damping};
@@ -79,7 +79,7 @@ TEST(SignalSpring, DoesNotDependOnHowTimeIsCut) {
     }
 }
 
-TEST(SignalSpring, LagsBehindSteadyMotionAsTheFormulaSays) {
+TEST(SignalSpring, LagsBehindSteadyMotionByTheFormula) {
     for (const double damping : {0.3, 1.0, 2.0}) {
         for (const double amount : {0.0, 0.5, 1.0}) {
             const Spring<> spring{
@@ -120,7 +120,7 @@ TEST(SignalSpring, WithoutStrengthItDriftsAndTheForceAccelerates) {
     EXPECT_EQ(state.value, 4.0);
 }
 
-TEST(SignalSpring, VectorsAreThreeNumbers) {
+TEST(SignalSpring, VectorsEqualThreeNumbers) {
     Random random(4);
     const glm::dvec3 force(1, -2, 3);
     for (const double damping : {0.2, 1.0, 1.7}) {
@@ -148,7 +148,7 @@ glm::dquat turned(double angle) {
     return glm::angleAxis(angle, glm::dvec3(0, 0, 1));
 }
 
-TEST(SignalSpring, RotationsAboutOneAxisAreNumbers) {
+TEST(SignalSpring, RotationsAboutOneAxisEqualNumbers) {
     const Spring<glm::dquat> spring{1.5, 0.4, {0, 0, 2.0}, 0.5};
     const Spring<glm::quat> coarse_spring{1.5, 0.4, {0, 0, 2.0f}, 0.5};
     const Spring<> flat{1.5, 0.4, 2.0, 0.5};
@@ -173,7 +173,7 @@ TEST(SignalSpring, RotationsTakeTheShortWay) {
     signal::step(spring, state, turned(3.0), 0.01);
     double way = 0.0;
     glm::dquat before = state.value;
-    for (int i = 0; i < 500; ++i) {  // 3.0 to -3.0: 0.28 through half a turn, not 6 back through 0
+    for (int i = 0; i < 500; ++i) {  // 3.0 to -3.0: 0.28 across half a turn, not 6 back across 0
         signal::step(spring, state, turned(-3.0), 0.01);
         way += 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(before, state.value))));
         before = state.value;
@@ -182,7 +182,7 @@ TEST(SignalSpring, RotationsTakeTheShortWay) {
     EXPECT_NEAR(std::abs(glm::dot(state.value, turned(-3.0))), 1.0, 1e-9);
 }
 
-TEST(SignalSpring, RefusedIsAsIfItHadNotBeen) {
+TEST(SignalSpring, ARefusedStepChangesNothing) {
     const Spring<> good{.strength = 2.0, .critical_damping = 0.5};
     SpringState<> state;
     signal::step(good, state, 1.0, 0.1);
@@ -199,7 +199,7 @@ TEST(SignalSpring, RefusedIsAsIfItHadNotBeen) {
     EXPECT_FALSE(rotation.started);
 }
 
-TEST(SignalSpring, IsOneSpringHoweverItIsGiven) {
+TEST(SignalSpring, AllParametrisationsGiveTheSameSpring) {
     const signal::SpringFeel feel = signal::feel_of(4.0, 0.5);
     EXPECT_DOUBLE_EQ(feel.duration, 0.25);
     EXPECT_DOUBLE_EQ(feel.bounce, 0.5);

@@ -16,16 +16,16 @@
 
 namespace tendril::test {
 
-// Not inline: chain_support.hpp has a float infinity, and a program can hold one of that name.
+// Not inline: chain_support.hpp has a float infinity, and a program can hold only one of that name.
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double turn = 6.28318530717958647692;
 
-/// -range to range.
+/// A random number from -range to range.
 inline double around(Random& random, double range) {
     return range * static_cast<double>(random.around(1.0f));
 }
-/// From `low` to `high`.
+/// A random number from `low` to `high`.
 inline double between(Random& random, double low, double high) {
     return low + (high - low) * 0.5 * (1.0 + static_cast<double>(random.around(1.0f)));
 }
@@ -44,14 +44,14 @@ inline signal::Filter filter_of(std::string_view kind,
     return filter;
 }
 
-/// The outputs for a list of inputs at one dt.
+/// The outputs for a list of inputs with a fixed dt.
 inline std::vector<double> outputs(const signal::Filter& filter, double dt, std::vector<double> inputs) {
     signal::FilterState state;
     for (double& each : inputs) each = signal::step(filter, state, each, dt);
     return inputs;
 }
 
-/// The output `seconds` after a step from 0 to 1, at a frame rate.
+/// The output `seconds` after a step from 0 to 1, at a given frame rate.
 inline double reached(const signal::Filter& filter, double hz, double seconds) {
     signal::FilterState state;
     signal::step(filter, state, 0.0, 1.0 / hz);

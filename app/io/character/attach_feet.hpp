@@ -1,4 +1,4 @@
-// Feet of IK rigs that hang outside the legs.
+// Repairs feet of IK rigs that hang outside the legs.
 #pragma once
 
 #include "app/io/character/character.hpp"

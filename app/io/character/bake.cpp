@@ -10,7 +10,7 @@ using humanoid::Channel;
 using humanoid::Clip;
 using humanoid::Skeleton;
 
-/// A node's keys at every frame, and whether the solver ever changed it.
+/// A node's keys at every frame, and whether `step` ever changed it.
 struct Recording {
     bool is_changed = false;
     Channel channel{};

@@ -13,12 +13,12 @@ namespace tendril::app {
 /// is the time in seconds since the previous frame, 0 at the first.
 using PoseStep = std::function<void(std::span<rig::Transform> pose, double time, double dt)>;
 
-/// The clip sampled at `rate` frames per second and at its end, after `step`. Nodes that it never changes
+/// The clip sampled at `rate` frames per second and at its end, after `step`. Nodes that `step` never changes
 /// keep their keys. Throws std::runtime_error above 50 million keys.
 humanoid::Clip baked(const humanoid::Skeleton& skeleton, const humanoid::Clip& clip, double rate,
                      const PoseStep& step);
 
-/// The clip with its roots moved at a velocity, m/s.
+/// The clip with its roots moving at an additional velocity, m/s.
 humanoid::Clip travelling(const humanoid::Skeleton& skeleton, const humanoid::Clip& clip,
                           const glm::dvec3& velocity, double rate);
 

@@ -6,8 +6,8 @@
 // with a note, the deviations of some programs: more or fewer rows than the declared frames, other blanks
 // around the colons, a ^Z or NUL at the end. A joint's position replaces its OFFSET.
 //
-// A file does not say whether the root's position does so too, which axis is up or how long its unit is:
-// judge_space() finds out. Memory stays below a constant times the size of the file.
+// A file does not say whether the root's position replaces its OFFSET too, which axis is up or how long its
+// unit is: judge_space() finds out. Memory stays below a constant times the file's size.
 #pragma once
 
 #include <string>

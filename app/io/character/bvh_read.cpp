@@ -26,7 +26,7 @@ class Words {
     [[noreturn]] void fail(const std::string& what) const {
         throw std::runtime_error("line " + std::to_string(line_) + ": " + what);
     }
-    /// Empty at the end of the text.
+    /// The next word; empty at the end of the text.
     std::string_view next() {
         skip_blanks();
         const std::size_t begin = at_;
@@ -149,7 +149,7 @@ struct BvhJoint {
     std::vector<int> channels;  // 0 to 2: position x to z; 3 to 5: rotation
 };
 
-/// The first part of the file: joints, and a node for each.
+/// The file's HIERARCHY section: joints, and a node for each.
 struct Hierarchy {
     std::vector<Node> nodes;
     std::vector<BvhJoint> joints;
@@ -258,7 +258,7 @@ bool turns(const BvhJoint& joint) {
     return std::any_of(joint.channels.begin(), joint.channels.end(), [](int each) { return each >= 3; });
 }
 
-/// Reads over whole rows beyond the declared ones, and says how many more or fewer there are: some programs
+/// Skips whole rows beyond the declared ones, and notes how many more or fewer rows there are: some programs
 /// count one too few, and takes are cut short.
 void compare_rows(Words& words, std::size_t frames, std::size_t declared, std::vector<double>& row,
                   std::vector<std::string>& notes) {

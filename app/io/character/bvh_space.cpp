@@ -97,7 +97,7 @@ UpAxis axis_at(std::size_t index) {
     return static_cast<UpAxis>(index);
 }
 
-/// The skeleton with that rest pose, rotated so that the axis is Y.
+/// The skeleton in the given rest pose, rotated so that the axis becomes Y.
 Expected<Skeleton> stood_up(const Skeleton& skeleton, std::span<const rig::Transform> rest, UpAxis up) {
     std::vector<humanoid::Node> nodes = skeleton.nodes();
     for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].rest = rest[i];
@@ -190,7 +190,7 @@ class Judge {
         sample(clip_, skeleton_, clip_.duration * static_cast<double>(frame_of(look)) / steps, pose_);
     }
 
-    /// The part of the frames in which the figure stands along the axis.
+    /// The fraction of frames in which the figure stands along the axis.
     double share(UpAxis up) const {
         if (looks_.empty()) return 0.0;
         const auto standing =
@@ -282,9 +282,9 @@ class Judge {
                                    std::to_string(frame_of(index)) + " of the motion, on straight legs.");
     }
 
-    /// Makes a frame a rest pose: facing +Z of a file with Y up, on straight legs, with feet that point
-    /// forward, 30 degrees below level, and level toes. The heading and the footing of a single frame say
-    /// nothing about the figure. The lower ankle stays where it is.
+    /// Makes a frame a rest pose: facing +Z of a file with Y up, legs straight, feet pointing forward, 30
+    /// degrees below level, toes level. The heading and footing of a single frame say nothing about the
+    /// figure. The lower ankle stays in place.
     void stand_straight() {
         const double before = lowest_ankle();
         const auto standing = stood_up(skeleton_, pose_, up_);
@@ -315,7 +315,7 @@ class Judge {
         return std::min(glm::dot(placed_[body_->feet[0]].position, direction(up_)),
                         glm::dot(placed_[body_->feet[1]].position, direction(up_)));
     }
-    /// Turns a node so that another one below it is in that direction.
+    /// Rotates a node so that another node below it lies in that direction.
     void point(std::int32_t node, std::int32_t end, const glm::dvec3& to) {
         if (node < 0 || end < 0) return;
         const auto from = static_cast<std::size_t>(node);

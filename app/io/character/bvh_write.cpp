@@ -12,7 +12,7 @@ using humanoid::Skeleton;
 
 constexpr double degrees = 180.0 / 3.14159265358979323846;
 
-/// Euler angles z, x and y in degrees, intrinsic in that order, the one that most programs write. If x is a
+/// Euler angles z, x and y in degrees, intrinsic in that order, which is the most common order. If x is a
 /// quarter turn, y is 0.
 glm::dvec3 angles_zxy(const glm::dquat& q) {
     const double sine_x = 2.0 * (q.w * q.x + q.y * q.z);
@@ -102,8 +102,8 @@ class Writer {
         }
     }
 
-    /// Writes the frame time: with six decimals time would drift by a frame in ten hours, and a fast foot by
-    /// a tenth of a millimetre in two seconds.
+    /// Writes the frame time exactly: with six decimals, time would drift by a frame in ten hours, and a fast
+    /// foot by a tenth of a millimetre in two seconds.
     void write_exactly(double value) {
         char digits[32];
         text_.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);

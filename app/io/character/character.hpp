@@ -16,20 +16,20 @@
 
 namespace tendril::app {
 
-/// The file's own assignment of bones.
+/// The bone assignment stated in a file.
 struct NamedBones {
     std::string source{};                                    ///< "VRMC_vrm"
     std::array<std::int32_t, humanoid::bone_count> nodes{};  ///< nodes of the skeleton; -1: none
 };
 
-/// The axis of a file that points up. An FBX or glTF file states it; for these Y means: as the file says.
+/// The up axis of a file. FBX and glTF files state it; for them Y means "as stated".
 enum class UpAxis : std::uint8_t { X, Y, Z, MinusX, MinusY, MinusZ };
 
 inline constexpr EnumNames<UpAxis, 6> up_axes{
     "axis", {{"x", "X"}, {"y", "Y"}, {"z", "Z"}, {"-x", "-X"}, {"-y", "-Y"}, {"-z", "-Z"}}};
 
 glm::dvec3 direction(UpAxis up);
-/// The rotation by a quarter or a half turn that makes this axis Y.
+/// The quarter or half turn that rotates this axis to Y.
 glm::dquat turn_of(UpAxis up);
 
 /// The meaning of a BVH root's positions: they replace its OFFSET or are added to it.
@@ -58,7 +58,7 @@ struct SpringCollider {
     double radius = 0.0;            ///< metres
     bool operator==(const SpringCollider&) const = default;
 };
-/// A spring of the file on a node and all its descendants, as humanoid::SpringOptions.
+/// A spring from the file, on a node and all its descendants; values as in humanoid::SpringOptions.
 struct NamedSpring {
     std::size_t node = 0;
     double strength = 0.0;  ///< Hz
@@ -77,8 +77,8 @@ struct Character {
     bool states_unit = true;  ///< whether the file does; a BVH never does, some FBX files do not
     FileSpace space{};
     std::vector<RootOffset> root_offsets{};  ///< only those that are not 0
-    std::vector<std::string> notes{};        ///< sentences for the panel: what was omitted or changed
-    /// How the scale and the space were guessed, in a sentence each; empty if not guessed or if set by hand.
+    std::vector<std::string> notes{};        ///< sentences for the panel on omissions and changes
+    /// How scale and space were guessed, one sentence each; empty if not guessed or if set by hand.
     struct Guesses {
         std::string unit{}, up{}, positions{};
     } guesses{};
@@ -87,12 +87,12 @@ struct Character {
     std::vector<std::string> sentences() const;
 };
 
-/// Reads the character's file differently: converts its nodes, skin and clips. A value that this sets is no
-/// longer a guess. Throws std::runtime_error if a number becomes too large.
+/// Reads the character's file differently: converts its nodes, skin and clips. Values that this sets are no
+/// longer guesses. Throws std::runtime_error if a number becomes too large.
 void read_as(Character& character, double scale, const FileSpace& space);
 
-/// Converts a clip that was made for the character while it was read with `scale` and `space`. Root positions
-/// concern only clips of the character's own file.
+/// Converts a clip that was made for the character when it was read with `scale` and `space`. Root positions
+/// apply only to clips of the character's own file.
 humanoid::Clip read_as_now(humanoid::Clip clip, double scale, const FileSpace& space,
                            const Character& character, bool of_its_file);
 

@@ -17,13 +17,13 @@ struct ExportReport {
     std::size_t frames = 0;       ///< frames compared; glTF is also compared between frames
     std::string worst_joint{};    ///< the joint with the largest deviation
     double worst = 0.0;           ///< its deviation, metres
-    bool has_feet = false;        ///< whether feet stand in the clip; otherwise the rest is 0
+    bool has_feet = false;        ///< whether both clips have standing feet; if not, skating is 0
     double skating_before = 0.0;  ///< maximum sliding of a standing foot, metres
     double skating_after = 0.0;
     double rate = 60.0;                       ///< frames per second
     std::size_t findings = 0;                 ///< the lint's findings in the written clip
-    bool on_ground = false;                   ///< whether it was judged on a slope, stairs, hills or a mesh
-    std::vector<std::string> new_findings{};  ///< those that the original does not have
+    bool on_ground = false;                   ///< whether the lint used a slope, stairs, hills or a mesh
+    std::vector<std::string> new_findings{};  ///< findings that the original lacks
 
     /// "67 frames at 60 fps; worst joint LeftHand, 0.0001 mm; skating 12.1 mm before, 3.0 mm after; 7
     /// findings in the written clip, 2 of them new: LeftLowerLeg pops by 12 degrees (frame 20), ..."
@@ -37,7 +37,7 @@ struct Export {
     const humanoid::Clip& corrected;           ///< the clip to write
     double rate = 60.0;                        ///< frames per second
     const humanoid::Ground* ground = nullptr;  ///< the ground under its feet, for the lint
-    Outputs* outputs = nullptr;  ///< decides which files are replaced; null: any glTF, GLB or BVH
+    Outputs* outputs = nullptr;  ///< decides which existing files are replaced; null: any glTF, GLB or BVH
 };
 
 inline constexpr double min_rate = 1.0, largest_rate = 1000.0;
@@ -47,15 +47,15 @@ bool ends_as_export(const std::filesystem::path& path);
 
 /// "1 of 14 clips: Walking"; empty if the character has no other clip.
 std::string one_of_clips_text(const Character& character, const std::string& clip);
-/// A file for each of the character's clips: "robot.glb" and "Walking" give "robot_Walking.glb". A character
-/// that file names may not contain becomes '_', and no two paths are the same.
+/// One file for each of the character's clips: "robot.glb" and "Walking" give "robot_Walking.glb". Characters
+/// that file names cannot contain become '_', and no two paths are the same.
 std::vector<std::filesystem::path> paths_of_clips(const Character& character,
                                                   const std::filesystem::path& path);
 /// "14 clips; worst joint Head, 0.0012 mm; no new findings in them"
 std::string sum_text(const std::vector<ExportReport>& reports);
 
 /// Writes the file atomically, in the format of its extension, with the hierarchy of the character's file,
-/// which it never replaces. A glTF file keeps the contents of the character's own glTF file (gltf_write.hpp).
+/// which is never replaced. A glTF file keeps the contents of the character's own glTF file (gltf_write.hpp).
 /// Throws std::runtime_error and then writes nothing.
 ExportReport export_clip(const Export& what, const std::filesystem::path& path);
 

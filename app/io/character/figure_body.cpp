@@ -47,7 +47,7 @@ constexpr FigureSection skull[]{{Bone::Head, Bone::Head, 0, {0, 0.102f, -0.014f}
 constexpr FigureSection jaw[]{{Bone::Head, Bone::Head, 0, {0, 0.082f, 0.028f}, 0.072f, 0.062f},
                               {Bone::Head, Bone::Head, 0, {0, 0.040f, 0.044f}, 0.052f, 0.046f},
                               {Bone::Head, Bone::Head, 0, {0, 0.014f, 0.058f}, 0.034f, 0.034f}};
-// Each of these exists on both sides.
+// Each of these is mirrored to the other side.
 constexpr FigureSection girdle[]{
     {Bone::UpperChest, Bone::UpperChest, 0, {0, 0.095f, -0.010f}, 0.082f, 0.070f},
     {Bone::UpperChest, Bone::UpperChest, 0, {0.09f, 0.105f, -0.010f}, 0.070f, 0.066f},
@@ -198,7 +198,7 @@ class FigureBody {
         field_.floor = sole_;
     }
 
-    /// Where a section is in the bind pose.
+    /// A section's position in the bind pose.
     BodySection placed(const FigureSection& section, vec3 flat, float side) const {
         const std::size_t from = node(on(section.from, side)), to = node(on(section.to, side));
         const Placement &rest = rest_[from], &bound = bound_[from];
@@ -219,7 +219,7 @@ class FigureBody {
 
     // The weights.
 
-    /// How far a point is past a joint in the direction `way`, 0 to 1; the transition is `reach` metres.
+    /// How far a point is past a joint in direction `way`, 0 to 1, with a transition of `reach` metres.
     float past(Bone joint, vec3 way, float reach, const vec3& point) const {
         return step_between(-reach * unit_, reach * unit_, glm::dot(point - at(joint), glm::normalize(way)));
     }

@@ -190,7 +190,7 @@ class BodyNet {
     }
     vec3 point(const ivec3& at) const { return low_ + cell_ * vec3(at); }
 
-    /// Finds the blocks near the surface and the cones that count there; elsewhere only the sign.
+    /// Finds the blocks near the surface and the cones that matter there; sets only the sign elsewhere.
     void divide(const ivec3& at, int side, std::span<const std::uint16_t> among) {
         const float radius = 0.5f * static_cast<float>(side) * cell_ * 1.7320508f;
         const vec3 middle = point(at) + 0.5f * static_cast<float>(side) * cell_;
@@ -276,8 +276,8 @@ class BodyNet {
         at -= way * (field_.distance(at, cones) / std::max(glm::dot(way, way), 0.25f));
         surface_.normals[corner] = way / std::max(glm::length(way), 1e-9f);
     }
-    /// Moves each corner towards the middle of its neighbours, so that triangles are of one size, and onto
-    /// the surface.
+    /// Moves each corner towards the middle of its neighbours, to even out triangle sizes, and onto the
+    /// surface.
     void relax() {
         std::vector<vec3> sums(surface_.positions.size(), vec3(0.0f));
         std::vector<float> counts(sums.size(), 0.0f);

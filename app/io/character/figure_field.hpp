@@ -28,12 +28,12 @@ class BodyField {
     /// Adds a smooth tube through the sections. Chains of one group must be added one after the other.
     void add_chain(std::size_t group, std::span<const BodySection> sections);
 
-    /// The approximate distance from the surface, negative inside. `near`: the cones that count here.
+    /// The approximate distance from the surface, negative inside. `near`: the cones that matter here.
     float distance(const glm::vec3& point, std::span<const std::uint16_t> near) const;
     /// The distance from each group alone; over 1e8 if none of its cones is near.
     Distances groups(const glm::vec3& point, std::span<const std::uint16_t> near) const;
     std::span<const std::uint16_t> all() const { return all_; }
-    /// The cones of `among` that count within `radius` of the point; returns the distance there.
+    /// Collects the cones of `among` that matter within `radius` of the point; returns the distance there.
     float near(const glm::vec3& point, float radius, std::span<const std::uint16_t> among,
                std::vector<std::uint16_t>& cones) const;
     /// A box around everything.

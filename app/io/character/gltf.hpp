@@ -6,12 +6,12 @@
 // nodes, such as those of meshes, cameras and lights, are omitted. In a file without a skin it is the whole
 // tree of the nodes that are animated or VRM bones.
 //
-// Springs of a VRM file (gltf_vrm_springs.hpp) are the character's.
+// The character also gets a VRM file's springs (gltf_vrm_springs.hpp).
 //
-// Mended, each with a note: keys before 0 s, at the same time as another, or without a rotation; a node of
-// scale 0. Left out with a note: compressed meshes, pictures that are missing or neither PNG nor JPEG, and
-// targets of KHR_animation_pointer other than nodes. Not followed, with a note: a VRM's node constraints, and
-// colliders of its springs that are planes or hold them inside.
+// Mended, each with a note: keys before 0 s, keys at the same time as another, rotations of length 0, and
+// nodes of scale 0. Left out with a note: compressed meshes, pictures that are missing or neither PNG nor
+// JPEG, and targets of KHR_animation_pointer other than nodes. Not followed, with a note: a VRM's node
+// constraints, and spring colliders that are planes or hold springs inside.
 #pragma once
 
 #include <filesystem>

@@ -10,9 +10,9 @@
 
 namespace tendril::app {
 
-/// Rows of `components` numbers. Normalised integers are converted to -1 or 0 to 1; sparse values are
-/// applied. `what` is for messages: "animations[2].samplers[0].input". Throws std::runtime_error for an
-/// invalid index, a different type, or a buffer that is too short.
+/// Rows of `components` numbers. Normalised integers are converted to 0 to 1, or -1 to 1 if signed; sparse
+/// values are applied. `what` is for messages: "animations[2].samplers[0].input". Throws std::runtime_error
+/// for an invalid index, a different type, or a buffer that is too short.
 std::vector<double> accessor_rows(const tinygltf::Model& model, int accessor, int components,
                                   const std::string& what);
 

@@ -72,9 +72,9 @@ std::vector<Value> key_at_zero(const std::vector<double>& times, const std::vect
 
 }  // namespace detail
 
-/// `values` has the same number of values for each key. Of two keys at one time the last one stays. Keys
-/// before 0 s are replaced by one at 0 s, with the curve's value there. `is_zero` tells which keys (by their
-/// first value's index) have no rotation.
+/// `values` has the same number of values for each key. Of several keys at one time the last one stays. Keys
+/// before 0 s are replaced by one at 0 s, with the curve's value there. `is_zero` tells which keys, by their
+/// first value's index, have no rotation.
 template <class Value, class IsZero>
 void drop_bad_keys(std::vector<double>& times, std::vector<Value>& values,
                    humanoid::Interpolation interpolation, const IsZero& is_zero, DroppedKeys& dropped) {

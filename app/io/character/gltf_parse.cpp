@@ -101,8 +101,8 @@ tinygltf::Model read_json(std::string_view text) {
     return model;
 }
 
-/// KHR_animation_pointer (Khronos): a pointer to a node's property is that node's usual channel. tinygltf
-/// leaves out channels without a node, so the others get node -1, which allows a note about them. After
+/// KHR_animation_pointer (Khronos): a pointer to a node's property becomes a channel of that node. tinygltf
+/// drops channels without a node, so all others get node -1, which allows a note about them. Call after
 /// check_gltf().
 void resolve_pointers(json& file) {
     const json::json_pointer place("/extensions/KHR_animation_pointer/pointer");

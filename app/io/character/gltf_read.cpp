@@ -199,7 +199,7 @@ class GltfReader {
             throw std::runtime_error("its skeleton has " + std::to_string(chosen_.size()) +
                                      " nodes, more than " + std::to_string(humanoid::Skeleton::max_nodes));
     }
-    /// Chooses a spring's nodes, of which the last ones are often no joints.
+    /// Chooses a spring's nodes; the last ones are often not joints.
     void choose_below(std::size_t root, std::vector<bool>& wanted) const {
         std::vector<std::size_t> open{root};
         for (std::size_t steps = 0; !open.empty() && steps < wanted.size(); ++steps) {

@@ -62,8 +62,8 @@ const Value* named_by(const Value* list, const Value* index) {
                : nullptr;
 }
 
-/// Calls take(group, collider) for the first `max_colliders` of the groups that a spring names. A file may
-/// name one group again and again.
+/// Calls take(group, collider) for the first `max_colliders` colliders of the groups that a spring names. A
+/// file may repeat a group any number of times.
 template <class Take>
 void each_collider(const Value* named, const Value* groups, Take take) {
     std::size_t visited = 0;
@@ -104,8 +104,8 @@ void add_groups(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
     }
 }
 
-/// VRMC_springBone_extended_collider-1.0 by the VRM Consortium. A collider's own shape is a fallback for
-/// readers without the extension; here, where the collider is a plane or holds springs inside.
+/// VRMC_springBone_extended_collider-1.0 by the VRM Consortium. A collider's own shape is the fallback for
+/// readers without the extension; this reader uses it for planes and colliders that hold springs inside.
 const Value* extended(const Value* collider) {
     return part_of(part_of(collider, "extensions"), "VRMC_springBone_extended_collider");
 }
@@ -118,7 +118,7 @@ bool is_beyond_capsules(const Value* shape) {
     return false;
 }
 
-/// VRM 1.0: a list of joints each. The first one's settings are taken for all.
+/// VRM 1.0: springs are lists of joints. The first joint's settings are used for all.
 void add_chains(const tinygltf::Model& model, std::vector<VrmSpring>& springs) {
     const Value* all = extension(model, "VRMC_springBone");
     const Value *chains = part_of(all, "springs"), *groups = part_of(all, "colliderGroups"),

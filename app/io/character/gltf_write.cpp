@@ -139,8 +139,8 @@ void keep_weights(const Json& animations, std::size_t index, Animation& into) {
     }
 }
 
-/// A node is in the skeleton because it is a joint or animated. One that only other animations moved gets a
-/// key of its rest pose, to stay in the skeleton.
+/// Nodes are in the skeleton because they are joints or animated. A node that only other animations moved
+/// gets a key of its rest pose, so that it stays in the skeleton.
 void keep_animated(const Json& animations, const Character& character, const std::vector<std::size_t>& nodes,
                    std::set<std::size_t> animated, Animation& into) {
     for (const Json& animation : animations) {

@@ -6,7 +6,7 @@
 // clip are written, in metres, Y up, with a skin so that programs recognise a skeleton. A mesh without
 // pictures and morphs, such as the built-in figure's, is written with them.
 //
-// The keys are the clip's, plus one at each frame in linear tracks that are not at that rate already;
+// The keys are the clip's, plus one at each frame in linear tracks that do not already have that rate;
 // rotations are on one hemisphere. This preserves the motion between keys: a part of an arc is an arc, and
 // steps and cubics keep their own keys.
 #pragma once

@@ -44,8 +44,8 @@ bool begins_map(std::string_view text);
 
 /// Path in a folder of the kept map for a skeleton with these names, whether or not it exists.
 std::filesystem::path kept_map(const std::filesystem::path& folder, const humanoid::Skeleton& skeleton);
-/// The map kept there for exactly these names; none if there is none. Throws std::runtime_error with the
-/// file's name if the file has other names, cannot be read or cannot be applied.
+/// The map kept there for exactly these names, if there is one. Throws std::runtime_error with the file's
+/// name if the file has other names, cannot be read or cannot be applied.
 std::optional<SavedMap> find_kept_map(const std::filesystem::path& folder,
                                       const humanoid::Skeleton& skeleton);
 /// Keeps a map there, replacing an older one. Throws std::runtime_error.

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uintmax_t max_file_bytes = std::uintmax_t{1} << 30;
 
-/// Guesses the unit of a file that states none: the one that gives a person a person's height.
+/// Guesses the unit of a file that states none: the one that gives a person a plausible height.
 void mend_unit(Character& character) {
     if (character.states_unit) return;
     std::vector<humanoid::Placement> rest(character.skeleton.size());

@@ -10,7 +10,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr double hardly_sure = 0.8;  // below this confidence a bone is called a guess
+constexpr double hardly_sure = 0.8;  // bones below this confidence are reported as guesses
 
 /// "Chest, Toes": left and right as one, if both are in the list.
 std::string bone_names(const std::vector<humanoid::Bone>& bones) {
@@ -29,7 +29,7 @@ std::string bone_names(const std::vector<humanoid::Bone>& bones) {
     return text;
 }
 
-/// A retargeted motion's omissions, in a line.
+/// One line on the parts of a motion that were not retargeted.
 std::string what_stays(const humanoid::Retargeted& made, const humanoid::Skeleton& skeleton) {
     constexpr std::size_t few = 3;
     std::vector<std::string> parts;

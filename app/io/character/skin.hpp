@@ -32,7 +32,7 @@ struct SkinJoint {
 struct MorphTrack {
     std::size_t first = 0, count = 0;  ///< a range of the mesh's morphs
     humanoid::Interpolation interpolation = humanoid::Interpolation::Linear;
-    std::vector<double> times{};   ///< as a clip's
+    std::vector<double> times{};   ///< seconds, as in a clip
     std::vector<double> values{};  ///< `count` per key; cubic: three times that, as in a clip
 };
 
@@ -59,7 +59,7 @@ class SkinBuilder {
     static constexpr std::size_t max_corners = 4'000'000, max_indices = 30'000'000, max_joints = 16'000;
     static constexpr std::size_t usual_pixels = std::size_t{1} << 27;  ///< 512 MB
 
-    /// All pictures together keep no more than this.
+    /// The limit is for all pictures together.
     explicit SkinBuilder(std::size_t max_picture_pixels = usual_pixels) : max_pixels_(max_picture_pixels) {}
 
     /// Returns the index of the new joint.
@@ -85,7 +85,7 @@ class SkinBuilder {
     /// one with the same bytes; -1 if it is neither, is broken or exceeds the limit. It is halved until no
     /// side is over 2048 and it takes at most an eighth of the space left for pictures.
     std::int32_t add_picture(std::string_view bytes);
-    /// Whether a picture was one too many: no more are decoded, however small they would become.
+    /// Whether the picture limit was reached: no more are decoded, however small they would become.
     bool pictures_are_full() const { return full_; }
 
     std::size_t corners() const { return mesh_.positions.size(); }

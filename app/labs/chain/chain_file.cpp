@@ -30,18 +30,18 @@ ReachResult load_result(const JsonPlace& place, const Chain& chain) {
     return result;
 }
 
-/// The crossings of the curve that the joints are at, and the joint that jumped to one.
+/// Writes the crossings of the curve that the joints are at, and the joint that jumped to one.
 Json save_crossings(const AlongCurve& along) {
     Json json{{"at", along.memory.at}};
     if (along.report && along.report->jumped) json["jumped"] = *along.report->jumped;
     return json;
 }
 
-/// Places the given chain along the curve as it was.
+/// Places the given chain along the curve at its saved crossings.
 void load_crossings(const JsonPlace& place, ChainPart& part) {
     AlongCurve& along = part.along;
     along.memory.points = part.curve.points.size();
-    // Beyond the end they go on counting.
+    // Values beyond the curve's end are valid.
     place["at"].for_each("crossings", along.given.size(),
                          [&](const JsonPlace& each) { along.memory.at.push_back(each.real()); });
     follow_curve(part);
@@ -134,7 +134,7 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
 
         const int last = std::max(0, static_cast<int>(part->chain.size()) - 1);
         part->index = static_cast<std::size_t>(place["index"].integer(0, last));
-        // Scenes older than mode Reach have no such part.
+        // Scenes older than mode Reach lack this member.
         if (place.has("reach")) part->reach = load_reach(place["reach"], part->chain);
         if (const auto drawn = place.optional("curve")) part->curve = load_curve(*drawn);
         if (part->mode == ChainMode::Curve) {
@@ -158,7 +158,7 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
                 load_start(*before, part->chain, part->study.last_start, part->study.last_state);
         }
         if (const auto rule = place.optional("flips")) part->flips = load_flip_rule(*rule);
-        ChainRuntime runtime;  // the part belongs to no workspace yet
+        ChainRuntime runtime;  // for a part that is in no workspace yet
         keep_step(*part, runtime);
         check_range(*part);
         if (const auto selected = place.optional("selected")) {
@@ -186,7 +186,7 @@ ik::Method load_method(const JsonPlace& place) {
 
 namespace {
 
-/// A list with one entry for each bone; nothing if it is missing or empty.
+/// A list with one entry per bone; none if it is missing or empty.
 std::optional<JsonPlace> bone_list(const JsonPlace& owner, const char* key, std::size_t bones) {
     std::optional<JsonPlace> list = owner.optional(key);
     if (!list || (list->json().is_array() && list->json().empty())) return std::nullopt;

@@ -22,7 +22,7 @@ std::string name_of(const ChainPart& part, std::size_t index) {
     return "Joint " + std::to_string(index) + (end.empty() ? "" : " (" + end + ")");
 }
 
-/// What the mouse does with a joint in mode Reach.
+/// The effect of the mouse on a joint in mode Reach.
 std::string joint_hint(const ChainPart& part, std::size_t index) {
     const std::string joint = name_of(part, index);
     if (part.study.open()) return joint + ": click selects it.";
@@ -30,7 +30,7 @@ std::string joint_hint(const ChainPart& part, std::size_t index) {
            (index == 0 ? "the tip keeps reaching for the target." : "root and target stay.");
 }
 
-/// Joints cannot be dragged while a study is open, where they stay as the step has them, nor along a curve.
+/// Joints cannot be dragged while a study is open, since they show its step, nor along a curve.
 Handle joint_handle(const ChainPart& part, std::size_t index, glm::vec3 at) {
     return {"segment." + std::to_string(index),
             segment_pick(index),
@@ -199,7 +199,7 @@ std::vector<PaneTitle> ChainLab::panes(const Workspace& workspace) const {
 
 namespace {
 
-/// The longer text of a racer at its end and in the last iteration of the race.
+/// The longer of a racer's texts at its end and in the race's last iteration.
 std::string widest_outcome(const Racer& racer, std::size_t last) {
     const std::string end = outcome_text(racer, racer_at(racer, last)),
                       running = progress_text({.iteration = static_cast<int>(last), .joints = {}});
@@ -250,7 +250,7 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
     return rows;
 }
 
-/// Without its legend nobody could tell the solvers of a race apart.
+/// On in a race: without the legend its solvers cannot be told apart.
 bool ChainLab::labels_pictures(const Workspace& workspace) const {
     return chain_part(workspace).study.kind == Study::Kind::Race;
 }

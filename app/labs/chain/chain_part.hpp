@@ -21,7 +21,7 @@ namespace tendril::app {
 
 inline constexpr const char* chain_lab = "chain";
 inline constexpr std::size_t max_segments = 500'000;          ///< larger scenes would make too large a file
-inline constexpr std::size_t max_limited_segments = 100'000;  ///< of a chain with limits, for the same reason
+inline constexpr std::size_t max_limited_segments = 100'000;  ///< with limits, for the same reason
 
 /// How the chain follows its target: the library's four modes, Reach, which pins the head and iterates, and
 /// Curve, whose target is the curve's last control point.
@@ -37,7 +37,7 @@ inline constexpr FlipWords chain_flip_words{"chain.flips", "target", "the target
                                             "reach", "the chain's reach"};
 
 struct ShownTrace;
-/// A frame of an engine's trace, and what Tendril's solver makes of the same input. As many joints in both.
+/// A frame of an engine's trace, and Tendril's solve of the same input as a ghost with as many joints.
 struct TracedPose {
     std::vector<glm::vec3> joints, ghost;
     std::shared_ptr<const ShownTrace> trace{};
@@ -47,20 +47,20 @@ struct ChainPart final : Part {
     Chain chain;
     ChainMode mode = ChainMode::Backward;
     std::size_t index = 0;                      ///< the segment that WithIndex pulls
-    std::optional<glm::vec3> reach_target{};    ///< of Reach, while another mode is on
+    std::optional<glm::vec3> reach_target{};    ///< Reach's target while another mode is on
     std::array<int, 4> iterations{1, 1, 1, 1};  ///< per pull mode; only Fixed iterates
-    float tolerance = 1e-4f;                    ///< metres, of Fixed
+    float tolerance = 1e-4f;                    ///< metres, for Fixed
     glm::vec3 target{0.0f};
-    Selection selection;                     ///< of joints
+    Selection selection;                     ///< selected joints
     std::optional<ChainPoint> chosen_point;  ///< selected instead of joints
     Motion motion;
     ReachSettings reach;
-    std::optional<ReachResult> result;  ///< of the last solve; empty once anything else moved the chain
+    std::optional<ReachResult> result;  ///< of the last solve; empty once the chain moved otherwise
     CurveSettings curve;
     AlongCurve along;
     Study study;
     FlipRule flips;
-    std::shared_ptr<const TracedPose> traced{};  ///< not saved, nor compared
+    std::shared_ptr<const TracedPose> traced{};  ///< neither saved nor compared
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<ChainPart>(*this); }
     Json save() const override;
@@ -74,7 +74,7 @@ struct ChainPart final : Part {
 /// The lab's initial chain: eight segments of 1 m along +X, the target on the tail.
 ChainPart first_chain();
 
-/// In the order of the panel.
+/// In the panel's order.
 inline constexpr EnumNames<ChainMode, 6> chain_modes{
     "mode",
     {{"forward", "Forward", "Pulls by the head: it goes to the target, the rest trails."},
@@ -92,14 +92,14 @@ bool operator==(const ChainPart& a, const ChainPart& b);
 /// Throws std::invalid_argument if a point has left the range of scene files: a saved chain must open again.
 void check_range(const ChainPart& part);
 
-/// Moves the target and applies the mode once, but for Curve, where follow_curve() does. While a study is
+/// Moves the target and applies the mode once, except in Curve, where follow_curve() does. While a study is
 /// open, Reach solves from the study's start.
 void reach_for(ChainPart& part, glm::vec3 target, ChainRuntime& runtime);
 /// The joint that a trailing mode moves to the target.
 std::size_t led_joint(const ChainPart& part);
-/// In a trailing mode, unless the target follows a path.
+/// Does nothing outside the trailing modes, or while the target follows a path.
 void put_target_on_led_joint(ChainPart& part);
-/// A trailing mode begins with its led joint on the target, and Reach with the target that it was left with.
+/// Entering a trailing mode puts the target on its led joint; entering Reach restores the target it last had.
 void enter_mode(ChainPart& part, ChainMode mode);
 
 /// Clamps the microscope's step to the length of its trace.

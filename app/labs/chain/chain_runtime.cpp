@@ -10,7 +10,7 @@
 namespace tendril::app {
 namespace {
 
-/// Whether trace and race would be the same.
+/// Whether both would give the same trace or race.
 bool same_study(const ChainPart& a, const ChainPart& b) {
     return a.study.kind == b.study.kind && a.study.start == b.study.start &&
            a.study.start_state == b.study.start_state && a.study.racers == b.study.racers &&

@@ -39,7 +39,7 @@ class ChainRuntime final : public Runtime {
 
   private:
     static constexpr std::size_t most =
-        4;  ///< a chain, and the two parts that a drag makes of it, and one more
+        4;  ///< a chain, the two sections that a drag splits it into, and a spare
     struct Kept;
     std::list<Kept> kept_;  ///< most recently used first
     std::size_t made_ = 0;

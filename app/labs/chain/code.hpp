@@ -18,9 +18,9 @@ namespace tendril::app {
 /// target as the lab does, and prints the position of each segment exactly.
 std::string chain_code(const ChainPart& part);
 
-// Numbers, points and limits as C++ source, as code.cpp uses them.
+// Numbers, points and limits as C++ source, for code.cpp.
 
-/// Longer lists are written as tables of plain numbers: less to read, and fast to compile.
+/// Longer lists are written as tables of plain numbers: shorter, and fast to compile.
 inline constexpr std::size_t max_listed = 64;
 
 /// "SvdDls", "BallAndSocket"

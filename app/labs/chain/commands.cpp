@@ -18,7 +18,7 @@ Command chain_command(const char* name, const char* title, std::vector<Argument>
                                        ChainRuntime& runtime = workspace.runtimes.of<ChainRuntime>(chain_lab);
                                        part.study.gesture_begins = workspace.gesture_begins;
                                        const bool edits = effect == Effect::Edit;
-                                       // An edit is one of the chain as it was given.
+                                       // Edits apply to the chain as it was given.
                                        if (edits && part.mode == ChainMode::Curve)
                                            std::swap(part.chain, part.along.given);
                                        change(part, given, runtime);
@@ -92,7 +92,7 @@ void pull_joints(ChainPart& part, const std::vector<JointPull>& asked, ChainRunt
     if (part.mode == ChainMode::Curve) throw Refused("in mode curve the control points move the joints");
     std::vector<JointPull> pulls = asked;
     for (JointPull& pull : pulls)
-        // The plane goes through the root, so a dragged root takes it along.
+        // The plane passes through the root, so a dragged root moves the plane.
         if (pull.joint > 0 || part.mode != ChainMode::Reach)
             pull.to = in_plane(part.chain, part.reach, pull.to);
     if (part.mode == ChainMode::Reach) {
@@ -160,7 +160,7 @@ void pull(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     pull_joints(part, pulls_of(part, given), runtime);
 }
 
-/// In place of joints.
+/// Selects control points instead of joints.
 void select_controls(ChainPart& part, const Arguments& given, bool add) {
     if (part.mode != ChainMode::Curve) throw Refused("control points are those of mode curve");
     if (given.has("index") || given.has("joints") || given.has("point"))
@@ -213,7 +213,7 @@ void set_target(ChainPart& part, const Arguments& given, ChainRuntime& runtime) 
     reach_for(part, given.point("to"), runtime);
 }
 
-/// The path starts at the target, so that starting it never makes the target jump.
+/// Starts the path at the target, so that the target never jumps.
 void set_motion(ChainPart& part, const Arguments& given) {
     Motion motion = part.motion;
     motion.path = motion_paths.value(given.text("path"));

@@ -1,4 +1,4 @@
-// The Chain lab's commands, chain.*, and what their files share.
+// The Chain lab's commands, chain.*, and declarations that their files share.
 #pragma once
 
 #include <functional>
@@ -38,12 +38,12 @@ std::vector<std::size_t> joints_of(const Arguments& given, const ChainPart& part
 /// The same, ascending and without duplicates; at least one.
 std::vector<std::size_t> joints_to_set(const Arguments& given, const ChainPart& part);
 
-/// Pulls joints, ascending and without duplicates, as chain.pull does.
+/// Pulls joints as chain.pull does; ascending and without duplicates.
 void pull_joints(ChainPart& part, const std::vector<JointPull>& pulls, ChainRuntime& runtime);
-/// A chain with its joints there.
+/// A chain with one joint at each point.
 Chain chain_through(const std::vector<glm::vec3>& points);
-/// Replaces the chain, with the target on its tail or, in a trailing mode, on the joint that the mode leads.
-/// Removes limits and the pole target.
+/// Replaces the chain and puts the target on its tail or, in a trailing mode, on the led joint. Removes
+/// limits and the pole target.
 void take_chain(ChainPart& part, Chain chain);
 /// Solves again for the current target, in mode Reach.
 void reach_again(ChainPart& part, ChainRuntime& runtime);
@@ -60,13 +60,13 @@ void add_study_commands(CommandTable& table);
 void add_race_file_commands(CommandTable& table);
 void add_copy_commands(CommandTable& table);
 void add_paste_command(CommandTable& table);
-/// chain.save_trace: the strip's moments, as tendril trace reads them.
+/// chain.save_trace: writes the strip's moments in the format that `tendril trace` reads.
 void add_save_trace_command(CommandTable& table);
 
 /// Whether a file's text begins like a trace, for Lab::files().
 bool begins_like_trace(std::string_view text);
 
-/// Whether pasted text is one: two frames or more, or a pose with a target.
+/// Whether pasted text is a trace: two frames or more, or a pose with a target.
 bool holds_trace(const std::string& text);
 
 class CommandTable;

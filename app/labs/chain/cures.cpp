@@ -13,7 +13,7 @@
 namespace tendril::app {
 namespace {
 
-/// Changes the solver's settings, and solves once more.
+/// Changes a setting of the solver and solves again.
 Cure solve_with(const ChainPart& part, std::string title, std::string help, NamedArgument setting) {
     return {std::move(title),
             std::move(help),
@@ -26,7 +26,7 @@ Cure add_pole(const ChainPart& part) {
             {{"chain.pole", {{"to", first_pole(part)}}}}};
 }
 
-/// Out of the plane in which the target moved, to the side where the pole target is.
+/// Moves the pole target out of the plane in which the target moved, further to the side it is on.
 std::optional<Cure> move_pole(const ChainPart& before, const ChainPart& after) {
     const glm::vec3 root = after.chain.position(0), pole = *after.reach.options.pole;
     const glm::vec3 normal = glm::cross(before.target - root, after.target - root);

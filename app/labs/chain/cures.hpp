@@ -1,4 +1,4 @@
-// What helps a chain that stalls or flips, as commands for a button.
+// Remedies for a chain that stalls or flips, as commands for a button.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,17 +10,17 @@
 
 namespace tendril::app {
 
-/// A new pole target is beside the middle of the line from head to tail, on the side to which the chain
-/// bends, so that adding it turns nothing. A straight chain gets it above.
+/// The initial pole target: beside the middle of the line from head to tail, on the side to which the chain
+/// bends, so that adding it rotates nothing. Above a straight chain.
 glm::vec3 first_pole(const ChainPart& part);
 
 /// Whether all joints lie on the line from the root to the target.
 bool in_line_with_target(const ChainPart& part);
 
-/// For a solve that ended short of a target within reach; none if its report names none.
+/// The remedy for a solve that ended short of a target within reach, if there is one.
 std::optional<Cure> reach_cure(const ChainPart& part);
 
-/// For a flip between two ticks.
+/// The remedy for a flip between two ticks, if there is one.
 std::optional<Cure> flip_cure(FlipCure cure, const ChainPart& before, const ChainPart& after);
 
 }  // namespace tendril::app

@@ -45,7 +45,7 @@ const Chain& own_chain(const ChainPart& part) {
 
 namespace {
 
-/// Five joints of the chain, evenly spread, or all of a shorter one.
+/// Five of the chain's joints, evenly spread; all joints of a shorter chain.
 std::vector<glm::vec3> points_through(const Chain& chain) {
     const std::size_t bones = chain.size() - 1, spans = std::min<std::size_t>(bones, 4);
     std::vector<glm::vec3> points;
@@ -53,7 +53,7 @@ std::vector<glm::vec3> points_through(const Chain& chain) {
     return points;
 }
 
-/// Whether a joint that moves further than the curve has jumped: the control points alone differ.
+/// Whether only control points changed, so that a joint that moves further than the curve has jumped.
 bool only_points_moved(const ChainPart& before, const ChainPart& after) {
     const ik::CurveOptions &was = before.curve.options, &is = after.curve.options;
     return before.mode == ChainMode::Curve && before.along.given == after.along.given &&

@@ -1,9 +1,9 @@
 // Mode Curve: the chain lies along a curve through control points (tendril/ik/curve.hpp). The last control
-// point is the mode's target: what moves the target moves it.
+// point is the mode's target: moving the target moves it.
 //
-// The chain as it was given, its bone lengths and its pose, is kept beside: every placement starts from it,
-// so that equal settings place it equally however often it was placed before. It is what edits edit, and what
-// a scene file has; the placed chain follows.
+// The given chain, with its own bone lengths and pose, is stored separately. Every placement starts from it,
+// so equal settings place it equally however often it was placed before. Edits and scene files use it; the
+// placed chain follows.
 #pragma once
 
 #include <cstddef>
@@ -22,34 +22,34 @@ struct ChainPart;
 
 inline constexpr std::size_t max_control_points = 4096;
 
-/// With none of its points, or at least two.
+/// Has no control points, or at least two.
 struct CurveSettings : CurveShape {
     bool operator==(const CurveSettings&) const = default;
 };
 
-/// What mode Curve keeps; blank in other modes.
+/// State that only mode Curve keeps; blank in other modes.
 struct AlongCurve {
     Chain given;
-    Selection selection;  ///< of control points
+    Selection selection;  ///< selected control points
     ik::CurveMemory memory;
-    std::optional<ik::CurveReport> report;  ///< of the last placement; none for fewer than two joints
+    std::optional<ik::CurveReport> report;  ///< report of the last placement; none for fewer than two joints
 
     bool operator==(const AlongCurve&) const = default;
 };
 
-/// The chain that is edited and saved: in mode Curve the given one.
+/// The chain that is edited and saved: the given one in mode Curve.
 const Chain& own_chain(const ChainPart& part);
-/// Places the given chain along the curve, which is drawn through it if it has no control points yet. Throws
-/// std::invalid_argument if the library refuses.
+/// Places the given chain along the curve; without control points, first draws the curve through the chain.
+/// Throws std::invalid_argument if the library refuses.
 void follow_curve(ChainPart& part);
-/// After an edit that began with the given chain in place of the chain: places it again if need be, and
-/// forgets what only mode Curve keeps in another mode.
+/// Call after an edit that changed the given chain in place of the placed one: places it again if needed and,
+/// in other modes, clears AlongCurve.
 void keep_on_curve(ChainPart& part, const ChainPart& before);
 
 /// Removes the selected control points. Throws Refused if fewer than two would be left.
 void remove_selected_points(ChainPart& part);
 
-/// Why the joint went on to another crossing.
+/// Why the joint jumped to another crossing.
 std::string jump_cause(const ChainPart& before, const ChainPart& after);
 
 Json save_curve(const CurveSettings& settings);

@@ -1,4 +1,4 @@
-// Mode Curve in the picture and in the panels.
+// Mode Curve in the scene and in the panels.
 #include <imgui.h>
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ class CurveDrawing {
   private:
     float px(float pixels) const { return pixels * view_.scale; }
 
-    /// Of each bone, at its middle: its upper side, and what is on its right.
+    /// Draws each bone's frame at its middle: the directions up and right.
     void frames() {
         const auto& rotations = part_.reach.state.rotations;
         const glm::vec3 rest = part_.chain.default_direction();

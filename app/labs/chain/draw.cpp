@@ -24,7 +24,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr std::size_t max_labels = 2000;  ///< more would not fit beside one another
+constexpr std::size_t max_labels = 2000;  ///< more would not fit
 
 /// The radius of a joint's ball, in pixels: constant, but smaller where joints crowd together.
 float joint_pixels(const ChainPart& part, const Camera& camera, float scale) {
@@ -80,7 +80,7 @@ class Drawing {
 
     float px(float pixels) const { return pixels * view_.scale; }
 
-    /// What the chain reaches in its plane: a disc, so that orbiting shows that it is flat.
+    /// The region within reach in the chain's plane: a disc, so that orbiting shows that it is flat.
     void draw_plane() {
         if (!part_.reach.plane || part_.chain.size() < 2) return;
         const glm::vec3 normal = glm::normalize(part_.reach.plane->normal);
@@ -156,7 +156,7 @@ class Drawing {
         }
     }
 
-    /// With a line to the ground that shows the target's height.
+    /// The target, with a line to the ground that shows its height.
     void target() {
         const glm::vec3 at = part_.target;
         const bool hovered = view_.hovered == target_pick || view_.dragged == target_pick;
@@ -204,7 +204,7 @@ class Drawing {
     }
 
     void labels() {
-        if (chain_.race) return;  // it does not show the joints of the chain itself
+        if (chain_.race) return;  // it shows other joints than the chain's
         if (view_.workspace.settings.labels == LabelMode::Always) {
             const std::size_t stride = part_.chain.size() / max_labels + 1;
             for (std::size_t i = 0; i < part_.chain.size(); i += stride) {

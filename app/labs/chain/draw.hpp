@@ -15,8 +15,8 @@
 
 namespace tendril::app {
 
-// The chain as it is shown: its present pose or, under the microscope, the pose at a step of the solve.
-// Scene, inspector and --state all use these functions, so that they show the same step.
+// The displayed chain: its present pose or, under the microscope, the pose at a step of the solve. Scene,
+// inspector and --state all use these functions, so that they show the same step.
 
 /// The lab's part and the result of its study. Refers to the workspace: do not store.
 struct ShownChain : Studied {
@@ -30,17 +30,17 @@ ShownChain shown_chain(const Workspace& workspace);
 /// One position for each joint, metres.
 std::vector<glm::vec3> shown_joints(const ShownChain& shown);
 
-/// Whether the pose is the end of the last solve, not a step on the way.
+/// Whether the displayed pose is the end of the last solve, not a step on the way.
 bool shows_end(const ShownChain& shown);
 
 /// The active limit if the end of the solve is shown; otherwise null.
 const ik::ActiveLimit* shown_active_limit(const ShownChain& shown);
 
-/// The readings of a segment at `joints`.
+/// A segment's readings for the joints at `joints`.
 struct ShownSegment {
     glm::vec3 position{0.0f};
-    float length = 0.0f;  ///< metres: of its bone as shown, which may be off during a solve; the root has
-                          ///< no bone and shows its stored length
+    float length = 0.0f;  ///< metres: its bone's displayed length, which may deviate during a solve; the root
+                          ///< has no bone and shows its stored length
     float error = 0.0f;   ///< metres, deviation from the stored length
 };
 ShownSegment shown_segment(const ShownChain& shown, const std::vector<glm::vec3>& joints, std::size_t index);
@@ -54,7 +54,7 @@ const char* end_name(const ChainPart& part, std::size_t index);
 /// Metres from the tip to the target, in the plane if there is one; 0 for an empty chain.
 float shown_residual(const ChainPart& part, const std::vector<glm::vec3>& joints);
 
-/// In mode Curve: its curve and control points, and on wish the frames of the bones.
+/// Draws mode Curve's curve and control points and, if curve_frames() says so, the bones' frames.
 void draw_curve(const View& view, const ChainPart& part, DrawList& list);
 LabSetting curve_frames();
 /// Draws segments as lines and spheres, or as bones.
@@ -68,25 +68,25 @@ void draw_circle(DrawList& list, glm::vec3 centre, float radius, glm::vec3 acros
 
 /// The joint limits as the solver uses them, and the present joint angles.
 void draw_limits(const View& view, const ShownChain& shown, DrawList& list);
-/// The pole target, and the line that it turns the chain about.
+/// Draws the pole target, and the line that it turns the chain about.
 void draw_pole(const View& view, const ChainPart& part, DrawList& list);
-/// The sphere within the chain's reach, as faint outlines: its silhouette, and its intersection with the
+/// Draws the sphere within the chain's reach as faint outlines: its silhouette, and its intersection with the
 /// ground.
 void draw_reach_sphere(const View& view, const ShownChain& shown, DrawList& list);
-/// The microscope's step, over the poses at the ends of earlier iterations.
+/// Draws the microscope's step over the poses at the ends of earlier iterations.
 void draw_microscope(const View& view, const ShownChain& shown, DrawList& list);
-/// The poses of a race at its iteration: side by side only this pane's, otherwise all, drawn apart where they
-/// overlap.
+/// Draws the poses of a race at its iteration: side by side only this pane's, otherwise all, spread apart
+/// where they overlap.
 void draw_race(const View& view, const ShownChain& shown, DrawList& list);
 /// One pane for each solver of a side-by-side race; otherwise none.
 std::vector<PaneTitle> race_panes(const ShownChain& shown, const Palette& palette);
 
-/// Drawn under a chain that shows the state after an incident: the pose before, and the jump of the joint.
+/// Drawn under a chain that shows the state after an incident: the pose before it, and the joint's jump.
 void draw_incident(const View& view, const ChainPart& part, DrawList& list);
 
 // Colours of this lab alone; the others are in view/palette.hpp.
 
-/// As a curve's: either says which way the chain bends.
+/// The curve's colour too: pole target and curve both show which way the chain bends.
 glm::vec3 pole_colour(const Palette& palette);
 /// The colour of a solver in a race; solvers differ in lightness, too.
 glm::vec3 solver_colour(const Palette& palette, ik::Method method);

@@ -1,5 +1,5 @@
-// Joint limits in the picture: a cone, a fan for a hinge, a dial for twist; in a plane an arc, whose ends can
-// be dragged.
+// Draws joint limits: a cone, a fan for a hinge, a dial for twist; in a plane an arc with ends that can be
+// dragged.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,7 +15,7 @@ namespace tendril::app {
 namespace {
 
 constexpr std::size_t max_limits =
-    24;  ///< drawn; in longer chains those of the selected joints and of the active limit
+    24;  ///< in longer chains, only limits of selected joints and the active limit are drawn
 
 class LimitDrawing {
   public:
@@ -44,7 +44,7 @@ class LimitDrawing {
     float px(float pixels) const { return pixels * view_.scale; }
     bool is_active(std::size_t i) const { return active_ != nullptr && active_->joint == i; }
 
-    /// In a plane: a hinge about its normal, measured from straight on or from the base.
+    /// The limit in a plane: a hinge about its normal, measured from straight on or from the base.
     ik::Limit limit_at(std::size_t i) const {
         if (!plane_) return limit_of(part_.reach, i);
         const ik::AngleLimit limit = angle_limit_of(*plane_, i);
@@ -139,7 +139,7 @@ class LimitDrawing {
     bool bones_;
     std::vector<glm::vec3> joints_;
     const ChainPlane* plane_;
-    glm::vec3 rest_;  ///< of all bones
+    glm::vec3 rest_;  ///< direction of all bones at rest
     std::vector<glm::quat> turns_;
 };
 

@@ -115,7 +115,7 @@ void draw_microscope(const View& view, const ShownChain& shown, DrawList& list) 
 namespace {
 
 constexpr float same_pixels = 3.0f;    ///< chains closer than this overlap
-constexpr float strand_pixels = 4.5f;  ///< between adjacent strands of overlapping chains
+constexpr float strand_pixels = 4.5f;  ///< spacing of overlapping chains
 
 class RaceDrawing {
   public:
@@ -242,7 +242,7 @@ class RaceDrawing {
         std::span<const glm::vec3> joints;
     };
     std::vector<Posed> chains_;
-    std::vector<std::vector<glm::vec2>> pixels_;  ///< of the joints of chains_
+    std::vector<std::vector<glm::vec2>> pixels_;  ///< pixels of the joints of chains_
 };
 
 }  // namespace

@@ -28,7 +28,7 @@
 namespace tendril::app {
 namespace {
 
-/// Distance, as a fraction of the reach, at which the ghost counts as departed.
+/// Maximum distance between trace and ghost, as a fraction of the reach, before the ghost has departed.
 constexpr float parted_share = 0.05f;
 
 constexpr std::uint64_t max_from = 2'000'000'000;
@@ -41,7 +41,7 @@ std::unique_ptr<std::istream> open_source(const ShownTrace& trace) {
     return file;
 }
 
-/// The chain with that name or, without one, the first in which something was found.
+/// The chain of that name; without a name, the first chain with an incident.
 const TraceFindings::Chain& chosen_chain(const TraceFindings& findings, std::string_view name) {
     if (name.empty()) {
         const auto found = std::ranges::find_if(
@@ -60,8 +60,8 @@ bool joints_are_finite(const TracedFrame& frame) {
     return std::ranges::all_of(frame.joints, is_finite_point);
 }
 
-/// Where joints, target or pole target are not finite, the last finite one is repeated. Without any before,
-/// the joints are the first finite ones, and there is no target or pole target.
+/// Replaces joints, targets and pole targets that are not finite by the last finite ones. Before the first,
+/// joints take the first finite ones, and target and pole target are left out.
 void hold_finite(std::vector<TracedFrame>& frames) {
     const auto first = std::ranges::find_if(frames, joints_are_finite);
     if (first == frames.end()) throw Refused("the trace has no frame whose joints are all finite");
@@ -99,7 +99,7 @@ void find_all(ShownTrace& trace, const std::string& chain) {
     view.rotations = trace.conventions.rotations.value;
 }
 
-/// Keeps the frames from `from` on or, without it, around the first incident: as many as the strip holds.
+/// Keeps as many frames as the strip holds: from `from` on or, without it, around the first incident.
 void load_frames(ShownTrace& trace, std::optional<std::uint64_t> from) {
     const std::uint64_t half = Rewind::max_ticks / 2;
     const std::uint64_t first = trace.incidents.empty() ? 0 : trace.incidents.front().frame;
@@ -117,7 +117,7 @@ void load_frames(ShownTrace& trace, std::optional<std::uint64_t> from) {
     trace.view.from = static_cast<int>(begin);
 }
 
-/// A click that shows Tendril's solve with that change.
+/// A button that shows Tendril's solve with that change.
 Cure cure_of(const Prevention& prevention, const Conventions& space) {
     const TraceSolve& solve = prevention.solve;
     return {"Show",
@@ -130,7 +130,7 @@ Cure cure_of(const Prevention& prevention, const Conventions& space) {
             prevention.title()};
 }
 
-/// For the strip: between the moment before its frame and that one.
+/// The incident for the strip: between its frame's moment and the one before.
 Incident incident_of(const TracedIncident& found, const ShownTrace& trace,
                      const std::vector<std::shared_ptr<const ChainPart>>& moments) {
     const std::uint64_t at = found.frame - static_cast<std::uint64_t>(trace.view.from);
@@ -158,7 +158,7 @@ Incident incident_of(const TracedIncident& found, const ShownTrace& trace,
     return incident;
 }
 
-/// The frames as moments, each with Tendril's solve beside it.
+/// The trace's frames as moments, each with Tendril's solve beside it.
 class Moments {
   public:
     explicit Moments(std::shared_ptr<const ShownTrace> trace) {
@@ -189,11 +189,11 @@ class Moments {
     }
 
     std::vector<std::shared_ptr<const ChainPart>> all;
-    std::optional<std::uint64_t> parted;  ///< where Tendril's solve departs from the trace
-    std::optional<std::uint64_t> flip;    ///< where it flips first
+    std::optional<std::uint64_t> parted;  ///< first frame where Tendril's solve departs from the trace
+    std::optional<std::uint64_t> flip;    ///< first frame where Tendril's solve flips
 };
 
-/// The first flip of the frames that are shown or, without one, the first incident.
+/// The first flip in the displayed frames or, without one, the first incident.
 const TracedIncident* first_shown(const ShownTrace& trace) {
     const TracedIncident* first = nullptr;
     const auto from = static_cast<std::uint64_t>(trace.view.from);
@@ -216,7 +216,7 @@ std::string shown_text(const ShownTrace& trace, std::size_t shown) {
     return found == nullptr ? said : said + ". " + capitalised(found->text(trace.bones));
 }
 
-/// Puts the trace on the strip, and shows where it first goes wrong. The same frames stay where they are.
+/// Puts the trace on the strip and shows its first fault; with `same_frames` the strip stays at its moment.
 void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& trace, bool same_frames) {
     Moments moments(trace);
     const std::uint64_t last = moments.all.size() - 1;
@@ -265,7 +265,7 @@ std::string text_or_none(const Arguments& given, const char* name) {
     return given.has(name) ? given.text(name) : std::string();
 }
 
-/// What is given of how the trace is read.
+/// Takes the given arguments on how the trace is read; returns whether there are any.
 bool take_choice(ConventionChoice& choice, const Arguments& given) {
     bool any = false;
     const auto take = [&](const char* name, std::string& into) {

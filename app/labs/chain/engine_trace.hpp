@@ -1,5 +1,5 @@
-// A trace from an engine as the Chain lab's past: each frame becomes a moment of the strip, with what was
-// found in it, and beside it as a ghost what Tendril's solver makes of the same input.
+// An engine's trace as the Chain lab's past: each frame becomes a moment of the strip, with the incidents
+// found in it and Tendril's solve of the same input as a ghost.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -21,7 +21,7 @@ namespace tendril::app {
 
 struct View;
 
-/// How a trace is read and shown: what chain.trace sets.
+/// The settings of chain.trace: how a trace is read and shown.
 struct TraceView {
     TraceUp up = TraceUp::Y;
     TraceHand handed = TraceHand::Right;
@@ -39,26 +39,26 @@ struct TraceView {
     }
 };
 
-/// A trace while it is on the strip. Not saved.
+/// The trace on the strip. Not saved.
 struct ShownTrace {
-    std::string path, text;  ///< where it comes from: a file, or pasted text
+    std::string path, text;  ///< the source: a file, or pasted text
     std::string name;        ///< for messages
     ConventionChoice choice;
     TraceView view;
     Conventions conventions;
     std::string chain;
-    std::vector<TracedFrame> frames;  ///< those that the strip can hold
-    std::uint64_t all = 0;            ///< frames of this chain
+    std::vector<TracedFrame> frames;  ///< as many as the strip holds
+    std::uint64_t all = 0;            ///< number of this chain's frames in the trace
     std::vector<TracedIncident> incidents;
     std::vector<std::string> bones, notes;
 };
 
-/// The trace's frame, while the chain shows it; else null.
+/// The trace frame that the chain shows; null if it shows none.
 const TracedPose* traced_pose(const ChainPart& part);
-/// The method of the ghost.
+/// The ghost's solver.
 ik::Method traced_method(const TracedPose& pose);
 void draw_traced_ghost(const View& view, const ChainPart& part, DrawList& list);
-/// Panel: how the trace is read, and why, and how Tendril solves it.
+/// Panel: how the trace is read and why, and how Tendril solves it.
 void trace_rows(const TracedPose& pose, MoreRows& more, Emit& emit);
 
 void add_trace_commands(CommandTable& table);

@@ -65,7 +65,7 @@ void joint_row(const ShownChain& shown, const Joints& joints, std::size_t i, Emi
     text_flush_right(error_text(static_cast<double>(segment.error)));
 }
 
-/// `fixed`: columns as wide as their numbers, scrolled sideways, for a panel that is too narrow.
+/// `fixed`: columns as wide as their numbers, scrolled sideways, for panels that are too narrow.
 void header_row(bool fixed) {
     struct Column {
         const char* name;
@@ -103,7 +103,7 @@ void follow_selection(const ChainPart& part, float row_height) {
         ImGui::SetScrollY(top - 0.5f * visible);
 }
 
-/// Fills the panel but for `below`, the height of what follows.
+/// Fills the panel except for `below`, the height of the rows that follow.
 void joint_table(const ShownChain& shown, const Joints& joints, float below, Emit& emit) {
     ImGui::PushFont(small_font());
     const bool narrow = ImGui::GetContentRegionAvail().x < 16.0f * ImGui::GetFontSize();
@@ -156,14 +156,14 @@ void ChainLab::inspector(const Workspace& workspace, Emit& emit) const {
 
 namespace {
 
-/// A command's arguments: the joints, and what to set on them.
+/// Arguments of a command: the joints, and the values to set on them.
 ArgumentList of_joints(const std::vector<std::size_t>& joints, ArgumentList values = {}) {
     values.insert(values.begin(), joints.size() == 1 ? NamedArgument{"index", joints.front()}
                                                      : NamedArgument{"joints", SharedJson(Json(joints))});
     return values;
 }
 
-/// "1, 2, 5"; "..." stands for any joints after the eighth.
+/// "1, 2, 5", with "..." for joints after the eighth.
 std::string list_text(const std::vector<std::size_t>& joints) {
     constexpr std::size_t most = 8;
     std::string text;

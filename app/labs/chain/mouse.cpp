@@ -26,7 +26,7 @@ void keep_target_still(const ChainPart& part, Emit& emit) {
     if (part.motion.path != Motion::Path::Still) emit.continuously("chain.motion", {{"path", "still"}});
 }
 
-/// The moved handles' places among the control points.
+/// Emits the control points with the dragged handles' positions.
 void emit_moved_points(const ChainPart& part, const std::vector<Handle>& handles, Emit& emit) {
     std::vector<glm::vec3> points = part.curve.points;
     for (const Handle& each : handles)
@@ -35,13 +35,13 @@ void emit_moved_points(const ChainPart& part, const std::vector<Handle>& handles
     if (points != part.curve.points) emit_points(part, std::move(points), emit);
 }
 
-/// The rotation of a limit's end: about the plane's normal, by its angle. Only what a drag changes of it
-/// counts.
+/// A rotation about the plane's normal that represents the angle of a limit's end. Only its change in a drag
+/// matters.
 glm::quat limit_turn(glm::vec3 normal, float angle) {
     return glm::angleAxis(angle, normal) * least_rotation({0.0f, 0.0f, 1.0f}, normal);
 }
 
-/// To whole degrees, at most up to the other end, and short of a full turn, which would be no limit.
+/// Drags a limit's end to whole degrees, up to the other end and short of a full turn, which is no limit.
 void drag_limit(const ChainPart& part, const LimitEnd& end, const glm::quat& to, Emit& emit) {
     if (!part.reach.plane) return;
     const glm::vec3 normal = glm::normalize(part.reach.plane->normal);
@@ -61,7 +61,7 @@ void drag_limit(const ChainPart& part, const LimitEnd& end, const glm::quat& to,
 
 }  // namespace
 
-/// Its angle turns about the joint, whatever the size of the arc in the picture.
+/// A drag turns it about the joint, whatever the size of the arc in the picture.
 std::optional<Handle> limit_handle(const ChainPart& part, const LimitEnd& end) {
     const auto& plane = part.reach.plane;
     if (!plane || part.mode != ChainMode::Reach || part.study.open() || end.joint >= plane->limits.size())
@@ -137,7 +137,7 @@ void ChainLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) c
     emit("chain.select", {{"index", picked_segment(pick)}, {"add", true}});
 }
 
-/// Joints, and along a curve control points. A race does not show the joints of the chain itself.
+/// Joints and, in mode Curve, control points; none in a race, which shows other joints.
 std::vector<Handle> ChainLab::selectable(const Workspace& workspace, std::size_t) const {
     std::vector<Handle> joints = handles(workspace);
     const bool racing = chain_part(workspace).study.kind == Study::Kind::Race;
@@ -168,7 +168,7 @@ void ChainLab::select(const Workspace& workspace, const std::vector<PickId>& pic
 
 namespace {
 
-/// Of control points if any are selected, else of joints.
+/// The selected control points if any, else the selected joints.
 const Selection& selected(const ChainPart& part) {
     return part.along.selection.empty() ? part.selection : part.along.selection;
 }
@@ -207,7 +207,7 @@ void ChainLab::drag_together(const Workspace& workspace, const std::vector<Handl
     if (part.mode == ChainMode::Curve) return emit_moved_points(part, handles, emit);
     Json joints = Json::array(), points = Json::array();
     for (const Handle& each : handles) {
-        if (picked_segment(each.pick) >= part.chain.size()) continue;  // it may have been removed meanwhile
+        if (picked_segment(each.pick) >= part.chain.size()) continue;  // removed in the meantime
         joints.push_back(picked_segment(each.pick));
         points.push_back(point(each.frame.position));
     }
@@ -219,7 +219,7 @@ void ChainLab::drag_together(const Workspace& workspace, const std::vector<Handl
 
 namespace {
 
-constexpr float drag_tolerance = 1e-4f;  ///< of the reach to the dragged joint: a fraction of a pixel
+constexpr float drag_tolerance = 1e-4f;  ///< fraction of the reach to the dragged joint: less than a pixel
 
 /// A run of consecutive bones, as a chain of its own with its root at the first joint.
 struct Section {
@@ -227,7 +227,7 @@ struct Section {
     std::vector<float> lengths;        ///< metres, one per bone
     std::vector<glm::vec3> joints;     ///< one more than bones
     std::vector<glm::quat> rotations;  ///< one per bone; only with limits
-    glm::vec3 base{1, 0, 0};           ///< where its first bone is straight: that of the bone before
+    glm::vec3 base{1, 0, 0};           ///< direction of its first bone at angle 0: the bone before it
 };
 
 Section section_of(const Chain& chain, const ReachSettings& settings, std::size_t first, std::size_t count) {
@@ -243,7 +243,7 @@ Section section_of(const Chain& chain, const ReachSettings& settings, std::size_
     return section;
 }
 
-/// The limits of a section in the chain's plane, where its base is another than the chain's.
+/// The section's limits in the chain's plane, relative to the section's own base.
 std::vector<ik::AngleLimit> angle_limits(const Section& section, const Chain& chain,
                                          const ChainPlane& plane) {
     if (plane.limits.empty()) return {};
@@ -295,8 +295,8 @@ ik::Options section_options(const ReachSettings& settings, float tolerance) {
     return options;
 }
 
-/// Solves a section beyond a dragged joint. Its first limit is relative to the bone before it, which `parent`
-/// rotates from rest, so the section is solved in that bone's frame, where the limit is that of a root.
+/// Solves a section beyond a dragged joint. Its first limit is relative to the bone before it, so it is
+/// solved in that bone's frame (`parent` is the bone's rotation from rest), where the limit is a root's.
 void solve_beyond(Section& section, const Chain& chain, const ReachSettings& settings, glm::vec3 target,
                   const ik::Options& options, glm::quat parent, ChainRuntime& runtime) {
     const glm::vec3 root = section.joints.front();
@@ -358,7 +358,7 @@ class SectionDrag {
         at_ = to;
         root_moved_ = true;
     }
-    /// Within a fraction of a pixel, if the joint can get there.
+    /// To within a fraction of a pixel, if the joint can get there.
     void drag(const JointPull& pull) {
         Section section = section_of(chain_, settings_, first_, pull.joint - first_);
         float reach = 0.0f;
@@ -407,10 +407,10 @@ class SectionDrag {
     ReachSettings& settings_;
     ChainRuntime& runtime_;
     std::vector<glm::vec3> joints_;
-    std::size_t first_ = 0;        // of the next section
-    std::optional<glm::vec3> at_;  // where it begins, once that has moved
+    std::size_t first_ = 0;        // the next section's first joint
+    std::optional<glm::vec3> at_;  // that joint's new position, once it has moved
     bool root_moved_ = false;
-    glm::quat parent_{1, 0, 0, 0}, turned_{1, 0, 0, 0};  // the bone before it, and how that has turned
+    glm::quat parent_{1, 0, 0, 0}, turned_{1, 0, 0, 0};  // rotation of the bone before it, and its change
 };
 
 }  // namespace
@@ -438,7 +438,7 @@ namespace {
 
 constexpr FixedOptions between_joints{.iterations = 100, .tolerance = 1e-5f};
 
-/// The least rotation from one direction to the other.
+/// The shortest rotation from one direction to the other.
 glm::quat turn_of(glm::vec3 from, glm::vec3 to) {
     const float a = glm::length(from), b = glm::length(to);
     return a > 1e-6f && b > 1e-6f ? least_rotation(from / a, to / b) : glm::quat(1, 0, 0, 0);
@@ -469,7 +469,7 @@ Result trail_joints(Chain& chain, std::span<const JointPull> pulls) {
     put(*before, 0, false);
     std::size_t last = first;
     for (const JointPull& pull : pulls.subspan(1)) {
-        // Start from the pose in which it merely moved and turned along with its ends.
+        // Start from the pose that results from moving and rotating it with its ends.
         Expected<Chain> between = part_of(chain, last, pull.joint, true);
         const glm::vec3 from = chain.position(last), at = joints[last];
         std::vector<glm::vec3> moved = positions(*between);

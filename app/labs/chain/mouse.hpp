@@ -30,11 +30,11 @@ struct JointPull {
 void drag_joints(Chain& chain, ReachSettings& settings, std::span<const JointPull> pulls, glm::vec3 target,
                  ChainRuntime& runtime);
 
-/// For the trailing modes: the first joint goes where it is pulled, the others as near as the bones between
-/// allow, and both ends trail. Refuses what Chain::with_index does.
+/// For the trailing modes: the first joint goes where it is pulled, the others get as near as the bones
+/// between allow, and both ends trail. Refuses the same input as Chain::with_index.
 Result trail_joints(Chain& chain, std::span<const JointPull> pulls);
 
-/// The handle of a limit's end in the plane; none if there is no such limit, or it cannot be changed now.
+/// The handle of a limit's end in the plane; none if there is no such limit, or it is fixed at present.
 std::optional<Handle> limit_handle(const ChainPart& part, const LimitEnd& end);
 
 }  // namespace tendril::app

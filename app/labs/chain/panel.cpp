@@ -30,8 +30,8 @@
 namespace tendril::app {
 namespace {
 
-/// The length of the next segment that is added or inserted: state of the panel, not of the document. Until
-/// it is set, that of the last bone.
+/// The length of the next segment to add or insert: state of the panel, not of the document. At first, the
+/// last bone's length.
 float length_of_next(const Chain& chain) {
     ImGuiStorage& kept = *ImGui::GetStateStorage();
     const ImGuiID kept_as = ImGui::GetID("next length");
@@ -52,12 +52,12 @@ void preset_button(const Preset& preset, int of, Emit& emit) {
 
 namespace {
 
-/// In order of interest: Reach and Curve first, then the four trailing modes.
+/// In order of importance: Reach and Curve first, then the four trailing modes.
 constexpr std::array modes_in_panel{ChainMode::Reach,    ChainMode::Curve, ChainMode::Forward,
                                     ChainMode::Backward, ChainMode::Fixed, ChainMode::WithIndex};
 
 void mode_rows(const ChainPart& part, const Palette& colours, MoreRows& more, Emit& emit) {
-    // The two that solve share a row.
+    // The two modes that solve share a row.
     const float left = ImGui::GetCursorPosX(), half = 0.5f * ImGui::GetContentRegionAvail().x;
     for (const ChainMode mode : modes_in_panel) {
         const bool first = mode == modes_in_panel[0], second = mode == modes_in_panel[1];
@@ -92,7 +92,7 @@ void mode_rows(const ChainPart& part, const Palette& colours, MoreRows& more, Em
     }
 }
 
-/// The camera square on to the plane, its normal towards the eye.
+/// Turns the camera square on to the plane, with the normal towards the eye.
 void look_at_plane(const ChainPlane& plane, Emit& emit) {
     const glm::vec3 normal = glm::normalize(plane.normal);
     emit("camera.set", {{"yaw_deg", glm::degrees(std::atan2(normal.x, normal.z))},
@@ -182,7 +182,7 @@ constexpr PastHelp past_help{
 void preset_rows(Emit& emit) {
     std::vector<PresetButton> buttons;
     for (const Preset& preset : presets()) {
-        // Below the mode, or the switch, that they come with.
+        // These are shown below their mode or switch.
         if (preset.of == 0 || is_planar(preset.name)) continue;
         buttons.push_back(
             {preset.name, preset.title, count_text(preset.count, "joint") + preset.what, preset.of});
@@ -269,7 +269,7 @@ void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
     const ShownChain chain = shown_chain(workspace);
     if (chain.trace) return study_strip(chain, iteration_ends(*chain.trace), emit);
     if (!chain.race) return past_rows(workspace, past_strip(workspace, emit), emit);
-    // The moments of the last ten seconds, or the iterations of the race: state of the panel.
+    // Whether the strip shows the last ten seconds instead of the race: state of the panel.
     ImGuiStorage& kept = *ImGui::GetStateStorage();
     bool& past = *kept.GetBoolRef(ImGui::GetID("past"));
     if (other_strip_button(past, "race")) past = !past;
@@ -397,7 +397,7 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
 
 namespace {
 
-/// Why the method ignores an option, as its row says; empty if it does not.
+/// Why the method ignores an option, for its row's tooltip; empty if it does not.
 std::string why_unused(const ReachSettings& reach, const Field& option) {
     const bool limited = is_limited(reach);
     const std::string_view name = option.name;

@@ -9,7 +9,7 @@
 
 namespace tendril::app {
 
-/// A small sketch of what a mode does, beside the last item, right-aligned but for `short_of` pixels.
+/// A small sketch of a mode beside the last item, right-aligned, `short_of` pixels from the edge.
 void draw_mode(ChainMode mode, const Palette& colours, float short_of, float scale);
 /// Panel: the solver and its options.
 void solver_rows(const ChainPart& part, MoreRows& more, Emit& emit);
@@ -24,11 +24,11 @@ void export_rows(Emit& emit);
 /// Inspector: the outcome of the last move of the target, and the report of the last solve.
 void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, const Palette& palette,
                  Emit& emit);
-/// Inspector, in mode Curve: how the chain lies on it.
+/// Inspector, in mode Curve: how the chain fits the curve.
 void curve_report_rows(const ChainPart& part, const Palette& palette, Emit& emit);
 /// Inspector: the selected control points; at least one.
 void control_rows(const ChainPart& part, Emit& emit);
-/// Moves control points, and stops the target's motion if that would take them back.
+/// Moves control points, and stops the target's motion if it would undo that.
 void emit_points(const ChainPart& part, std::vector<glm::vec3> points, Emit& emit);
 /// Inspector: the selection.
 void selection_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, Emit& emit);

@@ -1,5 +1,5 @@
-// Text from the clipboard: points, that is where a joint, the target or the pole target goes, or a new chain;
-// or a trace.
+// Text from the clipboard: a trace, or points: the new position of a joint, the target or the pole target, or
+// a new chain.
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <memory>
@@ -19,7 +19,7 @@ namespace tendril::app {
 
 Chain chain_through(const std::vector<glm::vec3>& points) {
     std::vector<Segment> segments;
-    // As in presets, the head has the length of the first bone.
+    // As in presets, the head's stored length is the first bone's.
     for (std::size_t i = 0; i < points.size(); ++i) {
         const std::size_t bone = std::max<std::size_t>(i, 1);
         segments.push_back({points[i], glm::distance(points[bone - 1], points[bone])});
@@ -29,7 +29,7 @@ Chain chain_through(const std::vector<glm::vec3>& points) {
 
 namespace {
 
-/// Moves the active joint there; the other selected joints keep their offsets from it.
+/// Moves the active joint to `to`; the other selected joints keep their offsets from it.
 void place_selection(ChainPart& part, glm::vec3 to, ChainRuntime& runtime) {
     const std::size_t active = *part.selection.active();
     const glm::vec3 by = to - part.chain.position(active);

@@ -39,7 +39,7 @@ Segments start(std::size_t count) {
     return placed({0, 0, 0}, count, [](std::size_t) { return glm::vec3(1, 0, 0); });
 }
 
-/// Rises from the ground in an S and gets finer towards its tip.
+/// Rises from the ground in an S, with bones that get shorter towards the tip.
 Segments tentacle(std::size_t count) {
     const float scale = 7.0f / static_cast<float>(count);
     return placed({0, 0, 0}, count, [=](std::size_t i) {
@@ -100,7 +100,7 @@ Segments snake(std::size_t count) {
     });
 }
 
-/// Straight up, of that height.
+/// A vertical chain of that height.
 Segments upright(std::size_t count, float height) {
     const float step = count < 2 ? height : height / static_cast<float>(count - 1);
     return placed({0, 1, 0}, count, [=](std::size_t) { return glm::vec3(0, step, 0); });
@@ -115,7 +115,7 @@ Segments coil(std::size_t count) {
     });
 }
 
-/// Along +X above the ground; the last length is that of all further bones.
+/// Along +X above the ground; the last length repeats for all further bones.
 Segments flat(std::size_t count, std::vector<float> lengths) {
     return placed({0.0f, 2.5f, 0.0f}, count, [&](std::size_t i) {
         return glm::vec3(lengths[std::min(i == 0 ? 0 : i - 1, lengths.size() - 1)], 0.0f, 0.0f);
@@ -177,8 +177,8 @@ Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed
 void make_it_reach(ChainPart& part, ChainRuntime& runtime) {
     part.mode = ChainMode::Reach;
     part.reach = {};
-    // In the opening view, target, pole target and shoulder are equally deep, so that a drag of the target in
-    // the view plane leads over the pole target, and the elbow flips.
+    // In the opening view, target, pole target and shoulder have the same depth, so that a drag of the target
+    // in the view plane passes over the pole target, and the elbow flips.
     part.reach.options.pole = glm::vec3(0.3f, 2.5f, -0.5f);
     constexpr std::size_t elbow = 1;
     if (part.chain.size() > elbow + 1) {
@@ -201,7 +201,7 @@ void put_on_curve(ChainPart& part, const std::string& preset) {
         part.curve.options.roll_end = glm::radians(40.0f);
         part.curve.options.fit = true;
     } else if (preset == "tentacle") {
-        part.curve.options.fit = true;  // the curve is drawn through the chain
+        part.curve.options.fit = true;  // drawn through the chain
     } else {
         part.curve.points = {{0, 1, 0},           {-0.9f, 0.8f, 0},    {-1.8f, 1.2f, 0.2f},
                              {-1.5f, 2.0f, 0.3f}, {-0.9f, 1.5f, 0.1f}, {-1.9f, 0.9f, -0.2f},

@@ -19,7 +19,7 @@ struct Preset {
     const char* what = "";  ///< after the number of joints, in its tooltip
 };
 
-/// The scene that the program opens with: a chain that reaches.
+/// The preset that the program opens with: a chain that reaches.
 inline constexpr const char* reaching_arm = "reaching_arm";
 /// A straight chain that FABRIK (2011) cannot bend.
 inline constexpr const char* straight_chain_preset = "straight";
@@ -29,18 +29,18 @@ const std::vector<Preset>& presets();
 /// Throws std::invalid_argument for an unknown name. Only "random" uses `seed`.
 Chain make_preset(const std::string& name, std::size_t count, std::uint32_t seed);
 
-/// A chain in a plane: arm, tail, and a figure whose limits are from the bone before and from the base.
+/// Whether the preset is planar: an arm, a tail, and a figure with limits from bone before and from base.
 bool is_planar(const std::string& name);
-/// Completes it: mode Reach, the plane z = 0, its limits, and a target within them.
+/// Completes a planar preset: mode Reach, the plane z = 0, its limits, and a target within them.
 void make_it_planar(ChainPart& part, const std::string& name, ChainRuntime& runtime);
 
 /// Completes the preset reaching_arm: mode Reach, a hinge at the elbow, a pole target above it, and the hand
 /// on the target. `part` already has the preset's chain.
 void make_it_reach(ChainPart& part, ChainRuntime& runtime);
 
-/// Whether it comes with a curve.
+/// Whether the preset comes with a curve.
 bool is_along_curve(const std::string& name);
-/// Completes it: mode Curve, with control points of its own, or through the chain.
+/// Completes such a preset: mode Curve, with its own control points or with some drawn through the chain.
 void put_on_curve(ChainPart& part, const std::string& preset);
 
 /// Completes the preset straight: mode Reach, solver FABRIK (2011), and the target on the chain's own line,

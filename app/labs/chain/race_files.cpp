@@ -1,4 +1,4 @@
-// Commands that write the open race to a file: its numbers, or a film of it.
+// Commands that write the open race to a file: its numbers, or a video.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -21,7 +21,7 @@ std::string open_race_csv(const Workspace& workspace) {
 }
 
 constexpr double frames_per_second = 30.0;
-constexpr int end_frames = 30;  ///< the end stays for a second, so that a film takes 4 to 12 s
+constexpr int end_frames = 30;  ///< the end is held for a second, so that a film takes 4 to 12 s
 constexpr double max_frames = 18'000.0;
 
 /// Shows a frame of the film in a copy of the workspace.

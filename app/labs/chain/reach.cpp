@@ -83,7 +83,7 @@ ik::State& state_for(ReachSettings& settings, std::size_t bones) {
     return settings.state;
 }
 
-/// Clears invalid memory, so that equal states are equal bit for bit and stay so through a file.
+/// Clears invalid memory, so that equal states are bit-identical, also after saving and loading.
 static void forget_what_is_not_valid(ik::State& state) {
     if (!state.limits.valid) state.limits = {};
     if (state.pole.valid) return;
@@ -124,7 +124,7 @@ static void change_limits(ReachSettings& settings, const Change& change) {
 }
 
 void bone_inserted(ReachSettings& settings, std::size_t index, std::size_t segments_now) {
-    settings.state = {};  // twist is determined anew
+    settings.state = {};  // twist is recomputed
     if (segments_now < 2) return;
     change_limits(settings, [&](auto& limits) {
         const auto at = static_cast<std::ptrdiff_t>(std::min(index, limits.size()));
@@ -168,7 +168,7 @@ ik::AngleLimit angle_limit_of(const ChainPlane& plane, std::size_t joint) {
     return joint < plane.limits.size() ? plane.limits[joint] : ik::AngleLimit{};
 }
 
-/// Signed, metres; in double, for planes far out.
+/// Signed height in metres; in double, for planes far from the origin.
 static double height_over(const Chain& chain, const ChainPlane& plane, glm::vec3 point) {
     const glm::dvec3 normal = glm::normalize(glm::dvec3(plane.normal));
     return glm::dot(glm::dvec3(point) - glm::dvec3(chain.position(0)), normal);
@@ -191,7 +191,7 @@ void keep_in_plane(Chain& chain, const ReachSettings& settings, ChainRuntime& ru
     for (const Segment& segment : chain.segments())
         off = std::max(off, off_plane(chain, settings, segment.position));
     if (off <= 1e-6f * chain.reach()) return;
-    // A solve of no weight drops the joints onto the plane and restores the lengths there.
+    // A solve with weight 0 projects the joints onto the plane and restores the lengths there.
     ik::Solver& solver = runtime.solver(chain);
     ik::State state = solver.initial_state();
     ik::Options options;
@@ -208,8 +208,8 @@ ik::Limit limit_of(const ReachSettings& settings, std::size_t joint) {
 
 namespace {
 
-/// A bone's world rotation from rest: that of the last solve, followed by the shortest arc to where it points
-/// now.
+/// A bone's world rotation from rest: the last solve's, followed by the shortest arc to the bone's present
+/// direction.
 glm::quat bone_rotation(const ReachSettings& settings, const Chain& chain, std::size_t bone) {
     const glm::quat before = settings.state.rotations.size() + 1 == chain.size()
                                  ? settings.state.rotations[bone]
@@ -229,7 +229,7 @@ void widen(float& up, float& left, float by_up, float by_left) {
     constexpr float rounding = 1.0001f, half_turn = glm::pi<float>();
     up = std::min(rounding * outside * wide_up, half_turn);
     left = std::min(rounding * outside * wide_left, half_turn);
-    // Where one half-axis can grow no further, the other makes up for it.
+    // If one half-axis cannot grow further, the other compensates.
     const auto beside = [&](float by, float other) {
         const float share = other / half_turn, rest = 1.0f - share * share;
         return rest > 0.0f ? std::min(rounding * by / std::sqrt(rest), half_turn) : half_turn;

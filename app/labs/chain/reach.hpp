@@ -1,4 +1,4 @@
-// Mode Reach: the head stays and the tail solves for the target. Its settings, and the result of a solve.
+// Mode Reach: the root stays and the tip reaches for the target. Settings, and the result of a solve.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -27,7 +27,7 @@ namespace tendril::app {
 
 class ChainRuntime;
 
-inline constexpr int max_iterations = 10'000;  ///< the program stays responsive
+inline constexpr int max_iterations = 10'000;  ///< keeps the program responsive
 inline constexpr int default_restarts = 8;     ///< ik::Options' default; none while the target is dragged
 
 /// The plane that the chain stays in, through its root.
@@ -35,15 +35,15 @@ struct ChainPlane {
     glm::vec3 normal{0.0f, 0.0f, 1.0f};
     ik::Side bend = ik::Side::Free;
     std::vector<ik::AngleLimit> limits;  ///< one per bone, or empty
-    std::vector<ik::Limit> aside{};      ///< those without a plane, one per bone, or empty
+    std::vector<ik::Limit> aside{};      ///< limits from before the plane was set, one per bone; or empty
 
     bool operator==(const ChainPlane&) const = default;
 };
 
 struct ReachSettings {
     ik::Method method = ik::Method::Fabrik;
-    ik::Options options{};            ///< but for plane and limits, which solver_options() adds
-    std::optional<ChainPlane> plane;  ///< of every mode; `limits` are then empty, for it has its own
+    ik::Options options{};            ///< without plane and limits, which solver_options() adds
+    std::optional<ChainPlane> plane;  ///< in every mode; `limits` are then empty, since it has its own
     std::vector<ik::Limit> limits;    ///< one per bone, at the joint that it starts from; or empty
     /// The solver's state between solves; no bones before the first solve. Its rotations are maintained only
     /// with limits, which need them.
@@ -64,10 +64,10 @@ struct ReachResult {
 std::vector<glm::vec3> positions(const Chain& chain);
 /// Joints relative to the root, as a solver's state stores them.
 std::vector<glm::vec3> from_root(const std::vector<glm::vec3>& joints);
-/// The least rotation from one unit vector to another.
+/// The shortest rotation from one unit vector to another.
 glm::quat least_rotation(glm::vec3 from, glm::vec3 to);
 /// Each bone's rotation from rest at `joints`: `rotations` (as the last solve left them, or empty) followed
-/// by the least rotation onto the bone's present direction. `rest`: the direction of all bones at rest.
+/// by the shortest rotation onto the bone's present direction. `rest`: the direction of all bones at rest.
 std::vector<glm::quat> rotations_at(const std::vector<glm::vec3>& joints, std::vector<glm::quat> rotations,
                                     glm::vec3 rest);
 /// Whether the method accepts this chain: two_bone needs exactly two bones.
@@ -80,7 +80,7 @@ void check_takes(ik::Method method, const Chain& chain);
 
 /// The settings as solver options. `reach` is the chain's; the result refers to `settings`.
 ik::Options solver_options(const ReachSettings& settings, float reach);
-/// Metres.
+/// The tolerance in metres.
 float reach_tolerance(const ReachSettings& settings, float reach);
 /// The settings' state, reset if it does not have `bones` bones.
 ik::State& state_for(ReachSettings& settings, std::size_t bones);
@@ -91,23 +91,23 @@ ik::State& state_for(ReachSettings& settings, std::size_t bones);
 std::optional<ReachResult> solve_reach(Chain& chain, ReachSettings& settings, glm::vec3 target,
                                        ChainRuntime& runtime);
 
-/// Bytes of memory.
+/// Heap memory in bytes.
 std::size_t bytes_of(const ik::State& state);
 
-/// Renumber the bones after a segment was inserted before `index`, or removed from it.
+/// Renumbers the bones after a segment was inserted before `index`, or removed from it.
 void bone_inserted(ReachSettings& settings, std::size_t index, std::size_t segments_now);
 void bone_removed(ReachSettings& settings, std::size_t index, std::size_t segments_now);
 /// The same for several removed segments: ascending indices from before the removal.
 void bones_removed(ReachSettings& settings, const std::vector<std::size_t>& joints, std::size_t segments_now);
-/// Those of the plane too.
+/// Removes all limits, the plane's too.
 void forget_limits(ReachSettings& settings);
 /// Whether joints have limits, in a plane or without one.
 bool is_limited(const ReachSettings& settings);
-/// The limit of a bone in the plane; none if none is set.
+/// The limit of a bone in the plane; unlimited if none is set.
 ik::AngleLimit angle_limit_of(const ChainPlane& plane, std::size_t joint);
-/// Drops a point onto the chain's plane; as it is without one.
+/// Projects a point onto the chain's plane; without a plane, returns it unchanged.
 glm::vec3 in_plane(const Chain& chain, const ReachSettings& settings, glm::vec3 point);
-/// Metres from the plane; 0 without one.
+/// Distance from the plane in metres; 0 without a plane.
 float off_plane(const Chain& chain, const ReachSettings& settings, glm::vec3 point);
 /// Moves a chain that has left its plane back into it.
 void keep_in_plane(Chain& chain, const ReachSettings& settings, ChainRuntime& runtime);
@@ -146,13 +146,13 @@ inline constexpr EnumNames<ik::JointKind, 7> joint_kinds{"kind of joint",
 void save_state(Json& json, const ik::State& state, const std::vector<glm::vec3>& joints);
 ik::State load_state(const JsonPlace& owner, const std::vector<glm::vec3>& joints);
 Json save_reach(const ReachSettings& settings, const Chain& chain);
-// They throw std::runtime_error with the JSON path of the fault.
+// These throw std::runtime_error with the JSON path of the fault.
 ReachSettings load_reach(const JsonPlace& place, const Chain& chain);
 ik::Method load_method(const JsonPlace& place);
 
 }  // namespace tendril::app
 
-/// The settings that are values; the others have their own JSON.
+/// The settings that are plain values; the others have their own JSON.
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::ReachSettings>() noexcept;
 template <>

@@ -1,4 +1,4 @@
-// Commands of mode Reach: the solver, its limits and its pole.
+// Commands of mode Reach: the solver, the limits and the pole target.
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <stdexcept>
@@ -195,7 +195,7 @@ void set_plane(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
         const glm::vec3 normal = given.point("normal");
         if (!(glm::length(normal) > 1e-6f)) throw Refused("normal must be longer than 1e-6");
         if (!part.reach.plane) {
-            // A plane has limits of its own.
+            // A plane has its own limits.
             std::vector<ik::Limit> aside = std::move(part.reach.limits);
             forget_limits(part.reach);
             part.reach.plane.emplace().aside = std::move(aside);

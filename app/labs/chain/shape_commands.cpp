@@ -24,7 +24,7 @@ void check_size(const ChainPart& part) {
     }
 }
 
-/// Drops the result and the study, which are about the old chain.
+/// Drops the result and the study, which belong to the old chain.
 void shape_changed(ChainPart& part) {
     part.result.reset();
     part.study.close();
@@ -63,7 +63,7 @@ void insert(ChainPart& part, const Arguments& given) {
     } else {
         require_ok(part.chain.insert(index, given.number("length")));
     }
-    // Keep references to the same segments.
+    // Keep pointing to the same segments.
     part.selection.inserted(index);
     if (part.index >= index) ++part.index;
     shape_changed(part);
@@ -74,7 +74,7 @@ void remove_at(ChainPart& part, std::size_t index) {
     require_ok(part.chain.remove(index));
     shape_changed(part);
     bone_removed(part.reach, index, part.chain.size());
-    // A sole selection moves on to the next joint, so that the user can keep deleting.
+    // If only this joint was selected, select the next one, so that the user can keep deleting.
     const bool alone = part.selection.active() == index && !part.selection.several();
     part.selection.removed(index);
     if (part.index > index) --part.index;
@@ -87,7 +87,7 @@ void remove_at(ChainPart& part, std::size_t index) {
     part.index = std::min(part.index, last);
 }
 
-/// All at once: removing one by one would move everything behind each of them.
+/// Removes all at once: one by one, each removal would move the joints behind it.
 void remove_all(ChainPart& part, const std::vector<std::size_t>& joints) {
     const auto gone = [&](std::size_t i) { return std::binary_search(joints.begin(), joints.end(), i); };
     std::vector<Segment> left;
@@ -159,7 +159,7 @@ void take_chain(ChainPart& part, Chain chain) {
     part.reach.plane.reset();
     part.reach_target.reset();
     part.reach.state = {};
-    part.curve.points.clear();  // mode Curve draws it through the new chain
+    part.curve.points.clear();  // mode Curve draws one through the new chain
     part.along.selection.clear();
     shape_changed(part);
     put_target_on_led_joint(part);

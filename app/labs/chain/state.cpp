@@ -1,4 +1,4 @@
-// The Chain lab in --state.
+// The Chain lab's part of --state.
 #include <glm/geometric.hpp>
 
 #include "app/document/json_complete.hpp"

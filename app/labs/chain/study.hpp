@@ -55,7 +55,7 @@ std::string describe_frame(const Trace& trace, std::size_t frame);
 inline constexpr float slowest_pace = 0.1f, default_pace = 8.0f, fastest_pace = 600.0f;  ///< steps per second
 /// Iterations per second: 4, or so many that the whole race takes 3 to 11 s.
 float race_pace(std::size_t iterations);
-/// Of race.record at that pace; the end stays for a second.
+/// Duration of race.record's film at that pace; the end is held for a second.
 inline double race_film_seconds(std::size_t iterations) {
     return static_cast<double>(iterations) / static_cast<double>(race_pace(iterations)) + 1.0;
 }
@@ -65,8 +65,8 @@ struct Study {
     enum class Kind { None, Microscope, Race } kind = Kind::None;
     std::vector<glm::vec3> start;  ///< the start of every solve, one position per segment
     ik::State start_state;         ///< the solver's state at the start, as in ReachSettings
-    /// What is shown. Microscope: the number of frames, 0 to all of them. Race: the iteration; race_end is
-    /// the end of any race, however many iterations it takes.
+    /// The step shown. Microscope: the number of frames, 0 to all of them. Race: the iteration; race_end
+    /// means the end of any race, however long it is.
     std::size_t step = 0;
     static constexpr std::size_t race_end = max_trace_steps;
     Racers racers{true, true, true, false, true, false, false};  ///< by ik::Method
@@ -91,7 +91,7 @@ struct Study {
     /// Call before each solve: records the start if the solve is the first of its drag.
     void note_start(const Chain& chain, const ReachSettings& settings);
     void close();
-    /// Shows a step, at most `last`. A race that is at its last iteration stays at its end as that changes.
+    /// Shows a step, at most `last`. A race at its last iteration stays at its end if its length changes.
     void go_to(std::size_t to, std::size_t last);
     /// Plays for `seconds`; stops at step `last`.
     void play(double seconds, std::size_t last);
@@ -102,7 +102,7 @@ struct Study {
 
 /// The result of a study: a trace or a race. Never saved; the lab's runtime caches it.
 struct Studied {
-    std::shared_ptr<const Trace> trace;  ///< of the solve under the microscope, or null
+    std::shared_ptr<const Trace> trace;  ///< trace of the solve under the microscope, or null
     std::shared_ptr<const Race> race;    ///< null if there is none
 
     /// The last step of the microscope, or the last iteration of the race.
@@ -119,6 +119,6 @@ void load_start(const JsonPlace& place, const Chain& chain, std::vector<glm::vec
 
 }  // namespace tendril::app
 
-/// How it is shown and played.
+/// The fields for how it is shown and played.
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Study>() noexcept;

@@ -33,7 +33,7 @@ Argument start_argument() {
 
 /// Studies need mode Reach; the chain then shows the result of a solve from the study's start.
 void open(ChainPart& part, const Arguments& given, ChainRuntime& runtime, Study::Kind kind) {
-    if (!part.result) part.study.last_start.clear();  // it was bent by hand since the last solve
+    if (!part.result) part.study.last_start.clear();  // bent by hand since the last solve
     part.study.begin(kind, start_of(given), part.chain, part.reach);
     enter_mode(part, ChainMode::Reach);
     reach_for(part, part.target, runtime);
@@ -50,7 +50,7 @@ void check_study(const ChainPart& part) {
     if (!part.study.open()) throw Refused("neither the microscope nor a race is open");
 }
 
-/// Shows a step, or an iteration of the race, that must exist, and pauses.
+/// Shows a step of the solve or an iteration of the race, and pauses. Throws Refused if it does not exist.
 void seek(ChainPart& part, const Arguments& given, const char* name, ChainRuntime& runtime) {
     const std::size_t last = runtime.studied(part).last();
     const auto to = static_cast<std::size_t>(given.integer(name));
@@ -71,15 +71,15 @@ void show_iteration(ChainPart& part, const Arguments& given, ChainRuntime& runti
     seek(part, given, "iteration", runtime);
 }
 
-/// From one iteration's end to another's.
+/// The end of the iteration `by` iterations away.
 long end_of_iteration(const Trace& trace, std::size_t step, int by) {
     int iteration = trace.iteration(step);
     const bool within = step < trace.end_of_iteration(iteration);
-    if (within && by > 0) --iteration;  // the first iteration forward is the end of this one
+    if (within && by > 0) --iteration;  // the next end is this iteration's
     return static_cast<long>(trace.end_of_iteration(iteration + by));
 }
 
-/// A race has no steps but its iterations.
+/// In a race, steps are iterations.
 void step(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     check_study(part);
     const Studied shown = runtime.studied(part);
@@ -155,7 +155,7 @@ std::vector<Argument> step_arguments() {
                              -max_iterations, max_iterations)};
 }
 
-/// Brings the start into view: the chain may have been elsewhere when it was framed.
+/// Brings the start into view: the chain may have been elsewhere when the view was framed.
 Command opening(Command command) {
     command.apply = [open = std::move(command.apply)](Workspace& workspace, const Arguments& given) {
         open(workspace, given);

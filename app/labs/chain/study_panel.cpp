@@ -36,7 +36,7 @@ void start_buttons(const char* command, Emit& emit) {
         emit(command, {{"start", "straight"}});
 }
 
-/// Whether the x axis is time: state of the panel, not of the document.
+/// Key of the panel's state (not the document's): whether the x axis is time.
 constexpr const char* against_time = "against time";
 
 void racer_row(const ShownChain& shown, ik::Method method, bool time, const Palette& palette, Emit& emit) {
@@ -55,10 +55,10 @@ void racer_row(const ShownChain& shown, ik::Method method, bool time, const Pale
     text_flush_right(time ? si_text(1e-6 * racer->microseconds, "s") : std::to_string(racer->iterations()));
     if (racer->report.status == ik::Status::InvalidInput) return small_right("does not support this chain");
     const std::string ran = ran_text(method, racer->report);
-    // Without the solver's name, which stands above: "least squares, 3 restarts".
+    // Omit the solver's name, which is above: "least squares, 3 restarts".
     const std::size_t more = ran.find_first_not_of(" +,", std::string_view(solver_title(method)).size());
     if (more != ran.npos) small_right(ran.substr(more));
-    // As many lines in every iteration, so that no row moves while the race plays.
+    // The same number of lines in every iteration, so that no row moves while the race plays.
     small_right(at.finished ? end_text(*racer) : progress_text(at) + ", " + error_reading(at));
     if (racer->restored) small_right(at.finished ? restored_text(*racer) : " ");
 }
@@ -143,7 +143,7 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
     if (row_button(">|", 4, step < trace.frames(), "One iteration forward"))
         emit("study.step", {{"iterations", 1}});
     end_row();
-    // Below the buttons: these texts are longer in some steps than in others.
+    // Below the buttons, because these texts vary in length from step to step.
     reading("step", "%zu of %zu", step, trace.frames());
     reading("iteration", "%d of %d", trace.iteration(step), trace.report.iterations);
     note(ran_text(trace.method, trace.report) + ".");

@@ -7,14 +7,14 @@
 namespace tendril::app {
 namespace {
 
-/// "ik::four_bar({.ground = 3.0, ...})"
+/// A preset as a call: "ik::four_bar({.ground = 3.0, ...})".
 std::string call_text(const Mechanism& mechanism) {
     const bool walker = std::holds_alternative<JansenWalker>(mechanism);
     return "ik::" + std::string(walker ? "jansen" : kind_of(mechanism)->name) + "({" +
            joined(member_texts(mechanism_fields(mechanism))) + "})";
 }
 
-/// The ranges set by hand, before the solver is made.
+/// Code that sets the ranges set by hand, before the solver is made.
 std::string ranges_text(const LinkagePart& part) {
     std::string text;
     for (const LinkageRange& each : part.shape->ranges) {
@@ -27,7 +27,7 @@ std::string ranges_text(const LinkagePart& part) {
     return text;
 }
 
-/// A declaration of `what`, which may have been refused.
+/// Declares `what` as an Expected and checks it.
 std::string expected_text(const std::string& type, const std::string& what, const std::string& from) {
     return "    Expected<ik::" + type + "> " + what + " = " + from + ";\n    if (!" + what +
            ") return std::puts(" + what + ".message()), 1;\n";

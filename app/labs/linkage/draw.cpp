@@ -60,7 +60,7 @@ class LinkageDrawing {
         const LinkageDrive* const drive = part_.find_drive(link);
         return drive != nullptr && is_stalled(part_, *drive);
     }
-    /// A bar that a motor turns has its colour.
+    /// A bar that a motor turns has the motor's colour.
     glm::vec3 bar_colour(std::size_t bar) const {
         const LinkageShape& shape = *part_.shape;
         if (shape.floating[bar]) return view_.palette.ghost;
@@ -98,7 +98,7 @@ class LinkageDrawing {
         }
     }
 
-    /// The other legs, and marks on the ground that pass under them.
+    /// The other legs, and the marks on the ground that pass beneath them.
     void walker() {
         if (part_.copies.empty()) return;
         for (const LinkageCopy& copy : part_.copies)
@@ -117,7 +117,7 @@ class LinkageDrawing {
         }
     }
 
-    /// The triangle and the line that stand for the ground in drawings of mechanisms.
+    /// The usual ground symbol of mechanism drawings: a triangle on a line.
     void pin(const glm::vec3& at) {
         const float unit = px(9.0f) * view_.camera.metres_per_pixel(at);
         const glm::vec3 left = at + unit * glm::vec3(-1.0f, -1.7f, 0),
@@ -173,7 +173,7 @@ class LinkageDrawing {
         const ik::LinkPoint& of = part_.linkage().points[i];
         const PickId pick = linkage_pick(i);
         const bool lit = view_.hovered == pick || view_.dragged == pick, selected = part_.selected == of.name;
-        const bool plane = part_.shape->in_plane();  // what floats there is no more pinned than it is moved
+        const bool plane = part_.shape->in_plane();  // floating points are on the ground link, unpinned
         const bool held =
             plane ? part_.shape->sketch.points[i].hold == ik::SketchHold::Pinned : of.link == ik::ground_link;
         const glm::vec3 colour = selected ? view_.palette.selection
@@ -182,7 +182,7 @@ class LinkageDrawing {
         Stroke& ball = list_.sphere(at(i), px(lit ? 7.5f : 6.0f), Unit::Pixels, opaque(colour));
         ball.pick = pick;
         ball.rank = held ? 1 : 2;
-        // Messages and the card name joints: where there is room, the picture does too.
+        // Messages and the card name joints, so the picture does too where there is room.
         constexpr std::size_t few = 8;
         const bool room = part_.copies.empty() && part_.linkage().points.size() <= few;
         const bool named = lit || room || view_.workspace.settings.labels == LabelMode::Always;
@@ -208,7 +208,7 @@ class LinkageDrawing {
                 driven_angle(each, opaque(stalled(each.name) ? view_.palette.limit : view_.palette.head));
     }
 
-    /// The arc from the one bar of a motor to the other.
+    /// The arc between a motor's two bars.
     void driven_angle(const ik::SketchMotor& motor, const glm::vec4& colour) {
         const ik::LinkageSketch& sketch = part_.shape->sketch;
         const glm::vec3 about = at(motor.point);
@@ -276,7 +276,7 @@ std::vector<glm::vec3> places_on(const LinkagePart& part, std::size_t link) {
     };
     if (link != ik::ground_link) {
         const ik::Link& own = linkage.links[link];
-        // A slider's link reaches from where it slides.
+        // A slider's link begins at the point it slides from.
         if (own.joint == ik::LinkJoint::Slider) {
             const bool grounded = own.parent == ik::ground_link;
             places.push_back(in_scene(part, grounded ? own.at : part.links[own.parent].point(own.at)));
@@ -304,7 +304,7 @@ Bounds linkage_bounds(const Workspace& workspace) {
     for (const LinkageCopy& copy : part.copies)
         for (std::size_t i = 0; i < count; ++i) take(part.at(i, copy));
     PartInTurn in_turn(part);
-    LinkageRuntime fresh;  // by the pose alone: the camera follows from it
+    LinkageRuntime fresh;  // depends on the pose alone, since the camera follows from it
     for (const LinkageTurn::Pose& pose : fresh.turn(part).poses)
         for (std::size_t i = 0; i < count; ++i) take(in_turn.at(pose)->at(i));
     for (const LinkageTarget& each : part.targets) take(each.to);

@@ -1,4 +1,4 @@
-// How the Linkage lab is drawn, and what its picks mean.
+// Drawing of the Linkage lab, and the meaning of its pick ids.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -17,20 +17,20 @@ inline PickId linkage_target_pick(std::size_t target) {
     return static_cast<PickId>(ik::max_links + target);
 }
 
-/// A point of the linkage in the scene, and back. Mechanisms in space have Z upwards, the scene Y.
+/// Converts points between linkage and scene. Mechanisms in space have Z up, the scene has Y up.
 glm::vec3 in_scene(const LinkagePart& part, const glm::dvec3& at);
 glm::vec3 from_scene(const LinkagePart& part, const glm::vec3& at);
 
-/// Where a link is joined to others, in the present pose, in the scene.
+/// The points where a link is joined to others, in the present pose, in scene coordinates.
 std::vector<glm::vec3> places_on(const LinkagePart& part, std::size_t link);
-/// The linkage through all its turn, with its targets.
+/// Bounds of the linkage through its whole turn, and of its targets.
 Bounds linkage_bounds(const Workspace& workspace);
-/// Frames that: square on to its plane, or from the side.
+/// Frames these bounds: a planar linkage square on, a walker or a mechanism in space from the side.
 void look_at_linkage(Workspace& workspace);
-/// Frames it as it is looked at, if part of it is out of view.
+/// Frames the same bounds from the present direction if part of them is out of view.
 void keep_linkage_in_view(Workspace& workspace);
 
-/// From slow to fast.
+/// The colour of a speed: `share` is 0 (slow) to 1 (fast).
 glm::vec3 speed_colour(const Palette& palette, double share);
 
 }  // namespace tendril::app

@@ -1,4 +1,4 @@
-// The Linkage lab's inspector: what the linkage does, how far its motor goes, and the selected joint.
+// The Linkage lab's inspector: the state of the linkage, the range of its motor, and the selected joint.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -19,7 +19,7 @@ std::string angle_text(double degrees) {
     return fixed_text(degrees, 1) + " degrees";
 }
 
-/// How far the motor goes, and how well it pushes there.
+/// The motor's range, and how well it pushes there.
 void motor_rows(const Workspace& workspace) {
     const LinkagePart& part = linkage_part(workspace);
     const LinkageTurn& turn = workspace.runtimes.of<LinkageRuntime>(linkage_lab).turn(part);
@@ -86,7 +86,7 @@ void bar_rows(const LinkagePart& part, std::size_t at, Emit& emit) {
     }
 }
 
-/// A motor between two bars at the joint, or its end. Not between parts of one rigid body.
+/// Adds or removes a motor between two bars at a joint. Not shown for parts of one rigid body.
 void pair_motor_row(const LinkageShape& shape, std::size_t at, std::size_t bar, std::size_t against,
                     Emit& emit) {
     if (shape.bodies[bar] == shape.bodies[against]) return;

@@ -1,4 +1,4 @@
-// Commands that open a linkage, move it and look at it.
+// Commands that open a linkage, move it, and control its view.
 #include "app/labs/linkage/linkage_commands.hpp"
 
 #include <algorithm>
@@ -160,7 +160,7 @@ void let_go(LinkagePart& part, const Arguments&, LinkageRuntime& runtime) {
     solve_linkage(part, runtime);
 }
 
-/// At a dead point the modes meet. A step away from it they are apart.
+/// Assembly modes meet at a dead point, so this switches one step away from it, where they differ.
 bool switch_near_dead_point(const LinkagePart& part, ik::LinkageSolver& solver, ik::LinkageState& state,
                             std::vector<ik::LinkDriver> drivers) {
     const ik::LinkageReport& report = part.result.report;
@@ -212,7 +212,7 @@ void choose_tool(LinkagePart& part, const Arguments& given, LinkageRuntime&) {
     part.tool = linkage_tools.value(given.text("name"));
 }
 
-/// The command, and then the camera's part in it.
+/// Runs the command, then adjusts the camera.
 Command and_then(Command command, void (*look)(Workspace&)) {
     command.apply = [change = std::move(command.apply), look](Workspace& workspace, const Arguments& given) {
         change(workspace, given);
@@ -221,8 +221,8 @@ Command and_then(Command command, void (*look)(Workspace&)) {
     return command;
 }
 
-/// The open lab's last ten seconds begin anew with what a command has just opened instead of `before`. Undo
-/// brings back those from before.
+/// Restarts the open lab's last ten seconds at the part that a command has just opened in place of `before`.
+/// Undo restores the old ones.
 void begin_past(Workspace& workspace, std::shared_ptr<const Part> before) {
     workspace.discarded = {std::exchange(workspace.rewind, Rewind()), std::move(before),
                            workspace.moment_id()};
@@ -231,7 +231,7 @@ void begin_past(Workspace& workspace, std::shared_ptr<const Part> before) {
     workspace.ui.incident.reset();
 }
 
-/// A command that opens another linkage: it is in view, and the last ten seconds begin with it.
+/// A command that opens another linkage, brings it into view, and restarts the last ten seconds.
 Command opening_command(const char* name, const char* title, std::vector<Argument> arguments,
                         const char* help, void (*change)(LinkagePart&, const Arguments&, LinkageRuntime&)) {
     Command command =
@@ -270,7 +270,7 @@ Command linkage_command(const char* name, const char* title, std::vector<Argumen
     return part_command<LinkagePart>(linkage_lab, name, title, std::move(arguments), help, effect,
                                      [change, effect](Workspace& workspace, LinkagePart& part,
                                                       const LinkagePart&, const Arguments& given) {
-                                         // Whatever else is asked for ends a drag.
+                                         // Any other edit ends a drag.
                                          if (effect == Effect::Edit) part.drag.reset();
                                          change(part, given,
                                                 workspace.runtimes.of<LinkageRuntime>(linkage_lab));
@@ -318,7 +318,7 @@ bool is_stalled(const LinkagePart& part, const LinkageDrive& drive) {
 
 namespace {
 
-/// Of a walker: in its own frame.
+/// Positions of a walker's feet in its own frame; empty for other linkages.
 std::vector<glm::dvec3> feet_of(const LinkagePart& part) {
     std::vector<glm::dvec3> feet;
     if (part.copies.empty()) return feet;
@@ -337,7 +337,7 @@ void run_motors(LinkagePart& part, double seconds, LinkageRuntime& runtime) {
         if (each.rate != 0.0) each.value += each.rate * seconds;
     const std::vector<glm::dvec3> before = feet_of(part);
     solve_linkage(part, runtime);
-    // The lowest foot stands: the ground goes with it.
+    // The lowest foot stands still, so the ground moves with it.
     const std::vector<glm::dvec3> after = feet_of(part);
     std::size_t lowest = 0;
     for (std::size_t i = 0; i < after.size(); ++i)

@@ -9,16 +9,16 @@
 
 namespace tendril::app {
 
-/// Presets, lengths, drivers, motors, targets, drags.
+/// Commands for presets, lengths, drivers, motors, targets and drags.
 void add_linkage_commands(CommandTable& table);
-/// Joints, bars, pins: a linkage drawn by hand.
+/// Commands for drawing a linkage by hand: joints, bars, pins.
 void add_sketch_commands(CommandTable& table);
 
-/// Export: a complete C++ program that uses the library. The linkage, its motors through a second, its points
-/// printed.
+/// Export: a complete C++ program that builds the linkage with the library, runs its motors for a second and
+/// prints its points.
 std::string linkage_code(const LinkagePart& part);
 
-/// A motor that does not say turns this fast, degrees a second; a slider's moves a tenth of the linkage.
+/// Default motor speed, degrees per second; a slider moves a tenth of the linkage's size per second.
 inline constexpr double usual_motor_rate = 90.0;
 
 inline bool is_on_bar(const ik::SketchBar& bar, std::size_t point) {
@@ -26,22 +26,22 @@ inline bool is_on_bar(const ik::SketchBar& bar, std::size_t point) {
 }
 /// The bars that meet at a point of the sketch.
 std::vector<std::size_t> bars_at(const ik::LinkageSketch& sketch, std::size_t point);
-/// Whether the inspector offers a motor between each two of them: nothing pins the joint, and they are few.
+/// Whether the inspector offers a motor for each pair of bars at the point: it is free, and they are few.
 bool chooses_pair(const ik::LinkageSketch& sketch, std::size_t point);
-/// Whether a bar, a motor or a sliding joint has the name: all are links.
+/// Whether a bar, a motor or a sliding joint has this name: each of them becomes a link.
 bool is_link_name(const ik::LinkageSketch& sketch, const std::string& name);
-/// Reads an object of lengths by their names; those that it leaves out stay. Throws std::runtime_error with
-/// the place of what is wrong.
+/// Reads lengths by name from an object; omitted ones stay the same. Throws std::runtime_error with the JSON
+/// path of the error.
 void read_lengths(const JsonPlace& lengths, Mechanism& mechanism);
-/// One tick of all motors.
+/// Advances all motors by one tick.
 void run_motors(LinkagePart& part, double seconds, LinkageRuntime& runtime);
-/// The motor is switched on, whether it can go on or not.
+/// Whether the motor is switched on, even if it cannot move.
 inline bool is_running(const LinkageDrive& drive) {
     return drive.rate != 0.0;
 }
-/// A driver is on its way to a value that one solve did not get to: the next one goes on.
+/// Whether a driver is still short of a value that one solve could not reach; the next solve continues.
 bool goes_on(const LinkagePart& part);
-/// A motor that cannot go on: at a dead point, or at the end of a range.
+/// Whether the motor cannot move on: it is at a dead point, or at the end of a range.
 bool is_stalled(const LinkagePart& part, const LinkageDrive& drive);
 
 /// A command that changes the part, given the lab's solver.
@@ -50,9 +50,9 @@ Command linkage_command(const char* name, const char* title, std::vector<Argumen
                         Effect effect = Effect::Edit);
 /// An argument that names a point.
 Argument linkage_point_argument(const char* name, bool required, const char* help);
-/// Throws Refused for anything but a hinge or slider.
+/// Throws Refused unless the joint is a hinge or slider.
 void require_linkage_joint(const LinkagePart& part, const std::string& joint);
-/// Throws Refused where there is none of that name.
+/// Throws Refused if there is no point of that name.
 std::size_t require_linkage_point(const LinkagePart& part, const std::string& name);
 
 }  // namespace tendril::app

@@ -15,7 +15,7 @@
 namespace tendril::app {
 namespace {
 
-/// The point or the target that was picked; null: the other, or nothing.
+/// The picked point or target; null if the pick is neither, or the other one.
 const ik::LinkPoint* picked_point(const LinkagePart& part, PickId pick) {
     const auto& points = part.linkage().points;
     const bool is_one = pick >= 0 && static_cast<std::size_t>(pick) < points.size();
@@ -27,9 +27,9 @@ const LinkageTarget* picked_linkage_target(const LinkagePart& part, PickId pick)
     return is_one ? &part.targets[static_cast<std::size_t>(pick - first)] : nullptr;
 }
 
-constexpr float catch_pixels = 14.0f;  ///< how far a stroke may begin beside a joint or bar
+constexpr float catch_pixels = 14.0f;  ///< maximum distance from a joint or bar at which a stroke takes it
 
-/// The end of a stroke: a joint that is there, or a place in the plane.
+/// The end of a stroke: an existing joint, or a position in the plane.
 struct StrokeEnd {
     std::string joint{};
     glm::vec3 place{0.0f};
@@ -55,7 +55,7 @@ std::optional<StrokeEnd> end_at(const LinkagePart& part, const Camera& camera, g
     return end;
 }
 
-/// The bar under a pixel; empty: none.
+/// The bar nearest to a pixel, within catch_pixels; empty: none.
 std::string bar_at(const LinkagePart& part, const Camera& camera, glm::vec2 pixel) {
     std::string found;
     float nearest = catch_pixels;
@@ -135,7 +135,7 @@ void LinkageLab::drag(const Workspace& workspace, PickId pick, const Handle::Fra
     const ik::LinkPoint* const point = picked_point(part, pick);
     if (point == nullptr) return;
     const bool stays = point->link == ik::ground_link;
-    if (stays && kind_of(part.shape->mechanism) != nullptr) return;  // its lengths say where it is
+    if (stays && kind_of(part.shape->mechanism) != nullptr) return;  // the lengths determine it
     emit.continuously(stays ? "linkage.move" : "linkage.drag",
                       {{"point", point->name}, {"to", from_scene(part, frame.position)}});
 }
@@ -288,7 +288,7 @@ Json linkage_state(const LinkagePart& part) {
 Json LinkageLab::state(const Workspace& workspace) const {
     const LinkagePart& part = linkage_part(workspace);
     const double transmission = transmission_angle(part);
-    LinkageRuntime fresh;  // by the pose alone, to the bit
+    LinkageRuntime fresh;  // depends on the pose alone, to the bit
     const LinkageTurn& turn = fresh.turn(part);
     Json worst;
     if (const auto found = worst_transmission(part, turn)) {

@@ -7,13 +7,13 @@
 
 namespace tendril::app {
 
-/// What a linkage is doing, for --state and `tendril solve`: hinges in degrees, all else in metres.
+/// The linkage's state for --state and `tendril solve`: hinges in degrees, everything else in metres.
 Json linkage_state(const LinkagePart& part);
-/// What the linkage does, or what to do next: the first text of the inspector.
+/// The state of the linkage, or the next thing to do: the first text of the inspector.
 Verdict linkage_verdict(const LinkagePart& part, LinkageRuntime& runtime);
-/// What the motor does, and what a click changes: "Run", "Stop", "Stopped at 43.0 degrees: turn back".
+/// The label of the motor button: "Run", "Stop", "Stopped at 43.0 degrees: turn back".
 std::string motor_button(const LinkagePart& part);
-/// Rows for the ends of a joint's range; or a button that gives it one about where it is.
+/// Rows for the ends of a joint's range, or a button that adds a range around its present value.
 void linkage_range_rows(const LinkagePart& part, const std::string& joint, Emit& emit);
 
 class LinkageLab final : public Lab {

@@ -92,7 +92,7 @@ std::size_t LinkagePart::bytes() const {
 
 namespace {
 
-/// The mouse no longer pulls; what is said is what holds without it.
+/// Ends the mouse's drag in the present pose, and updates the report for the linkage without it.
 void let_go_in_pose(LinkagePart& part) {
     if (!part.drag) return;
     part.drag.reset();
@@ -172,7 +172,7 @@ ik::LinkageState load_state(const JsonPlace& place, const ik::Linkage& linkage) 
     return state;
 }
 
-/// Of a hinge or slider.
+/// The link of a hinge or slider.
 std::size_t link_at(const JsonPlace& joint, const ik::Linkage& linkage) {
     const auto link = linkage.find_link(joint.text());
     if (!link || linkage.links[*link].joint == ik::LinkJoint::Ball)
@@ -198,7 +198,7 @@ void load_ranges(const JsonPlace& place, LinkageShape& shape) {
     }
 }
 
-/// What names and links say beyond each number's range.
+/// Checks names and links, after each number's range.
 void check_loaded(const JsonPlace& place, LinkagePart& part) {
     const ik::Linkage& linkage = part.linkage();
     for (std::size_t i = 0; i < part.drives.size(); ++i) {
@@ -206,7 +206,7 @@ void check_loaded(const JsonPlace& place, LinkagePart& part) {
         const std::size_t link = link_at(driver["joint"], linkage);
         const double fastest = from_degrees(part, part.drives[i].joint, max_motor_rate);
         static_cast<void>(driver["rate"].real(-fastest, fastest));
-        if (!driver.has("value")) part.drives[i].value = part.state.joints[link].value;  // of older files
+        if (!driver.has("value")) part.drives[i].value = part.state.joints[link].value;  // in older files
     }
     for (std::size_t i = 0; i < part.targets.size(); ++i)
         check_point(place["targets"].element(i)["point"], linkage);
@@ -264,7 +264,7 @@ std::shared_ptr<Part> LinkagePart::load(const Json& json, const std::string& whe
         !part->copies.empty() && part->find_drive(motors.front().name) == nullptr)
         place["drivers"].fail("a walker needs its driver \"" + motors.front().name + "\"");
     LinkageResult solved = part->result;
-    report_in_pose(*part);  // of older files; places the links, too
+    report_in_pose(*part);  // missing in older files; also places the links
     solved.freedom = part->result.freedom;
     if (place.optional("result")) part->result = solved;
     return part;

@@ -1,4 +1,4 @@
-// The Linkage lab's part of the document: a linkage, its pose, and what it is asked for.
+// The Linkage lab's part of the document: a linkage, its pose, its drivers and its targets.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,10 @@ namespace tendril::app {
 
 inline constexpr const char* linkage_lab = "linkage";
 inline constexpr std::size_t max_linkage_points = 200, max_linkage_bars = 200;
-inline constexpr double max_motor_rate = 3600.0;   ///< degrees or metres a second
+inline constexpr double max_motor_rate = 3600.0;   ///< degrees or metres per second
 inline constexpr double max_linkage_extent = 1e6;  ///< metres
 
-/// What the mouse does in the view.
+/// The action of the mouse in the view.
 enum class LinkageTool : std::uint8_t { Move, Draw, Pin, Motor };
 inline constexpr EnumNames<LinkageTool, 4> linkage_tools{
     "tool",
@@ -33,7 +33,7 @@ inline constexpr EnumNames<LinkageTool, 4> linkage_tools{
      {"motor", "Motor",
       "A click on a joint puts a motor there, on its pin or between its two bars, or takes it away."}}};
 
-/// How far a hinge or slider may go, by the name of its link.
+/// The range of a hinge or slider, identified by the name of its link.
 struct LinkageRange {
     std::string joint;
     double minimum = -std::numeric_limits<double>::infinity();  ///< radians or metres
@@ -45,33 +45,33 @@ struct LinkageRange {
 /// one or more bars. Indices into the sketch.
 struct DrivenLoop {
     std::size_t motor = 0;
-    std::size_t tip = 0;                ///< of the crank, where the coupler is
-    std::size_t end = 0;                ///< of the coupler
-    std::size_t pin = ik::ground_link;  ///< of the rocker; a slider has none
+    std::size_t tip = 0;                ///< where the crank meets the coupler
+    std::size_t end = 0;                ///< where the coupler meets the rocker or slider
+    std::size_t pin = ik::ground_link;  ///< the rocker's pin; a slider has none
     bool has_rocker() const { return pin != ik::ground_link; }
 };
 
 /// A linkage as drawn. Never changed in place: parts and their history share it.
 struct LinkageShape {
-    Mechanism mechanism{};               ///< what it was made from; none once it is edited by hand
+    Mechanism mechanism{};               ///< the preset; none once edited by hand
     ik::LinkageSketch sketch{};          ///< empty for a mechanism in space
-    std::vector<bool> floating{};        ///< of the sketch's bars: nothing holds it yet
-    std::vector<std::size_t> bodies{};   ///< of the sketch's bars: ik::rigid_bodies()
-    std::vector<DrivenLoop> driven{};    ///< all by motors against the ground
-    std::size_t loops = 0;               ///< of its bodies; what floats has none
-    std::vector<LinkageRange> ranges{};  ///< set by hand; the mechanism may have its own
-    ik::Linkage linkage{};               ///< of the bars that are held, with all ranges
-    ik::LinkageFreedom loose{};          ///< of the bars that float
+    std::vector<bool> floating{};        ///< per sketch bar: whether nothing holds it yet
+    std::vector<std::size_t> bodies{};   ///< per sketch bar: its rigid body, from ik::rigid_bodies()
+    std::vector<DrivenLoop> driven{};    ///< loops driven by motors that push against the ground
+    std::size_t loops = 0;               ///< number of loops of the bodies; floating bars have none
+    std::vector<LinkageRange> ranges{};  ///< ranges set by hand; the mechanism may have its own
+    ik::Linkage linkage{};               ///< built from the bars that are held, with all ranges
+    ik::LinkageFreedom loose{};          ///< degrees of freedom of the floating bars
 
     bool in_plane() const { return !sketch.points.empty() || linkage.links.empty(); }
 };
 
-/// A joint that is driven, by the name of its link.
+/// A driven joint, identified by the name of its link.
 struct LinkageDrive {
     std::string joint;
-    double value = 0.0;  ///< radians or metres: asked for, if it is held, else where the joint is
-    double rate = 0.0;   ///< of a motor, a second
-    bool held = false;   ///< at this value; else it follows the others
+    double value = 0.0;  ///< radians or metres: the wanted value if held, else the joint's present one
+    double rate = 0.0;   ///< motor speed, radians or metres per second; 0: stopped
+    bool held = false;   ///< keeps this value; otherwise the joint follows the others
     bool operator==(const LinkageDrive&) const = default;
 };
 
@@ -83,22 +83,22 @@ struct LinkageTarget {
     bool operator==(const LinkageTarget&) const = default;
 };
 
-/// The linkage once more, at another angle of its motor: a leg of a walker.
+/// Another copy of the linkage at a different angle of its motor: a leg of a walker.
 struct LinkageCopy {
-    double phase = 0.0;     ///< of the motor, radians
-    bool mirrored = false;  ///< through the plane x = 0
-    double depth = 0.0;     ///< along Z, metres
+    double phase = 0.0;     ///< added to the motor's angle, radians
+    bool mirrored = false;  ///< mirrored in the plane x = 0
+    double depth = 0.0;     ///< offset along Z, metres
     ik::LinkageState state{};
     std::vector<ik::LinkPlace> links{};
     bool operator==(const LinkageCopy& other) const { return phase == other.phase && state == other.state; }
 };
 
-/// What the last solve says. Indices of the linkage.
+/// The result of the last solve. Indices refer to the linkage.
 struct LinkageResult {
     ik::LinkageReport report{};
     ik::LinkageFreedom freedom{};
     std::vector<std::size_t> active{};         ///< links at the end of their range
-    std::vector<std::size_t> open_closures{};  ///< that contradict each other
+    std::vector<std::size_t> open_closures{};  ///< closures that contradict each other
     bool operator==(const LinkageResult&) const = default;
 };
 
@@ -106,12 +106,12 @@ struct LinkagePart final : Part {
     std::shared_ptr<const LinkageShape> shape = std::make_shared<const LinkageShape>();
     ik::LinkageState state{};
     std::vector<ik::LinkPlace> links{};  ///< follows from `state`
-    std::vector<LinkageCopy> copies{};   ///< of a walker
-    double walked = 0.0;                 ///< metres that the ground has passed under it
+    std::vector<LinkageCopy> copies{};   ///< a walker's other legs
+    double walked = 0.0;                 ///< metres that the ground has moved beneath a walker
     std::vector<LinkageDrive> drives{};
     std::vector<LinkageTarget> targets{};
-    std::optional<LinkageTarget> drag{};  ///< by the mouse: while it lasts, drivers follow
-    LinkageResult result{};               ///< of the last solve
+    std::optional<LinkageTarget> drag{};  ///< the mouse's; drivers follow while it lasts
+    LinkageResult result{};               ///< result of the last solve
     double time = 0.0;                    ///< seconds
     LinkageTool tool = LinkageTool::Move;
     std::string selected{};  ///< a point; empty: none
@@ -126,48 +126,48 @@ struct LinkagePart final : Part {
     bool operator==(const LinkagePart& other) const;
 
     const ik::Linkage& linkage() const { return shape->linkage; }
-    /// Where a point of the linkage is now, or the same of a copy.
+    /// Present position of a point of the linkage, or of one of its copies.
     glm::dvec3 at(std::size_t point) const;
     glm::dvec3 at(std::size_t point, const LinkageCopy& copy) const;
-    /// The height of a walker's lowest foot; 0 of others.
+    /// The height of a walker's lowest foot; 0 for other linkages.
     double lowest_foot() const;
     const LinkageDrive* find_drive(std::string_view joint) const;
-    /// Where a joint is: at a dead point not where it is asked to be.
+    /// The joint's present value; at a dead point it differs from the wanted one.
     double value_of(std::string_view joint) const { return state.joints[*linkage().find_link(joint)].value; }
 };
 
-/// The lab begins with a four-bar.
+/// The lab's initial linkage: a four-bar.
 LinkagePart first_linkage();
 
 inline const LinkagePart& linkage_part(const Workspace& workspace) {
     return workspace.document.get<LinkagePart>(linkage_lab);
 }
 
-/// Every pose that one joint drives the linkage through in its assembly mode: all round, or between the ends
-/// of its travel.
+/// All poses that the leading joint can drive the linkage through in its assembly mode: a full turn, or its
+/// whole travel.
 struct LinkageTurn {
     struct Pose {
-        double value = 0.0;                  ///< of the joint
-        std::vector<double> joints{};        ///< values, one for each link
+        double value = 0.0;                  ///< value of the leading joint
+        std::vector<double> joints{};        ///< values of all joints, one per link
         std::vector<ik::LinkPlace> links{};  ///< as in LinkagePart
     };
-    std::size_t joint = ik::ground_link;  ///< a link
-    bool whole = false;                   ///< it goes all round: after the last pose comes the first
-    std::vector<Pose> poses{};            ///< by value
+    std::size_t joint = ik::ground_link;  ///< the leading joint, as a link index
+    bool whole = false;                   ///< it turns all the way round: the first pose follows the last
+    std::vector<Pose> poses{};            ///< in order of `value`
 };
-/// A point of a path: where, and how fast for each radian or metre of the joint that moves it.
+/// A point of a path: its position, and its speed per radian or metre of the leading joint.
 struct PathPoint {
     glm::dvec3 at{0.0};
     double speed = 0.0;
 };
 
-/// The solver of the lab's linkage, made once for each shape, and its poses.
+/// The solver of the lab's linkage, created once for each shape, and a cache of its turn.
 class LinkageRuntime final : public Runtime {
   public:
     ik::LinkageSolver& solver(const std::shared_ptr<const LinkageShape>& shape);
-    /// No poses unless the linkage has one degree of freedom.
+    /// Empty unless the linkage has exactly one degree of freedom.
     const LinkageTurn& turn(const LinkagePart& part);
-    /// The path of the selected point through that turn. Empty where there is none.
+    /// The selected point's path through the turn; empty if there is none.
     std::vector<PathPoint> path(const LinkagePart& part);
 
   private:
@@ -175,44 +175,42 @@ class LinkageRuntime final : public Runtime {
     std::optional<ik::LinkageSolver> solver_;
     LinkageTurn turn_;
 };
-/// The joint that moves along a path: a motor's, or else any that the ground holds.
+/// The joint that drives the turn: the first driver's, or else the first one on the ground.
 std::optional<std::size_t> leading_joint(const LinkagePart& part);
 
-/// Moves the linkage to what is asked of it: held drivers and targets, or the mouse's drag alone. All drivers
-/// are watched.
+/// Moves the linkage to its held drivers and targets, or to the mouse's drag alone. All drivers are watched.
 void solve_linkage(LinkagePart& part, LinkageRuntime& runtime, ik::LinkageOptions options = {});
-/// The report of a solve from the pose, which stays, to the bit, as do the drivers' values.
+/// Computes the report of a solve from this pose, but leaves pose and driver values unchanged, to the bit.
 void report_in_pose(LinkagePart& part);
-/// A new shape: what was drawn by hand in its own pose, a mechanism in the present one as far as its names
-/// go. Drivers, targets, ranges and selection stay where their names do, and held drivers at their values; a
-/// motor that is taken away takes its driver along.
+/// Replaces the shape. A linkage drawn by hand takes the pose it is drawn in; a mechanism of the same kind
+/// keeps its present pose as far as names match. Drivers, targets, ranges and selection stay where their
+/// names exist, and held drivers keep their values; removing a motor removes its driver.
 void take_shape(LinkagePart& part, LinkageShape shape, LinkageRuntime& runtime);
 void take_shape(LinkagePart& part, LinkageShape shape, std::vector<LinkageRange> ranges,
                 LinkageRuntime& runtime);
-/// Sets the ranges of the joints that there are. Throws std::invalid_argument if one leaves out the pose in
-/// which the linkage is drawn.
+/// Sets the ranges of joints that exist. Throws std::invalid_argument if a range excludes the pose in which
+/// the linkage is drawn.
 void set_ranges(LinkageShape& shape, std::vector<LinkageRange> ranges);
-/// A hinge's value, by whole turns nearest to another, or in its range.
+/// A hinge's value plus whole turns: nearest to `other`, or within the link's range.
 double turned_near(double value, double other, const ik::Link& link);
-/// The link of a bar of the sketch: it has the bar's name, or that of the motor that turns it. None: the bar
-/// floats.
+/// The link of a sketch bar, named after the bar or after the motor that turns it. None if the bar floats.
 std::optional<std::size_t> link_of_bar(const ik::Linkage& linkage, const ik::LinkageSketch& sketch,
                                        std::size_t bar);
-/// How many bars of a sketch lie between each and the ground; ik::ground_link: it floats.
+/// For each bar of a sketch, how many bars lie between it and the ground; ik::ground_link: it floats.
 std::vector<std::size_t> bars_from_ground(const ik::LinkageSketch& sketch);
-/// Of a sketch's bars: whether neither a pin nor a guide reaches it, directly or through other bars.
+/// For each bar of a sketch, whether no pin and no guide reaches it, directly or through other bars.
 std::vector<bool> floating_bars(const ik::LinkageSketch& sketch);
-/// The shape of a sketch. Bars that nothing holds are left out of the linkage. Throws std::invalid_argument
-/// for a sketch that the library refuses.
+/// Builds the shape of a sketch; floating bars are left out of the linkage. Throws std::invalid_argument if
+/// the library refuses the sketch.
 LinkageShape shape_of(ik::LinkageSketch sketch);
-/// The shape of a mechanism. Throws std::invalid_argument as the library refuses its lengths.
+/// Builds the shape of a mechanism. Throws std::invalid_argument if the library refuses its lengths.
 LinkageShape shape_of(const Mechanism& mechanism);
-/// The other legs of a walker, all in this state, each a few steps of its motor from where it belongs; none
-/// of others.
+/// A walker's other legs, all in this state, each a few motor steps from its own pose; empty for other
+/// linkages.
 std::vector<LinkageCopy> copies_of(const LinkageShape& shape, const ik::LinkageState& state);
-/// A mechanism at rest. The tool stays.
+/// Opens a mechanism at rest; keeps the tool.
 void open_mechanism(LinkagePart& part, const Mechanism& mechanism, LinkageRuntime& runtime);
-/// The sketch in the present pose, to be edited. Throws Refused for a mechanism in space.
+/// The sketch in the present pose, for editing. Throws Refused for a mechanism in space.
 ik::LinkageSketch present_sketch(const LinkagePart& part);
 
 }  // namespace tendril::app

@@ -16,7 +16,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr double length_step = 0.01;  ///< metres: lengths that are offered are whole centimetres
+constexpr double length_step = 0.01;  ///< metres: suggested lengths are whole centimetres
 constexpr double no_angle = std::numeric_limits<double>::quiet_NaN();
 
 glm::dvec2 way(const LinkagePart& part, std::size_t from, std::size_t to) {
@@ -36,13 +36,13 @@ double transmission_in(const LinkagePart& part, const DrivenLoop& loop) {
     return 90.0 - fold(between(coupler, {std::cos(guide), std::sin(guide)}));
 }
 
-/// Null if there is another loop beside the driven one.
+/// The driven loop if it is the linkage's only loop; otherwise null.
 const DrivenLoop* only_loop(const LinkagePart& part) {
     const LinkageShape& shape = *part.shape;
     return shape.loops == 1 && shape.driven.size() == 1 ? &shape.driven.front() : nullptr;
 }
 
-/// None if it is another linkage.
+/// The four lengths if the linkage is a four-bar.
 std::optional<ik::FourBar> four_bar_lengths(const LinkagePart& part) {
     const DrivenLoop* const loop = only_loop(part);
     if (loop == nullptr || !loop->has_rocker()) return std::nullopt;
@@ -53,7 +53,7 @@ std::optional<ik::FourBar> four_bar_lengths(const LinkagePart& part) {
                        .rocker = glm::length(way(part, loop->end, loop->pin))};
 }
 
-/// A hinge in the plane that no range stops: its turns are all alike.
+/// Whether the joint is a hinge in the plane without a range, so that all its turns look alike.
 bool goes_round(const LinkagePart& part, std::string_view joint) {
     if (!part.shape->in_plane() || !turns(part, joint)) return false;
     const ik::Link& link = part.linkage().links[*part.linkage().find_link(joint)];
@@ -127,7 +127,7 @@ std::optional<WorstTransmission> worst_transmission(const LinkagePart& part, con
     const auto at = static_cast<std::size_t>(std::ranges::min_element(angles) - angles.begin());
     WorstTransmission worst{angles[at], poses[at].value};
     if (count < 3 || (!turn.whole && (at == 0 || at + 1 == count))) return worst;
-    // Between the poses: the lowest point of the parabola through three.
+    // Refine between poses: the minimum of the parabola through three of them.
     const double before = angles[(at + count - 1) % count], after = angles[(at + 1) % count];
     const double bend = before - 2.0 * worst.degrees + after;
     if (!(bend > 1e-9)) return worst;
@@ -145,7 +145,7 @@ ik::LinkageFreedom freedom_of(const LinkagePart& part) {
 
 namespace {
 
-/// What the joints of a linkage's bodies exert on each other while something balances its motor.
+/// The joint forces between a linkage's bodies that balance its motor's torque.
 class BalancedBodies {
   public:
     BalancedBodies(const LinkagePart& part, std::size_t driver, ik::LinkageSolver& solver)
@@ -154,7 +154,7 @@ class BalancedBodies {
           rigid_(ik::rigid_bodies(sketch_)),
           body_(linkage_.links.size()),
           forces_(linkage_.closures.size()) {
-        for (std::size_t i = 0; i < body_.size(); ++i) body_[i] = rigid_.size() + i;  // a guided point's
+        for (std::size_t i = 0; i < body_.size(); ++i) body_[i] = rigid_.size() + i;  // a guided point's link
         for (std::size_t bar = 0; bar < rigid_.size(); ++bar)
             if (const auto link = link_of_bar(linkage_, sketch_, bar)) body_[*link] = rigid_[bar];
         std::vector<std::size_t> held;
@@ -164,10 +164,10 @@ class BalancedBodies {
         add_up();
         turned_ = {body_of(driver), body_of(linkage_.links[driver].parent), ik::ground_link};
     }
-    /// The part of the motor's torque that nothing balances; 1 if a joint is not of the sketch.
+    /// The unbalanced part of the motor's torque; 1 if a joint is not in the sketch.
     double loose() const { return loose_; }
 
-    /// Two bars, each held by two joints, are in line where they balance each other.
+    /// Two bars held by two joints each that balance, so are in line; or one such bar square to a guide.
     std::optional<DeadPoint> bars_in_line() const {
         for (const auto& [body, points] : at_)
             for (const auto& [joint, force] : points) {
@@ -186,7 +186,7 @@ class BalancedBodies {
             }
         return std::nullopt;
     }
-    /// The lines of three forces that balance meet.
+    /// Finds a body on which three forces balance, so that their lines meet.
     std::optional<DeadPoint> forces_that_meet() const {
         for (const auto& [body, points] : at_) {
             if (points.size() != 3 || is_turned(body)) continue;
@@ -203,7 +203,7 @@ class BalancedBodies {
             const auto apart = [&](std::size_t a, std::size_t b) {
                 return std::abs(ways[a].x * ways[b].y - ways[a].y * ways[b].x);
             };
-            constexpr double parallel = 0.01;  // sine of an angle: they meet 100 bars' lengths away
+            constexpr double parallel = 0.01;  // sine of an angle: the lines meet 100 bar lengths away
             const bool meet = std::max(apart(0, 1), apart(0, 2)) > parallel;
             found.text = "the lines " + lines[0] + ", " + lines[1] + " and " + lines[2] +
                          (meet ? " meet in one point" : " are parallel");
@@ -213,11 +213,11 @@ class BalancedBodies {
     }
 
   private:
-    using Forces = std::map<std::size_t, glm::dvec2>;  ///< by the points of the sketch
+    using Forces = std::map<std::size_t, glm::dvec2>;  ///< keyed by point of the sketch
 
     std::size_t body_of(std::size_t link) const { return link == ik::ground_link ? link : body_[link]; }
     const std::string& name(std::size_t point) const { return sketch_.points[point].name; }
-    /// A point of the sketch by where it is drawn.
+    /// The sketch's point drawn at this position, preferably the one of that name.
     std::optional<std::size_t> point_at(const glm::dvec3& drawn, const std::string& called) const {
         std::optional<std::size_t> found;
         for (std::size_t i = sketch_.points.size(); i-- > 0;)
@@ -251,21 +251,21 @@ class BalancedBodies {
         double largest = 0.0;
         for (const auto& [body, points] : at_)
             for (const auto& [point, force] : points) largest = std::max(largest, glm::length(force));
-        // Near a dead point other loops have a part of what is not balanced there.
-        constexpr double none = 0.01;  // of the largest force: its line is off a joint by 0.6 degrees
+        // Near a dead point, other loops carry a share of the unbalanced torque.
+        constexpr double none = 0.01;  // relative to the largest force: turns its line by 0.6 degrees
         const double minimum = std::max(none, 3.0 * loose_) * largest;
         for (auto& [body, points] : at_)
             std::erase_if(points, [&](const auto& each) { return glm::length(each.second) <= minimum; });
     }
     bool is_turned(std::size_t body) const { return std::ranges::find(turned_, body) != turned_.end(); }
-    /// Of a body that two joints hold.
+    /// The other joint of a body that two joints hold.
     std::optional<std::size_t> other_end(std::size_t body, std::size_t joint) const {
         const auto found = at_.find(body);
         if (found == at_.end() || found->second.size() != 2 || is_turned(body)) return std::nullopt;
         const std::size_t first = found->second.begin()->first;
         return first == joint ? found->second.rbegin()->first : first;
     }
-    /// The one body besides this that is held at the joint.
+    /// The other body at the joint, if there is exactly one.
     std::optional<std::size_t> only_other(std::size_t body, std::size_t joint) const {
         std::optional<std::size_t> other;
         for (const auto& [each, points] : at_) {
@@ -278,11 +278,11 @@ class BalancedBodies {
 
     const ik::LinkageSketch& sketch_;
     const ik::Linkage& linkage_;
-    std::vector<std::size_t> rigid_, body_;  ///< of each bar, and of each link
+    std::vector<std::size_t> rigid_, body_;  ///< per bar; per link
     std::vector<glm::dvec3> forces_;
     double loose_ = 1.0;
     std::map<std::size_t, Forces> at_;     ///< by body
-    std::array<std::size_t, 3> turned_{};  ///< the motor's torque is on these as well, and on the ground any
+    std::array<std::size_t, 3> turned_{};  ///< bodies under a torque too: the motor's two, and the ground
 };
 
 }  // namespace
@@ -327,16 +327,16 @@ std::string four_bar_kind(const LinkagePart& part) {
 std::optional<RoundCranks> shorter_round_cranks(const LinkagePart& part) {
     double shortest = 0.0, longest = 0.0;
     if (const auto bars = four_bar_lengths(part)) {
-        // Coupler and rocker span the distance from the crank's tip to the rocker's pin: where it is largest,
-        // ground + crank, and where it is smallest, their difference. A crank longer than the ground, of a
-        // drag link, has to be longer by that much.
+        // Coupler and rocker span the distance from the crank's tip to the rocker's pin, both at its maximum,
+        // ground + crank, and at its minimum, their difference. In a drag link the crank is longer than the
+        // ground, by at least `gap`.
         const double reach = bars->coupler + bars->rocker - bars->ground;
         const double gap = std::abs(bars->coupler - bars->rocker);
         const bool drag_link = reach > bars->ground + gap && bars->crank > reach;
         shortest = drag_link ? bars->ground + gap : 0.0;
         longest = drag_link ? reach : std::min(reach, bars->ground - gap);
     } else if (const DrivenLoop* const loop = only_loop(part)) {
-        // The coupler reaches the slider's line from everywhere on the crank's circle.
+        // The coupler must reach the slider's line from every point of the crank's circle.
         const double guide = part.shape->sketch.points[loop->end].guide;
         const glm::dvec2 to_line = way(part, part.shape->sketch.motors[loop->motor].point, loop->end);
         longest = glm::length(way(part, loop->tip, loop->end)) -
@@ -369,7 +369,7 @@ std::vector<Cure> ways_on(const LinkagePart& part) {
         const ik::LinkageSketch& sketch = part.shape->sketch;
         const std::size_t bar = sketch.motors[only_loop(part)->motor].bar;
         const ik::SketchBar& crank = sketch.bars[bar];
-        // Short of the folded linkage by a twentieth.
+        // Stays 5 % below the length at which the linkage folds.
         double shorter = length_step * std::floor(0.95 * round->longest / length_step);
         if (shorter <= round->shortest) shorter = 0.5 * (round->shortest + round->longest);
         const std::string from =

@@ -18,7 +18,7 @@ constexpr FieldText half_angle(const char* name, const char* label, const char* 
     return {.name = name, .label = label, .help = help, .step = 0.2f, .decimals = 1, .more = true};
 }
 
-/// In the order of the panel's rows.
+/// In the order of rows in the panel.
 using Texts = std::vector<FieldText>;
 
 template <class Of, class Table = Of>

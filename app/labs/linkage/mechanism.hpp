@@ -11,12 +11,12 @@
 
 namespace tendril::app {
 
-/// Twelve of Jansen's legs on one crank, a hundredth as large: six pairs, a sixth of a turn apart.
+/// Twelve of Jansen's legs on one crank, at 1/100 scale: six pairs, a sixth of a turn apart.
 struct JansenWalker : ik::Jansen {
     JansenWalker();
 };
 
-/// The lengths of one; none: drawn by hand.
+/// The lengths of a mechanism; std::monostate: drawn by hand.
 using Mechanism = std::variant<std::monostate, ik::FourBar, ik::SliderCrank, ik::Peaucellier, ik::Pantograph,
                                ik::ScissorLift, ik::Jansen, JansenWalker, ik::Delta, ik::Stewart>;
 
@@ -27,11 +27,11 @@ struct MechanismKind {
     Mechanism (*blank)();
     std::span<const Field> fields;
     std::vector<FieldText> texts;
-    const char* traced;        ///< the point whose path is shown first; empty: none
-    const char* drivers = "";  ///< in space: links whose names begin like this are driven
+    const char* traced;        ///< the point whose path is shown at first; empty: none
+    const char* drivers = "";  ///< in space: name prefix of the driven links
 };
 
-/// In the order of the variant, from its second alternative on.
+/// In the order of the variant's alternatives, from the second on.
 const std::vector<MechanismKind>& mechanism_kinds();
 /// Throws std::invalid_argument for an unknown name.
 const MechanismKind& mechanism_kind(std::string_view name);

@@ -36,7 +36,7 @@ std::string floats_text(const LinkageShape& shape) {
     return count_text(static_cast<std::size_t>(shape.loose.actual), "degree") + " of freedom in the plane.";
 }
 
-/// How far the linkage is drawn by hand, as the next step. Empty text: it is done.
+/// The next step in drawing a linkage by hand. Empty text: it is finished.
 Verdict drawing_verdict(const LinkagePart& part) {
     const LinkageShape& shape = *part.shape;
     if (shape.sketch.bars.empty())
@@ -133,7 +133,7 @@ void linkage_tool_rows(const LinkagePart& part, Emit& emit) {
     end_row();
 }
 
-/// Degrees or metres a second.
+/// Speed in degrees or metres per second.
 void run_at(const LinkagePart& part, const std::string& joint, ArgumentValue speed, Emit& emit) {
     const CommandCall call = motor_call(part, joint, std::move(speed));
     emit.continuously(call.name, call.arguments);
@@ -149,7 +149,7 @@ void speed_row(const LinkagePart& part, const LinkageDrive& drive, const std::st
     explain("How fast the motor runs while time passes. 0 stops it.");
 }
 
-/// Of a joint: degrees or metres.
+/// A field for a joint's value, in degrees or metres.
 bool joint_field(const LinkagePart& part, const std::string& joint, const char* label, float& value) {
     const bool angular = turns(part, joint);
     return number_field(label, value, angular ? 0.5f : 0.002f, -1e6f, 1e6f, angular ? "%.1f deg" : "%.3f m");
@@ -282,7 +282,7 @@ float LinkageLab::timeline_height(const Workspace& workspace) const {
 
 namespace {
 
-/// In lines of a plot's text: the room that is left.
+/// The remaining height, in lines of a plot's text.
 float lines_left() {
     ImGui::PushFont(small_font());
     const float line = ImGui::GetFontSize();
@@ -290,7 +290,7 @@ float lines_left() {
     return ImGui::GetContentRegionAvail().y / line - 0.2f;
 }
 
-/// The plotted number over the joint that leads the turn, beside that over time.
+/// Plots the number over the joint that leads the turn, beside the plot over time.
 void turn_plot(const Workspace& workspace, std::vector<Curve> curves) {
     const LinkagePart& part = linkage_part(workspace);
     const LinkageTurn& turn = workspace.runtimes.of<LinkageRuntime>(linkage_lab).turn(part);

@@ -18,7 +18,7 @@ const LinkagePart& linkage_of(const SharedPart& part) {
     return dynamic_cast<const LinkagePart&>(*part);
 }
 
-/// A motor's value, an angle counted on from the turn that the plot begins in.
+/// A motor's value; angles continue from the turn in which the plot begins.
 PastCurve motor_curve(const Workspace& workspace, const std::string& joint) {
     const auto shown = [joint](const LinkagePart& part) -> std::optional<ShownValue> {
         if (part.find_drive(joint) == nullptr) return std::nullopt;
@@ -97,7 +97,7 @@ std::vector<Curve> linkage_turn_curves(const Workspace& workspace, const PastCur
         const glm::vec2 next(shown_value(part, joint, pose.value).value, value);
         if (!std::isfinite(value)) return;
         if (!last) begin_piece();
-        if (last && next.x < last->x) {  // from 360 on at 0
+        if (last && next.x < last->x) {  // passed 360 degrees and starts again at 0
             const float middle = 0.5f * (last->y + value);
             pieces.back().points.emplace_back(360.0f, middle);
             begin_piece();
@@ -135,7 +135,7 @@ const LinkageTarget* target_of(const LinkagePart& part, const std::string& point
     return found == part.targets.end() ? nullptr : &*found;
 }
 
-/// A point that went much further than the target that it follows.
+/// The incident of a point that moved much further than the target it follows.
 std::optional<Incident> jump_incident(const LinkagePart& before, const LinkagePart& after) {
     constexpr double further = 3.0;
     const ik::LinkageReport& report = after.result.report;
@@ -167,11 +167,11 @@ std::vector<Incident> linkage_incidents(const LinkagePart& before, const Linkage
     if (before.shape != after.shape) return {};
     const ik::LinkageReport &was = before.result.report, &is = after.result.report;
     std::vector<Incident> incidents;
-    const bool moved = before.state != after.state;  // else it is the same solve
+    const bool moved = before.state != after.state;  // otherwise it is the same solve
     if (moved)
         if (auto jump = jump_incident(before, after)) incidents.push_back(std::move(*jump));
     if (moved && is.passed_dead_point) {
-        constexpr double about_in_line = 20.0;  // a tick later
+        constexpr double about_in_line = 20.0;  // degrees; wide, since it is a tick later
         const std::string line = dead_point_reason(after, runtime, about_in_line);
         incidents.push_back({.kind = Incident::Kind::Limit,
                              .joint = 0,

@@ -43,7 +43,7 @@ std::vector<bool> floating_bars(const ik::LinkageSketch& sketch) {
 
 namespace {
 
-/// The sketch without the bars that float.
+/// The sketch without floating bars.
 ik::LinkageSketch held_part(const ik::LinkageSketch& sketch, const std::vector<bool>& floats) {
     ik::LinkageSketch held = sketch;
     for (std::size_t b = floats.size(); b-- > 0;)
@@ -51,7 +51,7 @@ ik::LinkageSketch held_part(const ik::LinkageSketch& sketch, const std::vector<b
     return held;
 }
 
-/// The bars that float, piece by piece: with one of its points pinned each is a linkage of two degrees less.
+/// Freedom of the floating bars: each piece with one point pinned is a linkage with two degrees less.
 ik::LinkageFreedom freedom_of_loose(const ik::LinkageSketch& sketch, const std::vector<bool>& floats) {
     ik::LinkageFreedom all;
     std::vector<bool> left = floats;
@@ -71,7 +71,7 @@ ik::LinkageFreedom freedom_of_loose(const ik::LinkageSketch& sketch, const std::
     return all;
 }
 
-/// The angle at which a leg's own motor is while the walker's is at `angle`; or the walker's from the leg's.
+/// A leg's motor angle for the walker's motor at `angle`, or the reverse with `back`.
 double motor_of(const LinkageCopy& copy, double angle, bool back = false) {
     if (back) return (copy.mirrored ? std::numbers::pi - angle : angle) - copy.phase;
     return copy.mirrored ? std::numbers::pi - angle - copy.phase : angle + copy.phase;
@@ -163,7 +163,7 @@ void solve_linkage(LinkagePart& part, LinkageRuntime& runtime, ik::LinkageOption
     result.freedom = solver.freedom(part.state);
     result.active.assign(solver.active().begin(), solver.active().end());
     result.open_closures.assign(solver.open_closures().begin(), solver.open_closures().end());
-    // A motor goes on from where it is; what is held is still asked for.
+    // A running motor continues from its present value; held values stay as asked.
     for (LinkageDrive& each : part.drives)
         if (!each.held || each.rate != 0.0 || part.drag) each.value = part.value_of(each.joint);
     part.links.assign(solver.links().begin(), solver.links().end());
@@ -173,7 +173,7 @@ void solve_linkage(LinkagePart& part, LinkageRuntime& runtime, ik::LinkageOption
         const ik::LinkageReport report = solver.solve(each.state, {{&driver, 1}, {}});
         each.links.assign(solver.links().begin(), solver.links().end());
         if (report.status <= result.report.status) continue;
-        // The worst leg speaks for all, by the angle of the motor that they share.
+        // The worst leg's status counts, at the angle of the shared motor.
         result.report.status = report.status;
         result.report.stopped = report.stopped;
         result.report.stopped_at = motor_of(each, report.stopped_at, true);
@@ -186,7 +186,7 @@ namespace {
 void find_loops(LinkageShape& shape) {
     const ik::LinkageSketch& sketch = shape.sketch;
     const auto hold = [&](std::size_t point) { return sketch.points[point].hold; };
-    std::map<std::size_t, std::set<std::size_t>> points_of, bodies_at;  // of bodies, at points
+    std::map<std::size_t, std::set<std::size_t>> points_of, bodies_at;  // by body; by point
     std::set<std::pair<std::size_t, std::size_t>> joints;
     for (std::size_t bar = 0; bar < sketch.bars.size(); ++bar) {
         if (shape.floating[bar]) continue;
@@ -239,7 +239,7 @@ LinkageShape shape_of(ik::LinkageSketch sketch) {
 
 namespace {
 
-/// The library's maker of each mechanism.
+/// Builds each mechanism with the library.
 struct MakeShape {
     static LinkageShape drawn(Expected<ik::LinkageSketch> sketch) {
         return shape_of(require_value(std::move(sketch)));
@@ -277,13 +277,13 @@ std::vector<LinkageCopy> copies_of(const LinkageShape& shape, const ik::LinkageS
     const std::size_t motor = *shape.linkage.find_link(driven_joints(shape).front());
     for (int i = 0; i < 2 * pairs; ++i) {
         const int pair = i / 2;
-        // The first is the linkage itself.
+        // The first leg is the linkage itself.
         if (i == 0) continue;
         LinkageCopy& copy = copies.emplace_back(LinkageCopy{.phase = pair * turn / pairs,
                                                             .mirrored = i % 2 == 1,
                                                             .depth = -walker->m * pair,
                                                             .state = state});
-        // Whole turns are the same pose.
+        // Adds whole turns, which do not change the pose.
         double& value = copy.state.joints[motor].value;
         value += turn * std::round((motor_of(copy, value) - value) / turn);
     }
@@ -295,7 +295,7 @@ std::optional<std::size_t> link_of_bar(const ik::Linkage& linkage, const ik::Lin
     for (const ik::SketchMotor& motor : sketch.motors) {
         const auto link = linkage.find_link(motor.name);
         if (!link) continue;
-        // Of two bars that a motor turns against each other, the later one hangs on the other.
+        // If a motor turns two bars against each other, a reversed axis makes `against` the child.
         const bool turned_round = motor.against != ik::ground_link && linkage.links[*link].axis.z < 0.0;
         if (bar == (turned_round ? motor.against : motor.bar)) return link;
     }
@@ -317,14 +317,14 @@ bool is_hinge(const ik::Link& link) {
     return link.joint == ik::LinkJoint::Hinge;
 }
 
-/// The direction of a bar, from its first joint to its second.
+/// The angle of a bar's direction, from its first joint to its second.
 double bar_direction(const ik::SketchBar& bar, auto at) {
     const glm::dvec2 way = glm::dvec2(at(bar.points[1])) - glm::dvec2(at(bar.points[0]));
     return std::atan2(way.y, way.x);
 }
 
-/// How far a bar of the new shape turns from where it is drawn to where the old part has it. Nothing: the old
-/// part has no such bar.
+/// The angle from a bar as drawn in the new shape to the same bar in the old part's pose. None if the old
+/// part lacks it.
 std::optional<double> turn_of_bar(const LinkagePart& old, const ik::LinkageSketch& sketch, std::size_t bar) {
     const ik::LinkageSketch& was = old.shape->sketch;
     const auto same = was.find_bar(sketch.bars[bar].name);
@@ -333,8 +333,8 @@ std::optional<double> turn_of_bar(const LinkagePart& old, const ik::LinkageSketc
            bar_direction(sketch.bars[bar], [&](std::size_t i) { return sketch.points[i].at; });
 }
 
-/// The pose of another part, for a mechanism of the same kind: in the plane its bars keep their directions,
-/// in space its joints keep their values. It closes when it is solved.
+/// Takes the pose of another part of the same mechanism: in the plane its bars keep their directions, in
+/// space its joints keep their values. Solving then closes it.
 void pose_like(const LinkagePart& old, const LinkageShape& shape, ik::LinkageState& state) {
     std::vector<double> turns(shape.linkage.links.size());
     const auto turn_of = [&](std::size_t link) { return link == ik::ground_link ? 0.0 : turns[link]; };
@@ -399,7 +399,7 @@ void take_shape(LinkagePart& part, LinkageShape shape, std::vector<LinkageRange>
         kind_of(shape.mechanism) != nullptr && shape.mechanism.index() == part.shape->mechanism.index();
     const auto made = std::make_shared<const LinkageShape>(std::move(shape));
     ik::LinkageState state = runtime.solver(made).initial_state();
-    const std::vector<std::string> were_driven = driven_joints(*part.shape);  // a motor ends with its drive
+    const std::vector<std::string> were_driven = driven_joints(*part.shape);  // a drive ends with its motor
     if (same_kind) pose_like(part, *made, state);
     part.shape = made;
     part.state = std::move(state);
@@ -419,7 +419,7 @@ void take_shape(LinkagePart& part, LinkageShape shape, std::vector<LinkageRange>
         const std::size_t link = *part.linkage().find_link(joint);
         const double drawn = part.state.joints[link].value, held = drive.value;
         const bool hinge = is_hinge(part.linkage().links[link]);
-        const bool counted = same_kind && before != nullptr;  // its turns are those from before
+        const bool counted = same_kind && before != nullptr;  // it keeps counting its turns
         drive.value = !drive.held         ? drawn
                       : hinge && !counted ? drawn + std::remainder(held - drawn, whole_turn)
                                           : held;

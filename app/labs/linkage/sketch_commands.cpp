@@ -37,7 +37,7 @@ std::string free_point_name(const LinkageSketch& sketch) {
     }
 }
 
-/// "bar 1", "motor 2": no bar and no motor has it.
+/// The first unused name: "bar 1", "motor 2".
 std::string free_link_name(const LinkageSketch& sketch, const std::string& what) {
     for (std::size_t i = 1;; ++i) {
         std::string name = what + " " + std::to_string(i);
@@ -66,7 +66,7 @@ void add_joint(LinkageSketch& sketch, const Arguments& given) {
     if (given.has("bar")) sketch.bars[require_bar(sketch, given.text("bar"))].points.push_back(point);
 }
 
-/// A joint by its name, or a new one at a place.
+/// A joint by name, or a new one at a position.
 std::size_t end_of_bar(LinkageSketch& sketch, const Arguments& given, const char* argument) {
     const Json& json = given.json(argument);
     if (json.is_string()) return require_in_sketch(sketch, json.get<std::string>());
@@ -89,7 +89,7 @@ void add_bar(LinkageSketch& sketch, const Arguments& given) {
     sketch.bars.push_back({.name = name, .points = {from, to}});
 }
 
-/// A motor at a joint that the ground no longer holds would have nothing to push against.
+/// Removes motors that push against the ground, at a joint that the ground no longer holds.
 void remove_motors_at(LinkageSketch& sketch, std::size_t point) {
     std::erase_if(sketch.motors, [&](const ik::SketchMotor& each) {
         return each.point == point && each.against == ik::ground_link;
@@ -119,7 +119,7 @@ void move(LinkageSketch& sketch, const Arguments& given) {
     sketch.points[require_in_sketch(sketch, given.text("point"))].at = place_in_plane(given.json("to"), "to");
 }
 
-/// The linkage with one link a telescope: a slider, after it, carries what it has at its far end.
+/// Makes a link a telescope: a slider inserted after it takes over everything at its far end.
 ik::Linkage with_telescope(ik::Linkage linkage, std::size_t link, const glm::dvec3& far) {
     const glm::dvec3 near = linkage.links[link].at;
     const std::size_t slider = link + 1;
@@ -139,7 +139,7 @@ ik::Linkage with_telescope(ik::Linkage linkage, std::size_t link, const glm::dve
     return linkage;
 }
 
-/// The bar grows or shrinks until it has its length; motors and held joints stay, if they can.
+/// Grows or shrinks the bar to the given length; motors and held joints stay if they can.
 void set_length(LinkageSketch& sketch, const Arguments& given) {
     const std::size_t index = require_bar(sketch, given.text("bar"));
     const ik::SketchBar& bar = sketch.bars[index];
@@ -170,7 +170,7 @@ bool has_motor(const LinkageSketch& sketch, std::size_t point, std::size_t bar, 
     });
 }
 
-/// The bar that a motor turns, and the one it turns it against: of two, that which is nearer to the ground.
+/// The bar that a motor turns, and the bar it turns it against; of two, the second is nearer to the ground.
 std::pair<std::size_t, std::size_t> motor_bars(const LinkageSketch& sketch, std::size_t point,
                                                const Arguments& given) {
     const std::string& at = sketch.points[point].name;
@@ -234,7 +234,7 @@ void remove_bar_or_joint(LinkageSketch& sketch, const Arguments& given) {
         require_ok(ik::remove_bar(sketch, require_bar(sketch, given.text("bar"))));
 }
 
-/// Says so where a mechanism loses its named lengths by it.
+/// Reports if a mechanism loses its named lengths.
 void edit_by_hand(Workspace& workspace, const auto& change) {
     const MechanismKind* const was = kind_of(linkage_part(workspace).shape->mechanism);
     change_part<LinkagePart>(workspace, linkage_lab, change);

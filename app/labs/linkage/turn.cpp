@@ -1,4 +1,4 @@
-// The turn of a linkage: it is driven through all of its assembly mode.
+// The turn of a linkage: drives it through its whole assembly mode.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -10,7 +10,7 @@
 namespace tendril::app {
 namespace {
 
-constexpr int turn_steps = 120;  ///< of a whole turn, or along a slider
+constexpr int turn_steps = 120;  ///< steps per turn, or along a slider's travel
 
 LinkageTurn::Pose pose_of(const ik::LinkageSolver& solver, const ik::LinkageState& state, std::size_t joint) {
     LinkageTurn::Pose pose{.value = state.joints[joint].value};
@@ -19,7 +19,7 @@ LinkageTurn::Pose pose_of(const ik::LinkageSolver& solver, const ik::LinkageStat
     return pose;
 }
 
-/// Drives the joint on from the present pose until it is round, or cannot go on.
+/// Drives the joint from the present pose until it has gone round or cannot go on.
 std::vector<LinkageTurn::Pose> swept(ik::LinkageSolver& solver, ik::LinkageState state, std::size_t joint,
                                      double step) {
     std::vector<LinkageTurn::Pose> poses;
@@ -36,7 +36,7 @@ std::vector<LinkageTurn::Pose> swept(ik::LinkageSolver& solver, ik::LinkageState
     return poses;
 }
 
-/// Whether a pose is between two neighbours of the turn. Where points are does not tell: the paths of two
+/// Whether a pose lies between two neighbours of the turn. Compares joint values, since the paths of two
 /// assembly modes may cross.
 bool is_on(const LinkageTurn& turn, const ik::LinkageState& state, const ik::Linkage& linkage, double size) {
     const auto between = [&](const LinkageTurn::Pose& a, const LinkageTurn::Pose& b) {
@@ -78,7 +78,7 @@ const LinkageTurn& LinkageRuntime::turn(const LinkagePart& part) {
     }
     const std::size_t joint = *leading;
     ik::LinkageSolver& of = solver(part.shape);
-    // The other assembly mode has a turn of its own.
+    // The other assembly mode has its own turn.
     if (turn_of_ == part.shape && turn_.joint == joint && is_on(turn_, part.state, part.linkage(), of.size()))
         return turn_;
     turn_of_ = part.shape;

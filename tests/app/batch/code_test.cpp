@@ -60,7 +60,7 @@ TEST(Code, each_mode_makes_its_own_call) {
     }
 }
 
-TEST(Code, options_that_are_the_librarys_own_are_not_said) {
+TEST(Code, OmitsOptionsThatEqualTheLibrarysDefaults) {
     const std::string plain = chain_code(reaching());
     for (const char* option : {"options.pole", "options.snap_back", "options.soft_zone", "options.damping",
                                "options.twist", "options.limits", "options.restarts", "state.rotations"})
@@ -92,7 +92,7 @@ TEST(Code, options_that_are_the_librarys_own_are_not_said) {
     EXPECT_TRUE(lacks(code, "limits[0]"));
 }
 
-TEST(Code, what_the_solver_remembers_goes_along) {
+TEST(Code, IncludesTheSolversState) {
     ChainPart part = reaching();
     part.reach.options.pole = glm::vec3(2, 1, 0);
     EXPECT_TRUE(lacks(chain_code(part), "state.pole"));
@@ -123,7 +123,7 @@ TEST(Code, chains_too_short_for_their_mode_are_left_alone) {
     EXPECT_TRUE(lacks(chain_code(part), "solve("));
 }
 
-TEST(Code, long_chains_are_tables) {
+TEST(Code, WritesLongChainsAsTables) {
     ChainPart part = reaching();
     while (part.chain.size() < 64) ASSERT_TRUE(part.chain.add(1.0f));
     EXPECT_TRUE(lacks(chain_code(part), "segment_numbers"));
@@ -132,7 +132,7 @@ TEST(Code, long_chains_are_tables) {
         has(chain_code(part), "static const float segment_numbers[] = {\n    0.0f, 0.0f, 0.0f, 1.0f,\n"));
 }
 
-TEST(Code, a_studied_chain_is_where_its_solves_start) {
+TEST(Code, BuildsAStudiedChainAtTheStudysStart) {
     ChainPart part = reaching();
     part.study.begin(Study::Kind::Microscope, Study::From::Here, part.chain, part.reach);
     const std::string before = chain_code(part);

@@ -79,7 +79,7 @@ TEST_F(MotionProgram, lint_prints_what_it_finds_and_exits_with_1) {
     EXPECT_EQ(finding["cure"], true);
 }
 
-TEST_F(MotionProgram, what_was_guessed_of_a_file_is_printed) {
+TEST_F(MotionProgram, PrintsWhatItGuessedAboutAFile) {
     // A BVH states no unit.
     const std::string file = figure("walk.bvh");
     EXPECT_TRUE(test::says(run({"lint", file}).out, "Note unit 0 findings"));
@@ -88,12 +88,12 @@ TEST_F(MotionProgram, what_was_guessed_of_a_file_is_printed) {
     const Json json = app::parse_json(run({"lint", file, "--json"}).out);
     ASSERT_EQ(json["notes"].size(), 1u);
     EXPECT_TRUE(test::says(json["notes"][0].get<std::string>(), "unit"));
-    // A glTF says all that.
+    // A glTF file states both.
     EXPECT_EQ(run({"lint", figure("walk.glb")}).out, "0 findings in 1 clip\n");
     EXPECT_EQ(app::parse_json(run({"lint", path("walk.glb"), "--json"}).out)["notes"], Json::array());
 }
 
-TEST_F(MotionProgram, bake_writes_the_clip_and_says_how_near_it_came) {
+TEST_F(MotionProgram, BakeWritesTheClipAndPrintsTheDifference) {
     const std::string file = figure("walk.glb");
     for (const char* ground : {"none", "flat", "slope", "stairs", "terrain"}) {
         for (const char* name : {"out.glb", "out.gltf", "out.bvh"}) {
@@ -106,14 +106,14 @@ TEST_F(MotionProgram, bake_writes_the_clip_and_says_how_near_it_came) {
             EXPECT_NEAR(read.clips.at(0).duration, 1.1, 1e-6);
         }
     }
-    // On stairs the figure climbs.
+    // On stairs, the figure climbs.
     run({"bake", file, "--ground", "stairs", "--out", path("up.bvh")});
     const app::Character up = app::read_character(folder_ / "up.bvh");
     const auto& hips = up.clips.at(0).channels.at(0).translation.values;
     EXPECT_GT(hips.back().y, hips.front().y + 0.2);
 }
 
-TEST_F(MotionProgram, bake_takes_a_clips_name_and_a_frame_rate_and_finds_a_place_beside_the_file) {
+TEST_F(MotionProgram, BakeTakesAClipNameAndAFrameRateAndWritesBesideTheFile) {
     const std::string file = figure("walk.bvh");
     EXPECT_EQ(run({"bake", file, "--clip", "motion", "--fps", "30"}).exit_code, 0);
     EXPECT_NE(read(folder_ / "walk_baked.bvh").find("Frames: 34\n"), std::string::npos);
@@ -142,7 +142,7 @@ TEST_F(MotionProgram, bake_says_which_of_many_clips_it_wrote_and_writes_them_all
     EXPECT_EQ(run({"bake", path("two.gltf"), "--all", "--clip", "walk"}).exit_code, 2);
 }
 
-TEST_F(MotionProgram, lint_and_bake_take_another_characters_motion_and_say_what_was_guessed) {
+TEST_F(MotionProgram, LintAndBakeTakeAnotherCharactersMotionAndPrintTheirGuesses) {
     // The figure's own walk, as a BVH has it: without a unit.
     const std::string body = figure("body.glb"), walk = figure("walk.bvh");
     const Outcome judged = run({"lint", body, "--motion", walk});
@@ -193,7 +193,7 @@ TEST_F(MotionProgram, APoseIsAMotionToo) {
     }
 }
 
-TEST_F(MotionProgram, bake_makes_a_clip_that_walks_in_place_travel) {
+TEST_F(MotionProgram, BakeTravelMovesAClipThatWalksInPlace) {
     const app::Character character = app::stick_figure();
     humanoid::Clip walk = character.clips[0];
     for (glm::dvec3& at : walk.channels.at(0).translation.values) at.z = 0.0;
@@ -210,7 +210,7 @@ TEST_F(MotionProgram, bake_makes_a_clip_that_walks_in_place_travel) {
     }
 }
 
-TEST_F(MotionProgram, what_cannot_be_read_or_written_ends_with_2) {
+TEST_F(MotionProgram, UnreadableOrUnwritableFilesExitWith2) {
     const std::string file = figure("walk.glb");
     write(folder_ / "text.glb", "no character");
     write(folder_ / "other.bvh", "HIERARCHY");

@@ -19,7 +19,7 @@ float length_of(const glm::vec3& v) {
     return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
 }
 
-TEST(Paper, targets_are_where_they_should_be_and_always_the_same) {
+TEST(Paper, TargetsAreWithinTheirRangesAndReproducible) {
     const app::PaperTargets near = app::reachable_targets(), far = app::unreachable_targets();
     ASSERT_EQ(near.targets.size(), app::paper_count);
     ASSERT_EQ(near.starts.size(), app::paper_count * (app::paper_bones + 1));
@@ -59,7 +59,7 @@ TEST(Paper, a_row_counts_what_the_solver_reports) {
     EXPECT_NEAR(row->nanoseconds.value(), row->microseconds * 1000.0 / 3.0, 1e-6 * *row->nanoseconds);
 }
 
-TEST(Paper, stops_where_it_is_told_and_has_no_cost_of_an_iteration_where_there_was_none) {
+TEST(Paper, StopsOnRequestAndReportsNoCostPerIterationWithoutIterations) {
     const app::PaperTargets targets = app::unreachable_targets();
     const auto solve = app::paper_solver(ik::Method::Fabrik);
     EXPECT_FALSE(app::measure(targets, solve, [](double done) { return done < 0.5; }));
@@ -103,7 +103,7 @@ TEST(Paper, a_signal_leaves_whole_rows) {
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
     process.signal(SIGINT);
     const Outcome outcome = process.wait();
-    // If the signal came before the program was listening, or after its end, there is no message.
+    // If the signal came before the program listened, or after its end, there is no message.
     if (outcome.exit_code == 128 + SIGINT) GTEST_SKIP() << "too early";
     EXPECT_EQ(outcome.exit_code, 0);
     const Strings lines = lines_of(outcome.out);

@@ -115,7 +115,7 @@ TEST_F(SignalProgram, reads_names_and_numbers_between_quotes) {
     EXPECT_EQ(table_of(outcome.out)[1][1], "2");
 }
 
-TEST_F(SignalProgram, what_it_printed_can_be_read_again) {
+TEST_F(SignalProgram, ItsOutputCanBeReadAgain) {
     const Outcome first = run(R"({"kind": "spring", "critical_damping": 0.3})", step_samples(40));
     ASSERT_TRUE(succeeded(first));
     const Outcome again = run(R"({"kind": "spring", "critical_damping": 0.3})", first.out);
@@ -137,7 +137,7 @@ TEST_F(SignalProgram, a_row_without_time_changes_nothing) {
     EXPECT_NEAR(number(table[5][2]), 0.75, 1e-12);
 }
 
-TEST_F(SignalProgram, rates_tell_a_filter_that_depends_on_them) {
+TEST_F(SignalProgram, RatesShowThatAFilterDependsOnThem) {
     const std::string samples = step_samples(120, 20);
     const Outcome engine = run(R"({"kind": "interp_to", "speed": 10})", samples, {"--rates"});
     ASSERT_EQ(engine.exit_code, 0) << engine.err;
@@ -166,7 +166,7 @@ TEST_F(SignalProgram, ignores_keys_that_it_does_not_know) {
     EXPECT_EQ(more.out, plain.out);
 }
 
-TEST_F(SignalProgram, fit_ranks_the_kinds_and_its_filters_run) {
+TEST_F(SignalProgram, FitRanksTheKindsAndItsFiltersRun) {
     const std::string truth = R"({"kind": "spring", "strength": 2.5, "critical_damping": 0.3})";
     std::string samples;
     for (int i = 0; i < 240; ++i)

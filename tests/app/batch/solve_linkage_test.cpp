@@ -105,9 +105,9 @@ TEST_F(SolveLinkage, a_sweep_is_a_table_of_drivers_and_points) {
         EXPECT_NEAR(four[i]["points"]["B"][1].get<double>(), std::sin(angle), 1e-9);
         EXPECT_EQ(four[i]["freedom"], 1);
     }
-    // Backwards, and by rounding just not beyond.
+    // Backwards; rounding must not lead beyond the end.
     EXPECT_EQ(rows(app::parse_json(one), {"--drive", "crank=90:0:-0.1"}).size(), 901u);
-    // Cases of several kinds have the usual columns.
+    // With cases of several kinds, only the usual columns are printed.
     const Outcome mixed =
         run(R"([{"linkage": "four_bar"}, {"lengths": [1], "target": [1, 0, 0]}, {"linkage": "delta"}])",
             {"--csv"});
@@ -117,7 +117,7 @@ TEST_F(SolveLinkage, a_sweep_is_a_table_of_drivers_and_points) {
     EXPECT_TRUE(has(mixed.out, "\n1,fabrik,Converged,"));
 }
 
-TEST_F(SolveLinkage, says_why_it_does_not_get_there) {
+TEST_F(SolveLinkage, ReportsWhyItStops) {
     const Json far = rows({{"linkage", "four_bar"}}, {"--drive", "crank=30", "--target", "P=9,0,0"}).at(0);
     EXPECT_EQ(far["status"], "TargetMissed");
     EXPECT_NEAR(far["residual"].get<double>(), far["targets"]["P"]["residual"].get<double>(), 1e-12);
@@ -159,7 +159,7 @@ TEST_F(SolveLinkage, takes_a_scene_of_the_lab_with_its_ranges_and_targets) {
     EXPECT_EQ(rows(Json::array({{{"linkage", part}}})).at(0)["status"], "Limited");
 }
 
-TEST_F(SolveLinkage, arguments_stand_in_for_what_a_case_asks) {
+TEST_F(SolveLinkage, ArgumentsReplaceACasesGoals) {
     Json wide{{"linkage", "four_bar"}, {"drivers", {{"crank", {{"from", 0}, {"to", 360}, {"step", 15}}}}}};
     EXPECT_EQ(rows(wide).size(), 25u);
     EXPECT_EQ(rows(wide, {"--drive", "crank=0:90:15"}).size(), 7u);
@@ -174,7 +174,7 @@ TEST_F(SolveLinkage, arguments_stand_in_for_what_a_case_asks) {
             {"--drive", "crank=0:90:30"}, "--drive crank as many 2 4");
 }
 
-TEST_F(SolveLinkage, what_is_wrong_is_refused_by_its_place_and_nothing_is_solved) {
+TEST_F(SolveLinkage, ErrorsNameTheirPlaceAndNothingIsSolved) {
     refuses(R"([{"linkage": "five_bar"}])", {}, "line 1 cases.0.linkage five_bar");
     refuses(R"([{"linkage": 5}])", {}, "cases.0.linkage 5");
     refuses("[{\"linkage\": \"four_bar\"},\n {\"linkage\": \"four_bar\", \"lengths\": {\"cranc\": 1}}]", {},

@@ -111,7 +111,7 @@ TEST_F(Solve, prints_the_same_as_quoted_csv) {
     EXPECT_EQ(count_lines(outcome.out), 3);
 }
 
-TEST_F(Solve, prints_a_table_where_nothing_is_asked) {
+TEST_F(Solve, PrintsATableByDefault) {
     const std::string name = "wide \xc3\xa4 name\\nof two lines and a tail that no column holds";
     std::string cases = two_cases;
     cases.insert(cases.rfind(']'), R"(, {"name": ")" + name + R"(", "lengths": [1], "target": [1, 0, 0]})");
@@ -154,7 +154,7 @@ TEST_F(Solve, ALimitThatDoesNotFitTheRestPoseIsNamed) {
     EXPECT_TRUE(has(run(hinge).out, row["reason"].get<std::string>()));
 }
 
-TEST_F(Solve, iterations_and_tolerance_are_as_told) {
+TEST_F(Solve, UsesTheGivenIterationsAndTolerance) {
     const std::string rim = R"([{"name": "rim", "lengths": [1, 1, 1, 1, 1, 1], "target": [3, 5.1, 0]}])";
     const auto row = [&](const Strings& arguments) {
         Strings all{"--json", "--solver", "fabrik_plain"};
@@ -167,7 +167,7 @@ TEST_F(Solve, iterations_and_tolerance_are_as_told) {
     EXPECT_LE(row({"--tolerance", "2"})["iterations"], 2);
 }
 
-TEST_F(Solve, an_empty_list_has_an_empty_answer) {
+TEST_F(Solve, AnEmptyListGivesAnEmptyResult) {
     EXPECT_TRUE(succeeded(run("[]")));
     EXPECT_EQ(run("[]").out, "");
     EXPECT_EQ(run(" [ ]\n", {"--json"}).out, "[]\n");
@@ -245,11 +245,11 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& file) { return file.param.name; });
 
 /// Not a test parameter: those are created whenever the test program starts.
-TEST_F(Solve, a_file_that_is_too_large_is_told_with_2) {
+TEST_F(Solve, AFileThatIsTooLargeExitsWith2) {
     EXPECT_TRUE(complained(run(std::string((64u << 20) + 1, ' '), {}), 2, {"cases.json: ", "64 MB"}));
 }
 
-TEST_F(Solve, arguments_it_cannot_take_are_told_with_2) {
+TEST_F(Solve, InvalidArgumentsExitWith2) {
     EXPECT_TRUE(complained(run("[]", {"--solver", "newton"}), 2,
                            {"--solver", "newton", "fabrik, fabrik_plain, ccd", "two_bone", "all"}));
     EXPECT_TRUE(complained(run("[]", {"--csv", "--json"}), 2, {"--csv", "--json"}));

@@ -43,7 +43,7 @@ TEST(SolverJson, a_hinge_and_a_ball_as_people_write_them) {
     EXPECT_FLOAT_EQ(ball.twist_max, std::numbers::pi_v<float> / 12);
 }
 
-TEST(SolverJson, what_is_left_out_is_as_the_kind_usually_has_it) {
+TEST(SolverJson, OmittedFieldsHaveTheKindsDefaults) {
     for (const char* kind : {"free", "suture", "hinge", "gliding", "saddle", "pivot", "ball_and_socket"}) {
         const ik::Limit limit = read({{"kind", kind}});
         EXPECT_EQ(limit, ik::Limit::of(limit.kind)) << kind;
@@ -51,12 +51,12 @@ TEST(SolverJson, what_is_left_out_is_as_the_kind_usually_has_it) {
     }
 }
 
-TEST(SolverJson, fields_of_another_kind_are_not_looked_at) {
+TEST(SolverJson, FieldsOfOtherKindsAreIgnored) {
     EXPECT_EQ(read({{"kind", "hinge"}, {"up_deg", "x"}, {"colour", 3}}), ik::Limit::of(ik::JointKind::Hinge));
     EXPECT_EQ(read({{"kind", "free"}, {"axis", 0}}), ik::Limit::of(ik::JointKind::Free));
 }
 
-TEST(SolverJson, angles_come_back_bit_for_bit_however_often_they_are_saved) {
+TEST(SolverJson, AnglesAreSavedBitForBitAnyNumberOfTimes) {
     std::mt19937 random(7);
     constexpr float pi = std::numbers::pi_v<float>;
     std::uniform_real_distribution<float> any(-pi, pi), half(0.0f, pi);
@@ -97,7 +97,7 @@ TEST(SolverJson, refusals_name_the_place_and_the_value) {
     }
 }
 
-TEST(SolverJson, reports_and_holds_are_finite_whatever_they_hold) {
+TEST(SolverJson, ReportsAndActiveLimitsAreAlwaysFinite) {
     EXPECT_EQ(report_json(ik::Method::SvdDls, {ik::Status::Limited, 12, 0.25f}).dump(),
               R"({"solver":"svd_dls","status":"Limited","iterations":12,"residual":0.25,)"
               R"("ran":"SVD damped least squares"})");
@@ -121,7 +121,7 @@ TEST(SolverJson, reports_and_holds_are_finite_whatever_they_hold) {
         R"({"joint":1,"kind":"hinge","bound":"max","limit_deg":90.0,"needed_deg":180.0,"enough":true})");
 }
 
-TEST(SolverJson, an_unknown_solver_is_answered_with_all_names) {
+TEST(SolverJson, AnUnknownSolverIsRefusedWithAllNames) {
     EXPECT_EQ(method_from_name("ccd", "solver"), ik::Method::Ccd);
     const std::string why = message_of([] { method_from_name("newton", "solver"); });
     EXPECT_TRUE(has(why, "solver: expected one of " + method_names()));

@@ -26,7 +26,7 @@ class TraceProgram : public testing::Test {
         return path(name);
     }
     std::string path(const char* name) const { return (folder_ / name).string(); }
-    /// The frames of a file, read with no choice made.
+    /// The frames of a file, read without any given convention.
     static std::vector<app::TracedFrame> frames_of(const std::string& path) {
         std::ifstream in(path);
         app::TraceReader reader(in);
@@ -38,7 +38,7 @@ class TraceProgram : public testing::Test {
     TempFolder folder_;
 };
 
-TEST_F(TraceProgram, NamesTheFrameTheJointAndTheCauseOfAFlip) {
+TEST_F(TraceProgram, PrintsTheFrameJointAndCauseOfAFlip) {
     const Outcome outcome = run_here({"trace", file("arm.jsonl", Plant::FlipAtPole, Format::JsonLines)});
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
     EXPECT_TRUE(says(outcome.out, "arm.jsonl: 120 frames, 60 fps, Z up, left-handed, centimetres (given)"));
@@ -58,14 +58,14 @@ TEST_F(TraceProgram, OpensWithItsTimelineFromTheCommandLine) {
     EXPECT_EQ(time["moment"], 60) << "where it goes wrong";
 }
 
-TEST_F(TraceProgram, JsonSaysWhatWouldHavePreventedAFlip) {
+TEST_F(TraceProgram, JsonListsWhatWouldHavePreventedAFlip) {
     const Outcome outcome =
         run_here({"trace", file("arm.jsonl", Plant::FlipAtPole, Format::JsonLines), "--json"});
     const app::Json flip = app::parse_json(outcome.out)[0];
     EXPECT_EQ(flip["flips_in"], "two_bone");
     ASSERT_FALSE(flip["prevented_by"].empty());
     EXPECT_EQ(flip["prevented_by"][0]["change"], "pole");
-    // As the file has it: within centimetres of the trace's pole target, not within metres.
+    // In the file's units: centimetres from the trace's pole target, not metres.
     const app::Json to = flip["prevented_by"][0]["to"];
     ASSERT_EQ(to.size(), 3u);
     const auto made = made::TraceMaker(5).make(Plant::FlipAtPole);
@@ -96,7 +96,7 @@ TEST_F(TraceProgram, JsonIsOneArrayAndCsvHasARowEach) {
     EXPECT_EQ(count_lines(csv.out), 2);
 }
 
-TEST_F(TraceProgram, WhatCannotBeReadIsRefusedByNameAndLine) {
+TEST_F(TraceProgram, ErrorsNameTheFileAndLine) {
     write(folder_ / "empty.log", "");
     write(folder_ / "bad.jsonl", "{\"tendril\": \"trace\"}\n{\"joints\": [[0, 0, 0], [1, \"a\", 0]]}\n");
     EXPECT_TRUE(complained(run_here({"trace", path("empty.log")}), 2, {"empty.log", "has nothing in it"}));
@@ -167,8 +167,8 @@ TEST_F(TraceProgram, AChainInBlenderIsExplained) {
     EXPECT_TRUE(says(outcome.out, "1 incident"));
 }
 
-// The other writers' languages are not here: the line that each says it writes is read.
-TEST_F(TraceProgram, WhatEveryWriterSaysItWritesIsRead) {
+// The other writers' languages are not available here: reads the sample line in each writer's comment.
+TEST_F(TraceProgram, TheSampleOfEveryWriterIsRead) {
     for (const char* name :
          {"tendril_trace.hpp", "tendril_trace.py", "TendrilTrace.cs", "tendril_trace.gd", "TendrilTrace.h"}) {
         const std::string source = read(source_path(std::string("app/writers/") + name));
@@ -179,7 +179,7 @@ TEST_F(TraceProgram, WhatEveryWriterSaysItWritesIsRead) {
         ASSERT_EQ(frames.size(), 1u) << name;
         EXPECT_EQ(frames[0].joints.size(), 3u) << name;
         EXPECT_TRUE(frames[0].target && frames[0].pole) << name;
-        // The keys that the code writes are those of the sample.
+        // The code must write the sample's keys.
         for (const char* key : {"joints", "target", "pole", "tendril"})
             EXPECT_NE(source.find(key), std::string::npos) << name << ": " << key;
     }

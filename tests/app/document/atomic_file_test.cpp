@@ -41,7 +41,7 @@ TEST(AtomicFile, makes_and_replaces_a_file_and_leaves_nothing_beside_it) {
     EXPECT_EQ(folder.names(), Names{"file"});
 }
 
-TEST(AtomicFile, works_beside_where_the_program_stands) {
+TEST(AtomicFile, WorksInTheCurrentFolder) {
     const TempFolder folder;
     const auto result = test::in_child([&] {
         fs::current_path(folder.path());
@@ -54,7 +54,7 @@ TEST(AtomicFile, works_beside_where_the_program_stands) {
     EXPECT_EQ(folder.names(), Names{"plain"});
 }
 
-TEST(AtomicFile, keeps_the_permissions_of_what_it_replaces) {
+TEST(AtomicFile, KeepsThePermissionsOfTheReplacedFile) {
     const TempFolder folder;
     test::write(folder / "secret", "old");
     fs::permissions(folder / "secret", fs::perms::owner_read | fs::perms::owner_write);
@@ -84,7 +84,7 @@ TEST(AtomicFile, writes_through_symbolic_links) {
     EXPECT_TRUE(has(write_message(folder / "round"), "round: "));
 }
 
-TEST(AtomicFile, refuses_what_cannot_be_a_file) {
+TEST(AtomicFile, RefusesPathsThatCannotBeFiles) {
     const TempFolder folder;
     fs::create_directory(folder / "dir");
     test::write(folder / "file", "old");
@@ -108,7 +108,7 @@ TEST(AtomicFile, refuses_what_cannot_be_a_file) {
     EXPECT_EQ(test::read(folder / "file"), "old");
 }
 
-TEST(AtomicFile, refuses_where_permissions_say_so) {
+TEST(AtomicFile, RefusesWithoutPermission) {
     const TempFolder folder;
     test::write(folder / "file", "old");
     fs::permissions(folder / "file", fs::perms::owner_read);
@@ -161,7 +161,7 @@ TEST(AtomicFile, writes_into_pipes_and_leaves_them_there) {
     EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
-TEST(AtomicFile, is_not_awaited_for_ever_by_a_pipe_that_nobody_reads) {
+TEST(AtomicFile, DoesNotWaitForeverForAPipeWithoutReader) {
     const TempFolder folder;
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
     EXPECT_TRUE(has(write_message(folder / "pipe"), "nobody reads from this pipe"));
@@ -178,7 +178,7 @@ TEST(AtomicFile, checking_leaves_no_trace) {
     EXPECT_EQ(fs::last_write_time(folder / "file"), time);
 }
 
-TEST(AtomicFile, that_finds_no_room_leaves_the_old_file_alone) {
+TEST(AtomicFile, AFullDiskLeavesTheOldFileAlone) {
     const TempFolder folder;
     test::write(folder / "file", "old");
     const auto result = test::in_child([&] {
@@ -193,7 +193,7 @@ TEST(AtomicFile, that_finds_no_room_leaves_the_old_file_alone) {
 }
 
 /// A temporary name may be taken by a dead program with the same process ID.
-TEST(AtomicFile, steps_past_the_remains_of_a_dead_writer) {
+TEST(AtomicFile, SkipsTheRemainsOfADeadWriter) {
     const TempFolder folder;
     const auto result = test::in_child([&] {
         for (int i = 0; i < 500; ++i)
@@ -207,7 +207,7 @@ TEST(AtomicFile, steps_past_the_remains_of_a_dead_writer) {
     EXPECT_EQ(test::read(folder / "file"), "whole");
 }
 
-/// A single letter repeated as often as the letter says: torn or mixed versions are visible.
+/// The version's letter, repeated a number of times that the letter determines: torn or mixed versions show.
 std::string version_of(int i) {
     const auto step = static_cast<std::size_t>(i % 26);
     return std::string(50'000 + 17'000 * step, static_cast<char>('a' + i % 26));
@@ -241,7 +241,7 @@ TEST(AtomicFile, is_whole_whenever_its_writer_is_killed) {
             fs::remove(folder / name);
         }
     }
-    // Otherwise nothing is tested: some writers must finish, and some must be interrupted.
+    // Otherwise nothing is tested: some writers must finish, others must be interrupted.
     EXPECT_GT(changed, 5);
     EXPECT_GT(torn_beside, 5);
 }

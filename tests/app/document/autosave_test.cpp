@@ -31,7 +31,7 @@ std::string saved_title(const std::filesystem::path& file) {
     return read_json_file(file)["labs"]["arm"]["title"].get<std::string>();
 }
 
-/// Without lock files.
+/// The folder's files, without lock files.
 std::vector<std::string> files(const TempFolder& folder) {
     std::vector<std::string> names = folder.names();
     std::erase_if(names, [](const std::string& name) { return name.ends_with(".lock"); });
@@ -82,7 +82,7 @@ TEST(Autosave, writes_nothing_while_nothing_changes) {
     EXPECT_TRUE(files(folder).empty()) << "the same document once more";
 }
 
-TEST(Autosave, takes_its_file_away_once_the_work_is_saved_and_at_the_end) {
+TEST(Autosave, RemovesItsFileOnceTheWorkIsSavedAndAtTheEnd) {
     const TempFolder folder;
     Workspace workspace = test::make_workspace();
     {
@@ -101,7 +101,7 @@ TEST(Autosave, takes_its_file_away_once_the_work_is_saved_and_at_the_end) {
     EXPECT_EQ(files(folder), std::vector<std::string>{"scene.json"});
 }
 
-TEST(Autosave, keeps_unsaved_work_that_was_ended_from_outside) {
+TEST(Autosave, KeepsUnsavedWorkIfTheProgramIsTerminated) {
     const TempFolder folder;
     Workspace workspace = test::make_workspace();
     std::filesystem::path file;
@@ -120,7 +120,7 @@ TEST(Autosave, keeps_unsaved_work_that_was_ended_from_outside) {
     EXPECT_FALSE(std::filesystem::exists(autosave.file())) << "there is nothing to keep";
 }
 
-TEST(Autosave, makes_its_folder_and_tells_once_when_it_cannot) {
+TEST(Autosave, CreatesItsFolderAndReportsOnceIfItCannot) {
     const TempFolder folder;
     Workspace workspace = test::make_workspace();
     change(workspace, "one");
@@ -141,7 +141,7 @@ TEST(Autosave, makes_its_folder_and_tells_once_when_it_cannot) {
     EXPECT_EQ(workspace.ui.toasts[0].kind, ToastKind::Refusal);
 }
 
-TEST(Autosave, offers_only_what_programs_that_ended_left_the_newest_first) {
+TEST(Autosave, OffersOnlyFilesOfEndedProgramsNewestFirst) {
     const TempFolder folder;
     const std::string old_file = "autosave-" + dead_pid() + ".json",
                       new_file = "autosave-" + dead_pid() + ".json";
@@ -153,7 +153,7 @@ TEST(Autosave, offers_only_what_programs_that_ended_left_the_newest_first) {
           std::string("autosave-12x.json"), std::string("autosave.json"), std::string("settings.json"),
           "autosave-" + dead_pid() + ".json.bak"})
         test::write(folder / name, "{}");
-    // IDs of running processes, ours and the one that always runs: what counts is who holds the lock.
+    // IDs of running processes, ours and process 1, which always runs: only the lock matters.
     const auto ours = FileLock::take(folder / ("autosave-" + std::to_string(::getpid()) + ".lock"));
     const auto first = FileLock::take(folder / "autosave-1.lock");
     ASSERT_TRUE(ours && first);
@@ -167,7 +167,7 @@ TEST(Autosave, offers_only_what_programs_that_ended_left_the_newest_first) {
     EXPECT_TRUE(Autosave::left_behind("").empty());
 }
 
-TEST(Autosave, of_a_program_that_ended_is_offered_though_its_number_is_used_again) {
+TEST(Autosave, AFileIsOfferedEvenIfItsProcessIdIsReused) {
     const TempFolder folder;
     const auto reused = folder / "autosave-1.json";  // process 1 runs everywhere
     test::write(reused, "{}");
@@ -176,7 +176,7 @@ TEST(Autosave, of_a_program_that_ended_is_offered_though_its_number_is_used_agai
 }
 
 /// Two containers share a folder, and both programs have process ID 7.
-TEST(Autosave, of_two_programs_with_one_number_are_two_files) {
+TEST(Autosave, TwoProgramsWithTheSameIdWriteTwoFiles) {
     const TempFolder folder;
     Workspace workspace = test::make_workspace();
     Autosave first(folder.path(), 0s);
@@ -212,7 +212,7 @@ TEST(Autosave, removes_files_left_by_killed_programs) {
         EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
 }
 
-TEST(Autosave, of_a_program_that_was_killed_is_found_and_recovered) {
+TEST(Autosave, FindsAndRecoversTheFileOfAKilledProgram) {
     const TempFolder folder;
     const pid_t victim = ::fork();
     if (victim == 0) {
@@ -238,7 +238,7 @@ TEST(Autosave, of_a_program_that_was_killed_is_found_and_recovered) {
 }
 
 /// In a container, every start of the program may have the same process ID.
-TEST(Autosave, does_not_overwrite_what_a_program_of_the_same_number_left) {
+TEST(Autosave, DoesNotOverwriteTheFileOfAProgramWithTheSameId) {
     const TempFolder folder;
     for (const char* title : {"first crash", "second crash"}) {
         Workspace lost = test::make_workspace();
@@ -273,7 +273,7 @@ class RecoveredTwo : public testing::Test {
         table_.run(workspace_, command, arguments);
         for (int i = 0; i < 2; ++i) autosave_->update(workspace_, now_ += 1s);
     }
-    /// What a later start of the program would offer, were this one killed now; sorted.
+    /// The files that the next start would offer if the program were killed now; sorted.
     std::vector<std::string> on_disk() {
         std::vector<std::string> titles;
         for (const auto& each : std::filesystem::directory_iterator(folder_.path()))
@@ -310,8 +310,8 @@ TEST_F(RecoveredTwo, AreBothOnDiskUntilEachIsSaved) {
     EXPECT_EQ(on_disk(), Titles{});
 }
 
-/// The other labs' work is there, and the file keeps what could not be read.
-TEST(Autosave, recovers_the_other_labs_when_one_cannot_be_read) {
+/// The other labs' work is recovered, and the file keeps the part that could not be read.
+TEST(Autosave, RecoversTheOtherLabsIfOneCannotBeRead) {
     const TempFolder folder;
     Workspace workspace = test::make_workspace();
     change(workspace, "precious");
@@ -326,7 +326,7 @@ TEST(Autosave, recovers_the_other_labs_when_one_cannot_be_read) {
     EXPECT_EQ(save_scene(again)["labs"], scene["labs"]);
 }
 
-TEST(Autosave, that_is_broken_is_refused_and_changes_nothing) {
+TEST(Autosave, ABrokenFileIsRefusedAndChangesNothing) {
     const TempFolder folder;
     Workspace workspace = test::make_workspace();
     for (const char* text :

@@ -47,7 +47,7 @@ TEST(History, goes_back_and_forward_with_the_labels_of_the_commands) {
 }
 
 /// Two labs: one changes by itself while the other is edited and undone.
-TEST(History, brings_back_only_what_the_command_changed) {
+TEST(History, RestoresOnlyWhatTheCommandChanged) {
     History history;
     Document now = document_of("before");
     now.set("rope", make_part("at rest"));
@@ -65,7 +65,7 @@ TEST(History, brings_back_only_what_the_command_changed) {
     EXPECT_EQ(now.get<TestPart>("rope").title, "swinging on");
 }
 
-TEST(History, says_where_a_change_is_to_be_seen) {
+TEST(History, RemembersWhereAChangeIsVisible) {
     const CameraPose near{.distance = 2.0f}, far{.distance = 20.0f}, other{.distance = 7.0f};
     History history;
     history.push(document_of("0"), "rope.preset", 0, {"rope", "a.json", near}, {"rope", "a.json", far});
@@ -87,7 +87,7 @@ TEST(History, says_where_a_change_is_to_be_seen) {
     EXPECT_EQ(place.camera, other);
 }
 
-TEST(History, a_change_of_the_scene_takes_its_file_along) {
+TEST(History, AChangeOfSceneIncludesItsFile) {
     History history;
     history.push(document_of("0"), "scene.open", 0, {"rope", "a.json", CameraPose{}},
                  {"chain", "b.json", CameraPose{}});
@@ -116,7 +116,7 @@ TEST(History, holds_one_entry_for_a_gesture) {
     EXPECT_EQ(title_of(*history.undo(document_of("7"))), "6");
 }
 
-TEST(History, an_undo_amid_a_gesture_ends_its_entry) {
+TEST(History, AnUndoDuringAGestureEndsItsEntry) {
     History history;
     history.push(document_of("0"), "drag", 7);
     auto now = history.undo(document_of("1"));
@@ -143,7 +143,7 @@ TEST(History, keeps_the_newest_of_too_many_entries) {
     EXPECT_FALSE(history.undo(now));
 }
 
-TEST(History, counts_what_entries_share_once_even_when_the_oldest_are_gone) {
+TEST(History, CountsSharedDataOnceEvenWithoutTheOldestEntries) {
     for (const std::size_t max_entries : {std::size_t{10}, std::size_t{1000}}) {
         History history(max_entries);
         Document document = document_of("arm");
@@ -159,7 +159,7 @@ TEST(History, counts_what_entries_share_once_even_when_the_oldest_are_gone) {
     }
 }
 
-TEST(History, a_large_part_that_does_not_change_costs_no_steps_to_undo) {
+TEST(History, ALargeUnchangedPartCostsNoUndoSteps) {
     History history(1000, 6'000'000);
     Document now = document_of("arm");
     now.set("rope", make_part("rope", std::vector<float>(1'000'000)));
@@ -174,7 +174,7 @@ TEST(History, a_large_part_that_does_not_change_costs_no_steps_to_undo) {
     EXPECT_EQ(history.size(), 20u);
 }
 
-TEST(History, forgets_the_farthest_of_what_could_be_redone_when_it_is_too_large) {
+TEST(History, DropsTheFarthestRedoStepsIfTooLarge) {
     History history(1000, 1'000'000);
     history.push(document_of("0", 50'000), "a", 0);
     history.push(document_of("1", 50'000), "b", 0);
@@ -188,7 +188,7 @@ TEST(History, forgets_the_farthest_of_what_could_be_redone_when_it_is_too_large)
     EXPECT_FALSE(history.can_redo());
 }
 
-TEST(History, keeps_within_its_bytes_and_always_one_step) {
+TEST(History, StaysWithinItsBytesButKeepsOneStep) {
     History history(1000, 1'000'000);
     for (int i = 0; i < 100; ++i) history.push(document_of(std::to_string(i), 25'000), "edit", 0);
     EXPECT_LE(history.bytes(), 1'000'000u);
@@ -203,8 +203,8 @@ TEST(History, keeps_within_its_bytes_and_always_one_step) {
     EXPECT_EQ(title_of(*history.undo(document_of("now"))), "huger");
 }
 
-/// Compared with a list of titles and a position in it, which is what a history means.
-TEST(History, behaves_like_a_list_with_a_place_in_it) {
+/// Compares the history with its model: a list of titles and a position in it.
+TEST(History, BehavesLikeAListWithAPosition) {
     std::mt19937 random(4);
     History history;
     std::vector<Document> states{document_of("start")};
@@ -239,7 +239,7 @@ TEST(History, behaves_like_a_list_with_a_place_in_it) {
     EXPECT_EQ(history.bytes(), 0u);
 }
 
-TEST(History, never_exceeds_its_bounds_whatever_is_done) {
+TEST(History, NeverExceedsItsBounds) {
     std::mt19937 random(5);
     constexpr std::size_t bound = 100'000;
     History history(20, bound);

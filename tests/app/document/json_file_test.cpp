@@ -31,7 +31,7 @@ TEST(JsonFile, is_read_with_its_path_and_line_in_errors) {
         has(message_of([&] { read_json_file(folder / "bad.json"); }), "bad.json: line 2: unexpected ']'"));
 }
 
-TEST(JsonFile, that_is_no_file_is_refused) {
+TEST(JsonFile, RefusesPathsThatAreNotFiles) {
     const TempFolder folder;
     EXPECT_TRUE(has(read_message(folder / "missing"), "missing: No such file or directory"));
     EXPECT_TRUE(has(read_message(folder.path()), ": is a folder"));
@@ -65,7 +65,7 @@ TEST(JsonFile, may_be_a_pipe) {
     EXPECT_EQ(json["a"][0], 7);
 }
 
-TEST(JsonFile, is_not_awaited_for_ever_from_a_pipe_that_nobody_writes) {
+TEST(JsonFile, DoesNotWaitForeverForAPipeWithoutWriter) {
     const TempFolder folder;
     const auto pipe = folder / "pipe";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

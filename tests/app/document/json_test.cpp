@@ -69,8 +69,8 @@ TEST(Json, errors_name_the_line_and_a_short_reason) {
     }
 }
 
-/// In our words, not in the library's.
-TEST(Json, errors_say_what_is_wrong_whatever_is_damaged) {
+/// The messages are ours, not the library's.
+TEST(Json, ErrorsDescribeAnyDamage) {
     const std::string good = R"({"a": [1, -2.5e3, true, null, "\u00e4 \n"], "b": {"c": "text"}, "d": false})";
     const std::string alphabet = "\"\\{}[]:,-.0eEntfu/ab\n\t\x01\xff\xc3 ";
     std::mt19937 random(53);
@@ -107,19 +107,19 @@ TEST(Json, brackets_in_strings_are_not_nesting) {
     EXPECT_TRUE(test::says(parse_message("[\"\\\\\"" + brackets), "line 1 nested 64"));
 }
 
-TEST(Json, of_repeated_members_the_last_counts) {
+TEST(Json, TheLastOfRepeatedMembersWins) {
     EXPECT_EQ(parse_json(R"({"a": 1, "b": 2, "a": 3, "a": {"a": 4}})").dump(), R"({"b":2,"a":{"a":4}})");
     EXPECT_EQ(parse_json(R"([{}, {"": 1}, [[], null, true, -1, 1.5, "x"]])").dump(),
               R"([{},{"":1},[[],null,true,-1,1.5,"x"]])");
 }
 
-TEST(Json, a_file_of_nothing_but_keys_takes_no_ages) {
+TEST(Json, AFileOfOnlyKeysParsesQuickly) {
     std::string text = "{\"k\":0";
     for (int i = 0; i < 300'000; ++i) text += ",\"k" + std::to_string(i % 200'000) + "\":1";
     EXPECT_EQ(parse_json(text + '}').size(), 200'001u);  // hours if each key were compared with all before it
 }
 
-TEST(Json, text_for_people_reads_back_the_same) {
+TEST(Json, FormattedTextReadsBackTheSame) {
     const Json json =
         parse_json(R"({"a": {}, "b": [], "long": [[1, 2, 3.5], "very long text that goes on and on and on",
         {"key \"quoted\"": null, "another": "very long text that goes on and on and on", "empty": ""}], "last": true})");
@@ -152,7 +152,7 @@ TEST(Json, a_line_is_found_by_its_path) {
     EXPECT_EQ(json_line("", "a"), 0);
 }
 
-TEST(Json, typed_reads_say_where_and_what) {
+TEST(Json, TypedReadsReportPathAndReason) {
     const Json json =
         parse_json(R"({"n": 1.5, "i": 3, "w": 4.0, "t": "text", "b": true, "p": [1, 2, 3], "big": 1.1e9})");
     EXPECT_EQ(json_number(json["n"], "n"), 1.5f);

@@ -34,7 +34,7 @@ TEST(ListReader, reads_what_the_parser_reads) {
     }
 }
 
-TEST(ListReader, refuses_what_is_no_list_and_says_the_line) {
+TEST(ListReader, RefusesOtherTextAndReportsTheLine) {
     const auto refusal = [](const std::string& text) { return message_of([&] { read_all(text); }); };
     EXPECT_TRUE(test::says(refusal("[1,\n2,\n]"), "line 3 value"));
     EXPECT_TRUE(test::says(refusal("[1\n,2,\n"), "line 3 text list"));
@@ -47,7 +47,7 @@ TEST(ListReader, refuses_what_is_no_list_and_says_the_line) {
 }
 
 // For texts truncated and modified at random, reads or refuses exactly what the parser does.
-TEST(ListReader, never_takes_what_the_parser_refuses) {
+TEST(ListReader, RefusesWhateverTheParserRefuses) {
     const std::string sound = R"([{"name":"a","lengths":[1,2.5],"x":"]}\"["},[],"t",null, {"b":{}}, -3])";
     std::mt19937 random(11);
     int taken = 0;
@@ -73,7 +73,7 @@ TEST(ListReader, never_takes_what_the_parser_refuses) {
     EXPECT_GT(taken, 100);
 }
 
-TEST(ListReader, knows_the_line_of_a_place) {
+TEST(ListReader, ReportsTheLineOfAValue) {
     const std::string text = "[\n{},\n{\"lengths\":\n [1,\n 2]}]";
     ListReader list(text, "cases");
     Json value;

@@ -40,7 +40,7 @@ std::string refusal(Outputs outputs, const fs::path& path, OutputKind kind, bool
     return message_of([&] { outputs.check({path}, kind, redraws); });
 }
 
-/// Every kind over every kind: only its own is asked about; another is refused, whatever --force says.
+/// Every kind over every kind: the same kind needs --force, another kind is refused even with it.
 TEST(Outputs, ReplaceOnlyTheirOwnKind) {
     const TempFolder folder;
     const fs::path file = folder / "file.any";
@@ -111,7 +111,7 @@ TEST(Outputs, AreReplacedUnaskedIfOnlyThisSessionWroteThem) {
     EXPECT_EQ(write("a,b\n"), "") << "an empty file has nothing to lose";
 }
 
-/// Long work is not lost when another program has put something in its place meanwhile.
+/// Long work is not lost if another program has written the file in the meantime.
 TEST(Outputs, TakeAnotherNameAtTheEndOfLongWork) {
     const TempFolder folder;
     Outputs outputs;

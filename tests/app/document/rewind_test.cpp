@@ -35,7 +35,7 @@ TEST(Rewind, KeepsTheLastTenSeconds) {
     EXPECT_EQ(rewind.bytes(), 0u);
 }
 
-TEST(Rewind, ForgetsWhatCameAfterWhenTimeGoesOnFromAnEarlierMoment) {
+TEST(Rewind, DropsLaterMomentsWhenTimeContinuesFromAnEarlierOne) {
     Rewind rewind;
     remember(rewind, 0, 100);
     rewind.remember(40, 0, make_part("again"));
@@ -114,7 +114,7 @@ TEST_F(Seek, GoesBackAndForwardAndPauses) {
     EXPECT_EQ(workspace.history.size(), 0u);
 }
 
-TEST_F(Seek, PausesOnlyTheLabWhosePastIsLookedAt) {
+TEST_F(Seek, PausesOnlyTheLabWhosePastIsShown) {
     const auto playing_in = [&](const char* lab) {
         workspace.open_lab(lab);
         return workspace.clock.playing;
@@ -137,7 +137,7 @@ TEST_F(Seek, PausesOnlyTheLabWhosePastIsLookedAt) {
     EXPECT_FALSE(playing_in("rope")) << "still paused by hand";
 }
 
-TEST_F(Seek, PlayingOnForgetsWhatCameAfter) {
+TEST_F(Seek, PlayingOnDropsLaterMoments) {
     play(100);
     seek(60);
     play(1);
@@ -178,7 +178,7 @@ TEST_F(Seek, ADragOverAnEditIsOneStep) {
     EXPECT_EQ(seek(40), "60") << "and all of it is still remembered";
 }
 
-TEST_F(Seek, AnEditForgetsWhatCameAfter) {
+TEST_F(Seek, AnEditDropsLaterMoments) {
     play(100);
     seek(60);
     table.run(workspace, "arm.title", {{"title", "edited"}});
@@ -197,7 +197,7 @@ TEST_F(Seek, AnEditForgetsWhatCameAfter) {
     }
 }
 
-TEST_F(Seek, UndoOfAnEditBringsBackWhatCameAfter) {
+TEST_F(Seek, UndoOfAnEditRestoresLaterMoments) {
     play(100);
     seek(60);
     EXPECT_EQ(workspace.later_ticks(), 60u);
@@ -249,7 +249,7 @@ TEST_F(Seek, ALabChangedWhileAnotherIsOpenHasNoPast) {
     EXPECT_EQ(title(), "edited");
 }
 
-TEST_F(Seek, UndoFindsNoMomentOfAnotherCourseOfEvents) {
+TEST_F(Seek, UndoFindsNoMomentOfAnotherTimeline) {
     play(50);
     table.run(workspace, "arm.title", {{"title", "edited"}});
     play(50);
@@ -258,7 +258,7 @@ TEST_F(Seek, UndoFindsNoMomentOfAnotherCourseOfEvents) {
     play(100);
     seek(20);
     table.run(workspace, "arm.title",
-              {{"title", "once more"}});  // what this discards is what undo brings back
+              {{"title", "once more"}});  // undo brings back the moments that this drops
     for (int i = 0; i < 3; ++i) table.run(workspace, "undo", Json::object());
     EXPECT_EQ(title(), "100");
     EXPECT_EQ(workspace.moment, workspace.rewind.newest() + 1)
@@ -278,7 +278,7 @@ TEST_F(Seek, RedoGoesBackInTimeAgain) {
     EXPECT_LT(workspace.moment, workspace.rewind.newest()) << "what came after it is still remembered";
 }
 
-TEST(Rewind, IncidentsGoWithTheMomentsTheyBelongTo) {
+TEST(Rewind, IncidentsStayWithTheirMoments) {
     Rewind rewind;
     remember(rewind, 0, 10);
     rewind.note({.tick = 11, .cause = "first"});
@@ -287,7 +287,7 @@ TEST(Rewind, IncidentsGoWithTheMomentsTheyBelongTo) {
     remember(rewind, 11, 30);
     ASSERT_EQ(rewind.incidents().size(), 2u);
     EXPECT_EQ(rewind.incidents()[0].cause, "first");
-    remember(rewind, 12, 12);  // from there on the past differs
+    remember(rewind, 12, 12);  // from here on the past differs
     EXPECT_EQ(rewind.incidents().size(), 2u);
     remember(rewind, 11, 11);
     EXPECT_TRUE(rewind.incidents().empty());
@@ -303,7 +303,7 @@ TEST(Rewind, IncidentsGoWithTheMomentsTheyBelongTo) {
     EXPECT_TRUE(rewind.incidents().empty());
 }
 
-TEST(Rewind, AChangeByHandIsRememberedAsItBegan) {
+TEST(Rewind, AManualChangeIsRememberedFromItsStart) {
     Rewind rewind;
     rewind.remember_change(0);
     EXPECT_TRUE(rewind.empty()) << "nothing was changed";

@@ -87,7 +87,7 @@ TEST(SceneFile, keeps_a_camera_bit_for_bit) {
     EXPECT_TRUE(load_camera(save_camera(steep), "camera") == steep);
 }
 
-TEST(SceneFile, what_it_does_not_mention_becomes_blank_or_stays) {
+TEST(SceneFile, UnmentionedPartsBecomeBlankOrStay) {
     Workspace workspace = make_busy_workspace();
     workspace.first_view.distance = 5.5f;
     load_scene(workspace, parse_json(R"({"tendril_scene": 1, "labs": {}, "unknown": [1, 2]})"));
@@ -99,7 +99,7 @@ TEST(SceneFile, what_it_does_not_mention_becomes_blank_or_stays) {
     EXPECT_EQ(workspace.camera.pitch, CameraPose{}.pitch);
 }
 
-TEST(SceneFile, of_any_other_kind_is_refused_with_the_place_and_the_reason) {
+TEST(SceneFile, OtherValuesAreRefusedWithPathAndReason) {
     const std::string arm = R"({"title": "a", "values": [], "target": [0, 0, 0]})";
     const auto scene = [](const std::string& members) { return R"({"tendril_scene": 1, )" + members + "}"; };
     const auto with_arm = [&](const std::string& part) { return scene(R"("labs": {"arm": )" + part + "}"); };
@@ -153,8 +153,8 @@ TEST(SceneFile, of_any_other_kind_is_refused_with_the_place_and_the_reason) {
               "");
 }
 
-/// A lab that throws in its own way still only refuses the file.
-TEST(SceneFile, that_a_part_chokes_on_is_refused) {
+/// Whatever exception a lab throws, the file is refused.
+TEST(SceneFile, AnyExceptionOfAPartRefusesTheFile) {
     struct Choking : TestPart {
         std::shared_ptr<Part> load(const Json& json, const std::string&) const override {
             if (json == 1) throw std::invalid_argument("length must be positive");
@@ -171,7 +171,7 @@ TEST(SceneFile, that_a_part_chokes_on_is_refused) {
     EXPECT_TRUE(test::says(message_of([&] { load(1); }), "labs.arm length"));
 }
 
-TEST(SceneFile, of_an_older_version_is_upgraded_before_a_part_reads_it) {
+TEST(SceneFile, OlderVersionsAreUpgradedBeforeAPartReadsThem) {
     struct Renamed : TestPart {
         void upgrade(Json& json, int version) const override {
             if (version == 1 && json.is_object() && json.contains("name")) json["title"] = json["name"];
@@ -188,7 +188,7 @@ TEST(SceneFile, of_an_older_version_is_upgraded_before_a_part_reads_it) {
     EXPECT_EQ(message_of([&] { load(2); }), "labs.arm: \"title\" is missing");
 }
 
-TEST(SceneFile, on_disk_remembers_where_it_is_and_that_it_is_saved) {
+TEST(SceneFile, OnDiskRemembersItsPathAndThatItIsSaved) {
     const TempFolder folder;
     Workspace workspace = make_busy_workspace();
     ASSERT_TRUE(workspace.modified());
@@ -206,7 +206,7 @@ TEST(SceneFile, on_disk_remembers_where_it_is_and_that_it_is_saved) {
     EXPECT_EQ(test::read(folder / "again.json"), test::read(folder / "scene.json"));
 }
 
-TEST(SceneFile, that_would_not_open_again_replaces_no_file) {
+TEST(SceneFile, ASceneThatWouldNotOpenAgainReplacesNoFile) {
     const TempFolder folder;
     Workspace workspace = make_busy_workspace();
     save_scene_file(workspace, folder / "scene.json");
@@ -224,7 +224,7 @@ TEST(SceneFile, that_would_not_open_again_replaces_no_file) {
     EXPECT_TRUE(has(workspace.ui.toasts.back().text, "labs.arm.values.1"));
 }
 
-TEST(SceneFile, errors_on_disk_name_the_file_and_the_line) {
+TEST(SceneFile, ErrorsOnDiskNameFileAndLine) {
     const TempFolder folder;
     Workspace workspace = make_busy_workspace();
     const auto message = [&](const std::string& text) {
@@ -251,7 +251,7 @@ TEST(SceneFile, errors_on_disk_name_the_file_and_the_line) {
     EXPECT_EQ(workspace.path, "old.json");
 }
 
-TEST(SceneFile, ThatAnotherProgramChangesWhileItIsOpenedIsNotOverwritten) {
+TEST(SceneFile, ChangedByAnotherProgramIsNotOverwritten) {
     struct Racing : TestPart {
         std::filesystem::path file;
         std::shared_ptr<Part> load(const Json& json, const std::string& where) const override {
@@ -274,7 +274,7 @@ TEST(SceneFile, ThatAnotherProgramChangesWhileItIsOpenedIsNotOverwritten) {
     EXPECT_EQ(test::read(folder / "s.json"), there);
 }
 
-/// A part that reads a file beside the JSON, as a character's.
+/// A part that reads a file beside the JSON, like a character.
 struct FilePart : Part {
     OutsideFile model;
     std::string text;
@@ -334,7 +334,7 @@ class SceneWithAFile : public testing::Test {
     const TempFolder folder_;
 };
 
-TEST_F(SceneWithAFile, FindsItWhereBothHaveMovedTogether) {
+TEST_F(SceneWithAFile, FindsItAfterBothHaveMovedTogether) {
     for (const auto& [scene, model] : {std::pair{"project/s.json", "project/model.glb"},
                                        {"project/s.json", "project/models/model.glb"},
                                        {"project/scenes/s.json", "project/models/model.glb"}}) {
@@ -371,7 +371,7 @@ TEST_F(SceneWithAFile, OpensWithoutTheFileAndSavesTheLabUnchanged) {
     EXPECT_EQ(save_scene(again)["labs"], saved["labs"]);
 }
 
-TEST_F(SceneWithAFile, IsAskedForBeforeASaveDropsWhatTheFileHas) {
+TEST_F(SceneWithAFile, AsksBeforeASaveDropsALabOfTheFile) {
     save("s.json", "model.glb");
     std::filesystem::remove(folder_ / "model.glb");
     const std::string text = test::read(folder_ / "s.json");
@@ -430,7 +430,7 @@ TEST_F(SceneWithAFile, KeepsWhatCouldNotBeReadBesideItsEdits) {
 }
 
 /// A wrong value is refused, unless the file explains it.
-TEST_F(SceneWithAFile, StartsBlankOnlyWhereItsFileIsAtFault) {
+TEST_F(SceneWithAFile, StartsBlankOnlyIfItsFileIsInvalid) {
     save("s.json", "model.glb");
     const Json scene = read_json_file(folder_ / "s.json");
     const auto opened = [&](const Json& edits) {

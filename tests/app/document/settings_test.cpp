@@ -45,7 +45,7 @@ TEST(Settings, are_saved_by_name) {
     EXPECT_EQ(json["labels"], "hover");
 }
 
-TEST(Settings, that_do_not_fit_keep_their_default_and_are_named) {
+TEST(Settings, InvalidValuesKeepTheirDefaultsAndAreNamed) {
     const std::vector<std::pair<std::string, std::string>> bad{
         {R"({"theme": "purple"})", "theme: unknown value \"purple\""},
         {R"({"theme": 1})", "theme: unknown value 1"},
@@ -66,7 +66,7 @@ TEST(Settings, that_do_not_fit_keep_their_default_and_are_named) {
     }
 }
 
-TEST(Settings, beside_a_bad_one_are_still_read_and_unknown_ones_are_ignored) {
+TEST(Settings, OthersAreReadBesideABadOneAndUnknownOnesIgnored) {
     std::vector<std::string> complaints;
     const Settings settings =
         load(R"({"theme": 3, "from_the_future": [1], "segments": null, "text_scale": 2, "hint_seen": true})",
@@ -75,7 +75,7 @@ TEST(Settings, beside_a_bad_one_are_still_read_and_unknown_ones_are_ignored) {
     EXPECT_EQ(complaints.size(), 1u);
 }
 
-TEST(Settings, may_be_anything_at_all) {
+TEST(Settings, MayContainAnything) {
     for (const char* text : {"null", "[]", "3", "\"text\"", "true"}) {
         std::vector<std::string> complaints;
         EXPECT_TRUE(load(text, complaints) == Settings{});

@@ -1,4 +1,4 @@
-// How toasts give the path of a file.
+// Paths of files in toasts.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -33,7 +33,7 @@ TEST_F(ShownPath, IsWholeAndShortUnderHome) {
     EXPECT_EQ(written_text("/home/ada/a.png"), "Written: ~/a.png");
 }
 
-TEST_F(ShownPath, LeavesOutTheMiddleOfALongOne) {
+TEST_F(ShownPath, OmitsTheMiddleOfALongPath) {
     std::string deep = "/srv";
     for (int i = 0; i < 30; ++i) deep += "/folder" + std::to_string(i);
     const std::string shown = shown_path(deep + "/tendril-1.png");

@@ -52,7 +52,7 @@ TEST(Units, a_fixed_number_has_its_decimals_and_no_signed_zero) {
     EXPECT_EQ(without_signed_zero("-m"), "-m");
 }
 
-TEST(Units, what_marks_say_is_short_and_has_no_exponent) {
+TEST(Units, AxisMarksAreShortWithoutExponent) {
     EXPECT_EQ(short_text(2.0, "s"), "2 s");
     EXPECT_EQ(short_text(1e-3, "m"), "1 mm");
     EXPECT_EQ(short_text(1.5e-7, "m"), "150 nm");

@@ -7,7 +7,7 @@
 namespace tendril::app {
 namespace {
 
-TEST(Workspace, knows_whether_it_differs_from_what_was_saved) {
+TEST(Workspace, KnowsWhetherItDiffersFromTheSavedScene) {
     Workspace workspace = test::make_workspace();
     EXPECT_FALSE(workspace.modified());
     workspace.document.edit<test::TestPart>("arm").title = "other";
@@ -16,7 +16,7 @@ TEST(Workspace, knows_whether_it_differs_from_what_was_saved) {
     EXPECT_FALSE(workspace.modified());
 }
 
-TEST(Workspace, an_edit_leaves_the_documents_that_shared_the_part_alone) {
+TEST(Workspace, AnEditDoesNotChangeDocumentsThatShareThePart) {
     const Workspace before = test::make_workspace();
     Workspace after = before;
     after.document.edit<test::TestPart>("arm").title = "other";
@@ -37,7 +37,7 @@ TEST(Workspace, shows_the_last_few_toasts_and_refusals_longer) {
     EXPECT_EQ(workspace.ui.toasts.back().text, "9");
 }
 
-TEST(Workspace, a_toast_said_again_lasts_anew_and_stands_once) {
+TEST(Workspace, ARepeatedToastRestartsAndIsShownOnce) {
     Workspace workspace;
     workspace.toast("limit", ToastKind::Refusal);
     workspace.ui.toasts[0].ticks_left = 3;

@@ -46,7 +46,7 @@ TEST_F(AppTest, draw_calls_do_not_grow_with_segments) {
     EXPECT_EQ(calls[2], calls[0]);
 }
 
-TEST_F(AppTest, shows_how_a_motion_ended_before_it_rests) {
+TEST_F(AppTest, ShowsTheEndOfAMotionBeforeItIdles) {
     run("lab.open", {{"name", "linkage"}});
     run("linkage.set", {{"crank", 2.2}});
     run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", 360}});
@@ -75,7 +75,7 @@ TEST_F(AppTest, losing_the_focus_in_mid_drag_ends_the_drag) {
     EXPECT_EQ(part().target, glm::vec3(7, 0, 0)) << "what was dragged is one step";
 }
 
-TEST_F(AppTest, a_key_held_when_the_focus_goes_is_not_held_when_it_comes_back) {
+TEST_F(AppTest, AKeyHeldWhenTheFocusLeavesIsNotHeldAfterwards) {
     take(KeyChange{Key::X, true});
     take(Focus{false});
     take(Focus{true});
@@ -136,7 +136,7 @@ TEST_F(AppTest, closing_the_window_quits) {
     EXPECT_TRUE(app_.quit());
 }
 
-TEST_F(AppTest, shortcuts_are_deaf_while_one_types) {
+TEST_F(AppTest, ShortcutsAreIgnoredWhileTyping) {
     take(KeyTap{{Key::K, true, false, false}});
     app_.tick(nullptr);
     take(TextInput{"b"});

@@ -80,7 +80,7 @@ class CardOnScene {
     Card card_;
 };
 
-/// A window of the last frame, by a part of its name.
+/// A window of the last frame whose name contains `part`.
 const ImGuiWindow* shown_window(const std::string& part) {
     for (const ImGuiWindow* const each : ImGui::GetCurrentContext()->Windows)
         if (each->WasActive && std::string(each->Name).find("/" + part) != std::string::npos) return each;
@@ -97,8 +97,8 @@ INSTANTIATE_TEST_SUITE_P(Labs, LabCard, testing::ValuesIn(all_cards()), [](const
     return card.param.lab + "_" + std::to_string(card.param.number);
 });
 
-/// The handle that a step lights up is in view before it; undo and redo afterwards tick nothing.
-TEST_P(LabCard, every_step_ticks_itself_off_when_it_is_played) {
+/// The handle that a step highlights must be in view beforehand; undo and redo afterwards complete no step.
+TEST_P(LabCard, PlayingAStepCompletesIt) {
     CardOnScene scene(GetParam());
     const std::size_t steps = scene.card().steps.size();
     const std::vector<bool> nothing(steps, false);
@@ -130,9 +130,9 @@ TEST_P(LabCard, every_step_ticks_itself_off_when_it_is_played) {
     }
 }
 
-/// Also where no step before it was played; one that avoids an incident needs that first. A script that drags
-/// a handle may tick another step that asks for that very drag.
-TEST_P(LabCard, every_step_alone_ticks_no_other) {
+/// Holds even if no earlier step was played, but avoiding an incident needs the incident first. A script that
+/// drags a handle may complete another step that asks for the same drag.
+TEST_P(LabCard, AStepAloneCompletesNoOther) {
     for (std::size_t i = 0; i < GetParam().read().steps.size(); ++i) {
         CardOnScene scene(GetParam());
         const auto& steps = scene.card().steps;
@@ -157,8 +157,8 @@ TEST_P(LabCard, every_step_waits_for_a_command_that_exists) {
     }
 }
 
-/// Neither do undo and redo, nor what they bring back.
-TEST_P(LabCard, other_scenes_tick_nothing) {
+/// Undo, redo and the scenes that they restore complete no step either.
+TEST_P(LabCard, OtherScenesCompleteNoStep) {
     CardOnScene scene(GetParam());
     const TempFolder folder;
     const std::string file = (folder / "scene.json").string();
@@ -189,7 +189,7 @@ TEST_P(LabCard, other_scenes_tick_nothing) {
     run("scene.open", {{"path", file}});
 }
 
-TEST_P(LabCard, sections_that_light_up_are_there) {
+TEST_P(LabCard, HighlightedSectionsExist) {
     PanelReader reader;
     const Labs labs;
     const CommandTable table = make_command_table(labs);
@@ -217,14 +217,14 @@ TEST_P(LabCard, sections_that_light_up_are_there) {
     }
 }
 
-TEST_P(LabCard, is_as_long_as_its_title_says) {
+TEST_P(LabCard, HasTheLengthThatItsTitleStates) {
     const Card card = GetParam().read();
     EXPECT_EQ(card.title == "Five things to try", GetParam().number == 1);
     EXPECT_EQ(card.steps.size(), GetParam().number == 1 ? 5u : 3u);
     for (const CardStep& step : card.steps) EXPECT_LE(step.text.size(), 110u) << step.text;
 }
 
-TEST_P(LabCard, that_was_put_away_comes_back_anew) {
+TEST_P(LabCard, AHiddenCardReopensFresh) {
     CardOnScene scene(GetParam());
     scene.play(scene.card().steps.front());
     ASSERT_TRUE(scene.done().front());
@@ -242,7 +242,7 @@ TEST_P(LabCard, that_was_put_away_comes_back_anew) {
 }
 
 /// The button that hides the card is somewhere near the right edge, above the steps.
-TEST_P(LabCard, is_put_away_by_one_click) {
+TEST_P(LabCard, OneClickHidesIt) {
     CardOnScene scene(GetParam());
     App& app = scene.app();
     const auto send = [&](const Event& event) { app.tick(&event); };
@@ -256,7 +256,7 @@ TEST_P(LabCard, is_put_away_by_one_click) {
 }
 
 /// However small the window and large the text, the inspector keeps at least half of the panel.
-TEST_P(LabCard, leaves_room_beside_it) {
+TEST_P(LabCard, LeavesRoomForTheInspector) {
     for (const glm::ivec2 size : {glm::ivec2(1024, 640), glm::ivec2(1280, 720), glm::ivec2(2560, 1440)}) {
         CardOnScene scene(GetParam(), size);
         for (const float scale : {1.0f, 1.5f, 2.0f}) {
@@ -300,7 +300,7 @@ TEST(CardsTest, the_chevron_shows_the_next_card_on_its_scene) {
     EXPECT_FALSE(scene.app().state().at("ropes").empty());
 }
 
-TEST(CardsTest, a_ring_is_only_around_what_the_scene_shows) {
+TEST(CardsTest, ARingIsDrawnOnlyAroundVisibleHandles) {
     CardOnScene scene({"chain", 1});
     for (std::size_t i = 0; i < 3; ++i) scene.play(scene.card().steps[i]);
     ASSERT_EQ(scene.card().steps[3].place_name, "pole");
@@ -313,7 +313,7 @@ TEST(CardsTest, a_ring_is_only_around_what_the_scene_shows) {
     EXPECT_TRUE(scene.has_ring());
 }
 
-/// The hand of somebody who does what the arm's card says, in the window's own projection.
+/// A simulated hand that follows the arm's card, in the window's own projection.
 class HandOnTheArm {
   public:
     explicit HandOnTheArm(CardOnScene& scene) : scene_(scene) {}
@@ -347,7 +347,7 @@ class HandOnTheArm {
     CardOnScene& scene_;
 };
 
-TEST(CardsTest, the_arm_flips_and_its_cure_works_when_the_mouse_does_what_the_card_says) {
+TEST(CardsTest, TheArmFlipsAndItsCureWorksIfTheMouseFollowsTheCard) {
     for (const glm::ivec2 size : {glm::ivec2(1280, 720), glm::ivec2(1024, 640), glm::ivec2(1920, 1080)})
         for (const int opened_for : {0, 100, 300, 440}) {
             SCOPED_TRACE(std::to_string(size.x) + " wide, " + std::to_string(opened_for));
@@ -406,7 +406,7 @@ TEST(CardsTest, a_typed_command_counts_and_a_refused_one_does_not) {
 }
 
 /// A number typed into the panel moves the target, but a step says to drag it.
-TEST(CardsTest, a_number_in_a_panel_is_no_drag) {
+TEST(CardsTest, ANumberInAPanelIsNotADrag) {
     CardOnScene scene({"chain", 1}, {1280, 1800});
     scene.run("chain.target", {{"to", {0.9, 1.2, 0.3}}});
     scene.run("view.card", {{"open", true}, {"number", 1}});

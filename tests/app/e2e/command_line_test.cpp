@@ -1,4 +1,4 @@
-// The command line: what it lists; errors are one line with exit code 2, and nothing is overwritten.
+// The command line: --help and lists; errors are one line with exit code 2, and nothing is overwritten.
 #include <map>
 
 #include "tests/app/support/play.hpp"
@@ -16,7 +16,7 @@ class CommandLine : public testing::Test {
     TempFolder folder_;
 };
 
-TEST_F(CommandLine, lists_and_says_what_it_is_asked) {
+TEST_F(CommandLine, PrintsTheRequestedLists) {
     for (const char* flag : {"--list-commands", "--list-labs", "--list-shortcuts", "--version", "--help"}) {
         const Outcome outcome = run_program({flag}, {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}});
         EXPECT_TRUE(succeeded(outcome)) << flag;
@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"no_display", {}, {"no display"}}),
     [](const auto& mistake) { return mistake.param.name; });
 
-TEST_F(CommandLine, no_window_without_a_display_and_the_line_says_what_helps) {
+TEST_F(CommandLine, WithoutADisplayTheMessageSaysWhatHelps) {
     EXPECT_TRUE(complained(run_program({}, {{"DISPLAY", ":9731"}, {"WAYLAND_DISPLAY", {}}}), 2, {"display"}));
 }
 
@@ -135,15 +135,15 @@ TEST_F(CommandLine, a_path_that_cannot_be_written_is_refused_before_anything_run
     EXPECT_EQ(read(folder_ / "file"), "a file is no folder");
 }
 
-TEST_F(CommandLine, a_path_within_a_script_that_cannot_be_written_ends_it_with_2) {
+TEST_F(CommandLine, AnUnwritablePathInAScriptEndsItWith2) {
     for (const char* form : {"screenshot", "state"}) {
         const Outcome outcome = run_script(ScriptText().line({{form, path("missing/out")}}));
         EXPECT_TRUE(complained(outcome, 2, {path("missing/out")})) << form;
     }
 }
 
-/// The script, a scene and a text named as an output; a recording and a bone map that exist; one file twice.
-TEST_F(CommandLine, nothing_is_written_over_that_would_be_lost) {
+/// Refuses inputs and other files as outputs, existing outputs without --force, and one file used twice.
+TEST_F(CommandLine, NothingIsOverwrittenThatWouldBeLost) {
     const std::string png = path("a.png"), script = path("s.jsonl"), scene = path("scene.json");
     write(script, ScriptText().wait(1).text());
     ASSERT_TRUE(succeeded(run_here({"--headless", "--script", script, "--screenshot", png, "--record",
@@ -184,7 +184,7 @@ TEST_F(CommandLine, nothing_is_written_over_that_would_be_lost) {
     }
 }
 
-/// Commands of scripts, too.
+/// Commands in scripts, too.
 TEST_F(CommandLine, commands_of_scripts_ask_for_force) {
     write(folder_ / "b.json", R"({"tendril_scene": 2, "labs": {}})");
     write(folder_ / "walk.glb", "glTF");
@@ -206,7 +206,7 @@ TEST_F(CommandLine, commands_of_scripts_ask_for_force) {
     EXPECT_NE(read(folder_ / "b.json").find("0.5"), std::string::npos);
 }
 
-TEST_F(CommandLine, a_full_disk_is_no_success_of_anything_that_prints) {
+TEST_F(CommandLine, AFullDiskIsReportedByEverythingThatPrints) {
     write(folder_ / "cases.json", R"([{"lengths": [1, 1], "target": [1, 1, 0]}])");
     write(folder_ / "filter.json", R"({"kind": "spring"})");
     write(folder_ / "samples.csv", "dt,input\n0.1,1\n");

@@ -21,7 +21,7 @@ glm::vec3 target_of(const Json& state) {
     return point_of(state.at("target"));
 }
 
-/// What a drag must not change, whatever else moved.
+/// A drag must not change lengths, whatever else moves.
 void expect_lengths_kept(const Json& state) {
     const Json& segments = state.at("segments");
     for (std::size_t i = 1; i < segments.size(); ++i) {
@@ -84,7 +84,7 @@ TEST(Drag, an_axis_key_keeps_the_other_coordinates) {
     }
 }
 
-TEST(Drag, an_axis_key_may_come_and_go_in_mid_drag) {
+TEST(Drag, AnAxisKeyMayBePressedAndReleasedDuringADrag) {
     const glm::vec2 caught = target_pixel(), to = caught + glm::vec2(-90, -120);
     ScriptText script = ScriptText().move(caught).down().move(to).hold("y");
     const Json bound = state_after(script);
@@ -105,7 +105,7 @@ TEST(Drag, shift_keeps_the_height) {
     EXPECT_LT(glm::distance(handle(state, "target"), caught + glm::vec2(-80, 60)), 0.05f);
 }
 
-TEST(Drag, a_segment_takes_the_target_along_and_leaves_the_mode) {
+TEST(Drag, ASegmentTakesTheTargetAlongAndKeepsTheMode) {
     for (const char* mode : {"forward", "backward", "fixed", "with_index"}) {
         ScriptText script = ScriptText().command("chain.mode", {{"mode", mode}, {"index", 1}});
         const glm::vec2 caught = handle(start(), "segment.3"), to = caught + glm::vec2(-30, -140);
@@ -187,7 +187,7 @@ TEST(Undo, escape_in_mid_drag_puts_everything_back) {
     EXPECT_EQ(state["target"], start()["target"]);
 }
 
-TEST(Camera, turns_shifts_and_zooms_without_leaving_a_step_to_undo) {
+TEST(Camera, OrbitsPansAndZoomsWithoutUndoSteps) {
     const std::vector<ScriptText> moves{
         ScriptText().drag({elsewhere, {600, 600}, {500, 640}}, "right"),
         ScriptText().drag({elsewhere, {600, 600}, {500, 640}}, "middle"),
@@ -209,11 +209,11 @@ TEST(Camera, turns_shifts_and_zooms_without_leaving_a_step_to_undo) {
     }
 }
 
-TEST(Camera, what_lies_under_the_cursor_stays_there_in_a_zoom) {
+TEST(Camera, ThePointUnderTheCursorStaysInPlaceWhileZooming) {
     const glm::vec2 cursor = handle(start(), "segment.1");
     const Json state = state_after(ScriptText().move(cursor).wheel(4));
     EXPECT_LT(state["camera"]["distance"].get<float>(), 0.7f * start()["camera"]["distance"].get<float>());
-    // The plane of the camera's target stays; the segment is near it, not in it.
+    // The plane of the camera's target stays in place; the segment is near that plane, not in it.
     EXPECT_LT(glm::distance(handle(state, "segment.1"), cursor), 25.0f);
     const Json flat = state_after(ScriptText().key("1").key("5"));
     const glm::vec2 point = handle(flat, "segment.1");

@@ -61,7 +61,7 @@ std::vector<std::string> words_of(const TestScene& scene) {
     return words;
 }
 
-/// As the program passes ticks in its open lab, without a window.
+/// Passes ticks like the program does in its open lab, without a window.
 void pass_ticks(Workspace& workspace, const Lab& lab, int ticks) {
     Clock& clock = workspace.clock;
     for (; ticks > 0; --ticks) {
@@ -74,8 +74,7 @@ void pass_ticks(Workspace& workspace, const Lab& lab, int ticks) {
     }
 }
 
-/// What `opened` shows and saves after 0 and after 300 ticks is what its original does, if these ticks are
-/// cheap.
+/// `opened` must show and save the same as its original, after 0 ticks and, if ticks are cheap, after 300.
 void expect_goes_on_as(Workspace original, Workspace opened, const Lab& lab) {
     EXPECT_EQ(opened.clock.playing, original.clock.playing);
     EXPECT_EQ(opened.clock.speed, original.clock.speed);
@@ -116,7 +115,7 @@ LABEL(slow, "EveryLab/EveryScene.LooksAndMovesTheSameEachTimeAndAfterItWasSaved/
 LABEL(slow, "EveryLab/EveryScene.OpensAsItWasSavedAndGoesOnWhateverWasDoneToIt/*");
 LABEL(slow, "EveryLab/EveryScene.IsUndoneToWhereItBegan/*");
 
-TEST_P(EveryScene, StandsRandomEventsAndCommandsAndReplaysThem) {
+TEST_P(EveryScene, SurvivesRandomEventsAndCommandsAndReplaysThem) {
     expect_replay_ends_the_same(
         [](App& app) {
             set_up(app, GetParam());
@@ -178,7 +177,7 @@ std::vector<LabScene> some_others(const LabScene& scene) {
     return some;
 }
 
-/// The mouse rests on a handle, or holds it, while the scene is replaced by others of the lab, and back.
+/// While the mouse hovers over or holds a handle, other scenes of the lab replace the scene, and back.
 TEST_P(EveryScene, MayGoAwayUnderTheMouse) {
     const auto window = open_offscreen({1000, 700});
     App app(*window, false, all_labs());
@@ -246,7 +245,7 @@ TEST_P(EveryScene, IsUndoneToWhereItBegan) {
 /// are chosen as seldom as its one radius.
 std::vector<std::vector<std::string>> paths_by_kind(const Json& scene, const std::string& lab) {
     std::map<std::string, std::vector<std::string>> kinds;
-    // Json keeps its keys in order and looks each up in all of them.
+    // Json keeps its keys in order, which makes look-ups linear; nlohmann::json does not.
     const auto flat = nlohmann::json(scene.at("labs").at(lab)).flatten();
     for (const auto& [path, value] : flat.items()) {
         std::string kind;
@@ -260,8 +259,8 @@ std::vector<std::vector<std::string>> paths_by_kind(const Json& scene, const std
 }
 
 /// Random values of a saved scene get another type or size: the scene is refused with the value's path, or
-/// read whole.
-TEST_P(EveryScene, IsRefusedWithThePathOfWhatIsWrongOrReadWhole) {
+/// read completely.
+TEST_P(EveryScene, IsRefusedWithThePathOfTheFaultOrReadCompletely) {
     const Labs labs = all_labs();
     const auto window = open_offscreen({640, 480});
     App app(*window, false, all_labs());

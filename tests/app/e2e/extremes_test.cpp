@@ -63,7 +63,7 @@ TEST(Extremes, a_novel_typed_into_the_palette) {
         ScriptText().key("ctrl+k").text("\xF0\x9F\x8E\xA8\xC3\xA4\xE4\xB8\xAD\x01\n\t").key("enter")));
 }
 
-TEST(Extremes, a_refusal_as_long_as_a_novel_is_told_in_one_line) {
+TEST(Extremes, AVeryLongRefusalIsPrintedInOneLine) {
     ScriptText script;
     script.command("scene.open", {{"path", "/" + std::string(100'000, 'y')}}, true).wait(1);
     EXPECT_TRUE(survives(script));

@@ -57,7 +57,7 @@ class FileDialogTest : public testing::Test {
     FrameRecorder recorder_;
 };
 
-TEST_F(FileDialogTest, SaysWhatCanBeOpenedWhereThereIsNothingOfIt) {
+TEST_F(FileDialogTest, AFolderWithoutSuchFilesSaysWhatCanBeOpened) {
     app_.run({"scene.save", Json{{"path", (folder_ / "arm.json").string()}}});
     open();
     EXPECT_EQ(text().find("No files that can be opened here"), std::string::npos);
@@ -97,7 +97,7 @@ TEST_F(FileDialogTest, AsksBeforeItReplacesAScene) {
     EXPECT_EQ(read(folder_ / "walk.json"), "{\"asset\": {}}");
 }
 
-TEST_F(FileDialogTest, BeginsAnewEachTime) {
+TEST_F(FileDialogTest, StartsFreshEachTime) {
     app_.run({"scene.save", Json{{"path", (folder_ / "arm.json").string()}}});
     open();
     type("helper");

@@ -150,7 +150,7 @@ TEST_F(Files, ThatNoLabReadsAreRefusedAndChangeNothing) {
     }
 }
 
-TEST(SavedScene, IsToldWithItsFolder) {
+TEST(SavedScene, IsReportedWithItsFolder) {
     const auto window = app::open_offscreen({1280, 720});
     app::App program(*window);
     const TempFolder folder;
@@ -184,7 +184,7 @@ class MissingCharacter : public testing::Test {
     std::string text_;
 };
 
-TEST_F(MissingCharacter, IsToldToScriptsAndNotSavedOverWithoutForce) {
+TEST_F(MissingCharacter, IsReportedToScriptsAndNotOverwrittenWithoutForce) {
     const Outcome opened = run(ScriptText().wait(1));
     EXPECT_EQ(opened.exit_code, 2);
     EXPECT_TRUE(says(opened.err, "hero.bvh is missing The humanoid lab is blank"));
@@ -199,7 +199,7 @@ TEST_F(MissingCharacter, IsToldToScriptsAndNotSavedOverWithoutForce) {
     EXPECT_NE(read(scene_), text_);
 }
 
-TEST_F(MissingCharacter, IsSaidInThePanelAndAskedForBeforeItIsSavedOver) {
+TEST_F(MissingCharacter, IsReportedInThePanelAndConfirmedBeforeItIsOverwritten) {
     const auto window = app::open_offscreen({1280, 720});
     app::App program(*window);
     FrameRecorder recorder;

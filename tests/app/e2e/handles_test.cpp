@@ -28,7 +28,7 @@ ScriptText scene(const Pose& pose) {
     return script;
 }
 
-TEST_P(Handles, are_where_the_picture_has_them) {
+TEST_P(Handles, AreWhereThePictureShowsThem) {
     const Played played = play(scene(GetParam()), {.picture = true});
     const glm::ivec2 low(300, 110), high(980, 680);  // the view without its panels and hint
     const app::Palette& colours = app::palette(app::Theme::Dark);
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& pose) { return pose.param.name; });
 
 /// A lab opened from the command line is laid out before anything is drawn.
-TEST(HandlesAtTheStart, are_where_the_first_frame_has_them) {
+TEST(HandlesAtTheStart, AreWhereTheFirstFrameShowsThem) {
     for (const char* lab : {"chain", "rig"}) {
         const app::Json none = play(ScriptText(), {.more = {"--lab", lab}}).state["handles"];
         EXPECT_EQ(none, play(ScriptText(), {.more = {"--lab", lab, "--frames", "1"}}).state["handles"])
@@ -70,7 +70,7 @@ TEST(HandlesAtTheStart, are_where_the_first_frame_has_them) {
     }
 }
 
-TEST(HandlesOutOfView, have_a_pixel_outside_or_none) {
+TEST(HandlesOutOfView, HaveAPixelOutsideOrNone) {
     ScriptText script = ScriptText().command(
         "camera.set", {{"target", {0, 0, -30}}, {"yaw_deg", 0}, {"pitch_deg", 0}, {"distance", 10}});
     const app::Json state = state_after(script);

@@ -9,7 +9,7 @@ namespace {
 
 using namespace app;
 
-/// What a replay must end in.
+/// The state that a replay must reproduce.
 struct Ending {
     Json state;
     Json scene;
@@ -80,7 +80,7 @@ void expect_exact_replay(const TempFolder& folder, const std::string& scene, Act
     EXPECT_EQ(ending_of(app), recorded);
 }
 
-TEST(HistoryReplay, ANewSceneThatIsAsBlankAsTheOldOneLeavesNothingToUndo) {
+TEST(HistoryReplay, ANewSceneAsBlankAsTheOldOneIsNoUndoStep) {
     expect_exact_replay(TempFolder(), "", [](App& app) {
         tap(app, "ctrl+n");
         EXPECT_TRUE(refused(app, "undo"));
@@ -162,7 +162,7 @@ TEST_P(HistoryReplaySeeds, NewOpenSaveUndoAndRedoInAnyOrder) {
 }
 
 /// Undoing and redoing everything loses nothing: neither scene nor the strip's marks and position.
-TEST_P(HistoryReplaySeeds, AllUndoneAndRedoneIsAsItWas) {
+TEST_P(HistoryReplaySeeds, UndoingAndRedoingEverythingLosesNothing) {
     const TempFolder folder;
     const WorkingIn working(folder);
     const auto window = open_offscreen({1280, 720});

@@ -28,7 +28,7 @@ TEST(LinkageInTheWindow, AFourBarIsDrawnByMouseAndRun) {
     EXPECT_LT(state.at("closed_to").get<double>(), 1e-6);
 }
 
-TEST(LinkageInTheWindow, AClickOnNothingAddsAJointAndOnABarOneToIt) {
+TEST(LinkageInTheWindow, AClickAddsAJointInEmptySpaceOrOnABar) {
     ScriptText script =
         ScriptText().command("lab.open", {{"name", "linkage"}}).command("linkage.clear").wait(2);
     script.drag({{500, 420}, {560, 420}, {700, 420}})
@@ -47,7 +47,7 @@ TEST(LinkageInTheWindow, AClickOnNothingAddsAJointAndOnABarOneToIt) {
     EXPECT_EQ(turned["points"]["D"], state["points"]["D"]);
 }
 
-TEST(LinkageInTheWindow, APresetsLastTenSecondsBeginWithIt) {
+TEST(LinkageInTheWindow, APresetRestartsTheLastTenSeconds) {
     ScriptText script = ScriptText()
                             .command("lab.open", {{"name", "linkage"}})
                             .command("view.linkage_plot", {{"of", "motor"}})

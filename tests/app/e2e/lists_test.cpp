@@ -36,7 +36,7 @@ class ListsTest : public testing::Test {
         take(KeyTap{*chord_from_name("enter")});
         app_.tick(nullptr);
     }
-    /// The item on which, or right of which, the text stands.
+    /// The item with this text, or with this text to its left.
     DrawnItem item(DrawnItem::Kind kind, const std::string& text) {
         app_.tick(nullptr);
         const FrameRecord& frame = recorder_.frame();
@@ -71,13 +71,13 @@ TEST_F(ListsTest, TypingFindsAChoiceAndEnterTakesIt) {
     click(ground());
     type("ope");
     EXPECT_EQ(part().ik.ground.kind, humanoid::GroundKind::Slope) << "what was typed before is gone";
-    // A choice that is greyed is none.
+    // A greyed choice cannot be taken.
     click(ground());
     type("mesh");
     EXPECT_EQ(part().ik.ground.kind, humanoid::GroundKind::Slope);
 }
 
-TEST_F(ListsTest, AClickOutsideClosesTheListAndActsOnWhatIsThere) {
+TEST_F(ListsTest, AClickOutsideClosesTheListAndActsOnTheItemThere) {
     click(ground());
     ASSERT_TRUE(is_open());
     click(handle(app_.state(), "node.Head"));

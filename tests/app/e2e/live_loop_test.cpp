@@ -1,4 +1,4 @@
-// The loop of a real window, turned by hand: it draws if something may have changed, and only then.
+// The loop of a real window, stepped by hand: it draws if something may have changed, and only then.
 #include "app/live_loop.hpp"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ TEST_F(LiveLoopTest, an_idle_window_draws_nothing) {
     EXPECT_GT(loop_.patience(player_), 0.5) << "and sleeps";
 }
 
-TEST_F(LiveLoopTest, an_event_is_drawn_at_once_and_then_all_is_still_again) {
+TEST_F(LiveLoopTest, AnEventIsDrawnAtOnceAndThenTheWindowIdles) {
     settle();
     const int drawn = loop_.frames_drawn();
     turn({KeyChange{Key::L, true}}, 0.0);
@@ -51,7 +51,7 @@ TEST_F(LiveLoopTest, an_event_is_drawn_at_once_and_then_all_is_still_again) {
     EXPECT_EQ(loop_.frames_drawn(), after);
 }
 
-TEST_F(LiveLoopTest, what_moves_by_itself_is_drawn_all_the_time) {
+TEST_F(LiveLoopTest, AMovingSceneIsDrawnContinuously) {
     app_.run({"chain.motion", Json{{"path", "circle"}}});
     settle();
     const int drawn = loop_.frames_drawn();
@@ -72,7 +72,7 @@ TEST_F(LiveLoopTest, time_keeps_pace_with_slow_frames_but_does_not_race_after_a_
     EXPECT_LE(app_.workspace().clock.tick - tick, 20u);
 }
 
-TEST_F(LiveLoopTest, TheVerdictSaysThatTimePassesTooSlowly) {
+TEST_F(LiveLoopTest, TheVerdictReportsThatTimePassesTooSlowly) {
     FrameRecorder recorder;
     app_.run({"lab.open", Json{{"name", "rope"}}});
     app_.run({"rope.preset", Json{{"name", "line"}}});
@@ -83,14 +83,14 @@ TEST_F(LiveLoopTest, TheVerdictSaysThatTimePassesTooSlowly) {
     for (int i = 0; i < 60; ++i) turn();
     turn({}, 30.0);
     EXPECT_TRUE(says("Lengths hold")) << "one stall is none";
-    for (int i = 0; i < 20; ++i) turn({}, 0.5);  // a turn makes up for a quarter of a second at most
+    for (int i = 0; i < 20; ++i) turn({}, 0.5);  // one turn catches up by at most a quarter of a second
     EXPECT_NEAR(pace_of(app_.workspace().runtimes).kept, 0.5, 0.01);
     EXPECT_TRUE(says("Lengths hold, at 50 % of real time"));
     for (int i = 0; i < 300; ++i) turn();
     EXPECT_TRUE(says("Lengths hold"));
 }
 
-TEST_F(LiveLoopTest, a_thousand_moves_between_two_frames_are_one) {
+TEST_F(LiveLoopTest, AThousandMovesBetweenTwoFramesBecomeOne) {
     settle();
     const glm::vec2 target = handle(app_.state(), "target");
     turn({MouseMove{target}, MousePress{MouseButton::Left, true}});
@@ -106,7 +106,7 @@ TEST_F(LiveLoopTest, a_thousand_moves_between_two_frames_are_one) {
     EXPECT_NEAR(now.y, target.y - 150.0f, 0.1f);
 }
 
-TEST_F(LiveLoopTest, no_press_is_lost_in_a_burst) {
+TEST_F(LiveLoopTest, NoPressIsLostInABurst) {
     settle();
     // Pressed, moved and released between two frames: no event may be lost.
     const glm::vec2 target = handle(app_.state(), "target");
@@ -120,7 +120,7 @@ TEST_F(LiveLoopTest, no_press_is_lost_in_a_burst) {
     EXPECT_NEAR(now.y, target.y - 90.0f, 0.1f);
 }
 
-TEST_F(LiveLoopTest, what_is_pasted_is_recorded_as_text) {
+TEST_F(LiveLoopTest, PastedTextIsRecordedAsText) {
     app_.start_recording();
     settle();
     window_->set_clipboard("chain.add length=0.25");

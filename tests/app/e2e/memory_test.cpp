@@ -31,8 +31,8 @@ class CharacterMemory : public LabTest {
     CharacterMemory() : LabTest(humanoid_lab) {}
 };
 
-/// Another unit makes a character of its own, with all its keys.
-TEST_F(CharacterMemory, OfUndoStaysWithinItsBound) {
+/// Changing the unit creates a new character with all its keys.
+TEST_F(CharacterMemory, UndoStaysWithinItsLimit) {
     constexpr std::size_t bound = 8u << 20;
     run("humanoid.load", {{"path", source_path("tests/app/golden/antennae.bvh")}});
     workspace.history = History(1000, bound);
@@ -42,7 +42,7 @@ TEST_F(CharacterMemory, OfUndoStaysWithinItsBound) {
 }
 
 /// A character that all moments share is counted by undo, not once more for each moment.
-TEST_F(CharacterMemory, OfThePastIsWhatMoves) {
+TEST_F(CharacterMemory, ThePastStoresOnlyTheMovingPart) {
     run("humanoid.load", {{"path", source_path("tests/app/golden/antennae.bvh")}});
     const auto part = [&] { return workspace.document.parts().at(humanoid_lab); };
     const std::size_t all = part()->bytes(), moving = all - part()->shared_bytes(*part());

@@ -45,13 +45,13 @@ class Monkey {
     }
 
   private:
-    /// In the argument's range, if that is not open.
+    /// A number in the argument's range and near 0, if there is one.
     double number_in(const Argument& argument) {
         const double low = std::max(argument.low, -3.0), high = std::min(argument.high, 3.0);
         return low <= high ? std::uniform_real_distribution<double>(low, high)(random_)
                            : std::clamp(0.0, argument.low, argument.high);
     }
-    /// Names that exist, else the words.
+    /// An existing name or, without any, one of the words.
     std::string name_for(const Argument& argument) {
         const std::vector<std::string> known =
             argument.known ? argument.known(app_.workspace()) : std::vector<std::string>();

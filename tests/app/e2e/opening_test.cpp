@@ -9,7 +9,7 @@ namespace {
 
 using namespace app;
 
-TEST(Opening, is_for_a_window_that_was_told_nothing) {
+TEST(Opening, IsOnlyForAWindowWithoutOtherInstructions) {
     const auto opens = [](auto ask) {
         SessionOptions options;
         ask(options);
@@ -42,7 +42,7 @@ TEST_F(OpenScene, is_an_arm_with_its_hand_on_the_target) {
     for (const char* name : {"target", "pole", "segment.0", "segment.1", "segment.2"}) handle(state, name);
 }
 
-TEST_F(OpenScene, leaves_what_a_person_chose) {
+TEST_F(OpenScene, KeepsSettingsThatTheUserChose) {
     workspace().settings.choices["segments"] = "spheres";
     open_alive(app_);
     EXPECT_EQ(workspace().settings.choices["segments"], "spheres");
@@ -58,7 +58,7 @@ TEST_F(OpenScene, cards_are_offered_once) {
 }
 
 /// The circle appears on request, in mode Reach only.
-TEST_F(OpenScene, its_sphere_of_reach_is_a_setting) {
+TEST_F(OpenScene, ItsReachSphereIsASetting) {
     const auto strokes = [&] {
         const Camera camera(workspace().camera, {{0.0f, 0.0f}, {800.0f, 600.0f}});
         DrawList list;

@@ -63,7 +63,7 @@ TEST_P(Openings, move_for_ten_seconds_and_leave_nothing_to_save_or_undo) {
     for (const Toast& toast : workspace().ui.toasts) EXPECT_NE(toast.kind, ToastKind::Refusal) << toast.text;
 }
 
-TEST_P(Openings, of_another_lab_ends_where_something_is_changed_there) {
+TEST_P(Openings, OfAnotherLabEndsWhenSomethingChangesThere) {
     const std::string elsewhere = GetParam() == "chain" ? "rope" : "chain";
     app_.run({"lab.open", Json{{"name", elsewhere}}});
     app_.run(change());
@@ -76,7 +76,7 @@ TEST_P(Openings, of_another_lab_ends_where_something_is_changed_there) {
     EXPECT_TRUE(save_scene(workspace())["labs"].contains(GetParam()));
 }
 
-TEST_P(Openings, go_on_where_the_view_is_turned) {
+TEST_P(Openings, ContinueWhenTheViewTurns) {
     const Json state = app_.state();
     for (const Json& handle : state.at("handles")) {
         if (!handle.at("pixel").is_array()) continue;
@@ -93,7 +93,7 @@ TEST_P(Openings, go_on_where_the_view_is_turned) {
     EXPECT_FALSE(workspace().modified());
 }
 
-TEST_P(Openings, end_at_the_first_change_which_alone_can_be_undone) {
+TEST_P(Openings, EndAtTheFirstChangeWhichAloneCanBeUndone) {
     wait(90);
     app_.run(change());
     EXPECT_FALSE(opens());
@@ -114,7 +114,7 @@ TEST_P(Openings, end_at_the_first_change_which_alone_can_be_undone) {
     }
 }
 
-TEST_P(Openings, come_back_with_their_rule_where_a_new_scene_is_undone) {
+TEST_P(Openings, ReturnWithTheirRuleWhenANewSceneIsUndone) {
     const auto opened = workspace().openings;
     const TempFolder folder;
     const std::string file = (folder / "scene.json").string();
@@ -145,7 +145,7 @@ TEST_P(Openings, come_back_with_their_rule_where_a_new_scene_is_undone) {
     EXPECT_FALSE(opens());
 }
 
-TEST_P(Openings, go_on_where_a_command_is_refused) {
+TEST_P(Openings, ContinueWhenACommandIsRefused) {
     wait(45);
     const Json then = part();
     const std::map<std::string, RunCommand> wrong{
@@ -165,7 +165,7 @@ TEST_P(Openings, go_on_where_a_command_is_refused) {
     EXPECT_FALSE(workspace().modified());
 }
 
-/// From the opening, not only from the card's own scene.
+/// Starts from the opening, not only from the card's own scene.
 TEST_P(Openings, every_step_of_the_card_plays) {
     app_.run({"view.card", Json{{"open", true}}});
     wait(100);
@@ -215,7 +215,7 @@ TEST_P(RigOpening, moves_the_lids_and_the_mouth) {
 }
 
 /// Each picture differs where the lids or the mouth are.
-TEST_P(RigOpening, draws_what_the_curves_say) {
+TEST_P(RigOpening, DrawsTheStateOfTheCurves) {
     const auto strokes = [&](double blink, double mouth) {
         app_.run({"rig.preset", Json{{"name", "aim"}}});
         for (const auto& [name, value] : {std::pair{"blink", blink}, std::pair{"mouth", mouth}})

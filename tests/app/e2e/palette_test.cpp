@@ -80,7 +80,7 @@ TEST_F(PaletteTest, EnterTakesAValueThatIsChosenOrBegunAndThenRuns) {
     enter_runs("reach");
 }
 
-TEST_F(PaletteTest, AMistakeRunsNothingAndCanBeMended) {
+TEST_F(PaletteTest, AMistakeRunsNothingAndCanBeFixed) {
     const std::size_t before = chain().chain.size();
     for (const char* line : {"chain.add length=-1", "chain.add lenght=1", "chain.add length=abc",
                              "chain.add 1", "nothing like=that", "chain.add position=[0,1,0]"}) {
@@ -98,7 +98,7 @@ TEST_F(PaletteTest, AMistakeRunsNothingAndCanBeMended) {
     EXPECT_EQ(chain().chain.size(), before + 1);
 }
 
-TEST_F(PaletteTest, OpensOnWhatRanLastAndRunsNothingUnasked) {
+TEST_F(PaletteTest, OpensOnTheLastCommandAndRunsNothingUnasked) {
     const Settings fresh = app_.workspace().settings;
     const auto undone = app_.workspace().history.can_undo();
     open().key("enter");

@@ -65,7 +65,7 @@ TEST(PastViews, PlotAValueForEveryTickAndAGhostForEveryHalfSecond) {
     }
 }
 
-TEST(PastViews, StayWhatTheyAreWhenOneGoesBack) {
+TEST(PastViews, StayTheSameWhenSeeking) {
     for (const PlottedLab& lab : plotted_labs()) {
         const Json end = state_after(shown(lab).wait(70))["past"]["plot"]["values"];
         const Json back =
@@ -74,7 +74,7 @@ TEST(PastViews, StayWhatTheyAreWhenOneGoesBack) {
     }
 }
 
-TEST(PastViews, AreSettingsAndNothingToUndoOrToSave) {
+TEST(PastViews, AreSettingsWithoutUndoStepOrUnsavedChange) {
     for (const PlottedLab& lab : plotted_labs()) {
         const ScriptText script = ScriptText(lab.scene).command("time.pause").wait(1);
         const Json plain = state_after(script);
@@ -84,14 +84,14 @@ TEST(PastViews, AreSettingsAndNothingToUndoOrToSave) {
         EXPECT_EQ(with.value("modified", false), plain.value("modified", false)) << lab.lab;
         EXPECT_TRUE(plain["past"]["plot"].is_null());
         EXPECT_EQ(with["past"]["plot"]["of"], lab.of);
-        // Each without an argument selects the next choice, in the end the first one.
+        // Without an argument, each selects its next choice, and after the last one the first.
         const Json off = state_after(
             ScriptText(script).command(view(lab, "_ghosts"), {{"of", "past"}}).command(view(lab, "_ghosts")));
         EXPECT_EQ(off["past"], plain["past"]) << lab.lab;
     }
 }
 
-TEST(PastViews, ChangeNothingOfWhatIsShownBesides) {
+TEST(PastViews, ChangeNothingElseInTheView) {
     for (const PlottedLab& lab : plotted_labs()) {
         Json with = state_after(shown(lab).wait(90).command("time.pause"));
         Json without = state_after(ScriptText(lab.scene).wait(90).command("time.pause"));
@@ -105,7 +105,7 @@ ScriptText& press_at(ScriptText& script, glm::vec2 at) {
     return script.move(at).wait(1).down().wait(2);
 }
 
-TEST(PastViews, UndoUnderAHandThatKeepsStillIsNotDraggedBack) {
+TEST(PastViews, UndoUnderAStillHandIsNotDraggedBack) {
     for (const float y : {546.0f, 615.0f}) {
         ScriptText script = plotted_labs()[0].scene;
         script.command("view.chain_plot", {{"of", "swing"}}).wait(400).command("time.pause").wait(2);
@@ -120,7 +120,7 @@ TEST(PastViews, UndoUnderAHandThatKeepsStillIsNotDraggedBack) {
     }
 }
 
-TEST(PastViews, GhostsAreOfWhatHasTheJointsThatThereAreNow) {
+TEST(PastViews, GhostsShowOnlyMomentsWithTheSameJoints) {
     struct Change {
         ScriptText to;
         bool other_joints;
@@ -157,7 +157,7 @@ ScriptText below_the_strip(const PlottedLab& lab) {
     return script.wait(2);
 }
 
-TEST(PastViews, AClickInThePlotGoesToTheMomentThatTheStripHasAtThatPlace) {
+TEST(PastViews, AClickInThePlotSeeksToTheStripsMomentThere) {
     constexpr float strip = 546.0f, plot = 615.0f;
     constexpr std::array places{600.0f, 607.0f, 633.0f, 641.0f};
     for (const PlottedLab& lab : plotted_labs()) {
@@ -213,7 +213,7 @@ class LivePlot : public testing::Test {
     }
     std::size_t poses() { return app::humanoid_runtime(app_.workspace()).past.size(); }
 
-    /// With the present one.
+    /// The number of moments, including the present one.
     std::size_t moments() { return app_.workspace().rewind.size() + 1; }
 
     std::unique_ptr<app::Window> window_ = app::open_offscreen({1000, 700});
@@ -223,7 +223,7 @@ class LivePlot : public testing::Test {
     app::Player player_{app::Script{}};
 };
 
-TEST_F(LivePlot, ComesInSharesWhileThePausedWindowGoesOnDrawing) {
+TEST_F(LivePlot, IsComputedInPartsWhileThePausedWindowContinues) {
     EXPECT_FALSE(app_.needs_ticks());
     app_.run({"view.humanoid_plot", Json{{"of", "swing"}}});
     std::size_t before = poses();
@@ -239,7 +239,7 @@ TEST_F(LivePlot, ComesInSharesWhileThePausedWindowGoesOnDrawing) {
     EXPECT_EQ(poses(), 0u);
 }
 
-TEST_F(LivePlot, IsWholeInAPictureAndInTheState) {
+TEST_F(LivePlot, IsCompleteInAPictureAndInTheState) {
     app_.run({"view.humanoid_plot", Json{{"of", "swing"}}});
     ASSERT_LT(poses(), 100u);
     const auto at_once = app_.screenshot();
@@ -267,7 +267,7 @@ ScriptText through_the_root() {
 
 constexpr const char* straight = "the chain was straight (collinear)";
 
-/// All flips but the first, in which the straight chain bends.
+/// All flips except the first, in which the straight chain bends.
 std::vector<Json> flips_of(const Json& state) {
     std::vector<Json> flips;
     for (const Json& event : state.at("events"))
@@ -330,7 +330,7 @@ TEST(ChainsPast, ADragIsRememberedTickByTickAndTakenBackBySeeking) {
     EXPECT_EQ(whole["target"], end["target"]);
 }
 
-TEST(ChainsPast, AnIncidentIsGoneToByItsNumber) {
+TEST(ChainsPast, AnIncidentIsReachedByItsNumber) {
     const Json state = state_after(through_the_root());
     int number = 0;
     while (state["events"].at(static_cast<std::size_t>(number)) != flips_of(state).front()) ++number;
@@ -392,7 +392,7 @@ TEST(ChainsPast, AReplayEndsWithThePastItShows) {
     }
 }
 
-TEST(ChainsPast, AReplayGoesOnWhereOnlySomeMomentsAreKept) {
+TEST(ChainsPast, AReplayContinuesWithOnlySomeMomentsKept) {
     // A chain this large keeps every fourth moment.
     ScriptText script = ScriptText().command("chain.preset", {{"name", "start"}, {"count", 100000}});
     for (int i = 1; i <= 90; ++i) script.command("chain.target", {{"to", {100, i, 0}}});
@@ -401,7 +401,7 @@ TEST(ChainsPast, AReplayGoesOnWhereOnlySomeMomentsAreKept) {
     EXPECT_EQ(shown["target"], Json::array({100.0, 90.0, 0.0}));
 }
 
-TEST(ChainsPast, WhatWasUndoneIsStillRemembered) {
+TEST(ChainsPast, UndoneMomentsAreStillRemembered) {
     const ScriptText script = ScriptText()
                                   .command("chain.target", {{"to", {5, 1, 0}}})
                                   .command("chain.target", {{"to", {4, 2, 0}}})
@@ -410,7 +410,7 @@ TEST(ChainsPast, WhatWasUndoneIsStillRemembered) {
     EXPECT_EQ(state_after(script)["target"], Json::array({4.0, 2.0, 0.0}));
 }
 
-TEST(ChainsPast, LookingIsNothingToUndo) {
+TEST(ChainsPast, SeekingIsNotAnUndoStep) {
     ScriptText script = ScriptText();
     for (int i = 1; i <= 5; ++i) script.command("chain.target", {{"to", {7 - i, i, 0}}}).wait(1);
     const Json end = state_after(script);
@@ -496,7 +496,7 @@ TEST(RigsPast, APausedDragIsRememberedAndMarkedToo) {
     EXPECT_EQ(flips[0]["name"], "head");
 }
 
-TEST(RigsPast, WhatIsSelectedDoesNotGoBackInTime) {
+TEST(RigsPast, TheSelectionDoesNotGoBackInTime) {
     const ScriptText script = tilt_past_the_look(10)
                                   .command("rig.select", {{"element", "nose"}})
                                   .command("time.seek", {{"ticks_back", 8}});

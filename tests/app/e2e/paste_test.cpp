@@ -1,4 +1,4 @@
-// Ctrl+V over the view: the lab that takes points gets them, every other says where they go.
+// Ctrl+V over the view: a lab that takes points gets them, the others say which lab does.
 #include <atomic>
 #include <optional>
 
@@ -17,7 +17,7 @@ using namespace app;
 class Paste : public testing::Test {
   protected:
     void take(const Event& event) { app_.tick(&event); }
-    /// As the loop sends it.
+    /// Pastes as the window's loop does.
     void paste(const std::string& text) {
         take(KeyChange{Key::Ctrl, true});
         take(TextInput{text});
@@ -31,7 +31,7 @@ class Paste : public testing::Test {
     App app_{*window_};
 };
 
-TEST_F(Paste, OfASmallArmFramesItAndOfOneInViewDoesNot) {
+TEST_F(Paste, ASmallArmIsFramedAndOneInViewIsNot) {
     app_.run({"scene.new", Json::object()});
     const CameraPose before = app_.workspace().camera;
     paste("0 0 0\n3 1 0\n6 0 1");
@@ -45,7 +45,7 @@ TEST_F(Paste, OfASmallArmFramesItAndOfOneInViewDoesNot) {
     EXPECT_NE(app_.workspace().camera, near) << "it was outside";
 }
 
-TEST_F(Paste, OfAnotherChainDropsTheFlipsOfTheOneBefore) {
+TEST_F(Paste, AnotherChainDropsTheLastOnesFlips) {
     const auto flip = [&] {
         app_.workspace().rewind.note({.kind = Incident::Kind::Flip, .joint = 1, .cause = "it was straight"});
     };
@@ -61,7 +61,7 @@ TEST_F(Paste, OfAnotherChainDropsTheFlipsOfTheOneBefore) {
     EXPECT_EQ(incidents(), 0u) << "that was the pasted chain's";
 }
 
-TEST_F(Paste, OfJunkIsRefusedAndTypedTextIsNoPaste) {
+TEST_F(Paste, JunkIsRefusedAndTypedTextIsNoPaste) {
     const Json before = app_.state();
     paste("1 2 3\n4 5 six");
     ASSERT_EQ(toasts().size(), 1u);
@@ -82,7 +82,7 @@ TEST_F(Paste, IntoATextFieldOrUnderADialogMovesNothing) {
     EXPECT_TRUE(toasts().empty());
 }
 
-TEST_F(Paste, InAnotherLabSaysWherePointsGoAndNothingElse) {
+TEST_F(Paste, InAnotherLabSaysWherePointsGo) {
     for (const auto& lab : app_.labs().all()) {
         if (lab->name() == chain_lab) continue;
         app_.run({"lab.open", Json{{"name", lab->name()}}});
@@ -116,7 +116,7 @@ TEST_F(Paste, InTheWindowReadsTheClipboardAndIsReplayed) {
     EXPECT_EQ(parse_json(read(folder / "state.json"))["segments"], app_.state()["segments"]);
 }
 
-/// Neither asks for the text: the menu's row, and the command that the palette runs.
+/// Neither the menu's row nor the palette's command requests the text itself.
 TEST_F(Paste, FromTheMenuAndThePaletteReadsTheClipboardAndIsReplayed) {
     const std::atomic<bool> ending{false};
     LiveLoop loop(app_, *window_, {.config = false, .ending = ending});
@@ -160,13 +160,13 @@ TEST_F(Paste, FromTheMenuAndThePaletteReadsTheClipboardAndIsReplayed) {
     EXPECT_EQ(parse_json(read(folder / "state.json"))["segments"], app_.state()["segments"]);
 }
 
-TEST_F(Paste, OfNothingSaysSo) {
+TEST_F(Paste, AnEmptyPasteIsReported) {
     paste("");
     EXPECT_TRUE(says(told(), "clipboard no text"));
 }
 
-/// The clipboard's junk is no incident of the lab.
-TEST_F(Paste, OfJunkIsNoIncident) {
+/// Junk in the clipboard is not an incident of the lab.
+TEST_F(Paste, OfJunkIsNotAnIncident) {
     app_.run({"chain.preset", Json{{"name", "reaching_arm"}}});
     paste("Remember the milk");
     EXPECT_TRUE(says(told(), "clipboard no points line 1"));

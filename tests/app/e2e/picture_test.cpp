@@ -20,7 +20,7 @@ int alpha(const app::Image& image, int x, int y) {
     return image.rgba[4 * static_cast<std::size_t>(y * image.size.x + x) + 3];
 }
 
-TEST(Picture, IsAsLargeAsAsked) {
+TEST(Picture, HasTheRequestedSize) {
     const app::Image image = picture({{"width", 640}, {"height", 360}});
     EXPECT_EQ(image.size, glm::ivec2(640, 360));
     EXPECT_EQ(alpha(image, 0, 0), 255);
@@ -31,7 +31,7 @@ TEST(Picture, IsAsLargeAsAsked) {
 }
 
 /// Opaque pixels have the colour of the picture with background.
-TEST(Picture, IsTransparentWhereNothingIs) {
+TEST(Picture, IsTransparentWhereNothingIsDrawn) {
     for (const char* lab : {"chain", "rope", "humanoid"}) {
         const app::Json size{{"width", 600}, {"height", 400}};
         app::Json clear = size;

@@ -48,7 +48,7 @@ int count_in(const std::vector<bool>& pixels, int width, glm::ivec2 from, glm::i
     return count;
 }
 
-TEST(RacePicture, HasItsLegendUnlessOneDoesNotWantIt) {
+TEST(RacePicture, HasItsLegendUnlessSwitchedOff) {
     const TempFolder folder;
     ScriptText script = opened_race();
     script.command("view.picture", sized(folder / "default.png"));
@@ -99,7 +99,7 @@ TEST(RacePicture, HasTheTitlesOfItsPanes) {
     }
 }
 
-TEST(RacePicture, LabelsOfOtherScenesAreThereOnRequest) {
+TEST(RacePicture, OtherScenesHaveLabelsOnRequest) {
     const TempFolder folder;
     ScriptText script = ScriptText().command("chain.select", {{"index", 2}});
     script.command("view.picture", sized(folder / "without.png"));
@@ -134,7 +134,7 @@ TEST(RacePicture, IsLabelledInAVideoOfThePast) {
     EXPECT_NE(first("tendril-1.png"), first("without.png"));
 }
 
-/// The window's own text is as it was before a picture with text was taken.
+/// A picture with text does not change the window's own text.
 TEST(RacePicture, ChangesNothingInTheWindow) {
     const TempFolder folder;
     ScriptText plain = opened_race(), pictured = opened_race();
@@ -179,7 +179,7 @@ TEST(RaceFilm, IsTheSameEveryTimeAndTakesItsLook) {
     EXPECT_EQ(read_apng(read(folder / "a.png")).size, glm::ivec2(200, 150));
 }
 
-TEST(RaceFilm, LastsFourToTwelveSecondsHoweverManyIterations) {
+TEST(RaceFilm, LastsFourToTwelveSecondsForAnyIterations) {
     using app::race_film_seconds;
     for (const std::size_t few : {1u, 2u, 4u, 11u}) EXPECT_NEAR(race_film_seconds(few), 4.0, 1e-4) << few;
     EXPECT_NEAR(race_film_seconds(20), 6.0, 1e-4) << "four iterations a second";
@@ -238,7 +238,7 @@ TEST(RaceStrip, ScrubsPlaysAndStepsByMouseAndKeys) {
     EXPECT_EQ(shown(opened_race().command("race.play").wait(static_cast<int>(60.0 / pace) + 2)), 1);
 }
 
-/// A window that nothing moves in draws nothing: the end of the race must be drawn before.
+/// An idle window draws nothing, so the end of the race must be drawn before it idles.
 TEST(RaceStrip, ShowsItsEndWithoutAMoveOfTheMouse) {
     const std::unique_ptr<app::Window> window = app::open_offscreen({1280, 720});
     app::App app(*window);

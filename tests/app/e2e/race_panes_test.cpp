@@ -41,7 +41,7 @@ TEST(RacePanes, EachSolverHasOneWithItsName) {
     EXPECT_FALSE(state_after(race().command("race.close")).contains("panes"));
 }
 
-TEST(RacePanes, TheTargetIsDraggedInAnyOfThemAndIsOneTarget) {
+TEST(RacePanes, TheTargetIsSharedAndCanBeDraggedInEach) {
     const Json before = state_after(race());
     const glm::vec2 target = handle(before, "target"), by(-40.0f, 25.0f);
     const Json first = state_after(race().drag({target, target + by}));
@@ -61,7 +61,7 @@ TEST(RacePanes, ADragStaysInThePaneWhereItBegan) {
     EXPECT_LT(glm::distance(handle(after, "target"), handle(before, "target") + by), 0.2f);
 }
 
-TEST(RacePanes, ARopeIsDraggedInAnyOfThemAndFollowsInAll) {
+TEST(RacePanes, ARopeDraggedInOnePaneFollowsInAll) {
     ScriptText script;
     script.command("lab.open", {{"name", "rope"}})
         .command("rope.preset", {{"name", "line"}})
@@ -81,7 +81,7 @@ TEST(RacePanes, ARopeIsDraggedInAnyOfThemAndFollowsInAll) {
     }
 }
 
-TEST(RacePanes, TheyShareACameraThatAnyOfThemTurnsAndZooms) {
+TEST(RacePanes, TheyShareACameraThatEachCanTurnAndZoom) {
     const Json before = state_after(race());
     for (const std::size_t pane : {0u, 3u}) {
         const glm::vec2 free = corner(before, pane, "min") + glm::vec2(30.0f, 200.0f);

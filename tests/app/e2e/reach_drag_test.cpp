@@ -62,7 +62,7 @@ TEST(ReachDrag, a_joint_follows_the_mouse_while_root_target_and_tip_stay) {
     }
 }
 
-TEST(ReachDrag, the_root_takes_the_chain_along_which_reaches_again) {
+TEST(ReachDrag, TheRootTakesTheChainAlongAndItReachesAgain) {
     const Json before = state_after(reaching());
     const glm::vec2 at = handle(before, "segment.0"), by(30, -50);
     ScriptText script = reaching();

@@ -7,7 +7,7 @@ namespace {
 
 using app::Json;
 
-/// The result of a run: the bytes of its state and picture.
+/// The output of a run: the bytes of its state and picture.
 struct Left {
     std::string state, picture, recording;
     bool operator==(const Left&) const = default;
@@ -98,7 +98,7 @@ TEST_F(Recording, holds_time) {
     EXPECT_LT(state_of(left)["time"]["tick"], 60);
 }
 
-TEST_F(Recording, starts_from_the_scene_size_and_lab_it_was_made_with) {
+TEST_F(Recording, StartsWithItsSceneSizeAndLab) {
     ScriptText first;
     first.command("chain.preset", {{"name", "tentacle"}})
         .command("chain.target", {{"to", {1, 2, 3}}})

@@ -12,7 +12,7 @@ struct Refusal {
     std::string told;  ///< part of the reason
 };
 
-/// Each is valid JSON. The labs' own tests have the others.
+/// Each line is valid JSON. The labs' own tests cover the others.
 const std::vector<Refusal>& refusals() {
     static const std::vector<Refusal> list{
         {R"({"command": "chain.add")", "length"},
@@ -63,13 +63,13 @@ TEST_F(Refused, as_expected_lets_the_script_go_on) {
     EXPECT_EQ(state(), before);
 }
 
-TEST_F(Refused, where_it_was_accepted_is_a_failure) {
+TEST_F(Refused, WhereItWasAcceptedIsAFailure) {
     const Outcome outcome = run("{\"command\": \"chain.add\", \"length\": 1, \"refused\": true}\n");
     EXPECT_TRUE(complained(outcome, 1, {"line 1", "chain.add"}));
     EXPECT_FALSE(state().empty());
 }
 
-TEST_F(Refused, expectation_says_what_was_found_and_the_state_is_written) {
+TEST_F(Refused, AFailedExpectationReportsTheValueAndWritesTheState) {
     struct Failing {
         const char* line;
         const char* found;

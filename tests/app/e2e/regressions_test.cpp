@@ -8,7 +8,7 @@
 namespace tendril::test {
 namespace {
 
-TEST(OnceWrong, escape_in_a_drag_that_did_nothing_undoes_nothing_else) {
+TEST(OnceWrong, EscapeInADragWithoutEffectUndoesNothingElse) {
     // Along Z, seen from the front, a drag has no effect.
     ScriptText script;
     script.command("chain.target", {{"to", app::Json::array({5, 3, 0})}})
@@ -21,7 +21,7 @@ TEST(OnceWrong, escape_in_a_drag_that_did_nothing_undoes_nothing_else) {
 }
 
 /// The mouse rested on the hand's handle, which was drawn once more after its removal: a crash.
-TEST(OnceWrong, a_hand_goes_away_under_the_mouse) {
+TEST(OnceWrong, AHandMayVanishUnderTheMouse) {
     const TempFolder folder;
     const std::string two_nodes = (folder / "two.bvh").string(), scene = (folder / "two.json").string();
     write(two_nodes,
@@ -52,8 +52,8 @@ TEST(OnceWrong, a_hand_goes_away_under_the_mouse) {
     }
 }
 
-/// State of the old chain survived it, and the saved scene could not be opened.
-TEST(OnceWrong, a_chain_that_was_dragged_and_exchanged_is_saved_and_opened) {
+/// State of the old chain remained, and the saved scene could not be opened.
+TEST(OnceWrong, AChainReplacedAfterADragIsSavedAndOpened) {
     const TempFolder folder;
     const std::string path = (folder / "scene.json").string();
     const app::Json pole = {3, 3, 3};
@@ -87,7 +87,7 @@ TEST(OnceWrong, a_step_of_time_is_taken_at_once) {
     state_after(script);
 }
 
-TEST(OnceWrong, a_key_that_is_held_does_not_turn_things_on_and_off) {
+TEST(OnceWrong, AHeldKeyDoesNotToggleRepeatedly) {
     ScriptText script;
     for (int i = 0; i < 3; ++i) script.hold("space");
     script.release("space");

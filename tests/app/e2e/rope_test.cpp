@@ -51,7 +51,7 @@ TEST(RopeInTheWindow, ABallDraggedThroughARopeCarriesIt) {
     EXPECT_NEAR(collider(back, "ball")["centre"][1].get<double>(), 0.95, 1e-6);
 }
 
-TEST(RopeInTheWindow, AParticleThatIsDraggedIsHeldUntilItIsDropped) {
+TEST(RopeInTheWindow, ADraggedParticleIsHeldUntilDropped) {
     const ScriptText before = rope_lab().wait(90);
     const glm::vec2 at = handle(state_after(before), "rope.60");
     ScriptText held = before;
@@ -67,7 +67,7 @@ TEST(RopeInTheWindow, AParticleThatIsDraggedIsHeldUntilItIsDropped) {
     EXPECT_NEAR(high, was, 0.02) << "the whole drag is one step";
 }
 
-TEST(RopeInTheWindow, TimeGoesBackAndOnFromThere) {
+TEST(RopeInTheWindow, TimeGoesBackAndContinuesFromThere) {
     ScriptText script = rope_lab("cloth").wait(100);
     const Json then = state_after(script);
     script.wait(50).command("time.seek", {{"ticks_back", 50}});
@@ -90,7 +90,7 @@ TEST(RopeInTheWindow, TimeGoesBackAndOnFromThere) {
     EXPECT_EQ(play(ScriptText().command("time.seek", {{"ticks_back", 1}}, true)).outcome.exit_code, 0);
 }
 
-TEST(RopeInTheWindow, WhatWasAddedSinceTheMomentOneGoesBackToComesWithUndo) {
+TEST(RopeInTheWindow, UndoRestoresObjectsAddedAfterTheSoughtMoment) {
     ScriptText script = rope_lab("cloth").wait(30);
     script.command("rope.add", {{"name", "new"}, {"from", {0, 2, 0}}, {"to", {1, 2, 0}}}).wait(30);
     script.command("time.seek", {{"ticks_back", 50}});
@@ -99,7 +99,7 @@ TEST(RopeInTheWindow, WhatWasAddedSinceTheMomentOneGoesBackToComesWithUndo) {
     EXPECT_EQ(state_after(script)["ropes"][0]["name"], "new");
 }
 
-TEST(RopeInTheWindow, UndoBringsTheLabAndTheViewAndLeavesOtherLabsAsTheyAre) {
+TEST(RopeInTheWindow, UndoOpensLabAndViewAndKeepsOtherLabs) {
     // Undoing a change of the chain from the Rope lab opens the Chain lab, and the ropes run on.
     ScriptText script = ScriptText().command("chain.target", {{"to", {5, 2, 0}}});
     script.command("lab.open", {{"name", "rope"}}).wait(60).command("undo");

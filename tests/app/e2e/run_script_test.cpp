@@ -60,7 +60,7 @@ TEST_F(RunScript, CountsWhatItInstallsAndBuildsAndThenStartsTheProgram) {
     EXPECT_EQ(outcome.err.find('\r'), std::string::npos) << "lines are written over on terminals alone";
 }
 
-TEST_F(RunScript, OnATerminalWritesTheCountOverInPlace) {
+TEST_F(RunScript, OnATerminalTheCountIsUpdatedInPlace) {
     build_says("for i in 1 2 3; do echo \"[$i/3] Building CXX object $i.o\"; done");
     // script (util-linux) provides a terminal.
     const Outcome outcome = Process({"script", "-qec", (folder_ / "app/run").string(), "/dev/null"},
@@ -73,7 +73,7 @@ TEST_F(RunScript, OnATerminalWritesTheCountOverInPlace) {
         << outcome.out;
 }
 
-TEST_F(RunScript, SaysNothingWhereNothingIsToBeDone) {
+TEST_F(RunScript, PrintsNothingIfNothingIsToBeDone) {
     tool("bin/dpkg-query", "echo installed");
     build_says("echo 'ninja: no work to do.'");
     EXPECT_TRUE(succeeded(run()));

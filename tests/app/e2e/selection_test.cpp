@@ -59,7 +59,7 @@ TEST(SelectByMouse, ABoxSelectsWhatIsInItAndTurnsNothing) {
     EXPECT_EQ(state_after(script)["selection"], Json::array());
 }
 
-TEST(SelectByMouse, EscapeGivesABoxUp) {
+TEST(SelectByMouse, EscapeCancelsABox) {
     const Json start = state_after(front());
     ScriptText script = front();
     script.click(joint(start, 1)).move(joint(start, 2) - 30.0f).hold("ctrl").down();
@@ -97,7 +97,7 @@ TEST(SelectByMouse, EscapeSelectsNothingInEveryLab) {
     }
 }
 
-TEST(SelectByMouse, EscapeInADragPutsBackAndKeepsTheSelection) {
+TEST(SelectByMouse, EscapeInADragRestoresAndKeepsTheSelection) {
     const Json start = state_after(front());
     ScriptText script = front().click(joint(start, 3)).move(joint(start, 5)).down();
     script.move(joint(start, 5) + 40.0f).key("escape").up();
@@ -148,7 +148,7 @@ TEST(SelectByMouse, ShiftClickAddsABoneOfTheFigureAndTakesItOut) {
     EXPECT_EQ(state_after(script)["selection"], Json::array({"Spine"}));
 }
 
-TEST(SelectByMouse, ABoxSelectsTheNodesOfTheFigureThatAreSeen) {
+TEST(SelectByMouse, ABoxSelectsTheVisibleNodesOfTheFigure) {
     const Json start = state_after(figure());
     const glm::vec2 hand = handle(start, "node.LeftHand"), margin(25.0f, 25.0f);
     const glm::vec2 end = handle(start, "node.LeftHand_End");
@@ -165,7 +165,7 @@ TEST(SelectByMouse, ABoxSelectsTheNodesOfTheFigureThatAreSeen) {
     EXPECT_EQ(state_after(script)["selection"], Json::array());
 }
 
-TEST(SelectByMouse, ABoxLeavesOutHelperNodesThatAreHidden) {
+TEST(SelectByMouse, ABoxOmitsHiddenHelperNodes) {
     ScriptText script = figure();
     script.command("humanoid.load", {{"path", source_path("tests/app/golden/antennae.bvh")}})
         .command("humanoid.clip", {{"name", ""}})

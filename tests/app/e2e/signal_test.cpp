@@ -27,7 +27,7 @@ ScriptText dragged_ball(const ScriptText& before, float pixels) {
     return script;
 }
 
-TEST(SignalInTheWindow, TheBallThatIsDraggedIsTheInput) {
+TEST(SignalInTheWindow, TheDraggedBallIsTheInput) {
     const ScriptText before = signal_lab();
     ScriptText script = dragged_ball(before, 60.0f).up().wait(120);
     const Json state = state_after(script);
@@ -41,7 +41,7 @@ TEST(SignalInTheWindow, TheBallThatIsDraggedIsTheInput) {
     EXPECT_NEAR(back.at("input").get<double>(), 0.0, 1e-6) << "the whole drag is one step";
 }
 
-TEST(SignalInTheWindow, DraggingTakesAWaveOver) {
+TEST(SignalInTheWindow, DraggingReplacesAWave) {
     const ScriptText before = opened().wait(30).command("time.pause");
     ScriptText script = dragged_ball(before, -30.0f).up();
     EXPECT_EQ(state_after(script).at("input_kind"), "hand");
@@ -68,7 +68,7 @@ double most_wanted_after(ScriptText script) {
     return most;
 }
 
-/// The axes make room for what was drawn, but only once the button is up: otherwise the value under a resting
+/// The axes make room for the drawn curve only once the button is up: otherwise the value under a resting
 /// mouse would grow in every frame.
 TEST(SignalInTheWindow, TheAxesOfAResponseStayWhileItIsDrawn) {
     ScriptText script = opened()
@@ -83,7 +83,7 @@ TEST(SignalInTheWindow, TheAxesOfAResponseStayWhileItIsDrawn) {
     EXPECT_NEAR(most_wanted_after(held.wait(60).up().wait(3)), at_once, 0.1);
 }
 
-/// The row of pixels in which the lower plot shows its input at the height of a column.
+/// The row of pixels where the lower plot's input crosses a column.
 float row_of_input(const app::Image& picture, int column) {
     int best = 0, most = -1;
     for (int y = picture.size.y / 2; y < picture.size.y - 100; ++y) {
@@ -110,7 +110,7 @@ TEST(SignalInTheWindow, AResponseIsDrawnWhereTheMouseIs) {
 }
 
 /// The window stays responsive; a script's command completes at once, with the same result.
-TEST(SignalInTheWindow, AFitThatAButtonBeginsGoesOnFromTickToTick) {
+TEST(SignalInTheWindow, AFitStartedByAButtonContinuesFromTickToTick) {
     const glm::vec2 fit{1060.0f, 306.0f};
     const ScriptText drawn =
         opened()
@@ -236,8 +236,8 @@ TEST_F(CurveInTheWindow, ATangentIsDraggedByItsEnd) {
     EXPECT_EQ(key.at("time"), 0.5);
 }
 
-/// The second filter works on what the first leaves: its jitter alone is another number.
-TEST(SignalInTheWindow, EachNumberSaysWhatItIsOf) {
+/// The second filter's input is the first one's output, so its jitter alone is a different number.
+TEST(SignalInTheWindow, EachNumberNamesItsFilter) {
     const auto window = app::open_offscreen({1440, 1400});
     app::App app(*window);
     FrameRecorder recorder;
@@ -269,7 +269,7 @@ TEST(SignalInTheWindow, AFileIsTypedIntoThePanel) {
     EXPECT_EQ(state.at("input"), 7.0);
 }
 
-TEST(SignalInTheWindow, ACsvThatIsDroppedInVainSaysWhy) {
+TEST(SignalInTheWindow, ADroppedCsvThatIsRefusedSaysWhy) {
     const TempFolder folder;
     write(folder / "rows.csv", "dt,input\n0.5,7\n0.5,-7\n");
     write(folder / "hole.csv", "dt,input\n0.5,\n");

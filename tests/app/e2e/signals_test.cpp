@@ -11,7 +11,7 @@ namespace {
 
 class Signals : public testing::TestWithParam<int> {};
 
-TEST_P(Signals, end_it_cleanly_with_everything_written) {
+TEST_P(Signals, EndItCleanlyWithEverythingWritten) {
     const TempFolder folder;
     const auto path = [&](const char* name) { return (folder / name).string(); };
     ScriptText script;
@@ -41,7 +41,7 @@ TEST_P(Signals, end_it_cleanly_with_everything_written) {
 INSTANTIATE_TEST_SUITE_P(All, Signals, testing::Values(SIGINT, SIGTERM),
                          [](const auto& number) { return number.param == SIGINT ? "SIGINT" : "SIGTERM"; });
 
-TEST(Quit, ends_a_script_where_it_stands_with_everything_written) {
+TEST(Quit, EndsAScriptAtOnceWithEverythingWritten) {
     ScriptText script = ScriptText().command("chain.target", {{"to", {3, 2, 1}}});
     const std::string before = state_after(script)["target"].dump();
     script.command("quit").wait(1'000'000).command("chain.target", {{"to", {0, 0, 0}}});

@@ -50,7 +50,7 @@ std::size_t lines(const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// Not at every key on the way to the number.
+/// They are not refused at every key on the way to the number.
 TEST(TypedNumbers, AreRefusedOnceWhenTypingEnds) {
     for (const std::string end : ends) {
         const std::string told = play_refused(ended(typed_iterations("99999999"), end)).outcome.err;
@@ -66,7 +66,7 @@ TEST(TypedNumbers, ThatBeginOutOfRangeAreTaken) {
 }
 
 /// 100 is the field's present value: 1 and 10 on the way must not be applied, nor must deleted text.
-TEST(TypedNumbers, ThatSayWhatIsThereOrNothingChangeNothing) {
+TEST(TypedNumbers, PresentValueOrEmptyTextChangesNothing) {
     for (const bool deleted : {false, true}) {
         ScriptText script = typed_iterations(deleted ? "42" : "100");
         if (deleted) script.key("backspace").key("backspace");
@@ -75,7 +75,7 @@ TEST(TypedNumbers, ThatSayWhatIsThereOrNothingChangeNothing) {
     }
 }
 
-/// Not on the way there either: the chain is bitwise unchanged while the user types.
+/// Nothing changes on the way either: the chain is bitwise unchanged while the user types.
 TEST(TypedNumbers, ChangeNothingBeforeEnter) {
     const app::Json before = state_after(typed_iterations(""));
     const app::Json typing = state_after(typed_iterations("3").wait(30));
@@ -87,7 +87,7 @@ TEST(TypedNumbers, ChangeNothingBeforeEnter) {
     EXPECT_EQ(left.at("camera"), before.at("camera"));
 }
 
-TEST(TypedNumbers, AreWorkedOutWithTheirUnits) {
+TEST(TypedNumbers, AreEvaluatedWithTheirUnits) {
     for (const auto& [text, iterations] : {std::pair("7*6", 42), {"1e2/4", 25}, {"(1+2)^2", 9}}) {
         const Played played = play(typed_iterations(text).key("enter").wait(30));
         EXPECT_EQ(played.state.at("solve").at("iterations"), iterations) << text;
@@ -97,7 +97,7 @@ TEST(TypedNumbers, AreWorkedOutWithTheirUnits) {
 }
 
 /// After Enter the field stays open; a click elsewhere restores the value and gives the reason.
-TEST(TypedNumbers, ThatAreNoneAreRefusedInWords) {
+TEST(TypedNumbers, InvalidTextIsRefusedWithAReason) {
     const Played elsewhere =
         play_refused(typed_iterations("many").key("enter").click({700.0f, 400.0f}).wait(30));
     EXPECT_TRUE(has(elsewhere.outcome.err, "\"many\" is not a number"));
@@ -143,7 +143,7 @@ TEST(TypedNumbers, TabGoesToTheNextField) {
 }
 
 /// FABRIK has no damping: the fields below the soft zone are greyed out.
-TEST(TypedNumbers, TabPassesByWhatCannotBeChanged) {
+TEST(TypedNumbers, TabSkipsDisabledFields) {
     ScriptText script;
     script.command("chain.mode", {{"mode", "reach"}}).command("view.fold", unfolded);
     const app::Json before = state_after(script).at("solve");
@@ -163,7 +163,7 @@ TEST(TypedNumbers, TabPassesByWhatCannotBeChanged) {
 
 /// Only the direct solver bends ropes: with another, Tab goes from the stretch to the strain at which it
 /// tears.
-TEST(TypedNumbers, TabPassesByTheBendingThatTheSolverIgnores) {
+TEST(TypedNumbers, TabSkipsTheBendingThatTheSolverIgnores) {
     const auto typed = [](const char* solver) {
         return scene_after(ScriptText()
                                .command("lab.open", {{"name", "rope"}})
@@ -186,7 +186,7 @@ TEST(TypedNumbers, TabPassesByTheBendingThatTheSolverIgnores) {
     EXPECT_FALSE(torn.contains("bending"));
 }
 
-TEST(TypedNumbers, AreScrubbedFinerWithShift) {
+TEST(TypedNumbers, ShiftDragsThemFiner) {
     const auto scrubbed = [](bool shift) {
         ScriptText script;
         script.command("chain.mode", {{"mode", "reach"}}).command("view.fold", unfolded);
@@ -202,7 +202,7 @@ TEST(TypedNumbers, AreScrubbedFinerWithShift) {
 }
 
 /// 2^32 + 7 would be 7 in a parser that keeps the last 32 bits.
-TEST(TypedNumbers, OnesThatNoIntHoldsAndEndlessOnesAreRefused) {
+TEST(TypedNumbers, IntegersOutOfRangeAndInfinityAreRefused) {
     const char* const whole = "chain.solver: iterations must be 1 to 10000, got";
     const char* const endless = "tolerance must be";
     for (const auto& [text, told] : {std::pair("4294967303", whole),

@@ -8,7 +8,7 @@ std::size_t segments(const app::Json& state) {
     return state.at("segments").size();
 }
 
-/// Ctrl+Q in a scene with or without a change; one segment more shows that the program went on.
+/// Ctrl+Q in a scene with or without a change; an additional segment shows that the program continued.
 app::Json after_ctrl_q(bool changed, const ScriptText& then = {}) {
     ScriptText script;
     if (changed) script.command("chain.add", {{"length", 0.5}});
@@ -73,7 +73,7 @@ TEST(UnsavedWork, AfterAnotherSceneWasOpenedASaveOnlySaves) {
 }
 
 /// Saving answers the question.
-TEST(UnsavedWork, SavedMeanwhileIsAskedForNoMore) {
+TEST(UnsavedWork, SavedMeanwhileIsNotAskedForAgain) {
     const TempFolder folder;
     const std::string file = (folder / "arm.json").string();
     ScriptText asked = ScriptText().command("chain.add", {{"length", 0.5}}).key("ctrl+q").wait(2);

@@ -72,7 +72,7 @@ class VideoFinish : public testing::Test {
     Player player_{Script{}};
 };
 
-TEST_F(VideoFinish, GoesOnWhileTheWindowDoes) {
+TEST_F(VideoFinish, DoesNotBlockTheWindow) {
     film_with("sleep 1.5\n");
     write_frames();
     ASSERT_TRUE(filming());
@@ -148,7 +148,7 @@ class VideoReplay : public VideoFinish {
 
 LABEL(slow, "VideoReplay.*");
 
-TEST_F(VideoReplay, IsCancelledAgainThoughFfmpegIsDoneAtOnce) {
+TEST_F(VideoReplay, IsCancelledAgainEvenIfFfmpegIsDoneAtOnce) {
     begin("exec sleep 30\n");
     for (int i = 0; i < 40; ++i) tick();
     press("escape");
@@ -156,7 +156,7 @@ TEST_F(VideoReplay, IsCancelledAgainThoughFfmpegIsDoneAtOnce) {
     expect_same_again("");
 }
 
-TEST_F(VideoReplay, IsWrittenAgainThoughFfmpegTakesLonger) {
+TEST_F(VideoReplay, IsWrittenAgainEvenIfFfmpegTakesLonger) {
     begin("");
     for (int i = 0; i < 3000 && filming(); ++i) tick();
     EXPECT_FALSE(filming());
@@ -166,7 +166,7 @@ TEST_F(VideoReplay, IsWrittenAgainThoughFfmpegTakesLonger) {
     expect_same_again("sleep 1\n");
 }
 
-TEST_F(VideoReplay, IsNotWrittenWhereTheSessionEndedBefore) {
+TEST_F(VideoReplay, IsNotWrittenIfTheSessionEndedEarlier) {
     begin("exec sleep 30\n");
     for (int i = 0; i < 10; ++i) tick();
     EXPECT_TRUE(filming());
@@ -176,7 +176,7 @@ TEST_F(VideoReplay, IsNotWrittenWhereTheSessionEndedBefore) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "a.mp4"));
 }
 
-/// A script runs on its own: there is no window in which a user waits.
+/// A script does not wait for a user: there is no window.
 TEST_F(VideoReplay, OfAHeadlessRecordingFindsTheFileAfterTheLastFrame) {
     install("sleep 0.2\n");
     const std::string recording = (folder_ / "r.jsonl").string();
@@ -194,8 +194,8 @@ TEST_F(VideoReplay, OfAHeadlessRecordingFindsTheFileAfterTheLastFrame) {
     }
 }
 
-/// Whatever exit code it has, and though it says nothing if its file cannot be read back.
-TEST_F(VideoFinish, TellsWhatWentWrongAndLeavesTheOldFile) {
+/// Holds for every exit code, and even if ffmpeg prints nothing when its file cannot be read back.
+TEST_F(VideoFinish, ReportsTheFailureAndLeavesTheOldFile) {
     const std::string old = std::string("\0\0\0\x20", 4) + "ftypisom, the old video";
     write(folder_ / "a.mp4", old);
     for (const auto& [end, reads_back, told] :

@@ -90,8 +90,8 @@ TEST(Video, HasATransparentBackground) {
                                4);
 }
 
-/// Once more after seeking: the video does not end at the moment that is shown.
-TEST(Video, ShowsAllThatIsRememberedWhereverOneIs) {
+/// Again after seeking: the video does not end at the displayed moment.
+TEST(Video, ShowsAllRememberedMomentsAfterSeeking) {
     const TempFolder folder;
     ScriptText script = swinging_rope();
     const Json now = state_after(script);
@@ -159,13 +159,13 @@ ScriptText recorded_by_hand() {
     return script.key("ctrl+shift+p").wait(4).key("enter").wait(3);
 }
 
-TEST(Video, IsWrittenWhileOneGoesOn) {
+TEST(Video, IsWrittenInTheBackground) {
     const TempFolder folder;
     ScriptText script = recorded_by_hand();
     EXPECT_TRUE(succeeded(run_script(script.wait(60), {}, folder.path())));
     ASSERT_EQ(folder.names(), std::vector<std::string>{"tendril-1.png"});
     EXPECT_GE(read_apng(read(folder / "tendril-1.png")).frames.size(), 20u);
-    // Later changes are not in it.
+    // It does not contain later changes.
     ScriptText meanwhile = recorded_by_hand();
     meanwhile.command("rope.clear").command("lab.open", {{"name", "chain"}}).wait(60);
     const std::string alone = read(folder / "tendril-1.png");
@@ -202,7 +202,7 @@ TEST(Video, IsCancelledByEscapeAndLeavesNoFile) {
                     "tendril-1.png is still being written"));
 }
 
-TEST(Video, GoesOnWhereEscapeMeansSomethingElseAndWhereOneWantsToQuit) {
+TEST(Video, ContinuesWhenEscapeHasAnotherMeaningOrTheUserQuits) {
     const TempFolder folder;
     ScriptText menu = recorded_by_hand();
     EXPECT_TRUE(succeeded(run_script(menu.click({22, 20}).key("escape").wait(80), {}, folder.path())));
@@ -233,7 +233,7 @@ TEST(Mp4Video, GoesThroughAPipe) {
     EXPECT_TRUE(succeeded(run_script(own_size, fake))) << "of the view, made even";
 }
 
-TEST(Mp4Video, TellsWhatFfmpegSays) {
+TEST(Mp4Video, ReportsFfmpegsMessage) {
     const TempFolder folder, tools;
     for (const char* end : {"echo 'Unknown encoder libx264' >&2; exit 1\n",
                             "cat > /dev/null; echo 'Unknown encoder libx264' >&2; exit 1\n"}) {
@@ -259,7 +259,7 @@ TEST(Mp4Video, HasAllFrames) {
     EXPECT_EQ(read(folder / "said"), "h264,160,120,11\n");
 }
 
-TEST(CopiedPicture, GoesToAProgram) {
+TEST(CopiedPicture, GoesToTheClipboardProgram) {
     const TempFolder folder, tools;
     Environment fake = with_program(tools, "xclip",
                                     "echo \"$@\" > '" + (tools / "arguments").string() + "'\ncat > '" +

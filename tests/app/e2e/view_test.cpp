@@ -17,7 +17,7 @@ ScriptText preset(const char* name) {
     return ScriptText().command("view.mouse", {{"like", name}});
 }
 
-TEST(View, ALeftDragOnNothingTurnsItAndAClickDoesNot) {
+TEST(View, ALeftDragInEmptySpaceTurnsItAndAClickDoesNot) {
     const Json start = state_after(ScriptText().wait(1));
     const Json turned = state_after(ScriptText().move(nothing).down().move(nothing + glm::vec2(40, 0)).up());
     EXPECT_NE(turned["camera"]["yaw_deg"], start["camera"]["yaw_deg"]);
@@ -30,8 +30,8 @@ TEST(View, ALeftDragOnNothingTurnsItAndAClickDoesNot) {
     EXPECT_EQ(dragged["camera"], start["camera"]);
 }
 
-/// In 2D, a drawing: without perspective, square on to the plane that all of it lies in.
-TEST(View, ALeftDragOnNothingShiftsADrawing) {
+/// A drawing is a 2D view: without perspective, square on to the plane that contains the whole scene.
+TEST(View, ALeftDragInEmptySpacePansADrawing) {
     const glm::vec2 by(60, 20);
     const auto after_drag = [&](ScriptText script, const char* button) {
         const Json before = state_after(script.wait(2))["camera"];
@@ -100,7 +100,7 @@ ScriptText scrolls(const char* what) {
     return ScriptText().command("view.scroll", {{"does", what}}).move(nothing);
 }
 
-TEST(View, TheWheelZoomsAndSidewaysItShifts) {
+TEST(View, TheWheelZoomsAndPansSideways) {
     const Seen before = seen_after(scrolls("zoom"));
     const Seen zoomed = seen_after(scrolls("zoom").wheel(2));
     EXPECT_LT(zoomed.distance, before.distance);
@@ -116,7 +116,7 @@ TEST(View, TheWheelZoomsAndSidewaysItShifts) {
     EXPECT_EQ(slanted.target, zoomed.target);
 }
 
-TEST(View, TwoFingersShiftItWhereThatIsChosenAndZoomWithCtrl) {
+TEST(View, TwoFingersPanIfChosenAndZoomWithCtrl) {
     const Seen before = seen_after(scrolls("pan"));
     const Seen up = seen_after(scrolls("pan").wheel(2)), aside = seen_after(scrolls("pan").line(wheel(0, 2)));
     const Seen both = seen_after(scrolls("pan").line(wheel(2, 2)));
@@ -137,8 +137,8 @@ TEST(View, TwoFingersShiftItWhereThatIsChosenAndZoomWithCtrl) {
     EXPECT_EQ(panel.target, before.target);
 }
 
-/// What a fix takes out of a panel, undo puts back, and the panel is scrolled as it was.
-TEST(Panels, AreScrolledAsTheyWereAfterUndo) {
+/// Undo restores what a fix removed from a panel, and the panel's scroll position.
+TEST(Panels, UndoRestoresTheirScrollPosition) {
     const ScriptText scrolled =
         ScriptText()
             .command("lab.open", {{"name", "humanoid"}})

@@ -77,7 +77,7 @@ class RealWindow : public testing::Test {
         more.insert(more.end(), {"--lab", "chain"});
         start_as_it_comes(more);
     }
-    /// With the scene that it opens by default.
+    /// Starts with the scene that it opens by default.
     void start_as_it_comes(const std::vector<std::string>& more) {
         std::vector<std::string> arguments{"--state", state_path()};
         if (!size_.empty()) arguments.insert(arguments.end(), {"--size", size_});
@@ -314,7 +314,7 @@ TEST_F(RealWindow, keeps_unsaved_work_whatever_ends_it) {
 }
 
 TEST_F(RealWindow, offers_what_a_crash_left) {
-    // Autosaves take half a minute: make one by hand, as of a program that has ended.
+    // Autosaves take half a minute: make one by hand, as if left by a program that has ended.
     ScriptText script;
     script.command("chain.preset", {{"name", "arm"}})
         .command("scene.save", {{"path", (folder_ / "arm.json").string()}});

@@ -69,7 +69,7 @@ Image brighter(Image image, int by) {
     return image;
 }
 
-/// The whole picture a fraction of a pixel to the right, as if every edge were smoothed differently.
+/// The whole picture moved right by a fraction of a pixel, as if every edge were smoothed differently.
 Image nudged(const Image& image, double pixels) {
     Image result = image;
     const auto row = 4 * static_cast<std::size_t>(image.size.x);
@@ -80,7 +80,7 @@ Image nudged(const Image& image, double pixels) {
     return result;
 }
 
-/// Takes what `with` has and `without` lacks, and draws it into `without`, moved by `by`.
+/// Cuts out what `with` has and `without` lacks, and draws it into `without`, moved by `by`.
 Image moved(const Image& with, const Image& without, glm::ivec2 by) {
     Image result = without;
     const auto at = [&](int x, int y) {
@@ -126,7 +126,7 @@ TEST(Compare, noise_passes) {
     for (int by : {-2, 2}) EXPECT_TRUE(compare(picture, brighter(picture, by)).same) << by;
 }
 
-TEST(Compare, edges_smoothed_otherwise_pass) {
+TEST(Compare, EdgesSmoothedDifferentlyPass) {
     const Image picture = Studio().draw();
     const Image panels = app::read_png(golden_folder() / "help.png");
     for (double pixels : {0.05, 0.1, 0.15}) {
@@ -137,7 +137,7 @@ TEST(Compare, edges_smoothed_otherwise_pass) {
     }
 }
 
-TEST(Compare, a_lone_pixel_that_fell_the_other_way_passes) {
+TEST(Compare, ASingleFlippedPixelPasses) {
     Image picture = Studio().draw();
     const Image before = picture;
     std::fill_n(&picture.rgba[4 * (200 * 900 + 450)], 3, std::uint8_t{255});

@@ -26,7 +26,7 @@ std::filesystem::path output_folder();
 /// at half the size (view, plots and strip), so that renaming a label in a panel affects few pictures.
 app::Image golden_part(const std::string& name, const app::Image& window, const app::Json& state);
 
-/// The texts of the panels, one per line with its position in pixels: what a picture of them would show, in a
+/// The texts of the panels, one per line with its position in pixels: the contents of a panel's picture in a
 /// form that is readable in a diff.
 std::string panel_texts(const FrameRecord& frame);
 

@@ -77,14 +77,14 @@ TEST(GoldenPictures, one_of_the_backends_draws) {
     EXPECT_TRUE(missing("osmesa").empty() || missing("egl").empty());
 }
 
-TEST(GoldenPictures, none_is_left_without_its_script) {
+TEST(GoldenPictures, NoneLacksItsScript) {
     for (const auto& entry : fs::directory_iterator(golden_folder())) {
         if (entry.path().extension() != ".png") continue;
         EXPECT_TRUE(fs::exists(fs::path(entry.path()).replace_extension(".jsonl"))) << entry.path();
     }
 }
 
-TEST(GoldenPictures, are_of_different_things) {
+TEST(GoldenPictures, ShowDifferentThings) {
     std::vector<app::Image> pictures;
     const auto scripts = golden_scripts();
     ASSERT_GE(scripts.size(), 16u);

@@ -65,7 +65,7 @@ TEST(AnimatedPng, ReadsBackPixelForPixel) {
 }
 
 /// Larger than a chunk, and than zlib's buffer.
-TEST(AnimatedPng, LargeFramesAreManyChunks) {
+TEST(AnimatedPng, LargeFramesAreSplitIntoChunks) {
     const std::vector<Image> frames{noise({500, 300}, 1), noise({500, 300}, 2)};
     const std::string bytes = written(frames, {.transparent = true});
     EXPECT_GT(bytes.size(), 1'000'000u);
@@ -92,7 +92,7 @@ TEST(AnimatedPng, WritesOnlyWhatChanged) {
     EXPECT_LT(often.size(), once.size() + 50 * 100);
 }
 
-TEST(AnimatedPng, ShowsAFrameForSoManyTicks) {
+TEST(AnimatedPng, ShowsAFrameForItsNumberOfTicks) {
     const auto seconds = [](const app::VideoFormat& format) {
         const Apng read = read_apng(written({picture({4, 4}, 0), picture({4, 4}, 1)}, format));
         EXPECT_EQ(read.frames[0].numerator * read.frames[1].denominator,

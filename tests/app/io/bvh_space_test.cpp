@@ -79,9 +79,9 @@ struct Written {
     bool rest_z_up = false;             ///< offsets with Z up
     std::array<double, 3> root_turn{};  ///< degrees about Z, X, Y, added in every frame
     glm::dvec3 root{0, 90, 0};          ///< its position in the first frame
-    glm::dvec3 way{0, 0, 2};            ///< that it moves in a frame
-    double unit = 1.0;                  ///< times that
-    double tread = 0.0;                 ///< degrees by which the feet tilt more and less, in turn
+    glm::dvec3 way{0, 0, 2};            ///< movement per frame
+    double unit = 1.0;                  ///< scales all lengths
+    double tread = 0.0;                 ///< amplitude of the feet's alternating tilt, degrees
     int frames = 20;
 };
 
@@ -136,7 +136,7 @@ std::string all_text(const Character& character) {
     return test_posed::lines(character.sentences());
 }
 
-/// Upright at rest and in the first frame; in that, on the floor.
+/// Upright at rest and in the first frame, where it stands on the floor.
 void expect_standing(const Character& character) {
     for (const bool in_motion : {false, true}) {
         SCOPED_TRACE(in_motion ? "in motion" : "at rest");
@@ -149,7 +149,7 @@ void expect_standing(const Character& character) {
     EXPECT_TRUE(bone_map(character).is_usable());
 }
 
-TEST(BvhSpace, a_standing_zero_pose_with_y_up_is_taken_as_it_is) {
+TEST(BvhSpace, AStandingZeroPoseWithYUpIsKept) {
     const Character character = parse_bvh(written({}), "it.bvh");
     expect_standing(character);
     EXPECT_EQ(character.scale, 0.01);
@@ -158,7 +158,7 @@ TEST(BvhSpace, a_standing_zero_pose_with_y_up_is_taken_as_it_is) {
     EXPECT_TRUE(test::says(all_text(character), "unit centimetres"));
 }
 
-TEST(BvhSpace, a_zero_pose_that_does_not_stand_gives_way_to_the_motion) {
+TEST(BvhSpace, AZeroPoseThatDoesNotStandIsReplacedByOneFromTheMotion) {
     const Character character = parse_bvh(written({.joints = folded, .root = {173, 90, -518}}), "it.bvh");
     expect_standing(character);
     EXPECT_EQ(character.scale, 0.01);
@@ -180,8 +180,8 @@ std::pair<Character, double> on_the_figure(const Character& source) {
     return {std::move(figure), made->scale};
 }
 
-/// It walks as in its file, whichever way it looks in the frame that becomes its rest pose.
-TEST(BvhSpace, TheWayAFigureLooksInAFrameIsNotTheWayItFaces) {
+/// It walks as in its file, whatever its heading in the frame that becomes its rest pose.
+TEST(BvhSpace, AFramesHeadingIsNotTheFiguresForward) {
     for (const double yaw : {-128.0, -18.0, 0.0, 18.0, 64.0, 90.0, 170.0}) {
         SCOPED_TRACE(yaw);
         const Character source =
@@ -199,7 +199,7 @@ TEST(BvhSpace, TheWayAFigureLooksInAFrameIsNotTheWayItFaces) {
     }
 }
 
-/// And the feet of that frame are not how it stands: a frame is the same however many follow.
+/// Nor do that frame's feet define its stance: a frame is the same however many follow it.
 TEST(BvhSpace, AFrameRetargetsTheSameInAFileOfAnyLength) {
     for (const int frames : {1, 2, 4, 10, 60}) {
         const Character source = parse_bvh(
@@ -220,7 +220,7 @@ TEST(BvhSpace, AFrameRetargetsTheSameInAFileOfAnyLength) {
     }
 }
 
-TEST(BvhSpace, root_positions_are_added_where_that_alone_puts_the_feet_on_the_floor) {
+TEST(BvhSpace, RootPositionsAreAddedIfOnlyThatPutsTheFeetOnTheFloor) {
     Written from{.joints = folded, .root = {173, -1, -518}};
     Character character = parse_bvh(written(from), "it.bvh");
     expect_standing(character);
@@ -236,7 +236,7 @@ TEST(BvhSpace, root_positions_are_added_where_that_alone_puts_the_feet_on_the_fl
     EXPECT_NEAR(at(character, "Hips").y, 0.90, 1e-9);
 }
 
-TEST(BvhSpace, the_up_axis_is_that_of_the_zero_pose_and_the_motion) {
+TEST(BvhSpace, TheUpAxisIsTheZeroPosesAndTheMotions) {
     const Character character =
         parse_bvh(written({.rest_z_up = true, .root = {0, 40, 90}, .way = {0, -2, 0}}), "it.bvh");
     EXPECT_EQ(character.space.up, UpAxis::Z);
@@ -246,7 +246,7 @@ TEST(BvhSpace, the_up_axis_is_that_of_the_zero_pose_and_the_motion) {
     EXPECT_GT(at(character, "LeftToe").z, at(character, "LeftFoot").z) << "it faces forwards still";
 }
 
-TEST(BvhSpace, where_the_two_differ_the_up_axis_is_that_of_the_motion) {
+TEST(BvhSpace, IfTheyDifferTheUpAxisIsTheMotions) {
     // Y up at rest; in motion turned about X, so that it stands along Z and walks along -Y.
     const Character z_up =
         parse_bvh(written({.root_turn = {0, 90, 0}, .root = {30, 60, 90}, .way = {0, -2, 0}}), "it.bvh");
@@ -259,14 +259,14 @@ TEST(BvhSpace, where_the_two_differ_the_up_axis_is_that_of_the_motion) {
     expect_standing(y_up);
 }
 
-TEST(BvhSpace, a_figure_that_lies_on_the_floor_is_not_stood_up) {
+TEST(BvhSpace, AFigureLyingOnTheFloorIsNotRaised) {
     const Character lying =
         parse_bvh(written({.root_turn = {0, -90, 0}, .root = {50, 12, 130}, .way = {0, 0, 0}}), "it.bvh");
     EXPECT_EQ(lying.space.up, UpAxis::Y);
     EXPECT_NEAR(at(lying, "Head").y, at(lying, "Hips").y, 1e-9);
 }
 
-TEST(BvhSpace, the_unit_is_that_of_the_standing_figure) {
+TEST(BvhSpace, TheUnitComesFromTheStandingFigure) {
     const struct {
         double unit;
         const char* name;
@@ -305,7 +305,7 @@ std::optional<UnitDoubt> doubt_of(const Character& character) {
                         character.scale, bone_map(character));
 }
 
-TEST(UnitOfAFile, that_an_fbx_does_not_state_is_guessed_and_said) {
+TEST(UnitOfAFile, AnFbxFilesMissingUnitIsGuessedAndReported) {
     const test::TempFolder folder;
     test::write(folder / "none.fbx", fbx_figure({}));
     const Character guessed = read_character(folder / "none.fbx");
@@ -324,7 +324,7 @@ TEST(UnitOfAFile, that_an_fbx_does_not_state_is_guessed_and_said) {
     EXPECT_TRUE(test::says(text(*doubt), "17.8 mm tall metres 1.78 m"));
 }
 
-TEST(UnitOfAFile, is_not_doubted_for_a_childs_height_or_a_thing) {
+TEST(UnitOfAFile, IsNotDoubtedForAChildOrAThing) {
     const auto doubt = [](double scale) {
         Character figure = stick_figure();
         read_as(figure, scale, {});

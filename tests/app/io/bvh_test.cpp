@@ -63,7 +63,7 @@ TEST(Bvh, spellings_of_real_exporters_are_read_as_declared_with_a_note) {
     }
 }
 
-TEST(Bvh, a_turn_beyond_180_degrees_goes_the_short_way) {
+TEST(Bvh, ATurnBeyond180DegreesTakesTheShortWay) {
     std::string text = stalk + "MOTION\nFrames: 100\nFrame Time: 0.0333333\n";
     for (int i = 0; i < 100; ++i)
         text += "0 90 0 0 " + std::to_string(std::remainder(31.0 * i, 360.0)) + " 0 0 0 0\n";
@@ -73,7 +73,7 @@ TEST(Bvh, a_turn_beyond_180_degrees_goes_the_short_way) {
             EXPECT_GE(glm::dot(channel.rotation.values[i - 1], channel.rotation.values[i]), 0.0) << i;
 }
 
-TEST(Bvh, damage_is_refused_in_words_that_name_the_line) {
+TEST(Bvh, DamageIsRefusedWithTheLine) {
     const std::string head = stalk + "MOTION\nFrames: 3\nFrame Time: 0.0333333\n";
     EXPECT_TRUE(test::says(refusal(stalk + "MOTION\nFrames: 3\nFrame Time: 0,0333333\n" + rows),
                            "line 18 decimal point 0,0333333"));

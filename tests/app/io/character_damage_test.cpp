@@ -33,7 +33,7 @@ struct Format {
     const char* name;
     std::string bytes;
     std::function<Character(const std::string&)> read;
-    /// Calls it with the file after each of the edits to its structure.
+    /// Calls `use` with the file after each edit of its structure.
     std::function<void(const std::string& bytes, const Edit& use)> edited;
     std::size_t fixed_memory = 200'000;  ///< bytes that any file may take
 };
@@ -124,7 +124,7 @@ void edit_json(const std::string& text, const Edit& use) {
     }
 }
 
-/// The same of a GLB file.
+/// The same for a GLB file, and its header's numbers.
 void edit_chunk(const std::string& bytes, const Edit& use) {
     std::uint32_t size = 0;
     std::memcpy(&size, bytes.data() + 12, sizeof size);
@@ -212,7 +212,7 @@ std::vector<Format> formats() {
 
 class CharacterDamage : public testing::TestWithParam<Format> {
   protected:
-    /// Reads the bytes if it can be: all that are given, or one of ten under the sanitizers.
+    /// Reads the bytes, or only one of ten under the sanitizers; refusals must name the file.
     void attempt(const std::string& bytes) {
         if (!test::is_sampled(attempts_++)) return;
         const test::CountedMemory counted;
@@ -227,7 +227,7 @@ class CharacterDamage : public testing::TestWithParam<Format> {
             fail(bytes, std::string("not refused but ended: ") + error.what());
         }
         const std::size_t peak = counted.peak();
-        // A byte of what zlib packs, pictures and arrays, stands for up to 1032.
+        // One byte compressed by zlib, of a picture or an array, expands to up to 1032.
         if (peak > GetParam().fixed_memory + 2000 * GetParam().bytes.size())
             fail(bytes, "takes " + std::to_string(peak) + " bytes of memory");
     }
@@ -251,7 +251,7 @@ class CharacterDamage : public testing::TestWithParam<Format> {
     int failures_ = 0;
 };
 
-TEST_P(CharacterDamage, any_byte_may_be_changed_cut_off_or_left_out) {
+TEST_P(CharacterDamage, AnyByteMayBeChangedCutOffOrOmitted) {
     const std::string whole = GetParam().bytes;
     EXPECT_LT(whole.size(), 8000u);
     const Character undamaged = GetParam().read(whole);
@@ -268,7 +268,7 @@ TEST_P(CharacterDamage, any_byte_may_be_changed_cut_off_or_left_out) {
     }
 }
 
-TEST_P(CharacterDamage, any_part_may_be_replaced_left_out_or_doubled) {
+TEST_P(CharacterDamage, AnyPartMayBeReplacedOmittedOrDoubled) {
     GetParam().edited(GetParam().bytes, [&](const std::string& bytes) {
         if (!HasFatalFailure()) attempt(bytes);
     });

@@ -33,7 +33,7 @@ void expect_stands(const Measured& all) {
 
 LABEL(slow, "CharacterFeet.ClipsThatOthersMadeStandToo");
 
-TEST(CharacterFeet, TheFiguresSolesAreWhereItsMakerHasThem) {
+TEST(CharacterFeet, TheFiguresSolesAreWhereItsBuilderPutsThem) {
     const Character figure = stick_figure();
     const auto soles = humanoid::find_soles(figure.skeleton, humanoid::match_bones(figure.skeleton));
     ASSERT_TRUE(soles) << soles.message();

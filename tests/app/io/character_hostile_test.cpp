@@ -111,7 +111,7 @@ TEST_F(HostileCharacter, another_version_of_gltf_is_named) {
             "is binary glTF version 1; only version 2");
 }
 
-TEST_F(HostileCharacter, gltf_clips_with_wrong_numbers_are_refused) {
+TEST_F(HostileCharacter, GltfClipsWithWrongNumbersAreRefused) {
     refuses("back.gltf", two_joints("", "", clip_of({0.0f, 0.7f, 0.5f}, 2.0f)), "must be");
     refuses("nan_time.gltf", two_joints("", "", clip_of({0.0f, NAN, 1.0f}, 2.0f)), "times[1]");
     refuses("nan.gltf", two_joints("", "", clip_of({0.0f, 0.5f, 1.0f}, NAN)), "values[0]");
@@ -129,7 +129,7 @@ TEST_F(HostileCharacter, gltf_clips_with_wrong_numbers_are_refused) {
     refuses("type.gltf", two_joints("", "", keys(fine, three_times, three_times)), "3 numbers per row");
 }
 
-TEST_F(HostileCharacter, gltf_accessors_that_claim_more_than_there_is_are_refused) {
+TEST_F(HostileCharacter, GltfAccessorsThatClaimTooMuchAreRefused) {
     const std::string fine = base64(std::vector<float>(12, 0.5f));
     const auto times = [](const std::string& count) {
         return R"({"bufferView":0,"componentType":5126,"count":)" + count + R"(,"type":"SCALAR"})";
@@ -150,7 +150,7 @@ TEST_F(HostileCharacter, gltf_accessors_that_claim_more_than_there_is_are_refuse
             "sparse index");
 }
 
-TEST_F(HostileCharacter, gltf_buffers_that_are_not_there_are_refused) {
+TEST_F(HostileCharacter, MissingGltfBuffersAreRefused) {
     const auto buffer = [](const std::string& text) {
         return two_joints("", "", R"(,"buffers":[)" + text + "]");
     };
@@ -170,7 +170,7 @@ TEST_F(HostileCharacter, gltf_buffers_that_are_not_there_are_refused) {
     EXPECT_FALSE(std::filesystem::exists("broken"));
 }
 
-TEST_F(HostileCharacter, gltf_images_that_claim_bytes_that_are_not_there_are_refused) {
+TEST_F(HostileCharacter, GltfImagesThatClaimMissingBytesAreRefused) {
     const auto image = [](const std::string& text) {
         return two_joints(
             "", "",
@@ -186,7 +186,7 @@ TEST_F(HostileCharacter, gltf_images_that_claim_bytes_that_are_not_there_are_ref
         << "a skeleton can be played without the colours of its skin";
 }
 
-TEST_F(HostileCharacter, gltf_bytes_that_nothing_uses_are_checked_as_well) {
+TEST_F(HostileCharacter, UnusedGltfBytesAreCheckedToo) {
     // A valid file with one additional view, accessor or mesh that refers to missing data.
     const auto with = [](const std::string& view, const std::string& accessor, const std::string& more = "") {
         const std::string view_1 = R"({"buffer":0,"byteOffset":12,"byteLength":36})";
@@ -240,7 +240,7 @@ TEST_F(HostileCharacter, gltf_bytes_that_nothing_uses_are_checked_as_well) {
             "expected an object");
 }
 
-TEST_F(HostileCharacter, nothing_outside_the_folder_of_a_gltf_is_read) {
+TEST_F(HostileCharacter, NothingOutsideAGltfsFolderIsRead) {
     const std::string secret(64, 's');
     std::filesystem::create_directories(folder_ / "in/below");
     for (const char* name : {"outside.bin", "in/beside.bin", "in/below/it.bin"})
@@ -266,7 +266,7 @@ TEST_F(HostileCharacter, nothing_outside_the_folder_of_a_gltf_is_read) {
     }
 }
 
-TEST_F(HostileCharacter, gltf_nodes_that_make_no_tree_are_refused) {
+TEST_F(HostileCharacter, GltfNodesThatAreNoTreeAreRefused) {
     refuses("circle.gltf", two_joints("", R"(,"children":[0])"), "node");
     refuses("self.gltf", asset + R"("nodes":[{"children":[0]}],"skins":[{"joints":[0]}]})", "node");
     refuses("two.gltf",
@@ -279,7 +279,7 @@ TEST_F(HostileCharacter, gltf_nodes_that_make_no_tree_are_refused) {
     refuses("number.gltf", two_joints("", R"(,"rotation":[0,0,1e999,1])"), "");
 }
 
-TEST_F(HostileCharacter, gltf_names_that_are_double_or_missing_are_made_unique) {
+TEST_F(HostileCharacter, RepeatedOrMissingGltfNamesAreMadeUnique) {
     ASSERT_EQ(refusal("names.gltf", asset + R"("nodes":[{"name":"a","children":[1,2,3]},{"name":"a"},{},)"
                                             R"({"name":"node_2"}],"skins":[{"joints":[0,1,2,3]}]})"),
               "");
@@ -289,7 +289,7 @@ TEST_F(HostileCharacter, gltf_names_that_are_double_or_missing_are_made_unique) 
     EXPECT_EQ(character_.skeleton[3].name, "node_2_2");
 }
 
-TEST_F(HostileCharacter, gltf_with_more_nodes_than_a_skeleton_has_is_refused_at_once) {
+TEST_F(HostileCharacter, GltfWithTooManyNodesForASkeletonIsRefusedAtOnce) {
     std::string nodes, joints;
     for (int i = 0; i < 10000; ++i) {
         nodes += R"({"name":"bone","children":[)" + std::to_string(i + 1) + "]},";
@@ -300,7 +300,7 @@ TEST_F(HostileCharacter, gltf_with_more_nodes_than_a_skeleton_has_is_refused_at_
             "its skeleton has 10001 nodes");
 }
 
-TEST_F(HostileCharacter, gltf_json_that_nests_without_end_is_refused) {
+TEST_F(HostileCharacter, EndlesslyNestedGltfJsonIsRefused) {
     refuses("deep.gltf", two_joints(R"(,"extras":)" + repeated("[", 100000) + repeated("]", 100000), ""),
             "nested");
     refuses("open.gltf", repeated("{\"a\":", 100000), "nested");
@@ -333,7 +333,7 @@ const std::string hierarchy =
     "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n"
     "End Site\n{\nOFFSET 0 1.7 0\n}\n}\n";
 
-TEST_F(HostileCharacter, bvh_motion_that_is_not_there_is_refused_at_once) {
+TEST_F(HostileCharacter, MissingBvhMotionIsRefusedAtOnce) {
     EXPECT_EQ(refusal("well.bvh", hierarchy + "MOTION\nFrames: 1\nFrame Time: 0.1\n1 2 3\n"), "");
     EXPECT_EQ(character_.clips.size(), 1u);
     EXPECT_EQ(refusal("still.bvh", hierarchy + "MOTION\nFrames: 0\nFrame Time: 0.1\n"), "");
@@ -349,7 +349,7 @@ TEST_F(HostileCharacter, bvh_motion_that_is_not_there_is_refused_at_once) {
     refuses("many.bvh", hierarchy + "MOTION\nFrames: 1\nFrame Time: 0.1\n1 2 3\n4\n", "end of the file");
 }
 
-TEST_F(HostileCharacter, bvh_joints_without_end_are_refused) {
+TEST_F(HostileCharacter, EndlessBvhJointsAreRefused) {
     const std::string joint = "JOINT a\n{\nOFFSET 0 1 0\n";
     refuses("deep.bvh", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n" + repeated(joint, 10000), "4096 joints");
     refuses("roots.bvh", "HIERARCHY\n" + repeated("ROOT a\n{\n}\n", 10000) + "MOTION\n", "4096 joints");
@@ -368,7 +368,7 @@ std::string binary_fbx(const std::string& records) {
     return "Kaydara FBX Binary  " + std::string("\0\x1a\0", 3) + raw(std::uint32_t{7400}) + records;
 }
 
-TEST_F(HostileCharacter, fbx_records_that_are_not_as_they_say_are_refused) {
+TEST_F(HostileCharacter, InconsistentFbxRecordsAreRefused) {
     refuses("past.fbx", binary_fbx(raw(std::uint32_t{4000}) + std::string(20, '\1')), "byte");
     refuses("back.fbx", binary_fbx(raw(std::uint32_t{3}) + std::string(20, '\0')), "ends at byte 3");
     const std::string array =
@@ -383,7 +383,7 @@ TEST_F(HostileCharacter, fbx_records_that_are_not_as_they_say_are_refused) {
     refuses("deep.fbx", binary_fbx(nested + std::string(13, '\0')), "nested records");
 }
 
-TEST_F(HostileCharacter, fbx_values_of_an_unknown_kind_are_left_out_and_said) {
+TEST_F(HostileCharacter, FbxValuesOfUnknownKindAreOmittedWithANote) {
     const std::string whole = test::bent_leg().binary(), end(13, '\0');
     const std::size_t at = whole.size() - end.size();
     for (const std::string kind : {"Z", "Q", "\x01", "\xff"}) {
@@ -415,7 +415,7 @@ std::string fbx_models(const std::vector<std::pair<int, int>>& connections, int 
     return text + "}\n";
 }
 
-TEST_F(HostileCharacter, a_figure_without_nodes_is_refused_whatever_reads_it) {
+TEST_F(HostileCharacter, AFigureWithoutNodesIsRefusedByEveryReader) {
     EXPECT_THROW(static_cast<void>(skeleton_of({})), std::runtime_error);
     test::FbxScene scene;  // a mesh that is animated about its pivot, without a bone
     const std::int64_t box =
@@ -431,7 +431,7 @@ TEST_F(HostileCharacter, a_figure_without_nodes_is_refused_whatever_reads_it) {
         refuses("mesh.fbx", bytes, "has no skeleton");
 }
 
-TEST_F(HostileCharacter, fbx_models_in_a_circle_or_without_end_are_refused) {
+TEST_F(HostileCharacter, CyclicOrEndlessFbxModelsAreRefused) {
     EXPECT_EQ(refusal("well.fbx", fbx_models({{1, 0}, {2, 1}}, 2)), "") << "limb nodes alone are a skeleton";
     EXPECT_EQ(character_.skeleton.size(), 2u);
     refuses("circle.fbx", fbx_models({{1, 0}, {2, 1}, {3, 4}, {4, 3}}, 4), "is below itself");

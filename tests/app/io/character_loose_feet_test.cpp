@@ -38,7 +38,7 @@ std::vector<Placement> placed_at(const Skeleton& skeleton, const Clip& clip, dou
     return places;
 }
 
-/// The figure's walk with these feet as roots, which hold the place they had, moved by `off`.
+/// The figure's walk with these feet as roots that keep their positions, moved by `off`.
 Character ik_rig(const std::vector<std::string>& feet, const glm::dvec3& off = glm::dvec3(0.0),
                  double rate = 30.0) {
     Character rig = stick_figure();
@@ -145,7 +145,7 @@ class LooseFeet : public ::testing::Test {
     test::TempFolder folder_;
 };
 
-TEST_F(LooseFeet, get_below_the_legs_and_every_joint_moves_as_before) {
+TEST_F(LooseFeet, MoveBelowTheLegsAndEveryJointMovesAsBefore) {
     const fs::path path = written(ik_rig(both_feet), "rig.glb");
     const Character before = as_in_file(path), after = read_character(path);
     EXPECT_FALSE(bone_map(before).is_usable());
@@ -155,7 +155,7 @@ TEST_F(LooseFeet, get_below_the_legs_and_every_joint_moves_as_before) {
         test::says(all_notes(after), "LeftFoot was moved below LeftLowerLeg RightFoot RightLowerLeg"));
 }
 
-TEST_F(LooseFeet, take_another_unit_and_axis) {
+TEST_F(LooseFeet, WorkWithAnotherUnitAndAxis) {
     Character before = ik_rig(both_feet), after = before;
     attach_feet(after);
     EXPECT_EQ(after.skeleton.moved().size(), 2u);
@@ -167,7 +167,7 @@ TEST_F(LooseFeet, take_another_unit_and_axis) {
     expect_same_motion(before, after);
 }
 
-TEST_F(LooseFeet, of_the_robot_work) {
+TEST_F(LooseFeet, WorkInTheRobotFile) {
     const fs::path path = test::characters_folder() / "robot.glb";
     if (!fs::exists(path)) GTEST_SKIP() << path << " is not there";
     const Character before = as_in_file(path), after = read_character(path);
@@ -182,7 +182,7 @@ TEST_F(LooseFeet, of_the_robot_work) {
     }
 }
 
-TEST_F(LooseFeet, stand_on_the_ground_and_are_baked_and_exported_so) {
+TEST_F(LooseFeet, StandOnTheGroundAndAreBakedAndExported) {
     const fs::path path = written(ik_rig(both_feet, glm::dvec3(0.0), 240.0), "rig.glb");
     const Character rig = read_character(path);
     const humanoid::Ground slope = *humanoid::Ground::slope(0.2);
@@ -209,7 +209,7 @@ TEST_F(LooseFeet, stand_on_the_ground_and_are_baked_and_exported_so) {
 }
 
 /// The cure moves the foot: its keys are not local to the leg.
-TEST_F(LooseFeet, that_sink_are_cured) {
+TEST_F(LooseFeet, SinkingFeetAreCured) {
     Character rig = ik_rig(both_feet);
     attach_feet(rig);
     const humanoid::BoneMap map = bone_map(rig);
@@ -242,7 +242,7 @@ TEST_F(LooseFeet, that_sink_are_cured) {
     EXPECT_TRUE(!left || left->amount < 0.5 * first->amount) << first->text << " / " << left->text;
 }
 
-TEST_F(LooseFeet, one_foot_alone_gets_below_its_leg) {
+TEST_F(LooseFeet, ASingleFootMovesBelowItsLeg) {
     const Character rig = read_character(written(ik_rig({"RightFoot"}), "rig.glb"));
     expect_works(rig);
     EXPECT_EQ(rig.notes.size(), 1u);
@@ -256,7 +256,7 @@ TEST_F(LooseFeet, one_foot_alone_gets_below_its_leg) {
     EXPECT_TRUE(loose[0].fits);
 }
 
-TEST_F(LooseFeet, that_are_not_where_the_legs_end_stay_and_say_so) {
+TEST_F(LooseFeet, FeetAwayFromTheLegsStayWithANote) {
     for (const glm::dvec3& off : {glm::dvec3(0.0, 0.0, 0.9), glm::dvec3(0.0, 0.42, 0.0)}) {
         const fs::path path = written(ik_rig(both_feet, off), "rig.glb");
         const Character before = as_in_file(path), after = read_character(path);
@@ -268,7 +268,7 @@ TEST_F(LooseFeet, that_are_not_where_the_legs_end_stay_and_say_so) {
 }
 
 /// Two rigs in one file, in the same place: each foot goes to its own rig's leg.
-TEST_F(LooseFeet, of_two_rigs_stay_with_their_own) {
+TEST_F(LooseFeet, FeetOfTwoRigsStayWithTheirOwn) {
     const Character one = ik_rig(both_feet);
     std::vector<humanoid::Node> nodes{{.name = "RigB"}, {.name = "RigA"}};
     for (const char* suffix : {"", "_2"}) {
@@ -294,7 +294,7 @@ TEST_F(LooseFeet, of_two_rigs_stay_with_their_own) {
     }
 }
 
-TEST_F(LooseFeet, below_a_leg_that_is_sheared_or_vanishes_stay_and_say_so) {
+TEST_F(LooseFeet, FeetBelowAShearedOrVanishingLegStayWithANote) {
     for (const glm::dvec3& scale : {glm::dvec3(1.0, 3.0, 1.0), glm::dvec3(0.0)}) {
         Character rig = ik_rig(both_feet);
         const std::size_t leg = rig.skeleton.find("LeftLowerLeg").value();

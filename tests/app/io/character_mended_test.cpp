@@ -36,7 +36,7 @@ std::vector<rig::Transform> mended_pose(const Character& character, double time)
     return pose;
 }
 
-/// A node that a clip moves; `path` is what its values are.
+/// A node moved by a clip; `path` is the animated property.
 Character one_track(const std::vector<float>& times, const std::vector<float>& values, const char* path,
                     const char* interpolation = "LINEAR") {
     GltfText file;
@@ -60,7 +60,7 @@ TEST(MendedCharacter, an_empty_or_unknown_chunk_at_the_end_of_a_glb_is_valid) {
     EXPECT_EQ(parse_gltf(GltfText::glb_of(json, "123", unknown), "own.glb", {}).skeleton.size(), 2u);
 }
 
-TEST(MendedCharacter, without_a_skin_the_whole_tree_of_what_moves_is_the_skeleton) {
+TEST(MendedCharacter, WithoutASkinTheWholeAnimatedTreeIsTheSkeleton) {
     GltfText file;
     const std::string input = file.scalars({0, 1}), output = file.vectors({0, 0, 0, 0, 1, 0});
     const std::string nodes =
@@ -78,7 +78,7 @@ TEST(MendedCharacter, without_a_skin_the_whole_tree_of_what_moves_is_the_skeleto
 
 // --------------------------------------------------------------------------------------------------- keys
 
-TEST(MendedCharacter, keys_before_0_become_one_at_0_where_the_curve_is) {
+TEST(MendedCharacter, KeysBefore0BecomeOneAt0OnTheCurve) {
     const Character line =
         one_track({-1, -0.5f, 0.5f, 1}, {9, 0, 0, 0, 0, 0, 4, 0, 0, 5, 0, 0}, "translation");
     EXPECT_TRUE(test::says(mend_notes(line), "dropped 2 before 0 s bend, bone"));
@@ -99,7 +99,7 @@ TEST(MendedCharacter, keys_before_0_become_one_at_0_where_the_curve_is) {
     EXPECT_NEAR(2.0 * std::acos(mended_pose(turn, 0.0)[0].rotation.w), 0.7853981633974483, 1e-6);
 }
 
-TEST(MendedCharacter, a_cubic_that_begins_before_0_is_the_same_after_it) {
+TEST(MendedCharacter, ACubicThatBeginsBefore0StaysTheSameAfterIt) {
     // In-tangent, value, out-tangent.
     const std::vector<float> values{0, 0, 0, 1, 2, 3, 4, -2, 1, 3, 1, -5, 2, 0, 1, 0, 0, 0};
     const Character cut = one_track({-0.5f, 1.5f}, values, "translation", "CUBICSPLINE");
@@ -111,7 +111,7 @@ TEST(MendedCharacter, a_cubic_that_begins_before_0_is_the_same_after_it) {
             << time;
 }
 
-TEST(MendedCharacter, the_last_of_two_keys_at_one_time_stays) {
+TEST(MendedCharacter, TheLastOfTwoKeysAtOneTimeIsKept) {
     const Character twice = one_track({0, 1, 1, 2}, {0, 0, 0, 1, 0, 0, 5, 0, 0, 6, 0, 0}, "translation");
     EXPECT_TRUE(test::says(mend_notes(twice), "dropped 1 same time"));
     EXPECT_EQ(mended_pose(twice, 1.0)[0].translation.x, 5.0);
@@ -129,13 +129,13 @@ TEST(MendedCharacter, rotations_of_length_0_are_dropped) {
     EXPECT_NEAR(mended_pose(some, 1.0)[0].rotation.x, std::sqrt(0.5), 1e-6);
     const Character none = one_track({0, 1}, {0, 0, 0, 0, 0, 0, 0, 0}, "rotation");
     EXPECT_TRUE(none.clips[0].channels.empty());
-    // Of two at one time the one that is a rotation stays.
+    // Of two at one time, the one that is a rotation is kept.
     const Character first = one_track({0, 1, 1}, {0, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0}, "rotation");
     EXPECT_EQ(mended_pose(first, 1.0)[0].rotation.x, 1.0);
     EXPECT_NE(test::message_of([] { one_track({0}, {0, 0, 0, 9}, "rotation"); }), "") << "no rotation at all";
 }
 
-TEST(MendedCharacter, APointerToANodesPropertyIsItsChannelAndOthersAreSaid) {
+TEST(MendedCharacter, APointerToANodesPropertyIsItsChannelAndOthersAreNoted) {
     const auto read = [](const std::string& target) {
         GltfText file;
         const std::string input = file.scalars({0, 1}), output = file.vectors({0, 0, 0, 4, 0, 0});
@@ -168,7 +168,7 @@ TEST(MendedCharacter, APointerToANodesPropertyIsItsChannelAndOthersAreSaid) {
     EXPECT_EQ(mend_notes(read(R"("path":"translation")")), "") << "no node and no pointer is nothing";
 }
 
-TEST(MendedCharacter, a_scale_of_0_is_taken_and_said) {
+TEST(MendedCharacter, AScaleOf0IsAcceptedWithANote) {
     const auto read = [](const std::string& node) {
         return parse_gltf(R"({"asset":{"version":"2.0"},"nodes":[{"name":"up","children":[1],)" + node +
                               R"(},{"name":"tip","translation":[1,2,3]}],"skins":[{"joints":[0,1]}]})",
@@ -223,7 +223,7 @@ TEST(MendedCharacter, a_picture_that_cannot_be_read_is_gray_and_named) {
     says(R"("mimeType":"image/png","bufferView":0)", R"("source":0)", "images[0] unknown kind");
 }
 
-/// A black picture with a bit per pixel, in few bytes; `more` makes its bytes others.
+/// A black picture with a bit per pixel, in few bytes; different `more` gives different bytes.
 std::string black_png(std::uint32_t side, const std::string& more = "") {
     const auto big = [](std::uint32_t value) {
         std::string bytes;
@@ -244,7 +244,7 @@ std::string black_png(std::uint32_t side, const std::string& more = "") {
            chunk("IDAT" + packed.substr(0, size)) + chunk("IEND") + more;
 }
 
-TEST(MendedCharacter, pictures_of_the_same_bytes_are_one) {
+TEST(MendedCharacter, PicturesWithTheSameBytesAreShared) {
     GltfText file = textured(R"("uri":"data:image/png;base64,)" + to_base64(white_png) + '"');
     const auto list = [&](const std::string& from, const std::string& to) {
         const std::size_t at = file.members.find(from);
@@ -265,7 +265,7 @@ TEST(MendedCharacter, pictures_of_the_same_bytes_are_one) {
     EXPECT_EQ(character.skin.mesh->parts[1].picture, 0);
 }
 
-TEST(MendedCharacter, many_large_pictures_become_smaller_and_then_are_one_too_many) {
+TEST(MendedCharacter, ManyLargePicturesShrinkUntilNoMoreFit) {
     constexpr std::size_t most = 1 << 18;
     SkinBuilder builder(most);
     const std::string large = black_png(256);
@@ -287,7 +287,7 @@ TEST(MendedCharacter, many_large_pictures_become_smaller_and_then_are_one_too_ma
     EXPECT_LT(skin.mesh->pictures.back().size.x, 128);
 }
 
-TEST(MendedCharacter, a_picture_that_claims_more_pixels_than_its_bytes_can_be_is_broken) {
+TEST(MendedCharacter, APictureThatClaimsMorePixelsThanItsBytesCanHoldIsBroken) {
     std::string claims = black_png(64);
     SkinBuilder builder;
     EXPECT_EQ(builder.add_picture(claims), 0);
@@ -321,7 +321,7 @@ TEST(MendedCharacter, texture_transforms_are_applied) {
 
 // -------------------------------------------------------------------------------------------- compression
 
-TEST(MendedCharacter, a_mesh_that_is_compressed_is_left_out_and_the_skeleton_plays) {
+TEST(MendedCharacter, ACompressedMeshIsOmittedAndTheSkeletonPlays) {
     for (const bool draco : {true, false}) {
         GltfText file;
         const std::string times = file.scalars({0, 1}), values = file.vectors({0, 0, 0, 0, 1, 0}),
@@ -374,7 +374,7 @@ TEST(MendedCharacter, a_mesh_that_is_compressed_is_left_out_and_the_skeleton_pla
     }
 }
 
-TEST(MendedCharacter, clips_that_are_compressed_are_refused_by_the_extensions_name) {
+TEST(MendedCharacter, CompressedClipsAreRefusedWithTheExtensionsName) {
     GltfText file;
     const std::string times = file.scalars({0, 1}), values = file.vectors({0, 0, 0, 0, 1, 0});
     file.members = R"("nodes":[{"name":"bone"}],"animations":[{"samplers":[{"input":)" + times +

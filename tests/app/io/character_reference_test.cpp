@@ -31,7 +31,7 @@ bool has_python() {
     return std::system("python3 -c '' > /dev/null 2>&1") == 0;
 }
 
-/// Sample times: any, or those of keys, where the other reader knows nothing between them.
+/// Random sample times, or key times if the other reader does not interpolate.
 std::vector<double> times_in(const humanoid::Clip& clip, bool at_keys, std::mt19937& random) {
     std::vector<double> times;
     if (!at_keys) {
@@ -68,7 +68,7 @@ void add_pose(const Character& character, const Json& clip, double time, Json& p
     poses.back()["corners"] = corners;
 }
 
-/// Whether the rest pose is the zero pose, and not turned or taken from the motion.
+/// Whether the rest pose is the zero pose, neither rotated nor taken from the motion.
 bool rests_as_in_file(const Character& character) {
     return std::ranges::none_of(
         character.notes, [](const std::string& each) { return each.find("rest pose is") != each.npos; });
@@ -132,7 +132,7 @@ TEST(CharacterReference, joints_of_random_files_are_where_another_reader_puts_th
     }
 }
 
-TEST(CharacterReference, joints_of_files_of_others_are_within_2_mm) {
+TEST(CharacterReference, JointsOfThirdPartyFilesAreWithin2Mm) {
     if (!fs::is_directory(tendril::test::characters_folder()))
         GTEST_SKIP() << tendril::test::characters_folder() << " is not there";
     if (!has_python()) GTEST_SKIP() << "python3 is not there";

@@ -92,7 +92,7 @@ glm::vec3 corner(const Character& character, const std::vector<rig::Transform>& 
     return skinned({character.skin.mesh, skin_matrices(character.skin, placed(character, pose))}, i);
 }
 
-TEST(CharacterSkin, corners_stay_at_rest_and_go_with_the_joints_as_they_weigh) {
+TEST(CharacterSkin, VerticesRestInPlaceAndFollowTheirJointsByWeight) {
     const Character character = OwnGltf().read();
     ASSERT_TRUE(character.skin.mesh);
     const SkinnedMesh& mesh = *character.skin.mesh;
@@ -111,7 +111,7 @@ TEST(CharacterSkin, corners_stay_at_rest_and_go_with_the_joints_as_they_weigh) {
     EXPECT_NEAR(corner(character, pose, 2).z, 3.0f, 1e-6f);
 }
 
-TEST(CharacterSkin, a_mesh_without_a_skin_goes_with_its_node_or_is_no_part_of_the_character) {
+TEST(CharacterSkin, AMeshWithoutSkinFollowsItsNodeOrIsOmitted) {
     OwnGltf own;
     own.node = R"("name":"prop","mesh":0)";
     EXPECT_FALSE(own.read().skin.mesh) << "it hangs on no joint";
@@ -132,7 +132,7 @@ TEST(CharacterSkin, the_plain_copy_of_a_compressed_mesh_is_read) {
     EXPECT_TRUE(character.notes.empty());
 }
 
-TEST(CharacterSkin, morphs_have_their_own_weight_or_that_of_a_clip) {
+TEST(CharacterSkin, MorphsHaveTheirOwnWeightOrTheClips) {
     const Character character = OwnGltf().read();
     ASSERT_EQ(character.skin.mesh->morphs.size(), 1u);
     ASSERT_EQ(character.clips.size(), 1u);
@@ -144,7 +144,7 @@ TEST(CharacterSkin, morphs_have_their_own_weight_or_that_of_a_clip) {
     EXPECT_NEAR(positions[1].y, 1.25f, 1e-6f);
 }
 
-TEST(CharacterSkin, the_four_strongest_of_any_number_stay) {
+TEST(CharacterSkin, TheFourStrongestInfluencesAreKept) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> any(0.01, 1.0);
     for (int run = 0; run < 200; ++run) {
@@ -173,7 +173,7 @@ TEST(CharacterSkin, the_four_strongest_of_any_number_stay) {
     }
 }
 
-TEST(CharacterSkin, wrong_numbers_are_refused_with_their_place) {
+TEST(CharacterSkin, WrongNumbersAreRefusedWithTheirPath) {
     const auto says = [](auto change, const std::string& words) {
         OwnGltf own;
         change(own);
@@ -201,7 +201,7 @@ TEST(CharacterSkin, wrong_numbers_are_refused_with_their_place) {
          "nodes[2] is below itself");
 }
 
-TEST(CharacterSkin, those_of_others_stay_around_their_bones) {
+TEST(CharacterSkin, ThirdPartySkinsStayAroundTheirBones) {
     namespace fs = std::filesystem;
     if (!fs::is_directory(tendril::test::characters_folder()))
         GTEST_SKIP() << tendril::test::characters_folder() << " is not there";

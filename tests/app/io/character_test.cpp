@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 using humanoid::Bone;
 using humanoid::BoneMap;
 
-TEST(StickFigure, has_every_bone_of_a_body_for_certain) {
+TEST(StickFigure, HasEveryBoneOfABodyForCertain) {
     const Character figure = stick_figure();
     const BoneMap map = humanoid::match_bones(figure.skeleton);
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
@@ -55,7 +55,7 @@ TEST(CharacterFiles, broken_ones_are_refused_and_named) {
     }
 }
 
-TEST(CharacterFiles, what_is_not_there_or_of_another_kind_is_refused) {
+TEST(CharacterFiles, MissingFilesAndOtherKindsAreRefused) {
     EXPECT_THROW(read_character("nothing.glb"), std::runtime_error);
     EXPECT_THROW(read_character("notes.txt"), std::runtime_error);
 }

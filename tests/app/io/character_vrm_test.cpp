@@ -1,5 +1,5 @@
-// The bones that a VRM file names are its bone map, whatever its nodes are called and wherever they are; its
-// springs are the character's.
+// The bones that a VRM file names are its bone map, whatever its nodes are called and wherever they are; the
+// character gets its springs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ std::string version_0() {
     return bones + "]";
 }
 
-TEST(VrmCharacter, bones_are_those_that_the_file_names) {
+TEST(VrmCharacter, BonesAreTheOnesThatTheFileNames) {
     for (const bool is_new : {true, false}) {
         const Character character = is_new ? read("VRMC_vrm", version_1()) : read("VRM", version_0());
         ASSERT_TRUE(character.bones);
@@ -60,7 +60,7 @@ TEST(VrmCharacter, bones_are_those_that_the_file_names) {
     }
 }
 
-TEST(VrmCharacter, names_that_lead_nowhere_are_refused_and_said) {
+TEST(VrmCharacter, InvalidNamesAreRefusedWithAMessage) {
     const auto says = [](const std::string& bones, const std::string& words) {
         const std::string said = test::message_of([&] { read("VRMC_vrm", bones); });
         EXPECT_TRUE(test::has(said, words));
@@ -115,7 +115,7 @@ TEST(VrmCharacter, springs_swing_and_decay_as_in_vrm) {
             }
         }
     }
-    // Extremes stay within what a spring takes.
+    // Extreme values are clamped to a spring's ranges.
     for (const VrmSpring& each :
          {VrmSpring{0, 0.0, 0.0, {}}, VrmSpring{0, 1e3, 1.0, {}}, VrmSpring{0, 0.0, 1.0, {0.0, 1e3, 0.0}}}) {
         const SpringRate rate = spring_rate(each, 0.0, {0.0, -1.0, 0.0});
@@ -138,7 +138,7 @@ Character with_hair(const std::string& extensions) {
 const std::string hips_and_head_0 =
     R"("humanoid":{"humanBones":[{"bone":"hips","node":0},{"bone":"head","node":1}]})";
 
-TEST(VrmCharacter, springs_of_both_versions_are_the_characters) {
+TEST(VrmCharacter, SpringsOfBothVersionsBecomeTheCharacters) {
     const Character old = with_hair(
         R"("VRM":{)" + hips_and_head_0 +
         R"(,"secondaryAnimation":{"boneGroups":[{"stiffiness":2,"dragForce":0.3,"gravityPower":0,"bones":[2,4]},)"
@@ -160,7 +160,7 @@ TEST(VrmCharacter, springs_of_both_versions_are_the_characters) {
     EXPECT_TRUE(with_hair(R"("VRM":{)" + hips_and_head_0 + "}").springs.empty());
 }
 
-TEST(VrmCharacter, colliders_of_both_versions_are_the_springs) {
+TEST(VrmCharacter, CollidersOfBothVersionsBecomeTheSprings) {
     // Radius and hit radius; a sphere on the head, for VRM 0.x with Unity's z; and all that may be wrong.
     const Character old = with_hair(
         R"("VRM":{)" + hips_and_head_0 +
@@ -196,7 +196,7 @@ TEST(VrmCharacter, colliders_of_both_versions_are_the_springs) {
     EXPECT_EQ(large.springs[0].colliders[1].to, glm::dvec3(0.0, 0.8, 0.0));
 }
 
-TEST(VrmCharacter, CollidersAndConstraintsThatAreNotFollowedAreSaid) {
+TEST(VrmCharacter, UnsupportedCollidersAndConstraintsAreReported) {
     const auto hair = [](const std::string& extended) {
         return with_hair(
             R"("VRMC_springBone":{"colliders":[{"node":1,"shape":{"sphere":{"radius":0.5}},"extensions":{)"
@@ -237,13 +237,13 @@ TEST(VrmCharacter, CollidersAndConstraintsThatAreNotFollowedAreSaid) {
     EXPECT_TRUE(constrained("7", R"({"other":{}})").empty());
 }
 
-TEST(VrmCharacter, of_colliders_that_are_named_again_and_again_the_first_256_are_looked_at) {
+TEST(VrmCharacter, OfEndlesslyRepeatedCollidersTheFirst256AreUsed) {
     const auto times = [](int count, const std::string& each) {
         std::string all = each;
         for (int i = 1; i < count; ++i) all += "," + each;
         return all;
     };
-    // 2000 times the same group of 2000, which are nothing until the last, in each of 60 springs: 240
+    // 2000 times the same group of 2000 colliders, all invalid except the last, in each of 60 springs: 240
     // million.
     const std::string groups = times(2000, "0"), old_shapes = times(1999, "7") + R"(,{"radius":1})",
                       shapes = times(1999, "7") + ",0";

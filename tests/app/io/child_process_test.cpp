@@ -25,7 +25,7 @@ TEST(ChildProcesses, AreGivenAllBytes) {
     EXPECT_EQ(read(folder / "out"), bytes + "end");
 }
 
-TEST(ChildProcesses, FailInTheirOwnWords) {
+TEST(ChildProcesses, FailWithTheirOwnMessages) {
     const auto failure = [](const std::string& script) {
         return message_of([&] { ChildProcess(shell(script)).finish(20.0); });
     };
@@ -39,7 +39,7 @@ TEST(ChildProcesses, FailInTheirOwnWords) {
 }
 
 /// Writing to a pipe without a reader must not end this program.
-TEST(ChildProcesses, MayEndBeforeTheyHaveReadAll) {
+TEST(ChildProcesses, MayEndBeforeTheyReadEverything) {
     const std::string many(10'000'000, 'x');
     const auto failure = [&](const std::string& script) {
         return message_of([&] { ChildProcess(shell(script)).write(many); });
@@ -48,7 +48,7 @@ TEST(ChildProcesses, MayEndBeforeTheyHaveReadAll) {
     EXPECT_TRUE(test::says(failure("head -c 100000 > /dev/null"), "sh too early"));
 }
 
-TEST(ChildProcesses, ThatHangAreGivenUp) {
+TEST(ChildProcesses, HangingOnesAreAbandoned) {
     EXPECT_TRUE(
         test::says(message_of([] { ChildProcess(shell("exec sleep 60")).finish(0.05); }), "sh not exit"));
     EXPECT_TRUE(test::says(
@@ -57,7 +57,7 @@ TEST(ChildProcesses, ThatHangAreGivenUp) {
 }
 
 /// The child leaves a process in the background with the same files open, as xclip does.
-TEST(ChildProcesses, MayLeaveOneBehind) {
+TEST(ChildProcesses, MayLeaveAProcessBehind) {
     EXPECT_EQ(message_of([] { ChildProcess(shell("cat > /dev/null; sleep 5 & exit 0")).finish(2.0); }), "");
 }
 

@@ -50,7 +50,7 @@ class Exports : public ::testing::Test {
 
 LABEL(slow, "Exports.files_of_others_keep_what_they_have_and_move_as_they_did");
 
-TEST_F(Exports, the_figure_comes_back_as_it_was) {
+TEST_F(Exports, TheFigureIsReadBackUnchanged) {
     for (const Clip& clip : figure_.clips) {
         for (const char* name : {"figure.glb", "figure.gltf", "figure.bvh"}) {
             SCOPED_TRACE(clip.name + " as " + name);
@@ -73,7 +73,7 @@ TEST_F(Exports, the_figure_comes_back_as_it_was) {
     }
 }
 
-TEST_F(Exports, steps_and_cubics_and_flipped_keys_come_back) {
+TEST_F(Exports, StepsCubicsAndFlippedKeysAreReadBack) {
     Clip clip{.name = "kinds", .duration = 1.0, .channels = {{.node = 0}, {.node = 3}, {.node = 5}}};
     clip.channels[0].translation = {
         Interpolation::Cubic,
@@ -97,7 +97,7 @@ TEST_F(Exports, steps_and_cubics_and_flipped_keys_come_back) {
     }
 }
 
-TEST_F(Exports, a_key_stands_at_every_frame_and_the_clips_own_stay) {
+TEST_F(Exports, EveryFrameHasAKeyAndTheClipsOwnKeysStay) {
     for (const double rate : {24.0, 30.0, 60.0}) {
         write(figure_, figure_.clips[0], "walk.glb", {}, rate);
         const Clip read = read_character(folder_ / "walk.glb").clips.at(0);
@@ -110,7 +110,7 @@ TEST_F(Exports, a_key_stands_at_every_frame_and_the_clips_own_stay) {
     }
 }
 
-TEST_F(Exports, a_corrected_up_axis_leaves_the_nodes_of_a_gltf_as_they_are) {
+TEST_F(Exports, ACorrectedUpAxisDoesNotChangeAGltfsNodes) {
     write(figure_, figure_.clips[0], "own.glb");
     Character turned = read_character(folder_ / "own.glb");
     const humanoid::Skeleton own = turned.skeleton;
@@ -126,7 +126,7 @@ TEST_F(Exports, a_corrected_up_axis_leaves_the_nodes_of_a_gltf_as_they_are) {
               1e-6);
 }
 
-TEST_F(Exports, a_bvh_has_its_rate_its_names_and_a_unit_that_is_read_again) {
+TEST_F(Exports, ABvhHasItsRateNamesAndARecognisableUnit) {
     write(figure_, figure_.clips[0], "walk.bvh", {}, 30.0);
     const std::string bvh = text("walk.bvh");
     EXPECT_NE(bvh.find("Frames: 34\n"), std::string::npos);
@@ -148,7 +148,7 @@ TEST_F(Exports, a_bvh_has_its_rate_its_names_and_a_unit_that_is_read_again) {
     EXPECT_EQ(read_character(folder_ / "again.bvh").skeleton.size(), once.skeleton.size());
 }
 
-TEST_F(Exports, several_roots_have_a_skin_each) {
+TEST_F(Exports, EachRootHasASkin) {
     std::vector<humanoid::Node> nodes{{"a", -1, {}}, {"b", 0, {.translation = {0, 1, 0}}}, {"c", -1, {}}};
     const Character two{.skeleton = *humanoid::Skeleton::make(nodes), .clips = {}, .notes = {}};
     for (const char* name : {"two.glb", "two.bvh"})
@@ -156,7 +156,7 @@ TEST_F(Exports, several_roots_have_a_skin_each) {
     EXPECT_EQ(GltfStructure(text("two.glb")).json["skins"].size(), 2u);
 }
 
-TEST_F(Exports, what_cannot_be_written_is_refused_and_the_old_file_stays) {
+TEST_F(Exports, UnwritableFilesAreRefusedAndTheOldFileStays) {
     write(figure_, figure_.clips[0], "walk.glb");
     const std::string before = text("walk.glb");
     EXPECT_THROW(write(figure_, figure_.clips[0], "walk.fbx"), std::runtime_error);
@@ -168,14 +168,14 @@ TEST_F(Exports, what_cannot_be_written_is_refused_and_the_old_file_stays) {
     Clip age = figure_.clips[0];
     age.duration = 1e9;
     EXPECT_THROW(write(figure_, age, "walk.glb"), std::runtime_error);
-    // The file has other nodes than the character that claims to come from it.
+    // The file's nodes differ from the character's that claims to come from it.
     const Character other{.skeleton = *humanoid::Skeleton::make({{"a", -1, {}}}), .clips = {}, .notes = {}};
     EXPECT_THROW(write(other, Clip{}, "walk.glb", (folder_ / "walk.glb").string()), std::runtime_error);
     EXPECT_EQ(text("walk.glb"), before);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1);
 }
 
-TEST_F(Exports, feet_on_the_ground_are_baked) {
+TEST_F(Exports, GroundedFeetAreBaked) {
     const Clip& walk = figure_.clips[0];
     const humanoid::BoneMap map = humanoid::match_bones(figure_.skeleton);
     for (const auto& ground : {humanoid::Ground::flat(), humanoid::Ground::stairs(0.15, 0.3)}) {

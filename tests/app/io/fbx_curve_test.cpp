@@ -42,7 +42,7 @@ Character read(const FbxScene& scene, int way = 0) {
     return parse_fbx(way == 0 ? scene.text() : scene.binary(7500), "it");
 }
 
-TEST(FbxCurve, keys_of_each_shape_move_as_written_in_text_and_binary) {
+TEST(FbxCurve, KeysOfEachShapeMoveAsWrittenInTextAndBinary) {
     for (const int way : {0, 1}) {
         SCOPED_TRACE(way);
         const Character steps = read(moved_by({{0.0, 1.0, constant}, {1.0, 3.0, constant}, {2.0, 2.0}}), way);
@@ -61,7 +61,7 @@ TEST(FbxCurve, keys_of_each_shape_move_as_written_in_text_and_binary) {
         const Character straight = read(moved_by({{0.0, 1.0, linear}, {2.0, 2.0, linear}}), way);
         EXPECT_EQ(translation_in(straight).interpolation, Interpolation::Linear);
         EXPECT_NEAR(x_at(straight, 0.5), 1.25, 1e-12);
-        // Hermite's cubic from 0 to 1 within 1 s with these slopes.
+        // The Hermite cubic from 0 to 1 within 1 s with these slopes.
         const Character bent =
             read(moved_by({{0.0, 0.0, user, 3.0, -1.0}, {1.0, 1.0, user, 0.0, 0.0}, {2.0, 1.0}}), way);
         EXPECT_EQ(translation_in(bent).interpolation, Interpolation::Cubic);
@@ -73,7 +73,7 @@ TEST(FbxCurve, keys_of_each_shape_move_as_written_in_text_and_binary) {
     }
 }
 
-/// The curve as control points of Beziers, halved until they are at `time`.
+/// The curve as control points of Bezier curves, halved until they are at `time`.
 double naive_at(const std::vector<Key>& keys, double time) {
     std::size_t i = 0;
     while (i + 2 < keys.size() && keys[i + 1].time <= time) ++i;
@@ -104,7 +104,7 @@ double naive_at(const std::vector<Key>& keys, double time) {
                      right = (b.value - key.value) / (b.time - key.time);
         double result = (b.value - a.value) / (b.time - a.time);
         if (!is_even) {
-            // Half way from that to the parabola through the three keys.
+            // Half way from that slope to the parabola's through the three keys.
             const double part = (key.time - a.time) / (b.time - a.time);
             result = 0.5 * (result + left * (1.0 - part) + right * part);
             const double way = (bias > 0.0 ? right : left) - result,
@@ -113,7 +113,7 @@ double naive_at(const std::vector<Key>& keys, double time) {
                       ((std::abs(way) > 1e-5 ? way : bias) > 0.0 ? 40.0 : -40.0) * beyond * beyond;
         }
         if (!is_progressive) return result;
-        // No control point beyond a neighbour.
+        // Control points stay within the neighbours' values.
         const double before = weight(k - 1, true) * (key.time - a.time),
                      after = weight(k, false) * (b.time - key.time);
         const auto within = [](double value, double one, double other) {
@@ -139,7 +139,7 @@ double naive_at(const std::vector<Key>& keys, double time) {
     return p[0].y;
 }
 
-TEST(FbxCurve, RandomTangentsOfEveryKindAreAsANaiveEvaluatorHasThem) {
+TEST(FbxCurve, RandomTangentsOfEveryKindMatchANaiveEvaluator) {
     constexpr std::int64_t kinds[] = {0x108, 0x1108, 0x2108, 0x3108, 0x4108, 0x6108,
                                       0x908, 0x2908, 0x7108, 0x408,  0xc08,  linear};
     std::mt19937 random(53);
@@ -191,7 +191,7 @@ TEST(FbxCurve, ATcbKeyWithoutTensionAtAnEndHasTheSlopeOfItsChord) {
     EXPECT_NEAR(at(1.0), 2.0, 1e-5);
 }
 
-TEST(FbxCurve, a_user_s_slope_holds_on_both_sides_unless_it_is_broken) {
+TEST(FbxCurve, AUserSlopeHoldsOnBothSidesUnlessBroken) {
     const std::int64_t broken = user | 0x800;
     const auto arriving = [](std::int64_t first, std::int64_t second) {
         const std::string text =
@@ -206,7 +206,7 @@ TEST(FbxCurve, a_user_s_slope_holds_on_both_sides_unless_it_is_broken) {
     EXPECT_EQ(arriving(user, broken), 5.0);
 }
 
-TEST(FbxCurve, an_euler_angle_that_goes_round_is_followed_all_the_way) {
+TEST(FbxCurve, AnEulerAngleOfSeveralTurnsIsFollowedAllTheWay) {
     FbxScene scene;
     const std::int64_t bone = scene.model("Bone", 0, {});
     scene.model("Tip", bone, {FbxScene::vector("Lcl Translation", {100.0, 0.0, 0.0})});
@@ -225,7 +225,7 @@ TEST(FbxCurve, an_euler_angle_that_goes_round_is_followed_all_the_way) {
     }
 }
 
-TEST(FbxCurve, layers_add_and_override_by_their_weight) {
+TEST(FbxCurve, LayersAddAndOverrideByTheirWeight) {
     FbxScene scene;
     scene.settings = {FbxScene::property("UnitScaleFactor", {100.0})};
     const std::int64_t bone = scene.model("Bone", 0, {});
@@ -242,7 +242,7 @@ TEST(FbxCurve, layers_add_and_override_by_their_weight) {
     EXPECT_NEAR(x_at(read(scene), 1.0), 0.75 * 9.0 + 0.25 * 30.0, 1e-9);
 }
 
-TEST(FbxCurve, a_stack_begins_at_its_start_and_hides_what_is_outside) {
+TEST(FbxCurve, AStackBeginsAtItsStartAndHidesKeysOutside) {
     FbxScene scene = moved_by({{-1.0, 0.0}, {3.0, 4.0}});
     const Character character = read(scene);
     EXPECT_EQ(character.clips.at(0).duration, 2.0);
@@ -250,14 +250,14 @@ TEST(FbxCurve, a_stack_begins_at_its_start_and_hides_what_is_outside) {
     EXPECT_NEAR(x_at(character, 0.0), 1.0, 1e-9);
 }
 
-TEST(FbxCurve, keys_that_go_back_in_time_are_left_out_and_said) {
+TEST(FbxCurve, KeysThatGoBackInTimeAreDroppedWithANote) {
     const Character character = read(moved_by({{0.0, 1.0}, {1.0, 2.0}, {0.5, 9.0}, {2.0, 3.0}}));
     EXPECT_NEAR(x_at(character, 1.5), 2.5, 1e-9);
     ASSERT_EQ(character.notes.size(), 1u);
     EXPECT_NE(character.notes[0].find("keys out of order"), std::string::npos);
 }
 
-TEST(FbxCurve, what_is_not_evaluated_is_said_once) {
+TEST(FbxCurve, UnevaluatedContentsAreReportedOnce) {
     const auto switched = [](const char* name) { return FbxScene::property(name, {std::int64_t{1}}); };
     const auto notes_with = [](const std::vector<FbxRecord>& node, const std::vector<FbxRecord>& of_layer) {
         FbxScene scene;
@@ -411,7 +411,7 @@ TEST(FbxCurve, ListsOfTextFilesMayBeginAndEndTheirLinesAnywhere) {
     }
 }
 
-TEST(FbxCurve, keys_of_version_6_that_are_not_understood_are_said) {
+TEST(FbxCurve, UnknownVersion6KeysAreReported) {
     std::string text = old_text;
     text.replace(text.find("U,b,0,0,r"), 9, "Q,b,0,0,r");
     EXPECT_EQ(parse_fbx(text, "it").notes.size(), 1u);

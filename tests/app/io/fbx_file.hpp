@@ -100,7 +100,7 @@ class FbxScene {
         connect(id, stack);
         return id;
     }
-    /// Three curves, empty ones left out, for a property of a model.
+    /// Up to three curves for a property of a model; empty ones are omitted.
     std::int64_t animate(std::int64_t layer, std::int64_t model, const std::string& property,
                          const std::vector<std::vector<Key>>& curves, const glm::dvec3& constant) {
         const std::int64_t node =
@@ -115,7 +115,7 @@ class FbxScene {
         return node;
     }
     std::vector<FbxRecord> settings{};
-    std::vector<std::int64_t> ids{};  ///< for the test that makes the scene
+    std::vector<std::int64_t> ids{};  ///< for use by the test that makes the scene
 
     std::string text(int version = 7400) const {
         std::ostringstream out;
@@ -178,7 +178,7 @@ class FbxScene {
         }
         out << '\n';
     }
-    /// Text files show the attributes of keys as the integers of their bits.
+    /// Text files write the attributes of keys as the integers of their bits.
     template <class T>
     static std::string bits(const FbxRecord& record, T number) {
         std::ostringstream out;
@@ -240,7 +240,7 @@ class FbxScene {
     std::vector<FbxRecord> objects_{}, connections_{};
 };
 
-/// Two bones and a mesh that follows them, animated: one of each kind of object.
+/// A small scene with one of each kind of object: two bones, and an animated mesh that follows them.
 inline FbxScene bent_leg() {
     FbxScene scene;
     const std::int64_t hips =

@@ -22,7 +22,7 @@ namespace {
 using test::FbxRecord;
 using test::FbxScene;
 
-/// All of a model's properties that place it, as numbers.
+/// All of a model's properties that affect its placement, as numbers.
 struct NaiveNode {
     int parent = -1;
     std::string name{};
@@ -47,7 +47,7 @@ glm::dmat4 turned(const glm::dvec3& degrees, const std::string& order) {
     return result;
 }
 
-/// Where a node is without and with its own scale, by multiplying matrices.
+/// A node's placement with and without its own scale, by matrix multiplication.
 struct NaivePlace {
     glm::dmat4 turned{1.0};  // all but `scale`
     glm::dvec3 scale{1.0}, own{1.0};
@@ -81,7 +81,7 @@ std::vector<NaivePlace> naive_places(const std::vector<NaiveNode>& nodes) {
     return result;
 }
 
-/// How far a placement is from a matrix, in parts of its size.
+/// The difference between a placement and a matrix, relative to its size.
 double apart(const humanoid::Placement& mine, const glm::dmat4& known) {
     double size = 1.0, away = glm::distance(mine.position, glm::dvec3(known[3]));
     for (int axis = 0; axis < 3; ++axis) {
@@ -135,7 +135,7 @@ FbxScene scene_of(const std::vector<NaiveNode>& nodes) {
     return scene;
 }
 
-/// A written file, in one of the ways in which files are written.
+/// A file written in one of the supported variants.
 std::string bytes_of(const FbxScene& scene, int way) {
     return way == 0 ? scene.text() : way == 1 ? scene.binary(7400, true) : scene.binary(7700);
 }
@@ -184,7 +184,7 @@ double naive_value(const NaiveKeys& keys, double time) {
     return keys.back().value;
 }
 
-/// Keys within 0 to 1 s around a value, each of a shape of its own.
+/// Keys within 0 to 1 s around a value, each with a shape of its own.
 NaiveKeys random_keys(std::mt19937& random, double around, double size) {
     constexpr std::int64_t shapes[] = {stepped, stepped_at_once, straight, bent};
     const auto below = [&](int end) { return std::uniform_int_distribution<int>(0, end - 1)(random); };
@@ -267,7 +267,7 @@ TEST(FbxNodes, ten_thousand_random_nodes_move_as_a_naive_evaluator_moves_them) {
     EXPECT_LT(worst, 1e-6);
 }
 
-TEST(FbxNodes, random_clips_move_as_a_naive_evaluator_moves_them) {
+TEST(FbxNodes, RandomClipsMoveAsANaiveEvaluatorMovesThem) {
     std::mt19937 random(5);
     for (int file = 0; file < 30; ++file) {
         const NaiveMotion motion(random, 12);
@@ -289,7 +289,7 @@ TEST(FbxNodes, random_clips_move_as_a_naive_evaluator_moves_them) {
 
 // --------------------------------------------------------------------------------------- skins and pictures
 
-TEST(FbxNodes, a_skin_follows_its_bones_and_its_blend_shapes) {
+TEST(FbxNodes, ASkinFollowsItsBonesAndBlendShapes) {
     for (const int way : {0, 1, 2}) {
         const Character character = parse_fbx(bytes_of(test::bent_leg(), way), "it");
         ASSERT_EQ(character.skeleton.size(), 2u);
@@ -303,7 +303,7 @@ TEST(FbxNodes, a_skin_follows_its_bones_and_its_blend_shapes) {
         std::vector<humanoid::Placement> placements(pose.size());
         place(character.skeleton, pose, placements);
         const SkinDraw draw{character.skin.mesh, skin_matrices(character.skin, placements)};
-        // A quarter turn about Z at the hips: down becomes to the right.
+        // A quarter turn about Z at the hips: down becomes right.
         EXPECT_LT(glm::length(glm::dvec3(skinned(draw, 3)) - glm::dvec3(0.5, 1.0, 0.0)), 1e-6);
         EXPECT_NEAR(morph_weights(character.skin, 0, 0.5).at(0), 0.25f, 1e-6f);
     }
@@ -332,7 +332,7 @@ std::pair<FbxScene, std::int64_t> painted_scene() {
     return {scene, material};
 }
 
-TEST(FbxNodes, a_material_is_a_colour_or_the_picture_in_the_file) {
+TEST(FbxNodes, AMaterialIsAColourOrAnEmbeddedPicture) {
     const auto [plain, unused] = painted_scene();
     const Character coloured = parse_fbx(plain.binary(), "it");
     EXPECT_EQ(coloured.skin.mesh->parts.at(0).colour, glm::vec4(0.5f, 0.25f, 1.0f, 1.0f));

@@ -44,8 +44,8 @@ Positions model_positions(const std::string& bytes, int clip, double time) {
     return result;
 }
 
-/// The nodes of a character's skeleton, in the clip of that name, or at rest if there is none; without those
-/// that hold the scale of one above them, which no file has.
+/// The nodes of a character's skeleton in the clip of that name, or at rest if there is none. Omits the added
+/// nodes that hold a parent's scale, which are in no file.
 Positions node_positions(const Character& character, const std::string& clip, double time) {
     int index = -1;
     for (std::size_t i = 0; i < character.clips.size(); ++i)
@@ -68,7 +68,7 @@ double size_of(const Positions& positions) {
     return glm::length(high - low);
 }
 
-/// Each of mine is known, and within 0.1 mm on a figure of 1.8 m of where it is known to be.
+/// All of `mine` must be known, and within 0.1 mm of their known positions on a figure of 1.8 m.
 void compare(const Positions& mine, const Json& known, double size, const std::string& what) {
     double worst = 0.0;
     std::string where;

@@ -31,7 +31,7 @@ class FigureBodyTest : public ::testing::Test {
         humanoid::place(figure.skeleton, pose, all);
         return all;
     }
-    /// The vertices with some nodes turned about an axis of the world, degrees.
+    /// The vertices with some nodes rotated about a world axis, degrees.
     struct Turned {
         const char* node;
         glm::dvec3 about;
@@ -60,7 +60,7 @@ class FigureBodyTest : public ::testing::Test {
                    6.0;
         return sum;
     }
-    /// Triangles whose normal is opposite to the vertices', as skinned at rest.
+    /// The number of triangles whose normal is opposite to their vertices' normals at rest.
     std::size_t inverted(const std::vector<glm::dvec3>& at) const {
         std::size_t count = 0;
         for (std::size_t i = 0; i < mesh().indices.size(); i += 3) {
@@ -112,7 +112,7 @@ TEST_F(FigureBodyTest, stands_on_the_ground_at_its_height) {
     EXPECT_NEAR(volume(at), 0.067, 0.02) << "cubic metres, of an adult";
 }
 
-TEST_F(FigureBodyTest, follows_bones_that_are_near) {
+TEST_F(FigureBodyTest, FollowsNearbyBones) {
     const std::vector<Placement> rest = placed(figure_, rest_pose(figure_.skeleton));
     const auto at = posed(figure_, {});
     for (std::size_t i = 0; i < at.size(); ++i) {
@@ -134,13 +134,13 @@ TEST_F(FigureBodyTest, follows_bones_that_are_near) {
     }
 }
 
-/// How far from each vertex's mirror image the nearest vertex is, at most, and how different what moves it.
+/// Maximum distances from each vertex's mirror image to the nearest vertex, and between their influences.
 struct Asymmetry {
     double metres = 0.0;
     float weight = 0.0f;
 };
 
-TEST_F(FigureBodyTest, is_the_same_on_both_sides) {
+TEST_F(FigureBodyTest, IsSymmetric) {
     const auto mirrored = [](const std::string& name) {
         if (name.starts_with("Left")) return "Right" + name.substr(4);
         return name.starts_with("Right") ? "Left" + name.substr(5) : name;
@@ -196,7 +196,7 @@ TEST_F(FigureBodyTest, keeps_its_volume_when_it_bends) {
         EXPECT_NEAR(volume(posed(figure_, turns)), rest, 0.03 * rest) << what;
 }
 
-/// The girth of a limb at the middle of a joint bent by 90 degrees.
+/// Measures a limb's girth at the middle of a joint bent by 90 degrees.
 TEST_F(FigureBodyTest, elbows_and_knees_do_not_collapse) {
     const auto girth = [&](const char* node, const std::vector<Turned>& turns) {
         std::vector<rig::Transform> pose = rest_pose(figure_.skeleton);

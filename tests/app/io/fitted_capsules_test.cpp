@@ -35,7 +35,7 @@ struct Worn {
     static double off(const PlacedCapsule& capsule, const glm::dvec3& point) {
         return gap(capsule, {point, point, 0.0});
     }
-    /// Of the points of bones with a capsule, the fraction that is inside any of `them` or within 1 cm.
+    /// The fraction of points, of bones with a capsule, that are inside any of `them` or within 1 cm.
     double held(const std::vector<BodyCapsule>& them) const {
         std::array<bool, bone_count> has{};
         for (const BodyCapsule& each : them) has[static_cast<std::size_t>(each.bone)] = true;
@@ -63,7 +63,7 @@ struct Worn {
     std::vector<BodyCapsule> capsules;
 };
 
-TEST(CapsulesOfCharacters, hold_their_skins_and_let_them_rest) {
+TEST(CapsulesOfCharacters, HoldTheirSkinsAndKeepOutAtRest) {
     for (const auto& file : character_files()) {
         SCOPED_TRACE(file);
         const Worn worn(file);

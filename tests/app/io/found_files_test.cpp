@@ -1,5 +1,5 @@
 // Files on which readers once failed, and the correct result for each: a row for every file of that folder.
-// Small cases of each kind, which need no such folder, are in the tests of the formats.
+// Small cases of each kind, independent of that folder, are in the tests of the formats.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,8 +24,8 @@ using test_posed::at;
 
 struct FoundFile {
     const char* name;
-    std::function<void(const Character&)> is_right{};  ///< of a file that is read
-    const char* refused = nullptr;                     ///< words of the refusal of one that is not
+    std::function<void(const Character&)> is_right{};  ///< check for a file that is read
+    const char* refused = nullptr;                     ///< words of the message for a file that is refused
 };
 
 /// Within 0.1 mm on a figure of 1.8 m.
@@ -41,7 +41,7 @@ std::size_t keys_of(const Character& character) {
     return most;
 }
 
-/// As declared, and how it is spelled is said after what is guessed.
+/// Expects three frames, as declared, and a note on the spelling after the guesses.
 void expect_three_frames_and_a_note(const Character& character) {
     EXPECT_EQ(keys_of(character), 3u);
     EXPECT_EQ(character.sentences().size(), 2u) << test_posed::lines(character.sentences());
@@ -57,7 +57,7 @@ auto noted(std::size_t nodes, const char* words) {
     };
 }
 
-/// Its bones are matched, these to nodes of those names.
+/// Expects that the bones are matched, and these to nodes of those names.
 auto usable(std::map<humanoid::Bone, std::string> names) {
     return [names = std::move(names)](const Character& character) {
         const humanoid::BoneMap map = bone_map(character);
@@ -192,7 +192,7 @@ const std::vector<FoundFile>& found_files() {
     return files;
 }
 
-TEST(FoundFiles, each_is_read_right_or_refused_in_words_that_help) {
+TEST(FoundFiles, EachIsReadCorrectlyOrRefusedHelpfully) {
     const fs::path folder = test::found_path("");
     if (!fs::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
     for (const FoundFile& each : found_files()) {

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 constexpr double rates[]{24.0, 25.0, 29.97, 30.0, 48.0, 50.0, 59.94, 60.0, 90.0, 120.0, 240.0};
 constexpr std::size_t counts[]{2, 61, 300};
 
-/// The built-in figure's walk, as a capture at that rate: a BVH whose frame time has so many decimals.
+/// The built-in figure's walk as a BVH capture at that rate, whose frame time has `decimals` decimals.
 std::string capture(double rate, std::size_t frames, int decimals) {
     const Character figure = stick_figure();
     Clip walk = figure.clips[0];
@@ -58,7 +58,7 @@ std::size_t keys_of(const Clip& clip) {
     return keys;
 }
 
-/// Ten times: reads the file, puts its clip on a figure, if there is one, and writes it.
+/// Ten times: reads the file, retargets its clip to a figure, if there is one, and writes it.
 void expect_kept(const test::TempFolder& folder, fs::path file, std::size_t frames,
                  const Character* figure = nullptr) {
     double rate = 0.0;
@@ -90,8 +90,7 @@ TEST(FrameCount, IsKeptThroughTenExportsAndRetargets) {
     for (const double rate : rates)
         for (const std::size_t frames : counts)
             for (const int decimals : {4, 6, 17}) {
-                // The longest drift the furthest, and take the longest: two rates that no unit of time
-                // divides.
+                // The longest captures drift most and are slow: two rates that no unit of time divides.
                 if (frames == 300 && (decimals != 6 || (rate != 29.97 && rate != 120.0))) continue;
                 SCOPED_TRACE(std::to_string(frames) + " frames at " + std::to_string(rate) + ", " +
                              std::to_string(decimals) + " decimals");
@@ -128,8 +127,8 @@ TEST(FrameCount, OfAnFbxIsKeptThroughTenExports) {
         }
 }
 
-/// Keys of one track lie between the frames of the others, the clip ends between two, and its feet are put
-/// on stairs.
+/// Keys of one track lie between the frames of the others, the clip ends between two frames, and its feet are
+/// put on stairs.
 TEST(FrameCount, IsKeptWhereKeysLieBetweenFrames) {
     const test::TempFolder folder;
     const Character figure = other_figure();
@@ -160,7 +159,7 @@ TEST(FrameCount, IsKeptWhereKeysLieBetweenFrames) {
         }
 }
 
-TEST(FrameCount, OfCapturesWithRoundedFrameTimesIsThatOfTheirFiles) {
+TEST(FrameCount, OfCapturesWithRoundedFrameTimesIsTheirFiles) {
     const Character figure = other_figure();
     const humanoid::BoneMap map = bone_map(figure);
     for (const auto& [name, frames, rate] :

@@ -58,7 +58,7 @@ double ramp(double time, double first, double last) {
     return u * u * (3.0 - 2.0 * u);
 }
 
-TEST_F(LintCure, a_foot_that_slid_stands) {
+TEST_F(LintCure, ASkatingFootIsMadeToStand) {
     // The left foot is flat on the ground from 1.21 s to 1.49 s.
     for (const double rate : {24.0, 30.0, 60.0, 120.0}) {
         for (const glm::dvec3& way :
@@ -80,7 +80,7 @@ TEST_F(LintCure, a_foot_that_slid_stands) {
     }
 }
 
-TEST_F(LintCure, feet_that_float_come_down_and_feet_that_sink_come_up) {
+TEST_F(LintCure, FloatingFeetAreLoweredAndSinkingFeetRaised) {
     for (const double rate : {30.0, 60.0}) {
         for (const double by : {-0.06, -0.035, 0.04, 0.06}) {
             Frames frames = walk(rate);
@@ -97,7 +97,7 @@ TEST_F(LintCure, feet_that_float_come_down_and_feet_that_sink_come_up) {
     }
 }
 
-TEST_F(LintCure, a_foot_that_its_leg_cannot_reach_lowers_the_hips_and_leaves_the_other_where_it_is) {
+TEST_F(LintCure, AFootOutOfReachLowersTheHipsAndKeepsTheOtherFoot) {
     const double rate = 60.0;
     Frames frames(skeleton, figure.clips[0], rate, 0.0);
     std::vector<rig::Transform> bent = rest_pose(skeleton);
@@ -123,7 +123,7 @@ TEST_F(LintCure, a_foot_that_its_leg_cannot_reach_lowers_the_hips_and_leaves_the
     EXPECT_LT(then[hips].position.y, at_rest[hips].position.y + 0.02);
 }
 
-TEST_F(LintCure, cubic_and_stepped_tracks_and_nodes_without_keys_are_mended_too) {
+TEST_F(LintCure, CubicAndSteppedTracksAndNodesWithoutKeysAreFixedToo) {
     for (const Interpolation kind : {Interpolation::Cubic, Interpolation::Step}) {
         Frames frames = walk(60.0, 2.2);
         for (std::size_t k = 0; k < frames.poses.size(); ++k) {
@@ -162,7 +162,7 @@ TEST_F(LintCure, cubic_and_stepped_tracks_and_nodes_without_keys_are_mended_too)
     mended(still, 3);
 }
 
-TEST_F(LintCure, random_faults_leave_a_clip_without_feet_that_are_wrong) {
+TEST_F(LintCure, AfterRandomFaultsNoFootIsLeftWrong) {
     Random random(11);
     for (int i = 0; i < 60; ++i) {
         const double rate = i % 2 == 0 ? 30.0 : 60.0;
@@ -193,7 +193,7 @@ TEST_F(LintCure, random_faults_leave_a_clip_without_feet_that_are_wrong) {
     }
 }
 
-TEST_F(LintCure, a_finding_of_another_clip_is_refused) {
+TEST_F(LintCure, AFindingOfAnotherClipIsRefused) {
     Frames frames = walk(60.0);
     for (std::size_t k = 74; k < 92; ++k) frames.move_foot(k, "Left", {0, -0.04, 0});
     const LintReport report = run(frames.clip());
@@ -210,8 +210,8 @@ TEST_F(LintCure, a_finding_of_another_clip_is_refused) {
     EXPECT_FALSE(cure(skeleton, map, frames.clip(), finding));
 }
 
-// A fix of one fault must not be another: after each one the findings are fewer, none is new, and no joint
-// turns faster than before or than lint tolerates.
+// A fix must not cause another fault: each one leaves fewer findings and no new one, and no joint turns
+// faster than before or than the lint tolerates.
 class LintFixes : public LintFigure {
   protected:
     /// The maximum turn of each joint from one frame to the next, degrees. Not from the first frame to the
@@ -262,7 +262,7 @@ class LintFixes : public LintFigure {
 
 LABEL(slow, "LintFixes.*");
 
-TEST_F(LintFixes, of_skating_feet_of_nearly_straight_legs_make_nothing_else_wrong) {
+TEST_F(LintFixes, OfSkatingFeetOnNearlyStraightLegsCauseNoOtherFault) {
     Random random(5);
     for (int i = 0; i < 24; ++i) {
         const double rate = i % 3 == 0 ? 30.0 : i % 3 == 1 ? 60.0 : 120.0;
@@ -286,7 +286,7 @@ TEST_F(LintFixes, of_skating_feet_of_nearly_straight_legs_make_nothing_else_wron
     }
 }
 
-TEST_F(LintFixes, of_captured_clips_whose_feet_skate_make_nothing_else_wrong) {
+TEST_F(LintFixes, OfCapturedClipsWithSkatingFeetCauseNoOtherFault) {
     const std::filesystem::path folder = test::characters_folder();
     if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
     std::size_t skating = 0;

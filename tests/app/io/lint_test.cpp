@@ -39,7 +39,7 @@ class LintTest : public LintFigure {
     }
 };
 
-/// 0 up to `first`, 1 from `last` on.
+/// 0 up to frame `first`, 1 from frame `last` on.
 double ramp(std::size_t frame, std::size_t first, std::size_t last) {
     if (frame <= first) return 0.0;
     if (frame >= last) return 1.0;
@@ -87,7 +87,7 @@ TEST_F(LintTest, finds_nothing_in_variations_of_them) {
     }
 }
 
-TEST_F(LintTest, finds_a_slid_foot) {
+TEST_F(LintTest, FindsASkatingFoot) {
     // The left foot is flat on the ground from 0.11 s to 0.39 s of each 1.1 s.
     for (const double rate : {30.0, 60.0}) {
         const auto at = [&](double seconds) { return static_cast<std::size_t>(std::lround(seconds * rate)); };
@@ -103,7 +103,7 @@ TEST_F(LintTest, finds_a_slid_foot) {
     }
 }
 
-TEST_F(LintTest, finds_feet_that_are_slower_than_the_body) {
+TEST_F(LintTest, FindsFeetSlowerThanTheBody) {
     Frames frames = walk();
     for (std::size_t k = 0; k < frames.poses.size(); ++k) frames.poses[k][0].translation.z *= 1.25;
     const LintReport report = run(frames.clip());
@@ -126,7 +126,7 @@ TEST_F(LintTest, finds_a_sunk_foot) {
     }
 }
 
-TEST_F(LintTest, finds_hips_that_are_lowered_and_feet_that_float) {
+TEST_F(LintTest, FindsLoweredHipsAndFloatingFeet) {
     for (const double by : {-0.06, -0.035, 0.04, 0.06}) {
         Frames frames = walk();
         for (std::size_t k = 60; k < 120; ++k)
@@ -143,7 +143,7 @@ TEST_F(LintTest, finds_hips_that_are_lowered_and_feet_that_float) {
     }
 }
 
-TEST_F(LintTest, finds_a_popped_knee_and_mends_it) {
+TEST_F(LintTest, FindsAndFixesAPoppingKnee) {
     Random random(4);
     for (int i = 0; i < 60; ++i) {
         const double rate = i % 2 == 0 ? 30.0 : 60.0;
@@ -169,7 +169,7 @@ TEST_F(LintTest, finds_a_popped_knee_and_mends_it) {
     }
 }
 
-TEST_F(LintTest, finds_a_knee_that_snaps_straight) {
+TEST_F(LintTest, FindsAKneeThatSnapsStraight) {
     // The right foot goes beyond its leg's reach, as careless foot IK moves it.
     Frames frames = walk();
     for (std::size_t k = 40; k < 60; ++k) {
@@ -186,7 +186,7 @@ TEST_F(LintTest, finds_a_knee_that_snaps_straight) {
     EXPECT_TRUE(found) << texts(report);
 }
 
-TEST_F(LintTest, finds_a_knee_and_an_elbow_that_bend_the_wrong_way) {
+TEST_F(LintTest, FindsKneesAndElbowsBentTheWrongWay) {
     for (const double most : {40.0, 50.0, 60.0, 110.0})
         for (const bool is_knee : {true, false}) {
             Frames frames = walk();
@@ -210,7 +210,7 @@ TEST_F(LintTest, finds_a_knee_and_an_elbow_that_bend_the_wrong_way) {
         }
 }
 
-TEST_F(LintTest, finds_a_knee_that_is_bent_sideways_or_twisted_and_says_what_is_tolerated) {
+TEST_F(LintTest, FindsAKneeBentSidewaysOrTwistedAndStatesTheTolerance) {
     for (const glm::dvec3& axis : {glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1), glm::dvec3(0, 1, 0)})
         for (const double most : {15.0, 40.0, 80.0}) {
             Frames frames = walk();
@@ -229,7 +229,7 @@ TEST_F(LintTest, finds_a_knee_that_is_bent_sideways_or_twisted_and_says_what_is_
 }
 
 /// However the thigh is twisted on its way up: beyond a right angle that is a swing to another side.
-TEST_F(LintTest, an_amount_beyond_a_limit_is_the_least_turn_that_brings_the_joint_back) {
+TEST_F(LintTest, AnAmountBeyondALimitIsTheSmallestRotationBack) {
     const auto about = [](const glm::dvec3& axis, double degrees) {
         return glm::angleAxis(glm::radians(degrees), axis);
     };
@@ -248,12 +248,12 @@ TEST_F(LintTest, an_amount_beyond_a_limit_is_the_least_turn_that_brings_the_join
         }
 }
 
-TEST_F(LintTest, judges_by_the_limits_that_it_is_given) {
+TEST_F(LintTest, UsesTheGivenLimits) {
     const Clip clip = walk().clip();
     const BodyLimits like = default_limits(skeleton, map);
     const BodyLimits learned = learned_limits(skeleton, map, std::span(&clip, 1), like);
     EXPECT_TRUE(lint(skeleton, map, clip, {.limits = &learned}).findings.empty());
-    // The punch goes where the walk never was.
+    // The punch goes beyond the walk.
     const LintReport report = lint(skeleton, map, figure.clips[1], {.limits = &learned});
     EXPECT_FALSE(report.findings.empty());
     for (const Finding& each : report.findings) EXPECT_EQ(each.fault, Fault::Limit) << each.text;
@@ -261,7 +261,7 @@ TEST_F(LintTest, judges_by_the_limits_that_it_is_given) {
     EXPECT_TRUE(lint(skeleton, map, figure.clips[1], {.limits = &none}).findings.empty());
 }
 
-TEST_F(LintTest, finds_a_walk_that_lies_on_its_side) {
+TEST_F(LintTest, FindsAWalkThatLiesOnItsSide) {
     for (const glm::dvec3& axis : {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1)}) {
         Clip clip = figure.clips[0];
         const glm::dquat turn = glm::angleAxis(glm::radians(90.0), axis);
@@ -278,7 +278,7 @@ TEST_F(LintTest, finds_a_walk_that_lies_on_its_side) {
     }
 }
 
-TEST_F(LintTest, finds_a_figure_that_rests_on_its_side_or_is_a_giant) {
+TEST_F(LintTest, FindsAFigureThatRestsOnItsSideOrIsAGiant) {
     std::vector<Node> nodes = skeleton.nodes();
     nodes[0].rest.rotation = glm::angleAxis(glm::radians(90.0), glm::dvec3(1, 0, 0));
     const Skeleton lying = *Skeleton::make(nodes);
@@ -296,8 +296,8 @@ TEST_F(LintTest, finds_a_figure_that_rests_on_its_side_or_is_a_giant) {
     EXPECT_NEAR(tall.findings[0].amount, 180.0, 1.0);
 }
 
-/// Some files store their motion relative to a pose in which the figure lies: it walks upright all the same.
-TEST_F(LintTest, a_rest_pose_that_lies_is_no_fault_where_the_figure_walks_upright) {
+/// Some files store motion relative to a rest pose that lies down, although the figure walks upright.
+TEST_F(LintTest, ALyingRestPoseIsNoFaultIfTheFigureWalksUpright) {
     std::vector<Node> nodes = skeleton.nodes();
     nodes[0].rest.rotation = glm::angleAxis(glm::radians(90.0), glm::dvec3(1, 0, 0));
     const Skeleton lying = *Skeleton::make(nodes);
@@ -309,7 +309,7 @@ TEST_F(LintTest, a_rest_pose_that_lies_is_no_fault_where_the_figure_walks_uprigh
 }
 
 /// A rig may put all of an arm's twist into the forearm, or into the collar bone: the arm looks the same.
-TEST_F(LintTest, an_arm_is_judged_by_its_shape_however_its_twist_is_divided) {
+TEST_F(LintTest, AnArmIsJudgedByItsShapeHoweverItsTwistIsDivided) {
     const glm::dvec3 along(1, 0, 0);  // the left arm's
     for (const double twist : {0.0, 70.0, -70.0, 85.0}) {
         Frames frames = walk();
@@ -322,7 +322,7 @@ TEST_F(LintTest, an_arm_is_judged_by_its_shape_however_its_twist_is_divided) {
         const LintReport report = run(frames.clip());
         EXPECT_TRUE(report.findings.empty()) << twist << ": " << texts(report);
     }
-    // A fifth of a turn beyond what the shoulder can do, it bends backwards.
+    // A fifth of a turn beyond the shoulder's range, it bends backwards.
     Frames frames = walk();
     for (std::size_t k = 0; k < frames.poses.size(); ++k) {
         frames.at(k, "LeftUpperArm").rotation = glm::dquat(1, 0, 0, 0);
@@ -337,7 +337,7 @@ TEST_F(LintTest, an_arm_is_judged_by_its_shape_however_its_twist_is_divided) {
 
 namespace fs = std::filesystem;
 
-/// What is wrong with each file of others that can be read; nothing: careful work, in which nothing may be
+/// The faults of each third-party file that can be read; empty: careful work, in which nothing may be
 /// found.
 const std::map<std::string, std::set<Fault>>& faults_of_files() {
     static const std::map<std::string, std::set<Fault>> faults{
@@ -416,7 +416,7 @@ void for_each_file(const Use& use) {
             try {
                 character = read_character(entry.path());
             } catch (const std::runtime_error&) {
-                continue;  // another test says which
+                continue;  // covered by another test
             }
             use(entry.path().filename().string(), character);
         }
@@ -430,7 +430,7 @@ bool has_files() {
 
 LABEL(slow, "LintFiles.*");
 
-TEST(LintFiles, those_of_others_are_what_they_were_found_to_be) {
+TEST(LintFiles, ThirdPartyFilesHaveTheKnownFaults) {
     if (!has_files()) GTEST_SKIP() << "they are not there";
     std::size_t files = 0;
     for_each_file([&](const std::string& name, const Character& character) {
@@ -456,7 +456,7 @@ TEST(LintFiles, those_of_others_are_what_they_were_found_to_be) {
     EXPECT_EQ(files, faults_of_files().size());
 }
 
-/// A clip of others, with a key in each frame, into which faults are planted.
+/// A third-party clip with a key in each frame, into which faults are planted.
 class PlantedClip {
   public:
     PlantedClip(const Character& character, const Clip& clip)
@@ -514,7 +514,7 @@ class PlantedClip {
     BoneMap map_;
 };
 
-/// By 51 degrees.
+/// Pops a knee by 51 degrees.
 void pop_knee(PlantedClip& popped, const PlantedClip& clean, std::size_t frame) {
     const glm::dvec3 across = glm::normalize(clean.placed(frame, Bone::LeftUpperLeg).position -
                                              clean.placed(frame, Bone::RightUpperLeg).position);
@@ -523,9 +523,8 @@ void pop_knee(PlantedClip& popped, const PlantedClip& clean, std::size_t frame) 
     knee = glm::normalize(knee * glm::conjugate(turn) * glm::angleAxis(0.9, across) * turn);
 }
 
-/// In a fast run a knee turns by 30 degrees from frame to frame, and a pop of one frame is found all the
-/// same.
-TEST(LintFiles, a_knee_that_pops_is_found_in_most_frames_of_a_fast_run) {
+/// In a fast run a knee turns by 30 degrees per frame; a pop of one frame must still be found.
+TEST(LintFiles, APoppingKneeIsFoundInMostFramesOfAFastRun) {
     const fs::path file = fs::path(tendril::test::found_path("fbx_motionbuilder_jog.fbx"));
     if (!fs::exists(file)) GTEST_SKIP() << "it is not there";
     const Character character = read_character(file);
@@ -543,7 +542,7 @@ TEST(LintFiles, a_knee_that_pops_is_found_in_most_frames_of_a_fast_run) {
     EXPECT_GE(found, 12u) << "of " << clean.frames() - 2;
 }
 
-TEST(LintFiles, planted_faults_are_found_in_the_clean_ones_of_others) {
+TEST(LintFiles, PlantedFaultsAreFoundInCleanThirdPartyClips) {
     if (!has_files()) GTEST_SKIP() << "they are not there";
     std::map<Fault, int> planted;
     for_each_file([&](const std::string& name, const Character& character) {

@@ -27,7 +27,7 @@ std::string refusal(const std::string& text) {
     return {};
 }
 
-TEST(MapFile, comes_back_as_it_was) {
+TEST(MapFile, IsReadBackUnchanged) {
     tendril::test::Random random(3);
     for (int i = 0; i < 50; ++i) {
         BoneMap map = humanoid::match_bones(skeleton());
@@ -47,7 +47,7 @@ TEST(MapFile, comes_back_as_it_was) {
     }
 }
 
-TEST(MapFile, a_name_that_the_character_does_not_have_is_told) {
+TEST(MapFile, ANameThatTheCharacterLacksIsReported) {
     SavedMap saved = saved_map(humanoid::match_bones(skeleton()), skeleton());
     saved.bones[static_cast<std::size_t>(Bone::LeftHand)] = "hand_l";
     try {
@@ -58,7 +58,7 @@ TEST(MapFile, a_name_that_the_character_does_not_have_is_told) {
     }
 }
 
-TEST(MapFile, what_is_no_map_is_refused_and_says_where) {
+TEST(MapFile, OtherTextIsRefusedWithItsPlace) {
     const auto with = [](const char* bones) {
         return std::string(R"({"tendril": "bone map", "version": 1, "bones": )") + bones + "}";
     };
@@ -93,7 +93,7 @@ TEST(MapFile, random_bytes_and_cut_texts_are_refused_with_words) {
     }
 }
 
-TEST(MapFile, is_kept_for_a_skeleton_of_the_same_names_and_no_other) {
+TEST(MapFile, IsKeptForSkeletonsWithTheSameNamesOnly) {
     const tendril::test::TempFolder folder;
     EXPECT_FALSE(find_kept_map(folder.path(), skeleton()));
     const SavedMap saved = saved_map(humanoid::match_bones(skeleton()), skeleton());
@@ -112,7 +112,7 @@ TEST(MapFile, is_kept_for_a_skeleton_of_the_same_names_and_no_other) {
     EXPECT_FALSE(find_kept_map(folder.path(), skeleton()));
 }
 
-TEST(MapFile, that_is_kept_is_refused_with_its_name_where_it_cannot_be_the_characters) {
+TEST(MapFile, AKeptMapThatDoesNotFitIsRefusedByName) {
     const tendril::test::TempFolder folder;
     const SavedMap saved = saved_map(humanoid::match_bones(skeleton()), skeleton());
     keep_map(folder.path(), saved, skeleton());

@@ -31,7 +31,7 @@ TEST(PointsFromText, AreReadAsTablesListsAndSourceCode) {
         EXPECT_EQ(read_points(text, 10), two) << text;
 }
 
-TEST(PointsFromText, ThatAreNoneNameTheLineAndWhatIsThere) {
+TEST(PointsFromText, InvalidTextIsRefusedWithLineAndContent) {
     struct Bad {
         std::string text, told;
     };

@@ -9,7 +9,7 @@
 
 namespace tendril::app::test_posed {
 
-/// In the clip of that index; `clip` < 0: at rest.
+/// Placements in the clip of that index; `clip` < 0: at rest.
 inline std::vector<humanoid::Placement> placed(const Character& character, int clip, double time = 0.0) {
     std::vector<rig::Transform> pose = rest_pose(character.skeleton);
     if (clip >= 0) sample(character.clips.at(static_cast<std::size_t>(clip)), character.skeleton, time, pose);
@@ -23,7 +23,7 @@ inline glm::dvec3 at(const Character& character, const char* node, int clip, dou
     return placed(character, clip, time)[character.skeleton.find(node).value()].position;
 }
 
-/// The notes, or with the guesses all that the panel shows, a line each.
+/// The notes, or with the guesses all that the panel shows, one per line.
 inline std::string lines(const std::vector<std::string>& sentences) {
     std::string all;
     for (const std::string& each : sentences) all += each + '\n';

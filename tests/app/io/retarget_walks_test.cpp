@@ -43,25 +43,25 @@ class Walker {
     bool has(Bone bone) const { return map_[bone].node >= 0; }
     std::size_t node(Bone bone) const { return static_cast<std::size_t>(map_[bone].node); }
     const glm::dvec3& at(Bone bone) const { return placed_[node(bone)].position; }
-    /// In left, up and forward of the figure.
+    /// In the figure's axes: left, up and forward.
     glm::dvec3 seen(const glm::dvec3& v) const {
         return {glm::dot(v, glm::cross(facing_.up, facing_.forward)), glm::dot(v, facing_.up),
                 glm::dot(v, facing_.forward)};
     }
     glm::dvec3 way(Bone from, Bone to) const { return seen(glm::normalize(at(to) - at(from))); }
-    /// A direction of the T-pose, as the bone has turned it since.
+    /// A direction of the T-pose, rotated with the bone.
     glm::dvec3 turned(Bone bone, const glm::dvec3& direction) const {
         return seen(placed_[node(bone)].rotation() * (glm::inverse(t_[node(bone)].rotation()) * direction));
     }
     const Facing& directions() const { return facing_; }
-    /// From the wrist to the middle finger, or to the middle of what the hand has.
+    /// The direction from the wrist to the middle finger, or to the middle of the hand's other nodes.
     std::optional<glm::dvec3> hand(Bone bone) const {
         glm::dvec3 sum(0.0);
         int best = 0;
         for (std::size_t i = 0; i < skeleton_.size(); ++i) {
             if (!skeleton_.is_below(i, node(bone)) || i == node(bone)) continue;
             const glm::dvec3 away = placed_[i].position - at(bone);
-            // Rigid on the hand: whatever is between them is at the wrist, or of the palm.
+            // Rigid on the hand: nodes between them are at the wrist or in the palm.
             bool rigid = glm::length(away) > 1e-4 * size() && !is_palm(i);
             for (std::size_t above = parent(i); above != node(bone); above = parent(above))
                 rigid &= is_palm(above) || glm::distance(placed_[above].position, at(bone)) < 1e-4 * size();
@@ -77,7 +77,7 @@ class Walker {
         if (best == 0) return std::nullopt;
         return seen(glm::normalize(sum));
     }
-    /// How far the root is from where it stood below the hips at rest, over the ground.
+    /// The root's distance on the ground from its rest position below the hips.
     double root_behind() const {
         std::size_t root = node(Bone::Hips);
         while (skeleton_[root].parent >= 0) root = parent(root);
@@ -90,7 +90,7 @@ class Walker {
                              rest_[node(Bone::LeftLowerLeg)].position) +
                glm::distance(rest_[node(Bone::LeftLowerLeg)].position, rest_[node(Bone::LeftFoot)].position);
     }
-    /// Heel, ball and tip of the toes.
+    /// The sole's heel, ball and toe tip.
     std::array<glm::dvec3, 3> sole(const Soles& soles, std::size_t foot) const {
         const SolePoints points = sole_points(soles, placed_)[foot];
         const std::size_t toes = soles.feet[foot].toes;
@@ -106,7 +106,7 @@ class Walker {
         const glm::dvec3 ankle = t_[soles.feet[foot].foot].position;
         if (std::hypot(ball.x - ankle.x, ball.z - ankle.z) > far)
             return {points.heel, points.toe, points.toe};
-        // Toes that point up at rest do not show a sole: what stands on the ground are their joints.
+        // Toes that point up at rest do not show a sole: the figure stands on their joints.
         const glm::dvec3 &base = placed_[toes].position, &top = placed_[tip].position;
         if (t_[tip].position.y - t_[toes].position.y > 0.7 * glm::distance(base, top))
             return {base, base, top};
@@ -144,10 +144,10 @@ Clip first_seconds(Clip clip, double seconds) {
 
 struct Measured {
     double arms = 0.0, hands = 0.0, head = 0.0;  // degrees from the source's directions
-    double off_ground = 0.0, slide = 0.0;        // metres at a person's size, while the source's foot stands
-    double landing = 0.0;      // metres between the soles' heights in the last 0.1 s before it stands
-    double left_behind = 0.0;  // metres between the root and the place below the hips, as at rest
-    std::map<std::string, int> faults{};    // that lint finds here and not in the source
+    double off_ground = 0.0, slide = 0.0;        // metres for a person, while the source's foot stands
+    double landing = 0.0;      // metres between the soles' heights in the last 0.1 s before the foot stands
+    double left_behind = 0.0;  // metres between the root and its rest position below the hips
+    std::map<std::string, int> faults{};    // lint's findings that are not in the source
     std::map<std::string, double> worst{};  // amount of the worst finding on the target, by fault
 };
 
@@ -207,7 +207,7 @@ class Comparison {
         for (const bool up : {false, true})
             found.head = std::max(found.head, angle(turned(was_, up), turned(now_, up)));
     }
-    /// A foot that is less than 5 cm over the ground, and stands within 0.1 s.
+    /// Compares feet less than 5 cm above the ground that will stand within 0.1 s.
     void compare_landings(std::size_t within) {
         for (const std::vector<Height>& all : heights_)
             for (std::size_t i = within; i + within < all.size(); ++i) {
@@ -245,7 +245,7 @@ class Comparison {
         glm::dvec2 slid{0.0};
     };
     struct Height {
-        double before = 0.0, after = 0.0;  // of the soles over the ground, metres at a person's size
+        double before = 0.0, after = 0.0;  // height of the soles above the ground, metres for a person
         bool stands = false;
     };
     Walker was_, now_;
@@ -253,13 +253,13 @@ class Comparison {
     std::array<std::vector<Height>, 2> heights_{};
 };
 
-/// A walk, and how far feet may be below the floor by the lint, millimetres: it lowers the ankle without
-/// turning it, which is too much for a heel that lands at 30 degrees.
+/// A walk, and the lint's tolerance for feet below its floor in millimetres: the lint lowers the ankle
+/// without rotating it, which is too much for a heel that lands at 30 degrees.
 struct Source {
     const char* file;
     const char* clip;
     double sinking = 0.0;
-    double knee = 0.0;     ///< degrees that it snaps, by the lint
+    double knee = 0.0;     ///< degrees that a knee snaps, by the lint
     double slide = 0.015;  ///< metres
 };
 const std::vector<Source>& retargeted_sources() {
@@ -275,24 +275,24 @@ const std::vector<Source>& retargeted_sources() {
                                              {"characters/robot.glb", "Robot_Dance"},
                                              {"characters/robot.glb", "Robot_Jump"},
                                              {"characters/robot.glb", "Robot_Sitting"},
-                                             // Walks on the spot, and its feet slide all the time.
+                                             // Walks on the spot, with feet that always slide.
                                              {"characters/cesium_man.gltf", "", 64.0},
                                              {"characters/mixed_orders.bvh", ""},
                                              {"characters/pab_skeleton.fbx", ""},
                                              {"found/fbx_motionbuilder_jog.fbx", ""},
-                                             // Two keys of a moment hid a knee that snaps.
+                                             // Two keys at one time hid a knee that snaps.
                                              {"found/bvh_z_up.bvh", "", 0.0, 19.0},
                                              {"found/fbx_inherit_scale_human.fbx", ""}};
     return sources;
 }
-/// Metres at a person's size. More where the rest pose does not show the soles: the lint takes the lowest
-/// joints for them, retarget() what find_soles() has below them, up to 66 mm for feet without toes.
-/// mixed_orders rests with its toes 60 degrees up, which the lint takes for the way that they stand.
+/// Metres for a person. More where the rest pose does not show the soles: the lint uses the lowest joints
+/// instead, retarget() what find_soles() finds below them, up to 66 mm for feet without toes. mixed_orders
+/// rests with its toes 60 degrees up, which the lint takes for their standing pose.
 struct Target {
     const char* file;
     double off_ground = 0.005, landing = 0.015;
     double sinking = 0.0, skating = 0.0;  ///< by the lint, millimetres
-    double knee = 0.0;                    ///< degrees that it snaps, by the lint
+    double knee = 0.0;                    ///< degrees that a knee snaps, by the lint
 };
 constexpr Target retargeted_targets[]{
     {"characters/human_male.glb"},
@@ -318,7 +318,7 @@ constexpr Target retargeted_targets[]{
 
 class RetargetedWalks : public testing::TestWithParam<Source> {
   protected:
-    /// In a plausible unit.
+    /// The character, in a plausible unit.
     static const Character& character(const std::string& file) {
         static std::map<std::string, Character> read;
         if (const auto found = read.find(file); found != read.end()) return found->second;
@@ -372,7 +372,7 @@ TEST_P(RetargetedWalks, FeetStandAndHandsPointAsInTheSource) {
     }
 }
 
-TEST(RetargetedWalk, AFigureWithoutBonesOfAPersonIsRefused) {
+TEST(RetargetedWalk, AFigureWithoutAPersonsBonesIsRefused) {
     const auto folder = test::characters_folder();
     if (!std::filesystem::exists(folder / "huesitos.fbx")) GTEST_SKIP();
     const Character from = read_character(folder / "cmu_12_01_walk.bvh"),

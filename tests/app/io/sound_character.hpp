@@ -53,7 +53,7 @@ inline const char* fault_of_skin(const Character& character) {
     return nullptr;
 }
 
-/// Null: it can be played and drawn.
+/// The first fault found; null if the character can be played and drawn.
 inline const char* fault_of(const Character& character) {
     if (character.skeleton.size() == 0) return "it has no nodes";
     if (!std::isfinite(character.scale) || !(character.scale > 0.0)) return "its scale is none";

@@ -1,4 +1,4 @@
-// Logs as programs of many makers print them.
+// Logs in the formats that programs of many makers print.
 #include <gtest/gtest.h>
 
 #include "tests/app/io/trace_reading.hpp"
@@ -11,13 +11,13 @@ using test::made::Plant;
 using test::made::Space;
 using test::made::TraceMaker;
 
-/// How a program prints a frame of shoulder, elbow and hand, and what it can be known to have.
+/// A program's format for a frame of shoulder, elbow and hand, and the facts that can be known about it.
 struct Maker {
     const char* name;
     std::string (*print)(const std::vector<glm::dvec3>& joints, std::size_t frame);
-    int space = 2;            ///< of test::made::spaces
+    int space = 2;            ///< index into test::made::spaces
     const char* header = "";  ///< before the first frame
-    const char* engine = "";  ///< in the text of the conventions
+    const char* engine = "";  ///< expected in the text of the conventions
 };
 
 template <std::size_t N>
@@ -212,11 +212,11 @@ const Maker makers[]{
      [](const Joints& j, std::size_t) { return "7,8," + each_joint(j, "%.4f,%.4f,%.4f,1", ",") + "\n"; }, 2,
      "z-score,x label,a_x,a_y,a_z,a_w,b_x,b_y,b_z,b_w,c_x,c_y,c_z,c_w\n"}};
 
-/// How a program prints one vector: of shoulder, elbow, hand, target and pole target.
+/// A program's format for one vector, used for shoulder, elbow, hand, target and pole target.
 struct VectorFormat {
     const char* format;
-    int space = 2;            ///< of test::made::spaces
-    const char* engine = "";  ///< in the text of the conventions
+    int space = 2;            ///< index into test::made::spaces
+    const char* engine = "";  ///< expected in the text of the conventions
 };
 const VectorFormat vector_formats[]{
     {"(%.4f, %.4f, %.4f)"},

@@ -1,4 +1,4 @@
-// Shared by tests of traces: reading one whole, and printing points.
+// Shared by tests of traces: reading a whole trace, and printing points.
 #pragma once
 
 #include <sstream>

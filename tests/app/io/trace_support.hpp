@@ -24,11 +24,11 @@ struct MadeFrame {
 
 struct MadeTrace {
     std::vector<MadeFrame> frames;  ///< metres, right-handed, Y up
-    std::string kind;               ///< of the planted incident; empty: clean
+    std::string kind;               ///< kind of the planted incident; empty: clean
     std::size_t frame = 0;
     int joint = -1;                         ///< -1: none
-    std::string cause;                      ///< part of it
-    std::string also;                       ///< or part of another that is as right
+    std::string cause;                      ///< words of the cause
+    std::string also;                       ///< words of another cause that is also correct
     double amount = 0.0, tolerance = -1.0;  ///< not compared while negative
     std::string limits;                     ///< JSON, for the first line
 };
@@ -67,7 +67,7 @@ class TraceMaker {
         const glm::dvec3 start = glm::normalize(glm::cross(axis, direction()));
         const double turned = uniform(0.5, 1.2), near = uniform(0.6, 0.7), far = uniform(0.75, 0.85);
         const std::size_t count = 120, at = 60;
-        // The pole target lies off the plane in which the target moves.
+        // The pole target is off the plane in which the target moves.
         glm::dvec3 pole = root_ + reach * (1.2 * axis + 0.3 * start);
         for (std::size_t i = 0; i < count; ++i) {
             const double t = static_cast<double>(i) / 119.0, smooth = t * t * (3.0 - 2.0 * t);
@@ -96,7 +96,7 @@ class TraceMaker {
     }
     double reach() const { return upper_ + lower_; }
 
-    /// Law of cosines, bent towards the pole target or, without one, upwards.
+    /// Solves by the law of cosines, bent towards the pole target or, without one, upwards.
     std::vector<glm::dvec3> solved(const MadeFrame& frame) const {
         const glm::dvec3 way = frame.target - root_;
         const double far = glm::length(way),
@@ -109,13 +109,13 @@ class TraceMaker {
                      height = std::sqrt(std::max(0.0, upper_ * upper_ - along * along));
         return {root_, root_ + along * line + height * bend, root_ + d * line};
     }
-    /// The elbow on the other side of the line from root to tip.
+    /// Mirrors the elbow to the other side of the line from root to tip.
     void mirror(MadeFrame& frame) const {
         const glm::dvec3 line = glm::normalize(frame.joints[2] - root_), elbow = frame.joints[1] - root_;
         frame.joints[1] = root_ + 2.0 * line * glm::dot(elbow, line) - elbow;
     }
 
-    /// Changes the targets, before they are solved for.
+    /// Changes the targets before the solve.
     void plan(MadeTrace& trace, Plant plant, std::size_t at, glm::dvec3 axis, glm::dvec3 start) {
         auto& frames = trace.frames;
         const glm::dvec3 across = glm::cross(axis, start);
@@ -168,7 +168,7 @@ class TraceMaker {
         }
     }
 
-    /// Changes the solved poses.
+    /// Changes the poses after the solve.
     void spoil(MadeTrace& trace, Plant plant, std::size_t at) {
         auto& frames = trace.frames;
         constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -288,7 +288,7 @@ class TraceMaker {
     glm::dvec3 root_{0.0};
 };
 
-/// A space to write in.
+/// The conventions of a file.
 struct Space {
     const char *up, *handed, *unit;
     double scale;
@@ -329,7 +329,7 @@ inline std::string number_text(double value, int decimals) {
 
 /// `rounded`: positions to the millimetre, times as before.
 inline std::string written(const MadeTrace& trace, const Space& space, Format format, bool rounded = false) {
-    // A log has few digits, but enough of them.
+    // A log has few digits, but enough.
     const int decimals = (space.scale == 1.0 ? 5 : 3) - (rounded ? space.scale == 1000.0 ? 3 : 2 : 0);
     const auto points = [&](const glm::dvec3& p, const char* open, const char* between, const char* close,
                             const char* suffix = "") {

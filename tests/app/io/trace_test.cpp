@@ -20,7 +20,7 @@ using test::made::Plant;
 using test::made::Space;
 using test::made::TraceMaker;
 
-/// The space that a format's engine has; any, if the format says it in words.
+/// The conventions of a format's engine; for other formats chosen by the seed.
 const Space& space_for(Format format, unsigned seed) {
     switch (format) {
         case Format::Unreal:
@@ -62,14 +62,14 @@ TEST(Trace, EveryPlantedFaultIsFoundAtItsFrameWithItsCause) {
             << made.frame << " joint " << made.joint << " (" << made.cause << ", " << made.amount
             << "); found:\n"
             << found.text();
-        // A flip at a jump has the jump beside it, and close to the root there may be two.
+        // A flip caused by a jump is reported beside the jump; close to the root there may be two flips.
         const std::size_t others = plant == Plant::FlipAtJump || plant == Plant::FlipAtRoot ? 1 : 0;
         EXPECT_LE(found.incidents().size(), 1 + others) << "seed " << seed << ", " << made.kind << ":\n"
                                                         << found.text();
     }
 }
 
-/// The most degrees that the upper arm turns in a frame of Tendril's solve.
+/// The maximum rotation of the upper arm in a frame of Tendril's solve, degrees.
 float fastest_turn(const std::vector<TracedFrame>& frames, const TraceSolve& how) {
     Retrace chain(how);
     glm::vec3 before(0.0f);
@@ -84,7 +84,7 @@ float fastest_turn(const std::vector<TracedFrame>& frames, const TraceSolve& how
     return fastest;
 }
 
-TEST(Trace, WhatPreventsAFlipPreventsItInASolve) {
+TEST(Trace, ASuggestedPreventionWorksInASolve) {
     std::size_t poles = 0, methods = 0;
     for (unsigned seed = 0; seed < 40; ++seed) {
         const Plant plant = seed % 2 == 0 ? Plant::FlipAtPole : Plant::FlipForNothing;
@@ -117,9 +117,8 @@ TEST(Trace, WhatPreventsAFlipPreventsItInASolve) {
     EXPECT_GE(methods, 20u);
 }
 
-TEST(Trace, OfAFlipThatNoSolverHasItSaysWhetherOneReaches) {
-    // Bones of 1 and 0.3 m, which the engine stretches to keep its tip within the 0.7 m that they cannot
-    // reach.
+TEST(Trace, OfAFlipThatNoSolverHasItReportsWhetherOneReaches) {
+    // Bones of 1 and 0.3 m, which the engine stretches, since they cannot reach closer than 0.7 m.
     std::vector<TracedFrame> frames;
     for (int i = 0; i < 20; ++i) {
         const float x = std::max(0.4f, 0.75f - 0.02f * static_cast<float>(i));
@@ -180,7 +179,7 @@ TEST(Trace, ABoneThatRollsWhileItsEndsStayFlips) {
         }
 }
 
-TEST(Trace, NothingIsFoundInCleanOnes) {
+TEST(Trace, NothingIsFoundInCleanTraces) {
     for (unsigned seed = 1000; seed < 1200; ++seed) {
         const auto format = static_cast<Format>(seed % test::made::formats);
         const MadeTrace made = TraceMaker(seed).make(Plant::None);
@@ -289,7 +288,7 @@ TEST(Trace, PastedPosesAreRead) {
             << target;
 }
 
-TEST(Trace, AnArrayOfManyLinesIsReadInTimeOfItsLength) {
+TEST(Trace, AnArrayOfManyLinesIsReadInLinearTime) {
     const auto begin = std::chrono::steady_clock::now();
     for (const char* each : {"1 2\n", ": 1.0 2.0 3.0 ", "a: -"}) {
         std::string text = "data = [0\n";
@@ -347,7 +346,7 @@ TEST(Trace, ALagOfAnyLengthIsFoundAlone) {
         }
 }
 
-TEST(Trace, WithoutATargetNothingIsSaidOfOne) {
+TEST(Trace, WithoutATargetNoneIsReported) {
     for (unsigned seed = 0; seed < 60; ++seed) {
         const MadeTrace made = TraceMaker(seed).make(static_cast<Plant>(seed % (test::made::plants + 1)));
         std::string text =

@@ -87,7 +87,7 @@ class TwistedTube : public testing::Test {
     TwistSpread spread;
 };
 
-TEST_F(TwistedTube, keeps_its_girth_at_170_degrees_of_wrist_where_linear_blending_makes_a_thread_of_it) {
+TEST_F(TwistedTube, KeepsItsGirthAt170DegreesOfWristWhereLinearBlendingCollapses) {
     turn(Bone::LeftHand) = glm::angleAxis(170.0 * degree, along);
     EXPECT_LT(thinnest(false), 0.15);
     EXPECT_GT(thinnest(true), 0.98);
@@ -101,7 +101,7 @@ TEST_F(TwistedTube, keeps_its_girth_at_170_degrees_of_wrist_where_linear_blendin
     }
 }
 
-TEST_F(TwistedTube, and_at_the_shoulder_and_where_the_lower_arm_has_its_share) {
+TEST_F(TwistedTube, KeepsItsGirthAtTheShoulderAndWithATwistedLowerArm) {
     turn(Bone::LeftUpperArm) = glm::angleAxis(-170.0 * degree, along);
     EXPECT_LT(thinnest(false), 0.15);
     EXPECT_GT(thinnest(true), 0.98);
@@ -115,7 +115,7 @@ TEST_F(TwistedTube, and_at_the_shoulder_and_where_the_lower_arm_has_its_share) {
     EXPECT_GT(thinnest(true), 0.9);
 }
 
-TEST_F(TwistedTube, is_the_linear_one_where_nothing_is_twisted) {
+TEST_F(TwistedTube, EqualsLinearBlendingWithoutTwist) {
     EXPECT_EQ(farthest(corners(true), corners(false)), 0.0);
     std::mt19937 engine(7);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
@@ -128,7 +128,7 @@ TEST_F(TwistedTube, is_the_linear_one_where_nothing_is_twisted) {
     }
 }
 
-TEST_F(TwistedTube, moves_as_evenly_as_the_hand_turns_but_for_half_a_turn) {
+TEST_F(TwistedTube, MovesAsEvenlyAsTheHandTurnsExceptNearHalfATurn) {
     std::mt19937 engine(8);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     for (int i = 0; i < 3; ++i) {
@@ -150,14 +150,14 @@ TEST_F(TwistedTube, moves_as_evenly_as_the_hand_turns_but_for_half_a_turn) {
     }
 }
 
-TEST_F(TwistedTube, twists_the_same_way_round_where_the_character_is_mirrored) {
+TEST_F(TwistedTube, TwistsTheSameWayOnAMirroredCharacter) {
     pose[0].scale = {-1.0, 1.0, 1.0};
     turn(Bone::LeftHand) = glm::angleAxis(170.0 * degree, along);
     turn(Bone::LeftUpperArm) = glm::angleAxis(60.0 * degree, along);
     EXPECT_GT(thinnest(true), 0.98);
 }
 
-TEST_F(TwistedTube, is_somewhere_in_any_pose) {
+TEST_F(TwistedTube, IsFiniteInAnyPose) {
     std::mt19937 engine(9);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     const glm::dquat down = glm::angleAxis(180.0 * degree, glm::dvec3(0.0, 0.0, 1.0));
@@ -172,7 +172,7 @@ TEST_F(TwistedTube, is_somewhere_in_any_pose) {
     }
 }
 
-TEST_F(TwistedTube, leaves_bones_with_worn_twist_nodes_to_those) {
+TEST_F(TwistedTube, SkipsBonesWhoseTwistNodesAreUsed) {
     std::vector<humanoid::Node> nodes = skeleton.nodes();
     nodes.push_back({"lowerarm_twist_01_l", map[Bone::LeftLowerArm].node, {}});
     nodes.back().rest.translation = {0.13, 0.0, 0.0};
@@ -187,7 +187,7 @@ TEST_F(TwistedTube, leaves_bones_with_worn_twist_nodes_to_those) {
     EXPECT_EQ(farthest(corners(true), corners(false)), 0.0);
 }
 
-TEST(TwistedCharacters, are_the_linear_ones_as_they_were_bound) {
+TEST(TwistedCharacters, EqualLinearBlendingInTheirBindPose) {
     const std::filesystem::path folder = tendril::test::characters_folder();
     if (!std::filesystem::exists(folder)) GTEST_SKIP();
     int worn = 0;

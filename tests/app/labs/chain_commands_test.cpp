@@ -38,7 +38,7 @@ TEST_F(ChainCommands, EachModeKeepsItsOwnIterations) {
     EXPECT_EQ(part().index, 5u);
 }
 
-TEST_F(ChainCommands, EditsLiveAndTheSelectionStaysWithItsSegment) {
+TEST_F(ChainCommands, EditsAreAppliedAndTheSelectionStaysWithItsSegment) {
     run("chain.select", {{"index", 4}});
     run("chain.insert", {{"index", 2}, {"length", 0.5}});
     EXPECT_EQ(part().chain.size(), 9u);
@@ -58,7 +58,7 @@ TEST_F(ChainCommands, EditsLiveAndTheSelectionStaysWithItsSegment) {
     EXPECT_EQ(part().chain.size(), 1u);
 }
 
-TEST_F(ChainCommands, ClearTakesADirectionForWhatHasNone) {
+TEST_F(ChainCommands, ClearTakesADirectionForBonesWithoutOne) {
     run("chain.clear", {{"default_direction", {0, 1, 0}}});
     EXPECT_TRUE(part().chain.empty());
     for (int i = 0; i < 5; ++i) run("chain.add", {{"length", 1}, {"position", {1, 1, 1}}});
@@ -67,7 +67,7 @@ TEST_F(ChainCommands, ClearTakesADirectionForWhatHasNone) {
     refused("chain.clear", {{"default_direction", {0, 5, 0}}});
 }
 
-TEST_F(ChainCommands, PresetsAreSoundAtEverySize) {
+TEST_F(ChainCommands, PresetsAreValidAtEverySize) {
     for (const char* name : {"start", "arm", "snake", "coil", "random", "tentacle", "spine", "tail"}) {
         for (const int count : {1, 2, 3, 50, 3000}) {
             run("chain.preset", {{"name", name}, {"count", count}, {"seed", 7}});
@@ -115,7 +115,7 @@ TEST_F(ChainCommands, AMovingTargetStartsWhereItIsAndPullsTheChain) {
     EXPECT_FALSE(lab.moving(workspace));
 }
 
-TEST_F(ChainCommands, WhatChangesNothingLeavesNoStep) {
+TEST_F(ChainCommands, CommandsWithoutEffectLeaveNoUndoStep) {
     run("chain.mode", {{"mode", "backward"}});
     run("chain.set_length", {{"index", 3}, {"length", 1}});
     EXPECT_EQ(workspace.history.size(), 0u);
@@ -152,7 +152,7 @@ TEST_F(ChainCommands, NothingLeavesTheRangeThatAFileCanHold) {
     EXPECT_EQ(save_scene(workspace), scene);
 }
 
-TEST_F(ChainCommands, ResetIsOfThisLabAndKeepsTheFile) {
+TEST_F(ChainCommands, ResetConcernsThisLabAndKeepsTheFile) {
     const Json first = part().save();
     workspace.path = "walk.json";
     run("chain.preset", {{"name", "coil"}});

@@ -47,7 +47,7 @@ TEST_F(ChainCurve, agrees_with_an_independent_implementation) {
     }
 }
 
-TEST_F(ChainCurve, begins_as_a_curve_through_the_chain_and_turns_the_bones_from_rest) {
+TEST_F(ChainCurve, BeginsAsACurveThroughTheChainAndRotatesTheBonesFromRest) {
     run("chain.preset", {{"name", "arm"}});
     const std::vector<glm::vec3> before = joints();
     run("chain.mode", {{"mode", "curve"}});
@@ -62,7 +62,7 @@ TEST_F(ChainCurve, begins_as_a_curve_through_the_chain_and_turns_the_bones_from_
     }
 }
 
-TEST_F(ChainCurve, says_how_much_lies_past_the_end_and_fits_on_request) {
+TEST_F(ChainCurve, ReportsHowMuchLiesPastTheEndAndFitsOnRequest) {
     along({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {1, 1, 1});
     EXPECT_EQ(curve().at("bones_past_end"), 1);
     EXPECT_EQ(curve().at("past_end"), 1.0);
@@ -77,7 +77,7 @@ TEST_F(ChainCurve, says_how_much_lies_past_the_end_and_fits_on_request) {
     EXPECT_EQ(part().chain.length(2), 1.0f);
 }
 
-TEST_F(ChainCurve, weight_and_falloff_ease_from_the_pose_it_had) {
+TEST_F(ChainCurve, WeightAndFalloffBlendWithThePreviousPose) {
     bow();
     const std::vector<glm::vec3> all = joints();
     run("chain.curve", {{"weight", 0}});
@@ -118,7 +118,7 @@ TEST_F(ChainCurve, the_target_is_the_last_control_point) {
     EXPECT_TRUE(part().along == AlongCurve());
 }
 
-TEST_F(ChainCurve, edits_go_to_the_chain_and_its_new_pose_follows) {
+TEST_F(ChainCurve, EditsChangeTheGivenChainAndItsNewPoseFollows) {
     bow();
     run("chain.add", {{"length", 1}});
     ASSERT_EQ(joints().size(), 6u);
@@ -151,7 +151,7 @@ TEST_F(ChainCurve, control_points_are_selected_and_removed_like_joints) {
     EXPECT_TRUE(part().along.selection.empty());
 }
 
-// A loop that narrows until it is less wide than a bone.
+// A loop that shrinks until it is narrower than a bone.
 TEST_F(ChainCurve, a_jump_is_an_incident_with_its_cause) {
     const auto loop = [](double high) { return Json{{0, 0, 0}, {1, high, 0}, {1, -0.3, 0}, {5, 0, 0}}; };
     along(loop(2), {0.9f, 0.9f, 0.9f, 0.9f});
@@ -179,7 +179,7 @@ TEST_F(ChainCurve, a_jump_is_an_incident_with_its_cause) {
     EXPECT_TRUE(moved(loop(0.2)).empty()) << "a curve at rest does not jump";
 }
 
-TEST_F(ChainCurve, its_program_places_the_chain_as_it_was_given) {
+TEST_F(ChainCurve, ItsCodePlacesTheGivenChain) {
     run("chain.preset", {{"name", "spine"}});
     const std::string code = chain_code(part());
     for (const char* const said : {"tendril/ik/curve.hpp", "options.fit = true;",

@@ -1,4 +1,4 @@
-// Why did the arm flip? Gestures with a planted cause, and smooth ones.
+// The causes of flips: gestures with a planted cause, and smooth ones.
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <random>
@@ -11,7 +11,7 @@ namespace {
 
 using Path = std::vector<glm::vec3>;
 
-/// In degrees.
+/// The angle in degrees.
 float angle_between(glm::vec3 a, glm::vec3 b) {
     return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
@@ -64,8 +64,8 @@ class ChainIncidents : public ChainTest {
         int flips = 0, marked = 0;
         std::string problem;
     };
-    /// Moves the target along a path. Every turn that the rule counts must be marked in that very step, with
-    /// its joint and this cause; and nothing else.
+    /// Moves the target along a path. Every turn that counts by the rule must be marked in that step with its
+    /// joint and this cause, and nothing else may be.
     Gesture drag(const Path& path, const std::string& cause) {
         for (int settled = 0; settled < 3; ++settled) target(path.front());
         Gesture gesture;
@@ -241,7 +241,7 @@ TEST_F(ChainIncidents, TheRuleIsSettable) {
     EXPECT_EQ(flips(1.8f), 1);
 }
 
-TEST_F(ChainIncidents, NothingIsMarkedForWhatIsNoMoveOfTheTarget) {
+TEST_F(ChainIncidents, OnlyMovesOfTheTargetAreMarked) {
     chain({1, 1, 1}, {0, 1, 0}, {0, 0, 1}, 0.5f);
     target({1.5f, 1.5f, 0});
     const auto none = [&](const char* name, const Json& arguments) {

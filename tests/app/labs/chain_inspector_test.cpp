@@ -32,7 +32,7 @@ class ChainInspector : public ChainTest {
     test::PanelReader reader_;
 };
 
-TEST_F(ChainInspector, shows_the_step_that_is_under_the_microscope) {
+TEST_F(ChainInspector, ShowsTheStepUnderTheMicroscope) {
     reach_with(4);
     run("chain.solver", {{"name", "fabrik_plain"}});
     run("chain.target", {{"to", {1.2, 2.1, 0.7}}});
@@ -40,7 +40,7 @@ TEST_F(ChainInspector, shows_the_step_that_is_under_the_microscope) {
     run("chain.select", {{"index", 4}});
     const auto shown = shown_chain(workspace).trace;
     const Trace& trace = *shown;
-    // The tip was put onto the target and nothing else has moved, so its bone is far too long.
+    // The tip was moved to the target and nothing else has moved, so its bone is far too long.
     run("microscope.seek", {{"step", 1}});
     const std::vector<glm::vec3> joints = trace.pose(1);
     const float residual = glm::distance(joints[4], part().target),
@@ -55,7 +55,7 @@ TEST_F(ChainInspector, shows_the_step_that_is_under_the_microscope) {
     EXPECT_EQ(state()["microscope"]["lengths"][4], number(bone));
     EXPECT_EQ(state()["microscope"]["lengths"][2], 1.0);
 
-    // On the way, the joints are in poses where no solve has ended.
+    // On the way, the joints take poses at which no solve ended.
     run("microscope.seek", {{"step", 4}});
     const std::vector<glm::vec3> later = trace.pose(4);
     expect_says("x " + metres(later[4].x, "%.3f m"));
@@ -68,7 +68,7 @@ TEST_F(ChainInspector, shows_the_step_that_is_under_the_microscope) {
     expect_says("x " + metres(part().chain.position(4).x, "%.3f m"));
 }
 
-TEST_F(ChainInspector, says_first_what_became_of_the_target) {
+TEST_F(ChainInspector, BeginsWithTheOutcomeForTheTarget) {
     const auto says = [&](const char* verdict) {
         EXPECT_EQ(state().at("verdict"), verdict);
         EXPECT_EQ(text().rfind(verdict, 0), 0u) << "it comes first, in:\n" << text();
@@ -98,7 +98,7 @@ TEST_F(ChainInspector, says_first_what_became_of_the_target) {
     EXPECT_TRUE(test::says(text(), "Joint 1 (hinge) stops at 90 degrees the target needs"));
 }
 
-TEST_F(ChainInspector, says_why_a_solve_stalled) {
+TEST_F(ChainInspector, ExplainsAStalledSolve) {
     // Straight along +X, with the target on that line: the published FABRIK bends nothing.
     reach_with(4);
     run("chain.solver", {{"name", "fabrik_plain"}});
@@ -112,7 +112,7 @@ TEST_F(ChainInspector, says_why_a_solve_stalled) {
     expect_says("Straight, and the target is on its line");
     expect_says("pole target");
     expect_silent_about("would change nothing");
-    // The advice is right.
+    // Following the advice works.
     run("chain.pole", {{"to", {3, 3, 0}}});
     EXPECT_EQ(part().result->report.status, ik::Status::Converged);
 
@@ -163,7 +163,7 @@ TEST_F(ChainInspector, counts_joints_and_bones) {
     expect_says("2 joints, 1 bone\n");
 }
 
-TEST_F(ChainInspector, counts_what_happened_from_the_latest_moment) {
+TEST_F(ChainInspector, CountsTimeFromTheLatestMoment) {
     for (int i = 0; i < 100; ++i) {
         workspace.remember_moment();
         ++workspace.moment;

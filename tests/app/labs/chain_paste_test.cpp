@@ -26,7 +26,7 @@ TEST_F(ChainPaste, RowsBecomeAChainWithItsTargetOnItsTail) {
     EXPECT_EQ(state(), before);
 }
 
-TEST_F(ChainPaste, OnePointMovesWhatIsSelectedOrElseTheTarget) {
+TEST_F(ChainPaste, OnePointMovesTheSelectionOrElseTheTarget) {
     paste("new Vector3(5f, 2f, 0f)");
     EXPECT_EQ(part().target, glm::vec3(5, 2, 0));
     EXPECT_EQ(part().chain.position(7), glm::vec3(5, 2, 0));
@@ -51,7 +51,7 @@ TEST_F(ChainPaste, OnePointMovesWhatIsSelectedOrElseTheTarget) {
     EXPECT_LT(tip_distance(), 1e-2f);
 }
 
-TEST_F(ChainPaste, SeveralSelectedJointsKeepTheirPlacesToEachOther) {
+TEST_F(ChainPaste, SeveralSelectedJointsKeepTheirOffsets) {
     run("chain.select", {{"joints", {2, 3}}});
     const glm::vec3 apart = part().chain.position(3) - part().chain.position(2);
     const std::size_t active = *part().selection.active();

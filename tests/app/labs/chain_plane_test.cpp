@@ -33,7 +33,7 @@ class ChainPlaneTest : public ChainTest {
     }
 };
 
-TEST_F(ChainPlaneTest, StateSaysPlaneDistanceAndSide) {
+TEST_F(ChainPlaneTest, StateHasPlaneDistanceAndSide) {
     reach_with(4);
     EXPECT_FALSE(state().contains("plane"));
     run("chain.plane", {{"normal", {0, 0, 2}}});
@@ -75,7 +75,7 @@ TEST_F(ChainPlaneTest, AnglesAreLimitedFromTheBoneBeforeAndFromTheBase) {
         EXPECT_LE(bend, 30.1f) << x;
         EXPECT_LE(std::abs(angle(2)), 10.1f) << x;
     }
-    // A full turn from the bone before is no limit: the list goes when all are.
+    // A full turn from the bone before is no limit; once all are gone, the list is empty.
     EXPECT_EQ(part().reach.plane->limits.size(), 3u);
     run("chain.angle_limit", {{"joints", {0, 1, 2}}, {"min_deg", -180}, {"max_deg", 180}, {"from", "bone"}});
     EXPECT_TRUE(part().reach.plane->limits.empty());
@@ -92,7 +92,7 @@ TEST_F(ChainPlaneTest, LimitsStayWithTheirBones) {
     EXPECT_EQ(part().reach.plane->limits.size(), part().chain.size() - 1);
 }
 
-TEST_F(ChainPlaneTest, WhatIsWrongIsSaid) {
+TEST_F(ChainPlaneTest, ErrorsAreReported) {
     reach_with(3);
     expect_refused("chain.bend", {{"side", "left"}}, {"not in a plane"});
     expect_refused("chain.angle_limit", {{"index", 1}, {"min_deg", -20}}, {"not in a plane"});
@@ -105,7 +105,7 @@ TEST_F(ChainPlaneTest, WhatIsWrongIsSaid) {
     expect_refused("chain.limit", {{"index", 1}, {"kind", "hinge"}}, {"angle_limit"});
 }
 
-TEST_F(ChainPlaneTest, LimitsComeBackWhenThePlaneGoes) {
+TEST_F(ChainPlaneTest, LimitsReturnWhenThePlaneIsRemoved) {
     reach_with(4);
     run("chain.limit", {{"index", 2}, {"kind", "hinge"}});
     const ik::Limit hinge = limit_of(part().reach, 2);
@@ -191,7 +191,7 @@ class LimitDrag {
         const float pixels_per_metre = glm::distance(root_, test::handle(state, "segment.1")) / 1.6f;
         radius_ = std::min(0.75f * 1.6f * pixels_per_metre, 90.0f);
     }
-    /// On the arc around the root, degrees to the left of +X.
+    /// A pixel on the arc around the root, degrees to the left of +X.
     glm::vec2 at(float degrees) const {
         const float angle = glm::radians(degrees);
         return root_ + radius_ * glm::vec2(std::cos(angle), -std::sin(angle));
@@ -201,7 +201,7 @@ class LimitDrag {
         for (int i = 0; i <= 6; ++i) way.push_back(at(from + (to - from) * static_cast<float>(i) / 6.0f));
         script.drag(way);
     }
-    /// Of the bone at the root, degrees.
+    /// The limit of the bone at the root, degrees.
     glm::vec2 limit() const {
         const Json limits =
             test::scene_after(script).at("labs").at("chain").at("reach").at("plane").at("limits");

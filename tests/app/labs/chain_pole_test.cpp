@@ -74,7 +74,7 @@ TEST_F(ChainPole, a_target_that_crosses_its_line_moves_no_joint_over_50_times_as
     }
 }
 
-TEST_F(ChainPole, is_faced_in_the_end) {
+TEST_F(ChainPole, TheBendFacesItInTheEnd) {
     start(6);
     for (const glm::vec3& target : arc(0.005f)) reach(target);
     // Past the pole's direction the bend must be on the other side of the line to the target.
@@ -84,7 +84,7 @@ TEST_F(ChainPole, is_faced_in_the_end) {
     EXPECT_GT(glm::dot(glm::normalize(side), glm::normalize(bend)), 0.99f);
 }
 
-TEST_F(ChainPole, goes_on_from_a_saved_scene_to_the_same_bits) {
+TEST_F(ChainPole, ContinuesFromASavedSceneWithTheSameBits) {
     for (const bool limited : {false, true}) {
         start(6, limited);
         const std::vector<glm::vec3> path = arc(0.025f);

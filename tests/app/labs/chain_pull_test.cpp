@@ -44,7 +44,7 @@ class ChainPull : public ChainTest, protected test::RandomNumbers {
     }
 };
 
-TEST_F(ChainPull, AllGoWhereTheyAreMovedOrTurnedInEveryMode) {
+TEST_F(ChainPull, AllFollowMovesAndRotationsInEveryMode) {
     for (int round = 0; round < 150; ++round) {
         random_chain(3 + random() % 9);
         const auto modes = chain_modes.names();
@@ -72,7 +72,7 @@ TEST_F(ChainPull, AllGoWhereTheyAreMovedOrTurnedInEveryMode) {
     }
 }
 
-TEST_F(ChainPull, InReachRootAndTargetStayAndTheTipKeepsHold) {
+TEST_F(ChainPull, InReachRootAndTargetStayAndTheTipStaysOnTheTarget) {
     reach_with(9);
     run("chain.target", {{"to", {4, 3, 1}}});
     const glm::vec3 a = joint(3), b = joint(5), by = -0.15f * a;
@@ -85,7 +85,7 @@ TEST_F(ChainPull, InReachRootAndTargetStayAndTheTipKeepsHold) {
     expect_lengths_kept();
 }
 
-TEST_F(ChainPull, WhatIsTooFarComesAsNearAsTheBonesLetIt) {
+TEST_F(ChainPull, JointsOutOfReachGetAsNearAsTheBonesAllow) {
     reach_with(6);
     pull({2, 4}, {{0, 5, 0}, {0, 9, 0}});
     EXPECT_NEAR(joint(2).y, 2.0f, 1e-3f);
@@ -99,7 +99,7 @@ TEST_F(ChainPull, WhatIsTooFarComesAsNearAsTheBonesLetIt) {
     expect_lengths_kept();
 }
 
-TEST_F(ChainPull, LimitsHoldBetweenThemAndBeyond) {
+TEST_F(ChainPull, LimitsHoldBetweenAndBeyondThem) {
     for (int round = 0; round < 20; ++round) {
         reach_with(8);
         Json all = Json::array();
@@ -123,7 +123,7 @@ TEST_F(ChainPull, LimitsHoldBetweenThemAndBeyond) {
     }
 }
 
-TEST_F(ChainPull, TheOrderIsOfNoMatterAndOneStepUndoesIt) {
+TEST_F(ChainPull, TheirOrderDoesNotMatterAndOneStepUndoesIt) {
     reach_with(6);
     const Json before = save_scene(workspace);
     const std::size_t steps = workspace.history.size();
@@ -136,7 +136,7 @@ TEST_F(ChainPull, TheOrderIsOfNoMatterAndOneStepUndoesIt) {
     EXPECT_EQ(positions(part().chain), once);
 }
 
-TEST_F(ChainPull, BadListsAreRefusedWithWhatIsWrong) {
+TEST_F(ChainPull, BadListsAreRefusedWithTheReason) {
     reach_with(3);
     const Json two{{1, 0, 0}, {2, 0, 0}};
     const auto says = [&](const Json& arguments, const char* what) {

@@ -42,7 +42,7 @@ class RaceDrawingTest : public ChainTest {
 
 TEST_F(RaceDrawingTest, EqualChainsRunAlongLikeStrands) {
     reach_with(6);
-    // Already there: every solver keeps the pose that it starts from.
+    // Already on the target: every solver keeps its starting pose.
     run("chain.target", {{"to", Json::array({6, 0, 0})}});
     run("race.open", {{"start", "here"}});
     for (const ik::Method method : ik::all_methods) {
@@ -92,7 +92,7 @@ TEST_F(RaceDrawingTest, EveryTipHasTheNameOfItsSolver) {
     }
 }
 
-/// Around a bend the strands meet at their corners and keep their distance.
+/// At a bend, strands meet at their corners and keep their distance.
 TEST_F(RaceDrawingTest, StrandsMeetAtTheCorners) {
     reach_with(6);
     run("chain.target", {{"to", Json::array({2.5, 2.5, 0.5})}});  // already there: all keep the pose
@@ -114,7 +114,7 @@ TEST_F(RaceDrawingTest, StrandsMeetAtTheCorners) {
         }
     }
     EXPECT_GT(corners, 15);
-    // Some of them are really apart.
+    // Some of them are actually apart.
     const auto middle = [&](ik::Method method) {
         const Stroke& line = drawn.at(method)[3];
         return seen(0.5f * (line.a + line.b));
@@ -122,7 +122,7 @@ TEST_F(RaceDrawingTest, StrandsMeetAtTheCorners) {
     EXPECT_GT(glm::distance(middle(race()->racers[0].method), middle(race()->racers[1].method)), 3.0f);
 }
 
-TEST_F(RaceDrawingTest, WhatStandsApartIsDrawnWhereItIs) {
+TEST_F(RaceDrawingTest, ChainsThatAreApartAreDrawnInPlace) {
     reach_with(6);
     run("race.open", {{"start", "straight"}});
     run("chain.target", {{"to", {2, 2.5, 1}}});
@@ -151,7 +151,7 @@ TEST_F(RaceDrawingTest, WhatStandsApartIsDrawnWhereItIs) {
     EXPECT_GT(apart, 8);
 }
 
-TEST_F(RaceDrawingTest, SideBySideEachPaneHasOneChainAndThatWhereItIs) {
+TEST_F(RaceDrawingTest, SideBySideEachPaneHasOneChainInPlace) {
     reach_with(4);
     run("chain.target", {{"to", {4, 0, 0}}});
     run("race.open", {{"start", "here"}});

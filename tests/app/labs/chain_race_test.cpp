@@ -24,14 +24,14 @@ class ChainRace : public ChainTest {
     std::shared_ptr<const Race> race() const { return shown_chain(workspace).race; }
     std::size_t iteration() const { return shown_chain(workspace).step(); }
 
-    /// With every solver that takes the chain.
+    /// A race of every solver that accepts the chain.
     void race_of(int bones) {
         reach_with(bones);
         run("race.open", {{"start", "straight"}});
         for (const ik::Method method : ik::all_methods)
             run("race.solver", {{"name", ik::name(method)}, {"on", takes(method, part().chain)}});
     }
-    /// What the library gives from the race's start with at most `most` iterations.
+    /// The library's result from the race's start with at most `most` iterations.
     std::vector<glm::vec3> solved(ik::Method method, int most, ik::Report& report) const {
         ik::Solver solver(part().chain);
         ReachSettings settings = part().reach;
@@ -54,9 +54,8 @@ class ChainRace : public ChainTest {
     }
 };
 
-/// FABRIK, accelerated, bends a straight chain before its first iteration; the race shows the start all the
-/// same.
-TEST_F(ChainRace, AllStandAtTheStartBeforeTheFirstIteration) {
+/// The accelerated FABRIK bends a straight chain before its first iteration; the race still shows the start.
+TEST_F(ChainRace, AllAreAtTheStartBeforeTheFirstIteration) {
     race_of(6);
     for (const Json& target : {Json{2, 0, 0}, Json{3, 3, 1}, Json{0, 9, 0}, Json{9, 0, 0}}) {
         SCOPED_TRACE(target);
@@ -78,8 +77,8 @@ TEST_F(ChainRace, AllStandAtTheStartBeforeTheFirstIteration) {
     }
 }
 
-/// A solve that is cut off ends with its best pose, so only iterations that are the best so far compare.
-TEST_F(ChainRace, AnIterationIsTheLibrarysWithAsManyIterations) {
+/// A solve that is cut off ends with its best pose, so only iterations that improve on it are compared.
+TEST_F(ChainRace, AnIterationEqualsTheLibrarysWithAsManyIterations) {
     int compared = 0;
     for (const int bones : {2, 4, 9}) {
         race_of(bones);
@@ -152,7 +151,7 @@ TEST_F(ChainRace, StepsAndScrubsWithinItsIterations) {
     EXPECT_EQ(state()["microscope"]["step"], 1);
 }
 
-TEST_F(ChainRace, OpenedFromAnotherLabItLeavesThatLabsCamera) {
+TEST_F(ChainRace, OpenedFromAnotherLabItKeepsThatLabsCamera) {
     reach_with(6);
     for (const char* open : {"microscope.open", "race.open"}) {
         workspace.lab = "rope";
@@ -186,7 +185,7 @@ TEST_F(ChainRace, PlaysToItsEndAtALegiblePace) {
     refuses("race.play", {{"on", false}, {"pace", 3}}, "pace on false");
 }
 
-/// A pose bent by hand, to see what that changes, is where the race starts.
+/// A race opened after bending the chain by hand starts from that pose.
 TEST_F(ChainRace, StartsFromAPoseThatWasBentByHand) {
     run("chain.preset", {{"name", "straight"}});
     run("chain.pull", {{"index", 2}, {"to", {2, 0.7, 0}}});
@@ -215,8 +214,8 @@ TEST_F(ChainRace, ItsFilmIsNotNamedLikeItsPicture) {
     EXPECT_TRUE(says(text, "Record the race Save a picture"));
 }
 
-/// As written before races could be scrubbed.
-TEST_F(ChainRace, OfAnOlderFileIsShownAtItsEnd) {
+/// As written by versions whose races could not be scrubbed.
+TEST_F(ChainRace, FromAnOlderFileIsShownAtItsEnd) {
     race_of(6);
     run("chain.target", {{"to", {3, 3, 1}}});
     run("race.show", {{"iteration", 2}});

@@ -21,7 +21,7 @@ class ChainReach : public ChainTest {
     static float distance_at(float degrees) { return 2.0f * std::cos(glm::radians(0.5f * degrees)); }
 };
 
-TEST_F(ChainReach, a_solve_that_moves_nothing_says_so_too) {
+TEST_F(ChainReach, ASolveThatMovesNothingIsReportedToo) {
     run("chain.mode", {{"mode", "reach"}});
     run("chain.target", {{"to", {7, 0, 0}}});
     EXPECT_EQ(state()["solve"]["report"]["status"], "Converged");
@@ -39,7 +39,7 @@ TEST_F(ChainReach, a_default_tolerance_follows_the_reach_and_each_mode_has_its_o
     EXPECT_EQ(state()["iterations"], 1);
 }
 
-TEST_F(ChainReach, an_elbow_just_out_of_range_is_named_with_its_limit_and_what_is_needed) {
+TEST_F(ChainReach, AnElbowJustOutOfRangeIsNamedWithItsLimitAndTheAngleNeeded) {
     elbow();
     run("chain.target", {{"to", {distance_at(162.0f), 0, 0}}});
     const Json reach = state()["solve"];
@@ -83,7 +83,7 @@ TEST_F(ChainReach, limits_stay_with_their_segments) {
     EXPECT_TRUE(part().reach.limits.empty());
 }
 
-TEST_F(ChainReach, a_scene_from_before_there_was_reach_opens) {
+TEST_F(ChainReach, ASceneFromBeforeModeReachOpens) {
     Json scene = save_scene(workspace);
     scene["labs"]["chain"].erase("reach");
     run("chain.solver", {{"name", "ccd"}});
@@ -97,7 +97,7 @@ TEST_F(ChainReach, a_scene_with_a_limit_that_commands_refuse_is_refused) {
 }
 
 /// State must not refer to bones that were just added or removed.
-TEST_F(ChainReach, a_joint_is_dragged_at_once_after_another_was_removed) {
+TEST_F(ChainReach, AJointIsDraggedRightAfterAnotherWasRemoved) {
     reach_with(5);
     run("chain.target", {{"to", {2, 2, 0}}});
     run("chain.remove", {{"index", 1}});
@@ -105,7 +105,7 @@ TEST_F(ChainReach, a_joint_is_dragged_at_once_after_another_was_removed) {
     EXPECT_LT(glm::distance(part().chain.position(2), glm::vec3(0.5f, 1.2f, 0.3f)), 1e-2f);
 }
 
-TEST_F(ChainReach, limits_end_where_a_scene_would_be_too_large) {
+TEST_F(ChainReach, LimitsAreRefusedIfTheSceneWouldBeTooLarge) {
     run("chain.preset", {{"name", "start"}, {"count", 100001}});
     expect_refused("chain.limit", {{"index", 0}, {"kind", "pivot"}}, {"100000"});
 }
@@ -119,7 +119,7 @@ TEST_F(ChainReach, a_new_tolerance_gives_a_new_report) {
     EXPECT_EQ(state()["solve"]["report"]["status"], "Converged");
 }
 
-TEST_F(ChainReach, bad_input_is_refused_with_what_is_wrong) {
+TEST_F(ChainReach, BadInputIsRefusedWithTheReason) {
     reach_with(4);
     const auto says = [&](const char* name, const Json& arguments, const char* part_of) {
         const std::string why = refused(name, arguments);
@@ -135,7 +135,7 @@ TEST_F(ChainReach, bad_input_is_refused_with_what_is_wrong) {
     says("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"axis", {1, 0, 0}}}, "bone");
 }
 
-TEST_F(ChainReach, a_new_limit_takes_in_the_pose) {
+TEST_F(ChainReach, ANewLimitIncludesThePose) {
     for (const char* kind : {"hinge", "ball_and_socket", "saddle", "gliding", "suture", "pivot"}) {
         for (const glm::vec3 target : {glm::vec3(2, 1, 0), glm::vec3(2, -1, 0), glm::vec3(1, 0.5, 1)}) {
             reach_with(4);
@@ -150,7 +150,7 @@ TEST_F(ChainReach, a_new_limit_takes_in_the_pose) {
     }
 }
 
-TEST_F(ChainReach, a_hinge_bends_the_way_the_joint_is_bent) {
+TEST_F(ChainReach, AHingeBendsInTheJointsPresentDirection) {
     reach_with(2);
     run("chain.target", {{"to", {1.5, 0.2, 0}}});
     const auto bend = [&] {

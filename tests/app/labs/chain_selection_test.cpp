@@ -12,7 +12,7 @@ class ChainSelection : public ChainTest {
     ik::JointKind kind(std::size_t joint) const { return limit_of(part().reach, joint).kind; }
 };
 
-TEST_F(ChainSelection, LimitsGoOnAllAndEachKeepsWhatIsNotTold) {
+TEST_F(ChainSelection, LimitsApplyToAllAndEachKeepsOmittedValues) {
     reach_with(6);
     run("chain.limit",
         {{"index", 1}, {"kind", "hinge"}, {"axis", {0, 0, 1}}, {"min_deg", -10}, {"max_deg", 90}});
@@ -51,7 +51,7 @@ TEST_F(ChainSelection, DeleteRemovesAllOfThem) {
 }
 
 /// One by one this would take hours and run out of time.
-TEST_F(ChainSelection, ManyAreDoneAtOnce) {
+TEST_F(ChainSelection, ThousandsAreSetAtOnce) {
     run("chain.preset", {{"name", "start"}, {"count", 100'000}});
     run("chain.mode", {{"mode", "reach"}});
     Json most = Json::array();
@@ -96,7 +96,7 @@ TEST_F(ChainSelection, RemovedTogetherOrOneByOneTheSameLimitsStay) {
     }
 }
 
-TEST_F(ChainSelection, WhatIsNoJointIsRefusedAndChangesNothing) {
+TEST_F(ChainSelection, OtherIndicesAreRefusedAndChangeNothing) {
     reach_with(4);
     run("chain.select", {{"joints", {1, 2}}});
     const Json joints_that_are_none = Json::array({{0, 9}, {-1}, {0.5}, {"tip"}, {nullptr}, {{0}}, {1e300}});
@@ -139,7 +139,7 @@ TEST_F(ChainSelection, TheTargetOrThePoleInsteadOfJoints) {
     EXPECT_TRUE(state()["selected"].is_null());
 }
 
-TEST_F(ChainSelection, AMomentWithFewerJointsKeepsWhatItHasOfIt) {
+TEST_F(ChainSelection, AMomentWithFewerJointsKeepsTheRestOfTheSelection) {
     ChainPart then = part();
     then.chain = Chain();
     ChainPart now = part();

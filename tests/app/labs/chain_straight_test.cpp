@@ -23,7 +23,7 @@ class StraightChain : public ChainTest {
     test::PanelReader reader_;
 };
 
-TEST_F(StraightChain, StaysAsItIsWhateverItsLength) {
+TEST_F(StraightChain, KeepsItsPoseWhateverItsLength) {
     run("chain.preset", {{"name", "straight"}});
     EXPECT_EQ(part().chain.size(), 5u);
     for (int count = 3; count <= 64; ++count) {
@@ -39,7 +39,7 @@ TEST_F(StraightChain, StaysAsItIsWhateverItsLength) {
     EXPECT_TRUE(test::says(inspector(), "Stalled: 0.75 m short Straight line pole FABRIK (2011)"));
 }
 
-TEST_F(StraightChain, OfTooFewOrTooManyJointsTellsTheTruth) {
+TEST_F(StraightChain, WithTooFewOrTooManyJointsReportsCorrectly) {
     run("chain.preset", {{"name", "straight"}, {"count", 1}});
     EXPECT_EQ(chain_verdict(part()).text, "One joint");
     run("chain.preset", {{"name", "straight"}, {"count", 2}});
@@ -48,8 +48,8 @@ TEST_F(StraightChain, OfTooFewOrTooManyJointsTellsTheTruth) {
     EXPECT_EQ(chain_verdict(part()).text, "Reached") << "three quarters of a bone are within the tolerance";
 }
 
-/// The other solvers would stall too, so they perturb the chain first, and say so.
-TEST_F(StraightChain, MovesByAPerturbationOfWhichTheReportTells) {
+/// The other solvers would stall too, so they perturb the chain first and report it.
+TEST_F(StraightChain, MovesByAPerturbationThatTheReportMentions) {
     run("chain.preset", {{"name", "straight"}});
     run("chain.solver", {{"name", "fabrik"}});
     run("chain.target", {{"to", {3.25, 0, 0}}});

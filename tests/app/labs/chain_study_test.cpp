@@ -69,7 +69,7 @@ TEST_F(ChainStudy, the_microscope_shows_the_eight_pulls_of_an_iteration_of_four_
     EXPECT_EQ(pulls, expected);
 }
 
-TEST_F(ChainStudy, the_last_step_of_every_solver_is_where_the_chain_ends) {
+TEST_F(ChainStudy, TheLastStepOfEverySolverIsTheChainsPose) {
     for (const ik::Method method : ik::all_methods) {
         reach_with(method == ik::Method::TwoBone ? 2 : 6);
         run("chain.solver", {{"name", ik::name(method)}});
@@ -98,7 +98,7 @@ TEST_F(ChainStudy, every_solve_begins_at_the_same_start) {
     EXPECT_EQ(part().chain, first) << "closing leaves the chain as it was solved";
 }
 
-TEST_F(ChainStudy, steps_go_on_and_back_and_stay_within) {
+TEST_F(ChainStudy, StepsGoForwardsAndBackAndStayInRange) {
     reach_with(4);
     run("chain.solver", {{"name", "fabrik_plain"}, {"tolerance", 1e-6}, {"iterations", 3}});
     run("microscope.open");
@@ -132,7 +132,7 @@ TEST_F(ChainStudy, every_step_has_its_sentence) {
     }
 }
 
-TEST_F(ChainStudy, the_race_runs_who_takes_part_from_the_same_start) {
+TEST_F(ChainStudy, TheRaceRunsTheChosenSolversFromTheSameStart) {
     run("chain.mode", {{"mode", "reach"}});
     run("chain.target", {{"to", {3, 3, 1}}});
     run("race.open", {{"start", "straight"}});
@@ -150,7 +150,7 @@ TEST_F(ChainStudy, the_race_runs_who_takes_part_from_the_same_start) {
     EXPECT_EQ(race[0]["status"], "Converged");
 }
 
-TEST_F(ChainStudy, a_row_of_the_race_says_what_its_curve_ends_with_and_what_ran) {
+TEST_F(ChainStudy, ARaceRowShowsItsCurvesEndAndTheSolversThatRan) {
     int restored = 0;
     for (const bool limited : {false, true}) {
         reach_with(5);
@@ -211,7 +211,7 @@ TEST_F(ChainStudy, the_race_is_written_as_csv) {
     while (std::getline(lines, line)) rows += line.empty() ? 0 : 1;
     for (const Racer& racer : race()->racers) {
         expected += racer.residuals.size();
-        // As the screen calls it; there is a comma in one of the names.
+        // With the name that the screen shows; one of the names has a comma.
         EXPECT_NE(csv.find("\n\"" + std::string(solver_title(racer.method)) + "\",0,"), csv.npos) << csv;
     }
     EXPECT_EQ(rows, expected);
@@ -227,8 +227,8 @@ TEST_F(ChainStudy, the_chain_is_copied_as_code_and_as_a_scene) {
     EXPECT_EQ(parse_json(workspace.ui.copied.value()), save_scene(workspace));
 }
 
-/// The microscope's last step is the chain's pose, whatever happened meanwhile.
-TEST_F(ChainStudy, chain_report_and_trace_never_part) {
+/// The microscope's last step is the chain's pose, whatever happens in between.
+TEST_F(ChainStudy, ChainReportAndTraceAlwaysMatch) {
     const auto expect_one = [&](const char* after) {
         const std::vector<glm::vec3> last = trace().pose(trace().frames());
         ASSERT_EQ(last.size(), part().chain.size()) << after;
@@ -254,7 +254,7 @@ TEST_F(ChainStudy, chain_report_and_trace_never_part) {
     expect_one("motion");
 }
 
-TEST_F(ChainStudy, opening_is_undone_and_history_keeps_no_trace) {
+TEST_F(ChainStudy, OpeningCanBeUndoneAndHistoryKeepsNoTrace) {
     run("chain.target", {{"to", {3, 4, 0}}});
     const Json before = save_scene(workspace);
     const std::size_t light = part().bytes();
@@ -264,7 +264,7 @@ TEST_F(ChainStudy, opening_is_undone_and_history_keeps_no_trace) {
     EXPECT_EQ(save_scene(workspace), before);
 }
 
-TEST_F(ChainStudy, what_does_not_change_the_solve_leaves_the_trace_alone) {
+TEST_F(ChainStudy, ChangesWithoutEffectOnTheSolveKeepTheTrace) {
     run("race.open", {{"start", "straight"}});
     const auto before = race();
     run("chain.select", {{"index", 2}});
@@ -272,7 +272,7 @@ TEST_F(ChainStudy, what_does_not_change_the_solve_leaves_the_trace_alone) {
     EXPECT_EQ(race(), before) << "nor are its times measured anew";
 }
 
-TEST_F(ChainStudy, what_changes_the_chain_closes_it_and_other_modes_too) {
+TEST_F(ChainStudy, ChangesOfTheChainCloseItAndSoDoOtherModes) {
     for (const char* kind : {"microscope.open", "race.open"}) {
         run(kind);
         run("chain.add", {{"length", 1}});
@@ -286,7 +286,7 @@ TEST_F(ChainStudy, what_changes_the_chain_closes_it_and_other_modes_too) {
     }
 }
 
-TEST_F(ChainStudy, what_cannot_be_studied_is_refused) {
+TEST_F(ChainStudy, ChainsThatCannotBeStudiedAreRefused) {
     expect_refused("microscope.close", Json::object(), {"not open"});
     expect_refused("study.step", Json::object(), {"open"});
     expect_refused("race.close", Json::object(), {"no race"});
@@ -298,7 +298,7 @@ TEST_F(ChainStudy, what_cannot_be_studied_is_refused) {
     expect_refused("race.open", Json::object(), {"no bone"});
 }
 
-TEST_F(ChainStudy, HostileScenesSayWhereTheyAreWrong) {
+TEST_F(ChainStudy, HostileScenesAreRefusedWithTheirPath) {
     run("microscope.open", {{"start", "straight"}});
     const auto says = [&](const std::string& key, const Json& value) {
         expect_scene_refused("/study/" + key, value, "study." + key);

@@ -77,7 +77,7 @@ TEST_F(ChainTrace, TheGhostIsTendrilsSolveUntilTheChainIsChanged) {
     EXPECT_LT(workspace.rewind.size(), moments) << "it goes on from there";
 }
 
-TEST_F(ChainTrace, WhatPreventsAFlipIsTriedAndAClickShowsIt) {
+TEST_F(ChainTrace, PreventionsOfAFlipAreTriedAndAClickShowsOne) {
     run("chain.trace", {{"path", file("arm.jsonl", Plant::FlipAtPole)}, {"solver", "two_bone"}});
     ASSERT_EQ(flips().size(), 1u);
     const Incident flip = flips()[0];
@@ -168,7 +168,7 @@ TEST_F(ChainTrace, ATargetOrPoleThatIsNotFiniteIsHeldOrLeftOut) {
     }
 }
 
-TEST_F(ChainTrace, ALongOneIsShownAroundItsFirstIncidentOrFromAFrame) {
+TEST_F(ChainTrace, ALongTraceIsShownAroundItsFirstIncidentOrFromAFrame) {
     MadeTrace made = test::made::TraceMaker(7).make(Plant::FlipForNothing);
     made.frames.insert(made.frames.begin(), 2000, made.frames.front());
     const std::string path = file("long.jsonl", made, Format::JsonLines);
@@ -181,7 +181,7 @@ TEST_F(ChainTrace, ALongOneIsShownAroundItsFirstIncidentOrFromAFrame) {
     EXPECT_TRUE(test::says(said, "shown frames 10 to 609 with 0")) << said;
     EXPECT_EQ(said.find("flip"), std::string::npos) << said << ": it is not among those";
     EXPECT_EQ(workspace.rewind.size() + 1, Rewind::max_ticks);
-    // A page further; what is shown is not searched again.
+    // One page further; the trace is not searched again.
     run("chain.trace", {{"from", 1700}});
     ASSERT_EQ(flips().size(), 1u);
     EXPECT_EQ(flips()[0].tick, 2060u - 1700u - 1u);
@@ -191,7 +191,7 @@ TEST_F(ChainTrace, ALongOneIsShownAroundItsFirstIncidentOrFromAFrame) {
     EXPECT_LT(glm::distance(trace.frames[0].joints[1], glm::vec3(made.frames[1700].joints[1])), 1e-4f);
 }
 
-TEST_F(ChainTrace, PastedTextIsTakenAsATraceIfItIsOne) {
+TEST_F(ChainTrace, PastedTextIsReadAsATraceIfItIsOne) {
     const MadeTrace made = test::made::TraceMaker(8).make(Plant::None);
     const std::string text = test::made::written(made, test::made::spaces[1], Format::Unity);
     const TakenText taken = ChainLab().takes_text(text);
@@ -203,7 +203,7 @@ TEST_F(ChainTrace, PastedTextIsTakenAsATraceIfItIsOne) {
         EXPECT_EQ(ChainLab().takes_text(points).command->name, "chain.paste") << points;
 }
 
-TEST_F(ChainTrace, WhatCannotBeShownIsRefusedAndNothingIsLost) {
+TEST_F(ChainTrace, TracesThatCannotBeShownAreRefusedAndNothingIsLost) {
     const Chain before = part().chain;
     EXPECT_NE(refused("chain.trace", {}).find("path or text"), std::string::npos);
     EXPECT_NE(refused("chain.trace", {{"path", "missing.jsonl"}}).find("missing.jsonl"), std::string::npos);

@@ -35,7 +35,7 @@ struct Table {
     std::span<const FieldText> texts;
     Json with = Json::object();   ///< additional arguments of the command
     Json first = Json::object();  ///< set before
-    CommandCall made{};           ///< creates the object if it is not there initially
+    CommandCall made{};           ///< creates the object if it does not exist initially
     const char* name = command;   ///< in test names
 };
 
@@ -156,7 +156,7 @@ struct Row {
     }
 };
 
-/// The fields that a command sets.
+/// All fields that commands set.
 std::vector<Row> rows() {
     std::vector<Row> all;
     for (const Table& table : tables())
@@ -287,7 +287,7 @@ ik::LinkageSketch read_sketch(const Json& json) {
     return sketch;
 }
 
-TEST(FieldFiles, NameWhatIsIndexedAndLeaveOutDefaults) {
+TEST(FieldFiles, IncludeIndicesAndOmitDefaults) {
     const Json file = Json::parse(sketch_file);
     const ik::LinkageSketch sketch = read_sketch(file);
     EXPECT_EQ(sketch.bars[0].points, (std::vector<std::size_t>{0, 1}));
@@ -360,12 +360,12 @@ TEST_P(EveryField, IsRefusedInAFileWithItsPlace) {
     for (const Json& value : bad(field())) expect_scene_refused(pointer, value, place);
 }
 
-/// Tables that a command takes whole: what it makes does not keep them.
+/// Tables that a command uses as a whole: the created object does not keep them.
 struct Shape {
     const char* lab;
     const char* command;
     std::span<const Field> fields;
-    Json with;  ///< what else it needs
+    Json with;  ///< further required arguments
 };
 
 class EveryShape : public LabTest {

@@ -7,7 +7,7 @@
 
 namespace tendril::test {
 
-/// Whether the response determines the field: a change of 2 % leaves a residual of more than `least`.
+/// Whether the response determines the field: a change of 2 % leaves a residual above `least`.
 inline bool excited(const signal::Filter& truth, const Field& field, int axis, const app::FitProblem& problem,
                     double least) {
     double smallest = 1e9;

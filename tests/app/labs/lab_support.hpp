@@ -32,7 +32,7 @@ class LabTest : public testing::Test {
 
     const Lab& lab() const { return *labs.find(lab_); }
     Json state() const { return lab().state(workspace); }
-    /// The lab in a scene file.
+    /// The lab's part of a scene file.
     Json saved() const { return save_scene(workspace).at("labs").at(lab_); }
     /// The workspace after saving and loading.
     Workspace reopened() const;
@@ -57,8 +57,8 @@ class LabTest : public testing::Test {
     void refuses(const char* name, const Json& arguments, const std::string& words);
     /// Expects the latest toast to have these words in this order.
     void tells(const std::string& words) const;
-    /// Opens the scene with this value at a JSON pointer in the lab. Returns what refuses it; "blank: " and
-    /// why, if the lab starts blank; or nothing.
+    /// Opens the scene with this value at a JSON pointer in the lab. Returns the reason for a refusal;
+    /// "blank: " and the reason if the lab starts blank; or nothing.
     std::string opened_with(const std::string& at, const Json& value) const;
     void expect_scene_refused(const std::string& at, const Json& value, const std::string& says) const;
 

@@ -1,4 +1,4 @@
-// The outline of a limit against the library's own measure: the drawing shows the solvers' limits.
+// The outline of a limit compared with the library's own measure: the drawing shows the solvers' limits.
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -29,7 +29,7 @@ class Pose {
         limit.axis = glm::cross(rest, other) + 0.3f * rest;
         parent = glm::angleAxis(random.around(3.0f), glm::normalize(random.point(1.0f) + glm::vec3(1e-3f)));
     }
-    /// The solver's angles of a bone that points there, in the world, by the shortest rotation from rest.
+    /// The solver's angles for a bone in this world direction, by the shortest rotation from rest.
     ik::JointAngles measured(glm::vec3 direction) const {
         const glm::vec3 to = glm::conjugate(parent) * direction;
         return ik::measure(limit, rest, glm::quat(rest, to));
@@ -51,7 +51,7 @@ float angle(test::Random& random, float low, float high) {
     return low + (high - low) * 0.5f * (1.0f + random.around(1.0f));
 }
 
-TEST(LimitShape, AConesOutlineIsAsFarAsTheSolverLets) {
+TEST(LimitShape, AConesOutlineIsTheSolversLimit) {
     test::Random random(5);
     for (int round = 0; round < 300; ++round) {
         Pose pose(random);
@@ -92,7 +92,7 @@ TEST(LimitShape, AHingesFanEndsWhereItsRangeDoes) {
     }
 }
 
-TEST(LimitShape, TheEndsOfTheDialAreThoseOfTheTwist) {
+TEST(LimitShape, TheDialsEndsAreTheTwistLimits) {
     test::Random random(7);
     for (int round = 0; round < 300; ++round) {
         Pose pose(random);
@@ -144,7 +144,7 @@ std::string refusal(const Json& json) {
     return "";
 }
 
-TEST(IkStateJson, ComesBackBitForBit) {
+TEST(IkStateJson, IsRestoredBitForBit) {
     for (ik::State state : {remembering(), ik::State(2)}) {
         const Json json = parse_json(save_ik_state(state).dump());
         EXPECT_EQ(load_ik_state({json, "state"}, 2), state);
@@ -160,14 +160,14 @@ TEST(IkStateJson, OfAnOlderRigIsRead) {
     EXPECT_EQ(load_ik_state({json, "state"}, 2), remembering());
 }
 
-TEST(IkStateJson, WithoutJointsThePoleHasThoseOfTheChain) {
+TEST(IkStateJson, WithoutJointsThePoleGetsTheChains) {
     Json json = save_ik_state(remembering());
     json["pole"].erase("joints");
     EXPECT_EQ(load_ik_state({json, "state"}, 2, remembering().pole.joints), remembering());
     EXPECT_NE(refusal(json), "") << "there is no chain";
 }
 
-TEST(IkStateJson, ThatIsWrongIsRefusedWithItsPlace) {
+TEST(IkStateJson, InvalidOnesAreRefusedWithTheirPath) {
     struct Case {
         const char* path;
         Json value;
@@ -192,7 +192,7 @@ TEST(IkStateJson, ThatIsWrongIsRefusedWithItsPlace) {
 // Texts of exported C++.
 
 /// A name with a newline would end the literal, or a comment, and go on as code.
-TEST(CodeText, EscapesWhatALiteralCannotHold) {
+TEST(CodeText, EscapesCharactersThatALiteralCannotHold) {
     EXPECT_EQ(string_text("a\"b\\c"), R"("a\"b\\c")");
     EXPECT_EQ(string_text(std::string_view("a\n\r\0\x7f"
                                            "1",
@@ -201,7 +201,7 @@ TEST(CodeText, EscapesWhatALiteralCannotHold) {
     EXPECT_EQ(string_text("Bär"), "\"Bär\"");
 }
 
-TEST(HumanoidCode, SetsWhatDiffersFromTheDefault) {
+TEST(HumanoidCode, SetsOnlyNonDefaultValues) {
     HumanoidPart part;
     part.ik.target(humanoid::Effector::LeftHand) =
         humanoid::BodyTarget{.effector = humanoid::Effector::LeftHand, .position = {0.3, 1.2, 0.4}};
@@ -226,7 +226,7 @@ void expect_rotations_of(const std::vector<glm::quat>& rotations, const std::vec
 
 class SceneVersion1 : public ChainTest {};
 
-TEST_F(SceneVersion1, opens_with_its_rotations_as_they_were) {
+TEST_F(SceneVersion1, OpensWithItsRotationsUnchanged) {
     load_scene_file(workspace, version_1);
     ASSERT_EQ(part().reach.state.bones(), 4u);
     expect_rotations_of(part().reach.state.rotations, positions(part().chain));
@@ -236,7 +236,7 @@ TEST_F(SceneVersion1, opens_with_its_rotations_as_they_were) {
     EXPECT_EQ(state()["solve"]["report"]["status"], "Converged");
 }
 
-TEST_F(SceneVersion1, is_saved_again_as_version_2_with_w_last_everywhere) {
+TEST_F(SceneVersion1, IsSavedAsVersion2WithWLastEverywhere) {
     load_scene_file(workspace, version_1);
     const test::TempFolder folder;
     save_scene_file(workspace, folder / "scene.json");
@@ -254,8 +254,8 @@ TEST_F(SceneVersion1, is_saved_again_as_version_2_with_w_last_everywhere) {
                       Json::array({w_first[1], w_first[2], w_first[3], w_first[0]}));
         }
     }
-    // Those of the ropes were already in that order; two of their keys have been renamed, and particles have
-    // three numbers fewer.
+    // The ropes' quaternions already had that order; two of their keys were renamed, and particles have three
+    // numbers fewer.
     std::string ropes = old["labs"]["rope"].dump();
     for (const auto& [before, after] : {std::pair{"\"torture\"", "\"jitter\""}, {"\"stress\"", "\"strain\""}})
         ropes.replace(ropes.find(before), std::string_view(before).size(), after);
@@ -274,7 +274,7 @@ TEST_F(SceneVersion1, is_saved_again_as_version_2_with_w_last_everywhere) {
     EXPECT_EQ(save_scene(again), now);
 }
 
-TEST_F(SceneVersion1, that_is_broken_is_refused_in_the_words_of_today) {
+TEST_F(SceneVersion1, ADamagedOneIsRefusedWithPresentMessages) {
     const auto refusal_of = [&](const Json& rotations) {
         Json scene = parse_json(read_text_file(version_1));
         scene["labs"]["chain"]["reach"]["rotations"] = rotations;

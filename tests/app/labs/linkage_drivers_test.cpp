@@ -9,7 +9,7 @@ namespace {
 
 class LinkageDrivers : public LinkageTest {};
 
-TEST_F(LinkageDrivers, AValueFarAwayIsReachedInTime) {
+TEST_F(LinkageDrivers, AFarValueIsReachedInTime) {
     four_bar();
     run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 100000}});
     for (int i = 0; i < 60 && lab().moving(workspace); ++i) wait(1);
@@ -18,7 +18,7 @@ TEST_F(LinkageDrivers, AValueFarAwayIsReachedInTime) {
     EXPECT_EQ(state().at("status"), "Reached");
 }
 
-TEST_F(LinkageDrivers, ADriverHeldAtADeadPointGoesOnWhenLengthsLetIt) {
+TEST_F(LinkageDrivers, ADriverHeldAtADeadPointContinuesOnceLengthsAllow) {
     four_bar();
     run("linkage.set", {{"crank", 2.2}});
     run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 170}});
@@ -65,7 +65,7 @@ TEST_F(LinkageDrivers, ARangeStopsAHingeAndASlider) {
     EXPECT_EQ(state().at("status"), "Limited");
 }
 
-TEST_F(LinkageDrivers, AWalkerIsDrivenByItsMotorWhateverAFileDrivesElse) {
+TEST_F(LinkageDrivers, AWalkerIsDrivenByItsMotorWhateverElseAFileDrives) {
     run("linkage.preset", {{"name", "walker"}});
     run("linkage.drive", {{"joint", "motor"}, {"angle_deg", 40}});
     Json file = part().save();
@@ -102,7 +102,7 @@ TEST_F(LinkageDrivers, AJointDrivenWithoutAMotorStaysSo) {
     EXPECT_EQ(part().find_drive("rocker"), nullptr) << "another linkage";
 }
 
-TEST_F(LinkageDrivers, WhatADragLeftIsNotSaidWithoutIt) {
+TEST_F(LinkageDrivers, AnEndedDragLeavesNoReport) {
     four_bar();
     run("linkage.target", {{"point", "C"}, {"to", {2, 2, 0}}});
     run("linkage.drag", {{"point", "B"}, {"to", {0, 5, 0}}}, 1);

@@ -18,7 +18,7 @@ namespace {
 
 class LinkageReading : public LinkageTest {
   protected:
-    /// Runs the motor until it stands at its dead point.
+    /// Runs the motor until it stops at its dead point.
     void stall() {
         four_bar();
         run("linkage.set", {{"crank", 2.2}});
@@ -34,7 +34,7 @@ class LinkageReading : public LinkageTest {
         }
         ADD_FAILURE() << "there is no " << title;
     }
-    /// On which side of the line from B to D the coupler and the rocker meet.
+    /// The side of the line from B to D on which coupler and rocker meet.
     bool meets_left() const {
         const glm::dvec3 d(3, 0, 0), line = d - at("B"), to = at("C") - at("B");
         return line.x * to.y - line.y * to.x > 0.0;
@@ -54,7 +54,7 @@ class LinkageReading : public LinkageTest {
             if (!seen(*in_turn.at(each))) return false;
         return seen(part());
     }
-    /// Two bars in a row from the pin A: a robot's arm.
+    /// Two bars in a row from the pin A: a robot arm.
     void draw_arm() {
         run("linkage.clear");
         run("linkage.bar", {{"from", {1, 0, 0}}, {"to", {2, 0, 0}}});
@@ -63,7 +63,7 @@ class LinkageReading : public LinkageTest {
     }
 };
 
-TEST_F(LinkageReading, EveryWayOnFromADeadPointGoesOn) {
+TEST_F(LinkageReading, EveryCureForADeadPointWorks) {
     stall();
     const double stopped = driver("crank");
     EXPECT_EQ(motor_button(part()),
@@ -102,9 +102,9 @@ TEST_F(LinkageReading, ASliderCrankIsShortenedToo) {
     EXPECT_EQ(state().at("status"), "Reached");
 }
 
-/// A drag link has its crank longer than its ground: between a length at which coupler and rocker fold, and
-/// one at which they stretch.
-TEST_F(LinkageReading, ShorteningACrankLetsItGoRound) {
+/// A drag link's crank is longer than its ground: between a length at which coupler and rocker fold, and one
+/// at which they stretch.
+TEST_F(LinkageReading, AShortenedCrankTurnsAllRound) {
     test::RandomNumbers random(3);
     int drag_links = 0;
     for (int i = 0; i < 60; ++i) {
@@ -144,7 +144,7 @@ TEST_F(LinkageReading, ShorteningACrankLetsItGoRound) {
     EXPECT_NEAR(shorter_round_cranks(finding)->shortest, 1.0, 1e-9);
 }
 
-TEST_F(LinkageReading, TheMinimumOfTheTransmissionAngleIsTheLawOfCosines) {
+TEST_F(LinkageReading, TheMinimumTransmissionAngleFollowsTheLawOfCosines) {
     test::RandomNumbers random(7);
     int checked = 0;
     for (int i = 0; i < 60; ++i) {
@@ -175,8 +175,8 @@ TEST_F(LinkageReading, TheMinimumOfTheTransmissionAngleIsTheLawOfCosines) {
     EXPECT_NEAR(worst_transmission(part(), turn())->degrees, 0.0, 0.1) << "at its dead point";
 }
 
-/// A rigid triangle, or two, may ride on any bar of a four-bar, and the bars may be drawn in any order.
-TEST_F(LinkageReading, TheTransmissionAngleIsThatOfTheFourBarUnderAnyTriangles) {
+/// One or two rigid triangles may be attached to any bar of a four-bar, and bars may be drawn in any order.
+TEST_F(LinkageReading, TheTransmissionAngleIsTheFourBarsUnderAnyTriangles) {
     test::RandomNumbers random(41);
     int dead_points = 0;
     for (int i = 0; i < 60; ++i) {
@@ -229,7 +229,7 @@ TEST_F(LinkageReading, TheTransmissionAngleIsThatOfTheFourBarUnderAnyTriangles) 
     EXPECT_GT(dead_points, 10);
 }
 
-TEST_F(LinkageReading, AFourBarsKindSaysWhetherItsCrankGoesRound) {
+TEST_F(LinkageReading, AFourBarsTypeSaysWhetherItsCrankTurnsAllRound) {
     test::RandomNumbers random(11);
     int rounds = 0, swings = 0;
     for (int i = 0; i < 80; ++i) {
@@ -243,7 +243,7 @@ TEST_F(LinkageReading, AFourBarsKindSaysWhetherItsCrankGoesRound) {
         try {
             open_mechanism(drawn, lengths, fresh);
         } catch (const std::invalid_argument&) {
-            continue;  // it does not close as it is drawn
+            continue;  // it does not close as drawn
         }
         if (drawn.result.report.status != ik::LinkageStatus::Reached) continue;
         const std::string kind = four_bar_kind(drawn);
@@ -261,8 +261,8 @@ TEST_F(LinkageReading, AFourBarsKindSaysWhetherItsCrankGoesRound) {
     EXPECT_EQ(four_bar_kind(part()), "");
 }
 
-// The joints of one rigid body are in line by how it is built: they are never the cause.
-TEST_F(LinkageReading, ADeadPointNamesTheJointsThatMatterBesideAnyTriangles) {
+// Joints of one rigid body are in line by construction: they are never the cause.
+TEST_F(LinkageReading, ADeadPointNamesTheCausingJointsBesideAnyTriangles) {
     test::RandomNumbers random(15);
     int in_line = 0, meeting = 0;
     for (int i = 0; i < 80; ++i) {
@@ -305,7 +305,7 @@ TEST_F(LinkageReading, ADeadPointNamesTheJointsThatMatterBesideAnyTriangles) {
         } else {
             ASSERT_TRUE(driven_aside) << i << ": " << reason;
             EXPECT_TRUE(test::says(reason, "the lines B-A, C-D and E-F")) << i << ": " << reason;
-            // Where two of them cross, the third passes.
+            // The third line must pass through the crossing of two of them.
             const glm::dvec3 u = at("B") - at("A"), v = at("D") - at("C"), w = at("C") - at("A");
             const double across = u.x * v.y - u.y * v.x;
             if (std::abs(across) < 0.1) continue;
@@ -320,7 +320,7 @@ TEST_F(LinkageReading, ADeadPointNamesTheJointsThatMatterBesideAnyTriangles) {
     EXPECT_GT(meeting, 5);
 }
 
-TEST_F(LinkageReading, AnAngleIsReachedTheShorterWayAndTurnsAreAskedFor) {
+TEST_F(LinkageReading, AnAngleIsReachedTheShortWayAndTurnsOnRequest) {
     four_bar();
     const auto to = [&](double angle) {
         run("linkage.drive", {{"joint", "crank"}, {"angle_deg", angle}});
@@ -336,7 +336,7 @@ TEST_F(LinkageReading, AnAngleIsReachedTheShorterWayAndTurnsAreAskedFor) {
     EXPECT_NEAR(to(100), -260.0, 1e-6) << "the range has no other";
 }
 
-TEST_F(LinkageReading, APlotOverTheMotorsAngleGoesAllRound) {
+TEST_F(LinkageReading, APlotOverTheMotorsAngleCoversTheWholeTurn) {
     four_bar();
     run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 500}});
     run("view.linkage_plot", {{"of", "transmission"}});
@@ -383,7 +383,7 @@ TEST_F(LinkageReading, AnglesAreShownWithinATurn) {
         << linkage_verdict(part(), runtime()).why;
 }
 
-TEST_F(LinkageReading, WhatFloatsHasThreeDegreesOfFreedomMore) {
+TEST_F(LinkageReading, FloatingBarsHaveThreeMoreDegreesOfFreedom) {
     run("linkage.clear");
     run("linkage.bar", {{"from", {0, 0, 0}}, {"to", {0, 1, 0}}});
     EXPECT_EQ(state().at("freedom"), 3);
@@ -434,7 +434,7 @@ TEST_F(LinkageReading, AnElbowIsDrivenAgainstTheUpperArm) {
     EXPECT_EQ(emitted[1].name, "linkage.motor.add");
 }
 
-TEST_F(LinkageReading, NeitherABarNorAPinLeavesAMotorInsideOneBody) {
+TEST_F(LinkageReading, NeitherBarsNorPinsLeaveAMotorInsideOneBody) {
     draw_arm();
     run("linkage.move", {{"point", "B"}, {"to", {1, 1, 0}}});
     run("linkage.motor.add", {{"point", "A"}, {"name", "elbow"}});
@@ -443,7 +443,7 @@ TEST_F(LinkageReading, NeitherABarNorAPinLeavesAMotorInsideOneBody) {
     expect_refused("linkage.pin", {{"point", "B"}}, {std::string("linkage.pin: ") + words});
 }
 
-TEST_F(LinkageReading, WhereMoreBarsMeetTwoOfThemAreChosen) {
+TEST_F(LinkageReading, IfMoreBarsMeetTwoAreChosen) {
     draw_arm();
     run("linkage.bar", {{"from", "A"}, {"to", {1, 2, 0}}});
     expect_refused("linkage.motor.add", {{"point", "A"}}, {"3 bars", "A", "bar and against"});

@@ -24,7 +24,7 @@ class LinkageTest : public LabTest {
         run("linkage.preset", {{"name", "four_bar"}});
         run("linkage.set", {{"lengths", {{"ground", 3}, {"crank", 1}, {"coupler", 2.5}, {"rocker", 2}}}});
     }
-    /// By hand: A and D are pinned, bars A-B, B-C, C-D, a motor at A.
+    /// Draws by hand: pins A and D, bars A-B, B-C, C-D, and a motor at A.
     void draw_four_bar() {
         run("linkage.clear");
         run("linkage.bar", {{"from", {0, 0, 0}}, {"to", {0, 1, 0}}});

@@ -11,14 +11,14 @@
 namespace tendril::app {
 namespace {
 
-TEST_F(LinkageTest, StateIsTheSpecs) {
+TEST_F(LinkageTest, StateIsAsSpecified) {
     const Json now = state();
     EXPECT_EQ(now.at("lab"), "linkage");
     EXPECT_EQ(now.at("gruebler"), 1);
     EXPECT_EQ(now.at("active"), Json::array());
 }
 
-TEST_F(LinkageTest, ALengthChangesAndTheCrankStaysWhereItIsHeld) {
+TEST_F(LinkageTest, ALengthChangesAndTheHeldCrankStays) {
     four_bar();
     run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 400}});
     run("linkage.set", {{"crank", 0.9}, {"coupler_point", {1, -0.5}}});
@@ -55,7 +55,7 @@ TEST_F(LinkageTest, ADraggedJointTakesTheCrankAlong) {
     EXPECT_NEAR(driver("crank"), 30.0, 1e-6) << "a drag is one step";
 }
 
-TEST_F(LinkageTest, TheLibrarysMechanismsStandAsTheyAreNamed) {
+TEST_F(LinkageTest, TheLibrarysMechanismsHaveTheirNamedLengths) {
     for (const MechanismKind& kind : mechanism_kinds()) {
         run("linkage.preset", {{"name", kind.name}});
         EXPECT_EQ(state().at("status"), "Reached") << kind.name;
@@ -105,8 +105,7 @@ TEST_F(LinkageTest, ADragThroughADeadPointIsAnIncident) {
     EXPECT_TRUE(test::says(all[0].cause, "passed a dead point B, C and D are in line"));
 }
 
-// The path of P bends round the target: the place that was the nearest ends, and P goes over to the other
-// side.
+// The path of P bends round the target: the nearest point vanishes, and P jumps to the other side.
 TEST_F(LinkageTest, ADragAcrossAPathIsAnIncidentWhereThePointJumps) {
     four_bar();
     run("linkage.drag", {{"point", "P"}, {"to", {-1.5, 1.4, 0}}}, 1);
@@ -125,12 +124,12 @@ TEST_F(LinkageTest, ADragAcrossAPathIsAnIncidentWhereThePointJumps) {
     EXPECT_EQ(all[0].kind, Incident::Kind::Jump);
     EXPECT_EQ(all[0].name, "P");
     EXPECT_TRUE(test::says(all[0].cause, "P jumped mm no longer the place nearest moved 50.0 mm"));
-    // As far in one go, from where the target was, is no jump.
+    // The same distance in one move, from the target's old position, is not a jump.
     run("linkage.let_go");
     EXPECT_TRUE(incidents_of("linkage.drag", {{"point", "P"}, {"to", {-1.5, 1.4, 0}}}, 1).empty());
 }
 
-TEST_F(LinkageTest, WhatIsWrongIsRefusedByNameAndNothingIsLost) {
+TEST_F(LinkageTest, ErrorsAreReportedByNameAndNothingIsLost) {
     four_bar();
     expect_refused("linkage.set", {{"lengths", {{"cranc", 1}}}}, {"cranc"});
     expect_refused("linkage.set", {{"lengths", {{"coupler_point", {1}}}}}, {"coupler_point"});
@@ -147,7 +146,7 @@ TEST_F(LinkageTest, WhatIsWrongIsRefusedByNameAndNothingIsLost) {
     expect_refused("linkage.joint", {{"at", {0, 0, 0}}}, {"plane"});
 }
 
-TEST_F(LinkageTest, AFileOfAnyValuesIsReadOrRefused) {
+TEST_F(LinkageTest, AFileWithAnyValuesIsReadOrRefused) {
     draw_four_bar();
     run("linkage.range", {{"joint", "motor 1"}, {"min", -200}});
     run("linkage.target", {{"point", "C"}, {"to", {1, 2, 0}}});
@@ -168,7 +167,7 @@ TEST_F(LinkageTest, AFileOfAnyValuesIsReadOrRefused) {
             }
 }
 
-TEST_F(LinkageTest, LengthsThatChangeKeepPoseAndAssemblyMode) {
+TEST_F(LinkageTest, ChangedLengthsKeepPoseAndAssemblyMode) {
     four_bar();
     run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 90}});
     run("linkage.other_mode");
@@ -185,7 +184,7 @@ TEST_F(LinkageTest, LengthsThatChangeKeepPoseAndAssemblyMode) {
     EXPECT_LT(glm::distance(at("platform"), platform), 0.08);
 }
 
-TEST_F(LinkageTest, ADeadPointThatNamesNoDriverIsSaidToo) {
+TEST_F(LinkageTest, ADeadPointWithoutDriverIsReportedToo) {
     LinkagePart stuck = part();
     stuck.result.report.status = ik::LinkageStatus::DeadPoint;
     stuck.result.report.stopped.reset();
@@ -198,7 +197,7 @@ TEST_F(LinkageTest, AllLegsOfAWalkerChangeTheirMode) {
     const double before = height();
     run("linkage.other_mode");
     EXPECT_GT(std::abs(height() - before), 0.01);
-    // A leg a whole turn on is the leg itself.
+    // A leg one whole turn further is the leg itself.
     const LinkageCopy& opposite = part().copies[5];
     EXPECT_NEAR(opposite.phase, glm::radians(180.0), 1e-9);
     const double foot = part().at(*part().linkage().find_point("foot"), opposite).y;
@@ -206,7 +205,7 @@ TEST_F(LinkageTest, AllLegsOfAWalkerChangeTheirMode) {
     EXPECT_NEAR(at("foot").y, foot, 1e-6);
 }
 
-TEST_F(LinkageTest, AStrokeOverAWalkerBeginsWhereItIsDrawn) {
+TEST_F(LinkageTest, AStrokeOverAWalkerStartsWhereItIsDrawn) {
     run("linkage.preset", {{"name", "walker"}});
     const double ground = part().lowest_foot();
     ASSERT_LT(ground, -0.1);
@@ -223,7 +222,7 @@ TEST_F(LinkageTest, AStrokeOverAWalkerBeginsWhereItIsDrawn) {
     tells("drawn by hand");
 }
 
-/// How far from the path that is kept the present mode's goes, metres.
+/// Distance between the kept path and the present mode's path, metres.
 double path_error(LinkageRuntime& kept, const LinkagePart& part) {
     const std::vector<PathPoint> shown = kept.path(part);
     LinkageRuntime fresh;
@@ -247,7 +246,7 @@ TEST_F(LinkageTest, EachAssemblyModeHasItsOwnPath) {
     }
 }
 
-/// Where a turn has two ends, what lies between them is not on it.
+/// If a turn has two ends, poses between them are not on it.
 TEST_F(LinkageTest, EachModeOfARockerHasItsOwnPath) {
     test::RandomNumbers random(5);
     int swings = 0;
@@ -304,7 +303,7 @@ TEST_F(LinkageTest, NamesAreUnique) {
     expect_scene_refused("/sketch/bars/1/name", "bar 1", "labs.linkage.sketch.bars.1.name");
 }
 
-TEST_F(LinkageTest, ABarsLengthLeavesTheOthersTheirs) {
+TEST_F(LinkageTest, ABarsLengthKeepsTheOthers) {
     draw_four_bar();
     const double crank = glm::distance(at("A"), at("B")), rocker = glm::distance(at("C"), at("D"));
     run("linkage.length", {{"bar", "bar 2"}, {"length", 2.5}});
@@ -315,7 +314,7 @@ TEST_F(LinkageTest, ABarsLengthLeavesTheOthersTheirs) {
     expect_refused("linkage.length", {{"bar", "bar 2"}, {"length", 9}}, {"bar 2", "9"});
 }
 
-TEST_F(LinkageTest, BarsThatNothingHoldsWaitForTheirPins) {
+TEST_F(LinkageTest, BarsWithoutSupportWaitForPins) {
     run("linkage.clear");
     EXPECT_EQ(state().at("verdict"), "Draw a bar");
     EXPECT_EQ(state().at("tool"), "draw") << "an empty lab is there to be drawn in";

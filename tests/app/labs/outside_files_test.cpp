@@ -1,4 +1,4 @@
-// Labs that read files again when a scene is opened: which faults are the scene's, and which the file's.
+// Labs that re-read files when a scene is opened: which faults are the scene's, and which the file's.
 #include "app/document/atomic_file.hpp"
 #include "tests/app/labs/lab_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
@@ -12,7 +12,7 @@ struct Reader {
     const char* lab;
     const char* command;
     const char* number;  ///< in the lab's JSON
-    const char* name;    ///< of a thing in the file
+    const char* name;    ///< name of an object in the file
 };
 
 class ReadsAFile : public LabTest, public testing::WithParamInterface<Reader> {
@@ -28,7 +28,7 @@ class ReadsAFile : public LabTest, public testing::WithParamInterface<Reader> {
     Json saved_;
 };
 
-TEST_P(ReadsAFile, AWrongValueIsRefusedAndAFileAtFaultLeavesTheLabBlank) {
+TEST_P(ReadsAFile, AnInvalidValueIsRefusedAndABadFileLeavesTheLabBlank) {
     const Reader& of = GetParam();
     EXPECT_EQ(opened(), "");
     for (const char* pointer : {of.number, of.name}) {

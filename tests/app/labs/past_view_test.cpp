@@ -26,7 +26,7 @@ class Turns : public testing::Test, protected test::RandomNumbers {
     Turns() : RandomNumbers(5) {}
 };
 
-TEST_F(Turns, AreToldBySwingAndTwist) {
+TEST_F(Turns, AreSplitIntoSwingAndTwist) {
     for (int i = 0; i < 1000; ++i) {
         const glm::dvec3 along = direction();
         const glm::dvec3 across = glm::normalize(glm::cross(along, direction()));
@@ -47,7 +47,7 @@ TEST_F(Turns, AreToldBySwingAndTwist) {
     EXPECT_EQ(opposite.twist, 0.0);
 }
 
-TEST(PartCaches, WorkOutAPartOnceAndForgetWhatIsNoLongerRemembered) {
+TEST(PartCaches, ComputeAPartOnceAndDropForgottenMoments) {
     PartCache<int> cache;
     Rewind past;
     int made = 0;
@@ -74,7 +74,7 @@ TEST(PartCaches, WorkOutAPartOnceAndForgetWhatIsNoLongerRemembered) {
     EXPECT_EQ(ask(some_part()), 2002) << "another part, though it may lie at the same place";
 }
 
-TEST(PartCaches, ForgetWhatWasWorkedOutFirstBeyondTheirBound) {
+TEST(PartCaches, DropTheOldestResultsBeyondTheirBound) {
     const std::size_t bound = 100'000;
     PartCache<std::vector<double>> cache(bound);
     std::vector<std::shared_ptr<const Part>> parts;
@@ -95,7 +95,7 @@ TEST(PartCaches, ForgetWhatWasWorkedOutFirstBeyondTheirBound) {
     EXPECT_EQ(cache.bytes(), 0u);
 }
 
-TEST(PartCaches, CountTheirBytesThroughAllThatIsForgotten) {
+TEST(PartCaches, CountTheirBytesWhenResultsAreDropped) {
     PartCache<std::vector<double>> cache;
     for (int round = 0; round < 3; ++round) {
         Rewind past;
@@ -118,7 +118,7 @@ class Ghosts : public LabTest {
     }
 };
 
-TEST_F(Ghosts, AreThoseOfEveryHalfSecondHoweverFewMomentsAreKept) {
+TEST_F(Ghosts, AreHalfASecondApartHoweverFewMomentsAreKept) {
     for (const std::uint64_t stride : {1u, 2u, 4u, 8u, 16u}) {
         workspace.rewind.clear();
         for (std::uint64_t tick = 3 * stride; tick < 900; tick += stride)

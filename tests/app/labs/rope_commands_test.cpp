@@ -9,7 +9,7 @@ namespace {
 
 class RopeCommands : public RopeTest {};
 
-TEST_F(RopeCommands, AddLaysARopeStraightOrHanging) {
+TEST_F(RopeCommands, AddMakesARopeStraightOrHanging) {
     run("rope.clear");
     run("rope.add", {{"from", {0, 1, 0}}, {"to", {2, 1, 0}}});
     Json slack{{"segments", 10}, {"length", 1.5}, {"radius", 0.05}, {"pin_start", true}, {"pin_end", true}};
@@ -31,7 +31,7 @@ TEST_F(RopeCommands, AddLaysARopeStraightOrHanging) {
     EXPECT_TRUE(ropes[0].contains("stretch") && ropes[0].contains("energy"));
 }
 
-TEST_F(RopeCommands, PinTakesAParticleThereInOneTickAndUnpinLetsItFall) {
+TEST_F(RopeCommands, PinMovesAParticleInOneTickAndUnpinLetsItFall) {
     single_rope();
     run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
     run("rope.pin", {{"rope", "rope"}, {"particle", 8}, {"at", {0.9, 2.1, 0}}});
@@ -48,7 +48,7 @@ TEST_F(RopeCommands, PinTakesAParticleThereInOneTickAndUnpinLetsItFall) {
     EXPECT_EQ(workspace.history.size(), history) << "what changes nothing leaves no step";
 }
 
-TEST_F(RopeCommands, CutPartsARopeAndWhatWasChosenFollows) {
+TEST_F(RopeCommands, CutSplitsARopeAndTheSelectionFollows) {
     single_rope(10);
     run("rope.select", {{"rope", "rope"}, {"particle", 7}});
     run("rope.cut", {{"rope", "rope"}, {"segment", 4}});
@@ -117,7 +117,7 @@ TEST_F(RopeCommands, AColliderSwingsAboutItsMiddleAndNeverJumps) {
     EXPECT_EQ(centre(), last);
 }
 
-TEST_F(RopeCommands, AClothIsOfAMaterial) {
+TEST_F(RopeCommands, AClothHasAMaterial) {
     run("rope.clear");
     const auto add = [&](Json more) {
         more.update(
@@ -169,7 +169,7 @@ TEST_F(RopeCommands, SheetsAndLocks) {
     EXPECT_NEAR(glm::distance(world().position(world().particle("hair", 0)), {6, 2, 0}), 0.504f, 1e-3f);
 }
 
-TEST_F(RopeCommands, WhatIsHeldIsLetGoAndADragIsOneStep) {
+TEST_F(RopeCommands, ReleaseLetsGoAndADragIsOneStep) {
     single_rope();
     const std::size_t history = workspace.history.size();
     const glm::vec3 was = world().position(4);
@@ -192,7 +192,7 @@ TEST_F(RopeCommands, WhatIsHeldIsLetGoAndADragIsOneStep) {
     EXPECT_TRUE(world().pinned(4)) << "pinned meanwhile, it stays so";
 }
 
-TEST_F(RopeCommands, WhileTimeStandsARopeGivesWayToWhatIsDragged) {
+TEST_F(RopeCommands, WhilePausedARopeFollowsADrag) {
     single_rope(20);
     run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
     wait(30);
@@ -216,7 +216,7 @@ TEST_F(RopeCommands, WhileTimeStandsARopeGivesWayToWhatIsDragged) {
             << i;
 }
 
-TEST_F(RopeCommands, WhatIsNotDraggedStaysAsItIsWhileTimeStands) {
+TEST_F(RopeCommands, WhilePausedOnlyDraggedThingsMove) {
     run("rope.preset", {{"name", "drape"}});
     run("rope.settings", {{"solver", "xpbd"}, {"compliance", 0.01}});
     run("rope.collider.swing", {{"name", "bar"}, {"by", {0, 0, 0.5}}});
@@ -247,7 +247,7 @@ TEST_F(RopeCommands, WhatIsNotDraggedStaysAsItIsWhileTimeStands) {
         EXPECT_GT(rope::surface_distance(ball, world().state().position[i]).distance, 0.019) << i;
 }
 
-TEST_F(RopeCommands, WhatIsSelectedIsRemoved) {
+TEST_F(RopeCommands, TheSelectionIsRemoved) {
     single_rope();
     EXPECT_EQ(refused("rope.remove_selected"), "rope.remove_selected: nothing is selected");
     run("rope.collider.add", {{"name", "s"}, {"kind", "sphere"}, {"centre", {0, 5, 0}}, {"radius", 0.2}});
@@ -260,7 +260,7 @@ TEST_F(RopeCommands, WhatIsSelectedIsRemoved) {
     EXPECT_EQ(world().size(), 0u);
 }
 
-TEST_F(RopeCommands, LooksLeaveNoStepAndAreKept) {
+TEST_F(RopeCommands, ViewSettingsAreNoUndoStepsAndAreKept) {
     run("rope.tool", {{"name", "cut"}});
     run("rope.view", {{"strain", true}, {"sides", 24}});
     run("rope.view", {{"particles", true}});

@@ -67,7 +67,7 @@ TEST_F(RopeCutCloth, APieceIsAClothOfItsOwn) {
     EXPECT_NE(world().find("cloth 2"), nullptr);
 }
 
-TEST_F(RopeCutCloth, ClicksCutFromOneToTheNext) {
+TEST_F(RopeCutCloth, ClicksCutFromEachToTheNext) {
     run("rope.tool", {{"name", "cut"}});
     EXPECT_TRUE(test::says(lab().hint(workspace, no_pick), "Drag across to cut"));
     const std::size_t whole = links();
@@ -80,7 +80,7 @@ TEST_F(RopeCutCloth, ClicksCutFromOneToTheNext) {
     EXPECT_TRUE(test::says(lab().hint(workspace, particle_pick(40)), "cuts from the selected"));
 }
 
-/// Along the line on the screen, all that it crosses, as one step to undo.
+/// A stroke cuts everything that it crosses on the screen, as one undo step.
 TEST_F(RopeCutCloth, AStrokeCutsAcross) {
     add_rope("line", {3.5, 2.2, 0.2}, {3.5, 0, 0.2}, {{"pin_start", true}});
     const std::size_t whole = links();
@@ -98,20 +98,20 @@ TEST_F(RopeCutCloth, AStrokeCutsAcross) {
     for (const rope::Link& link : world().state().links) EXPECT_NE(link.a, link.b);
     run("undo");
     EXPECT_EQ(links(), whole);
-    // One that ends inside is a slit, and one beside it cuts nothing.
+    // A stroke that ends inside makes a slit, and one beside the cloth cuts nothing.
     stroke({2.8f, 1.5f}, {3.5f, 1.5f});
     EXPECT_LT(links(), whole);
     EXPECT_EQ(world().find("cloth 2"), nullptr);
     const std::size_t slit = links();
     stroke({2.8f, 2.5f}, {4.2f, 2.6f});
     EXPECT_EQ(links(), slit);
-    // The rest of the way parts it.
+    // Cutting the rest separates it.
     stroke({3.3f, 1.5f}, {4.2f, 1.5f});
     EXPECT_NE(world().find("cloth 2"), nullptr);
 }
 
-/// In the pane of a rival, what is there is cut.
-TEST_F(RopeCutCloth, AStrokeCutsWhatItsPaneShows) {
+/// In a rival's pane, the rival's cloth is cut.
+TEST_F(RopeCutCloth, AStrokeCutsTheClothOfItsPane) {
     race_aside();
     stroke({4.8f, 1.5f}, {6.2f, 1.5f});
     EXPECT_EQ(world().find("cloth 2"), nullptr);
@@ -134,7 +134,7 @@ TEST_F(RopeCutCloth, TheMessageCountsAllPieces) {
                            "is now in 6 pieces; cloth 2 cloth 3 cloth 4 and 2 more came off"));
 }
 
-/// Over a bar, a stroke below it cuts what hangs in front and behind, and not what lies on the bar.
+/// Over a bar, a stroke below it cuts the parts that hang in front and behind, and not the part on the bar.
 TEST_F(RopeCutCloth, AStrokeCutsAllLayers) {
     run("rope.clear");
     run("rope.collider.add",
@@ -145,8 +145,8 @@ TEST_F(RopeCutCloth, AStrokeCutsAllLayers) {
     EXPECT_EQ(world().state().bodies.size(), 3u);
 }
 
-/// Folded in two, seen from the front. Only what is under the stroke is cut, in both layers; what lies on the
-/// cloth between its two lines is not.
+/// Folded in two, seen from the front. Only the cloth under the stroke is cut, in both layers; the part
+/// between the stroke's two crossings is not.
 TEST_F(RopeCutCloth, AStrokeCutsEachLayerWhereItCrosses) {
     run("rope.clear");
     add_cloth("cloth", {3, 2, 0}, {1, 0, 0}, {0, -2, 0}, 9, 17);
@@ -175,7 +175,7 @@ TEST_F(RopeCutCloth, AStrokeCutsEachLayerWhereItCrosses) {
     EXPECT_EQ(links(), before.links.size());
 }
 
-/// A thread of a torn cloth without a triangle beside it shows no surface, and holds all the same.
+/// A thread of a torn cloth without an adjacent triangle shows no surface, but still holds.
 TEST_F(RopeCutCloth, AStrokeCutsBareThreads) {
     run("rope.cloth.cut",
         {{"rope", "cloth"},
@@ -186,8 +186,8 @@ TEST_F(RopeCutCloth, AStrokeCutsBareThreads) {
     EXPECT_EQ(body("cloth").count + body("cloth 2").count, 64u);
 }
 
-/// Torn cloth comes apart by itself, and what is selected and held stays with its particles.
-TEST_F(RopeCutCloth, TornClothComesApart) {
+/// Torn cloth separates by itself, and selected and held particles stay selected and held.
+TEST_F(RopeCutCloth, TornClothSeparates) {
     run("rope.set",
         {{"rope", "cloth"}, {"tear", 0.05}, {"bend", 0.25}, {"friction", 0.75}, {"colour", "teal"}});
     run("rope.select", {{"rope", "cloth"}, {"particle", 60}});
@@ -212,7 +212,7 @@ TEST_F(RopeCutCloth, TornClothComesApart) {
     }
 }
 
-/// A rope tears where it is pulled apart, and both ends go on as ropes.
+/// A rope tears where it is pulled apart, and both ends continue as ropes.
 TEST_F(RopeCutCloth, ARopeTears) {
     single_rope(8);
     run("rope.set", {{"rope", "rope"}, {"tear", 0.1}});
@@ -230,7 +230,7 @@ TEST_F(RopeCutCloth, ARopeTears) {
     EXPECT_LT(world().length_error(), 0.01);
 }
 
-TEST_F(RopeCutCloth, RefusalsSayWhatAndWhere) {
+TEST_F(RopeCutCloth, RefusalsGiveReasonAndPlace) {
     run("rope.add", {{"from", {0, 2, 0}}, {"to", {1, 2, 0}}});
     const auto says = [&](const Json& arguments, const char* words) {
         refuses("rope.cloth.cut", arguments, words);

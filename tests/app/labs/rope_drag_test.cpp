@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 class RopeDrag : public RopeTest {};
 
-TEST_F(RopeDrag, ThrowingTheRuntimeAwayChangesNoBitOfAPausedDrag) {
+TEST_F(RopeDrag, DiscardingTheRuntimeChangesNoBitOfAPausedDrag) {
     std::vector<rope::State> ends;
     for (const bool thrown_away : {false, true}) {
         run("rope.preset", {{"name", "drape"}});
@@ -35,7 +35,7 @@ TEST_F(RopeDrag, ThrowingTheRuntimeAwayChangesNoBitOfAPausedDrag) {
     EXPECT_TRUE(ends[1] == ends[3]) << "and time goes on the same";
 }
 
-/// A mouse drag moves a hundred times a second; create a workspace only once.
+/// A mouse drag moves a hundred times per second, so its workspace is created only once.
 TEST_F(RopeDrag, OnlyRuntimesMakeAWorkspaceOfTheLibrarys) {
     const std::regex made(R"(rope::Workspace\s+\w+\s*[;{=(]|rope::Workspace\s*[({])");
     int found = 0;

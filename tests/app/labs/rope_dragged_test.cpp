@@ -27,7 +27,7 @@ class RopeDragged : public RopeTest {
     }
 };
 
-TEST_F(RopeDragged, PinsAndFreeParticlesGoTheSameWayInOneStep) {
+TEST_F(RopeDragged, PinsAndFreeParticlesMoveTogetherInOneStep) {
     for (const char* time : {"time.pause", "time.play"}) {
         single_rope(8);
         run("rope.pin", {{"rope", "rope"}, {"particles", {0, 8}}});
@@ -61,7 +61,7 @@ TEST_F(RopeDragged, PinsAndFreeParticlesGoTheSameWayInOneStep) {
     }
 }
 
-TEST_F(RopeDragged, WhatHangsOnAColliderStaysAndIsSaid) {
+TEST_F(RopeDragged, ParticlesOnAColliderStayAndAreReported) {
     run("rope.preset", {{"name", "hair"}});
     const std::string hair = state()["hair"][0]["name"];
     run("rope.select", {{"rope", hair}, {"particles", {0, 1, 2, 3}}});
@@ -100,8 +100,8 @@ TEST_F(RopeDragged, AnyParticlesFollowAnyWayAndNothingElseIsHeldAfterwards) {
     }
 }
 
-/// With any solver: what is between a pin and a free particle moves along with them.
-TEST_F(RopeDragged, PausedWhatLiesBetweenGoesAlong) {
+/// With any solver: particles between a pin and a free one move along with them.
+TEST_F(RopeDragged, WhilePausedParticlesBetweenMoveAlong) {
     for (const char* solver : {"direct", "xpbd", "relaxation"}) {
         single_rope(10);
         run("time.pause");
@@ -117,7 +117,7 @@ TEST_F(RopeDragged, PausedWhatLiesBetweenGoesAlong) {
     }
 }
 
-TEST_F(RopeDragged, ACutThroughWhatIsHeldLetsGoOfIt) {
+TEST_F(RopeDragged, ACutThroughAHeldParticleReleasesIt) {
     single_rope(8);
     const auto hold = [&](const Json& particles) {
         run("rope.hold",
@@ -135,7 +135,7 @@ TEST_F(RopeDragged, ACutThroughWhatIsHeldLetsGoOfIt) {
     EXPECT_EQ(state()["held"]["particles"], Json({1, 2}));
 }
 
-TEST_F(RopeDragged, WhatDoesNotGoTogetherIsRefused) {
+TEST_F(RopeDragged, IncompatibleArgumentsAreRefused) {
     single_rope(8);
     run("rope.pin", {{"rope", "rope"}, {"particle", 0}});
     const Json at{0, 0, 0};

@@ -7,8 +7,8 @@ namespace {
 
 class RopeFile : public RopeTest {};
 
-/// Of a race too, where each world holds particles of its own.
-TEST_F(RopeFile, WhatADragHoldsIsHeldAfterwards) {
+/// Also in a race, where each world holds its own particles.
+TEST_F(RopeFile, ADraggedParticleIsStillHeldAfterLoading) {
     single_rope();
     run("rope.race");
     run("rope.hold", {{"rope", "rope"}, {"particle", 4}, {"at", {0.5, 2.2, 0}}});

@@ -30,7 +30,7 @@ class RopeGizmo : public RopeTest {
     const rope::Shape& shape(const char* name) const { return world().find_collider(name)->shape; }
 };
 
-TEST_F(RopeGizmo, ThereIsOneForAColliderAndAPinAndNoneForAFreeParticle) {
+TEST_F(RopeGizmo, CollidersAndPinsHaveOneAndFreeParticlesNone) {
     EXPECT_FALSE(gizmo());
     for (const char* name : {"ball", "bar", "crate", "wall"}) {
         select(name);
@@ -58,7 +58,7 @@ TEST_F(RopeGizmo, AParticleThatMovesWithAColliderHasNone) {
     EXPECT_FALSE(gizmo());
 }
 
-TEST_F(RopeGizmo, TurnsGoOnFromWhereTheyAreWithoutDrift) {
+TEST_F(RopeGizmo, RotationsContinueFromWhereTheyAreWithoutDrift) {
     std::mt19937 random(3);
     std::normal_distribution<float> any;
     for (const char* name : {"bar", "crate", "wall"}) {
@@ -78,7 +78,7 @@ TEST_F(RopeGizmo, TurnsGoOnFromWhereTheyAreWithoutDrift) {
     EXPECT_NEAR(glm::distance(bar.a, bar.b), 2.0f, 1e-3f);
 }
 
-TEST_F(RopeGizmo, OppositeAndEqualDirectionsTurnToo) {
+TEST_F(RopeGizmo, OppositeAndEqualDirectionsRotateToo) {
     for (const glm::vec3 direction :
          {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, -1, 0)}) {
         run("rope.collider.set", {{"name", "bar"}, {"a", point(-direction)}, {"b", point(direction)}});
@@ -90,7 +90,7 @@ TEST_F(RopeGizmo, OppositeAndEqualDirectionsTurnToo) {
     }
 }
 
-TEST_F(RopeGizmo, AnArrowMovesWithoutTurning) {
+TEST_F(RopeGizmo, AnArrowMovesWithoutRotating) {
     select("crate");
     const glm::quat before = std::get<rope::Box>(shape("crate")).rotation;
     Handle::Frame to = gizmo()->frame;

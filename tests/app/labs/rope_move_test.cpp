@@ -18,7 +18,7 @@ class RopeMove : public RopeTest {
         wait(20);
     }
     const rope::Body& body(const char* name) const { return *world().find(name); }
-    /// Drags the gizmo by that much.
+    /// Drags the gizmo by this offset.
     void drag(glm::vec3 by, Gesture gesture) {
         Handle handle = *lab().gizmo(workspace);
         handle.frame.position += by;
@@ -60,7 +60,7 @@ TEST_F(RopeMove, WithoutPinsItIsHeldUntilItIsDropped) {
     EXPECT_LT(world().position(body("line").first).y, 1.49f);
 }
 
-TEST_F(RopeMove, TiesDrawItBack) {
+TEST_F(RopeMove, TiesPullItBack) {
     run("rope.add", {{"name", "line"}, {"from", {0.5, 1, 0}}, {"to", {0.5, 0.5, 0}}, {"segments", 4}});
     run("rope.tie", {{"a", "sheet"}, {"a_particle", 33}, {"b", "line"}, {"b_particle", 0}});
     wait(120);
@@ -89,8 +89,8 @@ TEST_F(RopeMove, Refusals) {
     expect_refused("rope.move", {{"rope", "hair"}, {"by", {1, 0, 0}}}, {"attached", "collider"});
 }
 
-/// Every kind that the panel adds, in every preset: not in what is there, nor between it and the viewer.
-TEST_F(RopeMove, ThereIsRoomForWhatIsAdded) {
+/// Every kind that the panel adds, in every preset: it must neither overlap other things nor hide them.
+TEST_F(RopeMove, ThereIsSpaceForAddedThings) {
     for (const char* preset : {"drape", "bridge", "curtain", "line"}) {
         run("rope.preset", {{"name", preset}});
         wait(30);

@@ -43,7 +43,7 @@ float tension(const NamedWorld& world, std::optional<std::size_t> particle) {
     return strongest;
 }
 
-TEST_F(RopePast, ValuesAreThoseOfEachTickInEveryScene) {
+TEST_F(RopePast, ValuesEqualEachTicksInEveryScene) {
     for (const char* const scene : {"drape", "bridge", "pendulum", "cloth", "hair"}) {
         run("rope.preset", {{"name", scene}});
         workspace.rewind.clear();
@@ -70,7 +70,7 @@ TEST_F(RopePast, ValuesAreThoseOfEachTickInEveryScene) {
     }
 }
 
-TEST_F(RopePast, OfWhatIsSelectedItIsAsTheInspectorAndTheStateSay) {
+TEST_F(RopePast, OfTheSelectionEqualsInspectorAndState) {
     single_rope(12);
     run("rope.add", {{"name", "other"}, {"from", {0, 3, 0}}, {"to", {2, 3, 0}}, {"segments", 20}});
     run("rope.pin", {{"rope", "other"}, {"particle", 0}});
@@ -100,7 +100,7 @@ TEST_F(RopePast, OfWhatIsSelectedItIsAsTheInspectorAndTheStateSay) {
     EXPECT_EQ(rope_past_curve(workspace)->name, "highest speed") << "a collider is no rope: all of them";
 }
 
-TEST_F(RopePast, ARopeThatWasNotThereHasNoValueThen) {
+TEST_F(RopePast, ARopeThatDidNotExistHasNoValue) {
     single_rope();
     pass(3);
     run("rope.add", {{"name", "late"}, {"from", {0, 3, 0}}, {"to", {1, 3, 0}}, {"segments", 4}});
@@ -121,7 +121,7 @@ TEST_F(RopePast, ARopeThatWasNotThereHasNoValueThen) {
     EXPECT_TRUE(test::says(rope_past_curve(workspace)->missing, "no rope"));
 }
 
-TEST_F(RopePast, PosesArePastACutButNotOfAnotherScene) {
+TEST_F(RopePast, PosesSpanACutButNotAnotherScene) {
     single_rope();
     remember();
     workspace.moment = 30;
@@ -146,7 +146,7 @@ TEST_F(RopePast, APoseIsTheRopesLinks) {
     EXPECT_TRUE(rope_lines(shared()).empty());
 }
 
-TEST_F(RopePast, APoseOfManyLinksHasSomeHundredLinesFromEndToEnd) {
+TEST_F(RopePast, APoseOfManyLinksHasAFewHundredLinesFromEndToEnd) {
     run("rope.clear");
     run("rope.settings", {{"iterations", 1}});
     for (int i = 0; i < 3; ++i)
@@ -163,7 +163,7 @@ TEST_F(RopePast, APoseOfManyLinksHasSomeHundredLinesFromEndToEnd) {
     EXPECT_GT(rope_lines(shared()).size(), 100u);
 }
 
-TEST_F(RopePast, AClothIsFiveRowsAndFiveColumnsWithoutWhatIsTorn) {
+TEST_F(RopePast, AClothHasFiveRowsAndColumnsWithoutTornParts) {
     run("rope.clear");
     add_cloth("cloth", {0, 2, 0}, {2, 0, 0}, {0, 0, 1}, 20, 12);
     float length = 0.0f;
@@ -183,7 +183,7 @@ TEST_F(RopePast, AClothIsFiveRowsAndFiveColumnsWithoutWhatIsTorn) {
     EXPECT_NEAR(left, length - link, 1e-3f);
 }
 
-TEST_F(RopePast, StateHasWhatIsShown) {
+TEST_F(RopePast, StateHasTheDisplayedPlot) {
     single_rope();
     remember();
     EXPECT_EQ(state()["past"], (Json{{"plot", nullptr}, {"ghosts", Json::array()}}));

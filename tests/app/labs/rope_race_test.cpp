@@ -48,7 +48,7 @@ TEST_F(RopeRace, EachSolverHasItsPaneAndItsError) {
     refuses("rope.race", {{"on", false}}, "no race is open");
 }
 
-TEST_F(RopeRace, WhatHappensToOneHappensToAll) {
+TEST_F(RopeRace, ChangesApplyToAllWorlds) {
     wait(10);
     run("rope.collider.add",
         {{"name", "ball"}, {"kind", "sphere"}, {"centre", {0.5, 1, 0}}, {"radius", 0.1}});
@@ -78,7 +78,7 @@ TEST_F(RopeRace, APresetIsRacedFromItsStart) {
     for (std::size_t pane = 0; pane < 3; ++pane) EXPECT_NE(world_in(part(), pane).find("flag"), nullptr);
 }
 
-TEST_F(RopeRace, AChosenSolverChangesPlacesWithTheOwn) {
+TEST_F(RopeRace, AChosenSolverSwapsPlacesWithTheOwn) {
     wait(60);
     const double relaxed = rival(1).length_error(), direct = world().length_error();
     run("rope.settings", {{"solver", "relaxation"}, {"iterations", 20}});
@@ -90,7 +90,7 @@ TEST_F(RopeRace, AChosenSolverChangesPlacesWithTheOwn) {
 }
 
 TEST_F(RopeRace, APastMomentIsRacedToo) {
-    std::vector<std::pair<glm::vec3, glm::vec3>> all;  // the own world's and a rival's
+    std::vector<std::pair<glm::vec3, glm::vec3>> all;  // of the own world and of a rival
     const auto now = [&] { return std::pair(world().position(30), rival(1).position(30)); };
     for (int i = 0; i < 40; ++i) {
         wait(1);
@@ -103,7 +103,7 @@ TEST_F(RopeRace, APastMomentIsRacedToo) {
     EXPECT_NE(std::ranges::find(all, now()), all.end());
 }
 
-TEST_F(RopeRace, OfOneSolverTwiceIsNotOpened) {
+TEST_F(RopeRace, WithTheSameSolverTwiceIsRefused) {
     expect_scene_refused("/rivals/1", saved()["rivals"][0], "rivals");
 }
 
@@ -118,13 +118,13 @@ TEST_F(RopeRace, APaneIsPickedInItsOwnWorld) {
     EXPECT_FALSE(lab().handle(workspace, pick_in(5, tie_pick(3))));
 }
 
-TEST_F(RopeRace, ResetStartsItAgain) {
+TEST_F(RopeRace, ResetRestartsIt) {
     run("rope.reset");
     EXPECT_EQ(solvers().size(), 3u);
 }
 
-/// Cut in one world only, as where a rope tears there only, a drag lets go in all of them.
-TEST_F(RopeRace, ADragLetsGoInEveryWorldByItsOwnNames) {
+/// After a cut in one world only, as when a rope tears only there, a drag lets go in all worlds.
+TEST_F(RopeRace, ADragIsReleasedInEveryWorldByItsOwnNames) {
     run("rope.hold", {{"rope", "rope"}, {"particle", 40}, {"at", {0.6, 1.9, 0.2}}});
     RopePart& changed = workspace.document.edit<RopePart>(rope_lab);
     RopePart same = part_of_rival(changed, changed.rivals[0]);
@@ -140,8 +140,8 @@ TEST_F(RopeRace, ADragLetsGoInEveryWorldByItsOwnNames) {
         EXPECT_EQ(world_in(part(), pane).state().pins.size(), 2u) << pane;
 }
 
-/// What is selected here may be missing there.
-TEST_F(RopeRace, AClickInAPaneUsesOnlyWhatIsThere) {
+/// Particles selected in one world may not exist in another.
+TEST_F(RopeRace, AClickInAPaneUsesOnlyItsOwnParticles) {
     run("rope.select", {{"rope", "rope"}, {"particle", 60}});
     run("rope.tool", {{"name", "tie"}});
     RopePart& changed = workspace.document.edit<RopePart>(rope_lab);
@@ -153,7 +153,7 @@ TEST_F(RopeRace, AClickInAPaneUsesOnlyWhatIsThere) {
     for (const Emitted& each : emit.take()) EXPECT_EQ(each.name, "rope.select");
 }
 
-/// Undo is bounded by what a part says it takes.
+/// Undo is bounded by the size that a part reports.
 TEST_F(RopeRace, ItsSizeCountsTheCurvesOfAll) {
     const std::size_t before = part().bytes();
     wait(100);

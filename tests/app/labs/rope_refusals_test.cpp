@@ -20,7 +20,7 @@ TEST_F(RopeRefusals, SayWhyInOneLine) {
     refuses("rope.collider.swing", {{"name", "x"}, {"by", right}}, "rope.collider.swing no collider x");
 }
 
-TEST_F(RopeRefusals, AKindOfColliderTakesWhatItHas) {
+TEST_F(RopeRefusals, AColliderTakesOnlyTheArgumentsOfItsKind) {
     refuses("rope.collider.add", {{"name", "s"}, {"kind", "sphere"}, {"centre", origin}},
             "rope.collider.add radius missing sphere");
     refuses("rope.collider.add",
@@ -47,7 +47,7 @@ TEST_F(RopeRefusals, AKindOfColliderTakesWhatItHas) {
     refused("rope.collider.add", {{"name", "p"}, {"kind", "plane"}, {"point", origin}, {"normal", origin}});
 }
 
-TEST_F(RopeRefusals, AColliderIsGivenWhatItsKindHas) {
+TEST_F(RopeRefusals, AColliderNeedsTheArgumentsOfItsKind) {
     run("rope.preset", {{"name", "drape"}});
     refuses("rope.collider.set", {{"name", "x"}, {"radius", 1}}, "rope.collider.set no collider x");
     refuses("rope.collider.set", {{"name", "ball"}, {"half_extents", right}},
@@ -55,7 +55,7 @@ TEST_F(RopeRefusals, AColliderIsGivenWhatItsKindHas) {
     refused("rope.collider.set", {{"name", "ground"}, {"normal", origin}});
 }
 
-TEST_F(RopeRefusals, WhatWouldTakeTooLongIsRefusedWithItsSize) {
+TEST_F(RopeRefusals, ScenesThatWouldTakeTooLongAreRefusedWithTheirSize) {
     single_rope(8000);
     refuses("rope.settings", {{"iterations", 10'000}},
             "rope.settings 8000 links 10000 iterations 80008001 50000000");
@@ -81,7 +81,7 @@ TEST_F(RopeRefusals, TooManyAreRefusedWithTheNumberAndTheLimit) {
             "rope.collider.add 1001 colliders 1000");
 }
 
-TEST_F(RopeRefusals, WhatDoesNotGoTogether) {
+TEST_F(RopeRefusals, IncompatibleArguments) {
     single_rope(8);
     refuses("rope.select", {{"particle", 0}}, "rope.select rope missing text");
     refuses("rope.select", {{"rope", "rope"}, {"particle", 0}, {"collider", "x"}},

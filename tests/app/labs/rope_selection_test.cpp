@@ -16,7 +16,7 @@ class RopeSelectionTest : public RopeTest {
     }
 };
 
-TEST_F(RopeSelectionTest, ParticlesOfOneRopeAreAddedAndTakenOut) {
+TEST_F(RopeSelectionTest, ParticlesOfOneRopeAreAddedAndRemoved) {
     single_rope(8);
     run("rope.select", {{"rope", "rope"}, {"particle", 2}});
     run("rope.select", {{"rope", "rope"}, {"particle", 5}, {"add", true}});
@@ -49,7 +49,7 @@ TEST_F(RopeSelectionTest, PinsAndUnpinsAllInOneStep) {
     EXPECT_FALSE(pinned("rope", 1));
 }
 
-TEST_F(RopeSelectionTest, ABoxTakesTheRopeThatHasMostInIt) {
+TEST_F(RopeSelectionTest, ABoxTakesTheRopeWithMostParticlesInIt) {
     single_rope(8);
     run("rope.add", {{"name", "other"}, {"from", {0, 3, 0}}, {"to", {1, 3, 0}}, {"segments", 4}});
     const auto first = static_cast<PickId>(world().find("other")->first);
@@ -66,8 +66,8 @@ TEST_F(RopeSelectionTest, ABoxTakesTheRopeThatHasMostInIt) {
     EXPECT_FALSE(part().selection);
 }
 
-/// A box takes what it shows, not what is there in the first pane.
-TEST_F(RopeSelectionTest, ABoxInTheOtherPaneOfARaceTakesWhatIsThere) {
+/// A box selects the particles that it shows, not those at the same pixels of the first pane.
+TEST_F(RopeSelectionTest, ABoxInARacesOtherPaneSelectsThatPanesParticles) {
     single_rope(8);
     race_aside();
     const auto box = [&](std::size_t pane, float from, float to) {
@@ -84,7 +84,7 @@ TEST_F(RopeSelectionTest, ABoxInTheOtherPaneOfARaceTakesWhatIsThere) {
     EXPECT_FALSE(part().selection);
 }
 
-TEST_F(RopeSelectionTest, ACutLeavesThePartThatHasTheActiveOne) {
+TEST_F(RopeSelectionTest, ACutKeepsTheSelectionOnTheActiveOnesPart) {
     single_rope(8);
     run("rope.select", {{"rope", "rope"}, {"particles", {1, 7, 3, 6}}});
     run("rope.cut", {{"rope", "rope"}, {"segment", 4}});
@@ -97,7 +97,7 @@ TEST_F(RopeSelectionTest, ACutLeavesThePartThatHasTheActiveOne) {
     EXPECT_EQ(selected(), (Indices{0, 2}));
 }
 
-TEST_F(RopeSelectionTest, WhatIsNoParticleIsRefusedAndChangesNothing) {
+TEST_F(RopeSelectionTest, OtherIndicesAreRefusedAndChangeNothing) {
     single_rope(8);
     run("rope.select", {{"rope", "rope"}, {"particles", {1, 2}}});
     const Json no_particles = Json::array({{0, 9}, {-1}, {0.5}, {"end"}, {nullptr}, {{0}}, Json::array()});

@@ -30,8 +30,7 @@ class RopeSet : public RopeTest {
     }
 };
 
-/// Of each kind, and of what was cut off: what is set is kept, saved, undone and replayed, or refused by
-/// name.
+/// For each kind, and for cut pieces: a set value is kept, saved, undone and replayed, or refused by name.
 TEST_F(RopeSet, EveryPropertyOfEveryKind) {
     run("rope.cut", {{"rope", "rope"}, {"segment", 9}});
     run("rope.add", {{"name", "bit"}, {"from", {0, 4, 0}}, {"to", {1, 4, 0}}, {"segments", 1}});
@@ -94,7 +93,7 @@ TEST_F(RopeSet, EveryPropertyOfEveryKind) {
 }
 
 /// Mass follows length at constant density, and stretch is the material's.
-TEST_F(RopeSet, TheMaterialStaysAsABodyGrows) {
+TEST_F(RopeSet, TheMaterialStaysTheSameAsABodyGrows) {
     run("rope.set", {{"rope", "rope"}, {"density", 2}, {"stretch", 1e-3}});
     const double mass = made_of("rope").mass;
     run("rope.set", {{"rope", "rope"}, {"length", 3}, {"segments", 24}});
@@ -143,8 +142,8 @@ TEST_F(RopeSet, TheSelectionFollowsItsParticles) {
     EXPECT_EQ(made_of("hair").segments, 16);
 }
 
-/// While a drag holds it too.
-TEST_F(RopeSet, AHeldRopeIsDividedAndLetGo) {
+/// Also while a drag holds it.
+TEST_F(RopeSet, AHeldRopeIsDividedAndReleased) {
     workspace.clock.playing = true;
     run("rope.hold", {{"rope", "rope"}, {"particle", 16}, {"at", {1, 2.2, 0}}});
     wait(10);
@@ -154,8 +153,8 @@ TEST_F(RopeSet, AHeldRopeIsDividedAndLetGo) {
     EXPECT_TRUE(world().pinned(0));
 }
 
-/// Copied as C++; set to the world's, it follows that again.
-TEST_F(RopeSet, ABodyHasAFrictionOfItsOwn) {
+/// It is copied as C++; set to the world's value, it follows the world's again.
+TEST_F(RopeSet, ABodyCanHaveItsOwnFriction) {
     run("rope.settings", {{"friction", 0.25}});
     EXPECT_EQ(made_of("rope").friction, 0.25f);
     run("rope.set", {{"rope", "rope"}, {"friction", 0.75}});
@@ -169,7 +168,7 @@ TEST_F(RopeSet, ABodyHasAFrictionOfItsOwn) {
     EXPECT_EQ(made_of("rope").friction, 0.125f);
 }
 
-/// In the picture and the legend; pieces keep it, and a body that takes a freed slot does not.
+/// It is in the scene and the legend; pieces keep it, and a body that takes a freed slot does not.
 TEST_F(RopeSet, ABodyHasAColour) {
     const Palette& colours = palette(workspace.settings.theme);
     const auto legend = [&] { return lab().legend(workspace); };
@@ -212,7 +211,7 @@ TEST_F(RopeSet, RenamesABody) {
     EXPECT_EQ(made_of("line").radius, 0.1f);
 }
 
-TEST_F(RopeSet, RefusesWhatABodyDoesNotHave) {
+TEST_F(RopeSet, RefusesPropertiesThatABodyLacks) {
     refuses("rope.set", {{"rope", "line"}, {"mass", 1}}, "rope.set line");
     refuses("rope.set", {{"rope", "rope"}, {"mass", 1}, {"density", 1}}, "rope.set mass density");
     refuses("rope.set", {{"rope", "cloth"}, {"columns", 50000}}, "rope.set maximum");

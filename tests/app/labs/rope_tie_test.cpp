@@ -31,7 +31,7 @@ class RopeTieTest : public RopeTest {
 
 LABEL(slow, "RopeTieTest.Refusals");
 
-/// While it draws its ends together, what the solver reports is what moves them, not a load.
+/// While a tie draws its ends together, the solver's force moves them and is not a load.
 TEST_F(RopeTieTest, HasATensionOnceItIsClosed) {
     two_ropes();
     tie_them();
@@ -42,7 +42,7 @@ TEST_F(RopeTieTest, HasATensionOnceItIsClosed) {
     wait(120);
     EXPECT_NEAR(state()["ties"][0]["tension"].get<double>(), 0.6 * 9.81, 1.0);
     EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "tension N"));
-    // Between pins that are too far apart for it, no number is true.
+    // Between pins that are too far apart for it, no number is correct.
     run("rope.pin", {{"rope", "below"}, {"particle", 4}, {"at", {0, 0.5, 0}}});
     wait(120);
     EXPECT_EQ(state()["ties"][0]["tension"], nullptr);
@@ -60,7 +60,7 @@ TEST_F(RopeTieTest, TwoClicksTieAndSelectTheTie) {
     click("below", 0);
     ASSERT_EQ(world().state().ties.size(), 1u);
     EXPECT_EQ(state()["selected"], Json({{"tie", "tie"}}));
-    // The next two clicks make another.
+    // The next two clicks make another tie.
     click("above", 2);
     click("below", 2);
     EXPECT_EQ(world().state().ties.size(), 2u);
@@ -70,8 +70,8 @@ TEST_F(RopeTieTest, TwoClicksTieAndSelectTheTie) {
     EXPECT_EQ(state()["selected"], nullptr);
 }
 
-/// Arrows over what is to be clicked next would take the click.
-TEST_F(RopeTieTest, AClickThatMissesKeepsTheFirstEndAndNoGizmoIsInTheWay) {
+/// Arrows over the next particle to click would take the click.
+TEST_F(RopeTieTest, AClickThatMissesKeepsTheFirstEndAndShowsNoGizmo) {
     two_ropes();
     click("above", 4);
     run("rope.pin", {{"rope", "above"}, {"particle", 4}});
@@ -98,7 +98,7 @@ TEST_F(RopeTieTest, WithoutStrengthItNeverTears) {
     EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "tears at 40.0 N"));
 }
 
-TEST_F(RopeTieTest, TearsAndIsForgotten) {
+TEST_F(RopeTieTest, TearsAndDisappears) {
     two_ropes();
     tie_them({{"length", 0.2}, {"name", "thread"}});
     wait(120);
@@ -111,7 +111,7 @@ TEST_F(RopeTieTest, TearsAndIsForgotten) {
     EXPECT_LT(world().position(world().find("below")->first).y, 1.0f);
 }
 
-TEST_F(RopeTieTest, GoesWithItsBody) {
+TEST_F(RopeTieTest, IsRemovedWithItsBody) {
     two_ropes();
     tie_them();
     tie_them({{"a_particle", 1}, {"b_particle", 3}, {"name", "second"}});
@@ -148,7 +148,7 @@ TEST_F(RopeTieTest, Refusals) {
                    {{"a", "above"}, {"a_particle", 0}, {"b", "below"}, {"b_particle", 1}, {"name", "tie"}},
                    {"tie"});
     add_cloth("sail", {0, 1, 0}, {1, 0, 0}, {0, -1, 0}, 90, 90);
-    // Few ties of a cloth cost little; from two a side on they cost as much as its elimination.
+    // Few ties of a cloth cost little; from two per side on they cost as much as its elimination.
     const auto sewn = [](int at) {
         return Json{{"a", "above"}, {"a_particle", 0}, {"b", "sail"}, {"b_particle", at}};
     };

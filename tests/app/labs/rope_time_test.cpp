@@ -41,8 +41,8 @@ TEST_F(RopeTime, UnevenFramesLeadToTheSameWorld) {
     }
 }
 
-/// A tick is bounded, however fine the substeps; time beyond the bound is counted as dropped.
-TEST_F(RopeTime, ATickTakesSoMuchWorkAndNoMore) {
+/// A tick's work is bounded, however fine the substeps; time beyond the bound is counted as dropped.
+TEST_F(RopeTime, ATicksWorkIsBounded) {
     single_rope(50);
     run("rope.settings", {{"substep", 1e-5}, {"iterations", 10'000}, {"solver", "relaxation"}});
     wait(1);
@@ -64,8 +64,8 @@ TEST_F(RopeTime, FramesAreFrom1To250Milliseconds) {
     EXPECT_GT(longest, 0.24);
 }
 
-/// At a step that does not divide a tick, the picture is of the tick's own time.
-TEST_F(RopeTime, ASwingingBallIsWhereItSwings) {
+/// With a step that does not divide a tick, the picture shows the tick's own time.
+TEST_F(RopeTime, ASwingingBallIsDrawnAtTheTicksTime) {
     run("rope.clear");
     run("rope.add", {{"from", {0, 2, 0}}, {"to", {0, 1, 0}}, {"segments", 8}, {"pin_start", true}});
     run("rope.collider.add", {{"name", "ball"}, {"kind", "sphere"}, {"centre", {3, 1, 0}}, {"radius", 0.2}});
@@ -79,7 +79,7 @@ TEST_F(RopeTime, ASwingingBallIsWhereItSwings) {
 }
 
 /// The plot of frame times shows the actual frames.
-TEST_F(RopeTime, ThePlotHasTheFramesThatTimeIsCutInto) {
+TEST_F(RopeTime, ThePlotShowsTheActualFrames) {
     wait(3);
     EXPECT_NEAR(part().samples.back().frame, 1e3 * tick_seconds, 1e-4);
     run("rope.jitter", {{"dial", 1}});
@@ -98,7 +98,7 @@ TEST_F(RopeTime, ThePlotHasTheFramesThatTimeIsCutInto) {
     EXPECT_NEAR(part().samples.back().frame, 1e3 * tick_seconds, 1e-4);
 }
 
-TEST_F(RopeTime, TheDialTurnedBackOwesNothing) {
+TEST_F(RopeTime, ResettingTheDialLeavesNoTimeOwed) {
     run("rope.jitter", {{"dial", 1}});
     wait(33);
     run("rope.jitter", {{"dial", 0}});
@@ -108,7 +108,7 @@ TEST_F(RopeTime, TheDialTurnedBackOwesNothing) {
     EXPECT_EQ(world().state().substeps + world().state().dropped, 34u * 4u);
 }
 
-TEST_F(RopeTime, WhatLiesStillLetsTheWindowIdleUntilACommandComes) {
+TEST_F(RopeTime, AtRestTheWindowIdlesUntilACommand) {
     run("rope.clear");
     run("rope.collider.add",
         {{"name", "ground"}, {"kind", "plane"}, {"point", {0, 0, 0}}, {"normal", {0, 1, 0}}});
@@ -128,7 +128,7 @@ TEST_F(RopeTime, WhatLiesStillLetsTheWindowIdleUntilACommandComes) {
     EXPECT_TRUE(lab().moving(workspace)) << "what swings never rests";
 }
 
-TEST_F(RopeTime, PassingIsNothingThatWantsSaving) {
+TEST_F(RopeTime, PassingNeedsNoSave) {
     wait(10);
     EXPECT_FALSE(workspace.modified());
     run("rope.jitter", {{"dial", 0.5}});
@@ -136,7 +136,7 @@ TEST_F(RopeTime, PassingIsNothingThatWantsSaving) {
     EXPECT_TRUE(workspace.modified());
 }
 
-TEST_F(RopeTime, IsMeasuredInALiveWindowAlone) {
+TEST_F(RopeTime, IsMeasuredOnlyInALiveWindow) {
     wait(3);
     EXPECT_EQ(part().samples.back().cost, 0.0f);
     workspace.clock.measured = true;
@@ -146,7 +146,7 @@ TEST_F(RopeTime, IsMeasuredInALiveWindowAlone) {
     EXPECT_EQ(state().dump().find("cost"), std::string::npos);
 }
 
-TEST_F(RopeTime, WhatFallsOffTheWorldStopsTime) {
+TEST_F(RopeTime, FallingOffTheWorldStopsTime) {
     single_rope();
     run("rope.settings", {{"gravity", 10000}, {"gravity_scale", 1000}, {"damping", 0}});
     for (int i = 0; i < 3000 && workspace.clock.playing; ++i) wait(1);

@@ -9,7 +9,7 @@ namespace {
 class RopeWalker : public RopeTest {
   protected:
     RopeWalker() { run("rope.clear"); }
-    /// How far the farthest collider is from where its clip has it now, metres.
+    /// The maximum distance of a collider from its position in the clip at this time, metres.
     float off() const {
         float most = 0.0f;
         for (const WalkerCapsule& each : walker_capsules(part().walker, part().time)) {

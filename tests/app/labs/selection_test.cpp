@@ -19,7 +19,7 @@ Selection loaded(const Json& json, std::size_t count) {
     return Selection::load({json, "selected"}, count);
 }
 
-TEST(Selection, TheLastOneTakenIsActive) {
+TEST(Selection, TheLastOneAddedIsActive) {
     Selection selection;
     EXPECT_FALSE(selection.active());
     selection.take({5, 2, 9, 2}, false);
@@ -39,8 +39,8 @@ TEST(Selection, TheLastOneTakenIsActive) {
     EXPECT_EQ(selection, Selection());
 }
 
-/// Compared with a set of names, which insertions and removals do not change.
-TEST(Selection, FollowsWhatComesAndGoes) {
+/// Compares it with a set of names, which insertions and removals do not change.
+TEST(Selection, FollowsInsertionsAndRemovals) {
     std::mt19937 random(11);
     for (int round = 0; round < 300; ++round) {
         std::vector<int> things(12);
@@ -86,7 +86,7 @@ TEST(Selection, FollowsWhatComesAndGoes) {
     }
 }
 
-TEST(Selection, KeepsWhatIsStillThere) {
+TEST(Selection, KeepsItemsThatStillExist) {
     Selection selection;
     selection.take({8, 1, 6}, false);
     selection.keep_below(7);
@@ -96,7 +96,7 @@ TEST(Selection, KeepsWhatIsStillThere) {
     EXPECT_EQ(selection, Selection());
 }
 
-TEST(Selection, AFileThatSaysNonsenseIsToldWhere) {
+TEST(Selection, AnInvalidFileIsRefusedWithItsPath) {
     const auto says = [](const Json& json, const std::string& what) {
         try {
             loaded(json, 5);

@@ -44,7 +44,7 @@ TEST_F(SignalCommands, FiltersAreAddedSetMovedSwitchedAndRemoved) {
     EXPECT_EQ(kinds(), "exponential_decay ");
 }
 
-TEST_F(SignalCommands, TheOutputIsWhatTheLibrarySays) {
+TEST_F(SignalCommands, TheOutputIsTheLibrarys) {
     run("signal.clear");
     run("signal.filter.add", {{"kind", "rate_limit"}, {"rise", 6}, {"fall", 3}});
     run("signal.filter.add", {{"kind", "exponential_decay"}, {"halflife", 0.1}});
@@ -61,7 +61,7 @@ TEST_F(SignalCommands, TheOutputIsWhatTheLibrarySays) {
     }
 }
 
-TEST_F(SignalCommands, WhatIsOffLetsTheInputPass) {
+TEST_F(SignalCommands, DisabledFiltersPassTheInputThrough) {
     run("signal.clear");
     run("signal.filter.add", {{"kind", "dead_zone"}, {"width", 5}});
     wait(3);
@@ -71,7 +71,7 @@ TEST_F(SignalCommands, WhatIsOffLetsTheInputPass) {
     EXPECT_EQ(state().at("output"), state().at("input"));
 }
 
-TEST_F(SignalCommands, TheHandTakesTheInputOverAndIsRecorded) {
+TEST_F(SignalCommands, TheHandReplacesTheInputAndIsRecorded) {
     run("signal.hand", {{"value", 0.25}});
     EXPECT_EQ(state().at("input_kind"), "hand");
     wait(1);
@@ -89,7 +89,7 @@ TEST_F(SignalCommands, TheHandTakesTheInputOverAndIsRecorded) {
     EXPECT_NEAR(most, 1.0, 0.02);
 }
 
-TEST_F(SignalCommands, AResponseIsDrawnOverWhatTheFiltersMake) {
+TEST_F(SignalCommands, AResponseIsDrawnOverTheFiltersOutput) {
     run("signal.fit.draw", {{"from", 0.5}, {"from_value", 2.0}, {"to", 0.7}, {"to_value", 3.0}});
     ASSERT_FALSE(part().wanted.empty());
     EXPECT_EQ(part().wanted.size(), part().fit_input.size());
@@ -143,7 +143,7 @@ TEST_F(SignalCommands, ARecordedResponseEndsWithItsInput) {
     expect_refused("signal.fit.stop", Json::object(), {"no response"});
 }
 
-TEST_F(SignalCommands, AGestureIsTheInputThatARecordedResponseAnswers) {
+TEST_F(SignalCommands, AGestureIsTheInputForARecordedResponse) {
     run("signal.hand", {{"value", 0}});
     expect_refused("signal.fit.record", Json::object(), {"drag the orange ball"});
     for (int i = 0; i < 50; ++i) {
@@ -159,7 +159,7 @@ TEST_F(SignalCommands, AGestureIsTheInputThatARecordedResponseAnswers) {
     EXPECT_EQ(part().wanted.size(), 20u);
 }
 
-TEST_F(SignalCommands, ARecordingStartsAfreshAndIsNoLongerThanAFitTakes) {
+TEST_F(SignalCommands, ARecordingStartsFreshAndIsNoLongerThanAFitTakes) {
     run("signal.input", {{"kind", "sine"}, {"period", 9}});
     wait(50);
     run("signal.fit.record");
@@ -175,7 +175,7 @@ TEST_F(SignalCommands, ARecordingStartsAfreshAndIsNoLongerThanAFitTakes) {
     EXPECT_EQ(part().fit_input.back().input, part().past.back().input) << "of a hand the last rows";
 }
 
-TEST_F(SignalCommands, WhatChangesTheInputEndsARecording) {
+TEST_F(SignalCommands, ChangesOfTheInputEndARecording) {
     const auto recording = [&] {
         run("signal.fit.record");
         run("signal.fit.hand", {{"value", 0.25}});
@@ -202,7 +202,7 @@ TEST_F(SignalCommands, WhatChangesTheInputEndsARecording) {
     EXPECT_TRUE(part().wanted.empty()) << "less than two rows are nothing";
 }
 
-TEST_F(SignalCommands, WhatRunsAwayIsSaidToBeUnstable) {
+TEST_F(SignalCommands, ADivergingFilterIsReportedAsUnstable) {
     run("signal.preset", {{"name", "spring_that_explodes"}});
     Json filter = state().at("filters")[0];
     EXPECT_EQ(filter.at("following"), "unstable");

@@ -37,7 +37,7 @@ TEST_F(SignalCsv, ColumnsAreFoundByNameOrAreTheOtherOfTwo) {
     }
 }
 
-TEST_F(SignalCsv, UnknownColumnsAreAskedForAndChosenByNameOrNumber) {
+TEST_F(SignalCsv, UnknownColumnsCanBeChosenByNameOrNumber) {
     const std::string text = "frame,clock,left,right\n1,0,5,1\n2,0.5,5,-2\n";
     refuses("signal.input", file(text), "row 1 time frame clock left right");
     refuses("signal.input", file(text, {{"time", "clock"}}), "row 1 value frame clock left right");
@@ -66,7 +66,7 @@ TEST_F(SignalCsv, AnExactNameWinsOverOneThatDiffersInCaseOrUnit) {
     refuses("signal.input", file(text, {{"value", "x (m)"}}), "3 columns called x");
 }
 
-TEST_F(SignalCsv, TimeIsInTheUnitThatItsColumnNames) {
+TEST_F(SignalCsv, TimeIsInTheUnitOfItsColumnsName) {
     const auto step = [&] { return workspace.document.get<SignalPart>(signal_lab).input.file->at(1).dt; };
     for (const auto& [unit, seconds] : std::vector<std::pair<std::string, double>>{
              {"s", 20.0}, {"Seconds", 20.0}, {"ms", 0.02}, {"MS", 0.02}, {"us", 20e-6}, {"\u00b5s", 20e-6}}) {

@@ -51,7 +51,7 @@ TEST_F(SignalFile, ABrokenFileIsRefusedWithItsPlace) {
     for (const auto& [pointer, value, place] : all) expect_scene_refused(pointer, value, place);
 }
 
-TEST_F(SignalFile, WhatIsWorkedOutDoesNotDependOnWhatWasBefore) {
+TEST_F(SignalFile, ResultsDoNotDependOnEarlierState) {
     every_kind();
     wait(50);
     const Json first = state();
@@ -65,7 +65,7 @@ TEST_F(SignalFile, WhatIsWorkedOutDoesNotDependOnWhatWasBefore) {
     EXPECT_EQ(state(), changed);
 }
 
-TEST_F(SignalFile, NumbersAreWorkedOutAgainOnlyWhenSomethingChanged) {
+TEST_F(SignalFile, NumbersAreRecomputedOnlyAfterChanges) {
     SignalRuntime& runtime = signal_runtime(workspace);
     const double* const before = runtime.chain(part()).time.data();
     wait(10);
@@ -111,7 +111,7 @@ TEST(SignalInputs, ASquareWaveIsUpRightAfterItsJump) {
     EXPECT_EQ(input_at(input, 2.0), -2.0);
 }
 
-TEST(SignalInputs, ARecordingPlaysEachOfItsRowsOverAndOver) {
+TEST(SignalInputs, ARecordingRepeatsAllOfItsRows) {
     InputRows rows;
     for (int i = 0; i < 7; ++i) rows.push_back({1.0 / 60.0, 10.0 + i});
     const SignalInput input{.kind = InputKind::Recorded,

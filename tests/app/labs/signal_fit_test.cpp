@@ -25,8 +25,8 @@ double between(test::Random& random, double low, double high) {
     return low + (high - low) * (0.5 + 0.5 * static_cast<double>(random.around(1.0f)));
 }
 
-/// Jumps of several heights, constant parts, ramps, a sweep and some noise: every kind of filter has an
-/// effect. Uneven frames if `uneven`.
+/// Jumps of several heights, constant parts, ramps, a sweep and some noise, so that every kind of filter has
+/// an effect. `uneven`: frames of uneven length.
 Samples rich_input(std::size_t rows, unsigned seed, bool uneven) {
     test::Random random(seed);
     Samples samples;
@@ -101,8 +101,8 @@ signal::Filter some_filter(const signal::Kind& kind, test::Random& random) {
     return filter;
 }
 
-/// Fits the response of `truth`, and expects the parameters that it depends on if `parameters`. Returns how
-/// many were compared.
+/// Fits the response of `truth` and, with `parameters`, expects the parameters that it depends on. Returns
+/// how many were compared.
 int expect_found(const signal::Filter& truth, const Samples& samples, bool parameters,
                  double excited = 1e-3) {
     const std::vector<double> response = signal::run({&truth, 1}, samples);
@@ -132,17 +132,17 @@ struct Case {
 
 class FitOfAKind : public testing::TestWithParam<Case> {};
 
-TEST_P(FitOfAKind, MeetsTheResponseByTheParametersThatMadeIt) {
+TEST_P(FitOfAKind, MatchesTheResponseByTheParametersThatMadeIt) {
     const signal::Kind& kind = signal::kinds()[GetParam().kind];
     test::Random random(5);
     for (unsigned draw = 0; draw < 3; ++draw) {
         SCOPED_TRACE(draw);
         const Samples samples = rich_input(400, draw + 1, GetParam().uneven);
         const signal::Filter truth = some_filter(kind, random);
-        // For a curve only its values count: different ranges and keys can give the same curve.
+        // Only the values of a curve count: different ranges and keys can give the same curve.
         const bool curve = std::holds_alternative<signal::Curve>(truth);
         const int compared = expect_found(truth, samples, !curve, 1e-4);
-        // Between two rows a switch's thresholds are arbitrary: they have a test of their own.
+        // A switch's thresholds are arbitrary between two rows: they have their own test.
         if (curve || std::holds_alternative<signal::Hysteresis>(truth)) continue;
         EXPECT_GT(compared, 0) << kind.name << ": this input says nothing of it";
     }
@@ -184,7 +184,7 @@ TEST_P(FitRanking, PutsTheTrueKindFirstOrWithinNoiseOfIt) {
 INSTANTIATE_TEST_SUITE_P(EveryKind, FitRanking, testing::Range<std::size_t>(0, signal::kinds().size()),
                          [](const auto& each) { return std::string(signal::kinds()[each.param].name); });
 
-TEST(Fit, FindsThresholdsWhereTheInputPassesThemSlowly) {
+TEST(Fit, FindsThresholdsThatTheInputPassesSlowly) {
     Samples samples;
     for (int i = 0; i < 1500; ++i) samples.push_back({1.0 / 60.0, std::sin(0.01 * i)});
     const signal::Filter truth = signal::Hysteresis{.low = -0.31, .high = 0.47};
@@ -223,7 +223,7 @@ TEST(Fit, OfANoisyLineHasNoMoreStagesThanItNeeds) {
     EXPECT_NEAR(line.bias, 0.3, 0.02);
 }
 
-TEST(Fit, TheFirstRowOfMeasuringTakesNoTimeThatCounts) {
+TEST(Fit, TheFirstRowsTimeDoesNotMatter) {
     const InputRows rows = measuring_rows({.kind = InputKind::Square, .amplitude = 2.0, .period = 1.0}, 60.0);
     const std::vector<double> response(rows.size(), 0.0);
     const FitFacts facts({rows, response});
@@ -233,7 +233,7 @@ TEST(Fit, TheFirstRowOfMeasuringTakesNoTimeThatCounts) {
     EXPECT_EQ(facts.input_range(), 4.0);
 }
 
-TEST(Fit, LeavesWhatTheInputSaysNothingOfAtItsDefault) {
+TEST(Fit, KeepsDefaultsThatTheInputDoesNotDetermine) {
     Samples samples;
     for (int i = 0; i < 90; ++i) samples.push_back({1.0 / 60.0, i < 10 ? 0.0 : 1.0});
     const signal::Filter truth = signal::RateLimit{.rise = 3.0, .fall = 77.0};
@@ -255,7 +255,7 @@ TEST(Fit, OfANoisyResponseIsAsGoodAsItsNoise) {
     EXPECT_NEAR(std::get<signal::ExponentialDecay>(fit.filter).halflife, 0.12, 0.006);
 }
 
-TEST(Fit, OfWhatSaysNothingIsDefined) {
+TEST(Fit, OfAnUninformativeResponseIsDefined) {
     const Samples still(20, {1.0 / 60.0, 0.5}), one{{1.0 / 60.0, 2.0}}, timeless(5, {0.0, 1.0});
     for (const Samples& samples : {still, one, timeless}) {
         const std::vector<double> response(samples.size(), 0.5);
@@ -267,7 +267,7 @@ TEST(Fit, OfWhatSaysNothingIsDefined) {
     }
 }
 
-TEST(Fit, BeginsFromWhatItIsGivenToo) {
+TEST(Fit, StartsFromTheGivenFiltersToo) {
     const Samples samples = rich_input(200, 6, false);
     const signal::Filter truth = signal::Inertialize{.halflife = 0.2, .threshold = 0.4};
     const std::vector<double> response = signal::run({&truth, 1}, samples);
@@ -288,7 +288,7 @@ class SignalFitRows : public LabTest {
     const SignalPart& part() const { return signal_part(workspace); }
 };
 
-TEST_F(SignalFitRows, AreThoseThatAreTicked) {
+TEST_F(SignalFitRows, AreTheRowsThatAreTicked) {
     const test::TempFolder folder;
     std::string samples = "dt,input\n", response = "output\n";
     for (int i = 0; i < 150; ++i)
@@ -398,7 +398,7 @@ signal::Filter wide_filter(const signal::Kind& kind, test::Random& random) {
 
 class FitOfAWideRange : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(FitOfAWideRange, FindsWhatMadeTheResponse) {
+TEST_P(FitOfAWideRange, FindsTheFilterThatMadeTheResponse) {
     const signal::Kind& kind = signal::kinds()[GetParam()];
     test::Random random(31);
     for (int draw = 0; draw < 4; ++draw) {
@@ -417,7 +417,7 @@ TEST_P(FitOfAWideRange, FindsWhatMadeTheResponse) {
 INSTANTIATE_TEST_SUITE_P(EveryKind, FitOfAWideRange, testing::Range<std::size_t>(0, signal::kinds().size()),
                          [](const auto& each) { return std::string(signal::kinds()[each.param].name); });
 
-TEST(FitOfExtremes, SmoothDampThatIsHeldBackMostOfTheTime) {
+TEST(FitOfExtremes, SmoothDampThatIsLimitedMostOfTheTime) {
     test::Random random(1);
     for (const double most : {0.5, 0.56, 0.31}) {
         const signal::Filter truth = signal::SmoothDamp{.smooth_time = 0.035, .max_speed = most};
@@ -451,7 +451,7 @@ TEST(FitOfExtremes, ClampsThatLeaveLittleOfALine) {
     expect(-2.0, 0.0, -0.35, 1.9, 1.2, 5.6);
 }
 
-TEST(FitOfExtremes, SpringsThatAreDampedThirtyTimesOver) {
+TEST(FitOfExtremes, SpringsWithThirtyTimesCriticalDamping) {
     test::Random random(1);
     for (const Wave wave : {Wave::Square, Wave::TwoSines, Wave::Jumps}) {
         const Samples samples = wide_input(wave, random);
@@ -468,7 +468,7 @@ TEST(FitOfExtremes, SpringsThatAreDampedThirtyTimesOver) {
     }
 }
 
-// A fit computed in shares, one per tick, as in the window.
+// A fit computed in parts, one per tick, as in the window.
 
 class SignalFitting : public LabTest {
   protected:
@@ -496,7 +496,7 @@ class SignalFitting : public LabTest {
     }
 };
 
-TEST_F(SignalFitting, InSharesItIsWhatItIsAtOnce) {
+TEST_F(SignalFitting, InPartsItEqualsTheFitAtOnce) {
     Workspace other = workspace;
     run("signal.fit");
     EXPECT_FALSE(lab().working(workspace)) << "a script's next line finds it done";
@@ -511,7 +511,7 @@ TEST_F(SignalFitting, InSharesItIsWhatItIsAtOnce) {
     expect_same(part().fits, at_once);
     EXPECT_FALSE(part().fitting);
 
-    // Discarding the search, or saving and loading it half way, loses nothing.
+    // Discarding the search, or saving and loading it halfway, loses nothing.
     workspace = other;
     begin("signal.fit");
     int ticks = 0;
@@ -527,7 +527,7 @@ TEST_F(SignalFitting, InSharesItIsWhatItIsAtOnce) {
     expect_same(part().fits, at_once);
 }
 
-TEST_F(SignalFitting, SearchesBeginWithTheChainAsItWas) {
+TEST_F(SignalFitting, SearchesBeginWithTheOriginalChain) {
     run("signal.fit");
     const std::vector<Fit> at_once = part().fits;
     begin("signal.fit");
@@ -538,7 +538,7 @@ TEST_F(SignalFitting, SearchesBeginWithTheChainAsItWas) {
     expect_same(part().fits, at_once);
 }
 
-TEST_F(SignalFitting, IsCancelledAndWhatIsFittedStays) {
+TEST_F(SignalFitting, CancellingKeepsTheFittedFilters) {
     expect_refused("signal.fit.cancel", Json::object(), {"no fit is running"});
     begin("signal.fit");
     while (part().fits.size() < 4) lab().work(workspace);
@@ -551,7 +551,7 @@ TEST_F(SignalFitting, IsCancelledAndWhatIsFittedStays) {
     EXPECT_EQ(part().stages.size(), 1u);
 }
 
-TEST_F(SignalFitting, EndsWhereItsResponseChanges) {
+TEST_F(SignalFitting, EndsWhenItsResponseChanges) {
     const std::pair<const char*, Json> changes[] = {
         {"signal.fit.draw", {{"from", 0}, {"from_value", 0}, {"to", 0.1}, {"to_value", 1}}},
         {"signal.fit.clear", Json::object()},
@@ -571,7 +571,7 @@ TEST_F(SignalFitting, EndsWhereItsResponseChanges) {
     }
 }
 
-TEST_F(SignalFitting, ItsProgressIsTold) {
+TEST_F(SignalFitting, ItsProgressIsReported) {
     test::PanelReader reader;
     begin("signal.fit");
     while (part().fits.size() < 2) lab().work(workspace);
@@ -586,7 +586,7 @@ TEST_F(SignalFitting, ItsProgressIsTold) {
     EXPECT_EQ(done.find("Cancel"), std::string::npos) << done;
 }
 
-TEST_F(SignalFitting, FilesThatCannotGoOnAreRefused) {
+TEST_F(SignalFitting, FilesThatCannotContinueAreRefused) {
     begin("signal.fit");
     work(3);
     expect_scene_refused("/fit/fitting/shares", -1, "labs.signal.fit.fitting.shares");

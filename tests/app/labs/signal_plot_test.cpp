@@ -30,7 +30,7 @@ TEST(SignalSpan, OfAHandIsAUnitEitherWayOrMore) {
     EXPECT_EQ(span_of(hand, Values{-5.0, 0.0, 2.0}), (Span{-5.0, 2.0}));
 }
 
-TEST(SignalSpan, OfAFileIsWhatIsInIt) {
+TEST(SignalSpan, OfAFileIsItsRange) {
     const SignalInput file{.kind = InputKind::Csv};
     EXPECT_EQ(span_of(file, Values{100.0, 101.0, 99.0}), (Span{99.0, 101.0}));
     for (const double level : {0.0, 1e-5, 4.0, -1e6}) {
@@ -57,7 +57,7 @@ TEST(SignalSpan, GrowsInStepsWithTheOutputAndStopsAtTheInputsRange) {
     EXPECT_EQ(widened_by(input, {4.0, -4.0}), gone) << "the input keeps a third of the plot";
 }
 
-TEST(SignalSpan, CurvesOfWhatGrowsWithoutBoundStayNumbers) {
+TEST(SignalSpan, CurvesOfUnboundedGrowthStayFinite) {
     const Values time{0.0, 1.0, 2.0, 3.0}, values{1.0, 1e300, -1e300, 2.0};
     const Curve curve = curve_of("x", glm::vec3(1.0f), time, values, 1.0, 2.0);
     ASSERT_EQ(curve.points.size(), 2u) << "from 1 to 2";
@@ -78,7 +78,7 @@ class SignalNumbers : public LabTest {
     }
 };
 
-TEST_F(SignalNumbers, OfAHandAreWorkedOutFourTimesASecond) {
+TEST_F(SignalNumbers, OfAHandAreComputedFourTimesASecond) {
     wave_of_hand(700);
     SignalRuntime& runtime = signal_runtime(workspace);
     int times = 0;
@@ -95,7 +95,7 @@ TEST_F(SignalNumbers, OfAHandAreWorkedOutFourTimesASecond) {
     EXPECT_GE(times, 8);
 }
 
-TEST_F(SignalNumbers, OfAHandAreOfItsLastRows) {
+TEST_F(SignalNumbers, OfAHandUseItsLastRows) {
     wave_of_hand(40);  // two quarters of a second, and ten ticks
     const ChainAnalysis& analysis = signal_runtime(workspace).chain(part());
     ASSERT_EQ(analysis.input.size(), 30u);
@@ -133,7 +133,7 @@ TEST_F(SignalNumbers, RateDifferencesAreEachFiltersOwn) {
     EXPECT_EQ(off.rates.runs.size(), signal::usual_rates().size()) << "the input alone";
 }
 
-TEST_F(SignalNumbers, OfAFilterAreOnWhatReachesItAndOfTheChainOnTheInput) {
+TEST_F(SignalNumbers, OfAFilterUseItsOwnInputAndOfTheChainTheSignal) {
     run("signal.clear");
     run("signal.filter.add", {{"kind", "exponential_decay"}, {"halflife", 0.1}});
     run("signal.filter.add", {{"kind", "dead_zone"}, {"width", 0}});
@@ -147,7 +147,7 @@ TEST_F(SignalNumbers, OfAFilterAreOnWhatReachesItAndOfTheChainOnTheInput) {
     EXPECT_EQ(analysis.whole.jitter, analysis.stages[0].jitter);
 }
 
-TEST_F(SignalNumbers, OfTheShelfAreThoseOfTheChainWhereItHasTheKind) {
+TEST_F(SignalNumbers, OfTheShelfEqualTheChainsForTheSameKind) {
     run("signal.clear");
     run("signal.input", {{"kind", "noise"}});
     run("signal.filter.add", {{"kind", "moving_average"}, {"window", 0.3}});

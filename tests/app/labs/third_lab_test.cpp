@@ -1,5 +1,5 @@
-// A lab is one folder and one line in the table: palette, help and shortcuts find a lab that the program does
-// not have, although only the table knows it. EveryScene drags, undoes, saves and records it.
+// A lab is one folder and one line in the table: palette, help and shortcuts find a lab that is not in the
+// program, although only the table knows it. EveryScene drags, undoes, saves and records it.
 #include <gtest/gtest.h>
 
 #include "app/document/command.hpp"
@@ -40,7 +40,7 @@ class ThirdLab : public testing::Test {
     App app_{*window_, false, labs_with_a_spring()};
 };
 
-TEST_F(ThirdLab, IsPicturedAndItsHandlesAreWhereTheyAreDrawn) {
+TEST_F(ThirdLab, ItsPictureShowsItsHandlesWhereTheyAre) {
     const Image picture = app_.screenshot();
     const glm::ivec2 at(handle(app_.state(), "ball"));
     const std::size_t pixel = 4 * (static_cast<std::size_t>(at.y) * static_cast<std::size_t>(picture.size.x) +
@@ -64,7 +64,7 @@ TEST_F(ThirdLab, IsInThePaletteTheHelpAndTheShortcuts) {
     EXPECT_EQ(ball(), point({0.5f, 1.0f, 0.0f}));
 }
 
-TEST(Labs, OfOneNameAreRefused) {
+TEST(Labs, WithTheSameNameAreRefused) {
     Labs labs = labs_with_a_spring();
     EXPECT_THROW(labs.add(std::make_unique<SpringLab>()), std::logic_error);
 }

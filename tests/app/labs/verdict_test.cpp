@@ -61,7 +61,7 @@ TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanABodyReaches) {
     EXPECT_TRUE(said().starts_with("Lengths off by ")) << said();
 }
 
-/// From a pin along one rope, over the tie, and along the other to its pin.
+/// The path runs from a pin along one rope, over the tie, and along the other to its pin.
 TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanTiedBodiesReach) {
     run("rope.clear");
     add_rope("left", {0, 1, 0}, {0.6, 1, 0}, {{"segments", 8}, {"pin_start", true}});
@@ -74,7 +74,7 @@ TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanTiedBodiesReach) {
     run("rope.tie.set", {{"name", "tie"}, {"length", 0.72}});
     wait(400);
     EXPECT_EQ(said(), "Lengths hold") << state()["why"];
-    // The shortest of several ways counts: over a tie between the middles, which takes both ropes in half.
+    // The shortest of several paths counts: over a tie between the middles, along half of each rope.
     run("rope.tie", {{"a", "left"}, {"a_particle", 4}, {"b", "right"}, {"b_particle", 4}, {"length", 0.7}});
     wait(200);
     EXPECT_TRUE(test::says(state()["why"], "2.10 m apart tied reach 1.40 m"));
@@ -92,7 +92,7 @@ TEST_F(RopeVerdict, SaysWhenPinsAreFurtherApartThanTiedBodiesReach) {
     EXPECT_TRUE(test::says(state()["why"], "pins line and sheet 1.80 m apart tied reach 1.50 m"));
 }
 
-/// What may stretch is not too short: the verdict says how far it is stretched.
+/// Elastic ropes are not too short: the verdict says how far they are stretched.
 TEST_F(RopeVerdict, OfElasticRopesBetweenPinsBlamesNoPin) {
     run("rope.clear");
     add_rope("line", {0, 1, 0}, {1, 1, 0}, {{"pin_start", true}, {"pin_end", true}});
@@ -103,7 +103,7 @@ TEST_F(RopeVerdict, OfElasticRopesBetweenPinsBlamesNoPin) {
 }
 
 /// No more iterations and no shorter steps can help there, so it recommends none.
-TEST_F(RopeVerdict, NamesThePinsWhateverTheSolverAndHoweverSlightTheError) {
+TEST_F(RopeVerdict, NamesThePinsForAnySolverAndAnyError) {
     for (const char* solver : {"direct", "xpbd", "relaxation"}) {
         for (const double apart : {1.004, 1.5}) {
             run("rope.clear");
@@ -131,7 +131,7 @@ TEST_F(RopeVerdict, SaysHowMuchTimeIsDropped) {
     EXPECT_EQ(said(), "Lengths hold");
 }
 
-TEST_F(RopeVerdict, SaysWhatIsNeitherHeldNorFallsOrInsideOrUnsolved) {
+TEST_F(RopeVerdict, ReportsFloatingInsideOrUnsolvedBodies) {
     RopePart part = rope_part(workspace);
     part.samples = {RopeSample{.report = {.suspended = 1}}};
     EXPECT_EQ(rope_verdict(part).text, "Neither held nor falling");
@@ -155,7 +155,7 @@ TEST_F(RopeVerdict, SaysWhatIsNeitherHeldNorFallsOrInsideOrUnsolved) {
     EXPECT_TRUE(state()["why"].get<std::string>().starts_with("33 particles ")) << state()["why"];
 }
 
-TEST_F(RopeVerdict, SaysWhatContactTook) {
+TEST_F(RopeVerdict, ReportsTheEffectOfContacts) {
     run("rope.preset", {{"name", "bars"}});
     double lost = 0.0;
     for (int i = 0; i < 3; ++i) {

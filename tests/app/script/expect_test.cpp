@@ -32,7 +32,7 @@ TEST(Expect, finds_values_by_their_path) {
         EXPECT_EQ(find_in_state(state, path), nullptr) << path;
 }
 
-TEST(Expect, that_holds_says_nothing) {
+TEST(Expect, OneThatHoldsIsSilent) {
     for (const char* line :
          {R"({"expect": "lab", "equals": "chain"})", R"({"expect": "index", "equals": 3})",
           R"({"expect": "index", "equals": 3.0})", R"({"expect": "tenth", "equals": 0.10000000149011612})",
@@ -46,7 +46,7 @@ TEST(Expect, that_holds_says_nothing) {
         EXPECT_EQ(found(line), "") << line;
 }
 
-TEST(Expect, that_fails_says_what_was_found) {
+TEST(Expect, OneThatFailsReportsTheActualValue) {
     const std::vector<std::pair<std::string, std::string>> cases{
         {R"({"expect": "lab", "equals": "rope"})", "expected lab to be \"rope\", found \"chain\""},
         {R"({"expect": "index", "equals": 4})", "expected index to be 4, found 3"},

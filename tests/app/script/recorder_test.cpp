@@ -23,7 +23,7 @@ constexpr const char* first_line =
     R"({"recording":1,"version":"0.1.0","size":[1280,720],"lab":"chain","scene":{"tendril_scene":1},"settings":{"theme":"dark"}})"
     "\n";
 
-TEST(Recorder, begins_with_what_it_started_from) {
+TEST(Recorder, BeginsWithItsInitialState) {
     const Recorder recorder(start);
     EXPECT_EQ(recorder.text(), first_line);
     const Script script = parse(recorder.text());
@@ -35,7 +35,7 @@ TEST(Recorder, begins_with_what_it_started_from) {
     EXPECT_EQ(*script.start->settings, *start.settings);
 }
 
-TEST(Recorder, says_which_file_and_which_scale_it_started_from_where_there_is_any) {
+TEST(Recorder, RecordsTheInitialFileAndScaleIfAny) {
     RecordingStart beginning{.version = "0.1.0",
                              .size = {800, 600},
                              .lab = "chain",
@@ -80,7 +80,7 @@ TEST(Recorder, writes_events_commands_and_the_ticks_between) {
         << "reading the text must not end the wait";
 }
 
-TEST(Recorder, keeps_the_tick_of_an_event_that_leaves_no_line) {
+TEST(Recorder, KeepsTheTickOfAnUnrecordedEvent) {
     Recorder recorder(start);
     recorder.event(KeyChange{Key::Unknown, true});
     recorder.event(KeyTap{});
@@ -100,7 +100,7 @@ TEST(Recorder, splits_a_wait_too_long_for_a_line) {
 }
 
 /// File names need not be UTF-8, but a recording must stay readable.
-TEST(Recorder, writes_a_name_that_is_not_utf8_as_well_as_it_can) {
+TEST(Recorder, WritesANameThatIsNotUtf8AsWellAsPossible) {
     Recorder recorder(start);
     recorder.event(Drop{{"a\xff.json"}});
     EXPECT_EQ(parse(recorder.text()).lines.size(), 1u);
@@ -147,7 +147,7 @@ bool same_event(const Event& a, const Event& b) {
            std::visit([&](const auto& x) { return same(x, std::get<std::decay_t<decltype(x)>>(b)); }, a);
 }
 
-TEST(Recorder, writes_what_reads_back_as_the_same_events_at_the_same_ticks) {
+TEST(Recorder, ReadsBackAsTheSameEventsAtTheSameTicks) {
     std::mt19937 random(10);
     for (int round = 0; round < 200; ++round) {
         Recorder recorder(start);

@@ -98,7 +98,7 @@ TEST(Script, has_lines_for_expectations) {
     EXPECT_TRUE(only<Expect>(R"({"expect": "x", "above": -1.5})").measure == Measure::Above);
 }
 
-TEST(Script, numbers_its_lines_as_the_file_does) {
+TEST(Script, NumbersItsLinesAsInTheFile) {
     const Script script = parse("\n{\"wait\": 1}\r\n  \t\n\n{\"wait\": 2}");
     ASSERT_EQ(script.lines.size(), 2u);
     EXPECT_EQ(script.lines[0].number, 2);
@@ -113,7 +113,7 @@ TEST(Script, numbers_its_lines_as_the_file_does) {
 constexpr const char* recording =
     R"({"recording": 1, "version": "0.1.0", "size": [640, 480], "lab": "chain", "scene": {"a": 1}, "settings": {"b": 2}})";
 
-TEST(Script, that_is_a_recording_says_what_it_started_from) {
+TEST(Script, ARecordingHasItsInitialState) {
     const Script script = parse(std::string("\n") + recording + "\n{\"wait\": 1}\n");
     ASSERT_TRUE(script.start);
     EXPECT_EQ(script.start->version, "0.1.0");
@@ -124,7 +124,7 @@ TEST(Script, that_is_a_recording_says_what_it_started_from) {
     EXPECT_EQ(script.lines.size(), 1u);
 }
 
-TEST(Script, that_is_no_recording_of_this_kind_is_refused) {
+TEST(Script, OtherRecordingsAreRefused) {
     EXPECT_TRUE(test::says(refusal(R"({"recording": 2, "news": 1})"), "line 1 recording version 2 1"));
     EXPECT_TRUE(has(refusal(std::string(recording) + '\n' + recording),
                     "line 2: a recording's start must be the first line"));
@@ -146,7 +146,7 @@ TEST(Script, that_is_no_recording_of_this_kind_is_refused) {
     EXPECT_TRUE(test::says(refusal(extra.dump()), "line 1 unknown more"));
 }
 
-TEST(Script, that_has_a_wrong_line_is_refused_with_the_reason) {
+TEST(Script, AnInvalidLineIsRefusedWithTheReason) {
     const std::string no_form =
         "expected one of the members \"command\", \"expect\", \"mouse\", \"key\", \"text\", \"resize\", "
         "\"drop\", "
@@ -232,7 +232,7 @@ TEST(Script, that_has_a_wrong_line_is_refused_with_the_reason) {
         EXPECT_TRUE(has(refusal("{\"wait\": 1}\n" + line), "line 2: " + reason)) << line;
 }
 
-TEST(Script, that_has_a_member_too_many_is_refused) {
+TEST(Script, AnUnknownMemberIsRefused) {
     for (const char* line :
          {R"({"mouse": "move", "at": [1, 2]})", R"({"mouse": "down", "button": "left"})",
           R"({"mouse": "wheel", "by": 1})", R"({"key": "x"})", R"({"key": "x", "action": "up"})",
@@ -246,7 +246,7 @@ TEST(Script, that_has_a_member_too_many_is_refused) {
     }
 }
 
-/// Refused before any line runs.
+/// It is refused before any line runs.
 TEST(Script, cut_off_anywhere_within_a_line_is_refused) {
     const std::string line = R"({"expect": "tail", "near": [1, 2, 0], "within": 0.001})";
     for (std::size_t size = 1; size < line.size(); ++size)

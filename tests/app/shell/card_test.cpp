@@ -1,4 +1,4 @@
-// Cards: their files, and when their steps count as done.
+// Cards: their files, and the completion of their steps.
 #include "app/labs/card.hpp"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ TEST(CardFile, is_read) {
     EXPECT_EQ(card.steps[0].by[0].command, "move");
 }
 
-TEST(CardFile, that_is_broken_is_refused_with_its_place) {
+TEST(CardFile, ABrokenOneIsRefusedWithItsPath) {
     struct Case {
         const char* path;
         Json value;
@@ -152,7 +152,7 @@ TEST_F(CardWatch, a_command_that_changes_nothing_is_checked_too) {
     EXPECT_TRUE(done());
 }
 
-TEST_F(CardWatch, an_expectation_is_one_of_a_script) {
+TEST_F(CardWatch, AnExpectationIsAsInAScript) {
     use_conditions(Json::array({{{"expect", "a.b"}, {"above", 3}}}));
     move_ball();
     change({{"a", {{"b", 3}}}});
@@ -253,7 +253,7 @@ TEST_F(CardWatch, another_flip_after_the_cure_only_asks_for_another_pass) {
     }
 }
 
-TEST_F(CardWatch, the_state_is_asked_for_only_when_the_part_is_another) {
+TEST_F(CardWatch, TheStateIsRequestedOnlyAfterChanges) {
     move_ball();
     watch({{"y", 1}});
     EXPECT_EQ(asked_, 1);
@@ -263,7 +263,7 @@ TEST_F(CardWatch, the_state_is_asked_for_only_when_the_part_is_another) {
     EXPECT_EQ(asked_, 2);
 }
 
-TEST_F(CardWatch, nothing_is_asked_once_all_is_done) {
+TEST_F(CardWatch, NothingIsRequestedOnceAllIsDone) {
     move_ball();
     change({{"x", 1}});
     ASSERT_TRUE(done());

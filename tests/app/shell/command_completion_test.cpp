@@ -62,7 +62,7 @@ TEST_F(Completion, FindsByPlainWordsFirst) {
     EXPECT_EQ(names("tip at joint a add", "chain").front(), "chain.add");
 }
 
-TEST_F(Completion, FindsWhatIsNamedAndThenTheOpenLabsOwn) {
+TEST_F(Completion, FindsExactNamesAndThenTheOpenLabsOwn) {
     EXPECT_EQ(names("rope.clear", "chain").front(), "rope.clear");
     EXPECT_EQ(names("chain.remove", "rope").front(), "chain.remove");
     EXPECT_EQ(names("chain.add length=3").front(), "chain.add");
@@ -79,8 +79,8 @@ TEST_F(Completion, FindsWhatIsNamedAndThenTheOpenLabsOwn) {
     }
 }
 
-/// What people mean by a word: adding one before changing it, and changing it before removing it.
-TEST_F(Completion, FindsWhatPeopleMean) {
+/// People usually mean adding a thing rather than changing it, and changing it rather than removing it.
+TEST_F(Completion, RanksAddingBeforeChangingBeforeRemoving) {
     struct Query {
         const char *lab, *text;
         Strings first;
@@ -119,8 +119,8 @@ TEST_F(Completion, FindsWhatPeopleMean) {
     }
 }
 
-/// Of commands with the same word in their titles.
-TEST_F(Completion, FindsWhatRemovesThingsLast) {
+/// Among commands with the same word in their titles.
+TEST_F(Completion, RanksRemovingLast) {
     const auto removes = [](const Command& command) {
         const std::string verb = command.title.substr(0, command.title.find(' '));
         return has({"Remove", "Delete", "Reset", "Forget", "Detach"}, verb);
@@ -141,7 +141,7 @@ TEST_F(Completion, FindsWhatRemovesThingsLast) {
     }
 }
 
-TEST_F(Completion, FindsWhatOnlyTheHelpSaysAfterOtherLabs) {
+TEST_F(Completion, RanksMatchesInTheHelpAloneAfterOtherLabs) {
     const Strings pins = names("pin", "chain");  // "pinch" is in the help of view.scroll
     EXPECT_LT(std::ranges::find(pins, "rope.pin"), std::ranges::find(pins, "view.scroll"));
     EXPECT_TRUE(has(pins, "view.scroll"));
@@ -168,7 +168,7 @@ TEST_F(Completion, FindsByArgumentsAfterTitleAndHelp) {
     EXPECT_TRUE(has(names("add radius", "rope"), "rope.cloth.add"));
 }
 
-TEST_F(Completion, BeginsWithWhatRanLast) {
+TEST_F(Completion, BeginsWithTheLastRunCommands) {
     const Strings recent{"rope.cut", "undo"};
     const Strings all = names("", "chain", recent);
     EXPECT_EQ((Strings{all[0], all[1]}), recent);
@@ -176,7 +176,7 @@ TEST_F(Completion, BeginsWithWhatRanLast) {
     EXPECT_NE(names("chain", "chain", recent).front(), "undo") << "only where nothing is typed";
 }
 
-TEST_F(Completion, BeginsBehindTheNameOfACommand) {
+TEST_F(Completion, CompletionBeginsAfterACommandsName) {
     EXPECT_TRUE(rows("chain.mode").empty()) << "it may become another's";
     EXPECT_TRUE(rows("add a ").empty());
     EXPECT_EQ(texts("chain.add "), (Strings{"length=", "position="})) << "required ones first";
@@ -205,7 +205,7 @@ TEST_F(Completion, OffersTheValuesOfAnArgument) {
     EXPECT_TRUE(has(texts("chain.select index=4999"), "4999"));
 }
 
-TEST_F(Completion, QuotesWhatWouldBeReadAsSomethingElse) {
+TEST_F(Completion, QuotesTextThatWouldBeReadDifferently) {
     for (const char* name :
          {"arm", "my rope", "12", "true", "[1]", "a\"b", "", "\xC3\xA4 \xE2\x82\xAC", "a=b", "\\"}) {
         const auto typed = read_typed_command("rope.remove name=" + quoted(name) + " ");
@@ -214,7 +214,7 @@ TEST_F(Completion, QuotesWhatWouldBeReadAsSomethingElse) {
     EXPECT_EQ(quoted("arm"), "arm");
 }
 
-TEST_F(Completion, TabTakesWhatAllHaveInCommonAndThenTheChosenRow) {
+TEST_F(Completion, TabTakesTheCommonPrefixAndThenTheChosenRow) {
     EXPECT_EQ(tab("chain.limit l"), "chain.limit left_deg=");
     EXPECT_EQ(tab("chain.limit t"), "chain.limit twist_m");
     EXPECT_EQ(tab("chain.limit twist_m", 1), "chain.limit twist_max_deg=");
@@ -238,7 +238,7 @@ TEST_F(Completion, NamesWithABlankKeepTheirQuote) {
     EXPECT_EQ(wrong(tab(begun + "r")), "");
 }
 
-TEST_F(Completion, OffersWhatAListCanHaveElementByElement) {
+TEST_F(Completion, OffersAListsElementsOneByOne) {
     table_.run(workspace_, "chain.preset", {{"name", "coil"}, {"count", 12}});
     EXPECT_EQ(rows("chain.select joints=").front().line, "chain.select joints=[0");
     EXPECT_EQ(texts("chain.select joints=[1"), (Strings{"]", ",", "1", "10", "11"}));
@@ -281,7 +281,7 @@ TEST_F(Completion, ListsOfNamesThatLookLikeLists) {
     }
 }
 
-TEST_F(Completion, SaysWhatIsWrongWhileItIsTyped) {
+TEST_F(Completion, ReportsMistakesWhileTyping) {
     EXPECT_EQ(wrong("chain.add length=1"), "");
     EXPECT_EQ(wrong("chain.add len"), "");
     EXPECT_EQ(wrong("chain.add length="), "");
@@ -303,7 +303,7 @@ TEST_F(Completion, SaysWhatIsWrongWhileItIsTyped) {
     EXPECT_EQ(missing(read("undo ")), "");
 }
 
-// The same messages as when it runs: what is reported early is what would be refused.
+// The messages are the same as when it runs: everything refused then is reported early.
 TEST_F(Completion, FindsEveryMistakeThatTheTableWouldRefuse) {
     for (const char* line : {"chain.add length=abc ", "chain.add length=[1] ", "chain.target to=[1,2] ",
                              "race.solver on=1 ", "chain.mode mode=x ", "chain.select index=1.5 ",
@@ -315,7 +315,7 @@ TEST_F(Completion, FindsEveryMistakeThatTheTableWouldRefuse) {
     }
 }
 
-// Any input, stopped anywhere, gets an answer, and lines that parse again.
+// Any input, stopped anywhere, gets an answer and lines that parse again.
 TEST_F(Completion, TenThousandHostileLinesAreAnswered) {
     std::mt19937 random(11);
     const auto below = [&](std::size_t end) { return random() % end; };

@@ -61,7 +61,7 @@ TEST_F(CommandTitles, AreUniqueInALabAndTheProgram) {
     }
 }
 
-TEST_F(CommandTitles, StandWithTheLabThatHasThem) {
+TEST_F(CommandTitles, AreGroupedByLab) {
     const auto lab_of = [&](const char* name) { return table_.find(name)->lab; };
     EXPECT_EQ(lab_of("undo"), "");
     EXPECT_EQ(lab_of("view.scroll"), "");
@@ -71,7 +71,7 @@ TEST_F(CommandTitles, StandWithTheLabThatHasThem) {
     EXPECT_EQ(lab_of("view.character_bones"), "humanoid");
 }
 
-TEST_F(CommandTitles, NameWhatUndoTakesBack) {
+TEST_F(CommandTitles, NameTheChangeThatUndoReverts) {
     Workspace workspace = make_blank_workspace(labs_);
     workspace.lab = "chain";
     EXPECT_EQ(undo_title(table_, workspace.history), "Undo");
@@ -84,7 +84,7 @@ TEST_F(CommandTitles, NameWhatUndoTakesBack) {
 
 // Menu, help and the README's list use the palette's titles; only a shortcut with arguments ("Save as...")
 // has a title of its own.
-TEST_F(CommandTitles, AreWhatTheMenuSays) {
+TEST_F(CommandTitles, AreTheMenusTitles) {
     const Shortcuts shortcuts(labs_, table_);
     std::set<std::string> plain;
     for (const Shortcut& row : shortcuts.all()) {
@@ -103,7 +103,7 @@ TEST_F(CommandTitles, AreListed) {
 }
 
 // Offers of the palette are valid: a choice of the command, or a name in the document.
-TEST_F(CommandTitles, ComeWithArgumentsWhoseOffersAreTaken) {
+TEST_F(CommandTitles, TheirArgumentsAcceptEveryOffer) {
     Workspace workspace = make_blank_workspace(labs_);
     table_.run(workspace, "rope.add", {{"from", {0, 1, 0}}, {"to", {1, 1, 0}}, {"name", "my rope"}});
     const auto known = [&](const char* command, const char* name) {
@@ -139,7 +139,7 @@ TEST_F(CommandTitles, ComeWithArgumentsWhoseOffersAreTaken) {
 }
 
 // An argument's present value is one that it accepts.
-TEST_F(CommandTitles, ComeWithArgumentsWhosePresentValueFits) {
+TEST_F(CommandTitles, TheirArgumentsAcceptTheirPresentValue) {
     Workspace workspace = make_blank_workspace(labs_);
     int count = 0;
     for (const Command& command : table_.all()) {

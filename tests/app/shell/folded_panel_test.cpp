@@ -21,7 +21,7 @@
 namespace tendril::app {
 namespace {
 
-TEST(FoldedPanel, LeavesAStripToBringItBackWith) {
+TEST(FoldedPanel, LeavesAStripToUnfoldIt) {
     Settings settings;
     settings.left_open = settings.right_open = false;
     const Layout layout = lay_out({1280, 720}, 2.0f, settings, 0.0f);
@@ -30,7 +30,7 @@ TEST(FoldedPanel, LeavesAStripToBringItBackWith) {
     EXPECT_EQ(layout.view.size().x, 1280.0f - 48.0f);
 }
 
-TEST(FoldedPanel, OneFoldsByItselfWhereThereIsNoRoomForTwo) {
+TEST(FoldedPanel, OneFoldsAutomaticallyIfTwoDoNotFit) {
     Settings settings;
     EXPECT_TRUE(lay_out({900, 640}, 1.0f, settings, 0.0f).right_open);
     const Layout narrow = lay_out({899, 640}, 1.0f, settings, 0.0f);
@@ -41,7 +41,7 @@ TEST(FoldedPanel, OneFoldsByItselfWhereThereIsNoRoomForTwo) {
     EXPECT_TRUE(lay_out({899, 640}, 1.0f, settings, 0.0f).right_open);
 }
 
-TEST(FoldedPanel, OneFoldsByItselfWhereLargeTextLeavesRoomForOne) {
+TEST(FoldedPanel, OneFoldsAutomaticallyIfTextIsLarge) {
     Settings settings;
     EXPECT_FALSE(lay_out({1280, 720}, 1.5f, settings, 0.0f).one_panel);
     const Layout large = lay_out({1280, 720}, 2.0f, settings, 0.0f);
@@ -59,7 +59,7 @@ TEST(FoldedPanel, OneFoldsByItselfWhereLargeTextLeavesRoomForOne) {
 namespace tendril::test {
 namespace {
 
-// A drag along an axis tells how far it has gone, above all along the view, where the picture does not.
+// A drag along an axis shows its length, which the picture does not show along the view.
 
 using namespace app;
 
@@ -87,7 +87,7 @@ class HeldAxis : public testing::Test {
     glm::vec2 at_{0.0f};
 };
 
-TEST_F(HeldAxis, SaysHowFarAndHowMuchNearer) {
+TEST_F(HeldAxis, ShowsTheDistanceAndHowMuchNearer) {
     app_.run({"chain.preset", Json{{"name", "reaching_arm"}}});
     app_.run({"camera.set",
               Json{{"target", {0.85, 1.05, 0.2}}, {"yaw_deg", -8}, {"pitch_deg", 15}, {"distance", 7}}});
@@ -105,12 +105,12 @@ TEST_F(HeldAxis, SaysHowFarAndHowMuchNearer) {
     const auto texts = texts_with(said);
     ASSERT_EQ(texts.size(), 2u) << "at the ball and in the status line: " << said;
     for (const std::string& text : texts) EXPECT_TRUE(says(text, by > 0 ? "m nearer" : "m farther")) << text;
-    // Released, the drag goes on in the plane of the view.
+    // Once released, the drag continues in the plane of the view.
     send(KeyChange{.key = Key::Z, .down = false});
     EXPECT_TRUE(texts_with("along Z").empty());
 }
 
-TEST_F(HeldAxis, AcrossTheViewSaysOnlyHowFar) {
+TEST_F(HeldAxis, AcrossTheViewShowsOnlyTheDistance) {
     app_.run({"chain.preset", Json{{"name", "start"}}});
     app_.run({"camera.set", Json{{"yaw_deg", 0}, {"pitch_deg", 10}}});
     catch_handle("target");
@@ -122,7 +122,7 @@ TEST_F(HeldAxis, AcrossTheViewSaysOnlyHowFar) {
     for (const std::string& text : texts) EXPECT_EQ(text.find("nearer"), text.npos) << text;
 }
 
-// A tooltip hides nothing that the mouse goes to next: it is beside the panel, bar or sheet that it is about.
+// A tooltip hides nothing that the mouse goes to next: it is beside its panel, bar or sheet.
 
 Rect rect_of(const ImGuiWindow& window) {
     return {{window.Pos.x, window.Pos.y}, {window.Pos.x + window.Size.x, window.Pos.y + window.Size.y}};
@@ -204,7 +204,7 @@ class TooltipPlaces : public testing::TestWithParam<const char*> {
     int seen_ = 0;
 };
 
-TEST_P(TooltipPlaces, HideNothingOfWhatTheyAreAbout) {
+TEST_P(TooltipPlaces, HideNothingOfTheirPanel) {
     open({1280, 720}, 1.0);
     look();
     app_->run({"view.settings", Json{{"open", true}}});
@@ -277,7 +277,7 @@ TEST_F(CureButton, BendsAStraightChain) {
     EXPECT_EQ(verdict(), before);
 }
 
-TEST_F(CureButton, HalvesTheSubstepOfARopeThatIsNotHeld) {
+TEST_F(CureButton, HalvesTheSubstepOfARopeThatStretches) {
     run("lab.open", {{"name", "rope"}});
     run("rope.preset", {{"name", "bridge"}});
     const auto still = seen("Selection");
@@ -296,7 +296,7 @@ TEST_F(CureButton, HalvesTheSubstepOfARopeThatIsNotHeld) {
 }
 
 /// Also with a joint selected, whose rows would push it out of a small window.
-TEST_F(CureButton, OfAFlipIsInViewOnceItsMarkIsClicked) {
+TEST_F(CureButton, OfAFlipIsVisibleOnceItsMarkIsClicked) {
     run("chain.preset", {{"name", "reaching_arm"}});
     run("chain.select", {{"index", 1}});
     for (int i = 0; i <= 60; ++i) {

@@ -118,7 +118,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
         note(covered(shell_parts(frame)));
         note_beneath_panels(frame);
     }
-    /// What is on the scene but outside its rectangle is hidden by a panel.
+    /// Items on the scene but outside its rectangle are hidden by a panel.
     void note_beneath_panels(const FrameRecord& frame) {
         const Rect view = layout().view;
         for (const DrawnText& text : frame.texts) {
@@ -363,7 +363,7 @@ void stretch_letters(float factor) {
     }
 }
 
-TEST_P(LayoutTest, HoldsTextsThatAreAThirdLonger) {
+TEST_P(LayoutTest, FitsTextsThatAreAThirdLonger) {
     set_scale(1.0f);
     for (const Shown& scene : all_scenes(lab(), app_.commands())) {
         set_up(scene);
@@ -372,7 +372,7 @@ TEST_P(LayoutTest, HoldsTextsThatAreAThirdLonger) {
         if (scene.name == "as it opens") stretch_letters(4.0f / 3.0f);
         look_at_panels();
     }
-    // A proper name and units, which no translation makes longer.
+    // Proper names and units, which no translation makes longer.
     std::erase_if(found_, [](const auto& found) {
         return found.first.find("SVD damped least squares") != found.first.npos ||
                found.first.find("content/joints") != found.first.npos;

@@ -1,6 +1,6 @@
-// Every widget of every panel has an id of its own and a tooltip, does its job when clicked, and stays under
-// the mouse that clicks it. The widgets are taken from the frames themselves, so that new ones are tried too.
-// Not clicked: plots, curves and other areas to draw in, which have tests of their own.
+// Every widget of every panel has its own id and a tooltip, works when clicked, and stays under the mouse
+// that clicks it. The widgets are taken from the frames themselves, so that new ones are included. Not
+// clicked: plots, curves and other areas to draw in, which have their own tests.
 #include <gtest/gtest.h>
 #include <imgui_internal.h>  // the item under the mouse, open lists, scrolling
 
@@ -39,7 +39,7 @@ constexpr glm::vec2 in_the_scene{640.0f, 700.0f};  ///< in the scene
 constexpr const char* clicked_labs[] = {"chain", "rope", "signal", "rig", "humanoid", "linkage"};
 const auto of_lab = [](const auto& lab) { return std::string(lab.param); };
 
-/// A switch may say something else after a click, in another width.
+/// A switch may have different text, of different width, after a click.
 bool same_place(const DrawnItem& a, const DrawnItem& b) {
     return std::abs(a.box.min.x - b.box.min.x) < 3.0f && std::abs(a.box.min.y - b.box.min.y) < 3.0f;
 }
@@ -102,8 +102,8 @@ class Panels : public testing::TestWithParam<const char*> {
     std::set<std::string> told_;
 };
 
-/// The check sees any call of Dear ImGui's, not only those of our own rows.
-TEST(WidgetIds, AreFoundWhereTwoAreAlike) {
+/// The check covers all calls of Dear ImGui, not only those of our own rows.
+TEST(WidgetIds, DuplicatesAreFound) {
     const auto window = open_offscreen({400, 300});
     App app(*window);
     FrameRecorder recorder;
@@ -151,7 +151,7 @@ class PanelClicks : public Panels {
             return each->Active && (each->Flags & ImGuiWindowFlags_Tooltip) != 0;
         });
     }
-    /// All that a person sees with the mouse away, and that a script is told.
+    /// Everything that a user sees with the mouse away, and that a script gets.
     std::string seen() {
         move(in_the_scene);
         ticks(2);
@@ -169,7 +169,7 @@ class PanelClicks : public Panels {
         return std::ranges::any_of(app_.workspace().ui.toasts,
                                    [](const Toast& each) { return each.kind == ToastKind::Refusal; });
     }
-    /// A place on it that no later item covers.
+    /// A position on the item that no later item covers.
     glm::vec2 place_on(const DrawnItem& item) const {
         for (const float share : {0.5f, 0.1f, 0.9f, 0.3f, 0.7f}) {
             const glm::vec2 at{glm::mix(item.box.min.x, item.box.max.x, share), item.box.centre().y};
@@ -181,7 +181,7 @@ class PanelClicks : public Panels {
         }
         return item.box.centre();
     }
-    /// With the text that stands on it, or left of it.
+    /// The text on the item, or left of it.
     std::string name_of(const DrawnItem& item) const {
         const glm::vec2 middle = item.box.centre();
         const DrawnText* nearest = nullptr;
@@ -200,7 +200,7 @@ class PanelClicks : public Panels {
         press(false);
         ticks(2);
     }
-    /// What is clicked three times at one place is one button.
+    /// Three clicks at one position must hit the same button.
     void expect_steady(const DrawnItem& button, glm::vec2 at, const std::string& name) {
         const Workspace& workspace = app_.workspace();
         for (int i = 0; i < 3 && workspace.lab == GetParam() && !workspace.ui.covered() && !list_is_open();
@@ -216,7 +216,7 @@ class PanelClicks : public Panels {
                 }
         }
     }
-    /// An area has tooltips in places only.
+    /// An area has tooltips only in places.
     void expect_tooltip(const DrawnItem& item, glm::vec2 at) {
         const std::string name = name_of(item);
         move(at);
@@ -226,7 +226,7 @@ class PanelClicks : public Panels {
             move(item.box.min + step * (glm::vec2(i % 20, i / 20) + 0.5f));
         EXPECT_TRUE(tooltip_is_shown()) << name << " has no tooltip";
     }
-    /// Of what a frame drew and was not yet looked at.
+    /// Items of a frame that were not yet examined.
     template <class Wanted>
     std::size_t expect_tooltips(const Wanted& wanted) {
         std::size_t found = 0;
@@ -238,7 +238,7 @@ class PanelClicks : public Panels {
         }
         return found;
     }
-    /// `before` is what was seen before, `item` of the present frame.
+    /// `before` is what was seen before; `item` is in the present frame.
     Outcome try_item(const DrawnItem& item, const std::string& before) {
         const glm::vec2 at = place_on(item);
         const std::string name = name_of(item);
@@ -278,7 +278,7 @@ class PanelClicks : public Panels {
                              [](const DrawnItem& item) { return in_panels(item) && is_chosen(item); });
         return chosen;
     }
-    /// Chooses again what was chosen before, which may be so in every scene.
+    /// Chooses a previous choice again, which every scene may have.
     void try_replaced(const std::vector<DrawnItem>& before) {
         for (const DrawnItem& option : before) {
             const DrawnItem* now = frame().find(option.id);
@@ -314,7 +314,7 @@ class PanelClicks : public Panels {
         }
         return was_chosen || seen() != before ? Outcome::Changed : Outcome::Nothing;
     }
-    /// Whether it has not yet been seen to do something.
+    /// Whether it has not yet been seen to have an effect.
     bool is_due(unsigned id, const std::string& row, const std::string& name) {
         return tried_.try_emplace({id, row}, Tried{name}).first->second.outcome != Outcome::Changed;
     }
@@ -322,7 +322,7 @@ class PanelClicks : public Panels {
         Outcome& best = tried_.at({id, row}).outcome;
         best = std::max(best, outcome);
     }
-    /// Of the list that has just been opened.
+    /// Tries rows of the list that has just been opened.
     void try_rows(const Shown& scene, const DrawnItem& opener, const std::string& before) {
         const std::vector<DrawnItem> rows = list_rows();
         const bool chooses =
@@ -351,7 +351,7 @@ class PanelClicks : public Panels {
                 before = seen();
             }
             const DrawnItem* const found = frame().find(first.id);
-            if (found == nullptr) {  // of the panel's own state: an earlier click has brought it
+            if (found == nullptr) {  // belongs to the panel's own state: an earlier click has shown it
                 tried_.erase({first.id, ""});
                 continue;
             }
@@ -368,7 +368,7 @@ class PanelClicks : public Panels {
         for (const UnitRow& row : unit_rows(rig_part(app_.workspace()))) names.push_back(row.unit->name);
         return names;
     }
-    /// Tries one unit of each kind, and looks at those of the presets.
+    /// Tries one unit of each kind, and examines those of the presets.
     void try_units() {
         most_rows_ = 1;  // every list has the same elements
         for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
@@ -401,8 +401,8 @@ class PanelClicks : public Panels {
         std::string name;
         Outcome outcome = Outcome::Nothing;
     };
-    bool opened_list_ = false;    ///< the last click that was tried
-    std::size_t most_rows_ = 16;  ///< of a longer list, as of a figure's nodes, the first are tried
+    bool opened_list_ = false;    ///< whether the last click opened one
+    std::size_t most_rows_ = 16;  ///< of longer lists, such as a figure's nodes, the first are tried
     std::set<unsigned> looked_at_;
     std::map<std::pair<unsigned, std::string>, Tried> tried_;  ///< widgets, and the rows of their lists
     TempFolder folder_;
@@ -435,7 +435,7 @@ TEST_P(PanelClicks, HaveTooltipsInTheBarAtFoldedPanelsAndInSheets) {
     EXPECT_GT(expect_tooltips(in_a_sheet), 4u);
 }
 
-TEST_P(PanelClicks, ChangeWhatTheySayAndNothingMovesUnderTheMouse) {
+TEST_P(PanelClicks, UpdateTheirTextAndNothingMovesUnderTheMouse) {
     std::size_t changed = 0;
     for (const Shown& scene : all_scenes(*app_.labs().find(GetParam()), app_.commands())) try_scene(scene);
     if (GetParam() == std::string(rig_lab)) try_units();
@@ -451,10 +451,10 @@ TEST_P(PanelClicks, ChangeWhatTheySayAndNothingMovesUnderTheMouse) {
 
 INSTANTIATE_TEST_SUITE_P(Labs, PanelClicks, testing::ValuesIn(clicked_labs), of_lab);
 
-/// What a lab's verdict and its notes say changes by itself while time runs: what is below stays in place.
+/// A lab's verdict and notes change while time runs: everything below them stays in place.
 class BelowTheVerdict : public Panels {
   protected:
-    /// Of a text in the panel `panel`; 0 if it is not there.
+    /// Height of a text in the panel `panel`; 0 if it is not there.
     float height(const std::string& panel, const std::string& text) const {
         for (const DrawnText& each : frame().texts)
             if (each.window != nullptr && window_name(each.window).starts_with(panel + "/content") &&
@@ -471,7 +471,7 @@ class BelowTheVerdict : public Panels {
     std::string verdict() { return app_.state().at("verdict"); }
 };
 
-TEST_P(BelowTheVerdict, NothingMovesWhateverItSays) {
+TEST_P(BelowTheVerdict, NothingMovesWhateverTheVerdictSays) {
     const std::map<std::string, std::vector<std::vector<CommandCall>>> all{
         {"chain",
          {{call("chain.preset", {{"name", "reaching_arm"}})},
@@ -516,7 +516,7 @@ TEST_P(BelowTheVerdict, NothingMovesWhateverItSays) {
     EXPECT_GE(said.size(), 2u);
 }
 
-/// The room for long verdicts is not a gap below the usual, short ones.
+/// The space for long verdicts must not leave a gap below the usual short ones.
 class ChainVerdict : public BelowTheVerdict {};
 
 TEST_P(ChainVerdict, LeavesAtMostOneLineEmpty) {
@@ -535,7 +535,7 @@ TEST_P(ChainVerdict, LeavesAtMostOneLineEmpty) {
             if (each.box.min.y >= below - 1.0f) continue;
             end = std::max(end, each.box.max.y);
         }
-        // A reading has a line of its own around its text, a heading a little more.
+        // A reading has its own line around its text, a heading a little more.
         EXPECT_LT(below - end, (solved ? 2.5f : 3.0f) * line) << "below \"" << verdict() << "\"";
         if (!solved) return;
         if (first == 0.0f) first = below;
@@ -558,7 +558,7 @@ INSTANTIATE_TEST_SUITE_P(Labs, BelowTheVerdict, testing::ValuesIn(clicked_labs),
 
 class BoneMapRows : public BelowTheVerdict {};
 
-/// Also those that make the body incomplete, or complete again.
+/// Also for bones that make the body incomplete, or complete again.
 TEST_P(BoneMapRows, StayUnderTheMouseThatMapsThem) {
     set_up({call("view.fold", {{"section", "humanoid: Bones"}, {"folded", false}})});
     const float before = height("left", "LeftHand");
@@ -579,7 +579,7 @@ INSTANTIATE_TEST_SUITE_P(Map, BoneMapRows, testing::Values("humanoid"));
 
 class KeptRoom : public Panels {};
 
-TEST_P(KeptRoom, HoldsWhatIsBelowAListUntilTheMouseLeavesIt) {
+TEST_P(KeptRoom, KeepsRowsBelowAListInPlaceUntilTheMouseLeaves) {
     set_up({call("humanoid.load", {{"path", source_path("tests/app/golden/faulty_walk.bvh")}}),
             call("humanoid.clip", {{"name", "motion"}}),
             call("view.fold", {{"section", "humanoid: Motion lint"}, {"folded", false}})});

@@ -90,7 +90,7 @@ TEST_P(PanelRows, AreFewWhenTheLabOpens) {
     EXPECT_LE(shown.size(), max_rows) << joined(shown);
 }
 
-/// A person who looks for the wind finds it without unfolding anything.
+/// A user who looks for the wind finds it without unfolding anything.
 TEST(RopePanel, ShowsTheWindAndFitsASmallWindowWhenItOpens) {
     const auto window = open_offscreen({1280, 720});
     App app(*window);
@@ -200,7 +200,7 @@ TEST_F(RowsUnderMore, AreShownByOpeningIt) {
     EXPECT_TRUE(shows("flip over"));
 }
 
-TEST_F(RowsUnderMore, AreCountedInItsTitleIfTheyAreChanged) {
+TEST_F(RowsUnderMore, ChangedOnesAreCountedInItsTitle) {
     run("chain.preset", {{"name", "reaching_arm"}});
     EXPECT_TRUE(shows("More"));
     run("chain.solver", {{"damping", 0.3}});
@@ -213,8 +213,8 @@ TEST_F(RowsUnderMore, AreCountedInItsTitleIfTheyAreChanged) {
     EXPECT_TRUE(shows("More"));
 }
 
-/// A preset sets what it needs; only what a person changes after that counts.
-TEST_F(RowsUnderMore, AreNotCountedInAFreshPreset) {
+/// A preset sets the values that it needs; only later changes by the user count.
+TEST_F(RowsUnderMore, AFreshPresetCountsNone) {
     open("rope");
     run("view.fold", {{"section", "rope: Solver"}, {"folded", false}});
     for (const char* preset : {"drape", "well", "flag", "pendulum"}) {
@@ -237,7 +237,7 @@ TEST_F(RowsUnderMore, UnfoldForACommandOfThePalette) {
     EXPECT_FALSE(shows("moves")) << "the section Target stays folded";
 }
 
-/// Those of field tables and those that a panel adds by itself, in every lab.
+/// Rows of field tables and rows that a panel adds itself, in every lab.
 TEST_F(RowsUnderMore, UnfoldForTheirCommandInEveryLab) {
     struct Row {
         const char* lab;
@@ -308,7 +308,7 @@ class Buttons : public RowsUnderMore {
     }
 };
 
-/// A character whose file's unit makes it a giant.
+/// A character that its file's unit makes a giant.
 class UnitButton : public Buttons {
   protected:
     double scale() { return app_.state().at("character").at("scale").get<double>(); }
@@ -327,7 +327,7 @@ TEST_F(UnitButton, CorrectsAGiantsUnitByOneClick) {
     EXPECT_EQ(scale(), 100.0);
 }
 
-/// Gusts are seen where there is wind.
+/// Gusts are shown if there is wind.
 TEST_F(RowsUnderMore, ShowGustsWhileTheWindBlows) {
     open("rope");
     EXPECT_FALSE(shows("gusts"));
@@ -336,7 +336,7 @@ TEST_F(RowsUnderMore, ShowGustsWhileTheWindBlows) {
     EXPECT_TRUE(shows("still air resists"));
 }
 
-TEST_F(Buttons, LetACharacterIntoTheRopeLabAndOut) {
+TEST_F(Buttons, AddAndRemoveACharacterInTheRopeLab) {
     const auto character = [&] { return app_.state().at("character"); };
     open("rope");
     run("view.fold", {{"section", "rope: Add"}, {"folded", false}});

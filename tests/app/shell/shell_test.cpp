@@ -56,7 +56,7 @@ TEST(Shortcuts, EachRunsACommandOfTheTableAndNoTwoShareAKey) {
     EXPECT_EQ(shortcuts.find(*chord_from_name("ctrl+alt+f12"), labs.all().front()->name()), nullptr);
 }
 
-TEST(Shortcuts, OfALabStandBehindTheOthersOfTheirSection) {
+TEST(Shortcuts, OfALabFollowTheOthersOfTheirSection) {
     const Labs labs;
     const Shortcuts shortcuts(labs, make_command_table(labs));
     std::vector<std::string> sections;
@@ -69,7 +69,7 @@ TEST(Shortcuts, OfALabStandBehindTheOthersOfTheirSection) {
     EXPECT_EQ(sections.back(), "Help");
 }
 
-TEST(Shortcuts, TheMouseTurnsAndShiftsTheView) {
+TEST(Shortcuts, TheMouseOrbitsAndPansTheView) {
     const auto does = [](MousePreset preset, MouseButton button, HeldKeys held = {}) {
         return mouse_action(preset, button, held);
     };
@@ -126,7 +126,7 @@ TEST(LayoutOfTheWindow, PartsTileItWithoutOverlapAtEverySize) {
     }
 }
 
-TEST(InputState, HeldKeysAreModifiersAndATapLetsGo) {
+TEST(InputState, HeldKeysAreModifiersAndATapReleasesThem) {
     Input input;
     const Event down = KeyChange{Key::X, true}, up = KeyChange{Key::X, false};
     input.take(&down);
@@ -150,7 +150,7 @@ TEST(InputState, HeldKeysAreModifiersAndATapLetsGo) {
     EXPECT_FALSE(input.held(Key::X)) << "what is let go elsewhere is never told";
 }
 
-TEST(CommandPaletteLine, IsReadAsItWouldStandInAScript) {
+TEST(CommandPaletteLine, IsReadAsInAScript) {
     const TypedCommand typed =
         read_typed_command("chain.add length=1.5 position=[0, 1, 0] note=\"a b\" name=coil");
     EXPECT_EQ(typed.name, "chain.add");

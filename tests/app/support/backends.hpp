@@ -10,7 +10,7 @@
 
 namespace tendril::test {
 
-/// Why it cannot open a window; empty if it can.
+/// The reason why it cannot open a window; empty if it can.
 inline std::string why_missing(app::Backend backend) {
     static std::map<app::Backend, std::string> known;
     const auto [found, is_new] = known.try_emplace(backend);
@@ -22,7 +22,7 @@ inline std::string why_missing(app::Backend backend) {
     return found->second;
 }
 
-/// For testing::ValuesIn: OSMesa and EGL, without the one that is missing.
+/// For testing::ValuesIn: OSMesa and EGL, if available.
 inline std::vector<app::Backend> backends_here() {
     std::vector<app::Backend> here;
     for (const app::Backend each : {app::Backend::OsMesa, app::Backend::Egl})

@@ -27,8 +27,8 @@ void* added(void* memory) noexcept {
 
 }  // namespace
 
-// The linker puts these in the place of the functions of the C library (CMakeLists.txt), for the program's
-// own objects and those of stb.
+// The linker replaces the C library's functions by these (CMakeLists.txt), in the program's own objects and
+// those of stb.
 extern "C" {
 void* __real_malloc(std::size_t size) noexcept;
 void* __real_calloc(std::size_t count, std::size_t size) noexcept;

@@ -1,11 +1,11 @@
-// The memory that a piece of code takes: allocations of the test program's own objects.
+// The memory that code uses: allocations of the test program's own objects.
 #pragma once
 
 #include <cstddef>
 
 namespace tendril::test {
 
-/// Counts while it lives, on its thread. Only one at a time.
+/// Counts on its thread while it exists. Only one at a time.
 class CountedMemory {
   public:
     CountedMemory();
@@ -13,7 +13,7 @@ class CountedMemory {
     CountedMemory(const CountedMemory&) = delete;
     CountedMemory& operator=(const CountedMemory&) = delete;
 
-    /// Bytes: the most that was allocated at a time, of what was allocated since the beginning.
+    /// The peak of the bytes allocated since the beginning.
     std::size_t peak() const;
 };
 

@@ -114,7 +114,7 @@ const DrawnItem* FrameRecord::find(unsigned id) const {
 
 namespace {
 
-/// Adds to the item that a wrapped function has just made.
+/// Adds to the item that a wrapped function has just created.
 void note_item(DrawnItem::Kind kind, const char* label, std::optional<bool> on = {}, const char* shown = "") {
     DrawnItem* const item = active != nullptr ? active->last_item() : nullptr;
     if (item == nullptr) return;

@@ -30,21 +30,21 @@ struct DrawnItem {
     const ImGuiWindow* window = nullptr;
     unsigned id = 0;
     app::Rect box;
-    bool greyed = false, lit = false;  ///< lit: a button of the colour of what is chosen
+    bool greyed = false, lit = false;  ///< lit: a button in the colour of the chosen one
     Kind kind = Kind::Other;
     std::string label{};       ///< as given to Dear ImGui; empty if its function is not wrapped
-    std::string shown{};       ///< by a combo
-    std::optional<bool> on{};  ///< of a radio button or a checkbox
+    std::string shown{};       ///< a combo's present choice
+    std::optional<bool> on{};  ///< state of a radio button or a checkbox
 };
 
 struct FrameRecord {
     std::vector<DrawnText> texts;
-    std::vector<DrawnItem> items;  ///< that can be clicked, including those scrolled out of view
+    std::vector<DrawnItem> items;  ///< items that can be clicked, including those scrolled out of view
 
     /// Whether it is a scroll bar or a close button, which mean the same everywhere.
     static bool is_of_a_window(const DrawnItem& item);
-    /// What has the id of another item, or stands in a child window that was begun twice: a click on one may
-    /// act on the other.
+    /// Items with the id of another item, or in a child window that was begun twice: a click on one may act
+    /// on the other.
     std::vector<std::string> alike() const;
     const DrawnItem* find(unsigned id) const;
 };
@@ -63,7 +63,7 @@ class FrameRecorder {
     void text(const ImDrawList& list, const ImFont* font, float size, const ImVec2& at, const char* begin,
               const char* end, float wrap, const ImVec4* clip);
     void item(const ImVec4& box, unsigned id, int flags);
-    /// The latest item of the present id; null if it is not recorded.
+    /// The latest item with the present id; null if it is not recorded.
     DrawnItem* last_item();
 
   private:

@@ -13,8 +13,8 @@ namespace tendril::test {
 /// A scene with its selection and switches.
 struct Shown {
     std::string name;
-    std::vector<app::CommandCall> commands;  ///< from a blank document
-    int ticks = 3;                           ///< to run
+    std::vector<app::CommandCall> commands;  ///< set it up from a blank document
+    int ticks = 3;                           ///< ticks to run
 };
 
 app::CommandCall call(const char* name, app::ArgumentList arguments = {});

@@ -24,7 +24,7 @@ bool inside(const Rect& box, const Rect& room) {
     return box.min.x >= room.min.x - slack && box.min.y >= room.min.y - slack &&
            box.max.x <= room.max.x + slack && box.max.y <= room.max.y + slack;
 }
-/// Letters are lower than their line: lines may touch.
+/// Letters are lower than their lines, so lines may touch.
 bool collide(const Rect& a, const Rect& b) {
     const glm::vec2 both = shared(a, b).size();
     return both.x > slack && both.y > 0.3f * std::min(a.size().y, b.size().y);
@@ -34,7 +34,7 @@ Rect rect_of(const ImRect& rect) {
     return {{rect.Min.x, rect.Min.y}, {rect.Max.x, rect.Max.y}};
 }
 
-/// Whether nothing of it is drawn, as for a popup that only measures itself.
+/// Whether nothing of it is drawn, as with a popup that only measures itself.
 bool hidden(const ImGuiWindow* window) {
     return window != nullptr && (!window->Active || window->Hidden || window->SkipItems);
 }
@@ -46,7 +46,7 @@ const ImGuiWindow* scroller_of(const ImGuiWindow* window) {
     return window;
 }
 
-/// Whether it is cut by an edge beyond which the user can scroll.
+/// Whether it is cut off by an edge beyond which the user can scroll.
 bool can_be_scrolled_to(const DrawnText& text) {
     for (const ImGuiWindow* window = scroller_of(text.window); window != nullptr;
          window = scroller_of(window->ParentWindow)) {
@@ -67,7 +67,7 @@ bool in_title_bar(const DrawnItem& item) {
            inside(item.box, rect_of(item.window->TitleBarRect()));
 }
 
-/// Text in an input field scrolls there.
+/// Text in an input field scrolls within it.
 bool is_typed(const FrameRecord& frame, const DrawnText& text) {
     return std::any_of(frame.items.begin(), frame.items.end(), [&](const DrawnItem& item) {
         return item.kind == DrawnItem::Kind::Text && inside(text.clip, item.box) && seen(text.clip);

@@ -63,7 +63,7 @@ inline app::Json scene_after(ScriptText script) {
     return app::parse_json(read(folder / "scene.json"));
 }
 
-/// Runs a script in a program of its own, whatever comes of it.
+/// Runs a script in a separate process, whatever the outcome.
 inline Outcome run_script(const ScriptText& script, const Environment& changes = {},
                           const std::filesystem::path& in = {}) {
     const TempFolder folder;
@@ -71,7 +71,7 @@ inline Outcome run_script(const ScriptText& script, const Environment& changes =
     return run_program({"--headless", "--script", (folder / "script.jsonl").string()}, changes, in);
 }
 
-/// Plays a script in a program of its own; refusals in a panel do not end it.
+/// Plays a script in a separate process; refusals in a panel do not end it.
 inline Played play_refused(const ScriptText& script) {
     const TempFolder folder;
     const std::string path = (folder / "script.jsonl").string(), state = (folder / "state.json").string();

@@ -28,7 +28,7 @@ void redirect(const std::filesystem::path& path, int descriptor, int flags) {
     ::close(file);
 }
 
-/// In the child, which becomes the program.
+/// Runs in the child, which becomes the program.
 [[noreturn]] void become(const std::vector<std::string>& command, const Environment& changes,
                          const std::filesystem::path& folder, const TempFolder& texts) {
     redirect("/dev/null", 0, O_RDONLY);
@@ -158,7 +158,7 @@ int count_lines(const std::string& text) {
 
 namespace {
 
-/// What it says on stderr but for its progress, which only a slow machine gets to see.
+/// Its stderr without its progress, which appears only on slow machines.
 std::string messages(const Outcome& outcome) {
     std::istringstream lines(outcome.err);
     std::string kept;

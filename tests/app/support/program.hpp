@@ -21,7 +21,7 @@ struct Outcome {
     int exit_code = -1;  ///< 128 plus the signal if one ended it
     std::string out, err;
     long peak_megabytes = 0;   ///< peak memory
-    double cpu_seconds = 0.0;  ///< processor time, which other processes do not change
+    double cpu_seconds = 0.0;  ///< processor time, which does not depend on other processes
 };
 
 /// A process that runs until it ends, or until this object is destroyed.
@@ -41,7 +41,7 @@ class Process {
     /// Its output so far.
     std::string out() const { return read(texts_ / "out"); }
     std::string err() const { return read(texts_ / "err"); }
-    /// Waits for its end; kills it and fails the test after `seconds`.
+    /// Waits until it ends; after `seconds`, kills it and fails the test.
     Outcome wait(double seconds = 600.0);
 
   private:
@@ -52,12 +52,12 @@ class Process {
     std::optional<Outcome> outcome_;
 };
 
-/// Runs the built program with these arguments, with an empty config folder whatever the tests' environment
-/// is. It starts in `folder`, or in the tests' own.
+/// Runs the built program with these arguments, and with an empty config folder whatever the tests'
+/// environment is. It starts in `folder`, or in the tests' own.
 Outcome run_program(const std::vector<std::string>& arguments, const Environment& changes = {},
                     const std::filesystem::path& folder = {});
 
-/// The same in this process: faster, if nothing must be survived or measured.
+/// The same in this process: faster, if no crash must be survived and nothing measured.
 Outcome run_here(const std::vector<std::string>& arguments, const std::filesystem::path& folder = {});
 
 /// The command that starts the built program.

@@ -1,4 +1,4 @@
-// The output of a piece of the interface in a panel, and its tooltips, without the window around it.
+// The text of a part of the interface in a panel, and its tooltips, without the window around it.
 #pragma once
 
 #include <glm/vec2.hpp>

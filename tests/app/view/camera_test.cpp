@@ -106,7 +106,7 @@ TEST(Camera, NothingBehindTheEyeHasAPixelInPerspective) {
     EXPECT_FALSE(camera.on_plane(wide.centre(), {0, 0, 0}, camera.right())) << "edge on";
 }
 
-TEST(Camera, ZoomKeepsWhatIsUnderTheCursor) {
+TEST(Camera, ZoomKeepsThePointUnderTheCursor) {
     for (const CameraPose& pose : poses()) {
         const Camera camera(pose, wide);
         for (const glm::vec2 cursor : {glm::vec2(300, 60), glm::vec2(900, 600), wide.centre()}) {

@@ -68,7 +68,7 @@ bool finite(const HandleFrame& frame) {
     return std::isfinite(sum.x + sum.y + sum.z) && std::abs(glm::length(frame.rotation) - 1.0f) < 1e-4f;
 }
 
-TEST(GizmoDrag, ChangesWhatItsPartSaysAndNothingElse) {
+TEST(GizmoDrag, ChangesWhatItsPartIsForAndNothingElse) {
     Chance chance;
     for (int round = 0; round < 4000; ++round) {
         const Camera camera = chance.camera(round % 2 == 0);
@@ -103,7 +103,7 @@ TEST(GizmoDrag, ChangesWhatItsPartSaysAndNothingElse) {
 }
 
 /// The parent may have moved, rotated and scaled the handle since it was grabbed.
-TEST(GizmoDrag, LeavesWhatItsPartIsNotForAsItIsNow) {
+TEST(GizmoDrag, KeepsOtherPropertiesAsTheyAreNow) {
     Chance chance;
     for (int round = 0; round < 2000; ++round) {
         const Camera camera = chance.camera(round % 2 == 0);
@@ -139,7 +139,7 @@ TEST(GizmoDrag, LeavesWhatItsPartIsNotForAsItIsNow) {
     }
 }
 
-TEST(GizmoDrag, WhatWasCaughtStaysUnderThePointer) {
+TEST(GizmoDrag, TheGrabbedPointStaysUnderThePointer) {
     Chance chance;
     int tried = 0;
     for (int round = 0; round < 4000; ++round) {
@@ -152,7 +152,7 @@ TEST(GizmoDrag, WhatWasCaughtStaysUnderThePointer) {
         if (is_plane(part) ? along < 0.4f : along > 0.9f) continue;  // not exact there, see below
         const auto middle = camera.project(from.position);
         if (!middle || !viewport.contains(*middle)) continue;
-        // To the pixel of exactly that point of the axis or plane.
+        // To the pixel of that exact point of the axis or plane.
         glm::vec3 by = chance.in(-0.8f, 0.8f) * axis(from, part);
         if (is_plane(part)) {
             const glm::vec3 any = chance.point(0.6f);
@@ -176,7 +176,7 @@ TEST(GizmoDrag, ASmallMoveOfThePointerIsASmallMoveOfTheFrame) {
         from.position = camera.pose().target;
         const auto part = static_cast<GizmoPart>(round % gizmo_parts);
         const bool plane = is_plane(part) || changed_by(part) == Drag::Rotation;
-        // At the eye, or edge-on: where a plain intersection jumps.
+        // Pointing at the eye, or edge-on: where a plain intersection jumps.
         if (round % 3 == 0) {
             glm::vec3 local(0.0f), seen = plane ? camera.right() : camera.forward();
             local[axis_of(part)] = 1.0f;
@@ -194,7 +194,7 @@ TEST(GizmoDrag, ASmallMoveOfThePointerIsASmallMoveOfTheFrame) {
             if (changed_by(part) == Drag::Rotation && glm::distance(at, {400.0f, 300.0f}) < 60.0f) break;
             const HandleFrame now = drag.to(camera.ray(at));
             const float moved = glm::distance(at, start + (share - 1.0f / steps) * (end - start));
-            // A slant of 0.1 makes ten metres of one, and perspective adds more for distant ones.
+            // A slant of 0.1 multiplies distances by ten, and perspective adds more for distant points.
             EXPECT_LT(glm::distance(now.position, last.position), (moved + 0.5f) * pixel * 300.0f)
                 << name(part) << " " << round;
             if (changed_by(part) == Drag::Rotation) {
@@ -228,7 +228,7 @@ TEST(GizmoDrag, ARingCountsWholeTurns) {
     }
 }
 
-TEST(GizmoDrag, ARingSeenEdgeOnTurnsAsItsNearSideIsPulled) {
+TEST(GizmoDrag, AnEdgeOnRingRotatesAsItsNearSideIsPulled) {
     const Camera camera({.distance = 6.0f}, viewport);  // y is up, so the ring about it is a line
     const Gizmo gizmo{{}, everything};
     const float radius = gizmo.reach(Drag::Rotation, camera) / camera.metres_per_pixel({});
@@ -239,7 +239,7 @@ TEST(GizmoDrag, ARingSeenEdgeOnTurnsAsItsNearSideIsPulled) {
     EXPECT_NEAR(drag.turned(), -3.0, 0.1);
 }
 
-TEST(GizmoDrag, ABoxDoublesAsFarOutAgain) {
+TEST(GizmoDrag, ABoxDoublesTheScaleAtTwiceItsDistance) {
     const Camera camera({.distance = 6.0f, .orthographic = true}, viewport);
     const Gizmo gizmo{{.scale = {2.0f, 1.0f, 1.0f}}, everything};
     const float out = gizmo.reach(Drag::Scale, camera) / camera.metres_per_pixel({});
@@ -250,7 +250,7 @@ TEST(GizmoDrag, ABoxDoublesAsFarOutAgain) {
     EXPECT_GT(drag.to(camera.ray({0.0f, 300.0f})).scale.x, 0.0f);
 }
 
-TEST(GizmoDrag, NothingHostileComesOutOfHostileRays) {
+TEST(GizmoDrag, HostileRaysGiveFiniteFrames) {
     Chance chance;
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     const std::vector<float> numbers{0.0f, -0.0f, 1.0f, -1.0f, 1e-38f, 1e30f, -1e38f, nan, inf, -inf};
@@ -278,7 +278,7 @@ TEST(GizmoDrag, NothingHostileComesOutOfHostileRays) {
     }
 }
 
-TEST(Gizmo, EveryPartThatItHasIsCaughtWhereItsGripIs) {
+TEST(Gizmo, EveryPartIsGrabbedAtItsGrip) {
     Chance chance;
     for (int round = 0; round < 60; ++round) {
         const Camera camera = chance.camera(round % 2 == 0);
@@ -301,7 +301,7 @@ TEST(Gizmo, EveryPartThatItHasIsCaughtWhereItsGripIs) {
     }
 }
 
-TEST(Gizmo, HasWhatItsHandleAllows) {
+TEST(Gizmo, HasThePartsThatItsHandleAllows) {
     const Camera camera({.yaw = 0.6f, .pitch = 0.5f}, viewport);
     EXPECT_EQ((Gizmo{{}, everything}.parts(camera).size()), 12u);
     for (const Drag what : {Drag::Position, Drag::Rotation, Drag::Scale})
@@ -313,7 +313,7 @@ TEST(Gizmo, HasWhatItsHandleAllows) {
     }
 }
 
-TEST(Gizmo, HasTheSameSizeOnTheScreenWhereverItStands) {
+TEST(Gizmo, HasTheSameSizeOnTheScreenEverywhere) {
     const Camera camera({.distance = 8.0f}, viewport);
     for (const glm::vec3 at : {glm::vec3(0, 0, 4), glm::vec3(1, 1, -6), glm::vec3(0, 0, -40)}) {
         const Gizmo gizmo{{at}, Drag::Rotation};
@@ -323,7 +323,7 @@ TEST(Gizmo, HasTheSameSizeOnTheScreenWhereverItStands) {
     }
 }
 
-TEST(Gizmo, DrawsNothingOfWhatIsNowhere) {
+TEST(Gizmo, DrawsNothingAtANonFinitePosition) {
     DrawList list;
     const Camera camera({}, viewport);
     draw_gizmo(list, {{glm::vec3(std::nanf(""))}, everything}, camera, palette(Theme::Dark), std::nullopt);

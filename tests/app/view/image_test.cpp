@@ -18,7 +18,7 @@ class Png : public testing::Test {
                                     testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
-TEST_F(Png, ComesBackAsItWas) {
+TEST_F(Png, IsReadBackUnchanged) {
     Image image{{3, 2}, {}};
     for (int i = 0; i < 24; ++i) image.rgba.push_back(static_cast<std::uint8_t>(10 * i));
     const auto path = folder_ / "picture.png";

@@ -69,7 +69,7 @@ std::vector<CameraPose> both_projections() {
     return {pose, parallel};
 }
 
-TEST_P(Meshes, HideStrokesBehindThemAndAreHiddenByThoseBefore) {
+TEST_P(Meshes, HideStrokesBehindThemAndAreHiddenByThoseInFront) {
     for (const CameraPose& pose : both_projections()) {
         const glm::vec3 towards = -Camera(pose, viewport).forward();
         for (const float off : {-0.6f, -0.05f, 0.05f, 0.6f}) {
@@ -159,7 +159,7 @@ TEST_P(Meshes, HaveTwoSides) {
     }
 }
 
-TEST_P(Meshes, AVeilLetsThroughWhatIsBehindIt) {
+TEST_P(Meshes, AVeilShowsWhatIsBehindIt) {
     const CameraPose pose{};
     const glm::vec3 towards = -Camera(pose, viewport).forward();
     const auto seen = [&](float veil_at, int veils) {
@@ -177,7 +177,7 @@ TEST_P(Meshes, AVeilLetsThroughWhatIsBehindIt) {
     EXPECT_LT(two.r, one.r) << "veils do not hide each other";
 }
 
-TEST_P(Meshes, CallsDoNotGrowWithThem) {
+TEST_P(Meshes, DrawCallsDoNotGrowWithThem) {
     const CameraPose pose{.pitch = 0.3f};
     const Camera camera(pose, viewport);
     const auto fill = [&](int count) {
@@ -214,7 +214,7 @@ std::vector<float> left_edges(const Image& image, int top, int bottom) {
     return edges;
 }
 
-TEST_P(Meshes, ATubeLooksAsAStrokeDoes) {
+TEST_P(Meshes, ATubeLooksLikeAStroke) {
     // Strokes have exact edges. Without outlines the worst pixels would be off by half the colour.
     for (const CameraPose& pose : both_projections()) {
         const Camera camera(pose, viewport);
@@ -244,7 +244,7 @@ TEST_P(Meshes, ATubeLooksAsAStrokeDoes) {
     }
 }
 
-TEST_P(Meshes, ATubeOfSharpBendsDoesNotGlitterAsTheCameraTurns) {
+TEST_P(Meshes, ASharplyBentTubeDoesNotFlickerAsTheCameraOrbits) {
     Points centres;
     for (int i = 0; i <= 40; ++i) {
         const float t = static_cast<float>(i);
@@ -286,7 +286,7 @@ TEST_P(Meshes, EdgesOfASheetAreClean) {
     }
 }
 
-TEST_P(Meshes, ThreadsThatGoOnInOneAnotherAreEvenlyDark) {
+TEST_P(Meshes, ConsecutiveThreadsAreEvenlyDark) {
     // Thinner than a pixel, so drawn translucent: a pixel covered by two pieces would be darker.
     const CameraPose pose{.distance = 6.0f, .orthographic = true};
     const Camera camera(pose, viewport);
@@ -314,7 +314,7 @@ TEST_P(Meshes, ThreadsThatGoOnInOneAnotherAreEvenlyDark) {
     }
 }
 
-TEST_P(Meshes, WhatIsSeenThroughIsNotDrawnButPickedAndThrowsItsShadow) {
+TEST_P(Meshes, InvisibleStrokesArePickedAndCastShadows) {
     const CameraPose pose{.pitch = 0.6f, .distance = 6.0f};
     const Camera camera(pose, viewport);
     const Image empty = draw({}, pose, true);
@@ -329,7 +329,7 @@ TEST_P(Meshes, WhatIsSeenThroughIsNotDrawnButPickedAndThrowsItsShadow) {
     EXPECT_LT(colour_at(shadowed, ground).b, colour_at(empty, ground).b - 0.02f);
 }
 
-TEST_P(Meshes, ThrowAShadowOnTheGround) {
+TEST_P(Meshes, CastAShadowOnTheGround) {
     const CameraPose pose{.pitch = 0.6f, .distance = 6.0f};
     const Camera camera(pose, viewport);
     const Image empty = draw({}, pose, true);

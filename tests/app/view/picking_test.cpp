@@ -26,7 +26,7 @@ Stroke& ball(DrawList& list, PickId id, glm::vec3 at, float radius = 10.0f) {
     return stroke;
 }
 
-TEST(Picking, FindsNothingWhereNothingIs) {
+TEST(Picking, FindsNothingInEmptySpace) {
     DrawList list;
     EXPECT_EQ(pick(list, Camera({}, viewport), middle), no_pick);
     ball(list, 1, {2, 0, 0});
@@ -70,7 +70,7 @@ TEST(Picking, ABallWinsOverTheLineThatEndsInIt) {
     EXPECT_EQ(pick(list, camera, middle + glm::vec2(40.0f, 0.0f)), 2);
 }
 
-TEST(Picking, SlackReachesBeyondTheEdgeButWhatIsHitCountsFirst) {
+TEST(Picking, SlackReachesBeyondTheEdgeButDirectHitsComeFirst) {
     DrawList list;
     ball(list, 1, {0, 0, 0});
     const Camera camera({}, viewport);
@@ -82,7 +82,7 @@ TEST(Picking, SlackReachesBeyondTheEdgeButWhatIsHitCountsFirst) {
     EXPECT_EQ(pick(list, camera, between, 3.0f), 2) << "farther, but under the pixel itself";
 }
 
-TEST(Picking, ARingIsCaughtByItsLine) {
+TEST(Picking, ARingIsHitAlongItsLine) {
     DrawList list;
     list.ring({0, 0, 0}, 30.0f, 2.0f, white).pick = 1;
     const Camera camera({}, viewport);
@@ -154,13 +154,13 @@ TEST(Keys, ChordsAreWrittenOneWayAndReadAnyWay) {
 
 // A divided view: the rectangles of the panes.
 
-TEST(Panes, ASingleOneIsAllOfTheView) {
+TEST(Panes, ASingleOneFillsTheView) {
     const Rect view{{271.5f, 44.0f}, {1009.25f, 646.0f}};
     EXPECT_EQ(tiled(view, 0, 2.0f), std::vector{view});
     EXPECT_EQ(tiled(view, 1, 2.0f), std::vector{view});
 }
 
-TEST(Panes, FourInALandscapeAreTwoByTwoAndTwoStandBesideEachOther) {
+TEST(Panes, FourInALandscapeAreTwoByTwoAndTwoAreSideBySide) {
     const Rect view{{0.0f, 0.0f}, {802.0f, 602.0f}};
     const std::vector<Rect> four{
         {{0, 0}, {400, 300}}, {{402, 0}, {802, 300}}, {{0, 302}, {400, 602}}, {{402, 302}, {802, 602}}};
@@ -168,7 +168,7 @@ TEST(Panes, FourInALandscapeAreTwoByTwoAndTwoStandBesideEachOther) {
     EXPECT_EQ(tiled(view, 2, 2.0f), (std::vector<Rect>{{{0, 0}, {400, 602}}, {{402, 0}, {802, 602}}}));
 }
 
-TEST(Panes, StayApartWithinTheViewOnWholePixelsAndOfOneSize) {
+TEST(Panes, AreApartOnWholePixelsAndOfEqualSize) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> any(0.0f, 1.0f);
     for (int round = 0; round < 2000; ++round) {
@@ -253,7 +253,7 @@ TEST(Labels, KeepTheirPointFree) {
     EXPECT_GE(glm::distance(nearest, glm::vec2(500, 300)), 11.0f);
 }
 
-TEST(Labels, KeepOffObstaclesWhileThereIsAnotherPlace) {
+TEST(Labels, AvoidObstaclesIfThereIsAnotherPlace) {
     const std::vector<LabelRequest> requests{{.at = {500, 300}, .size = {40, 14}, .clearance = 12}};
     std::vector<Rect> obstacles;
     const auto blocked = [&] {
@@ -269,7 +269,7 @@ TEST(Labels, KeepOffObstaclesWhileThereIsAnotherPlace) {
     EXPECT_TRUE(blocked());
 }
 
-TEST(Labels, TheHigherRankStays) {
+TEST(Labels, TheHigherRankIsKept) {
     std::vector<LabelRequest> requests;
     for (int i = 0; i < 200; ++i)
         requests.push_back({.at = {500, 300}, .size = {60, 14}, .rank = i == 150 ? 5 : 0});
@@ -279,7 +279,7 @@ TEST(Labels, TheHigherRankStays) {
     EXPECT_LT(placed.size(), requests.size());
 }
 
-TEST(Labels, LeaveOutWhatCannotBePlaced) {
+TEST(Labels, OmitWhatCannotBePlaced) {
     const float nan = std::nanf("");
     const std::vector<LabelRequest> requests{{.at = {nan, 300}, .size = {40, 14}},
                                              {.at = {500, 300}, .size = {nan, 14}},
@@ -292,7 +292,7 @@ TEST(Labels, LeaveOutWhatCannotBePlaced) {
 }
 
 /// A ball in front of a camera that is nearly inside it covers more pixels than an int can count.
-TEST(Labels, AnObstacleOfAnySizeIsJustInTheWay) {
+TEST(Labels, AnObstacleOfAnySizeIsHandled) {
     const std::vector<LabelRequest> requests{{.at = {500, 300}, .size = {40, 14}}};
     const std::vector<Rect> obstacles{{{-1e12f, -1e12f}, {1e12f, 1e12f}},
                                       {{-1e38f, 290.0f}, {1e38f, 310.0f}},

@@ -68,7 +68,7 @@ bool same_within(const Image& a, const Image& b, const Rect& rect) {
     return true;
 }
 
-TEST_P(Drawing, APaneHasWhatItWouldHaveAlone) {
+TEST_P(Drawing, APaneLooksAsItWouldAlone) {
     const CameraPose pose{.yaw = 0.3f, .pitch = 0.5f, .distance = 6.0f};
     const Palette colours = palette(Theme::Dark);
     std::vector<Pane> panes;
@@ -199,7 +199,7 @@ TEST_P(Drawing, PickingAgreesWithTheDrawnPixels) {
     }
 }
 
-TEST_P(Drawing, TheKeptBackdropIsTheSameAsADrawnOne) {
+TEST_P(Drawing, TheCachedBackdropEqualsADrawnOne) {
     const DrawList list = many(5);
     const CameraPose pose{.yaw = 0.4f, .pitch = 0.5f};
     const Image drawn = draw(list, pose, palette(Theme::Dark), true);
@@ -306,7 +306,7 @@ TEST_P(Offscreen, ChangesItsSize) {
     }
 }
 
-TEST_P(Offscreen, RefusesSizesThatCannotBe) {
+TEST_P(Offscreen, RefusesImpossibleSizes) {
     for (const glm::ivec2 bad :
          {glm::ivec2(0, 10), glm::ivec2(10, -1), glm::ivec2(16385, 10), glm::ivec2(10, 1 << 30)}) {
         EXPECT_THROW(open_window(GetParam(), bad), std::runtime_error);
@@ -317,7 +317,7 @@ TEST_P(Offscreen, RefusesSizesThatCannotBe) {
     expect_clears(*window, {64, 48});
 }
 
-TEST_P(Offscreen, NothingEverHappensToIt) {
+TEST_P(Offscreen, HasNoEvents) {
     const auto window = open_window(GetParam(), {64, 48});
     std::vector<Event> events;
     window->poll(events, 10.0);

@@ -75,7 +75,7 @@ class SkinDrawing : public testing::TestWithParam<Backend> {
     Renderer renderer_;
 };
 
-TEST_P(SkinDrawing, CornersGoWithTheirJoints) {
+TEST_P(SkinDrawing, VerticesFollowTheirJoints) {
     const Image together = draw(box(), still, still);
     EXPECT_GT(at(together, {0.4f, 0.4f, 0.0f}).r, 100);
     EXPECT_EQ(at(together, {0.8f, 0.0f, 0.0f}).r, 0);
@@ -85,7 +85,7 @@ TEST_P(SkinDrawing, CornersGoWithTheirJoints) {
     EXPECT_EQ(at(apart, {0.45f, -0.3f, 0.0f}).r, 0);
 }
 
-TEST_P(SkinDrawing, TheShaderPutsCornersWhereSkinnedDoes) {
+TEST_P(SkinDrawing, TheShaderAgreesWithSkinned) {
     AffineRows turned{{{0.0f, 0.0f, 1.0f, 0.2f}, {0.0f, 1.0f, 0.0f, -0.1f}, {-1.0f, 0.0f, 0.0f, 0.0f}}};
     SkinnedMesh mesh = box();
     for (JointWeights& each : mesh.weights) each = {{0, 1, 0, 0}, {0.25f, 0.75f, 0.0f, 0.0f}};
@@ -109,7 +109,7 @@ TEST_P(SkinDrawing, TheShaderPutsCornersWhereSkinnedDoes) {
     EXPECT_LE(glm::distance(high, seen_high), 1.5f);
 }
 
-TEST_P(SkinDrawing, OtherWeightsTakeThePlaceOfTheMeshsOwn) {
+TEST_P(SkinDrawing, OtherWeightsReplaceTheMeshsOwn) {
     const auto mesh = std::make_shared<const SkinnedMesh>(box());
     DrawList list;
     list.skins.push_back({mesh, {still, still, moved({0.0f, 1.0f, 0.0f})}});
@@ -124,7 +124,7 @@ TEST_P(SkinDrawing, OtherWeightsTakeThePlaceOfTheMeshsOwn) {
     EXPECT_GT(at(draw(list), {0.3f, -0.3f, 0.0f}).r, 100) << "and back";
 }
 
-TEST_P(SkinDrawing, WhatIsInsideShowsThroughAndWallsDoNot) {
+TEST_P(SkinDrawing, ObjectsInsideShowThroughAndInnerWallsDoNot) {
     DrawList list;
     list.sphere(glm::vec3(0.0f), 0.2f, Unit::Metres, {0.0f, 1.0f, 0.0f, 1.0f}).shade = Shade::Flat;
     const auto mesh = std::make_shared<const SkinnedMesh>(box());
@@ -135,16 +135,16 @@ TEST_P(SkinDrawing, WhatIsInsideShowsThroughAndWallsDoNot) {
     list.skins[0].opacity = 1.0f;
     const Image solid = draw(list);
     EXPECT_LT(at(solid, glm::vec3(0.0f)).g, 20) << "nothing but the gloss of a solid wall";
-    // One wall, not two: the far side is behind the near one, and adds nothing.
+    // One wall, not two: the far side is behind the near one and adds nothing.
     const int wall = at(solid, {0.4f, 0.4f, 0.0f}).r;
     EXPECT_NEAR(at(through, {0.4f, 0.4f, 0.0f}).r, 0.4 * wall, 3);
-    // The skin does not cover what is in front of it.
+    // The skin does not cover objects in front of it.
     list.skins[0].opacity = 0.4f;
     list.strokes[0].a = list.strokes[0].b = glm::vec3(0.0f, 0.0f, 2.0f);
     EXPECT_EQ(at(draw(list), glm::vec3(0.0f)).r, 0);
 }
 
-TEST_P(SkinDrawing, MorphsMoveCornersAsFarAsTheyWeigh) {
+TEST_P(SkinDrawing, MorphsMoveVerticesByTheirWeight) {
     SkinnedMesh mesh = box();
     mesh.morphs.push_back({.name = "up", .positions = std::vector<glm::vec3>(24, {0.0f, 1.0f, 0.0f})});
     const auto shared = std::make_shared<const SkinnedMesh>(mesh);
@@ -158,7 +158,7 @@ TEST_P(SkinDrawing, MorphsMoveCornersAsFarAsTheyWeigh) {
     }
 }
 
-TEST_P(SkinDrawing, PicturesTintsAndCutOutsAreSeen) {
+TEST_P(SkinDrawing, PicturesTintsAndCutOutsAreVisible) {
     SkinnedMesh mesh = box();
     mesh.parts[0].colour = glm::vec4(1.0f);
     mesh.parts[0].picture = 0;
@@ -175,7 +175,7 @@ TEST_P(SkinDrawing, PicturesTintsAndCutOutsAreSeen) {
     EXPECT_LT(at(draw(mesh, still, still), {-0.45f, 0.0f, 0.0f}).g, 60);
 }
 
-TEST_P(SkinDrawing, WhatCannotBeDrawnIsNot) {
+TEST_P(SkinDrawing, UndrawableSkinsAreSkipped) {
     DrawList list;
     list.skins.push_back({});
     list.skins.push_back({std::make_shared<const SkinnedMesh>(), {}});

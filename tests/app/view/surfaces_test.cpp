@@ -87,7 +87,7 @@ TEST(Tube, IsRoundAboutItsAxis) {
         for (const Vertex& vertex : list.mesh.vertices) {
             const glm::vec3 axis(std::clamp(vertex.position.x, -0.5f, 0.5f), 0.0f, 0.0f);
             const glm::vec3 out = vertex.position - axis;
-            // Half a pixel is left for its outline.
+            // Half a pixel is reserved for its outline.
             const float radius = 0.1f - 0.5f * camera.metres_per_pixel(axis);
             EXPECT_NEAR(glm::length(out), radius, 1e-5f) << "also at the caps, which are half balls";
             const glm::vec3 sight = orthographic ? -camera.forward() : camera.eye() - vertex.position;
@@ -109,7 +109,7 @@ TEST(Tube, NormalsChangeSteadilyAlongIt) {
         EXPECT_LT(glm::distance(vertices[i].normal, vertices[i - sides].normal), 0.5f);
 }
 
-TEST(Tube, HasAsManySidesAsWantedOrAsCanBeSeen) {
+TEST(Tube, HasTheRequestedSidesOrAsManyAsAreVisible) {
     DrawList near, three, far;
     tube(near, camera_at(1.0f), Points{{0, 0, 0}, {0.1f, 0, 0}}, 0.1f, 40, {});
     EXPECT_EQ(near.mesh.vertices.size() % 40, 0u);
@@ -132,7 +132,7 @@ TEST(Tube, HasTheColoursOfItsCentres) {
     for (const Vertex& vertex : one.mesh.vertices) EXPECT_EQ(vertex.colour, red);
 }
 
-TEST(Tube, IsThreadsWhereItIsThinnerThanTwoPixels) {
+TEST(Tube, BecomesThreadsWhereItIsThinnerThanTwoPixels) {
     DrawList list;
     tube(list, camera_at(100.0f), hanging(10), 0.005f, 16, Points{red});
     EXPECT_TRUE(list.mesh.indices.empty());
@@ -140,7 +140,7 @@ TEST(Tube, IsThreadsWhereItIsThinnerThanTwoPixels) {
     expect_sound(list);
 }
 
-TEST(Tube, ThrowsItsShadowByStrokesThatAreNotSeen) {
+TEST(Tube, CastsItsShadowByInvisibleStrokes) {
     DrawList list;
     tube(list, camera_at(3.0f), hanging(20), 0.05f, 16, {});
     int casting = 0;
@@ -151,7 +151,7 @@ TEST(Tube, ThrowsItsShadowByStrokesThatAreNotSeen) {
     EXPECT_EQ(casting, 20);
 }
 
-TEST(Tube, MovesSteadilyAsItsCentresDo) {
+TEST(Tube, MovesSmoothlyWithItsCentres) {
     const Camera camera = camera_at(30.0f);  // where no span needs to be divided
     Points centres = hanging(24);
     DrawList before;
@@ -172,7 +172,7 @@ TEST(Tube, MovesSteadilyAsItsCentresDo) {
     }
 }
 
-TEST(Tube, IsFiniteWhateverComesIn) {
+TEST(Tube, IsFiniteForAnyInput) {
     const float nan = std::nanf(""), infinite = std::numeric_limits<float>::infinity();
     const float odd[]{nan, infinite, -infinite, 1e38f, -1e30f, 1e9f, 1e-38f, 0.0f, -0.0f, 1.0f};
     std::mt19937 random(7);
@@ -217,7 +217,7 @@ TEST(Box, HasSixFacesThatLookOutwards) {
     EXPECT_EQ(outlines(list), 9u) << "a corner towards the eye: three creases, six outlines";
 }
 
-TEST(Box, IsFiniteWhateverComesIn) {
+TEST(Box, IsFiniteForAnyInput) {
     const float nan = std::nanf("");
     for (const float bad : {nan, INFINITY, -1e30f, 0.0f, -0.5f, 1e9f}) {
         DrawList list;
@@ -253,7 +253,7 @@ struct Cloth {
     }
 };
 
-TEST(Sheet, HasTwoTrianglesACellAndAnOutline) {
+TEST(Sheet, HasTwoTrianglesPerCellAndAnOutline) {
     const DrawList list = Cloth().drawn();
     EXPECT_EQ(list.mesh.indices.size(), 12u * 6);
     EXPECT_EQ(outlines(list), 2u * (4 + 3));
@@ -282,7 +282,7 @@ TEST(Sheet, HasHolesWhereItIsTorn) {
     EXPECT_EQ(outlines(list), 0u);
 }
 
-TEST(Sheet, LeavesOutWhatIsNotFinite) {
+TEST(Sheet, OmitsNonFinitePoints) {
     Cloth cloth;
     cloth.positions[6].y = std::nanf("");
     cloth.positions[19].x = INFINITY;
@@ -293,8 +293,8 @@ TEST(Sheet, LeavesOutWhatIsNotFinite) {
 }
 
 TEST(Sheet, AFoldHasAnOutlineInTheColourOfTheNearerSide) {
-    // A strip that comes towards the eye and folds back: at the fold its front is visible on one half, and
-    // its back behind that.
+    // A strip that comes towards the eye and folds back: at the fold, one half shows its front, and the back
+    // of the other is behind that.
     Cloth cloth;
     cloth.columns = 3;
     cloth.rows = 2;
@@ -387,7 +387,7 @@ std::vector<CurvePoint> curve_through(const Points& points) {
     return curve;
 }
 
-TEST(Spline, GoesThroughItsPointsWithoutKinks) {
+TEST(Spline, PassesThroughItsPointsWithoutKinks) {
     std::mt19937 random(1);
     const Points points = random_walk(random, 40);
     for (std::size_t i = 0; i + 2 < points.size(); ++i) {
@@ -419,7 +419,7 @@ TEST(Spline, ACircleThroughFewPointsIsRound) {
         EXPECT_NEAR(glm::length(curve_span(points, i).at(0.5f)), 1.0f, 0.002f);
 }
 
-TEST(Spline, AStraightLineStaysStraightHoweverItsPointsLie) {
+TEST(Spline, AStraightLineStaysStraightForAnySpacing) {
     const Points points{{0, 0, 0}, {0.01f, 0, 0}, {1, 0, 0}, {1.001f, 0, 0}, {5, 0, 0}};
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
         const CurveSpan span = curve_span(points, i);
@@ -433,7 +433,7 @@ TEST(Spline, AStraightLineStaysStraightHoweverItsPointsLie) {
     }
 }
 
-TEST(Spline, FramesAreSquareAndTurnNoMoreThanTheCurve) {
+TEST(Spline, FramesAreOrthogonalAndRotateNoMoreThanTheCurve) {
     std::mt19937 random(2);
     for (int round = 0; round < 50; ++round) {
         const std::vector<CurvePoint> curve = curve_through(random_walk(random, 30));
@@ -479,7 +479,7 @@ TEST(Spline, OnALoopInSpaceFramesAreWithinTheMethodsError) {
     EXPECT_NEAR(std::remainder(angle(40) - angle(0) - wanted, glm::two_pi<float>()), 0.0f, 1e-3f);
 }
 
-TEST(Spline, FramesMoveSteadilyAsTheCurveDoes) {
+TEST(Spline, FramesMoveSmoothlyWithTheCurve) {
     std::mt19937 random(3);
     std::normal_distribution<float> small(0.0f, 1e-4f);
     for (int round = 0; round < 50; ++round) {

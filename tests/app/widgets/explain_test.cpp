@@ -51,14 +51,14 @@ TEST_F(Explained, WholeNumbersHaveARangeToo) {
     EXPECT_EQ(at(field, [&] { integer_slider("value", value, 0, 7); }), "What it does. 0 to 7.");
 }
 
-TEST_F(Explained, IsShownAtTheNameAsWellAndNowhereElse) {
+TEST_F(Explained, IsShownAtTheNameToo) {
     float value = 0.5f;
     const auto row = [&] { number_field("value", value, 0.1f, 0.0f, 1.0f, "%.3f"); };
     EXPECT_EQ(at(name, row), "What it does. 0 to 1.");
     EXPECT_EQ(at(below, row), "");
 }
 
-TEST_F(Explained, IsAboutAllThreeOfAPoint) {
+TEST_F(Explained, CoversAllThreeFieldsOfAPoint) {
     glm::vec3 point(0.0f);
     for (const float y : {20.0f, 50.0f, 80.0f}) {
         EXPECT_EQ(at({200.0f, y}, [&] { point_field("at", point, 0.1f, 5.0f); }), "What it does. -5 to 5 m.");
@@ -70,7 +70,7 @@ TEST_F(Explained, IsAboutAllThreeOfAPoint) {
         EXPECT_EQ(at({x, 45.0f}, vector), "What it does.") << "each has a range of its own";
 }
 
-TEST_F(Explained, IsGoneAfterAClickUntilTheMouseHasLeft) {
+TEST_F(Explained, IsHiddenAfterAClickUntilTheMouseLeaves) {
     const auto row = [] { option_button("a wide enough button", false); };
     EXPECT_EQ(at(name, row), "What it does.");
     finder_.press(true);
@@ -110,7 +110,7 @@ TEST(Axis, StepsAreRound) {
     EXPECT_GT(axis_step(0.0), 0.0);
 }
 
-TEST(Axis, OneUnitAnAxis) {
+TEST(Axis, AllMarksOfAnAxisHaveOneUnit) {
     EXPECT_EQ(axis_text(0.5, 0.5, 2.0, "s"), "0.5 s");
     EXPECT_EQ(axis_text(2.0, 0.5, 2.0, "s"), "2 s");
     EXPECT_EQ(axis_text(0.0, 0.5, 2.0, "s"), "0 s");

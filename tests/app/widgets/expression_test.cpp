@@ -23,7 +23,7 @@ std::string error_of(const char* text, const char* unit = "") {
     return typed.error;
 }
 
-TEST(Expression, IsWhatItSays) {
+TEST(Expression, IsEvaluated) {
     EXPECT_EQ(value_of("1/3"), 1.0 / 3.0);
     EXPECT_EQ(value_of("2*pi"), 2.0 * 3.14159265358979323846);
     EXPECT_EQ(value_of(" -2 + 3 * 4 "), 10.0);
@@ -41,7 +41,7 @@ TEST(Expression, IsWhatItSays) {
     EXPECT_EQ(value_of("1/0"), HUGE_VAL);
 }
 
-TEST(Expression, ComesInTheFieldsUnit) {
+TEST(Expression, IsConvertedToTheFieldsUnit) {
     EXPECT_EQ(value_of("0.5 m", "m"), 0.5);
     EXPECT_DOUBLE_EQ(value_of("30 cm", "m"), 0.3);
     EXPECT_DOUBLE_EQ(value_of("30cm", "m"), 0.3);
@@ -56,7 +56,7 @@ TEST(Expression, ComesInTheFieldsUnit) {
     EXPECT_EQ(value_of("5 bones", "bones"), 5.0);
 }
 
-TEST(Expression, SaysWhatIsWrong) {
+TEST(Expression, ReportsErrors) {
     EXPECT_TRUE(test::says(error_of("three"), "three not number"));
     EXPECT_TRUE(test::says(error_of("1/"), "1/ number"));
     EXPECT_TRUE(test::says(error_of("(1"), "(1 number"));
@@ -73,7 +73,7 @@ TEST(Expression, SaysWhatIsWrong) {
     error_of((std::string(10000, '-') + "1").c_str());
 }
 
-TEST(Expression, NothingIsTooMuchForIt) {
+TEST(Expression, AnyInputIsHandled) {
     std::mt19937 random(3);
     const std::string letters = "0123456789.+-*/^() pieEmsdg%\xc2\xb0";
     for (int round = 0; round < 50000; ++round) {

@@ -20,7 +20,7 @@ struct VectorCurves {
     glm::dvec3 at(double time) const;
 };
 
-/// A property that a layer sets; the node's own three, in this order.
+/// The node properties that a layer can animate, in the order of the arrays in Layer::nodes.
 enum class Animated : std::uint8_t { Translation, Rotation, Scale };
 
 struct Layer {
@@ -46,7 +46,7 @@ struct Stack {
     void each_curve(std::size_t node, Animated which, const Use& use) const;
 };
 
-/// In the file's order. Appends sentences to `notes`. Throws std::runtime_error.
+/// Stacks in the file's order. Appends sentences to `notes`. Throws std::runtime_error.
 std::vector<Stack> read_stacks(const File& file, const Objects& objects, const std::vector<Node>& nodes,
                                std::vector<std::string>& notes);
 

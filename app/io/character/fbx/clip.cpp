@@ -17,7 +17,7 @@ using humanoid::Track;
 double jump_seconds(double time) {
     return std::max(1e-7, std::abs(time) / 4194304.0);
 }
-/// Where a track is compared with its curves between two keys: not at simple fractions of whole turns.
+/// Where tracks are compared with curves between two keys; avoids simple fractions of whole turns.
 constexpr std::array<double, 5> compared{0.1273, 0.3119, 0.5041, 0.6971, 0.8667};
 constexpr double max_angle = 0.02 / 57.29577951308232;
 
@@ -52,7 +52,7 @@ double angle_between(const glm::dquat& a, const glm::dquat& b) {
                             std::abs(apart.w));
 }
 
-/// The times of the curves' keys within the stack; with jumps, also those beside the jumps of constant ones.
+/// The times of the curves' keys within the stack; `with_jumps`: also times beside constant curves' jumps.
 std::vector<double> key_times(const Stack& stack, const std::vector<const Curve*>& curves, bool with_jumps) {
     std::set<double> times;
     for (const Curve* curve : curves) {

@@ -11,10 +11,10 @@
 
 namespace tendril::app::fbx {
 
-/// The maximum distance of a track from its curves: `length` in the file's unit, for each node by itself.
+/// The maximum deviation of a track from its curves: `length` in the file's unit, per node.
 struct Tolerance {
     double length = 1e-3;
-    std::vector<double> levers{};  ///< for each bone, the distance up to which its rotation moves nodes
+    std::vector<double> levers{};  ///< per bone, the distance up to which its rotation moves nodes
 };
 /// 0.005 mm for a figure of 1.8 m, at least 0.001 mm: the errors of a chain of nodes add up. `metres` per
 /// unit of the file.

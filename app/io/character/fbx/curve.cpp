@@ -102,7 +102,7 @@ void set_slopes(std::vector<CurveKey>& keys, const std::vector<Tangents>& tangen
     }
 }
 
-/// Keys in order of time. Of equal times the last one counts; a key that goes back in time is left out.
+/// Keys in order of time. Of equal times the last key wins; keys that go back in time are dropped.
 class KeyList {
   public:
     void add(const CurveKey& key, const Tangents& tangents) {
@@ -133,7 +133,7 @@ Shape shape_of(std::int64_t flags) {
     return (flags & linear_flag) != 0 ? Shape::Linear : Shape::Cubic;
 }
 
-/// Two weights in the bits of one float, in ten-thousandths less one; text files may show their integer.
+/// Two weights in the bits of one float, in ten-thousandths; text files may write the bits as an integer.
 std::uint32_t packed_bits(double value) {
     if (std::abs(value) >= 1.0)
         return static_cast<std::uint32_t>(
@@ -186,7 +186,7 @@ class OldKeys {
   public:
     explicit OldKeys(const Record& record) : record_(record) {}
 
-    /// Reads no keys if one of them is not understood: where the next begins is then unknown.
+    /// Reads no keys if one of them is not understood, since the start of the next one is then unknown.
     Curve read() {
         while (at_ < record_.properties.size() && !is_lost_) read_key();
         if (is_lost_) return {.is_odd = true};
@@ -205,7 +205,7 @@ class OldKeys {
         }
         return record_.text(at_++)[0];
     }
-    /// The letter for which weights or velocities follow: none, right, next left, all.
+    /// A letter that says for which keys weights or velocities follow: none, right, next left, all.
     void optional_pair(double& right, double& next_left) {
         const char which = letter();
         if (which == 'r' || which == 'a') right = std::clamp(number(), 0.0001, 1.0);

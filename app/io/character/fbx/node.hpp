@@ -48,8 +48,8 @@ struct Node {
     Values rest() const;
 };
 
-/// The models, a parent anywhere in the list. Appends sentences to `notes`. Throws std::runtime_error for
-/// nodes below themselves and for more than Skeleton::max_nodes * 16.
+/// The models; a parent may come later in the list. Appends sentences to `notes`. Throws std::runtime_error
+/// for nodes below themselves and for more than Skeleton::max_nodes * 16.
 std::vector<Node> read_nodes(const Objects& objects, std::vector<std::string>& notes);
 /// The nodes' indices, parents first.
 std::vector<std::size_t> parents_first(const std::vector<Node>& nodes);

@@ -37,8 +37,8 @@ class Objects {
     /// The index of the object that version 6 calls "Model::Hips".
     std::int64_t find(std::string_view full_name) const;
 
-    /// The values of a property begin at `first` of the record; null: neither the object nor its template has
-    /// it.
+    /// A property's values, from element `first` of the record on; null if neither the object nor its
+    /// template has the property.
     struct Values {
         const Record* record = nullptr;
         std::size_t first = 0;

@@ -13,7 +13,7 @@
 namespace tendril::app::fbx {
 namespace {
 
-constexpr std::size_t max_nested = 64;  ///< records in records; files have up to 10
+constexpr std::size_t max_nested = 64;  ///< nesting of records; files have up to 10
 
 template <class T>
 T raw_at(std::string_view bytes, std::size_t at) {
@@ -103,7 +103,7 @@ std::vector<T> elements(const Property& array) {
     return result;
 }
 
-/// The properties that hold the record's numbers: a text file puts arrays into a child named "a".
+/// The properties that hold the record's numbers; text files put arrays into a child named "a".
 const std::vector<Property>& holders(const Record& record) {
     const Record* array = record.properties.size() == 1 ? record.child("a") : nullptr;
     return array ? array->properties : record.properties;

@@ -58,13 +58,13 @@ File read_records(std::string_view bytes);
 
 // For read_records().
 
-/// The size of a binary file's number of that letter, or of an array's elements; 0: not a number.
+/// Bytes of one number of that letter in a binary file, or of one array element; 0: not a number.
 std::size_t number_bytes(char kind);
 inline bool is_array(char kind) {
     return kind >= 'a' && kind <= 'z' && number_bytes(kind) > 0;
 }
 
-/// The shared part of both readers: the stack of records that are open at the present place.
+/// Shared by both readers: the stack of open records.
 class RecordReader {
   public:
     RecordReader() = default;

@@ -35,7 +35,7 @@ class HumanoidAttach : public HumanoidTest {
             deepest = std::max(deepest, -humanoid::gap(each, {from, to, 0.0}));
         return deepest;
     }
-    /// The depth of free particles inside the body, metres.
+    /// The maximum depth of free particles inside the body, metres.
     double particle_depth() const {
         const auto all = capsules();
         double deepest = 0.0;

@@ -87,15 +87,15 @@ TEST_F(HumanoidAttach, StaysOffTheBody) {
         EXPECT_LT(deepest_link, 0.005) << which;
         EXPECT_LT(stretch, speed > 1.0 ? 0.05 : 0.02) << which << ": as the solver left it";
         EXPECT_LT(error, 0.08) << which << ": with what the body pushed aside";
-        // Nothing has slipped through: the cape is still behind the trunk.
+        // Nothing has passed through the body: the cape is still behind the trunk.
         const std::size_t row = body("cape").row, middle = row / 2;
         for (std::size_t r = 0; r < 8; ++r)
             EXPECT_LT(particle("cape", r * row + middle).z, bone("UpperChest").z) << which << ", row " << r;
     }
 }
 
-/// Hands that take hold of a rifle bring arms close to the trunk, and the rifle to the cape between.
-TEST_F(HumanoidAttach, IsNotTornByWhatClosesOnTheTrunk) {
+/// Hands that grip a rifle bring the arms close to the trunk, and the rifle close to the cape.
+TEST_F(HumanoidAttach, IsNotTornByArmsThatCloseOnTheTrunk) {
     for (const auto& [file, size, before] :
          {std::tuple("robot.glb", 1.0, 16), {"mixed_orders.bvh", 1.0, 34}, {"robot.glb", 2.0, 7}}) {
         const auto path = test::characters_folder() / file;
@@ -113,7 +113,7 @@ TEST_F(HumanoidAttach, IsNotTornByWhatClosesOnTheTrunk) {
     }
 }
 
-TEST_F(HumanoidAttach, ThatIsTornIsTheVerdict) {
+TEST_F(HumanoidAttach, ATornOneIsReportedInTheVerdict) {
     run("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}});
     run("humanoid.hold", {{"kind", "rifle"}});
     EXPECT_EQ(humanoid_verdict(workspace).text, "Holds the rifle");
@@ -146,7 +146,7 @@ TEST_F(HumanoidAttach, IsNotCarriedByADragOfTheHeldObjectWhileTimeRuns) {
     EXPECT_EQ(last("cord"), before);
 }
 
-TEST_F(HumanoidAttach, LiesOnTheGroundAsFarAsThatIsFlat) {
+TEST_F(HumanoidAttach, LiesOnTheGroundIfThatIsFlat) {
     for (const auto& [kind, angle] : {std::pair("flat", 0.0), {"slope", 20.0}}) {
         run("humanoid.load");
         run("humanoid.ground", {{"kind", kind}, {"angle_deg", angle}});
@@ -183,7 +183,7 @@ TEST_F(HumanoidAttach, SwingsWithAHandThatIsDraggedWhileTheClipIsPaused) {
     EXPECT_FALSE(lab().moving(workspace));
 }
 
-TEST_F(HumanoidAttach, TakesWhatIsGivenOfItsShape) {
+TEST_F(HumanoidAttach, UsesTheGivenShape) {
     run("humanoid.attach", {{"bone", "Head"},
                             {"kind", "rope"},
                             {"length", 0.5},
@@ -203,7 +203,7 @@ TEST_F(HumanoidAttach, TakesWhatIsGivenOfItsShape) {
     EXPECT_EQ(part().attachments.list[2].name, "rope 2");
 }
 
-TEST_F(HumanoidAttach, RefusesWhatDoesNotFit) {
+TEST_F(HumanoidAttach, RefusesInvalidValues) {
     expect_refused("humanoid.attach", {{"bone", "Wing"}, {"kind", "rope"}}, {"no bone and no node \"Wing\""});
     expect_refused("humanoid.attach", {{"bone", "Head"}, {"kind", "rope"}, {"direction", {0, 0, 0}}},
                    {"direction must be longer than 0"});

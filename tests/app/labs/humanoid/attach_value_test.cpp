@@ -9,14 +9,14 @@
 namespace tendril::app {
 namespace {
 
-TEST_F(HumanoidAttach, IsDroppedByALoad) {
+TEST_F(HumanoidAttach, LoadingACharacterRemovesIt) {
     dress();
     run("humanoid.load");
     EXPECT_TRUE(part().attachments == Attachments());
     EXPECT_TRUE(state().at("attachments").empty());
 }
 
-TEST_F(HumanoidAttach, IsRefusedFromAFileThatWasBroken) {
+TEST_F(HumanoidAttach, ADamagedFileIsRefused) {
     dress();
     Json fewer = saved()["attachments"]["list"], particles = saved()["attachments"]["world"]["particles"];
     fewer.erase(0), particles.erase(0);
@@ -31,7 +31,7 @@ TEST_F(HumanoidAttach, IsRefusedFromAFileThatWasBroken) {
 }
 
 /// After scrubbing, or choosing another clip, everything is where it was relative to its bone.
-TEST_F(HumanoidAttach, IsCarriedAlongWhereTheCharacterJumps) {
+TEST_F(HumanoidAttach, IsCarriedAlongWhenTheCharacterJumps) {
     dress();
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
     tick(90);
@@ -105,7 +105,7 @@ TEST_F(HumanoidAttach, SurvivesAClipThatJumps) {
 }
 
 /// Nodes anywhere, with scale 0, mirrored, a thousand kilometres away.
-TEST(HumanoidAttachments, NeverBecomeNumbersThatAreNone) {
+TEST(HumanoidAttachments, AlwaysStayFinite) {
     const HumanoidPart part;
     const std::vector<humanoid::BodyCapsule> capsules =
         humanoid::default_capsules(part.skeleton(), *part.map);

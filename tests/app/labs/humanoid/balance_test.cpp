@@ -28,7 +28,7 @@ class HumanoidBalanceLab : public HumanoidTest {
         return humanoid::find_support(solvers.feet(part())->soles(), shown.soles)
             .margin(solvers.masses(part())->centre(shown.placed));
     }
-    /// Drags a hand from where it is, 2 cm at a time if 1.8 m tall.
+    /// Drags a hand from its position, 2 cm at a time for a figure of 1.8 m.
     void drag(const char* effector, glm::dvec3 to) {
         const glm::dvec3 from =
             shown_pose(workspace)
@@ -73,7 +73,7 @@ TEST_F(HumanoidBalanceLab, TheCodeKeepsTheBalanceToo) {
     EXPECT_TRUE(test::says(lab().code(workspace), "body->solve(pose, targets, body_state, body_options)"));
 }
 
-TEST_F(HumanoidBalanceLab, TheGroundShowsWhatTheFeetSupport) {
+TEST_F(HumanoidBalanceLab, TheGroundShowsTheSupportArea) {
     const std::size_t before = drawn().strokes.size();
     run("humanoid.balance", {{"on", true}});
     const std::size_t corners = balance().at("support").size();
@@ -99,14 +99,14 @@ TEST_F(HumanoidBalanceLab, AFootStepsWhileTheSimulationRuns) {
     EXPECT_LT(shown_pose(workspace).residual(humanoid::Effector::RightHand).value(), 0.03);
     EXPECT_TRUE(test::says(text(), "cm inside the feet"));
     EXPECT_GT(std::max(node("LeftFoot").z, node("RightFoot").z), ahead + 0.3);
-    // Let go, the feet step back.
+    // Released, the feet step back.
     run("humanoid.target", {{"effector", "right_hand"}, {"weight", 0}});
     tick(400);
     EXPECT_FALSE(part().ik_state.steps.away());
     EXPECT_NEAR(node("RightFoot").z, ahead, 1e-6);
 }
 
-TEST_F(HumanoidBalanceLab, AStepIsNoAlarm) {
+TEST_F(HumanoidBalanceLab, AStepIsNotAnIncident) {
     run("humanoid.balance", {{"on", true}});
     drag("right_hand", {-0.2, 1.0, 1.6});
     for (int i = 0; i < 400; ++i) {
@@ -121,7 +121,7 @@ TEST_F(HumanoidBalanceLab, AStepIsNoAlarm) {
     }
 }
 
-TEST_F(HumanoidBalanceLab, ItSaysWhyItDoesNotAct) {
+TEST_F(HumanoidBalanceLab, ItExplainsWhyItDoesNotAct) {
     const auto why = [&] { return balance().value("note", std::string()); };
     run("humanoid.balance", {{"on", true}});
     EXPECT_TRUE(test::says(why(), "acts once something has a target"));

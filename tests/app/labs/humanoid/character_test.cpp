@@ -50,7 +50,7 @@ TEST_F(HumanoidCharacter, IsTheStickFigureAtFirst) {
     }
 }
 
-TEST_F(HumanoidCharacter, ComesFromAFileAsItRests) {
+TEST_F(HumanoidCharacter, LoadsFromAFileWithItsOnlyClip) {
     const std::string path = write("figure.bvh", bvh_figure());
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
     run("humanoid.load", {{"path", path}});
@@ -71,7 +71,7 @@ TEST_F(HumanoidCharacter, ComesFromAFileAsItRests) {
     EXPECT_EQ(state().at("character").at("file"), "");
 }
 
-TEST_F(HumanoidCharacter, WithoutAHandIsNotSolvedAndSaysSo) {
+TEST_F(HumanoidCharacter, WithoutAHandIsNotSolvedAndReportsIt) {
     run("humanoid.load", {{"path", write("figure.bvh", bvh_figure("LeftHand"))}});
     const Json now = state();
     // The node at the end of the forearm may be matched as the hand, but only with low confidence.
@@ -88,7 +88,7 @@ TEST_F(HumanoidCharacter, WithoutAHandIsNotSolvedAndSaysSo) {
     EXPECT_TRUE(test::says(state().at("body").at("why_not"), "LeftHand RightHand"));
 }
 
-TEST_F(HumanoidCharacter, KeepsTheOneThatIsThereWhereAFileCannotBeRead) {
+TEST_F(HumanoidCharacter, KeepsThePresentOneIfAFileCannotBeRead) {
     expect_refused("humanoid.load", {{"path", "nowhere.glb"}}, {"nowhere.glb", "no such file"});
     expect_refused("humanoid.load", {{"path", write("a.obj", "v 0 0 0")}}, {"a.obj", ".bvh"});
     expect_refused("humanoid.load", {{"path", write("b.bvh", "HIERARCHY\nROOT")}}, {"b.bvh"});
@@ -96,7 +96,7 @@ TEST_F(HumanoidCharacter, KeepsTheOneThatIsThereWhereAFileCannotBeRead) {
     expect_refused("humanoid.load", {{"path", ""}}, {"path is empty"});
 }
 
-TEST_F(HumanoidCharacter, HasTheBonesThatAPersonPicks) {
+TEST_F(HumanoidCharacter, HasTheBonesThatTheUserPicks) {
     run("humanoid.map", {{"bone", "LeftHand"}, {"node", "LeftHand_End"}});
     EXPECT_EQ(bones().at("LeftHand").at("node"), "LeftHand_End");
     EXPECT_EQ(bones().at("LeftHand").at("confidence"), 1.0);
@@ -107,7 +107,7 @@ TEST_F(HumanoidCharacter, HasTheBonesThatAPersonPicks) {
     EXPECT_EQ(bones().at("LeftHand").at("node"), "LeftHand_End");
 }
 
-TEST_F(HumanoidCharacter, GivesANodeToOneBoneAlone) {
+TEST_F(HumanoidCharacter, ANodeBelongsToASingleBone) {
     run("humanoid.map", {{"bone", "LeftHand"}, {"node", "RightHand"}});
     EXPECT_EQ(bones().at("LeftHand").at("node"), "RightHand");
     EXPECT_FALSE(bones().contains("RightHand"));
@@ -118,7 +118,7 @@ TEST_F(HumanoidCharacter, GivesANodeToOneBoneAlone) {
     expect_refused("humanoid.map", {{"bone", "Tail"}, {"node", "Hips"}}, {"bone must be one of Hips"});
 }
 
-TEST_F(HumanoidCharacter, RestsAsATWhereThatIsWanted) {
+TEST_F(HumanoidCharacter, RestsInTPoseOnRequest) {
     run("humanoid.load", {{"path", write("figure.bvh", bvh_figure())}});
     run("humanoid.clip", {{"name", ""}});
     const glm::dvec3 shoulder = bone("LeftUpperArm"), leg = bone("LeftFoot");
@@ -138,7 +138,7 @@ TEST_F(HumanoidCharacter, RestsAsATWhereThatIsWanted) {
     run("humanoid.t_pose", {{"on", false}});
 }
 
-TEST_F(HumanoidCharacter, HasTheSizeThatItsUnitGives) {
+TEST_F(HumanoidCharacter, HasTheSizeOfItsUnit) {
     run("humanoid.load", {{"path", write("figure.bvh", bvh_figure())}});
     run("humanoid.scale", {{"metres", 0.0254}});
     EXPECT_NEAR(bone("Hips").y, 95 * 0.0254, 1e-9);
@@ -150,7 +150,7 @@ TEST_F(HumanoidCharacter, HasTheSizeThatItsUnitGives) {
     expect_refused("humanoid.scale", {{"metres", 0.5}}, {"stick figure"});
 }
 
-TEST_F(HumanoidCharacter, StandsAlongTheAxisThatAPersonPicks) {
+TEST_F(HumanoidCharacter, StandsAlongTheAxisThatTheUserPicks) {
     run("humanoid.load", {{"path", write("figure.bvh", bvh_figure())}});
     run("humanoid.map", {{"bone", "LeftHand"}, {"node", "LeftHand end"}});
     EXPECT_EQ(state().at("character").at("up"), "y");
@@ -173,7 +173,7 @@ TEST_F(HumanoidCharacter, StandsAlongTheAxisThatAPersonPicks) {
     expect_refused("humanoid.up", {{"axis", "z"}}, {"stick figure"});
 }
 
-TEST_F(HumanoidCharacter, HasItsRootWhereTheFileMeansIt) {
+TEST_F(HumanoidCharacter, HasItsRootWhereTheFilePutsIt) {
     run("humanoid.load", {{"path", write("figure.bvh", bvh_figure())}});
     run("humanoid.clip", {{"index", 0}});
     EXPECT_EQ(state().at("character").at("root_positions"), "add");
@@ -191,7 +191,7 @@ TEST_F(HumanoidCharacter, HasItsRootWhereTheFileMeansIt) {
     expect_refused("humanoid.root", {{"positions", "add"}}, {"no root with both an OFFSET and positions"});
 }
 
-TEST_F(HumanoidCharacter, WhoseHeightIsNoPersonsSaysSoAndWhichUnitMendsIt) {
+TEST_F(HumanoidCharacter, AnImplausibleHeightIsReportedWithTheUnitThatFixesIt) {
     Character giant = stick_figure();
     const humanoid::Clip clip = giant.clips[0];
     read_as(giant, 100.0, {});

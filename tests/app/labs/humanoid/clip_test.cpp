@@ -1,4 +1,4 @@
-// Clips: the pose at a moment, and how they continue.
+// Clips: the pose at a moment, and how they loop.
 #include <algorithm>
 #include <fstream>
 
@@ -18,7 +18,7 @@ using HumanoidClips = HumanoidTest;
 
 constexpr double walk_seconds = 1.1, walk_metres = 1.1;
 
-TEST_F(HumanoidClips, TargetsGoAlongFromRoundToRound) {
+TEST_F(HumanoidClips, TargetsTravelFromRoundToRound) {
     run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
     const glm::dvec3 hand = bone("LeftHand");
     const glm::dvec3 to = hand + glm::dvec3(0.05, 0.1, 0.1);
@@ -36,7 +36,7 @@ TEST_F(HumanoidClips, TargetsGoAlongFromRoundToRound) {
     EXPECT_LT(glm::distance(at(), to), 1e-6);
 }
 
-TEST_F(HumanoidClips, WithMarksOfTheLintSayInTheLegendWhatTheyAre) {
+TEST_F(HumanoidClips, LintMarksAreExplainedInTheLegend) {
     const auto explained = [&] {
         const std::vector<LegendRow> rows = lab().legend(workspace);
         return std::ranges::find(rows, "lint finding", &LegendRow::name) != rows.end();
@@ -48,7 +48,7 @@ TEST_F(HumanoidClips, WithMarksOfTheLintSayInTheLegendWhatTheyAre) {
     EXPECT_TRUE(explained());
 }
 
-TEST_F(HumanoidClips, OfTheFigureAreNoneThatACardCountsOnForEveryCharacter) {
+TEST_F(HumanoidClips, CardsDoNotDependOnTheFiguresClips) {
     const Cards cards(labs);
     for (const Card& card : cards.of("humanoid"))
         for (const CardStep& step : card.steps)
@@ -82,7 +82,7 @@ TEST_F(HumanoidClips, PlayByTicks) {
     EXPECT_NEAR(state().at("clip").at("time").get<double>(), 0.75, 1e-9) << "it stays where it is";
 }
 
-TEST_F(HumanoidClips, ThatLoopGoOnForwards) {
+TEST_F(HumanoidClips, LoopsContinueForwards) {
     run("humanoid.clip", {{"name", "walk"}, {"play", true}, {"loop", true}});
     double last = bone("Hips").z;
     for (int i = 0; i < 300; ++i) {
@@ -96,7 +96,7 @@ TEST_F(HumanoidClips, ThatLoopGoOnForwards) {
     EXPECT_LE(state().at("clip").at("time").get<double>(), walk_seconds);
 }
 
-TEST_F(HumanoidClips, KeepFeetInOneAnothersStepsOverALoop) {
+TEST_F(HumanoidClips, FeetStepWhereTheyDidBeforeALoop) {
     run("humanoid.clip", {{"name", "walk"}, {"time", walk_seconds}});
     const glm::dvec3 ends = bone("LeftFoot");
     EXPECT_EQ(state().at("clip").at("time"), walk_seconds) << "the last moment is the first round's";
@@ -120,7 +120,7 @@ TEST_F(HumanoidClips, InPlaceStayWhereTheyBegin) {
     EXPECT_GT(highest - lowest, 0.01) << "up and down it goes as it was";
 }
 
-TEST_F(HumanoidClips, ThatDoNotLoopStopAtTheirEnd) {
+TEST_F(HumanoidClips, WithoutLoopStopAtTheirEnd) {
     run("humanoid.clip", {{"name", "punch"}, {"play", true}, {"loop", false}});
     tick(200);
     EXPECT_EQ(state().at("clip").at("time"), state().at("clip").at("duration"));
@@ -131,7 +131,7 @@ TEST_F(HumanoidClips, ThatDoNotLoopStopAtTheirEnd) {
     EXPECT_EQ(state().at("clip").at("time"), state().at("clip").at("duration"));
 }
 
-TEST_F(HumanoidClips, PlayAndPauseAreNoStepsToUndo) {
+TEST_F(HumanoidClips, PlayAndPauseAreNoUndoSteps) {
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
     tick(10);
     const std::size_t steps = workspace.history.size();
@@ -145,7 +145,7 @@ TEST_F(HumanoidClips, PlayAndPauseAreNoStepsToUndo) {
     expect_refused("humanoid.play", {{"on", true}}, {"clip"});
 }
 
-TEST_F(HumanoidClips, ThatWalkInPlaceCanTravel) {
+TEST_F(HumanoidClips, WalksInPlaceCanTravel) {
     const test::TempFolder folder;
     run("humanoid.load", {{"path", treadmill_figure(folder.path())}});
     run("humanoid.clip", {{"index", 0}, {"play", true}});
@@ -153,7 +153,7 @@ TEST_F(HumanoidClips, ThatWalkInPlaceCanTravel) {
         test::says(test::PanelReader().panel(lab(), workspace), "recorded in place Travel at 1.0 m/s"));
     run("humanoid.clip", {{"travel", true}});
     EXPECT_NEAR(part().playback.pace.z, 1.0, 0.05) << "the speed of the standing foot";
-    // On through the rounds without a jump, and up the stairs.
+    // It continues from round to round without a jump, and up the stairs.
     run("humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.15}, {"step_depth", 0.3}});
     const glm::dvec3 begin = bone("Hips");
     glm::dvec3 last = begin;
@@ -164,7 +164,7 @@ TEST_F(HumanoidClips, ThatWalkInPlaceCanTravel) {
     }
     EXPECT_NEAR(last.z - begin.z, 4.0 * part().playback.pace.z, 0.1);
     EXPECT_GT(last.y - begin.y, 1.2);
-    // What is judged and exported travels as well, and its feet stand.
+    // Lint and export use the travelling clip too, and its feet stand.
     run("humanoid.ground", {{"kind", "flat"}});
     run("humanoid.view", {{"judged", "result"}});
     HumanoidRuntime& runtime = humanoid_runtime(workspace);
@@ -176,14 +176,14 @@ TEST_F(HumanoidClips, ThatWalkInPlaceCanTravel) {
     run("humanoid.load", {{"path", (folder / "out.glb").string()}});
     run("humanoid.clip", {{"index", 0}, {"time", walk_seconds}});
     EXPECT_NEAR(bone("Hips").z, walk_metres, 0.06);
-    // A clip that travels by itself goes no faster.
+    // A clip that already travels is not accelerated.
     run("humanoid.load");
     run("humanoid.clip", {{"name", "walk"}, {"travel", true}, {"time", walk_seconds}});
     EXPECT_EQ(part().playback.pace, glm::dvec3(0.0));
     EXPECT_NEAR(bone("Hips").z, walk_metres, 1e-6);
 }
 
-TEST_F(HumanoidClips, TakeTargetsAlongWithinARound) {
+TEST_F(HumanoidClips, TargetsTravelWithinARound) {
     for (const bool travels : {true, false}) {
         run("humanoid.load");
         run("humanoid.clip", {{"name", "walk"}, {"play", true}, {"targets_travel", travels}});
@@ -198,7 +198,7 @@ TEST_F(HumanoidClips, TakeTargetsAlongWithinARound) {
             EXPECT_LT(glm::distance(bone("LeftHand"), target()), 0.03) << i;
         }
     }
-    // In another moment they are where the figure then is, and an export has them there from its start.
+    // At another time they are near the figure there, and an export has them there from its start.
     run("humanoid.clip", {{"time", 0.0}, {"targets_travel", true}});
     const glm::dvec3 start = part().ik.target(humanoid::Effector::LeftHand)->position;
     run("humanoid.clip", {{"time", 0.5 * walk_seconds}});
@@ -208,7 +208,7 @@ TEST_F(HumanoidClips, TakeTargetsAlongWithinARound) {
     EXPECT_LT(glm::distance(part().ik.target(humanoid::Effector::LeftHand)->position, start), 1e-9);
 }
 
-TEST_F(HumanoidClips, ThatTurnGoOnAsTheyFace) {
+TEST_F(HumanoidClips, TurningClipsContinueInTheirDirection) {
     // Half a metre ahead and a quarter turn to the left: after four rounds it is back.
     const test::TempFolder folder;
     const std::string path = (folder / "turn.bvh").string();
@@ -227,7 +227,7 @@ TEST_F(HumanoidClips, ThatTurnGoOnAsTheyFace) {
     EXPECT_LT(glm::distance(bone("Hips"), begin), 1e-9);
 }
 
-TEST_F(HumanoidClips, RefuseWhatIsNotThere) {
+TEST_F(HumanoidClips, RefuseNamesThatDoNotExist) {
     expect_refused("humanoid.clip", {{"name", "run"}}, {"no clip \"run\""});
     expect_refused("humanoid.clip", {{"index", 2}}, {"index must be 0 to 1, got 2"});
     expect_refused("humanoid.clip", {{"name", "walk"}, {"index", 0}}, {"either"});
@@ -236,7 +236,7 @@ TEST_F(HumanoidClips, RefuseWhatIsNotThere) {
     run("humanoid.clip", {{"play", false}});
 }
 
-TEST_F(HumanoidClips, AreTakenAlongByTheCamera) {
+TEST_F(HumanoidClips, TheCameraFollowsThem) {
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
     const glm::vec3 before = workspace.camera.target;
     tick(60);
@@ -248,7 +248,7 @@ TEST_F(HumanoidClips, AreTakenAlongByTheCamera) {
     EXPECT_FALSE(part().view.follow);
 }
 
-TEST_F(HumanoidClips, AFileThatIsWrongIsRefusedWithItsPlace) {
+TEST_F(HumanoidClips, AnInvalidFileIsRefusedWithItsPath) {
     expect_scene_refused("/file", 3, "labs.humanoid.file");
     expect_scene_refused("/bones", {{"Tail", "Hips"}}, "no bone \"Tail\"");
     expect_scene_refused("/bones", {{"Head", "Tail"}}, "labs.humanoid.bones.Head");

@@ -13,7 +13,7 @@ namespace {
 
 class HumanoidContacts : public HumanoidTest {
   protected:
-    /// The depth of hands and lower arms in trunk and head, as drawn; metres.
+    /// The depth of hands and lower arms in trunk and head as drawn, metres.
     double penetration() { return penetration(capsules()); }
     std::vector<humanoid::BodyCapsule> capsules() const {
         return humanoid::fitted_capsules(part().skeleton(), *part().map,
@@ -36,7 +36,7 @@ class HumanoidContacts : public HumanoidTest {
     }
 };
 
-TEST_F(HumanoidContacts, WhatACharacterWearsIsKeptApart) {
+TEST_F(HumanoidContacts, WornObjectsAreKeptApart) {
     run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/body.glb")}});
     run("humanoid.self_collision", {{"on", true}});
     const std::vector<humanoid::BodyCapsule> capsules = humanoid_runtime(workspace).solvers.capsules(part());
@@ -62,7 +62,7 @@ TEST_F(HumanoidContacts, WhatACharacterWearsIsKeptApart) {
     }
 }
 
-TEST_F(HumanoidContacts, OffIsAsIfItHadNeverBeenOn) {
+TEST_F(HumanoidContacts, SwitchedOffItLeavesNoTrace) {
     for (const char* command : {"humanoid.self_collision", "humanoid.balance"}) {
         workspace = make_blank_workspace(labs);
         run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.3, 1.3, 0.4}}});

@@ -34,7 +34,7 @@ class HumanoidCurves : public HumanoidTest {
             if (each.name == name) return each;
         return std::nullopt;
     }
-    /// Metres by which the bones of the first curve are longer or shorter than in the clip.
+    /// The maximum length error of the first curve's bones relative to the clip, metres.
     double length_error() const {
         const ShownPose& shown = shown_pose(workspace);
         const auto chain = humanoid_runtime(workspace).solvers.curves(part())[0]->nodes();
@@ -61,7 +61,7 @@ TEST_F(HumanoidCurves, BeginThroughThePoseAndBendIt) {
     EXPECT_GT(glm::distance(node("tail_6"), tip), 0.05);
     EXPECT_EQ(bone("LeftHand"), hand) << "nothing else moves";
     EXPECT_LT(length_error(), 1e-6);
-    // The handle is where the point is: dragged there, the curve stays.
+    // The handle is at the point: dragged there, the curve stays.
     const auto last = handle("curve.tail_1.3");
     ASSERT_TRUE(last);
     const std::vector<glm::vec3> before = points();
@@ -76,10 +76,10 @@ TEST_F(HumanoidCurves, BeginThroughThePoseAndBendIt) {
     EXPECT_NE(curve().at("factor"), 1.0);
 }
 
-TEST_F(HumanoidCurves, GoWithTheHipsThroughClipAndIk) {
+TEST_F(HumanoidCurves, FollowTheHipsThroughClipAndIk) {
     run("humanoid.curve", {{"first", "tail_1"}});
     move_point(3, {0.5f, 0.2f, 0.1f});
-    const auto seen = [&] {  // the tip, as the hips see it
+    const auto seen = [&] {  // the tip in the hips' frame
         const ShownPose& shown = shown_pose(workspace);
         const auto chain = humanoid_runtime(workspace).solvers.curves(part())[0].get();
         const humanoid::Placement at = chain->space(shown.placed);
@@ -96,7 +96,7 @@ TEST_F(HumanoidCurves, GoWithTheHipsThroughClipAndIk) {
     EXPECT_LT(glm::distance(seen(), at_rest), 1e-4);
 }
 
-/// Hands reach from a spine that is bent, and arms and head hang on it.
+/// Hands reach from a bent spine, to which arms and head are attached.
 TEST_F(HumanoidCurves, LetHandsReachFromABentSpine) {
     run("humanoid.load");
     const glm::dvec3 head = bone("Head"), foot = bone("LeftFoot");
@@ -112,7 +112,7 @@ TEST_F(HumanoidCurves, LetHandsReachFromABentSpine) {
     EXPECT_LT(glm::distance(bone("LeftHand"), to), 1e-3) << "it holds its target while the spine bends";
 }
 
-TEST_F(HumanoidCurves, RefuseWhatTheyCannotBend) {
+TEST_F(HumanoidCurves, RefuseChainsThatTheyCannotBend) {
     run("humanoid.curve", {{"first", "tail_2"}});
     expect_refused("humanoid.curve", {{"first", "wing"}}, {"no node \"wing\""});
     expect_refused("humanoid.curve", {{"first", "tail_1"}}, {"tail_2", "already bends along the curve"});
@@ -123,7 +123,7 @@ TEST_F(HumanoidCurves, RefuseWhatTheyCannotBend) {
     const Json many(max_bone_curve_points + 1, Json{0.0, 0.0, 0.0});
     expect_refused("humanoid.curve", {{"first", "tail_2"}, {"points", many}}, {"64"});
     EXPECT_EQ(part().curves.size(), 1u);
-    // All on one point, and far away.
+    // All points at one position, and far away.
     const glm::vec3 start = handle("curve.tail_2.0")->frame.position;
     for (const glm::vec3 at : {start, glm::vec3(0.0f), glm::vec3(1e6f)}) {
         run("humanoid.curve", {{"first", "tail_2"}, {"points", points_json(std::vector<glm::vec3>(3, at))}});
@@ -135,7 +135,7 @@ TEST_F(HumanoidCurves, RefuseWhatTheyCannotBend) {
     EXPECT_GT(curve().at("bones_past_end"), 0);
 }
 
-TEST_F(HumanoidCurves, AreRefusedFromAFileThatWasBroken) {
+TEST_F(HumanoidCurves, ADamagedFileIsRefused) {
     run("humanoid.curve", {{"first", "tail_1"}});
     run("humanoid.curve", {{"first", "antenna_l_1"}});
     expect_scene_refused("/curves/0/first", "wing", "no node \"wing\"");
@@ -147,8 +147,8 @@ TEST_F(HumanoidCurves, AreRefusedFromAFileThatWasBroken) {
     EXPECT_EQ(opened_with("/curves/0/jumped", 2), "");
 }
 
-/// A hairpin whose bend comes nearer than the first bone is long: its joint goes on to the way back.
-TEST_F(HumanoidCurves, SayThatAJointJumped) {
+/// A hairpin whose bend comes closer than the first bone's length: its joint moves on to the way back.
+TEST_F(HumanoidCurves, AJumpingJointIsReported) {
     run("humanoid.curve", {{"first", "tail_1"}});
     const glm::vec3 start(glm::conjugate(shown_pose(workspace).placed[0].rotation()) *
                           (node("tail_1") - bone("Hips")));
@@ -174,7 +174,7 @@ TEST_F(HumanoidCurves, SayThatAJointJumped) {
     EXPECT_LT(jumps, 20) << "only where a joint does jump";
 }
 
-/// What an export writes is what is shown, and a program that was copied begins with the same curve.
+/// An export writes the displayed pose, and copied code begins with the same curve.
 TEST_F(HumanoidCurves, AreBakedIntoAClipAndCopied) {
     run("humanoid.curve", {{"first", "tail_1"}, {"roll_start_deg", 20}, {"falloff", 0.3}});
     move_point(3, {0.5f, 0.2f, 0.1f});
@@ -196,7 +196,7 @@ TEST_F(HumanoidCurves, AreBakedIntoAClipAndCopied) {
         EXPECT_NE(code.find(text), std::string::npos) << text;
 }
 
-TEST_F(HumanoidCurves, KeepTheirPlaceInAnotherUnit) {
+TEST_F(HumanoidCurves, KeepTheirPositionInAnotherUnit) {
     run("humanoid.curve", {{"first", "tail_1"}});
     move_point(3, {0.5f, 0.2f, 0.1f});
     const double height = part().loaded->height();

@@ -25,7 +25,7 @@ class HumanoidFeetHistory : public HumanoidTest {
             most = std::max(most, glm::distance(a[i].position, b[i].position));
         return most;
     }
-    /// What is drawn at moments of the clip while it plays.
+    /// The poses drawn at moments of the clip while it plays.
     std::vector<std::pair<double, std::vector<humanoid::Placement>>> played(int ticks) {
         std::vector<std::pair<double, std::vector<humanoid::Placement>>> moments;
         for (int i = 0; i < ticks; ++i) {
@@ -56,7 +56,7 @@ TEST_F(HumanoidFeetHistory, LooksScrubbedAsItWasPlayed) {
                 put_on(ground, clip, speed);
                 const auto moments = played(200);
                 for (std::size_t i = 0; i < moments.size(); i += 7) {
-                    // Out of order, as a hand scrubs.
+                    // Out of order, as when scrubbing by hand.
                     const auto& [time, pose] = moments[(i * 61) % moments.size()];
                     run("humanoid.clip", {{"time", time}, {"play", false}});
                     EXPECT_LT(apart(shown(), pose), tenth_of_a_millimetre)
@@ -66,7 +66,7 @@ TEST_F(HumanoidFeetHistory, LooksScrubbedAsItWasPlayed) {
 }
 
 TEST_F(HumanoidFeetHistory, LooksTheSameInSlowMotion) {
-    // The figure walks a metre a second: no tread ends exactly where it is at a tick.
+    // The figure walks at one metre per second: no tread ends exactly at a tick.
     const Json stairs{{"kind", "stairs"}, {"step_height", 0.16}, {"step_depth", 0.353}};
     put_on(stairs, "walk", 1.0);
     const auto full = played(120);
@@ -113,7 +113,7 @@ TEST_F(HumanoidFeetHistory, IsExportedAsItIsShown) {
             }
 }
 
-/// The past is bounded: a moment after minutes costs no more than two blocks, and is what was played there.
+/// The past is bounded: a moment after minutes costs at most two blocks, and looks as it did when played.
 TEST_F(HumanoidFeetHistory, IsTheSameAfterMinutes) {
     put_on({{"kind", "flat"}}, "walk", 10.0);
     const auto moments = played(900);  // two and a half minutes of the clip

@@ -20,7 +20,7 @@ class HumanoidFeet : public HumanoidTest {
   protected:
     Json foot(std::size_t side) const { return state().at("feet").at(side); }
 
-    /// A walk of four rounds: no planted foot sinks into `height`, floats above it or skates.
+    /// A walk of four rounds: no planted foot sinks below `height`, floats above it or skates.
     void expect_walks_on(double (*height)(double z)) {
         run("humanoid.foot_ik", {{"on", true}});
         run("humanoid.clip", {{"name", "walk"}, {"play", true}});
@@ -65,7 +65,7 @@ TEST_F(HumanoidFeet, TouchTheGroundWithHeelAndToe) {
     }
 }
 
-TEST_F(HumanoidFeet, WithoutIkKeepToTheClip) {
+TEST_F(HumanoidFeet, WithoutIkFollowTheClip) {
     run("humanoid.clip", {{"name", "walk"}, {"time", 0.4}});
     const Json before = state().at("character");
     run("humanoid.ground", {{"kind", "stairs"}});
@@ -80,7 +80,7 @@ TEST_F(HumanoidFeet, WithoutIkKeepToTheClip) {
 }
 
 /// Rising ground must not bury a character that has walked far, and the camera follows it.
-TEST_F(HumanoidFeet, WalkAnewWhereTheGroundRises) {
+TEST_F(HumanoidFeet, RestartWhereTheGroundRises) {
     for (const char* kind : {"stairs", "terrain"}) {
         run("humanoid.ground", {{"kind", "flat"}});
         run("humanoid.foot_ik", {{"on", false}});
@@ -161,7 +161,7 @@ TEST_F(HumanoidFeet, WalkOnAMeshFromAFile) {
     expect_refused("humanoid.ground", {{"kind", "mesh"}}, {"path is missing"});
 }
 
-TEST_F(HumanoidFeet, InPlaceGoBackwardsWithTheGround) {
+TEST_F(HumanoidFeet, InPlaceMoveBackwardsWithTheGround) {
     run("humanoid.ground", {{"kind", "flat"}});
     run("humanoid.foot_ik", {{"on", true}});
     run("humanoid.clip", {{"name", "walk"}, {"play", true}, {"in_place", true}});
@@ -181,7 +181,7 @@ TEST_F(HumanoidFeet, InPlaceGoBackwardsWithTheGround) {
 }
 
 /// A walk in place whose feet slide under still hips: none is ever slow enough to be planted.
-TEST_F(HumanoidFeet, SayWhyTheyNeverRest) {
+TEST_F(HumanoidFeet, ExplainWhyTheyNeverStand) {
     const test::TempFolder folder;
     run("humanoid.load", {{"path", treadmill_figure(folder.path())}});
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
@@ -196,7 +196,7 @@ TEST_F(HumanoidFeet, SayWhyTheyNeverRest) {
     EXPECT_NE(first, text.npos) << text;
     EXPECT_EQ(text.find("walks in place", first + 1), text.npos) << "once for both feet";
 
-    // The advice helps.
+    // Following the advice works.
     run("humanoid.foot_ik", {{"leave_speed", 4}, {"enter_speed", 3}});
     bool planted = false;
     for (int i = 0; i < 150; ++i) {
@@ -215,8 +215,8 @@ TEST_F(HumanoidFeet, SayWhyTheyNeverRest) {
     }
 }
 
-/// Planted feet stand on the ground with a joint of theirs, whatever the rest pose is.
-TEST_F(HumanoidFeet, StandWithoutAGapWhereTheClipKnowsTheSoles) {
+/// One joint of each planted foot is on the ground, whatever the rest pose is.
+TEST_F(HumanoidFeet, StandWithoutAGapOnSolesLearnedFromTheClip) {
     const std::filesystem::path path = test::characters_folder() / "cmu_12_01_walk.bvh";
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
     run("humanoid.load", {{"path", path.string()}});
@@ -281,7 +281,7 @@ TEST_F(HumanoidFeet, NeedNoTimeAndLetTheWindowIdle) {
     EXPECT_EQ(state(), before);
 }
 
-TEST_F(HumanoidFeet, RefuseWhatIsOutOfRange) {
+TEST_F(HumanoidFeet, RefuseValuesOutOfRange) {
     expect_refused("humanoid.foot_ik", {{"on", true}, {"enter_speed", 2}, {"leave_speed", 1}},
                    {"leave_speed must be at least enter_speed"});
     run("humanoid.foot_ik", {{"enter_speed", 2}});

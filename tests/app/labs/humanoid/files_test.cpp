@@ -70,8 +70,8 @@ TEST_F(HumanoidFiles, AClipIsExportedAsItCame) {
     expect_refused("humanoid.export", {{"path", path("a.glb")}, {"clip", "run"}}, {"run"});
 }
 
-/// The faults of the clip, those of the result, and those that an export tells of.
-TEST_F(HumanoidFiles, TheResultIsJudgedAndAnExportTellsWhatIsNewInIt) {
+/// The faults of the clip, of the result, and those that an export reports.
+TEST_F(HumanoidFiles, TheResultIsLintedAndAnExportReportsNewFindings) {
     run("humanoid.clip", {{"name", "walk"}, {"time", 0}});
     EXPECT_TRUE(report().findings.empty());
     // A target behind the left foot for the whole clip: it is dragged along, above the floor.
@@ -85,7 +85,7 @@ TEST_F(HumanoidFiles, TheResultIsJudgedAndAnExportTellsWhatIsNewInIt) {
     const std::string told = workspace.ui.toasts.back().text;
     EXPECT_TRUE(test::says(told, std::to_string(count) + " in the written clip, " + std::to_string(count) +
                                      " of them new " + report().findings[0].text.substr(0, 15)));
-    // Reopened, the file has what was told.
+    // Reopened, the file has the reported findings.
     run("humanoid.load", {{"path", path("out.glb")}});
     run("humanoid.clip", {{"index", 0}});
     EXPECT_EQ(report().findings.size(), count);
@@ -103,7 +103,7 @@ TEST_F(HumanoidFiles, TheResultIsJudgedAndAnExportTellsWhatIsNewInIt) {
 }
 
 /// On stairs the floor is where the ground is: feet that stand on them neither float nor sink.
-TEST_F(HumanoidFiles, TheResultIsJudgedOnItsGround) {
+TEST_F(HumanoidFiles, TheResultIsLintedOnItsGround) {
     run("humanoid.ground", {{"kind", "stairs"}, {"step_height", 0.16}, {"step_depth", 0.36}});
     run("humanoid.clip", {{"name", "walk"}, {"time", 0}});
     run("humanoid.view", {{"judged", "result"}});
@@ -118,7 +118,7 @@ TEST_F(HumanoidFiles, TheResultIsJudgedOnItsGround) {
     EXPECT_TRUE(report().findings.empty());
 }
 
-TEST_F(HumanoidFiles, AnExportTellsOnWhatItWasJudged) {
+TEST_F(HumanoidFiles, AnExportReportsTheGroundThatItWasJudgedOn) {
     run("humanoid.clip", {{"name", "walk"}, {"time", 0}});
     run("humanoid.target", {{"effector", "left_foot"}, {"to", {0.1, 0.05, 0.3}}});
     for (const char* const ground : {"flat", "stairs"}) {
@@ -132,7 +132,7 @@ TEST_F(HumanoidFiles, AnExportTellsOnWhatItWasJudged) {
     }
 }
 
-TEST_F(HumanoidFiles, AnExportTellsThatThereAreOtherClipsAndWritesThemAll) {
+TEST_F(HumanoidFiles, AnExportReportsOtherClipsAndWritesThemAll) {
     run("humanoid.export", {{"path", path("one.glb")}, {"clip", "punch"}});
     tells("one.glb 1 of 2 clips: punch");
     run("view.fold", {{"section", "humanoid: Export"}, {"folded", false}});
@@ -146,13 +146,13 @@ TEST_F(HumanoidFiles, AnExportTellsThatThereAreOtherClipsAndWritesThemAll) {
         EXPECT_NEAR(read.clips.at(0).duration, clip.duration, 0.02) << name;
     }
     expect_refused("humanoid.export", {{"path", path("x.glb")}, {"all", true}, {"clip", "walk"}}, {"clip"});
-    // A file with one clip does not say that it is one of one.
+    // A file with one clip is not reported as "1 of 1".
     run("humanoid.load", {{"path", path("all_walk.bvh")}});
     run("humanoid.export", {{"path", path("again.bvh")}});
     EXPECT_FALSE(test::says(workspace.ui.toasts.back().text, "1 of")) << workspace.ui.toasts.back().text;
 }
 
-TEST_F(HumanoidFiles, AnotherCharacterTellsWhatItDiscards) {
+TEST_F(HumanoidFiles, LoadingAnotherCharacterReportsWhatItDiscards) {
     const std::string walk = tendril::test::source_path("tests/app/golden/faulty_walk.bvh");
     run("humanoid.load", {{"path", walk}});
     EXPECT_TRUE(workspace.ui.toasts.empty()) << "nothing to discard";
@@ -167,8 +167,8 @@ TEST_F(HumanoidFiles, AnotherCharacterTellsWhatItDiscards) {
     EXPECT_TRUE(part() == before);
 }
 
-/// Two clips of one name can each be chosen.
-TEST_F(HumanoidFiles, ClipsOfOneNameAreToldApart) {
+/// Two clips with the same name can both be chosen.
+TEST_F(HumanoidFiles, ClipsWithTheSameNameAreDistinguished) {
     run("humanoid.export", {{"path", path("one.gltf")}, {"clip", "walk"}});
     std::ifstream file(path("one.gltf"));
     Json json = Json::parse(file);
@@ -196,7 +196,7 @@ TEST_F(HumanoidFiles, TheWeightOfAHandFitsTheClip) {
     EXPECT_TRUE(part().ik.hand_ik.curves[0] == HandCurve()) << "of a punch";
 }
 
-TEST_F(HumanoidFiles, FaultsAreFoundAndMended) {
+TEST_F(HumanoidFiles, FaultsAreFoundAndFixed) {
     run("humanoid.load", {{"path", faulty()}});
     run("humanoid.clip", {{"name", "walk"}});
     ASSERT_EQ(report().findings.size(), 1u);
@@ -225,7 +225,7 @@ TEST_F(HumanoidFiles, AllFaultsAreFixedInOneStep) {
     EXPECT_TRUE(part() == before);
 }
 
-TEST_F(HumanoidFiles, AfterAllFixesItSaysWhatIsLeftAndWhy) {
+TEST_F(HumanoidFiles, AfterAllFixesTheRestIsExplained) {
     const auto robot = tendril::test::characters_folder() / "robot.glb";
     if (!std::filesystem::exists(robot)) GTEST_SKIP() << robot << " is not there";
     run("humanoid.load", {{"path", robot.string()}});
@@ -237,7 +237,7 @@ TEST_F(HumanoidFiles, AfterAllFixesItSaysWhatIsLeftAndWhy) {
     tells("1 fault fixed 1 left Head limit no fix");
 }
 
-TEST_F(HumanoidFiles, FindingsCallANodeByItsBone) {
+TEST_F(HumanoidFiles, FindingsNameANodeByItsBone) {
     run("humanoid.load", {{"path", faulty(true)}});
     run("humanoid.clip", {{"name", "walk"}});
     ASSERT_FALSE(report().findings.empty());

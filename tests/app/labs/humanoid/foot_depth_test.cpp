@@ -1,4 +1,4 @@
-// Feet and the ground that they pass through: planted soles stand on treads, and too fast steps are reported.
+// Feet that pass through the ground: planted soles stand on treads, and steps that are too fast are reported.
 #include "app/io/character/read.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
@@ -13,7 +13,7 @@ namespace {
 class FootDepth : public HumanoidTest {
   protected:
     const ShownPose& shown() const { return shown_pose(workspace); }
-    /// Along the line from heel to toe.
+    /// The depth of points along the line from heel to toe.
     double depth(std::size_t side, int points) {
         const humanoid::SolePoints& sole = shown().soles[side];
         const humanoid::Ground& ground = humanoid_runtime(workspace).solvers.ground(part());
@@ -31,7 +31,7 @@ class FootDepth : public HumanoidTest {
     }
 };
 
-TEST_F(FootDepth, IsToldWithItsCause) {
+TEST_F(FootDepth, IsReportedWithItsCause) {
     stairs(0.2, 0.25);
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
     bool told = false;
@@ -47,7 +47,7 @@ TEST_F(FootDepth, IsToldWithItsCause) {
     EXPECT_EQ(humanoid_verdict(workspace).text, "Complete body");
 }
 
-TEST_F(FootDepth, OfTheOpeningIsNone) {
+TEST_F(FootDepth, IsZeroInTheOpening) {
     for (const CommandCall& each : lab().opening()) run(each.name.c_str(), to_json(each.arguments));
     for (int i = 0; i < 600; ++i) {
         tick();
@@ -57,8 +57,8 @@ TEST_F(FootDepth, OfTheOpeningIsNone) {
     }
 }
 
-/// Ten clips that others made, where they are there: no foot is deeper in the ground than the verdict says.
-TEST_F(FootDepth, OfOthersClipsIsNeverKeptQuiet) {
+/// Ten third-party clips, if present: no foot is deeper in the ground than the verdict says.
+TEST_F(FootDepth, OfThirdPartyClipsIsAlwaysReported) {
     const auto folder = test::characters_folder();
     if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
     const std::vector<std::pair<std::string, std::size_t>> clips{
@@ -91,7 +91,7 @@ TEST_F(FootDepth, OfOthersClipsIsNeverKeptQuiet) {
 }
 
 /// A walk of another skeleton, on stairs: no planted foot has a step in its sole.
-TEST_F(FootDepth, OfAPlantedSoleIsNone) {
+TEST_F(FootDepth, OfAPlantedSoleIsZero) {
     const auto folder = test::characters_folder();
     if (!std::filesystem::exists(folder / "human_male.glb")) GTEST_SKIP() << folder << " is not there";
     run("humanoid.load", {{"path", (folder / "human_male.glb").string()}});

@@ -58,7 +58,7 @@ TEST_F(HumanoidHands, BlendByTheTargetsWeight) {
     EXPECT_LT(glm::distance(bone("LeftHand"), wanted), 1e-3) << "the body reaches for it again";
 }
 
-TEST_F(HumanoidHands, LetGoOutsideOfTheConeOfView) {
+TEST_F(HumanoidHands, ReleaseTargetsOutsideTheConeOfView) {
     run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.3, 1.4, -0.4}}});
     run("humanoid.hand_ik", {{"on", true}, {"view_deg", 60}});
     tick(100);

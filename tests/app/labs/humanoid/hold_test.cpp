@@ -29,7 +29,7 @@ TEST_F(HumanoidHold, PutsBothHandsOnEachObject) {
     }
 }
 
-TEST_F(HumanoidHold, GivesWayOutOfReachAndSaysWhy) {
+TEST_F(HumanoidHold, ReleasesOutOfReachAndSaysWhy) {
     run("humanoid.hold");
     const glm::dvec3 start = vector(hold().at("position"));
     run("humanoid.hold_move", {{"to", {start.x, start.y, start.z + 2.0}}});
@@ -60,8 +60,8 @@ TEST_F(HumanoidHold, ReleasesAndRefusesByName) {
     expect_refused("humanoid.hold_move", {{"to", {0, 1, 1}}}, {"humanoid.hold"});
 }
 
-/// The object goes on with a character that walks away, and the feet walk.
-TEST_F(HumanoidHold, GoesAlongWhileWalking) {
+/// The object follows a character that walks away, and the feet walk.
+TEST_F(HumanoidHold, FollowsWhileWalking) {
     run("humanoid.hold", {{"kind", "box"}});
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
     const double start = bone("Hips").z, foot = bone("LeftFoot").z, object = vector(hold().at("position")).z;
@@ -76,8 +76,8 @@ TEST_F(HumanoidHold, GoesAlongWhileWalking) {
     EXPECT_NEAR(vector(hold().at("position")).z - object, way, 0.25);
 }
 
-/// Over a hand's target while the clip plays: nothing of the old pose is faded over the grips.
-TEST_F(HumanoidHold, TakesOverATargetAtOnce) {
+/// Over a hand's target while the clip plays: no blend from the old pose hides the grips.
+TEST_F(HumanoidHold, ReplacesATargetAtOnce) {
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
     tick(20);
     run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.9, 1.9, 0.1}}});
@@ -91,7 +91,7 @@ TEST_F(HumanoidHold, TakesOverATargetAtOnce) {
 }
 
 /// Both hands, then one; and from one hand to the other, which is on its grip at once.
-TEST_F(HumanoidHold, LetsOneHandGoGently) {
+TEST_F(HumanoidHold, ReleasesOneHandGently) {
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
     run("humanoid.hold", {{"kind", "box"}});
     tick(20);
@@ -127,7 +127,7 @@ TEST_F(HumanoidHold, LetsTheBodySettleAfterATargetWasReleased) {
     EXPECT_GT(glm::distance(bone("Hips"), low), 0.1);
 }
 
-TEST_F(HumanoidHold, AndTargetsKeepTheirPlaceInAnotherUnit) {
+TEST_F(HumanoidHold, KeepsItsPositionInAnotherUnitLikeTargets) {
     const test::TempFolder folder;
     const std::string path = (folder / "figure.bvh").string();
     test::write(path, bvh_figure());
@@ -158,7 +158,7 @@ TEST_F(HumanoidHold, RefusesAFileWithATargetOfAHandThatHolds) {
     EXPECT_FALSE(save_scene(bad)["labs"]["humanoid"]["ik"].contains("held")) << "there is no object";
 }
 
-/// While the object is dragged, what happens to the body is told.
+/// Effects on the body are reported while the object is dragged.
 TEST_F(HumanoidHold, IsReviewedWhileItIsDragged) {
     run("humanoid.hold", {{"kind", "box"}});
     const glm::dvec3 start = vector(hold().at("position"));
@@ -170,14 +170,14 @@ TEST_F(HumanoidHold, IsReviewedWhileItIsDragged) {
     EXPECT_TRUE(marked) << "no joint reached its limit, nothing flipped";
 }
 
-TEST_F(HumanoidHold, IsNoFlipWhereTheObjectTurnsTheArms) {
+TEST_F(HumanoidHold, IsNotAFlipIfTheObjectTurnsTheArms) {
     run("humanoid.hold", {{"kind", "box"}, {"size", 1.2}});
     const Json turned{{"to", {0.2, 1.1, 0.7}}, {"rotation", {0, 0, 0.3826834, 0.9238795}}};
     for (const Incident& each : incidents_of("humanoid.hold_move", turned))
         EXPECT_NE(each.kind, Incident::Kind::Flip) << each.name;
 }
 
-TEST_F(HumanoidHold, SaysInWordsWhatGivesWay) {
+TEST_F(HumanoidHold, SaysWhichPartCannotFollow) {
     humanoid::HoldReport report;
     report.grips[0].holds = true;
     const auto text = [&] { return hold_verdict({}, report).text; };

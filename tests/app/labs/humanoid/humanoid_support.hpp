@@ -37,7 +37,7 @@ class HumanoidTest : public LabTest {
         return {};
     }
 
-    /// What the lab draws, 1000 by 700 pixels.
+    /// The lab's drawing, 1000 by 700 pixels.
     DrawList drawn(const CameraPose& pose = {.target = {0.0f, 0.9f, 0.0f}}) const {
         const Camera camera(pose, {{0.0f, 0.0f}, {1000.0f, 700.0f}});
         DrawList list;
@@ -45,7 +45,7 @@ class HumanoidTest : public LabTest {
         return list;
     }
 
-    /// Saved and loaded, the lab is the same to the bit, then and after `ticks`.
+    /// Saved and loaded, the lab must be bit-identical, at once and after `ticks`.
     void expect_goes_on_the_same(int ticks = 30) {
         Workspace other = reopened();
         EXPECT_EQ(save_scene(other), save_scene(workspace));

@@ -33,7 +33,7 @@ class HumanoidIncidents : public HumanoidTest {
     void target(const char* effector, const glm::dvec3& to) {
         run("humanoid.target", {{"effector", effector}, {"to", {to.x, to.y, to.z}}});
     }
-    /// Moves it there and returns the new marks.
+    /// Moves an effector there and returns the new marks.
     std::vector<Incident> moved(const char* effector, const glm::dvec3& to) {
         return incidents_of("humanoid.target", {{"effector", effector}, {"to", {to.x, to.y, to.z}}});
     }
@@ -46,7 +46,7 @@ class HumanoidIncidents : public HumanoidTest {
         }
         return turns;
     }
-    /// The left hand in front of the shoulder, so close that a tiny motion moves it behind.
+    /// Moves the left hand in front of the shoulder, so close that a tiny motion puts it behind.
     glm::dvec3 fold_left_arm() {
         const glm::dvec3 shoulder = bone("LeftUpperArm");
         target("left_hand", shoulder + glm::dvec3(0, 0, 0.012));
@@ -56,7 +56,7 @@ class HumanoidIncidents : public HumanoidTest {
     }
 };
 
-TEST_F(HumanoidIncidents, AnArmThatTurnsOverIsMarkedWithItsBoneAndWhy) {
+TEST_F(HumanoidIncidents, AnArmThatFlipsIsMarkedWithItsBoneAndCause) {
     const glm::dvec3 shoulder = fold_left_arm();
     EXPECT_TRUE(only(Kind::Flip, ticked()).empty());
     const Json was = bones();
@@ -71,8 +71,8 @@ TEST_F(HumanoidIncidents, AnArmThatTurnsOverIsMarkedWithItsBoneAndWhy) {
     EXPECT_TRUE(test::says(flips[0].cause, "target left shoulder"));
 }
 
-/// After any change of the body's state: the bone that turned the furthest is marked, and no other limb.
-TEST_F(HumanoidIncidents, PlantedFlipsAreMarkedWithTheBoneThatTurnedTheFurthest) {
+/// After any change of the body's state: the bone that rotated the furthest is marked, and no other limb.
+TEST_F(HumanoidIncidents, PlantedFlipsAreMarkedAtTheBoneThatRotatedFurthest) {
     target("left_hand", {0.35, 1.3, 0.35});
     target("right_foot", {-0.15, 0.25, 0.3});
     for (int i = 0; i < 60; ++i) tick();
@@ -112,7 +112,7 @@ TEST_F(HumanoidIncidents, PlantedFlipsAreMarkedWithTheBoneThatTurnedTheFurthest)
     EXPECT_GT(marked, 15);
 }
 
-TEST_F(HumanoidIncidents, NothingThatMovesAsItShouldIsAFlip) {
+TEST_F(HumanoidIncidents, CorrectMotionHasNoFlips) {
     for (const TestScene& scene : lab().test_scenes()) {
         workspace = make_blank_workspace(labs);
         for (const CommandCall& call : scene.commands) run(call.name.c_str(), to_json(call.arguments));
@@ -126,7 +126,7 @@ TEST_F(HumanoidIncidents, NothingThatMovesAsItShouldIsAFlip) {
     }
 }
 
-TEST_F(HumanoidIncidents, GesturesAndTargetsThatAreLetGoAreNoFlips) {
+TEST_F(HumanoidIncidents, GesturesAndReleasedTargetsAreNoFlips) {
     run("humanoid.clip", {{"name", "walk"}, {"play", true}, {"in_place", true}});
     for (int i = 0; i < 120; ++i) {
         const double t = 0.05 * i;
@@ -140,7 +140,7 @@ TEST_F(HumanoidIncidents, GesturesAndTargetsThatAreLetGoAreNoFlips) {
     for (int i = 0; i < 30; ++i) EXPECT_TRUE(only(Kind::Flip, ticked()).empty()) << i;
 }
 
-TEST_F(HumanoidIncidents, WhatAClipOrALetGoTargetTurnsQuicklyIsNoFlip) {
+TEST_F(HumanoidIncidents, FastRotationsOfAClipOrAReleaseAreNoFlips) {
     double fastest = 0.0;
     const auto none = [&](int ticks) {
         for (int i = 0; i < ticks; ++i) {
@@ -162,7 +162,7 @@ TEST_F(HumanoidIncidents, WhatAClipOrALetGoTargetTurnsQuicklyIsNoFlip) {
     EXPECT_GT(fastest, 31.0);
 }
 
-TEST_F(HumanoidIncidents, AChangeOfAnythingButATargetsPlaceIsNone) {
+TEST_F(HumanoidIncidents, OnlyMovesOfATargetCount) {
     const glm::dvec3 shoulder = fold_left_arm();
     target("left_hand", shoulder + glm::dvec3(0.3, 0, 0.3));
     const auto none = [&](const char* command, const Json& arguments) {
@@ -175,7 +175,7 @@ TEST_F(HumanoidIncidents, AChangeOfAnythingButATargetsPlaceIsNone) {
     EXPECT_TRUE(none("humanoid.load", Json::object()));
 }
 
-TEST_F(HumanoidIncidents, AnEffectorThatFallsShortAndALimitAreTold) {
+TEST_F(HumanoidIncidents, AnEffectorThatFallsShortAndALimitAreReported) {
     target("left_hand", bone("LeftHand"));
     const auto all = moved("left_hand", {1.5, 2.2, 0.5});
     const auto falls = only(Kind::Status, all), limits = only(Kind::Limit, all);
@@ -194,7 +194,7 @@ TEST_F(HumanoidIncidents, AnEffectorThatFallsShortAndALimitAreTold) {
     EXPECT_TRUE(only(Kind::Status, moved("left_hand", {1.6, 2.2, 0.5})).empty()) << "it was short before";
 }
 
-/// In a file whose nodes have names without meaning, what is mapped is called by its bone's name.
+/// In a file with meaningless node names, mapped nodes are called by their bones' names.
 TEST_F(HumanoidIncidents, BonesAreCalledByTheirOwnNames) {
     const test::TempFolder folder;
     run("humanoid.load", {{"path", numbered_figure(folder.path())}});

@@ -25,7 +25,7 @@ class HumanoidKeptMaps : public HumanoidTest {
     test::TempFolder config_;
 };
 
-TEST_F(HumanoidKeptMaps, AreOfferedForTheSameNamesAndTakenWhenAskedFor) {
+TEST_F(HumanoidKeptMaps, AreOfferedForTheSameNamesAndAppliedOnRequest) {
     load();
     correct();
     EXPECT_FALSE(fs::exists(file())) << "nothing is written without being told";
@@ -51,7 +51,7 @@ TEST_F(HumanoidKeptMaps, AreOfferedForTheSameNamesAndTakenWhenAskedFor) {
     expect_refused("humanoid.map.forget", {}, {"no map is kept"});
 }
 
-TEST_F(HumanoidKeptMaps, AreKeptByThemselvesInAWindow) {
+TEST_F(HumanoidKeptMaps, AreKeptAutomaticallyInAWindow) {
     workspace.keeps = true;
     load();
     EXPECT_FALSE(fs::exists(file())) << "nothing is corrected";
@@ -67,7 +67,7 @@ TEST_F(HumanoidKeptMaps, AreKeptByThemselvesInAWindow) {
     EXPECT_TRUE(test::has(workspace.ui.toasts.back().text, "The bone map is not kept: cannot write"));
 }
 
-TEST_F(HumanoidKeptMaps, ThatAreNotWhatTheyShouldBeAreLeftOutWithAMessage) {
+TEST_F(HumanoidKeptMaps, InvalidOnesAreSkippedWithAMessage) {
     load();
     correct();
     run("humanoid.map.keep");

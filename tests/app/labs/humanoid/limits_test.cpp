@@ -31,7 +31,7 @@ class HumanoidLimits : public HumanoidTest {
         }
         return directions;
     }
-    /// The excess over a limit of a bone that is swung from rest to this direction, or `times` as far.
+    /// By how much the limits are exceeded if the bone swings from rest to this direction, or `times` as far.
     double excess(const BodyJoints& joints, Bone bone, const glm::dvec3& direction, double times) {
         std::vector<humanoid::Placement> placed = shown_pose(workspace).placed;
         const Bone above = *joints.parent(bone);
@@ -79,7 +79,7 @@ TEST_F(HumanoidLimits, AreDrawnWhereTheSolverHasThem) {
     }
 }
 
-TEST_F(HumanoidLimits, AreDrawnOfWhatTheViewSays) {
+TEST_F(HumanoidLimits, AreDrawnAsTheViewSettingSays) {
     EXPECT_TRUE(drawn().veil.indices.empty()) << "nothing is selected";
     select("LeftUpperArm");
     const std::size_t one = drawn().strokes.size();
@@ -100,7 +100,7 @@ TEST_F(HumanoidLimits, AreDrawnOfWhatTheViewSays) {
     EXPECT_TRUE(drawn().veil.indices.empty()) << "no body, no limits";
 }
 
-TEST_F(HumanoidLimits, ThatHoldTheBodyBackAreLit) {
+TEST_F(HumanoidLimits, ActiveOnesAreHighlighted) {
     const auto lit = [&] {
         std::size_t count = 0;
         const DrawList list = drawn();
@@ -122,7 +122,7 @@ TEST_F(HumanoidLimits, ThatHoldTheBodyBackAreLit) {
     EXPECT_EQ(rings, 1u);
 }
 
-TEST_F(HumanoidLimits, OfOneJointAreTakenFromTheClips) {
+TEST_F(HumanoidLimits, OfOneJointAreLearnedFromTheClips) {
     select("LeftUpperArm");
     const Json adult = joint().at("adult"), clips = joint().at("clips");
     EXPECT_LT(clips.at("up_deg").get<double>(), adult.at("up_deg").get<double>());
@@ -148,7 +148,7 @@ TEST_F(HumanoidLimits, OfOneJointAreTakenFromTheClips) {
     EXPECT_EQ(joint().at("limits"), "motion");
 }
 
-TEST_F(HumanoidLimits, AreRefusedWhereThereIsNothingToTake) {
+TEST_F(HumanoidLimits, LearningIsRefusedWithoutData) {
     expect_refused("humanoid.limits", {{"from", "motion"}, {"bone", "Tail"}},
                    {"bone must be one of Hips, Spine"});
     expect_refused("humanoid.limits", {{"from", "motion"}, {"bone", "Hips"}},

@@ -56,7 +56,7 @@ class HumanoidLoading : public testing::Test {
     Workspace workspace_;
 };
 
-TEST_F(HumanoidLoading, the_character_comes_with_a_later_tick_and_undo_brings_back_the_one_before) {
+TEST_F(HumanoidLoading, TheCharacterArrivesAtALaterTickAndUndoRestoresTheOldOne) {
     load(large_bvh(20));
     EXPECT_TRUE(lab_.working(workspace_));
     EXPECT_TRUE(is_stick_figure()) << "the command does not wait";
@@ -89,7 +89,7 @@ TEST_F(HumanoidLoading, undo_goes_back_to_the_lab_that_was_open) {
     EXPECT_EQ(workspace_.lab, humanoid_lab);
 }
 
-TEST_F(HumanoidLoading, a_script_finds_it_done) {
+TEST_F(HumanoidLoading, AScriptFindsItLoaded) {
     load(large_bvh(20));
     table_.find("humanoid.load")->finish(workspace_);
     EXPECT_FALSE(lab_.working(workspace_));
@@ -99,7 +99,7 @@ TEST_F(HumanoidLoading, a_script_finds_it_done) {
     EXPECT_EQ(humanoid_part(workspace_).skeleton().size(), 12u);
 }
 
-TEST_F(HumanoidLoading, one_that_is_cancelled_or_refused_leaves_what_is_there) {
+TEST_F(HumanoidLoading, CancelledOrRefusedLoadsKeepTheCharacter) {
     load(large_bvh(20));
     table_.run(workspace_, "humanoid.load.cancel", Json::object());
     EXPECT_FALSE(lab_.working(workspace_));
@@ -114,7 +114,7 @@ TEST_F(HumanoidLoading, one_that_is_cancelled_or_refused_leaves_what_is_there) {
 }
 
 /// 120 000 joints to judge: more than a frame has time for.
-TEST_F(HumanoidLoading, a_long_clip_is_fixed_beside_the_frames) {
+TEST_F(HumanoidLoading, ALongClipIsFixedInTheBackground) {
     std::string text = large_bvh(20);
     std::size_t row = text.find("MOTION");
     for (int i = 0; i < 3000; ++i) row = text.find('\n', row) + 1;
@@ -133,7 +133,7 @@ TEST_F(HumanoidLoading, a_long_clip_is_fixed_beside_the_frames) {
     EXPECT_EQ(workspace_.history.undo_label(), "humanoid.cure");
     ASSERT_FALSE(workspace_.ui.toasts.empty());
     EXPECT_TRUE(test::says(workspace_.ui.toasts.back().text, "1 fault fixed none left"));
-    // A character that comes meanwhile stays.
+    // A character that arrives in the meantime stays.
     const auto other = std::make_shared<const LoadedCharacter>(*before);
     workspace_.document.edit<HumanoidPart>(humanoid_lab).loaded = before;
     table_.run(workspace_, "humanoid.cure", Json::object());
@@ -143,7 +143,7 @@ TEST_F(HumanoidLoading, a_long_clip_is_fixed_beside_the_frames) {
     EXPECT_TRUE(test::says(workspace_.ui.toasts.back().text, "character has changed"));
 }
 
-TEST_F(HumanoidLoading, the_last_of_several_is_the_one_that_comes) {
+TEST_F(HumanoidLoading, TheLastOfSeveralLoadsWins) {
     load(large_bvh(20));
     load(large_bvh(14));
     wait();

@@ -15,8 +15,8 @@ namespace {
 
 using humanoid::Bone;
 
-/// A VRM's motion, half a man's size, facing -Z, whose left arm goes up while it walks 1 m ahead in a second.
-/// `extension`: who names the bones.
+/// A VRM motion at half a man's size, facing -Z, whose left arm rises while it walks 1 m ahead in a second.
+/// `extension`: the one that names the bones.
 std::string vrma(const char* extension = "VRMC_vrm_animation", bool has_toes = true, bool has_pole = false,
                  bool moves = true) {
     struct Joint {
@@ -142,7 +142,7 @@ TEST_F(HumanoidMotions, ItIsAClipLikeOthers) {
     EXPECT_NEAR(part().loaded->clips()[0].duration, 1.0, 1e-6);
 }
 
-TEST_F(HumanoidMotions, TheRootGoesAlongAndOnlyBonesAreDrawnAsBones) {
+TEST_F(HumanoidMotions, TheRootIsIncludedAndOnlyBonesAreDrawnAsBones) {
     test::write(folder_ / "no_toes.vrm", vrma("VRMC_vrm", false));
     run("humanoid.load", {{"path", path("no_toes.vrm")}});
     run("humanoid.motion.load", {{"path", path("wave.vrma")}});
@@ -162,8 +162,8 @@ TEST_F(HumanoidMotions, TheRootGoesAlongAndOnlyBonesAreDrawnAsBones) {
     EXPECT_GT(way.y, -0.08);
 }
 
-TEST_F(HumanoidMotions, WhatWasGuessedOfItsFileIsSaid) {
-    // A BVH says neither its unit nor its up axis.
+TEST_F(HumanoidMotions, GuessesAboutItsFileAreReported) {
+    // A BVH states neither its unit nor its up axis.
     run("humanoid.load", {{"path", path("body.vrm")}});
     run("humanoid.export", {{"path", path("wave.bvh")}});
     run("humanoid.load");
@@ -177,7 +177,7 @@ TEST_F(HumanoidMotions, WhatWasGuessedOfItsFileIsSaid) {
     EXPECT_EQ(notes(), before) << "of a clip of its own there is nothing to say";
 }
 
-TEST_F(HumanoidMotions, WhatCannotBeCarriedOverIsRefusedOrSaid) {
+TEST_F(HumanoidMotions, UnretargetableMotionsAreRefusedOrReported) {
     test::write(folder_ / "still.gltf",
                 R"({"asset":{"version":"2.0"},"nodes":[{"children":[1]},{}],"skins":[{"joints":[0,1]}]})");
     refuses("humanoid.motion.load", {{"path", path("still.gltf")}}, "still.gltf no clips");
@@ -200,7 +200,7 @@ TEST_F(HumanoidMotions, WhatCannotBeCarriedOverIsRefusedOrSaid) {
 }
 
 /// Motions and fixes keep the unit, axes, bones and limits that they were made with.
-TEST_F(HumanoidMotions, OpenAsSavedWhateverTheOrderOfEdits) {
+TEST_F(HumanoidMotions, OpenAsSavedForAnyOrderOfEdits) {
     const std::string faulty = tendril::test::source_path("tests/app/golden/faulty_walk.bvh");
     test::write(folder_ / "figure.bvh", bvh_figure());
     const std::vector<std::pair<const char*, Json>> edits{

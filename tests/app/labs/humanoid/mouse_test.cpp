@@ -36,7 +36,7 @@ class HumanoidMouse : public testing::Test {
     App app_{*window_};
 };
 
-TEST_F(HumanoidMouse, MapsOneUnmappedBoneAfterAnotherWithAClickEach) {
+TEST_F(HumanoidMouse, ClicksMapOneUnmappedBoneAfterAnother) {
     for (const char* bone : {"LeftHand", "RightHand", "LeftToes"})
         app_.run({"humanoid.map", Json{{"bone", bone}}});
     auto& waiting = humanoid_runtime(app_.workspace()).panel.bone;
@@ -120,8 +120,8 @@ TEST_F(HumanoidMouse, DragsSeveralEffectorsByOneGizmo) {
     EXPECT_TRUE(app_.state().at("body").at("targets").empty());
 }
 
-/// Sections keep still while the mouse is among them, but not those of another character.
-TEST_F(HumanoidMouse, InThePanelDoesNotKeepTheBonesOfANewCharacterBelow) {
+/// Panel sections keep their height while the mouse is over them, but not for another character.
+TEST_F(HumanoidMouse, OverThePanelDoesNotKeepTheOldCharactersRows) {
     const TempFolder folder;
     const std::string path = (folder / "figure.bvh").string();
     std::ofstream(path) << bvh_figure("RightArm");

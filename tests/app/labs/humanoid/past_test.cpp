@@ -42,12 +42,12 @@ class HumanoidPast : public HumanoidTest {
     template <class Read>
     double back_at(std::uint64_t tick, const Read& read) const {
         Workspace there = workspace;
-        there.go_to_moment(there.moment - tick);  // the present is remembered first
+        there.go_to_moment(there.moment - tick);  // remember the present first
         return read(humanoid_part(there), humanoid_runtime(there).solvers, shown_pose(there));
     }
 };
 
-TEST_F(HumanoidPast, AnglesAreThoseThatTheInspectorHasThere) {
+TEST_F(HumanoidPast, AnglesEqualTheInspectorsThere) {
     walk(40);
     plot("twist", "LeftUpperArm");
     const auto twists = values();
@@ -67,7 +67,7 @@ TEST_F(HumanoidPast, AnglesAreThoseThatTheInspectorHasThere) {
     }
 }
 
-TEST_F(HumanoidPast, ErrorsAreThoseOfTheEffectorThatIsSelectedOrTheFarthest) {
+TEST_F(HumanoidPast, ErrorsAreTheSelectedEffectorsOrTheFarthest) {
     using humanoid::Effector;
     walk(30);
     const auto residual = [](Effector effector) {
@@ -111,7 +111,7 @@ TEST_F(HumanoidPast, AMomentIsSolvedOnceWhateverIsPlotted) {
     EXPECT_EQ(parts(), before);
 }
 
-TEST_F(HumanoidPast, AFewMomentsAreWorkedOutAtATimeTheLastOnesFirst) {
+TEST_F(HumanoidPast, AFewMomentsAreComputedAtATimeNewestFirst) {
     walk(100);
     plot("swing", "LeftLowerLeg");
     const auto some = [&] {
@@ -134,7 +134,7 @@ TEST_F(HumanoidPast, AFewMomentsAreWorkedOutAtATimeTheLastOnesFirst) {
     EXPECT_EQ(some().size(), 101u) << "no pose is solved again for another number";
 }
 
-TEST_F(HumanoidPast, WhatWasWorkedOutIsForgottenOnceNothingIsShown) {
+TEST_F(HumanoidPast, ResultsAreDroppedOnceNothingIsPlotted) {
     walk(20);
     plot("swing", "LeftLowerLeg");
     static_cast<void>(values());
@@ -149,7 +149,7 @@ TEST_F(HumanoidPast, WhatWasWorkedOutIsForgottenOnceNothingIsShown) {
     EXPECT_EQ(humanoid_runtime(workspace).past.size(), 0u);
 }
 
-TEST_F(HumanoidPast, NothingIsWorkedOutWhileNothingIsShown) {
+TEST_F(HumanoidPast, NothingIsComputedWhileNothingIsPlotted) {
     walk(20);
     static_cast<void>(state());
     EXPECT_EQ(humanoid_runtime(workspace).past.size(), 0u);

@@ -1,4 +1,4 @@
-// Targets that are released, or change weight or rotation: nothing that they do not hold jumps.
+// Targets that are released, or change weight or rotation: nothing else jumps.
 #include <random>
 
 #include "app/labs/humanoid/humanoid_commands.hpp"
@@ -61,7 +61,7 @@ class HumanoidRelease : public HumanoidTest {
     std::mt19937 engine{11};
 };
 
-TEST_F(HumanoidRelease, WithTimePausedMovesTheLimbThatWasLetGoAndNothingElse) {
+TEST_F(HumanoidRelease, WhilePausedMovesOnlyTheReleasedLimb) {
     for (int i = 0; i < 25; ++i) {
         begin_anew(false);
         if (i % 2) run("humanoid.clip", {{"name", "walk"}, {"time", any(0.0, 1.0)}});
@@ -76,7 +76,7 @@ TEST_F(HumanoidRelease, WithTimePausedMovesTheLimbThatWasLetGoAndNothingElse) {
     }
 }
 
-TEST_F(HumanoidRelease, LetsTheRestOfTheBodyComeBackWhileTimeRuns) {
+TEST_F(HumanoidRelease, TheRestOfTheBodyReturnsWhileTimeRuns) {
     target("left_hand", {0.3, 1.2, 0.4});
     const glm::dvec3 alone = bone("Head");
     target("right_hand", {-0.2, 0.8, 0.9});
@@ -94,7 +94,7 @@ TEST_F(HumanoidRelease, LetsTheRestOfTheBodyComeBackWhileTimeRuns) {
     EXPECT_LT(glm::distance(bone("Head"), alone), 0.06);
 }
 
-TEST_F(HumanoidRelease, EasesBackIntoAClipThatPlays) {
+TEST_F(HumanoidRelease, EasesBackIntoAPlayingClip) {
     for (int i = 0; i < 25; ++i) {
         begin_anew(true);
         reach_with_both_hands();
@@ -104,7 +104,7 @@ TEST_F(HumanoidRelease, EasesBackIntoAClipThatPlays) {
         let_go("right_hand");
         EXPECT_LT(leap(held, places()), 1e-9) << "not in the moment itself";
         double way = leap(clip_places(), held);
-        // Metres that the other hand goes when the walk takes its target along to the next round.
+        // Metres that the other hand moves when the walk takes its target along to the next round.
         constexpr double along = 1.3;
         bool goes_along = false;
         Places before = held, clip = clip_places();
@@ -129,7 +129,7 @@ TEST_F(HumanoidRelease, EasesBackIntoAClipThatPlays) {
     }
 }
 
-TEST_F(HumanoidRelease, OfOneHandKeepsTheOtherOneOnItsTargetMeanwhile) {
+TEST_F(HumanoidRelease, OfOneHandKeepsTheOtherOnItsTarget) {
     for (int i = 0; i < 10; ++i) {
         begin_anew(true);
         run("humanoid.clip", {{"speed", 0.1}, {"targets_travel", false}});
@@ -144,7 +144,7 @@ TEST_F(HumanoidRelease, OfOneHandKeepsTheOtherOneOnItsTargetMeanwhile) {
     }
 }
 
-TEST_F(HumanoidRelease, OfAHandThatHandIkMovesEasesToo) {
+TEST_F(HumanoidRelease, OfAHandMovedByHandIkEasesToo) {
     begin_anew(true);
     run("humanoid.hand_ik", {{"on", true}});
     target("right_hand", near({-0.35, 0.1, 0.45}, 0.05));
@@ -170,7 +170,7 @@ TEST_F(HumanoidRelease, ANewTargetOfTheSameHandIsReachedAtOnce) {
     EXPECT_LT(glm::distance(bone("RightHand"), wanted), 1e-3);
 }
 
-TEST_F(HumanoidRelease, IsSavedUndoneAndGoesOnTheSame) {
+TEST_F(HumanoidRelease, IsSavedUndoneAndContinuesTheSame) {
     begin_anew(true);
     reach_with_both_hands();
     const Json held = state();
@@ -184,7 +184,7 @@ TEST_F(HumanoidRelease, IsSavedUndoneAndGoesOnTheSame) {
     EXPECT_EQ(state(), held);
 }
 
-TEST_F(HumanoidRelease, AFileWithAReleaseThatIsWrongIsRefusedWithItsPlace) {
+TEST_F(HumanoidRelease, AFileWithAnInvalidReleaseIsRefusedWithItsPath) {
     begin_anew(true);
     reach_with_both_hands();
     let_go("right_hand");

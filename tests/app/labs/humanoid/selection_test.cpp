@@ -22,7 +22,7 @@ using Names = std::vector<std::string>;
 class HumanoidSelection : public HumanoidTest {
   protected:
     void select(const Names& nodes) { run("humanoid.select", {{"nodes", nodes}}); }
-    /// In alphabetical order.
+    /// The selected nodes in alphabetical order.
     Names selected() const {
         Names names = names_of(part().selection, part().skeleton());
         std::sort(names.begin(), names.end());
@@ -39,7 +39,7 @@ class HumanoidSelection : public HumanoidTest {
     test::PanelReader reader_;
 };
 
-TEST_F(HumanoidSelection, AddsAndTakesOut) {
+TEST_F(HumanoidSelection, AddsAndRemoves) {
     run("humanoid.select", {{"node", "LeftHand"}});
     run("humanoid.select", {{"node", "Head"}, {"add", true}});
     EXPECT_EQ(selected(), (Names{"Head", "LeftHand"}));
@@ -59,7 +59,7 @@ TEST_F(HumanoidSelection, AddsAndTakesOut) {
     EXPECT_EQ(active(), "");
 }
 
-TEST_F(HumanoidSelection, WhatIsNoNodeIsRefusedAndChangesNothing) {
+TEST_F(HumanoidSelection, OtherNamesAreRefusedAndChangeNothing) {
     select({"Head", "Hips"});
     expect_refused("humanoid.select", {{"nodes", {"Head", "Tail"}}}, {"Tail"});
     expect_refused("humanoid.select", {{"nodes", {"Head", 3}}}, {"nodes", "3"});
@@ -79,7 +79,7 @@ TEST_F(HumanoidSelection, WhatIsNoNodeIsRefusedAndChangesNothing) {
     expect_refused("humanoid.spring", {{"strength", 2}}, {"needs either node or nodes"});
 }
 
-TEST_F(HumanoidSelection, ALimitGoesOnAllAboutEachOnesOwnAxes) {
+TEST_F(HumanoidSelection, ALimitIsSetOnAllAboutTheirOwnAxes) {
     const Names arms{"LeftUpperArm", "RightUpperArm", "LeftLowerArm"};
     const humanoid::BodyLimits adult = humanoid::default_limits(part().skeleton(), *part().map);
     const humanoid::BodyLimits clips =
@@ -103,7 +103,7 @@ TEST_F(HumanoidSelection, ALimitGoesOnAllAboutEachOnesOwnAxes) {
     EXPECT_TRUE(part().ik.joint_limits.empty()) << "one step for all";
 }
 
-TEST_F(HumanoidSelection, TheInspectorSaysHowManyAndWhichIsShown) {
+TEST_F(HumanoidSelection, TheInspectorShowsTheNumberAndTheActiveOne) {
     select({"LeftUpperArm", "RightUpperArm", "Head"});
     expect_says(inspector(),
                 {"3", "Showing Head.", "Limits of 3 joints", "Showing Head; changes apply to all."});
@@ -127,7 +127,7 @@ TEST_F(HumanoidSelection, TheInspectorSaysHowManyAndWhichIsShown) {
     EXPECT_EQ(inspector().find("set on all"), std::string::npos);
 }
 
-TEST_F(HumanoidSelection, ComesFirstInTheInspectorOnceThereIsOne) {
+TEST_F(HumanoidSelection, ComesFirstInTheInspector) {
     const auto before_character = [&] {
         const std::string text = inspector();
         return text.find("Selection") < text.find("Character");
@@ -140,7 +140,7 @@ TEST_F(HumanoidSelection, ComesFirstInTheInspectorOnceThereIsOne) {
 }
 
 /// The number of strengths of the selection colour behind rows.
-TEST_F(HumanoidSelection, RowsOfTheBoneMapThatAreSelectedStandOut) {
+TEST_F(HumanoidSelection, SelectedRowsOfTheBoneMapAreHighlighted) {
     const auto filled = [&](glm::vec3 colour) {
         const ImU32 wanted = ImGui::ColorConvertFloat4ToU32({colour.r, colour.g, colour.b, 0.0f});
         const ImGuiWindow* const window = ImGui::FindWindowByName("panel");
@@ -163,7 +163,7 @@ TEST_F(HumanoidSelection, RowsOfTheBoneMapThatAreSelectedStandOut) {
     EXPECT_EQ(filled(colour), 2u) << "the active one stronger";
 }
 
-TEST_F(HumanoidSelection, AreMarkedTheActiveOneStrongest) {
+TEST_F(HumanoidSelection, AllAreMarkedAndTheActiveOneMost) {
     const auto share = [&](const char* node) {
         const DrawList list = drawn({.target = {0.0f, 0.9f, 0.0f}, .distance = 3.6f});
         const auto pick = static_cast<PickId>(*part().skeleton().find(node));
@@ -180,7 +180,7 @@ TEST_F(HumanoidSelection, AreMarkedTheActiveOneStrongest) {
 
 TEST_F(HumanoidSelection, SpringsAreSetOnAll) {
     run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/antennae.bvh")}});
-    // The body, and nodes below another selected one, get none.
+    // The body, and nodes below another selected node, get none.
     select({"Head", "antenna_l_1", "antenna_l_3", "antenna_r_2", "tail_1"});
     const auto names = [&](const std::vector<std::size_t>& nodes) {
         Names all;
@@ -209,7 +209,7 @@ TEST_F(HumanoidSelection, SpringsAreSetOnAll) {
     EXPECT_TRUE(part().springs.empty());
 }
 
-TEST_F(HumanoidSelection, ComesBackFromAFile) {
+TEST_F(HumanoidSelection, IsRestoredFromAFile) {
     for (const Names& nodes :
          {Names{}, Names{"Head"}, Names{"LeftHand", "Head"}, Names{"Head", "LeftFoot", "HeadTop_End"}}) {
         select(nodes);
@@ -245,7 +245,7 @@ TEST_F(HumanoidSelection, ComesBackFromAFile) {
     says({{"active", "Head"}, {"all", {"Head", 1}}}, ".all");
 }
 
-TEST_F(HumanoidSelection, OnAnotherCharacterWhatIsThereStaysSelected) {
+TEST_F(HumanoidSelection, OnAnotherCharacterExistingNodesStaySelected) {
     select({"HeadTop_End", "LeftHand", "Head"});
     const Selection before = part().selection;
     const test::TempFolder folder;
@@ -263,7 +263,7 @@ TEST_F(HumanoidSelection, OnAnotherCharacterWhatIsThereStaysSelected) {
     EXPECT_EQ(active(), "");
 }
 
-TEST_F(HumanoidSelection, StaysOverTheSecondsAndThroughOtherCharacters) {
+TEST_F(HumanoidSelection, PersistsThroughTimeAndOtherCharacters) {
     const auto then = std::make_shared<HumanoidPart>(part());
     select({"Head", "LeftHand"});
     const auto shown = part().at_moment(then);

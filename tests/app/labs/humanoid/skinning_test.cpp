@@ -26,7 +26,7 @@ class HumanoidSkinning : public HumanoidTest {
         EXPECT_EQ(list.skins.size(), 1u);
         return list.skins.at(0);
     }
-    /// The minimum distance from the arm's line of the forearm's vertices at the wrist, metres.
+    /// The minimum distance of the forearm's vertices at the wrist from the arm's line, metres.
     static float girth(const SkinDraw& draw) {
         float least = 1.0f;
         for (std::size_t i = 0; i < draw.mesh->positions.size(); ++i) {
@@ -39,7 +39,7 @@ class HumanoidSkinning : public HumanoidTest {
     }
 };
 
-TEST_F(HumanoidSkinning, SpreadsTwistUnlessLinearBlendingIsWanted) {
+TEST_F(HumanoidSkinning, SpreadsTwistUnlessLinearBlendingIsChosen) {
     EXPECT_EQ(state().at("skinning"), "twist_spread");
     run("humanoid.clip", {{"time", 0}});
     const float untwisted = girth(drawn());
@@ -67,7 +67,7 @@ TEST_F(HumanoidSkinning, FollowsTheBoneMap) {
     EXPECT_EQ(drawn().weights, nullptr);
 }
 
-TEST_F(HumanoidSkinning, IsNoPartOfAnExport) {
+TEST_F(HumanoidSkinning, IsNotPartOfAnExport) {
     const test::TempFolder folder;
     std::string written[2];
     for (const int i : {0, 1}) {

@@ -25,7 +25,7 @@ class HumanoidSprings : public HumanoidTest {
         for (const char* node : {"antenna_l_1", "antenna_r_1", "tail_1"})
             run("humanoid.spring", {{"node", node}});
     }
-    /// Hair that hangs on the hips into a sphere below them.
+    /// Hair on the hips that hangs into a sphere below them.
     void load_hair() {
         test::write(
             folder / "hair.vrm",
@@ -55,7 +55,7 @@ class HumanoidSprings : public HumanoidTest {
     }
 };
 
-TEST_F(HumanoidSprings, TrailWhatTheClipDoes) {
+TEST_F(HumanoidSprings, TrailTheClipsMotion) {
     put_on_springs();
     const Json springs = state().at("springs");
     ASSERT_EQ(springs.size(), 3u);
@@ -77,7 +77,7 @@ TEST_F(HumanoidSprings, TrailWhatTheClipDoes) {
     }
 }
 
-TEST_F(HumanoidSprings, ComeToRestAndGoWithOff) {
+TEST_F(HumanoidSprings, ComeToRestAndVanishWhenSwitchedOff) {
     put_on_springs();
     run("humanoid.clip", {{"index", 0}, {"play", true}, {"loop", false}});
     int ticks = 0;
@@ -120,7 +120,7 @@ TEST_F(HumanoidSprings, SwingWithADragAndAreCarriedByAJump) {
     EXPECT_LT(still, 0.02);
 }
 
-TEST_F(HumanoidSprings, RefuseWhatTheyCannotHold) {
+TEST_F(HumanoidSprings, RefuseInvalidNodesAndValues) {
     run("humanoid.spring", {{"node", "antenna_l_2"}});
     expect_refused("humanoid.spring", {{"node", "wing"}}, {"no node \"wing\""});
     expect_refused("humanoid.spring", {{"node", "Head"}}, {"Head is the Head of the body"});
@@ -142,7 +142,7 @@ TEST_F(HumanoidSprings, RefuseWhatTheyCannotHold) {
 }
 
 /// Commands that do not move the pose neither disturb the springs nor leave an undo step.
-TEST_F(HumanoidSprings, SwingOnUnderCommands) {
+TEST_F(HumanoidSprings, KeepSwingingUnderCommands) {
     put_on_springs();
     dance();
     tick(50);
@@ -164,7 +164,7 @@ TEST_F(HumanoidSprings, SwingOnUnderCommands) {
     EXPECT_GT(angle, 0.02);
 }
 
-TEST_F(HumanoidSprings, AreNotThrownAboutByAnotherUnit) {
+TEST_F(HumanoidSprings, AreNotDisturbedByAnotherUnit) {
     put_on_springs();
     dance();
     tick(50);
@@ -176,7 +176,7 @@ TEST_F(HumanoidSprings, AreNotThrownAboutByAnotherUnit) {
     }
 }
 
-TEST_F(HumanoidSprings, AreRefusedFromAFileThatWasBroken) {
+TEST_F(HumanoidSprings, ADamagedFileIsRefused) {
     put_on_springs();
     dance();
     tick(9);
@@ -213,7 +213,7 @@ TEST_F(HumanoidSprings, AreBakedIntoAClip) {
         std::vector<rig::Transform> pose(read.skeleton.size());
         std::vector<humanoid::Placement> placed(read.skeleton.size());
         const std::size_t tip = *part().skeleton().find("antenna_r_5");
-        for (int frame = 0; frame < 100; ++frame) {  // a lower rate swings alike
+        for (int frame = 0; frame < 100; ++frame) {  // at a lower rate they swing alike
             shown.playback.time = frame / 60.0;
             const ShownPose seen =
                 solve_pose(shown, humanoid_runtime(workspace).solvers, frame == 0 ? 0.0 : 1.0 / 60.0, state);
@@ -230,7 +230,7 @@ TEST_F(HumanoidSprings, AreBakedIntoAClip) {
     EXPECT_GT(swung, 0.02);
 }
 
-TEST_F(HumanoidSprings, OfAVrmAreOnItOnceItIsLoaded) {
+TEST_F(HumanoidSprings, OfAVrmArePresentOnceItIsLoaded) {
     load_hair();
     ASSERT_EQ(part().springs.size(), 1u);
     EXPECT_EQ(part().springs[0].node, "hair");

@@ -40,7 +40,7 @@ TEST_F(HumanoidTargets, AreReachedWithoutATick) {
     EXPECT_EQ(residual("RightFoot"), 0.0);
 }
 
-TEST_F(HumanoidTargets, OutOfReachSayHowMuchIsLeft) {
+TEST_F(HumanoidTargets, OutOfReachReportTheRemainingDistance) {
     run("humanoid.target", {{"effector", "right_foot"}, {"to", {-0.1, 0.09, 0.0}}});
     target("left_hand", 3.0, 1.4, 0.0);
     const double left = residual("LeftHand");
@@ -48,7 +48,7 @@ TEST_F(HumanoidTargets, OutOfReachSayHowMuchIsLeft) {
     EXPECT_NEAR(left, glm::distance(bone("LeftHand"), glm::dvec3(3.0, 1.4, 0.0)), 1e-9);
 }
 
-TEST_F(HumanoidTargets, ThatStandStillGiveAStillPose) {
+TEST_F(HumanoidTargets, AtRestGiveAStillPose) {
     run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
     target("left_hand", 0.4, 1.4, 0.6);
     run("humanoid.foot_ik", {{"on", true}});
@@ -62,7 +62,7 @@ TEST_F(HumanoidTargets, ThatStandStillGiveAStillPose) {
         EXPECT_LT(glm::distance(vector(before[i].at("position")), vector(after[i].at("position"))), 1e-5);
 }
 
-TEST_F(HumanoidTargets, LetGoGiveTheClipsPoseBackToTheBit) {
+TEST_F(HumanoidTargets, ReleasedRestoreTheClipsPoseBitForBit) {
     run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
     const Json before = state();
     target("left_hand", 0.4, 1.5, 0.7);
@@ -85,7 +85,7 @@ TEST_F(HumanoidTargets, TurnTheBoneThatHasARotation) {
     EXPECT_FALSE(state().at("body").at("targets").at("right_hand").at("rotation").is_null()) << "is kept";
 }
 
-TEST_F(HumanoidTargets, WithoutAPlaceKeepTheEffectorWhereItIs) {
+TEST_F(HumanoidTargets, WithoutAPositionKeepTheEffectorInPlace) {
     run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
     const glm::dvec3 hand = bone("LeftHand");
     run("humanoid.target", {{"effector", "left_hand"}});
@@ -154,7 +154,7 @@ TEST_F(HumanoidTargets, NeedABody) {
     run("humanoid.target", {{"effector", "right_hand"}, {"weight", 0}});
 }
 
-TEST_F(HumanoidTargets, AreLeftAloneWhileABoneIsMissing) {
+TEST_F(HumanoidTargets, AreIgnoredWhileABoneIsMissing) {
     target("left_hand", 0.4, 1.5, 0.4);
     const Json reached = state();
     run("humanoid.map", {{"bone", "RightFoot"}});
@@ -164,7 +164,7 @@ TEST_F(HumanoidTargets, AreLeftAloneWhileABoneIsMissing) {
     EXPECT_LT(residual("LeftHand"), 1e-3);
 }
 
-TEST_F(HumanoidTargets, AFileThatIsWrongIsRefusedWithItsPlace) {
+TEST_F(HumanoidTargets, AnInvalidFileIsRefusedWithItsPath) {
     target("left_hand", 0.4, 1.5, 0.7);
     expect_scene_refused("/ik/targets/tail", 1, "no effector \"tail\"");
     expect_scene_refused("/ik/targets/head", {{"position", {0, 1}}},

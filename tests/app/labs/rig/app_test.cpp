@@ -35,14 +35,14 @@ class RigApp : public testing::Test {
     App app_{*window_, false};
 };
 
-TEST_F(RigApp, ADragInItsRectangleGoesWhereThePointerGoes) {
+TEST_F(RigApp, ADragInItsRectangleFollowsThePointer) {
     const glm::vec2 by(40.0f, 25.0f), from = handle(app_.state(), "look");
     drag("look", by);
     const glm::vec2 to = handle(app_.state(), "look");
     EXPECT_LT(glm::distance(to, from + by), 1.0f) << "it moves in its own plane, under the pointer";
 }
 
-/// Real keys in the list of an input: Enter chooses the highlighted hit, arrows move it, Escape clears.
+/// Real keys in an input's list: Enter chooses the highlighted hit, arrows move it, Escape clears.
 TEST_F(RigApp, AFilteredListTakesEnterArrowsAndEscape) {
     const std::string first_source = "look 1 1";  // its translation in the scene
     const auto keys = [&](const std::vector<const char*>& pressed) {
@@ -83,7 +83,7 @@ TEST_F(RigApp, AFilteredListTakesEnterArrowsAndEscape) {
     EXPECT_EQ(keys({"TILT, tr", "down", "down", "down", "enter"}), "tilt 1 0") << "past the end it stays";
 }
 
-/// The tree of elements has the same line.
+/// The tree of elements has the same filter line.
 TEST_F(RigApp, TheTreesFilterTakesEnterAndArrows) {
     app_.run({"rig.preset", Json{{"name", "loop"}}});
     app_.run({"view.fold", Json{{"section", "rig: Elements"}, {"folded", false}}});

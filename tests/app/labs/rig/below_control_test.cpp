@@ -43,7 +43,7 @@ class RigBelowControl : public RigTest {
     }
 };
 
-TEST_F(RigBelowControl, WhatIsLeftOutOfAGlobalPoseStaysWhereTheControlHasIt) {
+TEST_F(RigBelowControl, OmittedPartsOfAGlobalPoseStayWhereTheControlPutsThem) {
     set_global("arm", {{"rotation", {0, 0, 0, 1}}});
     switch_unit_off();
     expect_near(translation("arm"), arm_start);
@@ -54,7 +54,7 @@ TEST_F(RigBelowControl, WhatIsLeftOutOfAGlobalPoseStaysWhereTheControlHasIt) {
     expect_near(translation("arm"), arm_start + glm::dvec3(0, 1, 0));  // it follows the control
 }
 
-TEST_F(RigBelowControl, TheGizmoStandsWhereASolveBeginsWithTheBone) {
+TEST_F(RigBelowControl, TheGizmoIsWhereASolveStartsTheBone) {
     run("rig.select", {{"element", "arm"}});
     const auto gizmo = lab().gizmo(workspace);
     ASSERT_TRUE(gizmo);
@@ -79,7 +79,7 @@ TEST_F(RigBelowControl, TheGizmoOfAControlThere) {
     expect_near(translation("grip"), {1, 1, 1}, 1e-6);
 }
 
-TEST_F(RigBelowControl, GhostsAreOfThePoseThatASolveBeginsWith) {
+TEST_F(RigBelowControl, GhostsShowThePoseThatASolveStartsWith) {
     run("rig.select", {{"element", "arm"}});
     const Camera camera({}, {{0.0f, 0.0f}, {800.0f, 600.0f}});
     const Palette& colours = palette(Theme::Dark);

@@ -47,7 +47,7 @@ TEST_F(RigClips, ADialThatTurnsIsExpressedInEveryFrame) {
 }
 
 /// The antennae lag behind, which no value of the head's control can produce.
-TEST_F(RigClips, WhatSpringsAddCannotBeExpressed) {
+TEST_F(RigClips, SpringMotionCannotBeExpressed) {
     walking_head();
     run("rig.clip.record", {{"seconds", 1}});
     solve_clip();
@@ -63,7 +63,7 @@ TEST_F(RigClips, WhatSpringsAddCannotBeExpressed) {
     EXPECT_GT(runs[0].at("degrees"), 1.0);
 }
 
-TEST_F(RigClips, TheSameAfterSavingAndOpeningInTheMiddle) {
+TEST_F(RigClips, ContinuesTheSameAfterSavingHalfway) {
     walking_head();
     run("rig.clip.record", {{"seconds", 0.5}});
     run("rig.clip.solve");
@@ -95,7 +95,7 @@ TEST_F(RigClips, IsUndoneCancelledAndCleared) {
     EXPECT_EQ(left().done(), done);
 }
 
-TEST_F(RigClips, AScaleThatTheRigDoesNotHaveIsNotExpressed) {
+TEST_F(RigClips, AScaleThatTheRigLacksIsNotExpressed) {
     run("rig.preset", {{"name", "loop"}});
     const auto scale = [&](double by) {
         run("rig.element.set", {{"name", "arm 2 joint 6"}, {"transform", {{"scale", {1, by, 1}}}}});
@@ -124,7 +124,7 @@ TEST_F(RigClips, AScaleThatTheRigDoesNotHaveIsNotExpressed) {
     EXPECT_EQ(left().left.front().scale, 0.0f);
 }
 
-TEST_F(RigClips, AClipOfOtherBonesIsRefused) {
+TEST_F(RigClips, AClipForOtherBonesIsRefused) {
     walking_head();
     run("rig.clip.record", {{"seconds", 0.2}});
     run("rig.clip.solve");
@@ -136,14 +136,14 @@ TEST_F(RigClips, AClipOfOtherBonesIsRefused) {
     EXPECT_TRUE(lab().working(workspace));
 }
 
-TEST_F(RigClips, WhatIsTooLongIsRefused) {
+TEST_F(RigClips, TooLongClipsAreRefused) {
     expect_refused("rig.clip.record", {{"seconds", 1}}, {"no bones"});
     walking_head();
     run("rig.preset", {{"name", "fk"}});
     expect_refused("rig.clip.record", Json::object(), {"nothing has been played"});
 }
 
-TEST_F(RigClips, FilesThatAreNoClipsAreRefused) {
+TEST_F(RigClips, OtherFilesAreRefused) {
     walking_head();
     play(20);
     set("head", {{"translation", {0.1, 1, 0}}});
@@ -212,7 +212,7 @@ class RigBackward : public RigTest {
     std::mt19937 random_{17};
 };
 
-TEST_F(RigBackward, AimGivesEveryPoseBack) {
+TEST_F(RigBackward, AimRestoresEveryPose) {
     run("rig.preset", {{"name", "aim"}});
     for (int i = 0; i < 150; ++i) {
         const double x = random(-1, 1), y = random(-1, 1), side = random(-0.8, 0.8), up = random(0.2, 1.2);
@@ -223,7 +223,7 @@ TEST_F(RigBackward, AimGivesEveryPoseBack) {
     }
 }
 
-TEST_F(RigBackward, FkGivesEveryPoseBack) {
+TEST_F(RigBackward, FkRestoresEveryPose) {
     run("rig.preset", {{"name", "fk"}});
     for (int i = 0; i < 150; ++i) {
         set_number("dial");
@@ -232,7 +232,7 @@ TEST_F(RigBackward, FkGivesEveryPoseBack) {
     }
 }
 
-TEST_F(RigBackward, LoopGivesEveryPoseBack) {
+TEST_F(RigBackward, LoopRestoresEveryPose) {
     run("rig.preset", {{"name", "loop"}});
     for (int i = 0; i < 150; ++i) {
         set_number("dial");
@@ -240,8 +240,8 @@ TEST_F(RigBackward, LoopGivesEveryPoseBack) {
     }
 }
 
-/// One bone of a tentacle is pulled off, which no value of any control can produce.
-TEST_F(RigBackward, WhatItCannotExpressIsSaidWithBoneAndAmount) {
+/// One bone of a tentacle is pulled away, which no value of any control can produce.
+TEST_F(RigBackward, AnInexpressiblePoseIsReportedWithBoneAndAmount) {
     run("rig.preset", {{"name", "loop"}});
     for (int i = 0; i < 100; ++i) {
         set_number("dial");

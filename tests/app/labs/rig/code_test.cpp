@@ -18,7 +18,7 @@ class RigCode : public RigTest {
     }
 };
 
-TEST_F(RigCode, SaysOnlyWhatIsNotAsItIsByItself) {
+TEST_F(RigCode, WritesOnlyWhatDiffersFromTheDefaults) {
     element("bone 1");
     unit({{"unit", "offset_transform"},
           {"name", "shift"},
@@ -32,7 +32,7 @@ TEST_F(RigCode, SaysOnlyWhatIsNotAsItIsByItself) {
     for (const char* said : {".propagate = false", ".weight = 0.5", ".enabled = false"}) expect_says(said);
 }
 
-TEST_F(RigCode, TakesAlongWhatWasSetAndWhatIsRemembered) {
+TEST_F(RigCode, IncludesSetValuesAndMemory) {
     run("rig.preset", {{"name", "secondary"}});
     expect_silent_about("state.controls");
     set("head", transform(0.5, 1, 0));
@@ -45,7 +45,7 @@ TEST_F(RigCode, TakesAlongWhatWasSetAndWhatIsRemembered) {
     expect_says("signal::SpringState<glm::dvec3>{.value = glm::dvec3{");
 }
 
-TEST_F(RigCode, NamesAreWrittenSoThatTheyComeBack) {
+TEST_F(RigCode, NamesAreWrittenSoThatTheyReadBack) {
     element("a \"b\" \\");
     expect_says(R"(.name = "a \"b\" \\")");
 }

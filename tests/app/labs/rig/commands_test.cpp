@@ -49,8 +49,8 @@ TEST_F(RigCommands, TheControlsOfACurveAreRenamedAndRemovedInItsUnit) {
     run("rig.element.remove", {{"name", "hump"}});
 }
 
-/// Part of an aim, or a filter, is edited like a unit: members that are not given stay.
-TEST_F(RigCommands, SetsMembersWithinAPartAndLeavesTheOthers) {
+/// Part of an aim, or a filter, is edited like a unit: omitted members stay the same.
+TEST_F(RigCommands, SetsMembersOfAPartAndKeepsTheOthers) {
     build_arm();
     control("look", "position");
     unit({{"unit", "aim"},
@@ -84,7 +84,7 @@ TEST_F(RigCommands, SetsMembersWithinAPartAndLeavesTheOthers) {
     expect_refused("rig.unit.set", {{"name", "bend"}}, {"there is no unit \"bend\""});
 }
 
-TEST_F(RigCommands, StateHasTheKeysThatThePageNames) {
+TEST_F(RigCommands, StateHasTheDocumentedKeys) {
     build_arm();
     control("square", "vector2d", {{"space", "hand"}});
     run("rig.curve.add", {{"name", "smile"}, {"value", 0.5}});
@@ -125,7 +125,7 @@ TEST_F(RigCommands, AControlIsSetWithinItsLimits) {
     EXPECT_NEAR(rotation("free").z, 0.6, 1e-15) << "of unit length";
 }
 
-TEST_F(RigCommands, ATickSolvesWhenSomethingHasChangedAndThenRests) {
+TEST_F(RigCommands, ATickSolvesAfterChangesAndThenRests) {
     build_arm();
     tick(3);
     EXPECT_FALSE(lab().moving(workspace));
@@ -146,7 +146,7 @@ TEST_F(RigCommands, ATickSolvesWhenSomethingHasChangedAndThenRests) {
     EXPECT_EQ(named("units", "turn").at("enabled"), false);
 }
 
-TEST_F(RigCommands, WhatChangesNothingLeavesNoStep) {
+TEST_F(RigCommands, CommandsWithoutEffectLeaveNoUndoStep) {
     build_arm();
     control("place", "position");
     set("dial", 0.5);
@@ -164,7 +164,7 @@ TEST_F(RigCommands, WhatChangesNothingLeavesNoStep) {
     EXPECT_FALSE(lab().moving(workspace));
 }
 
-TEST_F(RigCommands, SolvingPassesNoTimeAndTwiceIsAsOnce) {
+TEST_F(RigCommands, SolvingTakesNoTimeAndIsIdempotent) {
     control("place", "position");
     unit({{"unit", "spring_interpolate"}, {"name", "trail"}, {"target", "place"}});
     tick();
@@ -190,7 +190,7 @@ TEST_F(RigCommands, WithoutPropagationChildrenStayAfterASolveToo) {
     expect_near(translation("place"), {0, 0, 0});
 }
 
-TEST_F(RigCommands, CurvesAreWrittenByUnitsAndStandAgainBeforeThem) {
+TEST_F(RigCommands, CurvesAreWrittenByUnitsAndRestoredBeforeThem) {
     run("rig.curve.add", {{"name", "smile"}, {"value", 0.25}});
     run("rig.curve.add", {{"name", "frown"}});
     unit({{"unit", "set_curve"}, {"name", "set"}, {"curve", "smile"}, {"value", 1}, {"weight", 0.5}});
@@ -204,7 +204,7 @@ TEST_F(RigCommands, CurvesAreWrittenByUnitsAndStandAgainBeforeThem) {
     EXPECT_EQ(state().at("curves"), (Json{{"smile", 0.5}, {"frown", 0.1}}));
 }
 
-TEST_F(RigCommands, WarningsAreSaidInTheState) {
+TEST_F(RigCommands, WarningsAreInTheState) {
     element("bone");
     control("weight", "float");
     unit({{"unit", "aim"}, {"name", "look"}, {"item", "bone"}, {"primary", {{"target", "bone"}}}});
@@ -219,7 +219,7 @@ TEST_F(RigCommands, WarningsAreSaidInTheState) {
     for (const Json& each : list("units")) EXPECT_EQ(each.at("warning"), "");
 }
 
-TEST_F(RigCommands, BackwardFindsTheControlsAndSaysWhatIsLeft) {
+TEST_F(RigCommands, BackwardFindsTheControlsAndReportsTheRemainder) {
     build_arm();
     const double angle = 0.7;
     run("rig.element.set", {{"name", "arm"},
@@ -238,7 +238,7 @@ TEST_F(RigCommands, BackwardFindsTheControlsAndSaysWhatIsLeft) {
     EXPECT_TRUE(state().at("backward").is_null());
 }
 
-TEST_F(RigCommands, WhatWasSelectedLastIsRemoved) {
+TEST_F(RigCommands, TheLastSelectedIsRemoved) {
     expect_refused("rig.remove_selected", Json::object(), {"nothing is selected"});
     run("rig.preset", {{"name", "aim"}});
     const auto units = [&] { return list("units").size(); };

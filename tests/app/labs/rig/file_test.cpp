@@ -116,8 +116,8 @@ TEST_F(RigFile, EveryUnitIsAddedByCommandAndReadBack) {
     EXPECT_TRUE(rig_part(other) == part());
 }
 
-/// Further away than any valid input: the program must read what it wrote.
-TEST_F(RigFile, WhatABackwardSolveLeftIsReadBackHoweverFarItIs) {
+/// Beyond the range of valid input: the program must read what it wrote.
+TEST_F(RigFile, TheRemainderOfABackwardSolveIsReadBackHoweverFarItIs) {
     run("rig.element.set", {{"name", "tip"}, {"transform", {{"scale", {10, 1, 1}}}}});
     unit({{"unit", "set_transform"},
           {"name", "away"},
@@ -131,7 +131,7 @@ TEST_F(RigFile, WhatABackwardSolveLeftIsReadBackHoweverFarItIs) {
     EXPECT_EQ(rig_part(reopened()).backward, part().backward);
 }
 
-TEST_F(RigFile, AnElementOfAFileIsOneOfACommand) {
+TEST_F(RigFile, AnElementInAFileEqualsOneFromACommand) {
     const rig::Definition once = part().rig.definition();
     const Json elements = saved().at("elements");
     run("rig.clear");
@@ -139,7 +139,7 @@ TEST_F(RigFile, AnElementOfAFileIsOneOfACommand) {
     EXPECT_EQ(part().rig.definition().elements, once.elements);
 }
 
-TEST_F(RigFile, InputsAreReadAsTheyAreMeant) {
+TEST_F(RigFile, InputsAreReadAsIntended) {
     for (const Json& each : one_of_each()) unit(each);
     using namespace rig;
     const auto& units = part().rig.definition().units;
@@ -177,7 +177,7 @@ TEST_F(RigFile, InputsAreReadAsTheyAreMeant) {
 }
 
 /// The members of a curve may be among those of the unit, as in signal.md.
-TEST_F(RigFile, ACurveMayStandAmongTheMembersOfItsUnit) {
+TEST_F(RigFile, ACurvesMembersMayBeAmongItsUnits) {
     const Json keys{{{"time", 0}, {"value", 1}}, {{"time", 1}, {"value", 0}}};
     unit({{"unit", "evaluate_curve"}, {"value", 0.5}, {"keys", keys}, {"target_max", 4}});
     unit({{"unit", "evaluate_curve"}, {"value", 0.5}, {"curve", {{"keys", keys}, {"target_max", 4}}}});
@@ -187,7 +187,7 @@ TEST_F(RigFile, ACurveMayStandAmongTheMembersOfItsUnit) {
     EXPECT_EQ(output("evaluate_curve"), 2.0);
 }
 
-TEST_F(RigFile, UnitsWithoutANameGetOneOfTheirOwn) {
+TEST_F(RigFile, UnitsWithoutANameGetAUniqueOne) {
     unit({{"unit", "from_two_vectors"}});
     unit({{"unit", "from_two_vectors"}, {"name", "from_two_vectors 3"}});
     unit({{"unit", "from_two_vectors"}});
@@ -203,8 +203,8 @@ TEST_F(RigFile, UnitsWithoutANameGetOneOfTheirOwn) {
     EXPECT_EQ(loop.body.units()[0].name, "from_two_vectors 5");
 }
 
-/// In mid-motion, with poses set globally and without propagation, and all memory in use.
-TEST_F(RigFile, TheStateComesBackToTheBitAndGoesOnAlike) {
+/// In the middle of a motion, with global poses, without propagation, and with all memory in use.
+TEST_F(RigFile, TheStateIsRestoredBitForBitAndContinuesAlike) {
     for (const Json& each : one_of_each()) unit(each);
     set("float", 0.7);
     set("vector2d", {0.5, -1.5});
@@ -231,7 +231,7 @@ TEST_F(RigFile, TheStateComesBackToTheBitAndGoesOnAlike) {
     }
 }
 
-TEST_F(RigFile, ARigThatWasWrittenByHandBeginsAtRest) {
+TEST_F(RigFile, AHandWrittenRigStartsAtRest) {
     Json scene = save_scene(workspace);
     Json& rig = scene.at("labs").at(rig_lab);
     rig.erase("state");

@@ -25,7 +25,7 @@ class RigHostile : public RigTest {
     }
 };
 
-TEST_F(RigHostile, ElementsThatMakeNoTree) {
+TEST_F(RigHostile, ElementsThatAreNoTree) {
     expect_refused("rig.element.add", {{"name", ""}}, {"name is empty"});
     expect_refused("rig.element.add", {{"name", std::string(101, 'x')}}, {"101 characters"});
     expect_refused("rig.element.add", {{"name", std::string("a\0b", 3)}}, {"unprintable"});
@@ -35,7 +35,7 @@ TEST_F(RigHostile, ElementsThatMakeNoTree) {
     expect_scene_refused("/elements/0/parent", "hand", "itself below it");
 }
 
-TEST_F(RigHostile, TransformsThatAreNone) {
+TEST_F(RigHostile, InvalidTransforms) {
     // The path begins with the argument's name: "local" or "transform".
     const auto add = [&](const Json& local, const std::string& place, const std::string& says) {
         expect_refused("rig.element.add", {{"name", "new"}, {"local", local}}, {"local" + place, says});
@@ -79,7 +79,7 @@ TEST_F(RigHostile, ControlsOutOfOrder) {
     expect_refused("rig.element.add", {{"name", "new"}, {"space", "hand"}}, {"space", "only a control"});
 }
 
-/// It is refused beforehand, by its estimated cost.
+/// It is refused in advance by its estimated cost.
 TEST_F(RigHostile, ABackwardSolveThatWouldTakeTooLongIsRefused) {
     Json scene = save_scene(workspace);
     Json& rig = scene["labs"]["rig"];
@@ -105,8 +105,8 @@ TEST_F(RigHostile, ABackwardSolveThatWouldTakeTooLongIsRefused) {
     expect_refused("rig.solve", {{"direction", "backward"}}, {"so large", "too long"});
 }
 
-/// A chain of controls, each of which moves all the bones after it.
-TEST_F(RigHostile, ABackwardSolveStopsWhereItHasTakenLongEnoughAndSaysSo) {
+/// A chain of controls that each move all the bones after it.
+TEST_F(RigHostile, ABackwardSolveStopsAtItsBudgetAndReportsIt) {
     constexpr int count = 120;
     Json scene = save_scene(workspace);
     Json& rig = scene["labs"]["rig"];
@@ -147,7 +147,7 @@ TEST_F(RigHostile, ABackwardSolveStopsWhereItHasTakenLongEnoughAndSaysSo) {
     EXPECT_NE(reader.panel(lab(), workspace).find("Stopped early"), std::string::npos);
 }
 
-TEST_F(RigHostile, ValuesThatAControlDoesNotHave) {
+TEST_F(RigHostile, ValuesThatAControlLacks) {
     control("place", "position");
     control("square", "vector2d");
     expect_refused("rig.control.set", {{"name", "hand"}, {"value", 1}}, {"\"hand\" is not a control"});
@@ -161,7 +161,7 @@ TEST_F(RigHostile, ValuesThatAControlDoesNotHave) {
     expect_refused("rig.control.set", {{"name", "dial"}}, {"needs either value or values"});
 }
 
-TEST_F(RigHostile, UnitsThatAreNone) {
+TEST_F(RigHostile, InvalidUnits) {
     expect_unit_refused({{"unit", "dance"}}, {"unit", "\"dance\""});
     expect_unit_refused({{"item", "hand"}}, {"unit is missing"});
     expect_unit_refused({{"unit", "aim"}}, {"\"item\" is missing"});
@@ -200,7 +200,7 @@ TEST_F(RigHostile, UnitsThatAreNone) {
     expect_refused("rig.unit.remove", {{"name", "nobody"}}, {"no unit \"nobody\""});
 }
 
-TEST_F(RigHostile, InputsOfTheWrongTypeOrOfNothing) {
+TEST_F(RigHostile, InputsOfTheWrongTypeOrWithoutSource) {
     const auto rotation = [&](const Json& input, std::vector<std::string> says) {
         expect_unit_refused({{"unit", "set_rotation"}, {"item", "hand"}, {"rotation", input}},
                             std::move(says));
@@ -221,15 +221,15 @@ TEST_F(RigHostile, InputsOfTheWrongTypeOrOfNothing) {
                         {"when takes a bool, got a number"});
 }
 
-/// Well-defined: a warning, and the item unchanged.
-TEST_F(RigHostile, AnAxisOfNoLengthIsAWarning) {
+/// This is well-defined: a warning, and the item stays unchanged.
+TEST_F(RigHostile, AnAxisWithoutLengthIsAWarning) {
     unit({{"unit", "aim"}, {"item", "hand"}, {"primary", {{"axis", {0, 0, 0}}, {"target", {0, 1, 0}}}}});
     solve();
     EXPECT_TRUE(test::says(named("units", "aim").at("warning"), "axis length"));
     EXPECT_EQ(rotation("hand"), glm::dquat(1, 0, 0, 0));
 }
 
-TEST_F(RigHostile, WhatOthersNameCannotBeRemoved) {
+TEST_F(RigHostile, ReferencedElementsCannotBeRemoved) {
     unit({{"unit", "from_two_vectors"}, {"name", "arc"}});
     unit({{"unit", "set_rotation"}, {"name", "turn"}, {"item", "hand"}, {"rotation", {{"unit", "arc"}}}});
     unit({{"unit", "for_each"},
@@ -249,7 +249,7 @@ TEST_F(RigHostile, WhatOthersNameCannotBeRemoved) {
     expect_refused("rig.element.remove", {{"name", "root"}}, {"unit \"loop\"", "roots"});
 }
 
-/// One line of a file can ask for millions of rounds.
+/// A single line of a file can request millions of iterations.
 TEST_F(RigHostile, ARigThatWouldRunTooLongIsRefused) {
     Json rig = saved(), body = Json::array(), roots = Json::array();
     rig.erase("state");
@@ -259,8 +259,8 @@ TEST_F(RigHostile, ARigThatWouldRunTooLongIsRefused) {
     EXPECT_TRUE(test::says(opened_with("", rig), "units maximum"));
 }
 
-/// Any invalid value in a state in a file is refused with its position.
-TEST_F(RigHostile, StatesThatAreNone) {
+/// Any invalid value of a state in a file is refused with its path.
+TEST_F(RigHostile, InvalidStates) {
     unit({{"unit", "spring_interpolate"}, {"target", "root"}});
     tick();
     const auto expect_place = [&](const std::string& at, const Json& value, const std::string& place) {

@@ -1,4 +1,4 @@
-// Why did the bone flip? Gestures with a planted cause, and smooth ones; failing units, controls at limits.
+// The causes of flips: gestures with a planted cause, and smooth ones; failing units, controls at limits.
 #include <glm/gtc/quaternion.hpp>
 
 #include "app/labs/rig/presets.hpp"
@@ -46,11 +46,11 @@ class RigIncidents : public RigTest, protected test::RandomNumbers {
     struct Gesture {
         int flips = 0;
         float furthest = 0.0f;
-        std::string cause{}, problem{};  ///< of the flip that turned the furthest
+        std::string cause{}, problem{};  ///< of the flip that rotated the furthest
     };
-    /// Sets a control to each of these values, with a tick after each. If the steps are small, every turn by
-    /// more than 30 degrees is a flip: it must be marked in that very tick, with its bone and a cause.
-    /// Without a `bone`, the one that turned the furthest.
+    /// Sets a control to each of these values, with a tick after each. If the steps are small, every rotation
+    /// by more than 30 degrees is a flip: it must be marked in that tick with its bone and a cause. Without
+    /// `bone`, the bone that rotated the furthest.
     Gesture drag(const char* name, const Path& path, const std::string& bone,
                  const std::vector<std::string>& causes) {
         set(name, json(path.front()));
@@ -182,7 +182,7 @@ TEST_F(RigIncidents, TheTargetWentThroughTheRoot) {
     });
 }
 
-TEST_F(RigIncidents, AWeightThatASwitchOfNumbersGives) {
+TEST_F(RigIncidents, AWeightSetByASwitchOfNumbers) {
     element("bone", "", transform(0, 1, 0));
     element("end", "bone", transform(0, 1, 0));
     control("dial", "float", {{"minimum", 0}, {"maximum", 1}});
@@ -220,7 +220,7 @@ TEST_F(RigIncidents, AWeightThatASwitchOfNumbersGives) {
     EXPECT_EQ(flip_in(since(before)), nullptr) << "the control was moved far";
 }
 
-TEST_F(RigIncidents, ACauseThatIsNotKnownIsSaidToBe) {
+TEST_F(RigIncidents, AnUnknownCauseIsReportedAsUnknown) {
     expect_planted(5, [&] {
         const glm::dvec3 at = direction(), along = direction();
         element("head", "", transform(at.x, at.y, at.z));
@@ -285,8 +285,8 @@ TEST_F(RigIncidents, SmoothGesturesHaveNone) {
     }
 }
 
-/// Changes that the user makes are no flips: edits, other scenes, seeking in the take.
-TEST_F(RigIncidents, NothingIsMarkedForWhatIsNoMoveOfAControl) {
+/// The user's other changes are no flips: edits, other scenes, seeking in the take.
+TEST_F(RigIncidents, OnlyMovesOfAControlAreMarked) {
     head({0, 1, 0}, nullptr);
     set("look", {0, 1, 2});
     tick(3);
@@ -310,7 +310,7 @@ TEST_F(RigIncidents, NothingIsMarkedForWhatIsNoMoveOfAControl) {
     EXPECT_TRUE(none("rig.clear", Json::object()));
 }
 
-TEST_F(RigIncidents, WhatAUnitReportsIsToldOnce) {
+TEST_F(RigIncidents, AUnitsReportIsShownOnce) {
     head({0, 1, 0}, nullptr);
     set("look", {0, 1, 2});
     tick(3);
@@ -332,7 +332,7 @@ TEST_F(RigIncidents, WhatAUnitReportsIsToldOnce) {
     EXPECT_EQ(reports, 1);
 }
 
-TEST_F(RigIncidents, AControlComesToItsLimitAndLeavesIt) {
+TEST_F(RigIncidents, AControlReachesItsLimitAndLeavesIt) {
     control("dial", "float", {{"minimum", -1}, {"maximum", 2}});
     control("board", "vector2d", {{"axes", {"x", "z"}}, {"minimum", {-1, -1}}, {"maximum", {1, 1}}});
     control("fixed", "float", {{"minimum", 0}, {"maximum", 0}});

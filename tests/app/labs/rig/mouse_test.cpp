@@ -84,7 +84,7 @@ TEST_F(RigMouse, AFloatIsDraggedAlongItsRailAndStopsAtItsEnds) {
     EXPECT_EQ(value(), -1.0);
 }
 
-TEST_F(RigMouse, AFloatWithoutLimitsGoesOnBeyondItsRail) {
+TEST_F(RigMouse, AFloatWithoutLimitsContinuesBeyondItsRail) {
     one("float");
     drag(at("it"), {{100.0f, 0.0f}, {300.0f, 0.0f}});
     EXPECT_GT(value().get<double>(), 1.5);
@@ -147,7 +147,7 @@ TEST_F(RigMouse, ARotationTurnsByItsOwnRingsAndByTheGizmo) {
     EXPECT_EQ(steps(), before + 1) << "one drag, one step";
     app_.run({"undo"});
     EXPECT_EQ(number(value(), 3), 1.0);
-    // The ring that is always visible: its near side to the right.
+    // The ring that is always visible; its near side moves to the right.
     app_.run({"rig.select"});
     const float metre = 720.0f / (2.0f * 5.0f * std::tan(0.35f));
     const glm::vec2 ring = centre + glm::vec2(0.0f, 0.14f * metre * std::sin(glm::radians(25.0f)));
@@ -216,7 +216,7 @@ TEST_F(RigMovingSpace, ABoxScalesItsAxisAndNothingElse) {
     EXPECT_EQ(value()["rotation"], rest["rotation"]);
 }
 
-/// The pointer does not affect motion perpendicular to the arrow: there it follows its space.
+/// Perpendicular to the arrow, the pointer has no effect and the control follows its space.
 TEST_F(RigMovingSpace, AnArrowMovesAlongItself) {
     const Json rest = value();
     drag(at("it.move_y"), {{0.0f, -10.0f}, {0.0f, -20.0f}, {0.0f, -30.0f}, {0.0f, -40.0f}});
@@ -268,7 +268,7 @@ TEST_F(RigMouse, ADragInAPauseKeepsTheTake) {
     EXPECT_EQ(element("skull"), moved);
 }
 
-TEST_F(RigMouse, EscapeInMidDragPutsBackWhatWas) {
+TEST_F(RigMouse, EscapeDuringADragRestoresTheOldValue) {
     one("transform");
     select();
     const Json rest = value();
@@ -293,7 +293,7 @@ TEST_F(RigMouse, ADoubleClickResetsAControl) {
     EXPECT_THROW(app_.run({"rig.control.reset", Json{{"name", "nobody"}}}), Refused);
 }
 
-TEST_F(RigMouse, AClickSelectsAndAClickOnNothingDeselects) {
+TEST_F(RigMouse, AClickSelectsAndAClickInEmptySpaceDeselects) {
     click(at("nose"));
     EXPECT_EQ(selected(), "nose");
     click({330.0f, 200.0f});
@@ -347,7 +347,7 @@ TEST_F(RigMouse, ShiftAddsABoxSelectsAndDeleteRemovesAll) {
     EXPECT_EQ(selection(), (Json{"it", "bone"}));
 }
 
-TEST_F(RigMouse, ABonesGizmoSetsThePoseThatEverySolveBeginsWith) {
+TEST_F(RigMouse, ABonesGizmoSetsThePoseThatEverySolveStartsWith) {
     const Json nose = element("nose"), head = element("head");
     select("nose");
     drag(at("nose.move_y"), {{0.0f, -20.0f}, {0.0f, -50.0f}});

@@ -71,7 +71,7 @@ TEST_F(RigPanels, EveryMemberOfEveryUnitIsListed) {
     }
 }
 
-TEST_F(RigPanels, WhatIsOfferedIsTaken) {
+TEST_F(RigPanels, EveryOfferIsAccepted) {
     std::size_t taken = 0;
     const auto offer_all = [&] {
         for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
@@ -103,7 +103,7 @@ TEST_F(RigPanels, WhatIsOfferedIsTaken) {
     EXPECT_EQ(free_element_name(part(), "left 1"), "left 1 2");
 }
 
-TEST_F(RigPanels, ALiteralIsSetAndNothingElse) {
+TEST_F(RigPanels, ALiteralIsSetAndNothingElseChanges) {
     run("rig.preset", {{"name", "fk"}});
     for (const rig::Unit& unit : part().rig.definition().units) {
         for (const UnitInput& each : inputs(unit.name)) {
@@ -121,7 +121,7 @@ TEST_F(RigPanels, ALiteralIsSetAndNothingElse) {
     }
 }
 
-TEST_F(RigPanels, InputsSayWhereTheyComeFromAndWhatTheyAreNow) {
+TEST_F(RigPanels, InputsShowTheirSourceAndPresentValue) {
     run("rig.preset", {{"name", "morph"}});
     set("shape", {0.25, 0.5});
     tick();
@@ -157,7 +157,7 @@ class RigOffers : public RigPanels {
         try {
             run("rig.unit.set", with_input(*unit_row(part(), unit)->unit, before.path, *offer.value));
         } catch (const Refused& refusal) {
-            // The ends of a bone chain and the type of a spring may not fit the rest.
+            // The ends of a bone chain and the type of a spring may not fit the other inputs.
             EXPECT_TRUE(before.field->of == std::string_view("bones") || !before.is(FieldType::Input) ||
                         !before.type())
                 << unit << before.path << offer.title << refusal.what();
@@ -177,7 +177,7 @@ class RigOffers : public RigPanels {
     }
 };
 
-TEST_F(RigOffers, WhatAnInputMayBeIsTakenAndIsWhatItThenIs) {
+TEST_F(RigOffers, EveryOfferForAnInputIsAcceptedAndApplied) {
     for (const RigPreset& preset : rig_presets()) {
         run("rig.preset", {{"name", preset.name}});
         tick();
@@ -190,7 +190,7 @@ TEST_F(RigOffers, WhatAnInputMayBeIsTakenAndIsWhatItThenIs) {
     EXPECT_LT(refusals, taken / 4);
 }
 
-TEST_F(RigOffers, OneOfThemIsWhatItIsNow) {
+TEST_F(RigOffers, OneOfThemIsThePresentValue) {
     for (const RigPreset& preset : rig_presets()) {
         run("rig.preset", {{"name", preset.name}});
         tick();
@@ -211,7 +211,7 @@ std::size_t operation_index(const std::string& name) {
     return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
-TEST_F(RigPanels, OffersAreOfTheRightKind) {
+TEST_F(RigPanels, OffersHaveTheRightKind) {
     const auto titles = [&](const std::string& unit, const std::string& path, std::size_t index = 0) {
         std::set<std::string> all;
         for (const InputOffer& each : input_offers(part(), *unit_row(part(), unit), input(unit, path), index))
@@ -254,7 +254,7 @@ TEST_F(RigPanels, OffersAreOfTheRightKind) {
     EXPECT_TRUE(titles("spline", "/points", 0).contains("none: remove this point"));
 }
 
-TEST_F(RigPanels, UnitsMoveAmongTheirOwn) {
+TEST_F(RigPanels, UnitsMoveWithinTheirList) {
     run("rig.preset", {{"name", "morph"}});
     const auto names = [&] {
         std::string all;
@@ -270,12 +270,12 @@ TEST_F(RigPanels, UnitsMoveAmongTheirOwn) {
     expect_refused("rig.unit.move", {{"name", "late"}, {"at", 6}}, {"at must be 0 to 5"});
     expect_refused("rig.unit.move", {{"name", "nobody"}, {"at", 0}}, {"nobody"});
     run("rig.preset", {{"name", "secondary"}});
-    run("rig.unit.move", {{"name", "share"}, {"at", 0}});  // in its body
+    run("rig.unit.move", {{"name", "share"}, {"at", 0}});  // within its body
     EXPECT_EQ(list("units")[0].at("body")[0].at("name"), "share");
     expect_refused("rig.unit.move", {{"name", "bend"}, {"at", 0}}, {"bend"});
 }
 
-TEST_F(RigPanels, ReadingCleansTheWayToTheRootAndChangesNothing) {
+TEST_F(RigPanels, ReadingUpdatesThePathToTheRootAndChangesNothing) {
     element("bone 1");
     for (int i = 2; i <= 9; ++i) {
         const std::string name = "bone " + std::to_string(i), parent = "bone " + std::to_string(i - 1);
@@ -305,7 +305,7 @@ TEST_F(RigPanels, ReadingCleansTheWayToTheRootAndChangesNothing) {
     expect_refused("rig.read", {{"name", "bone 10"}}, {"bone 10"});
 }
 
-TEST_F(RigPanels, AWarningIsTold) {
+TEST_F(RigPanels, AWarningIsReported) {
     run("rig.preset", {{"name", "aim"}});
     tick();
     EXPECT_EQ(panel_text().find("! "), std::string::npos);
@@ -314,11 +314,11 @@ TEST_F(RigPanels, AWarningIsTold) {
     expect_says(panel_text(), "! The target is at the item");
 }
 
-TEST_F(RigPanels, WhatABackwardSolveLeftIsTold) {
+TEST_F(RigPanels, TheRemainderOfABackwardSolveIsReported) {
     run("rig.preset", {{"name", "loop"}});
     solve("backward");
     expect_says(panel_text(), "The controls can give every bone its pose.");
-    // As an imported animation poses it: no dial turns one joint alone.
+    // Posed as by an imported animation: no dial turns one joint alone.
     auto& posed = workspace.document.edit<RigPart>(rig_lab);
     const rig::ElementId joint = posed.rig.id(*posed.rig.element("arm 1 joint 3"));
     ASSERT_TRUE(posed.state.elements.set(joint, rig::Space::Local, {.rotation = {0.8, 0.6, 0.0, 0.0}}));
@@ -328,7 +328,7 @@ TEST_F(RigPanels, WhatABackwardSolveLeftIsTold) {
     expect_says(panel_text(), part().backward->bone);
 }
 
-TEST_F(RigPanels, AScaleThatIsLeftIsTold) {
+TEST_F(RigPanels, ARemainingScaleIsReported) {
     run("rig.preset", {{"name", "loop"}});
     auto& posed = workspace.document.edit<RigPart>(rig_lab);
     const rig::ElementId joint = posed.rig.id(*posed.rig.element("arm 1 joint 6"));
@@ -349,7 +349,7 @@ TEST_F(RigPanels, AScaleThatIsLeftIsTold) {
     expect_says(panel_text(), "The rig can express all");
 }
 
-TEST_F(RigPanels, CountsAreWholeAndALimitOf0IsNone) {
+TEST_F(RigPanels, CountsAreWholeAndALimitOf0MeansNone) {
     run("rig.preset", {{"name", "loop"}});
     tick();
     const auto& units = part().rig.definition().units;
@@ -375,7 +375,7 @@ TEST_F(RigPanels, CountsAreWholeAndALimitOf0IsNone) {
     EXPECT_EQ(inspector_text().find("no limit"), std::string::npos);
 }
 
-TEST_F(RigPanels, TheInspectorHasWhatIsSelected) {
+TEST_F(RigPanels, TheInspectorShowsTheSelection) {
     expect_says(inspector_text(), "Nothing is selected");
     run("rig.preset", {{"name", "aim"}});
     tick();
@@ -388,7 +388,7 @@ TEST_F(RigPanels, TheInspectorHasWhatIsSelected) {
     expect_says(inspector_text(), "Input pose, within its parent");
 }
 
-TEST_F(RigPanels, DigitsThatWereNotTouchedStay) {
+TEST_F(RigPanels, UntouchedDigitsStay) {
     const glm::dvec3 before(0.1, 1.0 / 3.0, 2.0);
     const glm::vec3 shown(before);
     EXPECT_EQ(edited_vector(before, shown, shown), before);

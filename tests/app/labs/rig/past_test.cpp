@@ -52,7 +52,7 @@ class RigPast : public RigTest, protected test::RandomNumbers {
     }
 };
 
-/// Degrees: of the bone's direction, and about the bone once the swing is undone the shortest way.
+/// Degrees: swing of the bone's direction, and twist after undoing the swing by the shortest rotation.
 struct Counted {
     double swing, twist;
 };
@@ -68,7 +68,7 @@ Counted count(const glm::dquat& turn, const glm::dvec3& along) {
             glm::degrees(std::atan2(glm::dot(glm::cross(side, turned), bone), glm::dot(side, turned)))};
 }
 
-TEST_F(RigPast, ValuesAreThoseOfThePoseAtEachTick) {
+TEST_F(RigPast, ValuesEqualThePoseAtEachTick) {
     for (int round = 0; round < 20; ++round) {
         run("rig.clear");
         workspace.rewind.clear();
@@ -120,7 +120,7 @@ TEST_F(RigPast, ValuesAreThoseOfThePoseAtEachTick) {
     }
 }
 
-TEST_F(RigPast, AnElementIsFoundByItsNameInWhatWasThen) {
+TEST_F(RigPast, AnElementIsFoundByNameInThePast) {
     element("arm");
     element("hand", "arm", transform(0, 1, 0));
     remember();
@@ -146,7 +146,7 @@ TEST_F(RigPast, WithoutASelectionItIsTheFirstBoneBelowAnother) {
     EXPECT_TRUE(test::says(rig_past_curve(workspace)->missing, "look swing twist bone"));
 }
 
-TEST_F(RigPast, StateHasWhatIsShown) {
+TEST_F(RigPast, StateHasTheDisplayedPlot) {
     element("arm");
     remember();
     EXPECT_EQ(state()["past"], (Json{{"plot", nullptr}, {"ghosts", Json::array()}}));
@@ -160,7 +160,7 @@ TEST_F(RigPast, StateHasWhatIsShown) {
     EXPECT_EQ(past["ghosts"], Json::array({0}));
 }
 
-TEST_F(RigPast, GhostsAreTheBonesAsTheyWere) {
+TEST_F(RigPast, GhostsAreThePastBones) {
     element("arm", "", transform(1, 0, 0));
     element("hand", "arm", transform(0, 1, 0));
     const PoseLines lines = rig_lines(workspace.document.parts().at(rig_lab));

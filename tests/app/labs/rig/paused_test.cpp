@@ -19,7 +19,7 @@ class RigPaused : public RigTest {
         }
     }
     void go(std::uint64_t tick) { run("rig.time", {{"tick", tick}}); }
-    /// What a drag emits, repeatedly.
+    /// Emits what a drag emits, repeatedly.
     void drag(const char* name, const Json& value) {
         set(name, value);
         solve();
@@ -78,7 +78,7 @@ class RigPaused : public RigTest {
 };
 
 /// The intermediate values of a drag must not reach anything with memory.
-TEST_F(RigPaused, ADragComesOutAsIfAllHadBeenSetAtOnce) {
+TEST_F(RigPaused, ADragEndsAsIfAllHadBeenSetAtOnce) {
     arm();
     play(30);
     const Workspace before = workspace;
@@ -101,7 +101,7 @@ TEST_F(RigPaused, ADragComesOutAsIfAllHadBeenSetAtOnce) {
 }
 
 /// Playing, dragging, setting, solving and seeking, in any order.
-TEST_F(RigPaused, AnyTickIsWhatWasShown) {
+TEST_F(RigPaused, AnyTickIsAsItWasShown) {
     for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
         SCOPED_TRACE(seed);
         run("rig.clear");
@@ -134,7 +134,7 @@ TEST_F(RigPaused, AnyTickIsWhatWasShown) {
     }
 }
 
-TEST_F(RigPaused, WhatWasPosedInAPauseIsBakedAsItPlays) {
+TEST_F(RigPaused, PausedPosesAreBakedAsTheyPlay) {
     arm();
     play(10);
     for (int i = 0; i < 6; ++i) {
@@ -153,7 +153,7 @@ TEST_F(RigPaused, WhatWasPosedInAPauseIsBakedAsItPlays) {
 }
 
 /// An edit of the rig starts a take, and so does a backward solve.
-TEST_F(RigPaused, AnEditBeginsATake) {
+TEST_F(RigPaused, AnEditStartsATake) {
     arm();
     play(30);
     run("rig.unit.set", {{"name", "trail"}, {"strength", 3}});
@@ -167,7 +167,7 @@ TEST_F(RigPaused, AnEditBeginsATake) {
     EXPECT_EQ(part().take.began, now);
 }
 
-TEST_F(RigPaused, KeysOfAFileThatAreNone) {
+TEST_F(RigPaused, InvalidKeysInAFile) {
     arm();
     play(10);
     drag("target", {1.0, 0.5, 0.3});

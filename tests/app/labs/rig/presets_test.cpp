@@ -18,7 +18,7 @@ std::string numbered(const char* name, int number) {
 class RigPresets : public RigTest {
   protected:
     void open(const char* name) { run("rig.preset", {{"name", name}}); }
-    /// An input of a unit, or of the first one in its body, set as by editing the file.
+    /// Sets an input of a unit, or of the first unit in its body, as if edited in the file.
     void switch_input(std::size_t unit, const char* input, bool on) {
         Json scene = save_scene(workspace);
         Json* at = &scene.at("labs").at(rig_lab).at("units").at(unit);
@@ -60,7 +60,7 @@ TEST_F(RigPresets, TheHeadLooksAtItsControlInBothForms) {
         expect_no_warning();
         const glm::dvec3 head = translation("head"), to = glm::normalize(translation("look") - head);
         EXPECT_NEAR(glm::dot(rotation("head") * glm::dvec3(0, 0, 1), to), 1.0, 1e-12);
-        // Up is towards the tilt as far as the aim allows.
+        // Up is towards the tilt as far as the aim permits.
         const glm::dvec3 side = glm::cross(to, translation("tilt") - head);
         EXPECT_NEAR(glm::dot(rotation("head") * glm::dvec3(0, 1, 0), glm::normalize(side)), 0.0, 1e-12);
         const Json bone_form = named("elements", "head");
@@ -73,7 +73,7 @@ TEST_F(RigPresets, TheHeadLooksAtItsControlInBothForms) {
     EXPECT_EQ(named("elements", "look").at("value"), (Json{1.0, 0.0})) << "it stops at its rectangle";
 }
 
-TEST_F(RigPresets, TheTiltGoesWithTheControlThatItIsInTheSpaceOf) {
+TEST_F(RigPresets, TheTiltMovesWithItsSpace) {
     open("aim");
     const glm::dvec3 before = translation("tilt");
     set("look", {0.5, 0.25});
@@ -83,7 +83,7 @@ TEST_F(RigPresets, TheTiltGoesWithTheControlThatItIsInTheSpaceOf) {
 
 TEST_F(RigPresets, TheTentacleFollowsItsControls) {
     open("fk");
-    const glm::dvec3 off(0, 0, -0.25);  // of a bone from its control, at rest
+    const glm::dvec3 off(0, 0, -0.25);  // offset of a bone from its control at rest
     set("dial", 0.6);
     set("control 3", {0, 0.3, 0, 0.95});
     solve();
@@ -135,7 +135,7 @@ TEST_F(RigPresets, WeightsAndColourFollowTheirControlsThroughCurves) {
 }
 
 /// The difference between frame rates is small beside the springs' motion, but visible.
-TEST_F(RigPresets, TheAntennaeTrailMuchTheSameAtEveryFrameRate) {
+TEST_F(RigPresets, TheAntennaeTrailAboutEquallyAtEveryFrameRate) {
     open("secondary");
     tick(1);
     const auto antenna = [&] { return translation("right 6") - translation("head"); };

@@ -13,7 +13,7 @@ class RigRates : public RigTest {
     }
 };
 
-TEST_F(RigRates, OfAnEarlierTakeAreShownNoMore) {
+TEST_F(RigRates, OfAnEarlierTakeAreNoLongerShown) {
     run("rig.rates");
     ASSERT_TRUE(part().rates);
     // As after a backward solve that found other values for the controls.

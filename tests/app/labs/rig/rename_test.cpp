@@ -29,7 +29,7 @@ class RigRename : public RigTest {
     void rename(const Thing& thing, const std::string& to) {
         run(("rig." + thing.kind + ".rename").c_str(), {{"name", thing.name}, {"to", to}});
     }
-    /// Moves what can be moved by a number, so that units with memory move too.
+    /// Moves everything that a number can move, so that units with memory move too.
     static void stir(Workspace& in, const CommandTable& commands) {
         const RigPart& rig = rig_part(in);
         for (const rig::Element& each : rig.rig.definition().elements) {
@@ -53,7 +53,7 @@ std::string odd_name(std::size_t i) {
     return odd[i % std::size(odd)] + std::to_string(i);
 }
 
-TEST_F(RigRename, of_everything_in_every_preset_keeps_every_bit) {
+TEST_F(RigRename, RenamingEverythingInEveryPresetKeepsEveryBit) {
     for (const std::string& preset : preset_names()) {
         run("rig.preset", {{"name", preset}});
         stir(workspace, table);

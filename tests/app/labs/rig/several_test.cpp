@@ -47,7 +47,7 @@ class SeveralElements : public RigTest {
 
 class SeveralSelected : public SeveralElements {};
 
-TEST_F(SeveralSelected, ShiftAddsAndTakesOutAndTheLastOneIsActive) {
+TEST_F(SeveralSelected, ShiftAddsAndRemovesAndTheLastOneIsActive) {
     controls_and_bones();
     run("rig.select", {{"element", "b"}});
     add("left");
@@ -70,7 +70,7 @@ TEST_F(SeveralSelected, ShiftAddsAndTakesOutAndTheLastOneIsActive) {
     EXPECT_EQ(selected(), Names());
 }
 
-TEST_F(SeveralSelected, TheUnitStaysWhereElementsAreAdded) {
+TEST_F(SeveralSelected, TheSelectedUnitStaysWhenElementsAreAdded) {
     controls_and_bones();
     unit({{"unit", "offset_transform"}, {"name", "lift"}, {"item", "a"}});
     run("rig.select", {{"unit", "lift"}});
@@ -90,7 +90,7 @@ TEST_F(SeveralSelected, TheUnitStaysWhereElementsAreAdded) {
     EXPECT_EQ(selected(), Names{"c"});
 }
 
-TEST_F(SeveralSelected, ComesBackFromAFileAndAnOlderOneIsRead) {
+TEST_F(SeveralSelected, IsRestoredFromAFileAndAnOlderOneIsRead) {
     controls_and_bones();
     select({"c", "left", "b"});
     Json file = saved();
@@ -118,7 +118,7 @@ TEST_F(SeveralSelected, ComesBackFromAFileAndAnOlderOneIsRead) {
     says({{"element", ""}, {"elements", {"b", "c"}}, {"unit", ""}}, "selected.element");
 }
 
-TEST_F(SeveralSelected, ABoxSelectsWhatIsInItBesideTheUnit) {
+TEST_F(SeveralSelected, ABoxSelectsItsContentsBesideTheUnit) {
     controls_and_bones();
     unit({{"unit", "offset_transform"}, {"name", "lift"}, {"item", "a"}});
     run("rig.select", {{"unit", "lift"}});
@@ -177,7 +177,7 @@ TEST_F(SeveralSelected, UnitsAreOfferedForAll) {
     tick(2);
 }
 
-TEST_F(SeveralSelected, AControlIsFollowedAndDoesNotFollow) {
+TEST_F(SeveralSelected, AControlIsFollowedButDoesNotFollow) {
     controls_and_bones();
     const auto constrained = [&](const Names& names) {
         select(names);
@@ -198,7 +198,7 @@ TEST_F(SeveralSelected, AControlIsFollowedAndDoesNotFollow) {
     EXPECT_EQ(part().selected.unit, "parent_constraint") << "a new unit is unfolded";
 }
 
-TEST_F(SeveralSelected, TheInspectorSaysHowManyAndWhatIsSetOnWhich) {
+TEST_F(SeveralSelected, TheInspectorShowsTheNumberAndWhatIsSetOnWhich) {
     controls_and_bones();
     solve();
     test::PanelReader reader;
@@ -232,7 +232,7 @@ class SeveralSet : public SeveralElements {
     }
 };
 
-TEST_F(SeveralSet, AValueGoesOnAllAndEachKeepsWhatIsNotTold) {
+TEST_F(SeveralSet, AValueIsSetOnAllAndEachKeepsOmittedOnes) {
     controls_and_bones();
     set("left", {0.1, 0.2, 0.3});
     set("right", {5, 6, 7});
@@ -256,7 +256,7 @@ TEST_F(SeveralSet, AValueGoesOnAllAndEachKeepsWhatIsNotTold) {
     EXPECT_EQ(value("left"), (Json{0.1, 1.0, 0.3}));
 }
 
-TEST_F(SeveralSet, OneThatHasTheValueIsLeftAlone) {
+TEST_F(SeveralSet, OneThatHasTheValueIsNotChanged) {
     controls_and_bones();
     set_all({"dial", "knob"}, 0.5);
     const std::size_t before = steps();
@@ -272,7 +272,7 @@ TEST_F(SeveralSet, OneThatHasTheValueIsLeftAlone) {
     EXPECT_EQ(local("right"), (Json{0.0, 0.0, 0.0}));
 }
 
-TEST_F(SeveralSet, PosesOfBonesGoOnAll) {
+TEST_F(SeveralSet, PosesOfBonesAreSetOnAll) {
     controls_and_bones();
     run("rig.element.set",
         {{"names", {"c", "a"}}, {"transform", {{"translation", {0.5, nullptr, nullptr}}}}});
@@ -296,7 +296,7 @@ TEST_F(SeveralSet, PosesOfBonesGoOnAll) {
     EXPECT_NEAR(translation("b").x, 1.0, 1e-9);
 }
 
-TEST_F(SeveralSet, AParentThatStandsAfterItsChildIsSetBeforeIt) {
+TEST_F(SeveralSet, AParentListedAfterItsChildIsSetBeforeIt) {
     open({{{"name", "b"}, {"kind", "bone"}, {"parent", "a"}, {"local", transform(0, 2, 0)}},
           {{"name", "a"}, {"kind", "bone"}, {"local", transform(0, 1, 0)}}});
     run("rig.element.set",
@@ -328,7 +328,7 @@ TEST_F(SeveralSet, ParentsAreRemovedTogetherWithTheirChildren) {
     EXPECT_EQ(selected(), Names{"c"});
 }
 
-TEST_F(SeveralSet, WhatIsNoElementIsRefusedAndChangesNothing) {
+TEST_F(SeveralSet, OtherNamesAreRefusedAndChangeNothing) {
     controls_and_bones();
     select({"left", "right"});
     const Json none = Json::array({{"a", "nobody"}, {1}, {nullptr}, {{"a"}}, {""}, {true}, {Json::object()}});
@@ -364,7 +364,7 @@ TEST_F(SeveralSet, WhatIsNoElementIsRefusedAndChangesNothing) {
     EXPECT_EQ(selected(), (Names{"left", "right"}));
 }
 
-TEST_F(SeveralSet, SeveralWalkAndOneThatIsSetWalksNoMore) {
+TEST_F(SeveralSet, SeveralFollowPathsAndASetOneStops) {
     controls_and_bones();
     set("right", {3, 1, 0});
     run("rig.motion", {{"names", {"left", "right"}}, {"path", "circle"}, {"radius", 0.25}});
@@ -379,7 +379,7 @@ TEST_F(SeveralSet, SeveralWalkAndOneThatIsSetWalksNoMore) {
     EXPECT_TRUE(part().walks.empty());
 }
 
-TEST_F(SeveralSet, AMomentOfTheTakeIsTheSameAfterSeveralWereSetInIt) {
+TEST_F(SeveralSet, ATakesMomentStaysTheSameAfterSettingSeveral) {
     for (const int count : {5, 100}) {  // beyond some dozens a new take begins
         run("rig.clear");
         control("round", "position");
@@ -400,14 +400,14 @@ TEST_F(SeveralSet, AMomentOfTheTakeIsTheSameAfterSeveralWereSetInIt) {
     }
 }
 
-TEST_F(SeveralSet, ReadingWorksAllOut) {
+TEST_F(SeveralSet, ReadingComputesAll) {
     controls_and_bones();
     run("rig.read", {{"names", {"a", "b", "c"}}});
     EXPECT_EQ(workspace.ui.toasts.back().text.find("Reading 3 elements: "), 0u);
 }
 
 /// One by one this would take minutes and run out of time.
-TEST_F(SeveralSet, ThousandsAreDoneAtOnce) {
+TEST_F(SeveralSet, ThousandsAreSetAtOnce) {
     Json elements = Json::array();
     for (std::size_t i = 0; i < max_lab_elements; ++i) {
         Json each{{"name", "e" + std::to_string(i)}, {"kind", i % 2 == 0 ? "control" : "bone"}};
@@ -451,7 +451,7 @@ TEST_F(SeveralSet, ThousandsAreDoneAtOnce) {
 
 class SeveralValues : public SeveralElements {};
 
-TEST_F(SeveralValues, EachGetsItsOwnInWhateverOrderTheyStand) {
+TEST_F(SeveralValues, EachGetsItsOwnInAnyOrder) {
     controls_and_bones();
     const std::size_t before = steps();
     run("rig.control.set",
@@ -473,7 +473,7 @@ TEST_F(SeveralValues, EachGetsItsOwnInWhateverOrderTheyStand) {
     EXPECT_NEAR(translation("b").z, 1.5, 1e-9);
 }
 
-TEST_F(SeveralValues, WhatDoesNotFitIsRefusedAndChangesNothing) {
+TEST_F(SeveralValues, InvalidValuesAreRefusedAndChangeNothing) {
     controls_and_bones();
     const Json at{0, 0, 0};
     const auto controls = [&](const Json& names, const Json& values) {
@@ -556,7 +556,7 @@ class SeveralDragged : public testing::Test {
 
 const Names all_of_them{"whole", "turn", "dial", "bone", "below", "place"};
 
-TEST_F(SeveralDragged, AllGoTheSameWayInOneStep) {
+TEST_F(SeveralDragged, AllMoveTheSameWayInOneStep) {
     select(all_of_them);
     EXPECT_TRUE(has_handle("place.move_x")) << "it stands on the one selected last";
     EXPECT_FALSE(has_handle("place.scale_x"));
@@ -580,7 +580,7 @@ TEST_F(SeveralDragged, AllGoTheSameWayInOneStep) {
 }
 
 /// Undo and removal can happen during a drag.
-TEST_F(SeveralDragged, WhatGoesInMidDragIsLeftOut) {
+TEST_F(SeveralDragged, ElementsRemovedDuringADragAreSkipped) {
     select({"whole", "place"});
     drag("place.move_x", {{20, 5}}, false);
     const double x = at("whole").x;
@@ -593,7 +593,7 @@ TEST_F(SeveralDragged, WhatGoesInMidDragIsLeftOut) {
     EXPECT_TRUE(std::isfinite(at("whole").x)) << x;
 }
 
-TEST_F(SeveralDragged, WhatStaysIsSaid) {
+TEST_F(SeveralDragged, StationaryElementsAreReported) {
     select(all_of_them);
     const Lab& lab = *app_.labs().find(rig_lab);
     const Together moved = lab.together(app_.workspace(), Drag::Position);
@@ -608,7 +608,7 @@ TEST_F(SeveralDragged, WhatStaysIsSaid) {
     EXPECT_FALSE(lab.gizmo(app_.workspace()));
 }
 
-TEST_F(SeveralDragged, OneThatStopsAtItsLimitIsInItsPlaceWhenAllComeBack) {
+TEST_F(SeveralDragged, OneStoppedByItsLimitIsInPlaceWhenAllReturn) {
     select({"whole", "bone", "place"});
     const glm::dvec3 whole = at("whole"), place = at("place");
     drag("place.move_y", {{0, -30}, {0, -100}}, false);
@@ -630,7 +630,7 @@ TEST_F(SeveralDragged, OneThatStopsAtItsLimitIsInItsPlaceWhenAllComeBack) {
     EXPECT_NEAR(glm::distance(at("place"), place), 0.0, 1e-5);
 }
 
-TEST_F(SeveralDragged, ARingTurnsAllAboutTheOneSelectedLast) {
+TEST_F(SeveralDragged, ARingRotatesAllAboutTheLastSelected) {
     select(all_of_them);
     std::vector<glm::dvec3> before;
     for (const std::string& name : all_of_them) before.push_back(at(name));

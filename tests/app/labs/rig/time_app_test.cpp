@@ -64,7 +64,7 @@ void click(App& app, glm::vec2 at) {
 constexpr glm::vec2 replay{297.0f, 664.0f}, other_strip{338.0f, 664.0f}, back{378.0f, 664.0f},
     on{411.0f, 664.0f};
 
-TEST_F(RigTimeApp, ReplayShowsItAgainAndTheStripKeepsStill) {
+TEST_F(RigTimeApp, ReplayRepeatsItAndTheStripStaysInPlace) {
     walking_head(app_);
     for (int i = 0; i < 120; ++i) app_.tick(nullptr);
     const std::uint64_t end = part_of(app_).take.now();
@@ -116,7 +116,7 @@ TEST_F(RigTimeApp, AMarkIsClicked) {
     EXPECT_FALSE(app_.workspace().ui.incident) << "one looks elsewhere";
 }
 
-TEST_F(RigTimeApp, AClipIsSolvedThoughTimeIsPausedAndStaysResponsive) {
+TEST_F(RigTimeApp, AClipIsSolvedInAPauseAndStaysResponsive) {
     walking_head(app_);
     app_.run({"time.pause"});
     app_.run({"rig.clip.record", Json{{"seconds", 1.0}}});

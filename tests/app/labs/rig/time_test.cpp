@@ -43,7 +43,7 @@ class RigTime : public RigTest {
     static Json at(double x, double y, double z) { return {{"translation", {x, y, z}}}; }
 };
 
-TEST_F(RigTime, AControlFollowsItsPathFromWhereItIs) {
+TEST_F(RigTime, AControlFollowsItsPathFromItsPosition) {
     run("rig.preset", {{"name", "secondary"}});
     const glm::dvec3 start = head();
     run("rig.motion", {{"name", "head"}, {"path", "circle"}, {"radius", 0.5}, {"period", 2.0}});
@@ -78,8 +78,8 @@ TEST_F(RigTime, AWalkStopsAtTheLimitsAndTurnsAlongItsPath) {
     }
 }
 
-/// Keeps its centre and its phase.
-TEST_F(RigTime, AWalkThatIsChangedGoesOnWhereItIs) {
+/// The path keeps its centre and its phase.
+TEST_F(RigTime, AChangedWalkContinuesFromItsPosition) {
     secondary();
     run("rig.motion", {{"name", "head"}, {"path", "circle"}, {"radius", 0.5}, {"period", 2.0}});
     play(33);
@@ -95,7 +95,7 @@ TEST_F(RigTime, AWalkThatIsChangedGoesOnWhereItIs) {
     const glm::dvec3 next = head();
     go(33);
     EXPECT_LT(glm::distance(change("turn", true), next), 1e-6);
-    // A tick of a period three times as long moves a third as far.
+    // One tick with three times the period moves a third as far.
     EXPECT_LT(glm::distance(change("period", 6.0), glm::mix(before, next, 1.0 / 3.0)), 1e-3);
     EXPECT_LT(glm::distance(change("radius", 0.25), glm::mix(centre, next, 0.5)), 1e-6);
     EXPECT_LT(glm::distance(change("centre", {1, 1, 2}), next - centre + glm::dvec3(1, 1, 2)), 1e-6);
@@ -105,7 +105,7 @@ TEST_F(RigTime, AWalkThatIsChangedGoesOnWhereItIs) {
     EXPECT_LT(glm::distance(head(), before), 0.05);
 }
 
-TEST_F(RigTime, AnyTickInAnyOrderIsWhatPlayingShowed) {
+TEST_F(RigTime, AnyTickInAnyOrderEqualsPlaying) {
     secondary();
     const auto states = play(600);
     expect_scrubs(states, 200, 1);
@@ -115,7 +115,7 @@ TEST_F(RigTime, AnyTickInAnyOrderIsWhatPlayingShowed) {
     EXPECT_EQ(part().state, on[20]);
 }
 
-TEST_F(RigTime, TheSameWhereNobodyPlayedYet) {
+TEST_F(RigTime, TheSameBeforeAnythingWasPlayed) {
     secondary();
     const Document before = workspace.document;
     const auto states = play(200);
@@ -139,7 +139,7 @@ TEST_F(RigTime, TheSameAfterUndo) {
     EXPECT_EQ(part().take.began, 200u);
 }
 
-TEST_F(RigTime, SettingWhatIsShownMidwayForgetsWhatWasSetThereLater) {
+TEST_F(RigTime, SettingAPastTickDropsLaterValues) {
     run("rig.preset", {{"name", "secondary"}});
     play(10);
     const rig::State before = part().state;
@@ -156,8 +156,8 @@ TEST_F(RigTime, SettingWhatIsShownMidwayForgetsWhatWasSetThereLater) {
     EXPECT_EQ(part().state, states[5]);
 }
 
-/// Any other change starts a take; time goes on.
-TEST_F(RigTime, AnEditInTheMiddleBeginsATake) {
+/// Any other change starts a take, and time continues.
+TEST_F(RigTime, AnEditInTheMiddleStartsATake) {
     secondary();
     const auto first = play(100);
     run("rig.unit.enable", {{"name", "trail"}, {"on", false}});
@@ -175,7 +175,7 @@ TEST_F(RigTime, AnEditInTheMiddleBeginsATake) {
 }
 
 /// The path continues from its position, up to rounding, whatever else starts a take.
-TEST_F(RigTime, AWalkGoesOnOverAnEdit) {
+TEST_F(RigTime, AWalkContinuesOverAnEdit) {
     secondary();
     const auto states = play(80);
     go(33);
@@ -201,7 +201,7 @@ TEST_F(RigTime, SlowMotionShowsTheSamePoses) {
     EXPECT_EQ(distinct, 60u);
 }
 
-TEST_F(RigTime, ALongTakeGoesOnAsAnother) {
+TEST_F(RigTime, ALongTakeContinuesAsANewOne) {
     control("dial", "position");
     run("rig.motion", {{"name", "dial"}, {"path", "circle"}});
     go(max_take_ticks - 1);
@@ -210,7 +210,7 @@ TEST_F(RigTime, ALongTakeGoesOnAsAnother) {
     EXPECT_EQ(part().take.now(), max_take_ticks + 2);
 }
 
-TEST_F(RigTime, ThatTimePassesIsNothingToSaveAndNothingToUndo) {
+TEST_F(RigTime, PassingTimeNeedsNoSaveAndNoUndo) {
     secondary();
     workspace.saved = workspace.document;
     const std::size_t steps = workspace.history.size();
@@ -221,7 +221,7 @@ TEST_F(RigTime, ThatTimePassesIsNothingToSaveAndNothingToUndo) {
     EXPECT_FALSE(workspace.clock.playing) << "going somewhere pauses";
 }
 
-TEST_F(RigTime, WhatItRefuses) {
+TEST_F(RigTime, Refusals) {
     secondary();
     expect_refused("rig.time", Json::object(), {"either a tick or seconds"});
     expect_refused("rig.time", {{"tick", 1}, {"seconds", 1}}, {"either a tick or seconds"});
@@ -237,7 +237,7 @@ TEST_F(RigTime, WhatItRefuses) {
     expect_refused("rig.motion", {{"name", "place"}, {"path", "circle"}, {"turn", true}}, {"transform"});
 }
 
-TEST_F(RigTime, AControlThatIsRemovedWalksNoMore) {
+TEST_F(RigTime, ARemovedControlNoLongerWalks) {
     control("place", "position");
     run("rig.motion", {{"name", "place"}, {"path", "circle"}});
     play(10);

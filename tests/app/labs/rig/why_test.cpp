@@ -1,4 +1,4 @@
-// Why is this bone here? The contributions of all units add up to the pose.
+// The explanation of a bone's pose: the contributions of all units add up to it.
 #include <glm/geometric.hpp>
 #include <random>
 #include <tendril/rig/explain.hpp>
@@ -47,7 +47,7 @@ class RigWhy : public RigTest {
     std::mt19937 random_{9};
 };
 
-TEST_F(RigWhy, WhatUnitsAddedIsThePoseInEveryScene) {
+TEST_F(RigWhy, ContributionsAddUpToThePoseInEveryScene) {
     for (const RigPreset& preset : rig_presets()) {
         run("rig.preset", {{"name", preset.name}});
         for (int round = 0; round < 3; ++round) {
@@ -88,7 +88,7 @@ TEST_F(RigWhy, AMutedUnitAddsNothing) {
     EXPECT_TRUE(state().at("why").is_null());
 }
 
-TEST_F(RigWhy, IsWorkedOutOncePerChange) {
+TEST_F(RigWhy, IsComputedOncePerChange) {
     run("rig.preset", {{"name", "loop"}});
     auto& runtime = workspace.runtimes.of<RigRuntime>(rig_lab);
     const rig::Contribution* first = runtime.explanation(workspace, 8).units.data();
@@ -98,7 +98,7 @@ TEST_F(RigWhy, IsWorkedOutOncePerChange) {
     EXPECT_FALSE(runtime.explanation(workspace, 8).result == before);
 }
 
-TEST_F(RigWhy, ThePanelFoldsAwayWhatDidNothingAndKeepsWhatIsMuted) {
+TEST_F(RigWhy, ThePanelFoldsUnitsWithoutEffectAndKeepsMutedOnes) {
     run("rig.preset", {{"name", "fk"}});
     set("dial", 0.5);
     select("bone 2");
