@@ -20,8 +20,7 @@
 #include <tendril/rope/body.hpp>
 #include <tendril/rope/collider.hpp>
 #include <tendril/rope/hair_roots.hpp>
-#include <tendril/rope/settings.hpp>
-#include <tendril/rope/tie.hpp>
+#include <tendril/rope/state.hpp>
 #include <tendril/signal/filter.hpp>
 
 #include "field_values.hpp"
@@ -88,6 +87,14 @@ std::vector<Table> tables() {
                            table<rope::Plane>("Plane"),
                            table<rope::Box>("Box"),
                            table<rope::Drive>("Drive"),
+                           table<rope::Collider>("Collider"),
+                           table<rope::Body>("RopeBody"),
+                           table<rope::Pin>("Pin"),
+                           table<rope::Tie>("Tie"),
+                           table<signal::OutputState>("OutputState"),
+                           table<signal::MotionState>("MotionState"),
+                           table<signal::MovingAverageState>("MovingAverageState"),
+                           table<signal::InertializeState>("InertializeState"),
                            table<signal::Curve>("Curve"),
                            table<rig::TransformFilter>("TransformFilter"),
                            table<rig::Unit>("Unit")};

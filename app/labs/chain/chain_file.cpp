@@ -18,6 +18,14 @@ constexpr double max_steps = 1e9, max_distance = 1e10;
 }  // namespace
 
 template <>
+std::span<const tendril::Field> tendril::fields<tendril::Segment>() noexcept {
+    static constexpr Field rows[] = {
+        field<&Segment::position>("position", {-max_magnitude, max_magnitude}, "m").needed(),
+        field<&Segment::length>("length", {0.0, max_magnitude}, "m").needed()};
+    return rows;
+}
+
+template <>
 std::span<const tendril::Field> tendril::fields<tendril::ik::Report>() noexcept {
     using ik::Report;
     static const auto statuses = app::library_names<ik::Status, 7>();
@@ -89,9 +97,7 @@ void load_crossings(const JsonPlace& place, ChainPart& part) {
 
 Json ChainPart::save() const {
     Json segments = Json::array();
-    for (const Segment& segment : own_chain(*this).segments()) {
-        segments.push_back({{"position", point(segment.position)}, {"length", number(segment.length)}});
-    }
+    for (const Segment& segment : own_chain(*this).segments()) segments.push_back(save_fields(segment));
     Json json{{"mode", chain_modes.name(mode)}, {"index", index}};
     for (std::size_t i = 0; i < iterations.size(); ++i)
         json["iterations"][chain_modes.rows[i].name] = iterations[i];
@@ -121,9 +127,8 @@ namespace {
 
 std::vector<Segment> load_segments(const JsonPlace& place) {
     std::vector<Segment> segments;
-    place.for_each("segments", max_segments, [&](const JsonPlace& each) {
-        segments.push_back({each["position"].point(), each["length"].number(0.0f, max_magnitude)});
-    });
+    place.for_each("segments", max_segments,
+                   [&](const JsonPlace& each) { load_known_fields(each, segments.emplace_back()); });
     return segments;
 }
 
