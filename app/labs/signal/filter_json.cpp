@@ -68,6 +68,8 @@ void set_parameters(signal::Filter& filter, const Json& given, const std::string
                     const std::vector<std::string_view>& others) {
     signal::Filter changed = filter;
     load_known_fields({given, where}, file_fields(changed), true, others);
+    if (const auto* curve = std::get_if<signal::Curve>(&changed); curve != nullptr && curve->keys.empty())
+        fail(place(where, "keys"), "expected at least one key, found none");
     if (const Result result = signal::check(changed); !result)
         fail(where, result.message() + other_end(changed));
     filter = std::move(changed);
