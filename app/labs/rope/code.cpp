@@ -105,12 +105,12 @@ class RopeProgram {
     /// `last`.
     template <class Row>
     void add(const std::string& what, const Row& row, std::vector<std::string> members,
-             const std::vector<std::string>& last = {}) {
+             const std::string& last = {}) {
         for (const Field& field : fields<Row>())
             if (field.type != FieldType::Kind)  // a collider's shape
                 for (std::string& each : member_texts({{&field, 1}, &row, detail::fresh<Row>()}))
                     members.push_back(std::move(each));
-        members.insert(members.end(), last.begin(), last.end());
+        if (!last.empty()) members.push_back(last);
         list("    state." + what + ".push_back({", members, "});", "        ");
     }
 
@@ -158,11 +158,10 @@ class RopeProgram {
         }
         say("rope::number_slots(state);");
         for (const rope::Pin& pin : state.pins) {
-            std::vector<std::string> holder;
-            if (pin.collider)
-                holder = {".collider = state.colliders[" + std::to_string(place_of(state, pin.collider)) +
-                          "].id"};
-            add("pins", pin, {}, holder);
+            const std::string holder =
+                pin.collider ? "state.colliders[" + std::to_string(place_of(state, pin.collider)) + "].id"
+                             : "{}";
+            add("pins", pin, {}, ".collider = " + holder);
         }
         for (std::size_t a = 0; a < state.bodies.size(); ++a)
             for (std::size_t b = a; b < state.bodies.size(); ++b)
