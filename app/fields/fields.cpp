@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <limits>
 
 #include "app/document/json_complete.hpp"
 #include "app/fields/input_json.hpp"
@@ -35,7 +36,7 @@ Json saved(const Field& field, const FieldValue& value) {
         case FieldType::Flag:
             return value[0] != 0.0;
         case FieldType::Integer:
-            return static_cast<int>(value[0]);
+            return static_cast<std::int64_t>(value[0]);
         case FieldType::Choice:
             return field.choices[static_cast<std::size_t>(value[0])];
         case FieldType::Number:
@@ -84,6 +85,8 @@ FieldValue loaded(const JsonPlace& place, const Field& field) {
         case FieldType::Flag:
             return {place.flag() ? 1.0 : 0.0};
         case FieldType::Integer:
+            if (field.range.high > std::numeric_limits<int>::max())
+                return {static_cast<double>(place.count(static_cast<std::uint64_t>(field.range.high)))};
             return {static_cast<double>(
                 place.integer(static_cast<int>(field.range.low), static_cast<int>(field.range.high)))};
         case FieldType::Choice:
@@ -301,11 +304,16 @@ class Loader {
     explicit Loader(Missing missing, bool only_known = false, std::span<const std::string_view> newer = {})
         : missing_(missing), only_known_(only_known), newer_(newer) {}
 
-    void fields(const JsonPlace& place, const Scope& scope) const {
+    void fields(const JsonPlace& place, const Scope& scope,
+                std::span<const std::string_view> besides = {}) const {
         if (!place.json().is_object()) place.fail("expected an object, found " + json_summary(place.json()));
         for (const Field& field : scope.table)
             if (field.type == FieldType::Kind) kind(place, field, const_cast<void*>(scope.object));
-        if (only_known_) check_members(place, field_names(scope.table, scope.object));
+        if (only_known_) {
+            std::vector<std::string> known = field_names(scope.table, scope.object);
+            known.insert(known.end(), besides.begin(), besides.end());
+            check_members(place, known);
+        }
         beside(place, scope);
     }
 
@@ -426,6 +434,10 @@ Json save_fields(FieldsOf of) {
     return save_struct({nullptr, of.table, of.object});
 }
 
+Json save_sparse_fields(FieldsOf of) {
+    return save_struct({nullptr, of.table, of.object}, of.fresh);
+}
+
 void load_all_fields(const JsonPlace& place, FieldsIn in, std::span<const std::string_view> newer) {
     Loader(Missing::Refused, false, newer).fields(place, {nullptr, in.table, in.object});
 }
@@ -434,8 +446,10 @@ void load_fields(const JsonPlace& place, FieldsIn in) {
     Loader(Missing::Default).fields(place, {nullptr, in.table, in.object});
 }
 
-void load_known_fields(const JsonPlace& place, FieldsIn in, bool edit) {
-    Loader(edit ? Missing::Kept : Missing::Default, true).fields(place, {nullptr, in.table, in.object});
+void load_known_fields(const JsonPlace& place, FieldsIn in, bool edit,
+                       std::span<const std::string_view> besides) {
+    Loader(edit ? Missing::Kept : Missing::Default, true)
+        .fields(place, {nullptr, in.table, in.object}, besides);
 }
 
 std::vector<std::string> field_names(std::span<const Field> table, const void* object) {

@@ -78,6 +78,8 @@ bool same_field(const Field& field, const void* a, const void* b);
 
 /// Includes nested structs and lists. A list with names leaves out its empty elements.
 Json save_fields(FieldsOf of);
+/// Leaves out members at their default, unless a file must have them.
+Json save_sparse_fields(FieldsOf of);
 /// Missing fields keep their values, so that older scenes open. Throws std::runtime_error that begins with
 /// the JSON path of the error.
 void load_fields(const JsonPlace& place, FieldsIn in);
@@ -85,8 +87,9 @@ void load_fields(const JsonPlace& place, FieldsIn in);
 void load_all_fields(const JsonPlace& place, FieldsIn in, std::span<const std::string_view> newer = {});
 
 /// Refuses members that are no fields. `edit`: a variant without its kind's name, and fields without which
-/// there is no new struct, keep what they have too.
-void load_known_fields(const JsonPlace& place, FieldsIn in, bool edit = false);
+/// there is no new struct, keep what they have too. `besides`: other members, which the caller reads.
+void load_known_fields(const JsonPlace& place, FieldsIn in, bool edit = false,
+                       std::span<const std::string_view> besides = {});
 /// In files; those of the kind that a variant holds too.
 std::vector<std::string> field_names(std::span<const Field> table, const void* object);
 

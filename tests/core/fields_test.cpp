@@ -30,8 +30,7 @@
 #include <tendril/rope/body.hpp>
 #include <tendril/rope/collider.hpp>
 #include <tendril/rope/hair_roots.hpp>
-#include <tendril/rope/settings.hpp>
-#include <tendril/rope/tie.hpp>
+#include <tendril/rope/state.hpp>
 #include <tendril/signal/filter.hpp>
 
 #include "field_values.hpp"
@@ -112,6 +111,14 @@ std::vector<Table> tables() {
                            table<rope::Plane>("Plane"),
                            table<rope::Box>("Box"),
                            table<rope::Drive>("Drive"),
+                           table<rope::Collider>("Collider"),
+                           table<rope::Body>("RopeBody"),
+                           table<rope::Pin>("Pin"),
+                           table<rope::Tie>("Tie"),
+                           table<signal::OutputState>("OutputState"),
+                           table<signal::MotionState>("MotionState"),
+                           table<signal::MovingAverageState>("MovingAverageState"),
+                           table<signal::InertializeState>("InertializeState"),
                            table<signal::Curve>("Curve"),
                            table<rig::AimOptions>("AimOptions"),
                            table<rig::BackwardOptions>("BackwardOptions"),

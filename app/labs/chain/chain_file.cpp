@@ -53,9 +53,7 @@ void load_crossings(const JsonPlace& place, ChainPart& part) {
 
 Json ChainPart::save() const {
     Json segments = Json::array();
-    for (const Segment& segment : own_chain(*this).segments()) {
-        segments.push_back({{"position", point(segment.position)}, {"length", number(segment.length)}});
-    }
+    for (const Segment& segment : own_chain(*this).segments()) segments.push_back(save_fields(segment));
     Json json{{"mode", chain_modes.name(mode)}, {"index", index}};
     for (std::size_t i = 0; i < iterations.size(); ++i)
         json["iterations"][chain_modes.rows[i].name] = iterations[i];
@@ -85,9 +83,8 @@ namespace {
 
 std::vector<Segment> load_segments(const JsonPlace& place) {
     std::vector<Segment> segments;
-    place.for_each("segments", max_segments, [&](const JsonPlace& each) {
-        segments.push_back({each["position"].point(), each["length"].number(0.0f, max_magnitude)});
-    });
+    place.for_each("segments", max_segments,
+                   [&](const JsonPlace& each) { load_known_fields(each, segments.emplace_back()); });
     return segments;
 }
 

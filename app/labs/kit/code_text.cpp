@@ -180,7 +180,10 @@ std::string value_text(const Field& field, const void* at, const std::string& ma
         case FieldType::Pair:
             return '{' + digits({0, 1}) + '}';
         case FieldType::Point:
-            return '{' + digits({0, 1, 2}) + '}';
+            return (!field.optional ? "{"
+                    : field.exact   ? "glm::dvec3{"
+                                    : "glm::vec3{") +
+                   digits({0, 1, 2}) + '}';
         case FieldType::Rotation:
             return '{' + digits({3, 0, 1, 2}) + '}';
         default:
@@ -250,17 +253,6 @@ std::vector<std::string> ik_memory_texts(const std::string& name, const ik::Stat
         for (const std::string& each : member_texts(pole)) set(".pole" + each);
     }
     return texts;
-}
-
-std::string keys_text(const signal::Curve& curve, const std::string& margin) {
-    std::string keys;
-    for (const signal::CurveKey& key : curve.keys) {
-        if (!keys.empty()) keys += ",\n" + margin;
-        keys += "{.time = " + double_text(key.time) + ", .value = " + double_text(key.value) +
-                ", .arrive = " + double_text(key.arrive) + ", .leave = " + double_text(key.leave) +
-                ", .piece = signal::Piece::" + pascal_text(signal::name(key.piece)) + "}";
-    }
-    return '{' + keys + '}';
 }
 
 std::string degrees_text(float radians) {

@@ -8,7 +8,6 @@
 #include <tendril/ik/limit.hpp>
 #include <tendril/ik/state.hpp>
 #include <tendril/rig/input.hpp>
-#include <tendril/signal/curve.hpp>
 #include <vector>
 
 #include "app/fields/fields.hpp"
@@ -56,8 +55,5 @@ std::string limit_text(const std::string& name, const ik::Limit& limit, const st
 
 /// Statements that restore the limits and pole of `name`, an ik::State, without the pole's joints.
 std::vector<std::string> ik_memory_texts(const std::string& name, const ik::State& state);
-
-/// "{{.time = 0.0, .value = 0.0, ...}, ...}", each key on its own line, indented by `margin`.
-std::string keys_text(const signal::Curve& curve, const std::string& margin);
 
 }  // namespace tendril::app

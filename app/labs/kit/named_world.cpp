@@ -148,37 +148,6 @@ Became NamedWorld::cut(std::string_view rope, std::size_t segment) {
 std::size_t NamedWorld::particle(std::string_view body, std::size_t index) const {
     return require_value(world_.particle(id(body), index));
 }
-void NamedWorld::move(std::string_view body, const glm::dvec3& by) {
-    require_ok(world_.move(id(body), by));
-}
-void NamedWorld::set_length(std::string_view body, float metres) {
-    require_ok(world_.set_length(id(body), metres));
-}
-void NamedWorld::set_width(std::string_view cloth, float metres) {
-    require_ok(world_.set_width(id(cloth), metres));
-}
-void NamedWorld::set_mass(std::string_view body, double kilograms) {
-    require_ok(world_.set_mass(id(body), kilograms));
-}
-void NamedWorld::set_density(std::string_view body, double density) {
-    require_ok(world_.set_density(id(body), density));
-}
-void NamedWorld::set_radius(std::string_view body, float metres) {
-    require_ok(world_.set_radius(id(body), metres));
-}
-void NamedWorld::set_compliance(std::string_view body, rope::Link::Kind kind, float compliance) {
-    require_ok(world_.set_compliance(id(body), kind, compliance));
-}
-void NamedWorld::set_friction(std::string_view body, std::optional<float> friction) {
-    require_ok(world_.set_friction(id(body), friction));
-}
-void NamedWorld::set_bending(std::string_view rope, float stiffness) {
-    require_ok(world_.set_bending(id(rope), stiffness));
-}
-void NamedWorld::set_tear(std::string_view body, float tear) {
-    require_ok(world_.set_tear(id(body), tear));
-}
-
 void NamedWorld::rename(std::string_view body, const std::string& name) {
     const rope::BodyId renamed = id(body);
     if (const rope::Body* other = find(name); other != nullptr && other->id == renamed) return;
@@ -229,13 +198,6 @@ std::string NamedWorld::tie(const std::string& name, std::size_t a, std::size_t 
     set_slot(ties_, require_value(world_.tie(a, b, shape)).index, unused);
     return unused;
 }
-void NamedWorld::set_tie(std::string_view name, const rope::TieShape& shape) {
-    require_ok(world_.set_tie(tie_id(name), shape));
-}
-void NamedWorld::untie(std::string_view name) {
-    require_ok(world_.untie(tie_id(name)));
-}
-
 void NamedWorld::set_collides(std::string_view a, std::string_view b, bool on) {
     require_ok(world_.set_collides(id(a), id(b), on));
 }
@@ -245,14 +207,8 @@ void NamedWorld::add_collider(const std::string& name, const rope::Shape& shape)
     if (find_collider(name) != nullptr) refuse("add_collider", "one that no other collider has", name);
     set_slot(colliders_, require_value(world_.add_collider(shape)).index, name);
 }
-void NamedWorld::move_collider(std::string_view name, const glm::vec3& to, double seconds) {
-    require_ok(world_.move_collider(collider_id(name), to, seconds));
-}
 void NamedWorld::move_capsule(std::string_view name, const rope::Capsule& to, double seconds) {
     require_ok(world_.move_capsule(collider_id(name), to, seconds));
-}
-void NamedWorld::drive_collider(std::string_view name, const rope::Drive& drive) {
-    require_ok(world_.drive_collider(collider_id(name), drive));
 }
 void NamedWorld::set_collider(std::string_view name, const rope::Shape& shape) {
     require_ok(world_.set_collider(collider_id(name), shape));

@@ -8,9 +8,11 @@
 #include <tendril/rope/edit.hpp>
 #include <tendril/rope/quasi_static.hpp>
 #include <tendril/rope/world.hpp>
+#include <type_traits>
 #include <vector>
 
 #include "app/document/names.hpp"
+#include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
 
@@ -79,23 +81,19 @@ class NamedWorld {
     /// `attach` is a collider's name, or empty.
     std::string add_hair(const std::string& name, rope::HairShape shape, const std::string& attach = {});
     void remove(std::string_view body);
-    void move(std::string_view body, const glm::dvec3& by);  ///< as in rope::World
     // Pieces that come off a body have its colour, and its name with the next free number.
     Became cut(std::string_view rope, std::size_t segment);
     Became cut_cloth(std::string_view cloth, std::span<const rope::ClothLine> lines);
     Became part_body(std::string_view body);
     Became resample(std::string_view body, const rope::Resolution& to);
     Became reverse(std::string_view rope);
-    // As in rope::World.
-    void set_length(std::string_view body, float metres);
-    void set_width(std::string_view cloth, float metres);
-    void set_mass(std::string_view body, double kilograms);
-    void set_density(std::string_view body, double density);
-    void set_radius(std::string_view body, float metres);
-    void set_compliance(std::string_view body, rope::Link::Kind kind, float compliance);
-    void set_friction(std::string_view body, std::optional<float> friction);
-    void set_bending(std::string_view rope, float stiffness);
-    void set_tear(std::string_view body, float tear);
+    /// Calls the library's method: change("rope", &rope::World::set_length, 2.0f).
+    template <class Id, class... Given>
+    void change(std::string_view name, Result (rope::World::*method)(Id, Given...),
+                const std::type_identity_t<std::remove_cvref_t<Given>>&... given) {
+        const Id found = id_of(name, Id());
+        require_ok((world_.*method)(found, given...));
+    }
     void rename(std::string_view body, const std::string& name);
     void set_colour(std::string_view body, BodyColour colour);
     std::size_t particle(std::string_view body, std::size_t index) const;
@@ -105,14 +103,10 @@ class NamedWorld {
     bool pinned(std::size_t particle) const { return world_.pinned(particle); }
     /// Returns the tie's name; an empty `name` becomes "tie", "tie 2", ...
     std::string tie(const std::string& name, std::size_t a, std::size_t b, const rope::TieShape& shape = {});
-    void set_tie(std::string_view name, const rope::TieShape& shape);
-    void untie(std::string_view name);
     void set_collides(std::string_view a, std::string_view b, bool on);
     bool collides(std::string_view a, std::string_view b) const { return world_.collides(id(a), id(b)); }
     void add_collider(const std::string& name, const rope::Shape& shape);
-    void move_collider(std::string_view name, const glm::vec3& to, double seconds = 0.0);
     void move_capsule(std::string_view name, const rope::Capsule& to, double seconds = 0.0);
-    void drive_collider(std::string_view name, const rope::Drive& drive);
     void set_collider(std::string_view name, const rope::Shape& shape);
     void remove_collider(std::string_view name);
 
@@ -142,6 +136,9 @@ class NamedWorld {
     rope::BodyId id(std::string_view body) const;
     rope::ColliderId collider_id(std::string_view collider) const;
     rope::TieId tie_id(std::string_view tie) const;
+    rope::BodyId id_of(std::string_view name, rope::BodyId) const { return id(name); }
+    rope::ColliderId id_of(std::string_view name, rope::ColliderId) const { return collider_id(name); }
+    rope::TieId id_of(std::string_view name, rope::TieId) const { return tie_id(name); }
     Became take(std::string_view body, Expected<rope::Edited> edited);
 
     rope::World world_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <tendril/magnitude.hpp>
+#include <type_traits>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
@@ -11,18 +13,110 @@
 namespace tendril::app {
 namespace {
 
-constexpr const char* body_kinds[] = {"rope", "cloth", "hair"};
-constexpr const char* body_kinds_of_version_1[] = {"rope", "sheet", "lock"};
-constexpr const char* link_kinds[] = {"stretch", "shear", "bend"};
+// Rows of the file: what the library has, with the user's names.
 
-/// The enumerator with this name.
-template <class Kind, std::size_t count>
-Kind kind_of(const JsonPlace& place, const char* const (&kinds)[count]) {
-    const std::string text = place.text();
-    for (std::size_t i = 0; i < count; ++i)
-        if (text == kinds[i]) return static_cast<Kind>(i);
-    place.fail("unknown kind " + json_summary(place.json()));
+struct ColliderRow {
+    rope::Collider collider;
+    std::string name;
+};
+struct BodyRow {
+    rope::Body body;
+    std::string name;
+    BodyColour colour = BodyColour::ByKind;
+};
+constexpr auto no_collider = static_cast<std::size_t>(-1);
+struct PinRow {
+    rope::Pin pin;
+    std::size_t collider = no_collider;
+};
+struct TieRow {
+    rope::Tie tie;
+    std::string name;
+};
+
+/// A world, but for the lists that have rows of numbers.
+struct WorldRows {
+    rope::Settings settings;
+    double remainder = 0.0, moved_in = 0.0;
+    std::uint64_t substeps = 0, dropped = 0;
+    glm::dvec3 drift{0.0};
+    std::vector<ColliderRow> colliders{};
+    std::vector<BodyRow> bodies{};
+    std::vector<PinRow> pins{};
+    std::vector<TieRow> ties{};
+};
+
+/// A row's own fields, and those of its first member, which has its address.
+template <class Row, class First>
+std::vector<Field> with_fields_of(First Row::*, std::initializer_list<Field> own) {
+    static_assert(std::is_standard_layout_v<Row>);
+    std::vector<Field> all(own);
+    const std::span<const Field> first = fields<First>();
+    all.insert(all.end(), first.begin(), first.end());
+    return all;
 }
+
+constexpr FieldRange times{0.0, 10.0}, counts{0.0, 9007199254740992.0};
+
+}  // namespace
+}  // namespace tendril::app
+
+namespace tendril {
+
+template <>
+std::span<const Field> fields<app::ColliderRow>() noexcept {
+    using Row = app::ColliderRow;
+    static const auto rows = app::with_fields_of(&Row::collider, {field<&Row::name>("name").needed()});
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<app::BodyRow>() noexcept {
+    using Row = app::BodyRow;
+    static constexpr auto colours = app::body_colours.name_array();
+    static const auto rows = app::with_fields_of(
+        &Row::body, {field<&Row::name>("name").omissible(), field<&Row::colour>("colour", colours)});
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<app::PinRow>() noexcept {
+    using Row = app::PinRow;
+    static const auto rows =
+        app::with_fields_of(&Row::pin, {index<&Row::collider>("collider", "colliders", true)});
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<app::TieRow>() noexcept {
+    using Row = app::TieRow;
+    static const auto rows = app::with_fields_of(&Row::tie, {field<&Row::name>("name").needed()});
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<app::WorldRows>() noexcept {
+    using app::WorldRows;
+    static constexpr Field rows[] = {
+        nested<&WorldRows::settings>("settings").needed(),
+        field<&WorldRows::remainder>("remainder", app::times, "s").needed(),
+        field<&WorldRows::moved_in>("moved_in", app::times, "s").needed(),
+        field<&WorldRows::substeps>("substeps", app::counts).needed(),
+        field<&WorldRows::dropped>("dropped", app::counts).needed(),
+        field<&WorldRows::drift>("drift", {-max_magnitude, max_magnitude}, "m"),
+        list<&WorldRows::colliders>("colliders").sparsely().up_to(app::max_lab_colliders).needed(),
+        list<&WorldRows::bodies>("bodies").sparsely().up_to(app::max_lab_particles).needed(),
+        list<&WorldRows::pins>("pins").sparsely().up_to(app::max_lab_particles).needed(),
+        list<&WorldRows::ties>("ties").sparsely().up_to(app::max_lab_ties)};
+    return rows;
+}
+
+}  // namespace tendril
+
+namespace tendril::app {
+namespace {
+
+constexpr const char* link_kinds[] = {"stretch", "shear", "bend"};
 
 bool is_zero(const glm::dvec3& v) {
     const auto plus_zero = [](double x) { return x == 0.0 && !std::signbit(x); };
@@ -63,13 +157,6 @@ Json save_link(const rope::Link& link) {
     return row;
 }
 
-/// Newtons. Not limited to the usual range: stopping a heavy body at once can need more.
-float load_tension(const JsonPlace& place) {
-    const float tension = place.json().is_number() ? place.json().get<float>() : std::nanf("");
-    if (!std::isfinite(tension)) place.fail("expected a finite number, found " + json_summary(place.json()));
-    return tension;
-}
-
 rope::Link load_link(const JsonPlace& place, std::size_t particles) {
     const Json& row = place.json();
     if (!row.is_array() || row.size() < 4 || row.size() > 6)
@@ -80,122 +167,14 @@ rope::Link load_link(const JsonPlace& place, std::size_t particles) {
     link.a = static_cast<std::uint32_t>(at(0).index(last));
     link.b = static_cast<std::uint32_t>(at(1).index(last));
     link.rest = at(2).number();
-    link.kind = kind_of<rope::Link::Kind>(at(3), link_kinds);
+    const auto kind = std::ranges::find(link_kinds, at(3).text());
+    if (kind == std::end(link_kinds)) place.fail("unknown kind " + json_summary(row[3]));
+    link.kind = static_cast<rope::Link::Kind>(kind - link_kinds);
     if (row.size() > 4) link.compliance = at(4).number();
-    if (row.size() > 5) link.tension = load_tension(at(5));
+    // Newtons. Not limited to the usual range: stopping a heavy body at once can need more.
+    if (row.size() > 5) link.tension = row[5].is_number() ? row[5].get<float>() : std::nanf("");
+    if (!std::isfinite(link.tension)) place.fail("expected a finite number, found " + json_summary(row[5]));
     return link;
-}
-
-/// Names of bodies or colliders, in file order.
-using Names = std::vector<std::string>;
-
-Json save_body(const NamedWorld& world, const rope::Body& body) {
-    Json json{{"name", world.name(body)}, {"kind", body_kind_name(body.kind)},
-              {"first", body.first},      {"count", body.count},
-              {"row", body.row},          {"radius", number(body.radius)}};
-    if (!body.cells.empty()) json["cells"] = body.cells;
-    if (body.tear != 0.0f) json["tear"] = number(body.tear);
-    if (body.bending != 0.0f) json["bending"] = number(body.bending);
-    if (body.friction) json["friction"] = number(*body.friction);
-    if (body.stretch != 0.0f) json["stretch"] = number(body.stretch);
-    if (const BodyColour colour = world.colour(body); colour != BodyColour::ByKind)
-        json["colour"] = body_colours.name(colour);
-    return json;
-}
-
-rope::Body::Kind load_body_kind(const JsonPlace& place) {
-    for (std::size_t i = 0; i < std::size(body_kinds_of_version_1); ++i)
-        if (place.json() == body_kinds_of_version_1[i]) return static_cast<rope::Body::Kind>(i);
-    return kind_of<rope::Body::Kind>(place, body_kinds);
-}
-
-rope::Body load_body(const JsonPlace& place) {
-    rope::Body body;
-    body.kind = load_body_kind(place["kind"]);
-    body.first = place["first"].index(max_lab_particles);
-    body.count = place["count"].index(max_lab_particles);
-    body.row = place["row"].index(max_lab_particles);
-    body.radius = place["radius"].number();
-    if (const auto cells = place.optional("cells"))
-        cells->for_each("cells", max_lab_particles, [&](const JsonPlace& each) {
-            body.cells.push_back(static_cast<std::uint32_t>(each.index(rope::max_particles - 1)));
-        });
-    if (const auto tear = place.optional("tear")) body.tear = tear->number();
-    if (const auto bending = place.optional("bending")) body.bending = bending->number();
-    if (const auto friction = place.optional("friction")) body.friction = friction->number();
-    if (const auto stretch = place.optional("stretch")) body.stretch = stretch->number();
-    return body;
-}
-
-Json save_pin(const NamedWorld& world, const rope::Pin& pin) {
-    Json json{{"particle", pin.particle}, {"goal", dpoint(pin.goal)}};
-    if (pin.seconds != 0.0) json["seconds"] = pin.seconds;
-    if (const rope::Collider* holder = world.holder(pin)) json["collider"] = world.name(*holder);
-    return json;
-}
-
-rope::Pin load_pin(const JsonPlace& place, std::size_t particles, const Names& colliders) {
-    rope::Pin pin;
-    pin.particle = place["particle"].index(particles == 0 ? 0 : particles - 1);
-    pin.goal = place["goal"].dpoint();
-    if (const auto seconds = place.optional("seconds")) pin.seconds = seconds->real(0.0, 1e9);
-    if (const auto collider = place.optional("collider")) {
-        const std::string name = collider->text();
-        const auto found = std::find(colliders.begin(), colliders.end(), name);
-        if (found == colliders.end()) place.fail("moves with \"" + name + "\", which is not a collider");
-        pin.collider = {static_cast<std::uint32_t>(found - colliders.begin()), 1};  // as slots are numbered
-    }
-    return pin;
-}
-
-Json save_tie(const rope::Tie& tie, const std::string& name) {
-    const rope::TieShape shape{.length = tie.length, .strength = tie.strength};
-    Json json{{"name", name}, {"a", tie.a}, {"b", tie.b}, {"now", number(tie.now)}};
-    json.update(save_fields(shape));
-    if (tie.tension != 0.0f || std::signbit(tie.tension)) json["tension"] = number(tie.tension);
-    return json;
-}
-
-rope::Tie load_tie(const JsonPlace& place, std::size_t particles) {
-    const std::size_t last = particles == 0 ? 0 : particles - 1;
-    rope::TieShape shape;
-    load_fields(place, shape);
-    rope::Tie tie;
-    tie.a = static_cast<std::uint32_t>(place["a"].index(last));
-    tie.b = static_cast<std::uint32_t>(place["b"].index(last));
-    tie.length = shape.length, tie.strength = shape.strength;
-    tie.now = place["now"].number();
-    if (const auto tension = place.optional("tension")) tie.tension = load_tension(*tension);
-    return tie;
-}
-
-Json save_collider(const rope::Collider& collider, const std::string& name) {
-    Json json{{"name", name}};
-    json.update(save_shape(collider.shape));
-    json["goal"] = dpoint(collider.goal);
-    if (collider.seconds != 0.0) json["seconds"] = collider.seconds;
-    if (collider.half_goal) json["half_goal"] = dpoint(*collider.half_goal);
-    if (collider.drive.any()) json["drive"] = save_fields(collider.drive);
-    return json;
-}
-
-rope::Shape load_shape(const JsonPlace& place) {
-    const JsonPlace kind = place["kind"];
-    const rope::Shape* const blank = blank_shape(kind.text());
-    if (blank == nullptr) kind.fail("unknown kind \"" + kind.text() + "\"");
-    rope::Shape shape = *blank;
-    load_all_fields(place, shape_fields_in(shape));
-    return shape;
-}
-
-rope::Collider load_collider(const JsonPlace& place) {
-    rope::Collider collider;
-    collider.shape = load_shape(place);
-    collider.goal = place["goal"].dpoint();
-    if (const auto seconds = place.optional("seconds")) collider.seconds = seconds->real(0.0, 1e9);
-    if (const auto half = place.optional("half_goal")) collider.half_goal = half->dpoint();
-    if (const auto drive = place.optional("drive")) load_fields(*drive, collider.drive);
-    return collider;
 }
 
 /// Pairs of names, in the order of bodies.
@@ -210,7 +189,7 @@ Json save_collisions(const NamedWorld& world) {
     return pairs;
 }
 
-void load_collisions(const JsonPlace& place, const Names& bodies, rope::State& state) {
+void load_collisions(const JsonPlace& place, const std::vector<std::string>& bodies, rope::State& state) {
     const auto body = [&](const JsonPlace& name) {
         const auto found = std::find(bodies.begin(), bodies.end(), name.text());
         if (found == bodies.end()) name.fail("there is no body " + json_summary(name.json()));
@@ -241,113 +220,79 @@ rope::BodyContact load_contact(const JsonPlace& place, std::size_t particles) {
 
 }  // namespace
 
-const char* body_kind_name(rope::Body::Kind kind) {
-    return body_kinds[static_cast<std::size_t>(kind)];
-}
-
-std::span<const rope::Shape> blank_shapes() {
-    static const rope::Shape list[] = {rope::Sphere{}, rope::Capsule{}, rope::Plane{}, rope::Box{}};
-    return list;
-}
-
-const rope::Shape* blank_shape(std::string_view kind) {
-    const auto found = std::ranges::find(blank_shapes(), kind, rope::kind);
-    return found == blank_shapes().end() ? nullptr : &*found;
-}
-
-FieldsOf shape_fields_of(const rope::Shape& shape) {
-    return {rope::shape_fields(shape),
-            std::visit([](const auto& each) -> const void* { return &each; }, shape)};
-}
-
-FieldsIn shape_fields_in(rope::Shape& shape) {
-    return {rope::shape_fields(shape), std::visit([](auto& each) -> void* { return &each; }, shape)};
-}
-
-Json save_shape(const rope::Shape& shape) {
-    Json json{{"kind", rope::kind(shape)}};
-    json.update(save_fields(shape_fields_of(shape)));
-    return json;
+FieldsOf shape_fields(const rope::Collider& collider) {
+    const Field& row = fields<rope::Collider>().front();
+    return {row.kind(&collider).table(), row.address(&collider, 0)};
 }
 
 Json save_world(const NamedWorld& world) {
     const rope::State& state = world.state();
-    Json bodies = Json::array(), links = Json::array(), particles = Json::array();
-    Json pins = Json::array(), colliders = Json::array();
-    for (const rope::Body& body : state.bodies) bodies.push_back(save_body(world, body));
+    WorldRows rows{.settings = state.settings,
+                   .remainder = state.remainder,
+                   .moved_in = state.displaced_in,
+                   .substeps = state.substeps,
+                   .dropped = state.dropped,
+                   .drift = state.drift};
+    for (const rope::Collider& each : state.colliders) rows.colliders.push_back({each, world.name(each)});
+    for (const rope::Body& each : state.bodies)
+        rows.bodies.push_back({each, world.name(each), world.colour(each)});
+    for (const rope::Pin& each : state.pins) {
+        const rope::Collider* const holder = world.holder(each);
+        rows.pins.push_back({each, holder == nullptr
+                                       ? no_collider
+                                       : static_cast<std::size_t>(holder - state.colliders.data())});
+    }
+    for (const rope::Tie& each : state.ties) rows.ties.push_back({each, world.name(each)});
+    Json json = save_sparse_fields(rows), links = Json::array(), particles = Json::array();
     for (const rope::Link& link : state.links) links.push_back(save_link(link));
     for (std::size_t i = 0; i < state.position.size(); ++i) particles.push_back(save_particle(state, i));
-    for (const rope::Pin& pin : state.pins) pins.push_back(save_pin(world, pin));
-    for (const rope::Collider& collider : state.colliders)
-        colliders.push_back(save_collider(collider, world.name(collider)));
-    Json json{{"settings", save_fields(state.settings)},
-              {"remainder", state.remainder},
-              {"moved_in", state.displaced_in},
-              {"substeps", state.substeps},
-              {"dropped", state.dropped},
-              {"drift", dpoint(state.drift)},
-              {"colliders", std::move(colliders)},
-              {"bodies", std::move(bodies)},
-              {"pins", std::move(pins)},
-              {"particles", std::move(particles)},
-              {"links", std::move(links)}};
-    if (!state.ties.empty()) {
-        Json& ties = json["ties"] = Json::array();
-        for (const rope::Tie& tie : state.ties) ties.push_back(save_tie(tie, world.name(tie)));
-    }
-    if (!state.collisions.empty()) {
-        json["collisions"] = save_collisions(world);
-        Json& contacts = json["contacts"] = Json::array();
-        for (const rope::BodyContact& each : state.contacts)
-            contacts.push_back({each.a, each.b, each.force.x, each.force.y, each.force.z});
-    }
+    json["particles"] = std::move(particles);
+    json["links"] = std::move(links);
+    if (state.collisions.empty()) return json;
+    json["collisions"] = save_collisions(world);
+    Json& contacts = json["contacts"] = Json::array();
+    for (const rope::BodyContact& each : state.contacts)
+        contacts.push_back({each.a, each.b, each.force.x, each.force.y, each.force.z});
     return json;
 }
 
-NamedWorld load_world(const JsonPlace& place) {
-    constexpr std::uint64_t most = std::uint64_t{1} << 53;
+NamedWorld load_world(const JsonPlace& place, std::span<const std::string_view> besides) {
     constexpr std::size_t max_links = 8 * max_lab_particles;  // a cloth has six for each particle
+    std::vector<std::string_view> others{"particles", "links", "collisions", "contacts"};
+    others.insert(others.end(), besides.begin(), besides.end());
     rope::State state;
-    Names body_names, collider_names, tie_names;
     // Sizes first: oversized lists are refused before they are read.
     place["particles"].for_each("particles", max_lab_particles,
                                 [&](const JsonPlace& row) { load_particle(state, row); });
     const std::size_t size = state.position.size();
-    load_fields(place["settings"], state.settings);
-    state.remainder = place["remainder"].real(0.0, 10.0);
-    state.displaced_in = place["moved_in"].real(0.0, 10.0);
-    state.substeps = place["substeps"].count(most);
-    state.dropped = place["dropped"].count(most);
-    if (const auto drift = place.optional("drift")) state.drift = drift->dpoint();  // newer than the wind
-    place["colliders"].for_each("colliders", max_lab_colliders, [&](const JsonPlace& each) {
-        state.colliders.push_back(load_collider(each));
-        collider_names.push_back(each["name"].text());
-    });
-    place["bodies"].for_each("bodies", max_lab_particles, [&](const JsonPlace& each) {
-        state.bodies.push_back(load_body(each));
-        body_names.push_back(each["name"].text());
-    });
-    place["pins"].for_each("pins", size, [&](const JsonPlace& each) {
-        state.pins.push_back(load_pin(each, size, collider_names));
-    });
+    WorldRows rows;
+    load_known_fields(place, rows, false, others);
+    state.settings = rows.settings;
+    state.remainder = rows.remainder, state.displaced_in = rows.moved_in, state.drift = rows.drift;
+    state.substeps = rows.substeps, state.dropped = rows.dropped;
+    for (const ColliderRow& each : rows.colliders) state.colliders.push_back(each.collider);
+    for (const BodyRow& each : rows.bodies) state.bodies.push_back(each.body);
+    for (const TieRow& each : rows.ties) state.ties.push_back(each.tie);
+    for (const PinRow& each : rows.pins) {
+        state.pins.push_back(each.pin);
+        if (each.collider != no_collider)
+            state.pins.back().collider = {static_cast<std::uint32_t>(each.collider),
+                                          1};  // as slots are numbered
+    }
     place["links"].for_each("links", max_links,
                             [&](const JsonPlace& row) { state.links.push_back(load_link(row, size)); });
-    if (const auto ties = place.optional("ties"))
-        ties->for_each("ties", max_lab_ties, [&](const JsonPlace& each) {
-            state.ties.push_back(load_tie(each, size));
-            tie_names.push_back(each["name"].text());
-        });
+    const auto names_of = [](const auto& list) {
+        return names(list, [](const auto& row) { return row.name; });
+    };
+    const std::vector<std::string> body_names = names_of(rows.bodies);
     if (const auto collisions = place.optional("collisions")) {
         load_collisions(*collisions, body_names, state);
         place["contacts"].for_each("contacts", 8 * max_lab_particles, [&](const JsonPlace& row) {
             state.contacts.push_back(load_contact(row, size));
         });
     }
-    NamedWorld world(std::move(state), body_names, collider_names, tie_names);
-    place["bodies"].for_each("bodies", max_lab_particles, [&](const JsonPlace& each) {
-        if (const auto colour = each.optional("colour"))
-            world.set_colour(each["name"].text(), colour->choice(body_colours));
-    });
+    NamedWorld world(std::move(state), body_names, names_of(rows.colliders), names_of(rows.ties));
+    for (const BodyRow& each : rows.bodies) world.set_colour(each.name, each.colour);
     return world;
 }
 

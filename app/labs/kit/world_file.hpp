@@ -16,18 +16,10 @@ class JsonPlace;
 /// The complete state of the world, bit for bit.
 Json save_world(const NamedWorld& world);
 /// Throws std::runtime_error with the JSON path and the fault, or std::invalid_argument if the parts do not
-/// fit together.
-NamedWorld load_world(const JsonPlace& place);
+/// fit together. `besides`: other members, which the caller reads.
+NamedWorld load_world(const JsonPlace& place, std::span<const std::string_view> besides = {});
 
-/// A shape of each kind; null for an unknown one.
-std::span<const rope::Shape> blank_shapes();
-const rope::Shape* blank_shape(std::string_view kind);
-/// The shape of a kind, for reading and writing by its table.
-FieldsOf shape_fields_of(const rope::Shape& shape);
-FieldsIn shape_fields_in(rope::Shape& shape);
-/// {"kind": "sphere", "centre": ..., "radius": ...}
-Json save_shape(const rope::Shape& shape);
-
-const char* body_kind_name(rope::Body::Kind kind);
+/// The fields of the kind of shape that a collider has.
+FieldsOf shape_fields(const rope::Collider& collider);
 
 }  // namespace tendril::app

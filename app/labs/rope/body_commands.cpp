@@ -79,7 +79,8 @@ void add_hair(RopeEdit& edit, const Arguments& given) {
 void move_body(RopeEdit& edit, const Arguments& given) {
     const std::string name = given.text("rope");
     body_of(edit.seen(), name);
-    if (given.point("by") != glm::vec3(0.0f)) edit.world().move(name, glm::dvec3(given.point("by")));
+    if (given.point("by") != glm::vec3(0.0f))
+        edit.world().change(name, &rope::World::move, given.point("by"));
     if (!given.has("hold") || !given.boolean("hold") || !edit.running()) return;
     const rope::Body moved = body_of(edit.seen(), name);
     const auto inside = [&](const rope::Pin& pin) { return pin.particle - moved.first < moved.count; };
@@ -103,7 +104,7 @@ void remove_selected(RopeEdit& edit, const Arguments&) {
     const std::optional<RopeSelection> selection = edit.part.selection;
     if (!selection) throw Refused("nothing is selected");
     if (!selection->tie.empty())
-        edit.world().untie(selection->tie);
+        edit.world().change(selection->tie, &rope::World::untie);
     else if (!selection->collider.empty())
         edit.world().remove_collider(selection->collider);
     else
@@ -343,100 +344,65 @@ glm::vec3 free_place(const Workspace& workspace, const Space& needed) {
     return middle;
 }
 
-namespace {
-
-class Adding {
-  public:
-    Adding(const Workspace& workspace, Emit& emit)
-        : workspace_(workspace), part_(rope_part(workspace)), emit_(emit) {}
-
-    void bodies() {
-        if (row_button("Rope", 3, true, "A rope that hangs between two pins")) {
-            const glm::vec3 at = free_place(workspace_, {{-0.6f, -0.1f, -0.1f}, {0.6f, 0.6f, 0.1f}});
-            body("rope.add", "rope",
-                 {{"from", at + glm::vec3(-0.6f, 0.6f, 0.0f)},
-                  {"to", at + glm::vec3(0.6f, 0.6f, 0.0f)},
-                  {"length", 1.7f},
-                  {"segments", 48},
-                  {"pin_start", true},
-                  {"pin_end", true}});
-        }
-        if (row_button("Cloth", 3, true, "A cloth that hangs by two corners")) {
-            const glm::vec3 at = free_place(workspace_, {{-0.5f, -0.2f, -0.3f}, {0.5f, 0.8f, 0.3f}});
-            body("rope.cloth.add", "cloth",
-                 {{"corner", at + glm::vec3(-0.5f, 0.8f, 0.0f)},
-                  {"along", glm::vec3(1, 0, 0)},
-                  {"down", glm::vec3(0.0f, -0.96f, 0.28f)},
-                  {"pins", "corners"}});
-        }
-        const bool on_collider = part_.selection && !part_.selection->collider.empty();
-        if (row_button("Hair", 3, true, "Strands of hair: on the selected collider, or from a point")) {
-            ArgumentList arguments{{"strands", 48}, {"length", 0.6f}};
-            if (on_collider)
-                arguments.push_back({"attach", part_.selection->collider});
-            else
-                arguments.push_back(
-                    {"centre", free_place(workspace_, {{-0.2f, -0.2f, -0.2f}, {0.2f, 0.6f, 0.2f}}) +
-                                   glm::vec3(0.0f, 0.5f, 0.0f)});
-            body("rope.hair.add", "hair", std::move(arguments));
-        }
-        end_row();
-    }
-
-    void colliders() {
-        using Shape = ArgumentList (*)(glm::vec3);
-        const auto row = [&](const char* title, const char* name, const char* kind, glm::vec3 half,
-                             Shape shape) {
-            const bool plane = std::string(kind) == "plane";
-            const char* const tip =
-                plane ? "A plane at the height of the grid" : "A collider near the middle of the view";
-            if (!row_button(title, 4, true, tip)) return;
-            collider(name, kind, shape(free_place(workspace_, {-half, half})));
-        };
-        row("Ball", "ball", "sphere", glm::vec3(0.25f), [](glm::vec3 at) {
-            return ArgumentList{{"centre", at}, {"radius", 0.25f}};
-        });
-        row("Bar", "bar", "capsule", glm::vec3(0.1f, 0.1f, 0.6f), [](glm::vec3 at) {
-            const glm::vec3 half(0.0f, 0.0f, 0.5f);
-            return ArgumentList{{"a", at - half}, {"b", at + half}, {"radius", 0.1f}};
-        });
-        row("Box", "box", "box", glm::vec3(0.25f), [](glm::vec3 at) {
-            return ArgumentList{{"centre", at}, {"half_extents", glm::vec3(0.25f)}};
-        });
-        row("Floor", "floor", "plane", glm::vec3(0.0f), [](glm::vec3) {
-            return ArgumentList{{"point", glm::vec3(0.0f)}, {"normal", glm::vec3(0, 1, 0)}};
-        });
-        end_row();
-    }
-
-  private:
-    void body(const char* command, const char* kind, ArgumentList arguments) {
-        const auto taken = [&](const std::string& n) { return part_.world->find(n) != nullptr; };
-        const std::string name = free_name(kind, taken);
-        arguments.push_back({"name", name});
-        emit_(command, arguments);
-        emit_("rope.select", {{"rope", name}, {"particle", 0}});
-    }
-    void collider(const char* name, const char* kind, const ArgumentList& shape) {
-        const auto taken = [&](const std::string& n) { return part_.world->find_collider(n) != nullptr; };
-        const std::string free = free_name(name, taken);
-        ArgumentList arguments{{"name", free}, {"kind", kind}};
-        arguments.insert(arguments.end(), shape.begin(), shape.end());
-        emit_("rope.collider.add", arguments);
-        emit_("rope.select", {{"collider", free}});
-    }
-
-    const Workspace& workspace_;
-    const RopePart& part_;
-    Emit& emit_;
-};
-
-}  // namespace
-
 void adding_rows(const Workspace& workspace, Emit& emit) {
-    Adding adding(workspace, emit);
-    adding.bodies();
-    adding.colliders();
+    const RopePart& part = rope_part(workspace);
+    /// Adds it under a free name, and selects it.
+    const auto add = [&](bool body, const char* command, const char* stem, ArgumentList arguments) {
+        const std::string name = free_name(stem, [&](const std::string& each) {
+            return body ? part.world->find(each) != nullptr : part.world->find_collider(each) != nullptr;
+        });
+        arguments.push_back({"name", name});
+        emit(command, arguments);
+        emit("rope.select",
+             body ? ArgumentList{{"rope", name}, {"particle", 0}} : ArgumentList{{"collider", name}});
+    };
+    if (row_button("Rope", 3, true, "A rope that hangs between two pins")) {
+        const glm::vec3 at = free_place(workspace, {{-0.6f, -0.1f, -0.1f}, {0.6f, 0.6f, 0.1f}});
+        add(true, "rope.add", "rope",
+            {{"from", at + glm::vec3(-0.6f, 0.6f, 0.0f)},
+             {"to", at + glm::vec3(0.6f, 0.6f, 0.0f)},
+             {"length", 1.7f},
+             {"segments", 48},
+             {"pin_start", true},
+             {"pin_end", true}});
+    }
+    if (row_button("Cloth", 3, true, "A cloth that hangs by two corners")) {
+        const glm::vec3 at = free_place(workspace, {{-0.5f, -0.2f, -0.3f}, {0.5f, 0.8f, 0.3f}});
+        add(true, "rope.cloth.add", "cloth",
+            {{"corner", at + glm::vec3(-0.5f, 0.8f, 0.0f)},
+             {"along", glm::vec3(1, 0, 0)},
+             {"down", glm::vec3(0.0f, -0.96f, 0.28f)},
+             {"pins", "corners"}});
+    }
+    if (row_button("Hair", 3, true, "Strands of hair: on the selected collider, or from a point")) {
+        ArgumentList arguments{{"strands", 48}, {"length", 0.6f}};
+        if (part.selection && !part.selection->collider.empty())
+            arguments.push_back({"attach", part.selection->collider});
+        else
+            arguments.push_back(
+                {"centre", free_place(workspace, {{-0.2f, -0.2f, -0.2f}, {0.2f, 0.6f, 0.2f}}) +
+                               glm::vec3(0.0f, 0.5f, 0.0f)});
+        add(true, "rope.hair.add", "hair", std::move(arguments));
+    }
+    end_row();
+    /// The place for a collider that fills so much to each side, if its button was pressed.
+    const auto place = [&](const char* title, glm::vec3 half) -> std::optional<glm::vec3> {
+        if (!row_button(title, 4, true, "A collider near the middle of the view")) return std::nullopt;
+        return free_place(workspace, {-half, half});
+    };
+    const char* const command = "rope.collider.add";
+    if (const auto at = place("Ball", glm::vec3(0.25f)))
+        add(false, command, "ball", {{"kind", "sphere"}, {"centre", *at}, {"radius", 0.25f}});
+    const glm::vec3 half(0.0f, 0.0f, 0.5f);
+    if (const auto at = place("Bar", half + 0.1f))
+        add(false, command, "bar",
+            {{"kind", "capsule"}, {"a", *at - half}, {"b", *at + half}, {"radius", 0.1f}});
+    if (const auto at = place("Box", glm::vec3(0.25f)))
+        add(false, command, "box", {{"kind", "box"}, {"centre", *at}, {"half_extents", glm::vec3(0.25f)}});
+    if (row_button("Floor", 4, true, "A plane at the height of the grid"))
+        add(false, command, "floor",
+            {{"kind", "plane"}, {"point", glm::vec3(0.0f)}, {"normal", glm::vec3(0, 1, 0)}});
+    end_row();
 }
 
 }  // namespace tendril::app

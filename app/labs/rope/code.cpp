@@ -16,12 +16,6 @@ namespace {
 
 constexpr std::size_t max_line = 100;
 
-const char* kind_text(rope::Body::Kind kind) {
-    constexpr const char* texts[] = {"rope::Body::Kind::Rope", "rope::Body::Kind::Cloth",
-                                     "rope::Body::Kind::Hair"};
-    return texts[static_cast<std::size_t>(kind)];
-}
-
 std::string link_text(const rope::Link& link) {
     constexpr const char* kinds[] = {"Stretch", "Shear", "Bend"};
     return '{' + std::to_string(link.a) + ", " + std::to_string(link.b) + ", " + literal(link.rest) + ", " +
@@ -34,8 +28,8 @@ std::string particle_text(const rope::State& state, std::size_t i) {
            double_text(state.mass[i]) + '}';
 }
 
-std::string shape_text(const rope::Shape& shape) {
-    return "rope::" + pascal_text(rope::kind(shape)) + struct_text(shape_fields_of(shape));
+std::string shape_text(const rope::Collider& collider) {
+    return "rope::" + pascal_text(rope::kind(collider.shape)) + struct_text(shape_fields(collider));
 }
 
 /// The index in state.colliders, whose order number_slots() follows.
@@ -107,8 +101,16 @@ class RopeProgram {
     void name(const std::string& name) {
         say("// " + Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
     }
-    /// Adds a body, collider or pin.
-    void add(const std::string& what, const std::vector<std::string>& members) {
+    /// Adds a body, collider, tie or pin: `members`, those of its table that are not at their default,
+    /// `last`.
+    template <class Row>
+    void add(const std::string& what, const Row& row, std::vector<std::string> members,
+             const std::string& last = {}) {
+        for (const Field& field : fields<Row>())
+            if (field.type != FieldType::Kind)  // a collider's shape
+                for (std::string& each : member_texts({{&field, 1}, &row, detail::fresh<Row>()}))
+                    members.push_back(std::move(each));
+        if (!last.empty()) members.push_back(last);
         list("    state." + what + ".push_back({", members, "});", "        ");
     }
 
@@ -136,20 +138,7 @@ class RopeProgram {
         list("    state.settings = {", member_texts(state.settings), "};", "        ");
         for (const rope::Body& body : state.bodies) {
             name(world_.name(body));
-            std::vector<std::string> members{".id = {}", std::string(".kind = ") + kind_text(body.kind),
-                                             ".first = " + std::to_string(body.first),
-                                             ".count = " + std::to_string(body.count),
-                                             ".row = " + std::to_string(body.row)};
-            if (!body.cells.empty()) {
-                const auto number = [](std::uint32_t cell) { return std::to_string(cell); };
-                members.push_back(".cells = {" + joined(names(body.cells, number)) + '}');
-            }
-            members.push_back(".radius = " + literal(body.radius));
-            members.push_back(".tear = " + literal(body.tear));
-            if (body.bending > 0.0f) members.push_back(".bending = " + literal(body.bending));
-            if (body.friction) members.push_back(".friction = " + literal(*body.friction));
-            members.push_back(".stretch = " + literal(body.stretch));
-            add("bodies", members);
+            add("bodies", body, {".id = {}"});
         }
         if (!state.position.empty()) {
             say("for (const Particle& each : particles) {");
@@ -160,32 +149,19 @@ class RopeProgram {
         }
         if (!state.links.empty()) say("state.links.assign(std::begin(links), std::end(links));");
         for (const rope::Collider& collider : state.colliders) {
-            std::vector<std::string> members{".id = {}", ".shape = " + shape_text(collider.shape),
-                                             ".goal = " + braced(collider.goal)};
-            if (collider.seconds != 0.0) members.push_back(".seconds = " + double_text(collider.seconds));
-            if (collider.half_goal)
-                members.push_back(".half_goal = glm::dvec3" + braced(*collider.half_goal));
-            if (collider.drive.any()) {
-                const auto& [velocity, axis, spin] = collider.drive;
-                members.push_back(".drive = {" + braced(velocity) + ", " + braced(axis) + ", " +
-                                  literal(spin) + '}');
-            }
             name(world_.name(collider));
-            add("colliders", members);
+            add("colliders", collider, {".id = {}", ".shape = " + shape_text(collider)});
         }
         for (const rope::Tie& tie : state.ties) {
             name(world_.name(tie));
-            add("ties", {".id = {}", ".a = " + std::to_string(tie.a), ".b = " + std::to_string(tie.b),
-                         ".length = " + literal(tie.length), ".strength = " + literal(tie.strength),
-                         ".now = " + literal(tie.now), ".tension = " + literal(tie.tension)});
+            add("ties", tie, {".id = {}"});
         }
         say("rope::number_slots(state);");
         for (const rope::Pin& pin : state.pins) {
             const std::string holder =
                 pin.collider ? "state.colliders[" + std::to_string(place_of(state, pin.collider)) + "].id"
                              : "{}";
-            add("pins", {".particle = " + std::to_string(pin.particle), ".goal = " + braced(pin.goal),
-                         ".seconds = " + double_text(pin.seconds), ".collider = " + holder});
+            add("pins", pin, {}, ".collider = " + holder);
         }
         for (std::size_t a = 0; a < state.bodies.size(); ++a)
             for (std::size_t b = a; b < state.bodies.size(); ++b)
@@ -193,8 +169,10 @@ class RopeProgram {
                     say("state.collisions.push_back({state.bodies[" + std::to_string(a) +
                         "].id, state.bodies[" + std::to_string(b) + "].id});");
         for (const rope::BodyContact& each : state.contacts)
-            add("contacts", {".a = " + std::to_string(each.a), ".b = " + std::to_string(each.b),
-                             ".force = " + braced(each.force)});
+            list("    state.contacts.push_back({",
+                 {".a = " + std::to_string(each.a), ".b = " + std::to_string(each.b),
+                  ".force = " + braced(each.force)},
+                 "});", "        ");
         say("state.remainder = " + double_text(state.remainder) + ';');
         say("state.displaced_in = " + double_text(state.displaced_in) + ';');
         say("return state;");

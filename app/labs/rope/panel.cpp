@@ -47,25 +47,11 @@ void scene_rows(Emit& emit) {
     preset_rows(rope_lab, buttons, "Removes every rope and collider", emit);
 }
 
-const char* tool_help(RopeTool tool) {
-    switch (tool) {
-        case RopeTool::Pin:
-            return "A click on a particle pins it where it is, or lets a pinned one move again.";
-        case RopeTool::Cut:
-            return "Drag across ropes and cloths to cut them. Or click a rope's segment, or two particles of "
-                   "a cloth.";
-        case RopeTool::Tie:
-            return "A click on one particle and then on another ties the two.";
-        default:
-            return "A click selects: the inspector then shows the settings.";
-    }
-}
-
 void tool_rows(const RopePart& part, Emit& emit) {
     const auto tools = rope_tools.values();
     for (const RopeTool tool : tools) {
         if (row_option(rope_tools.title(tool), static_cast<int>(tools.size()), part.tool == tool,
-                       tool_help(tool)))
+                       rope_tools.help(tool)))
             emit("rope.tool", {{"name", rope_tools.name(tool)}});
     }
     end_row();
@@ -307,7 +293,7 @@ void several_rows(const RopePart& part, const rope::Body& body, const std::vecto
 
 /// All fields of its kind except the position, which is set by moving the collider, as in a drag.
 void shape_rows(const rope::Collider& collider, const std::string& name, Emit& emit) {
-    const FieldsOf of = shape_fields_of(collider.shape);
+    const FieldsOf of = shape_fields(collider);
     const FieldRows rows(of, field_texts<rope::Shape>(), "rope.collider.set", emit, {{"name", name}});
     for (const Field& field : of.table)
         if (field.name != std::string_view("centre") && field.name != std::string_view("point"))

@@ -36,7 +36,7 @@ void RopeEdit::move_pins(const std::vector<rope::PinPlace>& pins) {
 }
 
 void RopeEdit::move_collider(const std::string& name, const glm::vec3& to) {
-    if (seconds_ > 0.0) return world().move_collider(name, to, seconds_);
+    if (seconds_ > 0.0) return world().change(name, &rope::World::move_collider, to, seconds_);
     world().drag_collider(workspace_, name, to);
     dragged();
 }
@@ -334,25 +334,29 @@ void forget_missing(RopePart& part) {
                   [&](const Swing& swing) { return world.find_collider(swing.collider) == nullptr; });
 }
 
-Argument body_argument(const char* name, bool required, const char* help) {
-    return offering(text_argument(name, required, help), [](const Workspace& w) {
+namespace {
+
+/// The name of an element of a list of the world.
+template <class Row>
+Argument naming(std::vector<Row> rope::State::*list, const char* name, bool required, const char* help) {
+    return offering(text_argument(name, required, help), [list](const Workspace& w) {
         const NamedWorld& world = *rope_part(w).world;
-        return names(world.state().bodies, [&](const rope::Body& body) { return world.name(body); });
+        return names(world.state().*list, [&](const Row& each) { return world.name(each); });
     });
+}
+
+}  // namespace
+
+Argument body_argument(const char* name, bool required, const char* help) {
+    return naming(&rope::State::bodies, name, required, help);
 }
 
 Argument collider_argument(const char* name, bool required, const char* help) {
-    return offering(text_argument(name, required, help), [](const Workspace& w) {
-        const NamedWorld& world = *rope_part(w).world;
-        return names(world.state().colliders, [&](const rope::Collider& each) { return world.name(each); });
-    });
+    return naming(&rope::State::colliders, name, required, help);
 }
 
 Argument tie_argument(const char* name, bool required, const char* help) {
-    return offering(text_argument(name, required, help), [](const Workspace& w) {
-        const NamedWorld& world = *rope_part(w).world;
-        return names(world.state().ties, [&](const rope::Tie& tie) { return world.name(tie); });
-    });
+    return naming(&rope::State::ties, name, required, help);
 }
 
 Argument rope_argument(bool required, const char* help) {

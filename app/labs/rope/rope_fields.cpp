@@ -379,11 +379,13 @@ BodySettings settings_of(const NamedWorld& world, const rope::Body& body) {
 
 void set_body(RopeEdit& edit, const std::string& name, const Arguments& given) {
     using Kind = rope::Link::Kind;
+    using rope::World;
     const rope::Body& body = body_of(edit.seen(), name);
     const BodySettings now = settings_of(edit.seen(), body);
     for (const Field& field : fields<BodySettings>())
         if (given.has(field.name) && field.optional && std::isnan(field.get(&now)[0]))
-            throw Refused("\"" + name + "\" is a " + body_kind_name(body.kind) + "; it has no " + field.name);
+            throw Refused("\"" + name + "\" is a " + rope::body_kinds[static_cast<std::size_t>(body.kind)] +
+                          "; it has no " + field.name);
     if (given.has("mass") && given.has("density"))
         throw Refused("give mass or density, not both: each follows from the other");
     BodySettings wanted = now;
@@ -395,20 +397,21 @@ void set_body(RopeEdit& edit, const std::string& name, const Arguments& given) {
         resample_body(edit, name,
                       {static_cast<std::size_t>(*wanted.columns), static_cast<std::size_t>(*wanted.rows)});
     NamedWorld& world = edit.world();
-    if (wanted.length != now.length) world.set_length(name, wanted.length);
-    if (wanted.width != now.width) world.set_width(name, *wanted.width);
-    if (given.has("mass")) world.set_mass(name, wanted.mass);
-    if (given.has("density")) world.set_density(name, *wanted.density);
-    if (wanted.radius != now.radius) world.set_radius(name, wanted.radius);
+    if (wanted.length != now.length) world.change(name, &World::set_length, wanted.length);
+    if (wanted.width != now.width) world.change(name, &World::set_width, *wanted.width);
+    if (given.has("mass")) world.change(name, &World::set_mass, wanted.mass);
+    if (given.has("density")) world.change(name, &World::set_density, *wanted.density);
+    if (wanted.radius != now.radius) world.change(name, &World::set_radius, wanted.radius);
     if (given.has("friction")) {
         const bool own = wanted.friction != world.settings().friction;
-        world.set_friction(name, own ? std::optional(wanted.friction) : std::nullopt);
+        world.change(name, &World::set_friction, own ? std::optional(wanted.friction) : std::nullopt);
     }
-    if (wanted.stretch != now.stretch) world.set_compliance(name, Kind::Stretch, *wanted.stretch);
-    if (wanted.bending != now.bending) world.set_bending(name, *wanted.bending);
-    if (wanted.shear != now.shear) world.set_compliance(name, Kind::Shear, *wanted.shear);
-    if (wanted.bend != now.bend) world.set_compliance(name, Kind::Bend, *wanted.bend);
-    if (wanted.tear != now.tear) world.set_tear(name, *wanted.tear);
+    if (wanted.stretch != now.stretch)
+        world.change(name, &World::set_compliance, Kind::Stretch, *wanted.stretch);
+    if (wanted.bending != now.bending) world.change(name, &World::set_bending, *wanted.bending);
+    if (wanted.shear != now.shear) world.change(name, &World::set_compliance, Kind::Shear, *wanted.shear);
+    if (wanted.bend != now.bend) world.change(name, &World::set_compliance, Kind::Bend, *wanted.bend);
+    if (wanted.tear != now.tear) world.change(name, &World::set_tear, *wanted.tear);
     if (wanted.colour != now.colour) world.set_colour(name, wanted.colour);
     if (given.has("name")) rename_body(edit, name, given.text("name"));
 }

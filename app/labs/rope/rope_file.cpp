@@ -3,6 +3,8 @@
 #include <functional>
 #include <limits>
 #include <stdexcept>
+#include <tendril/magnitude.hpp>
+#include <utility>
 #include <vector>
 
 #include "app/document/json_complete.hpp"
@@ -47,42 +49,56 @@ std::span<const tendril::Field> tendril::fields<tendril::app::RopeSample>() noex
     return rows;
 }
 
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Swing>() noexcept {
+    using app::Swing;
+    constexpr FieldRange anywhere{-max_magnitude, max_magnitude};
+    static constexpr Field rows[] = {
+        field<&Swing::collider>("collider").needed(), field<&Swing::middle>("middle", anywhere, "m").needed(),
+        field<&Swing::swing>("swing", anywhere, "m").needed(),
+        field<&Swing::period>("period", {app::min_period, app::max_period}, "s").needed()};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Jitter>() noexcept {
+    using app::Jitter;
+    static constexpr Field rows[] = {
+        field<&Jitter::dial>("dial").needed(), field<&Jitter::frames>("frames", {0.0, 4294967295.0}).needed(),
+        field<&Jitter::owed>("owed", {0.0, 10.0}, "s").needed(),
+        field<&Jitter::frame>("frame", {0.0, app::max_jitter_frame}, "s").needed()};
+    return rows;
+}
+
+/// All that stands without the world.
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::RopePart>() noexcept {
+    using app::RopePart;
+    static constexpr auto tools = app::rope_tools.name_array();
+    static constexpr Field rows[] = {
+        field<&RopePart::time>("time", {0.0, 1e9}, "s").needed(),
+        field<&RopePart::tool>("tool", tools).needed(),
+        nested<&RopePart::view>("view").needed(),
+        nested<&RopePart::jitter>("jitter").needed(),
+        list<&RopePart::swings>("swings").up_to(app::max_lab_colliders).needed(),
+        field<&RopePart::quiet_ticks>("quiet_ticks", {0.0, std::numeric_limits<int>::max()})};
+    return rows;
+}
+
 namespace tendril::app {
 namespace {
 
-Json save_swing(const Swing& swing) {
-    return Json{{"collider", swing.collider},
-                {"middle", point(swing.middle)},
-                {"swing", point(swing.swing)},
-                {"period", number(swing.period)}};
-}
-
-Swing load_swing(const JsonPlace& place) {
-    Swing swing;
-    swing.collider = place["collider"].text();
-    swing.middle = place["middle"].point();
-    swing.swing = place["swing"].point();
-    swing.period = place["period"].number(min_period, max_period);
-    try {
-        require(swing);
-    } catch (const std::invalid_argument& error) {
-        place.fail(error.what());
-    }
-    return swing;
-}
-
-std::vector<Swing> load_swings(const JsonPlace& place, const NamedWorld& world) {
-    std::vector<Swing> swings;
-    place.for_each("swings", max_lab_colliders, [&](const JsonPlace& each) {
-        const Swing swing = load_swing(each);
-        const JsonPlace name = each["collider"];
-        if (world.find_collider(swing.collider) == nullptr)
+void check_swings(const std::vector<Swing>& swings, const JsonPlace& place, const NamedWorld& world) {
+    for (std::size_t i = 0; i < swings.size(); ++i) {
+        const JsonPlace name = place.element(i)["collider"];
+        if (world.find_collider(swings[i].collider) == nullptr)
             name.fail("there is no collider " + json_summary(name.json()));
-        for (const Swing& before : swings)
-            if (before.collider == swing.collider) name.fail(json_summary(name.json()) + " is listed twice");
-        swings.push_back(swing);
-    });
-    return swings;
+        try {
+            require(swings[i]);
+        } catch (const std::invalid_argument& error) {
+            place.element(i).fail(error.what());
+        }
+    }
 }
 
 Json save_selection(const std::optional<RopeSelection>& selection) {
@@ -116,29 +132,6 @@ std::optional<RopeSelection> load_selection(const JsonPlace& place, const NamedW
     selection.particles = Selection::load(place["particle"], body->count);
     if (selection.particles.empty()) place["particle"].fail("no particle is selected");
     return selection;
-}
-
-Json save_jitter(const Jitter& jitter) {
-    return Json{{"dial", number(jitter.dial)},
-                {"frames", jitter.frames},
-                {"owed", jitter.owed},
-                {"frame", jitter.frame}};
-}
-
-Jitter load_jitter(const JsonPlace& place) {
-    Jitter jitter;
-    jitter.dial = place["dial"].number(0.0f, 1.0f);
-    jitter.frames = static_cast<std::uint32_t>(place["frames"].count(0xffffffffu));
-    jitter.owed = place["owed"].real(0.0, 10.0);
-    jitter.frame = place["frame"].real(0.0, max_jitter_frame);
-    return jitter;
-}
-
-RopeView load_view(const JsonPlace& place) {
-    RopeView view;
-    if (place.has("stress")) view.strain = place["stress"].flag();  // its name in version 1
-    load_fields(place, view);
-    return view;
 }
 
 /// A racer's data besides its world: held particles, and the last ten seconds, a column for each number
@@ -190,16 +183,9 @@ void load_racer(const JsonPlace& place, const NamedWorld& world, std::optional<H
 }  // namespace
 
 Json RopePart::save() const {
-    Json moving = Json::array();
-    for (const Swing& swing : swings) moving.push_back(save_swing(swing));
-    Json json{{"time", time},
-              {"tool", rope_tools.name(tool)},
-              {"selected", save_selection(selection)},
-              {"view", save_fields(view)},
-              {"jitter", save_jitter(jitter)},
-              {"swings", std::move(moving)},
-              {"world", save_world(*world)}};
-    if (quiet_ticks > 0) json["quiet_ticks"] = quiet_ticks;
+    Json json = save_sparse_fields(*this);
+    json["selected"] = save_selection(selection);
+    json["world"] = save_world(*world);
     save_racer(json, hold, samples);
     for (const Rival& rival : rivals)
         save_racer(json["rivals"].emplace_back(save_world(*rival.world)), rival.hold, rival.samples);
@@ -207,41 +193,50 @@ Json RopePart::save() const {
     return json;
 }
 
+void RopePart::upgrade(Json& json, int version) const {
+    if (version >= 2 || !json.is_object()) return;
+    const auto renamed = [](Json& in, const char* from, const char* to) {
+        if (!in.is_object() || !in.contains(from)) return;
+        in[to] = std::move(in[from]);
+        in.erase(from);
+    };
+    renamed(json, "torture", "jitter");                                    // version 1
+    if (json.contains("view")) renamed(json["view"], "stress", "strain");  // version 1
+    if (!json.contains("world") || !json["world"].is_object() || !json["world"].contains("bodies")) return;
+    for (Json& body : json["world"]["bodies"])
+        if (body.is_object() && body.contains("kind"))
+            for (const auto& [from, to] : {std::pair("sheet", "cloth"), {"lock", "hair"}})  // version 1
+                if (body["kind"] == from) body["kind"] = to;
+}
+
 std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where) const {
+    constexpr std::string_view others[] = {"selected", "world", "held", "samples", "rivals", "character"},
+                               racing_too[] = {"held", "samples"};
     const JsonPlace place(json, where);
     auto part = std::make_shared<RopePart>();
-    part->time = place["time"].real(0.0, 1e9);
-    part->view = load_view(place["view"]);
-    part->jitter = load_jitter(place[place.has("jitter") ? "jitter" : "torture"]);  // its name in version 1
-    const JsonPlace tool_place = place["tool"], world_place = place["world"];
-    const JsonPlace* reading = &tool_place;
-    try {
-        part->tool = rope_tools.value(tool_place.text());
-        reading = &world_place;
-        part->world = std::make_shared<const NamedWorld>(load_world(world_place));
-        check_work(*part->world);
-        part->usual = part->world->settings();
-    } catch (const std::logic_error& error) {  // the library's message, with the JSON path
-        reading->fail(error.what());
-    }
+    load_known_fields(place, *part, false, others);
+    const auto read_world = [](const JsonPlace& at, std::span<const std::string_view> besides = {}) {
+        try {
+            auto read = std::make_shared<const NamedWorld>(load_world(at, besides));
+            check_work(*read);
+            return read;
+        } catch (const std::logic_error& error) {  // the library's message, with the JSON path
+            at.fail(error.what());
+        }
+    };
+    part->world = read_world(place["world"]);
+    part->usual = part->world->settings();
     if (const auto racing = place.optional("rivals"))
         racing->for_each("rivals", 2, [&](const JsonPlace& each) {
             Rival rival;
-            try {
-                rival.world = std::make_shared<const NamedWorld>(load_world(each));
-                check_work(*rival.world);
-            } catch (const std::logic_error& error) {
-                each.fail(error.what());
-            }
+            rival.world = read_world(each, racing_too);
             for (const RopeRacer& racer : rope_racers(*part))
                 if (racer.solver() == rival.world->settings().solver) each.fail("its solver races already");
             load_racer(each, *rival.world, rival.hold, rival.samples);
             part->rivals.push_back(std::move(rival));
         });
     load_racer(place, *part->world, part->hold, part->samples);
-    if (const auto ticks = place.optional("quiet_ticks"))
-        part->quiet_ticks = ticks->integer(0, std::numeric_limits<int>::max());
-    part->swings = load_swings(place["swings"], *part->world);
+    check_swings(part->swings, place["swings"], *part->world);
     if (const auto character = place.optional("character")) part->walker = load_walker(*character);
     part->selection = load_selection(place["selected"], *part->world);
     return part;
@@ -281,10 +276,10 @@ Json body_state(const NamedWorld& world, const rope::Body& body, const ShownPart
 Json collider_state(const RopePart& part, const rope::Collider& collider) {
     const std::string& name = part.world->name(collider);
     Json json{{"name", name}};
-    const rope::Shape now = part.world->shape(collider);
-    const Json shape = save_shape(now);
-    for (const auto& [key, value] : shape.items()) json[key] = value;
-    json["centre"] = point(rope::centre(now));
+    rope::Collider shown = collider;
+    shown.shape = part.world->shape(collider);
+    json.update(save_fields({fields<rope::Collider>().first(1), &shown}));
+    json["centre"] = point(rope::centre(shown.shape));
     if (collider.drive.any()) json["drive"] = save_fields(collider.drive);
     for (const Swing& swing : part.swings) {
         if (swing.collider == name)
@@ -319,12 +314,11 @@ Json report_state(const RopeReport& report) {
 }
 
 Json selection_state(const std::optional<RopeSelection>& selection) {
-    if (!selection) return nullptr;
-    if (!selection->collider.empty()) return Json{{"collider", selection->collider}};
-    if (!selection->tie.empty()) return Json{{"tie", selection->tie}};
-    return Json{{"rope", selection->body},
-                {"particle", selection->particle()},
-                {"particles", selection->particles.all()}};
+    Json json = save_selection(selection);
+    if (!selection || !selection->of_particles()) return json;
+    json["particle"] = selection->particle();
+    json["particles"] = selection->particles.all();
+    return json;
 }
 
 }  // namespace

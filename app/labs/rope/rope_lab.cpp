@@ -73,7 +73,7 @@ void include_shape(const rope::Shape& shape, glm::vec3& low, glm::vec3& high) {
 }
 
 std::shared_ptr<Part> RopeLab::blank() const {
-    return std::make_shared<RopePart>(first_ropes());
+    return std::make_shared<RopePart>(make_rope_scene(rope_scenes().front()));
 }
 
 CameraPose RopeLab::first_view() const {

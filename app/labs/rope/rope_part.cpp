@@ -2,33 +2,22 @@
 
 #include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_edit.hpp"
-#include "app/labs/rope/scenes.hpp"
 
 namespace tendril::app {
 namespace {
 
-/// Counts the lists of the state, not the world's caches.
-std::size_t bytes_of(const rope::State& state) {
-    constexpr std::size_t particle = 3 * sizeof(glm::dvec3) + sizeof(double);
-    std::size_t cells = 0;
-    for (const rope::Body& body : state.bodies) cells += body.cells.size() * sizeof(body.cells[0]);
-    return cells + state.position.size() * particle + state.links.size() * sizeof(rope::Link) +
-           state.bodies.size() * sizeof(rope::Body) + state.pins.size() * sizeof(rope::Pin) +
-           state.colliders.size() * sizeof(rope::Collider) + state.ties.size() * sizeof(rope::Tie) +
-           state.collisions.size() * sizeof(rope::Collision) +
-           state.contacts.size() * sizeof(rope::BodyContact);
+/// A racer's. Counts the lists of the state, not the world's caches.
+std::size_t bytes_of(const NamedWorld& world, const std::vector<RopeSample>& samples,
+                     const std::optional<Hold>& hold) {
+    const rope::State& state = world.state();
+    std::size_t all = sizeof(NamedWorld) + bytes_in(samples);
+    for (const rope::Body& body : state.bodies) all += bytes_in(body.cells);
+    if (hold) all += bytes_in(hold->particles);
+    return all + bytes_in(state.position, state.displacement, state.mass, state.links, state.bodies,
+                          state.pins, state.colliders, state.ties, state.collisions, state.contacts);
 }
 
 }  // namespace
-
-RopePart first_ropes() {
-    RopePart part;
-    RopeScene scene = make_rope_scene(rope_scenes().front());
-    part.world = std::make_shared<const NamedWorld>(std::move(scene.world));
-    part.usual = part.world->settings();
-    part.swings = std::move(scene.swings);
-    return part;
-}
 
 std::shared_ptr<const Part> RopePart::after_undo() const {
     if (!holds(*this)) return nullptr;
@@ -62,16 +51,10 @@ std::vector<std::filesystem::path> RopePart::files() const {
 }
 
 std::size_t RopePart::bytes() const {
-    const std::size_t selected = selection ? selection->particles.all().size() * sizeof(std::size_t) : 0;
-    const auto bytes_in = [](const NamedWorld& in, const std::vector<RopeSample>& of,
-                             const std::optional<Hold>& held) {
-        return sizeof(NamedWorld) + bytes_of(in.state()) + of.size() * sizeof(RopeSample) +
-               (held ? held->particles.size() * sizeof(std::size_t) : 0);
-    };
-    std::size_t worlds = bytes_in(*world, samples, hold);
+    std::size_t all = sizeof(*this) + bytes_of(*world, samples, hold) + bytes_in(swings);
     for (const Rival& rival : rivals)
-        worlds += sizeof(Rival) + bytes_in(*rival.world, rival.samples, rival.hold);
-    return sizeof(*this) + worlds + swings.size() * sizeof(Swing) + selected;
+        all += sizeof(Rival) + bytes_of(*rival.world, rival.samples, rival.hold);
+    return selection ? all + bytes_in(selection->particles.all()) : all;
 }
 
 }  // namespace tendril::app

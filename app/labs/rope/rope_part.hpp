@@ -118,15 +118,13 @@ struct RopePart final : Part {
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<RopePart>(*this); }
     Json save() const override;
+    void upgrade(Json& json, int version) const override;
     std::shared_ptr<Part> load(const Json& json, const std::string& where) const override;
     std::shared_ptr<const Part> after_undo() const override;
     std::shared_ptr<const Part> at_moment(std::shared_ptr<const Part> then) const override;
     std::size_t bytes() const override;
     std::vector<std::filesystem::path> files() const override;
 };
-
-/// The part that the lab starts with.
-RopePart first_ropes();
 
 /// The lab's part of a workspace.
 inline const RopePart& rope_part(const Workspace& workspace) {
@@ -143,12 +141,20 @@ inline constexpr int min_sides = 3, max_sides = 64;
 inline constexpr double min_jitter_frame = 0.001, max_jitter_frame = 0.25;  ///< seconds
 
 inline constexpr EnumNames<RopeTool, 4> rope_tools{
-    "tool", {{"move", "Select"}, {"pin", "Pin"}, {"cut", "Cut"}, {"tie", "Tie"}}};
+    "tool",
+    {{"move", "Select", "A click selects: the inspector then shows the settings."},
+     {"pin", "Pin", "A click on a particle pins it where it is, or lets a pinned one move again."},
+     {"cut", "Cut",
+      "Drag across ropes and cloths to cut them. Or click a rope's segment, or two particles of a cloth."},
+     {"tie", "Tie", "A click on one particle and then on another ties the two."}}};
 
 }  // namespace tendril::app
 
 template <>
 std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::rope::Settings>();
+/// A name, where it is and how it moves: in files.
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Swing>() noexcept;
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::RopeView>() noexcept;
 template <>

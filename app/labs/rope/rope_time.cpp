@@ -31,7 +31,8 @@ double shuffled(std::uint32_t number) {
 /// Starts the motion of swinging and walking colliders to their positions at `time`, one tick ahead.
 void aim(const RopePart& part, NamedWorld& world, double time) {
     for (const Swing& swing : part.swings)
-        world.move_collider(swing.collider, swing_point(swing, time), world.world().pending() + tick_seconds);
+        world.change(swing.collider, &rope::World::move_collider, swing_point(swing, time),
+                     world.world().pending() + tick_seconds);
     if (part.walker.figure) aim_walker(part.walker, world, time - tick_seconds, time);
 }
 

@@ -31,12 +31,12 @@ void set_tie(RopeEdit& edit, const Arguments& given) {
     rope::TieShape shape{.length = tie.length, .strength = tie.strength};
     set_fields(given, shape);
     if (shape.length != tie.length || shape.strength != tie.strength)
-        edit.world().set_tie(given.text("name"), shape);
+        edit.world().change(given.text("name"), &rope::World::set_tie, shape);
 }
 
 void untie(RopeEdit& edit, const Arguments& given) {
     tie_of(edit.seen(), given.text("name"));
-    edit.world().untie(given.text("name"));
+    edit.world().change(given.text("name"), &rope::World::untie);
     forget_missing(edit.part);
 }
 

@@ -1,6 +1,8 @@
 // Commands on the whole world, on colliders, and on selection, drags and view.
 #include <algorithm>
+#include <functional>
 #include <string_view>
+#include <utility>
 
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/world_file.hpp"
@@ -24,26 +26,21 @@ void clear(RopeEdit& edit, const Arguments&) {
 
 void reset(RopeEdit& edit, const Arguments&) {
     const bool raced = !edit.part.rivals.empty();
-    edit.part = first_ropes();
+    edit.part = make_rope_scene(rope_scenes().front());
     if (raced) begin_race(edit.part);
 }
 
 /// Opens a scene with its own view. The display settings and the tool stay.
 void take_scene(Workspace& workspace, const Arguments& given) {
-    const RopeSceneEntry& entry = rope_scene(given.text("name"));
-    RopeScene scene = make_rope_scene(entry);
+    const RopeSceneEntry& entry =
+        named(rope_scenes(), std::mem_fn(&RopeSceneEntry::name), given.text("name"), "scene");
     RopePart& part = workspace.document.edit<RopePart>(rope_lab);
-    part.world = std::make_shared<const NamedWorld>(std::move(scene.world));
-    part.usual = part.world->settings();
-    part.swings = std::move(scene.swings);
-    part.walker = {};
-    part.time = 0.0;
-    part.jitter = {.dial = part.jitter.dial};
-    part.selection.reset();
-    part.hold.reset();
-    part.quiet_ticks = 0;
-    part.samples.clear();
-    if (!part.rivals.empty()) begin_race(part);
+    const RopePart before = std::exchange(part, make_rope_scene(entry));
+    static_cast<Part&>(part) = before;
+    part.tool = before.tool;
+    part.view = before.view;
+    part.jitter.dial = before.jitter.dial;
+    if (!before.rivals.empty()) begin_race(part);
     (workspace.lab == rope_lab ? workspace.camera : workspace.cameras[rope_lab]) = entry.view;
 }
 
@@ -113,27 +110,26 @@ void add_world_commands(CommandTable& table) {
 
 namespace {
 
-/// The shape with the given fields. Refuses fields that its kind lacks.
-rope::Shape changed(rope::Shape shape, const Arguments& given) {
-    for (const FieldText& text : field_texts<rope::Shape>())
-        if (given.has(text.name) && find_field(rope::shape_fields(shape), text.name) == nullptr)
-            throw Refused(std::string("a ") + rope::kind(shape) + " has no " + text.name);
-    set_fields(given, shape_fields_in(shape));
-    return shape;
+/// A collider's shape, by its kind.
+const Field& shape_row() {
+    return fields<rope::Collider>().front();
 }
 
-/// Requires all fields of a new shape, except the rotation of a box, which defaults to upright.
-void check_complete(const rope::Shape& shape, const Arguments& given) {
-    for (const Field& field : rope::shape_fields(shape))
-        if (field.type != FieldType::Rotation && !given.has(field.name))
-            throw Refused(std::string(field.name) + " is missing; a " + rope::kind(shape) + " needs it");
+/// The collider with the given fields of its shape. Refuses fields that its kind lacks.
+rope::Shape changed(rope::Collider collider, const Arguments& given) {
+    const FieldsIn in(shape_row().kind(&collider).table(), shape_row().address_in(&collider));
+    for (const FieldText& text : field_texts<rope::Shape>())
+        if (given.has(text.name) && find_field(in.table, text.name) == nullptr)
+            throw Refused(std::string("a ") + rope::kind(collider.shape) + " has no " + text.name);
+    set_fields(given, in);
+    return collider.shape;
 }
 
 /// One argument per field of any kind of shape.
 std::vector<Argument> shape_arguments() {
     std::vector<Argument> all;
-    for (const rope::Shape& shape : blank_shapes())
-        for (Argument& each : field_arguments(rope::shape_fields(shape), field_texts<rope::Shape>()))
+    for (const FieldKind& kind : shape_row().kinds)
+        for (Argument& each : field_arguments(kind.table(), field_texts<rope::Shape>()))
             if (std::ranges::find(all, each.name, &Argument::name) == all.end())
                 all.push_back(std::move(each));
     return all;
@@ -155,8 +151,12 @@ void centre_on(Swing& swing, glm::vec3 at, double time) {
 void add_collider(RopeEdit& edit, const Arguments& given) {
     const std::string name = given.text("name");
     if (name.empty()) throw Refused("name must not be empty");
-    const rope::Shape& blank = *blank_shape(given.text("kind"));
-    check_complete(blank, given);
+    rope::Collider blank;
+    const auto kind = std::ranges::find(rope::shape_kinds, given.text("kind"));
+    shape_row().set(&blank, {static_cast<double>(kind - rope::shape_kinds)});
+    for (const Field& field : shape_fields(blank).table)
+        if (field.required && !given.has(field.name))
+            throw Refused(std::string(field.name) + " is missing; a " + *kind + " needs it");
     const rope::Shape shape = changed(blank, given);
     check_collider_count(edit.seen());
     edit.world().add_collider(name, shape);
@@ -164,7 +164,7 @@ void add_collider(RopeEdit& edit, const Arguments& given) {
 
 void set(RopeEdit& edit, const Arguments& given) {
     const rope::Collider& collider = collider_of(edit.seen(), given.text("name"));
-    const rope::Shape shape = changed(collider.shape, given);
+    const rope::Shape shape = changed(collider, given);
     if (shape == collider.shape) return;
     Swing* const swing = swing_of(edit.part, given.text("name"));
     if (swing != nullptr && rope::centre(shape) != rope::centre(collider.shape))
@@ -212,7 +212,8 @@ void set_drive(RopeEdit& edit, const Arguments& given) {
     const std::string name = given.text("name");
     rope::Drive wanted = collider_of(edit.seen(), name).drive;
     set_fields(given, wanted);
-    if (wanted != collider_of(edit.seen(), name).drive) edit.world().drive_collider(name, wanted);
+    if (wanted != collider_of(edit.seen(), name).drive)
+        edit.world().change(name, &rope::World::drive_collider, wanted);
 }
 
 Argument name_argument() {
@@ -228,7 +229,7 @@ void add_collider_commands(CommandTable& table) {
                   choice_argument("kind", true,
                                   "sphere: centre, radius; capsule: a, b, radius; "
                                   "plane: point, normal; box: centre, half_extents, rotation",
-                                  names(blank_shapes(), [](const auto& each) { return rope::kind(each); }))});
+                                  {std::begin(rope::shape_kinds), std::end(rope::shape_kinds)})});
     set_arguments.insert(set_arguments.begin(), name_argument());
     table.add(rope_command("rope.collider.add", "Add a collider", std::move(added),
                            "Adds a body that ropes cannot enter", add_collider));

@@ -14,9 +14,10 @@ std::string type_name(std::string_view kind) {
 }
 
 std::string initialiser(const signal::Filter& filter) {
-    std::vector<std::string> members = member_texts(filter_fields(filter));
-    if (const auto* curve = std::get_if<signal::Curve>(&filter))
-        members.insert(members.begin(), ".keys = " + keys_text(*curve, "                        "));
+    const auto* const curve = std::get_if<signal::Curve>(&filter);
+    const std::vector<std::string> members =
+        curve != nullptr ? member_texts({fields<signal::Curve>(), curve}, "                        ")
+                         : member_texts(filter_fields(filter));
     return "signal::" + type_name(signal::kind(filter)) + "{" + joined(members) + "}";
 }
 

@@ -9,8 +9,8 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/fields/fields.hpp"
+#include "app/fields/input_json.hpp"
 #include "app/io/samples.hpp"
-#include "app/labs/kit/library_json.hpp"
 #include "app/labs/signal/filter_fields.hpp"
 
 namespace tendril::app {
@@ -26,10 +26,19 @@ std::string place(const std::string& where, std::string_view key) {
 
 }  // namespace
 
+namespace {
+
+/// A curve's with its keys.
+FieldsIn file_fields(signal::Filter& filter) {
+    if (auto* const curve = std::get_if<signal::Curve>(&filter)) return *curve;
+    return filter_fields(filter);
+}
+
+}  // namespace
+
 Json parameters_json(const signal::Filter& filter) {
-    Json json = save_fields(filter_fields(filter));
-    if (const auto* curve = std::get_if<signal::Curve>(&filter)) json["keys"] = curve_keys_json(*curve);
-    return json;
+    if (const auto* curve = std::get_if<signal::Curve>(&filter)) return save_fields(*curve);
+    return save_fields(filter_fields(filter));
 }
 
 Json filter_json(const signal::Filter& filter) {
@@ -55,11 +64,12 @@ std::string other_end(const signal::Filter& filter) {
 
 }  // namespace
 
-void set_parameters(signal::Filter& filter, const Json& given, const std::string& where) {
+void set_parameters(signal::Filter& filter, const Json& given, const std::string& where,
+                    const std::vector<std::string_view>& others) {
     signal::Filter changed = filter;
-    if (auto* curve = std::get_if<signal::Curve>(&changed); curve != nullptr && given.contains("keys"))
-        curve->keys = read_curve_keys({given["keys"], place(where, "keys")});
-    load_fields({given, where}, filter_fields(changed));
+    load_known_fields({given, where}, file_fields(changed), true, others);
+    if (const auto* curve = std::get_if<signal::Curve>(&changed); curve != nullptr && curve->keys.empty())
+        fail(place(where, "keys"), "expected at least one key, found none");
     if (const Result result = signal::check(changed); !result)
         fail(where, result.message() + other_end(changed));
     filter = std::move(changed);
@@ -74,7 +84,9 @@ signal::Filter filter_from_json(const Json& json, const std::string& where) {
     if (kind == nullptr)
         fail(at, "expected one of " + kind_names() + ", found " + json_summary(json["kind"]));
     signal::Filter filter = kind->blank();
-    set_parameters(filter, json, where);
+    std::vector<std::string_view> any;
+    for (const auto& [member, value] : json.items()) any.push_back(member);
+    set_parameters(filter, json, where, any);
     return filter;
 }
 
@@ -88,13 +100,6 @@ std::vector<signal::Filter> filters_from_json(const Json& json, const std::strin
     for (const Json& each : json)
         filters.push_back(filter_from_json(each, place(where, std::to_string(filters.size()))));
     return filters;
-}
-
-std::vector<std::string> parameter_names(const signal::Kind& kind) {
-    std::vector<std::string> names;
-    if (std::holds_alternative<signal::Curve>(kind.blank())) names.emplace_back("keys");
-    for (const Field& field : kind.fields) names.emplace_back(field.name);
-    return names;
 }
 
 std::string kind_names() {
@@ -118,57 +123,6 @@ namespace {
 
 constexpr std::size_t max_entries = 1'000'000;
 
-/// Up to max_output, not 1e9 as other numbers in files.
-constexpr FieldRange outputs{-signal::max_output, signal::max_output};
-
-template <class State>
-struct Form;
-
-template <>
-struct Form<signal::OutputState> {
-    using State = signal::OutputState;
-    static constexpr const char* name = "output";
-    static constexpr std::array fields{field<&State::started>("started"),
-                                       field<&State::value>("value", outputs)};
-};
-template <>
-struct Form<signal::SpringState<>> {
-    using State = signal::SpringState<>;
-    static constexpr const char* name = "spring";
-    static constexpr std::array fields{field<&State::started>("started"),
-                                       field<&State::value>("value", outputs),
-                                       field<&State::velocity>("velocity", outputs),
-                                       field<&State::previous_target>("previous_target", outputs)};
-};
-template <>
-struct Form<signal::MotionState> {
-    using State = signal::MotionState;
-    static constexpr const char* name = "motion";
-    static constexpr std::array fields{field<&State::started>("started"),
-                                       field<&State::value>("value", outputs),
-                                       field<&State::velocity>("velocity", outputs)};
-};
-template <>
-struct Form<signal::MovingAverageState> {
-    using State = signal::MovingAverageState;
-    static constexpr const char* name = "moving_average";
-    static constexpr std::array fields{
-        field<&State::started>("started"), field<&State::value>("value", outputs),
-        field<&State::new_time>("new_time", outputs), field<&State::new_area>("new_area", outputs)};
-};
-template <>
-struct Form<signal::InertializeState> {
-    using State = signal::InertializeState;
-    static constexpr const char* name = "inertialize";
-    static constexpr std::array fields{field<&State::started>("started"),
-                                       field<&State::jumped>("jumped"),
-                                       field<&State::value>("value", outputs),
-                                       field<&State::velocity>("velocity", outputs),
-                                       field<&State::input>("input", outputs),
-                                       field<&State::offset>("offset", outputs),
-                                       field<&State::offset_velocity>("offset_velocity", outputs)};
-};
-
 Json save_entries(const signal::MovingAverageState& state) {
     Json entries = Json::array();
     for (const auto& entry : state.entries)
@@ -179,53 +133,59 @@ Json save_entries(const signal::MovingAverageState& state) {
 void load_entries(signal::MovingAverageState& state, const JsonPlace& place) {
     place["entries"].for_each("entries", max_entries, [&](const JsonPlace& each) {
         each.check_size(4, "numbers");
-        const auto number = [&](std::size_t i) { return each.element(i).real(outputs.low, outputs.high); };
+        const auto number = [&](std::size_t i) {
+            return each.element(i).real(-signal::max_output, signal::max_output);
+        };
         state.entries.push_back({number(0), number(1), number(2), number(3)});
     });
-    state.first = place["first"].index(state.entries.size());
-    state.split = place["split"].index(state.entries.size());
+    for (const auto& [name, at] : {std::pair("first", state.first), std::pair("split", state.split)})
+        if (at > state.entries.size())
+            place[name].fail("there are only " + std::to_string(state.entries.size()) + " entries");
     if (state.split < state.first) place["split"].fail("must not be less than first");
 }
 
-template <class State>
-Json save(const State& state) {
-    Json json = save_fields({Form<State>::fields, &state});
-    if constexpr (std::is_same_v<State, signal::MovingAverageState>) {
-        json["entries"] = save_entries(state);
-        json["first"] = state.first;
-        json["split"] = state.split;
-    }
-    return Json{{Form<State>::name, std::move(json)}};
-}
+struct Held {
+    signal::FilterState state;
+};
+constexpr const char* state_names[] = {"output", "spring", "motion", "moving_average", "inertialize"};
+constexpr Field held = kinds<&Held::state>("state", state_names);
 
-template <class State>
-bool load(const JsonPlace& place, signal::FilterState& into) {
-    if (!place.has(Form<State>::name)) return false;
-    const JsonPlace own = place[Form<State>::name];
-    for (const Field& field : Form<State>::fields) own[field.name];  // throws if one is missing
-    State state;
-    load_fields(own, {Form<State>::fields, &state});
-    if constexpr (std::is_same_v<State, signal::MovingAverageState>) load_entries(state, own);
-    into = std::move(state);
-    return true;
-}
-
-template <class... States>
-bool load_any(const JsonPlace& place, std::variant<States...>& into) {
-    return (load<States>(place, into) || ...);
+/// A spring may reach max_output, which the library's own table does not allow.
+std::span<const Field> state_table(const Held& of) {
+    using Spring = signal::SpringState<>;
+    constexpr FieldRange outputs{-signal::max_output, signal::max_output};
+    static constexpr Field spring[] = {field<&Spring::started>("started").needed(),
+                                       field<&Spring::value>("value", outputs).needed(),
+                                       field<&Spring::velocity>("velocity", outputs).needed(),
+                                       field<&Spring::previous_target>("previous_target", outputs).needed()};
+    return std::holds_alternative<Spring>(of.state) ? spring : held.kind(&of).table();
 }
 
 }  // namespace
 
 Json filter_state_json(const signal::FilterState& state) {
-    return std::visit([](const auto& each) { return save(each); }, state);
+    const Held of{state};
+    Json json = save_fields({state_table(of), held.address(&of, 0)});
+    if (const auto* average = std::get_if<signal::MovingAverageState>(&state))
+        json["entries"] = save_entries(*average);
+    return Json{{state_names[state.index()], std::move(json)}};
 }
 
 signal::FilterState filter_state_from_json(const Json& json, const std::string& where) {
-    signal::FilterState state;
-    if (!json.is_object() || !load_any({json, where}, state))
-        throw std::runtime_error(where + ": expected the state of a filter, found " + json_summary(json));
-    return state;
+    constexpr std::string_view entries[] = {"entries"};
+    const JsonPlace place(json, where);
+    if (!json.is_object() || json.size() != 1)
+        place.fail("expected the state of a filter, found " + json_summary(json));
+    const auto name = std::ranges::find(state_names, json.begin().key());
+    if (name == std::end(state_names)) check_members(place, {std::begin(state_names), std::end(state_names)});
+    Held of;
+    held.set(&of, {static_cast<double>(name - state_names)});
+    const JsonPlace own = place[*name];
+    auto* const average = std::get_if<signal::MovingAverageState>(&of.state);
+    load_known_fields(own, {state_table(of), held.address_in(&of)}, false,
+                      std::span(entries).first(average != nullptr ? 1 : 0));
+    if (average != nullptr) load_entries(*average, own);
+    return of.state;
 }
 
 }  // namespace tendril::app

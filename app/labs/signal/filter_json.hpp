@@ -7,6 +7,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <tendril/signal/filter.hpp>
 #include <vector>
 
@@ -25,11 +26,11 @@ signal::Filter filter_from_json(const Json& json, const std::string& where);
 /// One filter, or a list of at most `most`. JSON paths in a list are "<where>.1.halflife".
 std::vector<signal::Filter> filters_from_json(const Json& json, const std::string& where, std::size_t most);
 
-/// Sets the given parameters and keeps the others. Throws as above and leaves the filter unchanged.
-void set_parameters(signal::Filter& filter, const Json& given, const std::string& where);
+/// Sets the given parameters and keeps the others. `others`: members that are no parameters. Throws as above,
+/// for unknown members too, and leaves the filter unchanged.
+void set_parameters(signal::Filter& filter, const Json& given, const std::string& where,
+                    const std::vector<std::string_view>& others);
 
-/// All parameter names of a kind, once each, with "keys" for a curve.
-std::vector<std::string> parameter_names(const signal::Kind& kind);
 /// "exponential_decay, rate_limit, ...".
 std::string kind_names();
 

@@ -12,86 +12,13 @@ namespace {
 
 using Scale = Dimension::Scale;
 
-/// One end of a range: a factor times a fact.
-struct Bound {
-    double (*of)(const FitFacts&);
-    double factor;
-    double in(const FitFacts& facts) const { return factor * of(facts); }
-};
-
-double nothing(const FitFacts&) {
-    return 1.0;
-}
-double per_duration(const FitFacts& facts) {
-    return 1.0 / facts.duration;
-}
-double per_shortest(const FitFacts& facts) {
-    return 1.0 / facts.shortest;
-}
-double shortest(const FitFacts& facts) {
-    return facts.shortest;
-}
-double duration(const FitFacts& facts) {
-    return facts.duration;
-}
-double span(const FitFacts& facts) {
-    return facts.span();
-}
-double span_per_duration(const FitFacts& facts) {
-    return facts.span() / facts.duration;
-}
-double span_per_shortest(const FitFacts& facts) {
-    return facts.span() / facts.shortest;
-}
-double farthest(const FitFacts& facts) {
-    return std::max({std::abs(facts.input_low), std::abs(facts.input_high), 1e-9});
-}
-/// Thresholds that the input never crosses.
-double under_input(const FitFacts& facts) {
-    return facts.input_low - 0.1 * facts.input_range();
-}
-double over_input(const FitFacts& facts) {
-    return facts.input_high + 0.1 * facts.input_range();
-}
-double jump(const FitFacts& facts) {
-    return std::max(facts.largest_jump, 1e-9);
-}
-double per_speed(const FitFacts& facts) {
-    return 1.0 / std::max(facts.speed, 1e-9);
-}
-
 struct Row {
     std::string_view kind;
     const char* field;
-    Bound low, high;
+    double low, high;
     Scale scale;
     bool stepped = false;
 };
-
-const Row rows[] = {
-    {"interp_to", "speed", {per_duration, 0.02}, {per_shortest, 1.2}, Scale::Ratio},
-    {"interp_to_exact", "speed", {per_duration, 0.02}, {per_shortest, 20.0}, Scale::Ratio},
-    {"exponential_decay", "halflife", {shortest, 0.05}, {duration, 5.0}, Scale::Ratio},
-    {"rate_limit", "rise", {span_per_duration, 1e-3}, {span_per_shortest, 2.0}, Scale::Ratio},
-    {"rate_limit", "fall", {span_per_duration, 1e-3}, {span_per_shortest, 2.0}, Scale::Ratio},
-    {"smooth_damp", "smooth_time", {shortest, 0.25}, {duration, 2.0}, Scale::Ratio},
-    {"smooth_damp", "max_speed", {span, 1e-4}, {span, 2.0}, Scale::Ratio},  // times smooth_time: see fit.cpp
-    {"spring_semi_implicit", "strength", {per_duration, 0.05}, {per_shortest, 0.5}, Scale::Ratio},
-    {"spring_semi_implicit", "critical_damping", {nothing, 0.0}, {nothing, 4.0}, Scale::Cube},
-    {"spring", "strength", {per_duration, 0.05}, {per_shortest, 8.0}, Scale::Ratio},
-    {"spring", "critical_damping", {nothing, 0.0}, {nothing, 100.0}, Scale::Fifth},
-    {"spring", "target_velocity_amount", {nothing, 0.0}, {nothing, 1.0}, Scale::Even},
-    {"one_euro", "min_cutoff", {per_duration, 0.02}, {per_shortest, 10.0}, Scale::Ratio},
-    {"one_euro", "beta", {nothing, 0.0}, {per_speed, 100.0}, Scale::Cube},
-    {"one_euro", "derivative_cutoff", {per_duration, 0.02}, {per_shortest, 10.0}, Scale::Ratio},
-    {"moving_average", "window", {shortest, 1.0}, {duration, 2.0}, Scale::Ratio},
-    {"dead_zone", "width", {nothing, 0.0}, {farthest, 1.0}, Scale::Even},
-    {"hysteresis", "low", {under_input, 1.0}, {over_input, 1.0}, Scale::Even, true},
-    {"hysteresis", "high", {under_input, 1.0}, {over_input, 1.0}, Scale::Even, true},
-    {"inertialize", "halflife", {shortest, 0.25}, {duration, 1.0}, Scale::Ratio},
-    {"inertialize", "threshold", {nothing, 0.0}, {jump, 1.01}, Scale::Cube, true},
-};
-
 }  // namespace
 
 FitFacts::FitFacts(const FitProblem& problem) {
@@ -173,12 +100,41 @@ Dimension dimension(const signal::Kind& kind, const char* field, double low, dou
 }
 
 std::vector<Dimension> fit_space(const signal::Kind& kind, const FitFacts& facts) {
+    const double per_duration = 1.0 / facts.duration, per_shortest = 1.0 / facts.shortest;
+    const double span = facts.span(), range = facts.input_range();
+    const double span_per_duration = span / facts.duration, span_per_shortest = span / facts.shortest;
+    const double farthest = std::max({std::abs(facts.input_low), std::abs(facts.input_high), 1e-9});
+    // Thresholds that the input never crosses.
+    const double under_input = facts.input_low - 0.1 * range, over_input = facts.input_high + 0.1 * range;
+    const double jump = std::max(facts.largest_jump, 1e-9), per_speed = 1.0 / std::max(facts.speed, 1e-9);
+    const Row rows[] = {
+        {"interp_to", "speed", 0.02 * per_duration, 1.2 * per_shortest, Scale::Ratio},
+        {"interp_to_exact", "speed", 0.02 * per_duration, 20.0 * per_shortest, Scale::Ratio},
+        {"exponential_decay", "halflife", 0.05 * facts.shortest, 5.0 * facts.duration, Scale::Ratio},
+        {"rate_limit", "rise", 1e-3 * span_per_duration, 2.0 * span_per_shortest, Scale::Ratio},
+        {"rate_limit", "fall", 1e-3 * span_per_duration, 2.0 * span_per_shortest, Scale::Ratio},
+        {"smooth_damp", "smooth_time", 0.25 * facts.shortest, 2.0 * facts.duration, Scale::Ratio},
+        {"smooth_damp", "max_speed", 1e-4 * span, 2.0 * span,
+         Scale::Ratio},  // times smooth_time: see fit.cpp
+        {"spring_semi_implicit", "strength", 0.05 * per_duration, 0.5 * per_shortest, Scale::Ratio},
+        {"spring_semi_implicit", "critical_damping", 0.0, 4.0, Scale::Cube},
+        {"spring", "strength", 0.05 * per_duration, 8.0 * per_shortest, Scale::Ratio},
+        {"spring", "critical_damping", 0.0, 100.0, Scale::Fifth},
+        {"spring", "target_velocity_amount", 0.0, 1.0, Scale::Even},
+        {"one_euro", "min_cutoff", 0.02 * per_duration, 10.0 * per_shortest, Scale::Ratio},
+        {"one_euro", "beta", 0.0, 100.0 * per_speed, Scale::Cube},
+        {"one_euro", "derivative_cutoff", 0.02 * per_duration, 10.0 * per_shortest, Scale::Ratio},
+        {"moving_average", "window", facts.shortest, 2.0 * facts.duration, Scale::Ratio},
+        {"dead_zone", "width", 0.0, farthest, Scale::Even},
+        {"hysteresis", "low", under_input, over_input, Scale::Even, true},
+        {"hysteresis", "high", under_input, over_input, Scale::Even, true},
+        {"inertialize", "halflife", 0.25 * facts.shortest, facts.duration, Scale::Ratio},
+        {"inertialize", "threshold", 0.0, 1.01 * jump, Scale::Cube, true},
+    };
     std::vector<Dimension> space;
-    for (const Row& row : rows) {
-        if (row.kind != kind.name) continue;
-        space.push_back(
-            dimension(kind, row.field, row.low.in(facts), row.high.in(facts), row.scale, row.stepped));
-    }
+    for (const Row& row : rows)
+        if (row.kind == kind.name)
+            space.push_back(dimension(kind, row.field, row.low, row.high, row.scale, row.stepped));
     return space;
 }
 

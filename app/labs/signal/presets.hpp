@@ -1,4 +1,4 @@
-// Presets: chains of filters, each with an input and a plot that show its point.
+// Presets: chains of filters, each with an input and a plot that show its point. Data in presets.json.
 #pragma once
 
 #include <string>
@@ -9,13 +9,12 @@
 namespace tendril::app {
 
 struct SignalPreset {
-    const char* name;
-    const char* title;
-    const char* point;  ///< things to notice and to try
-    SignalPart (*make)();
+    std::string name, title;
+    std::string point;  ///< things to notice and to try
+    SignalPart part;
 };
 
-/// The lab opens with the first one.
+/// In the order of the panel. The lab opens with the first one.
 const std::vector<SignalPreset>& signal_presets();
 
 }  // namespace tendril::app

@@ -1,6 +1,7 @@
 #include "app/labs/signal/signal_commands.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "app/document/json_complete.hpp"
 #include "app/io/samples.hpp"
@@ -55,18 +56,6 @@ std::vector<Argument> parameter_arguments() {
     return arguments;
 }
 
-/// Throws Refused for a parameter that the kind does not have.
-void check_names(const Arguments& given, const signal::Kind& kind) {
-    const std::vector<std::string> own = parameter_names(kind);
-    for (const Argument& argument : parameter_arguments()) {
-        if (!given.has(argument.name.c_str())) continue;
-        if (std::find(own.begin(), own.end(), argument.name) != own.end()) continue;
-        std::string list;
-        for (const std::string& name : own) list += (list.empty() ? "" : ", ") + name;
-        throw Refused(std::string(kind.name) + " has no " + argument.name + "; it has " + list);
-    }
-}
-
 /// The stage that argument `name` selects; `past_end` also allows one past the last.
 std::size_t stage_index(const SignalPart& part, const Arguments& given, const char* name,
                         bool past_end = false) {
@@ -80,20 +69,17 @@ std::size_t stage_index(const SignalPart& part, const Arguments& given, const ch
 
 void add(SignalPart& part, const Arguments& given) {
     const signal::Kind& kind = *signal::find_kind(given.text("kind"));
-    check_names(given, kind);
     if (part.stages.size() >= max_stages)
         throw Refused("there are " + std::to_string(max_stages) + " filters, which is the maximum");
     SignalStage stage{kind.blank()};
-    set_parameters(stage.filter, given.json(), "");
+    set_parameters(stage.filter, given.json(), "", {"kind", "at"});
     const std::size_t at = given.has("at") ? stage_index(part, given, "at", true) : part.stages.size();
     part.stages.insert(part.stages.begin() + static_cast<std::ptrdiff_t>(at), std::move(stage));
     part.selected = at;
 }
 
 void set(SignalPart& part, const Arguments& given) {
-    signal::Filter& filter = part.stages[stage_index(part, given, "at")].filter;
-    check_names(given, signal::kind_of(filter));
-    set_parameters(filter, given.json(), "");
+    set_parameters(part.stages[stage_index(part, given, "at")].filter, given.json(), "", {"kind", "at"});
 }
 
 void remove(SignalPart& part, const Arguments& given) {
@@ -182,13 +168,11 @@ void take(SignalPart& part, SignalPart fresh) {
 }
 
 void preset(SignalPart& part, const Arguments& given) {
-    const SignalPreset& chosen = named(
-        signal_presets(), [](const SignalPreset& each) { return each.name; }, given.text("name"), "preset");
-    take(part, chosen.make());
+    take(part, named(signal_presets(), std::mem_fn(&SignalPreset::name), given.text("name"), "preset").part);
 }
 
 void reset(SignalPart& part, const Arguments&) {
-    part = first_signal();
+    part = signal_presets().front().part;
 }
 
 std::shared_ptr<const InputRows> read_rows(const std::string& path, const ColumnChoice& choice) {

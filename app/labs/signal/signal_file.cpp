@@ -3,8 +3,23 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/signal/filter_json.hpp"
+#include "app/labs/signal/presets.hpp"
 #include "app/labs/signal/signal_part.hpp"
+#include "app/view/assets.hpp"
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::SignalInput>() noexcept {
+    using app::SignalInput;
+    static constexpr auto kinds = app::input_kinds.name_array();
+    constexpr FieldRange amplitudes{-app::max_amplitude, app::max_amplitude};
+    static constexpr Field rows[] = {
+        field<&SignalInput::kind>("kind", kinds), field<&SignalInput::amplitude>("amplitude", amplitudes),
+        field<&SignalInput::period>("period", {app::min_input_period, app::max_input_period}),
+        field<&SignalInput::hand>("hand", amplitudes)};
+    return rows;
+}
 
 namespace tendril::app {
 namespace {
@@ -25,39 +40,36 @@ InputRows load_rows(const JsonPlace& place, const char* key, std::size_t most) {
 }
 
 Json save_input(const SignalInput& input) {
-    Json json{{"kind", input_kinds.name(input.kind)},
-              {"amplitude", input.amplitude},
-              {"period", input.period},
-              {"hand", input.hand}};
+    Json json = save_fields(input);
     if (input.recording) json["recording"] = save_rows(*input.recording);
-    if (input.file) {
-        json["path"] = input.path;
-        json["rows"] = save_rows(*input.file);
-    }
+    if (!input.file) return json;
+    json["path"] = input.path;
+    json["rows"] = save_rows(*input.file);
     return json;
 }
 
 SignalInput load_input(const JsonPlace& place) {
+    constexpr std::string_view others[] = {"recording", "path", "rows"};
     SignalInput input;
-    input.kind = place["kind"].choice(input_kinds);
-    input.amplitude = place["amplitude"].real(-max_amplitude, max_amplitude);
-    input.period = place["period"].real(min_input_period, max_input_period);
-    input.hand = place["hand"].real(-max_amplitude, max_amplitude);
-    if (const auto rows = place.optional("recording"))
-        input.recording = std::make_shared<const InputRows>(load_rows(*rows, "rows", max_input_rows));
-    if (const auto rows = place.optional("rows")) {
-        input.file = std::make_shared<const InputRows>(load_rows(*rows, "rows", max_input_rows));
-        input.path = place["path"].text();
-    }
+    load_known_fields(place, input, false, others);
+    const auto rows = [&](const char* name, std::shared_ptr<const InputRows>& into) {
+        if (const auto given = place.optional(name))
+            into = std::make_shared<const InputRows>(load_rows(*given, "rows", max_input_rows));
+    };
+    rows("recording", input.recording), rows("rows", input.file);
+    if (input.file) input.path = place["path"].text();
     const bool missing = (input.kind == InputKind::Recorded && length_of(input.recording.get()) <= 0.0) ||
                          (input.kind == InputKind::Csv && length_of(input.file.get()) <= 0.0);
     if (missing) place["kind"].fail("there is nothing to play");
     return input;
 }
 
-SignalStage load_stage(const JsonPlace& place) {
+/// A preset's has no state.
+SignalStage load_stage(const JsonPlace& place, bool preset = false) {
     SignalStage stage{filter_from_json(place.json(), place.where())};
+    if (preset && !place.has("enabled")) return stage;
     stage.enabled = place["enabled"].flag();
+    if (preset) return stage;
     const JsonPlace state = place["state"];
     stage.state = filter_state_from_json(state.json(), state.where());
     return stage;
@@ -143,6 +155,31 @@ std::shared_ptr<Part> SignalPart::load(const Json& json, const std::string& wher
     part->plot = place["plot"].choice(signal_plots);
     load_fits(*part, place["fit"]);
     return part;
+}
+
+namespace {
+
+SignalPart load_preset(const JsonPlace& place) {
+    SignalPart part;
+    place["filters"].for_each("filters", max_stages,
+                              [&](const JsonPlace& each) { part.stages.push_back(load_stage(each, true)); });
+    if (place.has("input")) part.input = load_input(place["input"]);
+    if (place.has("plot")) part.plot = place["plot"].choice(signal_plots);
+    part.selected = 0;
+    return part;
+}
+
+}  // namespace
+
+const std::vector<SignalPreset>& signal_presets() {
+    static const std::vector<SignalPreset> list = [] {
+        std::vector<SignalPreset> all;
+        for (const Json& each : parse_json(presets_source(signal_lab)))
+            all.push_back({each.at("name"), each.at("title"), each.at("point"),
+                           load_preset({each, each.at("name").get<std::string>()})});
+        return all;
+    }();
+    return list;
 }
 
 }  // namespace tendril::app

@@ -40,7 +40,7 @@ Json following_name(signal::Following following) {
 }  // namespace
 
 std::shared_ptr<Part> SignalLab::blank() const {
-    return std::make_shared<SignalPart>(first_signal());
+    return std::make_shared<SignalPart>(signal_presets().front().part);
 }
 
 CameraPose SignalLab::first_view() const {

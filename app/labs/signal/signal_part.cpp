@@ -9,13 +9,6 @@
 
 namespace tendril::app {
 
-SignalPart first_signal() {
-    SignalPart part;
-    part.stages.push_back({signal::Spring<>{.strength = 2.0, .critical_damping = 0.35}});
-    part.selected = 0;
-    return part;
-}
-
 std::vector<signal::Filter> enabled_filters(const SignalPart& part) {
     std::vector<signal::Filter> filters;
     for (const SignalStage& stage : part.stages)
@@ -74,14 +67,12 @@ std::shared_ptr<const Part> SignalPart::at_moment(std::shared_ptr<const Part> th
 }
 
 std::size_t SignalPart::bytes() const {
-    std::size_t bytes = sizeof(*this) + stages.size() * sizeof(SignalStage) +
-                        (past.size() + fit_input.size()) * sizeof(signal::Sample) +
-                        wanted.size() * sizeof(double) + fits.size() * sizeof(Fit) +
-                        (fitting ? fitting->from.size() * sizeof(signal::Filter) : 0);
+    std::size_t all = sizeof(*this) + bytes_in(stages, past, fit_input, wanted, fits);
+    if (fitting) all += bytes_in(fitting->from);
     for (const SignalStage& stage : stages)
         if (const auto* average = std::get_if<signal::MovingAverageState>(&stage.state))
-            bytes += average->entries.size() * sizeof(signal::MovingAverageState::Entry);
-    return bytes;
+            all += bytes_in(average->entries);
+    return all;
 }
 
 bool SignalPart::operator==(const SignalPart& other) const {

@@ -124,9 +124,6 @@ struct SignalPart final : Part {
     bool operator==(const SignalPart& other) const;
 };
 
-/// The lab's initial part.
-SignalPart first_signal();
-
 /// The enabled filters, in order.
 std::vector<signal::Filter> enabled_filters(const SignalPart& part);
 /// The last input; before the first tick, the next one.

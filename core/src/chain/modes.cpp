@@ -7,6 +7,14 @@
 namespace tendril {
 
 template <>
+std::span<const Field> fields<Segment>() noexcept {
+    static constexpr Field rows[] = {
+        field<&Segment::position>("position", {-max_magnitude, max_magnitude}, "m").needed(),
+        field<&Segment::length>("length", {0.0, max_magnitude}, "m").needed()};
+    return rows;
+}
+
+template <>
 std::span<const Field> fields<FixedOptions>() noexcept {
     static constexpr Field rows[] = {field<&FixedOptions::iterations>("iterations", {1, 100'000}),
                                      field<&FixedOptions::tolerance>("tolerance", {0.0, max_magnitude}, "m")};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "math/checks.hpp"
 #include "rope/slots.hpp"
@@ -24,9 +25,6 @@ bool is_point(const glm::dvec3& p) {
 /// For vectors between two points.
 bool is_offset(const glm::dvec3& p) {
     return is_within(p, max_displacement);
-}
-bool is_amount(double value) {
-    return value >= 0.0 && value <= max_magnitude;
 }
 /// The out-of-range coordinate, for the message.
 double worst(const glm::dvec3& p) {
@@ -54,6 +52,15 @@ Result check_particles(const State& state) {
             return refused(op, Argument("mass", i), "over 0 and finite", state.mass[i]);
     }
     return {};
+}
+
+/// Checks the numbers of an element by its table.
+template <class Row>
+Result check_row(const Row& row, const char* list, std::size_t index) {
+    if (check_fields(op, row)) return {};
+    char place[64];
+    std::snprintf(place, sizeof place, "%s[%zu]", list, index);
+    return check_fields(op, row, place);
 }
 
 /// Every taken slot belongs to exactly one element of the list.
@@ -102,17 +109,10 @@ Result check_body(const State& state, std::size_t i, std::size_t next) {
         return bad("count", "from 1 to the number of particles", body.count);
     if (body.row == 0 || (body.cells.empty() && body.count % body.row != 0))
         return bad("row", "a divisor of count", body.row);
-    if (static_cast<int>(body.kind) > static_cast<int>(Body::Kind::Hair))
-        return bad("kind", "one of the three", static_cast<std::size_t>(body.kind));
     if (const Result r = check_cells(i, body); !r) return r;
-    const std::pair<const char*, float> lengths[] = {
-        {"radius", body.radius}, {"tear", body.tear}, {"bending", body.bending}, {"stretch", body.stretch}};
-    for (const auto& [member, value] : lengths)
-        if (const Result r = check_length(op, Argument("bodies", i, member), value); !r) return r;
+    if (const Result r = check_row(body, "bodies", i); !r) return r;
     if (body.bending > 0.0f && body.kind != Body::Kind::Rope)
         return refused(op, Argument("bodies", i, "bending"), "0 for all but ropes", body.bending);
-    if (body.friction && !(*body.friction >= 0.0f && static_cast<double>(*body.friction) <= max_friction))
-        return refused(op, Argument("bodies", i, "friction"), "0 to 100", *body.friction);
     return {};
 }
 
@@ -152,10 +152,9 @@ Result check_pins(const State& state) {
             return refused(op, Argument("pins", i, "particle"),
                            "an existing particle, in ascending order, with one pin each", pin.particle);
         }
-        if (!(pin.collider ? is_offset(pin.goal) : is_point(pin.goal)))
+        if (!pin.collider && !is_point(pin.goal))
             return refused(op, Argument("pins", i, "goal"), "finite", worst(pin.goal));
-        if (!is_amount(pin.seconds))
-            return refused(op, Argument("pins", i, "seconds"), "0 or more", pin.seconds);
+        if (const Result r = check_row(pin, "pins", i); !r) return r;
         if (pin.collider && find_in(state.colliders, pin.collider) == nullptr)
             return missing(op, "the collider of a pin", "collider", pin.collider.index);
         next = pin.particle + 1;
@@ -167,17 +166,10 @@ Result check_colliders(const State& state) {
     for (std::size_t i = 0; i < state.colliders.size(); ++i) {
         const Collider& collider = state.colliders[i];
         if (const Result r = rope::check(op, collider.shape); !r) return r;
-        if (!is_point(collider.goal))
-            return refused(op, Argument("colliders", i, "goal"), "finite", worst(collider.goal));
-        if (!is_amount(collider.seconds))
-            return refused(op, Argument("colliders", i, "seconds"), "0 or more", collider.seconds);
-        if (const Result r = check_fields(op, collider.drive); !r) return r;
-        if (!collider.half_goal) continue;
-        if (!std::holds_alternative<Capsule>(collider.shape))
+        if (const Result r = check_row(collider, "colliders", i); !r) return r;
+        if (collider.half_goal && !std::holds_alternative<Capsule>(collider.shape))
             return refused(op, Argument("colliders", i, "half_goal"), "set on capsules only",
                            kind(collider.shape));
-        if (!is_offset(*collider.half_goal))
-            return refused(op, Argument("colliders", i, "half_goal"), "finite", worst(*collider.half_goal));
     }
     return check_handles(state.colliders, state.collider_slots, "colliders");
 }
@@ -188,12 +180,7 @@ Result check_ties(const State& state) {
         const std::size_t end = std::max(tie.a, tie.b);
         if (end >= state.position.size() || tie.a == tie.b)
             return refused(op, Argument("ties", i), "between two existing particles", end);
-        const std::pair<const char*, float> amounts[] = {
-            {"length", tie.length}, {"strength", tie.strength}, {"now", tie.now}};
-        for (const auto& [member, value] : amounts)
-            if (const Result r = check_length(op, Argument("ties", i, member), value); !r) return r;
-        if (!std::isfinite(tie.tension))
-            return refused(op, Argument("ties", i, "tension"), "finite", tie.tension);
+        if (const Result r = check_row(tie, "ties", i); !r) return r;
     }
     return check_handles(state.ties, state.tie_slots, "ties");
 }

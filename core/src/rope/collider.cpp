@@ -82,11 +82,6 @@ Shape moved(const Shape& shape, const glm::vec3& to) noexcept {
     return there;
 }
 
-const char* kind(const Shape& shape) noexcept {
-    static constexpr const char* names[] = {"sphere", "capsule", "plane", "box"};
-    return names[shape.index()];
-}
-
 float size(const Shape& shape) noexcept {
     if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
     if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->radius;

@@ -1,11 +1,14 @@
 // The field tables of the rope headers.
 #include "tendril/fields.hpp"
 
+#include <limits>
+
 #include "tendril/magnitude.hpp"
 #include "tendril/rope/body.hpp"
 #include "tendril/rope/collider.hpp"
 #include "tendril/rope/hair_roots.hpp"
 #include "tendril/rope/settings.hpp"
+#include "tendril/rope/state.hpp"
 #include "tendril/rope/tie.hpp"
 
 namespace tendril {
@@ -16,6 +19,9 @@ constexpr const char* pins[] = {"none", "corners", "row"};
 
 constexpr FieldRange anywhere{-max_magnitude, max_magnitude}, any_size{0.0, max_magnitude};
 constexpr double most_particles = static_cast<double>(rope::max_particles);
+constexpr FieldRange particles{0.0, most_particles - 1.0}, seconds{0.0, 1e9};
+/// Newtons. Not limited to the usual range: stopping a heavy body at once can need more.
+constexpr FieldRange any_force{-std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
 
 }  // namespace
 
@@ -107,17 +113,17 @@ std::span<const Field> fields<rope::HairPatch>() noexcept {
 template <>
 std::span<const Field> fields<rope::Sphere>() noexcept {
     using rope::Sphere;
-    static constexpr Field rows[] = {field<&Sphere::centre>("centre", anywhere, "m"),
-                                     field<&Sphere::radius>("radius", any_size, "m")};
+    static constexpr Field rows[] = {field<&Sphere::centre>("centre", anywhere, "m").needed(),
+                                     field<&Sphere::radius>("radius", any_size, "m").needed()};
     return rows;
 }
 
 template <>
 std::span<const Field> fields<rope::Capsule>() noexcept {
     using rope::Capsule;
-    static constexpr Field rows[] = {field<&Capsule::a>("a", anywhere, "m"),
-                                     field<&Capsule::b>("b", anywhere, "m"),
-                                     field<&Capsule::radius>("radius", any_size, "m")};
+    static constexpr Field rows[] = {field<&Capsule::a>("a", anywhere, "m").needed(),
+                                     field<&Capsule::b>("b", anywhere, "m").needed(),
+                                     field<&Capsule::radius>("radius", any_size, "m").needed()};
     return rows;
 }
 
@@ -125,19 +131,19 @@ template <>
 std::span<const Field> fields<rope::Plane>() noexcept {
     using rope::Plane;
     constexpr auto normal = [] {
-        Field row = field<&Plane::normal>("normal", anywhere);
+        Field row = field<&Plane::normal>("normal", anywhere).needed();
         row.usual = {-1.0, 1.0};
         return row;
     };
-    static constexpr Field rows[] = {field<&Plane::point>("point", anywhere, "m"), normal()};
+    static constexpr Field rows[] = {field<&Plane::point>("point", anywhere, "m").needed(), normal()};
     return rows;
 }
 
 template <>
 std::span<const Field> fields<rope::Box>() noexcept {
     using rope::Box;
-    static constexpr Field rows[] = {field<&Box::centre>("centre", anywhere, "m"),
-                                     field<&Box::half_extents>("half_extents", any_size, "m"),
+    static constexpr Field rows[] = {field<&Box::centre>("centre", anywhere, "m").needed(),
+                                     field<&Box::half_extents>("half_extents", any_size, "m").needed(),
                                      field<&Box::rotation>("rotation", {1e-6, 1e6})};
     return rows;
 }
@@ -152,11 +158,56 @@ std::span<const Field> fields<rope::Drive>() noexcept {
     return rows;
 }
 
-namespace rope {
-
-std::span<const Field> shape_fields(const Shape& shape) noexcept {
-    return std::visit([]<class Kind>(const Kind&) { return fields<Kind>(); }, shape);
+template <>
+std::span<const Field> fields<rope::Collider>() noexcept {
+    using rope::Collider;
+    static constexpr Field rows[] = {kinds<&Collider::shape>("kind", rope::shape_kinds).as_member("shape"),
+                                     field<&Collider::goal>("goal", anywhere, "m").needed(),
+                                     field<&Collider::seconds>("seconds", seconds, "s"),
+                                     field<&Collider::half_goal>("half_goal", anywhere, "m"),
+                                     nested<&Collider::drive>("drive")};
+    return rows;
 }
+
+template <>
+std::span<const Field> fields<rope::Body>() noexcept {
+    using rope::Body;
+    static constexpr Field rows[] = {field<&Body::kind>("kind", rope::body_kinds).needed(),
+                                     field<&Body::first>("first", {0.0, most_particles}).needed(),
+                                     field<&Body::count>("count", {0.0, most_particles}).needed(),
+                                     field<&Body::row>("row", {0.0, most_particles}).needed(),
+                                     list<&Body::cells>("cells", particles).up_to(rope::max_particles),
+                                     field<&Body::radius>("radius", any_size, "m").needed(),
+                                     field<&Body::tear>("tear", any_size),
+                                     field<&Body::bending>("bending", any_size, "N m^2"),
+                                     field<&Body::friction>("friction", {0.0, rope::max_friction}),
+                                     field<&Body::stretch>("stretch", any_size)};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<rope::Pin>() noexcept {
+    using rope::Pin;
+    static constexpr Field rows[] = {
+        field<&Pin::particle>("particle", particles).needed(),
+        field<&Pin::goal>("goal", {2.0 * anywhere.low, 2.0 * anywhere.high}, "m").needed(),
+        field<&Pin::seconds>("seconds", seconds, "s")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<rope::Tie>() noexcept {
+    using rope::Tie;
+    static constexpr Field rows[] = {field<&Tie::a>("a", particles).needed(),
+                                     field<&Tie::b>("b", particles).needed(),
+                                     field<&Tie::length>("length", any_size, "m").needed(),
+                                     field<&Tie::strength>("strength", any_size, "N").needed(),
+                                     field<&Tie::now>("now", any_size, "m").needed(),
+                                     field<&Tie::tension>("tension", any_force, "N")};
+    return rows;
+}
+
+namespace rope {
 
 const char* name(Solver solver) noexcept {
     const auto at = static_cast<std::size_t>(solver);

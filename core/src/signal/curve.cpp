@@ -1,31 +1,24 @@
 #include "tendril/signal/curve.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "math/checks.hpp"
 #include "signal/stepped.hpp"
+#include "tendril/signal/filter.hpp"
 
 namespace tendril::signal {
 namespace {
 
 using tendril::detail::refused;
 
-constexpr const char* any_number = "finite and at most 1e9 in magnitude";
-
 Result check_key(const Curve& curve, std::size_t i) noexcept {
-    const CurveKey& key = curve.keys[i];
-    const struct {
-        const char* name;
-        double value;
-    } numbers[] = {{"time", key.time}, {"value", key.value}, {"arrive", key.arrive}, {"leave", key.leave}};
-    for (const auto& number : numbers)
-        if (!is_input(number.value))
-            return refused("curve", {"keys", i, number.name}, any_number, number.value);
-    if (i > 0 && !(key.time > curve.keys[i - 1].time))
-        return refused("curve", {"keys", i, "time"}, "over the time of the key before it", key.time);
-    if (key.piece > Piece::Cubic)
-        return refused("curve", {"keys", i, "piece"}, "constant, linear or cubic",
-                       static_cast<int>(key.piece));
+    char place[40];
+    std::snprintf(place, sizeof place, "keys[%zu]", i);
+    if (const Result bad = check_fields("curve", curve.keys[i], place); !bad) return bad;
+    if (i > 0 && !(curve.keys[i].time > curve.keys[i - 1].time))
+        return refused("curve", {"keys", i, "time"}, "over the time of the key before it",
+                       curve.keys[i].time);
     return {};
 }
 
@@ -64,15 +57,8 @@ const char* name(Piece piece) noexcept {
 }
 
 Result check(const Curve& curve) noexcept {
-    const struct {
-        const char* name;
-        double value;
-    } ends[] = {{"source_min", curve.source_min},
-                {"source_max", curve.source_max},
-                {"target_min", curve.target_min},
-                {"target_max", curve.target_max}};
-    for (const auto& end : ends)
-        if (!is_input(end.value)) return refused("curve", end.name, any_number, end.value);
+    const auto ends = fields<Curve>().subspan(1);
+    if (const Result bad = check_fields("curve", ends, &curve); !bad) return bad;
     if (curve.keys.empty()) return refused("curve", "keys", "at least one", "none");
     for (std::size_t i = 0; i < curve.keys.size(); ++i)
         if (const Result bad = check_key(curve, i); !bad) return bad;

@@ -124,3 +124,56 @@ const char* kind(const Filter& filter) noexcept {
 }
 
 }  // namespace tendril::signal
+
+namespace tendril {
+namespace {
+
+constexpr FieldRange outputs{-signal::max_output, signal::max_output};
+
+}  // namespace
+
+template <>
+std::span<const Field> fields<signal::OutputState>() noexcept {
+    using signal::OutputState;
+    static constexpr Field rows[] = {field<&OutputState::started>("started").needed(),
+                                     field<&OutputState::value>("value", outputs).needed()};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<signal::MotionState>() noexcept {
+    using signal::MotionState;
+    static constexpr Field rows[] = {field<&MotionState::started>("started").needed(),
+                                     field<&MotionState::value>("value", outputs).needed(),
+                                     field<&MotionState::velocity>("velocity", outputs, "1/s").needed()};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<signal::MovingAverageState>() noexcept {
+    using State = signal::MovingAverageState;
+    constexpr FieldRange index{0.0, 1e9};
+    static constexpr Field rows[] = {field<&State::started>("started").needed(),
+                                     field<&State::value>("value", outputs).needed(),
+                                     field<&State::first>("first", index).needed(),
+                                     field<&State::split>("split", index).needed(),
+                                     field<&State::new_time>("new_time", outputs, "s").needed(),
+                                     field<&State::new_area>("new_area", outputs, "s").needed()};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<signal::InertializeState>() noexcept {
+    using State = signal::InertializeState;
+    static constexpr Field rows[] = {
+        field<&State::started>("started").needed(),
+        field<&State::jumped>("jumped").needed(),
+        field<&State::value>("value", outputs).needed(),
+        field<&State::velocity>("velocity", outputs, "1/s").needed(),
+        field<&State::input>("input", outputs).needed(),
+        field<&State::offset>("offset", outputs).needed(),
+        field<&State::offset_velocity>("offset_velocity", outputs, "1/s").needed()};
+    return rows;
+}
+
+}  // namespace tendril

@@ -62,19 +62,18 @@ Table table_of(const signal::Kind& kind) {
 }
 
 /// A collider of that kind, the first in the lab.
-Table table_of(const rope::Shape& shape) {
-    ArgumentList made{{"name", "it"}, {"kind", rope::kind(shape)}};
-    const Json saved = save_fields(shape_fields_of(shape));
-    for (const Field& field : rope::shape_fields(shape))
-        made.push_back({field.name, SharedJson(saved.at(field.name))});
+Table table_of(const FieldKind& shape, const char* name) {
+    ArgumentList made{{"name", "it"}, {"kind", name}};
+    const Json saved = save_fields({shape.table(), shape.fresh()});
+    for (const Field& field : shape.table()) made.push_back({field.name, SharedJson(saved.at(field.name))});
     return {.lab = rope_lab,
             .command = "rope.collider.set",
             .path = "/world/colliders/0",
-            .fields = rope::shape_fields(shape),
+            .fields = shape.table(),
             .texts = field_texts<rope::Shape>(),
             .with = {{"name", "it"}},
             .made = {"rope.collider.add", made},
-            .name = rope::kind(shape)};
+            .name = name};
 }
 
 /// The limit of an arm's first joint.
@@ -138,7 +137,9 @@ std::vector<Table> all_tables() {
     for (const signal::Kind& kind : signal::kinds()) all.push_back(table_of(kind));
     for (const ik::JointKind kind : {ik::JointKind::Hinge, ik::JointKind::BallAndSocket})
         all.push_back(table_of(kind));
-    for (const rope::Shape& shape : blank_shapes()) all.push_back(table_of(shape));
+    const Field& shape = fields<rope::Collider>().front();
+    for (std::size_t i = 0; i < shape.kinds.size(); ++i)
+        all.push_back(table_of(shape.kinds[i], shape.choices[i]));
     return all;
 }
 
@@ -401,6 +402,42 @@ TEST_F(EveryShape, IsRefusedOutOfItsRangeAndChangesNothing) {
             }
     }
 }
+
+/// Objects of a lab's scene that tables read whole.
+struct Whole {
+    const char* lab;
+    CommandCall made;
+    std::vector<std::string> places;
+};
+
+class EveryRow : public LabTest, public testing::WithParamInterface<Whole> {
+  protected:
+    EveryRow() : LabTest(GetParam().lab) {}
+};
+
+TEST_P(EveryRow, RefusesByItsPathAMemberThatItDoesNotHave) {
+    run("lab.open", {{"name", GetParam().lab}});
+    run(GetParam().made.name.c_str(), to_json(GetParam().made.arguments));
+    wait(1);
+    for (const std::string& place : GetParam().places) {
+        std::string path = std::string("labs.") + GetParam().lab + place;
+        std::ranges::replace(path, '/', '.');
+        expect_scene_refused(place + "/nonsense", 1, path + ": unknown member \"nonsense\"");
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Labs, EveryRow,
+    testing::Values(Whole{rope_lab,
+                          {"rope.preset", {{"name", "line"}}},
+                          {"", "/view", "/jitter", "/world", "/world/settings", "/world/colliders/0",
+                           "/world/bodies/1", "/world/pins/0", "/world/ties/0"}},
+                    Whole{rope_lab, {"rope.preset", {{"name", "bridge"}}}, {"/swings/0"}},
+                    Whole{signal_lab,
+                          {"signal.preset", {{"name", "four_filters"}}},
+                          {"/input", "/filters/0/state/motion", "/filters/3/state/spring"}},
+                    Whole{chain_lab, {"chain.preset", {{"name", "arm"}}}, {"/segments/0", "/segments/3"}}),
+    [](const auto& given) { return given.param.lab + std::to_string(given.index); });
 
 INSTANTIATE_TEST_SUITE_P(Tables, EveryField, testing::ValuesIn(rows()), [](const auto& given) {
     std::string name = std::string(given.param.table->name) + "_" + given.param.field->name;

@@ -32,6 +32,21 @@ TEST_F(RopeFile, ParticlesAreCompactRows) {
     EXPECT_GT(longest, 100u) << "a row stands on one line";
 }
 
+TEST_F(RopeFile, AFaultHasItsPath) {
+    const std::tuple<const char*, Json, const char*> all[] = {
+        {"/world/drift", nullptr, "labs.rope.world.drift"},
+        {"/world/colliders/1/kind", "blob", "labs.rope.world.colliders.1.kind"},
+        {"/world/colliders/1/name", "ground", "labs.rope.world.colliders.1.name"},
+        {"/world/bodies/0/kind", "chain", "labs.rope.world.bodies.0.kind"},
+        {"/world/bodies/0/tear", -1, "labs.rope.world.bodies.0.tear"},
+        {"/world/bodies/0/colour", "red", "labs.rope.world.bodies.0.colour"},
+        {"/world/pins/0/collider", "x", "labs.rope.world.pins.0.collider: there is no collider \"x\""},
+        {"/world/pins/0/particle", 99'999, "labs.rope.world: "},
+        {"/world/substeps", -1, "labs.rope.world.substeps"},
+        {"/jitter/frames", 4294967296.0, "labs.rope.jitter.frames"}};
+    for (const auto& [pointer, value, place] : all) expect_scene_refused(pointer, value, place);
+}
+
 TEST_F(RopeFile, SizesAreRefusedWithTheLimit) {
     const Json row = Json::array({0.0, 0.0, 0.0, 1.0}), collider = saved()["world"]["colliders"][0];
     EXPECT_TRUE(test::says(opened_with("/world/particles", Json(100'001, row)),

@@ -39,6 +39,20 @@ TEST_P(RopeSceneHolds, KeepsLengthsWithinAPercent) {
     EXPECT_LE(lab().handles(workspace).size(), 1000u);
 }
 
+TEST(RopeScenes, AFaultInOneIsNamed) {
+    RopeSceneEntry entry = rope_scenes().front();
+    Json world = *entry.world;
+    world["bodies"][1]["radius"] = -1;
+    entry.world = world;
+    std::string said;
+    try {
+        make_rope_scene(entry);
+    } catch (const std::runtime_error& error) {
+        said = error.what();
+    }
+    EXPECT_TRUE(said.starts_with("drape.bodies.1.radius")) << said;
+}
+
 std::vector<std::string> all_rope_scenes() {
     std::vector<std::string> names;
     for (const RopeSceneEntry& entry : rope_scenes()) names.push_back(entry.name);

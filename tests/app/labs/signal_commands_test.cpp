@@ -246,7 +246,9 @@ TEST_F(SignalCommands, BadInputIsRefusedAndChangesNothing) {
         const char* says;
     };
     const Bad all[] = {
-        {"signal.filter.add", {{"kind", "spring"}, {"halflife", 1}}, "spring has no halflife"},
+        {"signal.filter.add",
+         {{"kind", "spring"}, {"halflife", 1}},
+         "unknown member \"halflife\"; it takes: strength"},
         {"signal.filter.add", {{"kind", "spring"}, {"at", 5}}, "at must be 0 to 1"},
         {"signal.filter.add", {{"kind", "curve"}, {"keys", Json::array()}}, "keys"},
         {"signal.filter.add",
@@ -254,11 +256,11 @@ TEST_F(SignalCommands, BadInputIsRefusedAndChangesNothing) {
          "time"},
         {"signal.filter.add",
          {{"kind", "curve"}, {"keys", {{{"time", 0}, {"value", 0}, {"arive", 1}}}}},
-         "keys.0.arive"},
+         "keys.0: unknown member \"arive\""},
         {"signal.filter.add", {{"kind", "spring"}, {"strenght", 1}}, "unknown argument \"strenght\""},
         {"signal.filter.add", {{"kind", "hysteresis"}, {"low", 1}, {"high", 0}}, "low"},
         {"signal.filter.set", {{"at", 1}, {"strength", 1}}, "at must be 0 to 0"},
-        {"signal.filter.set", {{"at", 0}, {"window", 1}}, "spring has no window"},
+        {"signal.filter.set", {{"at", 0}, {"window", 1}}, "unknown member \"window\"; it takes: strength"},
         {"signal.filter.remove", {{"at", 9}}, "at"},
         {"signal.filter.move", {{"at", 0}, {"to", 3}}, "to must be"},
         {"signal.filter.enable", {{"at", 2}}, "at must be"},

@@ -152,4 +152,6 @@ class Chain {
 }  // namespace tendril
 
 template <>
+std::span<const tendril::Field> tendril::fields<tendril::Segment>() noexcept;
+template <>
 std::span<const tendril::Field> tendril::fields<tendril::FixedOptions>() noexcept;

@@ -51,6 +51,8 @@ struct Body {
     std::size_t rows() const noexcept { return count == 0 ? 0 : cell(count - 1) / row + 1; }
     bool operator==(const Body&) const = default;
 };
+/// The names of a body's kinds, in order.
+inline constexpr const char* body_kinds[] = {"rope", "cloth", "hair"};
 
 /// Keeps two particles at a distance.
 struct Link {
@@ -122,6 +124,9 @@ struct HairShape {
 
 }  // namespace tendril::rope
 
+/// All fields but `id`.
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rope::Body>() noexcept;
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::rope::RopeShape>() noexcept;
 template <>

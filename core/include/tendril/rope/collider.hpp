@@ -36,6 +36,8 @@ struct Box {
     bool operator==(const Box&) const = default;
 };
 using Shape = std::variant<Sphere, Capsule, Plane, Box>;
+/// The names of a shape's kinds, in order.
+inline constexpr const char* shape_kinds[] = {"sphere", "capsule", "plane", "box"};
 
 /// Signed distance from a point to a surface, with the normal there.
 struct SurfaceDistance {
@@ -49,10 +51,9 @@ SurfaceDistance surface_distance(const Shape& shape, const glm::dvec3& point) no
 glm::vec3 centre(const Shape& shape) noexcept;
 /// The same shape with its reference point at `centre`.
 Shape moved(const Shape& shape, const glm::vec3& centre) noexcept;
-/// "sphere", "capsule", "plane", "box"
-const char* kind(const Shape& shape) noexcept;
-/// The fields of the shape's kind; their object is the variant's alternative.
-std::span<const Field> shape_fields(const Shape& shape) noexcept;
+inline const char* kind(const Shape& shape) noexcept {
+    return shape_kinds[shape.index()];
+}
 /// Half of the smallest extent, metres: the radius of a sphere or capsule, a box's smallest half extent; 1
 /// for a plane, which has none.
 float size(const Shape& shape) noexcept;
@@ -94,3 +95,6 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::rope::Box>() noexcept;
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::rope::Drive>() noexcept;
+/// All fields but `id`; `shape` by its kind, and the fields of that.
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rope::Collider>() noexcept;

@@ -52,3 +52,7 @@ struct State {
 void number_slots(State& state);
 
 }  // namespace tendril::rope
+
+/// All fields but `collider`.
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rope::Pin>() noexcept;

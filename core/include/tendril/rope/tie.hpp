@@ -37,3 +37,6 @@ inline constexpr float tie_speed = 2.0f;  ///< m/s
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::rope::TieShape>() noexcept;
+/// All fields but `id`.
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::rope::Tie>() noexcept;

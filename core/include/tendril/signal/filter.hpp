@@ -70,3 +70,18 @@ const void* fields_in(const Filter& filter) noexcept;
 const char* kind(const Filter& filter) noexcept;
 
 }  // namespace tendril::signal
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::OutputState>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::MotionState>() noexcept;
+/// All fields but `entries`.
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::MovingAverageState>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::InertializeState>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::CurveKey>() noexcept;
+/// With its keys, the first of its fields.
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::signal::Curve>() noexcept;
