@@ -1,6 +1,8 @@
 // Logs as programs of many makers print them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/app/io/trace_reading.hpp"
 
 namespace tendril::app {
@@ -33,8 +35,133 @@ std::string labelled(const std::vector<glm::dvec3>& joints, const char* format) 
 }
 
 using Joints = std::vector<glm::dvec3>;
+glm::dvec3 seconds(std::size_t frame) {
+    return glm::dvec3(static_cast<double>(frame) / 60.0);
+}
 constexpr const char* blocks = "\n  x: %.4f\n  y: %.4f\n  z: %.4f\n}\n";
 const Maker makers[]{
+    {"OpenSim .trc",
+     [](const Joints& j, std::size_t i) {
+         return std::to_string(i + 1) + printed(seconds(i), "\t%.5f\t") +
+                each_joint(j, "%.4f\t%.4f\t%.4f", "\t") + "\t\n";
+     },
+     2,
+     "PathFileType\t4\t(X/Y/"
+     "Z)\tarm.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n60\t60\t120\t3\tm\n"
+     "Frame#\tTime\tshoulder\t\t\telbow\t\t\thand\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\tX3\tY3\tZ3\n\n"},
+    {"Motive",
+     [](const Joints& j, std::size_t i) {
+         return std::to_string(i) + printed(seconds(i), ",%.5f,") + each_joint(j, "%.4f,%.4f,%.4f", ",") +
+                "\n";
+     },
+     2,
+     "Format Version,1.23,Take Name,Take "
+     "1\n\n,,Marker,Marker,Marker,Marker,Marker,Marker,Marker,Marker,Marker\n"
+     ",,shoulder,shoulder,shoulder,elbow,elbow,elbow,hand,hand,hand\n,,7,7,7,8,8,8,9,9,9\n"
+     "Frame,Time (Seconds),X,Y,Z,X,Y,Z,X,Y,Z\n,,m,m,m,m,m,m,m,m,m\n"},
+    {"MATLAB disp",
+     [](const Joints& j, std::size_t) { return each_joint(j, "%10.4f%10.4f%10.4f\n", "") + "\n"; }},
+    {"MATLAB disp, close together",
+     [](const Joints& j, std::size_t) { return each_joint(j, "%10.4f%10.4f%10.4f\n", ""); }},
+    {"MATLAB scale",
+     [](const Joints& j, std::size_t) {
+         return "\np =\n\n   1.0e+03 *\n\n" +
+                each_joint({j[0] / 1e3, j[1] / 1e3, j[2] / 1e3}, "%12.7f%12.7f%12.7f\n", "");
+     }},
+    {"JSON, a key for each joint",
+     [](const Joints& j, std::size_t i) {
+         return "{\"t\":" + std::to_string(seconds(i).x) + ",\"shoulder\":[" +
+                printed(j[0], "%.4f,%.4f,%.4f],") + "\"elbow\":[" + printed(j[1], "%.4f,%.4f,%.4f],") +
+                "\"hand\":[" + printed(j[2], "%.4f,%.4f,%.4f]}\n");
+     }},
+    {"JSON columns",
+     [](const Joints& j, std::size_t) {
+         return printed({j[0].x, j[1].x, j[2].x}, "{\"x\":[%.4f,%.4f,%.4f],") +
+                printed({j[0].y, j[1].y, j[2].y}, "\"y\":[%.4f,%.4f,%.4f],") +
+                printed({j[0].z, j[1].z, j[2].z}, "\"z\":[%.4f,%.4f,%.4f]}\n");
+     }},
+    {"JSON in one line",
+     [](const Joints& j, std::size_t) {
+         return "{\"pose\":[" + each_joint(j, "[%.4f,%.4f,%.4f]", ",") + "]},";
+     },
+     2, "{\"fps\":60,\"frames\":["},
+    {"Haskell",
+     [](const Joints& j, std::size_t) {
+         std::string text;
+         for (const glm::dvec3& joint : j)
+             for (const int axis : {0, 1, 2})
+                 text += (axis > 0       ? ","
+                          : text.empty() ? "[("
+                                         : "),(") +
+                         printed(glm::dvec3(joint[axis] - 1.2), joint[axis] < 1.2 ? "(%.4f)" : "%.4f");
+         return text + ")]\n";
+     }},
+    {"np.float64 over lines",
+     [](const Joints& j, std::size_t) {
+         return "[" +
+                each_joint(j, "array([np.float64(%.4f), np.float64(%.4f),\n       np.float64(%.4f)])",
+                           ",\n ") +
+                "]\n";
+     }},
+    {"Rust {:#?}",
+     [](const Joints& j, std::size_t) {
+         return "Arm {\n    joints: [\n" +
+                each_joint(j,
+                           "        Vec3 {\n            x: %.4f,\n            y: %.4f,\n            z: "
+                           "%.4f,\n        },\n",
+                           "") +
+                "    ],\n}\n";
+     }},
+    {"YAML lists",
+     [](const Joints& j, std::size_t) {
+         return "- joints:\n" + each_joint(j, "  - - %.4f\n    - %.4f\n    - %.4f\n", "");
+     }},
+    {"XML elements",
+     [](const Joints& j, std::size_t) {
+         return "<frame>\n" +
+                each_joint(j, "  <joint>\n    <x>%.4f</x>\n    <y>%.4f</y>\n    <z>%.4f</z>\n  </joint>\n",
+                           "") +
+                "</frame>\n";
+     }},
+    {"R list",
+     [](const Joints& j, std::size_t) {
+         return "$shoulder\n[1] " + printed(j[0], "%.4f %.4f %.4f\n\n") + "$elbow\n[1] " +
+                printed(j[1], "%.4f %.4f %.4f\n\n") + "$hand\n[1] " + printed(j[2], "%.4f %.4f %.4f\n\n");
+     }},
+    {"tidy CSV",
+     [](const Joints& j, std::size_t i) {
+         const std::string row = std::to_string(i) + ',';
+         return row + "shoulder" + printed(j[0], ",%.4f,%.4f,%.4f\n") + row + "elbow" +
+                printed(j[1], ",%.4f,%.4f,%.4f\n") + row + "hand" + printed(j[2], ",%.4f,%.4f,%.4f\n");
+     },
+     2, "frame,joint,x,y,z\n"},
+    {"hex floats", [](const Joints& j, std::size_t) { return each_joint(j, "(%a, %a, %a)") + "\n"; }},
+    {"decimal commas",
+     [](const Joints& j, std::size_t) {
+         std::string text = each_joint(j, "<%.4f; %.4f; %.4f>") + "\n";
+         std::ranges::replace(text, '.', ',');
+         return text;
+     }},
+    {"Fortran",
+     [](const Joints& j, std::size_t i) {
+         std::string text =
+             std::to_string(i) + printed(seconds(i), " %.4f ") + each_joint(j, "%.6E %.6E %.6E") + "\n";
+         std::ranges::replace(text, 'E', 'D');
+         return text;
+     }},
+    {"Godot transforms",
+     [](const Joints& j, std::size_t) {
+         return each_joint(
+                    j,
+                    "[X: (0.6, 0.8, 0.0), Y: (-0.8, 0.6, 0.0), Z: (0.0, 0.0, 1.0), O: (%.4f, %.4f, %.4f)]") +
+                "\n";
+     }},
+    {"Markdown",
+     [](const Joints& j, std::size_t i) {
+         return "|" + std::to_string(i) + "|" + each_joint(j, "%.4f|%.4f|%.4f|", "") + "\n";
+     },
+     2,
+     "| frame | ax | ay | az | bx | by | bz | cx | cy | cz |\n|---|---|---|---|---|---|---|---|---|---|\n"},
     {"NumPy",
      [](const Joints& j, std::size_t) { return "[" + each_joint(j, "[%.4f %.4f %.4f]", "\n ") + "]\n"; }},
     {"NumPy repr",

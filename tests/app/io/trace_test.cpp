@@ -359,7 +359,8 @@ TEST(Trace, WithoutATargetNothingIsSaidOfOne) {
                 text += (j > 0 ? "," : "") + printed(scale * made.frames[i].joints[j], "[%.5f,%.5f,%.5f]");
             text += "]}\n";
         }
-        for (const TracedIncident& each : read_trace(text).incidents())
+        const ReadTrace found = read_trace(text);
+        for (const TracedIncident& each : found.incidents())
             EXPECT_TRUE(each.kind != ik::IncidentKind::TargetJump && !test::says(each.cause, "target"))
                 << "seed " << seed << ": " << each.text({});
     }
