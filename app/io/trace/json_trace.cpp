@@ -43,15 +43,11 @@ std::string without_nan(std::string_view text) {
 
 Json parse_object(std::string_view text, std::size_t line) {
     try {
-        return parse_json(text);
-    } catch (const ParseError&) {
-        try {
-            return parse_json(without_nan(text));
-        } catch (const ParseError& error) {
-            fail_line(line + static_cast<std::size_t>(error.line) - 1,
-                      "damaged JSON; expected a frame such as {\"joints\": [[0, 0, 0], [1, 0, 0]]}: " +
-                          error.reason);
-        }
+        return parse_json(without_nan(text));
+    } catch (const ParseError& error) {
+        fail_line(
+            line + static_cast<std::size_t>(error.line) - 1,
+            "damaged JSON; expected a frame such as {\"joints\": [[0, 0, 0], [1, 0, 0]]}: " + error.reason);
     }
 }
 

@@ -234,7 +234,8 @@ class LogTrace final : public RawTrace {
         if (sample_.back().empty()) sample_.pop_back();
         schema_.learn(sample_);
         std::vector<const LogVector*> joints;
-        std::vector<unsigned> gaps;  // before each
+        std::vector<unsigned> gaps, repeats;  // before each; whether its name comes again
+        std::set<std::string> names;
         std::size_t labelled = 0;
         unsigned gap = RuleBetween * 2;
         std::array<std::set<std::string>, 2> sides;
@@ -249,6 +250,10 @@ class LogTrace final : public RawTrace {
                 joints.push_back(&each);
                 gaps.push_back(std::exchange(gap, SameLine));
                 labelled += !each.label.empty();
+                const std::string name = each.kind + each.label;
+                const bool again = !each.label.empty() && !names.insert(name).second;
+                if (again) names = {name};
+                repeats.push_back(again ? NameAgain : SameLine);
                 two_sides_ = two_sides_ && side.side < 2;
                 if (two_sides_) sides[side.side].insert(side.part);
             }
@@ -261,28 +266,13 @@ class LogTrace final : public RawTrace {
         };
         const bool one_line = !levels.empty() && *levels.lower_bound(NextLine) == *levels.rbegin();
         if (!(one_line && by_gaps(SameLine + 1, NextLine)) && !by_gaps(NextLine, TextBetween) &&
-            !by_names(joints) && !by_gaps(TextBetween, RuleBetween * 2) && 2 * labelled < joints.size())
+            !parts(joints, repeats, NameAgain) && !by_gaps(TextBetween, RuleBetween * 2) &&
+            2 * labelled < joints.size())
             part_otherwise(joints, gaps);
+        if (level_ == NameAgain) level_ = 0;
         if (levels.contains(RuleBetween) && scanner_.components()) engine = Engine::Ros;
         const auto first = std::ranges::find_if(sample_, [](const Line& each) { return !each.empty(); });
         leads_ = first != sample_.end() && std::ranges::none_of(*first, &LogVector::is_joint);
-    }
-    /// Whether names that come again part the joints into groups of one size.
-    static bool by_names(const std::vector<const LogVector*>& joints) {
-        std::map<std::size_t, std::size_t> counts;
-        std::set<std::string> names;
-        std::size_t groups = 1, size = 0;
-        for (const LogVector* each : joints) {
-            if (!each->label.empty() && !names.insert(each->kind + each->label).second) {
-                ++counts[size];
-                ++groups;
-                names = {each->kind + each->label};
-                size = 0;
-            }
-            ++size;
-        }
-        return std::ranges::any_of(
-            counts, [&](const auto& each) { return each.first > 1 && 10 * each.second >= 6 * (groups - 1); });
     }
     /// Whether gaps of at least `level` part the joints into groups of one size, or of chains that take
     /// turns.
@@ -299,7 +289,7 @@ class LogTrace final : public RawTrace {
         const auto usual = std::ranges::max_element(
             counts, {}, [](const auto& each) { return each.first > 1 ? each.second : 0; });
         const bool chains = !two_sides_ && find_chains(names);
-        if (groups < 2 && level < NextLine) return false;
+        if (groups < 2 && (level < NextLine || level == NameAgain)) return false;
         if (usual == counts.end() || usual->first < 2 || (10 * usual->second < 6 * groups && !chains))
             return false;
         joints_ = usual->first;

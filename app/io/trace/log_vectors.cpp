@@ -487,8 +487,8 @@ bool LogScanner::bare(std::size_t& at, std::size_t& end, Numbers& numbers) {
     } else if (row && n > 4) {
         const bool pose = n == 7 && is_unit(&numbers[3]);
         skip = pose ? 0 : n % 3;  // perhaps an index, and the time
-        fits = true;
-        if (skip > 0 && n > 5 && std::isfinite(numbers[skip - 1])) stamp_ = numbers[skip - 1];
+        fits = skip < 2 || tokens_[at].is_whole();
+        if (fits && skip > 0 && n > 5 && std::isfinite(numbers[skip - 1])) stamp_ = numbers[skip - 1];
     } else if (row) {
         skip = n == 4 && tokens_[at].is_whole() && fractions == 3 ? 1 : 0;
         fits = n >= 3;

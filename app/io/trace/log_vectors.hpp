@@ -33,7 +33,14 @@ struct LogWord {
 };
 
 /// How far a vector is from the one before. Lines count more than brackets.
-enum Gap : unsigned { SameLine = 0, NextLine = 64, TextBetween = 128, BlankBetween = 192, RuleBetween = 256 };
+enum Gap : unsigned {
+    SameLine = 0,
+    NextLine = 64,
+    TextBetween = 128,
+    BlankBetween = 192,
+    RuleBetween = 256,
+    NameAgain = 1024  ///< not by itself: its name shows a new frame
+};
 
 /// Three or four numbers, and what stands before them.
 struct LogVector {
