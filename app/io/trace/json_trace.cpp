@@ -1,6 +1,5 @@
-// Traces as JSON: one object a line, or a list of poses.
+// Traces as JSON objects with a list of joints.
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -8,7 +7,6 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/document/json_scan.hpp"
-#include "app/document/list_reader.hpp"
 #include "app/io/trace/raw.hpp"
 
 namespace tendril::app {
@@ -43,16 +41,13 @@ std::string without_nan(std::string_view text) {
     return result;
 }
 
-Json parse_line(std::string_view text, std::size_t line) {
+Json parse_object(std::string_view text, std::size_t line) {
     try {
-        return parse_json(text);
-    } catch (const ParseError&) {
-        try {
-            return parse_json(without_nan(text));
-        } catch (const ParseError& error) {
-            fail_line(line, "damaged JSON; expected a frame such as {\"joints\": [[0, 0, 0], [1, 0, 0]]}: " +
-                                error.reason);
-        }
+        return parse_json(without_nan(text));
+    } catch (const ParseError& error) {
+        fail_line(
+            line + static_cast<std::size_t>(error.line) - 1,
+            "damaged JSON; expected a frame such as {\"joints\": [[0, 0, 0], [1, 0, 0]]}: " + error.reason);
     }
 }
 
@@ -70,7 +65,7 @@ double loose_number(const JsonPlace& place) {
 }
 
 glm::dvec3 loose_point(const JsonPlace& place) {
-    for (const char* key : {"position", "translation"})
+    for (const char* key : {"position", "translation", "pos", "p"})
         if (const auto at = place.json().is_object() ? place.optional(key) : std::nullopt)
             return loose_point(*at);
     if (place.json().is_object())
@@ -83,13 +78,6 @@ glm::dvec4 loose_rotation(const JsonPlace& place) {
     place.check_size(4, "a quaternion's numbers");
     return {loose_number(place.element(0)), loose_number(place.element(1)), loose_number(place.element(2)),
             loose_number(place.element(3))};
-}
-
-std::vector<glm::dvec3> loose_points(const JsonPlace& place) {
-    std::vector<glm::dvec3> points;
-    place.for_each("joints", max_trace_joints,
-                   [&](const JsonPlace& each) { points.push_back(loose_point(each)); });
-    return points;
 }
 
 /// By joint: null, the largest angle, [smallest, largest], or an object that may name its joint.
@@ -139,11 +127,8 @@ void read_header(TraceHeader& header, const JsonPlace& place) {
 }
 
 void read_frame(RawFrame& frame, TraceHeader& header, const JsonPlace& place) {
-    if (place.json().is_array()) {
-        frame.joints = loose_points(place);
-        return;
-    }
-    frame.joints = loose_points(place["joints"]);
+    place["joints"].for_each("joints", max_trace_joints,
+                             [&](const JsonPlace& each) { frame.joints.push_back(loose_point(each)); });
     frame.chain = text_of(place, "chain");
     if (const auto time = place.optional("t")) frame.time = loose_number(*time);
     if (const auto dt = place.optional("dt")) frame.dt = loose_number(*dt);
@@ -156,121 +141,61 @@ void read_frame(RawFrame& frame, TraceHeader& header, const JsonPlace& place) {
         header.limits = read_limits(*limits);
 }
 
-bool is_frame(const Json& json) {
-    return json.is_array() || (json.is_object() && json.contains("joints"));
-}
-
-class JsonLines final : public RawTrace {
+/// Objects, one after another or in a list. Each may go over many lines.
+class JsonTrace final : public RawTrace {
   public:
-    JsonLines(std::istream& in, std::string first, std::size_t at) : in_(in), text_(std::move(first)) {
-        line = at;
-        const Json json = parse_line(text_, line);
-        if (is_frame(json)) return;
-        at_json([&] { read_header(header, JsonPlace(json, "")); });
-        waiting_ = false;
-    }
+    explicit JsonTrace(Lines lines) : RawTrace(std::move(lines)) {}
 
     bool next(RawFrame& frame) override {
-        if (!waiting_) {
-            do {
-                if (!read_line(in_, text_, line)) return false;
-            } while (text_.find_first_not_of(" \t") == text_.npos);
+        for (std::string text; read_object(text); begun_ = true) {
+            const Json json = parse_object(text, line_);
+            frame = {.line = line_};
+            try {
+                const JsonPlace place(json, "");
+                if (begun_ || json.contains("joints")) {
+                    read_frame(frame, header, place);
+                    return begun_ = true;
+                }
+                read_header(header, place);
+            } catch (const std::runtime_error& error) {
+                fail_line(line_, error.what());
+            }
         }
-        waiting_ = false;
-        const Json json = parse_line(text_, line);
-        frame = {.line = line};
-        at_json([&] { read_frame(frame, header, JsonPlace(json, "")); });
-        return true;
+        return false;
     }
 
   private:
-    void at_json(auto read) {
-        try {
-            read();
-        } catch (const std::runtime_error& error) {
-            fail_line(line, error.what());
-        }
-    }
-
-    std::istream& in_;
-    std::string text_;
-    bool waiting_ = true;  ///< text_ is a frame that was not handed out
-};
-
-/// A list of frames, or of the points of one pose, with any line breaks.
-class JsonList final : public RawTrace {
-  public:
-    JsonList(std::istream& in, std::string first, std::size_t at) : text_(std::move(first)) {
-        text_.push_back('\n');
-        while (text_.size() < max_file_bytes && in) {
-            const std::size_t size = text_.size();
-            text_.resize(size + (1u << 16));
-            in.read(text_.data() + size, 1 << 16);
-            text_.resize(size + static_cast<std::size_t>(in.gcount()));
-        }
-        if (text_.size() >= max_file_bytes)
-            throw std::runtime_error("is a JSON list of over 64 MiB: write one frame a line instead");
-        text_.insert(0, at - 1, '\n');
-        try {
-            parse_json(std::string_view(text_));
-        } catch (const ParseError&) {
-            text_ = without_nan(text_);
-        }
-        list_.emplace(text_, "frames");
-        line = at;
-    }
-
-    bool next(RawFrame& frame) override {
-        Json json;
-        try {
-            if (done_ || !list_->next(json)) return false;
-        } catch (const ParseError& error) {
-            fail_line(static_cast<std::size_t>(error.line),
-                      "the list of frames is damaged or incomplete here: " + error.reason);
-        }
-        line = static_cast<std::size_t>(list_->line_of(list_->place()));
-        frame = {.line = line};
-        try {
-            if (is_point(json)) {
-                do {
-                    frame.joints.push_back(loose_point(JsonPlace(json, list_->place())));
-                } while (frame.joints.size() < max_trace_joints && list_->next(json));
-                done_ = true;
-                return true;
+    bool read_object(std::string& text) {
+        text.clear();
+        for (int depth = 0;;) {
+            if (at_ >= rest_.size()) {
+                constexpr std::size_t longest = 16u << 20;
+                if (text.size() > longest) fail_line(line_, "a frame is longer than 16 MiB");
+                if (!lines_.next(rest_)) return !text.empty();
+                if (!text.empty()) text += '\n';
+                at_ = 0;
+                continue;
             }
-            if (!is_frame(json) && list_->index() == 0) {
-                read_header(header, JsonPlace(json, list_->place()));
-                return next(frame);
-            }
-            read_frame(frame, header, JsonPlace(json, list_->place()));
-        } catch (const std::runtime_error& error) {
-            fail_line(line, error.what());
+            const char c = rest_[at_];
+            const std::size_t begin = at_;
+            at_ = c == '"' ? string_end(rest_, at_) : at_ + 1;
+            if (text.empty() && std::string_view(" \t,[]").find(c) != std::string_view::npos) continue;
+            if (text.empty()) line_ = line();
+            text.append(rest_, begin, at_ - begin);
+            depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
+            if (depth <= 0) return true;
         }
-        return true;
     }
 
-  private:
-    static bool is_point(const Json& json) {
-        if (json.is_object()) return json.contains("x") && json.contains("y") && json.contains("z");
-        return json.is_array() && json.size() == 3 && !json[0].is_structured();
-    }
-
-    std::string text_;
-    std::optional<ListReader> list_;
-    bool done_ = false;
+    std::string rest_;  ///< the line that is being read
+    std::size_t at_ = 0, line_ = 0;
+    bool begun_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<RawTrace> open_json_trace(std::istream& in, std::string first, std::size_t line) {
-    const std::size_t at = first.find_first_not_of(" \t");
-    // A line that is a pose of its own, `[[0, 0, 0], [1, 0, 0]]`, may be followed by others.
-    if (first[at] == '{') return std::make_unique<JsonLines>(in, std::move(first), line);
-    const bool whole =
-        skip_value(first, at) >= first.find_last_not_of(" \t,") && first.find("]]") != first.npos;
-    if (whole && in.peek() != std::char_traits<char>::eof() && first.find('{') == first.npos)
-        return std::make_unique<JsonLines>(in, std::move(first), line);
-    return std::make_unique<JsonList>(in, std::move(first), line);
+std::unique_ptr<RawTrace> open_json_trace(Lines lines) {
+    return std::make_unique<JsonTrace>(std::move(lines));
 }
 
 }  // namespace tendril::app

@@ -1,6 +1,7 @@
-// Vectors in a line of any text, with the words before them. For traces in logs.
+// Vectors in any text, with the words before them. For traces in logs.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,15 +11,8 @@
 
 namespace tendril::app {
 
-inline bool is_letter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-inline bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
 struct LogToken {
-    char kind = 0;        ///< '0' a number, 'a' a word, else the character itself
+    char kind = 0;        ///< '0' a number, 'a' a word, '\n' the end of a line, else the character itself
     bool spaced = false;  ///< from the one before
     std::string_view text{};
     double value = 0.0;
@@ -26,8 +20,8 @@ struct LogToken {
     bool is_whole() const { return text.find_first_not_of("0123456789") == text.npos; }
 };
 
-/// Quotes and backslashes count as spaces: JSON in a text.
-std::vector<LogToken> tokens_of(std::string_view line);
+/// Appends the tokens of a line. Quotes and backslashes count as spaces: JSON in a text.
+void add_tokens(std::vector<LogToken>& tokens, std::string_view line);
 
 /// A word before a vector, or a whole number.
 struct LogWord {
@@ -38,12 +32,27 @@ struct LogWord {
     bool is_number() const { return is_digit(text[0]) && text.find_first_not_of("0123456789") == text.npos; }
 };
 
+/// How far a vector is from the one before. Lines count more than brackets.
+enum Gap : unsigned {
+    SameLine = 0,
+    NextLine = 64,
+    TextBetween = 128,
+    BlankBetween = 192,
+    RuleBetween = 256,
+    NameAgain = 1024  ///< not by itself: its name shows a new frame
+};
+
 /// Three or four numbers, and what stands before them.
 struct LogVector {
     std::vector<LogWord> words{};  ///< the last is next to the numbers
     std::vector<double> numbers{};
-    bool first = false;   ///< of its line
-    bool matrix = false;  ///< of which this is the position
+    bool first = false;       ///< of its line
+    bool matrix = false;      ///< of which this is the position
+    unsigned gap = SameLine;  ///< and how many brackets were closed in it
+    std::size_t line = 0;
+    std::optional<double> stamp{}, dt{};  ///< seconds
+    std::string chain{};                  ///< as a table has it
+    // As learned.
     std::string kind{}, label{}, phrase{};
     Meaning meaning = Meaning::Joint;
     bool is_position = true;
@@ -51,8 +60,63 @@ struct LogVector {
     bool is_joint() const { return is_position && meaning == Meaning::Joint && numbers.size() == 3; }
 };
 
-/// (1, 2, 3), X=1 Y=2 Z=3, 1.0 2.0 3.0 behind a name, poses, and the positions of matrices. The engine of the
-/// trace is set where the way of writing shows it.
-std::vector<LogVector> vectors_in(std::string_view line, RawTrace& trace);
+/// Appends the words of a name: arm.elbow has two, hand.R one.
+void add_words(std::vector<LogWord>& words, std::string_view text);
+
+class VectorLines {
+  public:
+    virtual ~VectorLines() = default;
+    /// The vectors of the next line that has some; false at the end.
+    virtual bool next(std::vector<LogVector>& found) = 0;
+};
+/// CSV, or what a spreadsheet copies. Null if the first lines have no names of columns.
+std::unique_ptr<VectorLines> open_table(Lines& lines, RawTrace& trace);
+
+/// Finds (1, 2, 3), X=1 Y=2 Z=3, 1.0 2.0 3.0 behind a name or on a line of their own, poses, and the
+/// positions of matrices, each on one line or over several. Sets the engine of the trace where the way of
+/// writing shows it.
+class LogScanner final : public VectorLines {
+  public:
+    LogScanner(Lines& lines, RawTrace& trace) : lines_(lines), trace_(trace) {}
+
+    bool next(std::vector<LogVector>& found) override;
+    bool components() const { return components_; }  ///< x, y and z have had a line each
+
+  private:
+    using Numbers = std::vector<double>;
+
+    bool is(std::size_t at, char kind) const { return at < tokens_.size() && tokens_[at].kind == kind; }
+    bool is_any(std::size_t at, std::string_view kinds) const {
+        return at < tokens_.size() && kinds.find(tokens_[at].kind) != kinds.npos;
+    }
+    bool pull();
+    void skip_breaks(std::size_t& at);
+    std::size_t scan_line(std::vector<LogVector>& found);
+    void pass_line(std::size_t end);
+    void add(std::vector<LogVector>& found, LogVector vector, Numbers numbers, std::size_t row,
+             std::size_t& end);
+    bool next_row(std::size_t& at, std::size_t width, Numbers& numbers);
+    void read_stamp(std::size_t end);
+    std::vector<LogWord> words_before(std::size_t at) const;
+    std::optional<double> number_at(std::size_t& at) const;
+    bool list_at(std::size_t& at, Numbers& numbers, std::size_t& row);
+    bool named(std::size_t at, std::size_t& end, Numbers& numbers, std::size_t& row, std::string_view& name);
+    bool bracketed(std::size_t at, std::size_t& end, Numbers& numbers, std::size_t& row);
+    bool bare(std::size_t& at, std::size_t& end, Numbers& numbers);
+    bool column(std::size_t at, std::size_t& end, Numbers& numbers);
+
+    Lines& lines_;
+    RawTrace& trace_;
+    std::vector<LogToken> tokens_;  ///< of the lines that were pulled
+    std::size_t pulled_ = 0, from_ = 0,
+                bullets_ = 0;       ///< lines; the token after the vector before; - - at the begin of a line
+    std::vector<LogWord> heading_;  ///< words of lines before, for the first vector of the next
+    bool loose_ = false;            ///< the heading is any text
+    std::optional<double> stamp_{};
+    double scale_ = 1.0;  ///< of the rows that follow, as MATLAB has it: 1.0e+03 *
+    unsigned gap_ = SameLine, opened_ = 0, closed_ = 0;
+    std::size_t unread_ = 0, first_unread_ = 0;  ///< lines with numbers that are no vectors
+    bool components_ = false, scaled_ = false, lone_ = false, axes_ = false;
+};
 
 }  // namespace tendril::app

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <glm/ext/vector_double3.hpp>
 #include <glm/ext/vector_double4.hpp>
 #include <istream>
@@ -39,16 +40,41 @@ struct TraceHeader {
 /// How a program writes vectors.
 enum class Engine { Unknown, Unreal, Unity, Godot, Blender, Xna, Babylon, Houdini, Ros };
 
+/// The lines of a stream, without their ends. Where the first of them have decimal commas, as in
+/// "0,5; 1,25; 0,0", those become points. Refuses lines of over 16 MiB.
+class Lines {
+  public:
+    explicit Lines(std::istream& in);
+    /// A line that was not taken yet, by its distance from the next one; null behind the last.
+    const std::string* ahead(std::size_t index);
+    bool next(std::string& text);  ///< takes one; false at the end
+    void drop(std::size_t count);  ///< takes some
+    std::size_t taken() const { return taken_; }
+    std::size_t bytes() const { return bytes_; }  ///< read so far
+
+  private:
+    bool read(std::string& text);
+
+    std::istream& in_;
+    std::deque<std::string> ahead_;
+    std::size_t taken_ = 0, bytes_ = 0;
+    bool decimal_commas_ = false;
+};
+
 class RawTrace {
   public:
+    explicit RawTrace(Lines lines) : lines_(std::move(lines)) {}
     virtual ~RawTrace() = default;
     /// False after the last frame. Throws std::runtime_error: "line 3: ...".
     virtual bool next(RawFrame& frame) = 0;
+    std::size_t line() const { return lines_.taken(); }  ///< of what was read
 
     TraceHeader header;
     Engine engine = Engine::Unknown;  ///< as far as it can be told from what was read
     std::vector<std::string> notes;   ///< for display: what was left out
-    std::size_t line = 0;             ///< of what was read
+
+  protected:
+    Lines lines_;
 };
 
 /// Finds out the format. Throws std::runtime_error if there is nothing in it.
@@ -56,10 +82,16 @@ std::unique_ptr<RawTrace> open_raw_trace(std::istream& in);
 
 // For the formats.
 
+inline bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+inline bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
 /// "line 3: <what>"
 [[noreturn]] void fail_line(std::size_t line, const std::string& what);
-/// A number, from the start of `text`, as any language prints it: 1.5, 1.5f, nan, -nan(ind), inf, 1.#QNAN.
-/// Removes it from `text`.
+/// A number, from the start of `text`, as any language prints it: 1.5, 1.5f, 1.5D+00, 0x1.8p+0, nan,
+/// -nan(ind), null, inf, 1.#QNAN. Removes it from `text`.
 std::optional<double> take_number(std::string_view& text);
 enum class Meaning { Joint, Target, Pole };
 /// The meaning of a name in lower case: "ik_target", "pole vector".
@@ -74,13 +106,9 @@ struct Sided {
     std::string part{};
 };
 std::optional<Sided> sided(std::string_view name);
-/// Reads a line without its end; false at the end. Refuses one of over 16 MiB.
-bool read_line(std::istream& in, std::string& text, std::size_t& line);
 
-std::unique_ptr<RawTrace> open_json_trace(std::istream& in, std::string first, std::size_t line);
-std::unique_ptr<RawTrace> open_table_trace(std::istream& in, std::string first, std::size_t line);
-std::unique_ptr<RawTrace> open_log_trace(std::istream& in, std::string first, std::size_t line);
-/// Whether a line can be the first of a table: names of columns, or numbers only.
-bool begins_table(std::string_view line);
+std::unique_ptr<RawTrace> open_json_trace(Lines lines);
+/// Of tables, too.
+std::unique_ptr<RawTrace> open_log_trace(Lines lines);
 
 }  // namespace tendril::app

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "app/document/text.hpp"
-#include "app/io/trace/raw.hpp"
+#include "app/io/trace/log_vectors.hpp"
 
 namespace tendril::app {
 namespace {
@@ -50,19 +50,6 @@ std::optional<double> number_in(std::string_view cell) {
     const auto number = take_number(cell);
     return number && cell.empty() ? number : std::nullopt;
 }
-
-bool all_numbers(const std::vector<std::string_view>& cells) {
-    return std::ranges::all_of(cells, [](std::string_view cell) { return number_in(cell).has_value(); });
-}
-
-enum class Role { Ignored, Time, Dt, Chain, Target, Pole, Joint };
-struct Column {
-    Role role = Role::Ignored;
-    std::size_t joint = 0;
-    int axis = 0;
-    std::size_t chain = 0;
-    double unit = 1.0;  ///< seconds, of a time
-};
 
 struct PointColumn {
     std::string base;
@@ -122,13 +109,49 @@ std::vector<std::optional<PointColumn>> point_columns(const std::vector<std::str
     return points;
 }
 
-Role role_of(const std::string& base) {
-    if (base == "t") return Role::Target;
-    if (base == "p") return Role::Pole;
-    const bool other = base.size() > 1 && names_no_position(base);
-    if (other || base == "q" || base.ends_with("_q") || base.ends_with(".q")) return Role::Ignored;
-    constexpr std::array roles{Role::Joint, Role::Target, Role::Pole};
-    return roles[static_cast<std::size_t>(meaning_of(base))];
+/// The axis of a column that is named by it alone: X, or X1 as in a .trc file.
+bool is_axis(std::string_view cell) {
+    cell = cell.substr(0, std::min(cell.find_first_of("0123456789"), cell.size()));
+    return cell.size() == 1 && std::string_view("xyzwXYZW").find(cell) != cell.npos;
+}
+
+/// The names of the columns in a line. Columns that are named by an axis alone have the names of points above
+/// them, each over three columns or repeated: "shoulder,,,elbow,," over "X,Y,Z,X,Y,Z".
+std::vector<std::string> column_names(Lines& lines, std::size_t at, char separator) {
+    const auto row = split(*lines.ahead(at), separator);
+    std::vector<std::string> names(row.begin(), row.end());
+    if (std::ranges::count_if(row, is_axis) < 6) return names;
+    std::vector<std::string> points(row.size());
+    for (std::size_t above = at; above-- > 0;) {
+        auto upper = cells(*lines.ahead(above), separator);
+        upper.resize(row.size());
+        std::set<std::string_view> different;
+        bool numbers = false, words = false;
+        std::string_view last;
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            if (!is_axis(row[i])) {
+                if (names[i].empty()) names[i] = upper[i];
+                continue;
+            }
+            if (!upper[i].empty()) last = upper[i];
+            upper[i] = last;
+            different.insert(last);
+            if (!last.empty()) (number_in(last) ? numbers : words) = true;
+        }
+        if (words == numbers) break;  // a blank line, or one that is no part of the head
+        if (numbers || different.size() < 2) continue;
+        for (std::size_t i = 0; i < row.size(); ++i)
+            if (is_axis(row[i]))
+                points[i] = std::string(upper[i]) + (points[i].empty() ? "" : " ") + points[i];
+    }
+    std::size_t count = 0;  // of points without names
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        if (!is_axis(row[i])) continue;
+        if ((row[i][0] | 0x20) == 'x') ++count;
+        if (points[i].empty() && row[i].size() == 1) points[i] = "joint" + std::to_string(count - 1);
+        if (!points[i].empty()) names[i] = points[i] + ' ' + row[i][0];
+    }
+    return names;
 }
 
 }  // namespace
@@ -171,114 +194,28 @@ double time_unit(std::string_view name) {
 
 namespace {
 
-class Table final : public RawTrace {
+enum class Role { Ignored, Time, Dt, Chain, Point };
+struct Column {
+    Role role = Role::Ignored;
+    std::size_t point = 0;
+    std::size_t axis = 0;
+    double unit = 1.0;  ///< seconds, of a time
+};
+
+class TableRows final : public VectorLines {
   public:
-    Table(std::istream& in, std::string first, std::size_t at) : in_(in), text_(std::move(first)) {
-        line = at;
-        separator_ = separator_of(text_);
-        const std::string names = text_;
-        const auto row = split(names, separator_);
-        if (all_numbers(row)) {
-            without_names(row.size());
-            return;
-        }
-        waiting_ = read_line(in_, text_, line);
-        read_names(row, waiting_ ? split(text_, separator_) : row, at);
-    }
+    TableRows(Lines& lines, char separator) : lines_(lines), separator_(separator) {}
 
-    bool next(RawFrame& frame) override {
-        frame = {};
-        if (one_pose_) return next_pose(frame);
-        if (!other_.joints.empty()) {
-            frame = std::exchange(other_, {});
-            return true;
-        }
-        do {
-            if (!waiting_ && !read_line(in_, text_, line)) return false;
-            waiting_ = false;
-        } while (text_.find_first_not_of(" \t,;") == text_.npos || text_.starts_with('#'));
-        frame.line = line;
-        frame.joints.assign(joints_, glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
-        auto row = split(text_, separator_);
-        if (row.size() == columns_.size() + 1 && row.back().empty()) row.pop_back();
-        if (row.size() != columns_.size())
-            fail_line(line, "expected " + std::to_string(columns_.size()) + " columns, found " +
-                                std::to_string(row.size()));
-        if (two_sides_) {
-            frame.chain = "left";
-            other_ = frame;
-            other_.chain = "right";
-        }
-        for (std::size_t i = 0; i < row.size(); ++i)
-            take(two_sides_ && columns_[i].chain == 1 ? other_ : frame, i, row[i]);
-        other_.time = frame.time;
-        other_.dt = frame.dt;
-        return true;
-    }
-
-  private:
-    /// Rows of three numbers are the joints of one pose.
-    bool next_pose(RawFrame& frame) {
-        if (done_) return false;
-        done_ = true;
-        frame.line = line;
-        do {
-            if (text_.find_first_not_of(" \t,;") == text_.npos) continue;
-            const auto row = split(text_, separator_);
-            if (row.size() != 3 || !all_numbers(row)) fail_line(line, "expected three numbers, x, y and z");
-            if (frame.joints.size() == max_trace_joints) fail_line(line, "found more than 4096 joints");
-            frame.joints.emplace_back(*number_in(row[0]), *number_in(row[1]), *number_in(row[2]));
-        } while (read_line(in_, text_, line));
-        return true;
-    }
-
-    void without_names(std::size_t count) {
-        if (count == 3) {
-            one_pose_ = true;
-            return;
-        }
-        const bool time = count % 3 == 1;
-        if (count % 3 == 2 || count < 6)
-            fail_line(line, "expected x, y and z of each joint, and perhaps a time before them; found " +
-                                std::to_string(count) + " numbers");
-        if (time) columns_.push_back({.role = Role::Time});
-        for (std::size_t i = 0; i < count / 3; ++i)
-            for (int axis = 0; axis < 3; ++axis) columns_.push_back({Role::Joint, i, axis});
-        joints_ = count / 3;
-    }
-
-    /// `values`: the first row of numbers.
-    void read_names(const std::vector<std::string_view>& row, const std::vector<std::string_view>& values,
-                    std::size_t at) {
+    /// `names`: as strings, of all columns.
+    void read_names(const std::vector<std::string>& names, RawTrace& trace) {
+        const std::vector<std::string_view> row(names.begin(), names.end());
         const auto points = point_columns(row);
-        std::map<std::string, std::size_t> joints;
-        std::array<int, 3> axes{};
-        // Points with a w are quaternions, unless w is 1 beside other numbers.
-        std::map<std::string, glm::dvec4> fours;
-        std::set<std::string> turns;
-        for (std::size_t i = 0; i < std::min(row.size(), values.size()); ++i)
-            if (points[i]) fours[points[i]->base][points[i]->axis] = number_in(values[i]).value_or(0.0);
-        for (const auto& point : points)
-            if (point && point->axis == 3 &&
-                !(fours[point->base].w == 1.0 && glm::length(fours[point->base]) > 1.02))
-                turns.insert(point->base);
-        // Both arms in one table: each joint of the one has its like in the other.
-        std::array<std::set<std::string>, 2> sides;
-        two_sides_ = std::ranges::none_of(row, [](auto cell) { return lower_case(cell) == "chain"; });
-        for (const auto& point : points) {
-            if (!point || turns.contains(point->base) || role_of(point->base) != Role::Joint) continue;
-            const auto side = sided(point->base);
-            two_sides_ = two_sides_ && side;
-            if (side) sides[side->side].insert(side->part);
-        }
-        two_sides_ = two_sides_ && sides[0].size() > 1 && sides[0] == sides[1];
-        std::string left_out;
-        std::map<std::pair<Role, std::size_t>, std::string> aims;
+        std::map<std::string, std::size_t> known;
+        std::set<std::string> left_out;
+        std::vector<unsigned> axes;
         for (std::size_t i = 0; i < row.size(); ++i) {
-            Column column;
-            const std::string_view cell = row[i];
-            const std::string name = lower_case(cell);
-            const auto& point = points[i];
+            Column& column = columns_.emplace_back();
+            const std::string name = lower_case(row[i]);
             if (const double unit = time_unit(name); unit > 0.0) {
                 column.role = Role::Time;
                 column.unit = unit;
@@ -286,103 +223,112 @@ class Table final : public RawTrace {
                 column.role = Role::Dt;
             } else if (name == "chain") {
                 column.role = Role::Chain;
-            } else if (point) {
-                column.role = turns.contains(point->base) ? Role::Ignored : role_of(point->base);
-                const bool aim = column.role == Role::Target || column.role == Role::Pole;
-                const auto side = two_sides_ ? sided(point->base) : std::nullopt;
-                if (side) column.chain = side->side;
-                const bool second =
-                    aim &&
-                    ((two_sides_ && !side) ||
-                     aims.try_emplace({column.role, column.chain}, point->base).first->second != point->base);
-                if (second) column.role = Role::Ignored;
-                if (column.role == Role::Ignored && left_out != point->base)
-                    notes.push_back("the columns of \"" + printable(left_out = point->base) +
-                                    "\" were left out: they are " +
-                                    (!second      ? "not positions"
-                                     : two_sides_ ? "no side's target"
-                                                  : "a second target"));
-                if (point->axis == 3) column.role = Role::Ignored;
-                column.axis = point->axis;
-                if (column.role == Role::Joint) {
-                    // Of two sides the second has the first one's joints.
-                    const std::string& bone = side ? side->part : point->base;
-                    const auto [joint, is_new] = joints.try_emplace(bone, joints.size());
-                    if (is_new) header.bones.push_back(bone);
-                    column.joint = joint->second;
-                    ++axes[static_cast<std::size_t>(column.axis)];
+            } else if (points[i]) {
+                const std::string& base = points[i]->base;
+                if (base.size() > 1 && names_no_position(base)) {
+                    if (left_out.insert(base).second)
+                        trace.notes.push_back("the columns of \"" + printable(base) +
+                                              "\" were left out: they are not positions");
+                    continue;
                 }
-            } else if (!cell.empty()) {
-                notes.push_back("column \"" + printable(cell) + "\" was left out");
+                const auto [point, is_new] = known.try_emplace(base, points_.size());
+                if (is_new) {
+                    LogVector& made = points_.emplace_back();
+                    add_words(made.words, base == "t" ? "target" : base == "p" ? "pole" : base);
+                    axes.push_back(0);
+                }
+                column = {Role::Point, point->second, static_cast<std::size_t>(points[i]->axis)};
+                axes[column.point] |= 1u << column.axis;
+            } else if (!name.empty() && name.find("frame") == name.npos) {
+                trace.notes.push_back("column \"" + printable(row[i]) + "\" was left out");
             }
-            columns_.push_back(column);
         }
-        joints_ = joints.size();
-        for (const int count : axes)
-            if (static_cast<std::size_t>(count) != joints_ * (two_sides_ ? 2 : 1))
-                fail_line(at, "expected columns x, y and z of every joint: j0x, j0y, j0z, j1x and so on");
-        if (joints_ > max_trace_joints) fail_line(at, "found more than 4096 joints");
-    }
-
-    void take(RawFrame& frame, std::size_t index, std::string_view cell) {
-        const Column& column = columns_[index];
-        if (column.role == Role::Ignored) return;
-        if (column.role == Role::Chain) {
-            frame.chain = std::string(cell);
-            return;
-        }
-        std::string decimal(cell);
-        if (separator_ != ',') std::ranges::replace(decimal, ',', '.');
-        const auto number = number_in(decimal);
-        if (!number && column.role == Role::Time) return;  // a date
-        const bool point = column.role == Role::Target || column.role == Role::Pole;
-        if (!number && cell.empty() && point) return;  // a frame without a target
-        if (!number)
-            fail_line(line, "column " + std::to_string(index + 1) + ": expected a number, found \"" +
-                                printable(cell.substr(0, 40)) + '"');
-        const auto put = [&](std::optional<glm::dvec3>& to) {
-            if (!to) to.emplace(0.0);
-            (*to)[column.axis] = *number;
-        };
-        switch (column.role) {
-            case Role::Time:
-                frame.time = *number * column.unit;
-                break;
-            case Role::Dt:
-                frame.dt = *number;
-                break;
-            case Role::Target:
-                put(frame.target);
-                break;
-            case Role::Pole:
-                put(frame.pole);
-                break;
-            default:
-                frame.joints[column.joint][column.axis] = *number;
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            if ((axes[i] & 7u) != 7u || axes[i] > 15u)
+                fail_line(lines_.taken(),
+                          "expected columns x, y and z of every joint: j0x, j0y, j0z, j1x and so on");
+            points_[i].numbers.resize(axes[i] == 15u ? 4 : 3);
         }
     }
 
-    std::istream& in_;
-    std::string text_;
-    char separator_ = ',';
+    bool next(std::vector<LogVector>& found) override {
+        std::string text;
+        do {
+            if (!lines_.next(text)) return false;
+        } while (text.find_first_not_of(" \t,;|-:+=") == text.npos || text.starts_with('#'));
+        auto row = split(text, separator_);
+        if (row.size() == columns_.size() + 1 && row.back().empty()) row.pop_back();
+        if (row.size() != columns_.size())
+            fail_line(lines_.taken(), "expected " + std::to_string(columns_.size()) + " columns, found " +
+                                          std::to_string(row.size()));
+        if (std::exchange(first_, false) &&
+            std::ranges::none_of(row, [](auto cell) { return number_in(cell).has_value(); }))
+            return next(found);  // units
+        found = points_;
+        std::optional<double> time, dt;
+        std::string chain;
+        std::vector<std::size_t> empty(points_.size());
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            const Column& column = columns_[i];
+            if (column.role == Role::Ignored) continue;
+            const auto number = number_in(row[i]);
+            if (column.role == Role::Chain)
+                chain = std::string(row[i]);
+            else if (column.role == Role::Time)
+                time = number ? std::optional(*number * column.unit) : std::nullopt;  // it may be a date
+            else if (row[i].empty() && column.role == Role::Point)
+                ++empty[column.point];
+            else if (!number)
+                fail_line(lines_.taken(), "column " + std::to_string(i + 1) +
+                                              ": expected a number, found \"" +
+                                              printable(row[i].substr(0, 40)) + '"');
+            else if (column.role == Role::Dt)
+                dt = number;
+            else
+                found[column.point].numbers[column.axis] = *number;
+        }
+        for (std::size_t i = points_.size(); i-- > 0;) {
+            found[i].line = lines_.taken();
+            found[i].stamp = time;
+            found[i].dt = dt;
+            found[i].chain = chain;
+            if (empty[i] == found[i].numbers.size())
+                found.erase(found.begin() + static_cast<std::ptrdiff_t>(i));
+            else if (empty[i] > 0)
+                fail_line(lines_.taken(), "expected a number, found an empty cell");
+        }
+        if (!found.empty()) found[0].first = true, found[0].gap = NextLine;
+        return true;
+    }
+
+  private:
+    Lines& lines_;
+    char separator_;
     std::vector<Column> columns_;
-    std::size_t joints_ = 0;
-    RawFrame other_;  ///< the right side's, while it was not handed out
-    bool waiting_ = true, one_pose_ = false, done_ = false, two_sides_ = false;
+    std::vector<LogVector> points_;  ///< without numbers
+    bool first_ = true;
 };
 
 }  // namespace
 
-bool begins_table(std::string_view line) {
-    const auto row = split(line, separator_of(line));
-    if (row.size() >= 3 && all_numbers(row)) return true;
-    const auto points = std::ranges::count_if(point_columns(row), &std::optional<PointColumn>::has_value);
-    if (separator_of(line) != ' ') return points >= 3;
-    return points >= 6 && static_cast<std::size_t>(points) + 1 >= row.size();
-}
-
-std::unique_ptr<RawTrace> open_table_trace(std::istream& in, std::string first, std::size_t line) {
-    return std::make_unique<Table>(in, std::move(first), line);
+std::unique_ptr<VectorLines> open_table(Lines& lines, RawTrace& trace) {
+    constexpr std::size_t most = 24;  // lines above the names
+    for (std::size_t at = 0; at < most && lines.ahead(at); ++at) {
+        std::string line = *lines.ahead(at);
+        const char separator = separator_of(line);
+        auto names = column_names(lines, at, separator);
+        if (!names.empty() && names[0].starts_with('#')) names[0].erase(0, 1);
+        if (separator == ' ' && !names.empty() && names[0].empty()) names.erase(names.begin());
+        const std::vector<std::string_view> row(names.begin(), names.end());
+        const auto points = static_cast<std::size_t>(
+            std::ranges::count_if(point_columns(row), &std::optional<PointColumn>::has_value));
+        if (separator != ' ' ? points < 3 : points < 6 || points + 1 < row.size()) continue;
+        lines.drop(at + 1);
+        auto rows = std::make_unique<TableRows>(lines, separator);
+        rows->read_names(names, trace);
+        return rows;
+    }
+    return nullptr;
 }
 
 }  // namespace tendril::app

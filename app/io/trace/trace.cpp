@@ -250,19 +250,20 @@ bool TraceReader::next(TracedFrame& frame) {
     frame.end = given_end_;
     if (const auto end = ends_.find(frame.chain); end != ends_.end()) frame.end = end->second;
     if (frame.end && *frame.end + 1 >= raw.joints.size()) frame.end.reset();
-    frame.joints.clear();
     frame.resolution = 0.0f;
-    for (const glm::dvec3& joint : raw.joints) {
-        frame.joints.push_back(conventions_.point(joint));
-        for (int axis = 0; axis < 3; ++axis)
-            frame.resolution = std::max(
-                frame.resolution, static_cast<float>(rounding_.of(joint[axis]) * conventions_.metres()));
-    }
-    const auto point = [&](const std::optional<glm::dvec3>& p) {
-        return p ? std::optional(conventions_.point(*p)) : std::nullopt;
+    const auto point = [&](const glm::dvec3& p) {
+        constexpr double floats = 0x1p-23;  // half a unit of a float's last digit, in the engine and here
+        for (int axis = 0; axis < 3; ++axis) {
+            const double off =
+                std::max(rounding_.of(p[axis]), floats * std::abs(p[axis])) * conventions_.metres();
+            if (off < 1e12) frame.resolution = std::max(frame.resolution, static_cast<float>(off));
+        }
+        return conventions_.point(p);
     };
-    frame.target = point(raw.target);
-    frame.pole = point(raw.pole);
+    frame.joints.clear();
+    for (const glm::dvec3& joint : raw.joints) frame.joints.push_back(point(joint));
+    frame.target = raw.target ? std::optional(point(*raw.target)) : std::nullopt;
+    frame.pole = raw.pole ? std::optional(conventions_.point(*raw.pole)) : std::nullopt;
     frame.rotations.clear();
     for (const glm::dvec4& each : raw.rotations) frame.rotations.push_back(conventions_.rotation(each));
     frame.dt = raw.dt ? std::optional(static_cast<float>(*raw.dt)) : std::nullopt;

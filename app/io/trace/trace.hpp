@@ -60,7 +60,7 @@ class TraceReader {
     const TraceHeader& header() const { return raw_->header; }
     /// For display: what was left out, where reading stopped.
     const std::vector<std::string>& notes() const { return notes_; }
-    std::size_t line() const { return raw_->line; }
+    std::size_t line() const { return raw_->line(); }
 
   private:
     bool next_raw(RawFrame& frame);

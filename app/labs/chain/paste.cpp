@@ -69,9 +69,6 @@ std::string pasted_text(const ChainPart& part, const std::string& text) {
 
 bool begins_like_trace(std::string_view text) {
     if (text.find("\"joints\"") != text.npos || text.find("\"tendril\"") != text.npos) return true;
-    const std::string_view first = text.substr(0, text.find('\n'));
-    if (begins_table(first) && std::ranges::count(first, ',') >= 5) return true;
-    // A log: three vectors in a row.
     try {
         std::istringstream in{std::string(text)};
         RawFrame frame;

@@ -1,6 +1,8 @@
 // Logs in the formats that programs of many makers print.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/app/io/trace_reading.hpp"
 
 namespace tendril::app {
@@ -11,206 +13,157 @@ using test::made::Plant;
 using test::made::Space;
 using test::made::TraceMaker;
 
-/// A program's format for a frame of shoulder, elbow and hand, and the facts that can be known about it.
+/// How a program prints a frame. # is its number, @ a joint's name, ~ its number and ^ its letter.
 struct Maker {
-    const char* name;
-    std::string (*print)(const std::vector<glm::dvec3>& joints, std::size_t frame);
-    int space = 2;            ///< index into test::made::spaces
-    const char* header = "";  ///< before the first frame
-    const char* engine = "";  ///< expected in the text of the conventions
+    const char *name, *joint, *between = " ", *before = "", *after = "\n", *header = "";
+    int space = 2;                            ///< of test::made::spaces
+    const char* engine = "";                  ///< in the text of the conventions
+    std::string (*number)(double) = nullptr;  ///< prints each, where the format has %s
+    const char* sometimes = "";               ///< before every seventh frame
+
+    std::string print(const std::vector<glm::dvec3>& joints, std::size_t frame) const {
+        std::string text = before;
+        for (std::size_t i = 0; i < joints.size(); ++i) {
+            constexpr const char* names[]{"shoulder", "elbow", "hand"};
+            std::string format = replaced(replaced(joint, '@', names[i]), '~', std::to_string(i));
+            format = replaced(format, '^', std::string(1, "pru"[i]));
+            if (number != nullptr)
+                for (const int axis : {0, 1, 2}) {
+                    const std::size_t at = format.find("%s");
+                    format.replace(at, 2, number(joints[i][axis]));
+                }
+            text += (i > 0 ? between : "") + printed(joints[i], format.c_str());
+        }
+        if (frame % 7 == 3) text.insert(0, sometimes);
+        return replaced(text + after, '#', std::to_string(frame));
+    }
+
+  private:
+    static std::string replaced(std::string text, char what, const std::string& by) {
+        for (std::size_t at = 0; (at = text.find(what, at)) != text.npos; at += by.size())
+            text.replace(at, 1, by);
+        return text;
+    }
 };
 
-template <std::size_t N>
-std::string each_joint(const std::vector<glm::dvec3>& joints, const char (&format)[N],
-                       const char* between = " ") {
-    std::string text;
-    for (const glm::dvec3& joint : joints) text += (text.empty() ? "" : between) + printed(joint, format);
+std::string in_haskell(double x) {
+    char text[40];
+    std::snprintf(text, sizeof text, x < 0.0 ? "(%.4f)" : "%.4f", x);
     return text;
 }
-std::string labelled(const std::vector<glm::dvec3>& joints, const char* format) {
-    return "shoulder" + printed(joints[0], format) + "elbow" + printed(joints[1], format) + "hand" +
-           printed(joints[2], format);
+std::string with_comma(double x) {
+    std::string text = test::made::number_text(x, 4);
+    std::ranges::replace(text, '.', ',');
+    return text;
+}
+std::string in_fortran(double x) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.6E", x);
+    std::string all = text;
+    std::ranges::replace(all, 'E', 'D');
+    return all;
+}
+std::string in_thousands(double x) {
+    return test::made::number_text(x / 1e3, 7);
 }
 
-using Joints = std::vector<glm::dvec3>;
-constexpr const char* blocks = "\n  x: %.4f\n  y: %.4f\n  z: %.4f\n}\n";
+constexpr const char *xyz = "%.4f,%.4f,%.4f", *list = "[%.4f, %.4f, %.4f]", *round = "(%.4f, %.4f, %.4f)";
 const Maker makers[]{
-    {"NumPy",
-     [](const Joints& j, std::size_t) { return "[" + each_joint(j, "[%.4f %.4f %.4f]", "\n ") + "]\n"; }},
-    {"NumPy repr",
-     [](const Joints& j, std::size_t) {
-         return "arm = array([" + each_joint(j, "[ %.4f,  %.4f,  %.4f]", ",\n       ") + "])\n";
-     }},
-    {"Unreal",
-     [](const Joints& j, std::size_t) {
-         return "LogTemp: " + each_joint(j, "X=%.3f Y=%.3f Z=%.3f") + " Rotation: X=0.0 Y=0.0 Z=0.0 W=1.0\n";
-     },
-     0, "", "Unreal"},
-    {"glm",
-     [](const Joints& j, std::size_t) {
-         return each_joint(j, "vec3(%f, %f, %f)") + " rot quat(1.000000, {0.000000, 0.000000, 0.000000})\n";
-     }},
-    {"Eigen column", [](const Joints& j, std::size_t) { return labelled(j, ":\n%.4f\n%.4f\n%.4f\n"); }},
+    {"NumPy", "[%.4f %.4f %.4f]", "\n ", "[", "]\n"},
+    {"NumPy repr", "[ %.4f,  %.4f,  %.4f]", ",\n       ", "arm = array([", "])\n"},
+    {"Unreal", "X=%.3f Y=%.3f Z=%.3f", " ", "LogTemp: ", " Rotation: X=0.0 Y=0.0 Z=0.0 W=1.0\n", "", 0,
+     "Unreal"},
+    {"glm", "vec3(%f, %f, %f)", " ", "", " rot quat(1.000000, {0.000000, 0.000000, 0.000000})\n"},
+    {"Eigen column", "@:\n%.4f\n%.4f\n%.4f\n", "", "", ""},
     {"ROS",
-     [](const Joints& j, std::size_t) {
-         return "poses:\n" +
-                each_joint(j,
-                           "- position:\n    x: %.4f\n    y: %.4f\n    z: %.4f\n  orientation:\n    x: 0.0\n"
-                           "    y: 0.0\n    z: 0.0\n    w: 1.0\n",
-                           "") +
-                "---\n";
-     },
-     3, "", "ROS"},
-    {"Maya",
-     [](const Joints& j, std::size_t) { return "[" + each_joint(j, "[%.4f, %.4f, %.4f]", ", ") + "]\n"; }},
-    {"Maya selection", [](const Joints& j, std::size_t) { return labelled(j, " = %.4f %.4f %.4f //\n"); }},
+     "- position:\n    x: %.4f\n    y: %.4f\n    z: %.4f\n  orientation:\n    x: 0.0\n    y: 0.0\n    z: "
+     "0.0\n"
+     "    w: 1.0\n",
+     "", "poses:\n", "---\n", "", 3, "ROS"},
+    {"Maya", list, ", ", "[", "]\n"},
+    {"Maya selection", "@ = %.4f %.4f %.4f //\n", "", "", ""},
     {"Blender matrices",
-     [](const Joints& j, std::size_t) {
-         std::string text;
-         for (std::size_t i = 0; i < 3; ++i)
-             text += "joint " + std::to_string(i) +
-                     printed(j[i],
-                             ": <Matrix 4x4 (0.6, -0.8, 0.0, %.4f)\n            (0.8, 0.6, 0.0, %.4f)\n"
-                             "            (0.0, 0.0, 1.0, %.4f)\n            (0.0, 0.0, 0.0, 1.0)>\n");
-         return text;
-     },
-     3},
-    {"MATLAB",
-     [](const Joints& j, std::size_t) { return "p = [" + each_joint(j, "%.4f %.4f %.4f", "; ") + "]\n"; }},
-    {"with rotations",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, " position (%.4f, %.4f, %.4f) rotation (0.00, 90.00, 0.00) scale (1, 1, 1)\n");
-     }},
-    {"quaternions, w first",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, " (%.4f, %.4f, %.4f) <Quaternion (w=0.9888, x=0.0338, y=0.0846, z=0.1184)> ") +
-                "\n";
-     }},
-    {"named quaternions",
-     [](const Joints& j, std::size_t) {
-         return each_joint(j, "{pos: {x: %.4f, y: %.4f, z: %.4f}, rot: {w: 1.0, x: 0.0, y: 0.0, z: 0.0}}") +
-                "\n";
-     }},
-    {"t r s",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, " t=[%.4f, %.4f, %.4f] r=[10.0, 20.0, 30.0] s=[1.0, 1.0, 1.0] ") + "\n";
-     }},
-    {"p w v",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, ": p=(%.4f, %.4f, %.4f) w=(0.0, 0.0, 0.3) v=(0.1, 0.2, 0.3) ") + "\n";
-     }},
-    {"forward, up",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, " pos (%.4f, %.4f, %.4f) fwd (0.0, 0.0, 1.0) up (0.0, 1.0, 0.0)\n");
-     }},
-    {"axis, angle",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, " (%.4f, %.4f, %.4f) axis=(0.0, 1.0, 0.0) angle=10.0 ") + "\n";
-     }},
-    {"world, local",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, " world (%.4f, %.4f, %.4f) local (0.3, 0.0, 0.0) ") + "\n";
-     }},
-    {"velocities",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, ": position (%.4f, %.4f, %.4f) velocity (0.1, 0.0, 0.3) ") + "\n";
-     }},
-    {"a label that each has",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, " (%.4f, %.4f, %.4f) bulge (0.1, 0.2, 0.3) ") + "\n";
-     }},
-    {"labels in turn",
-     [](const Joints& j, std::size_t) {
-         return each_joint(j, "here (%.4f, %.4f, %.4f) bulge (0.1, 0.2, 0.3)") + "\n";
-     }},
-    {"poses of seven",
-     [](const Joints& j, std::size_t) {
-         return labelled(j, " [%.4f, %.4f, %.4f, 0.0338, 0.0846, 0.1184, 0.9888] ") + "\n";
-     }},
-    {"Universal Robots",
-     [](const Joints& j, std::size_t) { return each_joint(j, "p[%.4f, %.4f, %.4f, 0.1, 0.2, 0.3]") + "\n"; }},
-    {"hand.R",
-     [](const Joints& j, std::size_t) {
-         return "arm.R" + printed(j[0]) + "\nfore.R" + printed(j[1]) + "\nhand.R" + printed(j[2]) + "\n";
-     }},
-    {"with matrices",
-     [](const Joints& j, std::size_t) {
-         return each_joint(j, "(%.4f, %.4f, %.4f)") + " [[0.6 -0.8 0.0] [0.8 0.6 0.0] [0.0 0.0 1.0]]\n";
-     }},
-    {"Protobuf text",
-     [](const Joints& j, std::size_t) {
-         return "shoulder {" + printed(j[0], blocks) + "elbow {" + printed(j[1], blocks) + "hand {" +
-                printed(j[2], blocks);
-     }},
-    {"Rust dbg!",
-     [](const Joints& j, std::size_t) {
-         return each_joint(j,
-                           "[src/arm.rs:12:5] joint = Vec3 {\n    x: %.4f,\n    y: %.4f,\n    z: %.4f,\n}\n",
-                           "") +
-                "[src/arm.rs:15:5] solved = true\n";
-     }},
-    {"nested JSON",
-     [](const Joints& j, std::size_t) {
-         return each_joint(
-                    j, "{\n  \"position\": {\n    \"x\": %.4f,\n    \"y\": %.4f,\n    \"z\": %.4f\n  }\n}\n",
-                    "") +
-                "\n";
-     }},
-    {"letters, one a line",
-     [](const Joints& j, std::size_t) {
-         return "p " + printed(j[0]) + "\nq " + printed(j[1]) + "\nr " + printed(j[2]) + "\n";
-     }},
-    {"other lines between",
-     [](const Joints& j, std::size_t i) {
-         return (i % 7 == 3 ? "camera (1.0, 2.0, 3.0)\n" : "") + labelled(j, " (%.4f, %.4f, %.4f) ") + "\n";
-     }},
-    {"indexed",
-     [](const Joints& j, std::size_t) {
-         std::string text;
-         for (std::size_t i = 0; i < 3; ++i)
-             text += "joint[" + std::to_string(i) + "] = " + printed(j[i]) + "\n";
-         return text;
-     }},
-    {"name.x=",
-     [](const Joints& j, std::size_t) {
-         return printed(j[0], "0.5 a.x=%.4f a.y=%.4f a.z=%.4f ") +
-                printed(j[1], "b_x=%.4f b_y=%.4f b_z=%.4f ") +
-                printed(j[2], "arm.c.x=%.4f, arm.c.y=%.4f, arm.c.z=%.4f\n");
-     }},
-    {"pipes", [](const Joints& j, std::size_t) { return each_joint(j, "%.4f %.4f %.4f", " | ") + "\n"; }},
+     "joint ~: <Matrix 4x4 (0.6, -0.8, 0.0, %.4f)\n            (0.8, 0.6, 0.0, %.4f)\n"
+     "            (0.0, 0.0, 1.0, %.4f)\n            (0.0, 0.0, 0.0, 1.0)>\n",
+     "", "", "", "", 3},
+    {"MATLAB", "%.4f %.4f %.4f", "; ", "p = [", "]\n"},
+    {"with rotations", "@ position (%.4f, %.4f, %.4f) rotation (0.00, 90.00, 0.00) scale (1, 1, 1)\n", "", "",
+     ""},
+    {"quaternions, w first", "@ (%.4f, %.4f, %.4f) <Quaternion (w=0.9888, x=0.0338, y=0.0846, z=0.1184)>"},
+    {"named quaternions", "{pos: {x: %.4f, y: %.4f, z: %.4f}, rot: {w: 1.0, x: 0.0, y: 0.0, z: 0.0}}"},
+    {"t r s", "@ t=[%.4f, %.4f, %.4f] r=[10.0, 20.0, 30.0] s=[1.0, 1.0, 1.0]"},
+    {"p w v", "@: p=(%.4f, %.4f, %.4f) w=(0.0, 0.0, 0.3) v=(0.1, 0.2, 0.3)"},
+    {"forward, up", "@ pos (%.4f, %.4f, %.4f) fwd (0.0, 0.0, 1.0) up (0.0, 1.0, 0.0)\n", "", "", ""},
+    {"axis, angle", "@ (%.4f, %.4f, %.4f) axis=(0.0, 1.0, 0.0) angle=10.0"},
+    {"world, local", "@ world (%.4f, %.4f, %.4f) local (0.3, 0.0, 0.0)"},
+    {"velocities", "@: position (%.4f, %.4f, %.4f) velocity (0.1, 0.0, 0.3)"},
+    {"a label that each has", "@ (%.4f, %.4f, %.4f) bulge (0.1, 0.2, 0.3)"},
+    {"labels in turn", "here (%.4f, %.4f, %.4f) bulge (0.1, 0.2, 0.3)"},
+    {"poses of seven", "@ [%.4f, %.4f, %.4f, 0.0338, 0.0846, 0.1184, 0.9888]"},
+    {"Universal Robots", "p[%.4f, %.4f, %.4f, 0.1, 0.2, 0.3]"},
+    {"hand.R", "@.R(%.4f, %.4f, %.4f)\n", "", "", ""},
+    {"with matrices", round, " ", "", " [[0.6 -0.8 0.0] [0.8 0.6 0.0] [0.0 0.0 1.0]]\n"},
+    {"Protobuf text", "@ {\n  x: %.4f\n  y: %.4f\n  z: %.4f\n}\n", "", "", ""},
+    {"Rust dbg!", "[src/arm.rs:12:5] joint = Vec3 {\n    x: %.4f,\n    y: %.4f,\n    z: %.4f,\n}\n", "", "",
+     "[src/arm.rs:15:5] solved = true\n"},
+    {"nested JSON", "{\n  \"position\": {\n    \"x\": %.4f,\n    \"y\": %.4f,\n    \"z\": %.4f\n  }\n}\n",
+     ""},
+    {"other lines between", "@ (%.4f, %.4f, %.4f)", " ", "", "\n", "", 2, "", nullptr,
+     "camera (1.0, 2.0, 3.0)\n"},
+    {"letters", "^=(%.4f, %.4f, %.4f)"},
+    {"letters, one a line", "^ (%.4f, %.4f, %.4f)\n", "", "", ""},
+    {"indexed", "joint[~] = (%.4f, %.4f, %.4f)\n", "", "", ""},
+    {"name.x=", "arm.@.x=%.4f, arm.@.y=%.4f, arm.@.z=%.4f", " ", "0.5 "},
+    {"name_x=", "@_x=%.4f @_y=%.4f @_z=%.4f"},
+    {"pipes", "%.4f %.4f %.4f", " | "},
     {"arrays of float32",
-     [](const Joints& j, std::size_t i) {
-         return "frame " + std::to_string(i) + " [" +
-                each_joint(
-                    j, "[array(%.4f, dtype=float32), array(%.4f, dtype=float32), array(%.4f, dtype=float32)]",
-                    ", ") +
-                "]\n";
-     }},
-    {"letters",
-     [](const Joints& j, std::size_t) {
-         return printed(j[0], "p=(%.4f, %.4f, %.4f) ") + printed(j[1], "r=(%.4f, %.4f, %.4f) ") +
-                printed(j[2], "u=(%.4f, %.4f, %.4f)\n");
-     }},
-    {"lines that end with CR",
-     [](const Joints& j, std::size_t) { return each_joint(j, "(%.4f, %.4f, %.4f)") + "\r"; }},
-    {"CSV |", [](const Joints& j, std::size_t) { return each_joint(j, "%.4f|%.4f|%.4f", "|") + "\n"; }, 2,
-     "ax|ay|az|bx|by|bz|cx|cy|cz\n"},
-    {"blank lines",
-     [](const Joints& j, std::size_t) { return each_joint(j, "(%.4f, %.4f, %.4f)", "\n") + "\n\n"; }},
-    {"CSV .x",
-     [](const Joints& j, std::size_t) { return each_joint(j, "%.4f,%.4f,%.4f,0,0,0,1", ",") + "\n"; }, 2,
+     "[array(%.4f, dtype=float32), array(%.4f, dtype=float32), array(%.4f, dtype=float32)]", ", ",
+     "frame # [", "]\n"},
+    {"lines that end with CR", round, " ", "", "\r"},
+    {"blank lines", round, "\n", "", "\n\n"},
+    {"CSV |", "%.4f|%.4f|%.4f", "|", "", "\n", "ax|ay|az|bx|by|bz|cx|cy|cz\n"},
+    {"CSV .x", "%.4f,%.4f,%.4f,0,0,0,1", ",", "", "\n",
      "a.pos.x,a.pos.y,a.pos.z,a.rot.x,a.rot.y,a.rot.z,a.rot.w,b.pos.x,b.pos.y,b.pos.z,b.rot.x,b.rot.y,b.rot."
      "z,"
      "b.rot.w,c.pos.x,c.pos.y,c.pos.z,c.rot.x,c.rot.y,c.rot.z,c.rot.w\n"},
-    {"CSV [0]", [](const Joints& j, std::size_t) { return each_joint(j, "%.4f,%.4f,%.4f", ",") + "\n"; }, 2,
-     "a[0],a[1],a[2],b[0],b[1],b[2],c[0],c[1],c[2]\n"},
-    {"CSV prefix", [](const Joints& j, std::size_t) { return each_joint(j, "%.4f,%.4f,%.4f", ",") + "\n"; },
-     2, "x1,y1,z1,x2,y2,z2,x3,y3,z3\n"},
-    {"CSV unit", [](const Joints& j, std::size_t) { return each_joint(j, "%.4f,%.4f,%.4f", ",") + "\n"; }, 2,
+    {"CSV [0]", xyz, ",", "", "\n", "a[0],a[1],a[2],b[0],b[1],b[2],c[0],c[1],c[2]\n"},
+    {"CSV prefix", xyz, ",", "", "\n", "x1,y1,z1,x2,y2,z2,x3,y3,z3\n"},
+    {"CSV unit", xyz, ",", "", "\n",
      "a_x [m],a_y [m],a_z [m],b_x [m],b_y [m],b_z [m],c_x [m],c_y [m],c_z [m]\n"},
-    {"CSV, not axes",
-     [](const Joints& j, std::size_t) { return "7,8," + each_joint(j, "%.4f,%.4f,%.4f,1", ",") + "\n"; }, 2,
-     "z-score,x label,a_x,a_y,a_z,a_w,b_x,b_y,b_z,b_w,c_x,c_y,c_z,c_w\n"}};
+    {"CSV, not axes", "%.4f,%.4f,%.4f,1", ",", "7,8,", "\n",
+     "z-score,x label,a_x,a_y,a_z,a_w,b_x,b_y,b_z,b_w,c_x,c_y,c_z,c_w\n"},
+    {"CSV, tidy", "#,@,%.4f,%.4f,%.4f\n", "", "", "", "frame,joint,x,y,z\n"},
+    {"Markdown", "%.4f|%.4f|%.4f|", "", "|#|", "\n",
+     "| frame | ax | ay | az | bx | by | bz | cx | cy | cz |\n|---|---|---|---|---|---|---|---|---|---|\n"},
+    {"OpenSim .trc", "%.4f\t%.4f\t%.4f\t", "", "#\t#\t", "\n",
+     "PathFileType\t4\t(X/Y/"
+     "Z)\tarm.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n60\t60\t120\t3\tm\n"
+     "Frame_\tTime\tshoulder\t\t\telbow\t\t\thand\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\tX3\tY3\tZ3\n\n"},
+    {"Motive", xyz, ",", "#,#,", "\n",
+     "Format Version,1.23,Take Name,Take "
+     "1\n\n,,Marker,Marker,Marker,Marker,Marker,Marker,Marker,Marker,Marker\n"
+     ",,shoulder,shoulder,shoulder,elbow,elbow,elbow,hand,hand,hand\n,,7,7,7,8,8,8,9,9,9\n"
+     "Frame,Time (Seconds),X,Y,Z,X,Y,Z,X,Y,Z\n,,m,m,m,m,m,m,m,m,m\n"},
+    {"MATLAB disp", "%10.4f%10.4f%10.4f\n", ""},
+    {"MATLAB disp, close together", "%10.4f%10.4f%10.4f\n", "", "", ""},
+    {"MATLAB scale", "   %s   %s   %s\n", "", "\np =\n\n   1.0e+03 *\n\n", "", "", 2, "", in_thousands},
+    {"JSON, a key for each joint", "\"@\":[%.4f,%.4f,%.4f]", ",", "{\"t\":#,", "}\n"},
+    {"JSON in one line", "[%.4f,%.4f,%.4f]", ",", "{\"pose\":[", "]},", "{\"fps\":60,\"frames\":["},
+    {"Haskell", "(%s,%s,%s)", ",", "[", "]\n", "", 2, "", in_haskell},
+    {"np.float64 over lines", "array([np.float64(%.4f), np.float64(%.4f),\n       np.float64(%.4f)])", ",\n ",
+     "[", "]\n"},
+    {"Rust {:?}",
+     "        Vec3 {\n            x: %.4f,\n            y: %.4f,\n            z: %.4f,\n        },\n", "",
+     "Arm {\n    joints: [\n", "    ],\n}\n"},
+    {"YAML lists", "  - - %.4f\n    - %.4f\n    - %.4f\n", "", "- joints:\n", ""},
+    {"XML elements", "  <joint>\n    <x>%.4f</x>\n    <y>%.4f</y>\n    <z>%.4f</z>\n  </joint>\n", "",
+     "<frame>\n", "</frame>\n"},
+    {"R list", "$@\n[1] %.4f %.4f %.4f\n\n", "", "", ""},
+    {"hex floats", "(%a, %a, %a)"},
+    {"decimal commas", "<%s; %s; %s>", " ", "", "\n", "", 2, "", with_comma},
+    {"Fortran", "%s %s %s", " ", "# # ", "\n", "", 2, "", in_fortran},
+    {"Godot transforms",
+     "[X: (0.6, 0.8, 0.0), Y: (-0.8, 0.6, 0.0), Z: (0.0, 0.0, 1.0), O: (%.4f, %.4f, %.4f)]"}};
 
 /// A program's format for one vector, used for shoulder, elbow, hand, target and pole target.
 struct VectorFormat {
@@ -341,7 +294,7 @@ TEST(Trace, LogsOfManyMakersAreRead) {
             const Space& space = test::made::spaces[maker.space];
             std::string text = maker.header;
             for (std::size_t i = 0; i < made.frames.size(); ++i) {
-                Joints joints;
+                std::vector<glm::dvec3> joints;
                 for (const glm::dvec3& joint : made.frames[i].joints) joints.push_back(space.of(joint));
                 text += maker.print(joints, i);
             }

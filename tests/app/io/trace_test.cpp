@@ -191,6 +191,27 @@ TEST(Trace, NothingIsFoundInCleanTraces) {
     }
 }
 
+TEST(Trace, FloatsFarFromTheOriginAreAsRoundAsFloatsAre) {
+    for (unsigned seed = 0; seed < 264; ++seed) {
+        const MadeTrace made = TraceMaker(seed).make(Plant::None);
+        const double away = seed % 3 == 0 ? 5e3 : 5e4, scale = seed % 2 == 0 ? 1.0 : 100.0;  // metres
+        std::string text;
+        for (const auto& frame : made.frames) {
+            std::vector<glm::dvec3> points = frame.joints;
+            points.push_back(frame.target);
+            for (const glm::dvec3& point : points) {
+                const glm::vec3 rounded(scale * (point + glm::dvec3(away, 0.0, -0.7 * away)));
+                text += (&point == &points.back() ? "target " : "") +
+                        printed(rounded, seed % 4 < 2 ? "(%.4f, %.4f, %.4f) " : "(%.9g, %.9g, %.9g) ");
+            }
+            text += '\n';
+        }
+        const ReadTrace found = read_trace(
+            text, {.up = "y", .handed = "right", .unit = seed % 2 == 0 ? "m" : "cm", .rotations = ""});
+        EXPECT_EQ(found.text(), "") << "seed " << seed;
+    }
+}
+
 TEST(Trace, ConventionsAreGuessedOrNotSure) {
     std::size_t sure = 0, right = 0;
     for (unsigned seed = 2000; seed < 2400; ++seed) {
@@ -358,7 +379,8 @@ TEST(Trace, WithoutATargetNoneIsReported) {
                 text += (j > 0 ? "," : "") + printed(scale * made.frames[i].joints[j], "[%.5f,%.5f,%.5f]");
             text += "]}\n";
         }
-        for (const TracedIncident& each : read_trace(text).incidents())
+        const ReadTrace found = read_trace(text);
+        for (const TracedIncident& each : found.incidents())
             EXPECT_TRUE(each.kind != ik::IncidentKind::TargetJump && !test::says(each.cause, "target"))
                 << "seed " << seed << ": " << each.text({});
     }
