@@ -56,8 +56,7 @@ void settings(RopeEdit& edit, const Arguments& given) {
 void blow(RopeEdit& edit, const Arguments& given) {
     rope::Settings wanted = edit.seen().settings();
     wanted.wind = given.point("velocity");
-    if (given.has("gusts")) wanted.gusts = static_cast<float>(given.number("gusts"));
-    if (given.has("still_air")) wanted.still_air = given.boolean("still_air");
+    set_fields(given, wanted);  // gusts and still_air
     if (wanted != edit.seen().settings()) edit.world().set_settings(wanted);
 }
 

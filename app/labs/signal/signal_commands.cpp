@@ -16,10 +16,6 @@ namespace tendril::app {
 
 namespace {
 
-std::vector<std::string> all_kind_names() {
-    return names(signal::kinds(), [](const signal::Kind& kind) { return kind.name; });
-}
-
 /// Offers the indices of the present filters.
 Argument filter_argument(Argument place) {
     return offering(std::move(place), [](const Workspace& w) {
@@ -123,7 +119,8 @@ void remove_selected(SignalPart& part, const Arguments&) {
 
 void add_filter_commands(CommandTable& table) {
     const Argument at = filter_argument(index_argument("at", true, "which filter, from 0", max_stages));
-    std::vector<Argument> adding{choice_argument("kind", true, "which kind", all_kind_names())};
+    std::vector<Argument> adding{choice_argument("kind", true, "which kind",
+                                                 names(signal::kinds(), std::mem_fn(&signal::Kind::name)))};
     std::vector<Argument> setting{at};
     for (const Argument& parameter : parameter_arguments()) {
         adding.push_back(parameter);

@@ -77,21 +77,11 @@ TEST_F(SignalFile, NumbersAreRecomputedOnlyAfterChanges) {
     EXPECT_NE(*runtime.chain(part()).stages[0].lag, lag);
 }
 
-TEST(SignalFilters, EveryKindAndStateSurvivesJson) {
+/// Its parameters do by the test over all tables.
+TEST(SignalFilters, EveryStateSurvivesJson) {
     test::Random random(1);
     for (const signal::Kind& kind : signal::kinds()) {
-        signal::Filter filter = kind.blank();
-        for (const Field& field : kind.fields) {
-            const double low = std::max(field.slider().low, -5.0), high = std::min(field.slider().high, 5.0);
-            for (int i = 0; i < field.size(); ++i) {
-                const double share = 0.5 + 0.5 * static_cast<double>(random.around(1.0f));
-                signal::Filter changed = filter;
-                field.set_number(signal::fields_in(changed), low + share * (high - low), i);
-                if (signal::check(changed)) filter = changed;
-            }
-        }
-        const Json json = parse_json(filter_json(filter).dump());
-        EXPECT_EQ(filter_from_json(json, "filter"), filter) << kind.name;
+        const signal::Filter filter = kind.blank();
         signal::FilterState state;
         for (int i = 0; i < 30; ++i) {
             const double input = static_cast<double>(random.around(1.0f));
