@@ -99,8 +99,7 @@ void find_moved_files(Json& part, const fs::path& scene_folder) {
 }
 
 std::string changed_files_text(const Json& part) {
-    std::string names;
-    bool several = false;
+    std::vector<std::string> changed;
     for_each_file(part, [&](const Json& each) {
         const fs::path path = text_of(each, "path"),
                        file = is_there(path) ? path : fs::path(text_of(each, "file"));
@@ -109,13 +108,14 @@ std::string changed_files_text(const Json& part) {
         const std::uint64_t saved =
             sum != each.end() && sum->is_number_unsigned() ? sum->get<std::uint64_t>() : max_crc32 + 1;
         const std::string name = file.filename().string();
-        if (saved > max_crc32 || saved == crc32_of(file).value_or(0) || names.find(name) != names.npos)
-            return;
-        several = !names.empty();
-        names += (several ? ", " : "") + name;
+        if (saved <= max_crc32 && saved != crc32_of(file).value_or(0) &&
+            std::ranges::find(changed, name) == changed.end())
+            changed.push_back(name);
     });
-    return names.empty() ? names
-                         : names + (several ? " have" : " has") + " changed since the scene was saved";
+    std::string names;
+    for (const std::string& each : changed) names += (names.empty() ? "" : ", ") + each;
+    if (names.empty()) return names;
+    return names + (changed.size() > 1 ? " have" : " has") + " changed since the scene was saved";
 }
 
 std::vector<std::string> names_of_uri(const std::string& uri) {
