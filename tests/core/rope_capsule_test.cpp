@@ -33,6 +33,27 @@ TEST(RopeCapsule, EndsMoveEvenlyToTheirGoals) {
     EXPECT_EQ(capsule_of(world, id), there) << "and stays";
 }
 
+/// A figure at rest sends its capsules to the same place in every tick. The smallest motion would lift the
+/// bound on the energy of what hangs on them.
+TEST(RopeCapsule, OneSentToWhereItIsStaysToTheBit) {
+    Random random(1);
+    rope::World world;
+    rope::Workspace workspace;
+    const double h = world.settings().substep;
+    const rope::ColliderId id = *world.add_collider(Capsule{});
+    for (int round = 0; round < 200; ++round) {
+        const Capsule to{random.point(2.0f), random.point(2.0f), 0.1f};
+        ASSERT_TRUE(world.move_capsule(id, to, 3.0 * h));
+        world.advance(3.0 * h, workspace);
+        EXPECT_EQ(capsule_of(world, id), to);
+        ASSERT_TRUE(world.move_capsule(id, to, 3.0 * h));
+        for (int i = 0; i < 3; ++i) {
+            world.advance(h, workspace);
+            EXPECT_EQ(capsule_of(world, id), to);
+        }
+    }
+}
+
 TEST(RopeCapsule, ATranslatedCapsuleEqualsAMovedCollider) {
     rope::World moved, turned;
     rope::Workspace workspace;

@@ -134,14 +134,6 @@ TEST(RopeClothCollision, ARopeAndAClothRestOnACloth) {
     EXPECT_GT(lowest(world), loaded + 0.003);
 }
 
-TEST(RopeClothCollision, WithoutCollisionTheyFallThroughIt) {
-    World world = hammock();
-    for (const char* each : {"rope", "small"})
-        allow(world.set_collides(world.id("hammock"), world.id(each), false));
-    run(world, 2.0);
-    EXPECT_LT(lowest(world), 0.0);
-}
-
 TEST(RopeClothCollision, ThreadsAndCopiesGiveTheSameBits) {
     World world = hammock();
     world.add_cloth("apart", {.corner = {3, 1, 0}, .columns = 6, .rows = 6});

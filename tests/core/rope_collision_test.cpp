@@ -267,26 +267,6 @@ TEST(RopeCollision, ContactsDoNotDependOnTheWorkspacesMemory) {
     EXPECT_FALSE(world.state().contacts.empty());
 }
 
-TEST(RopeCollision, OtherSolversAndTiedRopesDoNotPassEither) {
-    for (const rope::Solver solver : all_solvers) {
-        World world = crossed(32, 0.2);
-        if (solver == rope::Solver::Direct) {  // the ends of the lower one, to each other
-            const rope::Body lower = *world.find(below);
-            allow(world.core().tie(lower.first, lower.first + lower.count - 1, {.length = 1.0f}).error());
-        }
-        rope::Settings settings = world.settings();
-        settings.solver = solver;
-        world.set_settings(settings);
-        double before = gauss_integral(points_of(world, below), points_of(world, on_top));
-        run_substeps(world, 960, [&] {  // one may slide off the other, but not pass through it
-            const double now = gauss_integral(points_of(world, below), points_of(world, on_top));
-            EXPECT_LT(std::abs(now - before), 0.6) << name(solver);
-            before = now;
-        });
-        EXPECT_TRUE(all_finite(world));
-    }
-}
-
 TEST(RopeCollision, EditsKeepThePairs) {
     World world = crossed(16);
     const rope::BodyId lower = world.id(below), upper = world.id(on_top);

@@ -40,6 +40,16 @@ void run_substeps(World& world, int count, Seen seen) {
     }
 }
 
+/// Gives each particle a velocity, m/s, by its number. Bodies and colliders get default names.
+template <class Velocity>
+void throw_all(World& world, Velocity velocity) {
+    rope::State state = world.state();
+    state.displaced_in = state.settings.substep;
+    for (std::size_t i = 0; i < state.displacement.size(); ++i)
+        state.displacement[i] = state.displaced_in * velocity(i);
+    world = World(state);
+}
+
 /// Hangs a rope between the origin and (span, 0, 0).
 inline void hang_between(World& world, float span, float length, int segments) {
     world.add_rope("rope", {.from = {0, 0, 0},

@@ -41,23 +41,32 @@ bool tear_ties(State& state) {
            }) > 0;
 }
 
-/// Turns a capsule whose centre has moved to its direction there.
-void rotate_capsule(Collider& collider, double part, Scratch::Moving& moving) {
+/// Moves both ends of a capsule, each along a line.
+void move_ends(Collider& collider, double part, Scratch::Moving& moving) {
     auto& capsule = std::get<Capsule>(collider.shape);
-    const dvec3 was = detail::half_of(capsule), middle(centre(collider.shape));
-    const dvec3 half = was + part * (*collider.half_goal - was);
+    const Capsule was = capsule;
+    detail::bounds(was, dvec3(0.0), moving.low, moving.high);
     const dvec3 low = moving.low, high = moving.high;
-    collider.shape =
-        detail::clamped_to_world(Capsule{glm::vec3(middle - half), glm::vec3(middle + half), capsule.radius});
-    moving.turn = detail::half_of(capsule) - was;
-    // The ends sweep along lines: the bounds of both positions contain everything in between.
-    detail::bounds(collider.shape, moving.by, moving.low, moving.high);
+    collider.shape = detail::interpolated(collider, part);
+    moving.by = detail::middle_of(capsule) - detail::middle_of(was);
+    moving.turn = detail::half_of(capsule) - detail::half_of(was);
+    detail::bounds(capsule, dvec3(0.0), moving.low, moving.high);
     moving.low = glm::min(moving.low, low);
     moving.high = glm::max(moving.high, high);
     if (collider.seconds != 0.0) return;
     // It has arrived, to rounding, and stays.
     collider.half_goal.reset();
     collider.goal = dvec3(centre(collider.shape));
+}
+
+/// Moves a collider without turning it.
+void translate(Collider& collider, double part, Scratch::Moving& moving) {
+    const glm::vec3 was = centre(collider.shape);
+    const dvec3 from(was), to = from + part * (collider.goal - from);
+    if (glm::vec3(to) != was) collider.shape = detail::clamped_to_world(moved(collider.shape, glm::vec3(to)));
+    moving.by = dvec3(centre(collider.shape)) - from;
+    moving.turn = dvec3(0.0);
+    detail::bounds(collider.shape, moving.by, moving.low, moving.high);
 }
 
 /// Adds a steady motion to the substep's. A spinning body sweeps a volume within a ball.
@@ -96,17 +105,10 @@ void move_colliders(State& state, Scratch& scratch) {
     for (std::size_t i = 0; i < state.colliders.size(); ++i) {
         Collider& collider = state.colliders[i];
         Scratch::Moving& moving = scratch.colliders[i];
-        const glm::vec3 was = centre(collider.shape);
         const double part = detail::part_of(state.settings.substep, collider.seconds);
-        const dvec3 from(was), to = from + part * (collider.goal - from);
-        if (glm::vec3(to) != was)
-            collider.shape = detail::clamped_to_world(moved(collider.shape, glm::vec3(to)));
+        (collider.half_goal ? move_ends : translate)(collider, part, moving);
         moving.shape = &collider.shape;
-        moving.by = dvec3(centre(collider.shape)) - from;
         moving.size = size(collider.shape);
-        moving.turn = dvec3(0.0);
-        detail::bounds(collider.shape, moving.by, moving.low, moving.high);
-        if (collider.half_goal) rotate_capsule(collider, part, moving);
         moving.spins = false;
         if (collider.drive.any()) apply_drive(state, collider, moving);
     }

@@ -199,6 +199,7 @@ int ClothSolver::step(int iterations, bool first, double enough) {
     move(1.0f);
     evaluate();
     step_scale_ = 1.0;
+    decrease_ = before - potential();
     if (strain_ <= accepted_strain) return solved.iterations;
     if (first) {
         move(-1.0f);
@@ -218,6 +219,7 @@ int ClothSolver::step(int iterations, bool first, double enough) {
         evaluate();
         part = 0.0f;
     }
+    decrease_ = before - potential();
     step_scale_ = part;
     return solved.iterations;
 }
@@ -267,19 +269,33 @@ double ClothSolver::predict() {
     }
     for (std::size_t i = first_; i < end && farthest < far * far; ++i)
         if (scratch_.weight[i] > 0.0) scratch_.x[i] = unchanged(i);
+    forced_ = driven;
     evaluate();
     const double small = residual_strain * shortest_;
     return std::min(force_residual * force_residual * driven, small * small * stiffness_);
 }
 
+/// Whether a collider or pin moves and may do work.
+bool ClothSolver::is_driven() const {
+    if (scratch_.body_near[grid_.body] == Scratch::Nearest::Moving) return true;
+    for (std::size_t i = first_; i < first_ + state_.bodies[grid_.body].count; ++i)
+        if (scratch_.weight[i] == 0.0 && scratch_.base[i] != state_.position[i]) return true;
+    return false;
+}
+
 int ClothSolver::solve(int iterations) {
     load();
     const double enough = predict();
+    const bool driven = is_driven();
     int most = 0;
     for (int step_scale = 0;; ++step_scale) {
         find_contacts(step_scale == 0);
         find_self_contacts();
-        const bool good = strain_ <= accepted_strain && deepest() <= accepted_depth * shortest_;
+        // The rest of a step turns into motion in the next substep: the energy bound takes that, except from
+        // what a collider or pin drives.
+        const bool settled = driven ? std::abs(decrease_) <= forced_ && deepest() <= kept_depth
+                                    : deepest() <= accepted_depth * shortest_;
+        const bool good = settled && strain_ <= accepted_strain;
         if (step_scale == max_newton_steps || (good && step_scale >= min_newton_steps)) break;
         most = std::max(most, step(iterations, step_scale == 0, enough));
         store_forces();

@@ -54,6 +54,7 @@ class ClothSolver : protected ImplicitStep {
     /// Initial guess: unchanged velocities, or free motion if forces move particles by as much as a link.
     /// Returns the residual at which a later step is solved.
     double predict();
+    bool is_driven() const;
     template <class Visit>
     void each_cell(Visit visit) const;
     template <class Visit>
@@ -70,6 +71,8 @@ class ClothSolver : protected ImplicitStep {
     double shortest_ = 1e30;  ///< minimum rest length of stretch links
     double strain_ = 0.0;     ///< maximum over stretch links
     double potential_ = 0.0;  ///< inertia plus links
+    double decrease_ = 0.0;   ///< of the potential with contacts, in the last step
+    double forced_ = 0.0;     ///< the potential of inertia that forces add in a substep
     bool converged_ = true;
 };
 

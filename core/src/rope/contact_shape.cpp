@@ -103,14 +103,20 @@ std::optional<double> nearest_between(const Shape& shape, const dvec3& a, const 
     return low.distance <= high.distance ? low.t : high.t;
 }
 
+dvec3 middle_of(const Capsule& capsule) noexcept {
+    return 0.5 * dvec3(capsule.b) + 0.5 * dvec3(capsule.a);
+}
+
 dvec3 half_of(const Capsule& capsule) noexcept {
     return 0.5 * dvec3(capsule.b) - 0.5 * dvec3(capsule.a);
 }
 
 Shape interpolated(const Collider& collider, double part) noexcept {
-    const dvec3 from(centre(collider.shape)), to = from + part * (collider.goal - from);
-    if (!collider.half_goal) return clamped_to_world(moved(collider.shape, glm::vec3(to)));
     const auto* const capsule = std::get_if<Capsule>(&collider.shape);
+    const bool turns = collider.half_goal.has_value();
+    const dvec3 from = turns ? middle_of(*capsule) : dvec3(centre(collider.shape));
+    const dvec3 to = from + part * (collider.goal - from);
+    if (!turns) return clamped_to_world(moved(collider.shape, glm::vec3(to)));
     const dvec3 was = half_of(*capsule), half = was + part * (*collider.half_goal - was);
     return clamped_to_world(Capsule{glm::vec3(to - half), glm::vec3(to + half), capsule->radius});
 }

@@ -186,10 +186,10 @@ void Substep::depenetrate() {
     each_near(0, state_.position.size(),
               [&](std::uint32_t i, std::uint32_t body, const Neighbours& neighbours) {
                   const Body& of = state_.bodies[body];
-                  const double allowed = detail::bends(state_, of) ? allowed_depth : depth_tolerance;
+                  const bool keeps = of.kind == Body::Kind::Cloth || detail::bends(state_, of);
                   dvec3& x = scratch_.x[i];
                   const dvec3 was = x;
-                  if (neighbours.depth(x, of.radius) <= allowed) return;
+                  if (neighbours.depth(x, of.radius) <= (keeps ? kept_depth : depth_tolerance)) return;
                   if (!move_out(neighbours, x, of.radius)) ++report_.unresolved;
                   record_impact(body, detail::length(x - was));
               });

@@ -130,8 +130,8 @@ void Substep::shorten_step(std::uint32_t number) {
         const Ledger ledger = ledger_of(chain);
         if (ledger.leaves_gain(accepted_gain)) return true;
         if (ledger.gains_over(accepted_gain) && correction_scale(chain) < 1.0) return true;
-        if (driven || depth_of(chain, scratch_.x) <= allowed_depth) return false;
-        if (deepest < 0.0) deepest = std::max(allowed_depth, depth_of(chain, state_.position));
+        if (driven || depth_of(chain, scratch_.x) <= kept_depth) return false;
+        if (deepest < 0.0) deepest = std::max(kept_depth, depth_of(chain, state_.position));
         return depth_of(chain, scratch_.x) > deepest;
     };
     const auto each = [&](auto move) {

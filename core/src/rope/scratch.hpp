@@ -20,6 +20,9 @@ namespace tendril::rope {
 
 /// Maximum distance by which solvers move a particle off its free path, metres, and contact distance.
 inline constexpr double path_margin = 1e-3, touch_distance = 1e-5;
+/// Penetration, metres, that a cloth or a chain with bending stiffness may keep: moving one particle would
+/// strain or bend it, and the next substep turn that into motion.
+inline constexpr double kept_depth = 5e-5;
 
 /// A particle's contact with a collider in one substep.
 struct Touch {

@@ -34,8 +34,6 @@ class Substep : IslandStep {
 
     /// A contact that displaces a body faster than this, m/s, would throw it.
     static constexpr double correction_speed = 2.0;
-    /// Penetration, metres, that a chain with bending stiffness may keep: moving one particle would bend it.
-    static constexpr double allowed_depth = 5e-5;
 
     // substep.cpp
     void move_particles();

@@ -8,6 +8,7 @@
 #include "math/checks.hpp"
 #include "rope/build.hpp"
 #include "rope/check_state.hpp"
+#include "rope/contact_shape.hpp"
 #include "rope/geometry.hpp"
 #include "rope/slots.hpp"
 
@@ -346,8 +347,8 @@ Result World::move_capsule(ColliderId capsule, const Capsule& to, double seconds
     if (const Result bad = check("move_capsule", to); !bad) return bad;
     if (const Result bad = check_time("move_capsule", seconds); !bad) return bad;
     shape->radius = to.radius;
-    moving->goal = glm::dvec3(centre(to));
-    moving->half_goal = 0.5 * glm::dvec3(to.b) - 0.5 * glm::dvec3(to.a);
+    moving->goal = detail::middle_of(to);
+    moving->half_goal = detail::half_of(to);
     moving->seconds = seconds;
     return {};
 }

@@ -113,6 +113,27 @@ TEST_F(HumanoidAttach, IsNotTornByArmsThatCloseOnTheTrunk) {
     }
 }
 
+/// The arms of this one hold the edges of its cape against the trunk.
+TEST_F(HumanoidAttach, ACapeDoesNotClimb) {
+    const auto path = test::characters_folder() / "mixed_orders.bvh";
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+    for (const auto& [start, loop] : {std::pair(0.17, false), {0.41, false}, {0.66, true}}) {
+        workspace = make_blank_workspace(labs);
+        run("humanoid.load", {{"path", path.string()}});
+        run("humanoid.clip", {{"time", start}, {"play", true}, {"loop", loop}});
+        run("humanoid.attach", {{"bone", "Chest"}, {"kind", "cloth"}, {"name", "cape"}});
+        tick(180);
+        const double hem = last("cape").y;
+        for (int i = 0; i < 600; ++i) {
+            tick();
+            ASSERT_LT(last("cape").y, hem + 0.05) << start << ", tick " << i;
+        }
+        if (!loop) {
+            EXPECT_LT(fastest(), 0.1) << start << ": the figure stands still";
+        }
+    }
+}
+
 TEST_F(HumanoidAttach, ATornOneIsReportedInTheVerdict) {
     run("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"name", "tail"}});
     run("humanoid.hold", {{"kind", "rifle"}});
