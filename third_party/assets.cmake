@@ -1,4 +1,4 @@
-# The shaders, the fonts and the labs' cards of things to try, as bytes inside the program: it then runs from anywhere. The assembler's .incbin takes the
+# The shaders, the fonts and the labs' cards of things to try and presets, as bytes inside the program: it then runs from anywhere. The assembler's .incbin takes the
 # files as they are, which is as fast for a font as for a line of text.
 find_path(TENDRIL_FONT_FOLDER Roboto-Regular.ttf
     PATHS /usr/share/fonts/truetype/roboto/unhinted/RobotoTTF /usr/share/fonts/truetype/roboto/unhinted
@@ -9,9 +9,9 @@ tendril_require(TENDRIL_FONT_FOLDER "the font Roboto" fonts-roboto-unhinted)
 
 file(GLOB asset_shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/*.vert
      ${PROJECT_SOURCE_DIR}/shaders/*.frag ${PROJECT_SOURCE_DIR}/shaders/*.glsl)
-# Cards of things to try for each lab that has any, named after the lab's folder.
-file(GLOB asset_cards CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/app/labs/*/cards.json)
-set(asset_files ${asset_shaders} ${asset_cards} ${TENDRIL_FONT_FOLDER}/Roboto-Regular.ttf ${TENDRIL_FONT_FOLDER}/Roboto-Medium.ttf)
+# Cards of things to try and presets of each lab that has any, named after the lab's folder.
+file(GLOB asset_labs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/app/labs/*/cards.json ${PROJECT_SOURCE_DIR}/app/labs/*/presets.json)
+set(asset_files ${asset_shaders} ${asset_labs} ${TENDRIL_FONT_FOLDER}/Roboto-Regular.ttf ${TENDRIL_FONT_FOLDER}/Roboto-Medium.ttf)
 
 set(asset_blobs "")
 set(asset_table "")
@@ -19,10 +19,10 @@ set(asset_index 0)
 foreach(path IN LISTS asset_files)
     tendril_require_file(${path})
     get_filename_component(name ${path} NAME)
-    if(name STREQUAL "cards.json")
+    if(path IN_LIST asset_labs)
         get_filename_component(folder ${path} DIRECTORY)
-        get_filename_component(name ${folder} NAME)
-        set(name "${name}/cards.json")
+        get_filename_component(folder ${folder} NAME)
+        set(name "${folder}/${name}")
     endif()
     set(symbol "tendril_asset_${asset_index}")
     math(EXPR asset_index "${asset_index} + 1")

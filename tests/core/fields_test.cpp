@@ -16,7 +16,7 @@
 #include <tendril/ik/curve.hpp>
 #include <tendril/ik/mechanisms.hpp>
 #include <tendril/ik/options.hpp>
-#include <tendril/rig/unit.hpp>
+#include <tendril/rig/definition.hpp>
 #include <tendril/rope/body.hpp>
 #include <tendril/rope/collider.hpp>
 #include <tendril/rope/hair_roots.hpp>
@@ -90,6 +90,8 @@ std::vector<Table> tables() {
                            table<rope::Drive>("Drive"),
                            table<signal::Curve>("Curve"),
                            table<rig::TransformFilter>("TransformFilter"),
+                           table<rig::Element>("Element"),
+                           table<rig::Definition>("Definition"),
                            table<rig::Unit>("Unit")};
     for (const signal::Kind& kind : signal::kinds())
         all.push_back({kind.name, kind.fields, [&kind] {

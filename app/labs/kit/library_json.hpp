@@ -1,7 +1,4 @@
-// JSON of the library's curves and IK states. Curves of keys, in filters and in rig units:
-//
-//     {"keys": [{"time": 0, "value": 0, "arrive": 0, "leave": 0, "piece": "linear"}, ...],
-//      "source_min": 0, "source_max": 1, "target_min": 0, "target_max": 1}
+// JSON of the library's IK states, and its names.
 #pragma once
 
 #include <array>
@@ -9,7 +6,6 @@
 #include <glm/vec3.hpp>
 #include <string>
 #include <tendril/ik/state.hpp>
-#include <tendril/signal/curve.hpp>
 #include <vector>
 
 #include "app/document/json.hpp"
@@ -25,12 +21,6 @@ std::array<const char*, count> library_names() {
     for (std::size_t i = 0; i < count; ++i) names[i] = ik::name(static_cast<Enum>(i));
     return names;
 }
-
-/// The keys alone; tangents of 0 are omitted.
-Json curve_keys_json(const signal::Curve& curve);
-/// Only time and value are required; unknown members are refused. Throws std::runtime_error that begins with
-/// the JSON path of the fault. Does not check the order of times: signal::check() does.
-std::vector<signal::CurveKey> read_curve_keys(const JsonPlace& place);
 
 // The state that an IK solver keeps between solves, in scene files.
 //

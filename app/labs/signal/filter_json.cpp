@@ -10,7 +10,6 @@
 #include "app/document/json_complete.hpp"
 #include "app/fields/fields.hpp"
 #include "app/io/samples.hpp"
-#include "app/labs/kit/library_json.hpp"
 #include "app/labs/signal/filter_fields.hpp"
 
 namespace tendril::app {
@@ -27,9 +26,8 @@ std::string place(const std::string& where, std::string_view key) {
 }  // namespace
 
 Json parameters_json(const signal::Filter& filter) {
-    Json json = save_fields(filter_fields(filter));
-    if (const auto* curve = std::get_if<signal::Curve>(&filter)) json["keys"] = curve_keys_json(*curve);
-    return json;
+    const auto* const curve = std::get_if<signal::Curve>(&filter);
+    return curve != nullptr ? save_fields(*curve) : save_fields(filter_fields(filter));
 }
 
 Json filter_json(const signal::Filter& filter) {
@@ -58,7 +56,7 @@ std::string other_end(const signal::Filter& filter) {
 void set_parameters(signal::Filter& filter, const Json& given, const std::string& where) {
     signal::Filter changed = filter;
     if (auto* curve = std::get_if<signal::Curve>(&changed); curve != nullptr && given.contains("keys"))
-        curve->keys = read_curve_keys({given["keys"], place(where, "keys")});
+        load_known_fields({Json{{"keys", given["keys"]}}, where}, {fields<signal::Curve>().first(1), curve});
     load_fields({given, where}, filter_fields(changed));
     if (const Result result = signal::check(changed); !result)
         fail(where, result.message() + other_end(changed));

@@ -51,18 +51,6 @@ double slope_between(const CurveKey& a, const CurveKey& b) noexcept {
 
 }  // namespace
 
-const char* name(Piece piece) noexcept {
-    switch (piece) {
-        case Piece::Constant:
-            return "constant";
-        case Piece::Linear:
-            return "linear";
-        case Piece::Cubic:
-            return "cubic";
-    }
-    return "?";
-}
-
 Result check(const Curve& curve) noexcept {
     const struct {
         const char* name;
