@@ -16,9 +16,6 @@ struct FieldIn {
     static void set(void* object, const FieldValue& value) noexcept {
         tendril::detail::set_field<inner>(&tendril::detail::member_of<outer>(object), value);
     }
-    static bool empty(const void* object) noexcept {
-        return tendril::detail::is_empty_field<inner>(in(object));
-    }
     static bool fits(const Field& row, const void* object) noexcept {
         return tendril::detail::fits_field<inner>(row, in(object));
     }
@@ -35,8 +32,6 @@ Field field_in(const char* name = nullptr, std::optional<FieldRange> within = {}
     if (name != nullptr) row.name = name;
     if (within) row.range = *within, row.over_low = false;
     row.get = In::get, row.set = In::set, row.fits = In::fits;
-    if constexpr (tendril::detail::FieldOptional<tendril::detail::ValueOf<inner>>::value)
-        row.empty = In::empty;
     return row;
 }
 

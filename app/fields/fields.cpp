@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <set>
 
 #include "app/document/json_complete.hpp"
 #include "app/fields/input_json.hpp"
@@ -185,7 +186,7 @@ const void* element_of(const Field& field, const void* object, std::size_t index
 
 bool same_element(const Field& field, const void* a, const void* b) {
     if (field.type == FieldType::Text) return field.text(a) == field.text(b);
-    if (field.same != nullptr) return field.same(a, b);
+    if (field.access != nullptr) return field.access->same(a, b);
     if (field.type == FieldType::Struct)
         return std::ranges::all_of(field.table(), [&](const Field& row) { return same_field(row, a, b); });
     const FieldValue one = field.get(a), other = field.get(b);
@@ -198,7 +199,7 @@ bool same_element(const Field& field, const void* a, const void* b) {
 bool same_field(const Field& field, const void* a, const void* b) {
     const std::size_t count = count_of(field, a);
     if (count != count_of(field, b)) return false;
-    if (field.type == FieldType::Kind)
+    if (field.type == FieldType::Kind && count > 0)
         return field.number(a) == field.number(b) &&
                std::ranges::all_of(field.kind(a).table(), [&](const Field& row) {
                    return same_field(row, field.address(a, 0), field.address(b, 0));
@@ -250,8 +251,7 @@ Json save_element(const Field& field, const void* at, const Scope& scope) {
     if (field.type == FieldType::Struct)
         return save_struct({&scope, field.table(), at}, field.sparse ? field.fresh() : nullptr);
     if (field.type == FieldType::Text) return text_json(field.text(at));
-    if (field.type == FieldType::Input) return input_json(field.input->get(at));
-    if (field.type == FieldType::Item) return item_json(*static_cast<const rig::Item*>(at));
+    if (field.type == FieldType::Other) return input_json(rig::access_of(field), at);
     if (field.type != FieldType::Index) return saved(field, field.get(at));
     const std::vector<std::string_view> names = scope.names(field.of);
     const double index = field.get(at)[0];
@@ -265,20 +265,28 @@ Json save_list(const Field& field, const Scope& scope) {
         const void* const element = field.address(scope.object, i);
         if (field.names.empty())
             list.push_back(save_element(field, element, scope));
-        else if (field.empty == nullptr || !field.empty(element))
+        else if (!field.empty(element))
             list[field.names[i]] = save_element(field, element, scope);
     }
     return list;
 }
 
+/// Whether files leave it out.
+bool is_left_out(const Field& field, const void* object) {
+    if (field.type == FieldType::Kind) return count_of(field, object) == 0;
+    return field.sparse && field.kinds.empty() &&
+           (field.type == FieldType::Text ? field.text(object).empty() : field.empty(object));
+}
+
 /// Without the members that are as in `fresh`, if there is one.
 Json save_struct(const Scope& scope, const void* fresh) {
     Json json = Json::object();
-    for (const Field& field : scope.table)  // the kind comes first
-        if (field.type == FieldType::Kind)
-            json[field.name] = field.choices[static_cast<std::size_t>(field.number(scope.object))];
+    for (const Field& field : scope.table)  // the kind of a unit comes first
+        if (field.type == FieldType::Kind && !field.optional) json[field.name] = nullptr;
     for (const Field& field : scope.table) {
+        if (is_left_out(field, scope.object)) continue;
         if (field.type == FieldType::Kind) {
+            json[field.name] = field.choices[static_cast<std::size_t>(field.number(scope.object))];
             json.update(
                 save_struct({&scope, field.kind(scope.object).table(), field.address(scope.object, 0)}));
             continue;
@@ -319,7 +327,7 @@ class Loader {
 
   private:
     void kind(const JsonPlace& place, const Field& field, void* object) const {
-        if (missing_ != Missing::Kept || place.has(field.name))
+        if ((missing_ != Missing::Kept && !field.optional) || place.has(field.name))
             field.set(object, {choice_at(place[field.name], field)});
     }
     void beside(const JsonPlace& place, const Scope& scope) const {
@@ -330,7 +338,8 @@ class Loader {
                 continue;
             }
             if (field.type == FieldType::Kind) {
-                beside(place, {&scope, field.kind(object).table(), field.address(object, 0)});
+                if (const void* const held = field.address(object, 0))
+                    beside(place, {&scope, field.kind(object).table(), held});
                 continue;
             }
             const std::string name = file_name(field);
@@ -372,7 +381,7 @@ class Loader {
         }
         return {static_cast<double>(found - names.begin())};
     }
-    /// A struct, an input or an item.
+    /// A struct or another value.
     void nested(const JsonPlace& place, const Field& field, const Scope& scope) const {
         void* const object = const_cast<void*>(scope.object);
         const bool nothing = field.optional && place.json().is_null();
@@ -384,10 +393,8 @@ class Loader {
             const bool given = field.sparse && missing_ == Missing::Refused;
             (given ? Loader(Missing::Default, only_known_) : *this)
                 .fields(place, {&scope, field.table(), at});
-        } else if (field.type == FieldType::Input) {
-            field.input->set(at, read_input(place, field.input->type));
-        } else if (field.type == FieldType::Item) {
-            *static_cast<rig::Item*>(at) = read_item(place);
+        } else if (field.type == FieldType::Other) {
+            read_input(place, rig::access_of(field), at);
         } else {
             value(place, field, at, scope);
         }
@@ -405,22 +412,24 @@ class Loader {
         if (field.resize != nullptr) {
             field.resize(object, 0);  // what was there is no default
             field.resize(object, place.list_size(field.name, field.most));
+            if (field.count(object) < field.fewest)
+                place.fail("expected at least " + std::to_string(field.fewest) + ' ' + field.name +
+                           ", found " + std::to_string(field.count(object)));
         } else {
             place.check_size(field.most, "elements");
         }
+        std::set<std::string_view> names;
         for (std::size_t i = 0; i < field.count(object); ++i) {
             const Loader fresh(missing_ == Missing::Kept ? Missing::Default : missing_, only_known_);
             fresh.element(place.element(i), field, field.address_in(object, i), scope);
-            if (key_of(field) != nullptr) check_key(place.element(i), field, object, i);
+            if (const Field* const key = key_of(field))
+                check_name(place.element(i), key->name, key->text(field.address(object, i)), names);
         }
     }
-    static void check_key(const JsonPlace& place, const Field& list, const void* object, std::size_t at) {
-        const Field& key = *key_of(list);
-        const std::string_view name = key.text(list.address(object, at));
-        if (name.empty()) (place.has(key.name) ? place[key.name] : place).fail("expected a name, found none");
-        for (std::size_t i = 0; i < at; ++i)
-            if (key.text(list.address(object, i)) == name)
-                place[key.name].fail("there is another \"" + std::string(name) + "\"");
+    static void check_name(const JsonPlace& place, const char* key, std::string_view name,
+                           std::set<std::string_view>& names) {
+        if (name.empty()) (place.has(key) ? place[key] : place).fail("expected a name, found none");
+        if (!names.insert(name).second) place[key].fail("there is another \"" + std::string(name) + "\"");
     }
 
     Missing missing_;
@@ -456,7 +465,7 @@ std::vector<std::string> field_names(std::span<const Field> table, const void* o
     std::vector<std::string> names;
     for (const Field& field : table) {
         names.push_back(file_name(field));
-        if (field.type != FieldType::Kind) continue;
+        if (field.type != FieldType::Kind || field.address(object, 0) == nullptr) continue;
         for (const Field& each : field.kind(object).table()) names.push_back(file_name(each));
     }
     return names;

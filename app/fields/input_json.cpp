@@ -155,10 +155,25 @@ rig::Value read_any_value(const JsonPlace& place, double most) {
                json_summary(json));
 }
 
-Json item_json(const rig::Item& item) {
-    if (const auto* name = std::get_if<std::string>(&item.which)) return *name;
-    return Json{{"item", "each"}};
+Json input_json(const rig::InputAccess& access, const void* at) {
+    const rig::Input<rig::Value> input = access.get(at);
+    if (const rig::Value* literal = input.literal()) return value_json(*literal);
+    if (const auto* from = std::get_if<rig::FromElement>(&input.source)) {
+        const auto* const name = std::get_if<std::string>(&from->element.which);
+        if (name != nullptr && access.takes == rig::InputAccess::Takes::Item) return *name;
+        Json json = name != nullptr ? Json{{"element", *name}} : Json{{"item", "each"}};
+        if (access.takes == rig::InputAccess::Takes::Item) return json;
+        json["of"] = of_names[static_cast<std::size_t>(from->of)];
+        json["space"] = space_name(from->space, from->pose);
+        return json;
+    }
+    if (const auto* from = std::get_if<rig::FromUnit>(&input.source))
+        return Json{{"unit", from->unit}, {"output", from->output}};
+    const auto each = static_cast<std::size_t>(std::get<rig::Each>(input.source));
+    return Json{{"each", each_names[each]}};
 }
+
+namespace {
 
 rig::Item read_item(const JsonPlace& place) {
     if (place.json().is_string()) return place.text();
@@ -170,33 +185,24 @@ rig::Item read_item(const JsonPlace& place) {
     return rig::ThisElement();
 }
 
-Json input_json(const rig::Input<rig::Value>& input) {
-    if (const rig::Value* literal = input.literal()) return value_json(*literal);
-    if (const auto* from = std::get_if<rig::FromElement>(&input.source)) {
-        Json json = Json::object();
-        if (const auto* name = std::get_if<std::string>(&from->element.which))
-            json["element"] = *name;
-        else
-            json["item"] = "each";
-        json["of"] = of_names[static_cast<std::size_t>(from->of)];
-        json["space"] = space_name(from->space, from->pose);
-        return json;
-    }
-    if (const auto* from = std::get_if<rig::FromUnit>(&input.source))
-        return Json{{"unit", from->unit}, {"output", from->output}};
-    const auto each = static_cast<std::size_t>(std::get<rig::Each>(input.source));
-    return Json{{"each", each_names[each]}};
-}
-
-rig::Input<rig::Value> read_input(const JsonPlace& place, const std::optional<rig::Type>& type) {
-    const rig::Of part = part_taken(type);
+rig::Input<rig::Value> read_any(const JsonPlace& place, const rig::InputAccess& access) {
+    using enum rig::InputAccess::Takes;
+    if (access.takes == Item) return rig::FromElement{.element = read_item(place)};
+    if (access.takes == Literal) return read_value(place, *access.type);
+    const rig::Of part = part_taken(access.type);
     if (place.json().is_string()) return rig::FromElement{.element = place.text(), .of = part};
     if (place.has("element")) return read_from_element(place, "element", part);
     if (place.has("item")) return read_from_element(place, "item", part);
     if (place.has("unit")) return read_from_unit(place);
-    if (!place.has("each")) return type ? read_value(place, *type) : read_any_value(place);
+    if (!place.has("each")) return access.type ? read_value(place, *access.type) : read_any_value(place);
     check_members(place, {"each"});
     return static_cast<rig::Each>(read_name(place["each"], each_names));
+}
+
+}  // namespace
+
+void read_input(const JsonPlace& place, const rig::InputAccess& access, void* at) {
+    access.set(at, read_any(place, access));
 }
 
 }  // namespace tendril::app

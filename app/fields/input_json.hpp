@@ -53,11 +53,8 @@ rig::Value read_any_value(const JsonPlace& place, double most = most_given);
 // Without "of" the input takes the part that fits its type: the transform, the translation, the rotation, or,
 // for numbers and bools, the value of a control. {"item": "each"} may have "of" and "space" too.
 
-Json item_json(const rig::Item& item);
-rig::Item read_item(const JsonPlace& place);
-
-Json input_json(const rig::Input<rig::Value>& input);
-/// `type`: of a literal; none: any.
-rig::Input<rig::Value> read_input(const JsonPlace& place, const std::optional<rig::Type>& type);
+/// `at`: the input, the item or the transform.
+Json input_json(const rig::InputAccess& access, const void* at);
+void read_input(const JsonPlace& place, const rig::InputAccess& access, void* at);
 
 }  // namespace tendril::app

@@ -100,8 +100,7 @@ struct Scope {
 
 /// `at`: what the field's accessors take.
 bool fits(const Field& field, const void* at, const Scope& scope) noexcept {
-    if (field.type == FieldType::Text || field.type == FieldType::Item) return true;
-    if (field.type != FieldType::Index) return field.fits(field, at);
+    if (field.type != FieldType::Index) return field.fits == nullptr || field.fits(field, at);
     const double index = field.get(at)[0];
     return std::isnan(index) ? field.optional : index < static_cast<double>(scope.count(field.of));
 }
@@ -153,7 +152,7 @@ class Check {
                           {"one of length",
                            std::sqrt(all[0] * all[0] + all[1] * all[1] + all[2] * all[2] + all[3] * all[3])});
         if (field.type == FieldType::Index && std::isnan(all[0])) return refuse(place, wanted, "none");
-        const bool vector = field.type == FieldType::Input && !std::isnan(all[3]);
+        const bool vector = field.type == FieldType::Other && !std::isnan(all[3]);
         const int size = vector ? 3 : field.size();
         std::size_t axis = 0;
         while (static_cast<int>(axis) + 1 < size && field.in_range(all[axis])) ++axis;

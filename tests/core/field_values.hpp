@@ -23,9 +23,9 @@ inline void collect_spots(std::span<const Field> table, void* object, const std:
                           std::vector<FieldSpot>& spots) {
     for (const Field& field : table) {
         using enum FieldType;
-        if (field.type == Text || field.type == Index || field.type == Input || field.type == Item)
-            continue;  // not numbers
+        if (field.type == Text || field.type == Index || field.type == Other) continue;  // not numbers
         if (field.type == Kind) {
+            if (field.optional) field.set(object, {field.range.high});
             collect_spots(field.kind(object).table(), field.address_in(object), above, spots);
             continue;
         }

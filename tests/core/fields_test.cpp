@@ -26,6 +26,7 @@
 #include <tendril/ik/two_bone.hpp>
 #include <tendril/rig/aim.hpp>
 #include <tendril/rig/backward.hpp>
+#include <tendril/rig/definition.hpp>
 #include <tendril/rig/unit.hpp>
 #include <tendril/rope/body.hpp>
 #include <tendril/rope/collider.hpp>
@@ -125,6 +126,8 @@ std::vector<Table> tables() {
                            table<rig::CollectOptions>("CollectOptions"),
                            table<rig::ParentConstraintOptions>("ParentConstraintOptions"),
                            table<rig::TransformFilter>("TransformFilter"),
+                           table<rig::Element>("Element"),
+                           table<rig::Definition>("Definition"),
                            table<rig::Unit>("Unit")};
     for (const signal::Kind& kind : signal::kinds())
         all.push_back({kind.name, kind.fields, [&kind] {

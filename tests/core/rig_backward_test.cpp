@@ -245,7 +245,7 @@ TEST(RigBackward, WorkCountsEveryElementUnitVisitAndBone) {
     EXPECT_EQ((short_chain - turn) * 5, long_chain - turn) << "6 joints and 30";
     ForEach loop{.roots = {"b0"}, .include_parent = true, .recursive = true};
     const std::uint64_t empty = with(loop);
-    loop.body.units().push_back({.name = "inner", .operation = SetRotation{.item = ThisElement()}});
+    loop.body.push_back({.name = "inner", .operation = SetRotation{.item = ThisElement()}});
     EXPECT_EQ(with(loop) - empty, 30 * turn);
 }
 

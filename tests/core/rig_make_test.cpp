@@ -164,7 +164,7 @@ std::vector<Unit*> all_units(Definition& definition) {
     for (Unit& unit : definition.units) {
         all.push_back(&unit);
         if (auto* loop = std::get_if<ForEach>(&unit.operation))
-            for (Unit& inner : loop->body.units()) all.push_back(&inner);
+            for (Unit& inner : loop->body) all.push_back(&inner);
     }
     return all;
 }
@@ -221,19 +221,38 @@ TEST(RigWithUnit, GivesTheSameRigAsMake) {
 
 TEST(RigWithUnit, ABodyDoesNotReadItsOwnForEach) {
     Definition definition = loop_rig();
-    auto& loop = std::get<ForEach>(definition.units.front().operation);
-    loop.body.units().push_back({.name = "own", .operation = AlphaInterpolate{}});
+    auto& loop = std::get<ForEach>(definition.units[0].operation);
+    loop.body.push_back({.name = "own", .operation = AlphaInterpolate{}});
     const Rig rig = *Rig::make(definition);
-    Unit own = loop.body.units().back();
-    std::get<AlphaInterpolate>(own.operation).value = FromUnit{definition.units.front().name};
+    Unit own = loop.body.back();
+    std::get<AlphaInterpolate>(own.operation).value = FromUnit{definition.units[0].name};
     EXPECT_TRUE(test::says(rig.with_unit(own).message(), "no unit runs before"));
-    loop.body.units().back() = own;
+    loop.body.back() = own;
     EXPECT_TRUE(test::says(Rig::make(definition).message(), "no unit runs before"));
+}
+
+TEST(RigWithUnit, SharesTheOtherUnitsOfWhichCopiesAreDeep) {
+    Definition definition = loop_rig();
+    for (const char* name : {"early", "late"})
+        definition.units.push_back({.name = name, .operation = AlphaInterpolate{}});
+    const Rig rig = *Rig::make(definition);
+    Definition copy = rig.definition();
+    for (Unit* each : all_units(copy)) {
+        each->weight = 0.25;
+        if (std::holds_alternative<ForEach>(each->operation)) continue;
+        const Rig quick = *rig.with_unit(*each);
+        int shared = 0;
+        for (std::size_t i = 0; i < copy.units.size(); ++i)
+            shared += &quick.definition().units[i] == &rig.definition().units[i];
+        EXPECT_EQ(shared, 2) << each->name;
+        EXPECT_FALSE(quick.definition() == rig.definition()) << each->name;
+    }
+    EXPECT_EQ(rig.definition(), Rig::make(definition)->definition());
 }
 
 TEST(RigWithUnit, RefusesAnUnknownName) {
     const Rig rig = *Rig::make(aim_rig());
-    Unit unit = rig.definition().units.front();
+    Unit unit = rig.definition().units[0];
     unit.name = "nobody";
     const Expected<Rig> quick = rig.with_unit(unit);
     EXPECT_EQ(quick.code(), ErrorCode::NotFound);

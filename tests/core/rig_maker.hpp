@@ -205,7 +205,7 @@ class Maker {
                     .include_parent = random_.chance(2),
                     .recursive = random_.chance(2)};
                 for (int i = 0; i < 2; ++i)
-                    loop.body.units().push_back(unit(numbered((name + ".").c_str(), i), true));
+                    loop.body.push_back(unit(numbered((name + ".").c_str(), i), true));
                 made.operation = std::move(loop);
             }
         }

@@ -133,7 +133,7 @@ class NaiveRig {
         for (const Unit& unit : definition_.units) {
             units.push_back(unit);
             if (const auto* loop = std::get_if<ForEach>(&unit.operation))
-                for (const Unit& inner : loop->body.units()) units.push_back(inner);
+                for (const Unit& inner : loop->body) units.push_back(inner);
         }
         return units;
     }
@@ -238,7 +238,7 @@ class NaiveRig {
             for (std::size_t i = 0; i < found.size() && runs; ++i) {
                 here_ = {found[i], static_cast<double>(i), static_cast<double>(found.size())};
                 round_ = static_cast<int>(count) + static_cast<int>(i);
-                for (const Unit& unit : op.body.units()) run(unit);
+                for (const Unit& unit : op.body) run(unit);
             }
             count += static_cast<double>(found.size());
         }

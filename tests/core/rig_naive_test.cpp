@@ -27,14 +27,14 @@ double apart(const Value& a, const Value& b) {
 }
 
 /// Whether the naive rig supports it: no bone chains, and no aims with a speed limit.
-bool is_plain(const std::vector<Unit>& units) {
+bool is_plain(const Units& units) {
     return std::ranges::all_of(units, [](const Unit& unit) {
         const Operation& what = unit.operation;
         if (std::holds_alternative<TwoBone>(what) || std::holds_alternative<Fabrik>(what) ||
             std::holds_alternative<Spline>(what))
             return false;
         if (const auto* aim = std::get_if<AimMath>(&what)) return aim->max_speed == Input<double>(0.0);
-        if (const auto* loop = std::get_if<ForEach>(&what)) return is_plain(loop->body.units());
+        if (const auto* loop = std::get_if<ForEach>(&what)) return is_plain(loop->body);
         return true;
     });
 }

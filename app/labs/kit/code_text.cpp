@@ -159,8 +159,11 @@ std::string value_text(const Field& field, const void* at, const std::string& ma
     if (field.type == FieldType::Struct)
         return (field.optional ? library_name(field.kind(at).in_code) : "") +
                struct_text({field.table(), at, field.fresh()}, margin + "    ");
-    if (field.type == FieldType::Input) return code(field.input->get(at), !field.input->type);
-    if (field.type == FieldType::Item) return code(*static_cast<const rig::Item*>(at));
+    if (field.type == FieldType::Other) {
+        const rig::InputAccess& access = rig::access_of(field);
+        return access.takes == rig::InputAccess::Takes::Item ? code(*static_cast<const rig::Item*>(at))
+                                                             : code(access.get(at), !access.type);
+    }
     if (field.type == FieldType::Text) return string_text(field.text(at));
     const FieldValue value = field.get(at);
     const auto digits = [&](std::initializer_list<std::size_t> order) {
@@ -208,13 +211,14 @@ std::vector<std::string> member_texts(FieldsOf of, const std::string& margin) {
     std::vector<std::string> texts;
     for (const Field& field : of.table) {
         if (field.type == FieldType::Kind) {
+            if (field.address(of.object, 0) == nullptr) continue;
             const FieldKind& kind = field.kind(of.object);
             texts.push_back('.' + std::string(field.in_code) + " = " + library_name(kind.in_code) +
                             kind_text(kind.table(), field.address(of.object, 0), kind.fresh(), margin));
             continue;
         }
         const bool usual = of.fresh != nullptr && same_field(field, of.object, of.fresh);
-        if (usual || (field.empty != nullptr && field.count == nullptr && field.empty(of.object))) continue;
+        if (usual || (field.count == nullptr && field.empty(of.object))) continue;
         const void* const at =
             field.address != nullptr && field.count == nullptr ? field.address(of.object, 0) : of.object;
         if (at == nullptr) continue;

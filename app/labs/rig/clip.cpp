@@ -69,21 +69,10 @@ void pose_bones(const ClipPose* frame, const std::vector<ClipBone>& bones, rig::
 }
 
 std::uint64_t numbers_in_controls(const rig::Definition& definition) {
+    constexpr std::uint64_t numbers[] = {9, 3, 3, 2, 2, 2};
     std::uint64_t count = 0;
-    for (const rig::Element& element : definition.elements) {
-        if (!element.control) continue;
-        switch (element.control->kind) {
-            case rig::ControlKind::Transform:
-                count += 9;
-                break;
-            case rig::ControlKind::Position:
-            case rig::ControlKind::Rotation:
-                count += 3;
-                break;
-            default:
-                count += 2;
-        }
-    }
+    for (const rig::Element& element : definition.elements)
+        if (element.control) count += numbers[static_cast<std::size_t>(element.control->kind)];
     return count;
 }
 
@@ -136,7 +125,7 @@ RigClip record_clip(const RigPart& part, std::size_t frames, rig::Workspace& scr
 void check_clip_solve(const RigPart& part) {
     if (!part.clip) throw std::invalid_argument("there is no clip; rig.clip.record makes one");
     std::vector<std::string> bones;
-    for (const ClipBone& bone : clip_bones(part.rig, part.state.elements))
+    for (const ClipBone& bone : clip_bones(part.rig, part.state->elements))
         bones.push_back(part.rig.definition().elements[bone.element].name);
     if (bones != part.clip->bones)
         throw std::invalid_argument(
@@ -148,7 +137,7 @@ void check_clip_solve(const RigPart& part) {
 void start_clip_solve(RigPart& part) {
     check_clip_solve(part);
     part.clip_left = std::make_shared<const ClipSolve>(
-        ClipSolve{.running = true, .left = {}, .controls = part.state.controls});
+        ClipSolve{.running = true, .left = {}, .controls = part.state->controls});
 }
 
 void continue_clip_solve(RigPart& part, rig::Workspace& scratch) {
@@ -294,7 +283,7 @@ struct RatesWork::Takes {
     /// A take without a start begins with the current state: no tick has passed yet.
     bool starts_as(const RigPart& now) const {
         if (part.take.start) return part.take.start == now.take.start;
-        return part.state == (now.take.start ? *now.take.start : now.state);
+        return part.state == (now.take.start ? *now.take.start : *now.state);
     }
 
     /// Advances by one frame of the slowest rate.

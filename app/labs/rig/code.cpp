@@ -72,25 +72,25 @@ std::string inputs_code(const RigPart& part) {
                 literal_code(read_transform(place, {}, max_reached)) +
                 ",\n                       rig::Propagate::Yes, rig::Pose::Input);\n";
     }
-    for (std::size_t i = 0; i < part.state.controls.size(); ++i)
-        if (part.state.controls[i] != rest.controls[i])
+    for (std::size_t i = 0; i < part.state->controls.size(); ++i)
+        if (part.state->controls[i] != rest.controls[i])
             text += "    state.controls[*made->element(" +
                     string_text(part.rig.definition().elements[i].name) +
-                    ")] = " + literal_code(part.state.controls[i]) + ";\n";
-    for (std::size_t i = 0; i < part.state.input_curves.size(); ++i)
-        if (part.state.input_curves[i] != rest.input_curves[i])
+                    ")] = " + literal_code(part.state->controls[i]) + ";\n";
+    for (std::size_t i = 0; i < part.state->input_curves.size(); ++i)
+        if (part.state->input_curves[i] != rest.input_curves[i])
             text += "    state.input_curves[*made->curve(" +
                     string_text(part.rig.definition().curves[i].name) +
-                    ")] = " + double_text(part.state.input_curves[i]) + ";\n";
+                    ")] = " + double_text(part.state->input_curves[i]) + ";\n";
     return text;
 }
 
 std::string memories_code(const RigPart& part) {
     std::string text;
-    for (std::size_t unit = 0; unit < part.state.units.size(); ++unit)
-        for (std::size_t i = 0; i < part.state.units[unit].memory.size(); ++i)
+    for (std::size_t unit = 0; unit < part.state->units.size(); ++unit)
+        for (std::size_t i = 0; i < part.state->units[unit].memory.size(); ++i)
             text += memory_code("state.units[" + std::to_string(unit) + "].memory[" + std::to_string(i) + ']',
-                                part.state.units[unit].memory[i]);
+                                part.state->units[unit].memory[i]);
     return text.empty() ? text
                         : "    // What its units remember by now: springs swing on from here.\n" + text;
 }

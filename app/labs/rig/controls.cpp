@@ -70,7 +70,7 @@ std::optional<ControlShape> ControlShape::of(const RigPart& part, const rig::Hie
                                              std::size_t element) {
     const rig::Element& made = part.rig.definition().elements[element];
     if (!made.control) return std::nullopt;
-    ControlShape shape(*made.control, part.state.controls[element], made.initial);
+    ControlShape shape(*made.control, part.state->controls[element], made.initial);
     const rig::ElementId id = part.rig.id(element), parent = elements.parent(id);
     if (parent) shape.space_ = *elements.known(parent, rig::Space::Global);
     shape.rest_ = *elements.known(id, rig::Space::Local, rig::Pose::Input);
@@ -119,21 +119,14 @@ bool ControlShape::at_limit() const {
     return false;
 }
 
-bool ControlShape::can_be_dragged() const {
-    return kind() != rig::ControlKind::Bool;
-}
-
 Drag ControlShape::drag() const {
-    switch (kind()) {
-        case rig::ControlKind::Transform:
-            return Drag::Position | Drag::Rotation | Drag::Scale;
-        case rig::ControlKind::Rotation:
-            return Drag::Rotation;
-        case rig::ControlKind::Bool:
-            return Drag::Nothing;
-        default:
-            return Drag::Position;
-    }
+    const Drag drags[] = {Drag::Position | Drag::Rotation | Drag::Scale,
+                          Drag::Position,
+                          Drag::Rotation,
+                          Drag::Position,
+                          Drag::Nothing,
+                          Drag::Position};
+    return drags[static_cast<std::size_t>(kind())];
 }
 
 std::optional<GizmoPart> ControlShape::part() const {

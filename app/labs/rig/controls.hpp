@@ -48,7 +48,6 @@ class ControlShape {
 
     /// Whether a component of the value is at the end of its range, other than by its initial value.
     bool at_limit() const;
-    bool can_be_dragged() const;
     Drag drag() const;
     /// The gizmo part that dragging the knob corresponds to.
     std::optional<GizmoPart> part() const;

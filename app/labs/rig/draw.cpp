@@ -51,7 +51,7 @@ class Drawing {
           figures_(rig_figures_setting().chosen(settings) == 0) {}
 
     void run() {
-        const std::size_t count = p_.part.state.controls.size();
+        const std::size_t count = p_.part.state->controls.size();
         for (std::size_t i = 0; i < count; ++i) {
             switch (p_.elements.kind(p_.part.rig.id(i))) {
                 case rig::ElementKind::Bone:
@@ -166,7 +166,7 @@ class Drawing {
 
     /// Marks the stored state; the drawing itself uses a copy with nothing pending.
     void pending(std::size_t i) {
-        const rig::Pending what = p_.part.state.elements.pending(p_.part.rig.id(i));
+        const rig::Pending what = p_.part.state->elements.pending(p_.part.rig.id(i));
         if (what == rig::Pending::None) return;
         const glm::vec3 colour = what == rig::Pending::Global ? p_.view.palette.accent : p_.view.palette.tail;
         p_.list.ring(p_.point(i), p_.px(13.0f), p_.px(2.0f), glm::vec4(colour, 1.0f)).layer = Layer::Overlay;
@@ -176,7 +176,7 @@ class Drawing {
     void input_pose(std::size_t i) {
         if (!starts_elsewhere(p_.part, p_.elements, i)) return;
         const rig::ElementId id = p_.part.rig.id(i);
-        std::vector<std::size_t> places(p_.part.state.controls.size());  // definition index by handle
+        std::vector<std::size_t> places(p_.part.state->controls.size());  // definition index by handle
         for (std::size_t each = 0; each < places.size(); ++each) places[p_.part.rig.id(each).index] = each;
         const auto ghost_of = [&](rig::ElementId at) {
             const rig::ElementId parent = p_.elements.parent(at);
@@ -206,7 +206,7 @@ class Drawing {
 
     void labels() {
         const bool always = p_.view.workspace.settings.labels == LabelMode::Always;
-        const std::size_t count = p_.part.state.controls.size(), stride = count / max_labels + 1;
+        const std::size_t count = p_.part.state->controls.size(), stride = count / max_labels + 1;
         for (std::size_t i = 0; i < count; ++i) {
             if (p_.part.rig.definition().elements[i].control) continue;  // controls draw their own
             const bool marked = p_.is_lit(i) || p_.is_active(i);
@@ -285,7 +285,7 @@ constexpr float blob_radius = 0.45f;  ///< metres, undeformed
 
 double curve_value(const RigPart& part, const char* name) {
     const auto at = part.rig.curve(name);
-    return at ? part.state.curves[*at] : 0.0;
+    return at ? part.state->curves[*at] : 0.0;
 }
 
 /// Rainbow colours of even strength; the hue repeats with period 1.
@@ -480,7 +480,7 @@ constexpr std::size_t max_ghosts = 5000;  ///< in bones
 /// Draws only the bones.
 void draw_skeleton(const RigPicture& picture, const rig::Hierarchy& elements, const glm::vec4& paint) {
     std::size_t count = 0;
-    for (std::size_t i = 0; i < picture.part.state.controls.size() && count < max_ghosts; ++i) {
+    for (std::size_t i = 0; i < picture.part.state->controls.size() && count < max_ghosts; ++i) {
         const rig::ElementId id = picture.part.rig.id(i);
         if (elements.kind(id) != rig::ElementKind::Bone) continue;
         ++count;
@@ -517,7 +517,7 @@ void draw_incident(const RigPicture& picture) {
     rig::Hierarchy was = before->solved_state().elements;
     was.resolve_all();
     draw_skeleton(picture, was, faded(picture.view.palette, picture.view.palette.ghost, 0.9f));
-    if (incident->joint >= picture.part.state.controls.size()) return;
+    if (incident->joint >= picture.part.state->controls.size()) return;
     const rig::ElementId id = picture.part.rig.id(incident->joint);
     const glm::vec3 at = picture.point(incident->joint);
     if (incident->kind != Incident::Kind::Flip)

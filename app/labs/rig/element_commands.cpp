@@ -29,7 +29,8 @@ void add_element(RigPart& part, const Arguments& given) {
 rig::Transform input_pose(RigPart& part, std::size_t at, rig::Space space) {
     const bool control = part.rig.definition().elements[at].control.has_value();
     if (!control && space == rig::Space::Global) return part.rig.start_pose(part.state, at);
-    return part.state.elements.get(part.rig.id(at), space, control ? rig::Pose::Current : rig::Pose::Input);
+    return part.state.edit().elements.get(part.rig.id(at), space,
+                                          control ? rig::Pose::Current : rig::Pose::Input);
 }
 
 /// A value to set, with its JSON path in the command.
@@ -63,13 +64,13 @@ void set_elements(RigPart& part, const Arguments& given) {
     const rig::Space space =
         given.has("space") && given.text("space") == "global" ? rig::Space::Global : rig::Space::Local;
     const bool propagate = !given.has("propagate") || given.boolean("propagate");
-    const rig::State before = part.state;
-    for (const std::size_t at : from_the_roots(part.rig, before.elements)) {
+    const SharedState before = part.state;
+    for (const std::size_t at : from_the_roots(part.rig, before->elements)) {
         const auto each = std::ranges::lower_bound(elements, at, {}, &WantedValue::element);
         if (each == elements.end() || each->element != at) continue;
         const rig::Transform now = input_pose(part, at, space);
         const Json wanted = filled(each->value.json(), transform_json(now));
-        require_ok(part.rig.set_element(part.state, at, space,
+        require_ok(part.rig.set_element(part.state.edit(), at, space,
                                         read_transform({wanted, each->value.where()}, now),
                                         propagate ? rig::Propagate::Yes : rig::Propagate::No));
     }
@@ -107,7 +108,7 @@ std::vector<ControlValue> differing(const RigPart& part, std::vector<ControlValu
     rig::State after = part.state;
     for (const ControlValue& each : values) require_ok(part.rig.set_control(after, each.element, each.value));
     std::erase_if(values, [&](const ControlValue& each) {
-        return after.controls[each.element] == part.state.controls[each.element];
+        return after.controls[each.element] == part.state->controls[each.element];
     });
     return values;
 }
@@ -117,10 +118,10 @@ void set_values(RigPart& part, std::vector<ControlValue> values) {
     constexpr std::size_t max_keys_at_once = 64;  // each one copies all keys
     values = differing(part, std::move(values));
     if (values.empty()) return;
-    if (!part.last_solved) part.last_solved = std::make_shared<const rig::State>(part.state);
-    std::vector<bool> is_set(part.state.controls.size());
+    if (!part.last_solved) part.last_solved = part.state.share();
+    std::vector<bool> is_set(part.state->controls.size());
     for (const ControlValue& each : values) {
-        require_ok(part.rig.set_control(part.state, each.element, each.value));
+        require_ok(part.rig.set_control(part.state.edit(), each.element, each.value));
         is_set[each.element] = true;
     }
     part.moving = true;
@@ -153,7 +154,7 @@ void set_controls(RigPart& part, const Arguments& given) {
     std::vector<ControlValue> values;
     for (const WantedValue& each : controls) {
         const rig::ControlKind kind = control_at(part, each.element).control->kind;
-        const rig::Value& now = part.state.controls[each.element];
+        const rig::Value& now = part.state->controls[each.element];
         const Json wanted = filled(each.value.json(), control_value_json(kind, now));
         values.push_back({each.element, read_control_value({wanted, each.value.where()}, kind, now)});
     }
@@ -187,8 +188,8 @@ Argument new_name_argument() {
 void set_curve(RigPart& part, const Arguments& given) {
     const std::size_t at = curve_named(part, given.text("name"));
     const double value = given.real("value");
-    if (value == part.state.input_curves[at]) return;  // units may have written it since
-    require_ok(part.rig.set_curve(part.state, at, value));
+    if (value == part.state->input_curves[at]) return;  // units may have written it since
+    require_ok(part.rig.set_curve(part.state.edit(), at, value));
     changed(part);
 }
 

@@ -65,7 +65,7 @@ void draw_kind(rig::ElementKind kind, ImVec2 centre, float size, const Palette& 
 std::string short_text(const RigPart& part, const rig::Hierarchy& now, std::size_t i) {
     const std::optional<rig::Control>& control = part.rig.definition().elements[i].control;
     if (!control) return vector_text(now.known(part.rig.id(i), rig::Space::Local)->translation, 1);
-    const rig::Value& value = part.state.controls[i];
+    const rig::Value& value = part.state->controls[i];
     if (control->kind == rig::ControlKind::Vector2d) {
         const auto& pair = std::get<glm::dvec3>(value);
         const std::string text = vector_text(pair, 1);
@@ -97,7 +97,7 @@ float row_height() {
 /// `highlighted`: selected by the filter.
 void draw_row(const RigPanel& panel, const Row& row, bool marks, bool highlighted) {
     const rig::Element& element = panel.part.rig.definition().elements[row.element];
-    const rig::Pending pending = panel.part.state.elements.pending(panel.part.rig.id(row.element));
+    const rig::Pending pending = panel.part.state->elements.pending(panel.part.rig.id(row.element));
     const float line = ImGui::GetTextLineHeight(), em = ImGui::GetFontSize();
     const RigSelection& selected = panel.part.selected;
     const ImVec2 corner = ImGui::GetCursorScreenPos(), at = ImGui::GetCursorPos();
@@ -193,7 +193,7 @@ void add_element_menu(const RigPanel& panel) {
 
 void element_tree(const RigPanel& panel, MoreRows& more) {
     auto& filter = panel.runtime.panel.filter;
-    const std::size_t count = panel.part.state.controls.size();
+    const std::size_t count = panel.part.state->controls.size();
     constexpr std::size_t many = 12;  // a shorter list needs no filter
     if (count > many) {
         search_line("##filter", "Filter by name", filter);
@@ -258,15 +258,8 @@ void draw_pending(rig::Pending pending, glm::vec2 at, const Palette& colours) {
 }
 
 const char* pending_text(rig::Pending pending) {
-    switch (pending) {
-        case rig::Pending::Local:
-            return "local pending";
-        case rig::Pending::Global:
-            return "global pending";
-        case rig::Pending::None:
-            break;
-    }
-    return "none pending";
+    constexpr const char* words[] = {"none pending", "local pending", "global pending"};
+    return words[static_cast<std::size_t>(pending)];
 }
 
 // Fields for the active control. Editing sets all selected controls of its kind.
@@ -297,7 +290,7 @@ class ControlFields {
     ControlFields(const RigPanel& panel, std::size_t element, const std::vector<std::size_t>& alike)
         : panel_(panel),
           control_(*panel.part.rig.definition().elements[element].control),
-          value_(panel.part.state.controls[element]),
+          value_(panel.part.state->controls[element]),
           alike_(alike) {}
 
     void rows() const {
@@ -380,7 +373,7 @@ void reset_button(const RigPanel& panel) {
         const rig::Element& element = part.rig.definition().elements[each];
         if (!element.control) continue;
         controls.push_back(each);
-        moved |= part.state.controls[each] != rig::rest_value(*element.control, element.initial);
+        moved |= part.state->controls[each] != rig::rest_value(*element.control, element.initial);
     }
     if (controls.empty()) return;
     const bool several = part.selected.elements.several();

@@ -174,8 +174,8 @@ UnitSolve solve_of(const RigPart& part, rig::State state, std::size_t unit, rig:
     UnitSolve solve{part, part};
     Witness witness(unit, solve);
     part.rig.solve(state, 0.0, scratch, &witness);
-    solve.found.state.elements.resolve_all();
-    solve.left.state.elements.resolve_all();
+    solve.found.state.edit().elements.resolve_all();
+    solve.left.state.edit().elements.resolve_all();
     return solve;
 }
 
@@ -190,7 +190,7 @@ std::optional<std::size_t> parting_unit(const Turns& was, const Turns& is, std::
 
 std::vector<FlipCause> flip_causes(const RigPart& part, const rig::State& was, const rig::State& is,
                                    const std::vector<BoneFlip>& flips) {
-    const std::vector<rig::Unit>& units = part.rig.definition().units;
+    const rig::Units& units = part.rig.definition().units;
     rig::Workspace scratch(part.rig);
     Turns before(part.rig, flips), after(part.rig, flips);
     rig::State first = was, second = is;
@@ -224,7 +224,7 @@ constexpr float close_by = 0.17f;  ///< radians, about ten degrees
 class Given {
   public:
     Given(const rig::Unit& unit, const RigPart& part)
-        : inputs_(unit_inputs(part, part.state.elements, unit)) {}
+        : inputs_(unit_inputs(part, part.state->elements, unit)) {}
 
     const std::vector<UnitInput>& all() const { return inputs_; }
     const rig::Value* value(std::string_view path) const {
@@ -349,12 +349,12 @@ Cause by_aim(const Both& both, const rig::Transform& was, const rig::Transform& 
 std::optional<rig::Transform> item_pose(const RigPart& part, const rig::Item& item) {
     const auto* const name = std::get_if<std::string>(&item.which);
     const auto at = name ? part.rig.element(*name) : std::nullopt;
-    return at ? part.state.elements.known(part.rig.id(*at), rig::Space::Global) : std::nullopt;
+    return at ? part.state->elements.known(part.rig.id(*at), rig::Space::Global) : std::nullopt;
 }
 
 /// The joints from root to tip.
 std::vector<glm::vec3> joints_between(const RigPart& part, const rig::Item& root, const rig::Item& tip) {
-    const rig::Hierarchy& tree = part.state.elements;
+    const rig::Hierarchy& tree = part.state->elements;
     const auto first = part.rig.element(std::get<std::string>(root.which)),
                last = part.rig.element(std::get<std::string>(tip.which));
     std::vector<glm::vec3> joints;

@@ -26,21 +26,13 @@ ArgumentList and_the_unit(const RigPart& part, ArgumentList arguments) {
 }
 
 const char* what_dragging_does(rig::ControlKind kind) {
-    switch (kind) {
-        case rig::ControlKind::Transform:
-            return "drag moves it; when selected, it has arrows, rings and boxes";
-        case rig::ControlKind::Position:
-            return "drag moves it; when selected, it has arrows and planes";
-        case rig::ControlKind::Rotation:
-            return "drag a ring to turn it";
-        case rig::ControlKind::Float:
-            return "drag its knob along the rail";
-        case rig::ControlKind::Bool:
-            return "click turns it on or off";
-        case rig::ControlKind::Vector2d:
-            break;
-    }
-    return "drag its knob within the rectangle";
+    constexpr const char* words[] = {"drag moves it; when selected, it has arrows, rings and boxes",
+                                     "drag moves it; when selected, it has arrows and planes",
+                                     "drag a ring to turn it",
+                                     "drag its knob along the rail",
+                                     "click turns it on or off",
+                                     "drag its knob within the rectangle"};
+    return words[static_cast<std::size_t>(kind)];
 }
 
 /// The hierarchy as drawn, with nothing pending.
@@ -50,7 +42,7 @@ const rig::Hierarchy& elements_of(const Workspace& workspace) {
 
 /// Whether the rig still has the element.
 bool is_there(const RigPart& part, PickId pick) {
-    return pick >= 0 && picked_element(pick) < part.state.controls.size();
+    return pick >= 0 && picked_element(pick) < part.state->controls.size();
 }
 
 /// The handle at the element's drawing: a knob, a joint.
@@ -68,16 +60,9 @@ Handle element_handle(const Workspace& workspace, std::size_t i) {
 Drag gizmo_drag(const rig::Element& element) {
     const Drag turn = Drag::Position | Drag::Rotation;
     if (!element.control) return element.kind == rig::ElementKind::Null ? turn | Drag::Scale : turn;
-    switch (element.control->kind) {
-        case rig::ControlKind::Transform:
-            return turn | Drag::Scale;
-        case rig::ControlKind::Position:
-            return Drag::Position;
-        case rig::ControlKind::Rotation:
-            return Drag::Rotation;
-        default:
-            return Drag::Nothing;
-    }
+    const Drag drags[] = {turn | Drag::Scale, Drag::Position, Drag::Rotation};
+    const auto kind = static_cast<std::size_t>(element.control->kind);
+    return kind < std::size(drags) ? drags[kind] : Drag::Nothing;
 }
 
 /// For a bone or a null: its pose before any unit has moved it, which a drag sets.
@@ -98,7 +83,7 @@ Bounds closely_around(const RigPart& part, const rig::Hierarchy& elements, std::
 
 std::vector<Handle> RigLab::handles(const Workspace& workspace) const {
     const RigPart& part = rig_part(workspace);
-    const std::size_t count = part.state.controls.size();
+    const std::size_t count = part.state->controls.size();
     std::vector<Handle> handles;
     for (std::size_t i = 0; i < count; ++i)
         if (count <= max_elements_with_handles || part.rig.definition().elements[i].control)
@@ -145,7 +130,7 @@ void RigLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     if (part.selected.only_element() != picked_element(pick) || part.selected.unit_last)
         emit("rig.select", and_the_unit(part, {{"element", element.name}}));
     if (!element.control || element.control->kind != rig::ControlKind::Bool) return;
-    const bool on = std::get<bool>(part.state.controls[picked_element(pick)]);
+    const bool on = std::get<bool>(part.state->controls[picked_element(pick)]);
     emit("rig.control.set", {{"name", element.name}, {"value", SharedJson(Json(!on))}});
     if (!workspace.clock.playing) emit("rig.solve");
 }
@@ -160,7 +145,7 @@ void RigLab::click_more(const Workspace& workspace, PickId pick, Emit& emit) con
 /// Every element, even those without a handle.
 std::vector<Handle> RigLab::selectable(const Workspace& workspace, std::size_t) const {
     std::vector<Handle> all;
-    for (std::size_t i = 0; i < rig_part(workspace).state.controls.size(); ++i)
+    for (std::size_t i = 0; i < rig_part(workspace).state->controls.size(); ++i)
         all.push_back(element_handle(workspace, i));
     return all;
 }
@@ -222,7 +207,7 @@ Bounds RigLab::bounds(const Workspace& workspace, bool selection_only) const {
     const rig::Hierarchy& elements = elements_of(workspace);
     if (selection_only && part.selected.only_element())
         return closely_around(part, elements, *part.selected.only_element());
-    if (part.state.controls.empty()) return {{0.0f, 1.0f, 0.0f}, 1.5f};
+    if (part.state->controls.empty()) return {{0.0f, 1.0f, 0.0f}, 1.5f};
     glm::vec3 low(1e30f), high(-1e30f);
     const auto take = [&](glm::vec3 at, float radius) {
         low = glm::min(low, at - radius);
@@ -235,7 +220,7 @@ Bounds RigLab::bounds(const Workspace& workspace, bool selection_only) const {
         }
         return bounds_of(low, high);
     }
-    for (std::size_t i = 0; i < part.state.controls.size(); ++i) {
+    for (std::size_t i = 0; i < part.state->controls.size(); ++i) {
         const Bounds figure = figure_bounds(part, elements, i);
         take(figure.centre, std::max(figure.radius, 0.1f));
         const auto shape = ControlShape::of(part, elements, i);
@@ -279,7 +264,7 @@ bool can(const RigPart& part, std::size_t i, Drag what) {
 /// Marks the selected elements that have a dragged ancestor and move with it.
 std::vector<bool> carried(const RigPart& part, Drag what) {
     const Selection& selected = part.selected.elements;
-    const rig::Hierarchy& tree = part.state.elements;
+    const rig::Hierarchy& tree = part.state->elements;
     std::vector<bool> goes(tree.size()), below(tree.size());
     std::vector<std::size_t> at(tree.size());
     for (std::size_t i = 0; i < at.size(); ++i) at[part.rig.id(i).index] = i;

@@ -25,20 +25,9 @@ namespace tendril::app {
 
 namespace {
 
-const char* preset_help(const std::string& name) {
-    if (name == "aim")
-        return "A head looks at one control; another, which moves with the first, sets which way is up";
-    if (name == "fk") return "A tentacle of controls, turned by one dial, and the bones that follow them";
-    if (name == "loop") return "Five arms that one dial curls, with a for-each";
-    if (name == "morph") return "A blob whose shape and colour follow controls through curves";
-    if (name == "secondary") return "Two antennae that trail a head by springs";
-    return "";
-}
-
 void preset_section(Emit& emit) {
     std::vector<PresetButton> buttons;
-    for (const RigPreset& preset : rig_presets())
-        buttons.push_back({preset.name, preset.title, preset_help(preset.name)});
+    for (const RigPreset& preset : rig_presets()) buttons.push_back({preset.name, preset.title, preset.help});
     preset_rows(rig_lab, buttons, "Removes every element, curve and unit", emit);
 }
 
@@ -107,7 +96,7 @@ void curve_rows(const RigPanel& panel) {
     const FoldingSection open(panel.workspace, "Curves", panel.emit, false);
     if (!open) return;
     for (std::size_t i = 0; i < std::min<std::size_t>(curves.size(), 100); ++i) {
-        reading(curves[i].name.c_str(), "%s", fixed_text(panel.part.state.curves[i], 3).c_str());
+        reading(curves[i].name.c_str(), "%s", fixed_text(panel.part.state->curves[i], 3).c_str());
         explain("A number that units write, such as a morph weight or a material parameter.");
     }
     if (curves.size() > 100) note("and " + count_text(curves.size() - 100, "curve") + " more");
@@ -167,7 +156,7 @@ void pose_lines(const char* title, const rig::Transform& pose, const char* what)
 
 void pending_rows(const RigPanel& panel, std::size_t element) {
     const Selection& selected = panel.part.selected.elements;
-    const rig::Pending pending = panel.part.state.elements.pending(panel.part.rig.id(element));
+    const rig::Pending pending = panel.part.state->elements.pending(panel.part.rig.id(element));
     text_line(
         "pending", rig::name(pending),
         "An element stores a local and a global transform. Writing one makes the other pending, along with "
@@ -287,7 +276,7 @@ Verdict rig_verdict(const RigPart& part) {
         ++all;
         if (!row.unit->enabled || !units[row.top].enabled) continue;
         ++on;
-        const rig::Warning warning = part.state.units[row.at].warning;
+        const rig::Warning warning = part.state->units[row.at].warning;
         if (warning == rig::Warning::None) continue;
         if (warned++ == 0) first = row.unit->name + ": " + rig::message(warning) + ".";
     }

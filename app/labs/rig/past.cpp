@@ -80,7 +80,7 @@ double value_of(Number what, const RigPart& part, const std::string& name) {
     const rig::Element& element = part.rig.definition().elements[*at];
     const bool bone = element.kind == rig::ElementKind::Bone;
     if (!bone && what != Number::Angle) return nothing;
-    const glm::dquat now = local_rotation(part.state.elements, part.rig.id(*at));
+    const glm::dquat now = local_rotation(part.state->elements, part.rig.id(*at));
     const JointTurn turn = joint_turn(glm::conjugate(element.initial.rotation) * now,
                                       bone ? direction(part.rig.definition(), element) : glm::dvec3(0, 1, 0));
     return what == Number::Swing ? turn.swing : what == Number::Twist ? turn.twist : turn.angle;
@@ -126,10 +126,10 @@ std::optional<PastCurve> rig_past_curve(const Workspace& workspace) {
 PoseLines rig_lines(const SharedPart& part) {
     const RigPart& then = rig_of(part);
     PoseLines lines;
-    if (then.state.controls.size() > 2 * max_ghost_lines) return lines;
-    rig::Hierarchy elements = then.state.elements;
+    if (then.state->controls.size() > 2 * max_ghost_lines) return lines;
+    rig::Hierarchy elements = then.state->elements;
     elements.resolve_all();
-    for (std::size_t i = 0; i < then.state.controls.size(); ++i) {
+    for (std::size_t i = 0; i < then.state->controls.size(); ++i) {
         const rig::ElementId id = then.rig.id(i);
         if (elements.kind(id) != rig::ElementKind::Bone) continue;
         const glm::vec3 from(elements.known(id, rig::Space::Global)->translation);
@@ -164,7 +164,7 @@ void add_flips(const RigPart& before, const RigPart& after, std::vector<Incident
 void add_reports(const RigPart& before, const RigPart& after, std::vector<Incident>& incidents) {
     std::size_t count = 0;
     for (const UnitRow& row : unit_rows(after)) {
-        const rig::Warning was = before.state.units[row.at].warning, is = after.state.units[row.at].warning;
+        const rig::Warning was = before.state->units[row.at].warning, is = after.state->units[row.at].warning;
         if (is == was || is == rig::Warning::None) continue;
         if (++count > max_of_a_kind) return;
         incidents.push_back({.kind = Incident::Kind::Status,
@@ -183,17 +183,8 @@ std::optional<double> part_of(const rig::Value& value, int axis) {
 }
 
 int axis_count(rig::ControlKind kind) {
-    switch (kind) {
-        case rig::ControlKind::Float:
-            return 1;
-        case rig::ControlKind::Vector2d:
-            return 2;
-        case rig::ControlKind::Position:
-        case rig::ControlKind::Transform:
-            return 3;
-        default:
-            return 0;
-    }
+    constexpr int counts[] = {3, 3, 0, 1, 0, 2};
+    return counts[static_cast<std::size_t>(kind)];
 }
 
 /// "its maximum is 1.00", "its minimum is 0.20 m along y"
@@ -217,7 +208,7 @@ bool at_limit(const rig::Control& control, const rig::Value& value, int axis, bo
 }
 
 void add_limits(const RigPart& before, const RigPart& after, std::vector<Incident>& incidents) {
-    if (before.state.controls == after.state.controls) return;
+    if (before.state->controls == after.state->controls) return;
     std::size_t count = 0;
     const auto& elements = after.rig.definition().elements;
     for (std::size_t i = 0; i < elements.size(); ++i) {
@@ -225,8 +216,8 @@ void add_limits(const RigPart& before, const RigPart& after, std::vector<Inciden
         const rig::Control& control = *elements[i].control;
         for (int axis = 0; axis < axis_count(control.kind); ++axis)
             for (const bool maximum : {false, true}) {
-                const bool was = at_limit(control, before.state.controls[i], axis, maximum),
-                           is = at_limit(control, after.state.controls[i], axis, maximum);
+                const bool was = at_limit(control, before.state->controls[i], axis, maximum),
+                           is = at_limit(control, after.state->controls[i], axis, maximum);
                 if (was == is || ++count > max_of_a_kind) continue;
                 incidents.push_back({.kind = Incident::Kind::Limit,
                                      .joint = i,
@@ -303,7 +294,7 @@ void why_rows(const RigPanel& panel) {
         selected.kind == rig::ElementKind::Bone ? "Why is this bone here?" : "Why is it here?";
     const PanelSection ids(title.c_str());
     const rig::Explanation& why = panel.runtime.explanation(panel.workspace, *element);
-    const std::vector<rig::Unit>& units = panel.part.rig.definition().units;
+    const rig::Units& units = panel.part.rig.definition().units;
     place_line("before any unit", why.input);
     std::size_t untouched = 0;
     bool& all = panel.runtime.panel.all_units;

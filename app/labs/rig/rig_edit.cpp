@@ -62,8 +62,7 @@ void check_runs(const rig::Definition& definition) {
     std::size_t runs = 0;
     for (const rig::Unit& unit : definition.units) {
         if (const auto* loop = std::get_if<rig::ForEach>(&unit.operation))
-            runs +=
-                visits(rig, rest, *loop, max_lab_runs) * std::max<std::size_t>(1, loop->body.units().size());
+            runs += visits(rig, rest, *loop, max_lab_runs) * std::max<std::size_t>(1, loop->body.size());
         if (runs > max_lab_runs)
             throw std::invalid_argument("unit " + quoted(unit.name) +
                                         ": a solve would run more units than the maximum of " +
@@ -79,7 +78,7 @@ bool find_unit(auto& units, std::string_view name, const auto& found) {
             return true;
         }
         if (auto* loop = std::get_if<rig::ForEach>(&units[i].operation))
-            if (find_unit(loop->body.units(), name, found)) return true;
+            if (find_unit(loop->body, name, found)) return true;
     }
     return false;
 }
@@ -110,7 +109,7 @@ rig::Rig make_rig(rig::Definition definition) {
     check_count(definition.curves.size(), max_lab_curves, "curves");
     std::size_t units = definition.units.size();
     for (const rig::Unit& unit : definition.units)
-        if (const auto* loop = std::get_if<rig::ForEach>(&unit.operation)) units += loop->body.units().size();
+        if (const auto* loop = std::get_if<rig::ForEach>(&unit.operation)) units += loop->body.size();
     check_count(units, max_lab_units, "units");
     for (const rig::Element& each : definition.elements) check_name(each.name);
     for (const rig::NamedCurve& each : definition.curves) check_name(each.name);
@@ -124,7 +123,7 @@ rig::Rig make_rig(rig::Definition definition) {
 namespace {
 
 void adopt(RigPart& part, rig::Rig rig) {
-    part.state = rig.adopted(part.rig, std::move(part.state));
+    if (!rig.keeps_states_of(part.rig)) part.state = rig.adopted(part.rig, part.state);
     const rig::Rig before = std::exchange(part.rig, std::move(rig));
     select_as_in(part, part.selected, before);
     std::erase_if(part.walks, [&](const RigWalk& walk) { return !part.rig.element(walk.control); });
@@ -175,9 +174,7 @@ void remove_elements(RigPart& part, const std::vector<std::size_t>& elements) {
 
 void remove_unit(RigPart& part, const std::string& name) {
     rig::Definition definition = part.rig.definition();
-    require_unit(definition, name, [&](std::vector<rig::Unit>& units, std::size_t at) {
-        units.erase(units.begin() + static_cast<std::ptrdiff_t>(at));
-    });
+    require_unit(definition, name, [&](rig::Units& units, std::size_t at) { units.erase(at); });
     if (const auto use = first_use(definition.units, Named::Unit, {name}))
         throw std::invalid_argument("unit " + quoted(use->unit) + " takes its " + use->member + " from " +
                                     quoted(name));
@@ -187,24 +184,21 @@ void remove_unit(RigPart& part, const std::string& name) {
 void enable_unit(RigPart& part, const std::string& name, bool on) {
     rig::Definition definition = part.rig.definition();
     bool was = on;
-    require_unit(definition, name, [&](std::vector<rig::Unit>& units, std::size_t at) {
-        was = std::exchange(units[at].enabled, on);
-    });
+    require_unit(definition, name,
+                 [&](rig::Units& units, std::size_t at) { was = std::exchange(units[at].enabled, on); });
     if (was != on) redefine(part, std::move(definition));
 }
 
 void move_unit(RigPart& part, const std::string& name, int at) {
     rig::Definition definition = part.rig.definition();
-    require_unit(definition, name, [&](std::vector<rig::Unit>& units, std::size_t from) {
+    require_unit(definition, name, [&](rig::Units& units, std::size_t from) {
         const int last = static_cast<int>(units.size()) - 1;
         if (at > last)
             throw std::invalid_argument("at must be 0 to " + std::to_string(last) + ", got " +
                                         std::to_string(at));
-        const auto moved = units.begin() + static_cast<std::ptrdiff_t>(from), to = units.begin() + at;
-        if (moved < to)
-            std::rotate(moved, moved + 1, to + 1);
-        else
-            std::rotate(to, moved, moved + 1);
+        rig::Unit moved = std::move(units[from]);
+        units.erase(from);
+        units.insert(static_cast<std::size_t>(at), std::move(moved));
     });
     if (!(definition == part.rig.definition())) redefine(part, std::move(definition));
 }
@@ -217,11 +211,11 @@ void add_unit(RigPart& part, rig::Unit unit, int at) {
                                     std::to_string(at));
     std::set<std::string> taken;
     collect_names(definition.units, taken);
-    std::vector<rig::Unit> added{std::move(unit)};
+    rig::Units added{std::move(unit)};
     collect_names(added, taken);  // the library refuses duplicate names
     name_units(added, taken);
-    const std::string name = added.front().name;
-    definition.units.insert(definition.units.begin() + (at < 0 ? count : at), std::move(added.front()));
+    const std::string name = added[0].name;
+    definition.units.insert(static_cast<std::size_t>(at < 0 ? count : at), std::move(added[0]));
     redefine(part, std::move(definition));
     part.selected.unit = name;  // the list unfolds it
     part.selected.unit_last = true;
@@ -234,13 +228,13 @@ void set_unit(RigPart& part, const std::string& name, rig::Unit unit) {
         return;
     }
     rig::Definition definition = part.rig.definition();
-    require_unit(definition, name, [&](std::vector<rig::Unit>& units, std::size_t at) {
+    require_unit(definition, name, [&](rig::Units& units, std::size_t at) {
         std::set<std::string> taken;
         collect_names(definition.units, taken);
-        std::vector<rig::Unit> bodies{std::move(unit)};
+        rig::Units bodies{std::move(unit)};
         collect_names(bodies, taken);
         name_units(bodies, taken);
-        units[at] = std::move(bodies.front());
+        units[at] = std::move(bodies[0]);
     });
     if (!(definition == part.rig.definition())) redefine(part, std::move(definition));
 }
@@ -248,7 +242,7 @@ void set_unit(RigPart& part, const std::string& name, rig::Unit unit) {
 const rig::Unit& unit_named(const RigPart& part, std::string_view name) {
     const rig::Unit* result = nullptr;
     require_unit(part.rig.definition(), name,
-                 [&](const std::vector<rig::Unit>& units, std::size_t at) { result = &units[at]; });
+                 [&](const rig::Units& units, std::size_t at) { result = &units[at]; });
     return *result;
 }
 
@@ -288,7 +282,7 @@ class UsedNames {
   public:
     explicit UsedNames(const Take& take) : take_(take) {}
 
-    void of(std::vector<rig::Unit>& units) {
+    void of(rig::Units& units) {
         for (rig::Unit& each : units) unit(each);
     }
 
@@ -304,7 +298,7 @@ class UsedNames {
                 void* const at = field.address_in(object, i);
                 if (field.type == FieldType::Kind)
                     members(place, field.kind(object).table(), at);
-                else if (at != nullptr && field.table == fields<rig::Unit>)
+                else if (at != nullptr && field.holds<rig::Unit>())
                     unit(*static_cast<rig::Unit*>(at));
                 else if (at != nullptr && field.type == FieldType::Struct)
                     members(place + field.name + (field.count ? '[' + std::to_string(i) + "]." : "."),
@@ -321,24 +315,21 @@ class UsedNames {
     }
 
     void member(const Field& field, void* at, const std::string& place) {
-        if (field.type == FieldType::Item) return element(*static_cast<rig::Item*>(at), place);
         if (field.type == FieldType::Text && *field.of != '\0') {
             const bool curve = field.of == std::string_view("curves");
             std::string name(field.text(at));
             take_(*unit_, place, curve ? Named::Curve : Named::Element, name);
             if (name != field.text(at)) field.set_text(at, name);
         }
-        if (field.type != FieldType::Input) return;
-        rig::Input<rig::Value> input = field.input->get(at);
+        if (field.type != FieldType::Other) return;
+        rig::Input<rig::Value> input = rig::access_of(field).get(at);
         if (input.literal() != nullptr) return;
-        if (auto* const from = std::get_if<rig::FromElement>(&input.source)) element(from->element, place);
+        if (auto* const from = std::get_if<rig::FromElement>(&input.source))
+            if (auto* const name = std::get_if<std::string>(&from->element.which))
+                take_(*unit_, place, Named::Element, *name);
         if (auto* const from = std::get_if<rig::FromUnit>(&input.source))
             take_(*unit_, place, Named::Unit, from->unit);
-        field.input->set(at, input);
-    }
-    void element(rig::Item& item, const std::string& place) {
-        if (auto* const name = std::get_if<std::string>(&item.which))
-            take_(*unit_, place, Named::Element, *name);
+        rig::access_of(field).set(at, input);
     }
 
     const Take& take_;
@@ -347,7 +338,7 @@ class UsedNames {
 
 }  // namespace
 
-std::optional<Use> first_use(std::vector<rig::Unit> units, Named kind, const std::set<std::string>& names) {
+std::optional<Use> first_use(rig::Units units, Named kind, const std::set<std::string>& names) {
     std::optional<Use> found;
     const auto take = [&](const std::string& unit, const std::string& place, Named of,
                           const std::string& name) {
@@ -382,8 +373,7 @@ void rename_in(rig::Definition& definition, Named kind, const std::string& from,
     } else {
         std::set<std::string> names;
         collect_names(definition.units, names);
-        require_unit(definition, from,
-                     [&](std::vector<rig::Unit>& units, std::size_t at) { units[at].name = to; });
+        require_unit(definition, from, [&](rig::Units& units, std::size_t at) { units[at].name = to; });
         if (names.contains(to)) throw std::invalid_argument("to: there is already a unit " + quoted(to));
     }
     const auto take = [&](const std::string&, const std::string&, Named of, std::string& name) {
@@ -459,7 +449,7 @@ std::vector<std::string> roots_selected(const RigPart& part) {
     const Elements& elements = part.rig.definition().elements;
     std::vector<bool> covered(elements.size());
     std::vector<std::size_t> roots;
-    for (const std::size_t at : from_the_roots(part.rig, part.state.elements)) {
+    for (const std::size_t at : from_the_roots(part.rig, part.state->elements)) {
         const auto parent = part.rig.element(elements[at].parent);
         const bool below = parent && covered[*parent], selected = part.selected.elements.has(at);
         covered[at] = below || selected;

@@ -59,7 +59,7 @@ struct Use {
 };
 
 /// The first use, in order, including bodies; none if no unit uses any of the names.
-std::optional<Use> first_use(std::vector<rig::Unit> units, Named kind, const std::set<std::string>& names);
+std::optional<Use> first_use(rig::Units units, Named kind, const std::set<std::string>& names);
 
 /// Renames an element, a unit or a curve, with all references: units, paths, the clip, the selection. State
 /// and take stay as they are, so the rig computes the same bits. Refuses an empty name, and one that is

@@ -9,6 +9,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/definition_json.hpp"
 #include "app/labs/rig/rig_edit.hpp"
@@ -70,7 +71,7 @@ Selection load_elements(const JsonPlace& place, const rig::Rig& rig) {
 }  // namespace
 
 Json RigPart::save() const {
-    Json json = definition_json(rig.definition());
+    Json json = save_fields(rig.definition());
     Json& saved = json["state"] = rig_state_json(rig, state);
     saved["moving"] = moving;
     saved["backward"] = save_backward(*this);
@@ -137,11 +138,9 @@ TakeKey read_key(const JsonPlace& place, const RigPart& part) {
     if (!at || !part.rig.definition().elements[*at].control)
         place.element(1).fail("there is no control " + json_summary(place.element(1).json()));
     const rig::Control& control = *part.rig.definition().elements[*at].control;
-    const rig::Value value =
-        read_control_value(place.element(2), control.kind, part.state.controls[*at], max_reached);
-    check_unit(place.element(2), value);
     return {static_cast<std::uint32_t>(place.element(0).count(max_take_ticks)),
-            static_cast<std::uint32_t>(*at), rig::clamped(control, value)};
+            static_cast<std::uint32_t>(*at),
+            read_reached(place.element(2), control, part.state->controls[*at])};
 }
 
 Json take_json(const RigPart& part) {
@@ -329,14 +328,12 @@ void read_bone(const JsonPlace& place, RigClip& clip, std::size_t bone, std::siz
 
 Json solve_json(const RigPart& part) {
     const ClipSolve& solve = *part.clip_left;
-    Json left = Json::array(), controls = Json::object();
+    Json left = Json::array();
     for (const FrameLeft& each : solve.left)
         left.push_back({number(each.mm), number(each.degrees), each.bone, number(each.scale), each.stopped});
-    if (solve.running)
-        for (std::size_t i = 0; i < solve.controls.size(); ++i)
-            if (const rig::Element& element = part.rig.definition().elements[i]; element.control)
-                controls[element.name] = control_value_json(element.control->kind, solve.controls[i]);
-    return {{"running", solve.running}, {"left", std::move(left)}, {"controls", std::move(controls)}};
+    return {{"running", solve.running},
+            {"left", std::move(left)},
+            {"controls", solve.running ? controls_json(part.rig, solve.controls) : Json::object()}};
 }
 
 ClipSolve read_solve(const JsonPlace& place, const RigPart& part) {
@@ -360,16 +357,8 @@ ClipSolve read_solve(const JsonPlace& place, const RigPart& part) {
         place.fail(error.what());
     }
     if (solve.done() == part.clip->frames()) place["running"].fail("all frames are solved");
-    solve.controls = part.state.controls;
-    for (std::size_t i = 0; i < solve.controls.size(); ++i) {
-        const rig::Element& element = part.rig.definition().elements[i];
-        if (!element.control) continue;
-        const JsonPlace stored = place["controls"][element.name.c_str()];
-        const rig::Value value =
-            read_control_value(stored, element.control->kind, solve.controls[i], max_reached);
-        check_unit(stored, value);
-        solve.controls[i] = rig::clamped(*element.control, value);
-    }
+    solve.controls = part.state->controls;
+    load_controls(place["controls"], part.rig, solve.controls);
     return solve;
 }
 

@@ -16,6 +16,12 @@ bool same(const rig::Residual& a, const rig::Residual& b) {
     return a.metres == b.metres && a.radians == b.radians && a.scale == b.scale;
 }
 
+double most(const std::vector<rig::Residual>& elements, double rig::Residual::*of) {
+    double worst = 0.0;
+    for (const rig::Residual& each : elements) worst = std::max(worst, each.*of);
+    return worst;
+}
+
 template <class T>
 bool same_value(const std::shared_ptr<const T>& a, const std::shared_ptr<const T>& b) {
     return a == b || (a && b && *a == *b);
@@ -29,21 +35,13 @@ bool BackwardLeft::operator==(const BackwardLeft& other) const {
 }
 
 double BackwardLeft::worst_mm() const {
-    double worst = 0.0;
-    for (const rig::Residual& each : elements) worst = std::max(worst, 1000.0 * each.metres);
-    return worst;
+    return 1000.0 * most(elements, &rig::Residual::metres);
 }
-
 double BackwardLeft::worst_degrees() const {
-    double worst = 0.0;
-    for (const rig::Residual& each : elements) worst = std::max(worst, glm::degrees(each.radians));
-    return worst;
+    return glm::degrees(most(elements, &rig::Residual::radians));
 }
-
 double BackwardLeft::worst_scale() const {
-    double worst = 0.0;
-    for (const rig::Residual& each : elements) worst = std::max(worst, each.scale);
-    return worst;
+    return most(elements, &rig::Residual::scale);
 }
 
 bool BackwardLeft::expressed() const {
@@ -60,7 +58,7 @@ RigPart::RigPart() : RigPart(rig::Definition()) {}
 RigPart::RigPart(rig::Definition definition)
     : rig(make_rig(std::move(definition))), state(rig.initial_state()) {
     rig::Workspace workspace(rig);
-    moving = rig.solve(state, tick_seconds, workspace);
+    moving = rig.solve(state.edit(), tick_seconds, workspace);
 }
 
 std::optional<std::size_t> RigSelection::only_element() const {
@@ -73,14 +71,14 @@ std::string RigPart::selected_element() const {
 }
 
 RigPart first_rig() {
-    return RigPart(rig_presets().front().make());
+    return RigPart(rig_presets().front().definition);
 }
 
 bool RigPart::operator==(const RigPart& other) const {
     return moving == other.moving && backward == other.backward && selected == other.selected &&
            walks == other.walks && flips == other.flips && rates == other.rates &&
-           same_value(clip, other.clip) && same_value(clip_left, other.clip_left) &&
-           rig.definition() == other.rig.definition() && state == other.state && take == other.take;
+           same_value(clip, other.clip) && same_value(clip_left, other.clip_left) && take == other.take &&
+           state == other.state && rig.definition() == other.rig.definition();
 }
 
 /// Keeps the current selection and flip rule.
@@ -109,7 +107,7 @@ std::size_t RigPart::bytes() const {
     if (take.start) shared += share_of(take.start, state_bytes(*take.start));
     if (clip_left) shared += share_of(clip_left, clip_left->done() * sizeof(FrameLeft));
     if (last_solved) shared += share_of(last_solved, state_bytes(*last_solved));
-    return sizeof(*this) + shared + state.controls.size() * an_element + state.units.size() * a_unit +
+    return sizeof(*this) + shared + state->controls.size() * an_element + state->units.size() * a_unit +
            state_bytes(state) + selected.elements.all().size() * sizeof(std::size_t);
 }
 

@@ -153,6 +153,26 @@ struct RigSelection {
     std::optional<std::size_t> only_element() const;
 };
 
+/// A state that copies share until one of them is edited: a drag of a slider copies none.
+class SharedState {
+  public:
+    SharedState(rig::State state) : state_(std::make_shared<rig::State>(std::move(state))) {}
+    operator const rig::State&() const { return *state_; }
+    const rig::State& operator*() const { return *state_; }
+    const rig::State* operator->() const { return state_.get(); }
+    /// The reference is valid until this is copied or edited again.
+    rig::State& edit() {
+        if (state_.use_count() > 1) state_ = std::make_shared<rig::State>(*state_);
+        return *state_;
+    }
+    std::shared_ptr<const rig::State> share() const { return state_; }
+    bool operator==(const SharedState& other) const { return state_ == other.state_ || *this == *other; }
+    bool operator==(const rig::State& other) const { return *state_ == other; }
+
+  private:
+    std::shared_ptr<rig::State> state_;
+};
+
 struct RigPart final : Part {
     RigPart();  ///< an empty rig
     /// A rig at rest, after one tick: units with memory have started and follow whatever is set next. Throws
@@ -160,7 +180,7 @@ struct RigPart final : Part {
     explicit RigPart(rig::Definition definition);
 
     rig::Rig rig;
-    rig::State state;
+    SharedState state;
     /// Whether the next tick changes anything: there was an edit, or a unit with memory still moves.
     bool moving = false;
     std::optional<BackwardLeft> backward;
@@ -177,7 +197,7 @@ struct RigPart final : Part {
     std::shared_ptr<const rig::State> last_solved;
     /// Something other than a control value has changed since the last solve.
     bool edited = false;
-    const rig::State& solved_state() const { return last_solved ? *last_solved : state; }
+    const rig::State& solved_state() const { return last_solved ? *last_solved : *state; }
 
     /// The name of the active element; empty where none is selected.
     std::string selected_element() const;

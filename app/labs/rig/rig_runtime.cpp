@@ -40,16 +40,16 @@ bool RigRuntime::solve(RigPart& part, double dt, bool measured) {
     rig::Workspace& scratch = workspace(part.rig);
     part.last_solved.reset();
     part.edited = false;
-    if (!measured) return part.rig.solve(part.state, dt, scratch);
+    if (!measured) return part.rig.solve(part.state.edit(), dt, scratch);
     kept_->microseconds.resize(part.rig.definition().units.size());
     Stopwatch stopwatch(kept_->microseconds);
-    return part.rig.solve(part.state, dt, scratch, &stopwatch);
+    return part.rig.solve(part.state.edit(), dt, scratch, &stopwatch);
 }
 
 const rig::Hierarchy& RigRuntime::resolved(const Workspace& workspace) {
     const std::shared_ptr<const Part>& part = workspace.document.parts().at(rig_lab);
     if (read_.part != part) {
-        read_ = {part, rig_part(workspace).state.elements};
+        read_ = {part, rig_part(workspace).state->elements};
         read_.elements.resolve_all();
     }
     return read_.elements;

@@ -22,7 +22,7 @@ namespace tendril::app {
 class TakeSnapshots {
   public:
     struct Snapshot {
-        rig::State state;  ///< before that tick's controls were set
+        SharedState state;  ///< before that tick's controls were set
         bool moving = false;
     };
     /// Keeps the part's current tick if its number is due for a snapshot.

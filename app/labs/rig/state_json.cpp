@@ -83,26 +83,6 @@ void load_poses(const JsonPlace& place, const rig::Rig& rig, rig::State& state) 
     }
 }
 
-Json save_controls(const rig::Rig& rig, const rig::State& state) {
-    Json controls = Json::object();
-    for (std::size_t i = 0; i < state.controls.size(); ++i)
-        if (const rig::Element& element = rig.definition().elements[i]; element.control)
-            controls[element.name] = control_value_json(element.control->kind, state.controls[i]);
-    return controls;
-}
-
-void load_controls(const JsonPlace& place, const rig::Rig& rig, rig::State& state) {
-    for (std::size_t i = 0; i < state.controls.size(); ++i) {
-        const rig::Element& element = rig.definition().elements[i];
-        if (!element.control) continue;
-        const JsonPlace stored = place[element.name.c_str()];
-        const rig::Value value =
-            read_control_value(stored, element.control->kind, state.controls[i], max_reached);
-        check_unit(stored, value);
-        state.controls[i] = rig::clamped(*element.control, value);
-    }
-}
-
 Json save_curves(const rig::Rig& rig, const rig::State& state) {
     Json curves = Json::object();
     for (std::size_t i = 0; i < state.curves.size(); ++i)
@@ -112,11 +92,12 @@ Json save_curves(const rig::Rig& rig, const rig::State& state) {
 }
 
 void load_curves(const JsonPlace& place, const rig::Rig& rig, rig::State& state) {
-    for (std::size_t i = 0; i < state.curves.size(); ++i) {
-        const JsonPlace stored = place[rig.definition().curves[i].name.c_str()];
+    const auto curves = names(rig.definition().curves, [](const rig::NamedCurve& each) { return each.name; });
+    load_named(place, "curve", curves, [&](std::size_t i, const JsonPlace& stored) {
+        check_members(stored, {"input", "now"});
         state.input_curves[i] = stored["input"].real();
         state.curves[i] = stored["now"].real();
-    }
+    });
 }
 
 Json save_unit(const rig::UnitState& unit) {
@@ -145,7 +126,7 @@ Json rig_state_json(const rig::Rig& rig, const rig::State& state) {
     Json units = Json::object();
     for (std::size_t i = 0; i < state.units.size(); ++i)
         units[rig.unit_names()[i]] = save_unit(state.units[i]);
-    return Json{{"controls", save_controls(rig, state)},
+    return Json{{"controls", controls_json(rig, state.controls)},
                 {"curves", save_curves(rig, state)},
                 {"poses", save_poses(rig, state)},
                 {"units", std::move(units)}};
@@ -153,12 +134,11 @@ Json rig_state_json(const rig::Rig& rig, const rig::State& state) {
 
 rig::State read_rig_state(const JsonPlace& place, const rig::Rig& rig) {
     rig::State state = rig.initial_state();
-    load_controls(place["controls"], rig, state);
+    load_controls(place["controls"], rig, state.controls);
     load_curves(place["curves"], rig, state);
     load_poses(place["poses"], rig, state);
-    const JsonPlace units = place["units"];
-    for (std::size_t i = 0; i < state.units.size(); ++i)
-        load_unit(units[rig.unit_names()[i].c_str()], state.units[i]);
+    load_named(place["units"], "unit", {rig.unit_names().begin(), rig.unit_names().end()},
+               [&](std::size_t i, const JsonPlace& stored) { load_unit(stored, state.units[i]); });
     return state;
 }
 
@@ -247,7 +227,7 @@ namespace {
 
 Json elements_state(const RigPart& part, const rig::Hierarchy& elements) {
     Json list = Json::array();
-    for (std::size_t i = 0; i < part.state.controls.size(); ++i) {
+    for (std::size_t i = 0; i < part.state->controls.size(); ++i) {
         const rig::Element& element = part.rig.definition().elements[i];
         const rig::ElementId id = part.rig.id(i);
         Json json{{"name", element.name},
@@ -257,7 +237,7 @@ Json elements_state(const RigPart& part, const rig::Hierarchy& elements) {
                   {"global", transform_json(*elements.known(id, rig::Space::Global))}};
         if (element.control) {
             json["control"] = rig::name(element.control->kind);
-            json["value"] = control_value_json(element.control->kind, part.state.controls[i]);
+            json["value"] = control_value_json(element.control->kind, part.state->controls[i]);
         }
         list.push_back(std::move(json));
     }
@@ -266,14 +246,14 @@ Json elements_state(const RigPart& part, const rig::Hierarchy& elements) {
 
 Json curves_state(const RigPart& part) {
     Json curves = Json::object();
-    for (std::size_t i = 0; i < part.state.curves.size(); ++i)
-        curves[part.rig.definition().curves[i].name] = part.state.curves[i];
+    for (std::size_t i = 0; i < part.state->curves.size(); ++i)
+        curves[part.rig.definition().curves[i].name] = part.state->curves[i];
     return curves;
 }
 
 /// `at`: index of the next unit among all units of the rig, including those in bodies.
 Json unit_state(const RigPart& part, const rig::Unit& unit, std::size_t& at) {
-    const rig::UnitState& state = part.state.units[at++];
+    const rig::UnitState& state = part.state->units[at++];
     Json outputs = Json::object();
     const std::vector<rig::Output> names = rig::outputs(unit.operation);
     for (std::size_t i = 0; i < names.size(); ++i) outputs[names[i].name] = value_json(state.outputs[i]);
@@ -285,7 +265,7 @@ Json unit_state(const RigPart& part, const rig::Unit& unit, std::size_t& at) {
               {"outputs", std::move(outputs)}};
     if (const auto* loop = std::get_if<rig::ForEach>(&unit.operation)) {
         json["body"] = Json::array();
-        for (const rig::Unit& inner : loop->body.units()) json["body"].push_back(unit_state(part, inner, at));
+        for (const rig::Unit& inner : loop->body) json["body"].push_back(unit_state(part, inner, at));
     }
     return json;
 }

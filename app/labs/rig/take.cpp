@@ -47,7 +47,7 @@ KeysOfTick keys_at(const RigTake& take, std::uint32_t tick) {
 
 /// Whether the control already has the value of a key: it was set here, or changes nothing.
 bool is_shown(const RigPart& part, const TakeKey& key) {
-    return part.state.controls[key.element] == key.value;
+    return part.state->controls[key.element] == key.value;
 }
 
 /// Applies the keys that belong to the display of the part's tick.
@@ -56,7 +56,7 @@ void arrive(RigPart& part, RigRuntime& runtime, bool measured = false) {
         if (key.element == TakeKey::solve) {
             part.moving |= runtime.solve(part, 0.0, measured);
         } else {
-            apply_key(part.rig, key, part.state);
+            apply_key(part.rig, key, part.state.edit());
             part.moving = true;
         }
     }
@@ -65,13 +65,13 @@ void arrive(RigPart& part, RigRuntime& runtime, bool measured = false) {
 /// Applies the keys set after the part's tick was displayed.
 void leave(RigPart& part) {
     for (const TakeKey& key : keys_at(part.take, part.take.tick).set)
-        if (!is_shown(part, key)) apply_key(part.rig, key, part.state);
+        if (!is_shown(part, key)) apply_key(part.rig, key, part.state.edit());
 }
 
 /// Advances from the part's tick to the next.
 void pass(RigPart& part, RigRuntime& runtime, bool measured) {
     leave(part);
-    walk(part.rig, part.walks, part.state, part.take.tick + 1.0);
+    walk(part.rig, part.walks, part.state.edit(), part.take.tick + 1.0);
     part.moving = runtime.solve(part, tick_seconds, measured);
     ++part.take.tick;
     part.take.last = std::max(part.take.last, part.take.tick);
@@ -80,7 +80,7 @@ void pass(RigPart& part, RigRuntime& runtime, bool measured) {
 }
 
 void ensure_start(RigPart& part) {
-    if (!part.take.start) part.take.start = std::make_shared<const rig::State>(part.state);
+    if (!part.take.start) part.take.start = part.state.share();
 }
 
 std::shared_ptr<const std::vector<TakeKey>> shared(std::vector<TakeKey> keys) {
@@ -109,7 +109,7 @@ bool go_from_known(RigPart& part, std::uint32_t tick, RigRuntime& runtime) {
     const auto* nearest = runtime.snapshots.nearest(part, tick);
     const std::uint32_t from = nearest ? nearest->first : 0;
     if (too_far(part, tick - from)) return false;
-    part.state = nearest ? nearest->second.state : *part.take.start;
+    part.state = nearest ? nearest->second.state : SharedState(*part.take.start);
     part.last_solved.reset();
     part.edited = !nearest;  // the start of a take may not be solved
     part.moving = nearest ? nearest->second.moving : true;
@@ -165,7 +165,7 @@ void key_control(RigPart& part, std::size_t element) {
     });
     keys.erase(std::remove_if(seen.base(), keys.end(), [&](const TakeKey& key) { return key.element == at; }),
                keys.end());
-    keys.push_back({tick, at, part.state.controls[element]});
+    keys.push_back({tick, at, part.state->controls[element]});
     part.take.keys = shared(std::move(keys));
     part.take.last = tick;
 }
@@ -230,7 +230,7 @@ void go_to(RigPart& part, std::uint32_t tick, RigRuntime& runtime) {
 }
 
 TakeRunner::TakeRunner(const RigPart& part, rig::Workspace& scratch)
-    : part_(part), scratch_(scratch), state_(part.take.start ? *part.take.start : part.state) {}
+    : part_(part), scratch_(scratch), state_(part.take.start ? *part.take.start : *part.state) {}
 
 void TakeRunner::keys_before(double ticks) {
     constexpr double rounding = 1e-6;

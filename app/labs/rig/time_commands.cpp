@@ -57,12 +57,12 @@ void select(RigPart& part, const Arguments& given) {
 void read(Workspace& workspace, const Arguments& given) {
     const std::vector<std::size_t> elements = elements_given(rig_part(workspace), given);
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
-    const std::uint64_t before = part.state.elements.recomputations();
+    const std::uint64_t before = part.state->elements.recomputations();
     for (const std::size_t each : elements) {
-        part.state.elements.get(part.rig.id(each), rig::Space::Global);
-        part.state.elements.get(part.rig.id(each), rig::Space::Local);
+        part.state.edit().elements.get(part.rig.id(each), rig::Space::Global);
+        part.state.edit().elements.get(part.rig.id(each), rig::Space::Local);
     }
-    const auto count = static_cast<std::size_t>(part.state.elements.recomputations() - before);
+    const auto count = static_cast<std::size_t>(part.state->elements.recomputations() - before);
     const std::string what = elements.size() == 1 ? part.rig.definition().elements[elements.front()].name
                                                   : count_text(elements.size(), "element");
     workspace.toast("Reading " + what + ": " +
@@ -79,14 +79,14 @@ void take_preset(Workspace& workspace, const Arguments& given) {
     // Opening an unchanged preset again changes nothing: a recording starts with a scene file, which does not
     // say whether its rig came from a preset.
     change_part<RigPart>(workspace, rig_lab,
-                         [&](RigPart& part, const RigPart&) { part = RigPart(preset.make()); });
+                         [&](RigPart& part, const RigPart&) { part = RigPart(preset.definition); });
     (workspace.lab == rig_lab ? workspace.camera : workspace.cameras[rig_lab]) = preset.view;
 }
 
 BackwardLeft solve_backward(RigPart& part, rig::Workspace& scratch) {
     constexpr std::uint64_t max_work = 40'000'000;  // a second or so
     const rig::BackwardReport report =
-        rig::solve_backward(part.rig, part.state, scratch, {.max_work = max_work});
+        rig::solve_backward(part.rig, part.state.edit(), scratch, {.max_work = max_work});
     if (report.stopped && report.iterations == 0)
         throw std::invalid_argument(
             "the rig is so large, and has so many controls, that a backward solve would take too long");
@@ -103,7 +103,7 @@ void solve(Workspace& workspace, const Arguments& given) {
         if (backward) {
             part.backward = solve_backward(part, runtime.workspace(part.rig));
             part.moving = true;
-            if (!part.last_solved) part.last_solved = std::make_shared<const rig::State>(before.state);
+            if (!part.last_solved) part.last_solved = before.state.share();
             if (part.state != before.state) begin_take(part);
         } else {
             solve_now(part, runtime, workspace.clock.measured);
@@ -233,7 +233,7 @@ RigWalk walk_given(const RigPart& part, std::size_t at, const RigWalk* old, cons
         walk.motion.centre = given.point("centre");
     } else if (!goes_on) {
         walk.motion.centre = glm::vec3(0.0f);
-        walk.motion.centre = place_of(part.state.controls[at]) - glm::vec3(walk_point(walk.motion, 0.0));
+        walk.motion.centre = place_of(part.state->controls[at]) - glm::vec3(walk_point(walk.motion, 0.0));
     }
     check_path(walk.motion.centre, glm::vec3(walk.motion.radius), "the control's path");
     return walk;
@@ -241,7 +241,7 @@ RigWalk walk_given(const RigPart& part, std::size_t at, const RigWalk* old, cons
 
 void set_motions(RigPart& part, const Arguments& given) {
     const std::vector<std::size_t> controls = elements_given(part, given);
-    std::vector<const RigWalk*> old(part.state.controls.size());
+    std::vector<const RigWalk*> old(part.state->controls.size());
     for (const RigWalk& each : part.walks) old[element_named(part, each.control)] = &each;
     std::vector<RigWalk> walks;
     for (const std::size_t at : controls) walks.push_back(walk_given(part, at, old[at], given));

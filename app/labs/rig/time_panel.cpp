@@ -46,7 +46,7 @@ std::vector<std::size_t> walkers(const RigPart& part) {
 /// The controls on the same path; with `turning`, only those that can turn along it.
 std::vector<std::size_t> alike(const RigPart& part, const std::vector<std::size_t>& controls,
                                const RigWalk& walk, bool turning) {
-    std::vector<bool> same(part.state.controls.size());
+    std::vector<bool> same(part.state->controls.size());
     for (const RigWalk& each : part.walks)
         if (each.motion.path == walk.motion.path) same[*part.rig.element(each.control)] = true;
     std::vector<std::size_t> found;
@@ -311,7 +311,7 @@ void take_strip(const Workspace& workspace, Emit& emit) {
 }  // namespace
 
 float RigLab::timeline_height(const Workspace& workspace) const {
-    if (rig_part(workspace).state.controls.empty()) return 0.0f;
+    if (rig_part(workspace).state->controls.empty()) return 0.0f;
     return strip_height + past_plot_height(workspace.settings, rig_past());
 }
 

@@ -63,8 +63,8 @@ class Lister {
 
     void list(const Field& field, const void* object, const std::string& path, const std::string& title) {
         const bool nested = field.type == FieldType::Struct;
+        if (field.holds<rig::Unit>()) return;  // body units have their own rows
         if (nested && field.count != nullptr) {
-            if (field.table == fields<rig::Unit>) return;  // body units have their own rows
             const std::size_t count = field.count(object);
             for (std::size_t i = 0; i < count; ++i)
                 all(field.table(), field.address(object, i), path + '/' + std::to_string(i),
@@ -73,20 +73,19 @@ class Lister {
         }
         const void* const at =
             field.address != nullptr && field.count == nullptr ? field.address(object, 0) : object;
-        const bool whole =
-            nested && (field.table == fields<rig::TransformFilter> || field.table == fields<signal::Curve>);
+        const bool whole = field.holds<rig::TransformFilter>() || field.holds<signal::Curve>();
         if (nested && !whole && at != nullptr) return all(field.table(), at, path, title);
         UnitInput& row = list_.emplace_back(UnitInput{
             .path = path, .title = title, .unit = unit_of(field), .from = {}, .field = &field, .at = at});
         if (at == nullptr) {
             row.from = "none";
-        } else if (field.type == FieldType::Input) {
-            const rig::Input<rig::Value> input = field.input->get(at);
+        } else if (row.takes_input()) {
+            const rig::Input<rig::Value> input = rig::access_of(field).get(at);
             if (const rig::Value* literal = input.literal()) row.value = *literal;
             std::visit([&](const auto& source) { source_of(row, source); }, input.source);
         } else if (field.type == FieldType::Flag) {
             row.value = field.number(at) != 0.0;
-        } else if (field.type == FieldType::Item && row.names().empty()) {
+        } else if (row.is(FieldType::Other) && row.names().empty()) {
             row.from = "each element";
         }
     }
@@ -103,7 +102,7 @@ class Lister {
         const auto element = part_.rig.element(*name);
         if (!element) return;
         if (from.of == rig::Of::ControlValue)
-            row.value = part_.state.controls[*element];
+            row.value = part_.state->controls[*element];
         else
             row.value = part_of(*now_.known(part_.rig.id(*element), from.space, from.pose), from.of);
     }
@@ -115,7 +114,7 @@ class Lister {
         row.count = std::holds_alternative<rig::ForEach>(giver->unit->operation);
         const std::vector<rig::Output> outputs = rig::outputs(giver->unit->operation);
         for (std::size_t i = 0; i < outputs.size(); ++i)
-            if (outputs[i].name == from.output) row.value = part_.state.units[giver->at].outputs[i];
+            if (outputs[i].name == from.output) row.value = part_.state->units[giver->at].outputs[i];
     }
     void source_of(UnitInput& row, rig::Each each) const {
         constexpr const char* words[] = {"each ratio, 0 to 1", "each index", "count of elements"};
@@ -142,7 +141,7 @@ std::vector<UnitInput> unit_inputs(const RigPart& part, const rig::Hierarchy& no
 
 std::vector<std::string> UnitInput::names() const {
     std::vector<std::string> all;
-    if (at != nullptr && is(FieldType::Item)) {
+    if (at != nullptr && is(FieldType::Other) && !takes_input()) {
         if (const auto* name = std::get_if<std::string>(&static_cast<const rig::Item*>(at)->which))
             all.push_back(*name);
     } else if (is(FieldType::Text)) {
@@ -185,12 +184,11 @@ Json with_input(const rig::Unit& unit, const std::string& path, Json value) {
 
 std::vector<UnitRow> unit_rows(const RigPart& part) {
     std::vector<UnitRow> rows;
-    const std::vector<rig::Unit>& units = part.rig.definition().units;
+    const rig::Units& units = part.rig.definition().units;
     for (std::size_t top = 0; top < units.size(); ++top) {
         rows.push_back({&units[top], rows.size(), top, false});
         if (const auto* loop = std::get_if<rig::ForEach>(&units[top].operation))
-            for (const rig::Unit& inner : loop->body.units())
-                rows.push_back({&inner, rows.size(), top, true});
+            for (const rig::Unit& inner : loop->body) rows.push_back({&inner, rows.size(), top, true});
     }
     return rows;
 }
@@ -213,33 +211,13 @@ bool converts(rig::Type from, rig::Type to) {
 /// Parts of a pose that have the type; each exists in global and local space.
 std::vector<rig::Of> parts_of(rig::Type type) {
     using enum rig::Of;
-    switch (type) {
-        case rig::Type::Number:
-            return {X, Y, Z};
-        case rig::Type::Vector:
-            return {Translation, Scale};
-        case rig::Type::Rotation:
-            return {Rotation};
-        case rig::Type::Transform:
-            return {Transform};
-        default:
-            return {};
-    }
+    const std::vector<rig::Of> parts[] = {{}, {X, Y, Z}, {Translation, Scale}, {Rotation}, {Transform}};
+    return parts[static_cast<std::size_t>(type)];
 }
 
 Json zero_of(rig::Type type) {
-    switch (type) {
-        case rig::Type::Bool:
-            return false;
-        case rig::Type::Number:
-            return 0.0;
-        case rig::Type::Vector:
-            return Json::array({0, 0, 0});
-        case rig::Type::Rotation:
-            return Json::array({0, 0, 0, 1});
-        default:
-            return Json::object();
-    }
+    const Json zeros[] = {false, 0.0, {0, 0, 0}, {0, 0, 0, 1}, Json::object()};
+    return zeros[static_cast<std::size_t>(type)];
 }
 
 class Offers {
@@ -249,10 +227,10 @@ class Offers {
 
     std::vector<InputOffer> list(std::size_t index) {
         const std::string_view of = input_.field->of;
-        if (input_.is(FieldType::Input)) {
+        if (input_.takes_input()) {
             if (!input_.literal()) literal();
             for (const rig::Type type : types()) values(type);
-        } else if (input_.is(FieldType::Item)) {
+        } else if (input_.is(FieldType::Other)) {
             if (row_.inner && of != "bones") offer("each element", {{"item", "each"}});
             elements(of == "bones");
         } else if (of == "elements") {
@@ -275,7 +253,7 @@ class Offers {
     /// The type of the input, or else the types of a spring. A force must fit the spring's velocity.
     std::vector<rig::Type> types() const {
         if (input_.type()) return {*input_.type()};
-        if (input_.path == "/force") return {rig::type_of(part_.state.units[row_.at].outputs[1])};
+        if (input_.path == "/force") return {rig::type_of(part_.state->units[row_.at].outputs[1])};
         return {rig::Type::Number, rig::Type::Vector, rig::Type::Rotation};
     }
 
@@ -319,7 +297,7 @@ class Offers {
                 continue;
             const std::vector<rig::Output> outputs = rig::outputs(each.unit->operation);
             for (std::size_t i = 0; i < outputs.size(); ++i) {
-                if (!fits(rig::type_of(part_.state.units[each.at].outputs[i]), type)) continue;
+                if (!fits(rig::type_of(part_.state->units[each.at].outputs[i]), type)) continue;
                 std::string title = "unit " + each.unit->name;
                 if (std::string_view(outputs[i].name) != "result") title.append(", ").append(outputs[i].name);
                 offer(std::move(title), {{"unit", each.unit->name}, {"output", outputs[i].name}});

@@ -14,7 +14,7 @@
 namespace tendril::app {
 
 struct UnitInput {
-    std::string path;   ///< the path of its value in unit_json(): "/primary/target"
+    std::string path;   ///< the path of its value in a scene file: "/primary/target"
     std::string title;  ///< "primary target"
     const char* unit = "";
     /// The source: "head, translation", "unit curve"; empty for a literal.
@@ -27,8 +27,12 @@ struct UnitInput {
     bool count = false;  ///< a whole number, such as a number of elements
 
     /// Of an input: the type of a literal; none: any.
-    std::optional<rig::Type> type() const { return field->input->type; }
+    std::optional<rig::Type> type() const { return rig::access_of(*field).type; }
     bool is(FieldType type) const { return field->type == type; }
+    /// Otherwise a row of another type has an item.
+    bool takes_input() const {
+        return is(FieldType::Other) && rig::access_of(*field).takes == rig::InputAccess::Takes::Any;
+    }
     /// Elements or a curve, by name; empty for other fields.
     std::vector<std::string> names() const;
     bool literal() const { return from.empty(); }

@@ -89,7 +89,7 @@ std::string live_text(const UnitInput& input) {
     if (input.is(FieldType::Pair))
         return fixed_text(field.number(input.at, 0), 2) + " to " + fixed_text(field.number(input.at, 1), 2);
     if (input.is(FieldType::Struct) && input.at != nullptr)
-        return field.table == fields<signal::Curve>
+        return field.holds<signal::Curve>()
                    ? count_text(static_cast<const signal::Curve*>(input.at)->keys.size(), "key")
                : *static_cast<const rig::TransformFilter*>(input.at) == rig::TransformFilter() ? "all axes"
                                                                                                : "some axes";
@@ -108,7 +108,7 @@ void live_lines(const RigPanel& panel, const UnitRow& row) {
         live_line(input.title, input.from, live_text(input), margin);
     }
     const std::vector<rig::Output> outputs = rig::outputs(row.unit->operation);
-    const rig::UnitState& state = panel.part.state.units[row.at];
+    const rig::UnitState& state = panel.part.state->units[row.at];
     for (std::size_t i = 0; i < outputs.size(); ++i)
         live_line(std::string("gives ") + outputs[i].name, "",
                   output_text(row.unit->operation, state.outputs[i]), margin);
@@ -171,7 +171,7 @@ void unit_list(const RigPanel& panel) {
     const float top = ImGui::GetCursorPosY();
     if (many) ImGui::BeginChild("units", {0.0f, max_lines * line}, false);
     for (const UnitRow& row : rows) {
-        const rig::Warning warning = panel.part.state.units[row.at].warning;
+        const rig::Warning warning = panel.part.state->units[row.at].warning;
         const bool selected = panel.part.selected.unit == row.unit->name;
         if (many && !selected && warning == rig::Warning::None &&
             !ImGui::IsRectVisible({ImGui::GetContentRegionAvail().x, line})) {
@@ -207,7 +207,7 @@ class Fields {
     void row(const UnitInput& input) {
         input_ = &input;
         if (!input.literal()) return source_row();
-        if (input.is(FieldType::Input)) {
+        if (input.takes_input()) {
             chooser(input.title, nullptr);
             ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
         }
@@ -219,7 +219,7 @@ class Fields {
             range();
         else if (!input.is(FieldType::Struct))
             names();
-        else if (input.field->table == fields<signal::Curve>)
+        else if (input.field->holds<signal::Curve>())
             curve(*static_cast<const signal::Curve*>(input.at));
         else
             filter(*static_cast<const rig::TransformFilter*>(input.at));
@@ -392,7 +392,7 @@ void unit_inspector(const RigPanel& panel) {
     std::replace(operation.begin(), operation.end(), '_', ' ');
     note(operation + (row->inner ? ", run on each element of its for-each" : "") +
          (row->unit->enabled ? "" : ", switched off"));
-    if (row->unit->enabled) warning_line(panel, panel.part.state.units[row->at].warning);
+    if (row->unit->enabled) warning_line(panel, panel.part.state->units[row->at].warning);
     name_field(panel, "rig.unit.rename", row->unit->name, "Another name: units that use its outputs follow.");
     Fields fields(panel, *row);
     for (const UnitInput& input : unit_inputs(panel.part, panel.now, *row->unit)) {
@@ -404,7 +404,7 @@ void unit_inspector(const RigPanel& panel) {
     const std::vector<rig::Output> outputs = rig::outputs(row->unit->operation);
     for (std::size_t i = 0; i < outputs.size(); ++i)
         reading((std::string("gives ") + outputs[i].name).c_str(), "%s",
-                output_text(row->unit->operation, panel.part.state.units[row->at].outputs[i]).c_str());
+                output_text(row->unit->operation, panel.part.state->units[row->at].outputs[i]).c_str());
     if (row->inner) note("These are its outputs for the last element of the for-each.");
     if (row_button("Close", 2, true, "Deselects the unit")) select_unit(panel, "");
     end_row();

@@ -5,7 +5,6 @@
 #include <glm/trigonometric.hpp>
 #include <tendril/rig/euler.hpp>
 
-#include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
 
 namespace tendril::app {
@@ -56,6 +55,30 @@ rig::Value read_control_value(const JsonPlace& place, rig::ControlKind kind, con
     return glm::dvec3(number(0), number(1), 0.0);
 }
 
+Json controls_json(const rig::Rig& rig, const std::vector<rig::Value>& controls) {
+    Json json = Json::object();
+    for (std::size_t i = 0; i < controls.size(); ++i)
+        if (const rig::Element& element = rig.definition().elements[i]; element.control)
+            json[element.name] = control_value_json(element.control->kind, controls[i]);
+    return json;
+}
+
+void load_controls(const JsonPlace& place, const rig::Rig& rig, std::vector<rig::Value>& controls) {
+    std::vector<std::string> names;
+    for (const rig::Element& each : rig.definition().elements)
+        if (each.control) names.push_back(each.name);
+    load_named(place, "control", names, [&](std::size_t i, const JsonPlace& stored) {
+        const std::size_t at = *rig.element(names[i]);
+        controls[at] = read_reached(stored, *rig.definition().elements[at].control, controls[at]);
+    });
+}
+
+rig::Value read_reached(const JsonPlace& place, const rig::Control& control, const rig::Value& now) {
+    const rig::Value value = read_control_value(place, control.kind, now, max_reached);
+    check_unit(place, value);
+    return rig::clamped(control, value);
+}
+
 Json touched(Json after, const Json& before) {
     for_each_in_vectors(after, before, [](Json& each, const Json& was) {
         if (each == was) each = nullptr;
@@ -103,21 +126,9 @@ std::string output_text(const rig::Operation& operation, const rig::Value& value
 }
 
 const char* control_title(rig::ControlKind kind) {
-    switch (kind) {
-        case rig::ControlKind::Transform:
-            return "transform control";
-        case rig::ControlKind::Position:
-            return "position control";
-        case rig::ControlKind::Rotation:
-            return "rotation control";
-        case rig::ControlKind::Float:
-            return "float control";
-        case rig::ControlKind::Bool:
-            return "bool control";
-        case rig::ControlKind::Vector2d:
-            break;
-    }
-    return "2D control";
+    constexpr const char* titles[] = {"transform control", "position control", "rotation control",
+                                      "float control",     "bool control",     "2D control"};
+    return titles[static_cast<std::size_t>(kind)];
 }
 
 glm::dvec3 euler_degrees(const glm::dquat& rotation) {

@@ -1,16 +1,13 @@
 // Values of a rig's state and its controls as JSON, and as text for users.
 #pragma once
 
-#include <initializer_list>
-#include <span>
+#include <set>
 #include <string>
 #include <string_view>
-#include <tendril/rig/control.hpp>
-#include <tendril/rig/input.hpp>
-#include <tendril/rig/unit.hpp>
+#include <tendril/rig/rig.hpp>
 #include <vector>
 
-#include "app/document/json.hpp"
+#include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/fields/input_json.hpp"
 
@@ -21,11 +18,26 @@ void check_unit(const JsonPlace& place, const rig::Value& value);
 /// Reads a value that a rig reached, as it was stored.
 rig::Value read_stored(const JsonPlace& place, rig::Type type);
 
+/// Calls `take` with each index and the member of that name. Refuses other members, which errors call `what`.
+void load_named(const JsonPlace& place, const char* what, const std::vector<std::string>& names, auto take) {
+    const std::set<std::string_view> known(names.begin(), names.end());
+    if (!place.json().is_object()) place.fail("expected an object, found " + json_summary(place.json()));
+    for (const auto& [name, value] : place.json().items())
+        if (!known.contains(name))
+            place.fail("there is no " + std::string(what) + ' ' + json_summary(Json(name)));
+    for (std::size_t i = 0; i < names.size(); ++i) take(i, place[names[i].c_str()]);
+}
+
 /// The value in the form of that kind of control: a vector2d is [a, b].
 Json control_value_json(rig::ControlKind kind, const rig::Value& value);
 /// Members omitted from a transform are taken from `now`.
 rig::Value read_control_value(const JsonPlace& place, rig::ControlKind kind, const rig::Value& now,
                               double most = most_given);
+/// The values of a rig's controls by name, as it reached them; `controls` has one for each element.
+Json controls_json(const rig::Rig& rig, const std::vector<rig::Value>& controls);
+void load_controls(const JsonPlace& place, const rig::Rig& rig, std::vector<rig::Value>& controls);
+/// The value of one, within its limits.
+rig::Value read_reached(const JsonPlace& place, const rig::Control& control, const rig::Value& now);
 
 // When several values are set at once, each keeps its untouched parts: null in a vector, omitted from a
 // transform.

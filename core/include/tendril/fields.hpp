@@ -29,10 +29,6 @@
 
 namespace tendril {
 
-namespace rig {
-struct InputAccess;
-}
-
 enum class FieldType : std::uint8_t {
     Flag,     ///< 0 or 1
     Integer,  ///< a whole number
@@ -45,8 +41,7 @@ enum class FieldType : std::uint8_t {
     Index,     ///< of an element of the list `of`, which files call by its name
     Struct,    ///< has a table of its own
     Kind,      ///< a std::variant of structs: an index into `choices`, and the table of the one that it holds
-    Input,     ///< a rig::Input: a literal, or where its value comes from
-    Item       ///< a rig::Item: the name of an element of the list `of`, or the current one of a for-each
+    Other      ///< none of these, such as a rig::Input: `access` has its functions
 };
 
 /// A field of any type, as up to four numbers.
@@ -74,17 +69,23 @@ struct FieldKind {
     std::string_view in_code;         ///< "tendril::rig::Aim"
 };
 
+/// The functions of values of no common type. Their room derives a struct from it that has the others:
+/// rig::InputAccess.
+struct FieldAccess {
+    bool (*same)(const void* one, const void* other);
+};
+
 /// One field of a struct. `get`, `set` and `empty` take the struct; `set` checks nothing.
 ///
 /// A list of values or structs has a `count`. Its type, range and unit are those of an element, and `get`,
-/// `set` and `empty` take the address of one, as those of an input or an item do. A text has `text` and
+/// `set` and `empty` take the address of one, as those of a value of another type do. A text has `text` and
 /// `set_text` instead. Setting a variant's index gives it a fresh struct of that kind.
 struct Field {
     const char* name;       ///< as in files and commands: "gravity_scale"
     const char* unit = "";  ///< "m/s^2", "rad"; empty for none
     FieldType type = FieldType::Number;
     bool exact = false;     ///< stored in double precision; otherwise float
-    bool optional = false;  ///< may be empty, which reads as NaN
+    bool optional = false;  ///< may be empty, which reads as NaN and is set by NaN
     FieldRange range{};     ///< of a flag 0 to 1, of a choice 0 to the last index; an end may be infinite
     bool over_low = false;  ///< range.low itself is out of range
     std::span<const char* const> choices{};
@@ -95,20 +96,14 @@ struct Field {
     FieldScale scale = FieldScale::Linear;  ///< how sliders map it
     FieldValue (*get)(const void* object) noexcept = nullptr;
     void (*set)(void* object, const FieldValue& value) noexcept = nullptr;
-    /// Null unless the field is optional.
-    bool (*empty)(const void* object) noexcept = nullptr;
     /// Whether the value is in the range of `row`, or empty.
     bool (*fits)(const Field& row, const void* object) noexcept = nullptr;
     std::string_view (*text)(const void* object) noexcept = nullptr;
     void (*set_text)(void* object, std::string_view text) = nullptr;
-    bool (*same)(const void* input, const void* other) = nullptr;  ///< of inputs and items
-    const rig::InputAccess* input = nullptr;                       ///< of inputs
+    const FieldAccess* access = nullptr;
 
-    /// The table of a nested struct, and one with its default values; null for values.
-    std::span<const Field> (*table)() noexcept = nullptr;
-    const void* (*fresh)() noexcept = nullptr;
     std::span<const FieldKind> kinds{};  ///< of a variant, by index; of a struct, itself
-    /// The address of a struct, an input or an item, null while an optional one is empty; of what a variant
+    /// The address of a struct or another value, null while an optional one is empty; of what a variant
     /// holds; or of a list's element.
     const void* (*address)(const void* object, std::size_t index) noexcept = nullptr;
     std::size_t (*count)(const void* object) noexcept = nullptr;
@@ -118,7 +113,7 @@ struct Field {
     std::size_t fewest = 0, most = static_cast<std::size_t>(-1);  ///< elements of a list
     std::span<const char* const> names{};                         ///< of the elements: "left", "right"
     bool in_line = false;   ///< in files the named elements are members of the struct itself
-    bool sparse = false;    ///< in files members at their default are left out
+    bool sparse = false;    ///< in files it, or of a struct members at their default, are left out
     bool required = false;  ///< files must have it: there is no default
 
     /// Bit i: method i honours it, without and within joint limits. See honours() in ik/method.hpp.
@@ -134,6 +129,16 @@ struct Field {
     bool whole() const noexcept {
         return type == FieldType::Flag || type == FieldType::Integer || type == FieldType::Choice ||
                type == FieldType::Index || type == FieldType::Kind;
+    }
+    /// The table of a nested struct, and one with its default values.
+    std::span<const Field> table() const noexcept { return kinds[0].table(); }
+    const void* fresh() const noexcept { return kinds[0].fresh(); }
+    /// Whether it is a struct of that type, or a list of them.
+    template <class Struct>
+    bool holds() const noexcept;
+    /// False unless the field is optional.
+    bool empty(const void* object) const noexcept {
+        return optional && get != nullptr && type != FieldType::Other && number(object) != number(object);
     }
     /// The struct that `object` has here: the one that a variant holds, or a list's element.
     const FieldKind& kind(const void* object) const noexcept {
@@ -211,6 +216,10 @@ struct Field {
 /// The table of a struct, in the order of its members; declared next to the struct.
 template <class Struct>
 std::span<const Field> fields() noexcept;
+template <class Struct>
+bool Field::holds() const noexcept {
+    return type == FieldType::Struct && kinds[0].table == fields<Struct>;
+}
 
 /// Null for an unknown name.
 const Field* find_field(std::span<const Field> table, std::string_view name) noexcept;
@@ -377,11 +386,6 @@ void set_value(void* at, const FieldValue& given) noexcept {
 }
 
 template <class Value>
-bool is_empty(const void* at) noexcept {
-    return !*static_cast<const Value*>(at);
-}
-
-template <class Value>
 bool fits(const Field& row, const Value& value) noexcept {
     if constexpr (FieldOptional<Value>::value) {
         return !value || fits(row, *value);
@@ -427,10 +431,6 @@ FieldValue get_field(const void* object) noexcept {
 template <auto member>
 void set_field(void* object, const FieldValue& given) noexcept {
     set_value<ValueOf<member>>(&member_of<member>(object), given);
-}
-template <auto member>
-bool is_empty_field(const void* object) noexcept {
-    return !member_of<member>(object);
 }
 template <auto member>
 bool fits_field(const Field& row, const void* object) noexcept {
@@ -551,7 +551,6 @@ constexpr Field field(const char* name, FieldRange range = {0.0, 1.0}, const cha
         Field row = detail::value_row<Value>(name, range, unit);
         row.get = detail::get_field<member>, row.set = detail::set_field<member>;
         row.fits = detail::fits_field<member>;
-        if constexpr (detail::FieldOptional<Value>::value) row.empty = detail::is_empty_field<member>;
         return row;
     }
 }
@@ -571,8 +570,6 @@ constexpr Field nested(const char* name) noexcept {
     using Member = detail::ValueOf<member>;
     using Struct = typename detail::FieldOptional<Member>::type;
     Field row{.name = name, .type = FieldType::Struct, .optional = detail::FieldOptional<Member>::value};
-    row.table = fields<Struct>;
-    row.fresh = detail::fresh<Struct>;
     row.kinds = {&detail::kind_of<Struct>, 1};
     row.address = detail::struct_address<member>;
     if constexpr (detail::FieldOptional<Member>::value) row.resize = detail::resize_struct<member>;
@@ -601,8 +598,6 @@ constexpr Field list(const char* name, FieldRange range = {0.0, 1.0}, const char
     using Element = std::remove_cvref_t<decltype(std::declval<List&>()[0])>;
     Field row{.name = name, .type = FieldType::Struct};
     if constexpr (detail::has_table<Element>) {
-        row.table = fields<Element>;
-        row.fresh = detail::fresh<Element>;
         row.kinds = {&detail::kind_of<Element>, 1};
     } else if constexpr (std::is_same_v<Element, std::string>) {
         row.type = FieldType::Text;
@@ -611,7 +606,6 @@ constexpr Field list(const char* name, FieldRange range = {0.0, 1.0}, const char
         row = detail::value_row<Element>(name, range, unit);
         row.get = detail::get_value<Element>, row.set = detail::set_value<Element>;
         row.fits = detail::fits_value<Element>;
-        if constexpr (detail::FieldOptional<Element>::value) row.empty = detail::is_empty<Element>;
     }
     row.address = detail::element_address<member>;
     row.count = detail::count_elements<member>;

@@ -26,11 +26,6 @@ glm::dvec3 within(const Control& control, glm::dvec3 value) noexcept {
 
 }  // namespace
 
-const char* name(ControlKind kind) noexcept {
-    constexpr const char* names[] = {"transform", "position", "rotation", "float", "bool", "vector2d"};
-    return names[static_cast<std::size_t>(kind)];
-}
-
 Type type_of(ControlKind kind) noexcept {
     constexpr Type types[] = {Type::Transform, Type::Vector, Type::Rotation,
                               Type::Number,    Type::Bool,   Type::Vector};

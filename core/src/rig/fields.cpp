@@ -1,10 +1,10 @@
-// The tables of units and their operations.
+// The tables of definitions, elements, units and their operations.
 #include "tendril/fields.hpp"
 
 #include <cmath>
 
 #include "tendril/magnitude.hpp"
-#include "tendril/rig/unit.hpp"
+#include "tendril/rig/definition.hpp"
 #include "tendril/signal/spring.hpp"
 
 namespace tendril {
@@ -32,7 +32,8 @@ constexpr const char* operation_names[] = {"aim",
                                            "spline"};
 static_assert(std::size(operation_names) == std::variant_size_v<Operation::Variant>);
 constexpr const char *targets[] = {"location", "direction"}, *spaces[] = {"local", "global"},
-                     *pieces[] = {"constant", "linear", "cubic"};
+                     *element_kinds[] = {"bone", "null", "control"}, *axes[] = {"x", "y", "z"},
+                     *control_kinds[] = {"transform", "position", "rotation", "float", "bool", "vector2d"};
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 constexpr FieldRange any{-static_cast<double>(max_magnitude), static_cast<double>(max_magnitude)};
@@ -99,13 +100,14 @@ struct Access {
     }
 };
 template <class T>
-constexpr InputAccess access_to{Access<T>::type(), Access<T>::get, Access<T>::set};
+constexpr InputAccess access_to{
+    {Access<T>::same}, InputAccess::Takes::Any, Access<T>::type(), Access<T>::get, Access<T>::set};
 
 template <class T>
 struct InputType;
 template <class T>
 struct InputType<Input<T>> : Access<T> {
-    static constexpr const InputAccess* input = &access_to<T>;
+    static constexpr const InputAccess* access = &access_to<T>;
 };
 
 /// A row for an input, or an optional one.
@@ -113,26 +115,43 @@ template <auto member>
 constexpr Field input(const char* name, FieldRange range = any, const char* unit = "") noexcept {
     using Member = tendril::detail::ValueOf<member>;
     using Of = InputType<typename tendril::detail::FieldOptional<Member>::type>;
-    Field row{.name = name, .unit = unit, .type = FieldType::Input, .exact = true, .range = range};
+    Field row{.name = name, .unit = unit, .type = FieldType::Other, .exact = true, .range = range};
     row.optional = tendril::detail::FieldOptional<Member>::value;
-    row.get = Of::number, row.fits = Of::fits, row.same = Of::same, row.input = Of::input;
+    row.get = Of::number, row.fits = Of::fits, row.access = Of::access;
     row.address = tendril::detail::struct_address<member>;
     if constexpr (tendril::detail::FieldOptional<Member>::value)
         row.resize = tendril::detail::resize_struct<member>;
     return row;
 }
 
-bool same_item(const void* a, const void* b) noexcept {
-    return *static_cast<const Item*>(a) == *static_cast<const Item*>(b);
+template <class T>
+bool same_value(const void* a, const void* b) noexcept {
+    return *static_cast<const T*>(a) == *static_cast<const T*>(b);
 }
+constexpr InputAccess item_access{
+    {same_value<Item>},
+    InputAccess::Takes::Item,
+    {},
+    [](const void* at) { return Input<Value>(FromElement{.element = *static_cast<const Item*>(at)}); },
+    [](void* at, const Input<Value>& given) {
+        *static_cast<Item*>(at) = std::get<FromElement>(given.source).element;
+    }};
+constexpr InputAccess transform_access{
+    {same_value<Transform>},
+    InputAccess::Takes::Literal,
+    Type::Transform,
+    [](const void* at) { return Input<Value>(Value(*static_cast<const Transform*>(at))); },
+    [](void* at, const Input<Value>& given) {
+        *static_cast<Transform*>(at) = std::get<Transform>(*given.literal());
+    }};
 
 /// A row for an element. `of`: "bones" for the ends of a chain.
 template <auto member>
 constexpr Field item(const char* name, const char* of = "elements") noexcept {
     return {.name = name,
-            .type = FieldType::Item,
+            .type = FieldType::Other,
             .of = of,
-            .same = same_item,
+            .access = &item_access,
             .address = tendril::detail::struct_address<member>,
             .required = true};
 }
@@ -285,26 +304,6 @@ std::span<const Field> fields<SpringInterpolate>() noexcept {
 }
 
 template <>
-std::span<const Field> fields<signal::CurveKey>() noexcept {
-    using signal::CurveKey;
-    static constexpr Field rows[] = {
-        field<&CurveKey::time>("time", any).needed(), field<&CurveKey::value>("value", any).needed(),
-        field<&CurveKey::arrive>("arrive", any), field<&CurveKey::leave>("leave", any),
-        field<&CurveKey::piece>("piece", pieces)};
-    return rows;
-}
-
-template <>
-std::span<const Field> fields<signal::Curve>() noexcept {
-    using signal::Curve;
-    static constexpr Field rows[] = {
-        list<&Curve::keys>("keys").sparsely().up_to(1'000, 1), field<&Curve::source_min>("source_min", any),
-        field<&Curve::source_max>("source_max", any), field<&Curve::target_min>("target_min", any),
-        field<&Curve::target_max>("target_max", any)};
-    return rows;
-}
-
-template <>
 std::span<const Field> fields<EvaluateCurve>() noexcept {
     static constexpr Field rows[] = {input<&EvaluateCurve::value>("value"),
                                      nested<&EvaluateCurve::curve>("curve")};
@@ -354,8 +353,106 @@ std::span<const Field> fields<Unit>() noexcept {
     return rows;
 }
 
+namespace {
+
+/// The settings of a control of one kind: the ends of its range as the numbers of its value.
+constexpr Field bound(Field row, FieldType type) noexcept {
+    row.type = type;
+    return row.sparsely();
+}
+template <FieldType type>
+constexpr Field minimum = bound(field<&Control::minimum>("minimum", any), type);
+template <FieldType type>
+constexpr Field maximum = bound(field<&Control::maximum>("maximum", any), type);
+constexpr Field axes_row() noexcept {
+    Field row = list<&Control::axes>("axes", {0.0, 2.0});
+    row.type = FieldType::Choice, row.choices = axes;
+    return row;
+}
+template <FieldType type>
+std::span<const Field> range_rows() noexcept {
+    static constexpr Field rows[] = {minimum<type>, maximum<type>};
+    return rows;
+}
+std::span<const Field> vector2d_rows() noexcept {
+    static constexpr Field rows[] = {axes_row(), minimum<FieldType::Pair>, maximum<FieldType::Pair>};
+    return rows;
+}
+std::span<const Field> no_rows() noexcept {
+    return {};
+}
+constexpr auto usual_control = tendril::detail::fresh<Control>;
+/// In the order of ControlKind.
+constexpr FieldKind controls[] = {{range_rows<FieldType::Point>, usual_control, {}},
+                                  {range_rows<FieldType::Point>, usual_control, {}},
+                                  {no_rows, usual_control, {}},
+                                  {range_rows<FieldType::Number>, usual_control, {}},
+                                  {no_rows, usual_control, {}},
+                                  {vector2d_rows, usual_control, {}}};
+
+std::optional<Control>& control_of(const void* element) noexcept {
+    return const_cast<Element*>(static_cast<const Element*>(element))->control;
+}
+constexpr Field control_row{.name = "control",
+                            .type = FieldType::Kind,
+                            .optional = true,
+                            .range = {0.0, 5.0},
+                            .choices = control_kinds,
+                            .get = [](const void* element) noexcept -> FieldValue {
+                                const std::optional<Control>& control = control_of(element);
+                                return {control ? static_cast<double>(control->kind) : no_value};
+                            },
+                            .set =
+                                [](void* element, const FieldValue& kind) noexcept {
+                                    control_of(element).reset();
+                                    if (kind[0] >= 0.0 && kind[0] <= 5.0)
+                                        control_of(element) = {.kind = static_cast<ControlKind>(kind[0])};
+                                },
+                            .kinds = controls,
+                            .address = [](const void* element, std::size_t) noexcept -> const void* {
+                                const std::optional<Control>& control = control_of(element);
+                                return control ? &*control : nullptr;
+                            }};
+
+}  // namespace
+
+template <>
+std::span<const Field> fields<Element>() noexcept {
+    static constexpr Field rows[] = {field<&Element::name>("name").needed(),
+                                     field<&Element::kind>("kind", element_kinds),
+                                     field<&Element::parent>("parent").naming("elements").sparsely(),
+                                     {.name = "local",
+                                      .type = FieldType::Other,
+                                      .in_code = "initial",
+                                      .access = &transform_access,
+                                      .address = tendril::detail::struct_address<&Element::initial>},
+                                     control_row};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<NamedCurve>() noexcept {
+    static constexpr Field rows[] = {field<&NamedCurve::name>("name").needed(),
+                                     field<&NamedCurve::value>("value", any).needed()};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<Definition>() noexcept {
+    static constexpr Field rows[] = {list<&Definition::elements>("elements").needed(),
+                                     list<&Definition::curves>("curves").needed(),
+                                     list<&Definition::units>("units").needed()};
+    return rows;
+}
+
 namespace rig {
 
+const char* name(ElementKind kind) noexcept {
+    return element_kinds[static_cast<std::size_t>(kind)];
+}
+const char* name(ControlKind kind) noexcept {
+    return control_kinds[static_cast<std::size_t>(kind)];
+}
 const char* operation_name(std::size_t index) noexcept {
     return operation_names[index];
 }

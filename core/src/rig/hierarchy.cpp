@@ -12,18 +12,6 @@ using tendril::detail::no_value;
 using tendril::detail::refused;
 using tendril::detail::Shown;
 
-const char* name(ElementKind kind) noexcept {
-    switch (kind) {
-        case ElementKind::Bone:
-            return "bone";
-        case ElementKind::Null:
-            return "null";
-        case ElementKind::Control:
-            return "control";
-    }
-    return "";
-}
-
 const char* name(Pending pending) noexcept {
     switch (pending) {
         case Pending::None:

@@ -38,8 +38,8 @@ class Builder {
         if (const Result bad = index_names(); !bad) return bad;
         if (const Result bad = add_elements(); !bad) return bad;
         if (const Result bad = add_controls_and_curves(); !bad) return bad;
-        for (Unit& unit : definition_.units)
-            if (const Result bad = add_unit(unit, 1); !bad) return bad;
+        for (; top_ < definition_.units.size(); ++top_)
+            if (const Result bad = add_unit(definition_.units[top_], 1); !bad) return bad;
         return new Plan(std::move(definition_), Shared(std::move(layout_)));
     }
 
@@ -152,7 +152,7 @@ class Builder {
         for (const Output& output : *outputs) state.outputs.push_back(neutral(output.type));
         layout_.initial.units.push_back(std::move(state));
         layout_.unit_names.push_back(unit.name);
-        layout_.units.push_back({{}, {}, {}, around, std::move(*outputs)});
+        layout_.units.push_back({{}, {}, {}, around, top_, std::move(*outputs)});
         layout_.work += times * work_a_unit;
         if (const auto* two_bone = std::get_if<TwoBone>(&unit.operation))
             return add_chain(unit, two_bone->root, two_bone->tip, 3, times, layout_.units[index]);
@@ -169,7 +169,7 @@ class Builder {
         if (!for_each) return {};
         for (const std::string& root : for_each->roots) collect(*for_each, root, layout_.units[index]);
         const std::size_t count = layout_.units[index].visits.size();
-        for (Unit& inner : for_each->body.units())
+        for (Unit& inner : for_each->body)
             if (const Result bad = add_unit(inner, count, index); !bad) return bad;
         return {};
     }
@@ -216,6 +216,7 @@ class Builder {
     Definition definition_;
     Layout layout_;
     std::vector<std::uint32_t> element_at_;  ///< element index by handle index
+    std::size_t top_ = 0;                    ///< unit of the definition
 };
 
 }  // namespace
@@ -227,19 +228,6 @@ Expected<Rig> Rig::make(Definition definition) {
 }
 
 namespace {
-
-/// The unit with this index; units in a body come right after their for-each.
-Unit& unit_at(std::vector<Unit>& units, std::size_t index) {
-    for (Unit& unit : units) {
-        if (index-- == 0) return unit;
-        auto* for_each = std::get_if<ForEach>(&unit.operation);
-        if (!for_each) continue;
-        std::vector<Unit>& body = for_each->body.units();
-        if (index < body.size()) return body[index];
-        index -= body.size();
-    }
-    return units.back();  // not reached
-}
 
 /// Whether two units of the same operation place the same elements, as far as the layout knows.
 bool same_elements(const Unit& one, const Unit& other) {
@@ -268,15 +256,23 @@ Expected<Rig> Rig::with_unit(Unit unit) const {
     const Layout& layout = *plan().layout;
     const auto found = layout.units_by_name.find(unit.name);
     if (found == layout.units_by_name.end()) return missing("there is no unit " + quoted(unit.name));
-    Definition changed = plan_->definition;
-    Unit& place = unit_at(changed.units, found->second);
+    const Definition& now = plan_->definition;
     const detail::UnitPlan& planned = layout.units[found->second];
-    const auto outputs = Resolver(changed, layout).resolve(unit, found->second, planned.for_each);
+    const Unit& top = now.units[planned.top];
+    const auto* loop = planned.for_each ? &std::get<ForEach>(top.operation) : nullptr;
+    const std::size_t inner = planned.for_each ? found->second - *planned.for_each - 1 : 0;
+    const Unit& place = loop != nullptr ? loop->body[inner] : top;
+    const auto outputs = Resolver(now, layout).resolve(unit, found->second, planned.for_each);
     if (!outputs) return outputs.error();
     const bool same_layout = unit.operation.index() == place.operation.index() &&
                              same_elements(unit, place) && same_types(*outputs, planned.outputs);
-    place = std::move(unit);
-    if (!same_layout) return make(std::move(changed));
+    if (loop != nullptr) {
+        Unit around = top;
+        std::get<ForEach>(around.operation).body[inner] = std::move(unit);
+        unit = std::move(around);
+    }
+    Definition changed{now.elements, now.curves, now.units.with(planned.top, std::move(unit))};
+    if (!same_layout) return make(changed);
     return Rig(new Plan(std::move(changed), plan_->layout));
 }
 

@@ -24,6 +24,7 @@ struct UnitPlan {
     std::vector<std::uint32_t> bones;     ///< units of a chain only: the elements from root to tip
     std::vector<std::uint32_t> points;    ///< splines only: the elements that the curve passes through
     std::optional<std::size_t> for_each;  ///< units in a body only: the for-each around them
+    std::size_t top = 0;                  ///< its index in Definition::units, or that of its for-each
     std::vector<Output> outputs;
 };
 

@@ -76,7 +76,7 @@ namespace {
 
 /// The units in a body are resolved by themselves.
 bool is_body(const Field& field) {
-    return field.type == FieldType::Struct && field.table == fields<Unit>;
+    return field.holds<Unit>();
 }
 
 }  // namespace
@@ -112,8 +112,7 @@ void Resolver::rows(std::span<const Field> table, void* object, const std::strin
 void Resolver::row(const Field& field, void* at, const std::string& name) {
     if (at == nullptr) return;
     if (field.type == FieldType::Struct) return rows(field.table(), at, name + '.');
-    if (field.type == FieldType::Input) return input(name, *field.input, at);
-    if (field.type == FieldType::Item) return item(name, *static_cast<Item*>(at));
+    if (field.type == FieldType::Other) return input(name, access_of(field), at);
     if (field.type != FieldType::Text || *field.of == '\0') return;
     const bool curve = field.of == std::string_view("curves");
     const std::string to(field.text(at));
@@ -134,6 +133,7 @@ void Resolver::item(const std::string& name, Item& item) {
 }
 
 void Resolver::input(const std::string& name, const InputAccess& access, void* at) {
+    if (access.takes == InputAccess::Takes::Item) return item(name, *static_cast<Item*>(at));
     Input<Value> input = access.get(at);
     const Type type = std::visit([&](auto& source) { return type_of_source(name, source); }, input.source);
     if (!refusal_) return;

@@ -40,7 +40,7 @@ bool Runner::run(Observer* observer) noexcept {
     put_back();
     for (UnitState& unit : state_.units) unit.warning = Warning::None;
     if (observer) observer->begin(state_);
-    const std::vector<Unit>& units = plan_.definition.units;
+    const Units& units = plan_.definition.units;
     for (std::size_t i = 0; i < units.size(); ++i) {
         run_unit(units[i]);
         if (observer) observer->unit_done(i, state_);
@@ -77,12 +77,12 @@ void Runner::operator()(const ForEach& op) noexcept {
         for (place_in_for_each_ = 0; place_in_for_each_ < visits.size(); ++place_in_for_each_) {
             visit_ = &visits[place_in_for_each_];
             next_ = first;
-            for (const Unit& unit : op.body.units()) run_unit(unit);
+            for (const Unit& unit : op.body) run_unit(unit);
         }
     visit_ = nullptr;
     for_each_weight_ = 1.0;
     place_in_for_each_ = 0;
-    next_ = first + op.body.units().size();
+    next_ = first + op.body.size();
 }
 
 Value Runner::value_of(const FromElement& from) noexcept {

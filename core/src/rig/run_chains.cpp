@@ -11,12 +11,11 @@ namespace tendril::rig {
 Workspace::Workspace(const Rig& rig) : parts_(std::make_unique<Parts>()) {
     parts_->chains.resize(rig.unit_names().size());
     std::size_t parents = 0;
-    const auto count = [&](const auto& self, const std::vector<Unit>& units) -> void {
+    const auto count = [&](const auto& self, const Units& units) -> void {
         for (const Unit& unit : units) {
             if (const auto* constraint = std::get_if<ParentConstraint>(&unit.operation))
                 parents = std::max(parents, constraint->parents.size());
-            if (const auto* for_each = std::get_if<ForEach>(&unit.operation))
-                self(self, for_each->body.units());
+            if (const auto* for_each = std::get_if<ForEach>(&unit.operation)) self(self, for_each->body);
         }
     };
     count(count, rig.definition().units);

@@ -160,9 +160,13 @@ State Rig::initial_state() const {
     return plan().layout->initial;
 }
 
+bool Rig::keeps_states_of(const Rig& before) const noexcept {
+    return plan().layout == before.plan().layout;
+}
+
 State Rig::adopted(const Rig& before, State state) const {
+    if (keeps_states_of(before)) return state;
     const Plan &plan = this->plan(), &last = before.plan();
-    if (plan.layout == last.layout) return state;
     State result = plan.layout->initial;
     Hierarchy old = state.elements;  // reading computes what is pending
     for (std::size_t i = 0; i < plan.layout->ids.size(); ++i) {

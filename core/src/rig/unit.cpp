@@ -1,25 +1,67 @@
 #include "tendril/rig/unit.hpp"
 
+#include <algorithm>
+#include <atomic>
+
 namespace tendril::rig {
 
-Body::Body() noexcept = default;
-Body::Body(std::initializer_list<Unit> units) : units_(units) {}
-Body::Body(const Body&) = default;
-Body::Body(Body&&) noexcept = default;
-Body& Body::operator=(const Body&) = default;
-Body& Body::operator=(Body&&) noexcept = default;
-Body::~Body() = default;
-std::size_t Body::size() const noexcept {
-    return units_.size();
+struct Units::Held {
+    Unit unit;
+    std::atomic<std::uint32_t> owners{1};
+
+    static void release(Held* held) noexcept {
+        if (held->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) delete held;
+    }
+};
+
+Units::Units() noexcept = default;
+Units::Units(Units&&) noexcept = default;
+Units::Units(std::initializer_list<Unit> units) {
+    for (const Unit& each : units) push_back(each);
 }
-const Unit& Body::operator[](std::size_t index) const noexcept {
-    return units_[index];
+Units::Units(const Units& other) {
+    held_.reserve(other.size());
+    for (const Unit& each : other) push_back(each);
 }
-void Body::resize(std::size_t count) {
-    units_.resize(count);
+Units& Units::operator=(Units other) noexcept {
+    return std::swap(held_, other.held_), *this;
 }
-bool Body::operator==(const Body& other) const {
-    return units_ == other.units_;
+Units::~Units() {
+    for (Held* const each : held_) Held::release(each);
+}
+const Unit& Units::operator[](std::size_t index) const noexcept {
+    return held_[index]->unit;
+}
+Unit& Units::operator[](std::size_t index) noexcept {
+    return held_[index]->unit;
+}
+void Units::push_back(Unit unit) {
+    held_.push_back(new Held{std::move(unit)});
+}
+void Units::insert(std::size_t index, Unit unit) {
+    held_.insert(held_.begin() + static_cast<std::ptrdiff_t>(index), new Held{std::move(unit)});
+}
+void Units::erase(std::size_t index) noexcept {
+    Held::release(held_[index]);
+    held_.erase(held_.begin() + static_cast<std::ptrdiff_t>(index));
+}
+void Units::resize(std::size_t count) {
+    while (size() > count) erase(size() - 1);
+    while (size() < count) push_back({});
+}
+bool Units::operator==(const Units& other) const noexcept {
+    return std::equal(held_.begin(), held_.end(), other.held_.begin(), other.held_.end(),
+                      [](const Held* a, const Held* b) { return a == b || a->unit == b->unit; });
+}
+Units Units::with(std::size_t index, Unit unit) const {
+    Units changed;
+    changed.held_ = held_;
+    for (std::size_t i = 0; i < size(); ++i)
+        if (i == index)
+            changed.held_[i] = new Held{std::move(unit)};
+        else
+            held_[i]->owners.fetch_add(1, std::memory_order_relaxed);
+    return changed;
 }
 
 Operation::Operation() noexcept = default;

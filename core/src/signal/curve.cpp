@@ -44,18 +44,6 @@ double slope_between(const CurveKey& a, const CurveKey& b) noexcept {
 
 }  // namespace
 
-const char* name(Piece piece) noexcept {
-    switch (piece) {
-        case Piece::Constant:
-            return "constant";
-        case Piece::Linear:
-            return "linear";
-        case Piece::Cubic:
-            return "cubic";
-    }
-    return "?";
-}
-
 Result check(const Curve& curve) noexcept {
     const auto ends = fields<Curve>().subspan(1);
     if (const Result bad = check_fields("curve", ends, &curve); !bad) return bad;

@@ -68,7 +68,13 @@ constexpr Field hysteresis_fields[] = {number<&Hysteresis::low>("low", "", any, 
 constexpr Field inertialize_fields[] = {
     number<&Inertialize::halflife>("halflife", "s", seconds, usual_seconds, Logarithmic),
     number<&Inertialize::threshold>("threshold", "", amount, {0.01, 2.0}, Logarithmic)};
-constexpr Field curve_fields[] = {number<&Curve::source_min>("source_min", "", any, usual_values),
+constexpr const char* pieces[] = {"constant", "linear", "cubic"};
+constexpr Field key_fields[] = {
+    field<&CurveKey::time>("time", any).needed(), field<&CurveKey::value>("value", any).needed(),
+    field<&CurveKey::arrive>("arrive", any), field<&CurveKey::leave>("leave", any),
+    field<&CurveKey::piece>("piece", pieces)};
+constexpr Field curve_fields[] = {list<&Curve::keys>("keys").sparsely().up_to(1'000, 1),
+                                  number<&Curve::source_min>("source_min", "", any, usual_values),
                                   number<&Curve::source_max>("source_max", "", any, usual_values),
                                   number<&Curve::target_min>("target_min", "", any, usual_values),
                                   number<&Curve::target_max>("target_max", "", any, usual_values)};
@@ -92,10 +98,14 @@ constexpr std::array<Kind, std::variant_size_v<Filter>> all_kinds{{
     {"dead_zone", blank<DeadZone>, dead_zone_fields},
     {"hysteresis", blank<Hysteresis>, hysteresis_fields},
     {"inertialize", blank<Inertialize>, inertialize_fields},
-    {"curve", blank<Curve>, curve_fields},
+    {"curve", blank<Curve>, std::span(curve_fields).subspan(1)},
 }};
 
 }  // namespace
+
+const char* name(Piece piece) noexcept {
+    return pieces[static_cast<std::size_t>(piece)];
+}
 
 std::span<const Kind> kinds() noexcept {
     return all_kinds;
@@ -176,4 +186,12 @@ std::span<const Field> fields<signal::InertializeState>() noexcept {
     return rows;
 }
 
+template <>
+std::span<const Field> fields<signal::CurveKey>() noexcept {
+    return signal::key_fields;
+}
+template <>
+std::span<const Field> fields<signal::Curve>() noexcept {
+    return signal::curve_fields;
+}
 }  // namespace tendril

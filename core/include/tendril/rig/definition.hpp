@@ -31,8 +31,15 @@ struct NamedCurve {
 struct Definition {
     std::vector<Element> elements{};  ///< in any order; a parent may come after its children
     std::vector<NamedCurve> curves{};
-    std::vector<Unit> units{};
+    Units units{};
     bool operator==(const Definition&) const = default;
 };
 
 }  // namespace tendril::rig
+
+namespace tendril {
+template <>
+std::span<const Field> fields<rig::Element>() noexcept;
+template <>
+std::span<const Field> fields<rig::Definition>() noexcept;
+}  // namespace tendril

@@ -98,12 +98,17 @@ struct Input {
     const T* literal() const noexcept { return std::get_if<0>(&source); }
 };
 
-/// Reads and sets inputs of any type; each row of a table for an input has one. `get` and `set` take the
-/// address of the Input. A literal that is set must have the input's type.
-struct InputAccess {
+/// Reads and sets an Input, an Item or a Transform as an input of any value; each row of a table for one has
+/// it. `get` and `set` take its address. A literal that is set must have the type.
+struct InputAccess : FieldAccess {
+    enum class Takes : std::uint8_t { Any, Literal, Item };
+    Takes takes;
     std::optional<Type> type;  ///< of a literal; none: any
     Input<Value> (*get)(const void* input);
     void (*set)(void* input, const Input<Value>& source);
 };
+inline const InputAccess& access_of(const Field& row) noexcept {
+    return static_cast<const InputAccess&>(*row.access);
+}
 
 }  // namespace tendril::rig

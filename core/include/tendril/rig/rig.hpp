@@ -118,6 +118,8 @@ class Rig {
     /// `before`. Matched by name: elements whose kind, initial transform and control settings are unchanged;
     /// curves; units whose output types are unchanged, with their memory of each element.
     State adopted(const Rig& before, State state) const;
+    /// Whether adopted() would return it unchanged, as after with_unit() that changed only values or links.
+    bool keeps_states_of(const Rig& before) const noexcept;
     /// Whether `state` belongs to this rig, by its sizes and types; solve() requires it.
     bool fits(const State& state) const noexcept;
 

@@ -116,32 +116,59 @@ struct TransformDirection {
 };
 
 struct Unit;
-/// The units of a for-each: a std::vector that can hold the still incomplete Unit.
-class Body {
-  public:
-    Body() noexcept;
-    Body(std::initializer_list<Unit> units);
-    Body(const Body&);
-    Body(Body&&) noexcept;
-    Body& operator=(const Body&);
-    Body& operator=(Body&&) noexcept;
-    ~Body();
+/// A list of units: those of a rig or of a for-each, in the order in which they run. Copies are deep; only
+/// rigs that Rig::with_unit made share units. As they change no more, comparing those is quick.
+class Units {
+    template <class List, class Element>
+    struct Iterator {
+        using value_type = Unit;
+        using difference_type = std::ptrdiff_t;
+        List* list = nullptr;
+        std::size_t at = 0;
+        Element& operator*() const noexcept { return (*list)[at]; }
+        Element* operator->() const noexcept { return &(*list)[at]; }
+        Iterator& operator++() noexcept { return ++at, *this; }
+        Iterator operator++(int) noexcept { return {list, at++}; }
+        bool operator==(const Iterator&) const = default;
+    };
 
-    std::vector<Unit>& units() noexcept { return units_; }
-    const std::vector<Unit>& units() const noexcept { return units_; }
-    std::size_t size() const noexcept;
+  public:
+    Units() noexcept;
+    Units(std::initializer_list<Unit> units);
+    Units(const Units& other);
+    Units(Units&& other) noexcept;
+    Units& operator=(Units other) noexcept;
+    ~Units();
+
+    std::size_t size() const noexcept { return held_.size(); }
+    bool empty() const noexcept { return held_.empty(); }
     const Unit& operator[](std::size_t index) const noexcept;
+    Unit& operator[](std::size_t index) noexcept;
+    const Unit& back() const noexcept { return (*this)[size() - 1]; }
+    Unit& back() noexcept { return (*this)[size() - 1]; }
+    auto begin() const noexcept { return Iterator<const Units, const Unit>{this, 0}; }
+    auto begin() noexcept { return Iterator<Units, Unit>{this, 0}; }
+    auto end() const noexcept { return Iterator<const Units, const Unit>{this, size()}; }
+    auto end() noexcept { return Iterator<Units, Unit>{this, size()}; }
+    void push_back(Unit unit);
+    void insert(std::size_t index, Unit unit);
+    void erase(std::size_t index) noexcept;
     void resize(std::size_t count);
-    bool operator==(const Body& other) const;
+    bool operator==(const Units& other) const noexcept;
 
   private:
-    std::vector<Unit> units_;
+    friend class Rig;
+    struct Held;
+    /// Shares the other units; neither list may be changed any more.
+    Units with(std::size_t index, Unit unit) const;
+
+    std::vector<Held*> held_;
 };
 struct ForEach {
     std::vector<std::string> roots{};  ///< 1 to 1000
     bool include_parent = true;        ///< the roots too
     bool recursive = true;             ///< all descendants, not only direct children
-    Body body{};                       ///< must not contain a ForEach
+    Units body{};                      ///< must not contain a ForEach
     bool operator==(const ForEach&) const = default;
 };
 
@@ -243,6 +270,4 @@ template <>
 std::span<const Field> fields<rig::Unit>() noexcept;
 template <>
 std::span<const Field> fields<rig::TransformFilter>() noexcept;
-template <>
-std::span<const Field> fields<signal::Curve>() noexcept;
 }  // namespace tendril

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "tendril/fields.hpp"
 #include "tendril/result.hpp"
 #include "tendril/signal/input.hpp"
 
@@ -65,3 +66,11 @@ double step(const Curve& parameters, OutputState& state, double input, double dt
 void set_smooth_tangents(Curve& curve) noexcept;
 
 }  // namespace tendril::signal
+
+namespace tendril {
+template <>
+std::span<const Field> fields<signal::CurveKey>() noexcept;
+/// With its keys, the first of its fields.
+template <>
+std::span<const Field> fields<signal::Curve>() noexcept;
+}  // namespace tendril

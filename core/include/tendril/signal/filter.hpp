@@ -80,8 +80,3 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::signal::MovingAverageState>() noexcept;
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::signal::InertializeState>() noexcept;
-template <>
-std::span<const tendril::Field> tendril::fields<tendril::signal::CurveKey>() noexcept;
-/// With its keys, the first of its fields.
-template <>
-std::span<const tendril::Field> tendril::fields<tendril::signal::Curve>() noexcept;

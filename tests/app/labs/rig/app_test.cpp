@@ -5,9 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/labs/rig/rig_lab.hpp"
 #include "rig_support.hpp"
-#include "tests/app/e2e/monkey.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/says.hpp"
 
@@ -16,23 +14,11 @@ namespace {
 
 using namespace app;
 
-class RigApp : public testing::Test {
+class RigApp : public RigAppTest {
   protected:
-    explicit RigApp() {
-        app_.run({"lab.open", Json{{"name", rig_lab}}});
-        app_.run({"time.pause"});
-    }
-    void send(const Event& event) { app_.tick(&event); }
     void drag(const std::string& name, glm::vec2 by) {
-        const glm::vec2 from = handle(app_.state(), name);
-        send(MouseMove{from});
-        send(MousePress{MouseButton::Left, true});
-        for (const float share : {0.25f, 0.5f, 1.0f}) send(MouseMove{from + share * by});
-        send(MousePress{MouseButton::Left, false});
+        RigAppTest::drag(at(name), {0.25f * by, 0.5f * by, by});
     }
-
-    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
-    App app_{*window_, false};
 };
 
 TEST_F(RigApp, ADragInItsRectangleFollowsThePointer) {

@@ -198,7 +198,7 @@ class RigBackward : public RigTest {
         solve();
         rig::State wanted = part().state;
         auto& now = workspace.document.edit<RigPart>(rig_lab);
-        now.state.controls = now.rig.initial_state().controls;
+        now.state.edit().controls = now.rig.initial_state().controls;
         solve("backward");
         const Json left = state().at("backward");
         EXPECT_LT(left.at("worst_mm"), 0.1) << i;
@@ -251,9 +251,9 @@ TEST_F(RigBackward, AnInexpressiblePoseIsReportedWithBoneAndAmount) {
         const double off = random(0.02, 0.2);
         auto& now = workspace.document.edit<RigPart>(rig_lab);
         const rig::ElementId id = now.rig.id(*now.rig.element(bone));
-        rig::Transform pose = now.state.elements.get(id, rig::Space::Global);
+        rig::Transform pose = now.state.edit().elements.get(id, rig::Space::Global);
         pose.translation.y += off;
-        now.state.elements.put(id, rig::Space::Global, pose);
+        now.state.edit().elements.put(id, rig::Space::Global, pose);
         solve("backward");
         const Json left = state().at("backward");
         EXPECT_EQ(left.at("bone"), bone) << i;

@@ -84,6 +84,20 @@ TEST_F(RigCommands, SetsMembersOfAPartAndKeepsTheOthers) {
     expect_refused("rig.unit.set", {{"name", "bend"}}, {"there is no unit \"bend\""});
 }
 
+TEST_F(RigCommands, AnInputThatIsSetCopiesNoState) {
+    build_arm();
+    unit({{"unit", "alpha_interpolate"}, {"name", "late"}, {"value", "dial"}});
+    tick();
+    const RigPart before = part();
+    run("rig.unit.set", {{"name", "late"}, {"bias", 0.5}});
+    EXPECT_EQ(&*part().state, &*before.state);
+    EXPECT_EQ(&part().rig.definition().units[0], &before.rig.definition().units[0]);
+    EXPECT_FALSE(part() == before);
+    set("dial", 1);
+    EXPECT_NE(&*part().state, &*before.state);
+    EXPECT_FALSE(part().state == before.state) << "and the copy keeps its own";
+}
+
 TEST_F(RigCommands, StateHasTheDocumentedKeys) {
     build_arm();
     control("square", "vector2d", {{"space", "hand"}});

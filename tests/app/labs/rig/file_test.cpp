@@ -167,7 +167,7 @@ TEST_F(RigFile, InputsAreReadAsIntended) {
               rig::Input<glm::dvec3>(FromElement{
                   .element = "tip", .of = Of::Scale, .space = Space::Local, .pose = Pose::Initial}));
     EXPECT_EQ(units[9].when, rig::Input<bool>(FromElement{.element = "bool", .of = Of::ControlValue}));
-    const auto& body = std::get<ForEach>(units[10].operation).body.units();
+    const auto& body = std::get<ForEach>(units[10].operation).body;
     EXPECT_EQ(body[0].weight, rig::Input<double>(Each::Ratio));
     EXPECT_EQ(std::get<SetRotation>(body[0].operation).item, Item(ThisElement()));
     EXPECT_EQ(std::get<EvaluateCurve>(body[1].operation).value,
@@ -200,7 +200,7 @@ TEST_F(RigFile, UnitsWithoutANameGetAUniqueOne) {
     EXPECT_EQ(names, (std::vector<std::string>{"from_two_vectors 4", "from_two_vectors", "from_two_vectors 3",
                                                "from_two_vectors 2", "for_each 2"}));
     const auto& loop = std::get<rig::ForEach>(part().rig.definition().units.back().operation);
-    EXPECT_EQ(loop.body.units()[0].name, "from_two_vectors 5");
+    EXPECT_EQ(loop.body[0].name, "from_two_vectors 5");
 }
 
 /// In the middle of a motion, with global poses, without propagation, and with all memory in use.

@@ -66,17 +66,17 @@ TEST_F(RigHostile, ControlsOutOfOrder) {
     add({{"control", "vector2d"}, {"axes", {"x", "x"}}}, {"axes", "different"});
     add({{"control", "vector2d"}, {"axes", {"x", "w"}}}, {"axes.1", "\"w\""});
     add({{"control", "vector2d"}, {"axes", {"x"}}}, {"axes"});
-    add({{"control", "float"}, {"axes", {"x", "y"}}}, {"axes", "vector2d"});
+    add({{"control", "float"}, {"axes", {"x", "y"}}}, {"unknown member \"axes\""});
     add({{"control", "float"}, {"minimum", 1}, {"maximum", 0}}, {"minimum", "at most the maximum", "1"});
     add({{"control", "float"}, {"minimum", {0, 0}}}, {"minimum", "a number"});
-    add({{"control", "vector2d"}, {"minimum", 0}}, {"minimum", "[a, b]"});
-    add({{"control", "position"}, {"maximum", {1, 2}}}, {"maximum", "[x, y, z]"});
-    add({{"control", "bool"}, {"maximum", 1}}, {"maximum", "bool"});
+    add({{"control", "vector2d"}, {"minimum", 0}}, {"minimum", "2 numbers"});
+    add({{"control", "position"}, {"maximum", {1, 2}}}, {"maximum", "3 coordinates"});
+    add({{"control", "bool"}, {"maximum", 1}}, {"unknown member \"maximum\""});
     add({{"control", "dial"}}, {"control", "\"dial\""});
     add({{"parent", "hand"}, {"space", "root"}}, {"space", "\"hand\""});
     add({{"space", "nobody"}}, {"\"nobody\""});
-    expect_refused("rig.element.add", {{"name", "new"}, {"minimum", 1}}, {"minimum", "only a control"});
-    expect_refused("rig.element.add", {{"name", "new"}, {"space", "hand"}}, {"space", "only a control"});
+    expect_refused("rig.element.add", {{"name", "new"}, {"minimum", 1}}, {"unknown member \"minimum\""});
+    expect_refused("rig.element.add", {{"name", "new"}, {"space", "hand"}}, {"unknown member \"space\""});
 }
 
 /// It is refused in advance by its estimated cost.
@@ -100,8 +100,8 @@ TEST_F(RigHostile, ABackwardSolveThatWouldTakeTooLongIsRefused) {
     rig["units"] = {{{"unit", "for_each"}, {"name", "all"}, {"roots", {"root"}}, {"body", body}}};
     load_scene(workspace, scene);
     auto& posed = workspace.document.edit<RigPart>(rig_lab);
-    ASSERT_TRUE(posed.state.elements.set(posed.rig.id(*posed.rig.element("finger 7")), rig::Space::Local,
-                                         {.translation = {1, 0, 0}}));
+    ASSERT_TRUE(posed.state.edit().elements.set(posed.rig.id(*posed.rig.element("finger 7")),
+                                                rig::Space::Local, {.translation = {1, 0, 0}}));
     expect_refused("rig.solve", {{"direction", "backward"}}, {"so large", "too long"});
 }
 
@@ -133,9 +133,10 @@ TEST_F(RigHostile, ABackwardSolveStopsAtItsBudgetAndReportsIt) {
     for (int i = 0; i < count; ++i) {
         const rig::ElementId bone = posed.rig.id(*posed.rig.element(named("bone", i)));
         const double angle = 0.2 * std::sin(2.3 * i);
-        ASSERT_TRUE(posed.state.elements.set(bone, rig::Space::Local,
-                                             {.translation = {0.05 * std::sin(i), 0.3, 0.0},
-                                              .rotation = {std::cos(angle), std::sin(angle), 0.0, 0.0}}));
+        ASSERT_TRUE(
+            posed.state.edit().elements.set(bone, rig::Space::Local,
+                                            {.translation = {0.05 * std::sin(i), 0.3, 0.0},
+                                             .rotation = {std::cos(angle), std::sin(angle), 0.0, 0.0}}));
     }
     solve("backward");
     const Json left = state().at("backward");
@@ -268,7 +269,11 @@ TEST_F(RigHostile, InvalidStates) {
     };
     expect_place("/moving", 1, "moving");
     expect_place("/controls/dial", "x", "controls.dial");
+    expect_place("/controls/nobody", 1, "controls: there is no control \"nobody\"");
+    expect_place("/curves", "x", "curves");
     expect_place("/curves/smile/now", nan, "curves.smile.now");
+    expect_place("/curves/smile/then", 1, "curves.smile: unknown member");
+    expect_place("/units/nobody", Json::object(), "units: there is no unit");
     expect_place("/poses/nobody", Json::object(), "poses");
     expect_place("/poses/hand", {{"now", {{"global", {{"rotation", {0, 0, 0, 2}}}}}}},
                  "poses.hand.now.global");

@@ -261,7 +261,7 @@ TEST_F(RigIncidents, SmoothGesturesHaveNone) {
         const auto& presets = rig_presets();
         run("rig.preset", {{"name", presets[static_cast<std::size_t>(gesture) % presets.size()].name}});
         std::vector<std::size_t> moved;
-        for (std::size_t i = 0; i < part().state.controls.size(); ++i) {
+        for (std::size_t i = 0; i < part().state->controls.size(); ++i) {
             const auto& settings = part().rig.definition().elements[i].control;
             if (settings && settings->kind != rig::ControlKind::Bool) moved.push_back(i);
         }

@@ -4,21 +4,15 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/document/refused.hpp"
-#include "app/labs/rig/rig_lab.hpp"
 #include "rig_support.hpp"
-#include "tests/app/e2e/monkey.hpp"
 
 namespace tendril::test {
 namespace {
 
 using namespace app;
 
-class RigMouse : public testing::Test {
+class RigMouse : public RigAppTest {
   protected:
-    RigMouse() {
-        app_.run({"lab.open", Json{{"name", rig_lab}}});
-        app_.run({"time.pause"});
-    }
     /// A single control, seen at an angle.
     void one(const char* kind, const Json& more = Json::object()) {
         app_.run({"rig.clear"});
@@ -32,40 +26,12 @@ class RigMouse : public testing::Test {
                                      {"orthographic", true}}});
     }
     void select(const char* name = "it") { app_.run({"rig.select", Json{{"element", name}}}); }
-    void send(const Event& event) { app_.tick(&event); }
-    void drag(glm::vec2 from, const std::vector<glm::vec2>& way, bool drop = true) {
-        send(MouseMove{from});
-        send(MousePress{MouseButton::Left, true});
-        for (const glm::vec2 by : way) send(MouseMove{from + by});
-        if (drop) send(MousePress{MouseButton::Left, false});
-    }
-    void click(glm::vec2 at) {
-        send(MouseMove{at});
-        send(MousePress{MouseButton::Left, true});
-        send(MousePress{MouseButton::Left, false});
-    }
+    void click(glm::vec2 at) { drag(at, {}); }
     void wait(int ticks) {
         for (int i = 0; i < ticks; ++i) app_.tick(nullptr);
     }
-    glm::vec2 at(const std::string& name) { return handle(app_.state(), name); }
-    bool has_handle(const std::string& name) {
-        const Json state = app_.state();
-        for (const Json& each : state.at("handles"))
-            if (each.at("name") == name) return true;
-        return false;
-    }
-    Json element(const std::string& name = "it") {
-        const Json state = app_.state();
-        for (const Json& each : state.at("elements"))
-            if (each.at("name") == name) return each;
-        return nullptr;
-    }
     Json value(const std::string& name = "it") { return element(name).at("value"); }
     Json selected() { return app_.state().at("selected").at("element"); }
-    std::size_t steps() { return app_.workspace().history.size(); }
-
-    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
-    App app_{*window_, false};
 };
 
 double number(const Json& list, std::size_t i) {
@@ -198,9 +164,9 @@ class RigMovingSpace : public RigMouse {
 
 TEST_F(RigMovingSpace, ARingTurnsAndDoesNotMove) {
     const Json rest = value();
-    const Json from = element()["global"]["translation"];
+    const Json from = element("it")["global"]["translation"];
     drag(at("it.rotate_y"), {{10.0f, 0.0f}, {20.0f, 5.0f}, {30.0f, 5.0f}, {40.0f, 8.0f}, {50.0f, 8.0f}});
-    EXPECT_NE(element()["global"]["translation"], from) << "its space goes on";
+    EXPECT_NE(element("it")["global"]["translation"], from) << "its space goes on";
     EXPECT_NE(value()["rotation"], rest["rotation"]);
     EXPECT_EQ(value()["translation"], rest["translation"]) << "to the bit";
     EXPECT_EQ(value()["scale"], rest["scale"]);

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "app/document/refused.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/rig/definition_json.hpp"
 #include "app/labs/rig/panel.hpp"
 #include "app/labs/rig/presets.hpp"
@@ -59,7 +60,7 @@ TEST_F(RigPanels, EveryMemberOfEveryUnitIsListed) {
         unit["name"] = "new";
         run("rig.unit.add", unit);
         const rig::Unit& added = *unit_row(part(), "new")->unit;
-        const Json json = unit_json(added);
+        const Json json = save_fields(added);
         std::set<std::string> listed, members;
         for (const UnitInput& each : inputs("new")) {
             EXPECT_NO_THROW(static_cast<void>(json.at(Json::json_pointer(each.path)))) << each.path;
@@ -82,9 +83,9 @@ TEST_F(RigPanels, EveryOfferIsAccepted) {
                     << rig::operation_name(i);
                 continue;
             }
-            const std::size_t before = part().state.units.size();
+            const std::size_t before = part().state->units.size();
             run("rig.unit.add", *offer.unit);
-            EXPECT_EQ(part().state.units.size(), before + 1);
+            EXPECT_EQ(part().state->units.size(), before + 1);
             ++taken;
         }
     };
@@ -113,10 +114,10 @@ TEST_F(RigPanels, ALiteralIsSetAndNothingElseChanges) {
             if (const auto* on = std::get_if<bool>(&*value)) other = !*on;
             if (const auto* literal = std::get_if<double>(&*value)) other = *literal - 0.25;
             if (other.is_null()) continue;
-            Json wanted = unit_json(*unit_row(part(), unit.name)->unit);
+            Json wanted = save_fields(*unit_row(part(), unit.name)->unit);
             wanted[Json::json_pointer(each.path)] = other;
             run("rig.unit.set", with_input(*unit_row(part(), unit.name)->unit, each.path, other));
-            EXPECT_EQ(unit_json(*unit_row(part(), unit.name)->unit), wanted) << unit.name << each.path;
+            EXPECT_EQ(save_fields(*unit_row(part(), unit.name)->unit), wanted) << unit.name << each.path;
         }
     }
 }
@@ -158,7 +159,7 @@ class RigOffers : public RigPanels {
             run("rig.unit.set", with_input(*unit_row(part(), unit)->unit, before.path, *offer.value));
         } catch (const Refused& refusal) {
             // The ends of a bone chain and the type of a spring may not fit the other inputs.
-            EXPECT_TRUE(before.field->of == std::string_view("bones") || !before.is(FieldType::Input) ||
+            EXPECT_TRUE(before.field->of == std::string_view("bones") || !before.takes_input() ||
                         !before.type())
                 << unit << before.path << offer.title << refusal.what();
             ++refusals;
@@ -197,7 +198,7 @@ TEST_F(RigOffers, OneOfThemIsThePresentValue) {
         for (const UnitRow& row : unit_rows(part())) {
             for (const UnitInput& each : inputs(row.unit->name)) {
                 const std::vector<InputOffer> all = offers(row.unit->name, each);
-                const bool literal = each.is(FieldType::Input) && each.literal();
+                const bool literal = each.takes_input() && each.literal();
                 if (all.empty() || each.from == "none") continue;
                 EXPECT_EQ(std::ranges::count_if(all, &InputOffer::now), literal ? 0 : 1)
                     << row.unit->name << each.path << each.from;
@@ -282,7 +283,7 @@ TEST_F(RigPanels, ReadingUpdatesThePathToTheRootAndChangesNothing) {
         element(name.c_str(), parent.c_str(), transform(0, 1, 0));
     }
     const auto pending = [&](const char* name) {
-        return part().state.elements.pending(part().rig.id(*part().rig.element(name)));
+        return part().state->elements.pending(part().rig.id(*part().rig.element(name)));
     };
     const auto said = [&] { return workspace.ui.toasts.back().text; };
     run("rig.read", {{"name", "bone 9"}});
@@ -321,7 +322,8 @@ TEST_F(RigPanels, TheRemainderOfABackwardSolveIsReported) {
     // Posed as by an imported animation: no dial turns one joint alone.
     auto& posed = workspace.document.edit<RigPart>(rig_lab);
     const rig::ElementId joint = posed.rig.id(*posed.rig.element("arm 1 joint 3"));
-    ASSERT_TRUE(posed.state.elements.set(joint, rig::Space::Local, {.rotation = {0.8, 0.6, 0.0, 0.0}}));
+    ASSERT_TRUE(
+        posed.state.edit().elements.set(joint, rig::Space::Local, {.rotation = {0.8, 0.6, 0.0, 0.0}}));
     solve("backward");
     EXPECT_GT(part().backward->worst_degrees(), 1.0);
     expect_says(panel_text(), "worst first");
@@ -332,9 +334,9 @@ TEST_F(RigPanels, ARemainingScaleIsReported) {
     run("rig.preset", {{"name", "loop"}});
     auto& posed = workspace.document.edit<RigPart>(rig_lab);
     const rig::ElementId joint = posed.rig.id(*posed.rig.element("arm 1 joint 6"));
-    rig::Transform pose = posed.state.elements.get(joint, rig::Space::Local);
+    rig::Transform pose = posed.state.edit().elements.get(joint, rig::Space::Local);
     pose.scale.z = 1.5;
-    ASSERT_TRUE(posed.state.elements.set(joint, rig::Space::Local, pose));
+    ASSERT_TRUE(posed.state.edit().elements.set(joint, rig::Space::Local, pose));
     solve("backward");
     EXPECT_LT(part().backward->worst_mm(), 0.1);
     EXPECT_NEAR(state().at("backward").at("worst_scale").get<double>(), 0.5, 1e-6);

@@ -86,9 +86,9 @@ TEST_F(RigPast, ValuesEqualThePoseAtEachTick) {
                 const auto space = random() % 2 == 0 ? rig::Space::Local : rig::Space::Global;
                 const auto down = random() % 2 == 0 ? rig::Propagate::Yes : rig::Propagate::No;
                 const rig::ElementId id = part.rig.id(random() % definition.elements.size());
-                ASSERT_TRUE(part.state.elements.set(id, space, to, down));
+                ASSERT_TRUE(part.state.edit().elements.set(id, space, to, down));
             }
-            rig::Hierarchy resolved = part.state.elements;
+            rig::Hierarchy resolved = part.state->elements;
             turns.push_back(glm::conjugate(element.initial.rotation) *
                             resolved.get(part.rig.id(chosen), rig::Space::Local).rotation);
             remember();

@@ -1,9 +1,13 @@
 // Shared by tests of the Rig lab.
 #pragma once
 
+#include <algorithm>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "app/labs/rig/rig_lab.hpp"
+#include "tests/app/e2e/monkey.hpp"
 #include "tests/app/labs/lab_support.hpp"
 
 namespace tendril::app {
@@ -55,6 +59,38 @@ class RigTest : public LabTest {
     Json output(const std::string& unit, const char* output = "result") const {
         return named("units", unit).at("outputs").at(output);
     }
+};
+
+/// The lab in the running program, paused: real events, with picking.
+class RigAppTest : public testing::Test {
+  protected:
+    RigAppTest() {
+        app_.run({"lab.open", Json{{"name", rig_lab}}});
+        app_.run({"time.pause"});
+    }
+    void send(const Event& event) { app_.tick(&event); }
+    void drag(glm::vec2 from, const std::vector<glm::vec2>& way, bool drop = true) {
+        send(MouseMove{from});
+        send(MousePress{MouseButton::Left, true});
+        for (const glm::vec2 by : way) send(MouseMove{from + by});
+        if (drop) send(MousePress{MouseButton::Left, false});
+    }
+    glm::vec2 at(const std::string& name) { return test::handle(app_.state(), name); }
+    bool has_handle(const std::string& name) {
+        const Json state = app_.state();
+        return std::ranges::any_of(state.at("handles"),
+                                   [&](const Json& each) { return each.at("name") == name; });
+    }
+    Json element(const std::string& name) {
+        const Json state = app_.state();
+        for (const Json& each : state.at("elements"))
+            if (each.at("name") == name) return each;
+        return nullptr;
+    }
+    std::size_t steps() { return app_.workspace().history.size(); }
+
+    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
+    App app_{*window_, false};
 };
 
 }  // namespace tendril::app

@@ -111,7 +111,7 @@ TEST_F(RigTimeApp, AMarkIsClicked) {
     click(app_, {left + (right - left) * 0.02f / 10.0f, y - 4.0f});
     ASSERT_TRUE(app_.workspace().ui.incident);
     EXPECT_TRUE(test::says(app_.workspace().ui.incident->cause, "dial left minimum 0.00"));
-    EXPECT_NEAR(std::get<double>(part_of(app_).state.controls[0]), 0.0, 0.03);
+    EXPECT_NEAR(std::get<double>(part_of(app_).state->controls[0]), 0.0, 0.03);
     scrub(app_, {1.0f, 0.5f});
     EXPECT_FALSE(app_.workspace().ui.incident) << "one looks elsewhere";
 }

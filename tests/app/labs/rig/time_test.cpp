@@ -182,7 +182,7 @@ TEST_F(RigTime, AWalkContinuesOverAnEdit) {
     run("rig.unit.enable", {{"name", "trail"}, {"on", false}});
     lab().step(workspace);
     const std::size_t at = *part().rig.element("head");
-    EXPECT_EQ(part().state.controls[at], states[34].controls[at]);
+    EXPECT_EQ(part().state->controls[at], states[34].controls[at]);
 }
 
 TEST_F(RigTime, SlowMotionShowsTheSamePoses) {
