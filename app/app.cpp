@@ -13,7 +13,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/text.hpp"
-#include "app/labs/kit/past_strip.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/shell/card_watch.hpp"
 #include "app/shell/gizmo_view.hpp"
 #include "app/shell/theme.hpp"

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/kit/past.hpp"
 
 namespace tendril::app {
 
@@ -38,6 +39,30 @@ Bounds Lab::bounds(const Workspace& workspace, bool) const {
         high = glm::max(high, handle.frame.position);
     }
     return bounds_of(low, high);
+}
+
+std::vector<Incident> Lab::review(const Workspace& workspace, const Part& before, const Part& after) const {
+    const Past* const table = past();
+    return table && table->incidents ? table->incidents(workspace, before, after) : std::vector<Incident>();
+}
+
+bool Lab::same_joints(const Part& before, const Part& after) const {
+    const Past* const table = past();
+    return !table || !table->incidents || table->same_joints(before, after);
+}
+
+float Lab::timeline_height(const Workspace& workspace) const {
+    return past() ? strip_height + past_plot_height(workspace.settings, *past()) : 0.0f;
+}
+
+void Lab::timeline(const Workspace& workspace, Emit& emit) const {
+    if (past()) past_plot(workspace, *past(), past_strip(workspace, emit), emit);
+}
+
+std::vector<LabSetting> Lab::all_settings() const {
+    std::vector<LabSetting> all = settings();
+    if (const Past* const table = past()) all.insert(all.end(), {table->plot(), table->ghosts()});
+    return all;
 }
 
 Json Lab::state(const Workspace& workspace) const {

@@ -26,6 +26,7 @@
 namespace tendril::app {
 
 class CommandTable;
+struct Past;
 
 /// Everything a lab needs to draw itself.
 struct View {
@@ -142,21 +143,21 @@ class Lab {
     virtual double seconds(const Workspace& workspace) const {
         return static_cast<double>(workspace.clock.tick) * tick_seconds;
     }
-    /// Incidents in a change or a tick that the user may ask about, such as a joint that jumped. `before` and
-    /// `after` are parts of this lab; the workspace gives access to its runtime. The caller sets the ticks.
-    virtual std::vector<Incident> review(const Workspace&, const Part& /*before*/,
-                                         const Part& /*after*/) const {
-        return {};
-    }
+    /// The table of the lab's last ten seconds (app/labs/kit/past.hpp); null: nothing is plotted or
+    /// explained.
+    virtual const Past* past() const { return nullptr; }
+    /// Its incidents in a change or a tick: `before` and `after` are parts of this lab; the workspace gives
+    /// access to its runtime. The caller sets the ticks.
+    std::vector<Incident> review(const Workspace& workspace, const Part& before, const Part& after) const;
     /// Whether incidents in `before` still concern `after`: it has the same joints. If not, they are dropped.
-    virtual bool same_joints(const Part& /*before*/, const Part& /*after*/) const { return true; }
+    bool same_joints(const Part& before, const Part& after) const;
     /// Whether a long computation is running; work() does a part of it each tick, even while paused.
     virtual bool working(const Workspace&) const { return false; }
     virtual void work(Workspace&) const {}
     /// Height of the timeline below the scene, in pixels at scale 1; 0: none.
     static constexpr float strip_height = 46.0f;
-    virtual float timeline_height(const Workspace&) const { return 0.0f; }
-    virtual void timeline(const Workspace&, Emit&) const {}
+    virtual float timeline_height(const Workspace&) const;
+    virtual void timeline(const Workspace&, Emit&) const;
 
     // plots beside the scene
     /// Fraction of the window's middle, from the left, that they take from the 3D view: 0 to 1.
@@ -228,7 +229,9 @@ class Lab {
     // for the shell's tables
     virtual std::vector<Shortcut> shortcuts() const { return {}; }
     virtual std::vector<LabSetting> settings() const { return {}; }
-    /// Mouse gestures of this lab, in addition to those that every lab has.
+    /// With those of its past.
+    std::vector<LabSetting> all_settings() const;
+    /// Mouse gestures in this lab, in addition to those of every lab.
     virtual std::vector<MouseHelp> mouse_help() const { return {}; }
 
     // output

@@ -58,7 +58,7 @@ CommandTable make_command_table(const Labs& labs) {
     for (const auto& lab : labs.all()) {
         table.begin_lab(lab->name());
         lab->add_commands(table);
-        for (const LabSetting& setting : lab->settings()) table.add(setting_command(setting));
+        for (const LabSetting& setting : lab->all_settings()) table.add(setting_command(setting));
     }
     return table;
 }

@@ -164,7 +164,7 @@ void show_settings(const ShellFrame& frame, Emit& emit) {
     for (const LabSetting& setting : {mouse_setting(), scroll_setting()})
         setting_row(setting, settings, emit);
     for (const auto& lab : frame.labs.all()) {
-        const std::vector<LabSetting> of_lab = lab->settings();
+        const std::vector<LabSetting> of_lab = lab->all_settings();
         if (of_lab.empty()) continue;
         const PanelSection ids(lab->title().c_str());
         for (const LabSetting& setting : of_lab) setting_row(setting, settings, emit);

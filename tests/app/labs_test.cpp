@@ -44,7 +44,7 @@ std::vector<LabNames> names_of_labs() {
         lab->add_commands(table);
         LabNames names{lab->name(), {}};
         for (const app::Command& command : table.all()) names.commands.insert(command.name);
-        for (const app::LabSetting& setting : lab->settings()) names.commands.insert(setting.command);
+        for (const app::LabSetting& setting : lab->all_settings()) names.commands.insert(setting.command);
         all.push_back(std::move(names));
     }
     return all;

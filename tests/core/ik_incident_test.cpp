@@ -391,5 +391,25 @@ TEST(Incident, JointsMayFollowTheEndEffector) {
     EXPECT_EQ(stuck.back().joint, 2u);
 }
 
+TEST(FlipRules, TakeATurnAsExplainedByWhateverMovedFarEnough) {
+    const auto explained = [](const InputMove& move, const FlipRule& rule = {}) {
+        return explains(move, 1.0, 2.0, rule);
+    };
+    EXPECT_FALSE(explained({}));
+    EXPECT_TRUE(explained({.distance = 0.041, .angle = 0.21}));
+    EXPECT_FALSE(explained({.distance = 0.039, .angle = 0.21}));
+    EXPECT_FALSE(explained({.distance = 0.041, .angle = 0.19}));
+    EXPECT_TRUE(explained({.turn = 0.21}));
+    EXPECT_TRUE(explained({.share = 0.021}));
+    const FlipRule anything{.angle_share = 0.0f, .reach_share = 0.0f};
+    EXPECT_FALSE(explained({}, anything)) << "nothing moved";
+    EXPECT_TRUE(explained(move_between({1, 0, 0}, {1, 1e-6, 0}), anything));
+    EXPECT_TRUE(explained({.share = 1e-6}, anything));
+    const InputMove quarter = move_between({2, 0, 0}, {0, 2, 0});
+    EXPECT_DOUBLE_EQ(quarter.distance, std::sqrt(8.0));
+    EXPECT_DOUBLE_EQ(quarter.angle, std::acos(0.0));
+    EXPECT_EQ(move_between({}, {1, 0, 0}).angle, 0.0) << "seen from itself it has no direction";
+}
+
 }  // namespace
 }  // namespace tendril::ik

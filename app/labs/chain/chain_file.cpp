@@ -75,7 +75,7 @@ Json ChainPart::save() const {
         json["result"] = save_result(*result);
         if (!study.last_start.empty()) json["before"] = save_start(study.last_start, study.last_state);
     }
-    json["flips"] = save_flip_rule(flips);
+    json["flips"] = save_fields(flips);
     return json;
 }
 
@@ -154,8 +154,8 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
             if (const auto before = place.optional("before"))
                 load_start(*before, part->chain, part->study.last_start, part->study.last_state);
         }
-        if (const auto rule = place.optional("flips")) part->flips = load_flip_rule(*rule);
-        ChainRuntime runtime;  // for a part that is in no workspace yet
+        if (const auto rule = place.optional("flips")) load_fields(*rule, part->flips);
+        ChainRuntime runtime;  // the part belongs to no workspace yet
         keep_step(*part, runtime);
         check_range(*part);
         if (const auto selected = place.optional("selected")) {

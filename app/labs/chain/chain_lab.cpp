@@ -9,9 +9,9 @@
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/engine_trace.hpp"
-#include "app/labs/chain/past.hpp"
 #include "app/labs/chain/presets.hpp"
 #include "app/labs/kit/arguments.hpp"
+#include "app/labs/kit/past.hpp"
 
 namespace tendril::app {
 namespace {
@@ -241,8 +241,7 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
     if (const TracedPose* const pose = traced_pose(part))
         rows.push_back({"Tendril's solve", solver_colour(colours, traced_method(*pose))});
     if (workspace.ui.incident) rows.push_back({"before it happened", colours.ghost});
-    if (!part.study.open() && chain_past().shows_ghosts(workspace.settings))
-        rows.push_back({ghost_legend, colours.ghost});
+    if (!part.study.open()) add_ghost_legend(workspace, chain_past(), rows);
     if (part.mode != ChainMode::Reach) return rows;
     if (part.reach.options.pole) rows.push_back({"pole", pole_colour(colours)});
     if (is_limited(part.reach)) rows.push_back({"limit", colours.ghost, true});
@@ -283,7 +282,7 @@ std::vector<FileKind> ChainLab::files() const {
 }
 
 std::vector<LabSetting> ChainLab::settings() const {
-    return {segment_style(), reach_sphere(), curve_frames(), chain_past().plot, chain_past().ghosts};
+    return {segment_style(), reach_sphere(), curve_frames()};
 }
 
 std::vector<CommandCall> ChainLab::opening() const {
@@ -327,14 +326,6 @@ std::vector<TestScene> ChainLab::test_scenes() const {
           {"microscope.open", {}}},
          words},
     };
-}
-
-std::vector<Incident> ChainLab::review(const Workspace&, const Part& before, const Part& after) const {
-    return chain_incidents(dynamic_cast<const ChainPart&>(before), dynamic_cast<const ChainPart&>(after));
-}
-
-bool ChainLab::same_joints(const Part& before, const Part& after) const {
-    return chain_past().same_joints(before, after);
 }
 
 }  // namespace tendril::app

@@ -43,6 +43,8 @@ inline std::size_t picked_segment(PickId pick) {
     return static_cast<std::size_t>(pick) - 1;
 }
 
+const Past& chain_past();
+
 class ChainLab final : public Lab {
   public:
     std::string name() const override { return chain_lab; }
@@ -57,9 +59,7 @@ class ChainLab final : public Lab {
     bool working(const Workspace& workspace) const override;
     void work(Workspace& workspace) const override;
     std::uint64_t tick_work(const Workspace& workspace) const override;
-    std::vector<Incident> review(const Workspace& workspace, const Part& before,
-                                 const Part& after) const override;
-    bool same_joints(const Part& before, const Part& after) const override;
+    const Past* past() const override { return &chain_past(); }
     void draw(const View& view, DrawList& list) const override;
 
     std::vector<PaneTitle> panes(const Workspace& workspace) const override;

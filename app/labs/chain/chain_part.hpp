@@ -33,9 +33,6 @@ inline constexpr EnumNames<ChainPoint, 2> chain_points{
     "point",
     {{"target", "Target", "What the chain follows."}, {"pole", "Pole target", "What it bends towards."}}};
 
-inline constexpr FlipWords chain_flip_words{"chain.flips", "target", "the target, as the root sees it,",
-                                            "reach", "the chain's reach"};
-
 struct ShownTrace;
 /// A frame of an engine's trace, and Tendril's solve of the same input as a ghost with as many joints.
 struct TracedPose {

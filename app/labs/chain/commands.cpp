@@ -232,10 +232,6 @@ void seek_on_path(ChainPart& part, const Arguments& given, ChainRuntime& runtime
     reach_for(part, motion_point(part.motion, part.motion.ticks), runtime);
 }
 
-void set_flips(ChainPart& part, const Arguments& given) {
-    set_flip_rule(part.flips, given);
-}
-
 }  // namespace
 
 void add_mode_commands(CommandTable& table) {
@@ -277,9 +273,7 @@ void add_mode_commands(CommandTable& table) {
         "chain.seek", "Place the target on its path",
         {{.name = "tick", .type = ArgumentType::Integer, .help = "tick of the round", .low = 0}},
         "Moves the target to a tick of its round", seek_on_path));
-    table.add(chain_command("chain.flips", "Set what counts as a flip", flip_arguments(chain_flip_words),
-                            "Sets what counts as a flip in mode reach, from the next move of the target on",
-                            set_flips));
+    table.add(flip_command<ChainPart>(chain_lab, "chain.flips"));
 }
 
 }  // namespace tendril::app

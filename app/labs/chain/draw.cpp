@@ -16,8 +16,7 @@
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/panel.hpp"
-#include "app/labs/chain/past.hpp"
-#include "app/labs/kit/past_view.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/labs/kit/race.hpp"
 #include "app/widgets/icons.hpp"
 
@@ -63,7 +62,7 @@ class Drawing {
             draw_limits(view_, chain_, list_);
             draw_pole(view_, part_, list_);
         }
-        if (!part_.study.open()) draw_past_ghosts(view_, chain_past(), chain_lines, list_);
+        if (!part_.study.open()) draw_past_ghosts(view_, chain_past(), list_);
         draw_traced_ghost(view_, part_, list_);
         draw_incident(view_, part_, list_);
         path();

@@ -9,7 +9,7 @@
 #include "app/fields/field_rows.hpp"
 #include "app/labs/chain/panel.hpp"
 #include "app/labs/kit/panel_rows.hpp"
-#include "app/labs/kit/past_view.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/lists.hpp"

@@ -17,10 +17,9 @@
 #include "app/labs/chain/cures.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/engine_trace.hpp"
-#include "app/labs/chain/past.hpp"
 #include "app/labs/chain/presets.hpp"
 #include "app/labs/kit/panel_rows.hpp"
-#include "app/labs/kit/past_strip.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/icons.hpp"
 #include "app/widgets/lists.hpp"
@@ -175,10 +174,6 @@ void target_rows(const ChainPart& part, bool playing, Emit& emit) {
     explain("How long one round takes. Shorter is faster.");
 }
 
-constexpr PastHelp past_help{
-    "What is plotted below the scene over the last ten seconds; angles are those of the selected joint",
-    "Where the chain was every half second"};
-
 void preset_rows(Emit& emit) {
     std::vector<PresetButton> buttons;
     for (const Preset& preset : presets()) {
@@ -212,15 +207,15 @@ void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
     section("Joints", false, [&](MoreRows&) { segment_rows(part, emit); });
     section("Target", false, [&](MoreRows&) { target_rows(part, workspace.clock.playing, emit); });
     section("Analyse", false, [&](MoreRows& more) {
-        past_view_rows(workspace, chain_past(), past_help, emit);
-        if (part.mode == ChainMode::Reach) flip_rows(part.flips, chain_flip_words, more, emit);
+        past_rows(workspace, chain_past(), emit);
+        if (part.mode == ChainMode::Reach) FieldRows(part.flips, "chain.flips", emit).under(more).all();
     });
     section("Export", false, [&](MoreRows&) { export_rows(emit); });
 }
 
 float ChainLab::timeline_height(const Workspace& workspace) const {
-    const bool plots = chain_part(workspace).study.kind != Study::Kind::Microscope;
-    return strip_height + (plots ? past_plot_height(workspace.settings, chain_past()) : 0.0f);
+    const bool magnified = chain_part(workspace).study.kind == Study::Kind::Microscope;
+    return magnified ? strip_height : Lab::timeline_height(workspace);
 }
 
 namespace {
@@ -259,25 +254,21 @@ void study_strip(const ShownChain& chain, const std::vector<int>& ends, Emit& em
                      : "The steps of the solve. Drag to see the chain after one of them.");
 }
 
-void past_rows(const Workspace& workspace, const std::optional<StripLine>& strip, Emit& emit) {
-    past_plot(workspace, chain_past(), chain_past_curve(workspace), strip, emit);
-}
-
 }  // namespace
 
 void ChainLab::timeline(const Workspace& workspace, Emit& emit) const {
     const ShownChain chain = shown_chain(workspace);
     if (chain.trace) return study_strip(chain, iteration_ends(*chain.trace), emit);
-    if (!chain.race) return past_rows(workspace, past_strip(workspace, emit), emit);
-    // Whether the strip shows the last ten seconds instead of the race: state of the panel.
+    if (!chain.race) return Lab::timeline(workspace, emit);
+    // The moments of the last ten seconds, or the iterations of the race: state of the panel.
     ImGuiStorage& kept = *ImGui::GetStateStorage();
     bool& past = *kept.GetBoolRef(ImGui::GetID("past"));
     if (other_strip_button(past, "race")) past = !past;
-    if (past) return past_rows(workspace, past_strip(workspace, emit), emit);
+    if (past) return Lab::timeline(workspace, emit);
     std::vector<int> ends(chain.last() + 1);
     std::iota(ends.begin(), ends.end(), 0);
     study_strip(chain, ends, emit);
-    past_rows(workspace, std::nullopt, emit);
+    past_plot(workspace, chain_past(), std::nullopt, emit);
 }
 
 std::string distance_text(float metres) {

@@ -1,12 +1,14 @@
 // What the past of the Chain lab shows: a joint's swing or twist, or the distance from tip to target; poses;
 // incidents and their causes. It can be saved as a trace.
-#include "app/labs/chain/past.hpp"
+#include "app/labs/kit/past.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <limits>
+#include <numeric>
 #include <utility>
 
 #include "app/document/atomic_file.hpp"
@@ -23,87 +25,60 @@
 namespace tendril::app {
 namespace {
 
-constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
-
-enum class Number { Error, Swing, Twist };  // in the order of chain_past()
-
 /// Degrees between a joint's bone and the one before it; at the root, from the rest direction.
-float swing_of(const ChainPart& part, std::size_t joint) {
+double swing_of(const ChainPart& part, std::size_t joint) {
     const auto segments = part.chain.segments();
-    if (joint + 1 >= segments.size()) return nothing;
+    if (joint + 1 >= segments.size()) return no_value;
     const glm::vec3 bone = segments[joint + 1].position - segments[joint].position;
     const glm::vec3 parent =
         joint > 0 ? segments[joint].position - segments[joint - 1].position : part.chain.default_direction();
-    return glm::degrees(std::atan2(glm::length(glm::cross(parent, bone)), glm::dot(parent, bone)));
+    return glm::degrees(ik::angle_between(parent, bone));
 }
 
 /// Degrees about the bone. Known only along a curve and with limits: else the solver keeps no rotations.
-float twist_of(const ChainPart& part, std::size_t joint) {
+double twist_of(const ChainPart& part, std::size_t joint) {
     const auto& rotations = part.reach.state.rotations;
     const bool kept = part.mode == ChainMode::Curve || !part.reach.limits.empty();
-    if (!kept || joint >= rotations.size()) return nothing;
+    if (!kept || joint >= rotations.size()) return no_value;
     const glm::quat parent = joint > 0 ? rotations[joint - 1] : glm::quat(1, 0, 0, 0);
     return glm::degrees(ik::measure(limit_of(part.reach, joint), part.chain.default_direction(),
                                     glm::conjugate(parent) * rotations[joint])
                             .twist);
 }
 
-float value_of(Number what, const ChainPart& part, std::size_t joint) {
-    if (what == Number::Swing) return swing_of(part, joint);
-    if (what == Number::Twist) return twist_of(part, joint);
-    if (part.chain.empty()) return nothing;
-    return glm::distance(part.chain.position(part.chain.size() - 1), part.target);
+PastCurve error_curve(const Workspace& workspace) {
+    return {.name = "tip to target",
+            .unit = "m",
+            .lowest_range = 0.01f * std::max(chain_part(workspace).chain.reach(), 1e-3f),
+            .missing = "The chain has no joint: add one.",
+            .value = [](const SharedPart& part) -> double {
+                const ChainPart& then = part_as<ChainPart>(part);
+                if (then.chain.empty()) return no_value;
+                return glm::distance(then.chain.position(then.chain.size() - 1), then.target);
+            }};
 }
 
-const ChainPart& chain_of(const SharedPart& part) {
-    return dynamic_cast<const ChainPart&>(*part);
+/// Of the selected joint, or of joint 1: an arm's elbow.
+PastCurve joint_curve(const Workspace& workspace, const char* what, const char* missing,
+                      double (*value)(const ChainPart&, std::size_t)) {
+    const std::size_t joint = chain_part(workspace).selection.active().value_or(1);
+    return {.name = what + std::to_string(joint), .missing = missing, .value = [=](const SharedPart& part) {
+                return value(part_as<ChainPart>(part), joint);
+            }};
 }
 
 /// The same number of joints, with bones of the same lengths, but for the rounding of an engine's log.
 bool same_joints(const Part& then, const Part& now) {
-    const auto a = own_chain(dynamic_cast<const ChainPart&>(then)).segments(),
-               b = own_chain(dynamic_cast<const ChainPart&>(now)).segments();
-    if (a.size() != b.size()) return false;
-    for (std::size_t i = 1; i < a.size(); ++i)
-        if (std::abs(a[i].length - b[i].length) > 0.01f * b[i].length) return false;
-    return true;
+    const auto a = own_chain(part_as<ChainPart>(then)).segments(),
+               b = own_chain(part_as<ChainPart>(now)).segments();
+    return std::ranges::equal(a, b, [&](const Segment& x, const Segment& y) {
+        return &x == &a.front() || std::abs(x.length - y.length) <= 0.01f * y.length;
+    });
 }
 
-}  // namespace
-
-PastView chain_past() {
-    return past_view(
-        chain_lab, "chain",
-        {{"error", "tip to target"}, {"swing", "swing of a joint"}, {"twist", "twist of a joint"}},
-        same_joints);
-}
-
-std::optional<PastCurve> chain_past_curve(const Workspace& workspace) {
-    const PastView view = chain_past();
-    const ChainPart& now = chain_part(workspace);
-    if (!view.plots(workspace.settings)) return std::nullopt;
-    const auto what = static_cast<Number>(view.chosen(workspace.settings));
-    if (what == Number::Error)
-        return PastCurve{
-            .name = "tip to target",
-            .of = "error",
-            .unit = "m",
-            .lowest_range = 0.01f * std::max(now.chain.reach(), 1e-3f),
-            .missing = "The chain has no joint: add one.",
-            .value = [](const SharedPart& part) { return value_of(Number::Error, chain_of(part), 0); }};
-    const std::size_t joint = now.selection.active().value_or(1);
-    const std::string name =
-        (what == Number::Swing ? "swing of joint " : "twist of joint ") + std::to_string(joint);
-    return PastCurve{
-        .name = name,
-        .of = name,
-        .missing = what == Number::Twist ? "Twist is only known along a curve and within limits."
-                                         : "Select a joint with a bone after it.",
-        .value = [what, joint](const SharedPart& part) { return value_of(what, chain_of(part), joint); }};
-}
-
-PoseLines chain_lines(const SharedPart& part) {
-    const auto segments = chain_of(part).chain.segments();
+/// One line for each bone; none for long chains.
+PoseLines lines_of(const Workspace&, const SharedPart& part) {
+    const auto segments = part_as<ChainPart>(part).chain.segments();
     PoseLines lines;
     if (segments.size() > max_studied_segments) return lines;
     for (std::size_t i = 1; i < segments.size(); ++i)
@@ -111,18 +86,8 @@ PoseLines chain_lines(const SharedPart& part) {
     return lines;
 }
 
-namespace {
-
 /// Which end of its range each angle of a joint is at: -1, 0 (between), 1.
-struct Sides {
-    int hinge = 0, up = 0, left = 0, twist = 0;
-
-    /// Whether an angle went from one end of its range to the other.
-    bool opposite(const Sides& other) const {
-        return hinge * other.hinge < 0 || up * other.up < 0 || left * other.left < 0 ||
-               twist * other.twist < 0;
-    }
-};
+using Sides = std::array<int, 3>;
 
 int side_of(float angle, float low, float high) {
     constexpr float at = 0.035f;  // radians: within two degrees of the end counts as at it
@@ -137,15 +102,19 @@ Sides sides_of(const ChainPart& part, std::size_t bone) {
     const glm::quat parent = bone > 0 ? rotations[bone - 1] : glm::quat(1, 0, 0, 0);
     const ik::JointAngles angles =
         ik::measure(limit, part.chain.default_direction(), glm::conjugate(parent) * rotations[bone]);
-    if (limit.kind == ik::JointKind::Hinge) return {.hinge = side_of(angles.up, limit.min, limit.max)};
-    return {.up = side_of(angles.up, -limit.down, limit.up),
-            .left = side_of(angles.left, -limit.right, limit.left),
-            .twist = side_of(angles.twist, limit.twist_min, limit.twist_max)};
+    if (limit.kind == ik::JointKind::Hinge) return {side_of(angles.up, limit.min, limit.max)};
+    return {side_of(angles.up, -limit.down, limit.up), side_of(angles.left, -limit.right, limit.left),
+            side_of(angles.twist, limit.twist_min, limit.twist_max)};
 }
 
+/// Whether an angle went from one end of its range to the other.
 bool limit_switched(const ChainPart& before, const ChainPart& after) {
-    for (std::size_t bone = 0; bone < after.reach.limits.size(); ++bone)
-        if (sides_of(before, bone).opposite(sides_of(after, bone))) return true;
+    for (std::size_t bone = 0; bone < after.reach.limits.size(); ++bone) {
+        const Sides was = sides_of(before, bone), is = sides_of(after, bone);
+        if (std::inner_product(was.begin(), was.end(), is.begin(), false, std::logical_or<>(),
+                               [](int a, int b) { return a * b < 0; }))
+            return true;
+    }
     return false;
 }
 
@@ -223,9 +192,13 @@ std::vector<Incident> jumps(const ChainPart& before, const ChainPart& after) {
              .cure = "Open that bend, or use shorter bones there."}};
 }
 
-}  // namespace
-
-std::vector<Incident> chain_incidents(const ChainPart& before, const ChainPart& after) {
+/// The incidents between two states of a chain, one solve apart. A flip: only the target or pole target
+/// moved, and little (FlipRule), but a bone turned by more than the rule allows. Also changes in the solver's
+/// report. Nothing outside mode Reach, and nothing while a study is open, since its solves start elsewhere.
+///
+/// A flip's joint is an end of the bone that turned the furthest, whichever moved further: an arm's elbow.
+std::vector<Incident> incidents_of(const Workspace&, const Part& was, const Part& is) {
+    const auto &before = part_as<ChainPart>(was), &after = part_as<ChainPart>(is);
     if (after.mode == ChainMode::Curve) return jumps(before, after);
     if (!comparable(before, after)) return {};
     std::vector<Incident> incidents;
@@ -253,8 +226,6 @@ std::vector<Incident> chain_incidents(const ChainPart& before, const ChainPart& 
     }
     return incidents;
 }
-
-namespace {
 
 /// The strip's moments as a trace, for as long as the chain has had as many joints as now.
 std::string trace_of_strip(const Workspace& workspace) {
@@ -285,6 +256,31 @@ std::string trace_of_strip(const Workspace& workspace) {
 }
 
 }  // namespace
+
+const Past& chain_past() {
+    static const Past past{
+        .lab = chain_lab,
+        .what = "chain",
+        .probes = {{"error", "tip to target", error_curve},
+                   {"swing", "swing of a joint",
+                    [](const Workspace& w) {
+                        return joint_curve(w, "swing of joint ", "Select a joint with a bone after it.",
+                                           swing_of);
+                    }},
+                   {"twist", "twist of a joint",
+                    [](const Workspace& w) {
+                        return joint_curve(w, "twist of joint ",
+                                           "Twist is only known along a curve and within limits.", twist_of);
+                    }}},
+        .plot_help =
+            "What is plotted below the scene over the last ten seconds; angles are those of the selected "
+            "joint",
+        .ghosts_help = "Where the chain was every half second",
+        .pose = lines_of,
+        .same_joints = same_joints,
+        .incidents = incidents_of};
+    return past;
+}
 
 void add_save_trace_command(CommandTable& table) {
     table.add("chain.save_trace", "Save the strip as a trace",

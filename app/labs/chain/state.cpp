@@ -6,7 +6,7 @@
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/panel.hpp"
-#include "app/labs/chain/past.hpp"
+#include "app/labs/kit/past.hpp"
 
 namespace tendril::app {
 namespace {
@@ -119,7 +119,7 @@ Json ChainLab::state(const Workspace& workspace) const {
               {"reach", number(part.chain.reach())},
               {"verdict", chain_verdict(part).text},
               {"motion", motion_paths.name(part.motion.path)},
-              {"past", past_view_state(workspace, chain_past(), chain_past_curve(workspace))},
+              {"past", past_state(workspace, chain_past())},
               {"segments", std::move(list)}};
     if (part.reach.plane) {
         json["plane"] = {{"normal", point(glm::normalize(part.reach.plane->normal))}};

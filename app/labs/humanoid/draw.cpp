@@ -376,12 +376,11 @@ glm::vec3 balance_colour(const HumanoidPart& part, const ShownPose& shown, const
 }
 
 std::vector<LabSetting> HumanoidLab::settings() const {
-    return {bones_setting(), helpers_setting(), humanoid_past().plot, humanoid_past().ghosts};
+    return {bones_setting(), helpers_setting()};
 }
 
 void HumanoidLab::draw(const View& view, DrawList& list) const {
-    const auto pose = [&](const SharedPart& part) { return humanoid_lines(view.workspace, part); };
-    draw_past_ghosts(view, humanoid_past(), pose, list);
+    draw_past_ghosts(view, humanoid_past(), list);
     Drawing(view, list).run();
     draw_humanoid_incident(view, shown_pose(view.workspace), list);
 }
@@ -406,7 +405,7 @@ std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {
     if (!part.attachments.list.empty()) rows.push_back({"attached", attached_colour(colours)});
     if (shown.hold) rows.push_back({"closed grip", colours.tail});
     if (part.view.ghost && !shown.before.empty()) rows.push_back({"before", colours.ghost});
-    if (humanoid_past().shows_ghosts(workspace.settings)) rows.push_back({ghost_legend, colours.ghost});
+    add_ghost_legend(workspace, humanoid_past(), rows);
     return rows;
 }
 

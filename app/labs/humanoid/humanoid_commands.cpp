@@ -75,10 +75,6 @@ void set_view(HumanoidPart& part, const Arguments& given) {
     set_fields(given, part.view);
 }
 
-void set_flips(HumanoidPart& part, const Arguments& given) {
-    set_flip_rule(part.flips, given);
-}
-
 }  // namespace
 
 void add_humanoid_look_commands(CommandTable& table) {
@@ -92,9 +88,7 @@ void add_humanoid_look_commands(CommandTable& table) {
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.view", "Set how the character is shown", field_arguments<HumanoidView>(),
         "Sets how the character is shown; anything omitted stays as it is", set_view, Effect::Look));
-    table.add(part_command<HumanoidPart>(
-        humanoid_lab, "humanoid.flips", "Set the rule for bone flips", flip_arguments(humanoid_flip_words),
-        "Sets what counts as a flip of a bone, from the next tick on", set_flips));
+    table.add(flip_command<HumanoidPart>(humanoid_lab, "humanoid.flips"));
     table.add(
         {.name = "humanoid.copy",
          .title = "Copy the character as C++",

@@ -182,7 +182,7 @@ Json HumanoidPart::save() const {
     if (!curves.empty()) json["curves"] = curves_json(*this);
     if (!attachments.list.empty()) json["attachments"] = attachments_json(attachments);
     json["quiet_ticks"] = quiet_ticks;
-    if (flips != FlipRule()) json["flips"] = save_flip_rule(flips);
+    if (flips != FlipRule()) json["flips"] = save_fields(flips);
     json["selected"] = save_selection(selection, skeleton());
     json["view"] = save_fields(view);
     return json;
@@ -205,7 +205,7 @@ std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& wh
     if (const auto hanging = place.optional("attachments"))
         part->attachments = read_attachments(*hanging, part->skeleton());
     if (const auto ticks = place.optional("quiet_ticks")) part->quiet_ticks = ticks->integer(0, 1'000'000);
-    if (const auto rule = place.optional("flips")) part->flips = load_flip_rule(*rule);
+    if (const auto rule = place.optional("flips")) load_fields(*rule, part->flips);
     if (const auto selected = place.optional("selected"))
         part->selection = load_selection(*selected, part->skeleton());
     if (const auto shown = place.optional("view")) load_fields(*shown, part->view);

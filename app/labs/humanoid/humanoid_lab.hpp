@@ -6,6 +6,8 @@
 
 namespace tendril::app {
 
+const Past& humanoid_past();
+
 class HumanoidLab final : public Lab {
   public:
     std::string name() const override { return humanoid_lab; }
@@ -17,12 +19,9 @@ class HumanoidLab final : public Lab {
 
     bool moving(const Workspace& workspace) const override;
     void step(Workspace& workspace) const override;
-    std::vector<Incident> review(const Workspace& workspace, const Part& before,
-                                 const Part& after) const override;
-    bool same_joints(const Part& before, const Part& after) const override;
+    const Past* past() const override { return &humanoid_past(); }
     bool working(const Workspace& workspace) const override;
     void work(Workspace& workspace) const override;
-    float timeline_height(const Workspace& workspace) const override;
     void timeline(const Workspace& workspace, Emit& emit) const override;
 
     void draw(const View& view, DrawList& list) const override;

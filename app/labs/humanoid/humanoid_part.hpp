@@ -95,9 +95,6 @@ struct HumanoidPart final : Part {
     bool operator==(const HumanoidPart& other) const;
 };
 
-inline constexpr FlipWords humanoid_flip_words{"humanoid.flips", "target", "the target, as the bone sees it,",
-                                               "height", "the character's height"};
-
 /// The bones that `map` has elsewhere than the character's own.
 Corrections corrections_of(const humanoid::BoneMap& map, const LoadedCharacter& character);
 /// Maps the bones as matched, but for these. Throws std::invalid_argument if they do not form a body's

@@ -15,7 +15,7 @@
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/flips.hpp"
 #include "app/labs/kit/panel_rows.hpp"
-#include "app/labs/kit/past_view.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/icons.hpp"
 #include "app/widgets/lists.hpp"
@@ -28,11 +28,6 @@ namespace tendril::app {
 // Sections of the left panel: the character, its bones, a clip, the view.
 
 namespace {
-
-constexpr PastHelp past_help{
-    "What is plotted below the scene over the last ten seconds: how far the selected effector is from its "
-    "target, or how far the selected joint is turned from the T-pose",
-    "Shows where the body was, every half second"};
 
 void rest_row(const HumanoidPanel& panel) {
     const HumanoidPart& part = panel.part;
@@ -180,8 +175,8 @@ void look_rows(const HumanoidPanel& panel) {
         view.row("follow");
         if (panel.part.loaded->character.skin.mesh) view.rows("skin", "skinning");
         view.rows("limits", "ghost");
-        past_view_rows(panel.workspace, humanoid_past(), past_help, panel.emit);
-        flip_rows(panel.part.flips, humanoid_flip_words, more, panel.emit);
+        past_rows(panel.workspace, humanoid_past(), panel.emit);
+        FieldRows(panel.part.flips, "humanoid.flips", panel.emit).under(more).all();
     });
 }
 

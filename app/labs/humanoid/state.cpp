@@ -313,7 +313,7 @@ Json HumanoidLab::state(const Workspace& workspace) const {
                 {"curves", curves_state(part, humanoid_runtime(workspace).solvers, shown)},
                 {"attachments", attachments_state(part)},
                 {"order", {"clip", "curves", "IK", "rig", "springs", "ropes"}},
-                {"past", past_view_state(workspace, humanoid_past(), humanoid_past_curve(workspace))},
+                {"past", past_state(workspace, humanoid_past())},
                 {"selected", active_name(part.selection, part.skeleton())},
                 {"selection", names_of(part.selection, part.skeleton())}};
 }

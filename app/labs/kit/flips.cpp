@@ -3,68 +3,36 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
-#include <string>
-
-#include "app/document/json_complete.hpp"
-#include "app/labs/kit/arguments.hpp"
-#include "app/widgets/fields.hpp"
 
 namespace tendril::app {
 
-Json save_flip_rule(const FlipRule& rule) {
-    return {{"degrees", number(rule.degrees)},
-            {"angle_share", number(rule.angle_share)},
-            {"reach_share", number(rule.reach_share)}};
-}
-
-FlipRule load_flip_rule(const JsonPlace& place) {
-    return {.degrees = place["degrees"].number(min_flip_degrees, max_flip_degrees),
-            .angle_share = place["angle_share"].number(0.0f, 1.0f),
-            .reach_share = place["reach_share"].number(0.0f, 1.0f)};
-}
-
-std::vector<Argument> flip_arguments(const FlipWords& words) {
-    const std::string turns = std::string("while ") + words.seen + " turns by less than this share of it";
-    const std::string moves = std::string("or moves by less than this share of ") + words.whole;
-    return {number_argument("degrees", "a bone turns by more than this", min_flip_degrees, max_flip_degrees),
-            number_argument("angle_share", turns.c_str(), 0, 1),
-            number_argument("reach_share", moves.c_str(), 0, 1)};
-}
-
-void set_flip_rule(FlipRule& rule, const Arguments& given) {
-    if (given.has("degrees")) rule.degrees = given.number("degrees");
-    if (given.has("angle_share")) rule.angle_share = given.number("angle_share");
-    if (given.has("reach_share")) rule.reach_share = given.number("reach_share");
-}
-
-void flip_rows(const FlipRule& rule, const FlipWords& words, MoreRows& more, Emit& emit) {
-    struct Row {
-        std::string title;
-        const char* name;
-        float value, usual, speed, low, high;
-        std::string format, help;
-    };
-    const std::string mover = words.mover;
-    const FlipRule usual;
-    const Row rows[] = {{"flip over", "degrees", rule.degrees, usual.degrees, 0.5f, min_flip_degrees,
-                         max_flip_degrees, "%.0f\u00b0",
-                         "A bone that turns by more than this in a tick, while the " + mover +
-                             " hardly moves, is marked as a flip."},
-                        {mover + " turns", "angle_share", rule.angle_share, usual.angle_share, 0.005f, 0.0f,
-                         1.0f, "< %.2f of it",
-                         "The " + mover + " hardly moves if " + words.seen +
-                             " turns by less than this share of the bone's turn."},
-                        {"or moves", "reach_share", rule.reach_share, usual.reach_share, 0.001f, 0.0f, 1.0f,
-                         std::string("< %.3f of ") + words.size,
-                         std::string("Or if it moves by less than this share of ") + words.whole + "."}};
-    for (const Row& row : rows)
-        more.add(row.title, {words.command, {row.name}}, row.value != row.usual, [row, &words, &emit] {
-            float value = row.value;
-            if (number_field(row.title.c_str(), value, row.speed, row.low, row.high, row.format.c_str()))
-                emit.continuously(words.command, {{row.name, value}});
-            explain(row.help.c_str());
-        });
+template <>
+std::span<const FieldText> field_texts<FlipRule>() {
+    static constexpr FieldText texts[] = {
+        {.name = "degrees",
+         .label = "flip over",
+         .help =
+             "A bone that turns by more than this in a tick, while its target or control hardly moves, is "
+             "marked as a flip.",
+         .step = 0.5f,
+         .decimals = 0,
+         .more = true},
+        {.name = "angle_share",
+         .label = "target under",
+         .help = "The target or control hardly moves if, as the root or the bone sees it, it turns by less "
+                 "than this share of the bone's turn.",
+         .step = 0.005f,
+         .unit = "of it",
+         .more = true},
+        {.name = "reach_share",
+         .label = "or under",
+         .help = "Or if it moves by less than this share of the chain's reach, of the skeleton's size or of "
+                 "the character's height.",
+         .step = 0.001f,
+         .decimals = 3,
+         .unit = "of reach",
+         .more = true}};
+    return texts;
 }
 
 double turn_between(const glm::dquat& a, const glm::dquat& b) {

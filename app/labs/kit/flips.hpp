@@ -4,35 +4,25 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <tendril/ik/flip.hpp>
-#include <vector>
 
-#include "app/document/argument.hpp"
-#include "app/document/json_place.hpp"
-#include "app/widgets/emit.hpp"
-#include "app/widgets/more.hpp"
+#include "app/fields/fields.hpp"
+#include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
 
-inline constexpr float min_flip_degrees = 1.0f, max_flip_degrees = 180.0f;
+using ik::FlipRule;
 
-using FlipRule = ik::FlipRule;
+template <>
+std::span<const FieldText> field_texts<FlipRule>();
 
-Json save_flip_rule(const FlipRule& rule);
-FlipRule load_flip_rule(const JsonPlace& place);
-
-/// How a lab words the rule.
-struct FlipWords {
-    const char* command;  ///< the command that sets the rule
-    const char* mover;    ///< "target": what a bone follows
-    const char* seen;     ///< "the target, as the root sees it,"
-    const char* size;     ///< "reach"
-    const char* whole;    ///< "the chain's reach"
-};
-/// All optional.
-std::vector<Argument> flip_arguments(const FlipWords& words);
-void set_flip_rule(FlipRule& rule, const Arguments& given);
-/// Fields that edit the rule.
-void flip_rows(const FlipRule& rule, const FlipWords& words, MoreRows& more, Emit& emit);
+/// The command that sets the rule of a lab's part: its member `flips`.
+template <class LabPart>
+Command flip_command(const char* lab, const char* name) {
+    return part_command<LabPart>(
+        lab, name, "Set what counts as a flip", field_arguments<FlipRule>(),
+        "Sets what counts as a flip of a bone, from the next solve on",
+        +[](LabPart& part, const Arguments& given) { set_fields(given, part.flips); });
+}
 
 /// The angle between two rotations, radians, 0 to pi.
 double turn_between(const glm::dquat& a, const glm::dquat& b);

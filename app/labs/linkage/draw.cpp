@@ -350,7 +350,7 @@ void keep_linkage_in_view(Workspace& workspace) {
 }
 
 void LinkageLab::draw(const View& view, DrawList& list) const {
-    draw_past_ghosts(view, linkage_past(), linkage_lines, list);
+    draw_past_ghosts(view, linkage_past(), list);
     LinkageDrawing(view, list).run();
 }
 
@@ -362,7 +362,7 @@ std::vector<LegendRow> LinkageLab::legend(const Workspace& workspace) const {
         rows.push_back({"path, slow", speed_colour(colours, 0.0)});
         rows.push_back({"path, fast", speed_colour(colours, 1.0)});
     }
-    if (linkage_past().shows_ghosts(workspace.settings)) rows.push_back({ghost_legend, colours.ghost});
+    add_ghost_legend(workspace, linkage_past(), rows);
     return rows;
 }
 

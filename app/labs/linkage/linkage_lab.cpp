@@ -104,17 +104,6 @@ void LinkageLab::step(Workspace& workspace) const {
     if (!modified) workspace.saved = workspace.document;  // time does not modify the scene
 }
 
-std::vector<Incident> LinkageLab::review(const Workspace& workspace, const Part& before,
-                                         const Part& after) const {
-    return linkage_incidents(dynamic_cast<const LinkagePart&>(before),
-                             dynamic_cast<const LinkagePart&>(after),
-                             workspace.runtimes.of<LinkageRuntime>(linkage_lab));
-}
-
-bool LinkageLab::same_joints(const Part& before, const Part& after) const {
-    return linkage_past().same_joints(before, after);
-}
-
 std::vector<Handle> LinkageLab::handles(const Workspace& workspace) const {
     const LinkagePart& part = linkage_part(workspace);
     std::vector<Handle> all;
@@ -208,10 +197,6 @@ Bounds LinkageLab::bounds(const Workspace& workspace, bool) const {
     return linkage_bounds(workspace);
 }
 
-std::vector<LabSetting> LinkageLab::settings() const {
-    return {linkage_past().plot, linkage_past().ghosts};
-}
-
 std::vector<Shortcut> LinkageLab::shortcuts() const {
     return {delete_shortcut("linkage.remove_selected")};
 }
@@ -302,7 +287,7 @@ Json LinkageLab::state(const Workspace& workspace) const {
                   {"selected", part.selected.empty() ? Json(nullptr) : Json(part.selected)},
                   {"tool", linkage_tools.name(part.tool)},
                   {"seconds", part.time},
-                  {"past", past_view_state(workspace, linkage_past(), linkage_past_curve(workspace))}});
+                  {"past", past_state(workspace, linkage_past())}});
     return state;
 }
 

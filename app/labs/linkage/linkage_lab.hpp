@@ -16,6 +16,8 @@ std::string motor_button(const LinkagePart& part);
 /// Rows for the ends of a joint's range, or a button that adds a range around its present value.
 void linkage_range_rows(const LinkagePart& part, const std::string& joint, Emit& emit);
 
+const Past& linkage_past();
+
 class LinkageLab final : public Lab {
   public:
     std::string name() const override { return linkage_lab; }
@@ -28,9 +30,7 @@ class LinkageLab final : public Lab {
     bool moving(const Workspace& workspace) const override;
     void step(Workspace& workspace) const override;
     double seconds(const Workspace& workspace) const override { return linkage_part(workspace).time; }
-    std::vector<Incident> review(const Workspace& workspace, const Part& before,
-                                 const Part& after) const override;
-    bool same_joints(const Part& before, const Part& after) const override;
+    const Past* past() const override { return &linkage_past(); }
 
     void draw(const View& view, DrawList& list) const override;
     std::vector<LegendRow> legend(const Workspace& workspace) const override;
@@ -49,10 +49,8 @@ class LinkageLab final : public Lab {
     Bounds bounds(const Workspace& workspace, bool selection_only) const override;
     void panel(const Workspace& workspace, Emit& emit) const override;
     void inspector(const Workspace& workspace, Emit& emit) const override;
-    float timeline_height(const Workspace& workspace) const override;
     void timeline(const Workspace& workspace, Emit& emit) const override;
 
-    std::vector<LabSetting> settings() const override;
     std::vector<Shortcut> shortcuts() const override;
     std::vector<MouseHelp> mouse_help() const override;
     std::vector<CommandCall> opening() const override;

@@ -9,7 +9,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
-#include "app/labs/kit/past_strip.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
 #include "app/labs/linkage/measures.hpp"
@@ -251,11 +251,6 @@ void length_rows(const LinkagePart& part, MoreRows& more, Emit& emit) {
     for (const FieldText& text : kind->texts) rows.under(more).row(text.name);
 }
 
-constexpr PastHelp linkage_past_help{
-    "What is plotted below the scene for the last ten seconds: the angle at the selected joint, how well the "
-    "coupler pushes, or the motor",
-    "Where the bars were, every half second"};
-
 }  // namespace
 
 void LinkageLab::panel(const Workspace& workspace, Emit& emit) const {
@@ -267,17 +262,12 @@ void LinkageLab::panel(const Workspace& workspace, Emit& emit) const {
     section("Mouse", true, [&](MoreRows&) { linkage_tool_rows(part, emit); });
     section("Motors", true, [&](MoreRows& more) { driver_rows(workspace, more, emit); });
     section("Lengths", false, [&](MoreRows& more) { length_rows(part, more, emit); });
-    section("Show", false,
-            [&](MoreRows&) { past_view_rows(workspace, linkage_past(), linkage_past_help, emit); });
+    section("Show", false, [&](MoreRows&) { past_rows(workspace, linkage_past(), emit); });
     section("Export", false, [&](MoreRows&) {
         if (row_button("Copy as C++", 1, true, "Copies the linkage as a C++ program that uses the library"))
             emit("linkage.copy");
         end_row();
     });
-}
-
-float LinkageLab::timeline_height(const Workspace& workspace) const {
-    return strip_height + past_plot_height(workspace.settings, linkage_past());
 }
 
 namespace {
@@ -327,7 +317,7 @@ void turn_plot(const Workspace& workspace, std::vector<Curve> curves) {
 }  // namespace
 
 void LinkageLab::timeline(const Workspace& workspace, Emit& emit) const {
-    const auto curve = linkage_past_curve(workspace);
+    const auto curve = linkage_past().curve(workspace);
     std::vector<Curve> over_turn;
     if (curve) over_turn = linkage_turn_curves(workspace, *curve);
     const bool beside = !over_turn.empty();
@@ -336,8 +326,7 @@ void LinkageLab::timeline(const Workspace& workspace, Emit& emit) const {
         const float gap = ImGui::GetStyle().ItemSpacing.x;
         ImGui::BeginChild("over time", {share * (ImGui::GetContentRegionAvail().x - gap), 0.0f});
     }
-    const StripLine strip = past_strip(workspace, emit);
-    past_plot(workspace, linkage_past(), curve, strip, emit);
+    Lab::timeline(workspace, emit);
     if (!beside) return;
     ImGui::EndChild();
     ImGui::SameLine();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
-#include <limits>
 
 #include "app/document/units.hpp"
 #include "app/labs/linkage/draw.hpp"
@@ -12,77 +11,69 @@
 namespace tendril::app {
 namespace {
 
-enum class LinkageNumber { Angle, Transmission, Motor };  // in the order of linkage_past()
-
-const LinkagePart& linkage_of(const SharedPart& part) {
-    return dynamic_cast<const LinkagePart&>(*part);
-}
-
-/// A motor's value; angles continue from the turn in which the plot begins.
-PastCurve motor_curve(const Workspace& workspace, const std::string& joint) {
-    const auto shown = [joint](const LinkagePart& part) -> std::optional<ShownValue> {
-        if (part.find_drive(joint) == nullptr) return std::nullopt;
-        return shown_value(part, joint, part.value_of(joint));
-    };
+/// A motor's value, an angle counted on from the turn that the plot begins in.
+PastCurve motor_curve(const Workspace& workspace) {
     const LinkagePart& part = linkage_part(workspace);
+    const std::string joint = part.drives.empty() ? "" : part.drives.front().joint;
+    const auto shown = [joint](const LinkagePart& then) -> std::optional<ShownValue> {
+        if (then.find_drive(joint) == nullptr) return std::nullopt;
+        return shown_value(then, joint, then.value_of(joint));
+    };
     const Rewind& past = workspace.rewind;
-    const auto first = past.empty() ? shown(part) : shown(linkage_of(past.moments().front().part));
+    const auto first = past.empty() ? shown(part) : shown(part_as<LinkagePart>(past.moments().front().part));
     const int turns_before = first ? first->turns : 0;
     return {.name = joint,
-            .of = "motor " + joint + " after turn " + std::to_string(turns_before),
             .unit = joint.empty() || turns(part, joint) ? "deg" : "m",
             .lowest_range = 0.01f,
             .missing = "There is no motor: add one.",
-            .value = [shown, turns_before](const SharedPart& then) {
-                const auto value = shown(linkage_of(then));
-                return value ? value->value + 360.0 * (value->turns - turns_before)
-                             : std::numeric_limits<double>::quiet_NaN();
-            }};
+            .value =
+                [shown, turns_before](const SharedPart& then) {
+                    const auto value = shown(part_as<LinkagePart>(then));
+                    return value ? value->value + 360.0 * (value->turns - turns_before) : no_value;
+                },
+            .of = "motor " + joint + " after turn " + std::to_string(turns_before)};
+}
+
+PastCurve angle_curve(const Workspace& workspace) {
+    const std::string point = linkage_part(workspace).selected;
+    return {.name = point.empty() ? "angle at a joint" : "angle at " + point,
+            .missing = "Select a joint between two bars.",
+            .value = [point](const SharedPart& then) { return angle_at(part_as<LinkagePart>(then), point); }};
+}
+
+PastCurve transmission_curve(const Workspace&) {
+    return {.name = transmission_name,
+            .missing = "A motor has to drive a coupler.",
+            .value = [](const SharedPart& then) { return transmission_angle(part_as<LinkagePart>(then)); }};
+}
+
+PoseLines lines_of(const Workspace&, const SharedPart& shared) {
+    const auto& part = part_as<LinkagePart>(shared);
+    PoseLines lines;
+    const auto add = [&](const std::vector<glm::vec3>& places) {
+        for (std::size_t i = 1; i < places.size(); ++i) lines.emplace_back(places[i - 1], places[i]);
+    };
+    if (!part.shape->in_plane())
+        for (std::size_t i = 0; i < part.linkage().links.size(); ++i) add(places_on(part, i));
+    for (const ik::SketchBar& bar : part.shape->sketch.bars) {
+        std::vector<glm::vec3> places;
+        for (const std::size_t each : bar.points) places.push_back(in_scene(part, part.at(each)));
+        add(places);
+    }
+    return lines;
+}
+
+bool same_joints(const Part& then, const Part& now) {
+    return part_as<LinkagePart>(then).shape == part_as<LinkagePart>(now).shape;
 }
 
 }  // namespace
-
-PastView linkage_past() {
-    return past_view(
-        linkage_lab, "linkage",
-        {{"angle", "angle at a joint"}, {"transmission", transmission_name}, {"motor", "first motor"}},
-        [](const Part& then, const Part& now) {
-            return dynamic_cast<const LinkagePart&>(then).shape ==
-                   dynamic_cast<const LinkagePart&>(now).shape;
-        });
-}
-
-std::optional<PastCurve> linkage_past_curve(const Workspace& workspace) {
-    const PastView view = linkage_past();
-    if (!view.plots(workspace.settings)) return std::nullopt;
-    const LinkagePart& part = linkage_part(workspace);
-    switch (static_cast<LinkageNumber>(view.chosen(workspace.settings))) {
-        case LinkageNumber::Angle: {
-            const std::string point = part.selected;
-            return PastCurve{
-                .name = point.empty() ? "angle at a joint" : "angle at " + point,
-                .of = "angle " + point,
-                .missing = "Select a joint between two bars.",
-                .value = [point](const SharedPart& then) { return angle_at(linkage_of(then), point); }};
-        }
-        case LinkageNumber::Transmission:
-            return PastCurve{
-                .name = transmission_name,
-                .of = "transmission",
-                .missing = "A motor has to drive a coupler.",
-                .value = [](const SharedPart& then) { return transmission_angle(linkage_of(then)); }};
-        default:
-            break;
-    }
-    return motor_curve(workspace, part.drives.empty() ? "" : part.drives.front().joint);
-}
 
 std::vector<Curve> linkage_turn_curves(const Workspace& workspace, const PastCurve& curve) {
     std::vector<Curve> pieces;
     const LinkagePart& part = linkage_part(workspace);
     const LinkageTurn& turn = workspace.runtimes.of<LinkageRuntime>(linkage_lab).turn(part);
-    const std::size_t chosen = linkage_past().chosen(workspace.settings);
-    if (turn.poses.size() < 2 || chosen == static_cast<std::size_t>(LinkageNumber::Motor)) return pieces;
+    if (turn.poses.size() < 2 || curve.of == motor_curve(workspace).of) return pieces;
     const std::string& joint = part.linkage().links[turn.joint].name;
     const auto begin_piece = [&] {
         pieces.push_back({.name = curve.name,
@@ -109,22 +100,6 @@ std::vector<Curve> linkage_turn_curves(const Workspace& workspace, const PastCur
     for (const LinkageTurn::Pose& each : turn.poses) add(each);
     if (turn.whole) add(turn.poses.front());
     return pieces;
-}
-
-PoseLines linkage_lines(const SharedPart& shared) {
-    const LinkagePart& part = linkage_of(shared);
-    PoseLines lines;
-    const auto add = [&](const std::vector<glm::vec3>& places) {
-        for (std::size_t i = 1; i < places.size(); ++i) lines.emplace_back(places[i - 1], places[i]);
-    };
-    if (!part.shape->in_plane())
-        for (std::size_t i = 0; i < part.linkage().links.size(); ++i) add(places_on(part, i));
-    for (const ik::SketchBar& bar : part.shape->sketch.bars) {
-        std::vector<glm::vec3> places;
-        for (const std::size_t each : bar.points) places.push_back(in_scene(part, part.at(each)));
-        add(places);
-    }
-    return lines;
 }
 
 namespace {
@@ -161,9 +136,13 @@ const LinkageTarget* jumped_target(const LinkagePart& part) {
     return *index < part.targets.size() ? &part.targets[*index] : nullptr;
 }
 
-std::vector<Incident> linkage_incidents(const LinkagePart& before, const LinkagePart& after,
-                                        LinkageRuntime& runtime) {
+namespace {
+
+/// Dead points, ranges, points that jumped, and bars that do not meet, between two ticks.
+std::vector<Incident> incidents_of(const Workspace& workspace, const Part& first, const Part& second) {
     using enum ik::LinkageStatus;
+    const auto &before = part_as<LinkagePart>(first), &after = part_as<LinkagePart>(second);
+    auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
     if (before.shape != after.shape) return {};
     const ik::LinkageReport &was = before.result.report, &is = after.result.report;
     std::vector<Incident> incidents;
@@ -202,6 +181,25 @@ std::vector<Incident> linkage_incidents(const LinkagePart& before, const Linkage
                                       app::length_text(is.closed_to) + " apart"});
     }
     return incidents;
+}
+
+}  // namespace
+
+const Past& linkage_past() {
+    static const Past past{
+        .lab = linkage_lab,
+        .what = "linkage",
+        .probes = {{"angle", "angle at a joint", angle_curve},
+                   {"transmission", transmission_name, transmission_curve},
+                   {"motor", "first motor", motor_curve}},
+        .plot_help =
+            "What is plotted below the scene for the last ten seconds: the angle at the selected "
+            "joint, how well the coupler pushes, or the motor",
+        .ghosts_help = "Where the bars were, every half second",
+        .pose = lines_of,
+        .same_joints = same_joints,
+        .incidents = incidents_of};
+    return past;
 }
 
 }  // namespace tendril::app

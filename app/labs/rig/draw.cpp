@@ -10,10 +10,9 @@
 #include <tendril/ik/curve.hpp>
 
 #include "app/document/units.hpp"
-#include "app/labs/kit/past_view.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/labs/rig/controls.hpp"
 #include "app/labs/rig/panel.hpp"
-#include "app/labs/rig/past.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/rig_runtime.hpp"
 #include "app/labs/rig/take.hpp"
@@ -255,7 +254,7 @@ void RigLab::draw(const View& view, DrawList& list) const {
     const RigPicture picture{view, list, part, elements};
     Drawing(picture, view.workspace.settings).run();
     draw_walks(view, list);
-    draw_past_ghosts(view, rig_past(), rig_lines, list);
+    draw_past_ghosts(view, rig_past(), list);
     draw_incident(picture);
 }
 
@@ -271,7 +270,7 @@ std::vector<LegendRow> RigLab::legend(const Workspace& workspace) const {
                          *selected))
         rows.push_back({before_units, colours.ghost});
     if (workspace.ui.incident) rows.push_back({"before it happened", colours.ghost});
-    if (rig_past().shows_ghosts(workspace.settings)) rows.push_back({ghost_legend, colours.ghost});
+    add_ghost_legend(workspace, rig_past(), rows);
     if (rig_pending_setting().chosen(workspace.settings) == 1) {
         rows.push_back({"global pose pending", colours.accent, true});
         rows.push_back({"local pose pending", colours.tail, true});
@@ -568,8 +567,8 @@ LabSetting rig_strip_setting() {
 }
 
 std::vector<LabSetting> RigLab::settings() const {
-    return {rig_axes_setting(),  rig_figures_setting(), pending_marks(),  rig_pending_setting(),
-            rig_strip_setting(), rig_past().plot,       rig_past().ghosts};
+    return {rig_axes_setting(), rig_figures_setting(), pending_marks(), rig_pending_setting(),
+            rig_strip_setting()};
 }
 
 }  // namespace tendril::app

@@ -7,6 +7,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
+#include <set>
 #include <tendril/rig/workspace.hpp>
 
 #include "app/document/units.hpp"
@@ -17,68 +18,53 @@
 namespace tendril::app {
 namespace {
 
-double angle_of(const glm::dvec3& a, const glm::dvec3& b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
+using ik::InputMove;
 
-/// A control that changed.
+/// A control that changed. Its frames are global, before any unit moved it.
 struct Moved {
-    rig::ControlKind kind = rig::ControlKind::Transform;
-    rig::Transform from{}, to{};  ///< global, before any unit moved it
-    double share = 0.0;           ///< the changed fraction of its range, for a float
+    bool placed = false;  ///< it has a position
+    rig::Transform from{}, to{};
+    double share = 0.0;  ///< the changed fraction of its range; of a switch that was toggled all of it
+
+    /// Its direction is seen from the bone, which may move; its way is its own.
+    InputMove seen_from(const rig::Transform& was, const rig::Transform& is) const {
+        InputMove move;
+        if (placed)
+            move = {
+                .distance = glm::distance(from.translation, to.translation),
+                .angle = ik::move_between(from.translation - was.translation, to.translation - is.translation)
+                             .angle};
+        move.turn = turn_between(from.rotation, to.rotation);
+        move.share = share;
+        return move;
+    }
 };
 
-bool has_place(rig::ControlKind kind) {
-    return kind == rig::ControlKind::Transform || kind == rig::ControlKind::Position ||
-           kind == rig::ControlKind::Vector2d;
-}
-
-double share_of_range(const rig::Control& control, double from, double to) {
-    const double range = control.minimum && control.maximum ? control.maximum->x - control.minimum->x : 1.0;
-    return range > 0.0 ? std::abs(to - from) / range : 1.0;
+double changed_share(const rig::Control& control, const rig::Value& from, const rig::Value& to) {
+    if (control.kind == rig::ControlKind::Bool) return from != to ? 1.0 : 0.0;
+    if (control.kind != rig::ControlKind::Float) return 0.0;
+    const double range = control.minimum && control.maximum ? control.maximum->x - control.minimum->x : 1.0,
+                 change = std::abs(std::get<double>(to) - std::get<double>(from));
+    return range > 0.0 ? change / range : change > 0.0 ? 1.0 : 0.0;
 }
 
 /// Controls that were set, and those whose parents moved them.
 std::vector<Moved> moved_controls(const rig::Rig& rig, const rig::State& was, const rig::State& is) {
+    using enum rig::ControlKind;
     std::vector<Moved> moved;
     const auto& elements = rig.definition().elements;
     if (was.controls == is.controls) return moved;
     for (std::size_t i = 0; i < elements.size(); ++i) {
         if (!elements[i].control) continue;
-        Moved each{
-            .kind = elements[i].control->kind, .from = rig.start_pose(was, i), .to = rig.start_pose(is, i)};
-        const bool set = was.controls[i] != is.controls[i];
-        if (each.kind == rig::ControlKind::Float && set)
-            each.share = share_of_range(*elements[i].control, std::get<double>(was.controls[i]),
-                                        std::get<double>(is.controls[i]));
-        if (set || each.from != each.to) moved.push_back(each);
+        const rig::Control& control = *elements[i].control;
+        moved.push_back({control.kind == Transform || control.kind == Position || control.kind == Vector2d,
+                         rig.start_pose(was, i), rig.start_pose(is, i),
+                         changed_share(control, was.controls[i], is.controls[i])});
     }
     return moved;
 }
 
-/// A bone, before and after.
-struct Bone {
-    std::size_t element = 0;
-    rig::Transform from{}, to{};
-    double radians = 0.0;
-};
-
-/// Whether the control moved far enough to explain the bone's turn.
-bool far(const Moved& control, const Bone& bone, double size, const FlipRule& rule) {
-    const double enough = static_cast<double>(rule.angle_share) * bone.radians;
-    const auto share = static_cast<double>(rule.reach_share);
-    if (control.kind == rig::ControlKind::Bool) return true;
-    if (control.kind == rig::ControlKind::Float) return control.share >= share;
-    if (turn_between(control.from.rotation, control.to.rotation) >= std::max(enough, 1e-9)) return true;
-    if (!has_place(control.kind)) return false;
-    const double distance = glm::distance(control.from.translation, control.to.translation);
-    const double angle = angle_of(control.from.translation - bone.from.translation,
-                                  control.to.translation - bone.to.translation);
-    return distance > 0.0 && angle >= enough && distance >= share * size;
-}
-
-}  // namespace
-
+/// Diagonal of the bounding box of all bones, metres; 1 if that is empty.
 double skeleton_size(const rig::Rig& rig, rig::State& state) {
     glm::dvec3 low(1e300), high(-1e300);
     for (std::size_t i = 0; i < state.controls.size(); ++i) {
@@ -91,131 +77,78 @@ double skeleton_size(const rig::Rig& rig, rig::State& state) {
     return size > 0.0 ? size : 1.0;
 }
 
-std::vector<BoneFlip> bone_flips(const rig::Rig& rig, const rig::State& was, const rig::State& is,
-                                 const FlipRule& rule) {
+/// Without causes. The largest rotation first; among equals, the bone nearest the root first.
+std::vector<RigFlip> find_flips(const rig::Rig& rig, const rig::State& was, const rig::State& is,
+                                const FlipRule& rule) {
     rig::State before = was, after = is;  // copies: reading computes pending poses
-    std::vector<Bone> bones;
-    for (const std::size_t i : from_the_roots(rig, before.elements)) {
-        const rig::ElementId id = rig.id(i);
-        if (before.elements.kind(id) != rig::ElementKind::Bone) continue;
-        Bone bone{.element = i,
-                  .from = before.elements.get(id, rig::Space::Global),
-                  .to = after.elements.get(id, rig::Space::Global)};
-        bone.radians = turn_between(bone.from.rotation, bone.to.rotation);
-        if (bone.radians > glm::radians(static_cast<double>(rule.degrees))) bones.push_back(bone);
-    }
-    if (bones.empty()) return {};
     const std::vector<Moved> controls = moved_controls(rig, before, after);
-    const double size = skeleton_size(rig, before);
-    std::erase_if(bones, [&](const Bone& bone) {
-        return std::ranges::any_of(controls, [&](const Moved& each) { return far(each, bone, size, rule); });
-    });
-    std::ranges::stable_sort(bones, [](const Bone& a, const Bone& b) {
+    std::vector<RigFlip> flips;
+    std::optional<double> size;
+    for (const std::size_t i : from_the_roots(rig, before.elements)) {
+        if (before.elements.kind(rig.id(i)) != rig::ElementKind::Bone) continue;
+        const rig::Transform from = before.elements.get(rig.id(i), rig::Space::Global),
+                             to = after.elements.get(rig.id(i), rig::Space::Global);
+        const double radians = turn_between(from.rotation, to.rotation);
+        if (radians <= glm::radians(static_cast<double>(rule.degrees))) continue;
+        if (!size) size = skeleton_size(rig, before);
+        const bool explained = std::ranges::any_of(controls, [&](const Moved& each) {
+            return ik::explains(each.seen_from(from, to), radians, *size, rule);
+        });
+        if (!explained) flips.push_back({i, radians});
+    }
+    std::ranges::stable_sort(flips, [](const RigFlip& a, const RigFlip& b) {
         constexpr double together = 1e-3;  // radians
         return std::round(a.radians / together) > std::round(b.radians / together);
     });
-    std::vector<BoneFlip> flips;
-    for (const Bone& bone : bones) flips.push_back({bone.element, bone.radians});
     return flips;
 }
 
-namespace {
-
 constexpr const char* not_known = "cause not known";
 
-/// The global rotations of bones before the first unit and after each.
-class Turns final : public rig::Observer {
+/// A solve with a zero time step, as far as it tells why bones flipped.
+class Watched final : public rig::Observer {
   public:
-    Turns(const rig::Rig& rig, const std::vector<BoneFlip>& flips) : rig_(rig), flips_(flips) {}
-
-    void begin(rig::State& state) override { row(state); }
-    void unit_done(std::size_t, rig::State& state) override { row(state); }
-    const glm::dquat& at(std::size_t row, std::size_t flip) const { return rows_[row][flip]; }
-    std::size_t rows() const { return rows_.size(); }
+    /// Keeps the rig just before and just after `unit`, if one is given.
+    Watched(const RigPart& part, rig::State state, const std::vector<RigFlip>& flips, rig::Workspace& scratch,
+            std::optional<std::size_t> unit = std::nullopt)
+        : found(part), left(part), rig_(part.rig), flips_(flips), unit_(unit) {
+        part.rig.solve(state, 0.0, scratch, this);
+        found.state.edit().elements.resolve_all();
+        left.state.edit().elements.resolve_all();
+    }
+    void begin(rig::State& state) override {
+        row(state);
+        if (unit_ == 0u) found.state = state;
+    }
+    void unit_done(std::size_t unit, rig::State& state) override {
+        row(state);
+        if (unit_ == unit + 1) found.state = state;
+        if (unit_ == unit) left.state = state;
+    }
     /// The last unit that turned the bone; none if no unit did.
     std::optional<std::size_t> last_unit(std::size_t flip) const {
         constexpr double touched = 1e-7;  // radians
-        for (std::size_t row = rows_.size(); row-- > 1;)
-            if (turn_between(at(row - 1, flip), at(row, flip)) > touched) return row - 1;
+        for (std::size_t row = rows.size(); row-- > 1;)
+            if (turn_between(rows[row - 1][flip], rows[row][flip]) > touched) return row - 1;
         return std::nullopt;
     }
 
+    RigPart found, left;
+    std::vector<std::vector<glm::dquat>> rows;  ///< the bones' global rotations, at first and after each unit
+
   private:
     void row(rig::State& state) {
-        std::vector<glm::dquat>& row = rows_.emplace_back();
-        for (const BoneFlip& flip : flips_)
+        std::vector<glm::dquat>& row = rows.emplace_back();
+        for (const RigFlip& flip : flips_)
             row.push_back(state.elements.get(rig_.id(flip.element), rig::Space::Global).rotation);
     }
 
     const rig::Rig& rig_;
-    const std::vector<BoneFlip>& flips_;
-    std::vector<std::vector<glm::dquat>> rows_;
+    const std::vector<RigFlip>& flips_;
+    std::optional<std::size_t> unit_;
 };
-
-/// The rig before and after one unit.
-class Witness final : public rig::Observer {
-  public:
-    Witness(std::size_t unit, UnitSolve& solve) : unit_(unit), solve_(solve) {}
-
-    void begin(rig::State& state) override {
-        if (unit_ == 0) solve_.found.state = state;
-    }
-    void unit_done(std::size_t unit, rig::State& state) override {
-        if (unit + 1 == unit_) solve_.found.state = state;
-        if (unit == unit_) solve_.left.state = state;
-    }
-
-  private:
-    std::size_t unit_;
-    UnitSolve& solve_;
-};
-
-UnitSolve solve_of(const RigPart& part, rig::State state, std::size_t unit, rig::Workspace& scratch) {
-    UnitSolve solve{part, part};
-    Witness witness(unit, solve);
-    part.rig.solve(state, 0.0, scratch, &witness);
-    solve.found.state.edit().elements.resolve_all();
-    solve.left.state.edit().elements.resolve_all();
-    return solve;
-}
-
-/// The first unit after which the two solves differ by at least half the flip.
-std::optional<std::size_t> parting_unit(const Turns& was, const Turns& is, std::size_t flip, double radians) {
-    for (std::size_t row = 1; row < std::min(was.rows(), is.rows()); ++row)
-        if (turn_between(was.at(row, flip), is.at(row, flip)) >= 0.5 * radians) return row - 1;
-    return std::nullopt;
-}
-
-}  // namespace
-
-std::vector<FlipCause> flip_causes(const RigPart& part, const rig::State& was, const rig::State& is,
-                                   const std::vector<BoneFlip>& flips) {
-    const rig::Units& units = part.rig.definition().units;
-    rig::Workspace scratch(part.rig);
-    Turns before(part.rig, flips), after(part.rig, flips);
-    rig::State first = was, second = is;
-    part.rig.solve(first, 0.0, scratch, &before);
-    part.rig.solve(second, 0.0, scratch, &after);
-    std::vector<FlipCause> causes;
-    for (std::size_t i = 0; i < flips.size(); ++i) {
-        const auto unit = parting_unit(before, after, i, flips[i].radians);
-        if (!unit) {
-            causes.push_back({std::nullopt, not_known});
-            continue;
-        }
-        std::string who = "unit " + units[*unit].name;
-        if (const auto last = after.last_unit(i); last && *last != *unit)
-            who += " (unit " + units[*last].name + " wrote it last)";
-        const auto why = unit_cause(units[*unit], solve_of(part, was, *unit, scratch),
-                                    solve_of(part, is, *unit, scratch), flips[i].radians);
-        causes.push_back({unit, who + ": " + why.value_or(not_known)});
-    }
-    return causes;
-}
 
 // Causes that can suddenly rotate a bone, by kind of unit.
-
-namespace {
 
 using Cause = std::optional<std::string>;
 constexpr float close_by = 0.17f;  ///< radians, about ten degrees
@@ -259,7 +192,7 @@ class Given {
 
 struct Both {
     const rig::Unit& unit;
-    const UnitSolve &before, &after;
+    const Watched &before, &after;
     Given was{unit, before.found}, is{unit, after.found};
     double radians = 0.0;
 };
@@ -398,13 +331,42 @@ Cause by_kind(const Both& both) {
     return std::nullopt;
 }
 
-}  // namespace
-
-Cause unit_cause(const rig::Unit& unit, const UnitSolve& before, const UnitSolve& after, double radians) {
-    const Both both{.unit = unit, .before = before, .after = after, .radians = radians};
+/// In this unit.
+Cause unit_cause(const Both& both) {
     for (const auto& look : {by_report, by_switch, by_kind, by_input})
         if (Cause cause = look(both)) return cause;
     return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<RigFlip> rig_flips(const RigPart& part, const rig::State& was, const rig::State& is,
+                               std::size_t most) {
+    std::vector<RigFlip> flips = find_flips(part.rig, was, is, part.flips), told;
+    if (flips.empty()) return told;
+    flips.resize(std::min(flips.size(), 16 * most));
+    const std::vector<rig::Unit>& units = part.rig.definition().units;
+    rig::Workspace scratch(part.rig);
+    const Watched before(part, was, flips, scratch), after(part, is, flips, scratch);
+    std::set<std::optional<std::size_t>> causing;
+    for (std::size_t i = 0; i < flips.size() && told.size() < most; ++i) {
+        // The first unit after which the two solves differ by at least half the flip.
+        std::optional<std::size_t> unit;
+        for (std::size_t row = 1; row < std::min(before.rows.size(), after.rows.size()) && !unit; ++row)
+            if (turn_between(before.rows[row][i], after.rows[row][i]) >= 0.5 * flips[i].radians)
+                unit = row - 1;
+        if (!causing.insert(unit).second) continue;
+        RigFlip& flip = told.emplace_back(flips[i]);
+        flip.cause = not_known;
+        if (!unit) continue;
+        std::string who = "unit " + units[*unit].name;
+        if (const auto last = after.last_unit(i); last && *last != *unit)
+            who += " (unit " + units[*last].name + " wrote it last)";
+        const Watched first(part, was, flips, scratch, unit), second(part, is, flips, scratch, unit);
+        const Both both{.unit = units[*unit], .before = first, .after = second, .radians = flip.radians};
+        flip.cause = who + ": " + unit_cause(both).value_or(not_known);
+    }
+    return told;
 }
 
 }  // namespace tendril::app

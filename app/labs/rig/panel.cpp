@@ -9,7 +9,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/kit/panel_rows.hpp"
-#include "app/labs/kit/past_view.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/rig_edit.hpp"

@@ -1,6 +1,6 @@
 // The Rig lab's last ten seconds: plots of an element's rotation, relative to its parent and initial pose;
 // earlier poses; incidents, and the contribution of each unit to an element.
-#include "app/labs/rig/past.hpp"
+#include "app/labs/kit/past.hpp"
 
 #include <imgui.h>
 #include <algorithm>
@@ -8,8 +8,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <limits>
-#include <set>
 
 #include "app/document/units.hpp"
 #include "app/labs/kit/limit_shape.hpp"
@@ -25,14 +23,6 @@
 
 namespace tendril::app {
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-enum class Number { Swing, Twist, Angle };  // in the order of rig_past()
-
-const RigPart& rig_of(const SharedPart& part) {
-    return dynamic_cast<const RigPart&>(*part);
-}
 
 /// The element to plot; empty in a rig without elements.
 std::string plotted_element(const RigPart& part) {
@@ -74,21 +64,34 @@ glm::dquat local_rotation(const rig::Hierarchy& elements, rig::ElementId id) {
     return resolved.get(id, rig::Space::Local).rotation;
 }
 
-double value_of(Number what, const RigPart& part, const std::string& name) {
+/// How the element is turned within its parent, from its initial pose; of bones alone, unless `any`.
+std::optional<JointTurn> turn_of(const RigPart& part, const std::string& name, bool any) {
     const auto at = part.rig.element(name);
-    if (!at) return nothing;
+    if (!at) return std::nullopt;
     const rig::Element& element = part.rig.definition().elements[*at];
     const bool bone = element.kind == rig::ElementKind::Bone;
-    if (!bone && what != Number::Angle) return nothing;
+    if (!bone && !any) return std::nullopt;
     const glm::dquat now = local_rotation(part.state->elements, part.rig.id(*at));
-    const JointTurn turn = joint_turn(glm::conjugate(element.initial.rotation) * now,
-                                      bone ? direction(part.rig.definition(), element) : glm::dvec3(0, 1, 0));
-    return what == Number::Swing ? turn.swing : what == Number::Twist ? turn.twist : turn.angle;
+    return joint_turn(glm::conjugate(element.initial.rotation) * now,
+                      bone ? direction(part.rig.definition(), element) : glm::dvec3(0, 1, 0));
+}
+
+PastCurve turn_curve(const Workspace& workspace, const char* what, double JointTurn::*number) {
+    const std::string element = plotted_element(rig_part(workspace));
+    const bool any = number == &JointTurn::angle;
+    return {.name = what + element,
+            .missing = element.empty()
+                           ? "The rig has no elements: add one."
+                           : element + " has no swing and twist: select a bone, or plot the angle.",
+            .value = [=](const SharedPart& part) {
+                const auto turn = turn_of(part_as<RigPart>(part), element, any);
+                return turn ? (*turn).*number : no_value;
+            }};
 }
 
 bool same_elements(const Part& then, const Part& now) {
     const auto elements = [](const Part& part) -> const auto& {
-        return dynamic_cast<const RigPart&>(part).rig.definition().elements;
+        return part_as<RigPart>(part).rig.definition().elements;
     };
     return std::equal(elements(then).begin(), elements(then).end(), elements(now).begin(),
                       elements(now).end(), [](const rig::Element& a, const rig::Element& b) {
@@ -96,35 +99,9 @@ bool same_elements(const Part& then, const Part& now) {
                       });
 }
 
-}  // namespace
-
-PastView rig_past() {
-    return past_view(
-        rig_lab, "rig",
-        {{"swing", "swing of a bone"}, {"twist", "twist of a bone"}, {"angle", "angle of an element"}},
-        same_elements);
-}
-
-std::optional<PastCurve> rig_past_curve(const Workspace& workspace) {
-    const PastView view = rig_past();
-    if (!view.plots(workspace.settings)) return std::nullopt;
-    const auto what = static_cast<Number>(view.chosen(workspace.settings));
-    const std::string element = plotted_element(rig_part(workspace));
-    const std::string number = what == Number::Swing   ? "swing of "
-                               : what == Number::Twist ? "twist of "
-                                                       : "angle of ";
-    return PastCurve{
-        .name = number + element,
-        .of = number + element,
-        .missing = element.empty() ? "The rig has no elements: add one."
-                                   : element +
-                                         " has no swing and twist: select a bone, or plot "
-                                         "the angle.",
-        .value = [what, element](const SharedPart& part) { return value_of(what, rig_of(part), element); }};
-}
-
-PoseLines rig_lines(const SharedPart& part) {
-    const RigPart& then = rig_of(part);
+/// A line to each end of a bone.
+PoseLines lines_of(const Workspace&, const SharedPart& part) {
+    const auto& then = part_as<RigPart>(part);
     PoseLines lines;
     if (then.state->controls.size() > 2 * max_ghost_lines) return lines;
     rig::Hierarchy elements = then.state->elements;
@@ -138,27 +115,18 @@ PoseLines rig_lines(const SharedPart& part) {
     return lines;
 }
 
-namespace {
-
 constexpr std::size_t max_of_a_kind = 8;  ///< per tick: a rig may have thousands of bones
 
 void add_flips(const RigPart& before, const RigPart& after, std::vector<Incident>& incidents) {
     if (before.edited || after.edited) return;
     const rig::State &was = before.solved_state(), &is = after.solved_state();
     if (was.controls == is.controls && !before.moving) return;
-    std::vector<BoneFlip> flips = bone_flips(after.rig, was, is, after.flips);
-    if (flips.empty()) return;
-    flips.resize(std::min<std::size_t>(flips.size(), 16 * max_of_a_kind));
-    const std::vector<FlipCause> causes = flip_causes(after, was, is, flips);
-    std::set<std::optional<std::size_t>> told;
-    for (std::size_t i = 0; i < flips.size() && told.size() < max_of_a_kind; ++i) {
-        if (!told.insert(causes[i].unit).second) continue;
+    for (const RigFlip& flip : rig_flips(after, was, is, max_of_a_kind))
         incidents.push_back({.kind = Incident::Kind::Flip,
-                             .joint = flips[i].element,
-                             .name = after.rig.definition().elements[flips[i].element].name,
-                             .degrees = static_cast<float>(glm::degrees(flips[i].radians)),
-                             .cause = causes[i].text});
-    }
+                             .joint = flip.element,
+                             .name = after.rig.definition().elements[flip.element].name,
+                             .degrees = static_cast<float>(glm::degrees(flip.radians)),
+                             .cause = flip.cause});
 }
 
 void add_reports(const RigPart& before, const RigPart& after, std::vector<Incident>& incidents) {
@@ -229,15 +197,38 @@ void add_limits(const RigPart& before, const RigPart& after, std::vector<Inciden
     }
 }
 
-}  // namespace
-
-std::vector<Incident> rig_incidents(const RigPart& before, const RigPart& after) {
+/// Flips, unit warnings, controls at their limits. Flips are reported only between two solves with nothing
+/// but controls set in between, and only the bone that rotated furthest for each unit.
+std::vector<Incident> incidents_of(const Workspace&, const Part& was, const Part& is) {
+    const auto &before = part_as<RigPart>(was), &after = part_as<RigPart>(is);
     if (&before.rig.definition() != &after.rig.definition()) return {};
     std::vector<Incident> incidents;
     add_flips(before, after, incidents);
     add_reports(before, after, incidents);
     add_limits(before, after, incidents);
     return incidents;
+}
+
+}  // namespace
+
+const Past& rig_past() {
+    static const Past past{
+        .lab = rig_lab,
+        .what = "rig",
+        .probes = {{"swing", "swing of a bone",
+                    [](const Workspace& w) { return turn_curve(w, "swing of ", &JointTurn::swing); }},
+                   {"twist", "twist of a bone",
+                    [](const Workspace& w) { return turn_curve(w, "twist of ", &JointTurn::twist); }},
+                   {"angle", "angle of an element",
+                    [](const Workspace& w) { return turn_curve(w, "angle of ", &JointTurn::angle); }}},
+        .plot_help =
+            "What is plotted below the scene for the last ten seconds: how the selected element is "
+            "turned within its parent, from its initial pose",
+        .ghosts_help = "Where the bones were, every half second",
+        .pose = lines_of,
+        .same_joints = same_elements,
+        .incidents = incidents_of};
+    return past;
 }
 
 // Why a bone is where it is: the contribution of each unit to the selected element, in order.

@@ -78,7 +78,7 @@ Json RigPart::save() const {
     saved["selected"] = {{"element", selected_element()}, {"unit", selected.unit}};
     if (selected.elements.several()) saved["selected"]["elements"] = names_of(*this, selected.elements.all());
     if (selected.unit_last) saved["selected"]["unit_last"] = true;
-    if (flips != FlipRule()) saved["flips"] = save_flip_rule(flips);
+    if (flips != FlipRule()) saved["flips"] = save_fields(flips);
     save_time(*this, saved);
     return json;
 }
@@ -100,7 +100,7 @@ std::shared_ptr<Part> RigPart::load(const Json& json, const std::string& where) 
     part->state = read_rig_state(*state_place, part->rig);
     part->edited = true;  // the file does not store the last solved state
     load_time(*state_place, *part);
-    if (const auto rule = state_place->optional("flips")) part->flips = load_flip_rule(*rule);
+    if (const auto rule = state_place->optional("flips")) load_fields(*rule, part->flips);
     if (const auto backward_place = state_place->optional("backward"))
         part->backward = load_backward(*backward_place, part->rig.definition());
     if (const auto selection = state_place->optional("selected")) {

@@ -6,6 +6,8 @@
 
 namespace tendril::app {
 
+const Past& rig_past();
+
 class RigLab final : public Lab {
   public:
     std::string name() const override { return rig_lab; }
@@ -19,9 +21,7 @@ class RigLab final : public Lab {
     void step(Workspace& workspace) const override;
     std::uint64_t tick_work(const Workspace& workspace) const override;
     double seconds(const Workspace& workspace) const override;
-    std::vector<Incident> review(const Workspace& workspace, const Part& before,
-                                 const Part& after) const override;
-    bool same_joints(const Part& before, const Part& after) const override;
+    const Past* past() const override { return &rig_past(); }
     bool working(const Workspace& workspace) const override;
     void work(Workspace& workspace) const override;
     float timeline_height(const Workspace& workspace) const override;

@@ -213,9 +213,6 @@ struct RigPart final : Part {
 /// Approximate memory of a state.
 std::size_t state_bytes(const rig::State& state);
 
-inline constexpr FlipWords rig_flip_words{"rig.flips", "control", "the control, as the bone sees it,", "size",
-                                          "the size of the skeleton"};
-
 /// The part that the lab starts with.
 RigPart first_rig();
 

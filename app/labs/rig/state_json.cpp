@@ -11,9 +11,9 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/kit/library_json.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/panel.hpp"
-#include "app/labs/rig/past.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/rig_file.hpp"
 #include "app/labs/rig/rig_lab.hpp"
@@ -364,7 +364,7 @@ Json RigLab::state(const Workspace& workspace) const {
                 {"selected", {{"element", part.selected_element()}, {"unit", part.selected.unit}}},
                 {"selection", names_of(part, part.selected.elements.all())},
                 {"moving", part.moving},
-                {"past", past_view_state(workspace, rig_past(), rig_past_curve(workspace))},
+                {"past", past_state(workspace, rig_past())},
                 {"take", take_state(part)},
                 {"motions", walks_json(part)},
                 {"clip", clip_state(part)},

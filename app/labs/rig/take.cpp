@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "app/labs/rig/clip.hpp"
-#include "app/labs/rig/past.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 
 namespace tendril::app {
@@ -346,14 +345,6 @@ std::uint64_t RigLab::tick_work(const Workspace& workspace) const {
 
 double RigLab::seconds(const Workspace& workspace) const {
     return static_cast<double>(rig_part(workspace).take.now()) * tick_seconds;
-}
-
-std::vector<Incident> RigLab::review(const Workspace&, const Part& before, const Part& after) const {
-    return rig_incidents(dynamic_cast<const RigPart&>(before), dynamic_cast<const RigPart&>(after));
-}
-
-bool RigLab::same_joints(const Part& before, const Part& after) const {
-    return rig_past().same_joints(before, after);
 }
 
 bool RigLab::working(const Workspace& workspace) const {

@@ -327,10 +327,6 @@ void finish_rates(Workspace& workspace) {
     for (RatesWork work; part.rates && part.rates->running;) work.advance(part);
 }
 
-void set_flips(RigPart& part, const Arguments& given) {
-    set_flip_rule(part.flips, given);
-}
-
 void cancel_rates(RigPart& part, const Arguments&) {
     if (!part.rates || !part.rates->running) throw std::invalid_argument("no frame rates are being compared");
     part.rates.reset();
@@ -384,8 +380,7 @@ void add_time_commands(CommandTable& table) {
          .finish = finish_rates});
     table.add(rig_command("rig.rates.cancel", "Stop comparing frame rates", {},
                           "Stops the comparison of frame rates", cancel_rates));
-    table.add(rig_command("rig.flips", "Set the rule for bone flips", flip_arguments(rig_flip_words),
-                          "Sets what counts as a flip of a bone, from the next solve on", set_flips));
+    table.add(flip_command<RigPart>(rig_lab, "rig.flips"));
     add_clip_commands(table);
 }
 

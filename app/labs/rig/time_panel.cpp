@@ -7,12 +7,12 @@
 #include <glm/common.hpp>
 
 #include "app/document/units.hpp"
+#include "app/fields/field_rows.hpp"
 #include "app/labs/kit/panel_rows.hpp"
-#include "app/labs/kit/past_strip.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/labs/rig/clip.hpp"
 #include "app/labs/rig/draw.hpp"
 #include "app/labs/rig/panel.hpp"
-#include "app/labs/rig/past.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rig/take.hpp"
 #include "app/widgets/fields.hpp"
@@ -143,11 +143,6 @@ void rate_rows(const RigPart& part, Emit& emit) {
              " s into the take.");
 }
 
-constexpr PastHelp past_help{
-    "What is plotted below the scene for the last ten seconds: how the selected element is turned within its "
-    "parent, from its initial pose",
-    "Where the bones were, every half second"};
-
 }  // namespace
 
 void walk_rows(const Workspace& workspace, Emit& emit) {
@@ -177,9 +172,9 @@ void time_rows(const Workspace& workspace, Emit& emit) {
     const RigPart& part = rig_part(workspace);
     if (const FoldingSection open(workspace, "Clip", emit, false); open) clip_rows(part, emit);
     folding_section(workspace, "Analyse", emit, false, [&](MoreRows& more) {
-        past_view_rows(workspace, rig_past(), past_help, emit);
+        past_rows(workspace, rig_past(), emit);
         rate_rows(part, emit);
-        flip_rows(part.flips, rig_flip_words, more, emit);
+        FieldRows(part.flips, "rig.flips", emit).under(more).all();
     });
 }
 
@@ -312,7 +307,7 @@ void take_strip(const Workspace& workspace, Emit& emit) {
 
 float RigLab::timeline_height(const Workspace& workspace) const {
     if (rig_part(workspace).state->controls.empty()) return 0.0f;
-    return strip_height + past_plot_height(workspace.settings, rig_past());
+    return Lab::timeline_height(workspace);
 }
 
 void RigLab::timeline(const Workspace& workspace, Emit& emit) const {
@@ -330,7 +325,7 @@ void RigLab::timeline(const Workspace& workspace, Emit& emit) const {
         step_button(part, false, emit);
         take_strip(workspace, emit);
     }
-    past_plot(workspace, rig_past(), rig_past_curve(workspace), past_line, emit);
+    past_plot(workspace, rig_past(), past_line, emit);
 }
 
 }  // namespace tendril::app

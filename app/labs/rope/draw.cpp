@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <span>
 
+#include "app/labs/kit/past.hpp"
 #include "app/labs/kit/world_drawing.hpp"
-#include "app/labs/rope/past.hpp"
 #include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_lab.hpp"
@@ -264,14 +264,14 @@ class Drawing {
 }  // namespace
 
 void RopeLab::draw(const View& view, DrawList& list) const {
-    draw_past_ghosts(view, rope_past(), rope_lines, list);
+    draw_past_ghosts(view, rope_past(), list);
     Drawing(view, list).run();
 }
 
 std::vector<LegendRow> RopeLab::legend(const Workspace& workspace) const {
     const Palette& colours = palette(workspace.settings.theme);
     std::vector<LegendRow> rows{{"pinned", colours.target}, {"selection", colours.selection}};
-    if (rope_past().shows_ghosts(workspace.settings)) rows.push_back({ghost_legend, colours.ghost});
+    add_ghost_legend(workspace, rope_past(), rows);
     const RopePart& part = rope_part(workspace);
     if (!part.view.strain) {
         for (const BodyColour colour : body_colours.values()) {

@@ -15,12 +15,11 @@
 #include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/labs/kit/panel_rows.hpp"
-#include "app/labs/kit/past_strip.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/labs/kit/race.hpp"
 #include "app/labs/kit/world_drawing.hpp"
 #include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/numbers.hpp"
-#include "app/labs/rope/past.hpp"
 #include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_fields.hpp"
@@ -135,11 +134,6 @@ void time_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
     });
 }
 
-constexpr PastHelp past_help{
-    "What is plotted below the scene for the last ten seconds: of the selected particles or their body, or "
-    "of all ropes if none is selected",
-    "Where the ropes were, every half second"};
-
 }  // namespace
 
 void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
@@ -164,7 +158,7 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
     section("Time", false, [&](MoreRows& more) { time_rows(workspace, more, emit); });
     section("Show", false, [&](MoreRows& more) {
         FieldRows(part.view, "rope.view", emit).under(more).rows("strain", "particles", "sides");
-        past_view_rows(workspace, rope_past(), past_help, emit);
+        past_rows(workspace, rope_past(), emit);
     });
     section("Export", false, [&](MoreRows&) {
         if (row_button("Copy as C++", 1, true,
@@ -179,15 +173,6 @@ void RopeLab::inspector(const Workspace& workspace, Emit& emit) const {
                  palette(workspace.settings.theme), emit);
     selection_rows(workspace, emit);
     number_rows(workspace, palette(workspace.settings.theme), emit);
-}
-
-float RopeLab::timeline_height(const Workspace& workspace) const {
-    return strip_height + past_plot_height(workspace.settings, rope_past());
-}
-
-void RopeLab::timeline(const Workspace& workspace, Emit& emit) const {
-    const StripLine strip = past_strip(workspace, emit);
-    past_plot(workspace, rope_past(), rope_past_curve(workspace), strip, emit);
 }
 
 // Sections of the right panel: the selection, and simulation statistics.

@@ -1,74 +1,83 @@
 // The Rope lab's last ten seconds: plots of tension, length error, energy and speed, and past poses.
-#include "app/labs/rope/past.hpp"
+#include "app/labs/kit/past.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <set>
 
 #include "app/labs/kit/world_drawing.hpp"
 #include "app/labs/rope/numbers.hpp"
+#include "app/labs/rope/rope_lab.hpp"
 
 namespace tendril::app {
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t max_threads = 200;  ///< per past pose
 constexpr std::size_t max_lines = 400;    ///< per past pose
 
-enum class Number { Tension, Error, Energy, Speed };  // in the order of rope_past()
+/// A number of the selected particles or their body, or else of all ropes.
+struct Measure {
+    const char *of_some, *of_all, *unit;
+    float lowest_range;
+    bool of_body;  ///< not of particles
+    double (*value)(const NamedWorld&, const Particles&, const rope::Body*);
+};
+constexpr Measure measures[] = {
+    {"tension at ", "strongest tension", "N", 0.1f, false,
+     [](const NamedWorld& world, const Particles& particles, const rope::Body*) -> double {
+         return strongest_tension(world, particles);
+     }},
+    {"length error of ", "length error", "%", 0.01f, true,
+     [](const NamedWorld& world, const Particles&, const rope::Body* body) {
+         return 100.0 * (body != nullptr ? world.length_error(*body) : world.length_error());
+     }},
+    {"energy of ", "energy", "J", 0.01f, true,
+     [](const NamedWorld& world, const Particles&, const rope::Body* body) {
+         return body != nullptr ? world.energy(*body) : world.energy();
+     }},
+    {"speed of ", "highest speed", "m/s", 0.1f, false,
+     [](const NamedWorld& world, const Particles& particles, const rope::Body*) -> double {
+         return highest_speed(world, particles);
+     }}};
 
-const RopePart& ropes_of(const SharedPart& part) {
-    return dynamic_cast<const RopePart&>(*part);
-}
-
-double value_of(Number what, const NamedWorld& world, const std::optional<RopeSelection>& selection) {
-    const Particles particles = measured_particles(world, selection);
-    if (particles.empty()) return nothing;
-    const rope::Body* const body = selection ? world.find(selection->body) : nullptr;
-    switch (what) {
-        case Number::Tension:
-            return static_cast<double>(strongest_tension(world, particles));
-        case Number::Error:
-            return 100.0 * (body != nullptr ? world.length_error(*body) : world.length_error());
-        case Number::Energy:
-            return body != nullptr ? world.energy(*body) : world.energy();
-        case Number::Speed:
-            return static_cast<double>(highest_speed(world, particles));
-    }
-    return nothing;
-}
-
-/// "rope 2, particle 7", "3 particles of rope 2", or "rope 2" for values of a whole body.
-std::string measured_name(Number what, const RopeSelection& selection) {
-    if (what == Number::Error || what == Number::Energy) return selection.body;
+/// "rope 2, particle 7", "3 particles of rope 2"
+std::string particles_name(const RopeSelection& selection) {
     if (!selection.particles.several())
         return selection.body + ", particle " + std::to_string(selection.particle());
     return std::to_string(selection.particles.all().size()) + " particles of " + selection.body;
 }
 
-struct Told {
-    const char* of_some;
-    const char* of_all;
-    const char* unit;
-    float lowest_range;
-};
-Told told(Number what) {
-    switch (what) {
-        case Number::Tension:
-            return {"tension at ", "strongest tension", "N", 0.1f};
-        case Number::Error:
-            return {"length error of ", "length error", "%", 0.01f};
-        case Number::Energy:
-            return {"energy of ", "energy", "J", 0.01f};
-        default:
-            return {"speed of ", "highest speed", "m/s", 0.1f};
-    }
+template <std::size_t which>
+PastCurve rope_curve(const Workspace& workspace) {
+    constexpr const Measure& measure = measures[which];
+    const RopePart& part = rope_part(workspace);
+    std::optional<RopeSelection> selection = part.selection;
+    if (selection && !selection->of_particles()) selection.reset();
+    // An emptied world shows no removed ropes.
+    const bool empty = part.world->state().bodies.empty();
+    const std::string name =
+        selection ? measure.of_some + (measure.of_body ? selection->body : particles_name(*selection))
+                  : measure.of_all;
+    std::string of = empty ? "nothing" : name;
+    if (selection)
+        for (const std::size_t each : selection->particles.all()) of += " " + std::to_string(each);
+    return {.name = name,
+            .unit = measure.unit,
+            .lowest_range = measure.lowest_range,
+            .missing = "There was no rope: add one.",
+            .value =
+                [selection, empty](const SharedPart& then) {
+                    const NamedWorld& world = *part_as<RopePart>(then).world;
+                    const Particles particles = measured_particles(world, selection);
+                    if (empty || particles.empty()) return no_value;
+                    return measure.value(world, particles, selection ? world.find(selection->body) : nullptr);
+                },
+            .of = of};
 }
 
 bool same_particles(const Part& then, const Part& now) {
     const auto masses = [](const Part& part) -> const auto& {
-        return dynamic_cast<const RopePart&>(part).world->state().mass;
+        return part_as<RopePart>(part).world->state().mass;
     };
     return masses(then) == masses(now);
 }
@@ -126,40 +135,10 @@ std::vector<Thread> threads_of(const NamedWorld& world) {
     return threads;
 }
 
-}  // namespace
-
-PastView rope_past() {
-    return past_view(
-        rope_lab, "scene",
-        {{"tension", "tension"}, {"error", "length error"}, {"energy", "energy"}, {"speed", "speed"}},
-        same_particles);
-}
-
-std::optional<PastCurve> rope_past_curve(const Workspace& workspace) {
-    const PastView view = rope_past();
-    if (!view.plots(workspace.settings)) return std::nullopt;
-    const auto what = static_cast<Number>(view.chosen(workspace.settings));
-    std::optional<RopeSelection> selection = rope_part(workspace).selection;
-    if (selection && !selection->of_particles()) selection.reset();
-    // An emptied world shows no removed ropes.
-    const bool empty = rope_part(workspace).world->state().bodies.empty();
-    const Told words = told(what);
-    const std::string name = selection ? words.of_some + measured_name(what, *selection) : words.of_all;
-    std::string of = empty ? "nothing" : name;
-    if (selection)
-        for (const std::size_t each : selection->particles.all()) of += " " + std::to_string(each);
-    return PastCurve{.name = name,
-                     .of = of,
-                     .unit = words.unit,
-                     .lowest_range = words.lowest_range,
-                     .missing = "There was no rope: add one.",
-                     .value = [what, selection, empty](const SharedPart& part) {
-                         return empty ? nothing : value_of(what, *ropes_of(part).world, selection);
-                     }};
-}
-
-PoseLines rope_lines(const SharedPart& part) {
-    const NamedWorld& world = *ropes_of(part).world;
+/// Ropes and strands from end to end, and a cloth by five of its rows and columns. At most a few hundred
+/// lines, each over several links if necessary.
+PoseLines lines_of(const Workspace&, const SharedPart& part) {
+    const NamedWorld& world = *part_as<RopePart>(part).world;
     const std::vector<Thread> threads = threads_of(world);
     PoseLines lines;
     if (threads.empty()) return lines;
@@ -176,6 +155,26 @@ PoseLines rope_lines(const SharedPart& part) {
         }
     }
     return lines;
+}
+
+}  // namespace
+
+/// Past poses are those of the same particles: also from before a cut or a tear, but not of another scene.
+const Past& rope_past() {
+    static const Past past{
+        .lab = rope_lab,
+        .what = "scene",
+        .probes = {{"tension", "tension", rope_curve<0>},
+                   {"error", "length error", rope_curve<1>},
+                   {"energy", "energy", rope_curve<2>},
+                   {"speed", "speed", rope_curve<3>}},
+        .plot_help =
+            "What is plotted below the scene for the last ten seconds: of the selected particles or "
+            "their body, or of all ropes if none is selected",
+        .ghosts_help = "Where the ropes were, every half second",
+        .pose = lines_of,
+        .same_joints = same_particles};
+    return past;
 }
 
 }  // namespace tendril::app

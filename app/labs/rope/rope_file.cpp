@@ -10,10 +10,10 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/fields/fields.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/panel.hpp"
-#include "app/labs/rope/past.hpp"
 #include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 #include "app/labs/rope/rope_lab.hpp"
@@ -382,7 +382,7 @@ Json RopeLab::state(const Workspace& workspace) const {
                 {"frame_ms", part.samples.empty() ? Json(nullptr) : number(part.samples.back().frame)},
                 {"race", std::move(race)},
                 {"moving", moving(workspace)},
-                {"past", past_view_state(workspace, rope_past(), rope_past_curve(workspace))}};
+                {"past", past_state(workspace, rope_past())}};
 }
 
 }  // namespace tendril::app

@@ -9,11 +9,11 @@
 #include "app/document/pace.hpp"
 #include "app/document/units.hpp"
 #include "app/labs/kit/arguments.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/labs/rope/body_commands.hpp"
 #include "app/labs/rope/code.hpp"
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/panel.hpp"
-#include "app/labs/rope/past.hpp"
 #include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_time.hpp"
 #include "app/labs/rope/scenes.hpp"
@@ -132,10 +132,6 @@ std::uint64_t RopeLab::tick_work(const Workspace& workspace) const {
 
 std::vector<PaneTitle> RopeLab::panes(const Workspace& workspace) const {
     return rope_panes(rope_part(workspace), palette(workspace.settings.theme), workspace.clock.measured);
-}
-
-std::vector<LabSetting> RopeLab::settings() const {
-    return {rope_past().plot, rope_past().ghosts};
 }
 
 std::vector<Shortcut> RopeLab::shortcuts() const {

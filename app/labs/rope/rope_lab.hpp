@@ -43,6 +43,8 @@ bool is_attached(const NamedWorld& world, const rope::Body& body);
 /// Extends a box by a collider, except for planes, which are infinite.
 void include_shape(const rope::Shape& shape, glm::vec3& low, glm::vec3& high);
 
+const Past& rope_past();
+
 class RopeLab final : public Lab {
   public:
     std::string name() const override { return rope_lab; }
@@ -56,6 +58,7 @@ class RopeLab final : public Lab {
     void step(Workspace& workspace) const override;
     std::uint64_t tick_work(const Workspace& workspace) const override;
     double seconds(const Workspace& workspace) const override { return rope_part(workspace).time; }
+    const Past* past() const override { return &rope_past(); }
 
     void draw(const View& view, DrawList& list) const override;
     std::vector<LegendRow> legend(const Workspace& workspace) const override;
@@ -87,9 +90,6 @@ class RopeLab final : public Lab {
     Bounds bounds(const Workspace& workspace, bool selection_only) const override;
     void panel(const Workspace& workspace, Emit& emit) const override;
     void inspector(const Workspace& workspace, Emit& emit) const override;
-    float timeline_height(const Workspace& workspace) const override;
-    void timeline(const Workspace& workspace, Emit& emit) const override;
-    std::vector<LabSetting> settings() const override;
     std::vector<Shortcut> shortcuts() const override;
     std::vector<MouseHelp> mouse_help() const override;
     std::vector<CommandCall> opening() const override;

@@ -6,7 +6,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
 #include "app/document/units.hpp"
-#include "app/labs/kit/past_strip.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/code.hpp"
 #include "app/labs/signal/draw.hpp"

@@ -14,7 +14,9 @@
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"
 #include "app/labs/kit/code_text.hpp"
+#include "app/labs/kit/flips.hpp"
 #include "app/labs/kit/world_file.hpp"
+#include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rope/rope_fields.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_part.hpp"
@@ -95,6 +97,10 @@ std::vector<Table> all_tables() {
     std::vector<Table> all{
         table_of<ReachSettings>(chain_lab, "chain.solver", "/reach"),
         table_of<CurveSettings>(chain_lab, "chain.curve", "/curve"),
+        table_of<FlipRule>(chain_lab, "chain.flips", "/flips"),
+        // Files leave out the usual rule.
+        table_of<FlipRule>(rig_lab, "rig.flips", "/state/flips", Json::object(), {{"degrees", 40}}),
+        table_of<FlipRule>(humanoid_lab, "humanoid.flips", "/flips", Json::object(), {{"degrees", 40}}),
         table_of<rope::Settings>(rope_lab, "rope.settings", "/world/settings"),
         {.lab = rope_lab,
          .command = "rope.collider.drive",

@@ -32,9 +32,9 @@ void LabTest::emit(const std::function<void(Emit&)>& act, Gesture gesture) {
 }
 
 std::vector<Incident> LabTest::incidents_of(const char* name, const Json& arguments, Gesture gesture) {
-    const auto before = workspace.document.parts().at(lab_);
+    const auto before = now();
     run(name, arguments, gesture);
-    return lab().review(workspace, *before, *workspace.document.parts().at(lab_));
+    return since(before);
 }
 
 void LabTest::run_in(Workspace& other, const char* name, const Json& arguments) const {

@@ -46,6 +46,11 @@ class LabTest : public testing::Test {
     }
     /// Runs what a click, a drag or a panel emits.
     void emit(const std::function<void(Emit&)>& act, Gesture gesture = 0);
+    /// The lab's part, and the incidents since it was another.
+    std::shared_ptr<const Part> now() const { return workspace.document.parts().at(lab_); }
+    std::vector<Incident> since(const std::shared_ptr<const Part>& before) const {
+        return lab().review(workspace, *before, *now());
+    }
     /// Runs a command; returns the incidents that it leads to.
     std::vector<Incident> incidents_of(const char* name, const Json& arguments, Gesture gesture = 0);
     void run_in(Workspace& other, const char* name, const Json& arguments) const;

@@ -340,7 +340,7 @@ TEST_F(LinkageReading, APlotOverTheMotorsAngleCoversTheWholeTurn) {
     four_bar();
     run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 500}});
     run("view.linkage_plot", {{"of", "transmission"}});
-    const auto pieces = [&] { return linkage_turn_curves(workspace, *linkage_past_curve(workspace)); };
+    const auto pieces = [&] { return linkage_turn_curves(workspace, *linkage_past().curve(workspace)); };
     workspace.runtimes.clear();
     ASSERT_EQ(pieces().size(), 2u) << "it begins after the present pose";
     const Curve now_on = pieces()[0], from_zero = pieces()[1];

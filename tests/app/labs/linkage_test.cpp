@@ -2,7 +2,7 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
-#include "app/labs/kit/past_view.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/view/camera.hpp"
 #include "app/widgets/emit.hpp"
 #include "tests/app/labs/linkage_support.hpp"

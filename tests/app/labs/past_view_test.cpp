@@ -1,6 +1,6 @@
 // Shared code for the last ten seconds: rotations as swing and twist, cached values, and which moments are
 // shown as ghosts.
-#include "app/labs/kit/past_view.hpp"
+#include "app/labs/kit/past.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/document/command.hpp"
 #include "app/labs/kit/limit_shape.hpp"
 #include "app/labs/kit/part_cache.hpp"
 #include "tests/app/labs/lab_support.hpp"
@@ -114,7 +115,12 @@ class Ghosts : public LabTest {
   protected:
     Ghosts() : LabTest("chain") {}
     std::vector<const Rewind::Moment*> shown() const {
-        return ghost_moments(workspace, past_view("chain", "chain", {{"swing", "swing"}}));
+        return ghost_moments(workspace, {.lab = "chain",
+                                         .what = "chain",
+                                         .probes = {},
+                                         .plot_help = "",
+                                         .ghosts_help = "",
+                                         .pose = nullptr});
     }
 };
 
@@ -135,6 +141,36 @@ TEST_F(Ghosts, AreHalfASecondApartHoweverFewMomentsAreKept) {
     }
     workspace.rewind.clear();
     EXPECT_TRUE(shown().empty());
+}
+
+TEST(Pasts, AreInTheStateOfEveryLabThatHasOne) {
+    const Labs labs;
+    const CommandTable table = make_command_table(labs);
+    std::size_t plotted = 0;
+    for (const auto& lab : labs.all()) {
+        const Past* const past = lab->past();
+        if (!past) continue;
+        Workspace workspace = make_blank_workspace(labs);
+        workspace.lab = lab->name();
+        const TestScene scene = lab->test_scenes().front();
+        for (const CommandCall& call : scene.commands)
+            table.run(workspace, call.name, to_json(call.arguments));
+        workspace.remember_moment();
+        ++workspace.moment;
+        const Json none{{"plot", nullptr}, {"ghosts", Json::array()}};
+        EXPECT_EQ(lab->state(workspace)["past"], none) << past->lab;
+        table.run(workspace, past->ghosts().command, {{"of", "past"}});
+        for (const Probe& each : past->probes) {
+            table.run(workspace, past->plot().command, {{"of", each.name}});
+            const Json told = lab->state(workspace)["past"];
+            EXPECT_EQ(told["plot"]["of"], each.name) << past->lab;
+            EXPECT_EQ(told["plot"]["name"], past->curve(workspace)->name) << past->lab;
+            EXPECT_EQ(told["ghosts"], Json::array({0})) << past->lab;
+            plotted += told["plot"]["values"].size() == 2u;
+        }
+        EXPECT_THROW(table.run(workspace, past->plot().command, {{"of", "colour"}}), Refused) << past->lab;
+    }
+    EXPECT_GE(plotted, 8u) << "of the moment and of the present";
 }
 
 }  // namespace

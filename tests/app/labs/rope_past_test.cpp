@@ -1,5 +1,5 @@
 // The plotted numbers of ropes at each remembered moment, against the panel and --state.
-#include "app/labs/rope/past.hpp"
+#include "app/labs/kit/past.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +28,9 @@ class RopePast : public RopeTest, protected test::RandomNumbers {
     }
     std::vector<PastValue> values(const char* what) {
         run("view.rope_plot", {{"of", what}});
-        return past_values(workspace, rope_past(), *rope_past_curve(workspace));
+        return past_values(workspace, rope_past(), *rope_past().curve(workspace));
     }
-    SharedPart shared() const { return workspace.document.parts().at(rope_lab); }
+    PoseLines pose() const { return rope_past().pose(workspace, now()); }
 };
 
 /// The maximum tension of links at a particle, or of all links.
@@ -85,19 +85,19 @@ TEST_F(RopePast, OfTheSelectionEqualsInspectorAndState) {
         EXPECT_FLOAT_EQ(values("error").back().value, 100.0f * told["length_error"].get<float>());
         EXPECT_FLOAT_EQ(values("energy").back().value, told["energy"].get<float>());
     }
-    EXPECT_EQ(rope_past_curve(workspace)->name, "energy of other");
+    EXPECT_EQ(rope_past().curve(workspace)->name, "energy of other");
     run("rope.select", {{"rope", "other"}, {"particle", 7}});
     values("speed");
-    EXPECT_TRUE(test::says(rope_past_curve(workspace)->name, "speed other particle 7"));
+    EXPECT_TRUE(test::says(rope_past().curve(workspace)->name, "speed other particle 7"));
     run("rope.select", {{"rope", "other"}, {"particles", {3, 4, 9}}});
-    EXPECT_TRUE(test::says(rope_past_curve(workspace)->name, "speed 3 particles other"));
+    EXPECT_TRUE(test::says(rope_past().curve(workspace)->name, "speed 3 particles other"));
     float fastest = 0.0f;
     for (const std::size_t each : {3u, 4u, 9u})
         fastest = std::max(fastest, glm::length(world().velocity(world().find("other")->first + each)));
     EXPECT_EQ(values("speed").back().value, fastest);
     run("rope.collider.add", {{"name", "ball"}, {"kind", "sphere"}, {"centre", {0, 0, 0}}, {"radius", 1}});
     run("rope.select", {{"collider", "ball"}});
-    EXPECT_EQ(rope_past_curve(workspace)->name, "highest speed") << "a collider is no rope: all of them";
+    EXPECT_EQ(rope_past().curve(workspace)->name, "highest speed") << "a collider is no rope: all of them";
 }
 
 TEST_F(RopePast, ARopeThatDidNotExistHasNoValue) {
@@ -118,7 +118,7 @@ TEST_F(RopePast, ARopeThatDidNotExistHasNoValue) {
     run("rope.clear");
     workspace.rewind.clear();
     EXPECT_TRUE(values("tension").empty());
-    EXPECT_TRUE(test::says(rope_past_curve(workspace)->missing, "no rope"));
+    EXPECT_TRUE(test::says(rope_past().curve(workspace)->missing, "no rope"));
 }
 
 TEST_F(RopePast, PosesSpanACutButNotAnotherScene) {
@@ -134,16 +134,16 @@ TEST_F(RopePast, PosesSpanACutButNotAnotherScene) {
 
 TEST_F(RopePast, APoseIsTheRopesLinks) {
     single_rope(8);
-    const PoseLines lines = rope_lines(shared());
+    const PoseLines lines = pose();
     ASSERT_EQ(lines.size(), 8u);
     for (std::size_t i = 0; i < 8; ++i) {
         EXPECT_EQ(lines[i].first, world().position(i));
         EXPECT_EQ(lines[i].second, world().position(i + 1));
     }
     run("rope.cut", {{"rope", "rope"}, {"segment", 3}});
-    EXPECT_EQ(rope_lines(shared()).size(), 7u);
+    EXPECT_EQ(pose().size(), 7u);
     run("rope.clear");
-    EXPECT_TRUE(rope_lines(shared()).empty());
+    EXPECT_TRUE(pose().empty());
 }
 
 TEST_F(RopePast, APoseOfManyLinksHasAFewHundredLinesFromEndToEnd) {
@@ -152,22 +152,22 @@ TEST_F(RopePast, APoseOfManyLinksHasAFewHundredLinesFromEndToEnd) {
     for (int i = 0; i < 3; ++i)
         run("rope.add", {{"from", {0, 2, i}}, {"to", {9, 2, i}}, {"segments", 5000 + 321 * i}});
     run("rope.add", {{"from", {0, 5, 0}}, {"to", {1, 5, 0}}, {"segments", 2}});
-    const PoseLines lines = rope_lines(shared());
+    const PoseLines lines = pose();
     EXPECT_GT(lines.size(), 250u);
     EXPECT_LE(lines.size(), 400u);
     float length = 0.0f;
     for (const auto& [from, to] : lines) length += glm::length(to - from);
     EXPECT_NEAR(length, 28.0f, 1e-3f) << "nothing is left out of ropes that are straight";
     run("rope.preset", {{"name", "hair"}});
-    EXPECT_LE(rope_lines(shared()).size(), max_ghost_lines);
-    EXPECT_GT(rope_lines(shared()).size(), 100u);
+    EXPECT_LE(pose().size(), max_ghost_lines);
+    EXPECT_GT(pose().size(), 100u);
 }
 
 TEST_F(RopePast, AClothHasFiveRowsAndColumnsWithoutTornParts) {
     run("rope.clear");
     add_cloth("cloth", {0, 2, 0}, {2, 0, 0}, {0, 0, 1}, 20, 12);
     float length = 0.0f;
-    for (const auto& [from, to] : rope_lines(shared())) length += glm::length(to - from);
+    for (const auto& [from, to] : pose()) length += glm::length(to - from);
     EXPECT_NEAR(length, 5.0f * 2.0f + 5.0f * 1.0f, 1e-3f);
 
     NamedWorld torn = world();
@@ -178,24 +178,9 @@ TEST_F(RopePast, AClothHasFiveRowsAndColumnsWithoutTornParts) {
     torn.put(std::move(state));
     workspace.document.edit<RopePart>(rope_lab).world = std::make_shared<const NamedWorld>(std::move(torn));
     float left = 0.0f;
-    for (const auto& [from, to] : rope_lines(shared())) left += glm::length(to - from);
+    for (const auto& [from, to] : pose()) left += glm::length(to - from);
     const float link = 2.0f / static_cast<float>(world().find("cloth")->row - 1);
     EXPECT_NEAR(left, length - link, 1e-3f);
-}
-
-TEST_F(RopePast, StateHasTheDisplayedPlot) {
-    single_rope();
-    remember();
-    EXPECT_EQ(state()["past"], (Json{{"plot", nullptr}, {"ghosts", Json::array()}}));
-    run("view.rope_plot", {{"of", "tension"}});
-    run("view.rope_ghosts", {{"of", "past"}});
-    const Json past = state()["past"];
-    EXPECT_EQ(past["plot"]["of"], "tension");
-    EXPECT_EQ(past["plot"]["name"], "strongest tension");
-    EXPECT_EQ(past["plot"]["unit"], "N");
-    EXPECT_EQ(past["plot"]["values"].size(), 2u);
-    EXPECT_EQ(past["ghosts"], Json::array({0}));
-    expect_refused("view.rope_plot", {{"of", "colour"}}, {"colour"});
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 #include "app/labs/humanoid/panel.hpp"
 #include "app/labs/humanoid/past/past.hpp"
 #include "app/labs/kit/arguments.hpp"
-#include "app/labs/kit/past_strip.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/widgets/icons.hpp"
 #include "app/widgets/timeline.hpp"
 #include "app/widgets/tooltip.hpp"
@@ -276,13 +276,9 @@ std::optional<StripLine> strip(const HumanoidPanel& panel) {
 
 }  // namespace
 
-float HumanoidLab::timeline_height(const Workspace& workspace) const {
-    return strip_height + past_plot_height(workspace.settings, humanoid_past());
-}
-
 void HumanoidLab::timeline(const Workspace& workspace, Emit& emit) const {
     const std::optional<StripLine> past = strip(humanoid_panel(workspace, emit));
-    past_plot(workspace, humanoid_past(), humanoid_past_curve(workspace), past, emit);
+    past_plot(workspace, humanoid_past(), past, emit);
     forget_past_poses(workspace);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 #include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
@@ -16,152 +17,76 @@ namespace {
 
 using humanoid::Bone;
 using humanoid::Placement;
-
-struct Turned {
-    Bone bone = Bone::Hips;
-    std::size_t node = 0;
-    double radians = 0.0;
-};
+using ik::InputMove;
 
 double turn_of(const std::vector<Placement>& was, const std::vector<Placement>& is, std::size_t node) {
     return turn_between(was[node].rotation(), is[node].rotation());
 }
 
 /// The bones that turned far enough, from the hips outwards.
-std::vector<Turned> turned_bones(const HumanoidMoment& was, const HumanoidMoment& is, Solvers& solvers) {
+std::vector<BodyFlip> turned_bones(const HumanoidMoment& was, const HumanoidMoment& is, Solvers& solvers) {
     const humanoid::Skeleton& skeleton = is.part.skeleton();
     const std::vector<bool> swings = swinging_nodes(is.part, solvers);
     const double enough = glm::radians(static_cast<double>(is.part.flips.degrees));
-    std::vector<Turned> turned;
+    std::vector<BodyFlip> turned;
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
         const auto node = is.part.node_of(static_cast<Bone>(i));
         if (!node || swings[*node]) continue;
         const double radians = turn_of(was.shown.placed, is.shown.placed, *node);
-        if (radians > enough) turned.push_back({static_cast<Bone>(i), *node, radians});
+        if (radians > enough) turned.push_back({static_cast<Bone>(i), *node, radians, {}});
     }
-    std::ranges::stable_sort(turned, [&](const Turned& a, const Turned& b) {
+    std::ranges::stable_sort(turned, [&](const BodyFlip& a, const BodyFlip& b) {
         return a.node != b.node && skeleton.is_below(b.node, a.node);
     });
     return turned;
 }
 
-/// What may have turned a bone between the two moments.
-class Drivers {
-  public:
-    Drivers(const HumanoidMoment& was, const HumanoidMoment& is) : was_(was), is_(is) {}
-
-    /// Whether any driver moved far enough to explain the bone's turn.
-    bool far(const Turned& bone) const {
-        const double enough = static_cast<double>(is_.part.flips.angle_share) * bone.radians;
-        return clip_turned(bone.node, enough) || hand_blended(bone.node) || looks_elsewhere(bone, enough) ||
-               target_moved(bone, enough) || object_moved(bone, enough);
-    }
-
-  private:
-    double share() const { return static_cast<double>(is_.part.flips.reach_share); }
-
-    /// Whether the clip turned the node or an ancestor.
-    bool clip_turned(std::size_t node, double enough) const {
-        const humanoid::Skeleton& skeleton = is_.part.skeleton();
-        for (auto at = static_cast<std::int32_t>(node); at >= 0;
-             at = skeleton[static_cast<std::size_t>(at)].parent)
-            if (turn_of(was_.clip(), is_.clip(), static_cast<std::size_t>(at)) >= std::max(enough, 1e-9))
-                return true;
-        return false;
-    }
-
-    /// Whether hand IK changed its weight, and the node belongs to that arm.
-    bool hand_blended(std::size_t node) const {
-        if (!was_.shown.hands || !is_.shown.hands) return false;
-        constexpr Bone arms[2][2]{{Bone::LeftShoulder, Bone::LeftUpperArm},
-                                  {Bone::RightShoulder, Bone::RightUpperArm}};
-        for (std::size_t hand = 0; hand < 2; ++hand) {
-            const double change =
-                std::abs(is_.shown.hands->hands[hand].weight - was_.shown.hands->hands[hand].weight);
-            if (change < std::max(share(), 1e-9)) continue;
-            for (const Bone top : arms[hand])
-                if (const auto at = is_.part.node_of(top); at && is_.part.skeleton().is_below(node, *at))
-                    return true;
-        }
-        return false;
-    }
-
-    bool looks_elsewhere(const Turned& bone, double enough) const {
-        if (!was_.shown.look || !is_.shown.look) return false;
-        if (std::abs(is_.shown.look->weight - was_.shown.look->weight) >= std::max(share(), 1e-9))
-            return true;
-        return moved(bone.node, was_.part.ik.look_at.options.target, is_.part.ik.look_at.options.target,
-                     enough);
-    }
-
-    bool target_moved(const Turned& bone, double enough) const {
-        return std::ranges::any_of(all_effectors, [&](humanoid::Effector each) {
-            const auto &from = was_.part.ik.target(each), &to = is_.part.ik.target(each);
-            if (!from || !to) return false;
-            if (from->rotation && to->rotation &&
-                turn_between(*from->rotation, *to->rotation) >= std::max(enough, 1e-9))
-                return true;
-            return moved(bone.node, from->position, to->position, enough);
-        });
-    }
-
-    /// Whether the held object was asked to be elsewhere, or turned otherwise.
-    bool object_moved(const Turned& bone, double enough) const {
-        const std::optional<HoldSetting>&was = was_.part.ik.hold, &is = is_.part.ik.hold;
-        if (!was || !is) return false;
-        const humanoid::ObjectPose from = was->asked(was_.shown.hips), to = is->asked(is_.shown.hips);
-        return turn_between(from.rotation, to.rotation) >= std::max(enough, 1e-9) ||
-               moved(bone.node, from.position, to.position, enough);
-    }
-
-    /// As seen from where the clip puts the node.
-    bool moved(std::size_t node, const glm::dvec3& from, const glm::dvec3& to, double enough) const {
-        const glm::dvec3 a = from - was_.clip()[node].position, b = to - is_.clip()[node].position;
-        const double distance = glm::distance(a, b),
-                     angle = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-        return distance > 0.0 && angle >= enough && distance >= share() * is_.part.loaded->height();
-    }
-
-    const HumanoidMoment &was_, &is_;
-};
-
-}  // namespace
-
-std::vector<BodyFlip> body_flips(const HumanoidMoment& was, const HumanoidMoment& is, Solvers& solvers) {
-    constexpr double together = 1e-3;  // radians
-    if (fading(was.part.ik_state.release) > 0.0 || fading(is.part.ik_state.release) > 0.0) return {};
-    const humanoid::Skeleton& skeleton = is.part.skeleton();
-    std::vector<Turned> flipped = turned_bones(was, is, solvers);
-    const Drivers drivers(was, is);
-    std::vector<std::size_t> driven;  // nodes, whose descendants move with them
-    std::erase_if(flipped, [&](const Turned& bone) {
-        const bool along =
-            std::ranges::any_of(driven, [&](std::size_t each) { return skeleton.is_below(bone.node, each); });
-        if (!along && !drivers.far(bone)) return false;
-        driven.push_back(bone.node);
-        return true;
+/// Whether the node belongs to that arm.
+bool in_arm(const HumanoidPart& part, std::size_t node, std::size_t hand) {
+    constexpr Bone arms[2][2]{{Bone::LeftShoulder, Bone::LeftUpperArm},
+                              {Bone::RightShoulder, Bone::RightUpperArm}};
+    return std::ranges::any_of(arms[hand], [&](Bone top) {
+        const auto at = part.node_of(top);
+        return at && part.skeleton().is_below(node, *at);
     });
-    struct Limb {
-        std::size_t top = 0;
-        Turned furthest;
+}
+
+/// What may have turned a bone between the two moments, as seen from where the clip puts it.
+std::vector<InputMove> inputs_of(const HumanoidMoment& was, const HumanoidMoment& is, std::size_t node) {
+    const IkSettings &before = was.part.ik, &after = is.part.ik;
+    const auto seen = [&](const glm::dvec3& from, const glm::dvec3& to) {
+        return ik::move_between(from - was.clip()[node].position, to - is.clip()[node].position);
     };
-    std::vector<Limb> limbs;
-    for (const Turned& bone : flipped) {
-        const auto limb = std::ranges::find_if(
-            limbs, [&](const Limb& each) { return skeleton.is_below(bone.node, each.top); });
-        if (limb == limbs.end())
-            limbs.push_back({bone.node, bone});
-        else if (bone.radians > limb->furthest.radians + together)
-            limb->furthest = bone;
+    InputMove clip, blend;
+    for (auto at = static_cast<std::int32_t>(node); at >= 0;
+         at = is.part.skeleton()[static_cast<std::size_t>(at)].parent)
+        clip.turn = std::max(clip.turn, turn_of(was.clip(), is.clip(), static_cast<std::size_t>(at)));
+    if (was.shown.hands && is.shown.hands)
+        for (std::size_t hand = 0; hand < 2; ++hand)
+            if (in_arm(is.part, node, hand))
+                blend.share = std::max(blend.share, std::abs(is.shown.hands->hands[hand].weight -
+                                                             was.shown.hands->hands[hand].weight));
+    std::vector<InputMove> all{clip, blend};
+    if (was.shown.look && is.shown.look) {
+        all.push_back(seen(before.look_at.options.target, after.look_at.options.target));
+        all.back().share = std::abs(is.shown.look->weight - was.shown.look->weight);
     }
-    std::vector<BodyFlip> flips;
-    for (const Limb& each : limbs) flips.push_back({each.furthest.bone, each.furthest.radians});
-    return flips;
+    for (const humanoid::Effector each : all_effectors) {
+        const auto &from = before.target(each), &to = after.target(each);
+        if (!from || !to) continue;
+        all.push_back(seen(from->position, to->position));
+        if (from->rotation && to->rotation) all.back().turn = turn_between(*from->rotation, *to->rotation);
+    }
+    if (before.hold && after.hold) {
+        const humanoid::ObjectPose from = before.hold->asked(was.shown.hips),
+                                   to = after.hold->asked(is.shown.hips);
+        all.push_back(seen(from.position, to.position));
+        all.back().turn = turn_between(from.rotation, to.rotation);
+    }
+    return all;
 }
 
 // Why a bone of a body flipped.
-
-namespace {
 
 using Cause = std::optional<std::string>;
 
@@ -219,8 +144,7 @@ Cause by_limit(const HumanoidMoment& was, const HumanoidMoment& is, const std::v
     return std::nullopt;
 }
 
-}  // namespace
-
+/// From the solve reports and poses, or "cause not known".
 std::string flip_cause(const HumanoidMoment& was, const HumanoidMoment& is, Bone bone) {
     for (const BodyChain& chain : body_chains(*is.part.map)) {
         const auto node = is.part.node_of(bone);
@@ -235,6 +159,42 @@ std::string flip_cause(const HumanoidMoment& was, const HumanoidMoment& is, Bone
         if (const Cause cause = by_limit(was, is, chain.bones)) return *cause;
     }
     return "cause not known";
+}
+
+}  // namespace
+
+std::vector<BodyFlip> body_flips(const HumanoidMoment& was, const HumanoidMoment& is, Solvers& solvers) {
+    constexpr double together = 1e-3;  // radians
+    if (fading(was.part.ik_state.release) > 0.0 || fading(is.part.ik_state.release) > 0.0) return {};
+    const humanoid::Skeleton& skeleton = is.part.skeleton();
+    std::vector<BodyFlip> flipped = turned_bones(was, is, solvers);
+    std::vector<std::size_t> driven;  // nodes, whose descendants move with them
+    std::erase_if(flipped, [&](const BodyFlip& bone) {
+        const bool along =
+            std::ranges::any_of(driven, [&](std::size_t each) { return skeleton.is_below(bone.node, each); });
+        const auto explains = [&](const InputMove& input) {
+            return ik::explains(input, bone.radians, is.part.loaded->height(), is.part.flips);
+        };
+        if (!along && std::ranges::none_of(inputs_of(was, is, bone.node), explains)) return false;
+        driven.push_back(bone.node);
+        return true;
+    });
+    // Of each limb, by its top node, the bone that turned furthest.
+    std::vector<std::pair<std::size_t, BodyFlip>> furthest;
+    for (const BodyFlip& bone : flipped) {
+        const auto limb = std::ranges::find_if(
+            furthest, [&](const auto& each) { return skeleton.is_below(bone.node, each.first); });
+        if (limb == furthest.end())
+            furthest.emplace_back(bone.node, bone);
+        else if (bone.radians > limb->second.radians + together)
+            limb->second = bone;
+    }
+    std::vector<BodyFlip> flips;
+    for (const auto& [top, bone] : furthest) {
+        flips.push_back(bone);
+        flips.back().cause = flip_cause(was, is, bone.bone);
+    }
+    return flips;
 }
 
 }  // namespace tendril::app

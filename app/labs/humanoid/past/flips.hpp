@@ -29,16 +29,15 @@ struct HumanoidMoment {
 /// moving far. Descendants of a driven bone move with it and do not flip.
 struct BodyFlip {
     humanoid::Bone bone = humanoid::Bone::Hips;
+    std::size_t node = 0;
     double radians = 0.0;  ///< global rotation
+    std::string cause{};   ///< from the solve reports and poses, or "cause not known"
 };
 
 /// The bone that turned furthest in each limb that jumped; among equal turns, the one nearest the hips. Both
 /// moments must be of one character under the same settings, except for target positions. Empty while a
 /// released target fades out. Ignores nodes that springs turn.
 std::vector<BodyFlip> body_flips(const HumanoidMoment& was, const HumanoidMoment& is, Solvers& solvers);
-
-/// Why the bone flipped, from the solve reports and poses, or "cause not known".
-std::string flip_cause(const HumanoidMoment& was, const HumanoidMoment& is, humanoid::Bone bone);
 
 // The displayed character at a moment of the last ten seconds. A part stores no pose: it takes a whole solve,
 // so it is computed once per moment.

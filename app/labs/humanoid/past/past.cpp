@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <limits>
 
 #include "app/document/units.hpp"
 #include "app/labs/humanoid/draw.hpp"
@@ -13,7 +12,7 @@
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "app/labs/humanoid/past/flips.hpp"
 #include "app/labs/kit/limit_shape.hpp"
-#include "app/labs/kit/past_view.hpp"
+#include "app/labs/kit/past.hpp"
 
 namespace tendril::app {
 namespace {
@@ -21,19 +20,11 @@ namespace {
 using humanoid::Bone;
 using humanoid::Effector;
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-enum class Number { Error, Swing, Twist };  // in the order of humanoid_past()
-
-const HumanoidPart& humanoid_of(const SharedPart& part) {
-    return dynamic_cast<const HumanoidPart&>(*part);
-}
-
 const PastPose& pose_of(const Workspace& workspace, const SharedPart& part) {
     HumanoidRuntime& runtime = humanoid_runtime(workspace);
     runtime.past.trim(workspace.rewind);
     return runtime.past.of(part, [&] {
-        const HumanoidPart& then = humanoid_of(part);
+        const HumanoidPart& then = part_as<HumanoidPart>(part);
         const bool present = part == workspace.document.parts().at(humanoid_lab);
         IkState state = then.ik_state;
         const ShownPose shown =
@@ -44,7 +35,7 @@ const PastPose& pose_of(const Workspace& workspace, const SharedPart& part) {
             pose.nodes.push_back({glm::vec3(each.position), glm::quat(each.rotation())});
         for (const Effector each : all_effectors) {
             const auto left = then.ik.target(each) ? shown.residual(each) : std::nullopt;
-            pose.left[static_cast<std::size_t>(each)] = static_cast<float>(left.value_or(nothing));
+            pose.left[static_cast<std::size_t>(each)] = static_cast<float>(left.value_or(no_value));
         }
         return pose;
     });
@@ -64,7 +55,7 @@ double error_of(const PastPose& pose, std::optional<Effector> effector) {
     float farthest = -1.0f;
     for (const float each : pose.left)
         if (each > farthest) farthest = each;  // false for NaN
-    return farthest >= 0.0f ? static_cast<double>(farthest) : nothing;
+    return farthest >= 0.0f ? static_cast<double>(farthest) : no_value;
 }
 
 /// The placements of two nodes, in a list of all nodes.
@@ -113,12 +104,11 @@ std::function<bool(const SharedPart&)> known_to(const Workspace& workspace) {
     return [&past = humanoid_runtime(workspace).past](const SharedPart& part) { return past.has(part); };
 }
 
+/// Of the selected effector, or of the one farthest from its target.
 PastCurve error_curve(const Workspace& workspace) {
     const HumanoidPart& now = humanoid_part(workspace);
     const auto effector = selected_effector(now);
-    const std::string name = effector ? title(*effector) + " to target" : "worst effector to target";
-    return {.name = name,
-            .of = name,
+    return {.name = effector ? title(*effector) + " to target" : "worst effector to target",
             .unit = "m",
             .lowest_range = 0.01f * static_cast<float>(now.loaded->height()),
             .missing = "No effector had a target: drag an orange ball.",
@@ -127,50 +117,31 @@ PastCurve error_curve(const Workspace& workspace) {
             .at_hand = known_to(workspace)};
 }
 
-}  // namespace
-
-PastView humanoid_past() {
-    return past_view(
-        humanoid_lab, "character",
-        {{"error", "effector to target"}, {"swing", "swing of a joint"}, {"twist", "twist of a joint"}},
-        [](const Part& then, const Part& now) {
-            return dynamic_cast<const HumanoidPart&>(then).loaded ==
-                   dynamic_cast<const HumanoidPart&>(now).loaded;
-        });
-}
-
-std::optional<PastCurve> humanoid_past_curve(const Workspace& workspace) {
-    const PastView view = humanoid_past();
-    if (!view.plots(workspace.settings)) return std::nullopt;
-    const auto what = static_cast<Number>(view.chosen(workspace.settings));
-    if (what == Number::Error) return error_curve(workspace);
+/// Of the active node, or of the left elbow.
+PastCurve turn_curve(const Workspace& workspace, const char* what, double JointTurn::*number) {
     const HumanoidPart& now = humanoid_part(workspace);
-    const std::string& node = now.skeleton()[plotted_node(now)].name;
+    const std::string node = now.skeleton()[plotted_node(now)].name;
     const std::string called = now.called(plotted_node(now));
-    const std::string name = (what == Number::Swing ? "swing of " : "twist of ") + called;
-    return PastCurve{.name = name,
-                     .of = name,
-                     .missing = "The character had no " + called + " then.",
-                     .value =
-                         [&workspace, what, node](const SharedPart& part) {
-                             const HumanoidPart& then = humanoid_of(part);
-                             const auto at = then.skeleton().find(node);
-                             if (!at) return nothing;
-                             const JointTurn turn = turn_of(then, humanoid_runtime(workspace).solvers,
-                                                            pose_of(workspace, part), *at);
-                             return what == Number::Swing ? turn.swing : turn.twist;
-                         },
-                     .at_hand = known_to(workspace)};
+    return {.name = what + called,
+            .missing = "The character had no " + called + " then.",
+            .value =
+                [&workspace, number, node](const SharedPart& part) {
+                    const auto& then = part_as<HumanoidPart>(part);
+                    const auto at = then.skeleton().find(node);
+                    if (!at) return no_value;
+                    return turn_of(then, humanoid_runtime(workspace).solvers, pose_of(workspace, part), *at).*
+                           number;
+                },
+            .at_hand = known_to(workspace)};
 }
 
-void forget_past_poses(const Workspace& workspace) {
-    const PastView view = humanoid_past();
-    const bool shown = view.plots(workspace.settings) || view.shows_ghosts(workspace.settings);
-    if (!shown && !workspace.ui.incident) humanoid_runtime(workspace).past.clear();
+bool same_character(const Part& then, const Part& now) {
+    return part_as<HumanoidPart>(then).loaded == part_as<HumanoidPart>(now).loaded;
 }
 
-PoseLines humanoid_lines(const Workspace& workspace, const SharedPart& part) {
-    const HumanoidPart& then = humanoid_of(part);
+/// A line for each bone of the body, as displayed at that moment.
+PoseLines lines_of(const Workspace& workspace, const SharedPart& part) {
+    const HumanoidPart& then = part_as<HumanoidPart>(part);
     const PastPose& pose = pose_of(workspace, part);
     const std::vector<bool> body = body_nodes(then),
                             springs = swinging_nodes(then, humanoid_runtime(workspace).solvers);
@@ -186,10 +157,7 @@ PoseLines humanoid_lines(const Workspace& workspace, const SharedPart& part) {
     return lines;
 }
 
-// Incidents that a user may ask about after a tick or a change: flipped bones, joints at their limits,
-// effectors that fell short of their targets.
-
-namespace {
+// Incidents: flipped bones, joints at their limits, effectors that fell short of their targets.
 
 /// The settings without the poses of targets and of the held object.
 IkSettings without_places(IkSettings settings) {
@@ -214,10 +182,10 @@ void add_flips(const HumanoidMoment& was, const HumanoidMoment& is, Solvers& sol
                std::vector<Incident>& incidents) {
     for (const BodyFlip& flip : body_flips(was, is, solvers))
         incidents.push_back({.kind = Incident::Kind::Flip,
-                             .joint = *is.part.node_of(flip.bone),
+                             .joint = flip.node,
                              .name = humanoid::name(flip.bone),
                              .degrees = static_cast<float>(glm::degrees(flip.radians)),
-                             .cause = flip_cause(was, is, flip.bone)});
+                             .cause = flip.cause});
 }
 
 void add_limits(const HumanoidMoment& was, const HumanoidMoment& is, std::vector<Incident>& incidents) {
@@ -298,16 +266,8 @@ void add_curve_jumps(const HumanoidPart& was, const HumanoidPart& is, Solvers& s
     }
 }
 
-}  // namespace
-
-bool HumanoidLab::same_joints(const Part& before, const Part& after) const {
-    return humanoid_past().same_joints(before, after);
-}
-
-std::vector<Incident> HumanoidLab::review(const Workspace& workspace, const Part& before,
-                                          const Part& after) const {
-    const auto& was_part = dynamic_cast<const HumanoidPart&>(before);
-    const auto& is_part = dynamic_cast<const HumanoidPart&>(after);
+std::vector<Incident> incidents_of(const Workspace& workspace, const Part& before, const Part& after) {
+    const auto &was_part = part_as<HumanoidPart>(before), &is_part = part_as<HumanoidPart>(after);
     std::vector<Incident> incidents;
     HumanoidRuntime& runtime = humanoid_runtime(workspace);
     add_curve_jumps(was_part, is_part, runtime.solvers, incidents);
@@ -331,6 +291,33 @@ std::vector<Incident> HumanoidLab::review(const Workspace& workspace, const Part
     return incidents;
 }
 
+}  // namespace
+
+const Past& humanoid_past() {
+    static const Past past{
+        .lab = humanoid_lab,
+        .what = "character",
+        .probes = {{"error", "effector to target", error_curve},
+                   {"swing", "swing of a joint",
+                    [](const Workspace& w) { return turn_curve(w, "swing of ", &JointTurn::swing); }},
+                   {"twist", "twist of a joint",
+                    [](const Workspace& w) { return turn_curve(w, "twist of ", &JointTurn::twist); }}},
+        .plot_help =
+            "What is plotted below the scene over the last ten seconds: how far the selected "
+            "effector is from its target, or how far the selected joint is turned from the T-pose",
+        .ghosts_help = "Shows where the body was, every half second",
+        .pose = lines_of,
+        .same_joints = same_character,
+        .incidents = incidents_of};
+    return past;
+}
+
+void forget_past_poses(const Workspace& workspace) {
+    const Past& past = humanoid_past();
+    const bool shown = past.plot().chosen(workspace.settings) > 0 || past.shows_ghosts(workspace.settings);
+    if (!shown && !workspace.ui.incident) humanoid_runtime(workspace).past.clear();
+}
+
 // The body before an incident, over the current one.
 
 void draw_humanoid_incident(const View& view, const ShownPose& shown, DrawList& list) {
@@ -340,7 +327,7 @@ void draw_humanoid_incident(const View& view, const ShownPose& shown, DrawList& 
     const std::shared_ptr<const Part> before = view.workspace.around(*incident).before;
     const auto was = std::dynamic_pointer_cast<const HumanoidPart>(before);
     if (!was || was->loaded != part.loaded || incident->joint >= part.skeleton().size()) return;
-    const PoseLines lines = humanoid_lines(view.workspace, before);
+    const PoseLines lines = lines_of(view.workspace, before);
     const glm::vec4 ghost = faded(view.palette, view.palette.ghost, 0.9f);
     if (lines.size() <= max_ghost_lines)
         for (const auto& [from, to] : lines)

@@ -28,7 +28,20 @@ struct FlipRule {
     bool operator==(const FlipRule&) const = default;
 };
 
-/// A chain in one frame: at least one joint, all finite. Metres, or one other unit throughout.
+/// How far something that may turn bones moved in a frame: a target, a control, a weight.
+struct InputMove {
+    double distance = 0.0;  ///< metres, relative to the bone's root
+    double angle = 0.0;     ///< radians, of its direction as seen from there, 0 to pi
+    double turn = 0.0;      ///< radians, about itself
+    double share = 0.0;     ///< of the range of a number
+};
+/// Of a point; `from` and `to` relative to the bone's root.
+InputMove move_between(const glm::dvec3& from, const glm::dvec3& to) noexcept;
+/// The rule itself, for chains, rigs and bodies: whether it moved far enough to explain that a bone turned by
+/// `radians`. `reach`: of the chain, or the size of the skeleton; metres.
+bool explains(const InputMove& move, double radians, double reach, const FlipRule& rule = {}) noexcept;
+
+/// A chain in one frame: at least one joint; all finite. Metres, or any other unit throughout.
 struct ReachPose {
     std::vector<glm::vec3> joints{};  ///< root first
     std::optional<glm::vec3> target{};

@@ -29,23 +29,17 @@ float off_line(glm::vec3 a, glm::vec3 b) noexcept {
     return std::min(angle, static_cast<float>(math::pi) - angle);
 }
 
-/// How far the target and the pole target moved, relative to the root.
-struct InputMove {
-    float distance = 0.0f;  ///< of target or pole target, whichever moved further
-    float angle = 0.0f;     ///< radians: of the target as seen from the root, or of the pole target about the
-                            ///< line from root to target, whichever turned further
-};
-
+/// Of the target or of the pole target about the line from root to target: the larger of each number.
 InputMove input_move(const ReachPose& before, const ReachPose& after) noexcept {
-    InputMove move;
-    if (!before.target || !after.target) return move;
+    if (!before.target || !after.target) return {};
     const glm::vec3 from = *before.target - before.root(), to = *after.target - after.root();
-    move = {math::distance(from, to), angle_between(from, to)};
+    InputMove move = move_between(glm::dvec3(from), glm::dvec3(to));
     if (!before.pole || !after.pole) return move;
     const glm::vec3 pole_from = *before.pole - before.root(), pole_to = *after.pole - after.root();
     if (pole_from == pole_to) return move;
-    move.distance = std::max(move.distance, math::distance(pole_from, pole_to));
-    move.angle = std::max(move.angle, angle_between(math::cross(to, pole_from), math::cross(to, pole_to)));
+    const float turned = angle_between(math::cross(to, pole_from), math::cross(to, pole_to));
+    move.distance = std::max<double>(move.distance, math::distance(pole_from, pole_to));
+    move.angle = std::max<double>(move.angle, turned);
     return move;
 }
 
@@ -87,14 +81,23 @@ BoneTurn furthest_turn(const ReachPose& before, const ReachPose& after) noexcept
     return furthest;
 }
 
+InputMove move_between(const glm::dvec3& from, const glm::dvec3& to) noexcept {
+    return {.distance = math::length(math::minus(to, from)),
+            .angle = std::atan2(math::length(math::cross(from, to)), math::dot(from, to))};
+}
+
+bool explains(const InputMove& move, double radians, double reach, const FlipRule& rule) noexcept {
+    constexpr double still = 1e-9;  // rounding of a rotation, or of a share
+    const double angle = rule.angle_share * radians, share = rule.reach_share;
+    return move.turn >= std::max(angle, still) || move.share >= std::max(share, still) ||
+           (move.distance > 0.0 && move.angle >= angle && move.distance >= share * reach);
+}
+
 std::optional<BoneTurn> find_flip(const ReachPose& before, const ReachPose& after,
                                   const FlipRule& rule) noexcept {
     const BoneTurn turn = furthest_turn(before, after);
     if (in_degrees(turn.radians) <= rule.degrees) return std::nullopt;
-    const InputMove move = input_move(before, after);
-    const bool explained =
-        move.angle >= rule.angle_share * turn.radians && move.distance >= rule.reach_share * reach_of(after);
-    if (explained) return std::nullopt;
+    if (explains(input_move(before, after), turn.radians, reach_of(after), rule)) return std::nullopt;
     return turn;
 }
 

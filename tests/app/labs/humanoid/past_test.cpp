@@ -34,7 +34,7 @@ class HumanoidPast : public HumanoidTest {
     }
     std::map<std::uint64_t, double> values() const {
         std::map<std::uint64_t, double> by_tick;
-        for (const PastValue& each : past_values(workspace, humanoid_past(), *humanoid_past_curve(workspace)))
+        for (const PastValue& each : past_values(workspace, humanoid_past(), *humanoid_past().curve(workspace)))
             by_tick[each.tick] = static_cast<double>(each.value);
         return by_tick;
     }
@@ -76,10 +76,10 @@ TEST_F(HumanoidPast, ErrorsAreTheSelectedEffectorsOrTheFarthest) {
         };
     };
     plot("error", "LeftHand");
-    EXPECT_EQ(humanoid_past_curve(workspace)->name, "left hand to target");
+    EXPECT_EQ(humanoid_past().curve(workspace)->name, "left hand to target");
     const auto hand = values();
     plot("error", "LeftFoot");
-    EXPECT_EQ(humanoid_past_curve(workspace)->name, "worst effector to target");
+    EXPECT_EQ(humanoid_past().curve(workspace)->name, "worst effector to target");
     const auto farthest = values();
     for (std::uint64_t tick = 0; tick < 30; tick += 4) {
         const double left = back_at(tick, residual(Effector::LeftHand)),
@@ -107,7 +107,7 @@ TEST_F(HumanoidPast, AMomentIsSolvedOnceWhateverIsPlotted) {
     plot("error", "LeftHand");
     static_cast<void>(values());
     for (const Rewind::Moment& moment : workspace.rewind.moments())
-        static_cast<void>(humanoid_lines(workspace, moment.part));
+        static_cast<void>(humanoid_past().pose(workspace, moment.part));
     EXPECT_EQ(parts(), before);
 }
 
@@ -115,7 +115,7 @@ TEST_F(HumanoidPast, AFewMomentsAreComputedAtATimeNewestFirst) {
     walk(100);
     plot("swing", "LeftLowerLeg");
     const auto some = [&] {
-        return past_values(workspace, humanoid_past(), *humanoid_past_curve(workspace), 16);
+        return past_values(workspace, humanoid_past(), *humanoid_past().curve(workspace), 16);
     };
     for (std::size_t frame = 1; frame <= 6; ++frame) {
         const auto known = some();
@@ -160,7 +160,7 @@ TEST_F(HumanoidPast, WithoutATargetThereIsNoError) {
     run("view.humanoid_plot", {{"of", "error"}});
     workspace.remember_moment();
     EXPECT_TRUE(values().empty());
-    EXPECT_TRUE(test::says(humanoid_past_curve(workspace)->missing, "effector target"));
+    EXPECT_TRUE(test::says(humanoid_past().curve(workspace)->missing, "effector target"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // An element's rotation at each remembered moment, against an independent computation.
-#include "app/labs/rig/past.hpp"
+#include "app/labs/kit/past.hpp"
 
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
@@ -48,7 +48,7 @@ class RigPast : public RigTest, protected test::RandomNumbers {
         run("rig.select", {{"element", element}});
     }
     std::vector<PastValue> values() const {
-        return past_values(workspace, rig_past(), *rig_past_curve(workspace));
+        return past_values(workspace, rig_past(), *rig_past().curve(workspace));
     }
 };
 
@@ -134,36 +134,22 @@ TEST_F(RigPast, AnElementIsFoundByNameInThePast) {
 
 TEST_F(RigPast, WithoutASelectionItIsTheFirstBoneBelowAnother) {
     run("view.rig_plot", {{"of", "swing"}});
-    EXPECT_TRUE(test::says(rig_past_curve(workspace)->missing, "rig elements"));
+    EXPECT_TRUE(test::says(rig_past().curve(workspace)->missing, "rig elements"));
     control("look", "position");
-    EXPECT_EQ(rig_past_curve(workspace)->name, "swing of look");
+    EXPECT_EQ(rig_past().curve(workspace)->name, "swing of look");
     element("arm");
-    EXPECT_EQ(rig_past_curve(workspace)->name, "swing of arm");
+    EXPECT_EQ(rig_past().curve(workspace)->name, "swing of arm");
     element("hand", "arm", transform(0, 1, 0));
-    EXPECT_EQ(rig_past_curve(workspace)->name, "swing of hand");
+    EXPECT_EQ(rig_past().curve(workspace)->name, "swing of hand");
     run("rig.select", {{"element", "look"}});
     EXPECT_TRUE(values().empty());
-    EXPECT_TRUE(test::says(rig_past_curve(workspace)->missing, "look swing twist bone"));
-}
-
-TEST_F(RigPast, StateHasTheDisplayedPlot) {
-    element("arm");
-    remember();
-    EXPECT_EQ(state()["past"], (Json{{"plot", nullptr}, {"ghosts", Json::array()}}));
-    plot("angle", "arm");
-    run("view.rig_ghosts", {{"of", "past"}});
-    const Json past = state()["past"];
-    EXPECT_EQ(past["plot"]["of"], "angle");
-    EXPECT_EQ(past["plot"]["name"], "angle of arm");
-    EXPECT_EQ(past["plot"]["unit"], "deg");
-    EXPECT_EQ(past["plot"]["values"].size(), 2u);
-    EXPECT_EQ(past["ghosts"], Json::array({0}));
+    EXPECT_TRUE(test::says(rig_past().curve(workspace)->missing, "look swing twist bone"));
 }
 
 TEST_F(RigPast, GhostsAreThePastBones) {
     element("arm", "", transform(1, 0, 0));
     element("hand", "arm", transform(0, 1, 0));
-    const PoseLines lines = rig_lines(workspace.document.parts().at(rig_lab));
+    const PoseLines lines = rig_past().pose(workspace, now());
     ASSERT_EQ(lines.size(), 2u);
     EXPECT_EQ(lines[0].first, glm::vec3(1, 0, 0));
     EXPECT_EQ(lines[0].second, glm::vec3(1, 1, 0));
