@@ -345,7 +345,7 @@ std::vector<RigFlip> rig_flips(const RigPart& part, const rig::State& was, const
     std::vector<RigFlip> flips = find_flips(part.rig, was, is, part.flips), told;
     if (flips.empty()) return told;
     flips.resize(std::min(flips.size(), 16 * most));
-    const std::vector<rig::Unit>& units = part.rig.definition().units;
+    const rig::Units& units = part.rig.definition().units;
     rig::Workspace scratch(part.rig);
     const Watched before(part, was, flips, scratch), after(part, is, flips, scratch);
     std::set<std::optional<std::size_t>> causing;
