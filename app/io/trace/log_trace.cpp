@@ -377,6 +377,7 @@ class LogTrace final : public RawTrace {
             return;
         }
         leave_out_attributes(group);
+        name_bones(group);
         std::array<RawFrame, 2> frames{};
         Sided side{2, {}};
         for (const LogVector& each : group) {
@@ -388,6 +389,16 @@ class LogTrace final : public RawTrace {
             frames[i].chain = two_sides_ ? i == 0 ? "left" : "right" : chains_.empty() ? column : chain;
             ready_.push_back(std::move(frames[i]));
         }
+    }
+    /// After the joints of the first frame, if all have names; the left ones of two sides.
+    void name_bones(const Line& group) {
+        if (std::exchange(named_, true) || !chains_.empty()) return;
+        for (const LogVector& each : group) {
+            Sided side{2, each.label};
+            if (!each.is_joint() || (two_sides_ && take_side(each, side) && side.side == 1)) continue;
+            header.bones.push_back(side.part);
+        }
+        if (std::ranges::count(header.bones, "") > 0) header.bones.clear();
     }
     void leave_out(const std::string& name, const char* why) {
         if (left_out_.insert(name).second)
@@ -469,7 +480,7 @@ class LogTrace final : public RawTrace {
     unsigned level_ = 0;      ///< gaps that part frames; 0: names do
     std::size_t joints_ = 0;  ///< of most of them
     std::size_t period_ = 0;  ///< joints of a frame, where nothing but the numbers parts them
-    bool leads_ = false, two_sides_ = false, any_ = false, ended_ = false;
+    bool leads_ = false, two_sides_ = false, any_ = false, ended_ = false, named_ = false;
     std::exception_ptr damage_{};
 };
 
