@@ -19,7 +19,6 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <span>
 #include <sstream>
@@ -140,7 +139,8 @@ class Schema {
             // Indices come again; numbers of frames do not.
             const bool indexed = count.all <= 8 || 2 * count.numbered.size() <= count.all;
             const auto& before = indexed ? count.numbered : count.plain;
-            const std::size_t most = std::ranges::max(before | std::views::values);
+            std::size_t most = 0;
+            for (const auto& [words, times] : before) most = std::max(most, times);
             const bool common = 10 * count.all >= 9 * all;
             if (common || 10 * most < 9 * count.all) kinds_[key] = common;
         }
