@@ -406,6 +406,7 @@ class LogTrace final : public RawTrace {
     }
     void add(RawFrame& frame, const LogVector& item) {
         if (!item.is_position && item.numbers.size() == 3) return;
+        if (item.missing && item.meaning != Meaning::Joint) return;
         if (frame.line == 0) frame.line = item.line, frame.time = item.stamp, frame.dt = item.dt;
         const auto& n = item.numbers;
         if (n.size() == 4) {

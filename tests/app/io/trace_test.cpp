@@ -475,6 +475,15 @@ TEST(Trace, BothSidesInOneTableAreTwoChains) {
               1u);
 }
 
+TEST(Trace, EmptyCellsAreNoTargetOrNaN) {
+    const std::string head = "time,a_x,a_y,a_z,b_x,b_y,b_z,target_x,target_y,target_z\n0,0,1,0,1,1,0,1,1,0\n";
+    const ReadTrace found =
+        read_trace(head + "0.1,0,1,0,1,1,0,,,\n0.2,0,1,0,,,,1,1,0\n0.3,0,1,0,1,1,0,1,1,0\n");
+    EXPECT_EQ(found.findings.chains[0].frames, 4u);
+    ASSERT_EQ(found.incidents().size(), 1u) << found.text();
+    EXPECT_TRUE(test::says(found.incidents()[0].text(found.bones), "Frame 2: NaN at joint 1 (b)"));
+}
+
 TEST(Trace, TheWholeChainScaledOrUnwrittenOrFrozenIsOneIncident) {
     for (unsigned seed = 0; seed < 20; ++seed)
         for (const double scale : {1.1, 0.9, 100.0, 0.01, 0.0, 1.0}) {  // 1: frozen
