@@ -134,8 +134,8 @@ std::size_t run_trace(const TraceOptions& options) {
 }
 
 const char* const trace_help =
-    R"(FILE is what an engine wrote, one frame a line: JSON Lines, CSV, or any log with
-positions in it, such as (X=1.0 Y=2.0 Z=3.0), new Vector3(1f, 2f, 3f) or (1, 2, 3).
+    R"(FILE is what an engine wrote: JSON Lines, CSV, .trc, or any log with positions in
+it, such as (X=1.0 Y=2.0 Z=3.0), new Vector3(1f, 2f, 3f), (1, 2, 3) or rows of numbers.
 With - it is read from standard input. Only the joints are required:
   {"tendril": "trace", "up": "z", "handed": "left", "unit": "cm", "fps": 60,
    "bones": ["upper_arm", "lower_arm"], "limits": [null, [0, 150]]}

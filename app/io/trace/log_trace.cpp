@@ -19,7 +19,6 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <span>
 #include <sstream>
@@ -140,7 +139,8 @@ class Schema {
             // Indices come again; numbers of frames do not.
             const bool indexed = count.all <= 8 || 2 * count.numbered.size() <= count.all;
             const auto& before = indexed ? count.numbered : count.plain;
-            const std::size_t most = std::ranges::max(before | std::views::values);
+            std::size_t most = 0;
+            for (const auto& [words, times] : before) most = std::max(most, times);
             const bool common = 10 * count.all >= 9 * all;
             if (common || 10 * most < 9 * count.all) kinds_[key] = common;
         }
@@ -377,6 +377,7 @@ class LogTrace final : public RawTrace {
             return;
         }
         leave_out_attributes(group);
+        name_bones(group);
         std::array<RawFrame, 2> frames{};
         Sided side{2, {}};
         for (const LogVector& each : group) {
@@ -389,12 +390,23 @@ class LogTrace final : public RawTrace {
             ready_.push_back(std::move(frames[i]));
         }
     }
+    /// After the joints of the first frame, if all have names; the left ones of two sides.
+    void name_bones(const Line& group) {
+        if (std::exchange(named_, true) || !chains_.empty()) return;
+        for (const LogVector& each : group) {
+            Sided side{2, each.label};
+            if (!each.is_joint() || (two_sides_ && take_side(each, side) && side.side == 1)) continue;
+            header.bones.push_back(side.part);
+        }
+        if (std::ranges::count(header.bones, "") > 0) header.bones.clear();
+    }
     void leave_out(const std::string& name, const char* why) {
         if (left_out_.insert(name).second)
             notes.push_back("the vectors of \"" + printable(name) + "\" were left out: " + why);
     }
     void add(RawFrame& frame, const LogVector& item) {
         if (!item.is_position && item.numbers.size() == 3) return;
+        if (item.missing && item.meaning != Meaning::Joint) return;
         if (frame.line == 0) frame.line = item.line, frame.time = item.stamp, frame.dt = item.dt;
         const auto& n = item.numbers;
         if (n.size() == 4) {
@@ -469,7 +481,7 @@ class LogTrace final : public RawTrace {
     unsigned level_ = 0;      ///< gaps that part frames; 0: names do
     std::size_t joints_ = 0;  ///< of most of them
     std::size_t period_ = 0;  ///< joints of a frame, where nothing but the numbers parts them
-    bool leads_ = false, two_sides_ = false, any_ = false, ended_ = false;
+    bool leads_ = false, two_sides_ = false, any_ = false, ended_ = false, named_ = false;
     std::exception_ptr damage_{};
 };
 

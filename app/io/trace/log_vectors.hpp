@@ -48,6 +48,7 @@ struct LogVector {
     std::vector<double> numbers{};
     bool first = false;       ///< of its line
     bool matrix = false;      ///< of which this is the position
+    bool missing = false;     ///< its cells are empty: NaN, or no target
     unsigned gap = SameLine;  ///< and how many brackets were closed in it
     std::size_t line = 0;
     std::optional<double> stamp{}, dt{};  ///< seconds

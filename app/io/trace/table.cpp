@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -244,7 +245,7 @@ class TableRows final : public VectorLines {
             }
         }
         for (std::size_t i = 0; i < axes.size(); ++i) {
-            if ((axes[i] & 7u) != 7u || axes[i] > 15u)
+            if ((axes[i] & 7u) != 7u)
                 fail_line(lines_.taken(),
                           "expected columns x, y and z of every joint: j0x, j0y, j0z, j1x and so on");
             points_[i].numbers.resize(axes[i] == 15u ? 4 : 3);
@@ -267,7 +268,7 @@ class TableRows final : public VectorLines {
         found = points_;
         std::optional<double> time, dt;
         std::string chain;
-        std::vector<std::size_t> empty(points_.size());
+        std::vector<bool> empty(points_.size());
         for (std::size_t i = 0; i < row.size(); ++i) {
             const Column& column = columns_[i];
             if (column.role == Role::Ignored) continue;
@@ -277,7 +278,7 @@ class TableRows final : public VectorLines {
             else if (column.role == Role::Time)
                 time = number ? std::optional(*number * column.unit) : std::nullopt;  // it may be a date
             else if (row[i].empty() && column.role == Role::Point)
-                ++empty[column.point];
+                empty[column.point] = true;
             else if (!number)
                 fail_line(lines_.taken(), "column " + std::to_string(i + 1) +
                                               ": expected a number, found \"" +
@@ -287,15 +288,14 @@ class TableRows final : public VectorLines {
             else
                 found[column.point].numbers[column.axis] = *number;
         }
-        for (std::size_t i = points_.size(); i-- > 0;) {
+        for (std::size_t i = 0; i < points_.size(); ++i) {
             found[i].line = lines_.taken();
             found[i].stamp = time;
             found[i].dt = dt;
             found[i].chain = chain;
-            if (empty[i] == found[i].numbers.size())
-                found.erase(found.begin() + static_cast<std::ptrdiff_t>(i));
-            else if (empty[i] > 0)
-                fail_line(lines_.taken(), "expected a number, found an empty cell");
+            found[i].missing = empty[i];
+            if (found[i].missing)
+                std::ranges::fill(found[i].numbers, std::numeric_limits<double>::quiet_NaN());
         }
         if (!found.empty()) found[0].first = true, found[0].gap = NextLine;
         return true;

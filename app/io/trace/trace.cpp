@@ -17,59 +17,55 @@ namespace {
 
 constexpr std::size_t frames_to_guess_from = 64;
 
-std::string place_of(const ik::ChainIncident& incident, const std::vector<std::string>& bones) {
-    if (incident.joint == ik::no_joint) return {};
-    std::string place = "joint " + std::to_string(incident.joint);
-    if (incident.joint < bones.size()) place += " (" + printable(bones[incident.joint]) + ")";
-    return place + ", ";
-}
-
 std::string frames_of(const ik::ChainIncident& incident) {
-    std::string text = "frame " + std::to_string(incident.frame);
-    if (incident.last_frame > incident.frame) text += " to " + std::to_string(incident.last_frame);
-    return text;
+    if (incident.last_frame <= incident.frame) return "Frame " + std::to_string(incident.frame);
+    return "Frames " + std::to_string(incident.frame) + " to " + std::to_string(incident.last_frame);
 }
 
-std::string amount_of(const ik::ChainIncident& incident) {
-    const auto text = [](const char* format, auto... values) {
+/// "flip at joint 1 (elbow), 128 degrees"
+std::string what_of(const ik::ChainIncident& incident, const std::vector<std::string>& bones) {
+    std::string joint = "joint " + std::to_string(incident.joint);
+    if (incident.joint < bones.size()) joint += " (" + printable(bones[incident.joint]) + ')';
+    const auto text = [&](const char* format, auto... values) {
         char all[80];
         std::snprintf(all, sizeof all, format, values...);
         return std::string(all);
     };
-    const double amount = incident.amount;
+    const double amount = incident.amount, mm = 1000.0 * std::abs(amount);
     switch (incident.kind) {
         case ik::IncidentKind::Flip:
-            return text("turned %.0f degrees", amount);
-        case ik::IncidentKind::Limit:
-            return text("%.1f degrees beyond its limit", amount);
-        case ik::IncidentKind::Length:
-            return text("%.3g mm %s", 1000.0 * std::abs(amount), amount < 0.0 ? "shorter" : "longer");
-        case ik::IncidentKind::Jitter:
-            return text("%.3g mm to either side, %.3g Hz", 1000.0 * amount, incident.hertz);
-        case ik::IncidentKind::Lag:
-            return text("%.0f frame%s late", amount, amount == 1.0 ? "" : "s");
-        case ik::IncidentKind::Missed:
-            return text("%.3g mm short", 1000.0 * amount);
-        case ik::IncidentKind::Misplaced:
-            return text("%.3g mm off", 1000.0 * amount);
-        case ik::IncidentKind::TargetJump:
-        case ik::IncidentKind::PoleJump:
-            return text("%.3g m", amount);
-        case ik::IncidentKind::Repeated:
-            if (incident.hertz > 0.0)
-                return text("%.0f frames repeat, new ones come at %.3g Hz", amount, incident.hertz);
-            return amount == 1.0 ? "drawn twice" : text("drawn %.0f times", amount + 1.0);
+            return "flip at " + joint + text(", %.0f degrees", amount);
         case ik::IncidentKind::Nan:
+            return "NaN at " + joint;
+        case ik::IncidentKind::Limit:
+            return joint + text(" is %.1f degrees beyond its limit", amount);
+        case ik::IncidentKind::Length:
+            return (incident.joint == ik::no_joint ? "all bones are" : "the bone to " + joint + " is") +
+                   text(" %.3g mm %s", mm, amount < 0.0 ? "shorter" : "longer");
+        case ik::IncidentKind::Jitter:
+            return joint + text(" jitters by %.3g mm at %.3g Hz", mm, incident.hertz);
+        case ik::IncidentKind::Lag:
+            return joint + text(" is %.0f frame%s late", amount, amount == 1.0 ? "" : "s");
+        case ik::IncidentKind::Missed:
+            return joint + text(" is %.3g mm short of the target", mm);
+        case ik::IncidentKind::Misplaced:
+            return (incident.joint == ik::no_joint ? "the chain" : joint) + text(" is %.3g mm off", mm);
+        case ik::IncidentKind::TargetJump:
+            return text("the target jumps by %.3g m", amount);
+        case ik::IncidentKind::PoleJump:
+            return text("the pole target jumps by %.3g m", amount);
+        case ik::IncidentKind::Repeated:
             break;
     }
-    return "not a number";
+    if (incident.hertz > 0.0)
+        return text("%.0f frames repeat, new ones come at %.3g Hz", amount, incident.hertz);
+    return amount == 1.0 ? "drawn twice" : text("drawn %.0f times", amount + 1.0);
 }
 
 }  // namespace
 
 std::string TracedIncident::text(const std::vector<std::string>& bones) const {
-    return frames_of(*this) + ": " + ik::name(kind) + ", " + place_of(*this, bones) + amount_of(*this) +
-           ": " + cause;
+    return frames_of(*this) + ": " + what_of(*this, bones) + ": " + cause;
 }
 
 TraceReader::TraceReader(std::istream& in, const ConventionChoice& choice, std::optional<double> fps)

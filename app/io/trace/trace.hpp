@@ -83,7 +83,7 @@ class TraceReader {
 struct TracedIncident : ik::ChainIncident {
     PreventedFlip prevented{};  ///< of a flip
 
-    /// "frame 60: flip, joint 1 (elbow), turned 128 degrees: the target's line passed the pole". Bones as in
+    /// "Frame 60: flip at joint 1 (elbow), 128 degrees: the target's line passed the pole". Bones as in
     /// the header; may be empty.
     std::string text(const std::vector<std::string>& bones) const;
 };

@@ -42,7 +42,7 @@ TEST_F(TraceProgram, PrintsTheFrameJointAndCauseOfAFlip) {
     const Outcome outcome = run_here({"trace", file("arm.jsonl", Plant::FlipAtPole, Format::JsonLines)});
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
     EXPECT_TRUE(says(outcome.out, "arm.jsonl: 120 frames, 60 fps, Z up, left-handed, centimetres (given)"));
-    EXPECT_TRUE(says(outcome.out, "frame 60: flip, joint 1, turned"));
+    EXPECT_TRUE(says(outcome.out, "Frame 60: flip at joint 1, degrees"));
     EXPECT_TRUE(says(outcome.out, "Two-bone flips on the same input"));
     EXPECT_TRUE(says(outcome.out, "prevented by: pole target"));
     EXPECT_TRUE(says(outcome.out, "1 incident"));
@@ -162,7 +162,7 @@ TEST_F(TraceProgram, AChainInBlenderIsExplained) {
     const Outcome outcome = run_here({"trace", trace});
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
     EXPECT_TRUE(says(outcome.out, "60 frames, 60 fps, Z up, right-handed, metres (given)"));
-    EXPECT_TRUE(says(outcome.out, "frame 30: flip, joint 1 (lower_arm), turned"));
+    EXPECT_TRUE(says(outcome.out, "Frame 30: flip at joint 1 (lower_arm), degrees"));
     EXPECT_TRUE(says(outcome.out, "the target's line passed the pole"));
     EXPECT_TRUE(says(outcome.out, "1 incident"));
 }

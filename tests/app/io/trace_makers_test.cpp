@@ -67,7 +67,8 @@ std::string in_thousands(double x) {
     return test::made::number_text(x / 1e3, 7);
 }
 
-constexpr const char *xyz = "%.4f,%.4f,%.4f", *list = "[%.4f, %.4f, %.4f]", *round = "(%.4f, %.4f, %.4f)";
+constexpr const char *xyz = "%.4f,%.4f,%.4f", *square = "[%.4f, %.4f, %.4f]",
+                     *brackets = "(%.4f, %.4f, %.4f)";
 const Maker makers[]{
     {"NumPy", "[%.4f %.4f %.4f]", "\n ", "[", "]\n"},
     {"NumPy repr", "[ %.4f,  %.4f,  %.4f]", ",\n       ", "arm = array([", "])\n"},
@@ -80,7 +81,7 @@ const Maker makers[]{
      "0.0\n"
      "    w: 1.0\n",
      "", "poses:\n", "---\n", "", 3, "ROS"},
-    {"Maya", list, ", ", "[", "]\n"},
+    {"Maya", square, ", ", "[", "]\n"},
     {"Maya selection", "@ = %.4f %.4f %.4f //\n", "", "", ""},
     {"Blender matrices",
      "joint ~: <Matrix 4x4 (0.6, -0.8, 0.0, %.4f)\n            (0.8, 0.6, 0.0, %.4f)\n"
@@ -102,7 +103,7 @@ const Maker makers[]{
     {"poses of seven", "@ [%.4f, %.4f, %.4f, 0.0338, 0.0846, 0.1184, 0.9888]"},
     {"Universal Robots", "p[%.4f, %.4f, %.4f, 0.1, 0.2, 0.3]"},
     {"hand.R", "@.R(%.4f, %.4f, %.4f)\n", "", "", ""},
-    {"with matrices", round, " ", "", " [[0.6 -0.8 0.0] [0.8 0.6 0.0] [0.0 0.0 1.0]]\n"},
+    {"with matrices", brackets, " ", "", " [[0.6 -0.8 0.0] [0.8 0.6 0.0] [0.0 0.0 1.0]]\n"},
     {"Protobuf text", "@ {\n  x: %.4f\n  y: %.4f\n  z: %.4f\n}\n", "", "", ""},
     {"Rust dbg!", "[src/arm.rs:12:5] joint = Vec3 {\n    x: %.4f,\n    y: %.4f,\n    z: %.4f,\n}\n", "", "",
      "[src/arm.rs:15:5] solved = true\n"},
@@ -119,8 +120,8 @@ const Maker makers[]{
     {"arrays of float32",
      "[array(%.4f, dtype=float32), array(%.4f, dtype=float32), array(%.4f, dtype=float32)]", ", ",
      "frame # [", "]\n"},
-    {"lines that end with CR", round, " ", "", "\r"},
-    {"blank lines", round, "\n", "", "\n\n"},
+    {"lines that end with CR", brackets, " ", "", "\r"},
+    {"blank lines", brackets, "\n", "", "\n\n"},
     {"CSV |", "%.4f|%.4f|%.4f", "|", "", "\n", "ax|ay|az|bx|by|bz|cx|cy|cz\n"},
     {"CSV .x", "%.4f,%.4f,%.4f,0,0,0,1", ",", "", "\n",
      "a.pos.x,a.pos.y,a.pos.z,a.rot.x,a.rot.y,a.rot.z,a.rot.w,b.pos.x,b.pos.y,b.pos.z,b.rot.x,b.rot.y,b.rot."
@@ -172,26 +173,19 @@ struct VectorFormat {
     const char* engine = "";  ///< expected in the text of the conventions
 };
 const VectorFormat vector_formats[]{
-    {"(%.4f, %.4f, %.4f)"},
+    {"(%.4f, %.4f, %.4f)", 5},
     {"Vec3 { x: %.4f, y: %.4f, z: %.4f }"},
-    {"Vec3(%.4f, %.4f, %.4f)"},
-    {"vec3(%f, %f, %f)"},
     {"SIMD3<Float>(%.4f, %.4f, %.4f)"},
-    {"{%.4f %.4f %.4f}"},
+    {"{%.4f %.4f %.4f}", 7},
     {"{X:%.4f Y:%.4f Z:%.4f}", 2, "XNA"},
     {"{X: %.4f Y: %.4f Z: %.4f}", 1, "Babylon"},
     {"X:%.4f Y:%.4f Z:%.4f"},
     {"Vector3 { X = %.4f, Y = %.4f, Z = %.4f }"},
-    {"Float3(x=%.4f, y=%.4f, z=%.4f)"},
-    {"Vector3 {x: %.4f, y: %.4f, z: %.4f}"},
     {"Vector3 { isVector3: true, x: %.4f, y: %.4f, z: %.4f }"},
-    {"Object { x: %.4f, y: %.4f, z: %.4f }"},
     {"Point3 { coords: [[%.4f, %.4f, %.4f]] }"},
-    {"[[%.4f, %.4f, %.4f]]"},
-    {"{'x': %.4f, 'y': %.4f, 'z': %.4f}"},
+    {"[[%.4f, %.4f, %.4f]]", 6},
     {"{\"x\":%.4f,\"y\":%.4f,\"z\":%.4f}"},
     {"{.x=%.4f, .y=%.4f, .z=%.4f}"},
-    {"LPoint3f(%.4f, %.4f, %.4f)"},
     {"X=%.3f Y=%.3f Z=%.3f", 0, "Unreal"},
     {"V(X=%.2f, Y=%.2f, Z=%.2f)", 0, "Unreal"},
     {"<%.4f, %.4f, %.4f>"},
@@ -199,19 +193,14 @@ const VectorFormat vector_formats[]{
     {"<Vector (%.4f, %.4f, %.4f)>", 3, "Blender"},
     {"new Vector3(%.4ff, %.4ff, %.4ff)", 1, "Unity"},
     {"Vector3(%.4f, %.4f, %.4f)", 2, "Godot"},
-    {"QVector3D(%.4f, %.4f, %.4f)"},
     {"vmath.vector3(%.4f, %.4f, %.4f)"},
-    {"XMFLOAT3(%.4f, %.4f, %.4f)"},
     {"float4(%.4f, %.4f, %.4f, 1.0)"},
     {"Vector3<f32>(%.4f, %.4f, %.4f)"},
     {"Vector3 [%.4f, %.4f, %.4f]"},
-    {"Float32[%.4f, %.4f, %.4f]"},
     {"SVector{3, Float64}(%.4f, %.4f, %.4f)"},
     {"Float32Array(3) [ %.4f, %.4f, %.4f ]"},
-    {"c(%.4f, %.4f, %.4f)"},
     {"( %.4E  %.4E  %.4E)"},
     {"tensor([%.4f, %.4f, %.4f], device='cuda:0')"},
-    {"Array([%.4f, %.4f, %.4f], dtype=float32)"},
     {"(np.float64(%.4f), np.float64(%.4f), np.float64(%.4f))"},
     {"(%.4f m, %.4f m, %.4f m)"},
     {"%.4f, %.4f, %.4f |"},
@@ -282,6 +271,9 @@ TEST(Trace, WordsBeforeEveryVectorAreItsType) {
                     EXPECT_LT(glm::distance(*frame.target, glm::vec3(expected.target)), rounded);
                     EXPECT_LT(glm::distance(frame.joints[1], glm::vec3(expected.joints[1])), rounded);
                     EXPECT_EQ(frame.pole.has_value(), layout < 2);
+                    if (frame.pole && expected.pole) {
+                        EXPECT_LT(glm::distance(*frame.pole, glm::vec3(*expected.pole)), rounded);
+                    }
                 }
             }
 }

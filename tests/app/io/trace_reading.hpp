@@ -11,7 +11,7 @@ namespace tendril::app {
 struct ReadTrace {
     TraceFindings findings;
     Conventions conventions;
-    std::vector<std::string> notes;
+    std::vector<std::string> notes, bones;
     const std::vector<TracedIncident>& incidents() const { return findings.chains.front().incidents; }
     std::string text() const {
         std::string all;
@@ -26,8 +26,7 @@ struct ReadTrace {
 inline ReadTrace read_trace(const std::string& text, const ConventionChoice& choice = {}) {
     std::istringstream in(text);
     TraceReader reader(in, choice);
-    ReadTrace result{find_incidents(reader), reader.conventions(), {}};
-    result.notes = reader.notes();
+    ReadTrace result{find_incidents(reader), reader.conventions(), reader.notes(), reader.header().bones};
     return result;
 }
 

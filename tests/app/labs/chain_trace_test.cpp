@@ -143,7 +143,7 @@ TEST_F(ChainTrace, AFrameThatIsNotFiniteHoldsThePoseBefore) {
     run("chain.trace", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
     const auto& all = workspace.rewind.incidents();
     EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Incident& each) {
-        return each.tick + 1 == made.frame && each.cause.find("nan") != std::string::npos;
+        return each.tick + 1 == made.frame && each.cause.find("NaN at joint") != std::string::npos;
     }));
     const glm::vec3 held(made.frames[made.frame - 1].joints[1]);
     EXPECT_LT(glm::distance(part().chain.position(1), held), 1e-4f);
