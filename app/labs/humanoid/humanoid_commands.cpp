@@ -1,6 +1,5 @@
 #include "app/labs/humanoid/humanoid_commands.hpp"
 
-#include "app/labs/humanoid/code.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/kit/arguments.hpp"
 
@@ -71,14 +70,6 @@ void select(HumanoidPart& part, const Arguments& given) {
         part.selection.take(nodes, add);
 }
 
-void set_view(HumanoidPart& part, const Arguments& given) {
-    set_fields(given, part.view);
-}
-
-void set_flips(HumanoidPart& part, const Arguments& given) {
-    set_flip_rule(part.flips, given);
-}
-
 }  // namespace
 
 void add_humanoid_look_commands(CommandTable& table) {
@@ -91,10 +82,12 @@ void add_humanoid_look_commands(CommandTable& table) {
         "Selects nodes of the character", select, Effect::Look));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.view", "Set how the character is shown", field_arguments<HumanoidView>(),
-        "Sets how the character is shown; anything omitted stays as it is", set_view, Effect::Look));
+        "Sets how the character is shown; anything omitted stays as it is",
+        [](HumanoidPart& part, const Arguments& given) { set_fields(given, part.view); }, Effect::Look));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.flips", "Set the rule for bone flips", flip_arguments(humanoid_flip_words),
-        "Sets what counts as a flip of a bone, from the next tick on", set_flips));
+        "Sets what counts as a flip of a bone, from the next tick on",
+        [](HumanoidPart& part, const Arguments& given) { set_flip_rule(part.flips, given); }));
     table.add(
         {.name = "humanoid.copy",
          .title = "Copy the character as C++",

@@ -135,18 +135,6 @@ TEST_F(HumanoidCurves, RefuseWhatTheyCannotBend) {
     EXPECT_GT(curve().at("bones_past_end"), 0);
 }
 
-TEST_F(HumanoidCurves, AreRefusedFromAFileThatWasBroken) {
-    run("humanoid.curve", {{"first", "tail_1"}});
-    run("humanoid.curve", {{"first", "antenna_l_1"}});
-    expect_scene_refused("/curves/0/first", "wing", "no node \"wing\"");
-    expect_scene_refused("/curves/0/last", "Hips", "curves.0.last");
-    expect_scene_refused("/curves/1", saved()["curves"][0], "curves.1.first");
-    expect_scene_refused("/curves/1/points", Json::array(), "curves.1.points");
-    expect_scene_refused("/curves/1/points/0/1", "up", "curves.1.points.0");
-    expect_scene_refused("/curves/1/jumped", 99, "curves.1.jumped");
-    EXPECT_EQ(opened_with("/curves/0/jumped", 2), "");
-}
-
 /// A hairpin whose bend comes nearer than the first bone is long: its joint goes on to the way back.
 TEST_F(HumanoidCurves, SayThatAJointJumped) {
     run("humanoid.curve", {{"first", "tail_1"}});
