@@ -43,61 +43,41 @@ auto converted(const std::string& where, const Call& call) {
     }
 }
 
-/// A lab in a scene file.
-struct SavedLab {
-    const Json& json;
-    const Json* stand_in;  ///< what the lab was edited to while `json` could not be read; null: nothing
-};
-
-/// The lab's part. Where that cannot be read, what stands in for it or a blank one, which keep the JSON.
-std::shared_ptr<const Part> load_part(const Part& blank, const SavedLab& saved, int version,
-                                      const std::string& lab, const SceneLoading& loading,
+/// The lab's part of the JSON at `where`. If that cannot be read, `stand_in`, what the lab was edited to
+/// since, or a blank part; that keeps the JSON, and `unread_why` says why.
+std::shared_ptr<const Part> load_part(const Part& blank, const Json& json, const Json* stand_in,
+                                      const std::string& where, int version, const SceneLoading& loading,
                                       std::vector<LabNote>& notes) {
-    const auto upgraded = [&](const Json& json, const std::string& where) {
-        Json now = json;
-        if (version != scene_version) converted(where, [&] { blank.upgrade(now, version); });
-        return now;
-    };
-    const auto read = [&](Json json, const std::string& where) {
-        find_moved_files(json, loading.folder);
-        std::shared_ptr<const Part> part = converted(where, [&] { return blank.load(json, where); });
-        if (const std::string changed = changed_files_text(json); !changed.empty())
-            notes.push_back({lab, changed + '.', true});
-        return part;
-    };
-    const std::string where = "labs." + lab;
-    Json kept = upgraded(saved.json, where);
+    const std::string lab = where.substr(where.find('.') + 1);
+    auto saved = std::make_shared<Json>(json);
+    if (version != scene_version) converted(where, [&] { blank.upgrade(*saved, version); });
+    Json found = *saved;
+    find_moved_files(found, loading.folder);
+    const std::string changed = changed_files_text(found);
     std::string why;
     try {
-        std::shared_ptr<const Part> part = read(kept, where);
-        if (saved.stand_in != nullptr)
+        std::shared_ptr<const Part> part = converted(where, [&] { return blank.load(found, where); });
+        if (!changed.empty()) notes.push_back({lab, changed + '.', true});
+        if (stand_in != nullptr)
             notes.push_back({lab,
                              "The " + lab +
-                                 " lab is as it was saved with all its files; changes made while they were "
+                                 " lab is as it was saved with all its files. Changes made while they were "
                                  "missing are left out.",
                              true});
         return part;
     } catch (const OutsideFileError& error) {
         why = error.what();
     } catch (const std::runtime_error& error) {
-        Json found = kept;
-        find_moved_files(found, loading.folder);
-        const std::string changed = changed_files_text(found);
         if (loading.whole && changed.empty()) throw;
         why = changed.empty() ? error.what() : changed + " (" + error.what() + ')';
     }
-    std::shared_ptr<Part> part = blank.clone();
-    if (saved.stand_in != nullptr) {
-        const std::string instead = "stand_ins." + lab;
-        try {
-            part = read(upgraded(*saved.stand_in, instead), instead)->clone();
-            part->replaces_unread = true;
-        } catch (const OutsideFileError& error) {
-            why += "; " + std::string(error.what());
-        }
-    }
+    std::shared_ptr<const Part> instead;
+    if (stand_in != nullptr)
+        instead = load_part(blank, *stand_in, nullptr, "stand_ins." + lab, version, loading, notes);
+    const std::shared_ptr<Part> part = (instead ? *instead : blank).clone();
+    part->unread = std::move(saved);
     part->unread_why = why;
-    part->unread = std::make_shared<const Json>(std::move(kept));
+    part->replaces_unread = stand_in != nullptr;
     notes.push_back({lab, stand_in_note(lab, *part)});
     return part;
 }
@@ -109,9 +89,9 @@ Document load_document(const Document& blank, const Json& labs, const Json* stan
         const auto known = blank.parts().find(name);
         if (known == blank.parts().end())
             throw std::runtime_error("labs: there is no lab " + json_summary(Json(name)));
-        const SavedLab saved{json,
-                             stand_ins != nullptr ? optional_member(*stand_ins, name.c_str()) : nullptr};
-        document.set(name, load_part(*known->second, saved, version, name, loading, notes));
+        const Json* stand_in = stand_ins != nullptr ? optional_member(*stand_ins, name.c_str()) : nullptr;
+        document.set(name,
+                     load_part(*known->second, json, stand_in, "labs." + name, version, loading, notes));
     }
     return document;
 }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "app/document/json_complete.hpp"
+#include "app/fields/file_fields.hpp"
 #include "app/fields/input_json.hpp"
 
 namespace tendril::app {
@@ -304,6 +305,17 @@ Json save_struct(const Scope& scope, const void* fresh) {
     return json;
 }
 
+/// Those that the place may have: old files have an angle under its plain name.
+std::vector<std::string> known_names(const JsonPlace& place, std::span<const Field> table,
+                                     const void* object) {
+    std::vector<std::string> names = field_names(table, object);
+    for (const Field& field : table) {
+        if (is_angle(field) && place.has(field.name)) names.emplace_back(field.name);
+        if (field.in_line) names.insert(names.end(), field.names.begin(), field.names.end());
+    }
+    return names;
+}
+
 /// What a missing field means.
 enum class Missing { Refused, Default, Kept };
 
@@ -318,18 +330,17 @@ class Loader {
         for (const Field& field : scope.table)
             if (field.type == FieldType::Kind) kind(place, field, const_cast<void*>(scope.object));
         if (only_known_) {
-            std::vector<std::string> known = field_names(scope.table, scope.object);
+            std::vector<std::string> known = known_names(place, scope.table, scope.object);
             known.insert(known.end(), besides.begin(), besides.end());
             check_members(place, known);
         }
         beside(place, scope);
     }
-
-  private:
     void kind(const JsonPlace& place, const Field& field, void* object) const {
         if ((missing_ != Missing::Kept && !field.optional) || place.has(field.name))
             field.set(object, {choice_at(place[field.name], field)});
     }
+    /// Without a check of the members' names.
     void beside(const JsonPlace& place, const Scope& scope) const {
         void* const object = const_cast<void*>(scope.object);
         for (const Field& field : scope.table) {
@@ -362,6 +373,8 @@ class Loader {
                 value(member, field, object, scope);
         }
     }
+
+  private:
     void value(const JsonPlace& place, const Field& field, void* at, const Scope& scope) const {
         const bool nothing = place.json().is_null();
         if (field.type == FieldType::Text)
@@ -403,6 +416,8 @@ class Loader {
         void* const object = const_cast<void*>(scope.object);
         if (!field.names.empty() && !place.json().is_object())
             place.fail("expected an object, found " + json_summary(place.json()));
+        if (only_known_ && !field.names.empty() && !field.in_line)
+            check_members(place, {field.names.begin(), field.names.end()});
         for (std::size_t i = 0; i < field.names.size(); ++i) {
             const char* const name = field.names[i];
             if (place.has(name) || !(field.optional || (field.in_line && missing_ != Missing::Refused)))
@@ -459,6 +474,19 @@ void load_known_fields(const JsonPlace& place, FieldsIn in, bool edit,
                        std::span<const std::string_view> besides) {
     Loader(edit ? Missing::Kept : Missing::Default, true)
         .fields(place, {nullptr, in.table, in.object}, besides);
+}
+
+void load_file_fields(const JsonPlace& place, const std::vector<FileFields>& structs,
+                      std::initializer_list<const char*> beside) {
+    std::vector<std::string> names;
+    for (const FileFields& each : structs)
+        for (std::string& name : known_names(place, each.in.table, each.in.object))
+            names.push_back(std::move(name));
+    names.insert(names.end(), beside.begin(), beside.end());
+    check_members(place, names);
+    for (const FileFields& each : structs)
+        Loader(each.all ? Missing::Refused : Missing::Default, true, each.newer)
+            .beside(place, {nullptr, each.in.table, each.in.object});
 }
 
 std::vector<std::string> field_names(std::span<const Field> table, const void* object) {

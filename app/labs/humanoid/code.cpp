@@ -1,4 +1,5 @@
-#include "app/labs/humanoid/code.hpp"
+#include "app/labs/humanoid/humanoid_commands.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -10,13 +10,10 @@
 #include <glm/gtc/quaternion.hpp>
 #include <tendril/humanoid/soles.hpp>
 
-#include "app/labs/humanoid/attachments/attachment_panel.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/ik/ground.hpp"
-#include "app/labs/humanoid/limits/limit_panel.hpp"
-#include "app/labs/humanoid/past/past.hpp"
 
 namespace tendril::app {
 namespace {

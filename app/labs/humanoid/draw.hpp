@@ -1,7 +1,8 @@
-// Classifies nodes for drawing: body, helpers, springs; and pick ids.
+// Drawing of the Humanoid lab: nodes by their kind, pick ids, attachments, joint limits, the past.
 #pragma once
 
 #include "app/labs/humanoid/ik/shown_pose.hpp"
+#include "app/labs/kit/past.hpp"
 #include "app/labs/lab.hpp"
 #include "app/view/palette.hpp"
 
@@ -33,5 +34,25 @@ glm::dvec3 end_of(const HumanoidPart& part, std::size_t node);
 
 /// Of the centre of mass: a warning where it is outside the feet, unless a foot is stepping to catch it.
 glm::vec3 balance_colour(const HumanoidPart& part, const ShownPose& shown, const Palette& colours);
+
+// Attachments, joint limits and the past.
+
+/// The colour of attached ropes and cloth.
+glm::vec3 attached_colour(const Palette& palette);
+void draw_attachments(const View& view, DrawList& list, const Attachments& attachments);
+
+glm::vec3 adult_colour(const Palette& palette);
+glm::vec3 clips_colour(const Palette& palette);
+
+/// As set in the view: the active joint in full; other selected joints as outlines with their current
+/// rotation; all other joints as outlines. Joints held back by their limits show only those.
+void draw_limits(const View& view, DrawList& list, const HumanoidPart& part, const ShownPose& shown);
+/// Legend of the limit colours; empty if none are drawn.
+std::vector<LegendRow> limits_legend(const Workspace& workspace);
+
+/// Frees the cached poses once nothing of the past is on display.
+void forget_past_poses(const Workspace& workspace);
+/// Draws the body before the incident on display, over the current one.
+void draw_humanoid_incident(const View& view, const ShownPose& shown, DrawList& list);
 
 }  // namespace tendril::app

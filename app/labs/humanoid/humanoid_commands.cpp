@@ -1,6 +1,5 @@
 #include "app/labs/humanoid/humanoid_commands.hpp"
 
-#include "app/labs/humanoid/code.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/kit/arguments.hpp"
 
@@ -71,10 +70,6 @@ void select(HumanoidPart& part, const Arguments& given) {
         part.selection.take(nodes, add);
 }
 
-void set_view(HumanoidPart& part, const Arguments& given) {
-    set_fields(given, part.view);
-}
-
 }  // namespace
 
 void add_humanoid_look_commands(CommandTable& table) {
@@ -87,7 +82,8 @@ void add_humanoid_look_commands(CommandTable& table) {
         "Selects nodes of the character", select, Effect::Look));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.view", "Set how the character is shown", field_arguments<HumanoidView>(),
-        "Sets how the character is shown; anything omitted stays as it is", set_view, Effect::Look));
+        "Sets how the character is shown; anything omitted stays as it is",
+        [](HumanoidPart& part, const Arguments& given) { set_fields(given, part.view); }, Effect::Look));
     table.add(flip_command<HumanoidPart>(humanoid_lab, "humanoid.flips"));
     table.add(
         {.name = "humanoid.copy",

@@ -7,6 +7,9 @@
 
 namespace tendril::app {
 
+struct ShownPose;
+class Solvers;
+
 /// The node of that name; throws std::invalid_argument if there is none.
 std::size_t node_named(const HumanoidPart& part, const std::string& name);
 /// The nodes given by "node" or "nodes", in the given order. Throws Refused, or as node_named() does.
@@ -28,10 +31,32 @@ Command keeping(Command command);
 /// "sign_flip"
 std::optional<humanoid::Fault> fault_named(const std::string& name);
 
+/// What a change may read while the part is being changed.
+struct IkNow {
+    const ShownPose& shown;
+    Solvers& solvers;
+};
+
+/// Changes the part, then solves so that IK remembers the resulting state.
+Command ik_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
+                   void (*change)(const IkNow&, HumanoidPart&, const Arguments&));
+
+/// A Point with double precision.
+glm::dvec3 exact_point(const Json& json);
+/// Throws std::invalid_argument with the reason if there is no body.
+void require_body(const IkNow& now, const HumanoidPart& part);
+
+/// A whole program: skeleton, bone map and this moment's pose as data, then feet, targets, gaze, hands and
+/// springs as they are set, in the lab's order. Prints where every node is, the same numbers as the lab's.
+/// Left out: ropes on the character, the fading after a target is released, and the triangles of a ground
+/// mesh.
+std::string humanoid_code(const HumanoidPart& part, Solvers& solvers);
+
 void add_character_commands(CommandTable& table);
 void add_clip_commands(CommandTable& table);
 void add_motion_commands(CommandTable& table);
 void add_ik_commands(CommandTable& table);
+void add_hand_commands(CommandTable& table);
 void add_humanoid_look_commands(CommandTable& table);
 void add_attachment_commands(CommandTable& table);
 void add_spring_commands(CommandTable& table);

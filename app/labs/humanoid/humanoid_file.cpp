@@ -5,9 +5,10 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
+#include "app/fields/file_fields.hpp"
 #include "app/io/character/read.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
-#include "app/labs/humanoid/clip/motions.hpp"
+#include "app/labs/humanoid/clip/playback.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 
@@ -41,7 +42,7 @@ Corrections read_corrections(const JsonPlace& place, const humanoid::Skeleton& s
 /// Settings that are missing are those of `reading`.
 Reading read_reading(const JsonPlace& place, Reading reading, const humanoid::Skeleton& skeleton) {
     if (const auto scale = place.optional("scale")) reading.scale = scale->real(min_unit, max_unit);
-    if (const auto space = place.optional("space")) load_fields(*space, reading.space);
+    if (const auto space = place.optional("space")) load_file_fields(*space, {{reading.space}});
     if (const auto bones = place.optional("bones")) reading.bones = read_corrections(*bones, skeleton);
     if (const auto limits = place.optional("limits")) reading.limits = limits->choice(limits_from);
     return reading;
@@ -91,12 +92,18 @@ Playback read_playback(const JsonPlace& place, const LoadedCharacter& character)
     Playback playback;
     if (place.has("name")) playback.clip = read_clip(place, character);
     if (const auto playing = place.optional("playing")) playback.playing = playing->flag();
-    load_fields(place, playback);
-    if (!playback.clip) return playback;
-    const double duration = character.clips()[*playback.clip].duration;
-    if (const auto time = place.optional("time")) playback.time = time->real(0.0, duration);
-    if (const auto rounds = place.optional("rounds"))
-        playback.rounds = static_cast<std::int64_t>(rounds->count(max_rounds));
+    load_file_fields(
+        place, {{playback}},
+        {"name", "index", "playing", "time", "rounds", "carry_targets"});  // the last: older files
+    if (const auto time = place.optional("time")) {
+        const double at =
+            playback.clip ? time->real(0.0, character.clips()[*playback.clip].duration) : time->real();
+        if (playback.clip) playback.time = at;
+    }
+    if (const auto rounds = place.optional("rounds")) {
+        const auto count = static_cast<std::int64_t>(rounds->count(max_rounds));
+        if (playback.clip) playback.rounds = count;
+    }
     return playback;
 }
 
@@ -158,6 +165,9 @@ void read_edits(const JsonPlace& place, HumanoidPart& part) {
         const auto edits = place.optional(key);
         if (!edits) continue;
         edits->for_each(key, max_edits, [&](const JsonPlace& each) {
+            load_file_fields(each, {},
+                             {"file", "path", "crc32", "scale", "space", "bones", "limits", "clip", "kind",
+                              "node", "frame"});
             take(each, part, read_reading(each, now, part.skeleton()));
             read_edit(each, part);
         });
@@ -190,6 +200,10 @@ Json HumanoidPart::save() const {
 
 std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& where) const {
     const JsonPlace place(json, where);
+    load_file_fields(
+        place, {},
+        {"file", "path", "crc32", "scale", "space", "bones", "edits", "clip", "t_pose", "ik", "springs",
+         "curves", "attachments", "quiet_ticks", "flips", "selected", "view", "motions", "cures"});
     auto part = std::make_shared<HumanoidPart>(
         read_outside_file(place, [](const std::string& path, const std::string& file) {
             return load_character(path, nullptr, file);
@@ -205,10 +219,10 @@ std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& wh
     if (const auto hanging = place.optional("attachments"))
         part->attachments = read_attachments(*hanging, part->skeleton());
     if (const auto ticks = place.optional("quiet_ticks")) part->quiet_ticks = ticks->integer(0, 1'000'000);
-    if (const auto rule = place.optional("flips")) load_fields(*rule, part->flips);
+    if (const auto rule = place.optional("flips")) load_file_fields(*rule, {{part->flips}});
     if (const auto selected = place.optional("selected"))
         part->selection = load_selection(*selected, part->skeleton());
-    if (const auto shown = place.optional("view")) load_fields(*shown, part->view);
+    if (const auto shown = place.optional("view")) load_file_fields(*shown, {{part->view}});
     return part;
 }
 

@@ -4,10 +4,9 @@
 
 #include "app/io/character/map_file.hpp"
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
-#include "app/labs/humanoid/code.hpp"
+#include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
-#include "app/labs/humanoid/past/past.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"
 
 namespace tendril::app {

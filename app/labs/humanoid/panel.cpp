@@ -7,11 +7,11 @@
 
 #include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
+#include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/solvers.hpp"
-#include "app/labs/humanoid/past/past.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/flips.hpp"
 #include "app/labs/kit/panel_rows.hpp"

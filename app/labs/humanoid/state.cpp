@@ -3,7 +3,8 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/io/solver_json.hpp"
-#include "app/labs/humanoid/clip/motions.hpp"
+#include "app/labs/humanoid/clip/playback.hpp"
+#include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
@@ -11,17 +12,11 @@
 #include "app/labs/humanoid/ik/solvers.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "app/labs/humanoid/panel.hpp"
-#include "app/labs/humanoid/past/past.hpp"
 
 namespace tendril::app {
 namespace {
 
 using humanoid::Bone;
-
-Json rotation_of(const humanoid::Placement& placement) {
-    const glm::dquat rotation = placement.rotation();
-    return Json::array({rotation.x, rotation.y, rotation.z, rotation.w});
-}
 
 Json nodes_state(const HumanoidPart& part, const ShownPose& shown) {
     Json list = Json::array();
@@ -32,7 +27,7 @@ Json nodes_state(const HumanoidPart& part, const ShownPose& shown) {
             {{"name", skeleton[i].name},
              {"parent", parent < 0 ? Json(nullptr) : Json(skeleton[static_cast<std::size_t>(parent)].name)},
              {"position", dpoint(shown.placed[i].position)},
-             {"rotation", rotation_of(shown.placed[i])}});
+             {"rotation", dquaternion(shown.placed[i].rotation())}});
     }
     return list;
 }
@@ -43,10 +38,11 @@ Json bones_state(const HumanoidPart& part, const ShownPose& shown) {
         const humanoid::BoneMatch& match = part.map->bones[i];
         if (match.node < 0) continue;
         const auto node = static_cast<std::size_t>(match.node);
-        bones[humanoid::name(static_cast<Bone>(i))] = {{"node", part.skeleton()[node].name},
-                                                       {"confidence", match.confidence},
-                                                       {"position", dpoint(shown.placed[node].position)},
-                                                       {"rotation", rotation_of(shown.placed[node])}};
+        bones[humanoid::name(static_cast<Bone>(i))] = {
+            {"node", part.skeleton()[node].name},
+            {"confidence", match.confidence},
+            {"position", dpoint(shown.placed[node].position)},
+            {"rotation", dquaternion(shown.placed[node].rotation())}};
     }
     return bones;
 }
@@ -138,10 +134,6 @@ Json targets_state(const HumanoidPart& part, const ShownPose& shown) {
     return targets;
 }
 
-float in_degrees(float radians) {
-    return glm::degrees(radians);
-}
-
 Json range_json(const ik::Limit* limit) {
     return limit == nullptr ? Json(nullptr) : limit_json(*limit);
 }
@@ -153,10 +145,10 @@ Json joint_state(const HumanoidPart& part, Solvers& solvers, const ShownPose& sh
     if (!joint) return nullptr;
     return {{"bone", humanoid::name(*selected.shown)},
             {"limits", limits_from.name(joint->from)},
-            {"up_deg", in_degrees(joint->angles.up)},
-            {"left_deg", in_degrees(joint->angles.left)},
-            {"twist_deg", in_degrees(joint->angles.twist)},
-            {"excess_deg", in_degrees(joint->excess)},
+            {"up_deg", glm::degrees(joint->angles.up)},
+            {"left_deg", glm::degrees(joint->angles.left)},
+            {"twist_deg", glm::degrees(joint->angles.twist)},
+            {"excess_deg", glm::degrees(joint->excess)},
             {"held", joint->held},
             {"adult", range_json(joint->adult)},
             {"clips", range_json(joint->clips)}};
@@ -284,12 +276,6 @@ Json clip_state(const HumanoidPart& part) {
     return json;
 }
 
-Json clips_state(const HumanoidPart& part) {
-    Json names = Json::array();
-    for (const humanoid::Clip& clip : part.loaded->clips()) names.push_back(clip.name);
-    return names;
-}
-
 }  // namespace
 
 Json HumanoidLab::state(const Workspace& workspace) const {
@@ -301,7 +287,7 @@ Json HumanoidLab::state(const Workspace& workspace) const {
                 {"body", body_state(workspace, shown)},
                 {"chains", chains_state(part, shown)},
                 {"clip", clip_state(part)},
-                {"clips", clips_state(part)},
+                {"clips", names(part.loaded->clips(), [](const humanoid::Clip& clip) { return clip.name; })},
                 {"feet", feet_state(part, humanoid_runtime(workspace).solvers, shown)},
                 {"foot_ik", part.ik.foot_ik.on},
                 {"hand_ik", hands_state(part, shown)},

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
-#include "app/labs/humanoid/code.hpp"
+#include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/solvers.hpp"
 #include "app/labs/kit/code_text.hpp"

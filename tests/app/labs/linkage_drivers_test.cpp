@@ -35,6 +35,12 @@ TEST_F(LinkageDrivers, AHingesMotorTakesDegrees) {
     run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", 3600}});
     EXPECT_EQ(opened_with("", saved()), "");
     expect_scene_refused("/drivers/0/rate", 63.0, "labs.linkage.drivers.0.rate");
+    expect_scene_refused("/result/report/freedom", -1, "labs.linkage.result.report.freedom");
+    const Json before = state().at("gruebler");
+    Json scene = save_scene(workspace);
+    scene["labs"]["linkage"]["result"]["freedom"]["counted"] = -7;
+    load_scene(workspace, scene);
+    EXPECT_EQ(state().at("gruebler"), before) << "it is counted again";
 }
 
 TEST_F(LinkageDrivers, ADriverEndsADrag) {

@@ -5,10 +5,11 @@
 #include <tendril/magnitude.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/fields/file_fields.hpp"
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
-#include "app/labs/humanoid/ik/ik_commands.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/world_file.hpp"
 
@@ -25,6 +26,43 @@ std::span<const tendril::Field> tendril::fields<tendril::app::AttachmentShape>()
         field<&AttachmentShape::strands>("strands", {1, max_attached_strands}),
         field<&AttachmentShape::offset>("offset", anywhere, "m"),
         field<&AttachmentShape::direction>("direction", anywhere)};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::NodeFrame>() noexcept {
+    using app::NodeFrame;
+    static constexpr Field rows[] = {
+        field<&NodeFrame::position>("position", {-max_magnitude, max_magnitude}, "m"),
+        field<&NodeFrame::turn>("turn", unit_length)};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::AttachmentPin>() noexcept {
+    using app::AttachmentPin;
+    static constexpr Field rows[] = {
+        field<&AttachmentPin::particle>("particle", {0, app::max_attached_particles}),
+        field<&AttachmentPin::offset>("offset", {-max_magnitude, max_magnitude}, "m")};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Attachment>() noexcept {
+    using app::Attachment;
+    static constexpr auto kinds = app::attachment_kinds.name_array();
+    static constexpr Field rows[] = {field<&Attachment::name>("name"),
+                                     field<&Attachment::node>("node"),
+                                     field<&Attachment::kind>("kind", kinds),
+                                     nested<&Attachment::shape>("shape"),
+                                     list<&Attachment::pins>("pins").up_to(app::max_attached_particles),
+                                     nested<&Attachment::frame>("frame")};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Attachments>() noexcept {
+    static constexpr Field rows[] = {list<&app::Attachments::list>("list").up_to(app::max_attachments)};
     return rows;
 }
 
@@ -84,10 +122,6 @@ void attach(Workspace& workspace, const Arguments& given) {
     });
 }
 
-void detach(HumanoidPart& part, const Arguments& given) {
-    remove_attachment(part.attachments, given.text("name"));
-}
-
 }  // namespace
 
 void add_attachment_commands(CommandTable& table) {
@@ -102,68 +136,49 @@ void add_attachment_commands(CommandTable& table) {
                        "character's height",
                .effect = Effect::Edit,
                .apply = attach});
-    table.add(part_command<HumanoidPart>(humanoid_lab, "humanoid.detach", "Detach a rope, hair or cloth",
-                                         {offering(text_argument("name", true, "of the attachment"),
-                                                   [](const Workspace& w) {
-                                                       return names(
-                                                           humanoid_part(w).attachments.list,
-                                                           [](const Attachment& each) { return each.name; });
-                                                   })},
-                                         "Takes a rope, hair or a cloth off the character", detach));
+    table.add(part_command<HumanoidPart>(
+        humanoid_lab, "humanoid.detach", "Detach a rope, hair or cloth",
+        {offering(text_argument("name", true, "of the attachment"),
+                  [](const Workspace& w) {
+                      return names(humanoid_part(w).attachments.list,
+                                   [](const Attachment& each) { return each.name; });
+                  })},
+        "Takes a rope, hair or a cloth off the character", [](HumanoidPart& part, const Arguments& given) {
+            remove_attachment(part.attachments, given.text("name"));
+        }));
 }
 
 // Attachments in a scene file: their shapes, where they are attached, and the rope world.
 
 namespace {
 
-AttachmentShape read_shape(const JsonPlace& place) {
-    AttachmentShape shape;
-    load_fields(place, shape);
-    const double length = glm::dot(shape.direction, shape.direction);
-    if (!(length > 0.99 && length < 1.01)) place["direction"].fail("expected a direction of length 1");
-    return shape;
-}
-
-Json pins_json(const std::vector<AttachmentPin>& pins) {
-    Json list = Json::array();
-    for (const AttachmentPin& pin : pins)
-        list.push_back({{"particle", pin.particle}, {"offset", dpoint(pin.offset)}});
-    return list;
-}
-
-Attachment read_attachment(const JsonPlace& place, const humanoid::Skeleton& skeleton,
-                           const NamedWorld& world) {
-    Attachment attachment{.name = place["name"].text(), .node = place["node"].text()};
+/// What names and counts say beyond each number's range.
+void check_attachment(const JsonPlace& place, const Attachment& attachment,
+                      const humanoid::Skeleton& skeleton, const NamedWorld& world) {
     if (!skeleton.find(attachment.node))
         place["node"].fail("the character has no node \"" + attachment.node + "\"");
-    attachment.kind = place["kind"].choice(attachment_kinds);
     const rope::Body* const body = world.find(attachment.name);
     if (body == nullptr) place["name"].fail("its world has no body \"" + attachment.name + "\"");
-    attachment.shape = read_shape(place["shape"]);
-    place["pins"].for_each("pins", body->count, [&](const JsonPlace& each) {
-        attachment.pins.push_back({each["particle"].index(body->count - 1), each["offset"].dpoint()});
-    });
-    attachment.frame = {place["frame"]["position"].dpoint(), place["frame"]["turn"].drotation()};
-    return attachment;
+    const double length = glm::dot(attachment.shape.direction, attachment.shape.direction);
+    if (!(length > 0.99 && length < 1.01))
+        place["shape"]["direction"].fail("expected a direction of length 1");
+    if (attachment.pins.size() > body->count) place["pins"].fail("its body has fewer particles");
+    for (std::size_t i = 0; i < attachment.pins.size(); ++i)
+        if (attachment.pins[i].particle >= body->count)
+            place["pins"].element(i)["particle"].fail("its body has no such particle");
 }
 
 }  // namespace
 
 Json attachments_json(const Attachments& attachments) {
-    Json list = Json::array();
-    for (const Attachment& each : attachments.list)
-        list.push_back(
-            {{"name", each.name},
-             {"node", each.node},
-             {"kind", attachment_kinds.name(each.kind)},
-             {"shape", save_fields(each.shape)},
-             {"pins", pins_json(each.pins)},
-             {"frame", {{"position", dpoint(each.frame.position)}, {"turn", dquaternion(each.frame.turn)}}}});
-    return Json{{"list", std::move(list)}, {"world", save_world(*attachments.world)}};
+    Json json = save_fields(attachments);
+    json["world"] = save_world(*attachments.world);
+    return json;
 }
 
 Attachments read_attachments(const JsonPlace& place, const humanoid::Skeleton& skeleton) {
     Attachments attachments;
+    load_file_fields(place, {{attachments, true}}, {"world"});
     const JsonPlace world_place = place["world"];
     try {
         NamedWorld world = load_world(world_place);
@@ -178,12 +193,8 @@ Attachments read_attachments(const JsonPlace& place, const humanoid::Skeleton& s
     if (world.size() > max_attached_particles)
         world_place.fail("expected at most " + std::to_string(max_attached_particles) + " particles, found " +
                          std::to_string(world.size()));
-    place["list"].for_each("attachments", max_attachments, [&](const JsonPlace& each) {
-        Attachment attachment = read_attachment(each, skeleton, world);
-        if (attachments.find(attachment.name) != nullptr)
-            each["name"].fail("another attachment has the name \"" + attachment.name + "\"");
-        attachments.list.push_back(std::move(attachment));
-    });
+    for (std::size_t i = 0; i < attachments.list.size(); ++i)
+        check_attachment(place["list"].element(i), attachments.list[i], skeleton, world);
     if (attachments.list.size() != world.state().bodies.size())
         world_place.fail("expected one body for each attachment");
     return attachments;

@@ -1,5 +1,5 @@
 // The panel's rows about attachments, and their drawing.
-#include "app/labs/humanoid/attachments/attachment_panel.hpp"
+#include "app/labs/humanoid/draw.hpp"
 
 #include <imgui.h>
 #include <algorithm>

@@ -114,6 +114,15 @@ Attachments remade(const Attachments& attachments, const Wearer& wearer, double 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::AttachmentShape>() noexcept;
 template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::NodeFrame>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::AttachmentPin>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Attachment>() noexcept;
+/// Except for their world.
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Attachments>() noexcept;
+template <>
 std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::AttachmentShape>();
 
 namespace tendril::app {

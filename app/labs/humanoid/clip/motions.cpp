@@ -1,4 +1,4 @@
-#include "app/labs/humanoid/clip/motions.hpp"
+#include "app/labs/humanoid/clip/playback.hpp"
 
 #include <imgui.h>
 #include <algorithm>

@@ -11,11 +11,11 @@
 #include <tendril/humanoid/lint.hpp>
 #include <tendril/magnitude.hpp>
 
+#include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/panel.hpp"
-#include "app/labs/humanoid/past/past.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/widgets/icons.hpp"

@@ -8,7 +8,7 @@
 #include "app/fields/field_rows.hpp"
 #include "app/labs/humanoid/curves/curves.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
-#include "app/labs/humanoid/ik/ik_commands.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/panel.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/widgets/fields.hpp"

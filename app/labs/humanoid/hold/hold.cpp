@@ -9,7 +9,8 @@
 #include "app/document/json_place.hpp"
 #include "app/document/text.hpp"
 #include "app/document/units.hpp"
-#include "app/labs/humanoid/ik/ik_commands.hpp"
+#include "app/labs/humanoid/humanoid_commands.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {

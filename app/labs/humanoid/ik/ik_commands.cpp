@@ -1,4 +1,5 @@
-#include "app/labs/humanoid/ik/ik_commands.hpp"
+#include "app/labs/humanoid/humanoid_commands.hpp"
+#include "app/labs/humanoid/humanoid_runtime.hpp"
 
 #include <algorithm>
 #include <array>

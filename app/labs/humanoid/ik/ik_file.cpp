@@ -1,5 +1,6 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
+#include "app/fields/file_fields.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
@@ -24,8 +25,8 @@ void read_targets(const JsonPlace& place, IkSettings& ik) {
     for (const auto& [name, value] : place.json().items()) {
         const auto effector = humanoid::effector_named(name);
         if (!effector) place.fail("there is no effector \"" + name + "\"");
-        constexpr std::string_view newer[] = {"rotation", "weight"};
-        load_all_fields(place[name.c_str()], ik.target(*effector).emplace(), newer);
+        load_file_fields(place[name.c_str()],
+                         {{ik.target(*effector).emplace(), true, {"rotation", "weight"}}});
         ik.target(*effector)->effector = *effector;
     }
 }
@@ -37,6 +38,7 @@ Json release_json(const Release& release, const humanoid::Skeleton& skeleton) {
 }
 
 Release read_release(const JsonPlace& place, const humanoid::Skeleton& skeleton) {
+    load_file_fields(place, {}, {"left", "shift", "turns"});
     Release release{.left = place["left"].real(0.0, release_seconds), .shift = place["shift"].dpoint()};
     const JsonPlace turns = place["turns"];
     if (!turns.json().is_object()) turns.fail("expected an object of nodes");
@@ -55,14 +57,9 @@ Json ground_json(const GroundSetting& ground) {
 }
 
 void read_ground(const JsonPlace& place, GroundSetting& ground) {
-    load_fields(place, ground);
+    load_file_fields(place, {{ground}}, {"file", "path", "crc32"});
     if (place.has("path")) ground.mesh = read_outside_file(place, read_ground_mesh);
     if (ground.kind == humanoid::GroundKind::Mesh && !ground.mesh) place.fail("a mesh needs its path");
-}
-
-void read_foot_ik(const JsonPlace& place, FootIkSetting& setting) {
-    load_fields(place, setting);
-    if (const Result bad = check(setting.options); !bad) place.fail(bad.message());
 }
 
 Json hand_ik_json(const HandIkSetting& setting) {
@@ -75,7 +72,7 @@ Json hand_ik_json(const HandIkSetting& setting) {
 }
 
 void read_hand_ik(const JsonPlace& place, HandIkSetting& setting) {
-    load_fields(place, setting);
+    load_file_fields(place, {{setting}}, {"left_hand", "right_hand"});
     for (std::size_t hand = 0; hand < 2; ++hand) {
         const auto times = place.optional(humanoid::name(both_hands[hand]));
         if (!times) continue;
@@ -107,50 +104,35 @@ void read_joint_limits(const JsonPlace& place, IkSettings& ik) {
 }  // namespace
 
 Json ik_json(const HumanoidPart& part) {
-    Json json{{"targets", targets_json(part.ik)}, {"limits", limits_from.name(part.ik.limits)}};
+    Json json{{"targets", targets_json(part.ik)}};
+    json.update(save_fields(part.ik));
+    if (!part.ik.hold) json.erase("hold");
     if (!part.ik.joint_limits.empty()) json["joint_limits"] = joint_limits_json(part.ik);
     json["ground"] = ground_json(part.ik.ground);
-    json["foot_ik"] = save_fields(part.ik.foot_ik);
-    json["self_collision"] = part.ik.self_collision;
-    json["balance"] = save_fields(part.ik.balance);
     json["hand_ik"] = hand_ik_json(part.ik.hand_ik);
-    json["look_at"] = save_fields(part.ik.look_at);
-    if (part.ik.hold) json["hold"] = save_fields(*part.ik.hold);
-    if (part.ik_state.hold != humanoid::HoldState()) json["held"] = save_fields(part.ik_state.hold);
-    if (!(part.ik_state.hands == humanoid::HandsState())) json["hands"] = save_fields(part.ik_state.hands);
-    if (!(part.ik_state.look == humanoid::LookAtState())) json["look"] = save_fields(part.ik_state.look);
-    if (part.ik_state.steps.away()) json["steps"] = save_fields(part.ik_state.steps);
+    json.update(save_sparse_fields(part.ik_state));
     if (!(part.ik_state.release == Release()))
         json["release"] = release_json(part.ik_state.release, part.skeleton());
-    if (!(part.ik_state.body == humanoid::BodyState())) json["body"] = save_fields(part.ik_state.body);
     return json;
 }
 
 void read_ik(const JsonPlace& place, HumanoidPart& part) {
-    if (!place.json().is_object()) place.fail("expected an object, found " + json_summary(place.json()));
-    if (const auto targets = place.optional("targets")) read_targets(*targets, part.ik);
-    if (const auto limits = place.optional("limits")) part.ik.limits = limits->choice(limits_from);
-    if (const auto joints = place.optional("joint_limits")) read_joint_limits(*joints, part.ik);
-    if (const auto ground = place.optional("ground")) read_ground(*ground, part.ik.ground);
-    if (const auto foot_ik = place.optional("foot_ik")) read_foot_ik(*foot_ik, part.ik.foot_ik);
-    if (const auto on = place.optional("self_collision")) part.ik.self_collision = on->flag();
-    if (const auto balance = place.optional("balance")) load_fields(*balance, part.ik.balance);
-    if (const auto hand_ik = place.optional("hand_ik")) read_hand_ik(*hand_ik, part.ik.hand_ik);
-    if (const auto look_at = place.optional("look_at")) load_fields(*look_at, part.ik.look_at);
-    if (const auto hold = place.optional("hold")) {
-        load_fields(*hold, part.ik.hold.emplace());
-        for (const humanoid::Effector hand : both_hands)
-            if (part.ik.hold->holds(hand) && part.ik.target(hand))
-                place["targets"][humanoid::name(hand)].fail("this hand holds the object: remove its target");
-        if (const auto held = place.optional("held")) load_all_fields(*held, part.ik_state.hold);
-    }
-    if (const auto hands = place.optional("hands")) load_all_fields(*hands, part.ik_state.hands);
-    if (const auto look = place.optional("look")) load_all_fields(*look, part.ik_state.look);
-    if (const auto steps = place.optional("steps")) load_all_fields(*steps, part.ik_state.steps);
+    IkSettings& ik = part.ik;
+    load_file_fields(
+        place,
+        {{ik}, {part.ik_state, true, {"held", "hands", "look", "steps", "body", "weights", "outside"}}},
+        {"targets", "joint_limits", "ground", "hand_ik", "release", "feet"});  // older files: "feet"
+    if (const Result bad = check(ik.foot_ik.options); !bad) place["foot_ik"].fail(bad.message());
+    if (const auto targets = place.optional("targets")) read_targets(*targets, ik);
+    if (const auto joints = place.optional("joint_limits")) read_joint_limits(*joints, ik);
+    if (const auto ground = place.optional("ground")) read_ground(*ground, ik.ground);
+    if (const auto hand_ik = place.optional("hand_ik")) read_hand_ik(*hand_ik, ik.hand_ik);
+    if (!ik.hold) part.ik_state.hold = {};
+    for (const humanoid::Effector hand : both_hands)
+        if (ik.hold && ik.hold->holds(hand) && ik.target(hand))
+            place["targets"][humanoid::name(hand)].fail("this hand holds the object: remove its target");
     if (const auto release = place.optional("release"))
         part.ik_state.release = read_release(*release, part.skeleton());
-    constexpr std::string_view newer[] = {"weights", "outside"};
-    if (const auto body = place.optional("body")) load_all_fields(*body, part.ik_state.body, newer);
 }
 
 }  // namespace tendril::app

@@ -95,6 +95,28 @@ std::span<const Field> fields<app::LookAtSetting>() noexcept {
     return rows;
 }
 
+template <>
+std::span<const Field> fields<app::IkSettings>() noexcept {
+    using app::IkSettings;
+    static constexpr auto sources = app::limits_from.name_array();
+    static constexpr Field rows[] = {field<&IkSettings::limits>("limits", sources),
+                                     nested<&IkSettings::foot_ik>("foot_ik"),
+                                     field<&IkSettings::self_collision>("self_collision"),
+                                     nested<&IkSettings::balance>("balance"),
+                                     nested<&IkSettings::look_at>("look_at"),
+                                     nested<&IkSettings::hold>("hold")};
+    return rows;
+}
+
+template <>
+std::span<const Field> fields<app::IkState>() noexcept {
+    using app::IkState;
+    static constexpr Field rows[] = {nested<&IkState::hold>("held"), nested<&IkState::hands>("hands"),
+                                     nested<&IkState::look>("look"), nested<&IkState::steps>("steps"),
+                                     nested<&IkState::body>("body")};
+    return rows;
+}
+
 namespace app {
 namespace {
 

@@ -135,6 +135,12 @@ template <>
 std::span<const Field> fields<app::HandIkSetting>() noexcept;  ///< except for its curves
 template <>
 std::span<const Field> fields<app::LookAtSetting>() noexcept;
+/// Except for targets, joints' own limits, ground and hand IK.
+template <>
+std::span<const Field> fields<app::IkSettings>() noexcept;
+/// Except for springs and release.
+template <>
+std::span<const Field> fields<app::IkState>() noexcept;
 
 namespace app {
 

@@ -1,6 +1,6 @@
 // The inspector and the drawing of joint limits. The table shows the active joint in degrees: its rotation,
 // an adult's range and that of the clips. The range to use is set on all selected joints.
-#include "app/labs/humanoid/limits/limit_panel.hpp"
+#include "app/labs/humanoid/draw.hpp"
 
 #include <imgui.h>
 #include <algorithm>
@@ -11,7 +11,6 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
-#include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "app/labs/humanoid/panel.hpp"

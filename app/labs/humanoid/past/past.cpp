@@ -1,12 +1,11 @@
 // The Humanoid lab's last ten seconds: plots of joint rotations or effector errors, poses, incidents.
-#include "app/labs/humanoid/past/past.hpp"
+#include "app/labs/humanoid/draw.hpp"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "app/document/units.hpp"
-#include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"

@@ -6,6 +6,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/fields/field_in.hpp"
+#include "app/fields/file_fields.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 
 template <>
@@ -132,10 +133,8 @@ void read_springs(const JsonPlace& place, HumanoidPart& part) {
         if (!node) each["node"].fail("the character has no node \"" + spring.node + "\"");
         // A spring whose nodes now belong to the body stays, without effect.
         if (const std::string why = overlap(part, *node); !why.empty()) each["node"].fail(why);
-        load_fields(each, spring);
         humanoid::SpringChainState state;
-        constexpr std::string_view newer[] = {"masses", "held"};
-        load_all_fields(each, state, newer);
+        load_file_fields(each, {{spring}, {state, true, {"masses", "held"}}}, {"node"});
         part.springs.push_back(std::move(spring));
         part.ik_state.springs.push_back(std::move(state));
     });

@@ -16,20 +16,6 @@ TEST_F(HumanoidAttach, LoadingACharacterRemovesIt) {
     EXPECT_TRUE(state().at("attachments").empty());
 }
 
-TEST_F(HumanoidAttach, ADamagedFileIsRefused) {
-    dress();
-    Json fewer = saved()["attachments"]["list"], particles = saved()["attachments"]["world"]["particles"];
-    fewer.erase(0), particles.erase(0);
-    expect_scene_refused("/attachments/list/0/node", "Wing", "no node \"Wing\"");
-    expect_scene_refused("/attachments/list/0/name", "tail", "another attachment has the name");
-    expect_scene_refused("/attachments/list", fewer, "one body for each");
-    expect_scene_refused("/attachments/list/2/pins/0/particle", 21, "attachments.list");
-    expect_scene_refused("/attachments/list/2/frame/turn", {0, 0, 0, 0}, "quaternion");
-    expect_scene_refused("/attachments/list/2/shape/length", -1, "length");
-    expect_scene_refused("/attachments/world/particles", particles, "attachments.world");
-    EXPECT_EQ(opened_with("/attachments", saved()["attachments"]), "");
-}
-
 /// After scrubbing, or choosing another clip, everything is where it was relative to its bone.
 TEST_F(HumanoidAttach, IsCarriedAlongWhenTheCharacterJumps) {
     dress();

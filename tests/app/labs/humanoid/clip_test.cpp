@@ -248,15 +248,5 @@ TEST_F(HumanoidClips, TheCameraFollowsThem) {
     EXPECT_FALSE(part().view.follow);
 }
 
-TEST_F(HumanoidClips, AnInvalidFileIsRefusedWithItsPath) {
-    expect_scene_refused("/file", 3, "labs.humanoid.file");
-    expect_scene_refused("/bones", {{"Tail", "Hips"}}, "no bone \"Tail\"");
-    expect_scene_refused("/bones", {{"Head", "Tail"}}, "labs.humanoid.bones.Head");
-    expect_scene_refused("/bones", 3, "labs.humanoid.bones");
-    expect_scene_refused("/clip/name", "run", "no clip \"run\"");
-    expect_scene_refused("/clip", {{"name", "walk"}, {"time", 7}}, "labs.humanoid.clip.time");
-    expect_scene_refused("/t_pose", 1, "labs.humanoid.t_pose");
-}
-
 }  // namespace
 }  // namespace tendril::app

@@ -1,5 +1,7 @@
 // Saving and loading bone maps, exporting clips as shown, finding and fixing faults.
 #include <fstream>
+#include <functional>
+#include <tuple>
 #include "app/io/character/export.hpp"
 #include "app/io/character/map_file.hpp"
 #include "app/io/character/read.hpp"
@@ -209,6 +211,108 @@ TEST_F(HumanoidFiles, FaultsAreFoundAndFixed) {
     EXPECT_TRUE(report().findings.empty());
     run("undo");
     EXPECT_EQ(report().findings.size(), 1u);
+}
+
+/// A scene in which everything is on.
+class HumanoidScenes : public HumanoidFiles {
+  protected:
+    HumanoidScenes() {
+        run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/antennae.bvh")}});
+        run("humanoid.clip", {{"index", 0}, {"play", true}});
+        run("humanoid.map", {{"bone", "LeftToes"}});
+        run("humanoid.ground", {{"kind", "slope"}});
+        run("humanoid.target", {{"effector", "left_foot"}, {"rotation", {0, 0, 0, 1}}});
+        run("humanoid.hold", {{"kind", "box"}, {"hands", "left"}});
+        run("humanoid.hand_ik", {{"on", true}, {"hand", "right"}, {"curve", true}});
+        run("humanoid.look_at", {{"on", true}});
+        run("humanoid.limits", {{"bone", "LeftHand"}, {"from", "none"}});
+        run("humanoid.spring", {{"nodes", {"antenna_l_1", "antenna_r_1"}}});
+        run("humanoid.curve", {{"first", "tail_1"}});
+        run("humanoid.curve", {{"first", "Spine"}});
+        for (const char* const name : {"tail", "rope"})
+            run("humanoid.attach", {{"bone", "Hips"}, {"kind", "rope"}, {"name", name}});
+        run("humanoid.select", {{"nodes", {"Hips", "Head"}}});
+        run("humanoid.flips", {{"degrees", 33}});
+        run("humanoid.target", {{"effector", "right_hand"}});
+        wait(3);
+        run("humanoid.target", {{"effector", "right_hand"}, {"weight", 0}});
+    }
+};
+
+/// Of whatever object. Those of bones, effectors and nodes say that there is none of that name.
+TEST_F(HumanoidScenes, WithAMemberThatThereIsNotAreRefused) {
+    EXPECT_EQ(opened_with("", saved()), "");
+    int objects = 0;
+    const std::function<void(const std::string&, const Json&)> each = [&](const std::string& at,
+                                                                          const Json& json) {
+        if (at.ends_with("/world") || !json.is_structured()) return;
+        if (json.is_object()) {
+            std::string path = "labs.humanoid" + at;
+            std::ranges::replace(path, '/', '.');
+            const std::string why = opened_with(at + "/misspelt", 1);
+            EXPECT_TRUE(why.starts_with(path) && why.find("misspelt") != why.npos) << path << ": " << why;
+            ++objects;
+        }
+        for (const auto& [name, value] : json.items()) each(at + '/' + name, value);
+    };
+    each("", saved());
+    EXPECT_GT(objects, 35);
+}
+
+TEST_F(HumanoidScenes, ThatWereBrokenAreRefusedWithThePlace) {
+    const Json scene = saved();
+    Json fewer = scene["attachments"]["list"], particles = scene["attachments"]["world"]["particles"];
+    fewer.erase(0), particles.erase(0);
+    const std::tuple<const char*, Json, const char*> faults[] = {
+        {"/file", 3, "labs.humanoid.file"},
+        {"/bones", {{"Tail", "Hips"}}, "no bone \"Tail\""},
+        {"/bones", {{"Head", "Tail"}}, "labs.humanoid.bones.Head"},
+        {"/bones", 3, "labs.humanoid.bones"},
+        {"/clip/name", "run", "no clip \"run\""},
+        {"/clip/time", 1e4, "labs.humanoid.clip.time"},
+        {"/t_pose", 1, "labs.humanoid.t_pose"},
+        {"/ik/targets/tail", 1, "no effector \"tail\""},
+        {"/ik/targets/left_foot/position", {0, 1}, "labs.humanoid.ik.targets.left_foot.position"},
+        {"/ik/targets/left_foot/rotation", {0, 0, 0, 0}, "length 1"},
+        {"/ik", "x", "labs.humanoid.ik: expected an object"},
+        {"/ik/limits", "dreams", "labs.humanoid.ik.limits: expected one of defaults, motion, none"},
+        {"/ik/body/turns/0", {0, 0, 0}, "labs.humanoid.ik.body.turns"},
+        {"/ik/joint_limits", {{"Tail", "motion"}}, "there is no bone \"Tail\""},
+        {"/ik/joint_limits", {{"Head", "dreams"}}, "unknown source of limits \"dreams\""},
+        {"/ik/joint_limits", Json::array({1}), "expected an object of bones"},
+        {"/ik/release/left", 1e9, "ik.release.left"},
+        {"/ik/release/turns/fin", {0, 0, 0, 1}, "no node \"fin\""},
+        {"/ik/release/turns", 3, "ik.release.turns"},
+        {"/selected", 7, "labs.humanoid.selected"},
+        {"/selected", {{"active", "Head"}}, "labs.humanoid.selected"},
+        {"/selected", {{"all", {"Head"}}}, "labs.humanoid.selected"},
+        {"/selected/all", {"Hips"}, "labs.humanoid.selected.active"},
+        {"/selected/all", "Head", "labs.humanoid.selected.all"},
+        {"/selected/all/1", 1, "labs.humanoid.selected.all"},
+        {"/springs/0/node", "wing", "no node \"wing\""},
+        {"/springs/1/node", "antenna_l_3", "springs.1.node"},
+        {"/springs/1/masses/0/target", nullptr, "target"},
+        {"/curves/0/first", "wing", "no node \"wing\""},
+        {"/curves/0/last", "Hips", "curves.0.last"},
+        {"/curves/1", scene["curves"][0], "curves.1.first"},
+        {"/curves/1/points", Json::array(), "curves.1.points"},
+        {"/curves/1/points/0/1", "up", "curves.1.points.0"},
+        {"/curves/1/jumped", 99, "curves.1.jumped"},
+        {"/attachments/list/0/node", "Wing", "no node \"Wing\""},
+        {"/attachments/list/0/name", "rope", "list.1.name: there is another \"rope\""},
+        {"/attachments/list", fewer, "one body for each"},
+        {"/attachments/list/1/pins/0/particle", 4000, "attachments.list.1.pins.0.particle"},
+        {"/attachments/list/1/frame/turn", {0, 0, 0, 0}, "quaternion"},
+        {"/attachments/list/1/shape/length", -1, "length"},
+        {"/attachments/list/1/shape/direction", {0, 2, 0}, "list.1.shape.direction"},
+        {"/attachments/world/particles", particles, "attachments.world"}};
+    for (const auto& [at, value, says] : faults) expect_scene_refused(at, value, says);
+    EXPECT_EQ(opened_with("/curves/0/jumped", 2), "");
+    run("humanoid.clip", {{"name", ""}});
+    for (const Json& wrong : {Json("x"), Json::array(), Json(-1e300)}) {
+        expect_scene_refused("/clip/time", wrong, "labs.humanoid.clip.time");
+        expect_scene_refused("/clip/rounds", wrong, "labs.humanoid.clip.rounds");
+    }
 }
 
 TEST_F(HumanoidFiles, AllFaultsAreFixedInOneStep) {

@@ -1,6 +1,6 @@
 // A joint's rotation and an effector's distance to its target at each remembered moment, compared with the
 // lab's display after seeking there.
-#include "app/labs/humanoid/past/past.hpp"
+#include "app/labs/humanoid/draw.hpp"
 
 #include <glm/trigonometric.hpp>
 #include <map>

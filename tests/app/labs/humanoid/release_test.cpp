@@ -184,14 +184,5 @@ TEST_F(HumanoidRelease, IsSavedUndoneAndContinuesTheSame) {
     EXPECT_EQ(state(), held);
 }
 
-TEST_F(HumanoidRelease, AFileWithAnInvalidReleaseIsRefusedWithItsPath) {
-    begin_anew(true);
-    reach_with_both_hands();
-    let_go("right_hand");
-    expect_scene_refused("/ik/release/left", 1e9, "ik.release.left");
-    expect_scene_refused("/ik/release/turns/tail", {0, 0, 0, 1}, "no node \"tail\"");
-    expect_scene_refused("/ik/release/turns", 3, "ik.release.turns");
-}
-
 }  // namespace
 }  // namespace tendril::app
