@@ -26,7 +26,9 @@
 #include <tendril/ik/two_bone.hpp>
 #include <tendril/rig/aim.hpp>
 #include <tendril/rig/backward.hpp>
+#include <tendril/rig/collect.hpp>
 #include <tendril/rig/definition.hpp>
+#include <tendril/rig/parent_constraint.hpp>
 #include <tendril/rig/unit.hpp>
 #include <tendril/rope/body.hpp>
 #include <tendril/rope/collider.hpp>

@@ -218,10 +218,10 @@ void ChainProgram::options() {
     plane();
     options.tolerance.reset(), options.max_iterations = plain_options.max_iterations;
     options.plane.reset(), options.limits = {};
-    for (const Field& field : fields<ik::Options>())
-        if (ik::honours(chosen.method, field, limit_count() > 0))
-            for (const std::string& each : member_texts({{&field, 1}, &options, &plain_options}))
-                say("options" + each + ";" + (field.name == std::string_view("twist") ? "  // radians" : ""));
+    for (const std::string& each : member_texts({fields<ik::Options>(), &options, &plain_options})) {
+        const bool twist = each.starts_with(".twist");
+        say("options" + each + ";" + (twist ? "  // " + degrees_text(options.twist) + " degrees" : ""));
+    }
 }
 
 void ChainProgram::plane() {

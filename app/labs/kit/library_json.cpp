@@ -8,7 +8,10 @@ namespace {
 
 constexpr std::size_t max_bones = 10'000;
 
-ik::PoleMemory load_pole(const JsonPlace& place, const std::vector<glm::vec3>& joints) {
+ik::PoleMemory load_pole(const JsonPlace& place, std::size_t joint_count,
+                         const std::vector<glm::vec3>& joints) {
+    if (const auto list = place.optional("joints"))
+        list->check_size(joint_count, "positions, one for each joint");
     ik::PoleMemory memory{.valid = true, .joints = joints};
     load_all_fields(place, memory, std::array<std::string_view, 2>{"joints", "turn"});
     // Older rigs have each_joint.
@@ -38,7 +41,7 @@ ik::State load_ik_state(const JsonPlace& place, std::size_t bones, const std::ve
         state.limits.valid = true;
     }
     if (const auto side = place.optional("side")) state.side = side->choice(bend_sides);
-    if (const auto pole = place.optional("pole")) state.pole = load_pole(*pole, joints);
+    if (const auto pole = place.optional("pole")) state.pole = load_pole(*pole, bones + 1, joints);
     if (const Result bad = ik::check(state, bones); !bad) place.fail(bad.message());
     return state;
 }

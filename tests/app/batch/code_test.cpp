@@ -80,8 +80,8 @@ TEST(Code, OmitsOptionsThatEqualTheLibrarysDefaults) {
     const std::string code = chain_code(part);
     for (const char* said : {"Method::SvdDls", "options.pole = glm::vec3{0.0f, 2.0f, 0.0f};",
                              "PoleTurn::EachJoint", "options.snap_back = 0.5f;", "options.soft_zone = 0.1f;",
-                             "options.damping = 0.1f;", "options.twist = 1.5707964f;  // 90 degrees",
-                             "options.restarts = 3;", "limits(7);", "options.limits = limits;",
+                             "options.twist = 1.5707964f;  // 90 degrees", "options.restarts = 3;",
+                             "limits(7);", "options.limits = limits;",
                              "limits[2] = {\n        .kind = ik::JointKind::Hinge,\n        .axis = {0.0f, "
                              "1.0f, 0.0f},\n        "
                              ".max = 1.5f,  // 85.94 degrees\n",
@@ -99,8 +99,8 @@ TEST(Code, IncludesTheSolversState) {
     ChainRuntime runtime;
     reach_for(part, {2, 2, 0}, runtime);
     std::string code = chain_code(part);
-    for (const char* said : {"state.pole.valid = true;", "state.pole.pole = glm::vec3{2.0f, 1.0f, 0.0f};",
-                             "state.pole.target = glm::vec3{2.0f, 2.0f, 0.0f};",
+    for (const char* said : {"state.pole.valid = true;", "state.pole.pole = {2.0f, 1.0f, 0.0f};",
+                             "state.pole.target = {2.0f, 2.0f, 0.0f};",
                              "state.pole.joints.push_back(each.position - segments.front().position);"})
         EXPECT_TRUE(has(code, said));
     EXPECT_TRUE(lacks(code, "state.limits"));
@@ -109,7 +109,7 @@ TEST(Code, IncludesTheSolversState) {
     reach_for(part, {-2, 2, 0}, runtime);
     code = chain_code(part);
     EXPECT_TRUE(has(code, "state.limits.valid = true;"));
-    EXPECT_TRUE(has(code, "state.limits.target = glm::vec3{-2.0f, 2.0f, 0.0f};"));
+    EXPECT_TRUE(has(code, "state.limits.target = {-2.0f, 2.0f, 0.0f};"));
 }
 
 TEST(Code, chains_too_short_for_their_mode_are_left_alone) {
