@@ -207,7 +207,7 @@ TEST(RopeContact, AThrownRopeFliesPast) {
             world = world_with({.iterations = iterations, .gravity = {0, 0, 0}});
             world.add_rope("rope", {.from = from, .to = from + glm::vec3(0, 0, 0.04f), .segments = 4});
             if (&world == &worlds[1]) world.add_collider("it", shape);
-            throw_all(world, [&](std::size_t) { return velocity; });
+            throw_all(world, [thrown = velocity](std::size_t) { return thrown; });
             run_substeps(world, substeps, [] {});
         }
         for (std::size_t i = 0; i < worlds[0].size(); ++i)

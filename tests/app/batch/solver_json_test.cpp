@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <tendril/ik/active_limit.hpp>
 
 #include "app/io/solver_text.hpp"
 #include "tests/app/support/temp_folder.hpp"
