@@ -103,7 +103,7 @@ std::string changed_files_text(const Json& part) {
     for_each_file(part, [&](const Json& each) {
         const fs::path path = text_of(each, "path"),
                        file = is_there(path) ? path : fs::path(text_of(each, "file"));
-        // Anything but a checksum is for load() to refuse.
+        // load() refuses anything that is not a checksum.
         const auto sum = each.find("crc32");
         const std::uint64_t saved =
             sum != each.end() && sum->is_number_unsigned() ? sum->get<std::uint64_t>() : max_crc32 + 1;

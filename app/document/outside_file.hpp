@@ -49,7 +49,7 @@ auto read_outside_file(const JsonPlace& place, const auto& read) {
 /// Updates the paths of files that moved with the scene. A file missing at its path is looked up by the
 /// path's end: under the scene's folder or, with at least one folder, under the two above it.
 void find_moved_files(Json& part, const std::filesystem::path& scene_folder);
-/// "w.bvh has changed since the scene was saved", of the files in the part; empty if none has.
+/// Names the part's changed files: "w.bvh has changed since the scene was saved". Empty if none has.
 std::string changed_files_text(const Json& part);
 
 /// The file names that a glTF URI may mean, the likeliest first: decoded ("%20"), as written, with slashes.

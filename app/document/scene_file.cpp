@@ -43,8 +43,8 @@ auto converted(const std::string& where, const Call& call) {
     }
 }
 
-/// The lab's part of the JSON at `where`. If that cannot be read, `stand_in`, what the lab was edited to
-/// since, or a blank part; that keeps the JSON, and `unread_why` says why.
+/// Reads the lab's part from the JSON at `where`. If that fails, returns `stand_in` (the lab as edited since)
+/// or a blank part, which keeps the JSON and the reason (`unread_why`).
 std::shared_ptr<const Part> load_part(const Part& blank, const Json& json, const Json* stand_in,
                                       const std::string& where, int version, const SceneLoading& loading,
                                       std::vector<LabNote>& notes) {
@@ -191,8 +191,8 @@ Json save_scene(const Workspace& workspace) {
 
 namespace {
 
-/// The document as saved to that file. A save over the scene's own file drops what it still has of labs that
-/// could not be read and were edited since, and asks first; any other file gets both.
+/// The document to save to that file. Over the scene's own file it drops, after asking, the old contents of
+/// labs that could not be read and were edited since; any other file gets both.
 Document as_saved(Workspace& workspace, const fs::path& path) {
     Document saved = workspace.document;
     std::string lost;

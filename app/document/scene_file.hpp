@@ -23,11 +23,11 @@ struct SceneLoading {
     bool whole = true;  ///< a wrong value refuses the whole scene instead of starting that lab blank
 };
 
-/// What a person should know of a lab that was opened, because of a file that its part of the scene names.
+/// A message on an opened lab: a file that its part of the scene names is missing, unreadable or changed.
 struct LabNote {
     std::string lab;
     std::string text;    ///< "w.bvh has changed since the scene was saved."; or stand_in_note()
-    bool whole = false;  ///< the lab has all that the scene has of it
+    bool whole = false;  ///< the whole part was read
 };
 /// While a part stands in for what could not be read: why, and what saving does; else empty. "hero.glb is
 /// missing, at ... The humanoid lab is blank; saving keeps ..."
@@ -39,19 +39,19 @@ std::string stand_in_note(const std::string& lab, const Part& part);
 ///
 /// Files that a part names (outside_file.hpp) are looked for beside the scene, if they are not at their path.
 /// Where one is missing or unreadable, or has changed so that the lab cannot be read with it, the lab starts
-/// blank and its JSON is kept (Part::unread). Once it is edited the scene has both: "labs" what could not be
-/// read, and "stand_ins" the lab as it is now, which opens as long as the other does not. load_scene()
-/// returns a note on each such lab, and on one whose file has changed.
+/// blank and its JSON is kept (Part::unread). Once the lab is edited, the scene stores both: that JSON in
+/// "labs" and the edited lab in "stand_ins", which opens while the JSON still cannot be read. load_scene()
+/// returns a note on each such lab, and on each lab whose file has changed.
 Json save_scene(const Workspace& workspace);
 std::vector<LabNote> load_scene(Workspace& workspace, const Json& scene, const SceneLoading& loading = {});
 
 /// The same through a file; both keep `workspace.path` and `workspace.saved` up to date. Saving never
 /// overwrites a file with a scene that would not open again; under a new name it does save it, with a
-/// warning. Saved over its own file, a scene has only what an edited lab is now: it asks first
-/// (Outputs::confirm()).
+/// warning. Saving over the scene's own file asks first (Outputs::confirm()) and then
+/// keeps only the edited lab.
 void save_scene_file(Workspace& workspace, const std::filesystem::path& path);
 std::vector<LabNote> load_scene_file(Workspace& workspace, const std::filesystem::path& path);
-/// Toasts, and lines on stderr where there is no window.
+/// Shows toasts; without a window also prints to stderr.
 void tell(Workspace& workspace, const std::vector<LabNote>& notes);
 
 }  // namespace tendril::app

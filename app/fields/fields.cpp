@@ -305,7 +305,7 @@ Json save_struct(const Scope& scope, const void* fresh) {
     return json;
 }
 
-/// Those that the place may have: old files have an angle under its plain name.
+/// The names of members allowed there. Old files name an angle without _deg.
 std::vector<std::string> known_names(const JsonPlace& place, std::span<const Field> table,
                                      const void* object) {
     std::vector<std::string> names = field_names(table, object);
@@ -340,7 +340,7 @@ class Loader {
         if ((missing_ != Missing::Kept && !field.optional) || place.has(field.name))
             field.set(object, {choice_at(place[field.name], field)});
     }
-    /// Without a check of the members' names.
+    /// Like fields(), but neither reads kinds nor checks the members' names.
     void beside(const JsonPlace& place, const Scope& scope) const {
         void* const object = const_cast<void*>(scope.object);
         for (const Field& field : scope.table) {

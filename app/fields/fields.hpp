@@ -83,14 +83,14 @@ Json save_sparse_fields(FieldsOf of);
 /// Missing fields keep their values, so that older scenes open. Throws std::runtime_error that begins with
 /// the JSON path of the error.
 void load_fields(const JsonPlace& place, FieldsIn in);
-/// The same, but a missing field is an error, other than one of `newer`, which old files do not have.
+/// The same, but a missing field is an error, unless it is in `newer`: old files lack those.
 void load_all_fields(const JsonPlace& place, FieldsIn in, std::span<const std::string_view> newer = {});
 
-/// Refuses members that are no fields. `edit`: a variant without its kind's name, and fields without which
-/// there is no new struct, keep what they have too. `besides`: other members, which the caller reads.
+/// Refuses members that are no fields. `edit`: required fields, and a variant whose kind is not named, may be
+/// missing too and keep their values. `besides`: members that the caller reads.
 void load_known_fields(const JsonPlace& place, FieldsIn in, bool edit = false,
                        std::span<const std::string_view> besides = {});
-/// In files; those of the kind that a variant holds too.
+/// As in files; includes those of the kind that a variant holds.
 std::vector<std::string> field_names(std::span<const Field> table, const void* object);
 
 /// An optional argument for each field that has a text.

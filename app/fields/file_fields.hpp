@@ -1,4 +1,4 @@
-// Objects in files that have the fields of one struct or of several, and other members beside them.
+// Reads JSON objects that hold the fields of one or more structs, and members that the caller reads.
 #pragma once
 
 #include <initializer_list>
@@ -11,11 +11,11 @@ namespace tendril::app {
 
 struct FileFields {
     FieldsIn in;
-    bool all = false;                       ///< a missing field is an error, other than one of `newer`
-    std::vector<std::string_view> newer{};  ///< also of structs in it
+    bool all = false;                       ///< a missing field is an error, unless it is in `newer`
+    std::vector<std::string_view> newer{};  ///< old files lack these; also applies to nested structs
 };
-/// As load_fields() and load_all_fields(), but refuses members that are neither fields nor `beside` them,
-/// which the caller reads.
+/// Like load_fields() or, for `all`, load_all_fields(), but refuses members that are neither fields nor in
+/// `beside`, which the caller reads.
 void load_file_fields(const JsonPlace& place, const std::vector<FileFields>& structs,
                       std::initializer_list<const char*> beside = {});
 

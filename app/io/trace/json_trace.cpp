@@ -141,7 +141,7 @@ void read_frame(RawFrame& frame, TraceHeader& header, const JsonPlace& place) {
         header.limits = read_limits(*limits);
 }
 
-/// Objects, one after another or in a list. Each may go over many lines.
+/// Objects, one after another or in a list. Each may span many lines.
 class JsonTrace final : public RawTrace {
   public:
     explicit JsonTrace(Lines lines) : RawTrace(std::move(lines)) {}

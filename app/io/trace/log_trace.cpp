@@ -1,16 +1,16 @@
 // Traces in any text: vectors as programs print them, with words around them.
 //
-// No maker's names are known here. The start of the file shows how its lines repeat themselves, as in mining
-// templates of logs (He et al., Drain, ICWS 2017): words that stand before several vectors of a line, or
-// before those of lines that differ in the words before them, are no labels. They are a type if they stand
-// before every vector, Vector3 or SIMD3<Float>, else a kind that every joint has: pos, rot. The word before
-// them is the label. Kinds and labels say which vectors are targets and pole targets, and which no positions.
+// No program's format is built in. The first lines show how words repeat, as in mining templates of logs (He
+// et al., Drain, ICWS 2017). A word before several vectors of a line is no label, nor is one that follows
+// different words on different lines. Before every vector it is a type, such as Vector3 or SIMD3<Float>,
+// otherwise a kind that every joint has: pos, rot. The word before it is the label. Kinds and labels tell
+// which vectors are targets, which are pole targets, and which are not positions.
 //
-// Gaps between vectors show where frames begin: the line, other text, a blank line, ---, or a bracket that
-// closes. The narrowest kind of gap that parts the joints into groups of one size does, if it is a line;
-// else the names do, where they come again; else the wider gaps, or the numbers themselves, where the joints
-// come back to almost the same places. A group without joints, a target alone, belongs to the one before it
-// or, if the file begins with such a group, after it.
+// A gap between vectors may start a frame: a closing bracket, a line break, other text, a blank line or ---.
+// The first of these that splits the joints into groups of one size is used: brackets, if a frame fills a
+// line; line breaks; names that repeat; wider gaps; positions that return to almost the same values. A group
+// without joints, such as a lone target, belongs to the frame before it or, if the file begins with such a
+// group, after it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -109,12 +109,11 @@ class Schema {
         return {words.size(), kind};
     }
 
-    /// Words with other words before them in one place than in another are no labels, nor are those before
-    /// every vector.
+    /// A word that follows different words in different places is no label, nor is one before every vector.
     void learn(const std::deque<Line>& lines, std::size_t depth) {
         struct Count {
             std::size_t all = 0;
-            std::map<std::string, std::size_t> numbered{}, plain{};  ///< by the words before
+            std::map<std::string, std::size_t> numbered{}, plain{};  ///< by the preceding words
         };
         std::map<std::string, Count> counts;
         std::size_t all = 0;
@@ -136,7 +135,7 @@ class Schema {
                 ++count.numbered[before];
             }
         for (const auto& [key, count] : counts) {
-            // Indices come again; numbers of frames do not.
+            // Indices repeat; frame numbers do not.
             const bool indexed = count.all <= 8 || 2 * count.numbered.size() <= count.all;
             const auto& before = indexed ? count.numbered : count.plain;
             std::size_t most = 0;
@@ -217,7 +216,7 @@ class LogTrace final : public RawTrace {
     }
 
   private:
-    /// What comes before damage is handed out first.
+    /// False at the end or at damage, which next() throws after all frames before it.
     bool read(Line& items) {
         items.clear();
         try {
@@ -234,7 +233,7 @@ class LogTrace final : public RawTrace {
         if (sample_.back().empty()) sample_.pop_back();
         schema_.learn(sample_);
         std::vector<const LogVector*> joints;
-        std::vector<unsigned> gaps, repeats;  // before each; whether its name comes again
+        std::vector<unsigned> gaps, repeats;  // per joint: the gap before it; whether its name repeats
         std::set<std::string> names;
         std::size_t labelled = 0;
         unsigned gap = RuleBetween * 2;
@@ -262,23 +261,22 @@ class LogTrace final : public RawTrace {
         const std::set<unsigned> levels(gaps.begin(), gaps.end());
         const auto by_gaps = [&](unsigned from, unsigned to) {
             return std::any_of(levels.lower_bound(from), levels.lower_bound(to),
-                               [&](unsigned level) { return parts(joints, gaps, level); });
+                               [&](unsigned level) { return splits(joints, gaps, level); });
         };
         const bool one_line = !levels.empty() && *levels.lower_bound(NextLine) == *levels.rbegin();
         if (!(one_line && by_gaps(SameLine + 1, NextLine)) && !by_gaps(NextLine, TextBetween) &&
-            !parts(joints, repeats, NameAgain) && !by_gaps(TextBetween, RuleBetween * 2) &&
+            !splits(joints, repeats, NameAgain) && !by_gaps(TextBetween, RuleBetween * 2) &&
             2 * labelled < joints.size())
-            part_otherwise(joints, gaps);
+            split_by_positions(joints, gaps);
         if (level_ == NameAgain) level_ = 0;
         if (levels.contains(RuleBetween) && scanner_.components()) engine = Engine::Ros;
         const auto first = std::ranges::find_if(sample_, [](const Line& each) { return !each.empty(); });
         leads_ = first != sample_.end() && std::ranges::none_of(*first, &LogVector::is_joint);
     }
-    /// Whether gaps of at least `level` part the joints into groups of one size, or of chains that take
-    /// turns.
-    bool parts(const std::vector<const LogVector*>& joints, const std::vector<unsigned>& gaps,
-               unsigned level) {
-        std::map<std::size_t, std::size_t> counts;  // of groups, by their size
+    /// Whether gaps of at least `level` split the joints into groups of one size, or of alternating chains.
+    bool splits(const std::vector<const LogVector*>& joints, const std::vector<unsigned>& gaps,
+                unsigned level) {
+        std::map<std::size_t, std::size_t> counts;  // groups by size
         std::vector<std::string> names;
         std::size_t groups = 0;
         for (std::size_t i = 0, end = 0; i < joints.size(); i = end, ++groups) {
@@ -296,7 +294,7 @@ class LogTrace final : public RawTrace {
         level_ = level;
         return true;
     }
-    /// Lines of chains that take turns begin with their names: "leg 0: (...) (...)", "[arm] (...) (...)".
+    /// Lines of alternating chains begin with the chain's name: "leg 0: (...) (...)", "[arm] (...) (...)".
     bool find_chains(const std::vector<std::string>& names) {
         const std::size_t turn =
             names.empty() ? 0
@@ -308,9 +306,9 @@ class LogTrace final : public RawTrace {
         chains_ = {names.begin(), names.begin() + static_cast<std::ptrdiff_t>(turn)};
         return true;
     }
-    /// After so many joints without names they are back near where they were. Else text or a blank line parts
-    /// them, or nothing does.
-    void part_otherwise(const std::vector<const LogVector*>& joints, const std::vector<unsigned>& gaps) {
+    /// Finds the number of joints after which positions return to almost the same values. Failing that,
+    /// frames begin at text or blank lines, if there are any.
+    void split_by_positions(const std::vector<const LogVector*>& joints, const std::vector<unsigned>& gaps) {
         const auto step = [&](std::size_t by) {
             double sum = 0.0;
             for (std::size_t i = by; i < joints.size(); ++i)
@@ -328,7 +326,7 @@ class LogTrace final : public RawTrace {
         if (std::ranges::count_if(gaps, [](unsigned gap) { return gap >= TextBetween; }) > 1)
             level_ = TextBetween, joints_ = 1;
     }
-    /// The side of an item with a label that has one; else `side` stays.
+    /// Sets `side` if the item's label names one.
     static bool take_side(const LogVector& item, Sided& side) {
         for (const std::string* name : {&item.label, &item.phrase})
             if (const auto own = sided(std::string_view(*name).substr(0, name->find_last_not_of(' ') + 1))) {
@@ -364,7 +362,7 @@ class LogTrace final : public RawTrace {
             group_.push_back(std::move(each));
         }
     }
-    /// Makes a frame of the pending group, or of two sides one each.
+    /// Makes a frame of the pending group, or one for each of two sides.
     void emit() {
         Line group = std::exchange(pending_, {});
         const std::size_t joints = joints_in(group);
@@ -390,7 +388,7 @@ class LogTrace final : public RawTrace {
             ready_.push_back(std::move(frames[i]));
         }
     }
-    /// After the joints of the first frame, if all have names; the left ones of two sides.
+    /// Takes the names of the first frame's joints, if all have one; of two sides, the left one's.
     void name_bones(const Line& group) {
         if (std::exchange(named_, true) || !chains_.empty()) return;
         for (const LogVector& each : group) {
@@ -441,9 +439,9 @@ class LogTrace final : public RawTrace {
                 std::to_string(joints_) + " positions");
         left_out_lines_ = 0;
     }
-    /// A name that repeats in a frame beside two or more joints with names of their own is an attribute of
-    /// each joint: "elbow (...) side (...) hand (...) side (...)". Where names alternate, "a (...) b (...) a
-    /// (...) b (...)", the first one is of the positions.
+    /// A name that repeats in a frame with two or more unique names is an attribute of each joint: "elbow
+    /// (...) side (...) hand (...) side (...)". If names alternate, "a (...) b (...) a (...) b (...)", the
+    /// first one is the positions'.
     void leave_out_attributes(Line& group) {
         std::map<std::string, std::size_t> counts;
         std::vector<std::string> names;
@@ -457,30 +455,31 @@ class LogTrace final : public RawTrace {
         const auto own = std::ranges::count_if(
             counts, [](const auto& each) { return each.second == 1 && !each.first.empty(); });
         const std::size_t turn = counts.size();
-        bool turning = turn > 1 && names.size() % turn == 0 && names.size() > turn && !own_side;
-        for (std::size_t i = turn; turning && i < names.size(); ++i) turning = names[i] == names[i - turn];
+        bool alternating = turn > 1 && names.size() % turn == 0 && names.size() > turn && !own_side;
+        for (std::size_t i = turn; alternating && i < names.size(); ++i)
+            alternating = names[i] == names[i - turn];
         std::erase_if(group, [&](const LogVector& each) {
             const std::string name = chain_of(each);
             if (!each.is_joint() || name.empty()) return false;
-            const bool out = turning ? name != names.front() : own >= 2 && counts[name] >= 2;
+            const bool out = alternating ? name != names.front() : own >= 2 && counts[name] >= 2;
             if (out) leave_out(name, "every joint has one");
             return out;
         });
     }
 
     LogScanner scanner_;
-    std::unique_ptr<VectorLines> table_;  ///< instead
-    std::deque<Line> sample_;             ///< read to learn from
+    std::unique_ptr<VectorLines> table_;  ///< if set, read instead of scanner_
+    std::deque<Line> sample_;             ///< the first lines, for learn()
     Schema schema_;
-    Line group_, pending_;  ///< vectors of the present frame; of the one before, until its target was read
+    Line group_, pending_;  ///< vectors of the current frame; the one before, while its target may follow
     std::deque<RawFrame> ready_;
-    std::set<std::string> labels_;    ///< of the present frame
+    std::set<std::string> labels_;    ///< of the current frame
     std::set<std::string> left_out_;  ///< labels
     std::set<std::string> chains_;    ///< names, if there are more than one
     std::size_t left_out_lines_ = 0, first_left_out_ = 0;
-    unsigned level_ = 0;      ///< gaps that part frames; 0: names do
-    std::size_t joints_ = 0;  ///< of most of them
-    std::size_t period_ = 0;  ///< joints of a frame, where nothing but the numbers parts them
+    unsigned level_ = 0;      ///< minimum gap between frames; 0: names separate them
+    std::size_t joints_ = 0;  ///< in most frames
+    std::size_t period_ = 0;  ///< joints of a frame, if only their positions separate frames
     bool leads_ = false, two_sides_ = false, any_ = false, ended_ = false, named_ = false;
     std::exception_ptr damage_{};
 };

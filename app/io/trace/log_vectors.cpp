@@ -53,7 +53,7 @@ double dot(const double* a, const double* b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Whether three rows, each so many numbers after the one before, are at right angles and 1 long.
+/// Whether three rows, `stride` numbers apart, are orthonormal.
 bool rotates(const double* rows, std::size_t stride) {
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = i; j < 3; ++j)
@@ -62,7 +62,7 @@ bool rotates(const double* rows, std::size_t stride) {
     return true;
 }
 
-/// The position of four rows with (0, 0, 0, 1) for the last row or column; empty if they are none.
+/// The position in a 4x4 matrix whose last row or column is (0, 0, 0, 1); empty for any other.
 std::vector<double> position_in(const std::vector<double>& m) {
     const double volume = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
                           m[2] * (m[4] * m[9] - m[5] * m[8]);
@@ -98,7 +98,7 @@ bool LogScanner::next(std::vector<LogVector>& found) {
         pulled_ = from_ = 0;
         if (!pull()) {
             if (std::exchange(unread_, 0) > 0)
-                trace_.notes.push_back("lines with numbers that are no positions were left out, from line " +
+                trace_.notes.push_back("lines with numbers that are not positions were left out, from line " +
                                        std::to_string(first_unread_) + " on");
             return false;
         }
@@ -160,7 +160,7 @@ std::size_t LogScanner::scan_line(std::vector<LogVector>& found) {
     return at;
 }
 
-/// Adds the vectors that the numbers are: three each, four, or a pose; `end` is moved behind a matrix.
+/// Adds the numbers as vectors of three, one of four, or a pose; moves `end` past a matrix.
 void LogScanner::add(std::vector<LogVector>& found, LogVector vector, Numbers numbers, std::size_t row,
                      std::size_t& end) {
     const std::size_t count = numbers.size();
@@ -202,7 +202,7 @@ void LogScanner::add(std::vector<LogVector>& found, LogVector vector, Numbers nu
     }
 }
 
-/// Another row of `width` numbers, behind brackets and line breaks, or behind the name of an axis.
+/// Reads another row of `width` numbers, after brackets and line breaks or after the name of an axis.
 bool LogScanner::next_row(std::size_t& at, std::size_t width, Numbers& numbers) {
     std::size_t here = at, begin = numbers.size();
     for (bool broken = false;; ++here) {
@@ -219,7 +219,7 @@ bool LogScanner::next_row(std::size_t& at, std::size_t width, Numbers& numbers) 
     return numbers.size() == begin + width;
 }
 
-/// Keeps what a line without vectors says: a heading, the time, and how it parts those around it.
+/// Takes a heading, the time and the gap from a line without vectors.
 void LogScanner::pass_line(std::size_t end) {
     const auto mark = [&](unsigned gap) { gap_ = std::max(gap_, gap); };
     const bool rule = end >= 3 && is_any(0, "-=*#~") && is(1, tokens_[0].kind) && is(2, tokens_[0].kind);
@@ -235,7 +235,7 @@ void LogScanner::pass_line(std::size_t end) {
     }
     if (is(0, 'a') && tokens_[0].text == "Columns" && is(1, '0') && is(2, 'a'))
         fail_line(lines_.taken() + 1,
-                  "the columns of a matrix are printed in parts: widen the window, or write a table");
+                  "a matrix is printed a few columns at a time: widen the window, or write a table");
     const bool text = std::any_of(tokens_.begin(), tokens_.begin() + static_cast<std::ptrdiff_t>(end),
                                   [](const LogToken& each) { return each.kind == 'a' || each.kind == '0'; });
     if (!text) return;
@@ -282,7 +282,7 @@ void LogScanner::read_stamp(std::size_t end) {
 }
 
 std::vector<LogWord> LogScanner::words_before(std::size_t at) const {
-    constexpr std::size_t most = 24;  // tokens; else a long line takes the square of its length
+    constexpr std::size_t most = 24;  // tokens; without a limit a long line takes quadratic time
     std::vector<LogWord> words;
     for (std::size_t i = std::max(from_, at < most ? 0 : at - most); i < at; ++i) {
         const LogToken& token = tokens_[i];
@@ -338,7 +338,7 @@ bool LogScanner::named(std::size_t at, std::size_t& end, Numbers& numbers, std::
     for (const char letter : std::string_view(w_first ? "wxyz" : "xyzw")) {
         std::size_t next = here;
         bool broken = false;
-        while (!numbers.empty()) {  // what parts them: , or </x> <y>
+        while (!numbers.empty()) {  // separators: , or </x> <y>
             const std::size_t before = next;
             skip_breaks(next);
             broken = broken || next != before;
@@ -385,7 +385,7 @@ bool LogScanner::named(std::size_t at, std::size_t& end, Numbers& numbers, std::
     return true;
 }
 
-/// Numbers in brackets, and how many a row has, if they have rows.
+/// Numbers in brackets, and the length of a row, if they have rows.
 bool LogScanner::list_at(std::size_t& at, Numbers& numbers, std::size_t& row) {
     constexpr std::string_view open = "([{<", close = ")]}>";
     if (!is_any(at, open)) return false;
@@ -447,8 +447,9 @@ bool LogScanner::bracketed(std::size_t at, std::size_t& end, Numbers& numbers, s
     return true;
 }
 
-/// 1.0 2.0 3.0, after a name, beside a pipe or on a line of its own: then also a time and several vectors, or
-/// a column. Unreal's transforms are 1.0,2.0,3.0|10.0,20.0,30.0|1.0,1.0,1.0. Moves `at` behind the time.
+/// 1.0 2.0 3.0, after a name, beside a pipe or on a line of its own, which may also have a time and several
+/// vectors, or be a column. Unreal's transforms are 1.0,2.0,3.0|10.0,20.0,30.0|1.0,1.0,1.0. Moves `at` past
+/// the time.
 bool LogScanner::bare(std::size_t& at, std::size_t& end, Numbers& numbers) {
     const char before = at == bullets_ ? '\n' : at > from_ ? tokens_[at - 1].kind : ' ';
     const bool named_cell = (before == ',' || before == ';') && at > 1 && is(at - 2, 'a');  // 7,elbow,1.0,...
@@ -517,8 +518,7 @@ bool LogScanner::column(std::size_t at, std::size_t& end, Numbers& numbers) {
     for (std::size_t here = at; numbers.size() < 5;) {
         const std::size_t line = here;
         while (!numbers.empty() && is(here, '-')) ++here;
-        if (!numbers.empty() && here - line != std::min<std::size_t>(bullets_, 1))
-            break;  // another list in the list
+        if (!numbers.empty() && here - line != std::min<std::size_t>(bullets_, 1)) break;  // a nested list
         const auto number = number_at(here);
         if (is_any(here, ",;")) ++here;
         if (!number || !is(here, '\n')) break;

@@ -13,14 +13,14 @@ namespace tendril::app {
 
 struct LogToken {
     char kind = 0;        ///< '0' a number, 'a' a word, '\n' the end of a line, else the character itself
-    bool spaced = false;  ///< from the one before
+    bool spaced = false;  ///< white space precedes it
     std::string_view text{};
     double value = 0.0;
 
     bool is_whole() const { return text.find_first_not_of("0123456789") == text.npos; }
 };
 
-/// Appends the tokens of a line. Quotes and backslashes count as spaces: JSON in a text.
+/// Appends the tokens of a line. Quotes and backslashes count as spaces, for JSON inside text.
 void add_tokens(std::vector<LogToken>& tokens, std::string_view line);
 
 /// A word before a vector, or a whole number.
@@ -32,28 +32,28 @@ struct LogWord {
     bool is_number() const { return is_digit(text[0]) && text.find_first_not_of("0123456789") == text.npos; }
 };
 
-/// How far a vector is from the one before. Lines count more than brackets.
+/// Separates a vector from the one before. Line breaks outweigh brackets.
 enum Gap : unsigned {
     SameLine = 0,
     NextLine = 64,
     TextBetween = 128,
     BlankBetween = 192,
     RuleBetween = 256,
-    NameAgain = 1024  ///< not by itself: its name shows a new frame
+    NameAgain = 1024  ///< not a gap: a repeated name begins a frame
 };
 
-/// Three or four numbers, and what stands before them.
+/// Three or four numbers, and the words before them.
 struct LogVector {
     std::vector<LogWord> words{};  ///< the last is next to the numbers
     std::vector<double> numbers{};
     bool first = false;       ///< of its line
-    bool matrix = false;      ///< of which this is the position
-    bool missing = false;     ///< its cells are empty: NaN, or no target
-    unsigned gap = SameLine;  ///< and how many brackets were closed in it
+    bool matrix = false;      ///< this is a matrix's position
+    bool missing = false;     ///< its cells are empty: a joint is NaN, a target absent
+    unsigned gap = SameLine;  ///< plus the number of brackets closed in it
     std::size_t line = 0;
     std::optional<double> stamp{}, dt{};  ///< seconds
-    std::string chain{};                  ///< as a table has it
-    // As learned.
+    std::string chain{};                  ///< from a table's column
+    // Learned from the whole start of the file.
     std::string kind{}, label{}, phrase{};
     Meaning meaning = Meaning::Joint;
     bool is_position = true;
@@ -70,18 +70,17 @@ class VectorLines {
     /// The vectors of the next line that has some; false at the end.
     virtual bool next(std::vector<LogVector>& found) = 0;
 };
-/// CSV, or what a spreadsheet copies. Null if the first lines have no names of columns.
+/// Reads CSV, or cells copied from a spreadsheet. Null if the first lines have no column names.
 std::unique_ptr<VectorLines> open_table(Lines& lines, RawTrace& trace);
 
-/// Finds (1, 2, 3), X=1 Y=2 Z=3, 1.0 2.0 3.0 behind a name or on a line of their own, poses, and the
-/// positions of matrices, each on one line or over several. Sets the engine of the trace where the way of
-/// writing shows it.
+/// Finds (1, 2, 3), X=1 Y=2 Z=3, 1.0 2.0 3.0 after a name or on a line of their own, poses, and the
+/// positions of matrices, each on one line or over several. Sets the trace's engine if the notation shows it.
 class LogScanner final : public VectorLines {
   public:
     LogScanner(Lines& lines, RawTrace& trace) : lines_(lines), trace_(trace) {}
 
     bool next(std::vector<LogVector>& found) override;
-    bool components() const { return components_; }  ///< x, y and z have had a line each
+    bool components() const { return components_; }  ///< x, y and z were on separate lines
 
   private:
     using Numbers = std::vector<double>;
@@ -108,15 +107,15 @@ class LogScanner final : public VectorLines {
 
     Lines& lines_;
     RawTrace& trace_;
-    std::vector<LogToken> tokens_;  ///< of the lines that were pulled
+    std::vector<LogToken> tokens_;  ///< of the lines that pull() added
     std::size_t pulled_ = 0, from_ = 0,
-                bullets_ = 0;       ///< lines; the token after the vector before; - - at the begin of a line
-    std::vector<LogWord> heading_;  ///< words of lines before, for the first vector of the next
-    bool loose_ = false;            ///< the heading is any text
+                bullets_ = 0;       ///< lines; the token after the last vector; - - at the start of a line
+    std::vector<LogWord> heading_;  ///< words of earlier lines, for the next vector
+    bool loose_ = false;            ///< the heading is ordinary text
     std::optional<double> stamp_{};
-    double scale_ = 1.0;  ///< of the rows that follow, as MATLAB has it: 1.0e+03 *
+    double scale_ = 1.0;  ///< of the rows that follow, from MATLAB's 1.0e+03 *
     unsigned gap_ = SameLine, opened_ = 0, closed_ = 0;
-    std::size_t unread_ = 0, first_unread_ = 0;  ///< lines with numbers that are no vectors
+    std::size_t unread_ = 0, first_unread_ = 0;  ///< lines whose numbers are not vectors
     bool components_ = false, scaled_ = false, lone_ = false, axes_ = false;
 };
 

@@ -28,7 +28,7 @@ struct RawFrame {
     std::size_t line = 0;                 ///< from 1, where the frame begins
 };
 
-/// What the first line says. Texts are checked by whoever uses them.
+/// The first line. Callers check its texts.
 struct TraceHeader {
     std::string up, handed, unit, rotations, engine;
     std::optional<double> fps;
@@ -40,15 +40,15 @@ struct TraceHeader {
 /// How a program writes vectors.
 enum class Engine { Unknown, Unreal, Unity, Godot, Blender, Xna, Babylon, Houdini, Ros };
 
-/// The lines of a stream, without their ends. Where the first of them have decimal commas, as in
-/// "0,5; 1,25; 0,0", those become points. Refuses lines of over 16 MiB.
+/// The lines of a stream, without their ends. If the first ones have decimal commas, as in
+/// "0,5; 1,25; 0,0", commas become points. Refuses lines of over 16 MiB.
 class Lines {
   public:
     explicit Lines(std::istream& in);
-    /// A line that was not taken yet, by its distance from the next one; null behind the last.
+    /// A line not yet taken: 0 is the next one. Null past the last.
     const std::string* ahead(std::size_t index);
     bool next(std::string& text);  ///< takes one; false at the end
-    void drop(std::size_t count);  ///< takes some
+    void drop(std::size_t count);  ///< takes `count` lines
     std::size_t taken() const { return taken_; }
     std::size_t bytes() const { return bytes_; }  ///< read so far
 
@@ -67,7 +67,7 @@ class RawTrace {
     virtual ~RawTrace() = default;
     /// False after the last frame. Throws std::runtime_error: "line 3: ...".
     virtual bool next(RawFrame& frame) = 0;
-    std::size_t line() const { return lines_.taken(); }  ///< of what was read
+    std::size_t line() const { return lines_.taken(); }  ///< lines taken so far
 
     TraceHeader header;
     Engine engine = Engine::Unknown;  ///< as far as it can be told from what was read
@@ -77,7 +77,7 @@ class RawTrace {
     Lines lines_;
 };
 
-/// Finds out the format. Throws std::runtime_error if there is nothing in it.
+/// Detects the format. Throws std::runtime_error if the stream is empty.
 std::unique_ptr<RawTrace> open_raw_trace(std::istream& in);
 
 // For the formats.
@@ -96,7 +96,7 @@ std::optional<double> take_number(std::string_view& text);
 enum class Meaning { Joint, Target, Pole };
 /// The meaning of a name in lower case: "ik_target", "pole vector".
 Meaning meaning_of(std::string_view name);
-/// Seconds that one of a column or word counts: 1e-3 of "time_ms" and "time [ms]"; 0 if it is no time.
+/// Seconds per unit of a column or word: 1e-3 for "time_ms" and "time [ms]"; 0 if it is not a time.
 double time_unit(std::string_view name);
 /// Whether a column's name says that the numbers are not a position: "elbow_rotation", "hand.rpy".
 bool names_no_position(std::string_view name);
@@ -108,7 +108,7 @@ struct Sided {
 std::optional<Sided> sided(std::string_view name);
 
 std::unique_ptr<RawTrace> open_json_trace(Lines lines);
-/// Of tables, too.
+/// Reads tables, too.
 std::unique_ptr<RawTrace> open_log_trace(Lines lines);
 
 }  // namespace tendril::app

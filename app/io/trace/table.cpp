@@ -96,7 +96,7 @@ std::optional<PointColumn> point_column(std::string_view cell) {
     return PointColumn{name, axis, prefix};
 }
 
-/// One a cell. "z-score" and "velocity" are none: there is no x of them.
+/// One per cell. Empty for "z-score" and "velocity", which have no x column.
 std::vector<std::optional<PointColumn>> point_columns(const std::vector<std::string_view>& row) {
     std::vector<std::optional<PointColumn>> points;
     std::map<std::string, unsigned> axes;
@@ -110,14 +110,14 @@ std::vector<std::optional<PointColumn>> point_columns(const std::vector<std::str
     return points;
 }
 
-/// The axis of a column that is named by it alone: X, or X1 as in a .trc file.
+/// Whether a column's name is an axis alone: X, or X1 as in a .trc file.
 bool is_axis(std::string_view cell) {
     cell = cell.substr(0, std::min(cell.find_first_of("0123456789"), cell.size()));
     return cell.size() == 1 && std::string_view("xyzwXYZW").find(cell) != cell.npos;
 }
 
-/// The names of the columns in a line. Columns that are named by an axis alone have the names of points above
-/// them, each over three columns or repeated: "shoulder,,,elbow,," over "X,Y,Z,X,Y,Z".
+/// The column names in a line. If they are axes alone, the line above has the names of points, each over
+/// three columns or repeated: "shoulder,,,elbow,," over "X,Y,Z,X,Y,Z".
 std::vector<std::string> column_names(Lines& lines, std::size_t at, char separator) {
     const auto row = split(*lines.ahead(at), separator);
     std::vector<std::string> names(row.begin(), row.end());
@@ -139,7 +139,7 @@ std::vector<std::string> column_names(Lines& lines, std::size_t at, char separat
             different.insert(last);
             if (!last.empty()) (number_in(last) ? numbers : words) = true;
         }
-        if (words == numbers) break;  // a blank line, or one that is no part of the head
+        if (words == numbers) break;  // a blank line, or not part of the header
         if (numbers || different.size() < 2) continue;
         for (std::size_t i = 0; i < row.size(); ++i)
             if (is_axis(row[i]))
@@ -200,7 +200,7 @@ struct Column {
     Role role = Role::Ignored;
     std::size_t point = 0;
     std::size_t axis = 0;
-    double unit = 1.0;  ///< seconds, of a time
+    double unit = 1.0;  ///< seconds per unit, if it is a time
 };
 
 class TableRows final : public VectorLines {

@@ -23,7 +23,7 @@ std::string frames_of(const ik::ChainIncident& incident) {
 }
 
 /// "flip at joint 1 (elbow), 128 degrees"
-std::string what_of(const ik::ChainIncident& incident, const std::vector<std::string>& bones) {
+std::string incident_text(const ik::ChainIncident& incident, const std::vector<std::string>& bones) {
     std::string joint = "joint " + std::to_string(incident.joint);
     if (incident.joint < bones.size()) joint += " (" + printable(bones[incident.joint]) + ')';
     const auto text = [&](const char* format, auto... values) {
@@ -65,7 +65,7 @@ std::string what_of(const ik::ChainIncident& incident, const std::vector<std::st
 }  // namespace
 
 std::string TracedIncident::text(const std::vector<std::string>& bones) const {
-    return frames_of(*this) + ": " + what_of(*this, bones) + ": " + cause;
+    return frames_of(*this) + ": " + incident_text(*this, bones) + ": " + cause;
 }
 
 TraceReader::TraceReader(std::istream& in, const ConventionChoice& choice, std::optional<double> fps)

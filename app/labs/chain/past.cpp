@@ -273,7 +273,7 @@ const Past& chain_past() {
                                            "Twist is only known along a curve and within limits.", twist_of);
                     }}},
         .plot_help =
-            "What is plotted below the scene over the last ten seconds; angles are those of the selected "
+            "Plotted below the scene over the last ten seconds; angles are those of the selected "
             "joint",
         .ghosts_help = "Where the chain was every half second",
         .pose = lines_of,

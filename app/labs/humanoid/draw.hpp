@@ -45,7 +45,7 @@ glm::vec3 adult_colour(const Palette& palette);
 glm::vec3 clips_colour(const Palette& palette);
 
 /// As set in the view: the active joint in full; other selected joints as outlines with their current
-/// rotation; all other joints as outlines. Joints held back by their limits show only those.
+/// rotation; all other joints as outlines. Joints stopped by limits show only those limits.
 void draw_limits(const View& view, DrawList& list, const HumanoidPart& part, const ShownPose& shown);
 /// Legend of the limit colours; empty if none are drawn.
 std::vector<LegendRow> limits_legend(const Workspace& workspace);

@@ -19,8 +19,8 @@ std::span<const FieldText> field_texts<FlipRule>() {
          .more = true},
         {.name = "angle_share",
          .label = "target under",
-         .help = "The target or control hardly moves if, as the root or the bone sees it, it turns by less "
-                 "than this share of the bone's turn.",
+         .help = "The target or control hardly moves if its direction, seen from the root or the bone, "
+                 "turns by less than this share of the bone's turn.",
          .step = 0.005f,
          .unit = "of it",
          .more = true},

@@ -13,7 +13,7 @@
 namespace tendril::app {
 namespace {
 
-// Rows of the file: what the library has, with the user's names.
+// Rows of the file: the library's elements with the user's names.
 
 struct ColliderRow {
     rope::Collider collider;
@@ -34,7 +34,7 @@ struct TieRow {
     std::string name;
 };
 
-/// A world, but for the lists that have rows of numbers.
+/// A world without the lists that files store as rows of numbers.
 struct WorldRows {
     rope::Settings settings;
     double remainder = 0.0, moved_in = 0.0;
@@ -46,7 +46,7 @@ struct WorldRows {
     std::vector<TieRow> ties{};
 };
 
-/// A row's own fields, and those of its first member, which has its address.
+/// A row's own fields, and those of its first member, which shares its address.
 template <class Row, class First>
 std::vector<Field> with_fields_of(First Row::*, std::initializer_list<Field> own) {
     static_assert(std::is_standard_layout_v<Row>);

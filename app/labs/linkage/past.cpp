@@ -186,19 +186,18 @@ std::vector<Incident> incidents_of(const Workspace& workspace, const Part& first
 }  // namespace
 
 const Past& linkage_past() {
-    static const Past past{
-        .lab = linkage_lab,
-        .what = "linkage",
-        .probes = {{"angle", "angle at a joint", angle_curve},
-                   {"transmission", transmission_name, transmission_curve},
-                   {"motor", "first motor", motor_curve}},
-        .plot_help =
-            "What is plotted below the scene for the last ten seconds: the angle at the selected "
-            "joint, how well the coupler pushes, or the motor",
-        .ghosts_help = "Where the bars were, every half second",
-        .pose = lines_of,
-        .same_joints = same_joints,
-        .incidents = incidents_of};
+    static const Past past{.lab = linkage_lab,
+                           .what = "linkage",
+                           .probes = {{"angle", "angle at a joint", angle_curve},
+                                      {"transmission", transmission_name, transmission_curve},
+                                      {"motor", "first motor", motor_curve}},
+                           .plot_help =
+                               "Plotted below the scene for the last ten seconds: the angle at the selected "
+                               "joint, how well the coupler pushes, or the motor",
+                           .ghosts_help = "Where the bars were, every half second",
+                           .pose = lines_of,
+                           .same_joints = same_joints,
+                           .incidents = incidents_of};
     return past;
 }
 

@@ -12,10 +12,10 @@ namespace {
 /// The members of a unit's curve, which older files and commands have beside its other inputs.
 constexpr const char* curve_members[] = {"keys", "source_min", "source_max", "target_min", "target_max"};
 
-// What commands and older files may say in other words, as the tables have it. What is wrong stays, for the
-// tables to refuse.
+// Convert the notations of commands and older files to the tables' own. Errors stay, for the tables to
+// refuse.
 
-/// A control is a transform control if it does not say; it may call its parent "space".
+/// A control without a kind is a transform control. Its parent may be called "space".
 Json full_element(Json element, const JsonPlace& place) {
     if (!element.is_object() || element.value("kind", Json()) != "control") return element;
     if (!element.contains("control")) element["control"] = "transform";

@@ -24,9 +24,9 @@ using ik::InputMove;
 struct Moved {
     bool placed = false;  ///< it has a position
     rig::Transform from{}, to{};
-    double share = 0.0;  ///< the changed fraction of its range; of a switch that was toggled all of it
+    double share = 0.0;  ///< the changed fraction of its range; 1 for a toggled switch
 
-    /// Its direction is seen from the bone, which may move; its way is its own.
+    /// The angle is seen from the bone, which may move; the distance is the control's own.
     InputMove seen_from(const rig::Transform& was, const rig::Transform& is) const {
         InputMove move;
         if (placed)
@@ -105,7 +105,7 @@ std::vector<RigFlip> find_flips(const rig::Rig& rig, const rig::State& was, cons
 
 constexpr const char* not_known = "cause not known";
 
-/// A solve with a zero time step, as far as it tells why bones flipped.
+/// The part of a solve with a zero time step that shows why bones flipped.
 class Watched final : public rig::Observer {
   public:
     /// Keeps the rig just before and just after `unit`, if one is given.

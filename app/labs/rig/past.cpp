@@ -64,7 +64,7 @@ glm::dquat local_rotation(const rig::Hierarchy& elements, rig::ElementId id) {
     return resolved.get(id, rig::Space::Local).rotation;
 }
 
-/// How the element is turned within its parent, from its initial pose; of bones alone, unless `any`.
+/// The element's rotation within its parent, from its initial pose; only bones have one, unless `any`.
 std::optional<JointTurn> turn_of(const RigPart& part, const std::string& name, bool any) {
     const auto at = part.rig.element(name);
     if (!at) return std::nullopt;
@@ -222,7 +222,7 @@ const Past& rig_past() {
                    {"angle", "angle of an element",
                     [](const Workspace& w) { return turn_curve(w, "angle of ", &JointTurn::angle); }}},
         .plot_help =
-            "What is plotted below the scene for the last ten seconds: how the selected element is "
+            "Plotted below the scene for the last ten seconds: how the selected element is "
             "turned within its parent, from its initial pose",
         .ghosts_help = "Where the bones were, every half second",
         .pose = lines_of,

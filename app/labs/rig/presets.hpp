@@ -21,7 +21,7 @@ struct RigPreset {
 const std::vector<RigPreset>& rig_presets();
 /// Throws std::invalid_argument for an unknown name.
 const RigPreset& rig_preset(std::string_view name);
-/// A list of commands that the first has: "opening", "calm".
+/// A list of commands in the first preset: "opening", "calm".
 std::vector<CommandCall> rig_script(const char* name);
 
 }  // namespace tendril::app

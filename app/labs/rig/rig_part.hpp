@@ -153,7 +153,7 @@ struct RigSelection {
     std::optional<std::size_t> only_element() const;
 };
 
-/// A state that copies share until one of them is edited: a drag of a slider copies none.
+/// A state that copies share until one of them is edited, so that dragging a slider copies nothing.
 class SharedState {
   public:
     SharedState(rig::State state) : state_(std::make_shared<rig::State>(std::move(state))) {}

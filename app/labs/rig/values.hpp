@@ -36,7 +36,7 @@ rig::Value read_control_value(const JsonPlace& place, rig::ControlKind kind, con
 /// The values of a rig's controls by name, as it reached them; `controls` has one for each element.
 Json controls_json(const rig::Rig& rig, const std::vector<rig::Value>& controls);
 void load_controls(const JsonPlace& place, const rig::Rig& rig, std::vector<rig::Value>& controls);
-/// The value of one, within its limits.
+/// Reads the value of one control, within its limits.
 rig::Value read_reached(const JsonPlace& place, const rig::Control& control, const rig::Value& now);
 
 // When several values are set at once, each keeps its untouched parts: null in a vector, omitted from a

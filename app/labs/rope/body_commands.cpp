@@ -385,7 +385,7 @@ void adding_rows(const Workspace& workspace, Emit& emit) {
         add(true, "rope.hair.add", "hair", std::move(arguments));
     }
     end_row();
-    /// The place for a collider that fills so much to each side, if its button was pressed.
+    /// A free position for a collider with these half extents, if its button was pressed.
     const auto place = [&](const char* title, glm::vec3 half) -> std::optional<glm::vec3> {
         if (!row_button(title, 4, true, "A collider near the middle of the view")) return std::nullopt;
         return free_place(workspace, {-half, half});

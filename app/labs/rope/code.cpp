@@ -101,8 +101,8 @@ class RopeProgram {
     void name(const std::string& name) {
         say("// " + Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
     }
-    /// Adds a body, collider, tie or pin: `members`, those of its table that are not at their default,
-    /// `last`.
+    /// Adds a body, collider, tie or pin: `members`, then those of its table that differ from their
+    /// default, then `last`.
     template <class Row>
     void add(const std::string& what, const Row& row, std::vector<std::string> members,
              const std::string& last = {}) {

@@ -169,7 +169,7 @@ const Past& rope_past() {
                    {"energy", "energy", rope_curve<2>},
                    {"speed", "speed", rope_curve<3>}},
         .plot_help =
-            "What is plotted below the scene for the last ten seconds: of the selected particles or "
+            "Plotted below the scene for the last ten seconds: of the selected particles or "
             "their body, or of all ropes if none is selected",
         .ghosts_help = "Where the ropes were, every half second",
         .pose = lines_of,

@@ -336,7 +336,7 @@ void forget_missing(RopePart& part) {
 
 namespace {
 
-/// The name of an element of a list of the world.
+/// An argument that names an element of one of the lists.
 template <class Row>
 Argument naming(std::vector<Row> rope::State::*list, const char* name, bool required, const char* help) {
     return offering(text_argument(name, required, help), [list](const Workspace& w) {

@@ -70,7 +70,7 @@ std::span<const tendril::Field> tendril::fields<tendril::app::Jitter>() noexcept
     return rows;
 }
 
-/// All that stands without the world.
+/// The fields that do not depend on the world.
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::RopePart>() noexcept {
     using app::RopePart;

@@ -6,7 +6,7 @@
 namespace tendril::app {
 namespace {
 
-/// A racer's. Counts the lists of the state, not the world's caches.
+/// Memory of one racer. Counts the lists of the state, not the world's caches.
 std::size_t bytes_of(const NamedWorld& world, const std::vector<RopeSample>& samples,
                      const std::optional<Hold>& hold) {
     const rope::State& state = world.state();

@@ -152,7 +152,7 @@ inline constexpr EnumNames<RopeTool, 4> rope_tools{
 
 template <>
 std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::rope::Settings>();
-/// A name, where it is and how it moves: in files.
+/// For files.
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Swing>() noexcept;
 template <>

@@ -25,7 +25,7 @@ struct SceneBody {
     std::variant<rope::RopeShape, rope::ClothShape, rope::HairShape> shape;
     std::vector<glm::vec3> path;   ///< along which a rope lies, evenly; empty: straight
     double end_mass = 0.0;         ///< of a rope's last particle, kg; 0: as its density says
-    std::vector<glm::dvec3> fold;  ///< of a folded cloth: a row's particles, from where its first one was
+    std::vector<glm::dvec3> fold;  ///< of a cloth: offsets of a row's particles from its unfolded first one
     rope::HairPatch patch;         ///< that hair grows from, on `attach` if given
     std::string attach;
     bool hits_itself = false;
@@ -35,7 +35,7 @@ struct ScenePin {
     std::string body;
     int particle = 0;
     std::optional<glm::vec3> at;  ///< empty: moves with the collider
-    double seconds = 0.0;         ///< until it is there
+    double seconds = 0.0;         ///< to reach `at`
     std::string collider;
 };
 

@@ -28,7 +28,7 @@ std::string place(const std::string& where, std::string_view key) {
 
 namespace {
 
-/// A curve's with its keys.
+/// Includes a curve's keys.
 FieldsIn file_fields(signal::Filter& filter) {
     if (auto* const curve = std::get_if<signal::Curve>(&filter)) return *curve;
     return filter_fields(filter);

@@ -64,7 +64,7 @@ SignalInput load_input(const JsonPlace& place) {
     return input;
 }
 
-/// A preset's has no state.
+/// A stage of a preset has no state.
 SignalStage load_stage(const JsonPlace& place, bool preset = false) {
     SignalStage stage{filter_from_json(place.json(), place.where())};
     if (preset && !place.has("enabled")) return stage;

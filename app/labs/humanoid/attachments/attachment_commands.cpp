@@ -152,7 +152,7 @@ void add_attachment_commands(CommandTable& table) {
 
 namespace {
 
-/// What names and counts say beyond each number's range.
+/// Checks names and counts; the tables check the ranges.
 void check_attachment(const JsonPlace& place, const Attachment& attachment,
                       const humanoid::Skeleton& skeleton, const NamedWorld& world) {
     if (!skeleton.find(attachment.node))

@@ -69,11 +69,11 @@ glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& cha
 // Clips of other files, played on this character (humanoid::retarget). The result is a clip like its own.
 
 struct PlayedMotion {
-    SharedCharacter loaded;  ///< the part's, with one more clip, the last
-    std::string text;        ///< for the user: its name, and what could not be carried over
+    SharedCharacter loaded;  ///< the part's character, with the new clip last
+    std::string text;        ///< for the user: the clip's name, and what was not retargeted
 };
 
-/// Carries over the clip of that name, empty: the first one, of a character read from `file`. Throws
+/// Retargets the clip of that name (empty: the first one) of a character read from `file`. Throws
 /// std::runtime_error that begins with the file's name.
 PlayedMotion with_motion(const HumanoidPart& part, const Character& source, const OutsideFile& file,
                          const std::string& clip);

@@ -179,7 +179,7 @@ std::vector<BodyFlip> body_flips(const HumanoidMoment& was, const HumanoidMoment
         driven.push_back(bone.node);
         return true;
     });
-    // Of each limb, by its top node, the bone that turned furthest.
+    // For each limb, by its top node: the bone that turned furthest.
     std::vector<std::pair<std::size_t, BodyFlip>> furthest;
     for (const BodyFlip& bone : flipped) {
         const auto limb = std::ranges::find_if(

@@ -103,7 +103,7 @@ std::function<bool(const SharedPart&)> known_to(const Workspace& workspace) {
     return [&past = humanoid_runtime(workspace).past](const SharedPart& part) { return past.has(part); };
 }
 
-/// Of the selected effector, or of the one farthest from its target.
+/// For the selected effector, or for the one farthest from its target.
 PastCurve error_curve(const Workspace& workspace) {
     const HumanoidPart& now = humanoid_part(workspace);
     const auto effector = selected_effector(now);
@@ -116,7 +116,7 @@ PastCurve error_curve(const Workspace& workspace) {
             .at_hand = known_to(workspace)};
 }
 
-/// Of the active node, or of the left elbow.
+/// For the active node, or else for the left elbow.
 PastCurve turn_curve(const Workspace& workspace, const char* what, double JointTurn::*number) {
     const HumanoidPart& now = humanoid_part(workspace);
     const std::string node = now.skeleton()[plotted_node(now)].name;
@@ -302,7 +302,7 @@ const Past& humanoid_past() {
                    {"twist", "twist of a joint",
                     [](const Workspace& w) { return turn_curve(w, "twist of ", &JointTurn::twist); }}},
         .plot_help =
-            "What is plotted below the scene over the last ten seconds: how far the selected "
+            "Plotted below the scene over the last ten seconds: how far the selected "
             "effector is from its target, or how far the selected joint is turned from the T-pose",
         .ghosts_help = "Shows where the body was, every half second",
         .pose = lines_of,
