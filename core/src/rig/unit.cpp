@@ -2,24 +2,27 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
 
 namespace tendril::rig {
 
-struct Units::Held {
-    Unit unit;
+struct Units::Held : Unit {
     std::atomic<std::uint32_t> owners{1};
 
-    static void release(Held* held) noexcept {
-        if (held->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) delete held;
+    explicit Held(Unit&& unit) : Unit(std::move(unit)) {}
+    static Held* of(Unit* unit) noexcept { return static_cast<Held*>(unit); }
+    static void release(Unit* unit) noexcept {
+        if (of(unit)->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) delete of(unit);
     }
 };
 
 Units::Units() noexcept = default;
 Units::Units(Units&&) noexcept = default;
-Units::Units(std::initializer_list<Unit> units) {
+// By way of Units(), so that what was made is released where the rest cannot be.
+Units::Units(std::initializer_list<Unit> units) : Units() {
     for (const Unit& each : units) push_back(each);
 }
-Units::Units(const Units& other) {
+Units::Units(const Units& other) : Units() {
     held_.reserve(other.size());
     for (const Unit& each : other) push_back(each);
 }
@@ -27,19 +30,15 @@ Units& Units::operator=(Units other) noexcept {
     return std::swap(held_, other.held_), *this;
 }
 Units::~Units() {
-    for (Held* const each : held_) Held::release(each);
-}
-const Unit& Units::operator[](std::size_t index) const noexcept {
-    return held_[index]->unit;
-}
-Unit& Units::operator[](std::size_t index) noexcept {
-    return held_[index]->unit;
+    for (Unit* const each : held_) Held::release(each);
 }
 void Units::push_back(Unit unit) {
-    held_.push_back(new Held{std::move(unit)});
+    insert(size(), std::move(unit));
 }
 void Units::insert(std::size_t index, Unit unit) {
-    held_.insert(held_.begin() + static_cast<std::ptrdiff_t>(index), new Held{std::move(unit)});
+    auto held = std::make_unique<Held>(std::move(unit));
+    held_.insert(held_.begin() + static_cast<std::ptrdiff_t>(index), held.get());
+    static_cast<void>(held.release());
 }
 void Units::erase(std::size_t index) noexcept {
     Held::release(held_[index]);
@@ -51,16 +50,16 @@ void Units::resize(std::size_t count) {
 }
 bool Units::operator==(const Units& other) const noexcept {
     return std::equal(held_.begin(), held_.end(), other.held_.begin(), other.held_.end(),
-                      [](const Held* a, const Held* b) { return a == b || a->unit == b->unit; });
+                      [](const Unit* a, const Unit* b) { return a == b || *a == *b; });
 }
 Units Units::with(std::size_t index, Unit unit) const {
     Units changed;
-    changed.held_ = held_;
-    for (std::size_t i = 0; i < size(); ++i)
-        if (i == index)
-            changed.held_[i] = new Held{std::move(unit)};
-        else
-            held_[i]->owners.fetch_add(1, std::memory_order_relaxed);
+    changed.held_.reserve(size());
+    Unit* const own = new Held(std::move(unit));
+    for (std::size_t i = 0; i < size(); ++i) {  // throws no more
+        if (i != index) Held::of(held_[i])->owners.fetch_add(1, std::memory_order_relaxed);
+        changed.held_.push_back(i == index ? own : held_[i]);
+    }
     return changed;
 }
 

@@ -142,8 +142,8 @@ class Units {
 
     std::size_t size() const noexcept { return held_.size(); }
     bool empty() const noexcept { return held_.empty(); }
-    const Unit& operator[](std::size_t index) const noexcept;
-    Unit& operator[](std::size_t index) noexcept;
+    const Unit& operator[](std::size_t index) const noexcept { return *held_[index]; }
+    Unit& operator[](std::size_t index) noexcept { return *held_[index]; }
     const Unit& back() const noexcept { return (*this)[size() - 1]; }
     Unit& back() noexcept { return (*this)[size() - 1]; }
     auto begin() const noexcept { return Iterator<const Units, const Unit>{this, 0}; }
@@ -162,7 +162,7 @@ class Units {
     /// Shares the other units; neither list may be changed any more.
     Units with(std::size_t index, Unit unit) const;
 
-    std::vector<Held*> held_;
+    std::vector<Unit*> held_;  ///< each a Held
 };
 struct ForEach {
     std::vector<std::string> roots{};  ///< 1 to 1000
