@@ -62,14 +62,14 @@ class DefaultLimits {
     /// Whether the shoulder is too short for a collar bone: where rigs have such a stub, the whole arm turns
     /// about it.
     bool is_stub(Bone shoulder, Bone upper, Bone lower, Bone hand) const {
-        constexpr double stub = 0.1;  // arm lengths; a collar bone is 0.25
+        constexpr double shortest = 0.1;  // arm lengths; a collar bone is 0.25
         for (const Bone each : {shoulder, upper, lower, hand})
             if (map_[each].node < 0) return false;
         const auto way = [&](Bone from, Bone to) {
             return length(minus(rest_[static_cast<std::size_t>(map_[to].node)].position,
                                 rest_[static_cast<std::size_t>(map_[from].node)].position));
         };
-        return way(shoulder, upper) < stub * (way(upper, lower) + way(lower, hand));
+        return way(shoulder, upper) < shortest * (way(upper, lower) + way(lower, hand));
     }
     void limb(BodyLimits& limits, bool left) const {
         const auto side = [left](Bone of_left) { return left ? of_left : mirrored(of_left); };

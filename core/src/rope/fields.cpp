@@ -161,11 +161,12 @@ std::span<const Field> fields<rope::Drive>() noexcept {
 template <>
 std::span<const Field> fields<rope::Collider>() noexcept {
     using rope::Collider;
-    static constexpr Field rows[] = {kinds<&Collider::shape>("kind", rope::shape_kinds).as_member("shape"),
-                                     field<&Collider::goal>("goal", anywhere, "m").needed(),
-                                     field<&Collider::seconds>("seconds", seconds, "s"),
-                                     field<&Collider::half_goal>("half_goal", anywhere, "m"),
-                                     nested<&Collider::drive>("drive")};
+    static constexpr Field rows[] = {
+        kinds<&Collider::shape>("kind", rope::shape_kinds).as_member("shape"),
+        field<&Collider::goal>("goal", anywhere, "m").needed(),
+        field<&Collider::seconds>("seconds", seconds, "s"),
+        field<&Collider::half_goal>("half_goal", {2.0 * anywhere.low, 2.0 * anywhere.high}, "m"),
+        nested<&Collider::drive>("drive")};
     return rows;
 }
 
