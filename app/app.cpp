@@ -95,6 +95,7 @@ void App::start_recording(bool live) {
         again->unread = part->unread;
         again->unread_why = part->unread_why;
         again->replaces_unread = part->replaces_unread;
+        again->unread_stand_in = part->unread_stand_in;
         workspace_.document.set(workspace_.lab, again);
         if (!modified) workspace_.saved = workspace_.document;
     }

@@ -30,6 +30,7 @@ void replace_unread(Workspace& workspace, const Document& before) {
         edited->unread = was->second->unread;
         edited->unread_why = was->second->unread_why;
         edited->replaces_unread = true;
+        edited->unread_stand_in = nullptr;
         workspace.document.set(lab, edited);
     }
 }

@@ -48,6 +48,7 @@ class Part {
     std::shared_ptr<const Json> unread{};
     std::string unread_why{};  ///< "hero.glb is missing, at ..."
     bool replaces_unread = false;
+    std::shared_ptr<const Json> unread_stand_in{};  ///< the edited lab's, if that could not be read either
 };
 
 class Document {

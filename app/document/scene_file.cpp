@@ -53,8 +53,7 @@ std::shared_ptr<const Part> load_part(const Part& blank, const Json& json, const
     if (version != scene_version) converted(where, [&] { blank.upgrade(*saved, version); });
     Json found = *saved;
     find_moved_files(found, loading.folder);
-    const std::string changed = changed_files_text(found);
-    std::string why;
+    std::string changed = loading.tells_changes ? changed_files_text(found) : "", why;
     try {
         std::shared_ptr<const Part> part = converted(where, [&] { return blank.load(found, where); });
         if (!changed.empty()) notes.push_back({lab, changed + '.', true});
@@ -68,6 +67,7 @@ std::shared_ptr<const Part> load_part(const Part& blank, const Json& json, const
     } catch (const OutsideFileError& error) {
         why = error.what();
     } catch (const std::runtime_error& error) {
+        if (!loading.tells_changes) changed = changed_files_text(found);
         if (loading.whole && changed.empty()) throw;
         why = changed.empty() ? error.what() : changed + " (" + error.what() + ')';
     }
@@ -75,6 +75,7 @@ std::shared_ptr<const Part> load_part(const Part& blank, const Json& json, const
     if (stand_in != nullptr)
         instead = load_part(blank, *stand_in, nullptr, "stand_ins." + lab, version, loading, notes);
     const std::shared_ptr<Part> part = (instead ? *instead : blank).clone();
+    part->unread_stand_in = part->unread;
     part->unread = std::move(saved);
     part->unread_why = why;
     part->replaces_unread = stand_in != nullptr;
@@ -171,7 +172,8 @@ Json save_scene(const Workspace& workspace, const Document& document) {
     for (const auto& [name, part] : document.parts()) {
         if (name != workspace.lab && workspace.openings.contains(name)) continue;
         labs[name] = part->unread ? *part->unread : part->save();
-        if (part->replaces_unread) stand_ins[name] = part->save();
+        if (part->replaces_unread)
+            stand_ins[name] = part->unread_stand_in ? *part->unread_stand_in : part->save();
     }
     Json scene{{"tendril_scene", scene_version},
                {"lab", workspace.lab},
@@ -199,7 +201,7 @@ Document as_saved(Workspace& workspace, const fs::path& path) {
     std::error_code none;
     if (fs::equivalent(path, workspace.path, none))
         for (const auto& [lab, part] : workspace.document.parts()) {
-            if (!part->replaces_unread) continue;
+            if (!part->replaces_unread || part->unread_stand_in) continue;
             lost += (lost.empty() ? "" : "; ") + ("the " + lab + " lab, which could not be read: ") +
                     part->unread_why;
             const std::shared_ptr<Part> own = part->clone();
@@ -249,7 +251,7 @@ Scene read_scene(const Workspace& workspace, const Json& json, const SceneLoadin
 /// fault.
 std::string loading_fault(const Workspace& workspace, const std::string& text) {
     try {
-        read_scene(workspace, parse_json(text), {});
+        read_scene(workspace, parse_json(text), {.tells_changes = false});
         return {};
     } catch (const std::exception& error) {
         return error.what();

@@ -21,6 +21,7 @@ CameraPose load_camera(const Json& json, const std::string& where);
 struct SceneLoading {
     std::filesystem::path folder{};  ///< the scene's: files that have moved with it are found there
     bool whole = true;  ///< a wrong value refuses the whole scene instead of starting that lab blank
+    bool tells_changes = true;  ///< notes files that have changed, which reads each of them once more
 };
 
 /// A message on an opened lab: a file that its part of the scene names is missing, unreadable or changed.

@@ -415,6 +415,21 @@ TEST_F(SceneWithAFile, KeepsWhatCouldNotBeReadBesideItsEdits) {
     EXPECT_FALSE(save_scene(again).contains("stand_ins"));
 }
 
+TEST_F(SceneWithAFile, KeepsAStandInWhoseOwnFileIsMissing) {
+    save("s.json", "model.glb");
+    Json scene = read_json_file(folder_ / "s.json");
+    const Json edited = scene["labs"]["file"];
+    scene["labs"]["file"]["models"][0]["path"] = (folder_ / "nowhere.glb").string();
+    scene["stand_ins"]["file"] = edited;
+    std::filesystem::remove(folder_ / "model.glb");
+    Workspace again = workspace();
+    load_scene(again, scene);
+    EXPECT_EQ(save_scene(again)["stand_ins"]["file"], edited);
+    EXPECT_EQ(save_scene(again)["labs"]["file"], scene["labs"]["file"]);
+    command_table().run(again, "file.edit", Json::object());
+    EXPECT_EQ(save_scene(again)["stand_ins"]["file"]["edits"], 1);
+}
+
 /// A wrong value is refused, unless the file explains it.
 TEST_F(SceneWithAFile, StartsBlankOnlyIfItsFileIsInvalid) {
     save("s.json", "model.glb");
