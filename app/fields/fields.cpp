@@ -7,7 +7,6 @@
 #include <set>
 
 #include "app/document/json_complete.hpp"
-#include "app/fields/file_fields.hpp"
 #include "app/fields/input_json.hpp"
 
 namespace tendril::app {
@@ -316,25 +315,23 @@ std::vector<std::string> known_names(const JsonPlace& place, std::span<const Fie
     return names;
 }
 
-/// What a missing field means.
-enum class Missing { Refused, Default, Kept };
+using Missing = MissingField;
 
 class Loader {
   public:
     explicit Loader(Missing missing, bool only_known = false, std::span<const std::string_view> newer = {})
         : missing_(missing), only_known_(only_known), newer_(newer) {}
 
-    void fields(const JsonPlace& place, const Scope& scope,
-                std::span<const std::string_view> besides = {}) const {
+    void fields(const JsonPlace& place, const Scope& scope) const {
+        kinds(place, scope);
+        if (only_known_) check_members(place, known_names(place, scope.table, scope.object));
+        beside(place, scope);
+    }
+    /// Makes variants what the file has.
+    void kinds(const JsonPlace& place, const Scope& scope) const {
         if (!place.json().is_object()) place.fail("expected an object, found " + json_summary(place.json()));
         for (const Field& field : scope.table)
             if (field.type == FieldType::Kind) kind(place, field, const_cast<void*>(scope.object));
-        if (only_known_) {
-            std::vector<std::string> known = known_names(place, scope.table, scope.object);
-            known.insert(known.end(), besides.begin(), besides.end());
-            check_members(place, known);
-        }
-        beside(place, scope);
     }
     void kind(const JsonPlace& place, const Field& field, void* object) const {
         if ((missing_ != Missing::Kept && !field.optional) || place.has(field.name))
@@ -424,17 +421,20 @@ class Loader {
                 element(place[name], field, field.address_in(object, i), scope);
         }
         if (!field.names.empty()) return;
+        std::size_t size = field.most;
         if (field.resize != nullptr) {
             field.resize(object, 0);  // what was there is no default
-            field.resize(object, place.list_size(field.name, field.most));
-            if (field.count(object) < field.fewest)
+            size = place.list_size(field.name, field.most);
+            if (size < field.fewest)
                 place.fail("expected at least " + std::to_string(field.fewest) + ' ' + field.name +
-                           ", found " + std::to_string(field.count(object)));
+                           ", found " + std::to_string(size));
         } else {
-            place.check_size(field.most, "elements");
+            place.check_size(size, "elements");
         }
-        std::set<std::string_view> names;
-        for (std::size_t i = 0; i < field.count(object); ++i) {
+        std::set<std::string, std::less<>> names;
+        for (std::size_t i = 0; i < size; ++i) {
+            // One by one: millions of invalid elements are refused at the first.
+            if (field.resize != nullptr) field.resize(object, i + 1);
             const Loader fresh(missing_ == Missing::Kept ? Missing::Default : missing_, only_known_);
             fresh.element(place.element(i), field, field.address_in(object, i), scope);
             if (const Field* const key = key_of(field))
@@ -442,9 +442,9 @@ class Loader {
         }
     }
     static void check_name(const JsonPlace& place, const char* key, std::string_view name,
-                           std::set<std::string_view>& names) {
+                           std::set<std::string, std::less<>>& names) {
         if (name.empty()) (place.has(key) ? place[key] : place).fail("expected a name, found none");
-        if (!names.insert(name).second) place[key].fail("there is another \"" + std::string(name) + "\"");
+        if (!names.emplace(name).second) place[key].fail("there is another \"" + std::string(name) + "\"");
     }
 
     Missing missing_;
@@ -470,23 +470,18 @@ void load_fields(const JsonPlace& place, FieldsIn in) {
     Loader(Missing::Default).fields(place, {nullptr, in.table, in.object});
 }
 
-void load_known_fields(const JsonPlace& place, FieldsIn in, bool edit,
-                       std::span<const std::string_view> besides) {
-    Loader(edit ? Missing::Kept : Missing::Default, true)
-        .fields(place, {nullptr, in.table, in.object}, besides);
-}
-
-void load_file_fields(const JsonPlace& place, const std::vector<FileFields>& structs,
-                      std::initializer_list<const char*> beside) {
+void load_known_fields(const JsonPlace& place, const std::vector<KnownFields>& structs,
+                       const std::vector<std::string_view>& besides) {
     std::vector<std::string> names;
-    for (const FileFields& each : structs)
+    for (const KnownFields& each : structs) {
+        Loader(each.missing).kinds(place, {nullptr, each.in.table, each.in.object});
         for (std::string& name : known_names(place, each.in.table, each.in.object))
             names.push_back(std::move(name));
-    names.insert(names.end(), beside.begin(), beside.end());
+    }
+    names.insert(names.end(), besides.begin(), besides.end());
     check_members(place, names);
-    for (const FileFields& each : structs)
-        Loader(each.all ? Missing::Refused : Missing::Default, true, each.newer)
-            .beside(place, {nullptr, each.in.table, each.in.object});
+    for (const KnownFields& each : structs)
+        Loader(each.missing, true, each.newer).beside(place, {nullptr, each.in.table, each.in.object});
 }
 
 std::vector<std::string> field_names(std::span<const Field> table, const void* object) {

@@ -86,10 +86,22 @@ void load_fields(const JsonPlace& place, FieldsIn in);
 /// The same, but a missing field is an error, unless it is in `newer`: old files lack those.
 void load_all_fields(const JsonPlace& place, FieldsIn in, std::span<const std::string_view> newer = {});
 
-/// Refuses members that are no fields. `edit`: required fields, and a variant whose kind is not named, may be
-/// missing too and keep their values. `besides`: members that the caller reads.
-void load_known_fields(const JsonPlace& place, FieldsIn in, bool edit = false,
-                       std::span<const std::string_view> besides = {});
+/// What a missing field means: it keeps its value unless it is required; it is an error; it keeps its value.
+enum class MissingField { Default, Refused, Kept };
+/// The fields of a struct that an object in a file has, perhaps beside another's.
+struct KnownFields {
+    FieldsIn in;
+    MissingField missing = MissingField::Default;
+    std::vector<std::string_view> newer{};  ///< old files lack these, also in nested structs
+};
+/// Refuses members that are neither fields nor `besides`, which the caller reads.
+void load_known_fields(const JsonPlace& place, const std::vector<KnownFields>& structs,
+                       const std::vector<std::string_view>& besides = {});
+inline void load_known_fields(const JsonPlace& place, FieldsIn in,
+                              const std::vector<std::string_view>& besides = {},
+                              MissingField missing = MissingField::Default) {
+    load_known_fields(place, std::vector<KnownFields>{{in, missing, {}}}, besides);
+}
 /// As in files; includes those of the kind that a variant holds.
 std::vector<std::string> field_names(std::span<const Field> table, const void* object);
 

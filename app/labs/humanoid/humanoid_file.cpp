@@ -5,7 +5,8 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
-#include "app/fields/file_fields.hpp"
+#include "app/fields/fields.hpp"
+#include "app/fields/input_json.hpp"
 #include "app/io/character/read.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
 #include "app/labs/humanoid/clip/playback.hpp"
@@ -42,7 +43,7 @@ Corrections read_corrections(const JsonPlace& place, const humanoid::Skeleton& s
 /// Settings that are missing are those of `reading`.
 Reading read_reading(const JsonPlace& place, Reading reading, const humanoid::Skeleton& skeleton) {
     if (const auto scale = place.optional("scale")) reading.scale = scale->real(min_unit, max_unit);
-    if (const auto space = place.optional("space")) load_file_fields(*space, {{reading.space}});
+    if (const auto space = place.optional("space")) load_known_fields(*space, reading.space);
     if (const auto bones = place.optional("bones")) reading.bones = read_corrections(*bones, skeleton);
     if (const auto limits = place.optional("limits")) reading.limits = limits->choice(limits_from);
     return reading;
@@ -92,7 +93,7 @@ Playback read_playback(const JsonPlace& place, const LoadedCharacter& character)
     Playback playback;
     if (place.has("name")) playback.clip = read_clip(place, character);
     if (const auto playing = place.optional("playing")) playback.playing = playing->flag();
-    load_file_fields(
+    load_known_fields(
         place, {{playback}},
         {"name", "index", "playing", "time", "rounds", "carry_targets"});  // the last: older files
     if (const auto time = place.optional("time")) {
@@ -165,9 +166,8 @@ void read_edits(const JsonPlace& place, HumanoidPart& part) {
         const auto edits = place.optional(key);
         if (!edits) continue;
         edits->for_each(key, max_edits, [&](const JsonPlace& each) {
-            load_file_fields(each, {},
-                             {"file", "path", "crc32", "scale", "space", "bones", "limits", "clip", "kind",
-                              "node", "frame"});
+            check_members(each, {"file", "path", "crc32", "scale", "space", "bones", "limits", "clip", "kind",
+                                 "node", "frame"});
             take(each, part, read_reading(each, now, part.skeleton()));
             read_edit(each, part);
         });
@@ -200,7 +200,7 @@ Json HumanoidPart::save() const {
 
 std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& where) const {
     const JsonPlace place(json, where);
-    load_file_fields(
+    load_known_fields(
         place, {},
         {"file", "path", "crc32", "scale", "space", "bones", "edits", "clip", "t_pose", "ik", "springs",
          "curves", "attachments", "quiet_ticks", "flips", "selected", "view", "motions", "cures"});
@@ -219,10 +219,10 @@ std::shared_ptr<Part> HumanoidPart::load(const Json& json, const std::string& wh
     if (const auto hanging = place.optional("attachments"))
         part->attachments = read_attachments(*hanging, part->skeleton());
     if (const auto ticks = place.optional("quiet_ticks")) part->quiet_ticks = ticks->integer(0, 1'000'000);
-    if (const auto rule = place.optional("flips")) load_file_fields(*rule, {{part->flips}});
+    if (const auto rule = place.optional("flips")) load_known_fields(*rule, part->flips);
     if (const auto selected = place.optional("selected"))
         part->selection = load_selection(*selected, part->skeleton());
-    if (const auto shown = place.optional("view")) load_file_fields(*shown, {{part->view}});
+    if (const auto shown = place.optional("view")) load_known_fields(*shown, part->view);
     return part;
 }
 

@@ -4,7 +4,8 @@
 #include <stdexcept>
 
 #include "app/document/json_complete.hpp"
-#include "app/fields/file_fields.hpp"
+#include "app/fields/fields.hpp"
+#include "app/fields/input_json.hpp"
 #include "app/labs/kit/part_cache.hpp"
 
 namespace tendril::app {
@@ -177,7 +178,7 @@ Json save_selection(const Selection& selection, const humanoid::Skeleton& skelet
 
 Selection load_selection(const JsonPlace& place, const humanoid::Skeleton& skeleton) {
     if (!place.json().is_object()) return selection_of({place.text()}, skeleton);
-    load_file_fields(place, {}, {"active", "all"});
+    check_members(place, {"active", "all"});
     std::vector<std::string> names;
     place["all"].for_each("selected", humanoid::Skeleton::max_nodes,
                           [&](const JsonPlace& each) { names.push_back(each.text()); });

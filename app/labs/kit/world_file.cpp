@@ -75,7 +75,7 @@ std::span<const Field> fields<app::BodyRow>() noexcept {
     using Row = app::BodyRow;
     static constexpr auto colours = app::body_colours.name_array();
     static const auto rows = app::with_fields_of(
-        &Row::body, {field<&Row::name>("name").omissible(), field<&Row::colour>("colour", colours)});
+        &Row::body, {field<&Row::name>("name").needed(), field<&Row::colour>("colour", colours)});
     return rows;
 }
 
@@ -266,7 +266,7 @@ NamedWorld load_world(const JsonPlace& place, std::span<const std::string_view> 
                                 [&](const JsonPlace& row) { load_particle(state, row); });
     const std::size_t size = state.position.size();
     WorldRows rows;
-    load_known_fields(place, rows, false, others);
+    load_known_fields(place, rows, others);
     state.settings = rows.settings;
     state.remainder = rows.remainder, state.displaced_in = rows.moved_in, state.drift = rows.drift;
     state.substeps = rows.substeps, state.dropped = rows.dropped;

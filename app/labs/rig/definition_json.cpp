@@ -58,8 +58,13 @@ rig::Element read_element(const JsonPlace& place) {
 rig::Definition read_definition(const JsonPlace& place) {
     rig::Definition definition;
     Json full = Json::object();
-    for (const char* list : {"elements", "curves", "units"})
-        if (place.has(list)) full[list] = place[list].json();
+    // Sizes first: oversized lists are refused before they are read.
+    for (const auto& [list, most] :
+         {std::pair("elements", max_lab_elements), {"curves", max_lab_curves}, {"units", max_lab_units}})
+        if (place.has(list)) {
+            place[list].list_size(list, most);
+            full[list] = place[list].json();
+        }
     if (full.contains("elements") && full["elements"].is_array())
         for (std::size_t i = 0; Json & each : full["elements"])
             each = full_element(each, place["elements"].element(i++));
@@ -90,7 +95,7 @@ std::vector<std::string> unit_members() {
 
 void edit_unit(const JsonPlace& place, rig::Unit& unit, bool edit) {
     const Json full = full_unit(place.json());
-    load_known_fields({full, place.where()}, unit, edit);
+    load_known_fields({full, place.where()}, unit, {}, edit ? MissingField::Kept : MissingField::Default);
 }
 
 rig::Unit read_unit(const JsonPlace& place) {

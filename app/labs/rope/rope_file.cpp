@@ -210,11 +210,10 @@ void RopePart::upgrade(Json& json, int version) const {
 }
 
 std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where) const {
-    constexpr std::string_view others[] = {"selected", "world", "held", "samples", "rivals", "character"},
-                               racing_too[] = {"held", "samples"};
+    const std::vector<std::string_view> racing_too{"held", "samples"};
     const JsonPlace place(json, where);
     auto part = std::make_shared<RopePart>();
-    load_known_fields(place, *part, false, others);
+    load_known_fields(place, *part, {"selected", "world", "held", "samples", "rivals", "character"});
     const auto read_world = [](const JsonPlace& at, std::span<const std::string_view> besides = {}) {
         try {
             auto read = std::make_shared<const NamedWorld>(load_world(at, besides));

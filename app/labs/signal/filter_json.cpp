@@ -67,7 +67,7 @@ std::string other_end(const signal::Filter& filter) {
 void set_parameters(signal::Filter& filter, const Json& given, const std::string& where,
                     const std::vector<std::string_view>& others) {
     signal::Filter changed = filter;
-    load_known_fields({given, where}, file_fields(changed), true, others);
+    load_known_fields({given, where}, file_fields(changed), others, MissingField::Kept);
     if (const auto* curve = std::get_if<signal::Curve>(&changed); curve != nullptr && curve->keys.empty())
         fail(place(where, "keys"), "expected at least one key, found none");
     if (const Result result = signal::check(changed); !result)
@@ -172,7 +172,6 @@ Json filter_state_json(const signal::FilterState& state) {
 }
 
 signal::FilterState filter_state_from_json(const Json& json, const std::string& where) {
-    constexpr std::string_view entries[] = {"entries"};
     const JsonPlace place(json, where);
     if (!json.is_object() || json.size() != 1)
         place.fail("expected the state of a filter, found " + json_summary(json));
@@ -182,8 +181,9 @@ signal::FilterState filter_state_from_json(const Json& json, const std::string& 
     held.set(&of, {static_cast<double>(name - state_names)});
     const JsonPlace own = place[*name];
     auto* const average = std::get_if<signal::MovingAverageState>(&of.state);
-    load_known_fields(own, {state_table(of), held.address_in(&of)}, false,
-                      std::span(entries).first(average != nullptr ? 1 : 0));
+    std::vector<std::string_view> besides;
+    if (average != nullptr) besides.emplace_back("entries");
+    load_known_fields(own, {state_table(of), held.address_in(&of)}, besides);
     if (average != nullptr) load_entries(*average, own);
     return of.state;
 }

@@ -49,9 +49,9 @@ Json save_input(const SignalInput& input) {
 }
 
 SignalInput load_input(const JsonPlace& place) {
-    constexpr std::string_view others[] = {"recording", "path", "rows"};
+    const std::vector<std::string_view> others{"recording", "path", "rows"};
     SignalInput input;
-    load_known_fields(place, input, false, others);
+    load_known_fields(place, input, others);
     const auto rows = [&](const char* name, std::shared_ptr<const InputRows>& into) {
         if (const auto given = place.optional(name))
             into = std::make_shared<const InputRows>(load_rows(*given, "rows", max_input_rows));

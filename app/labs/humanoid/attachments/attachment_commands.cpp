@@ -5,7 +5,7 @@
 #include <tendril/magnitude.hpp>
 
 #include "app/document/json_complete.hpp"
-#include "app/fields/file_fields.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
@@ -178,7 +178,7 @@ Json attachments_json(const Attachments& attachments) {
 
 Attachments read_attachments(const JsonPlace& place, const humanoid::Skeleton& skeleton) {
     Attachments attachments;
-    load_file_fields(place, {{attachments, true}}, {"world"});
+    load_known_fields(place, {{attachments, MissingField::Refused}}, {"world"});
     const JsonPlace world_place = place["world"];
     try {
         NamedWorld world = load_world(world_place);

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/document/json_complete.hpp"
-#include "app/fields/file_fields.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/ik/solvers.hpp"
@@ -199,7 +199,7 @@ void read_curves(const JsonPlace& place, HumanoidPart& part) {
         if (const std::string why = why_no_curve(part, *chain); !why.empty()) each["first"].fail(why);
         if (const auto made = humanoid::BentChain::make(part.skeleton(), chain->first, chain->last); !made)
             each["first"].fail(made.error().message());
-        load_file_fields(each, {{curve.shape}}, {"first", "last", "points", "jumped"});
+        load_known_fields(each, curve.shape, {"first", "last", "points", "jumped"});
         curve.shape.points = read_control_points(each["points"], max_bone_curve_points);
         if (curve.shape.points.empty()) each["points"].fail("a curve needs a control point");
         if (const auto jumped = each.optional("jumped"))

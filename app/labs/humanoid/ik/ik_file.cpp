@@ -1,6 +1,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
-#include "app/fields/file_fields.hpp"
+#include "app/fields/fields.hpp"
+#include "app/fields/input_json.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
@@ -25,8 +26,8 @@ void read_targets(const JsonPlace& place, IkSettings& ik) {
     for (const auto& [name, value] : place.json().items()) {
         const auto effector = humanoid::effector_named(name);
         if (!effector) place.fail("there is no effector \"" + name + "\"");
-        load_file_fields(place[name.c_str()],
-                         {{ik.target(*effector).emplace(), true, {"rotation", "weight"}}});
+        load_known_fields(place[name.c_str()],
+                          {{ik.target(*effector).emplace(), MissingField::Refused, {"rotation", "weight"}}});
         ik.target(*effector)->effector = *effector;
     }
 }
@@ -38,7 +39,7 @@ Json release_json(const Release& release, const humanoid::Skeleton& skeleton) {
 }
 
 Release read_release(const JsonPlace& place, const humanoid::Skeleton& skeleton) {
-    load_file_fields(place, {}, {"left", "shift", "turns"});
+    check_members(place, {"left", "shift", "turns"});
     Release release{.left = place["left"].real(0.0, release_seconds), .shift = place["shift"].dpoint()};
     const JsonPlace turns = place["turns"];
     if (!turns.json().is_object()) turns.fail("expected an object of nodes");
@@ -57,7 +58,7 @@ Json ground_json(const GroundSetting& ground) {
 }
 
 void read_ground(const JsonPlace& place, GroundSetting& ground) {
-    load_file_fields(place, {{ground}}, {"file", "path", "crc32"});
+    load_known_fields(place, ground, {"file", "path", "crc32"});
     if (place.has("path")) ground.mesh = read_outside_file(place, read_ground_mesh);
     if (ground.kind == humanoid::GroundKind::Mesh && !ground.mesh) place.fail("a mesh needs its path");
 }
@@ -72,7 +73,7 @@ Json hand_ik_json(const HandIkSetting& setting) {
 }
 
 void read_hand_ik(const JsonPlace& place, HandIkSetting& setting) {
-    load_file_fields(place, {{setting}}, {"left_hand", "right_hand"});
+    load_known_fields(place, setting, {"left_hand", "right_hand"});
     for (std::size_t hand = 0; hand < 2; ++hand) {
         const auto times = place.optional(humanoid::name(both_hands[hand]));
         if (!times) continue;
@@ -118,10 +119,15 @@ Json ik_json(const HumanoidPart& part) {
 
 void read_ik(const JsonPlace& place, HumanoidPart& part) {
     IkSettings& ik = part.ik;
-    load_file_fields(
+    load_known_fields(
         place,
-        {{ik}, {part.ik_state, true, {"held", "hands", "look", "steps", "body", "weights", "outside"}}},
+        {{ik},
+         {part.ik_state,
+          MissingField::Refused,
+          {"held", "hands", "look", "steps", "body", "weights", "outside"}}},
         {"targets", "joint_limits", "ground", "hand_ik", "release", "feet"});  // older files: "feet"
+    if (const auto held = place.optional("held"))
+        static_cast<void>((*held)["hands"]);  // of its own, not newer
     if (const Result bad = check(ik.foot_ik.options); !bad) place["foot_ik"].fail(bad.message());
     if (const auto targets = place.optional("targets")) read_targets(*targets, ik);
     if (const auto joints = place.optional("joint_limits")) read_joint_limits(*joints, ik);

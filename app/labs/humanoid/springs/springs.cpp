@@ -6,7 +6,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/fields/field_in.hpp"
-#include "app/fields/file_fields.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 
 template <>
@@ -134,7 +134,7 @@ void read_springs(const JsonPlace& place, HumanoidPart& part) {
         // A spring whose nodes now belong to the body stays, without effect.
         if (const std::string why = overlap(part, *node); !why.empty()) each["node"].fail(why);
         humanoid::SpringChainState state;
-        load_file_fields(each, {{spring}, {state, true, {"masses", "held"}}}, {"node"});
+        load_known_fields(each, {{spring}, {state, MissingField::Refused, {"masses", "held"}}}, {"node"});
         part.springs.push_back(std::move(spring));
         part.ik_state.springs.push_back(std::move(state));
     });

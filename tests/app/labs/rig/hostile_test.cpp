@@ -33,6 +33,7 @@ TEST_F(RigHostile, ElementsThatAreNoTree) {
     expect_refused("rig.element.add", {{"name", "\xEF\xBF\xBD"}}, {"UTF-8"});
 
     expect_scene_refused("/elements/0/parent", "hand", "itself below it");
+    expect_scene_refused("/units", std::vector<int>(2001), "2000");
 }
 
 TEST_F(RigHostile, InvalidTransforms) {
