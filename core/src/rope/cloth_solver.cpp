@@ -269,9 +269,9 @@ double ClothSolver::predict() {
     }
     for (std::size_t i = first_; i < end && farthest < far * far; ++i)
         if (scratch_.weight[i] > 0.0) scratch_.x[i] = unchanged(i);
+    forced_ = driven;
     evaluate();
     const double small = residual_strain * shortest_;
-    forced_ = driven > 0.0 ? driven : small * small * stiffness_;  // without gravity, wind or damping
     return std::min(force_residual * force_residual * driven, small * small * stiffness_);
 }
 
