@@ -42,7 +42,7 @@ double mean_length(const Rig& rig, State& state) {
     return count > 0 && sum > 1e-9 ? sum / count : 1.0;
 }
 
-/// Clears all memory. A cleared spring starts at its target, like one at rest.
+/// Clears the memory of all units. A spring without memory starts at rest at its target.
 void forget(State& state) {
     for (UnitState& unit : state.units)
         for (UnitMemory& memory : unit.memory) memory.held = std::monostate();
@@ -104,8 +104,8 @@ class Descent {
         return !out_of_work_;
     }
 
-    /// Increases the damping, which shortens the step and turns it towards steepest descent, until a step
-    /// gains.
+    /// Increases the damping until a step reduces the cost. Damping shortens the step and turns it towards
+    /// steepest descent.
     void descend(Parameters& now, std::vector<double>& left, double& cost) {
         for (; damping_ < 1e12; damping_ *= 8.0) {
             if (!spend(equations_.solving() / multiplications_a_step + solve_work_)) return;
@@ -122,7 +122,7 @@ class Descent {
         }
     }
 
-    /// The residuals of all bones with these control values.
+    /// The residuals of all bones for these control values.
     std::vector<double> left_of(const Parameters& parameters) {
         parameters.write(state_.controls);
         forget(state_);

@@ -19,8 +19,8 @@ using detail::quoted;
 using detail::Shared;
 using detail::UnitPlan;
 
-/// Work, in steps of about 30 ns. A bone of a chain takes 10 if the chain follows, 20 if it has to be bent
-/// anew.
+/// Work, in steps of about 30 ns. A bone takes 10 while its chain follows a target and 20 when the chain must
+/// bend into a new pose; 20 is charged.
 constexpr std::uint64_t work_a_unit = 10, work_a_bone = 20;
 
 Result invalid(const std::string& message) {
@@ -138,7 +138,7 @@ class Builder {
         return {};
     }
 
-    /// `times`: how many elements it runs on. `around`: the index of the for-each that contains it, if any.
+    /// `times`: how often it runs in a solve. `around`: the index of the for-each that contains it, if any.
     Result add_unit(Unit& unit, std::size_t times, std::optional<std::size_t> around = {}) {
         const std::size_t index = layout_.units.size();
         const std::string place = "unit " + quoted(unit.name);

@@ -13,8 +13,8 @@ namespace tendril::rig {
 
 class NormalEquations {
   public:
-    /// `columns`: per parameter, how much each residual falls per unit of the parameter. All of the same
-    /// size. Only computes the cost, which may be too high; `columns` must not change until assemble().
+    /// `columns`: per parameter, how much each residual falls per unit of the parameter; all of the same
+    /// size. Only computes an upper bound of the cost; `columns` must not change until assemble().
     void plan(const std::vector<std::vector<double>>& columns);
     /// Upper bounds of the cost of assemble() and of one solve(), in multiplications.
     std::uint64_t assembling() const noexcept { return assembling_; }

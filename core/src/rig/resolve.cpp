@@ -74,7 +74,7 @@ void Resolver::spring(std::vector<Output>& handed_out) {
 
 namespace {
 
-/// The units in a body are resolved by themselves.
+/// Whether a field holds the body of a for-each; the units in it are resolved separately.
 bool is_body(const Field& field) {
     return field.holds<Unit>();
 }
@@ -108,7 +108,7 @@ void Resolver::rows(std::span<const Field> table, void* object, const std::strin
     }
 }
 
-/// `at`: what the field's accessors take; of a struct, its address.
+/// `at`: the argument of the field's accessors; for a struct, the struct's address.
 void Resolver::row(const Field& field, void* at, const std::string& name) {
     if (at == nullptr) return;
     if (field.type == FieldType::Struct) return rows(field.table(), at, name + '.');

@@ -138,7 +138,7 @@ void Runner::hand_out(std::size_t output, const Value& value) noexcept {
     }
 }
 
-/// At weight 0 the item must keep its bits.
+/// At weight 0 the element must stay unchanged to the last bit.
 void Runner::place(ElementId id, Space space, const Transform& to, bool propagate) noexcept {
     if (weight_ == 0.0) return;
     if (!is_fine(to)) return warn(Warning::OutOfRange);

@@ -37,8 +37,8 @@ glm::dvec3 Runner::bone_place(std::size_t bone) noexcept {
     return state_.elements.get(plan_.layout->ids[element], Space::Global).translation;
 }
 
-/// Length in metres, from quantities that do not change with the pose: unless a scale changes, the length
-/// keeps its bits, and the solver made for it can be reused.
+/// Length in metres, from quantities that do not depend on the pose: the length stays the same to the last
+/// bit unless a scale changes, so the chain's solver can be reused.
 float Runner::bone_length(std::size_t bone) noexcept {
     const std::vector<std::uint32_t>& elements = plan_.layout->units[unit_].bones;
     const glm::dvec3 scale = state_.elements.get(plan_.layout->ids[elements[bone]], Space::Global).scale;
@@ -69,8 +69,8 @@ bool Runner::measure_chain(ChainScratch& chain) {
     return same;
 }
 
-/// A solver for the current bone lengths: made at the first solve, and again whenever a length differs at
-/// all. Otherwise the result would depend on earlier solvers.
+/// Makes a solver for the current bone lengths at the first solve, and again whenever a length differs at
+/// all. Otherwise the result would depend on earlier solves.
 bool Runner::prepare_chain(ChainScratch& chain) {
     if (measure_chain(chain) && chain.solver) return true;
     chain.solver.reset();
@@ -140,7 +140,7 @@ void Runner::measure_rest(ChainScratch& chain) {
     }
 }
 
-/// The root goes to the first joint, the bones turn from their initial poses, and their lengths are scaled by
+/// Moves the root to the first joint, turns the bones from their initial poses, and scales their lengths by
 /// the factor, each blended by the weight.
 void Runner::lay(const ChainScratch& chain, const glm::dvec3& first, double factor) noexcept {
     Hierarchy& tree = state_.elements;
@@ -159,7 +159,7 @@ void Runner::lay(const ChainScratch& chain, const glm::dvec3& first, double fact
         pose.translation = detail::times(pose.translation, 1.0 + weight_ * (factor - 1.0));
         place(next, Space::Local, pose, true);
     }
-    turn_bones(chain);  // where an element has moved within its parent since the initial pose
+    turn_bones(chain);  // corrects bones whose tip has moved within its parent since the initial pose
 }
 
 void Runner::operator()(const Spline& op) noexcept {
@@ -196,7 +196,7 @@ void Runner::operator()(const Spline& op) noexcept {
     }
     hand_out(0, detail::length(detail::minus(end, bone_place(bones))));
     const bool past =
-        report.status == ik::Status::Stretched;  // otherwise the tip is past by rounding at most
+        report.status == ik::Status::Stretched;  // otherwise only rounding puts the tip past the end
     hand_out(1, past ? static_cast<double>(report.bones_past_end) : 0.0);
     hand_out(2, past ? static_cast<double>(report.past_end) : 0.0);
     hand_out(3, static_cast<double>(report.factor));

@@ -10,7 +10,7 @@
 namespace tendril::rig {
 namespace {
 
-/// Smaller changes are rest, in metres, radians or plain numbers.
+/// Smaller changes and speeds count as rest; in metres, radians or plain numbers.
 constexpr double still = 1e-9;
 
 double blended(double from, double to, double weight) noexcept {
@@ -55,7 +55,7 @@ void Runner::operator()(const AlphaInterpolate& op) noexcept {
     auto& remembered = std::get<signal::OutputState>(memory().held);
     const signal::OutputState before = remembered;
     if (!parameters.interp) {
-        // Without easing the input takes effect at once, even if no time passes.
+        // Without easing the input takes effect at once, even in a step of zero time.
         signal::OutputState at_once{.value = before.value};
         hand_out(0, blended(value, signal::step(parameters, at_once, value, dt_), weight_));
         if (at_once.started) remembered = at_once;
@@ -82,8 +82,8 @@ void Runner::spring(const SpringInterpolate& op, const T& target) noexcept {
     auto& remembered = std::get<Memory>(memory().held);
     const Rate before = remembered.velocity;
     const T result = signal::step(parameters, remembered, target, dt_);
-    // The velocity is 0 at a turning point, and before a force without a spring has moved it: that is not
-    // rest.
+    // The velocity is 0 at a turning point, and before a force without a spring has moved the value; neither
+    // is rest.
     moving_ |= size(remembered.velocity) > still || size(difference(remembered.velocity, before)) > still ||
                (parameters.strength < signal::no_strength && size(parameters.force) > still);
     hand_out(0, blended(target, result, weight_));

@@ -19,7 +19,7 @@ class Runner {
     Runner(const detail::Plan& plan, State& state, double dt, Workspace::Parts& workspace) noexcept
         : plan_(plan), state_(state), dt_(dt), workspace_(workspace) {}
 
-    /// True while anything with memory still moves.
+    /// Returns true while anything with memory still moves.
     bool run(Observer* observer) noexcept;
 
     void operator()(const Aim& op) noexcept;
@@ -51,7 +51,7 @@ class Runner {
     Value value_of(const FromElement& from) noexcept;
     ElementId item(const Item& item) const noexcept;
     double weight(const Input<double>& input) noexcept;
-    /// Clamped to 0 to `maximum`, with a warning if it is outside.
+    /// Clamps the input to 0 to `maximum`, and warns if it is outside.
     double parameter(const Input<double>& input, double maximum) noexcept;
     const Transform& global(const Item& item) noexcept {
         return state_.elements.get(this->item(item), Space::Global);
@@ -90,7 +90,7 @@ class Runner {
     std::size_t place_in_for_each_ = 0;
     double weight_ = 1.0;
     double for_each_weight_ = 1.0;  ///< weight of the surrounding for-each
-    bool skipped_ = false;          ///< then its weight is 0 and its memory does not advance
+    bool skipped_ = false;          ///< true at weight 0: memory does not advance
     bool moving_ = false;
 };
 

@@ -25,7 +25,7 @@ std::optional<std::size_t> found(const Names& names, std::string_view name) {
     return at == names.end() ? std::nullopt : std::optional(at->second);
 }
 
-/// The pose within the parent before any unit has run: the input pose, or the one given by a control's value.
+/// The local pose before any unit has run: the input pose, or a control's pose for its value.
 Transform begun_local(const Plan& plan, State& state, std::size_t element) {
     const Transform& base = state.elements.get(plan.layout->ids[element], Space::Local, Pose::Input);
     const std::optional<Control>& control = plan.definition.elements[element].control;
@@ -72,8 +72,8 @@ void take_value(const Control& control, State& state, std::size_t element, Eleme
     }
 }
 
-/// The names of the elements that a unit has memory of; for a chain of bones, the bones. A single empty name
-/// for a unit with memory of its own.
+/// The names of the elements that a unit has memory of: for a chain, its bones; for a unit with a single
+/// memory, one empty name.
 std::vector<std::string_view> remembered(const Plan& plan, std::size_t unit) {
     std::vector<std::string_view> names;
     const auto name = [&](std::uint32_t element) {
@@ -89,7 +89,7 @@ std::vector<std::string_view> remembered(const Plan& plan, std::size_t unit) {
     return names;
 }
 
-/// Copies the memory of elements that still exist. An element visited twice is matched in order.
+/// Copies the memory of elements that still exist. Repeated visits to an element are matched in order.
 void adopt_memory(const Plan& plan, std::size_t unit, UnitState& state, const Plan& before, std::size_t was,
                   const UnitState& old) {
     const std::vector<std::string_view> now = remembered(plan, unit), then = remembered(before, was);
@@ -254,8 +254,8 @@ Result Rig::set_element(State& state, std::size_t element, Space space, const Tr
     if (!fine) return fine.error();
     Hierarchy& tree = state.elements;
 
-    // A child that stays keeps its global pose at the start of a solve: for a control, the one given by its
-    // value.
+    // A child that stays keeps its global pose at the start of a solve. For a control, its value sets that
+    // pose.
     std::vector<std::pair<std::size_t, Transform>> stay;
     if (propagate == Propagate::No) {
         const Transform before = begun_global(plan, state, element);
