@@ -16,7 +16,7 @@ using glm::dvec3;
 constexpr double allowed_depth = 1e-7;               ///< metres inside that are harmless
 constexpr double penetration_tolerance = 1e-6;       ///< metres inside that require another step
 constexpr double late_penetration_tolerance = 1e-5;  ///< the same after many steps
-constexpr double unmeasured = 1e30;                  ///< metres, if not measured
+constexpr double unmeasured = 1e30;                  ///< metres; not yet measured
 /// Slip per substep of a particle that friction holds, metres.
 constexpr double min_slip = 1e-7;
 
@@ -151,7 +151,7 @@ bool ChainNewton::inside() const {
     return false;
 }
 
-/// Stops a particle whose free path would pass through a surface on the side that it came from.
+/// If a particle's free path would pass through a surface, stops it on the side that it came from.
 void ChainNewton::begin_plane(ContactScratch::Contact& contact, ContactScratch::Plane& plane) {
     const std::uint32_t i = particle(contact.node);
     const Scratch::Moving& moving = collider(plane.collider);
@@ -279,7 +279,7 @@ void ChainNewton::apply_friction(ContactScratch::Contact& contact) {
         slip = tangential(slip, effect.normal[p]);
     }
     double slip_distance = detail::length(slip);
-    if (!s_.progress.moved) {  // its earlier slip, or its free one
+    if (!s_.progress.moved) {  // the larger of its previous slip and its free slip
         const double before = detail::length(state_.displacement[particle(contact.node)] - by);
         const double alone = detail::length(slip + (1.0 / node.mass) * force) - friction * normal / node.mass;
         slip_distance = std::max(before, alone);
@@ -304,7 +304,7 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
     effect.active = false;
     for (std::uint32_t c = contact.first; c < contact.first + contact.count; ++c) {
         const Scratch::Moving& moving = collider(s_.link_colliders[c]);
-        // The start of the substep as seen by the collider, which has moved since.
+        // The start of the substep as seen from the collider, which has moved since.
         const dvec3 by_a = s_.progress.moved ? dvec3(0.0) : moving.move_at(a),
                     by_b = s_.progress.moved ? dvec3(0.0) : moving.move_at(b);
         const dvec3 from = a + by_a, along = b + by_b - from;

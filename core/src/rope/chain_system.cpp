@@ -7,7 +7,7 @@
 namespace tendril::rope::detail {
 namespace {
 
-constexpr double contact_compliance = 1e-8;  ///< of contacts with links, relative to the inverse mass
+constexpr double contact_compliance = 1e-8;  ///< for contacts with links, relative to the inverse mass
 constexpr double max_stiffness = 1e9;        ///< relative to the mass
 constexpr double max_multiplier = 1e9;       ///< relative to mass and rest
 constexpr double min_freedom = 0.05;
@@ -20,7 +20,7 @@ struct Sweep {
 };
 /// Terms for the next node but one, if the chain resists bending.
 struct Beyond {
-    Matrix3 across;  ///< the matrix that leads there from the next
+    Matrix3 across;  ///< the matrix block from the next node to the one after
     Symmetric3 matrix;
     dvec3 right{0.0};
 };
@@ -108,8 +108,8 @@ inline Sweep eliminate(const ChainNode& node, ChainBond& bond, const dvec3& alon
     return next;
 }
 
-/// The same if bending leads to the next node, and by `to_second` to the next but one. `beyond`: in, the
-/// terms from earlier nodes for the next; out, the terms for the next but one.
+/// The same where bending couples the node to the next one, and by `to_second` to the next but one. `beyond`:
+/// in, terms from earlier nodes for the next; out, terms for the next but one.
 Sweep eliminate(const ChainNode& node, ChainBond& bond, ChainBend& bend, double to_second, const dvec3& along,
                 double weights, Beyond& beyond) noexcept {
     Sweep next = eliminate(node, bond, along, weights);
@@ -221,7 +221,7 @@ void ChainSystem::evaluate(double extra_stiffness) noexcept {
             const NodePush& push = pushes[static_cast<std::size_t>(node.push)];
             node.force += push.force + push.stiffness * (push.at - node.x);
         }
-        // On the next node tension pulls back, but the contact's share pushes.
+        // Tension pulls the next node back, but the contact's share pushes it.
         pull_before = pull - push_next;
     }
     for (std::size_t k = 1; k + 1 < bends.size(); ++k) {
@@ -290,7 +290,7 @@ void ChainSystem::solve() noexcept {
     // Interleaved: neither side waits for the other.
     for (std::size_t k = 0; k < middle; ++k) {
         if (last - k > middle) right = pass(right, right_beyond, last - k, last - k - 1);
-        if (bent && k + 1 == middle) {  // the right side has come to the middle, and leads beyond it
+        if (bent && k + 1 == middle) {  // the right side is at the middle; its terms lead beyond
             left.matrix.add(right_beyond.matrix);
             left.right += right_beyond.right;
             const Matrix3 across = transposed(right_beyond.across);

@@ -24,7 +24,7 @@ namespace tendril::rope::detail {
 /// Stretch links are the first of grid_steps.
 inline constexpr std::size_t stretch_steps = 2;
 
-/// All in the layout of the finest level.
+/// Arrays in the layout of the finest level.
 struct ClothArrays {
     std::array<float*, fine_steps> rest{}, stiffness{};  ///< per link, by the cell it begins in; 0: no link
     std::array<float*, fine_steps> pull{};               ///< force over length

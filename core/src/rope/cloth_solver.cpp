@@ -28,7 +28,7 @@ constexpr double relative_residual = 0.1, force_residual = 0.1;
 constexpr double residual_strain = 1e-3;
 constexpr double max_predicted_move = 0.05;  ///< displacement by forces in a substep, relative to a link
 constexpr int max_halvings = 6;
-constexpr std::size_t links_per_sum = 4096;  ///< by a thread at a time
+constexpr std::size_t links_per_sum = 4096;  ///< summed by one thread at a time
 
 }  // namespace
 
@@ -177,7 +177,7 @@ int ClothSolver::step(int iterations, bool first, double enough) {
     add_contacts();
     add_self_contacts();
     pin();
-    // Never the last, the first one need not keep angular momentum.
+    // The first step is never the last, so it need not conserve angular momentum.
     const detail::GridVector* position = first ? nullptr : &cloth_.arrays.position;
     const auto solved =
         cloth_.system.solve(scratch_.grid_unit, lightest_, tolerance, iterations, position, local_.loops);
@@ -271,7 +271,7 @@ double ClothSolver::predict() {
         if (scratch_.weight[i] > 0.0) scratch_.x[i] = unchanged(i);
     evaluate();
     const double small = residual_strain * shortest_;
-    forced_ = driven > 0.0 ? driven : small * small * stiffness_;  // without gravity, wind or damping
+    forced_ = driven > 0.0 ? driven : small * small * stiffness_;  // if gravity, wind and damping add nothing
     return std::min(force_residual * force_residual * driven, small * small * stiffness_);
 }
 
@@ -291,8 +291,8 @@ int ClothSolver::solve(int iterations) {
     for (int step_scale = 0;; ++step_scale) {
         find_contacts(step_scale == 0);
         find_self_contacts();
-        // The rest of a step turns into motion in the next substep: the energy bound takes that, except from
-        // what a collider or pin drives.
+        // An unconverged rest becomes motion in the next substep. The energy bound removes it, except from
+        // bodies that a collider or pin drives.
         const bool settled = driven ? std::abs(decrease_) <= forced_ && deepest() <= kept_depth
                                     : deepest() <= accepted_depth * shortest_;
         const bool good = settled && strain_ <= accepted_strain;

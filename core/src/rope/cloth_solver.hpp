@@ -18,7 +18,7 @@ class ClothSolver : protected ImplicitStep {
     double step_scale() const { return step_scale_; }  ///< factor on the last step, 0 to 1
 
   protected:
-    /// For any grid of the plan, 1-based, or the island's; measures nothing.
+    /// For any grid of the plan, by its 1-based index; measures nothing.
     ClothSolver(const IslandStep& step, std::uint32_t grid);
 
     // cloth_solver.cpp

@@ -41,7 +41,7 @@ dvec3 Scratch::Moving::move_at(const dvec3& at) const {
         const dvec3 from = at - middle, all = by + (from - math::rotated(inverse_spin, from));
         const auto* const plane = std::get_if<Plane>(shape);
         if (plane == nullptr) return all;
-        const dvec3 normal = detail::unit(dvec3(plane->normal));  // a plane does not move along it
+        const dvec3 normal = detail::unit(dvec3(plane->normal));  // a plane does not move along itself
         return all - detail::dot(all, normal) * normal;
     }
     if (turn == dvec3(0.0)) return by;
@@ -92,7 +92,7 @@ void Substep::find_near() {
         whole.add(bounds.low);
         whole.add(bounds.high);
     }
-    // Bodies far from all colliders cost nothing further.
+    // Bodies far from all colliders stop here.
     local_.close.clear();
     for (std::uint32_t k = 0; k < scratch_.colliders.size(); ++k) {
         if (whole.meets(scratch_.colliders[k].low, scratch_.colliders[k].high)) local_.close.push_back(k);
@@ -165,7 +165,7 @@ void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, std::uint3
     record_impact(body, depth);
     x += depth * surface.normal;
     Touch& contact = touch(i, number, surface.normal);
-    if (detail::dot(contact.normal, surface.normal) < 0.9) return;  // the second of two
+    if (detail::dot(contact.normal, surface.normal) < 0.9) return;  // a second surface
     contact.displacement += depth * surface.normal;
     apply_friction(i, body);
 }
@@ -195,7 +195,7 @@ void Substep::resolve_link(const Link& link, std::uint32_t number, std::uint32_t
     if (!(depth > 0.0) || shares <= 0.0) return;
     record_impact(body, depth);
     const auto displace = [&](std::uint32_t i, double wanted) {
-        // Next to a pinned end the other one would have to move very far.
+        // Next to a pinned end, the other end would have to move very far.
         const double by = std::min(wanted, 1.5 * depth);
         if (by <= 0.0) return;
         scratch_.x[i] += by * surface.normal;

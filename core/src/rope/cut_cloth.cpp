@@ -55,7 +55,7 @@ struct BodyPiece {
 
 /// The pieces of a body, in the order of their first particles.
 std::vector<BodyPiece> pieces_of(const State& state, const Body& body, std::vector<std::size_t>& piece_of) {
-    std::vector<std::size_t> parent(body.count);  // union-find; each set is known by its first particle
+    std::vector<std::size_t> parent(body.count);  // union-find; the root of a set is its first particle
     std::iota(parent.begin(), parent.end(), std::size_t{0});
     const auto first_of = [&](std::size_t i) {
         while (parent[i] != i) i = parent[i] = parent[parent[i]];

@@ -34,8 +34,8 @@ using glm::dvec3;
 constexpr double length_tolerance = 1e-7;       ///< relative length error that needs no correction
 constexpr double accepted_error = 1e-4;         ///< a chain with more is solved again
 constexpr double accepted_shared_error = 1e-3;  ///< the same if chains share particles
-constexpr double fallback_error = 0.02;         ///< a chain that ends with more: its body is relaxed
-constexpr double accepted_gain = 1e-3;          ///< energy gain; a result that gains more is rejected
+constexpr double fallback_error = 0.02;         ///< above it a chain's body is relaxed
+constexpr double accepted_gain = 1e-3;          ///< a result that gains more energy is rejected
 constexpr int max_restarts = 6, fallback_passes = 16, max_step_halvings = 10;
 /// Minimum passes of chains that share particles, while near a collider.
 constexpr int min_contact_passes = 4;
@@ -108,7 +108,7 @@ void Substep::shorten_steps() {
 }
 
 /// Cuts a step that gains energy, ends in a collider, or did not converge. Scaling velocities would not
-/// remove a gain by bending. The last resort is a step back, which gains nothing.
+/// remove a gain by bending. If halving fails, particles stay or step back, which gains nothing.
 void Substep::shorten_step(std::uint32_t number) {
     const Plan::Chain& chain = plan_.chains[number];
     const bool failed = !(scratch_.chain_error[number] <= fallback_error);
@@ -122,7 +122,7 @@ void Substep::shorten_step(std::uint32_t number) {
         return worst;
     };
     const double most = failed ? fallback_error + stretch(state_.position) : 0.0;
-    // A collider that moves must take the chain along.
+    // A moving collider must take the chain along.
     const bool driven = scratch_.body_near[chain.body] == Scratch::Nearest::Moving;
     double deepest = -1.0;
     const auto is_bad = [&] {
@@ -353,7 +353,7 @@ void Substep::solve_again(std::uint32_t chain) {
     if (scratch_.chain_error[chain] <= tolerance) {
         const Ledger ledger = ledger_of(it);
         if (!ledger.gains_over(1e-4)) {
-            // Nothing else moves it in this substep: the same ledger balances it.
+            // Nothing else moves the chain in this substep, so this ledger balances it.
             const bool untouched = scratch_.body_near[it.body] == Scratch::Nearest::None;
             if (untouched && island_.contacts == 0) scratch_.chain_slowdown[chain] = limit_gain(ledger);
             return;

@@ -67,8 +67,8 @@ std::vector<std::size_t> distribute_segments(const std::vector<double>& lengths,
     return counts;
 }
 
-/// The sources of a row's particles. `rest`: the coordinates of its particles; `kept`: particles that stay,
-/// sorted, both ends among them.
+/// Where to sample a row's new particles. `rest`: its old particles' coordinates; `kept`: particles that
+/// stay, in order, with both ends.
 std::vector<RowPoint> sample_row(const std::vector<double>& rest, const std::vector<std::size_t>& kept,
                                  std::size_t segments) {
     std::vector<double> lengths;
@@ -253,7 +253,7 @@ class Resampling {
         return row.part > 0.0 ? before + row.part * (in_row(row.before + 1) - before) : before;
     }
 
-    /// The pin of a new particle; none unless all old ones around it are pinned alike.
+    /// The pin of a new particle; none unless all old particles around it are pinned alike.
     bool pin_at(std::size_t c, std::size_t r, Pin& pin) const {
         const RowPoint &column = column_[c], &row = row_[r];
         const std::size_t corners[] = {
@@ -326,7 +326,7 @@ class Resampling {
         const Link* const stretch = example_link_[static_cast<std::size_t>(Link::Kind::Stretch)];
         const double per = stretch != nullptr ? detail::unit_link_compliance(body_, grid_, *stretch) : 0.0;
         const double material = per > 0.0 ? stretch->compliance / per : 0.0;
-        // A thread of a cloth has its share of the force.
+        // Each thread of a cloth carries a share of the force.
         const auto share = [](std::size_t was, std::size_t now) {
             return static_cast<double>(was) / static_cast<double>(now);
         };

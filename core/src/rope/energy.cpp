@@ -1,7 +1,7 @@
 // The energy bound. A solve that falls short, or depenetration, can leave a body with more energy than it
 // had; its velocity is then scaled down until the gain is gone. The direct solver always keeps the bound; the
-// others keep it near a collider that strikes the body, or while its links hold their lengths. A gain by
-// bending cannot be removed so; its step is shortened (direct.cpp).
+// others keep it near a collider that strikes the body, or while its links hold their lengths. Slowing cannot
+// remove a gain by bending; the step is shortened instead (direct.cpp).
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -64,7 +64,7 @@ inline void Substep::Ledger::add_particle(std::size_t i) {
     gravity_work_ += half;
     const double moved = detail::kinetic_energy(mass, then, step_->h_);
     gained_ += moving - moved - half - step_->before_ * 0.5 * mass * detail::dot(step_->acceleration_, then);
-    if (step_->has_air_)  // work of the wind is no gain
+    if (step_->has_air_)  // the wind's work does not count as a gain
         gained_ -=
             detail::dot(step_->scratch_.wind_move[i], now + then) * (0.5 * mass / (step_->h_ * step_->h_));
     kinetic_before_ += moved;
@@ -91,7 +91,7 @@ inline void Substep::Ledger::add_link(std::uint32_t number) {
     elastic_release_ += half - detail::elastic_energy(link, compliance, tension, now, dvec3(0.0));
 }
 
-/// A solver that takes curvatures at both ends of a substep bounds their mean energy.
+/// The solver takes curvatures at both ends of a substep, and so bounds the mean of their energies.
 void Substep::Ledger::add_bending(const Plan::Chain& chain) {
     const State& state = step_->state_;
     const Body& body = state.bodies[chain.body];

@@ -94,7 +94,7 @@ class GridSystem::Loops {
     tendril::detail::ForkJoin& loops_;
 };
 
-/// Its rows continue with the rotations' rows, which balance() fills.
+/// The rows of rotations follow in the same matrix; balance() fills them.
 void GridSystem::factorize_coarsest() {
     const GridLevel& level = levels_.back();
     const std::size_t columns = level.columns, cells = columns * level.rows, n = 3 * cells + rotations;
@@ -224,7 +224,7 @@ void GridSystem::balance(const Loops& loops, const GridVector* position) {
         });
         for (std::size_t j = 0; j <= k; ++j) row[first + j] = dot(loops, about[j], product_);
         coarsest_x_[first + k] = dot(loops, about[k], fine.right);
-        // None, if free particles lie on its axis.
+        // Drops a rotation about an axis through all free particles.
         if (!(coarsest_.factorize_row(first + k) > min_pivot)) coarsest_.drop_row(first + k);
     }
     project(loops, fine.right);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double unknown = -1.0;
 
-/// Sums steps to coordinates. Unknown ones are the mean of the others.
+/// Sums steps to coordinates. An unknown step is the mean of the known ones.
 std::vector<double> cumulative(std::vector<double> steps) {
     double known = 0.0, count = 0.0;
     for (const double step : steps)

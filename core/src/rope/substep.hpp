@@ -32,7 +32,7 @@ class Substep : IslandStep {
   private:
     Substep(const Substep& whole, const Plan::Island& part);
 
-    /// A contact that displaces a body faster than this, m/s, would throw it.
+    /// A contact or correction that moves a body faster than this, m/s, would throw it.
     static constexpr double correction_speed = 2.0;
 
     // substep.cpp
@@ -147,7 +147,7 @@ class Substep::Ledger {
     bool bounds_relaxation() const {
         return near_ == Scratch::Nearest::Impact || (near_ != Scratch::Nearest::None && !strained_);
     }
-    /// Whether it does not fall freely, though nothing holds or touches it.
+    /// Whether it does not fall freely although nothing holds or touches it.
     bool suspended() const;
 
   private:

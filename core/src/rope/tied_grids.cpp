@@ -214,7 +214,7 @@ void TiedSolver::load_ties() {
     }
 }
 
-/// Adds the moves of all ties' ends by the force of each tie.
+/// Adds to the matrix how each tie's force moves the ends of all ties.
 void TiedSolver::add_responses() {
     TieForces& forces = scratch_.tie_forces[island_.tied - 1];
     using Of = TieForces::End::Of;

@@ -27,7 +27,7 @@ constexpr int max_halvings = 8;
 /// For cloth that is a grid, as in cloth_solver.cpp.
 constexpr double accepted_strain = 0.007, relative_residual = 0.1;
 constexpr int min_grid_steps = 2, max_grid_steps = 8;
-/// A free body goes on turning, and each step's error with it.
+/// A free body keeps turning, and so does the error of each step.
 constexpr int min_free_steps = 4;
 constexpr double single_rounding = 1e-6;  ///< error of a potential: grids are in single precision
 
@@ -60,7 +60,7 @@ TiedSolver::Cloth::Cloth(const TiedSolver& island, std::uint32_t grid) : ClothSo
     shortest_ = island.shortest_;
 }
 
-/// Grids and contacts are as stiff as a single cloth of the total weight.
+/// Measures the grids. They and contacts are as stiff as a single cloth of the total weight.
 void TiedSolver::measure_grids() {
     double weight = mass_ * island_.particles * detail::length(detail::acceleration(state_.settings));
     for (const Plan::Grid& grid : Plan::part(plan_.grids, tied_.grids)) {
@@ -135,8 +135,8 @@ void TiedSolver::add(std::uint32_t particle, const Symmetric3& matrix, const dve
     system_.x[x] += force;
 }
 
-/// Builds the system at the current positions. The first step takes the previous substep's tension: particles
-/// that fell together show none yet.
+/// Builds the system at the current positions. The first step uses the previous substep's tension: links
+/// between particles that fell together show none yet.
 void TiedSolver::assemble(bool first) {
     system_.clear();
     for (const std::uint32_t number : Plan::part(plan_.bodies, island_.bodies)) {
@@ -335,8 +335,8 @@ bool TiedSolver::is_free() const {
     return free;
 }
 
-/// Internal forces cannot move the centre of mass. If nothing external acts, removes the drift that rounding
-/// caused: links are ten million times stiffer than particles are heavy.
+/// Internal forces cannot move the centre of mass. If nothing external acts, removes the drift due to
+/// rounding: links are ten million times stiffer than particles are heavy.
 void TiedSolver::remove_drift() {
     if (!is_free()) return;
     double mass = 0.0;
@@ -349,8 +349,8 @@ void TiedSolver::remove_drift() {
     if (tied_.grids.count > 0) remove_rotation();
 }
 
-/// Internal forces cannot change angular momentum either. Grids are solved only approximately; this removes
-/// the rotation that the error leaves.
+/// Internal forces cannot change the angular momentum either. Removes the rotation left by grids, which are
+/// solved only approximately.
 void TiedSolver::remove_rotation() {
     double mass = 0.0;
     dvec3 centre(0.0), turn(0.0);
