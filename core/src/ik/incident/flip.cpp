@@ -11,7 +11,7 @@ namespace tendril::ik {
 namespace {
 
 constexpr float near_root = 0.02f;  ///< of the reach
-/// Likewise, the bend. Two equal bones at 99.5 % of their reach, which turn by 11 degrees to change sides.
+/// Bend, of the reach: two equal bones at 99.5 % of their reach, which turn by 11 degrees to change sides.
 constexpr float nearly_straight = 0.05f;
 constexpr float close_to_pole = 0.17f;  ///< radians, ten degrees
 constexpr float on_axis = 1e-4f;  ///< radians: float coordinates of 500 times the reach are off by as much
@@ -29,7 +29,7 @@ float off_line(glm::vec3 a, glm::vec3 b) noexcept {
     return std::min(angle, static_cast<float>(math::pi) - angle);
 }
 
-/// Of the target or of the pole target about the line from root to target: the larger of each number.
+/// Movement of the target, or of the pole target about the line from root to target: the larger of each.
 InputMove input_move(const ReachPose& before, const ReachPose& after) noexcept {
     if (!before.target || !after.target) return {};
     const glm::vec3 from = *before.target - before.root(), to = *after.target - after.root();

@@ -11,7 +11,7 @@
 
 namespace tendril::ik {
 
-// A step is only a jump if the next one is short again, or leads back, so it is judged with that one.
+// A step is a jump only if the next one is short again or leads back, so each is judged a frame later.
 bool IncidentFinder::detect_jump(Steps& steps, glm::vec3 was, glm::vec3 is, IncidentKind kind,
                                  const char* cause) {
     const float least = std::max(jump_share * reach_, rounding_steps * options_.resolution);
@@ -68,7 +68,7 @@ bool IncidentFinder::find_jumps(const ReachPose& pose) {
                             : "the target is somewhere else from one frame to the next");
 }
 
-// The middle one of five frames, or the middle two of six, against the path of those around them.
+// Compares the middle one of five frames, or the middle two of six, with the path of the others.
 void IncidentFinder::find_misplaced(const ReachPose& pose, bool aimed) {
     samples_.push_back({pose.root(), pose.joints[end_], aimed ? pose.target : std::nullopt});
     if (samples_.size() > 6) samples_.erase(samples_.begin());
@@ -121,12 +121,12 @@ void IncidentFinder::find_misplaced(const ReachPose& pose, bool aimed) {
     note(found);
 }
 
-// Frames that equal the one before: confirmed once tip and target move on as before.
+// Finds frames that equal the one before. Confirms them once tip and target move on as before.
 void IncidentFinder::find_repeated(const ReachPose& pose) {
     if (recent_.size() < 2) return;
     const ReachPose &before = recent_.back(), &earlier = recent_[recent_.size() - 2];
     if (pose.joints == before.joints) {
-        if (repeat_.frames == 0 && before.joints == earlier.joints) return;  // since the first frame
+        if (repeat_.frames == 0 && before.joints == earlier.joints) return;  // unmoved since the first frame
         if (repeat_.frames++ > 0) return;
         repeat_.step = before.joints[end_] - earlier.joints[end_];
         repeat_.earlier_step = 0.0f;
@@ -157,7 +157,7 @@ void IncidentFinder::add_repeat(const Repeat& hold) {
     cadence_.push_back(hold);
 }
 
-// Too few for a cadence are reported one by one; the last may start the next cadence.
+// Reports repeats singly if they are too few for a cadence; the last may start the next cadence.
 void IncidentFinder::close_cadence() {
     const std::size_t count = cadence_.size();
     const auto faults = std::ranges::count(cadence_, true, &Repeat::fault),
@@ -196,8 +196,8 @@ bool IncidentFinder::both_moved(const ReachPose& a, const ReachPose& b) const no
            math::distance(*a.target, *b.target) > moving;
 }
 
-// One repeated frame is a fault. Several may be a rest: the chain then slows down before, or restarts in
-// another direction or at another speed; but not if its target moved on.
+// One repeated frame is a fault. Several may be a rest, before which the chain slows down, or after which it
+// moves in another direction or at another speed; but not if its target moved on.
 bool IncidentFinder::resumes(const ReachPose& pose) const {
     const ReachPose& before = recent_.back();
     if (repeat_.frames == 1 || math::distance(repeat_.target, *latest_.target) > moving_share * reach_)
@@ -216,11 +216,11 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
     const glm::vec3 tip = pose.joints[end_] - pose.root();
     float error = math::distance(tip, *pose.target - pose.root());
     if (error <= allowed) root_jumped_ = false;
-    // Late targets are met as they were seen from the root then, or in space by a root that moved on.
+    // Late targets: relative to the root of that frame, or in space with the root of this one.
     for (std::size_t i = targets_.size() - std::min(targets_.size(), max_lag); i < targets_.size(); ++i)
         for (const glm::vec3 target : {targets_[i], within_reach(targets_[i] + roots_[i] - pose.root())})
             error = std::min(error, math::distance(tip, target));
-    // A bone of another length moves the tip as well; that is reported.
+    // A bone of another length moves the tip too, and is reported already.
     const bool whole_bones = std::ranges::none_of(length_, &Episode::open);
     const bool reachable = distance < reach_ - allowed && distance > inner + allowed && whole_bones;
     const bool approaching = missed_frames_ > 0 && error < approach * missed_before_;
@@ -233,7 +233,7 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
     missed_before_ = error;
     const bool whole = missed_frames_ == frames_ + 1;  // from the first frame on
     if (missed_frames_ < missed_run && !whole) return;
-    if (root_jumped_) return;  // that is reported
+    if (root_jumped_) return;  // already reported
     ChainIncident now{.kind = IncidentKind::Missed,
                       .frame = frames_ + 1 - missed_frames_,
                       .last_frame = frames_,
@@ -245,13 +245,13 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
     update_episode(missed_, true, now);
 }
 
-// Replaces a target out of reach by the nearest point in reach on its line.
+// Adds a frame to the paths of tip and target. A target out of reach becomes the nearest point in reach.
 void IncidentFinder::follow(const ReachPose& pose) {
     const glm::vec3 target = *pose.target - pose.root();
     const float moving = std::max(moving_share * reach_, options_.resolution);
     const auto moved = [&](glm::vec3 a, glm::vec3 b) { return math::distance(a, b) > moving; };
     if (!first_move_ && !targets_.empty() && moved(target, targets_.back())) first_move_ = frames_;
-    // After a jump of the tip alone, following is measured anew.
+    // If only the tip jumped, the paths start anew.
     const glm::vec3 tip_now = pose.joints[end_] - pose.root();
     if (!followers_.empty()) {
         float longest = math::distance(target, targets_.back());
@@ -388,7 +388,7 @@ std::array<double, IncidentFinder::max_lag + 1> IncidentFinder::Following::left(
     return squares;
 }
 
-// The frames ago at which the target's path fits the tip's best, up to an offset and a scale: a tip that
+// The lag, in frames, at which the target's path fits the tip's best up to an offset and a scale: a tip that
 // misses its target may still lag. A changing miss spoils the fit of positions more than of steps; noise
 // spoils the fit of short steps.
 std::size_t IncidentFinder::find_lag() const {
@@ -401,7 +401,7 @@ std::size_t IncidentFinder::find_lag() const {
     for (std::size_t i = 0; i < spans.size(); ++i) {
         const auto frames = static_cast<double>(paths_[i].frames);
         const double least = std::ranges::min(left[i]), same = frames * std::pow(0.1 * least_rms, 2.0);
-        // The first of those that fit alike: a target that circles is there again later.
+        // The first of equal fits: a circling target comes back later.
         const auto lag = static_cast<std::size_t>(
             std::ranges::find_if(left[i], [&](double each) { return each <= least + same; }) -
             left[i].begin());
@@ -420,7 +420,7 @@ std::size_t IncidentFinder::find_lag() const {
 void IncidentFinder::finish_following() {
     update_episode(missed_, false, {});
     judge_jitter();
-    // RepeatRun to the end, while the target goes on within reach.
+    // Frames repeated to the end, while the target goes on within reach.
     const bool limited = std::ranges::any_of(limit_, &Episode::open);
     const double usual = cadence_.size() >= min_cadence ? cadence_.back().incident.amount + 1.0 : 1.0;
     if (static_cast<double>(repeat_.frames) > usual && repeat_.moved && !limited && !recent_.empty()) {
@@ -439,7 +439,7 @@ void IncidentFinder::finish_following() {
         }
     }
     const std::size_t best = find_lag();
-    // A lower update rate lags by less than its period.
+    // A lower update rate explains a lag shorter than its period.
     const bool beats =
         cadence_.size() >= min_cadence && cadence_[0].incident.frame + best < cadence_[1].incident.frame;
     if (best == 0 || beats) return;

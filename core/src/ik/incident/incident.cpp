@@ -24,9 +24,9 @@ glm::vec3 transported(glm::vec3 v, glm::vec3 from, glm::vec3 to) noexcept {
     return v + math::cross(axis, v) + math::cross(axis, math::cross(axis, v)) / (1.0f + cosine);
 }
 
-/// All bones that change by one factor over the same frames are one incident. `found`: sorted by frame.
+/// Merges bones that change by one factor over the same frames into one incident. `found`: sorted by frame.
 void merge_scaled(std::vector<ChainIncident>& found, const std::vector<float>& lengths) {
-    constexpr double equal = 0.02;  // of the factor
+    constexpr double equal = 0.02;  // relative to the factor
     for (std::size_t i = 0; i < found.size(); ++i) {
         const ChainIncident first = found[i];
         const auto share = [&](const ChainIncident& each) {
@@ -205,7 +205,7 @@ void IncidentFinder::find_lengths(const ReachPose& pose, bool aimed) {
         const float allowed = std::max(length_share * lengths_[i], rounded_lengths * options_.resolution);
         const bool beyond = aimed && off > 0.0f && math::distance(*pose.target, pose.root()) > reach_;
         const bool active = std::abs(off) > allowed;
-        // Both bones of a joint change at once: it moved alone if the outer ends stayed as far apart.
+        // Both bones at a joint change at once. If their outer ends stay as far apart, only that joint moved.
         const bool opens = active && !length_[i].open;
         if (opens && opened && !recent_.empty() && found_.size() < max_incidents) {
             const std::vector<glm::vec3>& was = recent_.back().joints;
@@ -268,8 +268,8 @@ void IncidentFinder::find_flips(const ReachPose& pose, bool jumped, bool aimed) 
     const auto cause = [&](const ReachPose& was) {
         return jumped ? FlipCause::TargetJump : cause_of_flip(was, pose, aimed);
     };
-    // A bone that turns far and moves much further than its target flips, whatever the target's angle, which
-    // is arbitrary close to the root. A damped solver takes some frames for it.
+    // A bone flips if it turns far and moves much further than its target. The target's angle is ignored,
+    // since close to the root it is arbitrary. A damped solver takes several frames to flip.
     const auto find_swing = [&](const ReachPose& was, float degrees) -> std::optional<BoneTurn> {
         const BoneTurn turn = furthest_turn(was, pose);
         const bool far = in_degrees(turn.radians) > degrees;
@@ -297,7 +297,7 @@ FlipCause IncidentFinder::cause_of_flip(const ReachPose& before, const ReachPose
     return axis ? FlipCause::PassedAxis : cause;
 }
 
-/// A rotation turns the bone from where it pointed to where it points, and rolls it about itself by the rest.
+/// Finds rolls: the part of a bone's rotation about itself, beyond the swing to its new direction.
 void IncidentFinder::find_rolls(const ReachPose& pose, std::span<const glm::quat> rotations) {
     const std::vector<glm::quat> before = std::exchange(rotations_, {rotations.begin(), rotations.end()});
     const bool flips = flipped_ && flipped_at_ == frames_;
@@ -308,13 +308,13 @@ void IncidentFinder::find_rolls(const ReachPose& pose, std::span<const glm::quat
         const glm::vec3 from = was[i + 1] - was[i], to = pose.joints[i + 1] - pose.joints[i];
         const auto pointed = math::direction_of(from, 0.0f), bone = math::direction_of(to, 0.0f);
         if (!pointed || !bone) continue;
-        // Swing-twist: the part about the bone, after the swing that takes it there.
+        // Swing-twist decomposition: the swing to the new direction first, then the roll about the bone.
         const glm::quat turn = math::compose(rotations[i], math::conjugate(before[i]));
         const glm::quat swing = math::minimal_rotation(*pointed, *bone);
         const glm::quat roll = math::compose(turn, math::conjugate(swing));
         const float radians = 2.0f * std::atan2(std::abs(math::dot(glm::vec3(roll.x, roll.y, roll.z), *bone)),
                                                 std::abs(roll.w));
-        if (radians > furthest.radians) furthest = {i, radians};  // not if it is not finite
+        if (radians > furthest.radians) furthest = {i, radians};  // false for NaN
     }
     const float degrees = in_degrees(furthest.radians);
     if (!(degrees > std::max(options_.flip_degrees, roll_degrees)) ||
@@ -375,9 +375,9 @@ void IncidentFinder::finish() {
     if (!cadence_.empty() && cadence_.back().fault) note(cadence_.back().incident);
     std::ranges::stable_sort(found_, {}, &ChainIncident::frame);
     merge_scaled(found_, lengths_);
-    // A joint out of its place changes both its bones over the same frames: one incident, the larger.
+    // A joint out of place changes both its bones over the same frames: one incident, the larger.
     std::size_t kept = 0;
-    bool merged = true;  // the last one is
+    bool merged = true;  // whether the last one was
     for (const ChainIncident& each : found_) {
         ChainIncident* const before = kept > 0 ? &found_[kept - 1] : nullptr;
         merged = !merged && before->kind == IncidentKind::Length && each.kind == IncidentKind::Length &&

@@ -62,7 +62,7 @@ bool is_stopped_by_limits(Problem& problem, PoseUsed pose_used) noexcept {
         allowed += dot(rotation, rotation);
     }
     const float requested = dot(wanted.move, wanted.move) + dot(wanted.rotation, wanted.rotation);
-    // On a line with its target, every chain of ball joints would have bent.
+    // A chain of ball joints on a line with its target would have been bent already.
     if (free <= singular * singular * requested) return !all_free(problem);
     return free - allowed >= blamed_part * free;
 }

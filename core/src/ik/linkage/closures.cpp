@@ -52,7 +52,7 @@ void LinkageSolve::find_correction() noexcept {
     rank_margin_ = 1.0;
     for (std::size_t i = 0; i < work_.joints.size(); ++i) {
         if (!work_.blocked[i]) continue;
-        // A ball at its maximum turns no further outward: its columns stay free, but for this direction.
+        // A ball at its maximum may not turn further outward: this row removes that direction only.
         const std::span<double> row = work_.row(0);
         std::ranges::fill(row, 0.0);
         const glm::dvec3 outward = work_.outward_of(i);
@@ -115,7 +115,7 @@ bool LinkageSolve::project_to_closures(double allowed) noexcept {
             find_correction();
         } while (update_active_set());
         for (std::size_t k = 0; k < work_.columns; ++k) work_.moved[k] += work_.step[k];
-        // NaN is not within either.
+        // Rejects NaN too.
         if (!(norm_of(work_.moved) <= allowed)) return false;
         work_.take_step(std::min(1.0, max_turn_step / work_.max_turn()));
         work_.move_links();
@@ -128,11 +128,11 @@ void LinkageSolve::assemble() noexcept {
     if (project_to_closures(1e9)) return;
     restore(work_.nearest);
     if (close_from_here()) return;
-    // Unchanged since the last solve, or out of iterations: the next solve continues.
+    // The pose is unchanged since the last solve, or iterations ran out: the next solve continues.
     if (!descended_ || out_of_iterations_) return;
     work_.nearest = work_.joints;
     double least = cost();
-    bool cut_short = false;  // the descent to the nearest pose
+    bool cut_short = false;  // whether the nearest pose's descent ran out of iterations
     std::uint64_t random = 1;
     for (int i = 0; i < restarts && !out_of_iterations_; ++i) {
         work_.randomize_step(random, math::pi);

@@ -8,7 +8,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr double shortest_step = 1e-10;  ///< of a descent: it has ended
+constexpr double shortest_step = 1e-10;  ///< radians or sizes; below it a descent has ended
 constexpr double retry_damping = 1e-3;   ///< minimum damping after a rejected step
 
 double largest_of(std::span<const double> step) noexcept {
@@ -168,7 +168,7 @@ double LinkageSolve::pull_along_gradient() const noexcept {
     return square > 0.0 ? slope / std::sqrt(square) : 0.0;
 }
 
-/// Newton's step, or a Gauss-Newton step where Newton's leads to no minimum.
+/// Finds Newton's step, or a Gauss-Newton step where Newton's leads to no minimum.
 void LinkageSolve::find_descent(double damping) noexcept {
     find_equations();
     convex_ = !plain_ && solve_equations(damping, true);
@@ -192,7 +192,7 @@ bool LinkageSolve::at_bound(std::size_t link, double by) const noexcept {
     return by < 0.0 ? value <= each.minimum + bound_width * unit : value >= each.maximum - bound_width * unit;
 }
 
-/// Takes one damped step and projects to the closures. False, and the pose is restored, if it gains nothing.
+/// Takes one damped step and projects to the closures. If it gains nothing, restores the pose: false.
 bool LinkageSolve::descent_step(double damping) noexcept {
     work_.release();
     std::ranges::fill(work_.step, 0.0);
@@ -260,7 +260,7 @@ bool LinkageSolve::perturb() noexcept {
     return false;
 }
 
-/// Whether it took a step.
+/// Returns whether it took a step.
 bool LinkageSolve::descend_from_here() noexcept {
     const double enough = 1e-20 * work_.size * work_.size;
     double damping = 1e-9, before = cost();

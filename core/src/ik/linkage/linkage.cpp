@@ -1,4 +1,4 @@
-// The value: names, places, and what is refused.
+// Linkages as data: names, positions, and checks.
 #include "tendril/ik/linkage.hpp"
 
 #include <cmath>
@@ -24,7 +24,7 @@ constexpr const char* status_names[] = {"Reached", "TargetMissed",   "Limited", 
 
 constexpr double no_end = std::numeric_limits<double>::infinity();
 constexpr FieldRange any_place{-max_magnitude, max_magnitude};
-/// Metres from one end of so many links to the other and back, each as long as may be. Angles are far less.
+/// Metres: max_links links of maximum length, end to end and back. Angles are far smaller.
 constexpr double farthest = 2.0 * static_cast<double>(max_links) * static_cast<double>(max_magnitude);
 
 }  // namespace

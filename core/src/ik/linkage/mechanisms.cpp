@@ -21,7 +21,7 @@ Point2 point_at_angle(double radius, double radians) noexcept {
     return {radius * turn.cosine, radius * turn.sine};
 }
 
-/// Where two circles cross, to the left of the line from `a` to `b`; the nearest to that if they do not.
+/// Where two circles cross, left of the line from `a` to `b`; where they come nearest if they do not.
 Point2 crossing_left(const Point2& a, double from_a, const Point2& b, double from_b) noexcept {
     const Point2 line{b.x - a.x, b.y - a.y};
     const double square = std::max(line.x * line.x + line.y * line.y, 1e-300);
@@ -46,8 +46,8 @@ bool joins_over(double apart, double a, double b) noexcept {
 Expected<LinkageSketch> four_bar(const FourBar& lengths) {
     const auto& [ground, crank, coupler, rocker, coupler_point] = lengths;
     if (const Result bad = check_fields("four_bar", lengths); !bad) return bad;
-    // B to D: what the crank can make it, and what coupler and rocker can. Where the crank cannot be at 0, or
-    // the linkage would be flat there or B on D, it is drawn in the middle of its range.
+    // Range of the distance BD that crank and ground allow, and coupler and rocker too. If the crank cannot
+    // be at 0, or the linkage would be flat there or B on D, it is drawn in the middle of that range.
     const double low = std::max(std::abs(ground - crank), std::abs(coupler - rocker)),
                  high = std::min(ground + crank, coupler + rocker);
     if (!(low <= high)) {
@@ -85,7 +85,7 @@ Expected<LinkageSketch> slider_crank(const SliderCrank& lengths) {
     if (const Result bad = check_fields("slider_crank", lengths); !bad) return bad;
     if (!(std::abs(offset) <= crank + rod))
         return refused("slider_crank", "offset", "at most crank and rod together", offset);
-    // Where the rod does not reach down from 0, the crank is turned towards the slider's line.
+    // Where the rod does not reach down from a crank at 0, the crank is turned towards the slider's line.
     const double lift = std::abs(offset) <= rod
                             ? 0.0
                             : offset - std::copysign(0.5 * (rod + std::abs(offset) - crank), offset);
@@ -201,7 +201,7 @@ std::size_t add_universal(Linkage& linkage, const std::string& name, std::size_t
     return linkage.links.size() - 1;
 }
 
-/// The first rod holds the platform by a ball, the others close on it.
+/// The first rod carries the platform by a ball; the others close on it.
 void join_platform(Linkage& linkage, std::size_t& platform, std::size_t rod, const std::string& name,
                    const glm::dvec3& at) {
     if (platform != ground_link) {
@@ -221,7 +221,7 @@ glm::dvec3 in_base(const Point2& flat, double z) noexcept {
 Expected<Linkage> delta(const Delta& lengths) {
     const auto& [base_radius, platform_radius, upper_arm, forearm, width] = lengths;
     if (const Result bad = check_fields("delta", lengths); !bad) return bad;
-    // As drawn, the arms point 30 degrees down.
+    // Drawn with the arms 30 degrees down.
     constexpr double down = math::pi / 6.0;
     const double elbow_radius = base_radius + upper_arm * std::sqrt(0.75);
     const double aside = elbow_radius - platform_radius, elbow_z = -0.5 * upper_arm;
@@ -262,7 +262,7 @@ std::optional<std::array<double, 3>> delta_motors(const Delta& lengths, const gl
     std::array<double, 3> motors{};
     for (std::size_t i = 0; i < 3; ++i) {
         const Point2 out = point_at_angle(1.0, static_cast<double>(i) * 2.0 * math::pi / 3.0);
-        // From the hinge to the wrist: along the arm's plane, across it, and up.
+        // The wrist from the hinge: x along the arm's plane, y across it, z up.
         const double x =
             platform.x * out.x + platform.y * out.y + lengths.platform_radius - lengths.base_radius;
         const double y = platform.y * out.x - platform.x * out.y, z = platform.z, arm = lengths.upper_arm;
@@ -278,7 +278,7 @@ std::optional<std::array<double, 3>> delta_motors(const Delta& lengths, const gl
 namespace {
 
 struct StewartEnds {
-    glm::dvec3 base, top;  ///< the top as it is on the platform, from its centre
+    glm::dvec3 base, top;  ///< the top is relative to the platform's centre
 };
 StewartEnds ends_of_leg(const Stewart& lengths, std::size_t leg) noexcept {
     const double third = static_cast<double>(leg / 2) * 2.0 * math::pi / 3.0, side = leg % 2 ? 1.0 : -1.0;
@@ -301,7 +301,7 @@ Expected<Linkage> stewart(const Stewart& lengths) {
         const StewartEnds ends = ends_of_leg(lengths, i);
         const glm::dvec3 top = detail::plus(ends.top, centre), along = detail::minus(top, ends.base);
         const std::string name = "leg_" + std::to_string(i), number = std::to_string(i);
-        // Across the leg, and level.
+        // Horizontal, across the leg.
         const glm::dvec3 level{-along.y, along.x, 0.0};
         const bool upright = !(detail::length(level) > 1e-9);
         const std::size_t rod = add_universal(linkage, "swivel_" + number, ground_link, ends.base,

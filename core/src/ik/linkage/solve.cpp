@@ -104,7 +104,7 @@ LinkageReport LinkageSolve::run() noexcept {
             descend(Aim::Drivers);
             hold_drivers();
         }
-        // The drivers may have arrived on another path.
+        // The drivers may have arrived by another path.
         stopped_ = std::ranges::any_of(goals_.drivers, [&](const LinkDriver& each) {
             return !(std::abs(work_.driver_error(each)) <= reached);
         });

@@ -93,7 +93,7 @@ bool allows(const LinkageOptions& options, const detail::LinkageWork& work) noex
            });
 }
 
-/// Into the joints' ranges, with unit rotations.
+/// Loads a state: clamps joints to their ranges and normalises rotations.
 void take_state(detail::LinkageWork& work, const LinkageState& state) noexcept {
     work.joints = state.joints;
     work.clamp_to_ranges();

@@ -15,7 +15,7 @@ glm::dquat turn_by_vector(const glm::dvec3& vector) noexcept {
     const double angle = length(vector);
     return angle > 0.0 ? rotation_about(times(vector, 1.0 / angle), angle) : glm::dquat(1.0, 0.0, 0.0, 0.0);
 }
-/// The shortest rotation's vector.
+/// The rotation vector of the shorter way round.
 glm::dvec3 vector_of_turn(const glm::dquat& turn) noexcept {
     const glm::dvec3 sine{turn.x, turn.y, turn.z};
     const double size = length(sine), sign = turn.w < 0.0 ? -1.0 : 1.0;
@@ -351,7 +351,7 @@ void LinkageWork::add_curvature(std::size_t link, const glm::dvec3& at, const gl
         for (std::size_t a = 0; a < (ball ? 3u : 1u); ++a) {
             const glm::dvec3 axis = ball ? world_axes[a] : axes[inner];
             const glm::dvec3 moves = kind == LinkJoint::Slider ? times(axis, size) : cross(axis, arm);
-            // By itself, a ball turns half about one axis first and half about the other.
+            // A ball's rotation has no order of axes: half about one axis first, half about the other.
             if (kind == LinkJoint::Hinge) add(column[inner], column[inner], dot(along, cross(axis, moves)));
             for (std::size_t b = 0; ball && b <= a; ++b) {
                 const glm::dvec3 other = cross(world_axes[b], arm);
