@@ -157,8 +157,8 @@ void read_edit(const JsonPlace& place, HumanoidPart& part) {
     }
 }
 
-/// Makes the edits again, each as the character was read then. Older scenes have no order, "motions" before
-/// "cures", and no such settings: they are those of the scene, with the default limits.
+/// Makes the edits again, each with the character's settings at that time. Older scenes have "motions" and
+/// "cures" in that order, without settings: these use the scene's, with the default limits.
 void read_edits(const JsonPlace& place, HumanoidPart& part) {
     constexpr std::size_t max_edits = 10'000;
     const Reading now = reading_of(part);

@@ -53,7 +53,7 @@ struct JointNow {
     LimitsFrom from = LimitsFrom::Defaults;
     ik::JointAngles angles{};
     float excess = 0.0f;  ///< radians beyond the limit in force
-    bool held = false;    ///< IK would turn it further
+    bool held = false;    ///< at its limit: IK would turn it further
 };
 /// Empty if the joint has no limits, or the body is not solved.
 std::optional<JointNow> joint_now(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown,
