@@ -12,7 +12,7 @@ namespace {
 using Naming = std::map<std::string, std::string>;
 
 /// A naming convention: the words for the sides, and the names in the order of `keys`, with $ for the side.
-/// An empty name leaves the bone out.
+/// An empty name omits the bone.
 struct Habit {
     const char *maker, *left, *right, *pattern;
     double confidence = 0.9;  ///< minimum for every bone; shape alone gives 0.6
@@ -201,7 +201,7 @@ TEST(BoneMap, ASplitLimbBeginsAtItsFirstPiece) {
     expect_all_right(split, match_bones(split), names, maker.confidence);
 }
 
-/// Some bones of one side have names that say nothing, or another bone's name.
+/// Some bones of one side have meaningless names, or another bone's name.
 TEST(BoneMap, AMirroredFigureHasAMirroredMap) {
     std::mt19937 random(9);
     int count = 0;

@@ -1,4 +1,4 @@
-// Plays a walk over a ground and measures the promises of spec/humanoid.md.
+// Plays a walk over a ground, and measures how far feet sink, float and skate and legs stretch.
 #pragma once
 
 #include <algorithm>

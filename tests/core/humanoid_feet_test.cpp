@@ -1,4 +1,4 @@
-// Feet on the ground: the promises of spec/humanoid.md for whole walks, and each rule of planting alone.
+// Feet on the ground: bounds for whole walks, and each rule of planting alone.
 #include <gtest/gtest.h>
 
 #include <cmath>

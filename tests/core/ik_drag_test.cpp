@@ -1,4 +1,4 @@
-// Dragging a target against limits: the chain follows from its state, without jumps or new searches.
+// Dragging a target against limits: the chain follows from its state, without jumps or restarts.
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 
@@ -74,7 +74,7 @@ TEST(IkDrag, AStillTargetMovesNothing) {
     EXPECT_GE(limited, 190);
 }
 
-/// A new search in each frame would find better poses, and jump to them. The average gain must be small.
+/// Restarts in each frame would find better poses, and jump to them. The average gain must be small.
 TEST(IkDrag, FollowsAboutAsCloselyAsASearchInEveryFrame) {
     Random random(given_seed() + 2);
     double followed = 0.0, searched = 0.0;
@@ -99,7 +99,7 @@ TEST(IkDrag, FollowsAboutAsCloselyAsASearchInEveryFrame) {
     EXPECT_LE(followed, 1.15 * searched);
 }
 
-/// The last solve is not searched again: neither its verdict, nor the result of FABRIK's passes.
+/// The last solve is not repeated: neither its verdict, nor the result of FABRIK's passes.
 TEST(IkDrag, AFrameOfAnUnreachableTargetIsOneIteration) {
     Random random(given_seed() + 3);
     int frames = 0, iterations = 0, limited = 0;
@@ -111,7 +111,7 @@ TEST(IkDrag, AFrameOfAnUnreachableTargetIsOneIteration) {
             const ik::Report report =
                 it.solver.solve(Method::Fabrik, it.joints, it.target, {.limits = it.arm.limits});
             if (report.status == Status::Converged) break;
-            if (i < 10) continue;  // a search may end with a little left to gain
+            if (i < 10) continue;  // restarts may end with a little left to gain
             ++frames;
             iterations += report.iterations;
             limited += report.status == Status::Limited;

@@ -340,7 +340,7 @@ World thrown(Random& random) {
     return world;
 }
 
-/// Penetration of the deepest point in a collider, metres: resting colliders may lift it by as much.
+/// Depth of the deepest point in a collider, metres: resting colliders may lift the rope by as much.
 double depth(const World& world) {
     double deepest = 0.0;
     const auto& at = world.state().position;

@@ -185,7 +185,7 @@ void change_at_random(int edits, std::uint32_t seed) {
     rope::Workspace one, four;
     allow(four.use_threads(4));
     for (int i = 0; i < edits; ++i) {
-        if (i % 100 == 0) world = edited_scene();  // a torn scene would be dull
+        if (i % 100 == 0) world = edited_scene();  // a scene that is all torn tests little
         const rope::World before = world;
         Random again = random;
         const Asked asked = edit(world, random);

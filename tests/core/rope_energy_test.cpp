@@ -41,7 +41,7 @@ class RopeEnergy : public testing::TestWithParam<std::tuple<int, bool>> {};
 TEST_P(RopeEnergy, NeverGrowsInAMinute) {
     const auto [segments, both_ends] = GetParam();
     World world = let_go(segments, both_ends);
-    if (both_ends) {  // it hangs nearly still, so a wind blows first
+    if (both_ends) {  // it hangs nearly still, so the wind first sets it in motion
         Settings settings = world.settings();
         settings.external = {3, 2, 4};
         world.set_settings(settings);
