@@ -40,7 +40,7 @@ Corrections read_corrections(const JsonPlace& place, const humanoid::Skeleton& s
     return corrections;
 }
 
-/// Settings that are missing are those of `reading`.
+/// Settings missing from the file keep their values in `reading`.
 Reading read_reading(const JsonPlace& place, Reading reading, const humanoid::Skeleton& skeleton) {
     if (const auto scale = place.optional("scale")) reading.scale = scale->real(min_unit, max_unit);
     if (const auto space = place.optional("space")) load_known_fields(*space, reading.space);

@@ -111,7 +111,7 @@ struct Field {
     /// struct does not own the list.
     void (*resize)(void* object, std::size_t count) noexcept = nullptr;
     std::size_t fewest = 0, most = static_cast<std::size_t>(-1);  ///< number of elements in a list
-    std::span<const char* const> names{};                         ///< of the elements: "left", "right"
+    std::span<const char* const> names{};                         ///< the elements' names: "left", "right"
     bool in_line = false;   ///< in files the named elements are members of the struct itself
     bool sparse = false;    ///< files omit it, or of a struct the members, at their defaults
     bool required = false;  ///< files must have it: there is no default

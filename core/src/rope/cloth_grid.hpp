@@ -36,7 +36,7 @@ struct ClothArrays {
 /// Results over dot_cells cells.
 struct ClothPart {
     float strain = 0.0f;     ///< maximum of their stretch links
-    double potential = 0.0;  ///< of inertia and links, doubled
+    double potential = 0.0;  ///< twice the potential of inertia and links
 };
 
 /// The data of one cloth's solve.

@@ -71,7 +71,7 @@ class ClothSolver : protected ImplicitStep {
     double shortest_ = 1e30;  ///< minimum rest length of stretch links
     double strain_ = 0.0;     ///< maximum over stretch links
     double potential_ = 0.0;  ///< inertia plus links
-    double decrease_ = 0.0;   ///< of the potential with contacts, in the last step
+    double decrease_ = 0.0;   ///< decrease of the potential with contacts in the last step
     double forced_ = 0.0;     ///< the potential of inertia that forces add in a substep
     bool converged_ = true;
 };

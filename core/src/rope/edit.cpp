@@ -216,7 +216,7 @@ class Resampling {
 
     std::size_t old_cell(std::size_t column, std::size_t row) const { return row * was_.columns + column; }
 
-    /// Whether a cell gets a new particle: the nearest old cell is no gap, and threads lead to it.
+    /// Whether a cell gets a new particle: the nearest old cell has one, and threads lead to it.
     bool filled(std::size_t c, std::size_t r) const {
         if (body_.cells.empty()) return true;
         return particle_[old_cell(column_[c].nearest(), row_[r].nearest())] < body_.count &&

@@ -110,7 +110,7 @@ struct Plan {
 
     std::vector<std::uint32_t> ties;
     std::vector<Tied> tied;
-    std::vector<std::uint32_t> system_index;  ///< of each tied particle: place in its system's order, or cell
+    std::vector<std::uint32_t> system_index;  ///< per tied particle: place in its system's order, or cell
     std::vector<std::uint32_t> grid_of;       ///< 1-based index of each body in `grids`; 0: none
 
     /// For each body, the bodies from itself on with which it collides, ascending: in `collides_with` from

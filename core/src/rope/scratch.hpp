@@ -85,7 +85,7 @@ struct TieForces {
         enum class Of : std::uint8_t { Nothing, Grid, Rest } of = Of::Nothing;  ///< Nothing: pinned
         std::uint32_t grid = 0;  ///< index in the island's grids
         std::uint32_t at = 0;    ///< a cell, or a place in the order of elimination
-        double sign = 1.0;       ///< with which its displacement separates the ends
+        double sign = 1.0;       ///< sign of its displacement in the tie's
     };
     std::vector<std::array<End, 2>> ends;                ///< by tie
     std::vector<glm::dvec3> gap, now, direction, total;  ///< by tie: metres; the others are forces

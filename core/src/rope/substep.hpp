@@ -137,8 +137,8 @@ class Substep::Ledger {
     double gained() const { return driven_ ? 0.0 : gained_; }
     /// Whether the gain exceeds this part of weight times length.
     bool gains_over(double part) const;
-    /// Whether slowdown() leaves a gain of more than this part of their weight times their length, or of
-    /// their earlier kinetic energy.
+    /// Whether slowdown() leaves a gain of more than this part of weight times length, or of the earlier
+    /// kinetic energy.
     bool leaves_gain(double part) const;
     Slowdown slowdown() const;
     /// Joules lost to contact. The work of moving colliders cannot be separated from it.

@@ -62,7 +62,7 @@ void carry_targets(HumanoidPart& part, const Playback& before);
 bool shows_lint_marks(const Workspace& workspace);
 
 /// The hips' ground velocity that playing in place removes at that moment, m/s at the recorded speed; with
-/// `travel`, that of the pace too.
+/// `travel`, plus the pace.
 glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& character,
                             std::optional<std::size_t> hips);
 

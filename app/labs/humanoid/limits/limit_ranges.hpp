@@ -28,7 +28,7 @@ class LimitRanges {
     /// The limits that apply.
     humanoid::BodyLimits in_force(const IkSettings& ik) const;
 
-    /// Null if the map is not that of a body.
+    /// Null if the map does not describe a body.
     const humanoid::BodyJoints* joints() const { return joints_ ? &*joints_ : nullptr; }
 
     /// The joint's current angles, and the shape of its limit. Only for joints with an adult() limit.

@@ -33,7 +33,7 @@ struct InputMove {
     double distance = 0.0;  ///< metres, relative to the bone's root
     double angle = 0.0;     ///< radians, of its direction as seen from there, 0 to pi
     double turn = 0.0;      ///< radians, about itself
-    double share = 0.0;     ///< of the range of a number
+    double share = 0.0;     ///< change of a number, as a fraction of its range
 };
 /// The move of a point; `from` and `to` are relative to the bone's root.
 InputMove move_between(const glm::dvec3& from, const glm::dvec3& to) noexcept;

@@ -158,7 +158,7 @@ class IncidentFinder {
     IncidentOptions options_;
     std::vector<ChainIncident> found_;
     std::uint64_t frames_ = 0, dropped_ = 0;
-    float reach_ = 0.0f;   ///< to the end effector, in the first finite frame
+    float reach_ = 0.0f;   ///< length to the end effector, in the first finite frame
     std::size_t end_ = 0;  ///< the end effector
     std::vector<float> lengths_;
     Episode nan_, missed_;

@@ -103,7 +103,7 @@ struct Input {
 struct InputAccess : FieldAccess {
     enum class Takes : std::uint8_t { Any, Literal, Item };
     Takes takes;
-    std::optional<Type> type;  ///< of a literal; none: any
+    std::optional<Type> type;  ///< a literal's type; none: any
     Input<Value> (*get)(const void* input);
     void (*set)(void* input, const Input<Value>& source);
 };

@@ -1,4 +1,4 @@
-// From joints and bars in the plane to links, their tree and its closures.
+// Makes links, a tree of joints and closures from points and bars in the plane.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
