@@ -305,7 +305,7 @@ bool BodyContacts::is_local_minimum(const Pair& pair) const {
 }
 
 /// Two ropes touch where their segments are nearest. On cloth, pairs of a particle and a triangle handle the
-/// ends of segments, and segments do not touch diagonals.
+/// ends of segments, and keep diagonals apart.
 void BodyContacts::choose_contacts() {
     s_.contacts.clear();
     s_.projected.clear();

@@ -55,7 +55,7 @@ double elastic_energy(const Link& link, double compliance, double tension, const
 
 ChainBend bend_between(const State& state, const Body& body, const Link& before, const Link& after) noexcept {
     constexpr double min_length = 1e-6;     // shorter links bend as if this long
-    constexpr double max_stiffness = 1e12;  // of a particle to its neighbours, relative to its mass
+    constexpr double max_stiffness = 1e12;  // between a particle and its neighbours, relative to its mass
     const double square = state.settings.substep * state.settings.substep;
     const double length = std::max(static_cast<double>(before.rest), min_length),
                  next = std::max(static_cast<double>(after.rest), min_length);

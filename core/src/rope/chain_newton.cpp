@@ -119,7 +119,7 @@ void ChainNewton::save_state() {
         s_.saved_contacts[c] = s_.bond_effects[c].multiplier;
 }
 
-/// Reduces the last step to a fraction of it.
+/// Scales the last step down.
 void ChainNewton::scale_step(double part) {
     // Part 0 assigns the old value, so that no NaN survives.
     const auto scale = [&](auto& to, const auto& from) {

@@ -92,7 +92,7 @@ void Substep::find_near() {
         whole.add(bounds.low);
         whole.add(bounds.high);
     }
-    // Bodies far from all colliders stop here.
+    // A body far from all colliders needs no further checks.
     local_.close.clear();
     for (std::uint32_t k = 0; k < scratch_.colliders.size(); ++k) {
         if (whole.meets(scratch_.colliders[k].low, scratch_.colliders[k].high)) local_.close.push_back(k);

@@ -167,7 +167,7 @@ struct Scratch {
     std::vector<double> weight;         ///< inverse mass; 0: pinned
     std::vector<double> multiplier;     ///< by link: tension times h^2
     std::vector<Touch> touch;
-    /// The nearest collider of a body. Impact: a resting one displaced it faster than correction_speed.
+    /// The colliders near a body. Impact: a resting one displaced it faster than correction_speed.
     enum class Nearest : std::uint8_t { None, Resting, Impact, Moving };
     std::vector<Nearest> body_near;
     std::vector<std::uint8_t> body_failed;  ///< whether a body could not be solved

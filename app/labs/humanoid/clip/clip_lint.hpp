@@ -48,7 +48,7 @@ struct CuredClip {
 /// Cures the faults of a clip that match `cure`, until no more can be. Throws std::invalid_argument if none
 /// can.
 CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* progress = nullptr);
-/// Whether the chosen clip, judged as set, takes short enough that a frame can wait.
+/// Whether judging the chosen clip, as set, is quick enough for a frame to wait.
 bool judged_soon(const HumanoidPart& part);
 
 }  // namespace tendril::app

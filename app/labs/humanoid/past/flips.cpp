@@ -144,7 +144,7 @@ Cause by_limit(const HumanoidMoment& was, const HumanoidMoment& is, const std::v
     return std::nullopt;
 }
 
-/// From the solve reports and poses; "cause not known" if they do not tell.
+/// From the solve reports and poses, or "cause not known".
 std::string flip_cause(const HumanoidMoment& was, const HumanoidMoment& is, Bone bone) {
     for (const BodyChain& chain : body_chains(*is.part.map)) {
         const auto node = is.part.node_of(bone);

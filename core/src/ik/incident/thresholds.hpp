@@ -43,7 +43,7 @@ inline constexpr float swapped_bends = 4.0f, swapped_way = 0.5f;
 
 inline constexpr float missed_share = 0.01f;
 inline constexpr std::size_t missed_run = 5;  ///< frames
-inline constexpr float approach = 0.98f;      ///< the tip approaches: its error falls below this part
+inline constexpr float approach = 0.98f;      ///< a tip whose error falls below this part approaches
 
 // 300 arms, half of them late by 1 to 5 frames: 150 are found, none falsely.
 inline constexpr double lag_share = 1e-3;   ///< minimum gain in rms; with 1e-2, 147 are found

@@ -126,7 +126,7 @@ float Explanation::stopped(std::size_t joint) const noexcept {
     return size * excess_of(limit, angles_of(limit, turned)) / small_turn;
 }
 
-/// Lists the joints that stop most; among equal joints, the one nearer to the root comes first.
+/// Lists the joints whose limits stop most; among equals, the one nearer to the root comes first.
 void Explanation::find_candidates() noexcept {
     for (std::size_t joint = 0; joint < options_.limits.size(); ++joint) {
         const Candidate next{joint, stopped(joint)};
