@@ -32,7 +32,7 @@ class Resolver {
     Expected<std::vector<Output>> resolve(Unit& unit, std::size_t index, std::optional<std::size_t> for_each);
 
   private:
-    void spring(std::vector<Output>& handed_out);
+    void spring(std::vector<Output>& outputs);
     void refuse(const std::string& what);
     void rows(std::span<const Field> table, void* object, const std::string& above = {});
     void row(const Field& field, void* at, const std::string& name);

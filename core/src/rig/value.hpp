@@ -16,6 +16,6 @@ Result check(const char* what, const Value& value) noexcept;
 Value normalised(const Value& value) noexcept;
 
 /// Whether a unit may output the value: finite and within max_magnitude.
-bool is_fine(const Value& value) noexcept;
+bool is_in_range(const Value& value) noexcept;
 
 }  // namespace tendril::rig
