@@ -183,9 +183,9 @@ void Workspace::Parts::sum_reports(Advance& done) {
 /// Stores the contacts of the substep in the state.
 void Workspace::Parts::store_contacts(State& state) {
     if (plan.colliding == 0 && state.contacts.empty()) return;
-    std::size_t most = 0;
-    for (const BodyContactScratch& island : scratch.body_contacts) most += island.contacts.size();
-    state.contacts.reserve(most);
+    std::size_t count = 0;
+    for (const BodyContactScratch& island : scratch.body_contacts) count += island.contacts.size();
+    state.contacts.reserve(count);
     state.contacts.clear();
     const double per_square = 1.0 / (state.settings.substep * state.settings.substep);
     for (const BodyContactScratch& island : scratch.body_contacts)

@@ -46,8 +46,8 @@ BodyContacts::Response BodyContacts::respond(const Contact& contact, const Point
     slip -= detail::dot(slip, n) * n;
     const dvec3 friction = contact.force - before * n - k * slip;
     const double size = detail::length(friction),
-                 most = static_cast<double>(state_.settings.friction) * normal_force;
-    const double part = size > most ? most / size : 1.0;
+                 max_friction = static_cast<double>(state_.settings.friction) * normal_force;
+    const double part = size > max_friction ? max_friction / size : 1.0;
     response.force = normal_force * n + part * friction;
     response.along = k;
     response.across = part * k;
@@ -260,8 +260,8 @@ double BodyContacts::project(bool all) {
         worst = std::max(worst, depth / contact.thickness);
         slip -= detail::dot(slip, found.normal) * found.normal;
         const double slip_distance = detail::length(slip),
-                     most = depth * static_cast<double>(state_.settings.friction);
-        const dvec3 by = depth * found.normal - (slip_distance > most ? most / slip_distance : 1.0) * slip;
+                     limit = depth * static_cast<double>(state_.settings.friction);
+        const dvec3 by = depth * found.normal - (slip_distance > limit ? limit / slip_distance : 1.0) * slip;
         for (std::size_t k = 0; k < 4; ++k) {
             const std::uint32_t i = contact.points[k];
             x[i] += (found.weights[k] * scratch_.weight[i] / freedom) * by;

@@ -84,9 +84,9 @@ void BodyContacts::prevent_crossing() {
     if (!any) return;
     // Cuts the step of all bodies: a pair that did not cross in a whole step does not in a part of it.
     for (int i = 0; i <= max_step_cuts; ++i) {
-        const double left = i < max_step_cuts ? 0.5 : 0.0;
+        const double factor = i < max_step_cuts ? 0.5 : 0.0;
         each_particle([&](std::size_t k) {
-            scratch_.x[k] = state_.position[k] + left * (scratch_.x[k] - state_.position[k]);
+            scratch_.x[k] = state_.position[k] + factor * (scratch_.x[k] - state_.position[k]);
         });
         if (std::none_of(s_.pairs.begin(), s_.pairs.end(),
                          [&](const Pair& pair) { return crosses(pair, where); }))

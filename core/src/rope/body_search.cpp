@@ -99,8 +99,8 @@ void BodyContacts::search(const std::vector<dvec3>& ends) {
 double BodyContacts::max_approach(const Candidate& pair, double Scratch::Listed::*travel) const {
     double a = 0.0, b = 0.0;
     for (std::uint32_t k = 0; k < 4; ++k) {
-        double& most = k < pair.split ? a : b;
-        most = std::max(most, scratch_.listed[pair.points[k]].*travel);
+        double& largest = k < pair.split ? a : b;
+        largest = std::max(largest, scratch_.listed[pair.points[k]].*travel);
     }
     return std::sqrt(a) + std::sqrt(b);
 }
@@ -116,32 +116,32 @@ bool BodyContacts::update_drift(const std::vector<dvec3>& ends) {
     s_.mean = (1.0 / island_.particles) * mean;
     drift = (1.0 / island_.particles) * drift;
     const std::span<const std::uint32_t> bodies = Plan::part(plan_.bodies, island_.bodies);
-    bool stay = s_.listed;
+    bool valid = s_.listed;
     s_.radii.resize(bodies.size());
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         const float radius = state_.bodies[bodies[k]].radius;
-        stay = stay && radius == s_.radii[k];
+        valid = valid && radius == s_.radii[k];
         s_.radii[k] = radius;
     }
     each_listed([&](std::size_t i, Scratch::Listed& it, double) {
         it.travel = square(ends[i] - state_.position[i] - s_.mean);
         it.drifted = square(state_.position[i] - it.at - drift);
-        const double most = it.reach - path_margin;
-        stay = stay && it.travel <= most * most && it.drifted <= it.max_drift * it.max_drift;
+        const double max_travel = it.reach - path_margin;
+        valid = valid && it.travel <= max_travel * max_travel && it.drifted <= it.max_drift * it.max_drift;
     });
-    return stay;
+    return valid;
 }
 
 /// Whether a particle moved farther than the search allowed for.
 bool BodyContacts::left_search_range() {
     measure_moves();
-    bool farther = false;
+    bool outside = false;
     each_listed([&](std::size_t, const Scratch::Listed& it, double) {
-        if (farther || it.moved <= it.travel + path_margin * path_margin) return;
-        const double most = std::sqrt(it.travel) + path_margin;
-        farther = !(it.moved <= most * most);
+        if (outside || it.moved <= it.travel + path_margin * path_margin) return;
+        const double max_move = std::sqrt(it.travel) + path_margin;
+        outside = !(it.moved <= max_move * max_move);
     });
-    return farther;
+    return outside;
 }
 
 void BodyContacts::measure_moves() {

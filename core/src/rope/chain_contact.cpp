@@ -80,9 +80,9 @@ bool ChainNewton::find(std::uint32_t number) {
             const Scratch::Moving& moving = collider(each.collider);
             if (link.rest <= moving.size) continue;
             const std::uint32_t j = particle(k + 1);
-            const dvec3 way = scratch_.base[j] - state_.position[j], along = state_.position[j] - from;
+            const dvec3 path = scratch_.base[j] - state_.position[j], along = state_.position[j] - from;
             const double far =
-                radius_ + path_margin + 0.5 * detail::length(along) + detail::length(way) + reach;
+                radius_ + path_margin + 0.5 * detail::length(along) + detail::length(path) + reach;
             if (moving.far_from(from + 0.5 * along, far)) continue;
             if (!link_before) {
                 contact_of(k);
@@ -157,15 +157,15 @@ void ChainNewton::begin_plane(ContactScratch::Contact& contact, ContactScratch::
     const Scratch::Moving& moving = collider(plane.collider);
     plane.by = moving.move_at(state_.position[i]);
     dvec3 at = state_.position[i] + plane.by;  // relative to the collider
-    const dvec3 from = at, way = scratch_.base[i] - from;
-    const double far = detail::length(way), step = 0.5 * moving.size + radius_;
+    const dvec3 from = at, path = scratch_.base[i] - from;
+    const double path_length = detail::length(path), step = 0.5 * moving.size + radius_;
     SurfaceDistance surface = surface_distance(*moving.shape, at);
     plane.active = surface.distance < radius_ + touch_distance;
-    if (far > step && !plane.active && surface.distance < far + radius_) {
-        const int samples = static_cast<int>(std::min(64.0, std::ceil(far / std::max(step, 1e-9))));
+    if (path_length > step && !plane.active && surface.distance < path_length + radius_) {
+        const int samples = static_cast<int>(std::min(64.0, std::ceil(path_length / std::max(step, 1e-9))));
         local_.done.work += static_cast<std::uint64_t>(samples);
         for (int k = 1; k <= samples && !plane.active; ++k) {
-            const dvec3 sample = from + (static_cast<double>(k) / samples) * way;
+            const dvec3 sample = from + (static_cast<double>(k) / samples) * path;
             const SurfaceDistance there = surface_distance(*moving.shape, sample);
             if (there.distance >= radius_) continue;
             at = sample;
@@ -248,14 +248,14 @@ bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
         changed |= s_.progress.may_release && plane.active != was;
         if (!plane.active) continue;
         // Sorted by depth, deepest first.
-        constexpr int most = detail::NodeContact::most;
-        if (effect.planes == most && plane.gap >= effect.gap[most - 1]) continue;
-        int at = std::min(effect.planes, most - 1);
+        constexpr int max_planes = detail::NodeContact::max_planes;
+        if (effect.planes == max_planes && plane.gap >= effect.gap[max_planes - 1]) continue;
+        int at = std::min(effect.planes, max_planes - 1);
         for (; at > 0 && effect.gap[at - 1] > plane.gap; --at)
             effect.normal[at] = effect.normal[at - 1], effect.gap[at] = effect.gap[at - 1];
         effect.normal[at] = plane.normal;
         effect.gap[at] = plane.gap;
-        effect.planes = std::min(effect.planes + 1, most);
+        effect.planes = std::min(effect.planes + 1, max_planes);
     }
     apply_friction(contact);
     return changed;

@@ -95,10 +95,10 @@ inline void solve_node(ChainNode& node, const Sweep& before, double stiffness,
 inline Sweep eliminate(const ChainNode& node, ChainBond& bond, const dvec3& along, double weights) noexcept {
     const double s = bond.stiffness;
     const dvec3 moved = node.mobility * along;
-    const double pivot = dot(along, moved) + bond.compliance / bond.stiffness_left;
+    const double pivot = dot(along, moved) + bond.compliance / bond.stiffness_ratio;
     bond.inverse = weights > 0.0 ? 1.0 / pivot : 0.0;  // nothing to solve between two pinned nodes
     bond.row = along - s * moved;
-    bond.right = bond.error / bond.stiffness_left - dot(along, node.offset);
+    bond.right = bond.error / bond.stiffness_ratio - dot(along, node.offset);
     Sweep next;
     const double square = -s * s;
     const Symmetric3& m = node.mobility;
@@ -205,7 +205,7 @@ void ChainSystem::evaluate(double extra_stiffness) noexcept {
             if (!bends.empty() && dot(bends[k].direction, bond.along) > 0.0) bond.stiffness *= tension_ahead;
             bond.stiffness =
                 std::min(bond.stiffness + extra_stiffness * node.mass, max_stiffness * node.mass);
-            bond.stiffness_left = std::max(1.0 - bond.compliance * bond.stiffness, 1e-9);
+            bond.stiffness_ratio = std::max(1.0 - bond.compliance * bond.stiffness, 1e-9);
             pull = bond.multiplier * bond.along;
             if (!bends.empty() && dot(bends[k].direction, bond.along) > 0.0)
                 pull = bond.multiplier *
@@ -334,9 +334,9 @@ void ChainSystem::solve() noexcept {
         }
         const dvec3 by = here.offset + here.mobility * (change * along + push);
         // The stiffness acted along the link too; that part is tension.
-        const double most = max_multiplier * bond.rest * here.mass;
+        const double limit = max_multiplier * bond.rest * here.mass;
         bond.multiplier =
-            std::clamp(bond.multiplier + change + bond.stiffness * dot(along, next_by - by), -most, most);
+            std::clamp(bond.multiplier + change + bond.stiffness * dot(along, next_by - by), -limit, limit);
         here.x += by;
         return by;
     };

@@ -171,8 +171,8 @@ void ClothSolver::pin() {
 
 /// A step of Newton's method. If it strains links, it is halved until the potential does not rise, the first
 /// one towards free motion.
-int ClothSolver::step(int iterations, bool first, double enough) {
-    const detail::GridSystem::Tolerance tolerance{first ? 0.0 : enough, relative_residual};
+int ClothSolver::step(int iterations, bool first, double max_residual) {
+    const detail::GridSystem::Tolerance tolerance{first ? 0.0 : max_residual, relative_residual};
     in_cells([&](detail::GridRange cells) { scratch_.cloth_unit.cells(level_, cloth_.arrays, cells); });
     add_contacts();
     add_self_contacts();
@@ -271,7 +271,7 @@ double ClothSolver::predict() {
         if (scratch_.weight[i] > 0.0) scratch_.x[i] = unchanged(i);
     evaluate();
     const double small = residual_strain * shortest_;
-    forced_ = driven > 0.0 ? driven : small * small * stiffness_;  // if gravity, wind and damping add nothing
+    forcing_ = driven > 0.0 ? driven : small * small * stiffness_;  // if gravity, wind and damping do nothing
     return std::min(force_residual * force_residual * driven, small * small * stiffness_);
 }
 
@@ -285,23 +285,23 @@ bool ClothSolver::is_driven() const {
 
 int ClothSolver::solve(int iterations) {
     load();
-    const double enough = predict();
+    const double max_residual = predict();
     const bool driven = is_driven();
-    int most = 0;
-    for (int step_scale = 0;; ++step_scale) {
-        find_contacts(step_scale == 0);
+    int max_taken = 0;
+    for (int steps = 0;; ++steps) {
+        find_contacts(steps == 0);
         find_self_contacts();
         // An unconverged rest becomes motion in the next substep. The energy bound removes it, except from
         // bodies that a collider or pin drives.
-        const bool settled = driven ? std::abs(decrease_) <= forced_ && deepest() <= kept_depth
+        const bool settled = driven ? std::abs(decrease_) <= forcing_ && deepest() <= penetration_slop
                                     : deepest() <= accepted_depth * shortest_;
         const bool good = settled && strain_ <= accepted_strain;
-        if (step_scale == max_newton_steps || (good && step_scale >= min_newton_steps)) break;
-        most = std::max(most, step(iterations, step_scale == 0, enough));
+        if (steps == max_newton_steps || (good && steps >= min_newton_steps)) break;
+        max_taken = std::max(max_taken, step(iterations, steps == 0, max_residual));
         store_forces();
     }
     finish();
-    return most;
+    return max_taken;
 }
 
 }  // namespace tendril::rope

@@ -25,7 +25,7 @@ class ClothSolver : protected ImplicitStep {
     void load();
     void evaluate();
     void pin();
-    int step(int iterations, bool first, double enough);
+    int step(int iterations, bool first, double max_residual);
     double potential() const;
     double add_links(double sum) const;  ///< adds the links' potential
     void finish();
@@ -72,7 +72,7 @@ class ClothSolver : protected ImplicitStep {
     double strain_ = 0.0;     ///< maximum over stretch links
     double potential_ = 0.0;  ///< inertia plus links
     double decrease_ = 0.0;   ///< decrease of the potential with contacts in the last step
-    double forced_ = 0.0;     ///< the potential of inertia that forces add in a substep
+    double forcing_ = 0.0;    ///< the potential of inertia that forces add in a substep
     bool converged_ = true;
 };
 

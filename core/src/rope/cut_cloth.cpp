@@ -36,10 +36,10 @@ Result check_line(const char* op, const Body& cloth, const ClothLine& line, std:
     char name[32], rule[64];
     std::snprintf(name, sizeof name, "lines[%zu]", number);
     if (line.size() < 2) return refused(op, name, "2 points or more", line.size());
-    const float most[] = {static_cast<float>(cloth.row), static_cast<float>(cloth.rows())};
+    const float limits[] = {static_cast<float>(cloth.row), static_cast<float>(cloth.rows())};
     for (std::size_t i = 0; i < line.size(); ++i)
         for (int axis = 0; axis < 2; ++axis) {
-            const float each = line[i][axis], end = most[axis];
+            const float each = line[i][axis], end = limits[axis];
             if (each >= -1.0f && each <= end) continue;
             std::snprintf(rule, sizeof rule, "-1 to %g", static_cast<double>(end));
             return refused(op, Argument(name, i, axis == 0 ? "column" : "row"), rule, each);

@@ -121,17 +121,17 @@ void Substep::shorten_step(std::uint32_t number) {
         }
         return worst;
     };
-    const double most = failed ? fallback_error + stretch(state_.position) : 0.0;
+    const double max_stretch = failed ? fallback_error + stretch(state_.position) : 0.0;
     // A moving collider must take the chain along.
     const bool driven = scratch_.body_near[chain.body] == Scratch::Nearest::Moving;
     double deepest = -1.0;
     const auto is_bad = [&] {
-        if (failed && !(stretch(scratch_.x) <= most)) return true;
+        if (failed && !(stretch(scratch_.x) <= max_stretch)) return true;
         const Ledger ledger = ledger_of(chain);
         if (ledger.leaves_gain(accepted_gain)) return true;
         if (ledger.gains_over(accepted_gain) && correction_scale(chain) < 1.0) return true;
-        if (driven || depth_of(chain, scratch_.x) <= kept_depth) return false;
-        if (deepest < 0.0) deepest = std::max(kept_depth, depth_of(chain, state_.position));
+        if (driven || depth_of(chain, scratch_.x) <= penetration_slop) return false;
+        if (deepest < 0.0) deepest = std::max(penetration_slop, depth_of(chain, state_.position));
         return depth_of(chain, scratch_.x) > deepest;
     };
     const auto each = [&](auto move) {
@@ -152,13 +152,13 @@ void Substep::shorten_step(std::uint32_t number) {
 
 /// Factor that limits a chain's correction to correction_speed or the speed of its fastest particle.
 double Substep::correction_scale(const Plan::Chain& chain) const {
-    double farthest = 0.0, most = correction_speed * h_;
+    double largest = 0.0, limit = correction_speed * h_;
     for (std::uint32_t k = 0; k <= chain.links; ++k) {
         const std::uint32_t i = plan_.nodes[chain.first_node + k];
-        farthest = std::max(farthest, detail::length(scratch_.x[i] - scratch_.base[i]));
-        most = std::max(most, detail::length(scratch_.base[i] - state_.position[i]));
+        largest = std::max(largest, detail::length(scratch_.x[i] - scratch_.base[i]));
+        limit = std::max(limit, detail::length(scratch_.base[i] - state_.position[i]));
     }
-    return farthest > most ? most / farthest : 1.0;
+    return largest > limit ? limit / largest : 1.0;
 }
 
 /// Scales down a solve that would throw a chain.
@@ -393,7 +393,7 @@ void Substep::gather(const Block& block, const Batch& batch) const {
             const Plan::Chain& chain = *lane_chains[lane];
             const std::uint32_t i = plan_.nodes[chain.first_node + k];
             double* const node = block.at(k, 0) + lane;
-            const auto row = [&](std::size_t which) -> double* { return node + which * block.lanes; };
+            const auto row = [&](std::size_t index) -> double* { return node + index * block.lanes; };
             put(row(Row::X), scratch_.x[i], block.lanes);
             put(row(Row::OldX), state_.position[i] - state_.displacement[i], block.lanes);
             *row(Row::Weight) = scratch_.weight[i];
@@ -412,7 +412,7 @@ void Substep::scatter(const Block& block, std::uint32_t lane, std::uint32_t numb
     for (std::uint32_t k = 0; k <= chain.links; ++k) {
         const std::uint32_t i = plan_.nodes[chain.first_node + k];
         const double* const node = block.at(k, 0) + lane;
-        const auto row = [&](std::size_t which) { return node[which * block.lanes]; };
+        const auto row = [&](std::size_t index) { return node[index * block.lanes]; };
         if (scratch_.weight[i] > 0.0) scratch_.x[i] = {row(Row::X), row(Row::Y), row(Row::Z)};
         if (k < chain.links) scratch_.multiplier[chain.first_link + k] = row(Row::Multiplier);
     }

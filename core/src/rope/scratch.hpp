@@ -22,7 +22,7 @@ namespace tendril::rope {
 inline constexpr double path_margin = 1e-3, touch_distance = 1e-5;
 /// Penetration, metres, that a cloth or a chain with bending stiffness may keep: moving one particle would
 /// strain or bend it, and the next substep turn that into motion.
-inline constexpr double kept_depth = 5e-5;
+inline constexpr double penetration_slop = 5e-5;
 
 /// A particle's contact with a collider in one substep.
 struct Touch {
@@ -82,7 +82,7 @@ struct ContactScratch {
 /// The forces of ties that join grids to anything, as unknowns of a small dense system.
 struct TieForces {
     struct End {
-        enum class Of : std::uint8_t { Nothing, Grid, Rest } of = Of::Nothing;  ///< Nothing: pinned
+        enum class Of : std::uint8_t { Pinned, Grid, Node } of = Of::Pinned;
         std::uint32_t grid = 0;  ///< index in the island's grids
         std::uint32_t at = 0;    ///< a cell, or a place in the order of elimination
         double sign = 1.0;       ///< sign of its displacement in the tie's
@@ -136,7 +136,7 @@ struct BodyContactScratch {
         std::uint32_t chain = 0, bond = 0, contact = 0;
         bool is_b = false;
     };
-    glm::dvec3 mean{0.0};  ///< mean way of all particles
+    glm::dvec3 mean{0.0};  ///< mean displacement of all particles
     // The lists are valid until a particle drifts too far (Scratch::Listed).
     bool listed = false;
     std::vector<float> radii;  ///< radii of the island's bodies
@@ -203,7 +203,7 @@ struct Scratch {
     struct Slowdown {
         glm::dvec3 mean{0.0};  ///< mean displacement
         double mean_factor = 1.0, relative_factor = 1.0, tension_factor = 1.0;
-        double left = 0.0;  ///< joules of gain that slowing leaves
+        double remaining_gain = 0.0;  ///< joules of gain that slowing leaves
         bool any() const { return mean_factor != 1.0 || relative_factor != 1.0 || tension_factor != 1.0; }
     };
     std::vector<std::optional<Slowdown>> chain_slowdown;  ///< empty until its energy is balanced

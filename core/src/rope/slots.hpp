@@ -46,12 +46,12 @@ auto* find_in(List& list, const Id& id) noexcept {
     return found == list.end() || !id ? nullptr : &*found;
 }
 
-template <class Gone>
-std::size_t erase_ties(State& state, Gone gone) noexcept {
+template <class IsRemoved>
+std::size_t erase_ties(State& state, IsRemoved is_removed) noexcept {
     return std::erase_if(state.ties, [&](const Tie& tie) {
-        const bool goes = gone(tie);
-        if (goes) free_slot(state.tie_slots, tie.id);
-        return goes;
+        const bool removed = is_removed(tie);
+        if (removed) free_slot(state.tie_slots, tie.id);
+        return removed;
     });
 }
 

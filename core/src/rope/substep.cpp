@@ -19,7 +19,7 @@ using glm::dvec3;
 
 /// True only if every coordinate is at most `limit`; false for NaN. A single comparison, because it runs for
 /// every particle; the others are checked again.
-bool is_surely_within(const dvec3& v, double limit) {
+bool is_within_l1(const dvec3& v, double limit) {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z) <= limit;
 }
 
@@ -151,7 +151,7 @@ void Substep::clamp_to_world() {
     bool stopped = false;
     each_particle([&](std::size_t i) {
         dvec3& x = scratch_.x[i];
-        if (is_surely_within(x, max_magnitude)) return;
+        if (is_within_l1(x, max_magnitude)) return;
         const dvec3 was = std::exchange(x, clamped_to_world(x, state_.position[i]));
         stopped |= was != x;
     });

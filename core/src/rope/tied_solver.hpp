@@ -55,7 +55,7 @@ class TiedSolver : ImplicitStep {
     void add_bends();
     void add(std::uint32_t particle, const detail::Symmetric3& matrix, const glm::dvec3& force);
     void find_step(const detail::GridSystem::Tolerance& tolerance, int iterations);
-    void step(bool first, int iterations, double enough);
+    void step(bool first, int iterations, double max_residual);
     void move_by(double part);
     void store_tensions(bool exact);
     double potential();
