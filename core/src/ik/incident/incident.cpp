@@ -32,7 +32,7 @@ void merge_scaled(std::vector<ChainIncident>& found, const std::vector<float>& l
         const auto share = [&](const ChainIncident& each) {
             return 1.0 + each.amount / static_cast<double>(lengths[each.joint - 1]);
         };
-        const auto alike = [&](const ChainIncident& each) {
+        const auto matches = [&](const ChainIncident& each) {
             return each.kind == IncidentKind::Length && each.joint != no_joint && each.frame == first.frame &&
                    each.last_frame == first.last_frame &&
                    std::abs(share(each) - share(first)) <= equal * std::max(share(first), equal);
@@ -41,10 +41,10 @@ void merge_scaled(std::vector<ChainIncident>& found, const std::vector<float>& l
         std::size_t bones = 0;
         double amount = 0.0;
         for (std::size_t j = i; j < found.size() && found[j].frame == first.frame; ++j)
-            if (alike(found[j])) ++bones, amount += found[j].amount;
+            if (matches(found[j])) ++bones, amount += found[j].amount;
         if (bones != lengths.size()) continue;
         const bool point = share(first) < equal * equal;
-        std::erase_if(found, [&](const ChainIncident& each) { return &each > &found[i] && alike(each); });
+        std::erase_if(found, [&](const ChainIncident& each) { return &each > &found[i] && matches(each); });
         found[i].joint = no_joint;
         found[i].amount = amount;
         found[i].cause = point ? "all joints are at one point: a frame that was never written"
@@ -173,11 +173,11 @@ const char* IncidentFinder::nan_cause(const TraceFrame& frame) const noexcept {
     for (std::size_t i = 1; i < was.joints.size(); ++i)
         if (was.joints[i] == was.joints[i - 1]) return "a bone has no length, and so no direction";
     if (!frame.target) return text(FlipCause::Unexplained);
-    const glm::vec3 way = *frame.target - (finite(frame.joints.front()) ? frame.joints.front() : was.root());
-    const float distance = math::length(way);
+    const glm::vec3 line = *frame.target - (finite(frame.joints.front()) ? frame.joints.front() : was.root());
+    const float distance = math::length(line);
     if (distance <= 1e-4f * reach_) return "the target is on the root, where it has no direction";
     if (frame.pole) {
-        const float angle = angle_between(way, *frame.pole - (*frame.target - way));
+        const float angle = angle_between(line, *frame.pole - (*frame.target - line));
         if (in_degrees(std::min(angle, static_cast<float>(math::pi) - angle)) < 0.5f)
             return "the pole target is on the target's line, where the bend has no direction";
     }
@@ -376,19 +376,19 @@ void IncidentFinder::finish() {
     std::ranges::stable_sort(found_, {}, &ChainIncident::frame);
     merge_scaled(found_, lengths_);
     // A joint out of place changes both its bones over the same frames: one incident, the larger.
-    std::size_t kept = 0;
+    std::size_t count = 0;
     bool merged = true;  // whether the last one was
     for (const ChainIncident& each : found_) {
-        ChainIncident* const before = kept > 0 ? &found_[kept - 1] : nullptr;
+        ChainIncident* const before = count > 0 ? &found_[count - 1] : nullptr;
         merged = !merged && before->kind == IncidentKind::Length && each.kind == IncidentKind::Length &&
                  before->frame == each.frame && before->last_frame == each.last_frame &&
                  before->joint + 1 == each.joint && displaced_.contains({each.frame, before->joint});
         if (!merged)
-            found_[kept++] = each;
+            found_[count++] = each;
         else if (std::abs(each.amount) > std::abs(before->amount))
             *before = each;
     }
-    found_.resize(kept);
+    found_.resize(count);
 }
 
 }  // namespace tendril::ik

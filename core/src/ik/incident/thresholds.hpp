@@ -31,34 +31,34 @@ inline constexpr float moving_share = 1e-3f;  ///< a shorter step is no motion
 
 /// Repeated frames are a rest if a step is under this fraction of the one before, or over this multiple of it
 /// per frame. 120 arms that repeat 0 to 5 frames are judged right, as with 0.1 to 0.95 and 1 to 4.
-inline constexpr float resumed_share = 0.6f, resumed_faster = 1.5f;
+inline constexpr float min_resumed_step = 0.6f, max_resumed_step = 1.5f;
 /// Minimum cosine between the steps before and after. -0.5 does as well; 0.95 loses some of the 120.
-inline constexpr float resumed_cosine = 0.5f;
+inline constexpr float min_resumed_cosine = 0.5f;
 
 /// Minimum number of runs of repeated frames in a cadence.
 inline constexpr std::size_t min_cadence = 4;
 /// Swapped frames bend the path by this multiple of the bend with the two put right, and of the distance over
 /// six frames. At constant speed, 4 halved steps of second differences over 5 steps: 0.8; put right: 0.
-inline constexpr float swapped_bends = 4.0f, swapped_way = 0.5f;
+inline constexpr float swap_bend_ratio = 4.0f, swap_distance_ratio = 0.5f;
 
 inline constexpr float missed_share = 0.01f;
-inline constexpr std::size_t missed_run = 5;  ///< frames
-inline constexpr float approach = 0.98f;      ///< a tip whose error falls below this part approaches
+inline constexpr std::size_t min_missed_frames = 5;  ///< frames
+inline constexpr float approach_ratio = 0.98f;       ///< a tip whose error falls below this part approaches
 
 // 300 arms, half of them late by 1 to 5 frames: 150 are found, none falsely.
-inline constexpr double lag_share = 1e-3;   ///< minimum gain in rms; with 1e-2, 147 are found
-inline constexpr double lag_better = 0.5;   ///< of the squares without a lag; 0.8 fails on planted faults
-inline constexpr double lag_agrees = 1.02;  ///< likewise in every comparison; with 0.9, 142 are found
+inline constexpr double lag_share = 1e-3;     ///< minimum gain in rms; with 1e-2, 147 are found
+inline constexpr double max_lag_ratio = 0.5;  ///< of the squares without a lag; 0.8 fails on planted faults
+inline constexpr double max_other_ratio = 1.02;  ///< likewise in every comparison; with 0.9, 142 are found
 /// The tip's path may be 0.5 to 2 times the size of the target's; with 0.999, 149 are found.
 inline constexpr double lag_scale = 0.5;
-inline constexpr std::size_t lag_frames = 8;  ///< minimum number of moving frames
+inline constexpr std::size_t min_lag_frames = 8;  ///< minimum number of moving frames
 
 /// A tip leaps if it is off its path by this multiple of the steps around it and this share of the reach.
 /// With 6, or with 0.1, some of the 300 planted faults are missed; 1.5 and 0.005 do as well.
-inline constexpr float spike_steps = 3.0f, spike_share = 0.025f;
+inline constexpr float spike_step_ratio = 3.0f, spike_share = 0.025f;
 
 inline constexpr float jitter_share = 2e-4f;
-inline constexpr std::size_t fast_jitter = 16;  ///< frames
-inline constexpr std::size_t jitter_crossings = 4;
+inline constexpr std::size_t fast_jitter_frames = 16;  ///< frames
+inline constexpr std::size_t min_jitter_crossings = 4;
 
 }  // namespace tendril::ik

@@ -22,21 +22,21 @@ Point2 point_at_angle(double radius, double radians) noexcept {
 }
 
 /// Where two circles cross, left of the line from `a` to `b`; where they come nearest if they do not.
-Point2 crossing_left(const Point2& a, double from_a, const Point2& b, double from_b) noexcept {
+Point2 left_crossing(const Point2& a, double radius_a, const Point2& b, double radius_b) noexcept {
     const Point2 line{b.x - a.x, b.y - a.y};
     const double square = std::max(line.x * line.x + line.y * line.y, 1e-300);
-    const double along = 0.5 * (1.0 + (from_a * from_a - from_b * from_b) / square);
-    const double aside = std::sqrt(std::max(from_a * from_a / square - along * along, 0.0));
-    return {a.x + along * line.x - aside * line.y, a.y + along * line.y + aside * line.x};
+    const double along = 0.5 * (1.0 + (radius_a * radius_a - radius_b * radius_b) / square);
+    const double height = std::sqrt(std::max(radius_a * radius_a / square - along * along, 0.0));
+    return {a.x + along * line.x - height * line.y, a.y + along * line.y + height * line.x};
 }
 
 constexpr SketchHold pinned = SketchHold::Pinned;
 
-double apart_by(const Point2& a, const Point2& b) noexcept {
+double point_distance(const Point2& a, const Point2& b) noexcept {
     return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
 }
 /// Whether bars of the lengths `a` and `b` can join two points `apart`, within rounding.
-bool joins_over(double apart, double a, double b) noexcept {
+bool closes_triangle(double apart, double a, double b) noexcept {
     const double slack = 1e-12 * (a + b + apart);
     return apart <= a + b + slack && apart >= std::abs(a - b) - slack;
 }
@@ -66,7 +66,7 @@ Expected<LinkageSketch> four_bar(const FourBar& lengths) {
         angle = math::arctangent(std::sqrt(std::max(1.0 - cosine * cosine, 0.0)), cosine);
     }
     const Point2 b = point_at_angle(crank, angle), d{ground, 0.0};
-    const Point2 c = crossing_left(b, coupler, d, rocker);
+    const Point2 c = left_crossing(b, coupler, d, rocker);
     const double x = (c.x - b.x) / coupler, y = (c.y - b.y) / coupler;
     const Point2& p = coupler_point;
     LinkageSketch sketch;
@@ -102,12 +102,12 @@ Expected<LinkageSketch> slider_crank(const SliderCrank& lengths) {
 
 Expected<LinkageSketch> peaucellier(const Peaucellier& lengths) {
     if (const Result bad = check_fields("peaucellier", lengths); !bad) return bad;
-    if (!joins_over(2.0 * lengths.crank, lengths.long_bar, lengths.short_bar))
+    if (!closes_triangle(2.0 * lengths.crank, lengths.long_bar, lengths.short_bar))
         return refused("peaucellier", "crank", "such that long and short bars join O and C, 2 crank apart",
                        lengths.crank);
     // Drawn with C on +X, where O, C and P are on one line.
     const Point2 o{0.0, 0.0}, c{2.0 * lengths.crank, 0.0};
-    const Point2 a = crossing_left(o, lengths.long_bar, c, lengths.short_bar), b{a.x, -a.y};
+    const Point2 a = left_crossing(o, lengths.long_bar, c, lengths.short_bar), b{a.x, -a.y};
     LinkageSketch sketch;
     sketch.points = {{"O", o, pinned}, {"Q", {lengths.crank, 0.0}, pinned}, {"A", a}, {"B", b},
                      {"C", c},         {"P", {2.0 * a.x - c.x, 0.0}}};
@@ -159,19 +159,19 @@ Expected<LinkageSketch> jansen(const Jansen& lengths) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = lengths;
     if (const Result bad = check_fields("jansen", lengths); !bad) return bad;
     const Point2 crank{m, 0.0}, pivot{-a, -l};
-    const Point2 upper = crossing_left(pivot, b, crank, j), lower = crossing_left(crank, k, pivot, c);
-    const Point2 back = crossing_left(pivot, d, upper, e), knee = crossing_left(lower, g, back, f);
-    const Point2 foot = crossing_left(lower, i, knee, h);
+    const Point2 upper = left_crossing(pivot, b, crank, j), lower = left_crossing(crank, k, pivot, c);
+    const Point2 back = left_crossing(pivot, d, upper, e), knee = left_crossing(lower, g, back, f);
+    const Point2 foot = left_crossing(lower, i, knee, h);
     const struct {
         const char* names;
         double apart, one, other;
-    } triangles[] = {{"j", apart_by(pivot, crank), b, j},
-                     {"k", apart_by(pivot, crank), k, c},
+    } triangles[] = {{"j", point_distance(pivot, crank), b, j},
+                     {"k", point_distance(pivot, crank), k, c},
                      {"e", b, d, e},
-                     {"g", apart_by(lower, back), g, f},
+                     {"g", point_distance(lower, back), g, f},
                      {"h", g, i, h}};
     for (const auto& each : triangles)
-        if (!joins_over(each.apart, each.one, each.other))
+        if (!closes_triangle(each.apart, each.one, each.other))
             return refused("jansen", each.names, "such that its triangle closes with the crank at 0",
                            each.other);
     LinkageSketch sketch;

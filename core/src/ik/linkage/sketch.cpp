@@ -413,14 +413,14 @@ std::span<const Field> fields<ik::SketchBar>() noexcept {
 template <>
 std::span<const Field> fields<ik::SketchMotor>() noexcept {
     using namespace ik;
-    constexpr double no_end = std::numeric_limits<double>::infinity();
+    constexpr double unbounded = std::numeric_limits<double>::infinity();
     static constexpr Field rows[] = {
         field<&SketchMotor::name>("name"),
         index<&SketchMotor::point>("point", "points"),
         index<&SketchMotor::bar>("bar", "bars"),
         index<&SketchMotor::against>("against", "bars", true),
-        field<&SketchMotor::minimum>("minimum", {-no_end, max_magnitude}, "rad"),
-        field<&SketchMotor::maximum>("maximum", {-max_magnitude, no_end}, "rad")};
+        field<&SketchMotor::minimum>("minimum", {-unbounded, max_magnitude}, "rad"),
+        field<&SketchMotor::maximum>("maximum", {-max_magnitude, unbounded}, "rad")};
     return rows;
 }
 

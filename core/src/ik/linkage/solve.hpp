@@ -71,7 +71,7 @@ class LinkageSolve {
     void find_equations() noexcept;
     void find_curvature() noexcept;
     void find_descent(double damping) noexcept;
-    double pull_along_gradient() const noexcept;
+    double move_along_gradient() const noexcept;
     bool aims_at_targets() const noexcept { return aim_ == Aim::ExactTargets || aim_ == Aim::Targets; }
     bool solve_equations(double damping, bool curved) noexcept;
     double cost() noexcept;
@@ -92,18 +92,18 @@ class LinkageSolve {
     bool closes_ = true;  ///< closures are constraints, not goals
     /// Smallest part of a closure row that is independent of the rows before; near 0 at a loss of rank.
     double rank_margin_ = 1.0;
-    double min_rank_margin_ = 1.0;  ///< the smallest of these in a substep of a drive
-    double length_of_step_ = 0.0;   ///< predicted length of that substep
-    bool keeps_exact_ = false;      ///< exact targets are constraints too
-    double max_weight_ = 0.0;       ///< maximum weight of the aim's targets
-    bool descended_ = false;        ///< the last descent took a step
-    double predicted_gain_ = 0.0;   ///< for the last step of a descent
-    bool convex_ = true;            ///< the last step was Newton's: the curvature was positive
-    bool plain_ = false;            ///< use a Gauss-Newton step next
-    bool curves_down_ = false;      ///< the cost curves downwards along the last step
+    double min_rank_margin_ = 1.0;     ///< the smallest of these in a substep of a drive
+    double length_of_step_ = 0.0;      ///< predicted length of that substep
+    bool keeps_exact_ = false;         ///< exact targets are constraints too
+    double max_weight_ = 0.0;          ///< maximum weight of the aim's targets
+    bool descended_ = false;           ///< the last descent took a step
+    double predicted_gain_ = 0.0;      ///< for the last step of a descent
+    bool convex_ = true;               ///< the last step was Newton's: the curvature was positive
+    bool gauss_newton_ = false;        ///< use a Gauss-Newton step next
+    bool negative_curvature_ = false;  ///< the cost curves downwards along the last step
     /// Metres by which a step along the first gradient moves the targets' points. Negative until known.
-    double initial_pull_ = -1.0;
-    bool curved_down_ = false;  ///< whether a step with curves_down_ was taken
+    double initial_move_ = -1.0;
+    bool was_nonconvex_ = false;  ///< whether a step with negative_curvature_ was taken
     bool stopped_ = false, out_of_iterations_ = false, beyond_range_ = false;
 };
 

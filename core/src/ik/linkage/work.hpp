@@ -81,10 +81,10 @@ struct LinkageWork {
     std::vector<std::uint8_t> held;     ///< driven ones, and columns at an end of their range
     std::vector<std::uint8_t> blocked;  ///< balls at their maximum, which turn no further outward
     std::vector<double> step;
-    std::vector<double> moved;        ///< sum of the steps since the return to the closures began
-    std::vector<JointPlace> kept;     ///< before a step
-    std::vector<JointPlace> best;     ///< before a perturbation
-    std::vector<JointPlace> nearest;  ///< the pose nearest to closing, of several restarts
+    std::vector<double> moved;            ///< sum of the steps since the return to the closures began
+    std::vector<JointPlace> before_step;  ///< before a step
+    std::vector<JointPlace> saved;        ///< before a perturbation
+    std::vector<JointPlace> nearest;      ///< the pose nearest to closing, of several restarts
     /// Moves the joints by `part` of the step, within their ranges.
     void take_step(double part) noexcept;
     /// Fills the step with pseudo-random numbers up to `range`; drivers' stay 0.
@@ -135,7 +135,7 @@ struct LinkageWork {
     RowBasis basis;
     std::vector<std::size_t> row_origin;   ///< by row of the basis: six times its block, plus its row there
     std::vector<double> square, gradient;  ///< normal equations, of all columns; lower triangle
-    std::vector<double> pull;              ///< the gradient before removing the part that closures span
+    std::vector<double> force;             ///< the gradient before removing the part that closures span
     std::vector<double> multiplier;        ///< by row of the basis
     std::vector<double> curvature;         ///< second derivatives, symmetric
     std::vector<double> factor, solution;
