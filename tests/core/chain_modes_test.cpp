@@ -234,7 +234,7 @@ Pin operate(Chain& chain, Random& random) {
 }
 
 /// Whether saving and loading keeps every bit; true if the chain is outside the range that can be loaded.
-bool comes_back(const Chain& chain) {
+bool round_trips(const Chain& chain) {
     const auto segments = chain.segments();
     for (const Segment& segment : segments) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -264,7 +264,7 @@ TEST(ChainProperty, AHundredThousandHostileOperations) {
             ASSERT_TRUE(same_bits(chain.position(pin.index), pin.position)) << "operation " << i;
         }
         ASSERT_TRUE(Holds(chain)) << "operation " << i;
-        ASSERT_TRUE(comes_back(chain)) << "operation " << i;
+        ASSERT_TRUE(round_trips(chain)) << "operation " << i;
         longest = std::max(longest, chain.size());
         near += !chain.empty() && lies_within(chain, 1e3);
     }

@@ -12,9 +12,9 @@ namespace {
 using Naming = std::map<std::string, std::string>;
 
 /// A naming convention: the words for the sides, and the names in the order of `keys`, with $ for the side.
-/// An empty name leaves the bone out.
-struct Habit {
-    const char *maker, *left, *right, *pattern;
+/// An empty name omits the bone.
+struct NamingConvention {
+    const char *tool, *left, *right, *pattern;
     double confidence = 0.9;  ///< minimum for every bone; shape alone gives 0.6
 
     Naming names() const {
@@ -37,7 +37,7 @@ struct Habit {
         return names;
     }
 };
-constexpr Habit habits[]{
+constexpr NamingConvention conventions[]{
     {"Mixamo", "Left", "Right",
      "mixamorig:Hips|mixamorig:Spine|mixamorig:Spine1|mixamorig:Spine2|mixamorig:Neck|mixamorig:Head|"
      "mixamorig:HeadTop_End|mixamorig:$Shoulder|mixamorig:$Arm|mixamorig:$ForeArm|mixamorig:$Hand|"
@@ -154,14 +154,14 @@ constexpr Habit habits[]{
      "$_toe_end"}};
 
 /// Checks that every bone's node has the expected name.
-void expect_all_right(const Skeleton& skeleton, const BoneMap& map, const Naming& names, double confidence) {
+void expect_names(const Skeleton& skeleton, const BoneMap& map, const Naming& names, double confidence) {
     for (std::size_t i = 0; i < bone_count; ++i) {
         const std::string bone = name(static_cast<Bone>(i));
-        const auto wanted = names.find(bone);
-        if (wanted != names.end() && wanted->second.empty()) continue;
+        const auto expected = names.find(bone);
+        if (expected != names.end() && expected->second.empty()) continue;
         ASSERT_GE(map.bones[i].node, 0) << bone;
         EXPECT_EQ(skeleton[static_cast<std::size_t>(map.bones[i].node)].name,
-                  wanted == names.end() ? bone : wanted->second)
+                  expected == names.end() ? bone : expected->second)
             << bone << ": " << map.bones[i].reasons;
         EXPECT_GE(map.bones[i].confidence, confidence) << bone << ": " << map.bones[i].reasons;
         EXPECT_FALSE(map.bones[i].reasons.empty());
@@ -170,20 +170,20 @@ void expect_all_right(const Skeleton& skeleton, const BoneMap& map, const Naming
 }
 
 TEST(BoneMap, RecognisesEveryNamingConvention) {
-    for (const Habit& habit : habits) {
-        SCOPED_TRACE(habit.maker);
-        const Skeleton skeleton = make_figure(habit.names());
+    for (const NamingConvention& convention : conventions) {
+        SCOPED_TRACE(convention.tool);
+        const Skeleton skeleton = make_figure(convention.names());
         const BoneMap map = match_bones(skeleton);
-        expect_all_right(skeleton, map, habit.names(), habit.confidence);
+        expect_names(skeleton, map, convention.names(), convention.confidence);
         EXPECT_EQ(map.rest, RestPose::T);
     }
 }
 
 TEST(BoneMap, ASplitLimbBeginsAtItsFirstPiece) {
-    const Habit& maker = *std::find_if(std::begin(habits), std::end(habits), [](const Habit& each) {
-        return each.maker == std::string("MakeHuman");
-    });
-    const Naming names = maker.names();
+    const NamingConvention& convention =
+        *std::find_if(std::begin(conventions), std::end(conventions),
+                      [](const NamingConvention& each) { return each.tool == std::string("MakeHuman"); });
+    const Naming names = convention.names();
     const Skeleton whole = make_figure(names);
     std::vector<Node> nodes(whole.nodes().begin(), whole.nodes().end());
     for (std::size_t i = 0; i < whole.size(); ++i) {
@@ -198,17 +198,17 @@ TEST(BoneMap, ASplitLimbBeginsAtItsFirstPiece) {
         nodes.push_back(half);
     }
     const Skeleton split = *Skeleton::make(std::move(nodes));
-    expect_all_right(split, match_bones(split), names, maker.confidence);
+    expect_names(split, match_bones(split), names, convention.confidence);
 }
 
-/// Some bones of one side have names that say nothing, or another bone's name.
+/// Some bones of one side have meaningless names, or another bone's name.
 TEST(BoneMap, AMirroredFigureHasAMirroredMap) {
     std::mt19937 random(9);
     int count = 0;
     for (int round = 0; round < 2000; ++round) {
-        const Habit& habit = habits[random() % std::size(habits)];
-        SCOPED_TRACE(habit.maker + (", " + std::to_string(round)));
-        Naming names = habit.names(), others = habits[random() % std::size(habits)].names();
+        const NamingConvention& convention = conventions[random() % std::size(conventions)];
+        SCOPED_TRACE(convention.tool + (", " + std::to_string(round)));
+        Naming names = convention.names(), others = conventions[random() % std::size(conventions)].names();
         for (auto& [key, text] : names) {
             if (text.empty() || !key.starts_with("Left") || random() % 4 > 0) continue;
             const std::string& other = others[key];
@@ -246,7 +246,7 @@ TEST(BoneMap, WithoutNamesFindsThemByShapeInAnyDirection) {
         SCOPED_TRACE(turn);
         const Skeleton skeleton = make_figure(nameless(), turn);
         const BoneMap map = match_bones(skeleton);
-        expect_all_right(skeleton, map, nameless(), 0.5);
+        expect_names(skeleton, map, nameless(), 0.5);
         for (const BoneMatch& match : map.bones)
             EXPECT_LT(match.confidence, 0.7) << "nothing but the shape says so";
     }
@@ -344,7 +344,7 @@ TEST(BoneMap, AnySkeletonGivesAValidMap) {
         for (std::size_t i = 0; i < count; ++i) {
             std::string label = "n" + std::to_string(i);
             if (random() % 2) {
-                const Naming names = habits[random() % std::size(habits)].names();
+                const Naming names = conventions[random() % std::size(conventions)].names();
                 label = std::next(names.begin(), static_cast<long>(random() % names.size()))->second + label;
             }
             Node node{label, i == 0 ? -1 : static_cast<std::int32_t>(random() % i), {}};

@@ -174,7 +174,7 @@ TEST_F(FeetHostile, LegsNotBelowTheHipsAreRefused) {
 }
 
 /// The same joint positions with random bone axes and scales.
-Skeleton redressed(const Skeleton& plain) {
+Skeleton with_other_axes(const Skeleton& plain) {
     std::vector<Placement> placements(plain.size());
     place(plain, rest_pose(plain), placements);
     std::vector<Node> nodes = plain.nodes();
@@ -192,7 +192,7 @@ Skeleton redressed(const Skeleton& plain) {
 }
 
 TEST_F(FeetHostile, BonesMayHaveAnyAxes) {
-    const Skeleton other = redressed(skeleton);
+    const Skeleton other = with_other_axes(skeleton);
     const Feet other_feet = *Feet::make(other, match_bones(other));
     const Ground stairs = *Ground::stairs(0.2, 0.15);
     for (int round = 0; round < 100; ++round) {

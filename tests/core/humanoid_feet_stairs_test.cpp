@@ -12,13 +12,13 @@ TEST(FeetOnStairs, UpwardsFeetComeDownWhereTheyThenStand) {
     for (const Ground& stairs : {*Ground::stairs(0.15, 0.3), *Ground::stairs(0.1, 0.35)}) {
         for (const double start : {0.0, 0.13, 0.37, 0.55, 0.8}) {
             Walker walker(skeleton, clip);
-            Stroll stroll{.start = start};
-            stroll.from.z = -1.0;
+            WalkOptions walk{.start = start};
+            walk.from.z = -1.0;
             FeetState state;
             double strike[2]{}, before[2]{};
             bool down[2]{}, shifts[2]{};
             for (int frame = 0; frame < 480; ++frame) {
-                const FeetReport report = walker.step(stairs, stroll, frame, state);
+                const FeetReport report = walker.step(stairs, walk, frame, state);
                 for (std::size_t i = 0; i < 2; ++i) {
                     const FootState& foot = state.feet[i];
                     const double low = std::min(foot.heel.y, foot.toe.y);

@@ -1,4 +1,4 @@
-// Plays a walk over a ground and measures the promises of spec/humanoid.md.
+// Plays a walk over a ground, and measures how far feet sink, float and skate and legs stretch.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace tendril::test {
 
 /// Parameters of a walk.
-struct Stroll {
+struct WalkOptions {
     double rate = 60.0, speed = 1.0;  // frames per second; speed relative to the clip's
     double start = 0.0, seconds = 8.0;
     double heading = 0.0;  // about Y
@@ -49,15 +49,15 @@ class Walker {
         loop_.y = 0.0;
     }
 
-    Measured walk(const Ground& ground, const Stroll& stroll) {
+    Measured walk(const Ground& ground, const WalkOptions& walk) {
         Measured worst;
         FeetState state;
         std::vector<Placement> before, before_clip;
         glm::dvec3 locked[2]{};
         bool was_planted[2]{};
-        const int frames = static_cast<int>(stroll.seconds * stroll.rate);
+        const int frames = static_cast<int>(walk.seconds * walk.rate);
         for (int frame = 0; frame < frames; ++frame) {
-            const FeetReport report = step(ground, stroll, frame, state);
+            const FeetReport report = step(ground, walk, frame, state);
             for (std::size_t i = 0; i < 2; ++i) {
                 const FootReport& foot = report.feet[i];
                 ++worst.feet;
@@ -77,7 +77,7 @@ class Walker {
             for (std::size_t i = 0; i < before.size(); ++i) {
                 const glm::dvec3 moved = now_[i].position - before[i].position,
                                  moved_clip = now_clip_[i].position - before_clip[i].position;
-                worst.beyond = std::max(worst.beyond, glm::length(moved - moved_clip) * stroll.rate / 60.0);
+                worst.beyond = std::max(worst.beyond, glm::length(moved - moved_clip) * walk.rate / 60.0);
             }
             worst.climbed = std::max(worst.climbed, std::abs(report.base));
             before = now_;
@@ -87,13 +87,13 @@ class Walker {
     }
 
     /// Plays one frame and leaves the corrected pose in pose().
-    FeetReport step(const Ground& ground, const Stroll& stroll, int frame, FeetState& state) {
-        const double dt = 1.0 / stroll.rate, time = stroll.start + frame * dt * stroll.speed;
+    FeetReport step(const Ground& ground, const WalkOptions& walk, int frame, FeetState& state) {
+        const double dt = 1.0 / walk.rate, time = walk.start + frame * dt * walk.speed;
         const double loops = std::floor(time / clip_.duration);
         sample(clip_, skeleton_, time - loops * clip_.duration, pose_);
-        FeetOptions options = stroll.options;
-        options.root.rotation = glm::angleAxis(stroll.heading, glm::dvec3(0, 1, 0));
-        options.root.translation = stroll.from + options.root.rotation * (loop_ * loops);
+        FeetOptions options = walk.options;
+        options.root.rotation = glm::angleAxis(walk.heading, glm::dvec3(0, 1, 0));
+        options.root.translation = walk.from + options.root.rotation * (loop_ * loops);
         place_all(options.root, now_clip_);
         clip_pose_ = pose_;
         const FeetReport report = feet_.step(pose_, ground, dt, state, options);

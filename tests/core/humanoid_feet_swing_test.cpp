@@ -25,12 +25,12 @@ class FeetSwing : public ::testing::Test {
         Walker walker(skeleton, clip);
         std::vector<Placement> rest(skeleton.size());
         place(skeleton, rest_pose(skeleton), rest);
-        Stroll stroll{.speed = speed, .start = start, .heading = heading};
-        stroll.from.z = z;
+        WalkOptions walk{.speed = speed, .start = start, .heading = heading};
+        walk.from.z = z;
         FeetState state;
         double deepest = 0.0;
         for (int frame = 0; frame < 300; ++frame) {
-            const FeetReport report = walker.step(ground, stroll, frame, state);
+            const FeetReport report = walker.step(ground, walk, frame, state);
             for (std::size_t side = 0; side < 2; ++side) {
                 const FootReport& foot = report.feet[side];
                 EXPECT_EQ(foot.alone, FootAlone::No);
@@ -73,10 +73,10 @@ TEST_F(FeetSwing, AFastSlopeIsNoJump) {
     // The foot is lifted by the slope's rise at once, not by an ease that lags behind.
     Walker walker(skeleton, clip);
     FeetState state;
-    Stroll stroll;
-    stroll.from.z = 1.0;
+    WalkOptions walk;
+    walk.from.z = 1.0;
     for (int frame = 0; frame < 300; ++frame) {
-        walker.step(*Ground::slope(40.0 * swing_pi / 180.0), stroll, frame, state);
+        walker.step(*Ground::slope(40.0 * swing_pi / 180.0), walk, frame, state);
         if (frame < 30) continue;
         for (const FootState& foot : state.feet) EXPECT_LT(std::abs(foot.ease.value), 0.02) << frame;
     }

@@ -1,4 +1,4 @@
-// Feet on the ground: the promises of spec/humanoid.md for whole walks, and each rule of planting alone.
+// Feet on the ground: bounds for whole walks, and each rule of planting alone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -76,10 +76,10 @@ TEST_F(FeetWalk, PlantedFeetStandStillAndNothingJumps) {
                 for (const double speed : {0.5, 1.0, 1.5})
                     for (const double rate : {60.0, 120.0}) {
                         if (!is_sampled(round++)) continue;
-                        Stroll stroll{
+                        WalkOptions walk{
                             .rate = rate, .speed = speed, .start = start, .seconds = 5.0, .heading = heading};
-                        stroll.from.z = z;
-                        all.add(walker.walk(each.ground, stroll));
+                        walk.from.z = z;
+                        all.add(walker.walk(each.ground, walk));
                     }
         SCOPED_TRACE(each.name);
         EXPECT_LT(all.sink, 0.005);
@@ -98,11 +98,11 @@ TEST_F(FeetWalk, AtTheEdgeOfAStepPlantedFeetNeitherFloatNorSink) {
     Measured all;
     for (const double start : {0.0, 0.13, 0.26, 0.37, 0.55, 0.8})
         for (const double speed : {0.5, 1.0}) {
-            Stroll stroll{.speed = speed, .start = start, .heading = pi};
-            stroll.from.z = 8.0;
-            stroll.options.edge = 0.0;  // feet keep the position where they come down
+            WalkOptions walk{.speed = speed, .start = start, .heading = pi};
+            walk.from.z = 8.0;
+            walk.options.edge = 0.0;  // feet keep the position where they come down
             for (const Ground& ground : {*Ground::stairs(0.1, 0.35), *Ground::stairs(0.18, 0.28)})
-                all.add(walker.walk(ground, stroll));
+                all.add(walker.walk(ground, walk));
         }
     EXPECT_LT(all.sink, 0.005);
     EXPECT_LT(all.floating, 0.005);
@@ -129,10 +129,10 @@ TEST_F(FeetWalk, WithoutSuitableGroundTheClipIsLeftAlone) {
     const auto expect_alone = [&](const Ground& ground, FootAlone why, double z) {
         Walker walker(skeleton, clip);
         FeetState state;
-        Stroll stroll;
-        stroll.from.z = -0.6;
+        WalkOptions walk;
+        walk.from.z = -0.6;
         for (int frame = 0; frame < 400; ++frame) {
-            const FeetReport report = walker.step(ground, stroll, frame, state);
+            const FeetReport report = walker.step(ground, walk, frame, state);
             if (walker.now_clip(Bone::Hips).position.z < z) continue;
             for (const FootReport& foot : report.feet) {
                 EXPECT_EQ(foot.alone, why);
@@ -152,11 +152,11 @@ TEST_F(FeetWalk, WithoutSuitableGroundTheClipIsLeftAlone) {
 TEST_F(FeetWalk, ATargetOutOfTheLegsReachIsReported) {
     Walker walker(skeleton, clip);
     FeetState state;
-    Stroll stroll;
-    stroll.options.pelvis_drop = 0.02;
+    WalkOptions walk;
+    walk.options.pelvis_drop = 0.02;
     int alone = 0;
     for (int frame = 0; frame < 300; ++frame) {
-        const FeetReport report = walker.step(*Ground::stairs(0.3, 0.5), stroll, frame, state);
+        const FeetReport report = walker.step(*Ground::stairs(0.3, 0.5), walk, frame, state);
         for (const FootReport& foot : report.feet) alone += foot.alone == FootAlone::CannotReach;
         EXPECT_LE(report.drop, 0.02);
     }
@@ -169,9 +169,9 @@ TEST_F(FeetWalk, AFigureThatStartsOnStairsStandsOnThem) {
     Walker walker(skeleton_at_rest, {.duration = 1.0});
     for (const double z : {-1.0, 0.2, 3.05, 10.4}) {
         FeetState state;
-        Stroll stroll;
-        stroll.from.z = z;
-        const FeetReport report = walker.step(stairs, stroll, 0, state);
+        WalkOptions walk;
+        walk.from.z = z;
+        const FeetReport report = walker.step(stairs, walk, 0, state);
         for (std::size_t i = 0; i < 2; ++i) {
             const FootReport& foot = report.feet[i];
             EXPECT_TRUE(foot.planted) << z;
@@ -187,9 +187,9 @@ TEST_F(FeetWalk, AFootTiltsWithTheGroundUpToALimit) {
     Walker walker(skeleton, {.duration = 1.0});
     const auto turn_on = [&](double degrees) {
         FeetState state;
-        Stroll stroll;
-        stroll.from.z = 3.0;
-        walker.step(*Ground::slope(degrees * pi / 180.0), stroll, 0, state);
+        WalkOptions walk;
+        walk.from.z = 3.0;
+        walker.step(*Ground::slope(degrees * pi / 180.0), walk, 0, state);
         const glm::dvec3 up = walker.now(Bone::LeftFoot).rotation() * glm::dvec3(0, 1, 0);
         EXPECT_LT(up.z, 0.0);
         return std::acos(up.y) * 180.0 / pi;
@@ -203,11 +203,11 @@ TEST_F(FeetWalk, AtWeightZeroOrWithoutGroundItIsTheClipBitForBit) {
     for (const bool has_ground : {true, false}) {
         Walker walker(skeleton, clip);
         FeetState state;
-        Stroll stroll;
-        if (has_ground) stroll.options.weight = 0.0;
+        WalkOptions walk;
+        if (has_ground) walk.options.weight = 0.0;
         const Ground ground = has_ground ? *Ground::stairs(0.15, 0.3) : Ground();
         for (int frame = 0; frame < 200; ++frame) {
-            walker.step(ground, stroll, frame, state);
+            walker.step(ground, walk, frame, state);
             ASSERT_EQ(walker.pose(), walker.clip_pose());
         }
     }
@@ -215,12 +215,12 @@ TEST_F(FeetWalk, AtWeightZeroOrWithoutGroundItIsTheClipBitForBit) {
 
 TEST_F(FeetWalk, HalfTheWeightIsHalfTheCorrection) {
     Walker walker(skeleton, {.duration = 1.0});
-    Stroll stroll;
-    stroll.from.z = 0.15;
+    WalkOptions walk;
+    walk.from.z = 0.15;
     const auto hips_at = [&](double weight) {
         FeetState state;
-        stroll.options.weight = weight;
-        walker.step(*Ground::flat(0.2), stroll, 0, state);
+        walk.options.weight = weight;
+        walker.step(*Ground::flat(0.2), walk, 0, state);
         return walker.now(Bone::Hips).position.y;
     };
     EXPECT_NEAR(hips_at(0.5), 0.5 * (hips_at(0.0) + hips_at(1.0)), 1e-9);
@@ -236,9 +236,9 @@ TEST_F(FeetWalk, AnInPlaceClipWithAMovingRootIsTheSameWalk) {
     FeetState state, moved_state;
     for (int frame = 0; frame < 300; ++frame) {
         const FeetReport report = walker.step(stairs, {}, frame, state);
-        Stroll stroll;
-        stroll.from.z = frame / 60.0 * FigureWalk::speed;
-        const FeetReport same = moved.step(stairs, stroll, frame, moved_state);
+        WalkOptions walk;
+        walk.from.z = frame / 60.0 * FigureWalk::speed;
+        const FeetReport same = moved.step(stairs, walk, frame, moved_state);
         for (std::size_t i = 0; i < 2; ++i) {
             EXPECT_EQ(report.feet[i].planted, same.feet[i].planted) << frame;
             EXPECT_LT(glm::distance(report.feet[i].toe, same.feet[i].toe), 1e-6);
@@ -253,13 +253,13 @@ TEST_F(FeetWalk, AnInPlaceClipUsesTheRootsVelocity) {
     for (const bool told : {true, false}) {
         Walker walker(skeleton, in_place);
         FeetState state;
-        Stroll stroll;
-        if (told) stroll.options.root_velocity.z = FigureWalk::speed;
+        WalkOptions walk;
+        if (told) walk.options.root_velocity.z = FigureWalk::speed;
         int planted = 0;
         glm::dvec3 before{0.0};
         bool was = false;
         for (int frame = 0; frame < 200; ++frame) {
-            const FootReport foot = walker.step(*Ground::flat(), stroll, frame, state).feet[0];
+            const FootReport foot = walker.step(*Ground::flat(), walk, frame, state).feet[0];
             planted += foot.planted;
             if (told && foot.planted && was) {
                 EXPECT_NEAR(foot.toe.z - before.z, -FigureWalk::speed / 60.0, 1e-4);

@@ -25,10 +25,10 @@ class Footholds : public ::testing::Test {
   protected:
     /// Calls `visit(frame, report)` for each frame of a walk on the stairs; `up` or down.
     void walk(const Ground& stairs, bool up, double speed, double start, auto visit) {
-        Stroll stroll{.speed = speed, .start = start, .heading = up ? 0.0 : footholds_pi};
-        stroll.from.z = up ? -1.0 : 6.0;
+        WalkOptions walk{.speed = speed, .start = start, .heading = up ? 0.0 : footholds_pi};
+        walk.from.z = up ? -1.0 : 6.0;
         FeetState state;
-        for (int frame = 0; frame < 300; ++frame) visit(frame, walker.step(stairs, stroll, frame, state));
+        for (int frame = 0; frame < 300; ++frame) visit(frame, walker.step(stairs, walk, frame, state));
     }
 
     const Skeleton skeleton = make_figure({});

@@ -64,7 +64,7 @@ struct Antenna {
 };
 
 /// Offset of the tip's mass from its target along X.
-double aside(const Antenna& antenna) {
+double tip_offset(const Antenna& antenna) {
     return antenna.state.masses.back().position.x - antenna.state.masses.back().target.x;
 }
 
@@ -75,13 +75,13 @@ TEST(SpringChain, SwingsOutAsTheAnalyticSolution) {
         const double dt = 1.0 / 60, v = 0.2, w = two_pi * 3.0;
         double x = 0.0;
         for (int i = 0; i < 100; ++i) antenna.step({x += v * dt, 1.0, 0.0}, options, dt);
-        EXPECT_LT(std::abs(aside(antenna)), 1e-9) << "an even motion is followed without lag";
+        EXPECT_LT(std::abs(tip_offset(antenna)), 1e-9) << "an even motion is followed without lag";
         // The base stops dead: y'' + 2 z w y' + w^2 y = 0 from y = 0 at y' = v.
         const double wd = w * std::sqrt(1.0 - damping * damping);
         for (int i = 1; i <= 200; ++i) {
             antenna.step({x, 1.0, 0.0}, options, dt);
             const double t = i * dt, exact = v / wd * std::exp(-damping * w * t) * std::sin(wd * t);
-            ASSERT_NEAR(aside(antenna), exact, 1e-9) << t;
+            ASSERT_NEAR(tip_offset(antenna), exact, 1e-9) << t;
         }
     }
 }
@@ -94,7 +94,7 @@ TEST(SpringChain, ShakenAtItsBaseMatchesTheAnalyticAmplitude) {
         double largest = 0.0;
         for (int i = 0; i < 2400; ++i) {
             antenna.step({a * std::sin(w * i * dt), 1.0, 0.0}, options, dt);
-            if (i > 1200) largest = std::max(largest, std::abs(aside(antenna)));
+            if (i > 1200) largest = std::max(largest, std::abs(tip_offset(antenna)));
         }
         const double exact =
             a * w * w / std::sqrt(std::pow(w0 * w0 - w * w, 2.0) + std::pow(2.0 * z * w0 * w, 2.0));
@@ -117,7 +117,7 @@ TEST(SpringChain, BendsLikeABeamUnderAcceleration) {
 }
 
 /// Tip positions of an antenna of six joints, every 0.5 s for 4 s of a dance, in steps of about `dt`.
-std::vector<glm::dvec3> danced(double dt, std::mt19937* jitter) {
+std::vector<glm::dvec3> tip_positions(double dt, std::mt19937* jitter) {
     Antenna antenna(6);
     std::vector<glm::dvec3> tips;
     double t = 0.0;
@@ -137,10 +137,10 @@ std::vector<glm::dvec3> danced(double dt, std::mt19937* jitter) {
 }
 
 TEST(SpringChain, FrameRatesMakeLittleDifference) {
-    const std::vector<glm::dvec3> exact = danced(1.0 / 2000, nullptr);
+    const std::vector<glm::dvec3> exact = tip_positions(1.0 / 2000, nullptr);
     std::mt19937 random(3);
     const auto worst = [&](double rate, std::mt19937* jitter) {
-        const std::vector<glm::dvec3> tips = danced(1.0 / rate, jitter);
+        const std::vector<glm::dvec3> tips = tip_positions(1.0 / rate, jitter);
         double far = 0.0;
         for (std::size_t i = 0; i < tips.size(); ++i) far = std::max(far, glm::distance(tips[i], exact[i]));
         RecordProperty("mm_at_" + std::to_string(static_cast<int>(rate)), std::to_string(1e3 * far));

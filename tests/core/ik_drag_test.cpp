@@ -1,4 +1,4 @@
-// Dragging a target against limits: the chain follows from its state, without jumps or new searches.
+// Dragging a target against limits: the chain follows from its state, without jumps or restarts.
 #include "ik_hostile.hpp"
 #include "ik_limited_support.hpp"
 
@@ -9,18 +9,18 @@ using ik::Method;
 using ik::Status;
 
 /// A target beyond an arm's limits, and the arm after a solve from rest.
-struct Forbidden {
+struct LimitedTarget {
     Arm arm;
     glm::vec3 target{0.0f};
     KeptSolver solver;
     Joints joints;
 };
 
-Forbidden some_forbidden(Random& random) {
+LimitedTarget some_limited_target(Random& random) {
     for (;;) {
         const Arm arm = some_arm(random, 2 + random.below(7));
-        Forbidden it{arm, some_offset(random, 0.1f * arm.reach(), 0.95f * arm.reach()), arm.solver(),
-                     arm.at_rest()};
+        LimitedTarget it{arm, some_offset(random, 0.1f * arm.reach(), 0.95f * arm.reach()), arm.solver(),
+                         arm.at_rest()};
         const ik::Report report =
             it.solver.solve(Method::Fabrik, it.joints, it.target, {.limits = arm.limits});
         if (report.status == Status::Limited && report.residual > 0.1f * arm.reach()) return it;
@@ -37,7 +37,7 @@ TEST(IkDrag, NoJointMovesFurtherThanTwentyTimesTheTargetAndTheTolerance) {
     Random random(given_seed());
     int frames = 0, bent = 0, worst = 0;
     for (int k = 0; k < 150 && !HasFailure(); ++k) {
-        Forbidden it = some_forbidden(random);
+        LimitedTarget it = some_limited_target(random);
         const ik::Options options{.limits = it.arm.limits};
         const float step = it.arm.reach() * (random.chance(3) ? 0.0f : between(random, 1e-4f, 5e-3f));
         const glm::vec3 by = some_direction(random) * step;
@@ -62,7 +62,7 @@ TEST(IkDrag, AStillTargetMovesNothing) {
     Random random(given_seed() + 1);
     int still = 0, limited = 0;
     for (int k = 0; k < 200; ++k) {
-        Forbidden it = some_forbidden(random);
+        LimitedTarget it = some_limited_target(random);
         const ik::Options options{.limits = it.arm.limits};
         for (int i = 0; i < 100; ++i) it.solver.solve(Method::Fabrik, it.joints, it.target, options);
         const Joints before = it.joints;
@@ -74,12 +74,12 @@ TEST(IkDrag, AStillTargetMovesNothing) {
     EXPECT_GE(limited, 190);
 }
 
-/// A new search in each frame would find better poses, and jump to them. The average gain must be small.
+/// Restarts in each frame would find better poses, and jump to them. The average gain must be small.
 TEST(IkDrag, FollowsAboutAsCloselyAsASearchInEveryFrame) {
     Random random(given_seed() + 2);
     double followed = 0.0, searched = 0.0;
     for (int k = 0; k < 40; ++k) {
-        Forbidden it = some_forbidden(random);
+        LimitedTarget it = some_limited_target(random);
         Joints other = it.joints;
         ik::State state = it.solver.state;
         const glm::vec3 by = some_direction(random) * (1e-3f * it.arm.reach());
@@ -99,19 +99,19 @@ TEST(IkDrag, FollowsAboutAsCloselyAsASearchInEveryFrame) {
     EXPECT_LE(followed, 1.15 * searched);
 }
 
-/// The last solve is not searched again: neither its verdict, nor the result of FABRIK's passes.
+/// The last solve is not repeated: neither its verdict, nor the result of FABRIK's passes.
 TEST(IkDrag, AFrameOfAnUnreachableTargetIsOneIteration) {
     Random random(given_seed() + 3);
     int frames = 0, iterations = 0, limited = 0;
     for (int k = 0; k < 100; ++k) {
-        Forbidden it = some_forbidden(random);
+        LimitedTarget it = some_limited_target(random);
         const glm::vec3 by = some_direction(random) * (1e-3f * it.arm.reach());
         for (int i = 0; i < 60; ++i) {
             it.target += by;
             const ik::Report report =
                 it.solver.solve(Method::Fabrik, it.joints, it.target, {.limits = it.arm.limits});
             if (report.status == Status::Converged) break;
-            if (i < 10) continue;  // a search may end with a little left to gain
+            if (i < 10) continue;  // restarts may end with a little left to gain
             ++frames;
             iterations += report.iterations;
             limited += report.status == Status::Limited;
@@ -157,7 +157,7 @@ TEST(IkDrag, AGivenNumberOfRestartsHoldsInEverySolve) {
     Random random(3);
     int restarted = 0;
     for (int k = 0; k < 20; ++k) {
-        Forbidden it = some_forbidden(random);
+        LimitedTarget it = some_limited_target(random);
         it.target += some_direction(random) * (1e-3f * it.arm.reach());
         Joints other = it.joints;
         ik::State state = it.solver.state;
@@ -175,7 +175,7 @@ TEST(IkDrag, AJumpOfTheTargetOrOfThePoseStartsANewSearch) {
     Random random(4);
     int after_jump = 0, after_move = 0;
     for (int k = 0; k < 20; ++k) {
-        Forbidden it = some_forbidden(random);
+        LimitedTarget it = some_limited_target(random);
         const ik::Options options{.limits = it.arm.limits};
         const ik::State state = it.solver.state;
         const Joints as_left = it.joints;

@@ -194,10 +194,10 @@ TEST(IkFabrik, EveryIterationRunsAndReportsItsResidual) {
 TEST(IkFabrik, TornChainsAreLaidToTheirLengthsFirst) {
     const Lengths lengths{1.0f, 1.0f, 0.0f, 1.0f};
     KeptSolver solver(lengths);
-    Joints torn{{0, 0, 0}, {0, 7, 0}, {0, 7, 3}, {9, 9, 9}, {9, 9, 9}};
-    const Report report = solver.solve(Method::Fabrik, torn, {1.5f, 1, 0});
+    Joints broken{{0, 0, 0}, {0, 7, 0}, {0, 7, 3}, {9, 9, 9}, {9, 9, 9}};
+    const Report report = solver.solve(Method::Fabrik, broken, {1.5f, 1, 0});
     EXPECT_EQ(report.status, Status::Converged);
-    EXPECT_TRUE(Holds(torn, lengths));
+    EXPECT_TRUE(Holds(broken, lengths));
     // All joints at one point: laid along the rest directions, then off the line.
     Joints heap(5, glm::vec3(2, 2, 2));
     EXPECT_EQ(solver.solve(Method::Fabrik, heap, {4, 2, 2}).status, Status::Converged);

@@ -71,8 +71,8 @@ inline glm::vec3 hostile_target(const Joints& joints, std::span<const float> len
 }
 
 /// Expects kept lengths, finite output, a tip no further off than before, and repeatable bits.
-inline void expect_bears(ik::Method method, std::span<const float> lengths, const Joints& start,
-                         glm::vec3 target, const ik::Options& options) {
+inline void expect_invariants(ik::Method method, std::span<const float> lengths, const Joints& start,
+                              glm::vec3 target, const ik::Options& options) {
     KeptSolver solver(lengths), again(lengths);
     Joints joints = start, twin = start;
     const ik::Report report = solver.solve(method, joints, target, options);
@@ -92,7 +92,7 @@ inline void expect_bears(ik::Method method, std::span<const float> lengths, cons
     EXPECT_TRUE(same_bits(recorder.replay(start), joints)) << "the steps that were shown lead elsewhere";
 }
 
-inline void expect_bears_anything(ik::Method method, int solves) {
+inline void expect_invariants_always(ik::Method method, int solves) {
     Random random(given_seed());
     for (int k = 0; k < solves && !::testing::Test::HasFailure(); ++k) {
         SCOPED_TRACE("solve " + std::to_string(k));
@@ -108,7 +108,7 @@ inline void expect_bears_anything(ik::Method method, int solves) {
         if (random.chance(3) && near) options.pole = hostile_target(start, lengths, random);
         if (random.chance(2)) options.pole_turn = ik::PoleTurn::EachJoint;
         if (random.chance(4)) options.tolerance = 0.0f;
-        expect_bears(method, lengths, start, target, options);
+        expect_invariants(method, lengths, start, target, options);
     }
 }
 

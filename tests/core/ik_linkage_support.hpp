@@ -67,7 +67,7 @@ inline LinkageSketch random_sketch(Random& random) {
         std::size_t other = sketch.points.size() - 1;
         if (other == one) other = 0;
         if (random.chance(4)) {
-            // One bar, to a sliding point.
+            // A single bar, to a sliding point.
             sketch.points.push_back({"S" + std::to_string(count), place(), SketchHold::Guided,
                                      3.0 * static_cast<double>(random.part())});
             bar(one, sketch.points.size() - 1);

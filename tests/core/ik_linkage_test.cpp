@@ -191,7 +191,7 @@ TEST(Linkage, ContradictingClosuresAreNamedAndLeastFarApart) {
 }
 
 TEST(Linkage, ContradictingClosuresComeAsCloseAsBruteForce) {
-    // A four-bar with a coupler point that is closed on a third place, too, from any starting pose.
+    // A four-bar with a coupler point also closed on a third point, from any starting pose.
     Random random(17);
     for (int trial = 0; trial < 8; ++trial) {
         const glm::dvec3 place = glm::dvec3(1.5, 0.5, 0.0) + random_place(random, 3.0f);
@@ -284,7 +284,7 @@ TEST(Linkage, AnUnreachablePointIsApproachedAsBruteForceDoes) {
 }
 
 TEST(Linkage, ContradictingDriversComeAsCloseAsPossible) {
-    // A planar five-bar with two cranks that would tear it apart in the middle.
+    // A planar five-bar whose two cranks would tear it apart half way.
     LinkageSketch sketch;
     sketch.points = {{"A", {0, 0}, SketchHold::Pinned},
                      {"B", {0, 1}},
@@ -449,8 +449,8 @@ TEST(Linkage, ExactTargetsPrecedeWeightedOnesAndDriversPrecedeBoth) {
     EXPECT_EQ(report.status, LinkageStatus::TargetMissed);
     EXPECT_LE(machine.solver.residuals()[0], 1e-6);
     EXPECT_GT(machine.solver.residuals()[1], 1.0);
-    // Over all poses with C at its target, A is as close to its own as possible: on its circle about O, where
-    // the two other bars still reach C.
+    // Over all poses with C at its target, A is as close to its own target as possible: on its circle about
+    // O, where the two other bars still reach C.
     double nearest = 1e9;
     const double two = glm::length(glm::dvec2(1.0, 0.2));
     for (int i = 0; i < 36000; ++i) {
@@ -481,7 +481,7 @@ TEST(Linkage, CountsFreedomByGrueblerAndActually) {
     EXPECT_EQ(freedom(Machine(pantograph())), (LinkageFreedom{2, 2}));
     EXPECT_EQ(freedom(Machine(delta())), (LinkageFreedom{3, 3}));
     EXPECT_EQ(freedom(Machine(stewart())), (LinkageFreedom{6, 6}));
-    // By the count, a third rocker is one too many; as it is parallel, the linkage still moves.
+    // By the count a third rocker is one too many, but as it is parallel the linkage still moves.
     LinkageSketch sketch;
     const SketchHold pinned = SketchHold::Pinned;
     sketch.points = {{"A", {0, 0}, pinned}, {"B", {1, 0}, pinned}, {"C", {2, 0}, pinned},

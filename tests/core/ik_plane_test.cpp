@@ -192,7 +192,7 @@ TEST(IkPlane, TheSideIsKeptWhileTheTargetPassesTheRoot) {
     }
 }
 
-// A folded chain, its tip at its root or not, does not stay a zigzag, whose side is decided by rounding. Of 1
+// A folded chain, its tip at its root or not, does not stay a zigzag, whose side rounding would decide. Of 1
 // 100 000 steps, once, along lines that pass the root at 0.05 to 0.5 R, one is longer than this.
 TEST(IkPlane, AFoldedChainUnfoldsSmoothly) {
     Random random(3);

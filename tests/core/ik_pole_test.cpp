@@ -24,7 +24,7 @@ double angle_between(glm::dvec3 a, glm::dvec3 b) {
 
 /// The angle between the pole and the weighted sum of the offsets, about the line from root to tip; 0 if
 /// straight.
-double off_its_pole(const Joints& joints, std::span<const float> lengths, glm::vec3 pole) {
+double pole_error(const Joints& joints, std::span<const float> lengths, glm::vec3 pole) {
     const glm::dvec3 root(joints.front()), line = glm::dvec3(joints.back()) - root;
     glm::dvec3 bend(0.0);
     for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
@@ -53,7 +53,7 @@ TEST(IkPole, TheBendFacesThePoleAfterOneSolveByAnyMethod) {
         for (const Method method : iterating_methods) {
             Joints joints = start;
             const ik::Report report = KeptSolver(lengths).solve(method, joints, target, facing(pole));
-            EXPECT_LT(off_its_pole(joints, lengths, pole), 2e-3) << name(method) << ", solve " << k;
+            EXPECT_LT(pole_error(joints, lengths, pole), 2e-3) << name(method) << ", solve " << k;
             EXPECT_NEAR(report.residual, distance(joints.back(), target), 1e-6 * reach_of(lengths));
         }
     }
@@ -163,7 +163,7 @@ TEST(IkPole, APoleCrossingTheLineTurnsTheChainAtALimitedRate) {
         EXPECT_LT(worst, 1e-3) << "5e-4, and 20 times 1e-5";
         for (int k = 0; k < 3000; ++k) solve(-0.01f);
         if (turn == PoleTurn::EachJoint) continue;  // so near, joints see the pole on different sides
-        EXPECT_LT(off_its_pole(joints, lengths, {0.3f, -0.01f, 0.0003f}), 1e-3) << "it has caught up";
+        EXPECT_LT(pole_error(joints, lengths, {0.3f, -0.01f, 0.0003f}), 1e-3) << "it has caught up";
     }
 }
 
@@ -178,7 +178,7 @@ TEST(IkPole, ANewOrJumpedPoleIsFacedAtOnce) {
         const glm::vec3 pole = some_direction(random);
         if (size(off(pole, target)) < 0.2) continue;
         solver.solve(Method::Fabrik, joints, target, facing(pole));
-        EXPECT_LT(off_its_pole(joints, lengths, pole), 1e-3);
+        EXPECT_LT(pole_error(joints, lengths, pole), 1e-3);
     }
 }
 
@@ -240,7 +240,7 @@ Jumps walk(Method method, PoleTurn turn, std::size_t bones, int paths, int steps
                         method == Method::Ccd || method == Method::FabrikPlain);
             if (!walk.is_clear()) continue;
             ++jumps.steps;
-            jumps.unfaced += off_its_pole(joints, lengths, pole) > 0.02;
+            jumps.unfaced += pole_error(joints, lengths, pole) > 0.02;
             for (std::size_t i = 0; i < joints.size(); ++i) {
                 jumps.worst = std::max(jumps.worst, distance(joints[i], before[i]));
             }
@@ -294,7 +294,7 @@ TEST(IkPole, SurvivesAnyInput) {
         if (random.chance(2)) options.pole_turn = PoleTurn::EachJoint;
         options.max_iterations = 20;
         const Method method = iterating_methods[random.below(iterating_methods.size())];
-        expect_bears(method, lengths, start, hostile_target(start, lengths, random), options);
+        expect_invariants(method, lengths, start, hostile_target(start, lengths, random), options);
     }
 }
 

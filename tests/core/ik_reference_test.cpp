@@ -69,7 +69,7 @@ double allowed(const Case& example, double tolerance) {
 }
 
 /// For any method: the chain's invariants hold, and the report is true.
-void expect_honest(const Case& example, const Report& report, const Joints& joints, double tolerance) {
+void expect_valid(const Case& example, const Report& report, const Joints& joints, double tolerance) {
     EXPECT_TRUE(Holds(joints, example.lengths));
     EXPECT_TRUE(same_bits(joints.front(), glm::vec3(0.0f)));
     const double residual = distance(joints.back(), example.target);
@@ -86,7 +86,7 @@ void expect_honest(const Case& example, const Report& report, const Joints& join
 }
 
 /// Returns whether it ended as expected.
-bool check(Method method, const Case& example, bool must_end_well) {
+bool check(Method method, const Case& example, bool must_match) {
     KeptSolver solver(example.lengths);
     Joints joints = straight_joints(example.lengths);
     const Report report = solver.solve(method, joints, example.target);
@@ -94,19 +94,19 @@ bool check(Method method, const Case& example, bool must_end_well) {
     SCOPED_TRACE(std::string(name(method)) + ", " + example.name + ": " + name(report.status) + ", " +
                  std::to_string(report.iterations) + " iterations, residual " +
                  std::to_string(report.residual));
-    expect_honest(example, report, joints, tolerance);
-    const bool well = report.status == example.status &&
-                      std::abs(report.residual - example.residual) <= allowed(example, tolerance);
-    EXPECT_TRUE(well || !must_end_well);
-    return well;
+    expect_valid(example, report, joints, tolerance);
+    const bool matches = report.status == example.status &&
+                         std::abs(report.residual - example.residual) <= allowed(example, tolerance);
+    EXPECT_TRUE(matches || !must_match);
+    return matches;
 }
 
 void check_all(const std::vector<Case>& cases) {
     for (const Method method : iterating_methods) {
         const bool must = method == Method::Fabrik || method == Method::Dls;
-        std::size_t well = 0;
-        for (const Case& example : cases) well += check(method, example, must) ? 1 : 0;
-        std::printf("%-18s %zu of %zu as expected\n", name(method), well, cases.size());
+        std::size_t matches = 0;
+        for (const Case& example : cases) matches += check(method, example, must) ? 1 : 0;
+        std::printf("%-18s %zu of %zu as expected\n", name(method), matches, cases.size());
     }
 }
 

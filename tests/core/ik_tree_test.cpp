@@ -139,7 +139,7 @@ TEST(IkTree, ATargetsDistanceDoesNotChangeItsWeight) {
 }
 
 /// A root, one bone and two arms of two bones; the hands' targets are further apart than the arms reach.
-Figure torn() {
+Figure unreachable_figure() {
     Figure figure;
     const std::size_t chest = grow(figure.joints, 0, {1.0f});
     figure.effectors = {{grow(figure.joints, chest, {0.5f, 0.5f}), {2.0f, 1.0f, 0.0f}},
@@ -148,7 +148,7 @@ Figure torn() {
 }
 
 TEST(IkTree, EqualWeightsShareTheLossEqually) {
-    const Figure figure = torn();
+    const Figure figure = unreachable_figure();
     Tree tree = tree_of(figure.joints);
     Places places = straight_pose(figure.joints, {0, 1, 0});
     std::vector<float> residuals(2);
@@ -159,7 +159,7 @@ TEST(IkTree, EqualWeightsShareTheLossEqually) {
 
 TEST(IkTree, TheHeavierEffectorComesCloser) {
     // Either target is within reach, but not both: as one's weight grows, the loss moves to the other.
-    Figure figure = torn();
+    Figure figure = unreachable_figure();
     figure.effectors[0].target = {1.2f, 0.9f, 0.0f};
     figure.effectors[1].target = {-1.2f, 0.9f, 0.0f};
     Tree tree = tree_of(figure.joints);

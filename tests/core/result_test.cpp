@@ -106,8 +106,8 @@ TEST(Tasks, SolveManyUsesTheProgramsWorkersAndGivesTheSameBits) {
     const Crowd crowd = some_crowd(5000, 10, random, 0.05f, 1.1f);
     const Answer expected = solve_many(crowd, {});
     for (const bool backwards : {false, true}) {
-        for (const bool aside : {false, true}) {
-            Jobs jobs{.backwards = backwards, .aside = aside};
+        for (const bool threaded : {false, true}) {
+            Jobs jobs{.backwards = backwards, .threaded = threaded};
             const Answer answer = solve_many(crowd, {.tasks = {run_on_jobs, &jobs}}, 4);
             EXPECT_EQ(jobs.calls, 1u);
             EXPECT_EQ(jobs.pieces, 4u);

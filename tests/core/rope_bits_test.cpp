@@ -9,7 +9,7 @@ namespace {
 using rope::Solver;
 
 /// Equal ropes side by side, so that registers are full, half full and single; whips, contacts and a cloth.
-World wild_scene(const rope::Settings& settings) {
+World mixed_scene(const rope::Settings& settings) {
     World world = world_with(settings);
     Random random(101);
     for (int i = 0; i < 19; ++i) {
@@ -38,7 +38,7 @@ World wild_scene(const rope::Settings& settings) {
 }
 
 /// Jerks pins back and forth, so that ropes crack like whips.
-void stir(World& world, Random& random) {
+void jerk_pins(World& world, Random& random) {
     for (int i = 0; i < 3; ++i) {
         const std::size_t which = random.below(world.state().pins.size());
         const rope::Pin& pin = world.state().pins[which];
@@ -56,11 +56,11 @@ TEST(RopeBits, EveryVectorUnitGivesTheSame) {
         std::vector<std::string> units{"", "none"};
         for (const std::string_view unit : ik::vector_units()) units.emplace_back(unit);
         for (const std::string& unit : units) {
-            worlds.push_back(wild_scene(settings));
+            worlds.push_back(mixed_scene(settings));
             worlds.back().use_vector_unit(unit);
             Random random(102);
             for (int i = 0; i < 12; ++i) {
-                stir(worlds.back(), random);
+                jerk_pins(worlds.back(), random);
                 worlds.back().advance(0.05);
             }
             EXPECT_TRUE(all_finite(worlds.back()));
@@ -90,13 +90,13 @@ TEST(RopeBits, ARopeAtOnePointIsFiniteInEveryUnit) {
 /// After buffers have reached their size; near and far from colliders.
 TEST(RopeBits, AdvancingAllocatesNothing) {
     for (const Solver solver : all_solvers) {
-        World world = wild_scene({.solver = solver});
+        World world = mixed_scene({.solver = solver});
         world.move_collider("ball", {30, 30, 30});
         world.advance(0.05);
         Random random(104);
         int substeps = 0;
         for (int i = 0; i < 20; ++i) {
-            stir(world, random);
+            jerk_pins(world, random);
             without_memory([&] { substeps += world.advance(0.05).substeps; });
         }
         EXPECT_EQ(substeps, 240) << name(solver);

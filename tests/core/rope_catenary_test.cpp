@@ -90,7 +90,7 @@ TEST(RopeCatenary, AnySpanAndLength) {
     }
 }
 
-/// Pins above one another, or both at one point: no curve at all.
+/// Pins above one another, or both at one point: there is no curve.
 TEST(RopeCatenary, WithoutASpanItHangsStraightDown) {
     for (const float lower : {0.0f, 0.5f}) {
         World world = world_with({.damping = 1.0f});

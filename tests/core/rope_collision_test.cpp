@@ -57,7 +57,7 @@ int linked(const World& world) {
         gauss_integral(closed(points_of(world, below), 100), closed(points_of(world, on_top), -100))));
 }
 
-void expect_never_pass(int segments, double seconds, int frames_a_look) {
+void expect_stay_linked(int segments, double seconds, int frames_a_look) {
     World world = crossed(segments);
     const int before = linked(world);
     ASSERT_NE(before, 0);
@@ -74,11 +74,11 @@ void expect_never_pass(int segments, double seconds, int frames_a_look) {
 }
 
 TEST(RopeCollision, CrossedRopesUnderTensionNeverPass) {
-    expect_never_pass(64, 60.0, 20);
+    expect_stay_linked(64, 60.0, 20);
 }
 
 TEST(RopeCollision, CrossedRopesOfManySegmentsNeverPass) {
-    expect_never_pass(1024, 1.0, 30);
+    expect_stay_linked(1024, 1.0, 30);
 }
 
 TEST(RopeCollision, WithoutCollisionTheyPass) {
@@ -340,7 +340,7 @@ World thrown(Random& random) {
     return world;
 }
 
-/// Penetration of the deepest point in a collider, metres: resting colliders may lift it by as much.
+/// Depth of the deepest point in a collider, metres: resting colliders may lift the rope by as much.
 double depth(const World& world) {
     double deepest = 0.0;
     const auto& at = world.state().position;

@@ -26,7 +26,7 @@ World three_ropes() {
 }
 
 /// Expects a valid world: its state can be loaded.
-void expect_sound(const World& world) {
+void expect_valid(const World& world) {
     EXPECT_NO_THROW(World{world.state()});
     for (const rope::Link& link : world.state().links) EXPECT_LT(std::max(link.a, link.b), world.size());
 }
@@ -44,7 +44,7 @@ TEST(RopeEdit, CutSplitsARope) {
     EXPECT_NEAR(world.length(*first), 0.25, 1e-6);
     EXPECT_NEAR(world.length(*second), 0.5, 1e-6);
     EXPECT_EQ(world.find("c")->first, 10u);
-    expect_sound(world);
+    expect_valid(world);
     // The unpinned part falls; the rest still hangs.
     run(world, 0.5);
     EXPECT_NEAR(world.position(world.particle("b", 0)).y, 0.0, 1e-6);
@@ -55,7 +55,7 @@ TEST(RopeEdit, CutSplitsARope) {
     EXPECT_EQ(world.length(*world.find("b")), 0.0);
     run(world, 0.5);
     EXPECT_TRUE(all_finite(world));
-    expect_sound(world);
+    expect_valid(world);
 }
 
 /// The whole rope hangs on its pin; after a cut, only the remaining part.
@@ -85,7 +85,7 @@ TEST(RopeEdit, RemovingRenumbers) {
     EXPECT_TRUE(world.pinned(0) && world.pinned(5) && world.pinned(7) && world.pinned(9));
     EXPECT_EQ(world.state().pins.size(), 4u);
     EXPECT_EQ(world.state().pins[2].collider, world.collider_id("ball"));
-    expect_sound(world);
+    expect_valid(world);
     run(world, 0.25);
     EXPECT_LE(stretch(world, "c"), 1e-3);
     world.remove("a"), world.remove("c");
@@ -118,7 +118,7 @@ TEST(RopeEdit, AMovedBodyKeepsItsMotion) {
     run(world, 0.5), run(other, 0.5);
     for (std::size_t i = 10; i < 15; ++i)
         EXPECT_LT(distance(other.state().position[i], world.state().position[i] + by), 1e-6);
-    expect_sound(other);
+    expect_valid(other);
     EXPECT_FALSE(other.move(other.id("c"), {2e9, 0, 0}));
     EXPECT_FALSE(other.move(other.id("c"), glm::dvec3(std::numeric_limits<double>::quiet_NaN())));
     EXPECT_FALSE(other.move({}, by));
@@ -165,7 +165,7 @@ TEST(RopeEdit, AttachedParticlesMoveWithTheirCollider) {
     EXPECT_LE(distance(world.position(end), {0, 0.5f, 0}), 1e-5);
     world.remove_collider("ball");
     EXPECT_FALSE(world.pinned(end));  // released
-    expect_sound(world);
+    expect_valid(world);
     run(world, 0.5);
     EXPECT_TRUE(all_finite(world));
 }
@@ -184,7 +184,7 @@ TEST(RopeEdit, HandlesMayComeFromTheWorldItself) {
     allow(world.remove(state.bodies[0].id));
     allow(world.remove_collider(state.colliders[0].id));
     EXPECT_TRUE(state.colliders.empty());
-    expect_sound(named);
+    expect_valid(named);
 }
 
 /// The handle of a removed body finds nothing, although its slot is reused.
@@ -241,7 +241,7 @@ TEST(RopeEdit, MaterialsChangeInPlace) {
     const std::size_t links = world.state().links.size();
     run(named, 0.5);
     EXPECT_LT(world.state().links.size(), links);
-    expect_sound(named);
+    expect_valid(named);
 }
 
 TEST(RopeEdit, ClearLeavesOnlySettings) {

@@ -38,18 +38,18 @@ rope::World edited_scene() {
 }
 
 /// The requested change of a body: how far its particles may have to move, metres.
-struct Asked {
+struct EditRequest {
     rope::BodyId body;
     double metres = 0.0;
     bool renumbers = false, stiffens = false;
 };
 
 /// Makes a random change to a random body. A refused one changes nothing.
-Asked edit(rope::World& world, Random& random) {
+EditRequest edit(rope::World& world, Random& random) {
     const std::vector<Body> bodies = world.state().bodies;
     const Body body = bodies[random.below(bodies.size())];
     const bool cloth = body.kind == Body::Kind::Cloth;
-    Asked asked{.body = body.id};
+    EditRequest request{.body = body.id};
     const auto within = [&](double low, double high) {
         return low + (high - low) * static_cast<double>(random.below(1000)) / 999.0;
     };
@@ -61,20 +61,20 @@ Asked edit(rope::World& world, Random& random) {
         return result.ok();
     };
     const auto take = [&](Expected<rope::Edited> edited) {
-        if (edited) world = std::move(edited->world), asked.renumbers = true;
+        if (edited) world = std::move(edited->world), request.renumbers = true;
     };
     const rope::State before = world.state();
     switch (random.below(10)) {
         case 0: {
             const double was = world.length(body), to = std::clamp(was * within(0.8, 1.25), 0.5, 2.0);
             if (check(world.set_length(body.id, static_cast<float>(to)), before))
-                asked.metres = std::abs(to - was);
+                request.metres = std::abs(to - was);
             break;
         }
         case 1: {
             const double was = world.width(body), to = std::clamp(was * within(0.8, 1.25), 0.5, 2.0);
             if (check(world.set_width(body.id, static_cast<float>(to)), before))
-                asked.metres = std::abs(to - was);
+                request.metres = std::abs(to - was);
             break;
         }
         case 2:
@@ -100,7 +100,7 @@ Asked edit(rope::World& world, Random& random) {
         case 8: {
             const Link::Kind kind =
                 std::array{Link::Kind::Stretch, Link::Kind::Shear, Link::Kind::Bend}[random.below(3)];
-            asked.stiffens = true;
+            request.stiffens = true;
             const double most = kind == Link::Kind::Stretch ? 1e-4 : 1.0;
             check(world.set_compliance(body.id, kind, random.chance(4) ? 0.0 : within(0.0, most)), before);
             break;
@@ -110,7 +110,7 @@ Asked edit(rope::World& world, Random& random) {
                 check(world.set_tear(body.id, random.chance(2) ? 0.0f : static_cast<float>(within(0.3, 1.0))),
                       before);
     }
-    return asked;
+    return request;
 }
 
 glm::dvec3 momentum_of(const rope::World& world, const Body& body) {
@@ -138,10 +138,11 @@ double nearest(const rope::World& world, const Body& body, const glm::dvec3& at)
 }
 
 /// Expects that an edit itself moves nothing.
-void expect_no_jump(const rope::World& before, const rope::World& after, const Asked& asked, int number) {
-    const Body& was = *before.find(asked.body);
-    const Body& now = *after.find(asked.body);
-    if (!asked.renumbers) {
+void expect_no_jump(const rope::World& before, const rope::World& after, const EditRequest& request,
+                    int number) {
+    const Body& was = *before.find(request.body);
+    const Body& now = *after.find(request.body);
+    if (!request.renumbers) {
         ASSERT_EQ(before.state().position, after.state().position) << number;
         ASSERT_EQ(before.state().displacement, after.state().displacement) << number;
         return;
@@ -185,11 +186,11 @@ void change_at_random(int edits, std::uint32_t seed) {
     rope::Workspace one, four;
     allow(four.use_threads(4));
     for (int i = 0; i < edits; ++i) {
-        if (i % 100 == 0) world = edited_scene();  // a torn scene would be dull
+        if (i % 100 == 0) world = edited_scene();  // a scene that is all torn tests little
         const rope::World before = world;
         Random again = random;
-        const Asked asked = edit(world, random);
-        expect_no_jump(before, world, asked, i);
+        const EditRequest request = edit(world, random);
+        expect_no_jump(before, world, request, i);
         if (testing::Test::HasFatalFailure()) return;
         // Undone and redone on four threads: the same bits.
         rope::World replayed = before;
@@ -205,11 +206,11 @@ void change_at_random(int edits, std::uint32_t seed) {
         // Nothing moves further in a substep than asked, or than it would have moved anyway. Not so for
         // stiffer materials, which straighten folds, and for tears, which release: both may be fast.
         const double way =
-            asked.metres + (asked.renumbers ? longest_link(before, *before.find(asked.body)) : 0.0);
+            request.metres + (request.renumbers ? longest_link(before, *before.find(request.body)) : 0.0);
         rope::World unedited = before;
         unedited.advance(frame, one);
         const bool tears = world.state().links.size() < edited.state().links.size();
-        if (!asked.stiffens && !tears) {
+        if (!request.stiffens && !tears) {
             ASSERT_LT(top_speed_of(world), std::max(top_speed_of(before), top_speed_of(unedited)) + 2.0 +
                                                way / before.settings().substep)
                 << i;

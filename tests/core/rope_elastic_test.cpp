@@ -14,7 +14,7 @@ Settings soft(Solver solver, float compliance, int iterations) {
 }
 
 /// Hangs a rope of 1 m and 1 kg/m straight down from one end. Returns by how much it gets longer, metres.
-double hangs_longer(const Settings& settings, int segments) {
+double elongation(const Settings& settings, int segments) {
     World world = world_with(settings);
     world.add_rope("rope", {.from = {0, 0, 0}, .to = {0, -1, 0}, .segments = segments, .pin_start = true});
     run(world, 12.0);
@@ -32,7 +32,7 @@ TEST(RopeElastic, StretchesUnderItsOwnWeight) {
     for (const int segments : {1, 8, 32, 100}) {
         for (const float compliance : {1e-3f, 1e-2f, 5e-2f}) {
             const double expected = theory(compliance, segments);
-            EXPECT_NEAR(hangs_longer(soft(Solver::Direct, compliance, 16), segments) / expected, 1.0, 1e-3)
+            EXPECT_NEAR(elongation(soft(Solver::Direct, compliance, 16), segments) / expected, 1.0, 1e-3)
                 << segments << " segments, " << compliance;
         }
     }
@@ -41,7 +41,7 @@ TEST(RopeElastic, StretchesUnderItsOwnWeight) {
 TEST(RopeElastic, XpbdMatchesGivenEnoughIterations) {
     for (const int segments : {1, 8, 16}) {
         const double expected = theory(1e-2f, segments);
-        EXPECT_NEAR(hangs_longer(soft(Solver::Xpbd, 1e-2f, 200), segments) / expected, 1.0, 0.01) << segments;
+        EXPECT_NEAR(elongation(soft(Solver::Xpbd, 1e-2f, 200), segments) / expected, 1.0, 0.01) << segments;
     }
 }
 
@@ -50,8 +50,7 @@ TEST(RopeElastic, NeitherIterationsNorTheSubstepMatter) {
          {std::pair(1, 1.0 / 240.0), {64, 1.0 / 240.0}, {16, 1.0 / 60.0}, {16, 1.0 / 1000.0}}) {
         Settings settings = soft(Solver::Direct, 1e-2f, iterations);
         settings.substep = substep;
-        EXPECT_NEAR(hangs_longer(settings, 16) / theory(1e-2f, 16), 1.0, 1e-3)
-            << iterations << ' ' << substep;
+        EXPECT_NEAR(elongation(settings, 16) / theory(1e-2f, 16), 1.0, 1e-3) << iterations << ' ' << substep;
     }
 }
 
@@ -115,8 +114,8 @@ TEST(RopeElastic, BouncesWithThePeriodOfASpring) {
 
 /// Relaxation ignores compliance.
 TEST(RopeElastic, RelaxationDoesNotChange) {
-    EXPECT_EQ(hangs_longer(soft(Solver::Relaxation, 0.0f, 16), 8),
-              hangs_longer(soft(Solver::Relaxation, 0.1f, 16), 8));
+    EXPECT_EQ(elongation(soft(Solver::Relaxation, 0.0f, 16), 8),
+              elongation(soft(Solver::Relaxation, 0.1f, 16), 8));
 }
 
 }  // namespace

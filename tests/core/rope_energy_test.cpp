@@ -25,7 +25,7 @@ double most_gained(World& world, int seconds) {
 }
 
 /// A horizontal rope at rest, bent so that no part of it is in balance.
-World let_go(int segments, bool both_ends) {
+World unbalanced_rope(int segments, bool both_ends) {
     World world = world_with({.damping = 0.0f});
     world.add_rope("rope", {.from = {0, 0, 0},
                             .to = {both_ends ? 0.7f : 1.0f, 0, 0.2f},
@@ -40,8 +40,8 @@ class RopeEnergy : public testing::TestWithParam<std::tuple<int, bool>> {};
 
 TEST_P(RopeEnergy, NeverGrowsInAMinute) {
     const auto [segments, both_ends] = GetParam();
-    World world = let_go(segments, both_ends);
-    if (both_ends) {  // it hangs nearly still, so a wind blows first
+    World world = unbalanced_rope(segments, both_ends);
+    if (both_ends) {  // it hangs nearly still, so the wind first sets it in motion
         Settings settings = world.settings();
         settings.external = {3, 2, 4};
         world.set_settings(settings);

@@ -220,7 +220,7 @@ TEST(RopeGain, AStiffRopeGainsNoEnergyInContact) {
     }
 }
 
-/// Two cases that once were thrown, with 2212 and 344 joules.
+/// Two scenes in which ropes were once thrown, with 2212 and 344 joules.
 TEST(RopeGain, ARopeIsNotThrownByAThinBar) {
     const struct {
         int segments;

@@ -40,7 +40,7 @@ void pull_about(World& world, Random& random) {
 }
 
 /// Relative deviation from a stone's fall, in half a second without pins.
-double unlike_a_stone(World world) {
+double free_fall_error(World world) {
     world.set_settings({.damping = 0.0f});
     for (std::size_t i = 0; i < world.size(); ++i)
         if (world.pinned(i)) world.unpin(i);
@@ -49,8 +49,8 @@ double unlike_a_stone(World world) {
     for (const glm::dvec3& each : world.state().displacement) speed += each.y / h;
     speed /= static_cast<double>(world.size());
     run(world, seconds);
-    const double stone = 0.5 * 9.81 * seconds * (seconds + h);
-    return std::abs((before + speed * seconds - mean_height(world)) / stone - 1.0);
+    const double fall = 0.5 * 9.81 * seconds * (seconds + h);
+    return std::abs((before + speed * seconds - mean_height(world)) / fall - 1.0);
 }
 
 LABEL(slow, "RopeGesture.AClothHangsAgainAndFallsAsAStoneDoes");
@@ -79,7 +79,7 @@ TEST(RopeGesture, AClothHangsAgainAndFallsAsAStoneDoes) {
                 worst = std::max(worst, off);
                 // Relative to its height: some fold in another way and rest 3.4 % off; it once was 3 to 23 %.
                 EXPECT_LE(off, 0.035) << what << ' ' << seed;
-                EXPECT_LE(unlike_a_stone(world), 0.02) << what << ' ' << seed;
+                EXPECT_LE(free_fall_error(world), 0.02) << what << ' ' << seed;
             }
             if (is_thorough()) std::printf("%s: off by %.2f %% at most\n", what.c_str(), 100.0 * worst);
         }

@@ -144,8 +144,8 @@ TEST(RopeIslands, ThreadsGiveTheSameBits) {
     for (const rope::Solver solver : all_solvers) {
         const Played played(some_world({.solver = solver}, 24, 16), 6);
         for (const int threads : {1, 2, 3}) played.expect_the_same_on(threads, {}, name(solver));
-        for (const bool aside : {false, true}) {
-            Jobs jobs{.backwards = true, .aside = aside};
+        for (const bool threaded : {false, true}) {
+            Jobs jobs{.backwards = true, .threaded = threaded};
             played.expect_the_same_on(3, {run_on_jobs, &jobs}, name(solver));
             EXPECT_EQ(jobs.calls, 24u);  // one per substep
             EXPECT_EQ(jobs.pieces, 72u);
@@ -170,8 +170,8 @@ TEST(RopeIslands, ThreadsShareACloth) {
     const Played played(start, 2);
     for (const int threads : {2, 3, 7}) played.expect_the_same_on(threads, {}, "cloth");
     for (const bool backwards : {false, true}) {
-        for (const bool aside : {false, true}) {
-            Jobs jobs{.backwards = backwards, .aside = aside};
+        for (const bool threaded : {false, true}) {
+            Jobs jobs{.backwards = backwards, .threaded = threaded};
             played.expect_the_same_on(4, {run_on_jobs, &jobs}, backwards ? "backwards" : "forwards");
             EXPECT_EQ(jobs.pieces, 4 * jobs.calls);
             EXPECT_EQ(jobs.calls, 8u);  // one per substep
@@ -232,7 +232,7 @@ TEST(RopeIslands, ThreadsGiveTheSameBitsForJoinedBodies) {
         state.links.push_back({.a = a, .b = b, .rest = rest, .kind = rope::Link::Kind::Stretch});
     }
     const Played played(allowed(rope::World::from_state(state)), 6);
-    Jobs jobs{.aside = true};
+    Jobs jobs{.threaded = true};
     played.expect_the_same_on(3, {run_on_jobs, &jobs}, "joined");
     EXPECT_GT(jobs.calls, 0u);
 }

@@ -66,7 +66,7 @@ class HumanoidProgram {
   private:
     void line(const std::string& text) { (code_ += text) += '\n'; }
     void say(const std::string& text) { line(text.empty() ? text : "    " + text); }
-    /// `opening`, entries with commas between them, `closing`: as many on a line as fit.
+    /// Writes `opening`, the entries separated by commas, and `closing`, with as many on a line as fit.
     void list(const std::string& opening, const std::vector<std::string>& entries,
               const std::string& closing) {
         std::string row = "    " + opening;
@@ -232,7 +232,7 @@ class HumanoidProgram {
         }
     }
 
-    /// Of a BodyTarget or a HandTarget.
+    /// Members of a BodyTarget or a HandTarget.
     static std::vector<std::string> target_members(const auto& target) {
         std::vector<std::string> members{".position = " + braced(target.position)};
         if (target.rotation) members.push_back(".rotation = glm::dquat" + braced(*target.rotation));
@@ -263,7 +263,7 @@ class HumanoidProgram {
         if (options.balance) {
             std::vector<std::string> members = member_texts(options);
             if (humanoid::FootstepsState steps = part_.ik_state.steps; steps.away()) {
-                std::string feet = ".feet = {";  // where they have stepped
+                std::string feet = ".feet = {";  // the shifts of feet that have stepped
                 for (const humanoid::FootShift& each :
                      humanoid::advance_steps(steps, solvers_.feet(part_)->soles(), 0.0))
                     feet += (feet.back() == '{' ? "humanoid::FootShift{" : ", humanoid::FootShift{") +

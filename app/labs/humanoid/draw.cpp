@@ -71,7 +71,7 @@ class Drawing {
         if (selected(i)) return glm::mix(colour, view_.palette.selection, active(i) ? 0.75f : 0.45f);
         return lit(i) ? glm::mix(colour, view_.palette.accent, 0.6f) : colour;
     }
-    /// Whether the joint's limit holds its bone back.
+    /// Whether the joint's limit stops its bone.
     bool at_limit(std::size_t i) const {
         const auto bone = part_.bone_of(i);
         return bone && shown_.body && shown_.body->at_limit[static_cast<std::size_t>(*bone)];
@@ -85,7 +85,7 @@ class Drawing {
         return body_[i] ? view_.palette.joint : view_.palette.neutral;
     }
 
-    /// From a node to its children, which move when it turns. A rig's root and controls are no bones.
+    /// The bones from a node to its children, which move when it turns. A rig's root and controls have none.
     void bones_from(std::size_t i) {
         const auto hips = part_.node_of(humanoid::Bone::Hips);
         if (!body_[i] && !springs_[i] && hips && !part_.skeleton().is_below(i, *hips)) return;

@@ -29,10 +29,10 @@ std::vector<bool> body_nodes(const HumanoidPart& part);
 /// For each node, whether a spring turns it.
 std::vector<bool> swinging_nodes(const HumanoidPart& part, Solvers& solvers);
 
-/// Where a bone without a child is drawn to end, in the node's space.
+/// Where to draw the end of a bone without a child, in the node's space.
 glm::dvec3 end_of(const HumanoidPart& part, std::size_t node);
 
-/// Of the centre of mass: a warning where it is outside the feet, unless a foot is stepping to catch it.
+/// Colour of the centre of mass: a warning outside the feet, unless a foot is stepping to catch it.
 glm::vec3 balance_colour(const HumanoidPart& part, const ShownPose& shown, const Palette& colours);
 
 // Attachments, joint limits and the past.
@@ -52,7 +52,7 @@ std::vector<LegendRow> limits_legend(const Workspace& workspace);
 
 /// Frees the cached poses once nothing of the past is on display.
 void forget_past_poses(const Workspace& workspace);
-/// Draws the body before the incident on display, over the current one.
+/// Draws the body as before the displayed incident, over the current one.
 void draw_humanoid_incident(const View& view, const ShownPose& shown, DrawList& list);
 
 }  // namespace tendril::app

@@ -31,7 +31,7 @@ Command keeping(Command command);
 /// "sign_flip"
 std::optional<humanoid::Fault> fault_named(const std::string& name);
 
-/// What a change may read while the part is being changed.
+/// What a command may read while it changes the part.
 struct IkNow {
     const ShownPose& shown;
     Solvers& solvers;
@@ -46,10 +46,9 @@ glm::dvec3 exact_point(const Json& json);
 /// Throws std::invalid_argument with the reason if there is no body.
 void require_body(const IkNow& now, const HumanoidPart& part);
 
-/// A whole program: skeleton, bone map and this moment's pose as data, then feet, targets, gaze, hands and
-/// springs as they are set, in the lab's order. Prints where every node is, the same numbers as the lab's.
-/// Left out: ropes on the character, the fading after a target is released, and the triangles of a ground
-/// mesh.
+/// A complete program: skeleton, bone map and the current pose as data, then feet, targets, gaze, hands and
+/// springs with their settings, in the lab's order. It prints every node's position, equal to the lab's. Left
+/// out: attachments, the fading after a target is released, and the triangles of a ground mesh.
 std::string humanoid_code(const HumanoidPart& part, Solvers& solvers);
 
 void add_character_commands(CommandTable& table);

@@ -40,7 +40,7 @@ Corrections read_corrections(const JsonPlace& place, const humanoid::Skeleton& s
     return corrections;
 }
 
-/// Settings that are missing are those of `reading`.
+/// Settings missing from the file keep their values in `reading`.
 Reading read_reading(const JsonPlace& place, Reading reading, const humanoid::Skeleton& skeleton) {
     if (const auto scale = place.optional("scale")) reading.scale = scale->real(min_unit, max_unit);
     if (const auto space = place.optional("space")) load_known_fields(*space, reading.space);
@@ -157,8 +157,8 @@ void read_edit(const JsonPlace& place, HumanoidPart& part) {
     }
 }
 
-/// Makes the edits again, each as the character was read then. Older scenes have no order, "motions" before
-/// "cures", and no such settings: they are those of the scene, with the default limits.
+/// Makes the edits again, each with the character's settings at that time. Older scenes have "motions" and
+/// "cures" in that order, without settings: these use the scene's, with the default limits.
 void read_edits(const JsonPlace& place, HumanoidPart& part) {
     constexpr std::size_t max_edits = 10'000;
     const Reading now = reading_of(part);

@@ -70,7 +70,7 @@ std::size_t bytes_of(const SkinnedMesh& mesh) {
     return mesh.positions.size() * a_vertex + mesh.indices.size() * sizeof(mesh.indices[0]) + pixels;
 }
 
-/// Each retarget, cure or other unit makes a character of its own, with all clips. Meshes are shared on.
+/// Each retarget, fix or change of unit makes a character of its own, with all clips. They share meshes.
 std::size_t bytes_of(const LoadedCharacter& loaded) {
     constexpr std::size_t a_node = 400;  // with its name, placement and bone
     std::size_t bytes = loaded.skeleton().size() * a_node;

@@ -38,7 +38,7 @@ enum class Skinning : std::uint8_t { Linear, TwistSpread };
 inline constexpr EnumNames<Skinning, 2> skinnings{"skinning",
                                                   {{"linear", "linear"}, {"twist_spread", "twist spread"}}};
 
-/// Which joints show their limits. Except with None, joints that their limits hold back show them too.
+/// Which joints show their limits. Joints that their limits stop show them too, except with None.
 enum class LimitsShown : std::uint8_t { None, Selected, All };
 
 inline constexpr EnumNames<LimitsShown, 3> limits_shown{
@@ -53,7 +53,7 @@ inline constexpr EnumNames<JudgedClip, 2> judged_clips{"judged",
 struct HumanoidView {
     SkinLook skin = SkinLook::Transparent;
     Skinning skinning = Skinning::TwistSpread;
-    bool ghost = true;   ///< of the pose before anything changed it
+    bool ghost = true;   ///< draws the pose before any modification
     bool follow = true;  ///< the camera follows a character that walks
     LimitsShown limits = LimitsShown::Selected;
     JudgedClip judged = JudgedClip::Clip;
@@ -82,7 +82,7 @@ struct HumanoidPart final : Part {
     const humanoid::Clip* clip() const;  ///< null if none is chosen
     std::optional<std::size_t> node_of(humanoid::Bone bone) const;
     std::optional<humanoid::Bone> bone_of(std::size_t node) const;
-    /// What a user is told that a node is called: its bone's name, else its own.
+    /// A node's name for the user: its bone's name, else its own.
     std::string called(std::size_t node) const;
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<HumanoidPart>(*this); }
@@ -95,10 +95,10 @@ struct HumanoidPart final : Part {
     bool operator==(const HumanoidPart& other) const;
 };
 
-/// The bones that `map` has elsewhere than the character's own.
+/// The bones that `map` assigns to other nodes than the character's own map.
 Corrections corrections_of(const humanoid::BoneMap& map, const LoadedCharacter& character);
-/// Maps the bones as matched, but for these. Throws std::invalid_argument if they do not form a body's
-/// hierarchy any more, unless the file's own map did not either.
+/// Maps the bones as matched, with these corrections. Throws std::invalid_argument if they no longer form a
+/// body's hierarchy, unless the file's own map does not either.
 void correct(HumanoidPart& part, const Corrections& corrections);
 Reading reading_of(const HumanoidPart& part);
 

@@ -21,7 +21,7 @@ class HumanoidRuntime final : public Runtime {
     /// For the part's skin; kept until character or map change.
     const TwistSpread& twist(const HumanoidPart& part);
 
-    Loading loading;  ///< what works in the background
+    Loading loading;  ///< background work
     Solvers solvers;
     ClipLint lint;
     KeptMaps kept_maps;
@@ -34,9 +34,9 @@ class HumanoidRuntime final : public Runtime {
 
     /// State of the interface only; nothing else depends on it.
     struct Panel {
-        std::optional<humanoid::Bone> bone;  ///< the row that waits for a node
-        bool bones_first = false;            ///< the bone map comes before the other sections
-        SharedCharacter bones_of{};          ///< the character that this was decided for
+        std::optional<humanoid::Bone> bone;  ///< the row that waits for a node to be picked
+        bool bones_first = false;            ///< shows the bone map before the other sections
+        SharedCharacter bones_of{};          ///< the character for which that was decided
         int attach_kind = 0;                 ///< kind of attachment that Add makes
         std::string attach_to = "Hips";      ///< bone or node to attach it to
         bool past = false;                   ///< the strip shows the last ten seconds instead of the clip

@@ -86,7 +86,7 @@ std::vector<Handle> HumanoidLab::handles(const Workspace& workspace) const {
     return handles;
 }
 
-/// A curve is no handle of handles(), but can be clicked.
+/// Curves are not in handles(), but can be clicked.
 std::optional<Handle> HumanoidLab::handle(const Workspace& workspace, PickId pick) const {
     const HumanoidPart& part = humanoid_part(workspace);
     const auto curve = picked_curve(part, pick);
@@ -175,7 +175,7 @@ void HumanoidLab::click(const Workspace& workspace, PickId pick, Emit& emit) con
         emit("humanoid.select", {{"node", name}});
 }
 
-/// If a row waits for a node, only ends the waiting; the selection stays.
+/// If a row waits for a node, only stops waiting; the selection stays.
 void HumanoidLab::deselect(const Workspace& workspace, Emit& emit) const {
     auto& waiting = humanoid_runtime(workspace).panel.bone;
     if (!waiting) return click(workspace, no_pick, emit);

@@ -50,7 +50,7 @@ void scale_row(const HumanoidPanel& panel) {
     explain("The length of one unit in the file. The character's height shows whether it is right.");
 }
 
-/// What is wrong with a person's height, and a click that mends it.
+/// What is implausible about a person's height, and a button that fixes it.
 void unit_rows(const HumanoidPanel& panel) {
     const auto doubt = panel.part.loaded->doubted_unit(*panel.part.map);
     if (panel.part.loaded->file.empty() || !doubt) return;
@@ -108,7 +108,7 @@ void loaded_rows(const HumanoidPanel& panel, MoreRows& more) {
     for (const std::string& each : loaded.character.sentences()) note(each);
 }
 
-/// Of a clip that walks in place.
+/// For a clip that walks in place.
 void pace_rows(const HumanoidPanel& panel) {
     // Seconds. A walk in place is a cycle, and a long clip is slow to measure.
     constexpr double longest = 20.0;
@@ -184,14 +184,13 @@ void HumanoidLab::panel(const Workspace& workspace, Emit& emit) const {
     const HumanoidPanel panel = humanoid_panel(workspace, emit);
     bool& incomplete = panel.runtime.panel.bones_first;
     SharedCharacter& decided = panel.runtime.panel.bones_of;
-    // While the mouse is in the panel its sections stay where they are, unless all of them are of another
-    // character.
+    // While the mouse is in the panel its sections keep their order, unless the character changed.
     if (row_search() == nullptr &&
         (decided != panel.part.loaded ||
          !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows | ImGuiHoveredFlags_AllowWhenBlockedByPopup |
                                  ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))) {
         incomplete = panel.runtime.solvers.body(panel.part) == nullptr;
-        // An export of the last character is not to be overwritten by one of this.
+        // Do not let this character's export overwrite the last one's.
         if (decided && decided->path != panel.part.loaded->path) panel.runtime.panel.export_to.clear();
         decided = panel.part.loaded;
     }

@@ -12,7 +12,7 @@
 
 namespace tendril::app {
 
-/// What a section reads.
+/// The data that a section reads.
 struct HumanoidPanel {
     const Workspace& workspace;
     const HumanoidPart& part;
@@ -25,8 +25,8 @@ HumanoidPanel humanoid_panel(const Workspace& workspace, Emit& emit);
 /// Whether the character is usable and reaches its targets.
 Verdict humanoid_verdict(const Workspace& workspace);
 
-/// Maps the bone that waits to the node, or to none if negative, and selects that node. If the bone had none,
-/// the next unmapped bone waits, so that each further click maps one.
+/// Maps the waiting bone to the node (none if negative) and selects that node. If the bone had no node, the
+/// next unmapped bone then waits, so that each click maps one.
 void map_waiting_bone(const HumanoidPart& part, std::optional<humanoid::Bone>& waiting, std::int32_t node,
                       Emit& emit);
 
@@ -43,7 +43,7 @@ void motion_rows(const HumanoidPanel& panel, MoreRows& more);
 void target_rows(const HumanoidPanel& panel);
 /// The source of joint limits.
 void limit_rows(const HumanoidPanel& panel);
-/// Settings and Remove, of the spring or curve that begins at the node: `command` with `argument` names it.
+/// Settings and Remove of the spring or curve that begins at the node, which `argument` of `command` names.
 void settings_row(const HumanoidPanel& panel, const std::string& node, const char* command,
                   const char* argument, const char* help);
 /// Springs on ears, antennae, a tail.
@@ -57,7 +57,7 @@ void ground_rows(const HumanoidPanel& panel);
 /// Hand IK, and look-at.
 void hand_rows(const HumanoidPanel& panel);
 void look_rows(const HumanoidPanel& panel);
-/// How far the command is that works in the background; nothing if it does not.
+/// Progress of the command's background work; nothing if there is none.
 void progress_row(const HumanoidPanel& panel, const char* command);
 /// The findings of the motion lint, with their cures.
 void lint_rows(const HumanoidPanel& panel);

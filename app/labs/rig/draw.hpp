@@ -37,7 +37,7 @@ std::vector<glm::dvec3> bone_ends(const rig::Hierarchy& elements, rig::ElementId
 /// The mean distance to those end points, metres.
 double bone_size(const rig::Hierarchy& elements, rig::ElementId bone);
 
-/// The radius of a head, metres; the bones that end on it stick out a little.
+/// The radius of a head, metres; the bones that end on it protrude slightly.
 double head_radius(const rig::Hierarchy& elements, rig::ElementId bone);
 
 /// A bounding sphere for framing the view.

@@ -523,8 +523,8 @@ UnitOffer chain(const RigPart& part, Json unit) {
     return {SharedJson(std::move(unit))};
 }
 
-/// Whole chains, unlike the other solvers: through the selected elements in order, or else from the root's
-/// position through all controls.
+/// Unlike the other solvers, offers the whole chain: through the selected elements in order, or else from the
+/// root's position through all controls.
 UnitOffer along_points(const RigPart& part, Json unit) {
     UnitOffer offer = chain(part, std::move(unit));
     if (!offer.unit) return offer;

@@ -298,7 +298,7 @@ Json track_json(const Numbers& numbers, std::size_t size) {
     return json;
 }
 
-/// `size` numbers per frame.
+/// Reads `size` numbers per frame. Given once, they hold for all frames.
 Numbers read_track(const JsonPlace& place, std::size_t size, std::size_t frames) {
     Numbers numbers;
     place.for_each("numbers", size * frames,

@@ -28,8 +28,8 @@ std::string RigLab::code(const Workspace& workspace) const {
     return rig_code(rig_part(workspace));
 }
 
-/// The head follows a control that goes round above it, blinks and speaks: a control beside the face moves
-/// its mouth and lids, by curves of its x and z.
+/// The head follows a control that circles above it, blinks and speaks: a control beside the face moves its
+/// mouth and lids, by curves of its x and z.
 std::vector<CommandCall> RigLab::opening() const {
     return rig_script("opening");
 }

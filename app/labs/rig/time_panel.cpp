@@ -201,7 +201,7 @@ Window window_of(const RigPart& part) {
     window.last = std::max({window.last, take.now(), window.first + shortest});
     return window;
 }
-/// Includes the newest moment in the history, so that the strip stays put while an earlier one is shown.
+/// Also covers the newest moment in the history, so that the strip stays put while an earlier one is shown.
 Window shown_window(const Workspace& workspace) {
     Window window = window_of(rig_part(workspace));
     if (workspace.rewind.empty()) return window;
@@ -215,7 +215,7 @@ float share_of(const FrameLeft& left) {
     return static_cast<float>(std::clamp((std::log10(std::max(amount(left), 1e-4)) + 4.0) / 4.0, 0.0, 1.0));
 }
 
-/// Expressed frames are faint; the others go from yellow to red.
+/// Frames that the rig expresses are faint; the others go from yellow to red.
 TimeBar bar_of(const FrameLeft& left, const Palette& colours) {
     if (left.expressed()) return {glm::mix(colours.panel, colours.axis_y, 0.55f), 0.1f};
     const float share = share_of(left);

@@ -329,7 +329,7 @@ class Offers {
         }
     }
 
-    /// An input of any type does no conversion.
+    /// An input of any type converts nothing.
     bool fits(rig::Type from, rig::Type to) const { return input_.type() ? converts(from, to) : from == to; }
 
     void elements(bool bones) {

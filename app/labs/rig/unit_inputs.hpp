@@ -20,16 +20,16 @@ struct UnitInput {
     /// The source: "head, translation", "unit curve"; empty for a literal.
     std::string from;
     const Field* field = nullptr;
-    const void* at = nullptr;  ///< what the field's accessors take, in the unit; null while it is empty
-    /// Of inputs and flags: the literal or the current value; none if that varies between iterations of a
+    const void* at = nullptr;  ///< the argument of the field's accessors; null while it is empty
+    /// For inputs and flags: the literal or the current value; none if that varies between iterations of a
     /// for-each.
     std::optional<rig::Value> value{};
     bool count = false;  ///< a whole number, such as a number of elements
 
-    /// Of an input: the type of a literal; none: any.
+    /// For an input: the type of a literal; none: any.
     std::optional<rig::Type> type() const { return rig::access_of(*field).type; }
     bool is(FieldType type) const { return field->type == type; }
-    /// Otherwise a row of another type has an item.
+    /// Whether it takes an input. A field of type Other that does not holds an item.
     bool takes_input() const {
         return is(FieldType::Other) && rig::access_of(*field).takes == rig::InputAccess::Takes::Any;
     }
@@ -71,9 +71,8 @@ struct InputOffer {
     SharedJson value;   ///< for with_input()
     bool now = false;   ///< the input has this value now
 };
-/// Of inputs, items and names; empty for other fields. An input of values is also offered a literal. For
-/// names, `index` says which one to replace; an index equal to their number appends one. Cost: O(elements +
-/// units).
+/// For inputs, items and names; empty for other fields. An input of a value also offers a literal. For names,
+/// `index` is the one to replace; an index equal to their number appends one. Cost: O(elements + units).
 std::vector<InputOffer> input_offers(const RigPart& part, const UnitRow& row, const UnitInput& input,
                                      std::size_t index = 0);
 

@@ -15,7 +15,7 @@ namespace tendril::app {
 
 /// Refuses rotations that are not of unit length, as a rig's own always are. Accepts all other types.
 void check_unit(const JsonPlace& place, const rig::Value& value);
-/// Reads a value that a rig reached, as it was stored.
+/// Reads a value stored in a state, as the rig reached it.
 rig::Value read_stored(const JsonPlace& place, rig::Type type);
 
 /// Calls `take` with each index and the member of that name. Refuses other members, which errors call `what`.

@@ -38,10 +38,10 @@ enum class FieldType : std::uint8_t {
     Rotation,  ///< a quaternion: x, y, z, w
     Choice,    ///< an index into `choices`
     Text,      ///< a std::string
-    Index,     ///< of an element of the list `of`, which files call by its name
+    Index,     ///< index of an element of the list `of`; files have its name
     Struct,    ///< has a table of its own
-    Kind,      ///< a std::variant of structs: an index into `choices`, and the table of the one that it holds
-    Other      ///< none of these, such as a rig::Input: `access` has its functions
+    Kind,      ///< a std::variant of structs: an index into `choices`, and the table of the active struct
+    Other      ///< any other, such as a rig::Input; its functions are in `access`
 };
 
 /// A field of any type, as up to four numbers.
@@ -62,14 +62,14 @@ inline constexpr FieldRange unit_length{0.999, 1.001};
 enum class FieldScale : std::uint8_t { Linear, Logarithmic };
 
 struct Field;
-/// A struct that a field may hold.
+/// A kind of struct that a field may hold.
 struct FieldKind {
     std::span<const Field> (*table)() noexcept;
     const void* (*fresh)() noexcept;  ///< one with its default values
     std::string_view in_code;         ///< "tendril::rig::Aim"
 };
 
-/// The functions of values of no common type. Their room derives a struct from it that has the others:
+/// Functions for values of type Other. A module derives a struct with further functions from it, as
 /// rig::InputAccess.
 struct FieldAccess {
     bool (*same)(const void* one, const void* other);
@@ -77,8 +77,8 @@ struct FieldAccess {
 
 /// One field of a struct. `get`, `set` and `empty` take the struct; `set` checks nothing.
 ///
-/// A list of values or structs has a `count`. Its type, range and unit are those of an element, and `get`,
-/// `set` and `empty` take the address of one, as those of a value of another type do. A text has `text` and
+/// A list of values or structs has a `count`. Type, range and unit are an element's; `get`, `set` and `empty`
+/// then take the element's address, and for a value of type Other the value's. A text has `text` and
 /// `set_text` instead. Setting a variant's index gives it a fresh struct of that kind.
 struct Field {
     const char* name;       ///< as in files and commands: "gravity_scale"
@@ -86,13 +86,13 @@ struct Field {
     FieldType type = FieldType::Number;
     bool exact = false;     ///< stored in double precision; otherwise float
     bool optional = false;  ///< may be empty, which reads as NaN and is set by NaN
-    FieldRange range{};     ///< of a flag 0 to 1, of a choice 0 to the last index; an end may be infinite
+    FieldRange range{};     ///< 0 to 1 for a flag, 0 to the last index for a choice; may be infinite
     bool over_low = false;  ///< range.low itself is out of range
     std::span<const char* const> choices{};
-    std::string_view in_code{};             ///< a choice's enumeration: "tendril::ik::SketchHold"; else the
-                                            ///< member, where it is not `name`
-    const char* of = "";                    ///< the list of an index or a name, in a struct around this one
-    FieldRange usual{};                     ///< for sliders and random tests; empty: `range`
+    std::string_view in_code{};  ///< a choice's enumeration: "tendril::ik::SketchHold"; else the
+                                 ///< member, where it is not `name`
+    const char* of = "";         ///< the list that an index or a name refers to, in a struct around it
+    FieldRange usual{};          ///< for sliders and random tests; empty: `range`
     FieldScale scale = FieldScale::Linear;  ///< how sliders map it
     FieldValue (*get)(const void* object) noexcept = nullptr;
     void (*set)(void* object, const FieldValue& value) noexcept = nullptr;
@@ -102,18 +102,18 @@ struct Field {
     void (*set_text)(void* object, std::string_view text) = nullptr;
     const FieldAccess* access = nullptr;
 
-    std::span<const FieldKind> kinds{};  ///< of a variant, by index; of a struct, itself
-    /// The address of a struct or another value, null while an optional one is empty; of what a variant
-    /// holds; or of a list's element.
+    std::span<const FieldKind> kinds{};  ///< of a variant, by index; of a struct, its only one
+    /// The address of a struct or other value (null while an optional one is empty), of a variant's active
+    /// struct, or of a list's element.
     const void* (*address)(const void* object, std::size_t index) noexcept = nullptr;
     std::size_t (*count)(const void* object) noexcept = nullptr;
     /// Resizes a list, or an optional struct to 0 or 1. Null if the number of elements is fixed, or if the
     /// struct does not own the list.
     void (*resize)(void* object, std::size_t count) noexcept = nullptr;
-    std::size_t fewest = 0, most = static_cast<std::size_t>(-1);  ///< elements of a list
-    std::span<const char* const> names{};                         ///< of the elements: "left", "right"
+    std::size_t fewest = 0, most = static_cast<std::size_t>(-1);  ///< number of elements in a list
+    std::span<const char* const> names{};                         ///< the elements' names: "left", "right"
     bool in_line = false;   ///< in files the named elements are members of the struct itself
-    bool sparse = false;    ///< in files it, or of a struct members at their default, are left out
+    bool sparse = false;    ///< files omit it, or of a struct the members, at their defaults
     bool required = false;  ///< files must have it: there is no default
 
     /// Bit i: method i honours it, without and within joint limits. See honours() in ik/method.hpp.
@@ -130,17 +130,17 @@ struct Field {
         return type == FieldType::Flag || type == FieldType::Integer || type == FieldType::Choice ||
                type == FieldType::Index || type == FieldType::Kind;
     }
-    /// The table of a nested struct, and one with its default values.
+    /// The table of a nested struct, and a struct with default values.
     std::span<const Field> table() const noexcept { return kinds[0].table(); }
     const void* fresh() const noexcept { return kinds[0].fresh(); }
-    /// Whether it is a struct of that type, or a list of them.
+    /// Whether it is a struct of that type, or a list of such structs.
     template <class Struct>
     bool holds() const noexcept;
     /// False unless the field is optional.
     bool empty(const void* object) const noexcept {
         return optional && get != nullptr && type != FieldType::Other && number(object) != number(object);
     }
-    /// The struct that `object` has here: the one that a variant holds, or a list's element.
+    /// The kind of the struct here: a variant's active one, or a list's element.
     const FieldKind& kind(const void* object) const noexcept {
         return kinds[type == FieldType::Kind ? static_cast<std::size_t>(number(object)) : 0];
     }
@@ -193,13 +193,13 @@ struct Field {
         row.required = true;
         return row;
     }
-    /// A text by which its struct is known, but which files may omit.
+    /// Marks a name that files may omit.
     constexpr Field omissible() const noexcept {
         Field row = *this;
         row.optional = true;
         return row;
     }
-    /// Texts that name elements of a list.
+    /// For texts that name elements of a list.
     constexpr Field naming(const char* list) const noexcept {
         Field row = *this;
         row.of = list;
@@ -224,10 +224,9 @@ bool Field::holds() const noexcept {
 /// Null for an unknown name.
 const Field* find_field(std::span<const Field> table, std::string_view name) noexcept;
 
-/// Refuses the first number of `object`, its structs and its lists that is out of its range, or an index of
-/// nothing. The message
-/// names `operation`, the field, its range and the value: "Body::solve: options.feet.left.lift must be ...",
-/// where `place` is "options". `object` is a struct of the table's type.
+/// Refuses the first number of `object`, its structs and its lists that is out of range, and the first index
+/// without an element. The message names `operation`, the field, its range and the value: "Body::solve:
+/// options.feet.left.lift must be ...", where `place` is "options". `object` is a struct of the table's type.
 Result check_fields(const char* operation, std::span<const Field> table, const void* object,
                     const char* place = "") noexcept;
 
@@ -284,8 +283,8 @@ FieldValue to_field(const Value& value) noexcept {
         return {value.x, value.y, value.z};
 }
 
-/// A whole number that the type does not hold becomes its largest one, and if signed and too low its lowest:
-/// out of every range, as it was. So does NaN.
+/// Converts to the type. For integers, NaN and values out of the type's range become its maximum, or its
+/// minimum if it is signed and they are below: still out of any field's range.
 template <class Value>
 Value number_from(double given) noexcept {
     if constexpr (std::is_enum_v<Value>) {
@@ -318,7 +317,7 @@ Value from_field(const FieldValue& given) noexcept {
         return Value(given[0], given[1], given[2]);
 }
 
-/// An index; none is -1.
+/// Reads an index; -1, which means none, reads as NaN.
 inline FieldValue get_index(const void* at) noexcept {
     const std::size_t index = *static_cast<const std::size_t*>(at);
     return {index == static_cast<std::size_t>(-1) ? std::numeric_limits<double>::quiet_NaN()
@@ -349,7 +348,7 @@ const void* fresh() noexcept {
 template <class Value>
 inline constexpr FieldKind kind_of{fields<Value>, fresh<Value>, type_name<Value>()};
 
-/// A variant, or a class derived from one.
+/// The variant that a type is, or is derived from; for type deduction only.
 template <class... Kinds>
 std::type_identity<std::variant<Kinds...>> variant_of(const std::variant<Kinds...>&);
 
@@ -458,7 +457,7 @@ template <auto member>
 FieldValue get_kind(const void* object) noexcept {
     return {static_cast<double>(member_of<member>(object).index())};
 }
-/// Keeps what it holds at an index that is none.
+/// An index without a kind leaves the variant unchanged.
 template <auto member>
 void set_kind(void* object, const FieldValue& given) noexcept {
     KindsOf<member>::hold(member_of<member>(object), number_from<std::size_t>(given[0]),
@@ -522,7 +521,7 @@ constexpr FieldType field_type() noexcept {
     return std::is_arithmetic_v<Value> ? FieldType::Number : FieldType::Point;
 }
 
-/// A row for values of this type, without accessors.
+/// A row for values of this type, without `get` and `set`.
 template <class Member>
 constexpr Field value_row(const char* name, FieldRange range, const char* unit) noexcept {
     using Value = typename FieldOptional<Member>::type;
@@ -576,8 +575,8 @@ constexpr Field nested(const char* name) noexcept {
     return row;
 }
 
-/// A row for a std::variant of structs with tables, or a class derived from one; `names` are those of its
-/// kinds, in order. Files have the name, and beside it the fields of the kind.
+/// A row for a std::variant of structs with tables, or a class derived from one; `names`: its kinds' names,
+/// in order. Files have the name, and beside it the fields of that kind.
 template <auto member>
 constexpr Field kinds(const char* name, std::span<const char* const> names) noexcept {
     return {.name = name,
@@ -591,7 +590,7 @@ constexpr Field kinds(const char* name, std::span<const char* const> names) noex
             .address = detail::held_address<member>};
 }
 
-/// A row for an array of structs with a table, or of values. For a vector or a span: .up_to() so many.
+/// A row for an array of structs with a table, or of values. For a vector or a span add .up_to().
 template <auto member>
 constexpr Field list(const char* name, FieldRange range = {0.0, 1.0}, const char* unit = "") noexcept {
     using List = detail::ValueOf<member>;
@@ -615,7 +614,7 @@ constexpr Field list(const char* name, FieldRange range = {0.0, 1.0}, const char
 }
 
 /// A row for an index, or a list of indices, into the list `of` of a struct around this one. `optional`: -1
-/// stands for none.
+/// means none.
 template <auto member>
 constexpr Field index(const char* name, const char* of, bool optional = false) noexcept {
     Field row{};

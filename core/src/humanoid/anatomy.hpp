@@ -72,18 +72,18 @@ inline glm::dvec3 t_direction(Bone bone, const Facing& facing) noexcept {
 
 /// Whether a body keeps the first bone out of the second: hands and lower arms out of everything but their
 /// own arm and the shoulders, lower legs out of each other.
-inline bool kept_apart(Bone moving, Bone still) noexcept {
+inline bool may_collide(Bone moving, Bone other) noexcept {
     switch (moving) {
         case Bone::LeftHand:
         case Bone::LeftLowerArm:
-            return still != Bone::LeftShoulder && still != Bone::LeftUpperArm &&
-                   still != Bone::LeftLowerArm && still != Bone::LeftHand && still != Bone::RightShoulder;
+            return other != Bone::LeftShoulder && other != Bone::LeftUpperArm &&
+                   other != Bone::LeftLowerArm && other != Bone::LeftHand && other != Bone::RightShoulder;
         case Bone::RightHand:
         case Bone::RightLowerArm:
-            return still != Bone::RightShoulder && still != Bone::RightUpperArm &&
-                   still != Bone::RightLowerArm && still != Bone::RightHand && still != Bone::LeftShoulder;
+            return other != Bone::RightShoulder && other != Bone::RightUpperArm &&
+                   other != Bone::RightLowerArm && other != Bone::RightHand && other != Bone::LeftShoulder;
         case Bone::LeftLowerLeg:
-            return still == Bone::RightLowerLeg;
+            return other == Bone::RightLowerLeg;
         default:
             return false;
     }

@@ -73,7 +73,7 @@ class MassFinder {
     void add(Bone bone, const glm::dvec3& centre, double share) {
         const auto node = static_cast<std::size_t>(map_[bone].node);
         masses_.points.push_back(
-            {node, detail::seen_from(at_[node], minus(centre, at_[node].position)), share});
+            {node, detail::to_local(at_[node], minus(centre, at_[node].position)), share});
     }
     void hand(Bone lower, Bone end) {
         const glm::dvec3& wrist = position(end);

@@ -58,15 +58,15 @@ struct BentChain::Plan {
         }
         return true;
     }
-    bool take_rest(const Skeleton& skeleton);
+    bool load_rest(const Skeleton& skeleton);
     ik::CurveReport bend(std::span<rig::Transform> pose, std::span<const glm::vec3> points,
                          const ik::CurveOptions& options, ik::CurveMemory& memory) noexcept;
-    void lay(std::span<rig::Transform> pose, Placement at, const glm::dquat& swing,
-             const ik::CurveOptions& options, double factor) noexcept;
+    void pose_nodes(std::span<rig::Transform> pose, Placement at, const glm::dquat& swing,
+                    const ik::CurveOptions& options, double factor) noexcept;
 };
 
 /// False if the chain has no length. A bone without length points like the one before it, or else the next.
-bool BentChain::Plan::take_rest(const Skeleton& skeleton) {
+bool BentChain::Plan::load_rest(const Skeleton& skeleton) {
     const std::vector<rig::Transform> pose = rest_pose(skeleton);
     if (!place_nodes(seen_from_points(parent(pose)), pose, placed)) return false;
     std::optional<glm::dvec3> last;
@@ -109,7 +109,7 @@ Expected<BentChain> BentChain::make(const Skeleton& skeleton, std::size_t first,
     plan->rest.resize(bones);
     plan->lengths.resize(bones);
     plan->state = ik::State(bones);
-    if (!plan->take_rest(skeleton))
+    if (!plan->load_rest(skeleton))
         return refused(operation, "first", "the start of a chain that has a length",
                        std::string_view(skeleton[first].name));
     return BentChain(std::move(plan));
@@ -182,14 +182,14 @@ ik::CurveReport BentChain::Plan::bend(std::span<rig::Transform> pose, std::span<
     ik::CurveReport report = ik::place_along(curve, {lengths, rest}, joints, state, memory, upright);
     // A tip on the last control point may be past it by rounding.
     if (report.status == ik::Status::Converged) report.bones_past_end = 0, report.past_end = 0.0f;
-    if (report.status != refusal) lay(pose, at, swing, options, static_cast<double>(report.factor));
+    if (report.status != refusal) pose_nodes(pose, at, swing, options, static_cast<double>(report.factor));
     return report;
 }
 
 /// Turns the nodes as the solve turned the bones, then each by the shortest arc to where its bone should
 /// point: a pose may move a node within its parent, and a scale may shear it.
-void BentChain::Plan::lay(std::span<rig::Transform> pose, Placement at, const glm::dquat& swing,
-                          const ik::CurveOptions& options, double factor) noexcept {
+void BentChain::Plan::pose_nodes(std::span<rig::Transform> pose, Placement at, const glm::dquat& swing,
+                                 const ik::CurveOptions& options, double factor) noexcept {
     bool moved = false;  // bones before the first with a weight keep their bits
     for (std::size_t i = 0; i < bones(); ++i) {
         rig::Transform& local = pose[nodes[i]];
@@ -202,8 +202,8 @@ void BentChain::Plan::lay(std::span<rig::Transform> pose, Placement at, const gl
             detail::turn(local, at, math::compose(turned, conjugate((at * placement(local)).rotation())));
             const Placement now = at * placement(local);
             const auto is = direction_of(minus(now.apply(end), now.position), shortest_bone);
-            const auto should = direction_of(minus(wide(joints[i + 1]), wide(joints[i])), shortest_bone);
-            if (is && should) detail::turn(local, at, minimal_rotation(*is, *should));
+            const auto target = direction_of(minus(wide(joints[i + 1]), wide(joints[i])), shortest_bone);
+            if (is && target) detail::turn(local, at, minimal_rotation(*is, *target));
             if (factor != 1.0) end = times(end, 1.0 + weight * (factor - 1.0));
         }
         at = at * placement(local);

@@ -128,8 +128,8 @@ Expected<Body> Body::make(const Skeleton& skeleton, const BoneMap& map, const Bo
         link.bone = *bone, link.node = node, link.parent = parent;
         link.mobility = mobility_of(*bone) * (1.0 - static_cast<double>(limit.stiffness));
         link.rest = work->joints.rest_rotation(*bone);
-        link.given = ik::detail::solvable_joint(limit, math::narrow(work->joints.direction(*bone)));
-        if (limit.kind == ik::JointKind::Hinge) link.hinge = math::wide(link.given.axis);
+        link.base_limit = ik::detail::solvable_joint(limit, math::narrow(work->joints.direction(*bone)));
+        if (limit.kind == ik::JointKind::Hinge) link.hinge = math::wide(link.base_limit.axis);
         work->links.push_back(link);
         work->bones.push_back(*bone);
     }
@@ -139,20 +139,20 @@ Expected<Body> Body::make(const Skeleton& skeleton, const BoneMap& map, const Bo
              link = work->links[static_cast<std::size_t>(link)].parent)
             work->links[static_cast<std::size_t>(link)].effectors |= 1u << i;
     }
-    const BodyLimits usual = default_limits(skeleton, map);
+    const BodyLimits defaults = default_limits(skeleton, map);
     for (const Bone upper :
          {Bone::LeftUpperArm, Bone::RightUpperArm, Bone::LeftUpperLeg, Bone::RightUpperLeg}) {
         const Bone lower = *detail::limb_child(upper), end = *detail::limb_child(lower);
         detail::BodyLimb limb{link_of(work->bones, upper), link_of(work->bones, lower),
                               link_of(work->bones, end)};
-        limb.axis = math::wide(usual[static_cast<std::size_t>(lower)].axis);
+        limb.axis = math::wide(defaults[static_cast<std::size_t>(lower)].axis);
         if (work->joints.parent(lower) == upper && work->joints.parent(end) == lower)
             work->limbs.push_back(limb);
     }
     work->parents.reserve(skeleton.size());
     for (const Node& node : skeleton.nodes()) work->parents.push_back(node.parent);
     work->placements.resize(skeleton.size());
-    work->kept.resize(work->links.size());
+    work->saved_turns.resize(work->links.size());
     work->twist = TwistNodes::find(skeleton, map);
     find_tips(*work, skeleton);
     if (const Expected<Masses> masses = find_masses(skeleton, map)) {
@@ -178,8 +178,8 @@ void Body::find_tips(Work& work, const Skeleton& skeleton) {
         glm::dvec3 farthest{0.0};
         for (std::size_t node = 0; node < skeleton.size(); ++node) {
             if (!skeleton.is_below(node, link.node)) continue;
-            const glm::dvec3 way = minus(work.placements[node].position, work.placements[link.node].position);
-            if (dot(way, way) > dot(farthest, farthest)) farthest = way;
+            const glm::dvec3 to = minus(work.placements[node].position, work.placements[link.node].position);
+            if (dot(to, to) > dot(farthest, farthest)) farthest = to;
         }
         const glm::dquat turn = math::compose(work.placements[link.node].rotation(), conjugate(link.rest));
         work.tips.push_back({own, rotated(conjugate(turn), farthest)});
@@ -193,15 +193,15 @@ Expected<BodyReport> Body::solve(std::span<rig::Transform> pose, std::span<const
             tendril::detail::check_count("Body::solve", "pose", pose.size(), work_->parents.size());
         !bad)
         return bad;
-    if (const std::size_t odd = detail::first_invalid(pose); odd < pose.size())
-        return refused("Body::solve", Argument("pose", odd), "finite, at most 1e9, with a unit rotation",
+    if (const std::size_t invalid = detail::first_invalid(pose); invalid < pose.size())
+        return refused("Body::solve", Argument("pose", invalid), "finite, at most 1e9, with a unit rotation",
                        "one that is not");
     if (const Result bad = check_targets(targets); !bad) return bad;
     if (const Result bad = check_state(state, work_->links.size()); !bad) return bad;
     if (const Result bad = check_fields("Body::solve", options, "options"); !bad) return bad;
     const bool moves_feet = options.feet_stay && options.feet != BodyOptions{}.feet;
-    const bool touches = options.self_collision && !work_->pairs.empty();
-    if (!touches && !moves_feet && std::none_of(targets.begin(), targets.end(), [](const BodyTarget& each) {
+    const bool collides = options.self_collision && !work_->pairs.empty();
+    if (!collides && !moves_feet && std::none_of(targets.begin(), targets.end(), [](const BodyTarget& each) {
             return each.weight > 0.0;
         })) {
         state = BodyState{};
@@ -229,19 +229,19 @@ void Body::Work::place_needed(std::span<const rig::Transform> pose) noexcept {
     }
 }
 
-void Body::Work::take(std::span<const rig::Transform> pose) noexcept {
+void Body::Work::read_pose(std::span<const rig::Transform> pose) noexcept {
     place_needed(pose);
     for (Link& link : links) {
         link.start = math::compose(placements[link.node].rotation(), conjugate(link.rest));
         if (link.parent < 0) {
             link.offset = placements[link.node].position;
-            link.own = link.start;
+            link.clip_turn = link.start;
             continue;
         }
         const Link& before = links[static_cast<std::size_t>(link.parent)];
         const glm::dquat back = conjugate(before.start);
         link.offset = rotated(back, minus(placements[link.node].position, placements[before.node].position));
-        link.own = math::compose(back, link.start);
+        link.clip_turn = math::compose(back, link.start);
     }
     const auto own = [&](const Link& link, const glm::dvec3& v) {
         const glm::dmat3& axes = placements[link.node].axes;
@@ -258,8 +258,8 @@ void Body::Work::take(std::span<const rig::Transform> pose) noexcept {
     for (detail::BodyLimb& limb : limbs) {
         const double a = length(links[static_cast<std::size_t>(limb.lower)].offset);
         const double b = length(links[static_cast<std::size_t>(limb.end)].offset);
-        limb.square = a + b > 0.0 ? 0.5 * a * b / (a + b) : 0.0;
-        limb.even = 2.0 * std::sqrt(limb.square * slack_part * (a + b));  // beyond() peaks at the slack
+        limb.quadratic = a + b > 0.0 ? 0.5 * a * b / (a + b) : 0.0;
+        limb.linear = 2.0 * std::sqrt(limb.quadratic * slack_part * (a + b));  // peaks at the slack
     }
 }
 
@@ -277,8 +277,8 @@ Result Body::Work::add_volumes(std::span<const rig::Transform> rest, std::span<c
             if (links[static_cast<std::size_t>(above)].effectors != 0) moved_by |= 1u << above;
         volumes.push_back({capsule, link, moved_by});
     }
-    take(rest);
-    for (Link& link : links) link.turn = link.own;
+    read_pose(rest);
+    for (Link& link : links) link.turn = link.clip_turn;
     place_links(glm::dvec3(0.0));
     const auto placed = [&](const detail::Volume& volume) {
         const Link& link = links[static_cast<std::size_t>(volume.link)];
@@ -287,8 +287,8 @@ Result Body::Work::add_volumes(std::span<const rig::Transform> rest, std::span<c
     };
     for (std::size_t i = 0; i < volumes.size(); ++i) {
         for (std::size_t j = 0; j < volumes.size(); ++j) {
-            const Bone moving = volumes[i].capsule.bone, still = volumes[j].capsule.bone;
-            if (!detail::kept_apart(moving, still) || (detail::kept_apart(still, moving) && j < i)) continue;
+            const Bone first = volumes[i].capsule.bone, other = volumes[j].capsule.bone;
+            if (!detail::may_collide(first, other) || (detail::may_collide(other, first) && j < i)) continue;
             const double allowed = gap(placed(volumes[i]), placed(volumes[j]));
             const double radii = volumes[i].capsule.radius + volumes[j].capsule.radius;
             pairs.push_back({i, j, radii + std::min(allowed, 0.0)});
@@ -315,7 +315,7 @@ void Body::Work::place_links(const glm::dvec3& shift) noexcept {
     }
 }
 
-void Body::Work::give(std::span<rig::Transform> pose, const glm::dvec3& shift) const noexcept {
+void Body::Work::write_pose(std::span<rig::Transform> pose, const glm::dvec3& shift) const noexcept {
     for (const Link& link : links) {
         rig::Transform& local = pose[link.node];
         const glm::dquat was = math::compose(link.start, link.rest);
@@ -334,7 +334,7 @@ void Body::Work::give(std::span<rig::Transform> pose, const glm::dvec3& shift) c
     glm::dvec3 own = shift;
     if (const std::int32_t above = parents[hips.node]; above >= 0) {
         const Placement& from = placements[static_cast<std::size_t>(above)];
-        own = detail::seen_from(from, shift);
+        own = detail::to_local(from, shift);
     }
     pose[hips.node].translation = plus(pose[hips.node].translation, own);
 }

@@ -71,8 +71,8 @@ BodySolve::FootPlace BodySolve::foot_at(const Goal& goal, std::size_t side,
         rolled = plus(was, times(by, std::min(both / (rolling_part * work_.soles->leg), 1.0)));
     }
     now = moved_sole(clip, was, rolled, turn);
-    place.over.heel += now.heel.y - clip.heel.y;
-    place.over.toe += now.toe.y - clip.toe.y;
+    place.heights.heel += now.heel.y - clip.heel.y;
+    place.heights.toe += now.toe.y - clip.toe.y;
     const FootShift& shift = options_.feet[side];
     place.sole = {plus(now.heel, shift.stand), plus(now.toe, shift.stand)};
     place.goal = plus(rolled, shift.stand);
@@ -91,7 +91,7 @@ Support BodySolve::safe_support(const std::array<SolePoints, 2>& soles,
 /// Turns the feet, moves the goals of those that roll, and finds the support.
 void BodySolve::roll_feet() noexcept {
     soles_ = clip_soles_;
-    over_ = clip_heights_;
+    heights_ = clip_heights_;
     foot_target_ = false;
     for (std::size_t k = 0; k < count_; ++k) {
         Goal& goal = goals_[k];
@@ -103,11 +103,11 @@ void BodySolve::roll_feet() noexcept {
         link.turn = place.turn;
         goal.position = place.goal;
         soles_[*side] = place.sole;
-        over_[*side] = place.over;
+        heights_[*side] = place.heights;
         foot_target_ = foot_target_ || goal.target;
     }
     work_.place_links(shift_);
-    safe_ = safe_support(soles_, over_);
+    safe_ = safe_support(soles_, heights_);
 }
 
 /// Allows the imbalance of the clip's own pose.
@@ -127,11 +127,11 @@ double BodySolve::measure_balance() noexcept {
     outside_ = 0.0;
     if (!balances_ || safe_.count == 0) return 0.0;
     centre_ = centre_of_mass();
-    const glm::dvec3 way = level_part(minus(centre_, safe_.nearest(centre_)));
-    const double far = length(way);
-    if (!(far > allowed_)) return 0.0;
-    out_ = times(way, 1.0 / far);
-    outside_ = far - allowed_;
+    const glm::dvec3 offset = level_part(minus(centre_, safe_.nearest(centre_)));
+    const double distance = length(offset);
+    if (!(distance > allowed_)) return 0.0;
+    away_ = times(offset, 1.0 / distance);
+    outside_ = distance - allowed_;
     return 0.5 * balance_weight * outside_ * outside_;
 }
 
@@ -161,7 +161,7 @@ void BodySolve::start_balance_step() noexcept {
     balance_released_ = false;
     if (!balances_ || safe_.count == 0) return;
     find_mass_arms();
-    if (outside_ > 0.0) add_balance_row(out_, outside_);
+    if (outside_ > 0.0) add_balance_row(away_, outside_);
 }
 
 void BodySolve::add_balance_row(const glm::dvec3& out, double by) noexcept {
@@ -190,22 +190,22 @@ void BodySolve::add_support_columns(std::size_t goal_index, std::size_t side,
     const double now = dot(safe_.nearest(centre_), out);
     const auto moved_by = [&](const SolePoints& sole, const SoleHeights& heights) {
         std::array<SolePoints, 2> soles = soles_;
-        std::array<SoleHeights, 2> over = over_;
+        std::array<SoleHeights, 2> over = heights_;
         soles[side] = sole, over[side] = heights;
         const Support support = safe_support(soles, over);
         return support.count > 0 ? dot(support.nearest(centre_), out) - now : 0.0;
     };
     glm::dvec3 by_move{0.0}, by_turn{0.0};
-    const double far = step * work_.soles->leg;
+    const double distance = step * work_.soles->leg;
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 unit{0.0};
         unit[axis] = 1.0;
         const FootPlace turned = foot_at(goal, side, math::compose(rotation_about(unit, step), above));
-        by_turn[axis] = moved_by(turned.sole, turned.over) / step;
+        by_turn[axis] = moved_by(turned.sole, turned.heights) / step;
         if (!goal.target) continue;
         const SolePoints& sole = soles_[side];
-        const glm::dvec3 by = times(unit, far);
-        by_move[axis] = moved_by({plus(sole.heel, by), plus(sole.toe, by)}, over_[side]) / far;
+        const glm::dvec3 by = times(unit, distance);
+        by_move[axis] = moved_by({plus(sole.heel, by), plus(sole.toe, by)}, heights_[side]) / distance;
     }
     Row& balance = rows_[row_count_];
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
@@ -219,7 +219,7 @@ void BodySolve::add_support_columns(std::size_t goal_index, std::size_t side,
     balance.shift = plus(balance.shift, by_move);
 }
 
-bool BodySolve::hold_balance() noexcept {
+bool BodySolve::update_balance() noexcept {
     if (!balances_ || safe_.count == 0) return false;
     if (balance_row_ >= 0) {
         const auto row = static_cast<std::size_t>(balance_row_);
@@ -231,10 +231,10 @@ bool BodySolve::hold_balance() noexcept {
     for (std::size_t i = 0; i < work_.links.size(); ++i)
         if (work_.links[i].effectors != 0) moved = plus(moved, cross(steps_[i].turn, mass_arms_[i]));
     const glm::dvec3 then = plus(centre_, moved), nearest = safe_.nearest(then);
-    const glm::dvec3 way = level_part(minus(then, nearest));
-    const double far = length(way);
-    if (!(far > allowed_ + 1e-9)) return false;
-    const glm::dvec3 out = times(way, 1.0 / far);
+    const glm::dvec3 offset = level_part(minus(then, nearest));
+    const double distance = length(offset);
+    if (!(distance > allowed_ + 1e-9)) return false;
+    const glm::dvec3 out = times(offset, 1.0 / distance);
     add_balance_row(out, dot(level_part(minus(centre_, nearest)), out) - allowed_);
     return true;
 }

@@ -10,7 +10,7 @@ using namespace rig::detail;
 
 void BodySolve::find_contacts() noexcept {
     contact_count_ = 0;
-    if (!touches_) return;
+    if (!collides_) return;
     const auto placed = [&](const Volume& volume) {
         const Link& link = work_.links[static_cast<std::size_t>(volume.link)];
         return PlacedCapsule{plus(link.position, rotated(link.rotation, volume.from)),
@@ -18,11 +18,11 @@ void BodySolve::find_contacts() noexcept {
     };
     for (const Pair& pair : work_.pairs) {
         const Nearest at = nearest(placed(work_.volumes[pair.first]), placed(work_.volumes[pair.second]));
-        const glm::dvec3 way = minus(at.first, at.second);
-        const double distance = length(way);
-        Contact contact{&pair, at.first, at.second, {0.0, 0.0, 1.0}, distance - pair.apart};
+        const glm::dvec3 offset = minus(at.first, at.second);
+        const double distance = length(offset);
+        Contact contact{&pair, at.first, at.second, {0.0, 0.0, 1.0}, distance - pair.min_distance};
         if (contact.gap > contact_range) continue;
-        if (distance > 1e-9) contact.apart = times(way, 1.0 / distance);
+        if (distance > 1e-9) contact.normal = times(offset, 1.0 / distance);
         if (contact_count_ < max_contacts) {
             contacts_[contact_count_++] = contact;
             continue;
@@ -53,7 +53,7 @@ glm::dvec3 BodySolve::contact_column(const Contact& contact, std::size_t link) c
     const bool second = work_.volumes[contact.pair->second].moved_by >> link & 1u;
     if (first == second) return glm::dvec3(0.0);
     const glm::dvec3& point = first ? contact.first : contact.second;
-    const glm::dvec3 column = cross(minus(point, work_.links[link].position), contact.apart);
+    const glm::dvec3 column = cross(minus(point, work_.links[link].position), contact.normal);
     return first ? column : times(column, -1.0);
 }
 
@@ -67,7 +67,7 @@ void BodySolve::add_contact_row(Contact& contact) noexcept {
     ++row_count_;
 }
 
-bool BodySolve::hold_contacts() noexcept {
+bool BodySolve::update_contacts() noexcept {
     bool changed = false;
     for (std::size_t c = 0; c < contact_count_; ++c) {
         Contact& contact = contacts_[c];

@@ -15,7 +15,7 @@ using namespace rig::detail;
 namespace {
 
 /// The rotation that a target asks of its bone, blended by its weight with the rotation without it.
-glm::dquat wanted_rotation(const Link& link, const BodyTarget& target, const glm::dquat& without) noexcept {
+glm::dquat target_rotation(const Link& link, const BodyTarget& target, const glm::dquat& without) noexcept {
     const glm::dquat whole = math::compose(rig::normalised(*target.rotation), conjugate(link.rest));
     return rig::blend(without, whole, target.weight);
 }
@@ -27,7 +27,7 @@ BodySolve::BodySolve(Body::Work& work, std::span<const BodyTarget> targets,
     : work_(work),
       targets_(targets),
       options_(options),
-      touches_(options.self_collision && !work.pairs.empty()) {}
+      collides_(options.self_collision && !work.pairs.empty()) {}
 
 std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodyState& state) noexcept {
     start(pose, state);
@@ -48,14 +48,14 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
             result.settled = true;
             break;
         }
-        keep();
+        save_turns();
         std::array<double, effector_count> before{};
         for (std::size_t k = 0; k < count_; ++k) before[k] = length(goals_[k].error);
         const double part = std::min(1.0, max_step_turn / size), travelled = travel();
         apply(part);
         const double next = measure();
         // The turn back is exact only to first order: its square may cost as much.
-        if (next <= cost + back_ * back_ * back_ * back_) {
+        if (next <= cost + relaxation_ * relaxation_ * relaxation_ * relaxation_) {
             if (const double now = travel(); now > limit) {
                 cut_to(limit, part * std::max(limit - travelled, 0.0) / (now - travelled));
                 break;
@@ -63,7 +63,7 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
             result.settled = next > min_stalled_cost && std::abs(cost - next) < stalled_share * cost;
             cost = next;
             trust.succeeded();
-            relaxation.succeeded(part * back_);
+            relaxation.succeeded(part * relaxation_);
             for (std::size_t k = 0; k < count_; ++k) {
                 Goal& goal = goals_[k];
                 const double now = length(goal.error), was = before[k];
@@ -71,7 +71,7 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
             }
             if (result.settled) break;
         } else {
-            put_back();
+            restore_turns();
             cost = measure();
             trust.failed();
             relaxation.failed();
@@ -80,10 +80,10 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
     const double depth = deepest(), out = outside_;
     std::array<glm::dquat, bone_count> turns;
     for (std::size_t i = 0; i < work_.links.size(); ++i)
-        turns[i] = rig::normalised(math::compose(work_.links[i].turn, conjugate(work_.links[i].own)));
+        turns[i] = rig::normalised(math::compose(work_.links[i].turn, conjugate(work_.links[i].clip_turn)));
     turn_ends();
     if (has_rotations()) find_contacts();  // for the report: hands and head have capsules
-    if (!give(pose)) return std::nullopt;
+    if (!write_pose(pose)) return std::nullopt;
     report(pose, result);
     result.outside = out;
     state.pace = limit;
@@ -104,59 +104,59 @@ std::optional<BodyReport> BodySolve::run(std::span<rig::Transform> pose, BodySta
 
 /// Writes the solution to the pose. False, with the pose unchanged, if it is not finite: bone lengths near
 /// the largest or smallest double lose all their digits.
-bool BodySolve::give(std::span<rig::Transform> pose) noexcept {
+bool BodySolve::write_pose(std::span<rig::Transform> pose) noexcept {
     std::array<rig::Transform, bone_count> before;
     for (std::size_t i = 0; i < work_.links.size(); ++i) before[i] = pose[work_.links[i].node];
-    work_.give(pose, shift_);
-    bool is_sound = is_within(shift_);
-    for (std::size_t k = 0; k < count_; ++k) is_sound = is_sound && is_within(goals_[k].error);
-    for (const Link& link : work_.links) is_sound = is_sound && is_sane(pose[link.node]);
-    if (!is_sound)
+    work_.write_pose(pose, shift_);
+    bool valid = is_within(shift_);
+    for (std::size_t k = 0; k < count_; ++k) valid = valid && is_within(goals_[k].error);
+    for (const Link& link : work_.links) valid = valid && is_sane(pose[link.node]);
+    if (!valid)
         for (std::size_t i = 0; i < work_.links.size(); ++i) pose[work_.links[i].node] = before[i];
-    return is_sound;
+    return valid;
 }
 
 /// Cuts the last step down to the limit.
 void BodySolve::cut_to(double limit, double part) noexcept {
     for (int i = 0; i < max_travel_cuts; ++i, part *= 0.5) {
-        put_back();
+        restore_turns();
         apply(part);
         measure();
         if (travel() <= travel_tolerance * limit) return;
     }
-    put_back();
+    restore_turns();
     measure();
 }
 
 double BodySolve::goals_moved(const BodyState& state) const noexcept {
-    double most = std::max({deepest() - state.deepest, outside_ - state.outside, options_.settle}), far = 0.0,
-           change = 0.0;
+    double largest = std::max({deepest() - state.deepest, outside_ - state.outside, options_.settle}),
+           error = 0.0, change = 0.0;
     std::array<double, effector_count> weights{};
     for (std::size_t k = 0; k < count_; ++k) {
         const Goal& goal = goals_[k];
-        most = std::max(most, length(minus(goal.error, state.left[goal.effector])));
-        far = std::max(far, length(goal.error));
+        largest = std::max(largest, length(minus(goal.error, state.left[goal.effector])));
+        error = std::max(error, length(goal.error));
         if (goal.target) weights[goal.effector] = goal.weight;
     }
     for (std::size_t e = 0; e < effector_count; ++e) {
         const double before = state.weights[e], now = weights[e];
         if (before > 0.0) change = std::max(change, std::abs(now - before) / std::max(now, before));
     }
-    most = std::max(most, change * far);  // conflicting targets share the residual differently now
-    if (state.turns.empty()) return most;
+    largest = std::max(largest, change * error);  // conflicting targets share the residual differently now
+    if (state.turns.empty()) return largest;
     for (std::size_t e = 0; e < effector_count; ++e)
-        most = std::max(most, length(minus(clip_[e], state.clip[e])));
-    return most;
+        largest = std::max(largest, length(minus(clip_[e], state.clip[e])));
+    return largest;
 }
 
 double BodySolve::travel() const noexcept {
-    double most = 0.0;
+    double largest = 0.0;
     for (std::size_t i = 0; i < work_.links.size(); ++i)
-        most = std::max(most, length(minus(work_.links[i].position, work_.first[i])));
+        largest = std::max(largest, length(minus(work_.links[i].position, work_.first[i])));
     for (std::size_t i = 0; i < work_.tips.size(); ++i)
-        most =
-            std::max(most, length(minus(work_.place_of(work_.tips[i]), work_.first[work_.links.size() + i])));
-    return most;
+        largest = std::max(largest,
+                           length(minus(work_.place_of(work_.tips[i]), work_.first[work_.links.size() + i])));
+    return largest;
 }
 
 void BodySolve::set_goals() noexcept {
@@ -185,32 +185,32 @@ void BodySolve::set_goals() noexcept {
 }
 
 void BodySolve::start(std::span<const rig::Transform> pose, const BodyState& state) noexcept {
-    work_.take(pose);
+    work_.read_pose(pose);
     for (std::size_t e = 0; e < effector_count; ++e) clip_[e] = work_.placements[end_of(e).node].position;
     set_goals();
     for (Link& link : work_.links) {
-        link.turn = link.own;
-        link.limit = link.given;
+        link.turn = link.clip_turn;
+        link.limit = link.base_limit;
         widen(link);
     }
     shift_ = glm::dvec3(0.0);
     work_.place_links(shift_);
     start_balance();
     measure();
-    for (BodyLimb& limb : work_.limbs) limb.start = limb.beyond(limb.bend);
+    for (BodyLimb& limb : work_.limbs) limb.start = limb.shortening(limb.bend);
     if (!state.turns.empty()) shift_ = state.shift;
-    unsigned wanted = 0;
-    for (std::size_t k = 0; k < count_; ++k) wanted |= 1u << goals_[k].effector;
+    unsigned targeted = 0;
+    for (std::size_t k = 0; k < count_; ++k) targeted |= 1u << goals_[k].effector;
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
         Link& link = work_.links[i];
         // A limb without a goal takes the clip's pose, gradually if a contact may have moved it. The trunk
         // starts from the last solve and turns back as targets move.
         if (state.turns.empty()) continue;
-        const glm::dquat last = math::compose(state.turns[i], link.own);
-        if ((link.effectors & wanted) != 0)
+        const glm::dquat last = math::compose(state.turns[i], link.clip_turn);
+        if ((link.effectors & targeted) != 0)
             link.turn = last;
-        else if (touches_)
-            link.turn = rig::blend(link.own, last, deflection_kept);
+        else if (collides_)
+            link.turn = rig::blend(link.clip_turn, last, deflection_kept);
         else if (std::popcount(link.effectors) > 1)
             link.turn = last;
         clamp_turn(link);
@@ -220,7 +220,7 @@ void BodySolve::start(std::span<const rig::Transform> pose, const BodyState& sta
             continue;
         hips_given_ = true;
         work_.links.front().turn =
-            wanted_rotation(work_.links.front(), *goals_[k].target, work_.links.front().rotation);
+            target_rotation(work_.links.front(), *goals_[k].target, work_.links.front().rotation);
     }
     work_.place_links(shift_);
     if (balances_) roll_feet();
@@ -247,7 +247,7 @@ double BodySolve::measure() noexcept {
         Goal& goal = goals_[k];
         goal.error = minus(goal.position, end_of(goal.effector).position);
         if (goal.limb) {
-            const double off = goal.limb->beyond(goal.limb->bend) - goal.limb->start;
+            const double off = goal.limb->shortening(goal.limb->bend) - goal.limb->start;
             goal.error = plus(goal.error, times(goal.limb->along, off));
         }
         cost += 0.5 * goal.weight * dot(goal.error, goal.error);
@@ -273,7 +273,7 @@ void BodySolve::turn_ends() noexcept {
 
 glm::dquat BodySolve::rotation_of_end(const Goal& goal, const Link& link) const noexcept {
     if (!goal.target || !goal.target->rotation) return link.start;
-    return wanted_rotation(link, *goal.target, side_of(goal) ? link.start : link.rotation);
+    return target_rotation(link, *goal.target, side_of(goal) ? link.start : link.rotation);
 }
 
 void BodySolve::turn_end(const Goal& goal) noexcept {
@@ -286,7 +286,7 @@ void BodySolve::turn_end(const Goal& goal) noexcept {
         // The lower arm takes part of the twist about its own axis, which moves no joint.
         if (const auto along = direction_of(link.offset, 1e-9)) {
             const double twist =
-                options_.twist_share * (hinge_angle(*along, link.turn) - hinge_angle(*along, link.own));
+                options_.twist_share * (hinge_angle(*along, link.turn) - hinge_angle(*along, link.clip_turn));
             before.turn = math::compose(before.turn, rotation_about(*along, twist));
             link.turn = math::compose(rotation_about(*along, -twist), link.turn);
         }
@@ -300,9 +300,9 @@ void BodySolve::report(std::span<const rig::Transform> pose, BodyReport& report)
         const Goal& goal = goals_[k];
         if (!goal.target) continue;
         const Link& link = end_of(goal.effector);
-        const double left = length(minus(goal.position, work_.placements[link.node].position));
-        report.residuals[goal.effector] = left;
-        report.residual = std::max(report.residual, left);
+        const double error = length(minus(goal.position, work_.placements[link.node].position));
+        report.residuals[goal.effector] = error;
+        report.residual = std::max(report.residual, error);
     }
     report.penetration = deepest();
     for (std::size_t i = 0; i < work_.links.size(); ++i)

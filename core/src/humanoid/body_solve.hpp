@@ -35,14 +35,14 @@ class BodySolve {
         double weight;
         const BodyTarget* target;  ///< null: a foot that stays
         const BodyLimb* limb;      ///< null: the head, the hips
-        glm::dvec3 error{0.0};     ///< from effector to position, metres, corrected by BodyLimb::beyond()
+        glm::dvec3 error{0.0};     ///< from effector to position, metres, corrected by BodyLimb::shortening()
         glm::dvec3 stalled{0.0};   ///< the part of `error` that the last step failed to reduce
     };
     /// Two capsules near each other.
     struct Contact {
         const Pair* pair;
         glm::dvec3 first, second;  ///< nearest points
-        glm::dvec3 apart;          ///< unit, from the second to the first
+        glm::dvec3 normal;         ///< unit, from the second to the first
         double gap;                ///< metres; negative: too near
         int row = -1;              ///< its equation; -1: inactive in this step
         bool released = false;     ///< its row would have pulled the two together
@@ -53,10 +53,10 @@ class BodySolve {
         double weight;
     };
     struct Step {
-        unsigned rows = 0;        ///< a bit for each equation that its turn affects
-        glm::dvec3 turn{0.0};     ///< a rotation vector in the character's space
-        glm::dvec3 back{0.0};     ///< the part of `turn` towards the clip's pose
-        double compliance = 0.0;  ///< radians per unit torque
+        unsigned rows = 0;         ///< a bit for each equation that its turn affects
+        glm::dvec3 turn{0.0};      ///< a rotation vector in the character's space
+        glm::dvec3 relaxing{0.0};  ///< the part of `turn` towards the clip's pose
+        double compliance = 0.0;   ///< radians per unit torque
         TurnFreedom freedom{};
     };
 
@@ -64,7 +64,7 @@ class BodySolve {
         glm::dquat turn;  ///< Link::turn
         glm::dvec3 goal;  ///< for a foot that stays: moves along as it rolls
         SolePoints sole;
-        SoleHeights over;
+        SoleHeights heights;
     };
 
     void set_goals() noexcept;
@@ -86,7 +86,7 @@ class BodySolve {
     /// each other and releases those that would pull. False if nothing changed.
     bool update_active_set() noexcept;
     bool block_limits() noexcept;
-    bool hold_contacts() noexcept;
+    bool update_contacts() noexcept;
     // Balance: body_balance.cpp.
     glm::dvec3 centre_of_mass() const noexcept;
     void roll_feet() noexcept;
@@ -100,7 +100,7 @@ class BodySolve {
     Support safe_support(const std::array<SolePoints, 2>& soles,
                          const std::array<SoleHeights, 2>& over) const noexcept;
     void add_support_columns(std::size_t goal_index, std::size_t side, const glm::dvec3& out) noexcept;
-    bool hold_balance() noexcept;
+    bool update_balance() noexcept;
 
     void find_contacts() noexcept;
     double contact_cost() const noexcept;
@@ -112,12 +112,12 @@ class BodySolve {
     glm::dvec3 contact_column(const Contact& contact, std::size_t link) const noexcept;
     glm::dvec3 allowed_torque(std::size_t link, const glm::dvec3& torque) const noexcept;
     double step_size() const noexcept;
-    void keep() noexcept;
-    void put_back() noexcept;
+    void save_turns() noexcept;
+    void restore_turns() noexcept;
     void apply(double part) noexcept;
     bool has_rotations() const noexcept;
     void turn_ends() noexcept;
-    bool give(std::span<rig::Transform> pose) noexcept;
+    bool write_pose(std::span<rig::Transform> pose) noexcept;
     /// The rotation that a goal asks of its bone, before the limit.
     glm::dquat rotation_of_end(const Goal& goal, const Link& link) const noexcept;
     void turn_end(const Goal& goal) noexcept;
@@ -126,13 +126,13 @@ class BodySolve {
     Body::Work& work_;
     std::span<const BodyTarget> targets_;
     const BodyOptions& options_;
-    bool touches_;  ///< keep capsules apart
+    bool collides_;  ///< keep capsules apart
     std::array<Goal, effector_count> goals_{};
     std::size_t count_ = 0;
     std::array<glm::dvec3, effector_count> clip_{};  ///< the effectors' positions in the clip
     bool hips_given_ = false;                        ///< a target sets the hips' rotation
-    double back_ = 0.0;                              ///< the step's maximum turn back, radians
-    glm::dvec3 shift_{0.0}, shift_step_{0.0}, shift_back_{0.0};
+    double relaxation_ = 0.0;                        ///< the step's maximum turn back, radians
+    glm::dvec3 shift_{0.0}, shift_step_{0.0}, shift_relaxation_{0.0};
     std::array<Step, bone_count> steps_{};
     std::array<std::array<glm::dvec3, max_rows>, bone_count> columns_{};  ///< Jacobian: link, row
     std::array<Row, max_rows> rows_{};
@@ -143,13 +143,13 @@ class BodySolve {
     std::array<SolePoints, 2> clip_soles_{};
     std::array<SoleHeights, 2> clip_heights_{};
     std::array<SolePoints, 2> soles_{};  ///< in the pose being solved, as are their heights
-    std::array<SoleHeights, 2> over_{};
-    bool foot_target_ = false;           ///< a foot has a target
-    Support safe_{};                     ///< where the centre of mass should be
-    double allowed_ = 0.0;               ///< the clip's distance outside of it, metres
-    double outside_ = 0.0;               ///< the distance outside beyond that, metres
-    glm::dvec3 centre_{0.0}, out_{0.0};  ///< the centre of mass; unit, horizontal, away from the safe part
-    int balance_row_ = -1;               ///< its equation; -1: inactive in this step
+    std::array<SoleHeights, 2> heights_{};
+    bool foot_target_ = false;            ///< a foot has a target
+    Support safe_{};                      ///< where the centre of mass should be
+    double allowed_ = 0.0;                ///< the clip's distance outside of it, metres
+    double outside_ = 0.0;                ///< the distance outside beyond that, metres
+    glm::dvec3 centre_{0.0}, away_{0.0};  ///< the centre of mass; unit, horizontal, away from the safe part
+    int balance_row_ = -1;                ///< its equation; -1: inactive in this step
     bool balance_released_ = false;
     std::array<glm::dvec3, bone_count> mass_arms_{};  ///< from a link to the mass it moves, times that mass
     RowEquations equations_{};

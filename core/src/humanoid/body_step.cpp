@@ -44,16 +44,16 @@ glm::dvec3 BodySolve::allowed_torque(std::size_t link, const glm::dvec3& torque)
 
 void BodySolve::find_step(double damping, const Relaxation& relaxation) noexcept {
     double share = relaxation.share(damping);
-    back_ = length(shift_) * share;
+    relaxation_ = length(shift_) * share;
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
         const Link& link = work_.links[i];
-        steps_[i].back = logarithm(math::compose(link.own, conjugate(link.turn)));
+        steps_[i].relaxing = logarithm(math::compose(link.clip_turn, conjugate(link.turn)));
         if (link.effectors != 0 && !(link.parent < 0 && hips_given_))
-            back_ = std::max(back_, share * length(steps_[i].back));
+            relaxation_ = std::max(relaxation_, share * length(steps_[i].relaxing));
     }
-    if (back_ > relaxation.budget()) {
-        share *= relaxation.budget() / back_;
-        back_ = relaxation.budget();
+    if (relaxation_ > relaxation.budget()) {
+        share *= relaxation.budget() / relaxation_;
+        relaxation_ = relaxation.budget();
     }
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
         const Link& link = work_.links[i];
@@ -73,7 +73,7 @@ void BodySolve::find_step(double damping, const Relaxation& relaxation) noexcept
             stiffness += goal.weight * residual_stiffness * std::max(dot(goal.stalled, arm), 0.0);
         }
         step.compliance = 1.0 / stiffness;
-        step.back = rotated(before, times(step.back, share * damping / (link.mobility * stiffness)));
+        step.relaxing = rotated(before, times(step.relaxing, share * damping / (link.mobility * stiffness)));
         for (std::size_t k = 0; k < count_; ++k) {
             const Goal& goal = goals_[k];
             if (!(link.effectors >> goal.effector & 1u)) continue;
@@ -90,7 +90,7 @@ void BodySolve::find_step(double damping, const Relaxation& relaxation) noexcept
                 column[axis] = minus(column[axis], times(goal.limb->about, slope * goal.limb->along[axis]));
         }
     }
-    shift_back_ = times(shift_, -share);
+    shift_relaxation_ = times(shift_, -share);
     add_goal_rows();
     start_balance_step();
     solve_rows(damping);
@@ -112,7 +112,7 @@ void BodySolve::solve_rows(double damping) noexcept {
     RowEquations& e = equations_;
     e.count = row_count_;
     for (std::size_t r = 0; r < row_count_; ++r) {
-        e.b[r] = rows_[r].error - dot(rows_[r].shift, shift_back_);
+        e.b[r] = rows_[r].error - dot(rows_[r].shift, shift_relaxation_);
         for (std::size_t q = 0; q <= r; ++q)
             e.a[r][q] = hips_mobility / damping * dot(rows_[r].shift, rows_[q].shift);
         e.a[r][r] += 1.0 / rows_[r].weight;
@@ -120,7 +120,7 @@ void BodySolve::solve_rows(double damping) noexcept {
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
         const Step& step = steps_[i];
         if (step.rows == 0) continue;
-        const glm::dvec3 back = allowed_torque(i, step.back);
+        const glm::dvec3 back = allowed_torque(i, step.relaxing);
         for (std::size_t r = 0; r < row_count_; ++r) {
             if (!(step.rows >> r & 1u)) continue;
             e.b[r] -= dot(columns_[i][r], back);
@@ -134,7 +134,7 @@ void BodySolve::solve_rows(double damping) noexcept {
     else
         e.solve();
     forces_ = e.b;
-    shift_step_ = shift_back_;
+    shift_step_ = shift_relaxation_;
     for (std::size_t r = 0; r < row_count_; ++r)
         shift_step_ = plus(shift_step_, times(rows_[r].shift, hips_mobility / damping * forces_[r]));
     for (std::size_t i = 0; i < work_.links.size(); ++i) {
@@ -142,12 +142,12 @@ void BodySolve::solve_rows(double damping) noexcept {
         if (work_.links[i].effectors == 0) continue;
         for (std::size_t r = 0; r < row_count_; ++r)
             if (steps_[i].rows >> r & 1u) torque = plus(torque, times(columns_[i][r], forces_[r]));
-        steps_[i].turn = allowed_torque(i, plus(steps_[i].back, times(torque, steps_[i].compliance)));
+        steps_[i].turn = allowed_torque(i, plus(steps_[i].relaxing, times(torque, steps_[i].compliance)));
     }
 }
 
 bool BodySolve::update_active_set() noexcept {
-    const bool limits = block_limits(), balance = hold_balance(), contacts = hold_contacts();
+    const bool limits = block_limits(), balance = update_balance(), contacts = update_contacts();
     return limits || balance || contacts;
 }
 
@@ -171,14 +171,14 @@ double BodySolve::step_size() const noexcept {
     return size;
 }
 
-void BodySolve::keep() noexcept {
-    for (std::size_t i = 0; i < work_.links.size(); ++i) work_.kept[i] = work_.links[i].turn;
-    work_.kept_shift = shift_;
+void BodySolve::save_turns() noexcept {
+    for (std::size_t i = 0; i < work_.links.size(); ++i) work_.saved_turns[i] = work_.links[i].turn;
+    work_.saved_shift = shift_;
 }
 
-void BodySolve::put_back() noexcept {
-    for (std::size_t i = 0; i < work_.links.size(); ++i) work_.links[i].turn = work_.kept[i];
-    shift_ = work_.kept_shift;
+void BodySolve::restore_turns() noexcept {
+    for (std::size_t i = 0; i < work_.links.size(); ++i) work_.links[i].turn = work_.saved_turns[i];
+    shift_ = work_.saved_shift;
     work_.place_links(shift_);
 }
 

@@ -30,10 +30,10 @@ inline constexpr double residual_stiffness = 2.0;
 /// Maximum changes of the active set, limits and contacts, per step.
 inline constexpr int max_active_set_changes = 3;
 
-// The trust region (Levenberg and Marquardt): damping is `caution` times the residual times `damping_length`.
+// The trust region (Levenberg and Marquardt): damping is `lambda` times the residual times `damping_length`.
 
-inline constexpr double first_caution = 0.25, min_caution = 0.01, max_caution = 1e6;
-inline constexpr double caution_after_success = 0.5, caution_after_failure = 8.0;  ///< factors
+inline constexpr double first_lambda = 0.25, min_lambda = 0.01, max_lambda = 1e6;
+inline constexpr double lambda_after_success = 0.5, lambda_after_failure = 8.0;  ///< factors
 /// Range in which a linear step is valid: about half a limb, metres.
 inline constexpr double damping_length = 0.5;
 inline constexpr double min_damping = 1e-8;
@@ -71,20 +71,20 @@ inline constexpr double deflection_kept = 0.7;
 class TrustRegion {
   public:
     double damping(double residual) const noexcept {
-        const double value = caution_ * damping_length * residual;
+        const double value = lambda_ * damping_length * residual;
         return value > min_damping ? value : min_damping;
     }
     void succeeded() noexcept {
-        caution_ *= caution_after_success;
-        if (caution_ < min_caution) caution_ = min_caution;
+        lambda_ *= lambda_after_success;
+        if (lambda_ < min_lambda) lambda_ = min_lambda;
     }
     void failed() noexcept {
-        caution_ *= caution_after_failure;
-        if (caution_ > max_caution) caution_ = max_caution;
+        lambda_ *= lambda_after_failure;
+        if (lambda_ > max_lambda) lambda_ = max_lambda;
     }
 
   private:
-    double caution_ = first_caution;
+    double lambda_ = first_lambda;
 };
 
 /// How far the next step may turn joints back towards the clip's pose.

@@ -20,18 +20,18 @@ namespace detail {
 struct Link {
     Bone bone;
     std::size_t node;
-    int parent;                      ///< a link; -1 for the hips
-    double mobility;                 ///< how readily it turns; an upper arm: 1
-    unsigned effectors;              ///< a bit for each effector that its turn moves
-    glm::dquat rest;                 ///< the node's rotation in the T-pose
-    glm::dvec3 hinge;                ///< unit axis; zero: no hinge
-    ik::detail::LimitedJoint given;  ///< its limit
-    ik::detail::LimitedJoint limit;  ///< the same, widened to the clip's pose
+    int parent;                           ///< a link; -1 for the hips
+    double mobility;                      ///< how readily it turns; an upper arm: 1
+    unsigned effectors;                   ///< a bit for each effector that its turn moves
+    glm::dquat rest;                      ///< the node's rotation in the T-pose
+    glm::dvec3 hinge;                     ///< unit axis; zero: no hinge
+    ik::detail::LimitedJoint base_limit;  ///< its limit
+    ik::detail::LimitedJoint limit;       ///< the same, widened to the clip's pose
 
     // in the clip's pose
-    glm::dvec3 offset;  ///< from the parent link, in its frame
-    glm::dquat start;   ///< rotation
-    glm::dquat own;     ///< rotation in the parent link's frame
+    glm::dvec3 offset;     ///< from the parent link, in its frame
+    glm::dquat start;      ///< rotation
+    glm::dquat clip_turn;  ///< rotation in the parent link's frame
     // in the pose being solved
     glm::dquat turn;  ///< rotation in the parent link's frame
     glm::dquat rotation;
@@ -40,23 +40,23 @@ struct Link {
 
 /// An arm or a leg. Near full length, bending it shortens it by the square of the angle, so it would bend
 /// infinitely fast to follow a target that approaches at constant speed. A solve treats it as shorter by
-/// `beyond(angle)`, so that it shortens linearly from the start.
+/// `shortening(angle)`, so that it shortens linearly from the start.
 struct BodyLimb {
     int upper = -1, lower = -1, end = -1;  ///< links
     glm::dvec3 axis{0.0};                  ///< axis of the bend, in the upper link's frame
-    double square = 0.0;                   ///< shortening, metres per square radian
-    double even = 0.0;                     ///< the linear shortening near straight, metres per radian
-    double start = 0.0;                    ///< beyond() of the clip's pose
+    double quadratic = 0.0;                ///< shortening, metres per square radian
+    double linear = 0.0;                   ///< the linear shortening near straight, metres per radian
+    double start = 0.0;                    ///< shortening() of the clip's pose
     // in the pose being solved
     double bend = 0.0;                  ///< radians
     glm::dvec3 along{0.0}, about{0.0};  ///< unit, from the upper link to the end; axis in character space
 
-    double beyond(double angle) const noexcept {
-        const double value = angle * (even - square * angle);
+    double shortening(double angle) const noexcept {
+        const double value = angle * (linear - quadratic * angle);
         return angle > 0.0 && value > 0.0 ? value : 0.0;
     }
     double slope(double angle) const noexcept {
-        return angle >= 0.0 && square * angle < even ? even - 2.0 * square * angle : 0.0;
+        return angle >= 0.0 && quadratic * angle < linear ? linear - 2.0 * quadratic * angle : 0.0;
     }
 };
 
@@ -76,7 +76,7 @@ struct Volume {
 /// Two capsules that are kept apart, by the sum of their radii or, if less, by their distance at rest.
 struct Pair {
     std::size_t first, second;
-    double apart;  ///< metres, between their axes
+    double min_distance;  ///< metres, between their axes
 };
 
 /// A mass point on a link, also relative to the link, in its frame, with the clip's scale.
@@ -106,18 +106,18 @@ struct Body::Work {
     std::array<int, effector_count> ends{};
     TwistNodes twist;
 
-    std::vector<Placement> placements;  ///< for all nodes; only those in `needed` are current
-    std::vector<glm::dquat> kept;       ///< turns before a step
-    glm::dvec3 kept_shift{0.0};
+    std::vector<Placement> placements;    ///< for all nodes; only those in `needed` are current
+    std::vector<glm::dquat> saved_turns;  ///< turns before a step
+    glm::dvec3 saved_shift{0.0};
     std::vector<glm::dvec3> first;  ///< positions of links, then tips, at the start of the solve
 
     /// Adds the capsules and the pairs to keep apart. Refuses an unmapped bone and numbers out of range.
     Result add_volumes(std::span<const rig::Transform> rest, std::span<const BodyCapsule> capsules);
     void place_needed(std::span<const rig::Transform> pose) noexcept;
     /// Reads the links, volumes and limbs from the clip's pose.
-    void take(std::span<const rig::Transform> pose) noexcept;
+    void read_pose(std::span<const rig::Transform> pose) noexcept;
     /// Writes the links' rotations, and the hips' shift, to the pose.
-    void give(std::span<rig::Transform> pose, const glm::dvec3& shift) const noexcept;
+    void write_pose(std::span<rig::Transform> pose, const glm::dvec3& shift) const noexcept;
     glm::dvec3 place_of(const detail::Tip& tip) const noexcept;
     /// Forward kinematics of the links' turns.
     void place_links(const glm::dvec3& shift) noexcept;

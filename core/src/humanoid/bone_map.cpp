@@ -200,7 +200,7 @@ std::string named(const Skeleton& skeleton, std::int32_t node) {
 constexpr double by_shape_alone = 0.6, contradicted = 0.65, by_name_alone = 0.8, agreed = 0.98;
 
 /// Combines the answers of both readers for a bone.
-BoneMatch weigh(const Skeleton& skeleton, std::int32_t by_name, std::int32_t by_shape) {
+BoneMatch combine_matches(const Skeleton& skeleton, std::int32_t by_name, std::int32_t by_shape) {
     BoneMatch match;
     if (by_name < 0 && by_shape < 0) return match;
     match.node = by_name >= 0 ? by_name : by_shape;
@@ -225,17 +225,17 @@ BoneMatch weigh(const Skeleton& skeleton, std::int32_t by_name, std::int32_t by_
 std::int32_t middle_of_palm(const Skeleton& skeleton, std::int32_t hand) {
     const auto node = [&](std::int32_t i) -> const Node& { return skeleton[static_cast<std::size_t>(i)]; };
     if (hand < 0 || node(hand).parent < 0 || !detail::is_palm_name(node(hand).name)) return hand;
-    for (const std::int32_t beside : skeleton.children(static_cast<std::size_t>(node(hand).parent)))
-        if (detail::is_palm_name(node(beside).name))
-            for (const std::int32_t finger : skeleton.children(static_cast<std::size_t>(beside)))
-                if (detail::finger_named(node(finger).name) == detail::Finger::Middle) return beside;
+    for (const std::int32_t sibling : skeleton.children(static_cast<std::size_t>(node(hand).parent)))
+        if (detail::is_palm_name(node(sibling).name))
+            for (const std::int32_t finger : skeleton.children(static_cast<std::size_t>(sibling)))
+                if (detail::finger_named(node(finger).name) == detail::Finger::Middle) return sibling;
     return hand;
 }
 
 using Path = std::vector<std::int32_t>;
 /// The paths from below the last common ancestor down to each node, continued while nodes have one child.
 /// Mirrored limbs give equally long paths, whichever of their nodes have bones.
-std::array<Path, 2> apart(const Skeleton& skeleton, std::int32_t a, std::int32_t b) {
+std::array<Path, 2> limb_paths(const Skeleton& skeleton, std::int32_t a, std::int32_t b) {
     const auto index = [](std::int32_t node) { return static_cast<std::size_t>(node); };
     const auto path_to = [&](std::int32_t node, std::int32_t other) {
         Path path;
@@ -253,24 +253,24 @@ std::array<Path, 2> apart(const Skeleton& skeleton, std::int32_t a, std::int32_t
 
 /// Limbs with equally many nodes on both sides get their bones at the same nodes. Where they differ, the side
 /// that agrees more with the shape wins.
-void agree(const Skeleton& skeleton, const ShapeReading& shape, BoneMap& map) {
+void mirror_limbs(const Skeleton& skeleton, const ShapeReading& shape, BoneMap& map) {
     constexpr std::size_t bones = 4;
     for (const Bone first : {Bone::LeftShoulder, Bone::LeftUpperLeg}) {
         const auto bone = [&](std::size_t side, std::size_t i) {
             return static_cast<Bone>(static_cast<std::size_t>(side == 0 ? first : mirrored(first)) + i);
         };
         std::array<std::int32_t, 2> ends{-1, -1};
-        std::array<int, 2> sound{};
+        std::array<int, 2> score{};
         for (const std::size_t side : {0u, 1u})
             for (std::size_t i = 0; i < bones; ++i)
                 if (const std::int32_t node = map[bone(side, i)].node; node >= 0) {
                     ends[side] = node;
-                    sound[side] += node == shape[bone(side, i)] ? 2 : 1;
+                    score[side] += node == shape[bone(side, i)] ? 2 : 1;
                 }
         if (ends[0] < 0 || ends[1] < 0) continue;
-        const std::array<Path, 2> paths = apart(skeleton, ends[0], ends[1]);
+        const std::array<Path, 2> paths = limb_paths(skeleton, ends[0], ends[1]);
         if (paths[0].size() != paths[1].size()) continue;
-        const std::size_t better = sound[1] > sound[0] ? 1 : 0;
+        const std::size_t better = score[1] > score[0] ? 1 : 0;
         const auto mirror = [&](std::size_t from, std::size_t i) {
             const auto& path = paths[from];
             const auto at = static_cast<std::size_t>(
@@ -359,9 +359,9 @@ BoneMap match_bones(const Skeleton& skeleton) {
             else
                 taken[static_cast<std::size_t>(by_shape)] = true;
         }
-        map.bones[i] = weigh(skeleton, by_name.found[i], by_shape);
+        map.bones[i] = combine_matches(skeleton, by_name.found[i], by_shape);
     }
-    agree(skeleton, shape, map);
+    mirror_limbs(skeleton, shape, map);
     if (by_name.raised) map[Bone::Hips].reasons = "the legs and the node named hips are below it";
     review(map, skeleton);
     return map;

@@ -30,11 +30,11 @@ class DefaultCapsules {
             while (next < 4 && !has(trunk[next])) ++next;
             add(trunk[i], has(trunk[next]) ? trunk[next] : Bone::Head, 0.13);
         }
-        beyond(Bone::Head, Bone::Neck, 0.05, 0.1, 0.095);
+        add_end(Bone::Head, Bone::Neck, 0.05, 0.1, 0.095);
         for (const Bone upper : {Bone::LeftUpperArm, Bone::RightUpperArm}) limb(upper, 0.045, 0.038);
         for (const Bone upper : {Bone::LeftUpperLeg, Bone::RightUpperLeg}) limb(upper, 0.075, 0.05);
-        beyond(Bone::LeftHand, Bone::LeftLowerArm, 0.02, 0.1, 0.04);
-        beyond(Bone::RightHand, Bone::RightLowerArm, 0.02, 0.1, 0.04);
+        add_end(Bone::LeftHand, Bone::LeftLowerArm, 0.02, 0.1, 0.04);
+        add_end(Bone::RightHand, Bone::RightLowerArm, 0.02, 0.1, 0.04);
         return std::move(capsules_);
     }
 
@@ -61,7 +61,7 @@ class DefaultCapsules {
         if (has(bone) && has(next)) put(bone, at(bone).position, at(next).position, radius);
     }
     /// Adds a capsule from `start` to `end` past a bone's joint, in the direction from `before`.
-    void beyond(Bone bone, Bone before, double start, double end, double radius) {
+    void add_end(Bone bone, Bone before, double start, double end, double radius) {
         if (!has(bone)) return;
         glm::dvec3 along{0.0, 1.0, 0.0};
         if (has(before))
@@ -71,8 +71,8 @@ class DefaultCapsules {
     }
     void put(Bone bone, const glm::dvec3& from, const glm::dvec3& to, double radius) {
         const Placement& own = at(bone);
-        capsules_.push_back({bone, detail::seen_from(own, minus(from, own.position)),
-                             detail::seen_from(own, minus(to, own.position)), radius * size_});
+        capsules_.push_back({bone, detail::to_local(own, minus(from, own.position)),
+                             detail::to_local(own, minus(to, own.position)), radius * size_});
     }
 
     const BoneMap& map_;

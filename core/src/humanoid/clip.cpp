@@ -205,7 +205,7 @@ std::optional<Frames> own_frames(const Clip& clip) noexcept {
 
 /// The exact rate for a rate that a file has rounded: the nearest whole number, or 1000/1001 of one as in
 /// television (SMPTE 12M). Four decimals of a thirtieth of a second are 0.1 % off.
-double meant(double rate) noexcept {
+double snap_rate(double rate) noexcept {
     constexpr double television = 1000.0 / 1001.0;
     const double whole = std::floor(rate + 0.5), slow = std::floor(rate / television + 0.5) * television;
     const double nearest = std::abs(rate - whole) <= std::abs(rate - slow) ? whole : slow;
@@ -245,12 +245,12 @@ double frame_rate(const Clip& clip) noexcept {
         const double slowest = own && !has_curves(clip) ? 5.0 : 20.0;
         if (!(rate > slowest * 0.999 && rate <= 1000.0)) return 60.0;
     }
-    const double nearest = meant(rate);
+    const double nearest = snap_rate(rate);
     return nearest == std::floor(nearest) ? nearest : rate;
 }
 
 Frames frames_at(const Clip& clip, double rate) noexcept {
-    if (const auto own = own_frames(clip); own && meant(1.0 / own->step) == meant(rate)) return *own;
+    if (const auto own = own_frames(clip); own && snap_rate(1.0 / own->step) == snap_rate(rate)) return *own;
     return {static_cast<std::size_t>(std::floor(clip.duration * rate + rounded_frame)) + 1, 1.0 / rate};
 }
 

@@ -38,7 +38,7 @@ glm::dvec3 ball_of(const Sole& sole, std::span<const Placement> rest) noexcept {
     if (sole.foot != sole.toes && along > 1e-12)
         part = std::clamp(((toes.position.x - heel.x) * way.x + (toes.position.z - heel.z) * way.z) / along,
                           0.0, 1.0);
-    return detail::seen_from(toes, minus(plus(heel, times(way, part)), toes.position));
+    return detail::to_local(toes, minus(plus(heel, times(way, part)), toes.position));
 }
 
 }  // namespace

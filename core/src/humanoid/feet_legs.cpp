@@ -11,35 +11,35 @@ using namespace rig::detail;
 namespace {
 
 /// A foot's goal that moves faster than this fraction of max_speed is a jump of the ground.
-constexpr double jump_part = 0.6;
+constexpr double max_step_part = 0.6;
 /// The fraction of max_speed at which a foot catches up with a goal that itself rises along a slope.
-constexpr double catching_up = 0.3;
+constexpr double catch_up_part = 0.3;
 /// The fraction of max_speed at which the hips are lowered for a foot that comes down.
 constexpr double landing = 0.15;
 /// The multiple of max_speed at which a foot that goes up and aside at once moves relative to the clip.
-constexpr double both_ways = 1.25;
+constexpr double diagonal = 1.25;
 /// A foot shifted away from an edge stands once no more than this of the shift remains, metres.
-constexpr double shifting = 0.001;
+constexpr double shift_tolerance = 0.001;
 
 /// Knees bend forwards.
 Pole pole_of(const glm::dvec3& forward) noexcept {
     return {.direction = forward, .part = 0.1, .always = true};
 }
 
-/// The largest fraction of a way, 0 to 1, that `may` allows, by bisection.
-template <class May>
-double part_of_way(const May& may) noexcept {
-    if (may(1.0)) return 1.0;
+/// The largest fraction of a way, 0 to 1, that `allowed` accepts, by bisection.
+template <class Allowed>
+double max_part(const Allowed& allowed) noexcept {
+    if (allowed(1.0)) return 1.0;
     double part = 0.0;
     for (double step = 0.5; step > 0.01; step *= 0.5)
-        if (may(part + step)) part += step;
+        if (allowed(part + step)) part += step;
     return part;
 }
 
 }  // namespace
 
 /// How far the hips must be lowered for the leg to reach; negative if the leg has length to spare.
-double FeetStep::missing(std::size_t i, double lift) const noexcept {
+double FeetStep::shortfall(std::size_t i, double lift) const noexcept {
     const LimbPlacement& leg = legs_[i];
     const glm::dvec3 way = minus(plus(leg.end.position, goals_[i].slip), leg.upper.position);
     const double longest = reach_of(leg, options_.straightest).longest;
@@ -49,7 +49,7 @@ double FeetStep::missing(std::size_t i, double lift) const noexcept {
 
 /// How far the lift may change in this step, less for a foot whose offset moves fast.
 double FeetStep::lift_limit(std::size_t i) const noexcept {
-    const double most = options_.max_speed * dt_, together = both_ways * most, level = goals_[i].shifted;
+    const double most = options_.max_speed * dt_, together = diagonal * most, level = goals_[i].shifted;
     return std::min(most, std::sqrt(std::max(0.0, together * together - level * level)));
 }
 
@@ -58,7 +58,7 @@ void FeetStep::ease_lift(std::size_t i, double goal, double rise) const noexcept
     FootState& foot = state_.feet[i];
     const double most = options_.max_speed * dt_, change = goal - foot.goal, before = foot.lift;
     foot.goal = goal;
-    if (fresh_) {
+    if (first_step_) {
         foot.lift = goal;
         foot.ease = {.started = true};
         return;
@@ -67,12 +67,12 @@ void FeetStep::ease_lift(std::size_t i, double goal, double rise) const noexcept
         foot.goal = goal - change;
         return;
     }
-    if (std::abs(change - rise) > jump_part * most) foot.ease.value -= change - rise;
+    if (std::abs(change - rise) > max_step_part * most) foot.ease.value -= change - rise;
     // Eases faster upwards: the edge to clear may be near.
     const double half_life = options_.lift_half_life * (foot.ease.value < 0.0 ? 0.85 : 1.0);
     const double sprung = step_spring(foot.ease, half_life, 0.0, dt_);
-    const double limit = std::max(lift_limit(i), std::abs(rise) + catching_up * most);
-    foot.lift = toward(before, goal + sprung, limit);
+    const double limit = std::max(lift_limit(i), std::abs(rise) + catch_up_part * most);
+    foot.lift = move_toward(before, goal + sprung, limit);
     if (foot.lift != goal + sprung) set(foot.ease, sprung, foot.lift - goal, 0.0);
     if (std::abs(foot.ease.value) < 1e-9) {
         foot.ease.value = 0.0;
@@ -86,18 +86,18 @@ void FeetStep::lower_pelvis() noexcept {
     for (std::size_t i = 0; i < 2; ++i) {
         const FootState& foot = state_.feet[i];
         if (foot.alone != FootAlone::No) continue;
-        const double by = std::min(missing(i, foot.lift), options_.pelvis_drop);
+        const double by = std::min(shortfall(i, foot.lift), options_.pelvis_drop);
         needed = std::max(needed, by);
         if (foot.locked)
             at_once = std::max(at_once, is_standing(i) ? by : std::min(by, state_.drop + landing * most));
     }
     const double before = state_.drop;
-    if (fresh_) {
+    if (first_step_) {
         state_.drop = needed;
         state_.pelvis = {.value = needed, .previous_target = needed, .started = true};
     } else if (dt_ > 0.0) {
         const double sprung = step_spring(state_.pelvis, options_.pelvis_half_life, needed, dt_);
-        state_.drop = toward(before, std::max(sprung, at_once), most);
+        state_.drop = move_toward(before, std::max(sprung, at_once), most);
         state_.drop = std::min(state_.drop, options_.pelvis_drop);
         if (state_.drop != sprung) set(state_.pelvis, before, state_.drop, dt_);
         if (needed == 0.0 && state_.drop < 1e-9) state_.drop = 0.0;
@@ -109,32 +109,32 @@ glm::dvec3 FeetStep::target(std::size_t i, double lift) const noexcept {
     return plus(clips_[i].ankle, {slip.x, lift, slip.z});
 }
 
-/// The knee's speed relative to the clip, as a fraction of max_speed, if the hips are raised by `along` and
+/// The knee's speed relative to the clip, as a fraction of max_speed, if the hips are raised by `raise` and
 /// the ankle by `lift`.
-double FeetStep::knee_speed(std::size_t i, double along, double lift) const noexcept {
-    const glm::dvec3 on_hips = target(i, lift - along);
+double FeetStep::knee_speed(std::size_t i, double raise, double lift) const noexcept {
+    const glm::dvec3 on_hips = target(i, lift - raise);
     const glm::dvec3 knee = detail::bend_to(legs_[i], on_hips, pole_of(poles_[i]), options_.straightest).mid;
-    const glm::dvec3 correction = plus(minus(knee, knees_[i]), {0.0, along, 0.0});
+    const glm::dvec3 correction = plus(minus(knee, knees_[i]), {0.0, raise, 0.0});
     return length(minus(correction, state_.feet[i].knee)) / (options_.max_speed * dt_);
 }
 
 /// The knee of a nearly straight leg moves several times as far as the leg's ends. If the foot stands, the
 /// hips move only as far as the knee's speed allows, but no less than the leg needs.
-void FeetStep::spare_standing_knees() noexcept {
-    if (fresh_ || !(dt_ > 0.0)) return;
-    const double from = along_, way = state_.base - state_.drop - from;
-    const double part = part_of_way([&](double some) {
+void FeetStep::limit_standing_knees() noexcept {
+    if (first_step_ || !(dt_ > 0.0)) return;
+    const double from = last_raise_, way = state_.base - state_.drop - from;
+    const double part = max_part([&](double some) {
         for (std::size_t i = 0; i < 2; ++i)
             if (is_standing(i) && knee_speed(i, from + way * some, state_.feet[i].lift) > 1.0) return false;
         return true;
     });
     if (part == 1.0) return;
-    double along = from + way * part;
+    double raise = from + way * part;
     for (std::size_t i = 0; i < 2; ++i)
         if (is_standing(i))
-            along = std::min(along,
-                             state_.base - std::min(missing(i, state_.feet[i].lift), options_.pelvis_drop));
-    const double drop = std::clamp(state_.base - along, 0.0, options_.pelvis_drop);
+            raise = std::min(raise,
+                             state_.base - std::min(shortfall(i, state_.feet[i].lift), options_.pelvis_drop));
+    const double drop = std::clamp(state_.base - raise, 0.0, options_.pelvis_drop);
     set(state_.pelvis, state_.drop, drop, 0.0);
     state_.drop = drop;
 }
@@ -142,30 +142,30 @@ void FeetStep::spare_standing_knees() noexcept {
 /// A foot whose leg cannot reach down stays above its place, not beside it.
 void FeetStep::stay_above(std::size_t i) noexcept {
     FootState& foot = state_.feet[i];
-    const double short_by = missing(i, foot.lift) - state_.drop;
-    if (fresh_ || is_standing(i) || !(dt_ > 0.0) || !(short_by > 0.0)) return;
-    foot.lift = toward(lifts_[i], foot.lift + short_by, lift_limit(i));
+    const double short_by = shortfall(i, foot.lift) - state_.drop;
+    if (first_step_ || is_standing(i) || !(dt_ > 0.0) || !(short_by > 0.0)) return;
+    foot.lift = move_toward(lifts_[i], foot.lift + short_by, lift_limit(i));
     foot.ease.value = foot.lift - foot.goal;
 }
 
 /// A foot in the air moves only as far as the knee's speed allows.
-void FeetStep::spare_knee(std::size_t i, double along) noexcept {
+void FeetStep::limit_knee(std::size_t i, double raise) noexcept {
     FootState& foot = state_.feet[i];
-    if (fresh_ || is_standing(i) || !(dt_ > 0.0)) return;
+    if (first_step_ || is_standing(i) || !(dt_ > 0.0)) return;
     const double from = lifts_[i], way = foot.lift - from;
     // The knee of a foot that rises along a slope rises with it.
     const double fastest = 1.0 + std::max(0.0, goals_[i].rise) / (options_.max_speed * dt_);
     const double part =
-        part_of_way([&](double some) { return knee_speed(i, along, from + way * some) <= fastest; });
+        max_part([&](double some) { return knee_speed(i, raise, from + way * some) <= fastest; });
     if (part == 1.0) return;
     foot.lift = from + way * part;
     if (part == 0.0) {
         // The clip itself moves the leg too fast: choose the lift with the slowest knee.
         const double most = lift_limit(i);
-        double least = knee_speed(i, along, from);
+        double least = knee_speed(i, raise, from);
         for (const double by : {0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0, -1.0}) {
             if (least <= fastest) break;
-            const double speed = knee_speed(i, along, from + most * by);
+            const double speed = knee_speed(i, raise, from + most * by);
             if (speed >= least) continue;
             least = speed;
             foot.lift = from + most * by;
@@ -175,30 +175,30 @@ void FeetStep::spare_knee(std::size_t i, double along) noexcept {
 }
 
 void FeetStep::move() noexcept {
-    const double along = state_.base - state_.drop;
+    const double raise = state_.base - state_.drop;
     for (std::size_t i = 0; i < 2; ++i) {
         if (state_.feet[i].alone != FootAlone::No)
-            ease_lift(i, along, 0.0);
+            ease_lift(i, raise, 0.0);
         else
             stay_above(i);
-        spare_knee(i, along);
+        limit_knee(i, raise);
     }
-    if (along != 0.0) {
-        const glm::dvec3 by = seen_from(above_hips_, {0.0, along, 0.0});
+    if (raise != 0.0) {
+        const glm::dvec3 by = to_local(above_hips_, {0.0, raise, 0.0});
         pose_[plan_.hips].translation = plus(pose_[plan_.hips].translation, by);
-        for (LimbPlacement& leg : legs_) leg.move({0.0, along, 0.0});
+        for (LimbPlacement& leg : legs_) leg.move({0.0, raise, 0.0});
     }
     for (std::size_t i = 0; i < 2; ++i) {
         FootState& foot = state_.feet[i];
-        if (!(foot.lift == along && goals_[i].slip == glm::dvec3(0.0) &&
+        if (!(foot.lift == raise && goals_[i].slip == glm::dvec3(0.0) &&
               foot.turn == glm::dquat{1.0, 0.0, 0.0, 0.0})) {
             const glm::dvec3 ankle = target(i, foot.lift);
             const Bend bend = detail::bend_to(legs_[i], ankle, pole_of(poles_[i]), options_.straightest);
             apply(bend, foot.turn, plan_.legs[i], legs_[i], pose_);
-            short_of_[i] = length(minus(legs_[i].end.position, ankle));
+            shortfalls_[i] = length(minus(legs_[i].end.position, ankle));
         }
-        foot.standing = foot.locked && std::abs(foot.lift - goals_[i].contact) + short_of_[i] <= touching &&
-                        std::abs(foot.shift_x) + std::abs(foot.shift_z) <= shifting;
+        foot.standing = foot.locked && std::abs(foot.lift - goals_[i].contact) + shortfalls_[i] <= max_gap &&
+                        std::abs(foot.shift_x) + std::abs(foot.shift_z) <= shift_tolerance;
         foot.knee = minus(legs_[i].lower.position, knees_[i]);
         foot.heel = clips_[i].heel;
         foot.toe = clips_[i].toe;

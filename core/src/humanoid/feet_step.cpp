@@ -14,9 +14,9 @@ using namespace rig::detail;
 namespace {
 
 /// If the hips move farther and faster than this in a step, the clip has jumped; metres and m/s.
-constexpr double jump = 1.0, jump_speed = 20.0;
+constexpr double min_jump = 1.0, min_jump_speed = 20.0;
 /// A leg that could not reach is used again once it falls short by less than this fraction of pelvis_drop.
-constexpr double reach_again = 0.9;
+constexpr double reach_again_part = 0.9;
 
 /// Keeps the transforms that a step may change, to blend or restore them.
 class Saved {
@@ -65,9 +65,9 @@ bool FeetStep::place() noexcept {
     }
     floor_ = root.apply({0.0, options_.floor.value_or(plan_.soles.floor), 0.0}).y;
     steepest_ = math::sine_cosine(options_.max_slope / (2.0 * math::pi)).cosine;
-    if (!state_.started || is_elsewhere()) state_ = {};
-    fresh_ = !state_.started;
-    along_ = state_.base - state_.drop;
+    if (!state_.started || has_jumped()) state_ = {};
+    first_step_ = !state_.started;
+    last_raise_ = state_.base - state_.drop;
     for (std::size_t i = 0; i < 2; ++i) {
         lifts_[i] = state_.feet[i].lift;
         knees_[i] = legs_[i].lower.position;
@@ -86,10 +86,10 @@ void FeetStep::point_knees() noexcept {
     }
 }
 
-bool FeetStep::is_elsewhere() const noexcept {
+bool FeetStep::has_jumped() const noexcept {
     if (dt_ > 0.0) {
         const double moved = length(minus(hips_.position, state_.hips));
-        return moved > jump && moved > jump_speed * dt_;
+        return moved > min_jump && moved > min_jump_speed * dt_;
     }
     bool same = hips_.position == state_.hips;
     for (std::size_t i = 0; i < 2; ++i)
@@ -129,17 +129,17 @@ double FeetStep::ground_around() const noexcept {
     return count > 0 ? sum / count : state_.base;
 }
 
-void FeetStep::ride() noexcept {
-    if (fresh_) state_.base = first_base();
+void FeetStep::raise_root() noexcept {
+    if (first_step_) state_.base = first_base();
     const double before = state_.base, target = ground_around();
-    if (fresh_) {
+    if (first_step_) {
         state_.base = target;
         state_.root = {.value = target, .previous_target = target, .started = true};
         return;
     }
     if (!(dt_ > 0.0)) return;
     const double sprung = step_spring(state_.root, options_.root_half_life, target, dt_);
-    state_.base = toward(before, sprung, options_.max_speed * dt_);
+    state_.base = move_toward(before, sprung, options_.max_speed * dt_);
     if (state_.base != sprung) set(state_.root, before, state_.base, dt_);
     if (target == 0.0 && std::abs(state_.base) < 1e-9) state_.base = 0.0;
 }
@@ -148,18 +148,18 @@ void FeetStep::find_feet() noexcept {
     const FootContext context{.ground = ground_,
                               .options = options_,
                               .dt = dt_,
-                              .fresh = fresh_,
+                              .first_step = first_step_,
                               .floor = floor_,
                               .base = state_.base,
-                              .eased = math::decay(math::ln2 * dt_ / options_.half_life),
+                              .decay = math::decay(math::ln2 * dt_ / options_.half_life),
                               .steepest = steepest_};
     for (std::size_t i = 0; i < 2; ++i) {
         FootState& foot = state_.feet[i];
         const bool was_out_of_reach = foot.alone == FootAlone::CannotReach;
         const glm::dvec3 eased = detail::update_lock(foot, clips_[i], context);
         goals_[i] = detail::find_goal(foot, clips_[i], eased, context);
-        const double most = options_.pelvis_drop * (was_out_of_reach ? reach_again : 1.0);
-        if (foot.alone == FootAlone::No && missing(i, goals_[i].lift) > most)
+        const double most = options_.pelvis_drop * (was_out_of_reach ? reach_again_part : 1.0);
+        if (foot.alone == FootAlone::No && shortfall(i, goals_[i].lift) > most)
             foot.alone = FootAlone::CannotReach;
         if (foot.alone != FootAlone::No) {
             foot.locked = foot.speed_known = false;
@@ -183,7 +183,7 @@ FeetReport FeetStep::report() const noexcept {
             return hit ? point.y - hit->height : 1e300;
         };
         const double lowest = std::min(over(made.heel), over(made.toe));
-        made.planted = foot.standing && std::abs(lowest) <= touching;
+        made.planted = foot.standing && std::abs(lowest) <= max_gap;
         made.depth = std::max(0.0, -std::min(lowest, over(legs_[i].tail.apply(plan_.balls[i]))));
         made.late = std::max(0.0, foot.goal - foot.lift);
     }
@@ -201,10 +201,10 @@ FeetReport Feet::step(std::span<rig::Transform> pose, const Ground& ground, doub
     FeetState next = state;
     detail::FeetStep step(plan, pose, ground, dt, next, options);
     if (!step.place()) return {.valid = false};
-    step.ride();
+    step.raise_root();
     step.find_feet();
     step.lower_pelvis();
-    step.spare_standing_knees();
+    step.limit_standing_knees();
     detail::Saved saved(pose, plan.hips, plan.legs);
     step.move();
     FeetReport report = step.report();
@@ -219,10 +219,10 @@ FeetReport Feet::step(std::span<rig::Transform> pose, const Ground& ground, doub
         }
     }
     // Extremely short or long bones may give unusable numbers.
-    bool is_sound = saved.is_sane() && check(next);
+    bool valid = saved.is_sane() && check(next);
     for (const FootReport& foot : report.feet)
-        is_sound = is_sound && detail::is_within(foot.heel) && detail::is_within(foot.toe);
-    if (!is_sound) {
+        valid = valid && detail::is_within(foot.heel) && detail::is_within(foot.toe);
+    if (!valid) {
         saved.restore();
         return {.valid = false};
     }

@@ -9,7 +9,7 @@
 namespace tendril::humanoid::detail {
 
 /// A foot this near to the ground stands, metres; the distance includes what its leg falls short by.
-inline constexpr double touching = 0.003;
+inline constexpr double max_gap = 0.003;
 
 /// Advances a critically damped spring.
 inline double step_spring(signal::SpringState<double>& spring, double half_life, double target,
@@ -22,7 +22,7 @@ inline void set(signal::SpringState<double>& spring, double before, double value
     spring.value = value;
     if (dt > 0.0) spring.velocity = (value - before) / dt;
 }
-inline double toward(double from, double to, double most) noexcept {
+inline double move_toward(double from, double to, double most) noexcept {
     return std::clamp(to, from - most, from + most);
 }
 
@@ -40,29 +40,29 @@ class FeetStep {
     /// False if the pose is not finite.
     bool place() noexcept;
     // Then, in this order:
-    void ride() noexcept;
+    void raise_root() noexcept;
     void find_feet() noexcept;
     void lower_pelvis() noexcept;
-    void spare_standing_knees() noexcept;
+    void limit_standing_knees() noexcept;
     void move() noexcept;
     FeetReport report() const noexcept;
 
   private:
     void point_knees() noexcept;
-    bool is_elsewhere() const noexcept;
+    bool has_jumped() const noexcept;
     bool is_ground(const std::optional<GroundHit>& hit, double around) const noexcept;
     double first_base() const noexcept;
     double ground_around() const noexcept;
-    double missing(std::size_t leg, double lift) const noexcept;
+    double shortfall(std::size_t leg, double lift) const noexcept;
     double lift_limit(std::size_t leg) const noexcept;
     void ease_lift(std::size_t leg, double goal, double rise) const noexcept;
     glm::dvec3 target(std::size_t leg, double lift) const noexcept;
-    double knee_speed(std::size_t leg, double along, double lift) const noexcept;
+    double knee_speed(std::size_t leg, double raise, double lift) const noexcept;
     bool is_standing(std::size_t leg) const noexcept {
         return state_.feet[leg].standing && state_.feet[leg].locked;
     }
     void stay_above(std::size_t leg) noexcept;
-    void spare_knee(std::size_t leg, double along) noexcept;
+    void limit_knee(std::size_t leg, double raise) noexcept;
 
     const FeetPlan& plan_;
     Pose pose_;
@@ -70,16 +70,16 @@ class FeetStep {
     double dt_;
     FeetState& state_;
     const FeetOptions& options_;
-    bool fresh_ = false;
+    bool first_step_ = false;
     double floor_ = 0.0, steepest_ = 0.0;
     Placement above_hips_, hips_;
     std::array<LimbPlacement, 2> legs_;
     std::array<FootClip, 2> clips_;
     std::array<FootGoal, 2> goals_;
     std::array<glm::dvec3, 2> knees_, poles_;  // the clip's knees; the directions in which knees point
-    double along_ = 0.0;                       // how far the hips were raised before the step
+    double last_raise_ = 0.0;                  // how far the hips were raised before the step
     std::array<double, 2> lifts_{};            // before the step
-    std::array<double, 2> short_of_{};         // how far the leg's end is from its target
+    std::array<double, 2> shortfalls_{};       // how far the leg's end is from its target
 };
 
 }  // namespace tendril::humanoid::detail

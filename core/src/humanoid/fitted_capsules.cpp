@@ -13,12 +13,12 @@ namespace {
 
 using namespace rig::detail;
 
-constexpr std::size_t fewest = 16;  // points
-constexpr double inside = 0.8;      // fraction of the points that must be within the radius
+constexpr std::size_t min_points = 16;   // points
+constexpr double min_inside_part = 0.8;  // fraction of the points that must be within the radius
 /// Fraction of the points ignored at each end of the line, and at each side when centring it.
 constexpr double at_ends = 0.02, at_sides = 0.15;
 /// Minimum and maximum radius of a fit, and its maximum distance from the bone, in radii of the default.
-constexpr double thinnest = 0.4, thickest = 3.0, farthest_aside = 0.75;
+constexpr double min_radius = 0.4, max_radius = 3.0, max_offset = 0.75;
 /// How far before and beyond the bone the line of a head or a hand may extend, in radii of the default.
 constexpr double before = 2.0, beyond = 4.0;
 
@@ -57,9 +57,9 @@ Line centred(const Line& line, const Facing& facing, const std::vector<glm::dvec
 std::optional<PlacedCapsule> fitted(const PlacedCapsule& usual, const Facing& facing, bool ends_free,
                                     const std::vector<glm::dvec3>& points) {
     const double bone = length(minus(usual.to, usual.from));
-    if (points.size() < fewest || !(bone > 1e-6) || !(usual.radius > 0.0)) return std::nullopt;
+    if (points.size() < min_points || !(bone > 1e-6) || !(usual.radius > 0.0)) return std::nullopt;
     const Line line = centred({usual.from, times(minus(usual.to, usual.from), 1.0 / bone)}, facing, points,
-                              farthest_aside * usual.radius);
+                              max_offset * usual.radius);
     std::vector<double> places, offs;
     for (const glm::dvec3& point : points) places.push_back(line.along(point));
     double low = quantile(places, at_ends), high = quantile(places, 1.0 - at_ends);
@@ -70,9 +70,9 @@ std::optional<PlacedCapsule> fitted(const PlacedCapsule& usual, const Facing& fa
     for (const glm::dvec3& point : points)
         if (const double place = line.along(point); place >= low && place <= high)
             offs.push_back(line.off(point));
-    if (offs.size() < fewest) return std::nullopt;
-    const double radius = quantile(offs, inside);
-    if (!(radius >= thinnest * usual.radius && radius <= thickest * usual.radius)) return std::nullopt;
+    if (offs.size() < min_points) return std::nullopt;
+    const double radius = quantile(offs, min_inside_part);
+    if (!(radius >= min_radius * usual.radius && radius <= max_radius * usual.radius)) return std::nullopt;
     if (ends_free) {  // the caps at the ends reach as far as the points
         const double middle = 0.5 * (low + high);
         low = std::min(low + radius, middle), high = std::max(high - radius, middle);
@@ -119,8 +119,8 @@ std::vector<BodyCapsule> fitted_capsules(const Skeleton& skeleton, const BoneMap
         const auto fit = fitted(place(capsule, map, rest), at_rest, ends_free,
                                 of_bone[static_cast<std::size_t>(capsule.bone)]);
         if (!fit) continue;
-        capsule.from = detail::seen_from(at, minus(fit->from, at.position));
-        capsule.to = detail::seen_from(at, minus(fit->to, at.position));
+        capsule.from = detail::to_local(at, minus(fit->from, at.position));
+        capsule.to = detail::to_local(at, minus(fit->to, at.position));
         capsule.radius = fit->radius;
     }
     return capsules;

@@ -14,18 +14,18 @@ constexpr glm::dvec3 up{0.0, 1.0, 0.0};
 constexpr double standing = 0.015;
 /// A foot locks again once its offset has eased to this fraction of break_distance: otherwise a foot that
 /// slides in the clip would alternate between locked and released.
-constexpr double lock_again = 0.25;
+constexpr double relock_part = 0.25;
 /// Maximum speed at which the ground turns a foot, radians per second.
 constexpr double turn_speed = 3.0;
 /// m/s. Higher speeds come from a tiny dt, not from motion.
 constexpr double fastest = 1e3;
 /// The slowest speed of a foot that goes to its foothold, m/s, and the fastest, as a fraction of max_speed.
-constexpr double slowest_shift = 0.4, fastest_shift = 0.6;
+constexpr double min_shift_speed = 0.4, max_shift_part = 0.6;
 /// A foot is about to land if the clip brakes it so hard that it stops within this time, this near to the
 /// floor; seconds, metres.
 constexpr double landing_time = 0.15, landing_height = 0.15;
 
-constexpr double waiting = 0.75, patience = 0.65, least_clearance = 0.02;
+constexpr double hold_speed_part = 0.75, max_hold_part = 0.65, min_clearance = 0.02;
 
 glm::dvec3 level(const glm::dvec3& v) noexcept {
     return {v.x, 0.0, v.z};
@@ -44,7 +44,7 @@ struct Footing {
             const FootContext& context) noexcept
         : heel(context.ground.below({heel_at.x, from, heel_at.z})),
           toe(context.ground.below({toe_at.x, from, toe_at.z})) {
-        const FootAlone why_heel = judge(heel, context), why_toe = judge(toe, context);
+        const FootAlone why_heel = check_ground(heel, context), why_toe = check_ground(toe, context);
         const auto is_wall = [&](const std::optional<GroundHit>& hit, FootAlone why) {
             return why == FootAlone::TooSteep ||
                    (why == FootAlone::TooFar && hit->height > context.floor + context.base);
@@ -68,7 +68,7 @@ struct Footing {
 };
 
 /// The turn from straight up to the normal, by at most `most` radians.
-glm::dquat turn_to(const glm::dvec3& normal, double most) noexcept {
+glm::dquat tilt_to(const glm::dvec3& normal, double most) noexcept {
     const glm::dquat whole = minimal_rotation(up, normal);
     const double angle = 2.0 * half_angle_between({1.0, 0.0, 0.0, 0.0}, whole);
     return angle <= most ? whole : slerp({1.0, 0.0, 0.0, 0.0}, whole, most / angle);
@@ -103,10 +103,10 @@ glm::dvec3 ease_shift(FootState& foot, const FootContext& context) noexcept {
         foot.shift_x = foot.shift_z = 0.0;
         return rest;
     }
-    double by = way * (1.0 - context.eased);
+    double by = way * (1.0 - context.decay);
     if (foot.shift_x != -foot.offset_x || foot.shift_z != -foot.offset_z)
-        by = std::min(std::max(by, slowest_shift * context.dt),
-                      fastest_shift * context.options.max_speed * context.dt);
+        by = std::min(std::max(by, min_shift_speed * context.dt),
+                      max_shift_part * context.options.max_speed * context.dt);
     const double part = std::min(1.0, by / way);
     const glm::dvec3 moved{foot.shift_x * part, 0.0, foot.shift_z * part};
     foot.shift_x -= moved.x, foot.shift_z -= moved.z;
@@ -114,13 +114,13 @@ glm::dvec3 ease_shift(FootState& foot, const FootContext& context) noexcept {
 }
 
 bool is_over_foothold(const FootState& foot, const FeetOptions& options) noexcept {
-    const double far = lock_again * options.break_distance;
+    const double far = relock_part * options.break_distance;
     return foot.shift_x * foot.shift_x + foot.shift_z * foot.shift_z <= far * far;
 }
 
 /// Velocity of the toe, horizontal, m/s.
 glm::dvec3 velocity_of(const FootState& foot, const FootClip& clip, const FootContext& context) noexcept {
-    if (context.fresh || !(context.dt > 0.0)) return foot.velocity;
+    if (context.first_step || !(context.dt > 0.0)) return foot.velocity;
     const glm::dvec3 v =
         plus(times(minus(clip.toe, foot.toe), 1.0 / context.dt), context.options.root_velocity);
     const double speed = std::sqrt(v.x * v.x + v.z * v.z), part = speed > fastest ? fastest / speed : 1.0;
@@ -131,7 +131,7 @@ glm::dvec3 velocity_of(const FootState& foot, const FootClip& clip, const FootCo
 std::optional<glm::dvec3> landing_in(const FootState& foot, const FootClip& clip, const glm::dvec3& before,
                                      const FootContext& context) noexcept {
     if (foot.locked) return glm::dvec3(0.0);
-    if (context.fresh || !(context.dt > 0.0) || height_over_floor(clip, context) > landing_height)
+    if (context.first_step || !(context.dt > 0.0) || height_over_floor(clip, context) > landing_height)
         return std::nullopt;
     const glm::dvec3& velocity = foot.velocity;
     const double speed = length(velocity);
@@ -160,7 +160,7 @@ void choose_foothold(FootState& foot, const FootClip& clip, const std::optional<
     }
     foot.edges_known = foot.locked;
     foot.shift_x = to.x - offset.x, foot.shift_z = to.z - offset.z;
-    if (!context.fresh) return;
+    if (!context.first_step) return;
     if (foot.locked) foot.lock_x += foot.shift_x, foot.lock_z += foot.shift_z;
     foot.offset_x = to.x, foot.offset_z = to.z;
     foot.shift_x = foot.shift_z = 0.0;
@@ -174,8 +174,8 @@ glm::dvec3 hold_back(FootState& foot, const glm::dvec3& by, const glm::dvec3& ea
     if (!back) return glm::dvec3(0.0);
     const double behind = std::sqrt(foot.offset_x * foot.offset_x + foot.offset_z * foot.offset_z),
                  gained = -dot(eased, *back);
-    const double most = std::min(waiting * context.options.max_speed * context.dt,
-                                 std::max(0.0, patience * context.options.break_distance - behind));
+    const double most = std::min(hold_speed_part * context.options.max_speed * context.dt,
+                                 std::max(0.0, max_hold_part * context.options.break_distance - behind));
     const glm::dvec3 held = times(*back, std::clamp(length(by), 0.0, std::max(0.0, most + gained)));
     foot.offset_x += held.x, foot.offset_z += held.z;
     foot.shift_x -= held.x, foot.shift_z -= held.z;
@@ -192,7 +192,7 @@ double lift_over_landing(const FootClip& clip, const Turned& turned, const Footi
                              const glm::dvec3& by) {
         if (!hit) return -1e300;
         const auto there = context.ground.below({ankle.x + point.x + by.x, from, ankle.z + point.z + by.z});
-        const bool is_step = judge(there, context) == FootAlone::No &&
+        const bool is_step = check_ground(there, context) == FootAlone::No &&
                              there->height > height_of_plane(*hit, by.x, by.z) + step_over_plane;
         return is_step ? there->height - point.y - clip.ankle.y : -1e300;
     };
@@ -216,7 +216,7 @@ glm::dvec3 update_lock(FootState& foot, const FootClip& clip, const FootContext&
         foot.edges_known = false;
         foot.lock_x = clip.toe.x + foot.offset_x, foot.lock_z = clip.toe.z + foot.offset_z;
     };
-    if (context.fresh) {
+    if (context.first_step) {
         if (height < std::min(options.low, standing)) lock();
     } else if (context.dt > 0.0) {
         const glm::dvec3 moved = plus(minus(clip.toe, foot.toe), times(options.root_velocity, context.dt));
@@ -249,7 +249,7 @@ glm::dvec3 update_lock(FootState& foot, const FootClip& clip, const FootContext&
         foot.offset_x = foot.lock_x - clip.toe.x, foot.offset_z = foot.lock_z - clip.toe.z;
     }
     const double planting = foot.locked ? 1.0 : 0.0;
-    foot.planting = context.fresh ? planting : planting + (foot.planting - planting) * context.eased;
+    foot.planting = context.first_step ? planting : planting + (foot.planting - planting) * context.decay;
     return minus(glm::dvec3(foot.offset_x, 0.0, foot.offset_z), before);
 }
 
@@ -264,28 +264,28 @@ FootGoal find_goal(FootState& foot, const FootClip& clip, const glm::dvec3& ease
     };
     const auto turn_by = [&](const Footing& footing) {
         const glm::dquat goal = footing.alone == FootAlone::No
-                                    ? turn_to(footing.normal(), context.options.max_turn)
+                                    ? tilt_to(footing.normal(), context.options.max_turn)
                                     : glm::dquat{1.0, 0.0, 0.0, 0.0};
         foot.turn =
-            context.fresh ? goal : eased_turn(foot.turn, goal, context.eased, turn_speed * context.dt);
+            context.first_step ? goal : eased_turn(foot.turn, goal, context.decay, turn_speed * context.dt);
     };
     turn_by(footing_of(Turned(foot, clip)));
     const auto landing = landing_in(foot, clip, before, context);
     choose_foothold(foot, clip, landing, from, context);
     Turned turned(foot, clip);
     FootGoal goal;
-    OverWay way;
+    Clearance way;
     glm::dvec3 held(0.0);
-    if (!(foot.locked && foot.standing) && context.dt > 0.0 && !context.fresh) {
+    if (!(foot.locked && foot.standing) && context.dt > 0.0 && !context.first_step) {
         const glm::dvec3 ankle = plus(plus(clip.ankle, turned.slip), {0.0, foot.lift, 0.0}),
                          root = times(context.options.root_velocity, context.dt);
-        SoleInAir sole{
+        SwingSole sole{
             .points = {plus(ankle, turned.heel), plus(ankle, turned.ball), plus(ankle, turned.toe)},
             .moved = plus(level(plus(minus(clip.toe, foot.toe), root)), eased),
             .velocity = foot.velocity,
             .before = before};
-        if (landing) sole.left = length(plus(*landing, shift_of(foot)));
-        way = over_way(sole, from, context);
+        if (landing) sole.remaining = length(plus(*landing, shift_of(foot)));
+        way = find_clearance(sole, from, context);
         if (!foot.locked && way.part < 1.0) {
             held = hold_back(foot, times(sole.moved, 1.0 - way.part), eased, context);
             turned = Turned(foot, clip);
@@ -303,11 +303,11 @@ FootGoal find_goal(FootState& foot, const FootClip& clip, const glm::dvec3& ease
     goal.contact = support - clip.ankle.y;
     const double clearance = std::max(0.0, height_over_floor(clip, context)) * (1.0 - foot.planting);
     goal.lift =
-        std::max(clearance + goal.contact, std::min(clearance, least_clearance) + way.raise + foot.lift);
-    if (landing && !foot.standing && !context.fresh)
+        std::max(clearance + goal.contact, std::min(clearance, min_clearance) + way.raise + foot.lift);
+    if (landing && !foot.standing && !context.first_step)
         goal.lift = std::max(goal.lift, lift_over_landing(clip, turned, footing,
                                                           plus(*landing, shift_of(foot)), from, context));
-    if (context.dt > 0.0 && !context.fresh) {
+    if (context.dt > 0.0 && !context.first_step) {
         const glm::dvec3 normal = footing.normal(), v = foot.velocity;
         goal.rise = -(normal.x * v.x + normal.z * v.z) / normal.y * context.dt;
     }

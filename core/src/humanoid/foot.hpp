@@ -14,10 +14,10 @@ struct FootContext {
     const Ground& ground;
     const FeetOptions& options;
     double dt;        // seconds; 0: no time passes
-    bool fresh;       // the first step: nothing eases
+    bool first_step;  // the first step: nothing eases
     double floor;     // height of the clip's floor, in the ground's space
     double base;      // how far the root is raised
-    double eased;     // the factor by which an offset decays in this step
+    double decay;     // the factor by which an offset decays in this step
     double steepest;  // cosine of max_slope
 };
 
@@ -53,7 +53,7 @@ inline double height_of_plane(const GroundHit& hit, double x, double z) noexcept
 }
 
 /// Why a foot cannot stand on what a ray found; No if it can.
-FootAlone judge(const std::optional<GroundHit>& hit, const FootContext& context) noexcept;
+FootAlone check_ground(const std::optional<GroundHit>& hit, const FootContext& context) noexcept;
 
 /// The horizontal shift from where the clip puts the sole down to where it can stand: whole on ground without
 /// a step in it, or, where treads are too short for that, with one end over the edge of the highest. 0 if it
@@ -65,14 +65,14 @@ glm::dvec3 find_foothold(const glm::dvec3& heel, const glm::dvec3& toe, double f
 // How high a foot in the air must be to pass over the ground along its way (swing.cpp).
 
 /// A sole in the air, in the ground's space, and its way in this step.
-struct SoleInAir {
+struct SwingSole {
     std::array<glm::dvec3, 3> points;  // heel, ball, toe, as high as they are now
     glm::dvec3 moved;                  // horizontal, in this step, to where the points are now
     glm::dvec3 velocity, before;       // the clip's, in this step and the one before, m/s
-    double left = 1e9;                 // remaining distance, if it is about to land
+    double remaining = 1e9;            // remaining distance, if it is about to land
 };
 
-struct OverWay {
+struct Clearance {
     /// How far the sole must be raised now so that each of its points is above the ground when it gets there,
     /// rising at a steady speed: the upper envelope of the ground ahead. Negative if it is high enough.
     double raise = -1e300;
@@ -81,6 +81,6 @@ struct OverWay {
 };
 
 /// `raise` and `part` change continuously as the foot moves.
-OverWay over_way(const SoleInAir& sole, double from, const FootContext& context) noexcept;
+Clearance find_clearance(const SwingSole& sole, double from, const FootContext& context) noexcept;
 
 }  // namespace tendril::humanoid::detail

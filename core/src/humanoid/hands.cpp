@@ -17,7 +17,7 @@ using tendril::detail::refused;
 
 constexpr Bone arms[2][4]{{Bone::LeftShoulder, Bone::LeftUpperArm, Bone::LeftLowerArm, Bone::LeftHand},
                           {Bone::RightShoulder, Bone::RightUpperArm, Bone::RightLowerArm, Bone::RightHand}};
-constexpr double off = 0.01;
+constexpr double zero_weight = 0.01;
 /// The arm's maximum reach in arm lengths: a millimetre short, since a straight elbow has no side.
 constexpr double straightest = 0.998;
 
@@ -27,7 +27,7 @@ struct Arm {
     glm::dvec3 direction{0.0}, pole{0.0};  // at rest: from shoulder to hand; where the elbow points
 };
 
-bool is_fine(const HandTarget& target) noexcept {
+bool is_valid(const HandTarget& target) noexcept {
     if (!rig::detail::check_vector("hands", "position", target.position)) return false;
     if (!target.rotation) return true;
     const double size = dot(*target.rotation, *target.rotation);
@@ -192,7 +192,7 @@ HandsReport Hands::step(std::span<rig::Transform> pose, const HandTargets& targe
     const Placement root = placement(options.root);
     const Placement head = plan.head.place_in(root, pose);
     for (std::size_t i = 0; i < 2; ++i)
-        if (!is_fine(targets[i]) || !detail::place(plan.arms[i].limb, root, pose).is_finite())
+        if (!is_valid(targets[i]) || !detail::place(plan.arms[i].limb, root, pose).is_finite())
             return {.valid = false};
     if (!detail::is_moderate(head)) return {.valid = false};
 
@@ -206,7 +206,7 @@ HandsReport Hands::step(std::span<rig::Transform> pose, const HandTargets& targe
         const double seen =
             detail::step_view(hand.in_view, hand.view, angle, options.view, options.half_life, dt);
         const double wanted = rig::detail::weight(target.weight) * seen;
-        const double part = wanted < off ? 0.0 : (wanted - off) / (1.0 - off);
+        const double part = wanted < zero_weight ? 0.0 : (wanted - zero_weight) / (1.0 - zero_weight);
         report.hands[i] = plan.move(plan.arms[i], pose, target, part, root, options);
         report.hands[i].in_view = hand.in_view;
     }

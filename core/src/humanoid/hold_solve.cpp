@@ -22,9 +22,9 @@ constexpr double joint_damping = 0.02;
 /// small ones exact.
 constexpr double damping_part = 0.1, min_joint_damping = 1e-6;
 /// A grip's compliance in one step, before its force has grown. If larger, grips take more steps to close.
-constexpr double grip_give = 0.01;
+constexpr double grip_compliance = 0.01;
 /// Maximum force of a grip at the start of a step: this, plus this per metre that the object has given way.
-constexpr double force_kept = 2.0;
+constexpr double max_grip_force = 2.0;
 /// Weight of the grips' second derivatives along their forces, like BodySolve's residual_stiffness.
 constexpr double force_stiffness = 2.0;
 /// Fraction of a step by which it may pass a limit.
@@ -60,10 +60,10 @@ void HoldSolve::find_arms() noexcept {
         }
         for (const BodyLimb& limb : work_.limbs)
             if (limb.end == static_cast<int>(arm.end)) arm.limb = &limb;
-        if (arm.limb && arm.limb->square > 0.0) {
+        if (arm.limb && arm.limb->quadratic > 0.0) {
             glm::dvec3 about;
-            arm.least_bend =
-                std::min(arm.limb->even / (2.0 * arm.limb->square), std::max(bend(arm, about), 0.0));
+            arm.min_bend =
+                std::min(arm.limb->linear / (2.0 * arm.limb->quadratic), std::max(bend(arm, about), 0.0));
         } else {
             arm.limb = nullptr;
         }
@@ -85,18 +85,18 @@ double HoldSolve::bend(const Arm& arm, glm::dvec3& about) const noexcept {
 }
 
 /// The rotation of the hand's link that puts the hand on its grip.
-glm::dquat HoldSolve::wanted(const Arm& arm) const noexcept {
-    return math::compose(math::compose(at_.rotation, rig::normalised(*arm.grip->rotation)),
+glm::dquat HoldSolve::grip_rotation(const Arm& arm) const noexcept {
+    return math::compose(math::compose(pose_.rotation, rig::normalised(*arm.grip->rotation)),
                          conjugate(link(arm.end).rest));
 }
 
 /// Turns the hands to their grips, within their limits, before anything else moves.
-void HoldSolve::face_grips() noexcept {
+void HoldSolve::align_hands() noexcept {
     for (std::size_t i = 0; i < arm_count_; ++i) {
         const Arm& arm = arms_[i];
         if (!arm.grip->rotation) continue;
         Link& hand = link(arm.end);
-        hand.turn = math::compose(conjugate(before(hand)), wanted(arm));
+        hand.turn = math::compose(conjugate(before(hand)), grip_rotation(arm));
         clamp_hand(arm);
     }
 }
@@ -104,7 +104,7 @@ void HoldSolve::face_grips() noexcept {
 double HoldSolve::shared_twist(const Arm& arm) const noexcept {
     const Link& hand = link(arm.end);
     return options_.body.twist_share *
-           (hinge_angle(arm.forearm, hand.turn) - hinge_angle(arm.forearm, hand.own));
+           (hinge_angle(arm.forearm, hand.turn) - hinge_angle(arm.forearm, hand.clip_turn));
 }
 
 bool HoldSolve::clamp(const Joint& joint) noexcept {
@@ -118,7 +118,7 @@ bool HoldSolve::clamp_hand(const Arm& arm) noexcept {
     hand.turn = math::compose(rotation_about(arm.forearm, -twist), hand.turn);
     const bool clamped = clamp_turn(hand, 0.0f);
     if (const double share = options_.body.twist_share; clamped && share < 1.0) {
-        const double left = hinge_angle(arm.forearm, hand.turn) - hinge_angle(arm.forearm, hand.own);
+        const double left = hinge_angle(arm.forearm, hand.turn) - hinge_angle(arm.forearm, hand.clip_turn);
         twist = left * share / (1.0 - share);
     }
     hand.turn = rig::normalised(math::compose(rotation_about(arm.forearm, twist), hand.turn));
@@ -128,24 +128,24 @@ bool HoldSolve::clamp_hand(const Arm& arm) noexcept {
 void HoldSolve::measure() noexcept {
     work_.place_links(glm::dvec3(0.0));
     row_count_ = 0;
-    const auto add = [&](std::size_t arm, bool turns, const glm::dvec3& along) {
-        rows_[row_count_++] = {arm, turns, along};
+    const auto add = [&](std::size_t arm, bool angular, const glm::dvec3& along) {
+        rows_[row_count_++] = {arm, angular, along};
     };
     for (std::size_t i = 0; i < arm_count_; ++i) {
         Arm& arm = arms_[i];
         const Link& hand = link(arm.end);
-        arm.from = rotated(at_.rotation, arm.grip->position);
-        arm.gap = minus(plus(at_.position, arm.from), hand.position);
+        arm.from = rotated(pose_.rotation, arm.grip->position);
+        arm.gap = minus(plus(pose_.position, arm.from), hand.position);
         for (int axis = 0; axis < 3; ++axis) {
             glm::dvec3 along{0.0};
             along[axis] = 1.0;
             add(i, false, along);
         }
         if (!arm.grip->rotation) continue;
-        const glm::dquat off = math::compose(wanted(arm), conjugate(hand.rotation));
+        const glm::dquat error = math::compose(grip_rotation(arm), conjugate(hand.rotation));
         const auto axis = direction_of(arm.grip->axis, 1e-9);
         if (!axis) {
-            arm.off = logarithm(off);
+            arm.turn_gap = logarithm(error);
             for (int each = 0; each < 3; ++each) {
                 glm::dvec3 along{0.0};
                 along[each] = 1.0;
@@ -154,31 +154,31 @@ void HoldSolve::measure() noexcept {
             continue;
         }
         // Only the axes have to align.
-        arm.axis = rotated(at_.rotation, *axis);
-        const glm::dvec3 held = rotated(conjugate(off), arm.axis), about = cross(held, arm.axis);
+        arm.axis = rotated(pose_.rotation, *axis);
+        const glm::dvec3 held = rotated(conjugate(error), arm.axis), about = cross(held, arm.axis);
         const double sine = length(about), angle = arctangent(sine, dot(held, arm.axis));
-        arm.off = sine > 1e-9 ? times(about, angle / sine) : times(perpendicular(arm.axis), angle);
+        arm.turn_gap = sine > 1e-9 ? times(about, angle / sine) : times(perpendicular(arm.axis), angle);
         const glm::dvec3 first = perpendicular(arm.axis);
         add(i, true, first);
         add(i, true, cross(arm.axis, first));
     }
 }
 
-double HoldSolve::apart() const noexcept {
-    double most = 0.0;
+double HoldSolve::max_gap() const noexcept {
+    double largest = 0.0;
     for (std::size_t i = 0; i < arm_count_; ++i)
-        most = std::max({most, length(arms_[i].gap), options_.turn_length * length(arms_[i].off)});
-    return most;
+        largest = std::max({largest, length(arms_[i].gap), options_.turn_length * length(arms_[i].turn_gap)});
+    return largest;
 }
 
 glm::dvec3 HoldSolve::column(const Row& row, const Joint& joint) const noexcept {
     if (joint.arm != row.arm) return glm::dvec3(0.0);
-    if (row.turns) return times(row.along, options_.turn_length);
+    if (row.angular) return times(row.along, options_.turn_length);
     return cross(minus(link(arms_[row.arm].end).position, link(joint.link).position), row.along);
 }
 
 glm::dvec3 HoldSolve::object_column(const Row& row) const noexcept {
-    if (row.turns) return times(row.along, -options_.turn_length);
+    if (row.angular) return times(row.along, -options_.turn_length);
     return cross(row.along, arms_[row.arm].from);
 }
 
@@ -188,7 +188,7 @@ double HoldSolve::find_step() noexcept {
     double object_stiffness = options_.turn_length * options_.turn_length;
     for (std::size_t i = 0; i < arm_count_; ++i)
         object_stiffness += force_stiffness * std::max(-dot(arms_[i].force, arms_[i].from), 0.0);
-    object_turns_ = 1.0 / object_stiffness;
+    object_compliance_ = 1.0 / object_stiffness;
     for (std::size_t i = 0; i < joint_count_; ++i) {
         Joint& joint = joints_[i];
         const Link& at = link(joint.link);
@@ -209,12 +209,12 @@ double HoldSolve::find_step() noexcept {
 bool HoldSolve::solve_rows() noexcept {
     RowEquations& e = equations_;
     e.count = row_count_;
-    const glm::dvec3 way = times(minus(asked_.position, at_.position), pull_);
-    const glm::dvec3 round = times(logarithm(math::compose(asked_.rotation, conjugate(at_.rotation))),
-                                   pull_ * options_.turn_length * options_.turn_length * object_turns_);
+    const glm::dvec3 move = times(minus(target_.position, pose_.position), pull_);
+    const glm::dvec3 turn = times(logarithm(math::compose(target_.rotation, conjugate(pose_.rotation))),
+                                  pull_ * options_.turn_length * options_.turn_length * object_compliance_);
     // Where the grips cannot close, forces kept in full would grow without bound.
-    const double most = force_kept + force_kept * length(way);
-    const auto kept = [](const glm::dvec3& value, double largest) {
+    const double max_force = max_grip_force + max_grip_force * length(move);
+    const auto clamped = [](const glm::dvec3& value, double largest) {
         const double size = length(value);
         return size > largest ? times(value, largest / size) : value;
     };
@@ -222,19 +222,19 @@ bool HoldSolve::solve_rows() noexcept {
         const Row& row = rows_[r];
         const Arm& arm = arms_[row.arm];
         const double size = row_length(row);
-        const glm::dvec3 force =
-            row.turns ? kept(arm.torque, options_.turn_length * most) : kept(arm.force, most);
+        const glm::dvec3 force = row.angular ? clamped(arm.torque, options_.turn_length * max_force)
+                                             : clamped(arm.force, max_force);
         const glm::dvec3 turned = object_column(row);
-        e.b[r] = size * dot(row.along, row.turns ? arm.off : arm.gap) - dot(turned, round) +
-                 grip_give * dot(row.along, force) / size;
-        if (!row.turns) e.b[r] += dot(row.along, way);
+        e.b[r] = size * dot(row.along, row.angular ? arm.turn_gap : arm.gap) - dot(turned, turn) +
+                 grip_compliance * dot(row.along, force) / size;
+        if (!row.angular) e.b[r] += dot(row.along, move);
         for (std::size_t q = 0; q <= r; ++q) {
             const Row& other = rows_[q];
-            double sum = object_turns_ * dot(turned, object_column(other));
-            if (!row.turns && !other.turns) sum += dot(row.along, other.along);
+            double sum = object_compliance_ * dot(turned, object_column(other));
+            if (!row.angular && !other.angular) sum += dot(row.along, other.along);
             e.a[r][q] = sum;
         }
-        e.a[r][r] += grip_give;
+        e.a[r][r] += grip_compliance;
     }
     for (std::size_t i = 0; i < joint_count_; ++i) {
         const Joint& joint = joints_[i];
@@ -248,11 +248,11 @@ bool HoldSolve::solve_rows() noexcept {
     }
     if (!e.factorise()) return false;
     e.solve();
-    shift_ = way;
-    turn_ = round;
+    shift_ = move;
+    turn_ = turn;
     for (std::size_t r = 0; r < row_count_; ++r) {
-        if (!rows_[r].turns) shift_ = minus(shift_, times(rows_[r].along, e.b[r]));
-        turn_ = plus(turn_, times(object_column(rows_[r]), object_turns_ * e.b[r]));
+        if (!rows_[r].angular) shift_ = minus(shift_, times(rows_[r].along, e.b[r]));
+        turn_ = plus(turn_, times(object_column(rows_[r]), object_compliance_ * e.b[r]));
     }
     for (std::size_t i = 0; i < joint_count_; ++i) {
         Joint& joint = joints_[i];
@@ -313,7 +313,7 @@ bool HoldSolve::block() noexcept {
         }
         if (!arm.limb || static_cast<std::size_t>(arm.limb->lower) != joint.link) continue;
         glm::dvec3 about;
-        const double left = arm.least_bend - bend(arm, about);
+        const double left = arm.min_bend - bend(arm, about);
         if (!(dot(about, joint.turn) < left - 1e-12)) continue;
         glm::dvec3 direction = about;
         if (link(joint.link).limit.hinge())
@@ -327,14 +327,14 @@ bool HoldSolve::block() noexcept {
 }
 
 void HoldSolve::apply(double part) noexcept {
-    at_.position = plus(at_.position, times(shift_, part));
-    at_.rotation = rig::normalised(math::compose(exponential(times(turn_, part)), at_.rotation));
+    pose_.position = plus(pose_.position, times(shift_, part));
+    pose_.rotation = rig::normalised(math::compose(exponential(times(turn_, part)), pose_.rotation));
     for (std::size_t i = 0; i < arm_count_; ++i) {
         Arm& arm = arms_[i];
         glm::dvec3 force{0.0}, torque{0.0};
         for (std::size_t r = 0; r < row_count_; ++r) {
             if (rows_[r].arm != i) continue;
-            glm::dvec3& sum = rows_[r].turns ? torque : force;
+            glm::dvec3& sum = rows_[r].angular ? torque : force;
             sum = plus(sum, times(rows_[r].along, row_length(rows_[r]) * equations_.b[r]));
         }
         arm.force = mix(arm.force, force, part), arm.torque = mix(arm.torque, torque, part);
@@ -350,7 +350,7 @@ void HoldSolve::apply(double part) noexcept {
     for (std::size_t i = 0; i < arm_count_; ++i) {
         if (!arms_[i].limb) continue;
         glm::dvec3 about;
-        const double short_of = arms_[i].least_bend - bend(arms_[i], about);
+        const double short_of = arms_[i].min_bend - bend(arms_[i], about);
         if (!(short_of > 0.0)) continue;
         Link& lower = link(static_cast<std::size_t>(arms_[i].limb->lower));
         lower.turn =
@@ -360,41 +360,41 @@ void HoldSolve::apply(double part) noexcept {
 
 /// True once nothing changes any more.
 bool HoldSolve::step() noexcept {
-    const double size = find_step(), open = apart();
+    const double size = find_step(), open = max_gap();
     if (failed_) return false;
     ++iterations_;
     apply(std::min(1.0, max_hold_step / size));
     damping_ = std::clamp(damping_part * size, min_joint_damping, joint_damping);
     measure();
-    return size < hold_tolerance && std::abs(apart() - open) < hold_tolerance;
+    return size < hold_tolerance && std::abs(max_gap() - open) < hold_tolerance;
 }
 
 void HoldSolve::run(std::span<rig::Transform> pose, HoldReport& report, HoldState& state) noexcept {
-    work_.take(pose);
-    for (Link& each : work_.links) each.turn = each.own;
+    work_.read_pose(pose);
+    for (Link& each : work_.links) each.turn = each.clip_turn;
     work_.place_links(glm::dvec3(0.0));
     find_arms();
-    face_grips();
+    align_hands();
     measure();
     damping_ = joint_damping;
     report.settled = false;
     while (iterations_ < options_.max_iterations && !report.settled && !failed_) report.settled = step();
-    for (Arm& arm : arms_) arm.pull = arm.force, arm.twist = arm.torque;
+    for (Arm& arm : arms_) arm.pull_force = arm.force, arm.pull_torque = arm.torque;
     // If limits keep the solve from settling, closes the grips from their current pose, if possible.
-    if (!report.settled && !failed_ && apart() > hold_tolerance) {
+    if (!report.settled && !failed_ && max_gap() > hold_tolerance) {
         pull_ = 0.0;
         for (Arm& arm : arms_) arm.force = arm.torque = glm::dvec3(0.0);
         damping_ = joint_damping;
         for (int i = 0; i < closing_steps && !step() && !failed_;) ++i;
     }
     report.iterations = iterations_;
-    if (!is_sound()) {  // numbers near the largest: the pose before stays
-        for (Link& each : work_.links) each.turn = each.own;
-        at_ = asked_;
+    if (!is_finite()) {  // numbers near the largest: the pose before stays
+        for (Link& each : work_.links) each.turn = each.clip_turn;
+        pose_ = target_;
         report.settled = false;
         measure();
     }
-    tell(report, state);
+    write_report(report, state);
     for (std::size_t i = 0; i < arm_count_; ++i) {
         const Arm& arm = arms_[i];
         Link& hand = link(arm.end);
@@ -407,26 +407,26 @@ void HoldSolve::run(std::span<rig::Transform> pose, HoldReport& report, HoldStat
     }
     work_.place_links(glm::dvec3(0.0));
     const TwistNodes::ArmTurns turns = work_.twist.turns(pose);
-    work_.give(pose, glm::dvec3(0.0));
+    work_.write_pose(pose, glm::dvec3(0.0));
     work_.twist.follow(turns, pose);
 }
 
-bool HoldSolve::is_sound() const noexcept {
-    bool sound = is_within(at_.position) && std::abs(dot(at_.rotation, at_.rotation) - 1.0) < 1e-6;
+bool HoldSolve::is_finite() const noexcept {
+    bool valid = is_within(pose_.position) && std::abs(dot(pose_.rotation, pose_.rotation) - 1.0) < 1e-6;
     for (const Link& each : work_.links)
-        sound = sound && is_within(each.position) && std::abs(dot(each.rotation, each.rotation) - 1.0) < 1e-6;
-    return sound;
+        valid = valid && is_within(each.position) && std::abs(dot(each.rotation, each.rotation) - 1.0) < 1e-6;
+    return valid;
 }
 
-void HoldSolve::tell(HoldReport& report, HoldState& state) noexcept {
-    report.object = at_;
-    report.moved = length(minus(asked_.position, at_.position));
-    report.turned = length(logarithm(math::compose(asked_.rotation, conjugate(at_.rotation))));
+void HoldSolve::write_report(HoldReport& report, HoldState& state) noexcept {
+    report.object = pose_;
+    report.moved = length(minus(target_.position, pose_.position));
+    report.turned = length(logarithm(math::compose(target_.rotation, conjugate(pose_.rotation))));
     for (std::size_t i = 0; i < joint_count_; ++i) {
         const Joint& joint = joints_[i];
         const Arm& arm = arms_[joint.arm];
         const glm::dvec3 lever = minus(link(arm.end).position, link(joint.link).position);
-        const glm::dvec3 torque = plus(cross(lever, arm.pull), arm.twist);
+        const glm::dvec3 torque = plus(cross(lever, arm.pull_force), arm.pull_torque);
         const auto direction = direction_of(torque, min_reported_force);
         glm::dquat there;
         report.body.at_limit[static_cast<std::size_t>(link(joint.link).bone)] =
@@ -439,18 +439,18 @@ void HoldSolve::tell(HoldReport& report, HoldState& state) noexcept {
         const Arm& arm = arms_[i];
         const std::size_t hand = arm.grip->hand == Effector::LeftHand ? 0 : 1;
         GripReport& grip = report.grips[hand];
-        grip = {.holds = true, .gap = length(arm.gap), .off = length(arm.off)};
+        grip = {.holds = true, .gap = length(arm.gap), .off = length(arm.turn_gap)};
         if (arm.limb) {
             glm::dvec3 about;
             const Link& upper = link(static_cast<std::size_t>(arm.limb->upper));
             const glm::dvec3 way = minus(link(arm.end).position, upper.position);
-            grip.straight = bend(arm, about) < arm.least_bend + straight_slack &&
-                            dot(arm.pull, way) > min_reported_force * length(way);
+            grip.straight = bend(arm, about) < arm.min_bend + straight_slack &&
+                            dot(arm.pull_force, way) > min_reported_force * length(way);
             now.shoulders[hand] = upper.position;
             now.elbows[hand] = link(static_cast<std::size_t>(arm.limb->lower)).position;
         }
         now.hands[hand] = link(arm.end).position;
-        now.grips[hand] = plus(asked_.position, rotated(asked_.rotation, arm.grip->position));
+        now.grips[hand] = plus(target_.position, rotated(target_.rotation, arm.grip->position));
         if (!state.grips[hand]) continue;
         cause = std::max({cause, length(minus(*now.grips[hand], *state.grips[hand])),
                           length(minus(now.shoulders[hand], state.shoulders[hand]))});

@@ -13,9 +13,9 @@ namespace tendril::humanoid::detail {
 class HoldSolve {
   public:
     HoldSolve(Body& body, const HeldObject& object, const HoldOptions& options) noexcept
-        : work_(*body.work_), object_(object), options_(options), at_(object.asked) {
-        at_.rotation = rig::normalised(at_.rotation);
-        asked_ = at_;
+        : work_(*body.work_), object_(object), options_(options), pose_(object.asked) {
+        pose_.rotation = rig::normalised(pose_.rotation);
+        target_ = pose_;
     }
     void run(std::span<rig::Transform> pose, HoldReport& report, HoldState& state) noexcept;
 
@@ -31,23 +31,23 @@ class HoldSolve {
         const Grip* grip = nullptr;
         std::size_t end = 0;  ///< link of the hand
         const BodyLimb* limb = nullptr;
-        double least_bend = 0.0;             ///< radians; less bend counts as straight
+        double min_bend = 0.0;               ///< radians; less bend counts as straight
         glm::dvec3 forearm{0.0};             ///< unit, in the lower arm's frame; zero: it has no length
         glm::dvec3 axis{0.0};                ///< Grip::axis in the character's space, unit or zero
         glm::dvec3 from{0.0};                ///< from the object's origin to the grip
-        glm::dvec3 gap{0.0}, off{0.0};       ///< from the hand to its grip
+        glm::dvec3 gap{0.0}, turn_gap{0.0};  ///< from the hand to its grip
         glm::dvec3 force{0.0}, torque{0.0};  ///< of the grip on the hand
-        glm::dvec3 pull{0.0}, twist{0.0};    ///< the same, while the object pulls; for the report
+        glm::dvec3 pull_force{0.0}, pull_torque{0.0};  ///< the same while the object pulls, reported
     };
     struct Row {
         std::size_t arm;
-        bool turns;
+        bool angular;
         glm::dvec3 along;
     };
     /// The derivative of a row with respect to a turn of the joint, or of the object.
     glm::dvec3 column(const Row& row, const Joint& joint) const noexcept;
     glm::dvec3 object_column(const Row& row) const noexcept;
-    double row_length(const Row& row) const noexcept { return row.turns ? options_.turn_length : 1.0; }
+    double row_length(const Row& row) const noexcept { return row.angular ? options_.turn_length : 1.0; }
 
     Link& link(std::size_t index) const noexcept { return work_.links[index]; }
     /// The rotation of the parent link.
@@ -56,11 +56,11 @@ class HoldSolve {
                              : link(static_cast<std::size_t>(of.parent)).rotation;
     }
     void find_arms() noexcept;
-    void face_grips() noexcept;
+    void align_hands() noexcept;
     double bend(const Arm& arm, glm::dvec3& about) const noexcept;
-    glm::dquat wanted(const Arm& arm) const noexcept;
+    glm::dquat grip_rotation(const Arm& arm) const noexcept;
     void measure() noexcept;
-    double apart() const noexcept;
+    double max_gap() const noexcept;
     double find_step() noexcept;
     bool step() noexcept;
     bool solve_rows() noexcept;
@@ -72,13 +72,13 @@ class HoldSolve {
     bool clamp(const Joint& joint) noexcept;
     glm::dvec3 excess(const Joint& joint, const glm::dvec3& turn, glm::dquat& there) noexcept;
     bool block_bounds(Joint& joint, const glm::dquat& turn, const glm::dvec3& step) noexcept;
-    bool is_sound() const noexcept;
-    void tell(HoldReport& report, HoldState& state) noexcept;
+    bool is_finite() const noexcept;
+    void write_report(HoldReport& report, HoldState& state) noexcept;
 
     Body::Work& work_;
     const HeldObject& object_;
     const HoldOptions& options_;
-    ObjectPose at_, asked_;
+    ObjectPose pose_, target_;
     std::array<Arm, 2> arms_{};
     std::size_t arm_count_ = 0;
     std::array<Joint, 8> joints_{};
@@ -87,7 +87,7 @@ class HoldSolve {
     std::size_t row_count_ = 0;
     int iterations_ = 0;
     bool failed_ = false;                ///< no finite step was found
-    double object_turns_ = 0.0;          ///< compliance
+    double object_compliance_ = 0.0;     ///< of its turns
     double damping_ = 0.0;               ///< damping of the next step
     double pull_ = 1.0;                  ///< 0: the object only follows the hands
     glm::dvec3 shift_{0.0}, turn_{0.0};  ///< the object's move in a step

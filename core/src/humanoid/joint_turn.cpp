@@ -50,11 +50,11 @@ void widen(Link& link) noexcept {
     ik::detail::LimitedJoint& limit = link.limit;
     if (limit.free()) return;
     if (limit.hinge()) {
-        const auto angle = static_cast<float>(hinge_angle(link.hinge, link.own));
+        const auto angle = static_cast<float>(hinge_angle(link.hinge, link.clip_turn));
         limit.min = std::min(limit.min, angle), limit.max = std::max(limit.max, angle);
         return;
     }
-    const glm::quat turn = narrow(link.own);
+    const glm::quat turn = narrow(link.clip_turn);
     if (ik::detail::is_inside(limit, turn)) return;
     const ik::JointAngles angles = ik::detail::angles_of(limit, turn);
     if (!(ik::detail::excess_of(limit, angles) > ik::detail::at_bound)) return;

@@ -84,7 +84,7 @@ bool is_moderate(const Placement& p) noexcept {
     return fine(p.position) && fine(p.axes[0]) && fine(p.axes[1]) && fine(p.axes[2]);
 }
 
-glm::dvec3 seen_from(const Placement& at, const glm::dvec3& v) noexcept {
+glm::dvec3 to_local(const Placement& at, const glm::dvec3& v) noexcept {
     const glm::dvec3 &x = at.axes[0], &y = at.axes[1], &z = at.axes[2];
     const double volume = dot(x, cross(y, z));
     if (!(std::abs(volume) > 1e-200 && std::abs(volume) < 1e200)) return glm::dvec3(0.0);

@@ -44,7 +44,7 @@ bool is_moderate(const Placement& placement) noexcept;
 
 /// `vector` in the local space of `at`: multiplied by the inverse of at.axes; 0 if their volume is
 /// not from 1e-200 to 1e200.
-glm::dvec3 seen_from(const Placement& at, const glm::dvec3& vector) noexcept;
+glm::dvec3 to_local(const Placement& at, const glm::dvec3& vector) noexcept;
 
 /// Changes a node's local rotation so that the node turns by `turn` in the outer space.
 void turn(rig::Transform& local, const Placement& above, const glm::dquat& turn) noexcept;

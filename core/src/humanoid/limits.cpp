@@ -141,7 +141,7 @@ class DefaultLimits {
 };
 
 /// Angles observed in clips.
-struct Seen {
+struct ObservedAngles {
     std::vector<ik::JointAngles> angles{};
     float twist_min = 0.0f, twist_max = 0.0f;
     float up = 0.0f, down = 0.0f, left = 0.0f, right = 0.0f;
@@ -204,7 +204,7 @@ BodyLimits learned_limits(const Skeleton& skeleton, const BoneMap& map, std::spa
     BodyLimits limits = like;
     const Expected<BodyJoints> joints = BodyJoints::make(skeleton, map, like);
     if (!joints) return limits;
-    std::array<Seen, bone_count> seen{};
+    std::array<ObservedAngles, bone_count> seen{};
     std::vector<rig::Transform> pose(skeleton.size());
     std::vector<Placement> placements(skeleton.size());
     for (const Clip& clip : clips) {

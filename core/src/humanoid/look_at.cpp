@@ -18,7 +18,7 @@ constexpr std::size_t neck = 3, head = 4;
 constexpr glm::dquat none{1.0, 0.0, 0.0, 0.0};
 
 /// A bone that turns: its indices in the head's path and in `column`.
-struct Turning {
+struct TurnedBone {
     std::size_t place = 0, bone = 0;
 };
 
@@ -26,14 +26,14 @@ double limited(double angle, double most) noexcept {
     return std::min(angle, most);
 }
 
-/// The gaze's next direction on its way to `wanted`: by way of the clip's gaze, `looks`, if the shortest arc
+/// The gaze's next direction on its way to `target`: by way of the clip's gaze, `ahead`, if the shortest arc
 /// would change sides behind the head, outside the view. All bones would turn over there.
-glm::dvec3 next_gaze(const glm::dvec3& gaze, const glm::dvec3& wanted, const glm::dvec3& looks,
+glm::dvec3 next_gaze(const glm::dvec3& gaze, const glm::dvec3& target, const glm::dvec3& ahead,
                      double view) noexcept {
-    const bool same_side = dot(gaze, wanted) >= dot(gaze, looks) * dot(wanted, looks);
-    if (same_side) return wanted;
-    const auto middle = direction_of(plus(gaze, wanted), 1e-6);
-    return middle && detail::angle_between(*middle, looks) <= view ? wanted : looks;
+    const bool same_side = dot(gaze, target) >= dot(gaze, ahead) * dot(target, ahead);
+    if (same_side) return target;
+    const auto middle = direction_of(plus(gaze, target), 1e-6);
+    return middle && detail::angle_between(*middle, ahead) <= view ? target : ahead;
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ glm::dvec3 next_gaze(const glm::dvec3& gaze, const glm::dvec3& wanted, const glm
 struct LookAt::Plan {
     std::size_t nodes = 0;
     detail::Head head{};
-    std::vector<Turning> bones{};  // from the spine up; the last one is the head
+    std::vector<TurnedBone> bones{};  // from the spine up; the last one is the head
     std::size_t spine_bones = 0;
 
     double limit_of(std::size_t bone, const LookAtOptions& options) const noexcept {
@@ -69,28 +69,28 @@ struct LookAt::Plan {
 void LookAt::Plan::turn(detail::Pose pose, const Placement& root, const glm::dvec3& point, double weight,
                         const LookAtOptions& options) const noexcept {
     double left = 1.0;
-    for (const Turning& each : bones) {
-        const Placement hangs = above(each.place, root, pose);
+    for (const TurnedBone& each : bones) {
+        const Placement parent = above(each.place, root, pose);
         const auto node = static_cast<std::size_t>(head.path[each.place]);
-        const glm::dquat rotation = (hangs * placement(pose[node])).rotation();
+        const glm::dquat rotation = (parent * placement(pose[node])).rotation();
         const Placement eyes = head.place_in(root, pose);
-        const glm::dvec3 looks = head.gaze(eyes);
-        const glm::dvec3 gaze = direction_of(minus(point, eyes.position), 1e-6).value_or(looks);
+        const glm::dvec3 ahead = head.gaze(eyes);
+        const glm::dvec3 gaze = direction_of(minus(point, eyes.position), 1e-6).value_or(ahead);
         const double part = each.bone == ::tendril::humanoid::head
                                 ? 1.0
                                 : limited(part_of(each.bone, options) / std::max(left, 1e-9), 1.0);
         left -= part_of(each.bone, options);
 
         rig::AimOptions aim;
-        aim.primary.axis = rotated(conjugate(rotation), looks);
-        aim.primary.target = detail::turned_toward(looks, gaze, part * detail::angle_between(looks, gaze));
+        aim.primary.axis = rotated(conjugate(rotation), ahead);
+        aim.primary.target = detail::turned_toward(ahead, gaze, part * detail::angle_between(ahead, gaze));
         aim.primary.kind = rig::AimTarget::Direction;
         const glm::dquat aimed = rig::aim({.rotation = rotation}, aim).transform.rotation;
         const glm::dquat whole = math::compose(aimed, conjugate(rotation));
         const double angle = 2.0 * half_angle_between(none, whole);
         const double most = limited(angle, limit_of(each.bone, options));
         if (!(angle > 1e-12)) continue;
-        detail::turn(pose[node], hangs, slerp(none, whole, weight * most / angle));
+        detail::turn(pose[node], parent, slerp(none, whole, weight * most / angle));
     }
 }
 
@@ -138,16 +138,16 @@ LookAtReport LookAt::step(std::span<rig::Transform> pose, const LookAtOptions& o
     const Placement at = plan.head.place_in(root, pose);
     if (!detail::is_moderate(at)) return {.valid = false};
 
-    const glm::dvec3 looks = plan.head.gaze(at), way = minus(options.target, at.position);
-    const glm::dvec3 wanted = direction_of(way, 1e-6).value_or(looks);
-    const double seen = detail::step_view(state.in_view, state.view, detail::angle_between(looks, wanted),
+    const glm::dvec3 ahead = plan.head.gaze(at), way = minus(options.target, at.position);
+    const glm::dvec3 target = direction_of(way, 1e-6).value_or(ahead);
+    const double seen = detail::step_view(state.in_view, state.view, detail::angle_between(ahead, target),
                                           options.view, options.half_life, dt);
     const bool is_first = dot(state.gaze, state.gaze) < 0.5;
     const double most = dt > 0.0 ? options.max_speed * std::min(dt, 1e3) : 0.0;
     // The gaze does not track a target out of view: when one comes into view, it starts from the clip's gaze.
-    const glm::dvec3 from = seen > 0.0 ? state.gaze : looks;
-    const glm::dvec3 to = state.in_view ? next_gaze(from, wanted, looks, options.view) : from;
-    state.gaze = is_first ? wanted : detail::turned_toward(from, to, most);
+    const glm::dvec3 from = seen > 0.0 ? state.gaze : ahead;
+    const glm::dvec3 to = state.in_view ? next_gaze(from, target, ahead, options.view) : from;
+    state.gaze = is_first ? target : detail::turned_toward(from, to, most);
 
     LookAtReport report{.weight = rig::detail::weight(options.weight) * seen, .in_view = state.in_view};
     const glm::dvec3 point = plus(at.position, times(state.gaze, length(way)));

@@ -23,16 +23,16 @@ constexpr std::size_t max_retargeted_keys = 100'000;
 /// files have a wrong unit.
 constexpr double person_leg = 0.85;  // metres
 
-constexpr double on_the_bone = 0.1;  // in leg lengths, at rest: helpers this near to a node follow it
+constexpr double helper_reach = 0.1;  // in leg lengths, at rest: helpers this near to a node follow it
 
-constexpr double flat_enough = 8.0;  // degrees from which a foot on the ground is not flat
+constexpr double max_flat_tilt = 8.0;  // degrees from which a foot on the ground is not flat
 
-Clip resized(Clip clip, double by) {
+Clip scaled(Clip clip, double by) {
     for (Channel& each : clip.channels)
         for (glm::dvec3& value : each.translation.values) value = times(value, by);
     return clip;
 }
-Skeleton resized(const Skeleton& skeleton, double by) {
+Skeleton scaled(const Skeleton& skeleton, double by) {
     std::vector<Node> nodes = skeleton.nodes();
     for (Node& each : nodes) {
         each.rest.translation = times(each.rest.translation, by);
@@ -41,13 +41,13 @@ Skeleton resized(const Skeleton& skeleton, double by) {
     const auto made = Skeleton::make(std::move(nodes));
     return made ? *made : skeleton;
 }
-double size_for_steps(const MappedSkeleton& body) {
+double person_scale(const MappedSkeleton& body) {
     const double leg = detail::RetargetBody(body).leg;
     return leg > 1e-6 && leg < 1e6 ? person_leg / leg : 1.0;
 }
 
 /// Every key of the source and every frame, ascending.
-std::vector<double> moments_of(const Clip& clip) {
+std::vector<double> key_times(const Clip& clip) {
     const Frames frames = frames_at(clip, frame_rate(clip));
     if (frames.count > max_retargeted_keys) return std::vector<double>(max_retargeted_keys + 1);
     std::vector<double> times{0.0, clip.duration};
@@ -75,7 +75,7 @@ double extent_of(const Skeleton& skeleton) {
 std::vector<std::size_t> same_nodes(const MappedSkeleton& from, const MappedSkeleton& to, double ratio) {
     constexpr double same = 1e-5;  // in metres of a person, and for unit quaternions
     const double near = same * std::max(ratio, 1.0);
-    const auto alike = [&](const rig::Transform& a, const rig::Transform& b) {
+    const auto matches = [&](const rig::Transform& a, const rig::Transform& b) {
         return length(minus(times(a.translation, ratio), b.translation)) < near &&
                std::abs(dot(a.rotation, b.rotation)) > 1.0 - same * same &&
                length(minus(a.scale, b.scale)) < same;
@@ -94,7 +94,7 @@ std::vector<std::size_t> same_nodes(const MappedSkeleton& from, const MappedSkel
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const Node &a = from.skeleton[i], &b = to.skeleton[nodes[i]];
         if (!corresponds(a.parent, b.parent) || !corresponds(a.key_parent(), b.key_parent()) ||
-            !alike(a.rest, b.rest) || !alike(a.key_rest(), b.key_rest()))
+            !matches(a.rest, b.rest) || !matches(a.key_rest(), b.key_rest()))
             return {};
     }
     for (std::size_t i = 0; i < bone_count; ++i)
@@ -106,9 +106,9 @@ std::vector<std::size_t> same_nodes(const MappedSkeleton& from, const MappedSkel
 class Retargeter {
   public:
     Retargeter(const MappedSkeleton& from, const Clip& clip, const MappedSkeleton& to)
-        : size_(size_for_steps(from)),
-          skeleton_(resized(from.skeleton, size_)),
-          clip_(resized(clip, size_)),
+        : size_(person_scale(from)),
+          skeleton_(scaled(from.skeleton, size_)),
+          clip_(scaled(clip, size_)),
           to_(to),
           was_({skeleton_, from.map}),
           now_(to),
@@ -143,8 +143,8 @@ class Retargeter {
         result_.clip.rate = clip_.rate;
         std::vector<Channel> channels(to_.skeleton.size());
         for (const double time : times) {
-            point_limbs(time);
-            put_down(time);
+            pose_limbs(time);
+            place_feet(time);
             move_helpers();
             for (std::size_t node = 0; node < shared_.size(); ++node)
                 if (moves(node)) add_key(channels[node], time, key_of(to_.skeleton, pose_, node), node);
@@ -194,7 +194,7 @@ class Retargeter {
         const auto hips = now_.node(Bone::Hips);
         place(skeleton, rest_, placed_);
         rest_placed_ = placed_;
-        const double near = on_the_bone * now_.leg;
+        const double near = helper_reach * now_.leg;
         for (const std::int32_t each : skeleton.order()) {
             const auto node = static_cast<std::size_t>(each);
             if (skeleton.is_below(node, hips)) continue;
@@ -223,10 +223,10 @@ class Retargeter {
                 const Placement &now = placed_[*leader], &rest = rest_placed_[*leader],
                                 &own = rest_placed_[node];
                 const glm::dquat turned = math::compose(now.rotation(), conjugate(rest.rotation()));
-                Placement wanted{own.axes,
+                Placement target{own.axes,
                                  plus(now.position, rotated(turned, minus(own.position, rest.position)))};
-                for (int axis = 0; axis < 3; ++axis) wanted.axes[axis] = rotated(turned, own.axes[axis]);
-                pose_[node] = relative(above_of(node), wanted);
+                for (int axis = 0; axis < 3; ++axis) target.axes[axis] = rotated(turned, own.axes[axis]);
+                pose_[node] = relative(above_of(node), target);
                 pose_[node].scale = rest_[node].scale;  // scale gets no keys
             }
             placed_[node] = above_of(node) * placement(pose_[node]);
@@ -247,13 +247,13 @@ class Retargeter {
         const lint_detail::FeetMotion motion =
             lint_detail::feet_motion({skeleton_, was_.body.map, clip_, settings, 0.0, report});
         if (!legs_[0] || !legs_[1] || motion.feet.size() != 2) return;
-        const auto stood_on = lint_detail::floor_of(motion, report.rate);
-        if (stood_on || motion.knows_soles) learn_level_feet(motion);
+        const auto source_floor = lint_detail::floor_of(motion, report.rate);
+        if (source_floor || motion.has_soles) learn_level_feet(motion);
         const std::array<detail::SoleTriple, 2> soles{was_.sole(true, motion.feet[0].points[0].above),
                                                       was_.sole(false, motion.feet[1].points[0].above)};
         std::vector<detail::PointedFrame> frames;
         for (std::size_t i = 0; i < report.frames; ++i) {
-            point_limbs(std::min(static_cast<double>(i) / report.rate, clip_.duration));
+            pose_limbs(std::min(static_cast<double>(i) / report.rate, clip_.duration));
             frames.push_back(pointed(soles));
         }
         footing_ = detail::plan_feet(
@@ -264,7 +264,7 @@ class Retargeter {
              .leg = now_.leg,
              .floor = now_.ground,
              .shift = now_.ground - now_.soles->floor - scale_ * (was_.ground - was_.soles->floor),
-             .stood_on = stood_on,
+             .source_floor = source_floor,
              .ground = was_.ground,
              .turn = turn_});
     }
@@ -275,10 +275,10 @@ class Retargeter {
             was_.level(static_cast<std::size_t>(foot.node), foot.flat);
             was_.straighten_foot(left);
             const Bone toes = left ? Bone::LeftToes : Bone::RightToes;
-            if (!was_.has(toes) || motion.knows_soles) continue;
+            if (!was_.has(toes) || motion.has_soles) continue;
             glm::dvec3 up(0.0);
             for (std::size_t i = 0; i < foot.still.size(); ++i) {
-                if (!foot.still[i] || foot.tilt[i] > flat_enough) continue;
+                if (!foot.still[i] || foot.tilt[i] > max_flat_tilt) continue;
                 sample(clip_, skeleton_, std::min(static_cast<double>(i) / rate_, clip_.duration),
                        source_pose_);
                 place(skeleton_, source_pose_, source_);
@@ -315,7 +315,7 @@ class Retargeter {
                          plus(ball.position, rotated(ball.rotation(), sole[2])).y});
     }
     /// Displaces hips and feet as planned.
-    void put_down(double time) {
+    void place_feet(double time) {
         if (footing_.empty()) return;
         const double frame = std::clamp(time * rate_, 0.0, static_cast<double>(footing_.size() - 1));
         const auto first = static_cast<std::size_t>(frame), next = std::min(first + 1, footing_.size() - 1);
@@ -324,7 +324,7 @@ class Retargeter {
         const double up = a.hips + (b.hips - a.hips) * part;
         const std::size_t hips = now_.node(Bone::Hips);
         pose_[hips].translation =
-            plus(pose_[hips].translation, detail::seen_from(above_of(hips), {0.0, up, 0.0}));
+            plus(pose_[hips].translation, detail::to_local(above_of(hips), {0.0, up, 0.0}));
         for (std::size_t i = 0; i < 2; ++i) {
             const detail::Limb& leg = *legs_[i];
             const glm::dvec3 move = mix(a.feet[i], b.feet[i], part);
@@ -341,7 +341,7 @@ class Retargeter {
     // --------------------------------------------------------------------------------------------- limbs
 
     /// Turns every bone that both have from its reference pose as the source's bone turns from its own.
-    void point_limbs(double time) {
+    void pose_limbs(double time) {
         sample(clip_, skeleton_, time, source_pose_);
         place(skeleton_, source_pose_, source_);
         const glm::dvec3 way =
@@ -355,9 +355,9 @@ class Retargeter {
                 // In the source's frame, then in the target's.
                 const glm::dquat moved =
                     math::compose(source_[*from].rotation(), conjugate(was_.rotations[*from]));
-                const glm::dquat wanted = math::compose(
+                const glm::dquat target = math::compose(
                     math::compose(turn_, math::compose(moved, conjugate(turn_))), now_.rotations[node]);
-                pose_[node].rotation = rig::normalised(math::compose(conjugate(above.rotation()), wanted));
+                pose_[node].rotation = rig::normalised(math::compose(conjugate(above.rotation()), target));
                 if (node == now_.node(Bone::Hips))
                     pose_[node].translation =
                         relative(above, Placement{glm::dmat3(1.0), plus(now_.hips, way)}).translation;
@@ -422,11 +422,11 @@ Expected<Retargeted> retarget(const MappedSkeleton& from, const Clip& clip, cons
     double ratio = extent_of(to.skeleton) / extent_of(from.skeleton);
     if (!(std::abs(ratio - 1.0) > 1e-6)) ratio = 1.0;
     if (const std::vector<std::size_t> nodes = same_nodes(from, to, ratio); !nodes.empty()) {
-        Retargeted same{.clip = resized(clip, ratio), .scale = ratio};
+        Retargeted same{.clip = scaled(clip, ratio), .scale = ratio};
         for (Channel& each : same.clip.channels) each.node = nodes[each.node];
         return same;
     }
-    const std::vector<double> times = moments_of(clip);
+    const std::vector<double> times = key_times(clip);
     if (times.size() > max_retargeted_keys)
         return refused(operation, "clip", "of at most 100000 keys and frames", times.size());
     return Retargeter(from, clip, to).run(times);

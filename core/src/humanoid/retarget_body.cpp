@@ -42,7 +42,7 @@ RetargetBody::RetargetBody(const MappedSkeleton& given) : body(given), at(facing
     }
 }
 
-glm::dvec3 RetargetBody::way(std::size_t from, std::size_t to) const noexcept {
+glm::dvec3 RetargetBody::offset(std::size_t from, std::size_t to) const noexcept {
     return minus(placed[to].position, placed[from].position);
 }
 
@@ -82,7 +82,7 @@ void RetargetBody::find_fingers(bool left) {
         for (const std::int32_t child : body.skeleton.children(last)) {
             const auto i = static_cast<std::size_t>(child);
             if (finger_named(body.skeleton[i].name) == Finger::Thumb) continue;
-            if (length(way(last, i)) > shortest()) return;
+            if (length(offset(last, i)) > shortest()) return;
             if (!goes_on && !body.skeleton.children(i).empty()) next = i, goes_on = true;
         }
         last = next;
@@ -100,7 +100,7 @@ std::optional<glm::dvec3> RetargetBody::hand_axis(bool left) const {
         for (std::int32_t node = own[finger][0]; node >= 0 && node != static_cast<std::int32_t>(hand);
              node = body.skeleton[static_cast<std::size_t>(node)].parent)
             if (const auto i = static_cast<std::size_t>(node); !is_palm_name(body.skeleton[i].name))
-                if (const auto along = direction_of(way(hand, i), shortest())) found = along;
+                if (const auto along = direction_of(offset(hand, i), shortest())) found = along;
         return found;
     };
     if (const auto middle = base(2)) return middle;
@@ -115,7 +115,7 @@ std::optional<glm::dvec3> RetargetBody::hand_axis(bool left) const {
         for (const std::int32_t child : body.skeleton.children(above)) {
             const auto i = static_cast<std::size_t>(child);
             if (finger_named(body.skeleton[i].name) == Finger::Thumb) continue;
-            if (const auto each = direction_of(way(hand, i), shortest()))
+            if (const auto each = direction_of(offset(hand, i), shortest()))
                 sum = plus(sum, *each);
             else
                 open.push_back(i);
@@ -136,7 +136,7 @@ void RetargetBody::straighten_hand(bool left) {
         const FingerNodes& own = fingers[left ? 0 : 1][finger];
         for (std::size_t i = 0; i + 1 < own.size() && own[i + 1] >= 0; ++i) {
             const auto from = static_cast<std::size_t>(own[i]), to = static_cast<std::size_t>(own[i + 1]);
-            if (const auto bone = direction_of(way(from, to), 1e-9))
+            if (const auto bone = direction_of(offset(from, to), 1e-9))
                 turn(from, minimal_rotation(*bone, along));
         }
     }
@@ -166,7 +166,7 @@ bool RetargetBody::point_toes() {
     for (const LegBones& bones : leg_bones) {
         if (!has(bones.toes)) continue;
         const std::size_t toes = node(bones.toes);
-        const auto along = direction_of(way(toes, farthest_below(body.skeleton, placed, toes)), 1e-9);
+        const auto along = direction_of(offset(toes, farthest_below(body.skeleton, placed, toes)), 1e-9);
         if (!along || std::abs(dot(*along, at.up)) < upright_toes) continue;
         turn(toes, minimal_rotation(*along, at.forward));
         turned = true;
@@ -178,11 +178,11 @@ void RetargetBody::find_feet(bool toes_are_turned) {
     double height = 0.0, length_of_both = 0.0;
     has_legs = true;
     for (const LegBones& bones : leg_bones) {
-        if (has(bones.foot)) height = std::max(height, way(node(bones.foot), node(Bone::Hips)).y);
+        if (has(bones.foot)) height = std::max(height, offset(node(bones.foot), node(Bone::Hips)).y);
         has_legs = has_legs && has(bones.upper) && has(bones.lower) && has(bones.foot);
         if (has_legs)
-            length_of_both += length(way(node(bones.upper), node(bones.lower))) +
-                              length(way(node(bones.lower), node(bones.foot)));
+            length_of_both += length(offset(node(bones.upper), node(bones.lower))) +
+                              length(offset(node(bones.lower), node(bones.foot)));
     }
     leg = has_legs ? 0.5 * length_of_both : height;
     if (!has_legs) return;
@@ -207,7 +207,7 @@ void RetargetBody::find_feet(bool toes_are_turned) {
     const auto found = standing ? find_soles(*standing, body.map) : Expected<Soles>(standing.error());
     if (!found) return;
     soles = *found;
-    even_soles(rest, as_it_rests);
+    level_soles(rest, as_it_rests);
     // Legs bent at rest are straight in the T-pose, which stands on the same floor.
     double lowest = 1e9;
     for (const Sole& each : soles->feet)
@@ -221,13 +221,13 @@ void RetargetBody::find_feet(bool toes_are_turned) {
                          ankle = rest[soles->feet[i].foot].position;
         const auto level = [](const glm::dvec3& v) { return std::sqrt(v.x * v.x + v.z * v.z); };
         if (tip != toes && level(minus(end, ankle)) > level(minus(ball, ankle)))
-            tips[i] = seen_from(rest[toes], minus({end.x, ball.y, end.z}, rest[toes].position));
+            tips[i] = to_local(rest[toes], minus({end.x, ball.y, end.z}, rest[toes].position));
     }
 }
 
 /// On legs of unequal length both soles are as thick as the thinner one. If the rest pose does not show the
 /// thickness, soles end at the lowest joint, as for the lint.
-void RetargetBody::even_soles(const std::vector<Placement>& standing, bool shows_thickness) {
+void RetargetBody::level_soles(const std::vector<Placement>& standing, bool shows_thickness) {
     std::array<double, 2> lowest{1e9, 1e9};
     for (std::size_t side = 0; side < 2; ++side)
         for (std::size_t i = 0; i < standing.size(); ++i)
@@ -239,8 +239,8 @@ void RetargetBody::even_soles(const std::vector<Placement>& standing, bool shows
     for (std::size_t side = 0; side < 2; ++side) {
         Sole& each = soles->feet[side];
         const glm::dvec3 up{0.0, lowest[side] - thickness - soles->floor, 0.0};
-        each.heel = plus(each.heel, seen_from(standing[each.foot], up));
-        each.toe = plus(each.toe, seen_from(standing[each.toes], up));
+        each.heel = plus(each.heel, to_local(standing[each.foot], up));
+        each.toe = plus(each.toe, to_local(standing[each.toes], up));
     }
     soles->floor = both - thickness;
 }
@@ -268,7 +268,7 @@ void RetargetBody::straighten_foot(bool left) {
     if (!has(bones.foot)) return;
     const std::size_t foot = node(bones.foot);
     const std::size_t end = has(bones.toes) ? node(bones.toes) : farthest_below(body.skeleton, placed, foot);
-    const glm::dvec3 toes = way(foot, end);
+    const glm::dvec3 toes = offset(foot, end);
     const auto level = direction_of(glm::dvec3(toes.x, 0.0, toes.z), 0.02 * leg + 1e-9);
     if (level && dot(*level, at.forward) > 0.5) turn(foot, minimal_rotation(*level, at.forward));
 }

@@ -61,8 +61,8 @@ struct RetargetBody {
     void straighten_hand(bool left);
     bool point_toes();
     void find_feet(bool toes_are_turned);
-    void even_soles(const std::vector<Placement>& standing, bool shows_thickness);
-    glm::dvec3 way(std::size_t from, std::size_t to) const noexcept;
+    void level_soles(const std::vector<Placement>& standing, bool shows_thickness);
+    glm::dvec3 offset(std::size_t from, std::size_t to) const noexcept;
 };
 
 }  // namespace tendril::humanoid::detail

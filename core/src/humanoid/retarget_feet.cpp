@@ -11,20 +11,20 @@ using namespace rig::detail;
 
 namespace {
 
-constexpr double blend = 0.4;         // seconds over which a stance's displacement fades out
-constexpr double hips_ease = 0.15;    // seconds within which the hips are lowered
-constexpr double lift_ease = 0.1;     // seconds within which a swinging foot is lifted
-constexpr double short_swing = 0.05;  // seconds: no step is shorter
-constexpr double short_hold = 0.1;    // seconds that a foot must be still to be held off the floor
-constexpr double step_speed = 0.3;    // m/s: a slower foot has landed, or has not left yet
-constexpr double near_floor = 0.03;   // metres of the source
-constexpr double no_slide = 0.04;     // metres of the source: shorter slides of a standing foot are removed
-constexpr double no_height = 0.006;   // metres of the source: a foot below that has landed
-constexpr double no_sinking = 0.05;   // metres of the source: feet deeper in the ground are meant to be
+constexpr double blend_time = 0.4;    // seconds over which a stance's displacement fades out
+constexpr double hips_time = 0.15;    // seconds within which the hips are lowered
+constexpr double lift_time = 0.1;     // seconds within which a swinging foot is lifted
+constexpr double min_swing = 0.05;    // seconds: no step is shorter
+constexpr double min_hold = 0.1;      // seconds that a foot must be still to be held off the floor
+constexpr double swing_speed = 0.3;   // m/s: a slower foot has landed, or has not left yet
+constexpr double floor_gap = 0.03;    // metres of the source
+constexpr double max_slide = 0.04;    // metres of the source: shorter slides of a standing foot are removed
+constexpr double max_rise = 0.006;    // metres of the source: a foot below that has landed
+constexpr double max_sinking = 0.05;  // metres of the source: feet deeper in the ground are meant to be
 constexpr double straight = 0.995;    // in leg lengths, unless the source's leg is straighter
 constexpr double sole_part = 0.006;   // in leg lengths: points of the sole this near to the ground touch it
 constexpr double clear_part = 0.012;  // in leg lengths: a swinging foot is lifted up to this height
-constexpr double same_pose = 0.01;    // in leg lengths: maximum difference of first and last pose in a loop
+constexpr double loop_part = 0.01;    // in leg lengths: maximum difference of first and last pose in a loop
 
 /// The frames of a clip, or three rounds of one that ends as it begins. Only the second round is used, which
 /// then leads into the next.
@@ -45,7 +45,7 @@ class Rounds {
     static bool loops(const FootingTask& task) {
         const PointedFrame &a = task.frames.front(), &b = task.frames.back();
         if (task.frames.size() < 4) return false;
-        const double limit = same_pose * task.leg;
+        const double limit = loop_part * task.leg;
         bool same = std::abs(a.hips.y - b.hips.y) < limit;
         for (std::size_t foot = 0; foot < 2; ++foot) {
             const PointedFoot &was = a.feet[foot], &now = b.feet[foot];
@@ -101,28 +101,28 @@ class Planner {
     }
 
     void find_stands(std::size_t foot) {
-        if (!task_.stood_on) return;
+        if (!task_.source_floor) return;
         const lint_detail::Foot& its = source(foot);
-        const double floor = *task_.stood_on;
+        const double floor = *task_.source_floor;
         std::vector<bool> stands(task_.frames.size(), false);
         const auto mark = [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i <= last; ++i) stands[i] = true;
         };
-        for (const lint_detail::Stretch& each : lint_detail::stances_of(its, floor, task_.rate))
+        for (const lint_detail::FrameRange& each : lint_detail::stances_of(its, floor, task_.rate))
             mark(each.first, each.last);
         // Feet on stairs, or held in the air, stand too.
         for (std::size_t i = 0; i < stands.size();) {
             std::size_t end = i;
             while (end < stands.size() && its.still[end] && !stands[end]) ++end;
-            if (end - i >= seconds(short_hold)) mark(i, end - 1);
+            if (end - i >= seconds(min_hold)) mark(i, end - 1);
             i = std::max(end, i + 1);
         }
         // Include the frame at either end, whose speed is affected by the swing next to it.
-        const std::vector<bool> surely = stands;
+        const std::vector<bool> certain = stands;
         for (std::size_t i = 1; i < stands.size(); ++i) {
-            const double limit = step_speed / task_.rate;
+            const double limit = swing_speed / task_.rate;
             const glm::dvec3 ground = times(task_.motion.treadmill, 1.0 / task_.rate);
-            if (surely[i - 1] == surely[i] || std::abs(its.height[i] - its.height[i - 1]) > limit ||
+            if (certain[i - 1] == certain[i] || std::abs(its.height[i] - its.height[i - 1]) > limit ||
                 lint_detail::level(lint_detail::smallest_move(its, i, ground)) > limit)
                 continue;
             stands[i - 1] = stands[i] = true;
@@ -131,7 +131,7 @@ class Planner {
         for (std::size_t i = 0; i < rounds; ++i) {
             if (!stands[rounds_.frame(i)] && !stands[rounds_.step_to(i)]) continue;
             std::vector<Stand>& all = stands_[foot];
-            if (!all.empty() && i - all.back().last <= seconds(short_swing))
+            if (!all.empty() && i - all.back().last <= seconds(min_swing))
                 all.back().last = i;
             else
                 all.push_back({i, i, i, i});
@@ -149,8 +149,8 @@ class Planner {
             std::vector<double> heights;
             for (std::size_t i = each.first; i <= each.last; ++i)
                 heights.push_back(its.height[rounds_.frame(i)] - floor);
-            const double height = lint_detail::middle_of(heights);
-            if (std::abs(height) > near_floor) each.height = task_.scale * height;
+            const double height = lint_detail::median(heights);
+            if (std::abs(height) > floor_gap) each.height = task_.scale * height;
         }
     }
 
@@ -168,18 +168,18 @@ class Planner {
                 for (std::size_t i = each.first; each.height == 0.0 && i <= each.last; ++i)
                     if (!ever_stands || source(foot).upright[rounds_.frame(i)])
                         gaps.push_back(task_.floor - pointed(foot, i).ankle.y - lowest(pointed(foot, i)));
-        shift_ = gaps.empty() ? task_.shift : lint_detail::middle_of(gaps);
+        shift_ = gaps.empty() ? task_.shift : lint_detail::median(gaps);
     }
 
     /// Keeps the sole in place on the ground, or moves it with the ground of an in-place motion.
     void hold(std::size_t foot, const Stand& stand) {
         std::vector<glm::dvec3>& moves = moves_[foot];
-        const std::vector<glm::dvec3> way = wanted_way(foot, stand);
+        const std::vector<glm::dvec3> path = sole_path(foot, stand);
         glm::dvec3 sum(0.0);
         for (std::size_t i = stand.first; i <= stand.last; ++i) {
             if (i > stand.first) {
                 const std::size_t k = i - stand.first;
-                const glm::dvec3 step = minus(minus(way[k], way[k - 1]), pointed_step(foot, i));
+                const glm::dvec3 step = minus(minus(path[k], path[k - 1]), pointed_step(foot, i));
                 moves[i] = plus(moves[i - 1], {step.x, 0.0, step.z});
             }
             sum = plus(sum, moves[i]);
@@ -197,30 +197,30 @@ class Planner {
         if (stand.height != 0.0 || (i >= stand.still_first && i <= stand.still_last)) return stand.height;
         const std::size_t level = i < stand.still_first ? stand.still_first : stand.still_last;
         return task_.scale *
-               std::max(0.0, pointed(foot, i).source_low - pointed(foot, level).source_low - no_height);
+               std::max(0.0, pointed(foot, i).source_low - pointed(foot, level).source_low - max_rise);
     }
     /// The sole's horizontal path during a stance. A small slide is a fault of the source and is removed; the
     /// excess stays.
-    std::vector<glm::dvec3> wanted_way(std::size_t foot, const Stand& stand) const {
+    std::vector<glm::dvec3> sole_path(std::size_t foot, const Stand& stand) const {
         const glm::dvec3 ground = times(task_.motion.treadmill, 1.0 / task_.rate);
-        std::vector<glm::dvec3> way{glm::dvec3(0.0)};
+        std::vector<glm::dvec3> path{glm::dvec3(0.0)};
         glm::dvec3 low(0.0), high(0.0);
         for (std::size_t i = stand.first + 1; i <= stand.last; ++i) {
-            way.push_back(
-                plus(way.back(), lint_detail::smallest_move(source(foot), rounds_.step_to(i), ground)));
+            path.push_back(
+                plus(path.back(), lint_detail::smallest_move(source(foot), rounds_.step_to(i), ground)));
             for (int axis = 0; axis < 3; axis += 2) {
-                low[axis] = std::min(low[axis], way.back()[axis]);
-                high[axis] = std::max(high[axis], way.back()[axis]);
+                low[axis] = std::min(low[axis], path.back()[axis]);
+                high[axis] = std::max(high[axis], path.back()[axis]);
             }
         }
-        for (std::size_t k = 0; k < way.size(); ++k) {
-            const glm::dvec3 slide = minus(way[k], times(plus(low, high), 0.5));
-            const double far = lint_detail::level(slide), kept = std::max(0.0, far - no_slide);
+        for (std::size_t k = 0; k < path.size(); ++k) {
+            const glm::dvec3 slide = minus(path[k], times(plus(low, high), 0.5));
+            const double far = lint_detail::level(slide), excess = std::max(0.0, far - max_slide);
             const glm::dvec3 moved = times(ground, static_cast<double>(k));
-            way[k] = plus(moved, far > 0.0 ? times(slide, kept / far) : glm::dvec3(0.0));
-            way[k] = times(rotated(task_.turn, way[k]), task_.scale);
+            path[k] = plus(moved, far > 0.0 ? times(slide, excess / far) : glm::dvec3(0.0));
+            path[k] = times(rotated(task_.turn, path[k]), task_.scale);
         }
-        return way;
+        return path;
     }
     /// The step of the part of the sole that is on the ground.
     glm::dvec3 pointed_step(std::size_t foot, std::size_t i) const {
@@ -246,15 +246,15 @@ class Planner {
             const std::size_t before = k > 0 ? stands[k - 1].last : none,
                               after = k < stands.size() ? stands[k].first : none;
             const std::size_t first = before == none ? 0 : before + 1;
-            double over = blend * task_.rate;
+            double over = blend_time * task_.rate;
             if (before != none && after != none) over = std::min(over, static_cast<double>(after - before));
             for (std::size_t i = first; i < after; ++i) {
                 glm::dvec3 move(0.0);
                 if (before != none)
-                    move = times(moves[before], lint_detail::fading(static_cast<double>(i - before) / over));
+                    move = times(moves[before], lint_detail::falloff(static_cast<double>(i - before) / over));
                 if (after != none)
                     move = plus(move, times(moves[after],
-                                            lint_detail::fading(static_cast<double>(after - i) / over)));
+                                            lint_detail::falloff(static_cast<double>(after - i) / over)));
                 moves[i] = move;
             }
         }
@@ -272,17 +272,17 @@ class Planner {
             }
         for (std::size_t i = 0; i < moves.size(); ++i)
             if (from_stand[i] == 0.0) lifts[i] = 0.0;
-        const std::size_t half = std::max<std::size_t>(seconds(0.5 * lift_ease), 1);
+        const std::size_t half = std::max<std::size_t>(seconds(0.5 * lift_time), 1);
         const std::vector<double> early = mean_around(largest_around(lifts, half), half);
         for (std::size_t i = 0; i < moves.size(); ++i)
             if (from_stand[i] > 0.0)
-                moves[i].y += std::max(lifts[i], early[i] * std::min(1.0, from_stand[i] / lift_ease));
+                moves[i].y += std::max(lifts[i], early[i] * std::min(1.0, from_stand[i] / lift_time));
     }
     double lift(std::size_t foot, std::size_t i) const {
-        const double ground = task_.stood_on.value_or(task_.ground), most = clear_part * task_.leg;
+        const double ground = task_.source_floor.value_or(task_.ground), most = clear_part * task_.leg;
         const PointedFoot& its = pointed(foot, i);
         const double over = its.source_low - ground;
-        const double meant = over < 0.0 ? std::min(over + no_sinking, 0.0) : over;
+        const double meant = over < 0.0 ? std::min(over + max_sinking, 0.0) : over;
         const double wanted = std::min(task_.scale * meant, most);
         const double low = task_.floor + wanted - (its.ankle.y + lowest(its) + shift_ + moves_[foot][i].y);
         return low > 0.0 ? low * low / (low + most) : 0.0;
@@ -290,21 +290,21 @@ class Planner {
 
     /// How far to lower the hips to bring the foot within reach. No leg becomes straighter than `straight`,
     /// unless the source's is and its foot hardly moves: a leg that near to full length for one frame snaps.
-    double missing(std::size_t foot, std::size_t i) const {
+    double shortfall(std::size_t foot, std::size_t i) const {
         const PointedFoot& its = pointed(foot, i);
-        const glm::dvec3 pointed_way = minus(its.ankle, its.hip), way = plus(pointed_way, moves_[foot][i]);
-        const double longest = std::max(straight * its.leg, length(pointed_way) - length(moves_[foot][i]));
-        const double aside = lint_detail::level(way);
-        if (dot(way, way) <= longest * longest || aside >= longest) return 0.0;
-        return std::min(-way.y - std::sqrt(longest * longest - aside * aside), 0.2 * task_.leg);
+        const glm::dvec3 pointed_leg = minus(its.ankle, its.hip), leg = plus(pointed_leg, moves_[foot][i]);
+        const double longest = std::max(straight * its.leg, length(pointed_leg) - length(moves_[foot][i]));
+        const double aside = lint_detail::level(leg);
+        if (dot(leg, leg) <= longest * longest || aside >= longest) return 0.0;
+        return std::min(-leg.y - std::sqrt(longest * longest - aside * aside), 0.2 * task_.leg);
     }
 
     void find_drops() {
         const std::size_t count = rounds_.size();
         drops_.assign(count, 0.0);
-        for (std::size_t i = 0; i < count; ++i) drops_[i] = std::max({0.0, missing(0, i), missing(1, i)});
+        for (std::size_t i = 0; i < count; ++i) drops_[i] = std::max({0.0, shortfall(0, i), shortfall(1, i)});
         // The maximum over neighbours, then two means over half as many: no frame gets less than it needs.
-        const std::size_t half = std::max<std::size_t>(seconds(0.5 * hips_ease), 1);
+        const std::size_t half = std::max<std::size_t>(seconds(0.5 * hips_time), 1);
         drops_ = largest_around(drops_, 2 * half);
         for (int round = 0; round < 2; ++round) drops_ = mean_around(drops_, half);
     }

@@ -29,14 +29,14 @@ struct PointedFrame {
 struct FootingTask {
     const lint_detail::FeetMotion& motion;  ///< the source's feet
     const std::vector<PointedFrame>& frames;
-    double rate = 30.0;                   ///< frames per second
-    double scale = 1.0;                   ///< target metres per source metre
-    double leg = 1.0;                     ///< the target's leg length
-    double floor = 0.0;                   ///< the target's floor
-    double shift = 0.0;                   ///< how far to raise the hips if no foot stands
-    std::optional<double> stood_on{};     ///< the floor of the source's clip; none: feet hardly stand
-    double ground = 0.0;                  ///< the source's floor at rest
-    glm::dquat turn{1.0, 0.0, 0.0, 0.0};  ///< from the source's space to the target's
+    double rate = 30.0;                    ///< frames per second
+    double scale = 1.0;                    ///< target metres per source metre
+    double leg = 1.0;                      ///< the target's leg length
+    double floor = 0.0;                    ///< the target's floor
+    double shift = 0.0;                    ///< how far to raise the hips if no foot stands
+    std::optional<double> source_floor{};  ///< the floor of the source's clip; none: feet hardly stand
+    double ground = 0.0;                   ///< the source's floor at rest
+    glm::dquat turn{1.0, 0.0, 0.0, 0.0};   ///< from the source's space to the target's
 };
 
 struct Footing {

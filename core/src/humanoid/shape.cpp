@@ -43,7 +43,7 @@ class Shape {
 
     ShapeReading read() {
         found_.nodes.fill(-1);
-        found_.knows_left = false;
+        found_.left_known = false;
         if (!(height_ > 0.0)) return found_;
         const auto hips = find_hips();
         if (!hips) return found_;
@@ -161,7 +161,7 @@ class Shape {
         const glm::dvec3 toes = plus(toe_of(pair.a), toe_of(pair.b));
         if (std::hypot(toes.x, toes.z) > 0.03 * height_) {
             left_ = {toes.z, 0.0, -toes.x};  // up x forward
-            found_.knows_left = true;
+            found_.left_known = true;
         }
         const auto [left, right] = left_first(pair, left_);
         set_limb(longest(left), {Bone::LeftUpperLeg, Bone::LeftLowerLeg, Bone::LeftFoot}, Bone::LeftUpperLeg,

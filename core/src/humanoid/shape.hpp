@@ -9,7 +9,7 @@ namespace tendril::humanoid::detail {
 
 struct ShapeReading {
     std::array<std::int32_t, bone_count> nodes;  ///< -1: not found
-    bool knows_left;  ///< from the direction of the feet; if false, the figure is assumed to face +Z
+    bool left_known;  ///< from the direction of the feet; if false, the figure is assumed to face +Z
 
     std::int32_t& operator[](Bone bone) noexcept { return nodes[static_cast<std::size_t>(bone)]; }
     std::int32_t operator[](Bone bone) const noexcept { return nodes[static_cast<std::size_t>(bone)]; }

@@ -173,7 +173,7 @@ glm::dquat Placement::rotation() const noexcept {
 rig::Transform relative(const Placement& parent, const Placement& global) noexcept {
     using namespace rig::detail;
     Placement local;
-    for (int i = 0; i < 3; ++i) local.axes[i] = detail::seen_from(parent, global.axes[i]);
+    for (int i = 0; i < 3; ++i) local.axes[i] = detail::to_local(parent, global.axes[i]);
     rig::Transform result;
     for (int i = 0; i < 3; ++i) result.scale[i] = length(local.axes[i]);
     if (dot(cross(local.axes[0], local.axes[1]), local.axes[2]) < 0.0) {
@@ -181,7 +181,7 @@ rig::Transform relative(const Placement& parent, const Placement& global) noexce
         result.scale.z = -result.scale.z;
     }
     result.rotation = local.rotation();
-    result.translation = detail::seen_from(parent, minus(global.position, parent.position));
+    result.translation = detail::to_local(parent, minus(global.position, parent.position));
     return result;
 }
 

@@ -29,7 +29,7 @@ glm::dvec3 level(const glm::dvec3& v) noexcept {
 }
 
 glm::dvec3 in_space_of(const Placement& at, const glm::dvec3& point) noexcept {
-    return detail::seen_from(at, minus(point, at.position));
+    return detail::to_local(at, minus(point, at.position));
 }
 
 class Finder {
@@ -152,7 +152,7 @@ Soles clip_soles(const Skeleton& skeleton, const BoneMap& map, const Soles& sole
     report.frames = std::min<std::size_t>(report.frames, 10'000);
     const lint_detail::FeetMotion motion =
         lint_detail::feet_motion({skeleton, map, clip, settings, 0.0, report});
-    if (motion.knows_soles || motion.feet.size() != 2) return soles;
+    if (motion.has_soles || motion.feet.size() != 2) return soles;
     std::vector<Placement> rest(skeleton.size());
     place(skeleton, rest_pose(skeleton), rest);
     Soles learned = soles;

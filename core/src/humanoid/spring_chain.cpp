@@ -18,15 +18,15 @@ using tendril::detail::refused;
 
 constexpr double shortest = 1e-9;
 constexpr double unmoved = 1e-7;  // metres: rounding when a pose is computed again
-constexpr auto no_place = static_cast<std::size_t>(-1);
+constexpr auto no_index = static_cast<std::size_t>(-1);
 
 enum class Time : std::uint8_t { Passes, Stands, Jumps };
 
 /// A node of the chain. Its tip is the mean position of its children.
 struct ChainNode {
     std::size_t node = 0;
-    std::size_t above = no_place;     // its parent's index in the chain; none for the first
-    std::size_t mass = no_place;      // index of its tip's mass; none for a node without length
+    std::size_t above = no_index;     // its parent's index in the chain; none for the first
+    std::size_t mass = no_index;      // index of its tip's mass; none for a node without length
     double length = 0.0;              // from the chain's base to its tip, at rest
     std::vector<std::size_t> ends{};  // its children
     glm::dvec3 beyond{0.0};           // its tip in its own space, if it has no children
@@ -69,7 +69,7 @@ void spring(SpringMass& mass, const glm::dvec3& target, double strength, double 
 }
 
 /// A mass's offset from its target, clamped to `reach`: a drag while paused, or a file, may put it anywhere.
-glm::dvec3 swing_of(const SpringMass& mass, double reach) noexcept {
+glm::dvec3 clamped_offset(const SpringMass& mass, double reach) noexcept {
     const glm::dvec3 way = minus(mass.position, mass.target);
     if (!signal::is_input(way)) return glm::dvec3(0.0);
     const double away = length(way);
@@ -79,8 +79,8 @@ glm::dvec3 swing_of(const SpringMass& mass, double reach) noexcept {
 /// The direction nearest to `points` in which the tip of a bone of that length is outside all colliders. In
 /// the plane of bone and collider the law of cosines gives the angle at the base. Overlapping colliders, and
 /// the other end of a capsule, take more rounds.
-glm::dvec3 outside(std::span<const PlacedCapsule> colliders, double margin, const glm::dvec3& base,
-                   double bone, glm::dvec3 points) noexcept {
+glm::dvec3 push_out(std::span<const PlacedCapsule> colliders, double margin, const glm::dvec3& base,
+                    double bone, glm::dvec3 points) noexcept {
     constexpr int rounds = 8;
     constexpr double tolerance = 1.0 - 1e-9;
     bool moved = true;
@@ -109,7 +109,7 @@ glm::dvec3 outside(std::span<const PlacedCapsule> colliders, double margin, cons
     return points;
 }
 /// A tip's remaining velocity after a collider turned its bone: no part along the bone or back inside.
-glm::dvec3 kept(const glm::dvec3& velocity, const glm::dvec3& inside, const glm::dvec3& free) noexcept {
+glm::dvec3 deflected(const glm::dvec3& velocity, const glm::dvec3& inside, const glm::dvec3& free) noexcept {
     const glm::dvec3 left = across(velocity, free);
     const auto out = direction_of(across(minus(free, inside), free), 0.0);
     return out ? minus(left, times(*out, std::min(0.0, dot(left, *out)))) : left;
@@ -183,11 +183,11 @@ Expected<SpringChain> SpringChain::make(const Skeleton& skeleton, const BoneMap&
     const std::vector<rig::Transform> pose = rest_pose(skeleton);
     std::vector<Placement> rest(skeleton.size());
     place(skeleton, pose, rest);
-    std::vector<std::size_t> place_of(skeleton.size(), no_place);
+    std::vector<std::size_t> place_of(skeleton.size(), no_index);
     for (const std::int32_t each : skeleton.order()) {
         const auto node = static_cast<std::size_t>(each);
         const auto parent = static_cast<std::size_t>(skeleton[node].parent);
-        if (node != root && (skeleton[node].parent < 0 || place_of[parent] == no_place)) continue;
+        if (node != root && (skeleton[node].parent < 0 || place_of[parent] == no_index)) continue;
         if (const auto bone = detail::bone_of(map, each))
             return refused(operation, "root", "a node with no bone of the body at or below it",
                            std::string_view(std::string(named) + " with " + name(*bone)));
@@ -196,9 +196,9 @@ Expected<SpringChain> SpringChain::make(const Skeleton& skeleton, const BoneMap&
         const glm::dvec3 way = minus(rest[node].position, rest[parent].position);
         // A leaf's length is its distance from its parent.
         ChainNode added{.node = node,
-                        .above = above == nullptr ? no_place : place_of[parent],
+                        .above = above == nullptr ? no_index : place_of[parent],
                         .ends = {children.begin(), children.end()},
-                        .beyond = detail::seen_from(rest[node], way)};
+                        .beyond = detail::to_local(rest[node], way)};
         if (above != nullptr) added.length = above->length;
         const double reach = length(minus(rest[node].apply(plan->tip(added, pose)), rest[node].position));
         if (reach > shortest) {
@@ -232,7 +232,7 @@ void SpringChain::Plan::move(std::span<const rig::Transform> pose, const SpringO
                              double dt, SpringChainState& state) noexcept {
     for (std::size_t i = 0; i < chain.size(); ++i) {
         const ChainNode& each = chain[i];
-        if (each.mass == no_place) continue;
+        if (each.mass == no_index) continue;
         SpringMass& mass = state.masses[each.mass];
         const glm::dvec3 target = before[i].apply(tip(each, pose));
         const bool jumped = length(minus(target, mass.target)) > unmoved;
@@ -262,8 +262,8 @@ void SpringChain::Plan::turn(std::span<rig::Transform> pose, const Placement& ba
         after[i] = above * placement(swung);
         const glm::dvec3 swing_above = i == 0 ? glm::dvec3(0.0) : swing[each.above];
         swing[i] = swing_above;
-        if (each.mass == no_place || !state.masses[each.mass].started) continue;
-        swing[i] = swing_of(state.masses[each.mass], size * each.length);
+        if (each.mass == no_index || !state.masses[each.mass].started) continue;
+        swing[i] = clamped_offset(state.masses[each.mass], size * each.length);
         const glm::dvec3 end = tip(each, pose);
         const glm::dvec3 bone = minus(before[i].apply(end), before[i].position);
         const auto rest = direction_of(bone, shortest);
@@ -275,13 +275,13 @@ void SpringChain::Plan::turn(std::span<rig::Transform> pose, const Placement& ba
         if (!colliders.empty()) {
             const double reach = length(minus(after[i].apply(end), after[i].position));
             const glm::dvec3 free =
-                outside(colliders, size * options.hit_radius, after[i].position, reach, now);
+                push_out(colliders, size * options.hit_radius, after[i].position, reach, now);
             if (time == Time::Passes && free != now) {
                 SpringMass& mass = state.masses[each.mass];
                 swing[i] = plus(swing_above, minus(times(free, length(bone)), bone));
                 mass.position = plus(mass.target, swing[i]);
                 if (mass.has_velocity)
-                    mass.velocity = plus(pace[i], kept(minus(mass.velocity, pace[i]), now, free));
+                    mass.velocity = plus(pace[i], deflected(minus(mass.velocity, pace[i]), now, free));
                 mass.held = true;
             }
             now = free;
@@ -312,7 +312,7 @@ SpringReport SpringChain::Plan::run(std::span<rig::Transform> pose, const Spring
     move(pose, options, time, dt, state);
     turn(pose, base, options, time, state, colliders, report);
     for (std::size_t i = 0; time == Time::Passes && i < chain.size(); ++i)
-        if (chain[i].mass != no_place && state.masses[chain[i].mass].has_velocity)
+        if (chain[i].mass != no_index && state.masses[chain[i].mass].has_velocity)
             report.speed =
                 std::max(report.speed, length(minus(state.masses[chain[i].mass].velocity, pace[i])));
     return report;

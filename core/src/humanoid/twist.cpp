@@ -17,7 +17,7 @@ namespace {
 
 constexpr glm::dquat no_turn{1.0, 0.0, 0.0, 0.0};
 /// Squared cosines of half a swing of 160 and of 175 degrees: between them the twist fades out.
-constexpr double told = 0.0302, lost = 0.0019;
+constexpr double full = 0.0302, zero = 0.0019;
 /// Radians; a smaller change is rounding.
 constexpr double min_twist = 1e-9;
 
@@ -52,7 +52,7 @@ std::optional<std::size_t> mapped_above(const Skeleton& skeleton, const BoneMap&
 
 double twist_about(const glm::dvec3& axis, const glm::dquat& turn) noexcept {
     const double along = dot(glm::dvec3{turn.x, turn.y, turn.z}, axis);
-    const double part = std::clamp((turn.w * turn.w + along * along - lost) / (told - lost), 0.0, 1.0);
+    const double part = std::clamp((turn.w * turn.w + along * along - zero) / (full - zero), 0.0, 1.0);
     return part * part * (3.0 - 2.0 * part) * detail::hinge_angle(axis, turn);
 }
 

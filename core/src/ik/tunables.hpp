@@ -98,7 +98,7 @@ inline constexpr StallRule step_stall{.window = 2, .relative = 3e-3f};
 inline constexpr float min_gain = 2e-7f;
 /// FABRIK's passes continue while a pair leaves less than this fraction of the error. With only one pair the
 /// same arms arrive, a quarter of an iteration to one iteration sooner.
-inline constexpr float reaching_pays = 0.5f;
+inline constexpr float max_reach_ratio = 0.5f;
 /// Damping of least squares, in reach squared (Levenberg 1944, Marquardt 1963), and its factors per step.
 inline constexpr float first_damping = 1e-3f, min_damping = 1e-6f, max_damping = 100.0f;
 inline constexpr float damping_falls = 0.3f, damping_grows = 5.0f;
@@ -114,11 +114,11 @@ inline constexpr float orientation_tolerance = 1e-3f, straight_tolerance = 1e-4f
 inline constexpr float orientation_arm = 0.25f;
 
 /// Limits are to blame if they remove at least this fraction of the descent.
-inline constexpr float blamed_part = 0.01f;
+inline constexpr float min_limit_share = 0.01f;
 /// Descent steps before a limit is blamed. Without them, of 730 straight arms whose target ahead is
 /// reachable, 338 more that FABRIK (2011) leaves on the line would blame a limit; of the others' 40 000
 /// verdicts they change 60.
-inline constexpr int blame_steps = 40;
+inline constexpr int limit_test_steps = 40;
 
 }  // namespace limits
 

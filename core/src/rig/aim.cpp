@@ -11,32 +11,32 @@ namespace {
 using namespace detail;
 using Direction = std::optional<glm::dvec3>;
 
-constexpr double shortest = 1e-9, narrowest = 1e-6;
+constexpr double min_length = 1e-9, min_sine = 1e-6;
 
 struct Target {
     Direction direction;
     double weight;
 };
 
-Target target_of(const AimPart& part, const Transform& item, double whole) noexcept {
-    const glm::dvec3 way =
+Target target_of(const AimPart& part, const Transform& item, double total_weight) noexcept {
+    const glm::dvec3 offset =
         part.kind == AimTarget::Location ? minus(part.target, item.translation) : part.target;
-    return {direction_of(way, shortest), weight(part.weight) * whole};
+    return {direction_of(offset, min_length), weight(part.weight) * total_weight};
 }
 
 /// `from` blended towards `to` along the chord. Half way to the opposite direction the chord passes through
 /// zero: the result is then a quarter turn, about the axis of the half turn.
-glm::dvec3 toward(const glm::dvec3& from, const glm::dvec3& to, double part,
-                  const glm::dvec3& side) noexcept {
+glm::dvec3 blend_direction(const glm::dvec3& from, const glm::dvec3& to, double part,
+                           const glm::dvec3& side) noexcept {
     if (part == 1.0) return to;
-    return direction_of(mix(from, to, part), shortest).value_or(cross(side, from));
+    return direction_of(mix(from, to, part), min_length).value_or(cross(side, from));
 }
 
 AimWarning turn_primary(glm::dquat& rotation, const glm::dvec3& axis, const Target& target) noexcept {
-    const Direction from = direction_of(rotated(rotation, axis), shortest);
+    const Direction from = direction_of(rotated(rotation, axis), min_length);
     if (!from) return AimWarning::ZeroAxis;
     if (!target.direction) return AimWarning::TargetAtItem;
-    const glm::dvec3 to = toward(*from, *target.direction, target.weight, perpendicular(*from));
+    const glm::dvec3 to = blend_direction(*from, *target.direction, target.weight, perpendicular(*from));
     rotation = normalised(math::compose(minimal_rotation(*from, to), rotation));
     return AimWarning::None;
 }
@@ -51,14 +51,14 @@ glm::dquat roll_between(const glm::dvec3& from, const glm::dvec3& to, const glm:
 /// Rolls the rotation about `about`, the primary axis after the primary part.
 AimWarning roll_secondary(glm::dquat& rotation, const glm::dvec3& axis, const Target& target,
                           const glm::dvec3& about) noexcept {
-    const Direction along = direction_of(rotated(rotation, axis), shortest);
+    const Direction along = direction_of(rotated(rotation, axis), min_length);
     if (!along) return AimWarning::ZeroAxis;
     if (!target.direction) return AimWarning::TargetAtItem;
-    const Direction from = direction_of(across(*along, about), narrowest);
+    const Direction from = direction_of(across(*along, about), min_sine);
     if (!from) return AimWarning::AxesParallel;
-    const Direction to = direction_of(across(*target.direction, about), narrowest);
+    const Direction to = direction_of(across(*target.direction, about), min_sine);
     if (!to) return AimWarning::TargetOnAxis;
-    const glm::dvec3 goal = toward(*from, *to, target.weight, about);
+    const glm::dvec3 goal = blend_direction(*from, *to, target.weight, about);
     const glm::dquat roll = roll_between(*from, goal, about);
     rotation = normalised(math::compose(roll, rotation));
     return AimWarning::None;
@@ -72,7 +72,7 @@ glm::dquat limited(const glm::dquat& from, const glm::dquat& to, double radians)
 
 Result check_axis(std::string_view operation, std::string_view argument, const glm::dvec3& axis) noexcept {
     const double size = length(axis);
-    return size > shortest ? Result() : refused(operation, argument, "longer than 1e-9", size);
+    return size > min_length ? Result() : refused(operation, argument, "longer than 1e-9", size);
 }
 
 }  // namespace
@@ -85,13 +85,13 @@ Result check(const AimOptions& options, const char* operation) noexcept {
 
 AimResult aim(const Transform& item, const AimOptions& options, double dt) noexcept {
     AimResult result{item, AimWarning::None, AimWarning::None};
-    const double whole = weight(options.weight);
-    const Target first = target_of(options.primary, item, whole);
-    const Target second = target_of(options.secondary, item, whole);
+    const double total_weight = weight(options.weight);
+    const Target first = target_of(options.primary, item, total_weight);
+    const Target second = target_of(options.secondary, item, total_weight);
     glm::dquat rotation = item.rotation;
     if (first.weight > 0.0) result.primary = turn_primary(rotation, options.primary.axis, first);
     if (second.weight > 0.0) {
-        const Direction about = direction_of(rotated(rotation, options.primary.axis), shortest);
+        const Direction about = direction_of(rotated(rotation, options.primary.axis), min_length);
         result.secondary =
             about ? roll_secondary(rotation, options.secondary.axis, second, *about) : AimWarning::ZeroAxis;
     }

@@ -24,7 +24,7 @@ inline Result check_number(std::string_view operation, const Argument& argument,
     if (std::abs(value) <= static_cast<double>(max_magnitude)) return {};
     return refused(operation, argument, "finite and at most 1e9 in magnitude", value);
 }
-/// Names the coordinate that is refused: `targets[1].position.y`.
+/// Names the refused coordinate: `targets[1].position.y`.
 inline Result check_vector(std::string_view operation, const Argument& argument,
                            const glm::dvec3& value) noexcept {
     for (int i = 0; i < 3; ++i) {

@@ -17,23 +17,23 @@ double wrapped(double angle) noexcept {
 }
 
 /// Cosine and sine of an angle.
-struct Turn {
+struct CosSin {
     double cosine, sine;
 };
 constexpr double pole = 1e-9;  ///< below it, one of the two angles in to_euler() is undefined
 
 /// Cosine and sine of half the angle, which is in (-pi, pi].
-Turn half(double cosine, double sine) noexcept {
+CosSin half(double cosine, double sine) noexcept {
     const double larger = std::sqrt(0.5 * (1.0 + std::abs(cosine)));
     const double smaller = 0.5 * std::abs(sine) / larger;
-    const Turn turn = cosine < 0.0 ? Turn{smaller, larger} : Turn{larger, smaller};
+    const CosSin turn = cosine < 0.0 ? CosSin{smaller, larger} : CosSin{larger, smaller};
     return {turn.cosine, sine < 0.0 ? -turn.sine : turn.sine};
 }
 
 /// Cosine and sine of half of each Euler angle: to_euler() without its arctangents.
-std::array<Turn, 3> half_angles(const glm::dquat& q) noexcept {
-    Turn difference{q.w + q.y, q.z - q.x}, sum{q.w - q.y, q.z + q.x};
-    const auto make_unit = [](Turn& turn) {
+std::array<CosSin, 3> half_angles(const glm::dquat& q) noexcept {
+    CosSin difference{q.w + q.y, q.z - q.x}, sum{q.w - q.y, q.z + q.x};
+    const auto make_unit = [](CosSin& turn) {
         const double size = std::sqrt(turn.cosine * turn.cosine + turn.sine * turn.sine);
         if (size >= pole) turn = {turn.cosine / size, turn.sine / size};
         return size;
@@ -43,12 +43,12 @@ std::array<Turn, 3> half_angles(const glm::dquat& q) noexcept {
     if (plus_size < pole) difference = {sum.cosine, -sum.sine};
     const double cc = sum.cosine * difference.cosine, ss = sum.sine * difference.sine;
     const double sc = sum.sine * difference.cosine, cs = sum.cosine * difference.sine;
-    return {half(cc + ss, sc - cs), Turn{0.5 * (plus_size + minus_size), 0.5 * (plus_size - minus_size)},
+    return {half(cc + ss, sc - cs), CosSin{0.5 * (plus_size + minus_size), 0.5 * (plus_size - minus_size)},
             half(cc - ss, sc + cs)};
 }
 
 /// Rz * Ry * Rx.
-glm::dquat rotation_of(const std::array<Turn, 3>& halves) noexcept {
+glm::dquat rotation_of(const std::array<CosSin, 3>& halves) noexcept {
     const auto& [x, y, z] = halves;
     const double cc = y.cosine * z.cosine, ss = y.sine * z.sine;
     const double cs = y.cosine * z.sine, sc = y.sine * z.cosine;
@@ -60,8 +60,8 @@ glm::dquat rotation_of(const std::array<Turn, 3>& halves) noexcept {
 
 glm::dquat detail::choose_angles(const glm::dquat& from, const glm::dquat& to,
                                  const std::array<bool, 3>& chosen) noexcept {
-    std::array<Turn, 3> halves = half_angles(from);
-    const std::array<Turn, 3> others = half_angles(to);
+    std::array<CosSin, 3> halves = half_angles(from);
+    const std::array<CosSin, 3> others = half_angles(to);
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (chosen[axis]) halves[axis] = others[axis];
     return rotation_of(halves);
@@ -83,7 +83,7 @@ glm::dvec3 to_euler(const glm::dquat& q) noexcept {
 glm::dquat from_euler(const glm::dvec3& angles) noexcept {
     const auto half = [](double angle) {
         const auto [sine, cosine] = math::sine_cosine(angle / (4.0 * pi));
-        return Turn{cosine, sine};
+        return CosSin{cosine, sine};
     };
     return rotation_of({half(angles.x), half(angles.y), half(angles.z)});
 }

@@ -69,7 +69,7 @@ struct Access {
             given.source);
     }
     static bool same(const void* a, const void* b) { return in(a) == in(b); }
-    /// Of a number {x, NaN, NaN, NaN}, of a vector {x, y, z, 0}.
+    /// A literal's numbers: a number as {x, NaN, NaN, NaN}, a vector as {x, y, z, 0}.
     static FieldValue number(const void* at) noexcept {
         FieldValue all{no_value, no_value, no_value, no_value};
         const T* const literal = in(at).literal();
@@ -84,7 +84,7 @@ struct Access {
         if (vector != nullptr) all = {vector->x, vector->y, vector->z, 0.0};
         return all;
     }
-    /// Rotations and transforms are checked where names are resolved.
+    /// Checks numbers and vectors only; the resolver checks rotations and transforms.
     static bool fits(const Field& row, const void* at) noexcept {
         const T* const literal = in(at).literal();
         if (literal == nullptr) return true;
@@ -110,7 +110,7 @@ struct InputType<Input<T>> : Access<T> {
     static constexpr const InputAccess* access = &access_to<T>;
 };
 
-/// A row for an input, or an optional one.
+/// A table row for an input, which may be optional.
 template <auto member>
 constexpr Field input(const char* name, FieldRange range = any, const char* unit = "") noexcept {
     using Member = tendril::detail::ValueOf<member>;
@@ -145,7 +145,7 @@ constexpr InputAccess transform_access{
         *static_cast<Transform*>(at) = std::get<Transform>(*given.literal());
     }};
 
-/// A row for an element. `of`: "bones" for the ends of a chain.
+/// A table row for an element. `of`: "bones" for the ends of a chain.
 template <auto member>
 constexpr Field item(const char* name, const char* of = "elements") noexcept {
     return {.name = name,
@@ -355,7 +355,7 @@ std::span<const Field> fields<Unit>() noexcept {
 
 namespace {
 
-/// The settings of a control of one kind: the ends of its range as the numbers of its value.
+/// A bound of a control's range, stored as the numbers of the control's value.
 constexpr Field bound(Field row, FieldType type) noexcept {
     row.type = type;
     return row.sparsely();

@@ -19,9 +19,9 @@ using detail::quoted;
 using detail::Shared;
 using detail::UnitPlan;
 
-/// Work, in steps of about 30 ns. A bone of a chain takes 10 if the chain follows, 20 if it has to be bent
-/// anew.
-constexpr std::uint64_t work_a_unit = 10, work_a_bone = 20;
+/// Work, in steps of about 30 ns. A bone takes 10 while its chain follows a target and 20 when the chain must
+/// bend into a new pose; 20 is charged.
+constexpr std::uint64_t work_per_unit = 10, work_per_bone = 20;
 
 Result invalid(const std::string& message) {
     return {ErrorCode::InvalidArgument, message};
@@ -79,28 +79,28 @@ class Builder {
         layout_.work = count;
         layout_.ids.resize(count);
         element_at_.resize(count);
-        std::vector<std::size_t> line;
+        std::vector<std::size_t> path;
         for (std::size_t i = 0; i < count; ++i) {
-            line.clear();
+            path.clear();
             for (std::int64_t at = static_cast<std::int64_t>(i);
                  at >= 0 && !layout_.ids[static_cast<std::size_t>(at)];) {
                 const auto element = static_cast<std::size_t>(at);
-                line.push_back(element);
-                if (line.size() > count) return refused_cycle(line);
+                path.push_back(element);
+                if (path.size() > count) return refused_cycle(path);
                 at = layout_.parents[element];
             }
-            for (; !line.empty(); line.pop_back())
-                if (const Result bad = add_element(line.back()); !bad) return bad;
+            for (; !path.empty(); path.pop_back())
+                if (const Result bad = add_element(path.back()); !bad) return bad;
         }
         return {};
     }
 
-    Result refused_cycle(const std::vector<std::size_t>& line) const {
-        const auto name = [&](std::size_t at) { return quoted(definition_.elements[line[at]].name); };
+    Result refused_cycle(const std::vector<std::size_t>& path) const {
+        const auto name = [&](std::size_t at) { return quoted(definition_.elements[path[at]].name); };
         // The last element is part of the cycle; the one before it is its child.
-        const std::size_t last = line.size() - 1;
+        const std::size_t last = path.size() - 1;
         return invalid("element " + name(last) + ": its parent " +
-                       quoted(definition_.elements[line[last]].parent) + " is itself below it");
+                       quoted(definition_.elements[path[last]].parent) + " is itself below it");
     }
 
     Result add_element(std::size_t at) {
@@ -138,7 +138,7 @@ class Builder {
         return {};
     }
 
-    /// `times`: how many elements it runs on. `around`: the index of the for-each that contains it, if any.
+    /// `times`: how often it runs in a solve. `around`: the index of the for-each that contains it, if any.
     Result add_unit(Unit& unit, std::size_t times, std::optional<std::size_t> around = {}) {
         const std::size_t index = layout_.units.size();
         const std::string place = "unit " + quoted(unit.name);
@@ -153,7 +153,7 @@ class Builder {
         layout_.initial.units.push_back(std::move(state));
         layout_.unit_names.push_back(unit.name);
         layout_.units.push_back({{}, {}, {}, around, top_, std::move(*outputs)});
-        layout_.work += times * work_a_unit;
+        layout_.work += times * work_per_unit;
         if (const auto* two_bone = std::get_if<TwoBone>(&unit.operation))
             return add_chain(unit, two_bone->root, two_bone->tip, 3, times, layout_.units[index]);
         if (const auto* fabrik = std::get_if<Fabrik>(&unit.operation))
@@ -162,7 +162,7 @@ class Builder {
             for (const std::string& each : spline->points)
                 layout_.units[index].points.push_back(
                     static_cast<std::uint32_t>(layout_.elements.find(each)->second));
-            layout_.work += times * spline->points.size() * work_a_bone;
+            layout_.work += times * spline->points.size() * work_per_bone;
             return add_chain(unit, spline->root, spline->tip, 0, times, layout_.units[index]);
         }
         auto* for_each = std::get_if<ForEach>(&unit.operation);
@@ -188,7 +188,7 @@ class Builder {
     Result add_chain(const Unit& unit, const Item& root, const Item& tip, std::size_t wanted,
                      std::size_t times, UnitPlan& planned) {
         const Result found = find_bones(unit, root, tip, wanted, planned);
-        layout_.work += times * planned.bones.size() * work_a_bone;
+        layout_.work += times * planned.bones.size() * work_per_bone;
         return found;
     }
 

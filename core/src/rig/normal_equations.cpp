@@ -6,16 +6,16 @@
 namespace tendril::rig {
 namespace {
 
-constexpr std::size_t at_once = 4;
+constexpr std::size_t unroll = 4;
 /// The cost of writing or copying a matrix entry, in multiplications.
-constexpr std::uint64_t per_entry = 4;
+constexpr std::uint64_t cost_per_entry = 4;
 
 }  // namespace
 
 void NormalEquations::plan(const std::vector<std::vector<double>>& columns) {
     count_ = columns.size();
     first_.assign(count_, 0);
-    assembling_ = solving_ = per_entry * count_ * count_;
+    assembly_cost_ = solve_cost_ = cost_per_entry * count_ * count_;
     if (count_ == 0) return;
     // A matrix entry is nonzero only if its two columns have a nonzero row in common.
     std::vector<std::size_t> leads(columns.front().size(), count_);
@@ -28,24 +28,24 @@ void NormalEquations::plan(const std::vector<std::vector<double>>& columns) {
             ++rows;
         }
         first_[i] = first;
-        assembling_ += leads.size() + (i + 1) * rows;
-        solving_ += (i - first) * (i - first) / 2 + i;
+        assembly_cost_ += leads.size() + (i + 1) * rows;
+        solve_cost_ += (i - first) * (i - first) / 2 + i;
     }
 }
 
 void NormalEquations::assemble(const std::vector<std::vector<double>>& columns,
-                               const std::vector<double>& left) {
+                               const std::vector<double>& residuals) {
     normal_.assign(count_ * count_, 0.0);
     gradient_.assign(count_, 0.0);
     for (std::size_t i = 0; i < count_; ++i) {
         const double* const column = columns[i].data();
         rows_.clear();
-        for (std::size_t k = 0; k < left.size(); ++k)
+        for (std::size_t k = 0; k < residuals.size(); ++k)
             if (column[k] != 0.0) rows_.push_back(static_cast<std::uint32_t>(k));
-        for (const std::uint32_t k : rows_) gradient_[i] += column[k] * left[k];
+        for (const std::uint32_t k : rows_) gradient_[i] += column[k] * residuals[k];
         double* const row = &normal_[i * count_];
         std::size_t j = 0;
-        for (; j + at_once <= i + 1; j += at_once) {
+        for (; j + unroll <= i + 1; j += unroll) {
             const double *const a = columns[j].data(), *const b = columns[j + 1].data(),
                                 *const c = columns[j + 2].data(), *const d = columns[j + 3].data();
             double sum_a = 0.0, sum_b = 0.0, sum_c = 0.0, sum_d = 0.0;
@@ -65,7 +65,7 @@ void NormalEquations::assemble(const std::vector<std::vector<double>>& columns,
     }
 }
 
-bool NormalEquations::solve(double damping, const std::vector<bool>& still, std::vector<double>& step) {
+bool NormalEquations::solve(double damping, const std::vector<bool>& fixed, std::vector<double>& step) {
     double largest = 0.0;
     for (std::size_t i = 0; i < count_; ++i) largest = std::max(largest, normal_[i * count_ + i]);
     if (!(largest > 0.0)) return false;
@@ -74,7 +74,7 @@ bool NormalEquations::solve(double damping, const std::vector<bool>& still, std:
     // All parameters get the same damping: scaled per column, the least influential would move furthest.
     for (std::size_t i = 0; i < count_; ++i) matrix_[i * count_ + i] += damping * largest;
     for (std::size_t i = 0; i < count_; ++i) {
-        if (!still[i]) continue;
+        if (!fixed[i]) continue;
         for (std::size_t k = 0; k <= i; ++k) matrix_[i * count_ + k] = 0.0;
         for (std::size_t k = i; k < count_; ++k) matrix_[k * count_ + i] = 0.0;
         matrix_[i * count_ + i] = 1.0;
@@ -99,7 +99,7 @@ bool NormalEquations::factor() {
         double* const row = &matrix_[i * count_];
         const std::size_t first = first_[i];
         std::size_t j = first;
-        for (; j + at_once <= i; j += at_once) {
+        for (; j + unroll <= i; j += unroll) {
             const double *const a = &matrix_[j * count_], *const b = a + count_, *const c = b + count_,
                                 *const d = c + count_;
             double sum_a = row[j], sum_b = row[j + 1], sum_c = row[j + 2], sum_d = row[j + 3];

@@ -15,7 +15,7 @@ namespace tendril::rig::detail {
 /// One element visited by a for-each.
 struct Visit {
     std::uint32_t element = 0;
-    std::uint32_t index = 0, count = 0;  ///< its position below its root
+    std::uint32_t index = 0, count = 0;  ///< index among the visits of its root, and their number
 };
 
 /// The compiled data of one unit, including those in bodies.
@@ -24,7 +24,7 @@ struct UnitPlan {
     std::vector<std::uint32_t> bones;     ///< units of a chain only: the elements from root to tip
     std::vector<std::uint32_t> points;    ///< splines only: the elements that the curve passes through
     std::optional<std::size_t> for_each;  ///< units in a body only: the for-each around them
-    std::size_t top = 0;                  ///< its index in Definition::units, or that of its for-each
+    std::size_t top = 0;                  ///< its index in Definition::units; in a body, its for-each's
     std::vector<Output> outputs;
 };
 

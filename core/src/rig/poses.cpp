@@ -105,9 +105,9 @@ void Hierarchy::forget_pending(Values& pose, Index at) noexcept {
     stamp.previous_pending = stamp.next_pending = none;
 }
 
-const Transform& Hierarchy::get(ElementId element, Space space, Pose which) noexcept {
+const Transform& Hierarchy::get(ElementId element, Space space, Pose pose_kind) noexcept {
     const Index at = required("get", element);
-    Values& pose = values(which);
+    Values& pose = values(pose_kind);
     if (space == Space::Local) {
         resolve_local(pose, at);
         return pose.local[at];
@@ -138,17 +138,17 @@ bool Hierarchy::up_to_date(const Values& pose, Index at) const noexcept {
     return true;
 }
 
-Pending Hierarchy::pending(ElementId element, Pose which) const noexcept {
+Pending Hierarchy::pending(ElementId element, Pose pose_kind) const noexcept {
     const Index at = required("pending", element);
-    const Values& pose = values(which);
+    const Values& pose = values(pose_kind);
     if (!up_to_date(pose, at)) return Pending::Global;
     return pose.stamps[at].local_pending ? Pending::Local : Pending::None;
 }
 
-std::optional<Transform> Hierarchy::known(ElementId element, Space space, Pose which) const noexcept {
+std::optional<Transform> Hierarchy::known(ElementId element, Space space, Pose pose_kind) const noexcept {
     const Index at = required("known", element);
-    const Values& pose = values(which);
-    const Pending missing = pending(element, which);
+    const Values& pose = values(pose_kind);
+    const Pending missing = pending(element, pose_kind);
     if (missing == (space == Space::Local ? Pending::Local : Pending::Global)) return std::nullopt;
     return space == Space::Local ? worked_out_local(pose, at) : pose.global[at];
 }
@@ -209,20 +209,20 @@ void Hierarchy::write_local(Values& pose, Index at, const Transform& local, Prop
 }
 
 void Hierarchy::put(ElementId element, Space space, const Transform& transform, Propagate propagate,
-                    Pose which) noexcept {
+                    Pose pose_kind) noexcept {
     const Index at = required("put", element);
     if (space == Space::Global)
-        write_global(values(which), at, transform, propagate);
+        write_global(values(pose_kind), at, transform, propagate);
     else
-        write_local(values(which), at, transform, propagate);
+        write_local(values(pose_kind), at, transform, propagate);
 }
 
 Result Hierarchy::set(ElementId element, Space space, const Transform& transform, Propagate propagate,
-                      Pose which) noexcept {
+                      Pose pose_kind) noexcept {
     if (const Result bad = check(element, "set", "element"); !bad) return bad;
     const Expected<Transform> fit = checked(transform, "set", "transform");
     if (!fit) return fit.error();
-    put(element, space, *fit, propagate, which);
+    put(element, space, *fit, propagate, pose_kind);
     return {};
 }
 

@@ -61,20 +61,20 @@ Expected<std::vector<Output>> Resolver::resolve(Unit& unit, std::size_t index,
     return outputs;
 }
 
-void Resolver::spring(std::vector<Output>& handed_out) {
+void Resolver::spring(std::vector<Output>& outputs) {
     const Type target = any_types_[0];
     if (target == Type::Bool || target == Type::Transform)
         return refuse(std::string("target takes a number, a vector or a rotation, got a ") + name(target));
     const Type rate = target == Type::Rotation ? Type::Vector : target;
     if (any_types_.size() > 1 && any_types_[1] != rate)
         return refuse(std::string("force takes a ") + name(rate) + " here, got a " + name(any_types_[1]));
-    handed_out[0].type = target;
-    handed_out[1].type = rate;
+    outputs[0].type = target;
+    outputs[1].type = rate;
 }
 
 namespace {
 
-/// The units in a body are resolved by themselves.
+/// Whether a field holds the body of a for-each; the units in it are resolved separately.
 bool is_body(const Field& field) {
     return field.holds<Unit>();
 }
@@ -108,7 +108,7 @@ void Resolver::rows(std::span<const Field> table, void* object, const std::strin
     }
 }
 
-/// `at`: what the field's accessors take; of a struct, its address.
+/// `at`: the argument of the field's accessors; for a struct, the struct's address.
 void Resolver::row(const Field& field, void* at, const std::string& name) {
     if (at == nullptr) return;
     if (field.type == FieldType::Struct) return rows(field.table(), at, name + '.');
@@ -177,14 +177,14 @@ Type Resolver::type_of_source(const std::string& name, FromUnit& from) {
         return Type::Number;
     }
     from.resolved_unit.index = static_cast<std::int32_t>(found->second);
-    const std::vector<Output>& handed_out = unit.outputs;
-    const auto output = std::find_if(handed_out.begin(), handed_out.end(),
+    const std::vector<Output>& outputs = unit.outputs;
+    const auto output = std::find_if(outputs.begin(), outputs.end(),
                                      [&](const Output& each) { return each.name == from.output; });
-    if (output == handed_out.end()) {
+    if (output == outputs.end()) {
         refuse(name + ": unit " + quoted(from.unit) + " has no output " + quoted(from.output));
         return Type::Number;
     }
-    from.resolved_output.index = static_cast<std::int32_t>(output - handed_out.begin());
+    from.resolved_output.index = static_cast<std::int32_t>(output - outputs.begin());
     return output->type;
 }
 

@@ -27,12 +27,12 @@ class Resolver {
     Resolver(const Definition& definition, const detail::Layout& layout)
         : definition_(definition), layout_(layout) {}
 
-    /// Does not resolve the units in its body. `index`: the unit's among all units. `for_each`: the index of
-    /// the for-each that contains it, if any. Returns its outputs.
+    /// Does not resolve the units in the unit's body. `index`: its index among all units. `for_each`: the
+    /// index of the for-each that contains it, if any. Returns its outputs.
     Expected<std::vector<Output>> resolve(Unit& unit, std::size_t index, std::optional<std::size_t> for_each);
 
   private:
-    void spring(std::vector<Output>& handed_out);
+    void spring(std::vector<Output>& outputs);
     void refuse(const std::string& what);
     void rows(std::span<const Field> table, void* object, const std::string& above = {});
     void row(const Field& field, void* at, const std::string& name);

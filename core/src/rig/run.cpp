@@ -37,7 +37,7 @@ bool Rig::solve(State& state, double dt, Workspace& workspace, Observer* observe
 }
 
 bool Runner::run(Observer* observer) noexcept {
-    put_back();
+    reset_pose();
     for (UnitState& unit : state_.units) unit.warning = Warning::None;
     if (observer) observer->begin(state_);
     const Units& units = plan_.definition.units;
@@ -49,7 +49,7 @@ bool Runner::run(Observer* observer) noexcept {
 }
 
 /// Resets bones, nulls and curves to their input, and poses controls by their values.
-void Runner::put_back() noexcept {
+void Runner::reset_pose() noexcept {
     std::copy(state_.input_curves.begin(), state_.input_curves.end(), state_.curves.begin());
     Hierarchy& tree = state_.elements;
     tree.copy_pose(Pose::Input, Pose::Current);
@@ -71,17 +71,17 @@ void Runner::run_unit(const Unit& unit) noexcept {
 void Runner::operator()(const ForEach& op) noexcept {
     const std::size_t own = unit_, first = next_;
     const std::vector<detail::Visit>& visits = plan_.layout->units[own].visits;
-    hand_out(0, static_cast<double>(visits.size()));
+    set_output(0, static_cast<double>(visits.size()));
     for_each_weight_ = weight_;
     if (weight_ > 0.0)
-        for (place_in_for_each_ = 0; place_in_for_each_ < visits.size(); ++place_in_for_each_) {
-            visit_ = &visits[place_in_for_each_];
+        for (visit_index_ = 0; visit_index_ < visits.size(); ++visit_index_) {
+            visit_ = &visits[visit_index_];
             next_ = first;
             for (const Unit& unit : op.body) run_unit(unit);
         }
     visit_ = nullptr;
     for_each_weight_ = 1.0;
-    place_in_for_each_ = 0;
+    visit_index_ = 0;
     next_ = first + op.body.size();
 }
 
@@ -129,8 +129,8 @@ void Runner::warn(Warning warning) noexcept {
     if (unit_state().warning == Warning::None && !skipped_) unit_state().warning = warning;
 }
 
-void Runner::hand_out(std::size_t output, const Value& value) noexcept {
-    if (is_fine(value)) {
+void Runner::set_output(std::size_t output, const Value& value) noexcept {
+    if (is_in_range(value)) {
         unit_state().outputs[output] = value;
     } else {
         warn(Warning::OutOfRange);
@@ -138,10 +138,10 @@ void Runner::hand_out(std::size_t output, const Value& value) noexcept {
     }
 }
 
-/// At weight 0 the item must keep its bits.
+/// At weight 0 the element must stay unchanged to the last bit.
 void Runner::place(ElementId id, Space space, const Transform& to, bool propagate) noexcept {
     if (weight_ == 0.0) return;
-    if (!is_fine(to)) return warn(Warning::OutOfRange);
+    if (!is_in_range(to)) return warn(Warning::OutOfRange);
     state_.elements.put(id, space, to, propagate ? Propagate::Yes : Propagate::No);
 }
 

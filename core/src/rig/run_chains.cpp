@@ -32,13 +32,13 @@ void Runner::operator()(const Fabrik& op) noexcept {
     solve_chain(ik::Method::Fabrik, op.target, op.pole_target);
 }
 
-glm::dvec3 Runner::bone_place(std::size_t bone) noexcept {
+glm::dvec3 Runner::bone_position(std::size_t bone) noexcept {
     const std::uint32_t element = plan_.layout->units[unit_].bones[bone];
     return state_.elements.get(plan_.layout->ids[element], Space::Global).translation;
 }
 
-/// Length in metres, from quantities that do not change with the pose: unless a scale changes, the length
-/// keeps its bits, and the solver made for it can be reused.
+/// Length in metres, from quantities that do not depend on the pose: the length stays the same to the last
+/// bit unless a scale changes, so the chain's solver can be reused.
 float Runner::bone_length(std::size_t bone) noexcept {
     const std::vector<std::uint32_t>& elements = plan_.layout->units[unit_].bones;
     const glm::dvec3 scale = state_.elements.get(plan_.layout->ids[elements[bone]], Space::Global).scale;
@@ -51,9 +51,9 @@ float Runner::bone_length(std::size_t bone) noexcept {
 /// Measures joints and bones. True if the lengths are the same as last time.
 bool Runner::measure_chain(ChainScratch& chain) {
     const std::size_t bones = plan_.layout->units[unit_].bones.size() - 1;
-    const glm::dvec3 origin = bone_place(0);
+    const glm::dvec3 origin = bone_position(0);
     chain.joints.resize(bones + 1);
-    chain.before.resize(bones);
+    chain.rotations_before.resize(bones);
     chain.lengths.resize(bones);
     bool same = true;
     chain.joints[0] = glm::vec3(0.0f);
@@ -61,16 +61,16 @@ bool Runner::measure_chain(ChainScratch& chain) {
         const float length = bone_length(i);
         same = same && chain.lengths[i] == length;
         chain.lengths[i] = length;
-        chain.joints[i + 1] = math::narrow(detail::minus(bone_place(i + 1), origin));
-        chain.before[i] =
+        chain.joints[i + 1] = math::narrow(detail::minus(bone_position(i + 1), origin));
+        chain.rotations_before[i] =
             state_.elements.get(plan_.layout->ids[plan_.layout->units[unit_].bones[i]], Space::Local)
                 .rotation;
     }
     return same;
 }
 
-/// A solver for the current bone lengths: made at the first solve, and again whenever a length differs at
-/// all. Otherwise the result would depend on earlier solvers.
+/// Makes a solver for the current bone lengths at the first solve, and again whenever a length differs at
+/// all. Otherwise the result would depend on earlier solves.
 bool Runner::prepare_chain(ChainScratch& chain) {
     if (measure_chain(chain) && chain.solver) return true;
     chain.solver.reset();
@@ -84,16 +84,16 @@ void Runner::turn_bones(const ChainScratch& chain) noexcept {
     Hierarchy& tree = state_.elements;
     const std::vector<std::uint32_t>& elements = plan_.layout->units[unit_].bones;
     for (std::size_t i = 0; i + 1 < elements.size(); ++i) {
-        const glm::dvec3 is = detail::minus(bone_place(i + 1), bone_place(i));
-        const glm::dvec3 should = math::between(chain.joints[i], chain.joints[i + 1]);
+        const glm::dvec3 current = detail::minus(bone_position(i + 1), bone_position(i));
+        const glm::dvec3 solved = math::between(chain.joints[i], chain.joints[i + 1]);
         Transform pose = tree.get(plan_.layout->ids[elements[i]], Space::Global);
-        pose.rotation = normalised(math::compose(from_two_vectors(is, should), pose.rotation));
+        pose.rotation = normalised(math::compose(from_two_vectors(current, solved), pose.rotation));
         tree.put(plan_.layout->ids[elements[i]], Space::Global, pose);
     }
     if (weight_ >= 1.0) return;
     for (std::size_t i = 0; i + 1 < elements.size(); ++i) {
         Transform pose = tree.get(plan_.layout->ids[elements[i]], Space::Local);
-        pose.rotation = blend(chain.before[i], pose.rotation, weight_);
+        pose.rotation = blend(chain.rotations_before[i], pose.rotation, weight_);
         tree.put(plan_.layout->ids[elements[i]], Space::Local, pose);
     }
 }
@@ -101,7 +101,7 @@ void Runner::turn_bones(const ChainScratch& chain) noexcept {
 void Runner::solve_chain(ik::Method method, const Input<glm::dvec3>& target,
                          const std::optional<Input<glm::dvec3>>& pole_target) noexcept {
     const std::size_t bones = plan_.layout->units[unit_].bones.size() - 1;
-    const glm::dvec3 to = read(target), origin = bone_place(0);
+    const glm::dvec3 to = read(target), origin = bone_position(0);
     if (weight_ > 0.0) {
         ChainScratch& chain = workspace_.chains[unit_];
         if (!prepare_chain(chain)) {
@@ -120,13 +120,13 @@ void Runner::solve_chain(ik::Method method, const Input<glm::dvec3>& target,
                 turn_bones(chain);
         }
     }
-    hand_out(0, detail::length(detail::minus(to, bone_place(bones))));
+    set_output(0, detail::length(detail::minus(to, bone_position(bones))));
 }
 
 /// The bones' initial directions; +X where two coincide.
-void Runner::measure_rest(ChainScratch& chain) {
+void Runner::measure_rest_directions(ChainScratch& chain) {
     const std::vector<std::uint32_t>& elements = plan_.layout->units[unit_].bones;
-    chain.rest.clear();
+    chain.rest_directions.clear();
     for (std::size_t i = 0; i + 1 < elements.size(); ++i) {
         const auto at = [&](std::size_t k) {
             return state_.elements.get(plan_.layout->ids[elements[k]], Space::Global, Pose::Initial)
@@ -134,15 +134,15 @@ void Runner::measure_rest(ChainScratch& chain) {
         };
         const glm::dvec3 along = detail::minus(at(i + 1), at(i));
         const double length = detail::length(along);
-        chain.rest.push_back(
+        chain.rest_directions.push_back(
             length > 0.0 ? math::narrow(glm::dvec3(along.x / length, along.y / length, along.z / length))
                          : glm::vec3(1.0f, 0.0f, 0.0f));
     }
 }
 
-/// The root goes to the first joint, the bones turn from their initial poses, and their lengths are scaled by
+/// Moves the root to the first joint, turns the bones from their initial poses, and scales their lengths by
 /// the factor, each blended by the weight.
-void Runner::lay(const ChainScratch& chain, const glm::dvec3& first, double factor) noexcept {
+void Runner::pose_spline_chain(const ChainScratch& chain, const glm::dvec3& first, double factor) noexcept {
     Hierarchy& tree = state_.elements;
     const std::vector<std::uint32_t>& elements = plan_.layout->units[unit_].bones;
     Transform root = tree.get(plan_.layout->ids[elements[0]], Space::Global);
@@ -159,7 +159,7 @@ void Runner::lay(const ChainScratch& chain, const glm::dvec3& first, double fact
         pose.translation = detail::times(pose.translation, 1.0 + weight_ * (factor - 1.0));
         place(next, Space::Local, pose, true);
     }
-    turn_bones(chain);  // where an element has moved within its parent since the initial pose
+    turn_bones(chain);  // corrects bones whose tip has moved within its parent since the initial pose
 }
 
 void Runner::operator()(const Spline& op) noexcept {
@@ -173,33 +173,33 @@ void Runner::operator()(const Spline& op) noexcept {
     if (weight_ > 0.0) {
         ChainScratch& chain = workspace_.chains[unit_];
         measure_chain(chain);
-        measure_rest(chain);
+        measure_rest_directions(chain);
         chain.points.clear();
         for (std::size_t i = 0; i < unit.points.size(); ++i)
             chain.points.push_back(math::narrow(detail::minus(point(i), origin)));
         if (chain.placed.bones() != bones) chain.placed = ik::State(bones);
         constexpr double radian = math::pi / 180.0;
-        const auto most = static_cast<float>(parameter(op.max_factor, 100.0));
+        const auto max_factor = static_cast<float>(parameter(op.max_factor, 100.0));
         const ik::CurveOptions options{
             .kind = read(op.b_spline) ? ik::CurveKind::BSpline : ik::CurveKind::Hermite,
-            .fit = read(op.fit) && most > 1.0f,
-            .max_factor = most > 1.0f ? most : 2.0f,
+            .fit = read(op.fit) && max_factor > 1.0f,
+            .max_factor = max_factor > 1.0f ? max_factor : 2.0f,
             .up = math::narrow(read(op.up)),
             .roll_start = static_cast<float>(read(op.roll_start_deg) * radian),
             .roll_end = static_cast<float>(read(op.roll_end_deg) * radian)};
-        report = ik::place_along(chain.points, {chain.lengths, chain.rest}, chain.joints, chain.placed,
-                                 chain.none, options);
+        report = ik::place_along(chain.points, {chain.lengths, chain.rest_directions}, chain.joints,
+                                 chain.placed, chain.curve_memory, options);
         if (report.status == ik::Status::InvalidInput)
             warn(Warning::CannotSolve);
         else
-            lay(chain, origin, static_cast<double>(report.factor));
+            pose_spline_chain(chain, origin, static_cast<double>(report.factor));
     }
-    hand_out(0, detail::length(detail::minus(end, bone_place(bones))));
-    const bool past =
-        report.status == ik::Status::Stretched;  // otherwise the tip is past by rounding at most
-    hand_out(1, past ? static_cast<double>(report.bones_past_end) : 0.0);
-    hand_out(2, past ? static_cast<double>(report.past_end) : 0.0);
-    hand_out(3, static_cast<double>(report.factor));
+    set_output(0, detail::length(detail::minus(end, bone_position(bones))));
+    const bool stretched =
+        report.status == ik::Status::Stretched;  // otherwise only rounding puts the tip past the end
+    set_output(1, stretched ? static_cast<double>(report.bones_past_end) : 0.0);
+    set_output(2, stretched ? static_cast<double>(report.past_end) : 0.0);
+    set_output(3, static_cast<double>(report.factor));
 }
 
 }  // namespace tendril::rig

@@ -10,8 +10,8 @@
 namespace tendril::rig {
 namespace {
 
-/// Smaller changes are rest, in metres, radians or plain numbers.
-constexpr double still = 1e-9;
+/// Smaller changes and speeds count as rest; in metres, radians or plain numbers.
+constexpr double min_motion = 1e-9;
 
 double blended(double from, double to, double weight) noexcept {
     return from + (to - from) * weight;
@@ -50,28 +50,28 @@ void Runner::operator()(const AlphaInterpolate& op) noexcept {
                                             .interp = read(op.interp),
                                             .speed_increasing = read(op.speed_increasing),
                                             .speed_decreasing = read(op.speed_decreasing)};
-    if (skipped_) return hand_out(0, value);
+    if (skipped_) return set_output(0, value);
     if (!std::holds_alternative<signal::OutputState>(memory().held)) memory().held = signal::OutputState();
-    auto& remembered = std::get<signal::OutputState>(memory().held);
-    const signal::OutputState before = remembered;
+    auto& state = std::get<signal::OutputState>(memory().held);
+    const signal::OutputState before = state;
     if (!parameters.interp) {
-        // Without easing the input takes effect at once, even if no time passes.
+        // Without easing the input takes effect at once, even in a step of zero time.
         signal::OutputState at_once{.value = before.value};
-        hand_out(0, blended(value, signal::step(parameters, at_once, value, dt_), weight_));
-        if (at_once.started) remembered = at_once;
+        set_output(0, blended(value, signal::step(parameters, at_once, value, dt_), weight_));
+        if (at_once.started) state = at_once;
         return;
     }
-    const double result = signal::step(parameters, remembered, value, dt_);
-    moving_ |= std::abs(remembered.value - before.value) > still;
-    hand_out(0, blended(value, result, weight_));
+    const double result = signal::step(parameters, state, value, dt_);
+    moving_ |= std::abs(state.value - before.value) > min_motion;
+    set_output(0, blended(value, result, weight_));
 }
 
 template <class T>
 void Runner::spring(const SpringInterpolate& op, const T& target) noexcept {
     using Rate = signal::Rate<T>;
     if (skipped_) {
-        hand_out(0, target);
-        return hand_out(1, Rate{});
+        set_output(0, target);
+        return set_output(1, Rate{});
     }
     signal::Spring<T> parameters{.strength = parameter(op.strength, signal::max_strength),
                                  .critical_damping = parameter(op.critical_damping, signal::max_damping),
@@ -79,15 +79,15 @@ void Runner::spring(const SpringInterpolate& op, const T& target) noexcept {
     if (op.force) parameters.force = std::get<Rate>(read(*op.force));
     using Memory = signal::SpringState<T>;
     if (!std::holds_alternative<Memory>(memory().held)) memory().held = Memory();
-    auto& remembered = std::get<Memory>(memory().held);
-    const Rate before = remembered.velocity;
-    const T result = signal::step(parameters, remembered, target, dt_);
-    // The velocity is 0 at a turning point, and before a force without a spring has moved it: that is not
-    // rest.
-    moving_ |= size(remembered.velocity) > still || size(difference(remembered.velocity, before)) > still ||
-               (parameters.strength < signal::no_strength && size(parameters.force) > still);
-    hand_out(0, blended(target, result, weight_));
-    hand_out(1, remembered.velocity);
+    auto& state = std::get<Memory>(memory().held);
+    const Rate before = state.velocity;
+    const T result = signal::step(parameters, state, target, dt_);
+    // The velocity is 0 at a turning point, and before a force without a spring has moved the value; neither
+    // is rest.
+    moving_ |= size(state.velocity) > min_motion || size(difference(state.velocity, before)) > min_motion ||
+               (parameters.strength < signal::no_strength && size(parameters.force) > min_motion);
+    set_output(0, blended(target, result, weight_));
+    set_output(1, state.velocity);
 }
 
 void Runner::operator()(const SpringInterpolate& op) noexcept {
@@ -99,14 +99,14 @@ void Runner::operator()(const SpringInterpolate& op) noexcept {
 
 void Runner::operator()(const EvaluateCurve& op) noexcept {
     const double value = read(op.value);
-    hand_out(0, blended(value, signal::evaluate(op.curve, value), weight_));
+    set_output(0, blended(value, signal::evaluate(op.curve, value), weight_));
 }
 
 void Runner::operator()(const SetCurve& op) noexcept {
     double& curve = state_.curves[static_cast<std::size_t>(op.resolved.index)];
     const double to = blended(curve, read(op.value), weight_);
-    if (weight_ > 0.0 && is_fine(to)) curve = to;
-    hand_out(0, curve);
+    if (weight_ > 0.0 && is_in_range(to)) curve = to;
+    set_output(0, curve);
 }
 
 }  // namespace tendril::rig

@@ -55,9 +55,9 @@ Transform Runner::aimed(const Transform& from, const AimInputs& primary,
     if (!turned) turned = &memory().held.emplace<Turned>(Turned{result.transform.rotation});
     Transform limited = result.transform;
     const double angle = 2.0 * detail::half_angle_between(turned->rotation, limited.rotation);
-    const double most = dt_ > 0.0 ? speed * radians * dt_ : 0.0;
-    if (angle > most) {
-        limited.rotation = blend(turned->rotation, limited.rotation, most / angle);
+    const double max_turn = dt_ > 0.0 ? speed * radians * dt_ : 0.0;
+    if (angle > max_turn) {
+        limited.rotation = blend(turned->rotation, limited.rotation, max_turn / angle);
         moving_ = true;
     }
     turned->rotation = limited.rotation;
@@ -69,11 +69,11 @@ void Runner::operator()(const Aim& op) noexcept {
     const Transform from = state_.elements.get(id, Space::Global);
     const Transform to = aimed(from, op.primary, op.secondary, op.max_speed);
     place(id, Space::Global, to, true);
-    hand_out(0, state_.elements.get(id, Space::Global));
+    set_output(0, state_.elements.get(id, Space::Global));
 }
 
 void Runner::operator()(const AimMath& op) noexcept {
-    hand_out(0, aimed(read(op.transform), op.primary, op.secondary, op.max_speed));
+    set_output(0, aimed(read(op.transform), op.primary, op.secondary, op.max_speed));
 }
 
 void Runner::operator()(const ParentConstraint& op) noexcept {
@@ -96,7 +96,7 @@ void Runner::operator()(const ParentConstraint& op) noexcept {
     const ParentConstraintOptions options{
         .maintain_offset = read(op.maintain_offset), .filter = op.filter, .weight = weight_};
     place(id, Space::Global, parent_constraint(child, parents, options), true);
-    hand_out(0, tree.get(id, Space::Global));
+    set_output(0, tree.get(id, Space::Global));
 }
 
 void Runner::operator()(const OffsetTransform& op) noexcept {
@@ -104,7 +104,7 @@ void Runner::operator()(const OffsetTransform& op) noexcept {
     const Transform from = state_.elements.get(id, Space::Global);
     place(id, Space::Global, offset_transform(from, normalised_transform(read(op.offset)), weight_),
           read(op.propagate));
-    hand_out(0, state_.elements.get(id, Space::Global));
+    set_output(0, state_.elements.get(id, Space::Global));
 }
 
 void Runner::operator()(const SetTransform& op) noexcept {
@@ -112,14 +112,14 @@ void Runner::operator()(const SetTransform& op) noexcept {
     const Transform from = state_.elements.get(id, op.space);
     place(id, op.space, set_transform(from, normalised_transform(read(op.transform)), weight_),
           read(op.propagate));
-    hand_out(0, state_.elements.get(id, Space::Global));
+    set_output(0, state_.elements.get(id, Space::Global));
 }
 
 void Runner::operator()(const SetRotation& op) noexcept {
     const ElementId id = item(op.item);
     const Transform from = state_.elements.get(id, op.space);
     place(id, op.space, set_rotation(from, normalised(read(op.rotation)), weight_), read(op.propagate));
-    hand_out(0, state_.elements.get(id, op.space).rotation);
+    set_output(0, state_.elements.get(id, op.space).rotation);
 }
 
 void Runner::operator()(const ProjectToParent& op) noexcept {
@@ -127,22 +127,22 @@ void Runner::operator()(const ProjectToParent& op) noexcept {
     const Transform child = tree.get(item(op.child), Space::Global, Pose::Initial);
     const Transform old_parent = tree.get(item(op.old_parent), Space::Global, Pose::Initial);
     const Transform to = project_to_parent(child, old_parent, global(op.new_parent));
-    hand_out(0, blend(global(op.child), to, weight_));
+    set_output(0, blend(global(op.child), to, weight_));
 }
 
 void Runner::operator()(const FromTwoVectors& op) noexcept {
     const glm::dquat full = from_two_vectors(read(op.from), read(op.to));
-    hand_out(0, blend(glm::dquat(1.0, 0.0, 0.0, 0.0), full, weight_));
+    set_output(0, blend(glm::dquat(1.0, 0.0, 0.0, 0.0), full, weight_));
 }
 
 void Runner::operator()(const TransformLocation& op) noexcept {
     const glm::dvec3 from = read(op.location);
-    hand_out(0, detail::mix(from, transform_location(read(op.transform), from), weight_));
+    set_output(0, detail::mix(from, transform_location(read(op.transform), from), weight_));
 }
 
 void Runner::operator()(const TransformDirection& op) noexcept {
     const glm::dvec3 from = read(op.direction);
-    hand_out(0, detail::mix(from, transform_direction(read(op.transform), from), weight_));
+    set_output(0, detail::mix(from, transform_direction(read(op.transform), from), weight_));
 }
 
 }  // namespace tendril::rig

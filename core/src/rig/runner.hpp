@@ -19,7 +19,7 @@ class Runner {
     Runner(const detail::Plan& plan, State& state, double dt, Workspace::Parts& workspace) noexcept
         : plan_(plan), state_(state), dt_(dt), workspace_(workspace) {}
 
-    /// True while anything with memory still moves.
+    /// Returns true while anything with memory still moves.
     bool run(Observer* observer) noexcept;
 
     void operator()(const Aim& op) noexcept;
@@ -42,7 +42,7 @@ class Runner {
     void operator()(const Spline& op) noexcept;
 
   private:
-    void put_back() noexcept;
+    void reset_pose() noexcept;
     void run_unit(const Unit& unit) noexcept;
 
     // input
@@ -51,7 +51,7 @@ class Runner {
     Value value_of(const FromElement& from) noexcept;
     ElementId item(const Item& item) const noexcept;
     double weight(const Input<double>& input) noexcept;
-    /// Clamped to 0 to `maximum`, with a warning if it is outside.
+    /// Clamps the input to 0 to `maximum`, and warns if it is outside.
     double parameter(const Input<double>& input, double maximum) noexcept;
     const Transform& global(const Item& item) noexcept {
         return state_.elements.get(this->item(item), Space::Global);
@@ -59,10 +59,10 @@ class Runner {
 
     // output
     void warn(Warning warning) noexcept;
-    void hand_out(std::size_t output, const Value& value) noexcept;
+    void set_output(std::size_t output, const Value& value) noexcept;
     void place(ElementId id, Space space, const Transform& to, bool propagate) noexcept;
     UnitState& unit_state() noexcept { return state_.units[unit_]; }
-    UnitMemory& memory() noexcept { return unit_state().memory[visit_ ? place_in_for_each_ : 0]; }
+    UnitMemory& memory() noexcept { return unit_state().memory[visit_ ? visit_index_ : 0]; }
 
     Transform aimed(const Transform& from, const AimInputs& primary,
                     const std::optional<AimInputs>& secondary, const Input<double>& max_speed) noexcept;
@@ -73,11 +73,11 @@ class Runner {
                      const std::optional<Input<glm::dvec3>>& pole_target) noexcept;
     bool measure_chain(ChainScratch& chain);
     bool prepare_chain(ChainScratch& chain);
-    void measure_rest(ChainScratch& chain);
-    void lay(const ChainScratch& chain, const glm::dvec3& first, double factor) noexcept;
+    void measure_rest_directions(ChainScratch& chain);
+    void pose_spline_chain(const ChainScratch& chain, const glm::dvec3& first, double factor) noexcept;
     float bone_length(std::size_t bone) noexcept;
     void turn_bones(const ChainScratch& chain) noexcept;
-    glm::dvec3 bone_place(std::size_t bone) noexcept;
+    glm::dvec3 bone_position(std::size_t bone) noexcept;
 
     const detail::Plan& plan_;
     State& state_;
@@ -87,10 +87,10 @@ class Runner {
     std::size_t unit_ = 0;  ///< index in Plan::units
     std::size_t next_ = 0;  ///< index of the next unit
     const detail::Visit* visit_ = nullptr;
-    std::size_t place_in_for_each_ = 0;
+    std::size_t visit_index_ = 0;
     double weight_ = 1.0;
     double for_each_weight_ = 1.0;  ///< weight of the surrounding for-each
-    bool skipped_ = false;          ///< then its weight is 0 and its memory does not advance
+    bool skipped_ = false;          ///< true at weight 0: memory does not advance
     bool moving_ = false;
 };
 

@@ -20,25 +20,25 @@ Result refused_index(const char* operation, const char* what, std::size_t index,
                                        " is out of range, the rig has " + std::to_string(count)};
 }
 
-std::optional<std::size_t> found(const Names& names, std::string_view name) {
+std::optional<std::size_t> find_index(const Names& names, std::string_view name) {
     const auto at = names.find(name);
     return at == names.end() ? std::nullopt : std::optional(at->second);
 }
 
-/// The pose within the parent before any unit has run: the input pose, or the one given by a control's value.
-Transform begun_local(const Plan& plan, State& state, std::size_t element) {
+/// The local pose before any unit has run: the input pose, or a control's pose for its value.
+Transform start_local(const Plan& plan, State& state, std::size_t element) {
     const Transform& base = state.elements.get(plan.layout->ids[element], Space::Local, Pose::Input);
     const std::optional<Control>& control = plan.definition.elements[element].control;
     return control ? posed(*control, base, state.controls[element]) : base;
 }
 
-Transform begun_global(const Plan& plan, State& state, std::size_t element) {
-    std::vector<std::size_t> line;
-    for (auto at = static_cast<std::int64_t>(element); at >= 0; at = plan.layout->parents[line.back()])
-        line.push_back(static_cast<std::size_t>(at));
-    Transform global = begun_local(plan, state, line.back());
-    for (line.pop_back(); !line.empty(); line.pop_back())
-        global = compose(global, begun_local(plan, state, line.back()));
+Transform start_global(const Plan& plan, State& state, std::size_t element) {
+    std::vector<std::size_t> path;
+    for (auto at = static_cast<std::int64_t>(element); at >= 0; at = plan.layout->parents[path.back()])
+        path.push_back(static_cast<std::size_t>(at));
+    Transform global = start_local(plan, state, path.back());
+    for (path.pop_back(); !path.empty(); path.pop_back())
+        global = compose(global, start_local(plan, state, path.back()));
     return global;
 }
 
@@ -72,9 +72,9 @@ void take_value(const Control& control, State& state, std::size_t element, Eleme
     }
 }
 
-/// The names of the elements that a unit has memory of; for a chain of bones, the bones. A single empty name
-/// for a unit with memory of its own.
-std::vector<std::string_view> remembered(const Plan& plan, std::size_t unit) {
+/// The names of the elements that a unit has memory of: for a chain, its bones; for a unit with a single
+/// memory, one empty name.
+std::vector<std::string_view> memory_names(const Plan& plan, std::size_t unit) {
     std::vector<std::string_view> names;
     const auto name = [&](std::uint32_t element) {
         return std::string_view(plan.definition.elements[element].name);
@@ -89,10 +89,10 @@ std::vector<std::string_view> remembered(const Plan& plan, std::size_t unit) {
     return names;
 }
 
-/// Copies the memory of elements that still exist. An element visited twice is matched in order.
+/// Copies the memory of elements that still exist. Repeated visits to an element are matched in order.
 void adopt_memory(const Plan& plan, std::size_t unit, UnitState& state, const Plan& before, std::size_t was,
                   const UnitState& old) {
-    const std::vector<std::string_view> now = remembered(plan, unit), then = remembered(before, was);
+    const std::vector<std::string_view> now = memory_names(plan, unit), then = memory_names(before, was);
     if (!plan.layout->units[unit].bones.empty() || !before.layout->units[was].bones.empty()) {
         if (now == then) state.memory = old.memory;
         return;
@@ -150,10 +150,10 @@ std::span<const std::string> Rig::unit_names() const noexcept {
     return plan().layout->unit_names;
 }
 std::optional<std::size_t> Rig::element(std::string_view name) const noexcept {
-    return found(plan().layout->elements, name);
+    return find_index(plan().layout->elements, name);
 }
 std::optional<std::size_t> Rig::curve(std::string_view name) const noexcept {
-    return found(plan().layout->curves, name);
+    return find_index(plan().layout->curves, name);
 }
 
 State Rig::initial_state() const {
@@ -188,7 +188,7 @@ State Rig::adopted(const Rig& before, State state) const {
             result.input_curves[i] = state.input_curves[*was];
         }
     for (std::size_t i = 0; i < plan.layout->unit_names.size(); ++i) {
-        const auto was = found(last.layout->units_by_name, plan.layout->unit_names[i]);
+        const auto was = find_index(last.layout->units_by_name, plan.layout->unit_names[i]);
         if (!was || !same_outputs(state.units[*was], result.units[i])) continue;
         result.units[i].outputs = state.units[*was].outputs;
         result.units[i].warning = state.units[*was].warning;
@@ -234,7 +234,7 @@ Transform Rig::start_pose(const State& state, std::size_t element) const {
         const auto base = state.elements.known(plan.layout->ids[each], Space::Local, Pose::Input);
         if (!base) {
             State copy = state;  // reading computes what is pending
-            return begun_global(plan, copy, element);
+            return start_global(plan, copy, element);
         }
         const std::optional<Control>& control = plan.definition.elements[each].control;
         const Transform local = control ? posed(*control, *base, state.controls[each]) : *base;
@@ -250,37 +250,37 @@ Result Rig::set_element(State& state, std::size_t element, Space space, const Tr
     if (element >= plan.layout->ids.size())
         return refused_index("set_element", "element", element, plan.layout->ids.size());
     const ElementId id = plan.layout->ids[element];
-    const auto fine = checked(transform, "set_element");
-    if (!fine) return fine.error();
+    const auto valid = checked(transform, "set_element");
+    if (!valid) return valid.error();
     Hierarchy& tree = state.elements;
 
-    // A child that stays keeps its global pose at the start of a solve: for a control, the one given by its
-    // value.
-    std::vector<std::pair<std::size_t, Transform>> stay;
+    // A child that stays keeps its global pose at the start of a solve. For a control, its value sets that
+    // pose.
+    std::vector<std::pair<std::size_t, Transform>> kept_globals;
     if (propagate == Propagate::No) {
-        const Transform before = begun_global(plan, state, element);
+        const Transform before = start_global(plan, state, element);
         for (std::size_t i = 0; i < plan.layout->ids.size(); ++i)
             if (tree.parent(plan.layout->ids[i]) == id)
-                stay.emplace_back(i, compose(before, begun_local(plan, state, i)));
+                kept_globals.emplace_back(i, compose(before, start_local(plan, state, i)));
     }
 
     // Below a control a global pose is relative to where the control is now, not to where it was at rest.
     const std::int64_t parent = plan.layout->parents[element];
     const bool below = space == Space::Global && parent >= 0;
     const Transform local =
-        below ? relative(begun_global(plan, state, static_cast<std::size_t>(parent)), *fine) : *fine;
+        below ? relative(start_global(plan, state, static_cast<std::size_t>(parent)), *valid) : *valid;
     tree.put(id, Space::Local, local, propagate, Pose::Input);
-    tree.put(id, space, *fine, propagate);
+    tree.put(id, space, *valid, propagate);
     const std::optional<Control>& control = plan.definition.elements[element].control;
     if (control) {
         take_value(*control, state, element, id);
         if (control->minimum || control->maximum)
-            tree.put(id, Space::Local, begun_local(plan, state, element), propagate);
+            tree.put(id, Space::Local, start_local(plan, state, element), propagate);
     }
 
-    if (stay.empty()) return {};
-    const Transform after = begun_global(plan, state, element);
-    for (const auto& [child, global] : stay) {
+    if (kept_globals.empty()) return {};
+    const Transform after = start_global(plan, state, element);
+    for (const auto& [child, global] : kept_globals) {
         const ElementId at = plan.layout->ids[child];
         tree.put(at, Space::Local, relative(after, global), Propagate::Yes, Pose::Input);
         if (const auto& settings = plan.definition.elements[child].control)

@@ -18,7 +18,7 @@ struct Units::Held : Unit {
 
 Units::Units() noexcept = default;
 Units::Units(Units&&) noexcept = default;
-// By way of Units(), so that what was made is released where the rest cannot be.
+// Delegates to Units(), so that the destructor frees the units already added if adding another throws.
 Units::Units(std::initializer_list<Unit> units) : Units() {
     for (const Unit& each : units) push_back(each);
 }
@@ -56,7 +56,7 @@ Units Units::with(std::size_t index, Unit unit) const {
     Units changed;
     changed.held_.reserve(size());
     Unit* const own = new Held(std::move(unit));
-    for (std::size_t i = 0; i < size(); ++i) {  // throws no more
+    for (std::size_t i = 0; i < size(); ++i) {  // nothing here throws
         if (i != index) Held::of(held_[i])->owners.fetch_add(1, std::memory_order_relaxed);
         changed.held_.push_back(i == index ? own : held_[i]);
     }

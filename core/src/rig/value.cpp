@@ -44,9 +44,9 @@ Result check(const char* what, const Value& value) noexcept {
     } else if (const auto* vector = std::get_if<glm::dvec3>(&value)) {
         return detail::check_vector({}, what, *vector);
     } else if (const auto* rotation = std::get_if<glm::dquat>(&value)) {
-        if (const auto fine = checked({.rotation = *rotation}, {}, what); !fine) return fine.error();
+        if (const auto valid = checked({.rotation = *rotation}, {}, what); !valid) return valid.error();
     } else if (const auto* transform = std::get_if<Transform>(&value)) {
-        if (const auto fine = checked(*transform, {}, what); !fine) return fine.error();
+        if (const auto valid = checked(*transform, {}, what); !valid) return valid.error();
     }
     return {};
 }
@@ -58,7 +58,7 @@ Value normalised(const Value& value) noexcept {
     return value;
 }
 
-bool is_fine(const Value& value) noexcept {
+bool is_in_range(const Value& value) noexcept {
     if (const auto* number = std::get_if<double>(&value)) return in_range(*number);
     if (const auto* vector = std::get_if<glm::dvec3>(&value)) return in_range(*vector);
     if (const auto* transform = std::get_if<Transform>(&value))

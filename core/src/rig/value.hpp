@@ -15,7 +15,7 @@ Result check(const char* what, const Value& value) noexcept;
 /// The value with its rotations normalised.
 Value normalised(const Value& value) noexcept;
 
-/// Whether a unit may output it: finite and within max_magnitude.
-bool is_fine(const Value& value) noexcept;
+/// Whether a unit may output the value: finite and within max_magnitude.
+bool is_in_range(const Value& value) noexcept;
 
 }  // namespace tendril::rig

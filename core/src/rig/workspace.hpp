@@ -15,11 +15,11 @@ struct ChainScratch {
     std::optional<ik::Solver> solver;
     std::vector<float> lengths;  ///< the lengths that the solver was made for
     std::vector<glm::vec3> joints;
-    std::vector<glm::dquat> before;  ///< local rotations
+    std::vector<glm::dquat> rotations_before;  ///< local rotations
     // for splines
-    std::vector<glm::vec3> points, rest;  ///< from the first point; the bones' initial directions
+    std::vector<glm::vec3> points, rest_directions;  ///< from the first point; the bones' initial directions
     ik::State placed;
-    ik::CurveMemory none;
+    ik::CurveMemory curve_memory;
 };
 
 struct Workspace::Parts {

@@ -25,7 +25,7 @@ bool tear_links(State& state) {
         while (link.a - state.bodies[b].first >= state.bodies[b].count) ++b;
         const float limit = state.bodies[b].tear;
         if (limit <= 0.0f) return false;
-        // A sheared cell lengthens its diagonals without overstretching anything.
+        // Shear lengthens a cell's diagonals without overstretching its threads.
         const double longest = static_cast<double>(limit) + (link.kind == Link::Kind::Stretch ? 0.0 : 0.5);
         const double length = detail::length(state.position[link.b] - state.position[link.a]);
         return length > link.rest * (1.0 + longest);
@@ -54,7 +54,7 @@ void move_ends(Collider& collider, double part, Scratch::Moving& moving) {
     moving.low = glm::min(moving.low, low);
     moving.high = glm::max(moving.high, high);
     if (collider.seconds != 0.0) return;
-    // It has arrived, to rounding, and stays.
+    // It has arrived, up to rounding, and stays.
     collider.half_goal.reset();
     collider.goal = dvec3(centre(collider.shape));
 }
@@ -69,7 +69,7 @@ void translate(Collider& collider, double part, Scratch::Moving& moving) {
     detail::bounds(collider.shape, moving.by, moving.low, moving.high);
 }
 
-/// Adds a steady motion to the substep's. A spinning body sweeps a volume within a ball.
+/// Adds a drive's motion in the substep. A spinning body gets the bounds of the ball that it sweeps.
 void apply_drive(State& state, Collider& collider, Scratch::Moving& moving) {
     const double h = state.settings.substep;
     const dvec3 was(centre(collider.shape));
@@ -180,12 +180,12 @@ void Workspace::Parts::sum_reports(Advance& done) {
     done.shortened += shortened;
 }
 
-/// Keeps the contacts of the substep.
+/// Stores the contacts of the substep in the state.
 void Workspace::Parts::store_contacts(State& state) {
     if (plan.colliding == 0 && state.contacts.empty()) return;
-    std::size_t most = 0;
-    for (const BodyContactScratch& island : scratch.body_contacts) most += island.contacts.size();
-    state.contacts.reserve(most);
+    std::size_t count = 0;
+    for (const BodyContactScratch& island : scratch.body_contacts) count += island.contacts.size();
+    state.contacts.reserve(count);
     state.contacts.clear();
     const double per_square = 1.0 / (state.settings.substep * state.settings.substep);
     for (const BodyContactScratch& island : scratch.body_contacts)
@@ -202,7 +202,7 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
     done.refused = !(seconds >= 0.0 && seconds <= 1e9) || !workspace.parts_;
     if (done.refused) return done;
     const double substep = state_.settings.substep;
-    // Only whole substeps are dropped. A remainder is kept, as dropping it would not be counted.
+    // Drops whole substeps only: a dropped remainder would not be counted.
     constexpr double rounding = 1e-6;  // relative to a substep
     const double over = std::max(0.0, seconds - static_cast<double>(state_.settings.longest_frame));
     done.dropped = static_cast<std::uint64_t>(over / substep + rounding);
@@ -216,7 +216,7 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
     const auto is_due = [&] { return left >= substep * (1.0 - rounding); };
     Workspace::Parts& parts = *workspace.parts_;
     const bool steps = is_due();
-    if (steps) parts.prepare(state_);                   // allocates, so before anything changes
+    if (steps) parts.prepare(state_);                   // allocates, so this comes before any change
     constexpr auto countable = std::uint64_t{1} << 53;  // exactly representable in a file's numbers
     state_.dropped = std::min(state_.dropped + done.dropped, countable);
     const auto store_remainder = [&] { state_.remainder = std::min(left, substep); };

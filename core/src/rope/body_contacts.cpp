@@ -46,15 +46,15 @@ BodyContacts::Response BodyContacts::respond(const Contact& contact, const Point
     slip -= detail::dot(slip, n) * n;
     const dvec3 friction = contact.force - before * n - k * slip;
     const double size = detail::length(friction),
-                 most = static_cast<double>(state_.settings.friction) * normal_force;
-    const double part = size > most ? most / size : 1.0;
+                 max_friction = static_cast<double>(state_.settings.friction) * normal_force;
+    const double part = size > max_friction ? max_friction / size : 1.0;
     response.force = normal_force * n + part * friction;
     response.along = k;
     response.across = part * k;
     return response;
 }
 
-/// A node's current position; before its chain's first step the one without links and contacts.
+/// A node's current position; before its chain's first step, its position without links and contacts.
 dvec3 BodyContacts::expected_position(std::uint32_t number, std::uint32_t node) const {
     const ContactScratch& chain = chain_scratch(number);
     return chain.progress.moved ? chain.nodes[node].x : chain.nodes[node].base;
@@ -95,8 +95,8 @@ std::span<const BodyContacts::Side> BodyContacts::sides_of(std::uint32_t chain) 
     return {first, std::upper_bound(first, s_.sides.end(), chain, after)};
 }
 
-/// Effective mass of a chain at a contact, kg: a node's and its neighbours' that tension couples to it,
-/// divided by the number of contacts among them.
+/// A chain's effective mass at a contact, kg: the masses of a node and the neighbours coupled to it by
+/// tension, divided by the number of contacts among them.
 double BodyContacts::effective_mass(std::size_t number) const {
     const Side& side = s_.sides[number];
     const Plan::Chain& chain = plan_.chains[side.chain];
@@ -119,7 +119,7 @@ double BodyContacts::effective_mass(std::size_t number) const {
 
 void BodyContacts::choose_stiffness() {
     for (Contact& contact : s_.contacts) contact.stiffness = 0.0;
-    // Initially its inverse.
+    // Sums the inverse masses first.
     for (std::size_t i = 0; i < s_.sides.size(); ++i)
         s_.contacts[s_.sides[i].contact].stiffness += 1.0 / effective_mass(i);
     for (Contact& contact : s_.contacts)
@@ -134,7 +134,7 @@ void BodyContacts::set_pushes(std::uint32_t number, std::span<const Side> sides)
     for (const Side& side : sides) {
         const Contact& contact = s_.contacts[side.contact];
         const Response response = respond(contact);
-        // If both segments are of this chain, both move in its step, but each is taken as still.
+        // If both segments are of this chain, one step moves both, but each is taken as fixed.
         const bool own = plan_.chain_of[contact.a] == plan_.chain_of[contact.b];
         const double sign = side.is_b ? 1.0 : -1.0, times = own ? 2.0 : 1.0;
         const double t = std::abs(response.weights[side.is_b ? 3 : 1]);
@@ -260,8 +260,8 @@ double BodyContacts::project(bool all) {
         worst = std::max(worst, depth / contact.thickness);
         slip -= detail::dot(slip, found.normal) * found.normal;
         const double slip_distance = detail::length(slip),
-                     most = depth * static_cast<double>(state_.settings.friction);
-        const dvec3 by = depth * found.normal - (slip_distance > most ? most / slip_distance : 1.0) * slip;
+                     limit = depth * static_cast<double>(state_.settings.friction);
+        const dvec3 by = depth * found.normal - (slip_distance > limit ? limit / slip_distance : 1.0) * slip;
         for (std::size_t k = 0; k < 4; ++k) {
             const std::uint32_t i = contact.points[k];
             x[i] += (found.weights[k] * scratch_.weight[i] / freedom) * by;

@@ -31,8 +31,8 @@ class BodyContacts : IslandStep {
     /// The contacts that press within a cloth now, for its own solve. `stiffness`: per contact, times h^2.
     void find_self_contacts(const Body& cloth, double stiffness,
                             std::vector<ClothSelfContact>& self_contacts);
-    /// One pass over the contacts to project; `all`: over all, for solvers that take one link after the
-    /// other. Returns the largest correction, relative to the thickness.
+    /// One pass over the contacts to project; `all`: over all contacts, for solvers that take one link after
+    /// the other. Returns the largest correction, relative to the thickness.
     double project(bool all);
     void begin_projection(bool all);
     void prevent_crossing();

@@ -11,9 +11,9 @@ namespace {
 
 using glm::dvec3;
 
-constexpr int max_bisections = 6;         ///< of a pair's way, to check its parts
-constexpr int max_separation_rounds = 8;  ///< rounds
-constexpr double restored_gap = 0.1;      ///< distance to restore, relative to the thickness
+constexpr int max_bisections = 6;  ///< halvings of a pair's motion
+constexpr int max_separation_rounds = 8;
+constexpr double restored_gap = 0.1;  ///< distance after separation, relative to the thickness
 constexpr int max_step_cuts = 12;
 
 /// Whether a plane with this normal separates a pair's features.
@@ -47,7 +47,7 @@ bool BodyContacts::crosses(const Candidate& pair, const Points& from, const Poin
 
 bool BodyContacts::crosses(const Pair& pair, Weights& where) const {
     if (!(pair.distance > 1e-9 * pair.thickness))
-        return false;  // crossing from the start: either side will do
+        return false;  // already crossing at the start: either side will do
     const Points to = points_of(pair, scratch_.x);
     return !separates(pair, pair.normal, to) &&
            crosses(pair, points_of(pair, state_.position), to, pair.normal, max_bisections, where);
@@ -82,11 +82,11 @@ void BodyContacts::prevent_crossing() {
         if (any && left_search_range()) search(scratch_.x);
     }
     if (!any) return;
-    // Cuts the step of all bodies: pairs that did not cross in a whole step do not in a part.
+    // Cuts the step of all bodies: a pair that did not cross in a whole step does not in a part of it.
     for (int i = 0; i <= max_step_cuts; ++i) {
-        const double left = i < max_step_cuts ? 0.5 : 0.0;
+        const double factor = i < max_step_cuts ? 0.5 : 0.0;
         each_particle([&](std::size_t k) {
-            scratch_.x[k] = state_.position[k] + left * (scratch_.x[k] - state_.position[k]);
+            scratch_.x[k] = state_.position[k] + factor * (scratch_.x[k] - state_.position[k]);
         });
         if (std::none_of(s_.pairs.begin(), s_.pairs.end(),
                          [&](const Pair& pair) { return crosses(pair, where); }))

@@ -57,7 +57,7 @@ void BodyContacts::find() {
     search(scratch_.base);
     choose_contacts();
     warm_start();
-    // Drops pairs without contact force now or on the free path.
+    // Drops pairs without contact force, unless they touch on the free path.
     std::erase_if(s_.contacts, [&](const Contact& contact) {
         return contact.force == dvec3(0.0) &&
                respond(contact, points_of(contact, scratch_.base)).gap > touch_distance;
@@ -72,7 +72,7 @@ void BodyContacts::search(const std::vector<dvec3>& ends) {
     for (const Candidate& each : s_.candidates) {
         const double radii = static_cast<double>(state_.bodies[each.body_a].radius) +
                              static_cast<double>(state_.bodies[each.body_b].radius);
-        // Diagonals do not touch; they must only not be crossed.
+        // Diagonals make no contact; they are only kept from being crossed.
         const bool touches = std::max(each.a, each.b) < state_.links.size();
         const double near =
             max_approach(each, &Scratch::Listed::travel) + 2.0 * path_margin + (touches ? radii : 0.0);
@@ -99,8 +99,8 @@ void BodyContacts::search(const std::vector<dvec3>& ends) {
 double BodyContacts::max_approach(const Candidate& pair, double Scratch::Listed::*travel) const {
     double a = 0.0, b = 0.0;
     for (std::uint32_t k = 0; k < 4; ++k) {
-        double& most = k < pair.split ? a : b;
-        most = std::max(most, scratch_.listed[pair.points[k]].*travel);
+        double& largest = k < pair.split ? a : b;
+        largest = std::max(largest, scratch_.listed[pair.points[k]].*travel);
     }
     return std::sqrt(a) + std::sqrt(b);
 }
@@ -112,36 +112,36 @@ bool BodyContacts::update_drift(const std::vector<dvec3>& ends) {
         mean += ends[i] - state_.position[i];
         drift += state_.position[i] - scratch_.listed[i].at;
     });
-    // Common motion brings nothing nearer.
+    // Motion that all particles share brings none nearer.
     s_.mean = (1.0 / island_.particles) * mean;
     drift = (1.0 / island_.particles) * drift;
     const std::span<const std::uint32_t> bodies = Plan::part(plan_.bodies, island_.bodies);
-    bool stay = s_.listed;
+    bool valid = s_.listed;
     s_.radii.resize(bodies.size());
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         const float radius = state_.bodies[bodies[k]].radius;
-        stay = stay && radius == s_.radii[k];
+        valid = valid && radius == s_.radii[k];
         s_.radii[k] = radius;
     }
     each_listed([&](std::size_t i, Scratch::Listed& it, double) {
         it.travel = square(ends[i] - state_.position[i] - s_.mean);
         it.drifted = square(state_.position[i] - it.at - drift);
-        const double most = it.reach - path_margin;
-        stay = stay && it.travel <= most * most && it.drifted <= it.max_drift * it.max_drift;
+        const double max_travel = it.reach - path_margin;
+        valid = valid && it.travel <= max_travel * max_travel && it.drifted <= it.max_drift * it.max_drift;
     });
-    return stay;
+    return valid;
 }
 
-/// Whether a segment went farther than the search expected.
+/// Whether a particle moved farther than the search allowed for.
 bool BodyContacts::left_search_range() {
     measure_moves();
-    bool farther = false;
+    bool outside = false;
     each_listed([&](std::size_t, const Scratch::Listed& it, double) {
-        if (farther || it.moved <= it.travel + path_margin * path_margin) return;
-        const double most = std::sqrt(it.travel) + path_margin;
-        farther = !(it.moved <= most * most);
+        if (outside || it.moved <= it.travel + path_margin * path_margin) return;
+        const double max_move = std::sqrt(it.travel) + path_margin;
+        outside = !(it.moved <= max_move * max_move);
     });
-    return farther;
+    return outside;
 }
 
 void BodyContacts::measure_moves() {
@@ -216,7 +216,7 @@ void BodyContacts::add_features(const Plan::Chunk& chunk) {
     }
     const std::uint32_t last = chunk.first + chunk.count;
     const bool cloth = body.kind == Body::Kind::Cloth;
-    const auto diagonal = static_cast<std::uint32_t>(state_.links.size());  // a cell bends along it
+    const auto diagonal = static_cast<std::uint32_t>(state_.links.size());  // the cell bends along it
     for (std::uint32_t i = chunk.first; cloth && i < last; ++i)
         if (const std::uint32_t below = plan_.below[i]) add(diagonal + i, {i + 1, below});
     box.first[2] = end();
@@ -304,8 +304,8 @@ bool BodyContacts::is_local_minimum(const Pair& pair) const {
            is_minimum_at(pair.b, pair.weights[3], -pair.normal);
 }
 
-/// Segments of two ropes touch at their nearest points. On cloth, particles and triangles handle the ends of
-/// segments, and keep diagonals apart.
+/// Two ropes touch where their segments are nearest. On cloth, pairs of a particle and a triangle handle the
+/// ends of segments, and keep diagonals apart.
 void BodyContacts::choose_contacts() {
     s_.contacts.clear();
     s_.projected.clear();
@@ -316,7 +316,7 @@ void BodyContacts::choose_contacts() {
         const bool inside =
             std::none_of(pair.weights.begin(), pair.weights.end(), [](double share) { return share == 0.0; });
         const bool cloth = is_cloth(pair.body_a) || is_cloth(pair.body_b);
-        if (std::max(pair.a, pair.b) >= state_.links.size()) continue;  // a diagonal must only not be crossed
+        if (std::max(pair.a, pair.b) >= state_.links.size()) continue;  // a diagonal makes no contact
         if (pair.split == 2 && !(cloth ? inside : is_local_minimum(pair))) continue;
         const bool solved = !cloth && plan_.collides[pair.body_a] == Plan::Collides::Solved &&
                             plan_.collides[pair.body_b] == Plan::Collides::Solved;
@@ -326,7 +326,7 @@ void BodyContacts::choose_contacts() {
     }
 }
 
-/// Takes each contact's force from the previous substep: the same segments', or neighbours' after sliding.
+/// Starts each contact with its force in the previous substep; after sliding, with a neighbour's.
 void BodyContacts::warm_start() {
     const std::vector<BodyContact>& before = state_.contacts;
     s_.reused.assign(before.size(), 0);

@@ -40,8 +40,8 @@ dvec3 acceleration(const Settings& settings) noexcept {
 }
 
 double enforced_length(const Tie& tie, double h) noexcept {
-    const double length = tie.length, way = static_cast<double>(tie_speed) * h;
-    return std::clamp(length, tie.now - way, tie.now + way);
+    const double length = tie.length, max_change = static_cast<double>(tie_speed) * h;
+    return std::clamp(length, tie.now - max_change, tie.now + max_change);
 }
 
 double elastic_energy(const Link& link, double compliance, double tension, const dvec3& now,
@@ -54,7 +54,7 @@ double elastic_energy(const Link& link, double compliance, double tension, const
 }
 
 ChainBend bend_between(const State& state, const Body& body, const Link& before, const Link& after) noexcept {
-    constexpr double min_length = 1e-6;     // a shorter link bends as if it were this long
+    constexpr double min_length = 1e-6;     // shorter links bend as if this long
     constexpr double max_stiffness = 1e12;  // between a particle and its neighbours, relative to its mass
     const double square = state.settings.substep * state.settings.substep;
     const double length = std::max(static_cast<double>(before.rest), min_length),
@@ -165,8 +165,8 @@ static Result check_roots(const char* operation, const HairShape& shape) {
         const HairRoot& root = shape.roots[i];
         const Result point = check_point(operation, Argument("roots", i, "position"), root.position);
         if (!point) return point;
-        const Result way = check_point(operation, Argument("roots", i, "direction"), root.direction);
-        if (!way) return way;
+        const Result direction = check_point(operation, Argument("roots", i, "direction"), root.direction);
+        if (!direction) return direction;
         if (!(length(dvec3(root.direction)) > 1e-12))
             return refused(operation, Argument("roots", i, "direction"), "longer than 0", "0");
     }

@@ -20,7 +20,7 @@ struct Draft {
 
     void pin(std::size_t particle);
     void link(std::uint32_t a, std::uint32_t b, double rest, Link::Kind kind, float compliance);
-    /// With the particles' distance as rest length.
+    /// Adds a link with the distance of its particles as rest length.
     void link(std::uint32_t a, std::uint32_t b, Link::Kind kind, float compliance);
 };
 
@@ -42,7 +42,7 @@ inline bool has_air(const Settings& settings) noexcept {
 }
 /// Pressure of the wind in a gust on a cloth that faces it, N/m^2.
 double wind_pressure(const Settings& settings) noexcept;
-/// Carries the gusts along for a substep.
+/// Moves the gusts along for a substep.
 void advect_gusts(State& state) noexcept;
 /// The compliance of a link as its solver uses it, m/N.
 inline double compliance(const Settings& settings, const Link& link) noexcept {

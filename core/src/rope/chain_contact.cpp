@@ -16,7 +16,7 @@ using glm::dvec3;
 constexpr double allowed_depth = 1e-7;               ///< metres inside that are harmless
 constexpr double penetration_tolerance = 1e-6;       ///< metres inside that require another step
 constexpr double late_penetration_tolerance = 1e-5;  ///< the same after many steps
-constexpr double unmeasured = 1e30;                  ///< metres, if not measured
+constexpr double unmeasured = 1e30;                  ///< metres; not yet measured
 /// Slip per substep of a particle that friction holds, metres.
 constexpr double min_slip = 1e-7;
 
@@ -80,9 +80,9 @@ bool ChainNewton::find(std::uint32_t number) {
             const Scratch::Moving& moving = collider(each.collider);
             if (link.rest <= moving.size) continue;
             const std::uint32_t j = particle(k + 1);
-            const dvec3 way = scratch_.base[j] - state_.position[j], along = state_.position[j] - from;
+            const dvec3 path = scratch_.base[j] - state_.position[j], along = state_.position[j] - from;
             const double far =
-                radius_ + path_margin + 0.5 * detail::length(along) + detail::length(way) + reach;
+                radius_ + path_margin + 0.5 * detail::length(along) + detail::length(path) + reach;
             if (moving.far_from(from + 0.5 * along, far)) continue;
             if (!link_before) {
                 contact_of(k);
@@ -151,21 +151,21 @@ bool ChainNewton::inside() const {
     return false;
 }
 
-/// Stops a particle whose free path would pass through a surface on the side that it came from.
+/// If a particle's free path would pass through a surface, stops it on the side that it came from.
 void ChainNewton::begin_plane(ContactScratch::Contact& contact, ContactScratch::Plane& plane) {
     const std::uint32_t i = particle(contact.node);
     const Scratch::Moving& moving = collider(plane.collider);
     plane.by = moving.move_at(state_.position[i]);
     dvec3 at = state_.position[i] + plane.by;  // relative to the collider
-    const dvec3 from = at, way = scratch_.base[i] - from;
-    const double far = detail::length(way), step = 0.5 * moving.size + radius_;
+    const dvec3 from = at, path = scratch_.base[i] - from;
+    const double path_length = detail::length(path), step = 0.5 * moving.size + radius_;
     SurfaceDistance surface = surface_distance(*moving.shape, at);
     plane.active = surface.distance < radius_ + touch_distance;
-    if (far > step && !plane.active && surface.distance < far + radius_) {
-        const int samples = static_cast<int>(std::min(64.0, std::ceil(far / std::max(step, 1e-9))));
+    if (path_length > step && !plane.active && surface.distance < path_length + radius_) {
+        const int samples = static_cast<int>(std::min(64.0, std::ceil(path_length / std::max(step, 1e-9))));
         local_.done.work += static_cast<std::uint64_t>(samples);
         for (int k = 1; k <= samples && !plane.active; ++k) {
-            const dvec3 sample = from + (static_cast<double>(k) / samples) * way;
+            const dvec3 sample = from + (static_cast<double>(k) / samples) * path;
             const SurfaceDistance there = surface_distance(*moving.shape, sample);
             if (there.distance >= radius_) continue;
             at = sample;
@@ -248,14 +248,14 @@ bool ChainNewton::update_planes(ContactScratch::Contact& contact) {
         changed |= s_.progress.may_release && plane.active != was;
         if (!plane.active) continue;
         // Sorted by depth, deepest first.
-        constexpr int most = detail::NodeContact::most;
-        if (effect.planes == most && plane.gap >= effect.gap[most - 1]) continue;
-        int at = std::min(effect.planes, most - 1);
+        constexpr int max_planes = detail::NodeContact::max_planes;
+        if (effect.planes == max_planes && plane.gap >= effect.gap[max_planes - 1]) continue;
+        int at = std::min(effect.planes, max_planes - 1);
         for (; at > 0 && effect.gap[at - 1] > plane.gap; --at)
             effect.normal[at] = effect.normal[at - 1], effect.gap[at] = effect.gap[at - 1];
         effect.normal[at] = plane.normal;
         effect.gap[at] = plane.gap;
-        effect.planes = std::min(effect.planes + 1, most);
+        effect.planes = std::min(effect.planes + 1, max_planes);
     }
     apply_friction(contact);
     return changed;
@@ -279,7 +279,7 @@ void ChainNewton::apply_friction(ContactScratch::Contact& contact) {
         slip = tangential(slip, effect.normal[p]);
     }
     double slip_distance = detail::length(slip);
-    if (!s_.progress.moved) {  // its earlier slip, or its free one
+    if (!s_.progress.moved) {  // the larger of its previous slip and its free slip
         const double before = detail::length(state_.displacement[particle(contact.node)] - by);
         const double alone = detail::length(slip + (1.0 / node.mass) * force) - friction * normal / node.mass;
         slip_distance = std::max(before, alone);
@@ -304,7 +304,7 @@ bool ChainNewton::update_link(ContactScratch::LinkContact& contact) {
     effect.active = false;
     for (std::uint32_t c = contact.first; c < contact.first + contact.count; ++c) {
         const Scratch::Moving& moving = collider(s_.link_colliders[c]);
-        // The start of the substep as seen by the collider, which has moved since.
+        // The start of the substep as seen from the collider, which has moved since.
         const dvec3 by_a = s_.progress.moved ? dvec3(0.0) : moving.move_at(a),
                     by_b = s_.progress.moved ? dvec3(0.0) : moving.move_at(b);
         const dvec3 from = a + by_a, along = b + by_b - from;

@@ -15,15 +15,15 @@ namespace {
 using glm::dvec3;
 
 constexpr int max_steps = 16;
-constexpr int strict_steps = 4;   ///< after these a larger error is accepted
-constexpr int release_steps = 8;  ///< in these contacts may be dropped
-constexpr int max_rejected = 3;   ///< consecutive steps that may be repeated
+constexpr int strict_steps = 4;   ///< a larger error is accepted after these
+constexpr int release_steps = 8;  ///< contacts may be dropped during these
+constexpr int max_rejected = 3;   ///< rejected steps in a row
 /// Minimum link compliance over h^2, relative to the inverse mass of its ends. A link that cannot reach its
 /// length stretches just enough to keep its tension finite. A metre of rope, 64 segments, carrying a hundred
 /// times its weight stretches by a millionth.
 constexpr double min_compliance = 1e-8;
 constexpr double max_length_error = 1e-5;  ///< relative length error
-/// After as many divergences links keep their extra stiffness: a running fold would repeat them.
+/// After this many divergences links keep their extra stiffness: a running fold would repeat them.
 constexpr int max_divergences = 2;
 constexpr double first_extra_stiffness = 10.0;
 constexpr double max_growth = 0.25, max_turn = 0.5;
@@ -119,9 +119,9 @@ void ChainNewton::save_state() {
         s_.saved_contacts[c] = s_.bond_effects[c].multiplier;
 }
 
-/// Reduces the last step to a part.
+/// Scales the last step down.
 void ChainNewton::scale_step(double part) {
-    // NaN must not survive: part 0 assigns.
+    // Part 0 assigns the old value, so that no NaN survives.
     const auto scale = [&](auto& to, const auto& from) {
         to = part > 0.0 ? from + part * (to - from) : from;
     };
@@ -170,7 +170,7 @@ bool ChainNewton::step(bool pushes_changed, bool force_step) {
     const bool done = p.moved && !changed && p.worst <= tolerance &&
                       (p.used_stiffness == 0.0 || p.divergences == max_divergences);
     if ((done && !force_step) || p.steps_taken == steps) return false;
-    if (++p.steps_taken == strict_steps)  // too fast for the mean of directions: the latest alone converges
+    if (++p.steps_taken == strict_steps)  // too fast for the mean of directions; the latest alone converges
         for (detail::ChainBend& bend : s_.bends) bend.direction = dvec3(0.0);
     save_state();
     system.step();

@@ -21,7 +21,7 @@ class ChainNewton {
     ChainNewton(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
                 IslandScratch& local)
         : ChainNewton(state, plan, island, scratch, local, local.contact) {}
-    /// With its own scratch, so that several chains can be solved in turns.
+    /// Uses the chain's own scratch, so that several chains can be solved in turns.
     ChainNewton(const State& state, const Plan& plan, const Plan::Island& island, Scratch& scratch,
                 IslandScratch& local, ContactScratch& own)
         : state_(state), plan_(plan), island_(island), scratch_(scratch), local_(local), s_(own) {}
@@ -39,8 +39,7 @@ class ChainNewton {
     // The same in parts. Between steps the caller sets the pushes of other chains on nodes.
     void open(std::uint32_t chain);  ///< a chain that was found earlier
     void begin();
-    /// `pushes_changed`: pushes have changed since the last step. `force_step`: forces a step. False if none
-    /// was taken.
+    /// `pushes_changed`: since the last step. `force_step`: take a step in any case. False if none was taken.
     bool step(bool pushes_changed, bool force_step);
     void finish();
 

@@ -7,7 +7,7 @@
 namespace tendril::rope::detail {
 namespace {
 
-constexpr double contact_compliance = 1e-8;  ///< of contacts with links, relative to the inverse mass
+constexpr double contact_compliance = 1e-8;  ///< for contacts with links, relative to the inverse mass
 constexpr double max_stiffness = 1e9;        ///< relative to the mass
 constexpr double max_multiplier = 1e9;       ///< relative to mass and rest
 constexpr double min_freedom = 0.05;
@@ -20,7 +20,7 @@ struct Sweep {
 };
 /// Terms for the next node but one, if the chain resists bending.
 struct Beyond {
-    Matrix3 across;  ///< the matrix that leads there from the next
+    Matrix3 across;  ///< the matrix block from the next node to the one after
     Symmetric3 matrix;
     dvec3 right{0.0};
 };
@@ -95,10 +95,10 @@ inline void solve_node(ChainNode& node, const Sweep& before, double stiffness,
 inline Sweep eliminate(const ChainNode& node, ChainBond& bond, const dvec3& along, double weights) noexcept {
     const double s = bond.stiffness;
     const dvec3 moved = node.mobility * along;
-    const double pivot = dot(along, moved) + bond.compliance / bond.stiffness_left;
+    const double pivot = dot(along, moved) + bond.compliance / bond.stiffness_ratio;
     bond.inverse = weights > 0.0 ? 1.0 / pivot : 0.0;  // nothing to solve between two pinned nodes
     bond.row = along - s * moved;
-    bond.right = bond.error / bond.stiffness_left - dot(along, node.offset);
+    bond.right = bond.error / bond.stiffness_ratio - dot(along, node.offset);
     Sweep next;
     const double square = -s * s;
     const Symmetric3& m = node.mobility;
@@ -108,8 +108,8 @@ inline Sweep eliminate(const ChainNode& node, ChainBond& bond, const dvec3& alon
     return next;
 }
 
-/// The same if bending leads to the next node, and by `to_second` to the next but one. `beyond`: in, the
-/// terms from earlier nodes for the next; out, the terms for the next but one.
+/// The same where bending couples the node to the next one, and by `to_second` to the next but one. `beyond`:
+/// in, terms from earlier nodes for the next; out, terms for the next but one.
 Sweep eliminate(const ChainNode& node, ChainBond& bond, ChainBend& bend, double to_second, const dvec3& along,
                 double weights, Beyond& beyond) noexcept {
     Sweep next = eliminate(node, bond, along, weights);
@@ -205,7 +205,7 @@ void ChainSystem::evaluate(double extra_stiffness) noexcept {
             if (!bends.empty() && dot(bends[k].direction, bond.along) > 0.0) bond.stiffness *= tension_ahead;
             bond.stiffness =
                 std::min(bond.stiffness + extra_stiffness * node.mass, max_stiffness * node.mass);
-            bond.stiffness_left = std::max(1.0 - bond.compliance * bond.stiffness, 1e-9);
+            bond.stiffness_ratio = std::max(1.0 - bond.compliance * bond.stiffness, 1e-9);
             pull = bond.multiplier * bond.along;
             if (!bends.empty() && dot(bends[k].direction, bond.along) > 0.0)
                 pull = bond.multiplier *
@@ -221,7 +221,7 @@ void ChainSystem::evaluate(double extra_stiffness) noexcept {
             const NodePush& push = pushes[static_cast<std::size_t>(node.push)];
             node.force += push.force + push.stiffness * (push.at - node.x);
         }
-        // On the next node tension pulls back, but the contact's share pushes.
+        // Tension pulls the next node back, but the contact's share pushes it.
         pull_before = pull - push_next;
     }
     for (std::size_t k = 1; k + 1 < bends.size(); ++k) {
@@ -290,7 +290,7 @@ void ChainSystem::solve() noexcept {
     // Interleaved: neither side waits for the other.
     for (std::size_t k = 0; k < middle; ++k) {
         if (last - k > middle) right = pass(right, right_beyond, last - k, last - k - 1);
-        if (bent && k + 1 == middle) {  // the right side has come to the middle, and leads beyond it
+        if (bent && k + 1 == middle) {  // the right side is at the middle; its terms lead beyond
             left.matrix.add(right_beyond.matrix);
             left.right += right_beyond.right;
             const Matrix3 across = transposed(right_beyond.across);
@@ -334,9 +334,9 @@ void ChainSystem::solve() noexcept {
         }
         const dvec3 by = here.offset + here.mobility * (change * along + push);
         // The stiffness acted along the link too; that part is tension.
-        const double most = max_multiplier * bond.rest * here.mass;
+        const double limit = max_multiplier * bond.rest * here.mass;
         bond.multiplier =
-            std::clamp(bond.multiplier + change + bond.stiffness * dot(along, next_by - by), -most, most);
+            std::clamp(bond.multiplier + change + bond.stiffness * dot(along, next_by - by), -limit, limit);
         here.x += by;
         return by;
     };

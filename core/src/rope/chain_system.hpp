@@ -88,14 +88,14 @@ struct NodePush {
 
 /// A link, from its node to the next.
 struct ChainBond {
-    double rest = 0.0;            ///< metres
-    double compliance = 0.0;      ///< m/N, over h^2
-    double multiplier = 0.0;      ///< tension times h^2
-    std::int32_t contact = -1;    ///< index of its BondContact; negative: none
-    dvec3 along{0.0};             ///< unit
-    double error = 0.0;           ///< metres too long
-    double stiffness = 0.0;       ///< sideways, times h^2
-    double stiffness_left = 1.0;  ///< part of the stiffness along it left by compliance
+    double rest = 0.0;             ///< metres
+    double compliance = 0.0;       ///< m/N, over h^2
+    double multiplier = 0.0;       ///< tension times h^2
+    std::int32_t contact = -1;     ///< index of its BondContact; negative: none
+    dvec3 along{0.0};              ///< unit
+    double error = 0.0;            ///< metres too long
+    double stiffness = 0.0;        ///< sideways, times h^2
+    double stiffness_ratio = 1.0;  ///< part of the stiffness along it left by compliance
     // Within a step: expresses the multiplier by the displacement of the next node in elimination order.
     dvec3 row{0.0};
     double right = 0.0, inverse = 0.0;
@@ -103,9 +103,9 @@ struct ChainBond {
 
 /// The effect of contacts on a node.
 struct NodeContact {
-    static constexpr int most = 3;
-    dvec3 normal[most];  ///< planes that hold the node
-    double gap[most];    ///< metres above each
+    static constexpr int max_planes = 3;
+    dvec3 normal[max_planes];  ///< planes that hold the node
+    double gap[max_planes];    ///< metres above each
     int planes = 0;
     double drag = 0.0;  ///< friction, times h^2, over the slip distance
     dvec3 slip{0.0};    ///< metres

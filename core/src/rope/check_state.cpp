@@ -22,7 +22,7 @@ bool is_within(const glm::dvec3& p, double limit) {
 bool is_point(const glm::dvec3& p) {
     return is_within(p, max_magnitude);
 }
-/// For vectors between two points.
+/// For displacements between two points.
 bool is_offset(const glm::dvec3& p) {
     return is_within(p, max_displacement);
 }
@@ -94,7 +94,7 @@ Result check_cells(std::size_t number, const Body& body) {
     if (cells.size() != body.count) return bad("one for each particle", cells.size());
     for (std::size_t k = 1; k < cells.size(); ++k)
         if (cells[k] <= cells[k - 1]) return bad("ascending", cells[k]);
-    // Bounds the memory that its grid takes.
+    // Bounds the memory of its grid.
     if (body.row > max_particles || cells.back() >= max_particles) return bad("below 1000000", cells.back());
     return {};
 }

@@ -24,7 +24,7 @@ namespace tendril::rope::detail {
 /// Stretch links are the first of grid_steps.
 inline constexpr std::size_t stretch_steps = 2;
 
-/// All in the layout of the finest level.
+/// Arrays in the layout of the finest level.
 struct ClothArrays {
     std::array<float*, fine_steps> rest{}, stiffness{};  ///< per link, by the cell it begins in; 0: no link
     std::array<float*, fine_steps> pull{};               ///< force over length
@@ -36,7 +36,7 @@ struct ClothArrays {
 /// Results over dot_cells cells.
 struct ClothPart {
     float strain = 0.0f;     ///< maximum of their stretch links
-    double potential = 0.0;  ///< of inertia and links, doubled
+    double potential = 0.0;  ///< twice the potential of inertia and links
 };
 
 /// The data of one cloth's solve.

@@ -10,10 +10,10 @@ namespace {
 
 /// Finds the cell and the step of a link in a grid; false if it is not a grid link.
 bool place_in_grid(const Body& body, const Link& link, std::size_t stride, Plan::GridLink& in_grid) {
-    const LinkStep way = link_step(body, link);
+    const LinkStep step = link_step(body, link);
     for (std::size_t s = 0; s < grid_steps.size(); ++s) {
-        if (grid_steps[s].column != way.columns || grid_steps[s].row != way.rows) continue;
-        in_grid.cell = static_cast<std::uint32_t>(way.row * stride + way.column);
+        if (grid_steps[s].column != step.columns || grid_steps[s].row != step.rows) continue;
+        in_grid.cell = static_cast<std::uint32_t>(step.row * stride + step.column);
         in_grid.step = static_cast<std::uint32_t>(s);
         return true;
     }

@@ -28,7 +28,7 @@ constexpr double relative_residual = 0.1, force_residual = 0.1;
 constexpr double residual_strain = 1e-3;
 constexpr double max_predicted_move = 0.05;  ///< displacement by forces in a substep, relative to a link
 constexpr int max_halvings = 6;
-constexpr std::size_t links_per_sum = 4096;  ///< by a thread at a time
+constexpr std::size_t links_per_sum = 4096;  ///< summed by one thread at a time
 
 }  // namespace
 
@@ -171,13 +171,13 @@ void ClothSolver::pin() {
 
 /// A step of Newton's method. If it strains links, it is halved until the potential does not rise, the first
 /// one towards free motion.
-int ClothSolver::step(int iterations, bool first, double enough) {
-    const detail::GridSystem::Tolerance tolerance{first ? 0.0 : enough, relative_residual};
+int ClothSolver::step(int iterations, bool first, double max_residual) {
+    const detail::GridSystem::Tolerance tolerance{first ? 0.0 : max_residual, relative_residual};
     in_cells([&](detail::GridRange cells) { scratch_.cloth_unit.cells(level_, cloth_.arrays, cells); });
     add_contacts();
     add_self_contacts();
     pin();
-    // Never the last, the first one need not keep angular momentum.
+    // The first step is never the last, so it need not conserve angular momentum.
     const detail::GridVector* position = first ? nullptr : &cloth_.arrays.position;
     const auto solved =
         cloth_.system.solve(scratch_.grid_unit, lightest_, tolerance, iterations, position, local_.loops);
@@ -269,7 +269,7 @@ double ClothSolver::predict() {
     }
     for (std::size_t i = first_; i < end && farthest < far * far; ++i)
         if (scratch_.weight[i] > 0.0) scratch_.x[i] = unchanged(i);
-    forced_ = driven;
+    forcing_ = driven;
     evaluate();
     const double small = residual_strain * shortest_;
     return std::min(force_residual * force_residual * driven, small * small * stiffness_);
@@ -285,23 +285,23 @@ bool ClothSolver::is_driven() const {
 
 int ClothSolver::solve(int iterations) {
     load();
-    const double enough = predict();
+    const double max_residual = predict();
     const bool driven = is_driven();
-    int most = 0;
-    for (int step_scale = 0;; ++step_scale) {
-        find_contacts(step_scale == 0);
+    int max_taken = 0;
+    for (int steps = 0;; ++steps) {
+        find_contacts(steps == 0);
         find_self_contacts();
-        // The rest of a step turns into motion in the next substep: the energy bound takes that, except from
-        // what a collider or pin drives.
-        const bool settled = driven ? std::abs(decrease_) <= forced_ && deepest() <= kept_depth
+        // An unconverged rest becomes motion in the next substep. The energy bound removes it, except from
+        // bodies that a collider or pin drives.
+        const bool settled = driven ? std::abs(decrease_) <= forcing_ && deepest() <= penetration_slop
                                     : deepest() <= accepted_depth * shortest_;
         const bool good = settled && strain_ <= accepted_strain;
-        if (step_scale == max_newton_steps || (good && step_scale >= min_newton_steps)) break;
-        most = std::max(most, step(iterations, step_scale == 0, enough));
+        if (steps == max_newton_steps || (good && steps >= min_newton_steps)) break;
+        max_taken = std::max(max_taken, step(iterations, steps == 0, max_residual));
         store_forces();
     }
     finish();
-    return most;
+    return max_taken;
 }
 
 }  // namespace tendril::rope

@@ -18,14 +18,14 @@ class ClothSolver : protected ImplicitStep {
     double step_scale() const { return step_scale_; }  ///< factor on the last step, 0 to 1
 
   protected:
-    /// For any grid of the plan, 1-based, or the island's; measures nothing.
+    /// For any grid of the plan, by its 1-based index; measures nothing.
     ClothSolver(const IslandStep& step, std::uint32_t grid);
 
     // cloth_solver.cpp
     void load();
     void evaluate();
     void pin();
-    int step(int iterations, bool first, double enough);
+    int step(int iterations, bool first, double max_residual);
     double potential() const;
     double add_links(double sum) const;  ///< adds the links' potential
     void finish();
@@ -71,8 +71,8 @@ class ClothSolver : protected ImplicitStep {
     double shortest_ = 1e30;  ///< minimum rest length of stretch links
     double strain_ = 0.0;     ///< maximum over stretch links
     double potential_ = 0.0;  ///< inertia plus links
-    double decrease_ = 0.0;   ///< of the potential with contacts, in the last step
-    double forced_ = 0.0;     ///< the potential of inertia that forces add in a substep
+    double decrease_ = 0.0;   ///< decrease of the potential with contacts in the last step
+    double forcing_ = 0.0;    ///< the potential of inertia that forces add in a substep
     bool converged_ = true;
 };
 

@@ -27,7 +27,7 @@ void links_of(const GridLevel& level, const ClothArrays& cloth, float counted_st
         const V3 by = load(cloth.position, i + step) - load(cloth.position, i);
         const V length =
             hn::Sqrt(hn::Add(hn::Add(hn::Mul(by.x, by.x), hn::Mul(by.y, by.y)), hn::Mul(by.z, by.z)));
-        // Coincident particles: any direction will do.
+        // Coincident particles take an arbitrary direction.
         const auto some = hn::Gt(length, shortest);
         const V inverse = hn::Div(one, hn::IfThenElse(some, length, one));
         const V3 n = {hn::IfThenElse(some, hn::Mul(by.x, inverse), one), hn::Mul(by.y, inverse),

@@ -13,7 +13,7 @@ namespace {
 using glm::dvec3;
 using tendril::detail::refused;
 
-/// The distance from a core (a point or a line) with a thickness; on the core the normal is `otherwise`.
+/// Distance from a core (a point or a line) of some thickness. On the core the normal is `otherwise`.
 SurfaceDistance from_core(const dvec3& by, double thickness, const dvec3& otherwise) {
     const double length = detail::length(by);
     if (length < 1e-12) return {-thickness, otherwise};

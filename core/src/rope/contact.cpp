@@ -27,8 +27,8 @@ struct Bounds {
         low = {std::min(low.x, point.x), std::min(low.y, point.y), std::min(low.z, point.z)};
         high = {std::max(high.x, point.x), std::max(high.y, point.y), std::max(high.z, point.z)};
     }
-    void grow(double by) { low -= dvec3(by), high += dvec3(by); }
-    bool meets(const dvec3& other_low, const dvec3& other_high) const {
+    void expand(double by) { low -= dvec3(by), high += dvec3(by); }
+    bool overlaps(const dvec3& other_low, const dvec3& other_high) const {
         return low.x <= other_high.x && low.y <= other_high.y && low.z <= other_high.z &&
                high.x >= other_low.x && high.y >= other_low.y && high.z >= other_low.z;
     }
@@ -41,7 +41,7 @@ dvec3 Scratch::Moving::move_at(const dvec3& at) const {
         const dvec3 from = at - middle, all = by + (from - math::rotated(inverse_spin, from));
         const auto* const plane = std::get_if<Plane>(shape);
         if (plane == nullptr) return all;
-        const dvec3 normal = detail::unit(dvec3(plane->normal));  // a plane does not move along it
+        const dvec3 normal = detail::unit(dvec3(plane->normal));  // a plane does not move along itself
         return all - detail::dot(all, normal) * normal;
     }
     if (turn == dvec3(0.0)) return by;
@@ -56,13 +56,13 @@ SurfaceDistance Scratch::Moving::sweep(const dvec3& was, dvec3& at, double radiu
                                        std::uint64_t& work) const {
     const SurfaceDistance surface = surface_distance(*shape, at);
     // Relative to the collider.
-    const dvec3 from = was + move_at(at), way = at - from;
-    const double far = detail::length(way), stride = 0.5 * size + radius;
-    if (!(far > stride && surface.distance < far + radius)) return surface;
-    const int samples = static_cast<int>(std::min(64.0, std::ceil(far / std::max(stride, 1e-9))));
+    const dvec3 from = was + move_at(at), path = at - from;
+    const double path_length = detail::length(path), stride = 0.5 * size + radius;
+    if (!(path_length > stride && surface.distance < path_length + radius)) return surface;
+    const int samples = static_cast<int>(std::min(64.0, std::ceil(path_length / std::max(stride, 1e-9))));
     work += static_cast<std::uint64_t>(samples);
     for (int k = 0; k < samples; ++k) {
-        const dvec3 sample = from + (static_cast<double>(k) / samples) * way;
+        const dvec3 sample = from + (static_cast<double>(k) / samples) * path;
         const SurfaceDistance there = surface_distance(*shape, sample);
         if (there.distance >= radius) continue;
         at = sample;
@@ -86,23 +86,23 @@ void Substep::find_near() {
             bounds.add(scratch_.x[i]);
             bounds.add(state_.position[i]);
         }
-        bounds.grow(std::sqrt(farthest) + state_.bodies[chunk.body].radius + chunk.reach + path_margin);
+        bounds.expand(std::sqrt(farthest) + state_.bodies[chunk.body].radius + chunk.reach + path_margin);
         scratch_.chunk_low[c] = bounds.low;
         scratch_.chunk_high[c] = bounds.high;
         whole.add(bounds.low);
         whole.add(bounds.high);
     }
-    // Bodies far from all colliders cost nothing further.
+    // A body far from all colliders needs no further checks.
     local_.close.clear();
     for (std::uint32_t k = 0; k < scratch_.colliders.size(); ++k) {
-        if (whole.meets(scratch_.colliders[k].low, scratch_.colliders[k].high)) local_.close.push_back(k);
+        if (whole.overlaps(scratch_.colliders[k].low, scratch_.colliders[k].high)) local_.close.push_back(k);
     }
     for (std::uint32_t c = first_chunk; c < end_chunk; ++c) {
         const Bounds chunk{scratch_.chunk_low[c], scratch_.chunk_high[c]};
         for (const std::uint32_t k : local_.close) {
             const Scratch::Moving& collider = scratch_.colliders[k];
-            const bool meets = chunk.meets(collider.low, collider.high);
-            if (!meets || detail::beyond(*collider.shape, chunk.low, chunk.high)) continue;
+            const bool overlaps = chunk.overlaps(collider.low, collider.high);
+            if (!overlaps || detail::beyond(*collider.shape, chunk.low, chunk.high)) continue;
             local_.near.push_back({c, k});
             Scratch::Nearest& nearest = scratch_.body_near[plan_.chunks[c].body];
             nearest =
@@ -165,7 +165,7 @@ void Substep::resolve_particle(std::uint32_t i, std::uint32_t number, std::uint3
     record_impact(body, depth);
     x += depth * surface.normal;
     Touch& contact = touch(i, number, surface.normal);
-    if (detail::dot(contact.normal, surface.normal) < 0.9) return;  // the second of two
+    if (detail::dot(contact.normal, surface.normal) < 0.9) return;  // a second surface
     contact.displacement += depth * surface.normal;
     apply_friction(i, body);
 }
@@ -195,7 +195,7 @@ void Substep::resolve_link(const Link& link, std::uint32_t number, std::uint32_t
     if (!(depth > 0.0) || shares <= 0.0) return;
     record_impact(body, depth);
     const auto displace = [&](std::uint32_t i, double wanted) {
-        // Next to a pinned end the other one would have to move very far.
+        // Next to a pinned end, the other end would have to move very far.
         const double by = std::min(wanted, 1.5 * depth);
         if (by <= 0.0) return;
         scratch_.x[i] += by * surface.normal;

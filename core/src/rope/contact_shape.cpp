@@ -88,14 +88,14 @@ std::optional<double> nearest_between(const Shape& shape, const dvec3& a, const 
     if (!(low.slope < 0.0 && high.slope > 0.0)) return std::nullopt;
     const double precise = 1e-9 * length(line.by);
     for (int i = 2; i < max_line_samples; ++i) {
-        // The tangents at both ends cross at a lower bound of the distance between them.
+        // The tangents at both ends cross at a lower bound of the distance in between.
         const double bend = high.slope - low.slope, width = high.t - low.t;
         const double cross = (low.distance - high.distance + high.slope * width) / bend;
         const double minimum = low.distance + low.slope * cross;
         if (minimum > reach) return std::nullopt;
         const bool low_is_less = low.distance <= high.distance;
         if (std::min(low.distance, high.distance) - minimum <= precise) return low_is_less ? low.t : high.t;
-        // The crossing finds a corner, the secant of the slopes the bottom of a curve.
+        // The crossing finds a corner, the secant of the slopes a smooth minimum.
         const double step = i % 2 == 0 ? cross : -low.slope / bend * width;
         const ConvexLine::Point middle = line.at(low.t + std::clamp(step, 0.001 * width, 0.999 * width));
         (middle.slope < 0.0 ? low : high) = middle;

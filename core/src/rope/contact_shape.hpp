@@ -22,9 +22,9 @@ inline constexpr int max_line_samples = 14;
 std::optional<double> nearest_between(const Shape& shape, const glm::dvec3& a, const glm::dvec3& b,
                                       double reach) noexcept;
 
-/// Its middle, in double precision: a capsule moved to where it is does not move.
+/// A capsule's middle, in double precision: a capsule moved to its own middle does not move.
 glm::dvec3 middle_of(const Capsule& capsule) noexcept;
-/// Half the vector from a to b.
+/// Half the vector from end a to end b.
 glm::dvec3 half_of(const Capsule& capsule) noexcept;
 /// A collider's shape after this part of the way to its goal.
 Shape interpolated(const Collider& collider, double part) noexcept;

@@ -36,10 +36,10 @@ Result check_line(const char* op, const Body& cloth, const ClothLine& line, std:
     char name[32], rule[64];
     std::snprintf(name, sizeof name, "lines[%zu]", number);
     if (line.size() < 2) return refused(op, name, "2 points or more", line.size());
-    const float most[] = {static_cast<float>(cloth.row), static_cast<float>(cloth.rows())};
+    const float limits[] = {static_cast<float>(cloth.row), static_cast<float>(cloth.rows())};
     for (std::size_t i = 0; i < line.size(); ++i)
         for (int axis = 0; axis < 2; ++axis) {
-            const float each = line[i][axis], end = most[axis];
+            const float each = line[i][axis], end = limits[axis];
             if (each >= -1.0f && each <= end) continue;
             std::snprintf(rule, sizeof rule, "-1 to %g", static_cast<double>(end));
             return refused(op, Argument(name, i, axis == 0 ? "column" : "row"), rule, each);
@@ -55,7 +55,7 @@ struct BodyPiece {
 
 /// The pieces of a body, in the order of their first particles.
 std::vector<BodyPiece> pieces_of(const State& state, const Body& body, std::vector<std::size_t>& piece_of) {
-    std::vector<std::size_t> parent(body.count);  // union-find; each set is known by its first particle
+    std::vector<std::size_t> parent(body.count);  // union-find; the root of a set is its first particle
     std::iota(parent.begin(), parent.end(), std::size_t{0});
     const auto first_of = [&](std::size_t i) {
         while (parent[i] != i) i = parent[i] = parent[parent[i]];

@@ -189,7 +189,7 @@ void Substep::depenetrate() {
                   const bool keeps = of.kind == Body::Kind::Cloth || detail::bends(state_, of);
                   dvec3& x = scratch_.x[i];
                   const dvec3 was = x;
-                  if (neighbours.depth(x, of.radius) <= (keeps ? kept_depth : depth_tolerance)) return;
+                  if (neighbours.depth(x, of.radius) <= (keeps ? penetration_slop : depth_tolerance)) return;
                   if (!move_out(neighbours, x, of.radius)) ++report_.unresolved;
                   record_impact(body, detail::length(x - was));
               });

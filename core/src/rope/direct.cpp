@@ -34,8 +34,8 @@ using glm::dvec3;
 constexpr double length_tolerance = 1e-7;       ///< relative length error that needs no correction
 constexpr double accepted_error = 1e-4;         ///< a chain with more is solved again
 constexpr double accepted_shared_error = 1e-3;  ///< the same if chains share particles
-constexpr double fallback_error = 0.02;         ///< a chain that ends with more: its body is relaxed
-constexpr double accepted_gain = 1e-3;          ///< energy gain; a result that gains more is rejected
+constexpr double fallback_error = 0.02;         ///< above it a chain's body is relaxed
+constexpr double accepted_gain = 1e-3;          ///< a result that gains more energy is rejected
 constexpr int max_restarts = 6, fallback_passes = 16, max_step_halvings = 10;
 /// Minimum passes of chains that share particles, while near a collider.
 constexpr int min_contact_passes = 4;
@@ -108,7 +108,7 @@ void Substep::shorten_steps() {
 }
 
 /// Cuts a step that gains energy, ends in a collider, or did not converge. Scaling velocities would not
-/// remove a gain by bending. The last resort is a step back, which gains nothing.
+/// remove a gain by bending. If halving fails, particles stay or step back, which gains nothing.
 void Substep::shorten_step(std::uint32_t number) {
     const Plan::Chain& chain = plan_.chains[number];
     const bool failed = !(scratch_.chain_error[number] <= fallback_error);
@@ -121,17 +121,17 @@ void Substep::shorten_step(std::uint32_t number) {
         }
         return worst;
     };
-    const double most = failed ? fallback_error + stretch(state_.position) : 0.0;
-    // A collider that moves must take the chain along.
+    const double max_stretch = failed ? fallback_error + stretch(state_.position) : 0.0;
+    // A moving collider must take the chain along.
     const bool driven = scratch_.body_near[chain.body] == Scratch::Nearest::Moving;
     double deepest = -1.0;
     const auto is_bad = [&] {
-        if (failed && !(stretch(scratch_.x) <= most)) return true;
+        if (failed && !(stretch(scratch_.x) <= max_stretch)) return true;
         const Ledger ledger = ledger_of(chain);
         if (ledger.leaves_gain(accepted_gain)) return true;
         if (ledger.gains_over(accepted_gain) && correction_scale(chain) < 1.0) return true;
-        if (driven || depth_of(chain, scratch_.x) <= kept_depth) return false;
-        if (deepest < 0.0) deepest = std::max(kept_depth, depth_of(chain, state_.position));
+        if (driven || depth_of(chain, scratch_.x) <= penetration_slop) return false;
+        if (deepest < 0.0) deepest = std::max(penetration_slop, depth_of(chain, state_.position));
         return depth_of(chain, scratch_.x) > deepest;
     };
     const auto each = [&](auto move) {
@@ -152,13 +152,13 @@ void Substep::shorten_step(std::uint32_t number) {
 
 /// Factor that limits a chain's correction to correction_speed or the speed of its fastest particle.
 double Substep::correction_scale(const Plan::Chain& chain) const {
-    double farthest = 0.0, most = correction_speed * h_;
+    double largest = 0.0, limit = correction_speed * h_;
     for (std::uint32_t k = 0; k <= chain.links; ++k) {
         const std::uint32_t i = plan_.nodes[chain.first_node + k];
-        farthest = std::max(farthest, detail::length(scratch_.x[i] - scratch_.base[i]));
-        most = std::max(most, detail::length(scratch_.base[i] - state_.position[i]));
+        largest = std::max(largest, detail::length(scratch_.x[i] - scratch_.base[i]));
+        limit = std::max(limit, detail::length(scratch_.base[i] - state_.position[i]));
     }
-    return farthest > most ? most / farthest : 1.0;
+    return largest > limit ? limit / largest : 1.0;
 }
 
 /// Scales down a solve that would throw a chain.
@@ -353,7 +353,7 @@ void Substep::solve_again(std::uint32_t chain) {
     if (scratch_.chain_error[chain] <= tolerance) {
         const Ledger ledger = ledger_of(it);
         if (!ledger.gains_over(1e-4)) {
-            // Nothing else moves it in this substep: the same ledger balances it.
+            // Nothing else moves the chain in this substep, so this ledger balances it.
             const bool untouched = scratch_.body_near[it.body] == Scratch::Nearest::None;
             if (untouched && island_.contacts == 0) scratch_.chain_slowdown[chain] = limit_gain(ledger);
             return;
@@ -393,7 +393,7 @@ void Substep::gather(const Block& block, const Batch& batch) const {
             const Plan::Chain& chain = *lane_chains[lane];
             const std::uint32_t i = plan_.nodes[chain.first_node + k];
             double* const node = block.at(k, 0) + lane;
-            const auto row = [&](std::size_t which) -> double* { return node + which * block.lanes; };
+            const auto row = [&](std::size_t index) -> double* { return node + index * block.lanes; };
             put(row(Row::X), scratch_.x[i], block.lanes);
             put(row(Row::OldX), state_.position[i] - state_.displacement[i], block.lanes);
             *row(Row::Weight) = scratch_.weight[i];
@@ -412,7 +412,7 @@ void Substep::scatter(const Block& block, std::uint32_t lane, std::uint32_t numb
     for (std::uint32_t k = 0; k <= chain.links; ++k) {
         const std::uint32_t i = plan_.nodes[chain.first_node + k];
         const double* const node = block.at(k, 0) + lane;
-        const auto row = [&](std::size_t which) { return node[which * block.lanes]; };
+        const auto row = [&](std::size_t index) { return node[index * block.lanes]; };
         if (scratch_.weight[i] > 0.0) scratch_.x[i] = {row(Row::X), row(Row::Y), row(Row::Z)};
         if (k < chain.links) scratch_.multiplier[chain.first_link + k] = row(Row::Multiplier);
     }

@@ -16,7 +16,7 @@ enum Row : std::size_t {
     BaseZ,  ///< position without any tension
     OldX,
     OldY,
-    OldZ,        ///< position one substep before the last; then the unit direction of its link there
+    OldZ,        ///< position one substep before the last; then the direction of its link there, unit
     Weight,      ///< inverse mass; 0: pinned
     Rest,        ///< rest length of its link
     Compliance,  ///< of its link, m/N, over h^2

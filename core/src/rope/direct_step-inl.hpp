@@ -67,8 +67,8 @@ class BlockSolver {
         store(value.x, node, row), store(value.y, node, row + 1), store(value.z, node, row + 2);
     }
     V set(double value) const { return hn::Set(d_, value); }
-    // Return the second if either is NaN, in every vector unit. Highway's Max and Min leave that to the
-    // machine; x86's do exactly this, and are faster.
+    // Return the second if either is NaN, in every vector unit. Highway's Max and Min leave NaN to the
+    // machine; x86's instructions do exactly this, and are faster.
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
     static V larger(V a, V b) {
         return hn::Max(a, b);

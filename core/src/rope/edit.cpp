@@ -43,13 +43,13 @@ struct RowPoint {
 
 /// The number of `segments` for each span, in proportion to its length and at least one.
 std::vector<std::size_t> distribute_segments(const std::vector<double>& lengths, std::size_t segments) {
-    double is_whole = 0.0;
-    for (const double length : lengths) is_whole += length;
+    double total = 0.0;
+    for (const double length : lengths) total += length;
     std::vector<std::size_t> counts;
     std::vector<std::pair<double, std::size_t>> missing;  // shortfall of each span
     std::size_t given = 0;
     for (std::size_t i = 0; i < lengths.size(); ++i) {
-        const double wanted = static_cast<double>(segments) * lengths[i] / is_whole;
+        const double wanted = static_cast<double>(segments) * lengths[i] / total;
         counts.push_back(static_cast<std::size_t>(std::max(1.0, std::floor(wanted + 1e-9))));
         given += counts.back();
         missing.emplace_back(wanted - static_cast<double>(counts.back()), i);
@@ -61,14 +61,14 @@ std::vector<std::size_t> distribute_segments(const std::vector<double>& lengths,
     for (std::size_t i = 0; given < segments; i = (i + 1) % missing.size())
         ++counts[missing[i].second], ++given;
     while (given > segments) {
-        const auto most = std::max_element(counts.begin(), counts.end());
-        --*most, --given;
+        const auto largest = std::max_element(counts.begin(), counts.end());
+        --*largest, --given;
     }
     return counts;
 }
 
-/// The sources of a row's particles. `rest`: the coordinates of its particles; `kept`: particles that stay,
-/// sorted, both ends among them.
+/// Where to sample a row's new particles. `rest`: its old particles' coordinates; `kept`: particles that
+/// stay, in order, with both ends.
 std::vector<RowPoint> sample_row(const std::vector<double>& rest, const std::vector<std::size_t>& kept,
                                  std::size_t segments) {
     std::vector<double> lengths;
@@ -182,10 +182,10 @@ class Resampling {
             if (!detail::is_within(body_, link)) continue;
             example_link_[static_cast<std::size_t>(link.kind)] = &link;
             if (link.kind != Link::Kind::Stretch) continue;
-            const detail::LinkStep way = detail::link_step(body_, link);
-            const std::size_t begin = way.row * was_.columns + way.column;
-            if (way.columns == 1 && way.rows == 0) along_[begin] = &link;
-            if (way.columns == 0 && way.rows == 1) down_[begin] = &link;
+            const detail::LinkStep step = detail::link_step(body_, link);
+            const std::size_t begin = step.row * was_.columns + step.column;
+            if (step.columns == 1 && step.rows == 0) along_[begin] = &link;
+            if (step.columns == 0 && step.rows == 1) down_[begin] = &link;
         }
     }
 
@@ -216,17 +216,17 @@ class Resampling {
 
     std::size_t old_cell(std::size_t column, std::size_t row) const { return row * was_.columns + column; }
 
-    /// Whether a cell gets a new particle: the nearest old cell is no gap, and threads lead to it.
+    /// Whether a cell gets a new particle: the nearest old cell has one, and threads lead to it.
     bool filled(std::size_t c, std::size_t r) const {
         if (body_.cells.empty()) return true;
         return particle_[old_cell(column_[c].nearest(), row_[r].nearest())] < body_.count &&
-               ((c > 0 && is_whole(c - 1, r, c, r)) || (r > 0 && is_whole(c, r - 1, c, r)) ||
-                (c + 1 < to_.columns && is_whole(c, r, c + 1, r)) ||
-                (r + 1 < to_.rows && is_whole(c, r, c, r + 1)));
+               ((c > 0 && total(c - 1, r, c, r)) || (r > 0 && total(c, r - 1, c, r)) ||
+                (c + 1 < to_.columns && total(c, r, c + 1, r)) ||
+                (r + 1 < to_.rows && total(c, r, c, r + 1)));
     }
 
     /// Whether the cloth is whole between two of the new particles, which may be one.
-    bool is_whole(std::size_t c0, std::size_t r0, std::size_t c1, std::size_t r1) const {
+    bool total(std::size_t c0, std::size_t r0, std::size_t c1, std::size_t r1) const {
         const auto low_c = std::min(column_[c0].before, column_[c1].before),
                    high_c = std::max(column_[c0].after(), column_[c1].after()),
                    low_r = std::min(row_[r0].before, row_[r1].before),
@@ -244,7 +244,7 @@ class Resampling {
         const auto at = [&](std::size_t i, std::size_t k) {
             return list[body_.first + particle_[old_cell(i, k)]];
         };
-        if (!is_whole(c, r, c, r)) return at(column.nearest(), row.nearest());
+        if (!total(c, r, c, r)) return at(column.nearest(), row.nearest());
         const auto in_row = [&](std::size_t k) {
             const dvec3 before = at(column.before, k);
             return column.part > 0.0 ? before + column.part * (at(column.before + 1, k) - before) : before;
@@ -253,7 +253,7 @@ class Resampling {
         return row.part > 0.0 ? before + row.part * (in_row(row.before + 1) - before) : before;
     }
 
-    /// The pin of a new particle; none unless all old ones around it are pinned alike.
+    /// The pin of a new particle; none unless all old particles around it are pinned alike.
     bool pin_at(std::size_t c, std::size_t r, Pin& pin) const {
         const RowPoint &column = column_[c], &row = row_[r];
         const std::size_t corners[] = {
@@ -326,14 +326,14 @@ class Resampling {
         const Link* const stretch = example_link_[static_cast<std::size_t>(Link::Kind::Stretch)];
         const double per = stretch != nullptr ? detail::unit_link_compliance(body_, grid_, *stretch) : 0.0;
         const double material = per > 0.0 ? stretch->compliance / per : 0.0;
-        // A thread of a cloth has its share of the force.
+        // Each thread of a cloth carries a share of the force.
         const auto share = [](std::size_t was, std::size_t now) {
             return static_cast<double>(was) / static_cast<double>(now);
         };
         const auto add = [&](std::uint32_t a, std::uint32_t b, Link::Kind kind) {
             const std::size_t ca = a % columns, ra = a / columns, cb = b % columns, rb = b / columns;
             const Link* const like = example_link_[static_cast<std::size_t>(kind)];
-            if (like == nullptr || !is_whole(ca, ra, cb, rb)) return;
+            if (like == nullptr || !total(ca, ra, cb, rb)) return;
             Link link{.a = a, .b = b, .rest = 0.0f, .kind = kind, .compliance = like->compliance};
             link.rest = static_cast<float>(detail::length(grid.at(cb, rb) - grid.at(ca, ra)));
             if (kind == Link::Kind::Stretch) {

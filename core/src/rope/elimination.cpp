@@ -7,7 +7,7 @@
 namespace tendril::rope::detail {
 namespace {
 
-/// The inverse, by L D L^T: a stiff link leaves digits that cofactors would lose.
+/// Inverts by L D L^T, which keeps digits beside a stiff link that cofactors would lose.
 Symmetric3 stable_inverse(const Symmetric3& a) noexcept {
     const double d0 = 1.0 / a.xx, l10 = a.xy * d0, l20 = a.xz * d0;
     const double d1 = 1.0 / (a.yy - l10 * a.xy), c21 = a.yz - l20 * a.xy, l21 = c21 * d1;
@@ -147,7 +147,7 @@ void DenseSystem::resize(std::size_t numbers) {
     matrix.resize(size * size);
 }
 
-/// L by rows below the diagonal, and above it L^T.
+/// L, by rows below the diagonal; L^T above it.
 void DenseSystem::factorize(std::size_t n) noexcept {
     for (std::size_t i = 0; i < n; ++i) factorize_row(i);
 }

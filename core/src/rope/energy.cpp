@@ -1,7 +1,7 @@
 // The energy bound. A solve that falls short, or depenetration, can leave a body with more energy than it
 // had; its velocity is then scaled down until the gain is gone. The direct solver always keeps the bound; the
-// others keep it near a collider that strikes the body, or while its links hold their lengths. A gain by
-// bending cannot be removed so; its step is shortened (direct.cpp).
+// others keep it near a collider that strikes the body, or while its links hold their lengths. Slowing cannot
+// remove a gain by bending; the step is shortened instead (direct.cpp).
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -20,22 +20,22 @@ using glm::dvec3;
 constexpr double rounding = 1e-9;
 
 /// The energy that scaling a velocity by s removes. A shorter displacement also moves the halfway point
-/// towards the end of the substep; `since` is the potential energy released between the two.
-double energy_removed(double kinetic, double since, double s) {
-    return kinetic * (1.0 - s * s) + since * (1.0 - s);
+/// towards the end of the substep; `released` is the potential energy released between the two.
+double energy_removed(double kinetic, double released, double s) {
+    return kinetic * (1.0 - s * s) + released * (1.0 - s);
 }
 
 /// The largest s that removes `gained`; if none does, the one that removes most.
-double velocity_scale(double kinetic, double since, double gained) {
+double velocity_scale(double kinetic, double released, double gained) {
     if (!(gained > 0.0) || !(kinetic > 0.0)) return 1.0;
-    const double most = std::clamp(-since / (2.0 * kinetic), 0.0, 1.0);
-    const double root = since * since + 4.0 * kinetic * (kinetic + since - gained);
-    if (!(root > 0.0)) return most;
+    const double min_scale = std::clamp(-released / (2.0 * kinetic), 0.0, 1.0);
+    const double root = released * released + 4.0 * kinetic * (kinetic + released - gained);
+    if (!(root > 0.0)) return min_scale;
     // The form of the root that does not subtract nearly equal numbers.
     const double sum = std::sqrt(root);
-    const double s =
-        since > 0.0 ? 2.0 * (kinetic + since - gained) / (sum + since) : (sum - since) / (2.0 * kinetic);
-    return std::clamp(s, most, 1.0);
+    const double s = released > 0.0 ? 2.0 * (kinetic + released - gained) / (sum + released)
+                                    : (sum - released) / (2.0 * kinetic);
+    return std::clamp(s, min_scale, 1.0);
 }
 
 /// Whether a link's length error is so large that it holds uncounted energy.
@@ -64,7 +64,7 @@ inline void Substep::Ledger::add_particle(std::size_t i) {
     gravity_work_ += half;
     const double moved = detail::kinetic_energy(mass, then, step_->h_);
     gained_ += moving - moved - half - step_->before_ * 0.5 * mass * detail::dot(step_->acceleration_, then);
-    if (step_->has_air_)  // work of the wind is no gain
+    if (step_->has_air_)  // the wind's work does not count as a gain
         gained_ -=
             detail::dot(step_->scratch_.wind_move[i], now + then) * (0.5 * mass / (step_->h_ * step_->h_));
     kinetic_before_ += moved;
@@ -91,7 +91,7 @@ inline void Substep::Ledger::add_link(std::uint32_t number) {
     elastic_release_ += half - detail::elastic_energy(link, compliance, tension, now, dvec3(0.0));
 }
 
-/// A solver that takes curvatures at both ends of a substep bounds their mean energy.
+/// The solver takes curvatures at both ends of a substep, and so bounds the mean of their energies.
 void Substep::Ledger::add_bending(const Plan::Chain& chain) {
     const State& state = step_->state_;
     const Body& body = state.bodies[chain.body];
@@ -126,28 +126,28 @@ bool Substep::Ledger::gains_over(double part) const {
 Substep::Slowdown Substep::Ledger::slowdown() const {
     Slowdown slowdown;
     if (!gains_over(rounding)) return slowdown;
-    double left = gained_;
+    double remaining_gain = gained_;
     if (pinned_) {
         slowdown.mean_factor = slowdown.relative_factor =
-            velocity_scale(kinetic_, gravity_work_ + elastic_release_, left);
-        left -= energy_removed(kinetic_, gravity_work_ + elastic_release_, slowdown.mean_factor);
+            velocity_scale(kinetic_, gravity_work_ + elastic_release_, remaining_gain);
+        remaining_gain -= energy_removed(kinetic_, gravity_work_ + elastic_release_, slowdown.mean_factor);
     } else {
         slowdown.mean = (1.0 / mass_) * momentum_;
         const double whole = detail::kinetic_energy(mass_, slowdown.mean, step_->h_);
         const double apart = std::max(0.0, kinetic_ - whole);
-        slowdown.relative_factor = velocity_scale(apart, elastic_release_, left);
-        left -= energy_removed(apart, elastic_release_, slowdown.relative_factor);
-        slowdown.mean_factor = velocity_scale(whole, gravity_work_, left);
-        left -= energy_removed(whole, gravity_work_, slowdown.mean_factor);
+        slowdown.relative_factor = velocity_scale(apart, elastic_release_, remaining_gain);
+        remaining_gain -= energy_removed(apart, elastic_release_, slowdown.relative_factor);
+        slowdown.mean_factor = velocity_scale(whole, gravity_work_, remaining_gain);
+        remaining_gain -= energy_removed(whole, gravity_work_, slowdown.mean_factor);
     }
-    slowdown.left = left;
-    if (near_ != Scratch::Nearest::None && left > 0.0 && elastic_ > 0.0)
-        slowdown.tension_factor = std::sqrt(std::max(0.0, 1.0 - left / elastic_));
+    slowdown.remaining_gain = remaining_gain;
+    if (near_ != Scratch::Nearest::None && remaining_gain > 0.0 && elastic_ > 0.0)
+        slowdown.tension_factor = std::sqrt(std::max(0.0, 1.0 - remaining_gain / elastic_));
     return slowdown;
 }
 
 bool Substep::Ledger::leaves_gain(double part) const {
-    return slowdown().left >
+    return slowdown().remaining_gain >
            part * std::max(kinetic_before_, mass_ * length_ * detail::length(step_->acceleration_));
 }
 

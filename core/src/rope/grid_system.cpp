@@ -27,18 +27,18 @@ class Arrays {
     void take(const GridLevel& level, std::span<float*> arrays) {
         for (float*& each : arrays) take(level, each);
     }
-    std::size_t taken() const { return step_scale_; }
+    std::size_t taken() const { return taken_; }
 
   private:
     void take(const GridLevel& level, float*& array) {
         // A register may begin a link before the first cell or after the last.
         const std::size_t around = 2 * level.stride + 4 * grid_lanes;
-        if (next_ != nullptr) array = next_ + step_scale_ + around;
-        step_scale_ += level.cells() + 2 * around;
+        if (next_ != nullptr) array = next_ + taken_ + around;
+        taken_ += level.cells() + 2 * around;
     }
 
     float* next_;
-    std::size_t step_scale_ = 0;
+    std::size_t taken_ = 0;
 };
 
 }  // namespace
@@ -94,7 +94,7 @@ class GridSystem::Loops {
     tendril::detail::ForkJoin& loops_;
 };
 
-/// Its rows continue with the rotations' rows, which balance() fills.
+/// The rows of rotations follow in the same matrix; balance() fills them.
 void GridSystem::factorize_coarsest() {
     const GridLevel& level = levels_.back();
     const std::size_t columns = level.columns, cells = columns * level.rows, n = 3 * cells + rotations;
@@ -224,7 +224,7 @@ void GridSystem::balance(const Loops& loops, const GridVector* position) {
         });
         for (std::size_t j = 0; j <= k; ++j) row[first + j] = dot(loops, about[j], product_);
         coarsest_x_[first + k] = dot(loops, about[k], fine.right);
-        // None, if free particles lie on its axis.
+        // Drops a rotation about an axis through all free particles.
         if (!(coarsest_.factorize_row(first + k) > min_pivot)) coarsest_.drop_row(first + k);
     }
     project(loops, fine.right);
@@ -277,20 +277,20 @@ GridSystem::Solved GridSystem::solve(const GridUnit& unit, float floor, const To
     for (float* array : solution_) std::fill_n(array, fine.cells(), 0.0f);
     for (float* array : direction_) std::fill_n(array, fine.cells(), 0.0f);
     Solved solved;
-    double enough = 0.0, before = 0.0;
+    double max_residual = 0.0, before = 0.0;
     for (;; ++solved.iterations) {
         precondition(loops, 0);
         const double now = dot(loops, fine.right, fine.x);
         if (solved.iterations == 0)
-            enough = std::max(tolerance.square, tolerance.relative * tolerance.relative * now);
+            max_residual = std::max(tolerance.square, tolerance.relative * tolerance.relative * now);
         if (!std::isfinite(now)) return solved;
-        solved.converged = now <= enough;
+        solved.converged = now <= max_residual;
         if (solved.converged || solved.iterations >= iterations) {
             balance(loops, position);
             return solved;
         }
-        const float kept = solved.iterations == 0 ? 0.0f : static_cast<float>(now / before);
-        loops.cells(fine, [&](GridRange part) { unit.scale_and_add(kept, fine.x, direction_, part); });
+        const float beta = solved.iterations == 0 ? 0.0f : static_cast<float>(now / before);
+        loops.cells(fine, [&](GridRange part) { unit.scale_and_add(beta, fine.x, direction_, part); });
         before = now;
         multiply(loops, direction_);
         const double curvature = dot(loops, direction_, product_);

@@ -95,8 +95,8 @@ inline constexpr std::size_t part_cells = 16 * dot_cells;
 /// help.
 template <class Work>
 void in_parts(tendril::detail::ForkJoin& loops, std::size_t count, std::size_t size, bool large, Work work) {
-    constexpr std::size_t most = tendril::detail::ForkJoin::max_parts;
-    if (!large || !loops.shared() || count > most * size) return work(GridRange{0, count});
+    constexpr std::size_t max_parts = tendril::detail::ForkJoin::max_parts;
+    if (!large || !loops.shared() || count > max_parts * size) return work(GridRange{0, count});
     const auto parts = static_cast<std::uint32_t>((count + size - 1) / size);
     loops.run(parts, [&](std::uint32_t part) {
         const std::size_t first = part * size;

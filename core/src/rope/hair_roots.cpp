@@ -8,9 +8,9 @@
 namespace tendril::rope {
 namespace {
 
-/// The patch's direction, or `otherwise` if it has none; unit.
-Expected<glm::vec3> direction_of(const HairPatch& patch, glm::vec3 otherwise) {
-    const glm::vec3 direction = patch.direction.value_or(otherwise);
+/// The patch's direction, or `fallback` if it has none; unit.
+Expected<glm::vec3> direction_of(const HairPatch& patch, glm::vec3 fallback) {
+    const glm::vec3 direction = patch.direction.value_or(fallback);
     const float length = math::length(direction);
     if (length > 0.0f && std::isfinite(length)) return direction / length;
     return tendril::detail::refused("hair", "direction", "of finite length over 0", length);
@@ -25,8 +25,8 @@ struct PatchPoint {
 std::vector<PatchPoint> patch_points(const HairPatch& patch, glm::vec3 direction) {
     constexpr float golden_angle = 2.3999632f;
     const glm::vec3 across = std::abs(direction.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
-    const glm::vec3 aside = math::cross(direction, across);
-    const glm::vec3 first = math::times(aside, 1.0f / math::length(aside));
+    const glm::vec3 side = math::cross(direction, across);
+    const glm::vec3 first = math::times(side, 1.0f / math::length(side));
     const glm::vec3 second = math::cross(direction, first);
     std::vector<PatchPoint> found;
     found.reserve(static_cast<std::size_t>(patch.strands));
@@ -54,8 +54,8 @@ Expected<std::vector<HairRoot>> roots_around(const HairPatch& patch) {
 Expected<std::vector<HairRoot>> roots_on(const Shape& shape, const HairPatch& patch, float lift) {
     if (const Result bad = check_fields("hair", patch); !bad) return bad;
     const auto* plane = std::get_if<Plane>(&shape);
-    const glm::vec3 otherwise = plane != nullptr ? plane->normal : glm::vec3(0, 1, 0);
-    const Expected<glm::vec3> given = direction_of(patch, otherwise);
+    const glm::vec3 fallback = plane != nullptr ? plane->normal : glm::vec3(0, 1, 0);
+    const Expected<glm::vec3> given = direction_of(patch, fallback);
     if (!given) return given.error();
     const glm::vec3 direction = *given;
     const glm::vec3 middle = centre(shape);

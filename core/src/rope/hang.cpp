@@ -25,11 +25,11 @@ struct Parabola {
         double guess = std::min(high, t + chord / std::max(length(slope(t)), 1e-300));
         for (int i = 0; i < 60; ++i) {
             const dvec3 by = at(guess) - here;
-            const double distance = length(by), off = distance - chord;
-            if (std::abs(off) <= 1e-14 * chord) break;
-            (off < 0.0 ? low : high) = guess;
+            const double distance = length(by), error = distance - chord;
+            if (std::abs(error) <= 1e-14 * chord) break;
+            (error < 0.0 ? low : high) = guess;
             const double rate = distance > 0.0 ? dot(by, slope(guess)) / distance : 0.0;
-            double better = rate > 0.0 ? guess - off / rate : 0.5 * (low + high);
+            double better = rate > 0.0 ? guess - error / rate : 0.5 * (low + high);
             if (!(better > low && better < high)) better = 0.5 * (low + high);
             if (better == guess) break;
             guess = better;

@@ -14,7 +14,7 @@ using glm::dvec3;
 
 }  // namespace
 
-/// Finds contacts inside a collider, or that pressed in the previous solve. Always in the same order.
+/// Finds contacts that penetrate, or that pressed in the previous solve; always in the same order.
 void ImplicitStep::find_contacts(bool first) {
     std::vector<ClothContact>&found = local_.cloth_contacts, &before = local_.earlier_contacts;
     std::swap(found, before);
@@ -72,7 +72,7 @@ void ImplicitStep::find_at_link(ClothContact contact, double radius, bool first)
     add_if_active(contact, surface_distance(*collider.shape, a + *t * along), radius, first);
 }
 
-/// Adds a contact that penetrates or pressed before; in the first solve also one that free motion would make.
+/// Adds a contact that penetrates or pressed before; in the first solve, also if it would on the free path.
 void ImplicitStep::add_if_active(ClothContact contact, const SurfaceDistance& surface, double radius,
                                  bool first) {
     contact.gap = surface.distance - radius;
@@ -95,8 +95,8 @@ void ImplicitStep::apply_friction(ClothContact& contact) const {
     dvec3& slip = contact.slip;
     slip = contact.at - contact_point(contact, state_.position) - collider_of(contact).move_at(contact.at);
     slip -= detail::dot(slip, n) * n;
-    const double size = detail::length(slip), most = friction_of(contact) * contact.force;
-    contact.drag = size * stiffness_ > most ? most / size : stiffness_;
+    const double size = detail::length(slip), max_friction = friction_of(contact) * contact.force;
+    contact.drag = size * stiffness_ > max_friction ? max_friction / size : stiffness_;
 }
 
 /// The contact's share of the potential.

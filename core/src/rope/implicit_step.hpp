@@ -32,7 +32,7 @@ class ImplicitStep : protected IslandStep {
     }
 
     double mass_ = 0.0;       ///< mean mass of a particle, kg
-    double stiffness_ = 0.0;  ///< of contacts and the stiffest links, times h^2 over that mass
+    double stiffness_ = 0.0;  ///< stiffness of contacts and the stiffest links, times h^2 over that mass
 };
 
 }  // namespace tendril::rope

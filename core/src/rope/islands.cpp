@@ -56,7 +56,7 @@ void each_collision(const Plan& plan, Visit visit) {
             visit(b, plan.collides_with[m]);
 }
 
-/// Makes the islands, as if nothing collided with cloth; returns the island of each body.
+/// Makes the islands, ignoring collisions with cloth; returns the island of each body.
 std::vector<std::uint32_t> make_islands(const State& state, const std::vector<std::uint32_t>& body_of,
                                         Plan& plan) {
     const std::size_t bodies = state.bodies.size();

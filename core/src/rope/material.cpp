@@ -144,18 +144,18 @@ Result World::scale(BodyId body, const char* operation, float metres, bool rows)
     const detail::RestGrid was = detail::rest_grid(state_, *changed);
     const double now = rows ? was.length() : was.width();
     if (!(now > 0.0)) return refused(operation, "body", "longer than 0", now);
-    const double factor = metres / now;
+    const double ratio = metres / now;
     detail::RestGrid grid = was;
-    for (double& each : rows ? grid.along : grid.down) each *= factor;
+    for (double& each : rows ? grid.along : grid.down) each *= ratio;
     // Diagonals follow both sides; links along one side keep their own proportion.
     const auto new_rest = [&](const Link& link) -> double {
-        const detail::LinkStep way = detail::link_step(*changed, link);
-        const bool diagonal = way.columns != 0 && way.rows != 0 && changed->kind == Body::Kind::Cloth;
+        const detail::LinkStep step = detail::link_step(*changed, link);
+        const bool diagonal = step.columns != 0 && step.rows != 0 && changed->kind == Body::Kind::Cloth;
         if (!diagonal)
-            return (rows == (way.rows == 0) || changed->kind != Body::Kind::Cloth ? factor : 1.0) * link.rest;
-        const auto to = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(way.column) + way.columns);
-        return detail::length(grid.at(to, way.row + static_cast<std::size_t>(way.rows)) -
-                              grid.at(way.column, way.row));
+            return (rows == (step.rows == 0) || changed->kind != Body::Kind::Cloth ? ratio : 1.0) * link.rest;
+        const auto to = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(step.column) + step.columns);
+        return detail::length(grid.at(to, step.row + static_cast<std::size_t>(step.rows)) -
+                              grid.at(step.column, step.row));
     };
     for (const Link& link : state_.links) {
         if (detail::owns(*changed, link) && !(new_rest(link) <= static_cast<double>(max_magnitude)))
@@ -172,7 +172,7 @@ Result World::scale(BodyId body, const char* operation, float metres, bool rows)
         const double soft = material * detail::unit_link_compliance(*changed, grid, link);
         link.compliance = static_cast<float>(std::min(soft, static_cast<double>(max_magnitude)));
     }
-    scale_mass(*changed, factor);
+    scale_mass(*changed, ratio);
     take_stretch(*changed);
     return {};
 }

@@ -90,10 +90,10 @@ void Plan::find_faces(const State& state) {
     for (const Link& link : state.links) {
         const Body& of = state.bodies[body_of[link.a]];
         if (link.kind != Link::Kind::Stretch || !detail::is_within(of, link)) continue;
-        const detail::LinkStep way = detail::link_step(of, link);
+        const detail::LinkStep step = detail::link_step(of, link);
         const std::uint32_t low = std::min(link.a, link.b), high = std::max(link.a, link.b);
-        if (way.columns == 1 && way.rows == 0) linked[low] = 1;
-        if (way.columns == 0 && way.rows == 1) under[low] = high;
+        if (step.columns == 1 && step.rows == 0) linked[low] = 1;
+        if (step.columns == 0 && step.rows == 1) under[low] = high;
     }
     for (const Body& body : state.bodies) {
         const bool cloth = body.kind == Body::Kind::Cloth;

@@ -110,11 +110,11 @@ struct Plan {
 
     std::vector<std::uint32_t> ties;
     std::vector<Tied> tied;
-    std::vector<std::uint32_t> system_index;  ///< of each tied particle: place in its system's order, or cell
+    std::vector<std::uint32_t> system_index;  ///< per tied particle: place in its system's order, or cell
     std::vector<std::uint32_t> grid_of;       ///< 1-based index of each body in `grids`; 0: none
 
-    /// For each body the bodies, from itself on, with which it collides: ascending, in `collides_with` from
-    /// meets_first on. Empty, as the next four, if nothing collides.
+    /// For each body, the bodies from itself on with which it collides, ascending: in `collides_with` from
+    /// its entry in `collides_first` on. This list and the next four are empty if nothing collides.
     std::vector<std::uint32_t> collides_first, collides_with;
     /// For each body, whether its contacts are solved with its lengths or projected afterwards.
     enum class Collides : std::uint8_t { None, Solved, Projected };

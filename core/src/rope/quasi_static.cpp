@@ -12,8 +12,8 @@
 namespace tendril::rope {
 namespace {
 
-constexpr double substeps = 8.0;  ///< a single one cannot absorb a large move
-/// A stiff link further off its length than contacts leave it gets its length back.
+constexpr double substeps = 8.0;  ///< a single substep cannot absorb a large move
+/// A stiff link with a larger length error, more than contacts leave, returns to its rest length.
 constexpr double max_error = 0.05;
 
 bool is_stiff(const Settings& settings) {

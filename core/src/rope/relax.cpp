@@ -8,7 +8,7 @@
 
 namespace tendril::rope {
 
-/// Moves both ends by their share of the error; a pinned end does not move.
+/// Moves both ends by their shares of the error; a pinned end stays.
 void Substep::satisfy(std::uint32_t number, double compliance) {
     const Link& link = state_.links[number];
     const double weight_a = scratch_.weight[link.a], weight_b = scratch_.weight[link.b];

@@ -8,14 +8,14 @@
 namespace tendril::rope::detail {
 namespace {
 
-constexpr double unknown = -1.0;
+constexpr double none = -1.0;
 
-/// Sums steps to coordinates. Unknown ones are the mean of the others.
+/// Sums steps to coordinates. An unknown step is the mean of the known ones.
 std::vector<double> cumulative(std::vector<double> steps) {
     double known = 0.0, count = 0.0;
     for (const double step : steps)
-        if (step != unknown) known += step, ++count;
-    std::replace(steps.begin(), steps.end(), unknown, count > 0.0 ? known / count : 0.0);
+        if (step != none) known += step, ++count;
+    std::replace(steps.begin(), steps.end(), none, count > 0.0 ? known / count : 0.0);
     steps.insert(steps.begin(), 0.0);
     std::partial_sum(steps.begin(), steps.end(), steps.begin());
     return steps;
@@ -26,30 +26,30 @@ std::vector<double> cumulative(std::vector<double> steps) {
 LinkStep link_step(const Body& body, const Link& link) noexcept {
     const std::size_t low = body.cell(std::min(link.a, link.b) - body.first),
                       high = body.cell(std::max(link.a, link.b) - body.first);
-    LinkStep way{.column = low % body.row, .row = low / body.row};
-    way.columns = static_cast<std::ptrdiff_t>(high % body.row) - static_cast<std::ptrdiff_t>(way.column);
-    way.rows = static_cast<std::ptrdiff_t>(high / body.row) - static_cast<std::ptrdiff_t>(way.row);
-    return way;
+    LinkStep step{.column = low % body.row, .row = low / body.row};
+    step.columns = static_cast<std::ptrdiff_t>(high % body.row) - static_cast<std::ptrdiff_t>(step.column);
+    step.rows = static_cast<std::ptrdiff_t>(high / body.row) - static_cast<std::ptrdiff_t>(step.row);
+    return step;
 }
 
 RestGrid rest_grid(const State& state, const Body& body) {
-    std::vector<double> along(body.row - 1, unknown), down(body.rows() - 1, unknown);
+    std::vector<double> along(body.row - 1, none), down(body.rows() - 1, none);
     const Link* shear = nullptr;
     for (const Link& link : state.links) {
         if (!is_within(body, link)) continue;
-        const LinkStep way = link_step(body, link);
-        if (link.kind == Link::Kind::Shear && shear == nullptr && std::abs(way.columns) == 1 && way.rows == 1)
+        const LinkStep step = link_step(body, link);
+        if (link.kind == Link::Kind::Shear && !shear && std::abs(step.columns) == 1 && step.rows == 1)
             shear = &link;
         if (link.kind != Link::Kind::Stretch) continue;
-        if (way.columns == 1 && way.rows == 0 && along[way.column] == unknown) along[way.column] = link.rest;
-        if (way.columns == 0 && way.rows == 1 && down[way.row] == unknown) down[way.row] = link.rest;
+        if (step.columns == 1 && step.rows == 0 && along[step.column] == none) along[step.column] = link.rest;
+        if (step.columns == 0 && step.rows == 1 && down[step.row] == none) down[step.row] = link.rest;
     }
     RestGrid grid{.along = cumulative(std::move(along)), .down = cumulative(std::move(down))};
     if (shear == nullptr) return grid;
-    const LinkStep way = link_step(body, *shear);
-    const std::size_t left = way.columns > 0 ? way.column : way.column - 1;
-    const double a = grid.along[left + 1] - grid.along[left], b = grid.down[way.row + 1] - grid.down[way.row];
-    const double rest = shear->rest, product = 2.0 * static_cast<double>(way.columns) * a * b;
+    const LinkStep step = link_step(body, *shear);
+    const std::size_t col = step.columns > 0 ? step.column : step.column - 1;
+    const double a = grid.along[col + 1] - grid.along[col], b = grid.down[step.row + 1] - grid.down[step.row];
+    const double rest = shear->rest, product = 2.0 * static_cast<double>(step.columns) * a * b;
     if (product != 0.0) grid.cosine = std::clamp((rest * rest - a * a - b * b) / product, -0.999, 0.999);
     if (std::abs(grid.cosine) < 1e-6) grid.cosine = 0.0;  // rounding
     return grid;
@@ -59,9 +59,9 @@ double unit_link_compliance(const Body& body, const RestGrid& grid, const Link& 
     if (body.kind != Body::Kind::Cloth) return link.rest;
     // A thread carries an equal share of the cloth beside it.
     const bool in_row = link_step(body, link).rows == 0;
-    const double beside = in_row ? grid.width() / static_cast<double>(grid.down.size())
-                                 : grid.length() / static_cast<double>(grid.along.size());
-    return beside > 0.0 ? link.rest / beside : 1.0;
+    const double spacing = in_row ? grid.width() / static_cast<double>(grid.down.size())
+                                  : grid.length() / static_cast<double>(grid.along.size());
+    return spacing > 0.0 ? link.rest / spacing : 1.0;
 }
 
 std::vector<double> lumped_lengths(const std::vector<double>& at) {

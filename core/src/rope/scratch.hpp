@@ -22,7 +22,7 @@ namespace tendril::rope {
 inline constexpr double path_margin = 1e-3, touch_distance = 1e-5;
 /// Penetration, metres, that a cloth or a chain with bending stiffness may keep: moving one particle would
 /// strain or bend it, and the next substep turn that into motion.
-inline constexpr double kept_depth = 5e-5;
+inline constexpr double penetration_slop = 5e-5;
 
 /// A particle's contact with a collider in one substep.
 struct Touch {
@@ -82,10 +82,10 @@ struct ContactScratch {
 /// The forces of ties that join grids to anything, as unknowns of a small dense system.
 struct TieForces {
     struct End {
-        enum class Of : std::uint8_t { Nothing, Grid, Rest } of = Of::Nothing;  ///< nothing: pinned
+        enum class Of : std::uint8_t { Pinned, Grid, Node } of = Of::Pinned;
         std::uint32_t grid = 0;  ///< index in the island's grids
         std::uint32_t at = 0;    ///< a cell, or a place in the order of elimination
-        double sign = 1.0;       ///< of this end's displacement in the tie's
+        double sign = 1.0;       ///< sign of its displacement in the tie's
     };
     std::vector<std::array<End, 2>> ends;                ///< by tie
     std::vector<glm::dvec3> gap, now, direction, total;  ///< by tie: metres; the others are forces
@@ -103,7 +103,7 @@ struct BodyContactScratch {
     struct Feature {
         glm::dvec3 middle{0.0};
         double radius = 0.0;
-        double reach = 0.0;  ///< part of the radius beyond the feature as listed
+        double reach = 0.0;  ///< the part of the radius added to the feature's own when listed
         std::uint32_t body = 0;
         std::uint32_t link = 0;  ///< a segment's; for a diagonal, a number beyond all links
         std::uint32_t count = 0;
@@ -136,7 +136,7 @@ struct BodyContactScratch {
         std::uint32_t chain = 0, bond = 0, contact = 0;
         bool is_b = false;
     };
-    glm::dvec3 mean{0.0};  ///< mean way of all particles
+    glm::dvec3 mean{0.0};  ///< mean displacement of all particles
     // The lists are valid until a particle drifts too far (Scratch::Listed).
     bool listed = false;
     std::vector<float> radii;  ///< radii of the island's bodies
@@ -167,7 +167,7 @@ struct Scratch {
     std::vector<double> weight;         ///< inverse mass; 0: pinned
     std::vector<double> multiplier;     ///< by link: tension times h^2
     std::vector<Touch> touch;
-    /// The colliders near a body. Impact: a resting collider displaced it faster than correction_speed.
+    /// The colliders near a body. Impact: a resting one displaced it faster than correction_speed.
     enum class Nearest : std::uint8_t { None, Resting, Impact, Moving };
     std::vector<Nearest> body_near;
     std::vector<std::uint8_t> body_failed;  ///< whether a body could not be solved
@@ -177,7 +177,7 @@ struct Scratch {
         glm::dvec3 by{0.0};            ///< displacement in the substep
         glm::dvec3 low{0.0}, high{0.0};
         double size = 0.0;
-        glm::dvec3 turn{0.0};  ///< a capsule's: end b moves this much beyond `by`, end a the opposite
+        glm::dvec3 turn{0.0};  ///< a capsule's end b moves this much more than `by`, end a as much less
         bool spins = false;
         glm::dquat inverse_spin{1.0, 0.0, 0.0, 0.0};  ///< rotates back to the start of the substep
         glm::dvec3 middle{0.0};                       ///< centre of the spin at the end of the substep
@@ -203,7 +203,7 @@ struct Scratch {
     struct Slowdown {
         glm::dvec3 mean{0.0};  ///< mean displacement
         double mean_factor = 1.0, relative_factor = 1.0, tension_factor = 1.0;
-        double left = 0.0;  ///< joules of gain that slowing leaves
+        double remaining_gain = 0.0;  ///< joules of gain that slowing leaves
         bool any() const { return mean_factor != 1.0 || relative_factor != 1.0 || tension_factor != 1.0; }
     };
     std::vector<std::optional<Slowdown>> chain_slowdown;  ///< empty until its energy is balanced

@@ -18,8 +18,8 @@ void reserve_more(std::vector<T>& list, std::size_t more) {
     if (list.size() + more > list.capacity()) list.reserve(std::max(list.size() + more, 2 * list.capacity()));
 }
 
-/// Takes the first free slot, so that the same calls give the same handles, for the next element of `list`;
-/// adding that needs no more memory.
+/// Takes the first free slot for the next element of `list`, so that the same calls give the same handles.
+/// Adding the element then needs no more memory.
 template <class T>
 auto take_slot(std::vector<std::uint32_t>& slots, std::vector<T>& list) {
     reserve_more(list, 1);
@@ -37,7 +37,7 @@ void free_slot(std::vector<std::uint32_t>& slots, Id id) noexcept {
     ++slots[id.index];
 }
 
-/// Null if there is none. O(1) if the list is in slot order, as most are.
+/// Null if there is no such element. O(1) if the list is in slot order, as most are.
 template <class List, class Id>
 auto* find_in(List& list, const Id& id) noexcept {
     if (id.index < list.size() && list[id.index].id == id) return &list[id.index];
@@ -46,12 +46,12 @@ auto* find_in(List& list, const Id& id) noexcept {
     return found == list.end() || !id ? nullptr : &*found;
 }
 
-template <class Gone>
-std::size_t erase_ties(State& state, Gone gone) noexcept {
+template <class IsRemoved>
+std::size_t erase_ties(State& state, IsRemoved is_removed) noexcept {
     return std::erase_if(state.ties, [&](const Tie& tie) {
-        const bool goes = gone(tie);
-        if (goes) free_slot(state.tie_slots, tie.id);
-        return goes;
+        const bool removed = is_removed(tie);
+        if (removed) free_slot(state.tie_slots, tie.id);
+        return removed;
     });
 }
 
@@ -67,7 +67,7 @@ inline void insert_collision(std::vector<Collision>& list, const Collision& each
     if (at == list.end() || !(*at == each)) list.insert(at, each);
 }
 
-/// Makes `rest`, split off `whole`, collide with the same bodies. Adds at most one more than there are.
+/// Makes `rest`, split off `whole`, collide with the same bodies. At most doubles the list, plus one entry.
 inline void copy_collisions(State& state, BodyId whole, BodyId rest) {
     for (std::size_t i = 0, count = state.collisions.size(); i < count; ++i) {
         const Collision each = state.collisions[i];

@@ -19,7 +19,7 @@ using glm::dvec3;
 
 /// True only if every coordinate is at most `limit`; false for NaN. A single comparison, because it runs for
 /// every particle; the others are checked again.
-bool is_surely_within(const dvec3& v, double limit) {
+bool is_within_l1(const dvec3& v, double limit) {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z) <= limit;
 }
 
@@ -88,7 +88,7 @@ int Substep::passes_allowed() const {
 
 void Substep::move_particles() {
     damping_ = std::exp(-static_cast<double>(state_.settings.damping) * h_);
-    // Verlet's rule for uneven steps, if the previous substep was not as long as this one.
+    // Verlet's rule for uneven steps: the previous substep may have had another length.
     const bool before = state_.displaced_in > 0.0;
     const double same = before ? h_ / state_.displaced_in : 0.0;
     if (before) before_ = state_.displaced_in / h_;
@@ -96,7 +96,7 @@ void Substep::move_particles() {
     const dvec3 fall = (before ? 0.5 * h_ * (h_ + state_.displaced_in) : h_ * h_) * acceleration_;
     each_particle([&](std::size_t i) {
         dvec3& moved = state_.displacement[i];
-        moved = same * moved;  // as if the previous substep had been as long as this one
+        moved = same * moved;  // as if the previous substep had been this long
         if (same > 1.0) moved = glm::clamp(moved, dvec3(-limit), dvec3(limit));
         scratch_.base[i] = state_.position[i] + (damping_ * moved + fall);
         scratch_.weight[i] = 1.0 / state_.mass[i];
@@ -151,12 +151,12 @@ void Substep::clamp_to_world() {
     bool stopped = false;
     each_particle([&](std::size_t i) {
         dvec3& x = scratch_.x[i];
-        if (is_surely_within(x, max_magnitude)) return;
+        if (is_within_l1(x, max_magnitude)) return;
         const dvec3 was = std::exchange(x, clamped_to_world(x, state_.position[i]));
         stopped |= was != x;
     });
     if (!stopped) return;
-    // Energies balanced before refer to other positions.
+    // Ledgers balanced earlier refer to other positions.
     for (const Plan::Island& part : plan_.parts_of(island_))
         std::fill_n(scratch_.chain_slowdown.begin() + part.chains.first, part.chains.count, std::nullopt);
 }
@@ -164,8 +164,8 @@ void Substep::clamp_to_world() {
 void Substep::commit() {
     each_particle([&](std::size_t i) {
         dvec3 &x = scratch_.x[i], &position = state_.position[i], &moved = state_.displacement[i];
-        // Coordinate by coordinate: a vector just written as a whole cannot be read at once. Zeros lose their
-        // sign, which would depend on how many ropes were solved side by side.
+        // Coordinate by coordinate: a vector just written as a whole cannot be read at once. Adding 0 removes
+        // the sign of zeros, which would depend on how many ropes are solved side by side.
         for (int c = 0; c < 3; ++c) {
             const double to = x[c] + 0.0;
             moved[c] = to - position[c];

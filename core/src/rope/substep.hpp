@@ -32,7 +32,7 @@ class Substep : IslandStep {
   private:
     Substep(const Substep& whole, const Plan::Island& part);
 
-    /// A contact that displaces a body faster than this, m/s, would throw it.
+    /// A contact or correction that moves a body faster than this, m/s, would throw it.
     static constexpr double correction_speed = 2.0;
 
     // substep.cpp
@@ -137,8 +137,8 @@ class Substep::Ledger {
     double gained() const { return driven_ ? 0.0 : gained_; }
     /// Whether the gain exceeds this part of weight times length.
     bool gains_over(double part) const;
-    /// Whether slowdown() leaves a gain of more than this part of their weight times their length, or of
-    /// their earlier kinetic energy.
+    /// Whether slowdown() leaves a gain of more than this part of weight times length, or of the earlier
+    /// kinetic energy.
     bool leaves_gain(double part) const;
     Slowdown slowdown() const;
     /// Joules lost to contact. The work of moving colliders cannot be separated from it.
@@ -147,7 +147,7 @@ class Substep::Ledger {
     bool bounds_relaxation() const {
         return near_ == Scratch::Nearest::Impact || (near_ != Scratch::Nearest::None && !strained_);
     }
-    /// Whether it does not fall freely, though nothing holds or touches it.
+    /// Whether it does not fall freely although nothing holds or touches it.
     bool suspended() const;
 
   private:

@@ -189,7 +189,7 @@ void TiedSolver::load_ties() {
         const auto end = [&](std::uint32_t particle, double sign) {
             const std::uint32_t grid = grid_of_particle(particle);
             using Of = TieForces::End::Of;
-            const Of of = scratch_.weight[particle] == 0.0 ? Of::Nothing : grid > 0 ? Of::Grid : Of::Rest;
+            const Of of = scratch_.weight[particle] == 0.0 ? Of::Pinned : grid > 0 ? Of::Grid : Of::Node;
             return TieForces::End{of, grid > 0 ? grid - 1 - tied_.grids.first : 0,
                                   plan_.system_index[particle], sign};
         };
@@ -214,7 +214,7 @@ void TiedSolver::load_ties() {
     }
 }
 
-/// Adds the moves of all ties' ends by the force of each tie.
+/// Adds to the matrix how each tie's force moves the ends of all ties.
 void TiedSolver::add_responses() {
     TieForces& forces = scratch_.tie_forces[island_.tied - 1];
     using Of = TieForces::End::Of;
@@ -233,7 +233,7 @@ void TiedSolver::add_responses() {
                                 a.sign * b.sign * columns[c][static_cast<glm::length_t>(r)];
                 }
         }
-        const auto rest = [](const TieForces::End& end) { return end.of == Of::Rest; };
+        const auto rest = [](const TieForces::End& end) { return end.of == Of::Node; };
         if (std::none_of(forces.ends[j].begin(), forces.ends[j].end(), rest)) continue;
         const std::uint32_t late = tied_.order.late;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -279,7 +279,7 @@ void TiedSolver::solve_with_grids(const detail::GridSystem::Tolerance& tolerance
     std::copy(system_.x.begin() + late, system_.x.end(), forces.local.begin() + late);
     system_.substitute(tied_.order, forces.local, late);
     forces.now = forces.gap;
-    each_end(Of::Rest, [&](std::size_t i, const TieForces::End& end) {
+    each_end(Of::Node, [&](std::size_t i, const TieForces::End& end) {
         forces.now[i] += end.sign * forces.local[end.at];
     });
     /// Solves for the grids' residuals and the gaps in `now`, which become forces.
@@ -313,7 +313,7 @@ void TiedSolver::solve_with_grids(const detail::GridSystem::Tolerance& tolerance
     each_end(Of::Grid, [&](std::size_t i, const TieForces::End& end) {
         size -= end.sign * detail::dot(forces.now[i], detail::value_at(grid_of(end).finest().x, end.at));
     });
-    const double enough = std::max(tolerance.square, tolerance.relative * tolerance.relative * size);
+    const double max_residual = std::max(tolerance.square, tolerance.relative * tolerance.relative * size);
     std::fill(forces.total.begin(), forces.total.end(), dvec3(0.0));
     std::fill(forces.direction.begin(), forces.direction.end(), dvec3(0.0));
     update_direction(0.0f);
@@ -324,7 +324,7 @@ void TiedSolver::solve_with_grids(const detail::GridSystem::Tolerance& tolerance
         precondition();
         double now = 0.0, curvature = 0.0;
         each_grid([&](detail::GridSystem& grid) { now += grid.residual_dot_x(unit); });
-        if (now <= enough || i >= iterations || !std::isfinite(now)) break;
+        if (now <= max_residual || i >= iterations || !std::isfinite(now)) break;
         update_direction(i == 0 ? 0.0f : static_cast<float>(now / before));
         before = now;
         each_grid([&](detail::GridSystem& grid) { curvature += grid.direction_dot_product(unit); });
@@ -336,7 +336,7 @@ void TiedSolver::solve_with_grids(const detail::GridSystem::Tolerance& tolerance
     for (std::size_t i = 0; i < forces.ends.size(); ++i) forces.total[i] += forces.now[i];
 
     std::fill(forces.local.begin() + late, forces.local.end(), dvec3(0.0));
-    each_end(Of::Rest, [&](std::size_t i, const TieForces::End& end) {
+    each_end(Of::Node, [&](std::size_t i, const TieForces::End& end) {
         forces.local[end.at] -= end.sign * forces.total[i];
     });
     system_.eliminate(tied_.order, forces.local, late);

@@ -27,7 +27,7 @@ constexpr int max_halvings = 8;
 /// For cloth that is a grid, as in cloth_solver.cpp.
 constexpr double accepted_strain = 0.007, relative_residual = 0.1;
 constexpr int min_grid_steps = 2, max_grid_steps = 8;
-/// A free body goes on turning, and each step's error with it.
+/// A free body keeps turning, and so does the error of each step.
 constexpr int min_free_steps = 4;
 constexpr double single_rounding = 1e-6;  ///< error of a potential: grids are in single precision
 
@@ -60,7 +60,7 @@ TiedSolver::Cloth::Cloth(const TiedSolver& island, std::uint32_t grid) : ClothSo
     shortest_ = island.shortest_;
 }
 
-/// Grids and contacts are as stiff as a single cloth of the total weight.
+/// Measures the grids. They and contacts are as stiff as a single cloth of the total weight.
 void TiedSolver::measure_grids() {
     double weight = mass_ * island_.particles * detail::length(detail::acceleration(state_.settings));
     for (const Plan::Grid& grid : Plan::part(plan_.grids, tied_.grids)) {
@@ -135,8 +135,8 @@ void TiedSolver::add(std::uint32_t particle, const Symmetric3& matrix, const dve
     system_.x[x] += force;
 }
 
-/// Builds the system at the current positions. The first step takes the previous substep's tension: particles
-/// that fell together show none yet.
+/// Builds the system at the current positions. The first step uses the previous substep's tension: links
+/// between particles that fell together show none yet.
 void TiedSolver::assemble(bool first) {
     system_.clear();
     for (const std::uint32_t number : Plan::part(plan_.bodies, island_.bodies)) {
@@ -304,11 +304,11 @@ void TiedSolver::find_step(const detail::GridSystem::Tolerance& tolerance, int i
 
 /// A step of Newton's method. If it turns links far, or strains grids, it is halved until the potential does
 /// not rise.
-void TiedSolver::step(bool first, int iterations, double enough) {
+void TiedSolver::step(bool first, int iterations, double max_residual) {
     assemble(first);
     add_bends();
     add_contacts();
-    find_step({first ? 0.0 : enough, relative_residual}, iterations);
+    find_step({first ? 0.0 : max_residual, relative_residual}, iterations);
     local_.done.work += island_.links.count;
     store_tensions(false);
     move_by(1.0);
@@ -316,9 +316,9 @@ void TiedSolver::step(bool first, int iterations, double enough) {
     step_scale_ = 1.0;
     if (turn_ <= checked_turn && strain_ <= accepted_strain) return;
     move_by(-1.0);
-    const double turn = turn_, most = potential() * (1.0 + (tied_.grids.count > 0 ? single_rounding : 0.0));
+    const double turn = turn_, limit = potential() * (1.0 + (tied_.grids.count > 0 ? single_rounding : 0.0));
     move_by(1.0);
-    for (int i = 0; i < max_halvings && !(potential() <= most); ++i) {
+    for (int i = 0; i < max_halvings && !(potential() <= limit); ++i) {
         step_scale_ *= 0.5;
         move_by(-step_scale_);
     }
@@ -335,8 +335,8 @@ bool TiedSolver::is_free() const {
     return free;
 }
 
-/// Internal forces cannot move the centre of mass. If nothing external acts, removes the drift that rounding
-/// caused: links are ten million times stiffer than particles are heavy.
+/// Internal forces cannot move the centre of mass. If nothing external acts, removes the drift due to
+/// rounding: links are ten million times stiffer than particles are heavy.
 void TiedSolver::remove_drift() {
     if (!is_free()) return;
     double mass = 0.0;
@@ -349,8 +349,8 @@ void TiedSolver::remove_drift() {
     if (tied_.grids.count > 0) remove_rotation();
 }
 
-/// Internal forces cannot change angular momentum either. Grids are solved only approximately; this removes
-/// the rotation that the error leaves.
+/// Internal forces cannot change the angular momentum either. Removes the rotation left by grids, which are
+/// solved only approximately.
 void TiedSolver::remove_rotation() {
     double mass = 0.0;
     dvec3 centre(0.0), turn(0.0);
@@ -391,29 +391,29 @@ void TiedSolver::predict() {
 
 int TiedSolver::solve(int iterations) {
     const bool has_grids = tied_.grids.count > 0;
-    const int most = std::min(max_steps, iterations);
-    const int least = !local_.near.empty() ? steps_near_colliders
-                      : !has_grids         ? 1
-                      : is_free()          ? min_free_steps
-                                           : min_grid_steps;
-    double enough = 0.0;
+    const int step_limit = std::min(max_steps, iterations);
+    const int min_steps = !local_.near.empty() ? steps_near_colliders
+                          : !has_grids         ? 1
+                          : is_free()          ? min_free_steps
+                                               : min_grid_steps;
+    double max_residual = 0.0;
     predict();
     each_grid([&](std::uint32_t number) {
         Cloth cloth(*this, number);
         cloth.load();
-        enough += cloth.predict();
+        max_residual += cloth.predict();
         strain_ = std::max(strain_, cloth.strain_);
     });
     int taken = 0;
-    for (converged_ = false; taken < most && !converged_;) {
+    for (converged_ = false; taken < step_limit && !converged_;) {
         find_contacts(taken == 0);
-        step(taken == 0, iterations, enough);
+        step(taken == 0, iterations, max_residual);
         for (ClothContact& each : local_.cloth_contacts) {
             const dvec3 moved = contact_point(each, scratch_.x) - each.at;
             each.force = -stiffness_ * (each.gap + detail::dot(each.normal, moved));
         }
         ++taken;
-        converged_ = taken >= least &&
+        converged_ = taken >= min_steps &&
                      turn_ <= (taken < strict_steps ? turn_tolerance : late_turn_tolerance) &&
                      (strain_ <= accepted_strain || taken >= max_grid_steps);
     }

@@ -55,7 +55,7 @@ class TiedSolver : ImplicitStep {
     void add_bends();
     void add(std::uint32_t particle, const detail::Symmetric3& matrix, const glm::dvec3& force);
     void find_step(const detail::GridSystem::Tolerance& tolerance, int iterations);
-    void step(bool first, int iterations, double enough);
+    void step(bool first, int iterations, double max_residual);
     void move_by(double part);
     void store_tensions(bool exact);
     double potential();
@@ -73,9 +73,9 @@ class TiedSolver : ImplicitStep {
     const Plan::Tied& tied_;
     detail::EliminationSystem& system_;
     double step_scale_ = 1.0;
-    double turn_ = 0.0;       ///< by a stiff link in the last step, relative to its length
-    double strain_ = 0.0;     ///< in grids: maximum over stretch links
-    double shortest_ = 1e30;  ///< in grids: minimum rest length of stretch links
+    double turn_ = 0.0;       ///< turn of a stiff link in the last step, relative to its length
+    double strain_ = 0.0;     ///< maximum strain of the grids' stretch links
+    double shortest_ = 1e30;  ///< minimum rest length of the grids' stretch links
     float lightest_ = 1.0f;
     bool converged_ = true;
 };

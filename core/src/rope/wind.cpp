@@ -48,12 +48,12 @@ dvec3 corner_gust(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
 
 /// Smooth noise from -1 to 1 in each coordinate, with one value per unit of length.
 dvec3 smooth_gust(const dvec3& at) {
-    constexpr auto lap = static_cast<double>(gust_period);
+    constexpr auto period = static_cast<double>(gust_period);
     std::uint64_t cell[3];
     double part[3];
     for (int c = 0; c < 3; ++c) {
         const double whole = std::floor(at[c]), from = at[c] - whole;
-        cell[c] = static_cast<std::uint64_t>(whole - lap * std::floor(whole / lap));
+        cell[c] = static_cast<std::uint64_t>(whole - period * std::floor(whole / period));
         part[c] = from * from * (3.0 - 2.0 * from);
     }
     dvec3 sum(0.0);
@@ -76,9 +76,9 @@ double detail::wind_pressure(const Settings& settings) noexcept {
 
 // The drift is bounded, so that it keeps its precision.
 void detail::advect_gusts(State& state) noexcept {
-    constexpr double lap = static_cast<double>(gust_period) * eddy_size;
+    constexpr double period = static_cast<double>(gust_period) * eddy_size;
     state.drift += state.settings.substep * dvec3(state.settings.wind);
-    for (int c = 0; c < 3; ++c) state.drift[c] = std::fmod(state.drift[c], lap);
+    for (int c = 0; c < 3; ++c) state.drift[c] = std::fmod(state.drift[c], period);
 }
 
 /// Adds the air's displacement of bodies to `base`.

@@ -11,7 +11,7 @@
 namespace tendril::rope {
 namespace {
 
-/// Sizes everything, so that nothing is allocated later.
+/// Sizes all memory, so that nothing is allocated later.
 void size(Scratch& scratch, const State& state, const Plan& plan) {
     const std::size_t particles = state.position.size();
     scratch.x.resize(particles);

@@ -38,7 +38,7 @@ HWY_INLINE Lanes bounded(Lanes x) {
     return hn::IfThenElseZero(hn::Ge(hn::Abs(x), all(min_state)), x);
 }
 
-/// C and S / t of motion.hpp.
+/// C and S / t as in motion.hpp.
 struct Swing {
     Lanes c, s;
 };
@@ -72,7 +72,7 @@ HWY_INLINE Swing swing_of(Lanes cycles, Lanes damping) {
     return {hn::Mul(left, c), hn::Mul(left, s)};
 }
 
-/// One register of springs from index `i`: the same as step() in spring.cpp.
+/// Steps one register of springs from index `i`, like step() in spring.cpp.
 HWY_INLINE void step_register(const SpringRows& rows, std::size_t i, Lanes dt, Lanes rate) {
     const Floats d;
     const auto load = [&](const float* row) { return hn::LoadU(d, row + i); };
@@ -127,7 +127,7 @@ HWY_INLINE void interp_register(const InterpRows& rows, std::size_t i, Lanes dt)
     hn::StoreU(hn::IfThenElse(is_within(target, max_magnitude), reached, current), d, rows.current + i);
 }
 
-/// The last, incomplete register of a list, padded with 0; null for a list that is left out.
+/// A list's last, incomplete register, padded with 0; null if the list is omitted.
 constexpr std::size_t max_lanes = 16;
 struct Row {
     HWY_ALIGN float lanes[max_lanes] = {};

@@ -36,7 +36,7 @@ double evaluate_piece(const CurveKey& from, const CurveKey& to, double time) noe
     return cubic(from.value, from.leave * width, to.value, to.arrive * width, u);
 }
 
-/// At most max_magnitude, the limit of a tangent.
+/// The slope from key to key, at most max_magnitude, the limit of tangents.
 double slope_between(const CurveKey& a, const CurveKey& b) noexcept {
     const double width = b.time - a.time, limit = static_cast<double>(max_magnitude);
     return width > 0.0 ? std::clamp((b.value - a.value) / width, -limit, limit) : 0.0;

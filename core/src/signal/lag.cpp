@@ -9,7 +9,7 @@ namespace tendril::signal {
 namespace {
 
 constexpr double max_shifts = 1e4;
-constexpr int refinements = 28;  ///< to a millionth of a row
+constexpr int refinements = 28;  ///< for an accuracy of a millionth of a row
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 /// A fit worse than the best by less than this part of the input's spread is as good: values held beyond the
 /// ends favour large shifts if the output is weaker than the input.

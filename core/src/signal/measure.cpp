@@ -18,7 +18,7 @@ double span_of(std::span<const double> values) {
     return *high - *low;
 }
 
-/// Negative for a step down.
+/// The height of the step; negative for a step down.
 double size_of(const Step& step) {
     return step.to - step.from;
 }

@@ -51,7 +51,7 @@ void add_sample(MovingAverageState& state, double window, double dt, double inpu
     drop_old(state, window);
     const Entry& oldest = state.entries[state.first];
     const double time = time_in(state), excess = std::max(time - window, 0.0);
-    // Only if the window is shorter than the newest sample does it contain nothing else.
+    // The newest sample fills the window alone if it is at least as long.
     if (excess >= time || state.first + 1 == state.entries.size()) {
         state.value = input;
     } else {

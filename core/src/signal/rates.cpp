@@ -100,7 +100,7 @@ class Reader {
 
   private:
     const HeldInput& input_;
-    double held_ = 0.0, held_until_ = 0.0;  ///< in the frame of the slowest rate read last
+    double held_ = 0.0, held_until_ = 0.0;  ///< the value in the frame read last, and the end of that frame
 };
 
 /// Filters that run frame by frame.

@@ -40,7 +40,7 @@ static inline dvec3 wide(const dvec3& x) noexcept {
 static inline dvec3 wide(const glm::vec3& x) noexcept {
     return math::wide(x);
 }
-/// Also normalises.
+/// Converts to double, and normalises.
 static inline dquat wide(const dquat& q) noexcept {
     const double scale = 1.0 / std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
@@ -79,7 +79,7 @@ static inline dquat compose(const dquat& a, const dquat& b) noexcept {
             a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
-/// From `from` to `to`; for rotations axis times angle, the short way round.
+/// The displacement between two positions; for rotations axis times angle, the short way round.
 static inline double displacement(double from, double to) noexcept {
     return to - from;
 }

@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::Measured;
-using test::Stroll;
 using test::Walker;
+using test::WalkOptions;
 
 const double pi = std::acos(-1.0);
 
@@ -58,12 +58,12 @@ TEST(CharacterFeet, ClipsThatOthersMadeStandToo) {
             humanoid::find_soles(character.skeleton, humanoid::match_bones(character.skeleton));
         if (!soles || soles->leg > 2.0) continue;  // no body, or one in other units
         for (const humanoid::Clip& clip : character.clips) {
-            Stroll stroll{.seconds = std::min(clip.duration, 10.0)};
-            stroll.options.floor = clip_floor(character.skeleton, *soles, clip);
+            WalkOptions walk{.seconds = std::min(clip.duration, 10.0)};
+            walk.options.floor = clip_floor(character.skeleton, *soles, clip);
             Walker walker(character.skeleton, clip);
             for (const humanoid::Ground& ground : grounds()) {
                 SCOPED_TRACE(entry.path().filename().string() + ' ' + clip.name + ' ' + name(ground.kind()));
-                const Measured all = walker.walk(ground, stroll);
+                const Measured all = walker.walk(ground, walk);
                 expect_stands(all);
                 EXPECT_LT(all.beyond, 0.060 * std::max(1.0, soles->leg / 0.9));  // longer legs, faster knees
                 ++walked;

@@ -37,7 +37,7 @@ dvec3 kept_in(const dvec3& point) {
     return kept;
 }
 
-/// Of a limb's capsule, from its beginning, the part that overlaps the trunk in any pose; empty: no limb's.
+/// Fraction of a limb's capsule, from its start, that overlaps the trunk in any pose; empty for other bones.
 std::optional<double> joined_part(humanoid::Bone bone) {
     using enum humanoid::Bone;
     static constexpr std::array joined{LeftUpperArm, RightUpperArm, LeftUpperLeg, RightUpperLeg};
@@ -47,8 +47,8 @@ std::optional<double> joined_part(humanoid::Bone bone) {
     return std::ranges::find(limbs, bone) != limbs.end() ? std::optional(0.0) : std::nullopt;
 }
 
-/// Limbs, and what hands hold, are soft: where they close on the trunk they become thinner, so that cloth
-/// between the two has room.
+/// Limbs, and what hands hold, are soft: where they press on the trunk they get thinner, to leave room for
+/// cloth in between.
 std::vector<NamedShape> colliders_of(const Wearer& wearer, const rope::State& worn) {
     double room = 0.0;
     for (const rope::Body& each : worn.bodies) room = std::max(room, 2.0 * static_cast<double>(each.radius));
@@ -206,7 +206,7 @@ void carry_bodies(NamedWorld& world, const Attachments& attachments, const std::
     world.put(std::move(state));
 }
 
-/// Moves the body to its new pose while all else is frozen, which pushes aside whatever it meets.
+/// Moves the body to its new pose and pushes aside whatever it meets; everything else is frozen.
 void push_aside(NamedWorld& world, const std::vector<NamedShape>& colliders, rope::Workspace& workspace) {
     constexpr int substeps = 24;
     const rope::State before = world.state();

@@ -172,8 +172,8 @@ void show_all(Workspace& workspace, const LoadedCharacter& character) {
     camera = framed(camera, {{0.0f, 0.0f}, workspace.ui.view_size}, centre, std::max(radius, 0.01f));
 }
 
-/// What another character takes the place of, for the user: "2 fixes, 1 loaded motion"; empty: nothing that a
-/// user made.
+/// What loading another character would discard, for the user: "2 fixes, 1 loaded motion"; empty if the user
+/// made nothing.
 std::string discarded_text(const HumanoidPart& part) {
     std::string text;
     const auto add = [&](std::size_t count, const char* one, const char* many) {
@@ -190,7 +190,7 @@ std::string discarded_text(const HumanoidPart& part) {
             std::ranges::count_if(part.ik.targets, [](const auto& each) { return each.has_value(); })),
         "target", "targets");
     add(part.curves.size(), "curve", "curves");
-    // Those of the built-in figure may be the opening's.
+    // The built-in figure's attachments and IK may be the opening's.
     if (part.loaded->file.empty()) return text;
     add(part.attachments.list.size(), "attachment", "attachments");
     IkSettings rest = part.ik;
@@ -245,7 +245,7 @@ void map(HumanoidPart& part, const Arguments& given) {
     correct(part, corrections_of(wanted, *part.loaded));
 }
 
-/// What a user has placed on or around the character keeps its place there in another unit.
+/// Scales what the user has placed on or around the character, so that it keeps its place in another unit.
 void scale_places(HumanoidPart& part, double factor) {
     const auto scale = [&](glm::dvec3& position) {
         constexpr auto most = static_cast<double>(max_magnitude);
@@ -272,7 +272,7 @@ void read_again(Workspace& workspace, double metres, const FileSpace& space) {
     HumanoidPart& part = workspace.document.edit<HumanoidPart>(humanoid_lab);
     part.loaded = loaded;
     correct(part, corrections);
-    part.ik_state.springs.clear();  // what IK remembers is in the old metres
+    part.ik_state.springs.clear();  // the IK state is in the old metres
     part.ik_state.release = {};
     part.ik_state.body = {};
     part.ik_state.hold = {};

@@ -22,7 +22,7 @@
 
 namespace tendril::app {
 
-/// Which faults of a clip were mended: all, those of one kind or node, or those at a frame.
+/// Which faults of a clip were fixed: all, those of one kind or node, or those at a frame.
 struct ClipCure {
     std::string clip;
     std::optional<humanoid::Fault> fault{};  ///< none: all kinds
@@ -31,7 +31,7 @@ struct ClipCure {
     bool operator==(const ClipCure&) const = default;
 };
 
-/// A clip of another file that was carried over.
+/// A clip retargeted from another file.
 struct LoadedMotion : OutsideFile {
     std::string clip;                  ///< its name there
     std::vector<std::string> notes{};  ///< RetargetedMotion::notes
@@ -41,7 +41,7 @@ struct LoadedMotion : OutsideFile {
 /// The bones that the user has mapped to other nodes than the file's names suggest; -1: to none.
 using Corrections = std::map<humanoid::Bone, std::int32_t>;
 
-/// The settings that a clip depends on when it is carried over or cured.
+/// The settings on which a clip depends when it is retargeted or fixed.
 struct Reading {
     double scale = 1.0;  ///< Character::scale
     FileSpace space{};
@@ -60,7 +60,7 @@ struct ClipEdit {
 struct LoadedCharacter : OutsideFile {
     Character character;
     std::vector<ClipEdit> edits{};                    ///< of its clips, in the order in which they were made
-    std::shared_ptr<const LoadedCharacter> source{};  ///< as the file was first read; null: this is it
+    std::shared_ptr<const LoadedCharacter> source{};  ///< as first read from its file; null: this one
     humanoid::BoneMap matched;                        ///< as named in the file, or as matched by the library
     std::vector<humanoid::Placement> rest;            ///< of all nodes
     RestBounds bounds{};                              ///< at rest
@@ -73,19 +73,19 @@ struct LoadedCharacter : OutsideFile {
 };
 using SharedCharacter = std::shared_ptr<const LoadedCharacter>;
 
-/// An empty path gives the stick figure; `file`: what the user called it, if that is something else. Throws
+/// An empty path gives the stick figure. `file`: the user's name for the file, if it differs. Throws
 /// std::runtime_error that begins with the file name.
 SharedCharacter load_character(const std::string& path, LoadProgress* progress = nullptr,
                                const std::string& file = {});
-/// The same character with a unit of `metres` and other axes. The result does not depend on those that it had
-/// in between. Throws std::runtime_error.
+/// The same character with a unit of `metres` and other axes, independent of any earlier unit and axes.
+/// Throws std::runtime_error.
 SharedCharacter read_as(const SharedCharacter& character, double metres, const FileSpace& space);
-/// The same character with one more edit, made as it is read now.
+/// The same character with one more edit, made in its current unit and axes.
 SharedCharacter edited(const SharedCharacter& character, ClipEdit edit);
-/// The bone map as matched, with corrections. A node that is picked for a bone is taken from any other.
+/// The bone map as matched, with corrections. A node given to one bone is taken from any other.
 humanoid::BoneMap corrected(const LoadedCharacter& character, const Corrections& corrections);
 
-// Reads a large file, or fixes a long clip, in the background. The document stays until that succeeds.
+// Reads a large file, or fixes a long clip, in the background. The document changes only once that succeeds.
 
 class Loading {
   public:
@@ -95,9 +95,9 @@ class Loading {
     /// Puts the result into the workspace.
     using Change = std::function<void(Workspace&)>;
     struct Work {
-        std::string command;                       ///< the undo step's
+        std::string command;                       ///< the command of the undo step
         std::string what;                          ///< "Loading walk.bvh"
-        std::string from;                          ///< the open lab, to which undo goes back
+        std::string from;                          ///< the lab that was open; undo returns to it
         std::function<Change(LoadProgress&)> run;  ///< in another thread
     };
 
@@ -112,7 +112,7 @@ class Loading {
     /// Does not wait for the thread, which stops when it next reports its progress.
     void cancel();
     bool running() const { return job_ != nullptr; }
-    /// While it runs.
+    /// The running work; only while running().
     const Work& work() const { return job_->work; }
     float part() const { return job_->progress.part(); }
     /// Whether take() would return without waiting.
@@ -133,7 +133,7 @@ class Loading {
     std::vector<std::unique_ptr<Job>> cancelled_;
 };
 
-/// Whether to load in the background: a large file, and a window whose user waits.
+/// Whether to load in the background: for a large file, in a window whose user waits.
 bool loads_beside(const Workspace& workspace, const std::string& file);
 
 }  // namespace tendril::app

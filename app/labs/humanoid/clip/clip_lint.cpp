@@ -23,9 +23,9 @@ using humanoid::Clip;
 using humanoid::Finding;
 using humanoid::LintReport;
 
-/// Frames times nodes that can be judged within a tick or two.
+/// Frames times nodes that take a tick or two to judge.
 constexpr double soon_judged = 60'000.0;
-/// How many times as long the result takes: every frame is solved.
+/// How many times longer judging the result takes, since every frame is solved.
 constexpr double result_times = 10.0;
 
 std::optional<BodyLimits> limits_for(const HumanoidPart& part) {
@@ -72,7 +72,7 @@ Clip clip_as_shown(HumanoidPart part, Solvers& solvers, std::size_t clip, double
     IkState state;
     const Clip& before = part.loaded->clips()[clip];
     return baked(part.skeleton(), before, rate, [&](std::span<rig::Transform> pose, double time, double dt) {
-        // In ticks, as it plays, also at a lower rate: springs depend on the length of a step.
+        // Steps of a tick, as in playback, also at a lower rate: springs depend on the length of a step.
         const int steps = std::max(1, static_cast<int>(std::ceil(dt / tick_seconds - 1e-6)));
         for (int i = 1; i <= steps; ++i) {
             const Playback last = part.playback;
@@ -91,7 +91,7 @@ const humanoid::Ground* ground_of_feet(const HumanoidPart& part, Solvers& solver
 ClipLint::Judged ClipLint::wanted(const HumanoidPart& part) {
     Judged judged{part.loaded, part.map, {.clip = part.playback.clip}, part.ik.limits};
     if (part.view.judged != JudgedClip::Result) return judged;
-    // Targets as they are at the clip's start, whatever moment is shown; rounded, as they come from there.
+    // Targets as at the clip's start, whatever moment is shown; rounded, because carrying them there rounds.
     HumanoidPart start = part;
     start.playback.time = 0.0;
     start.playback.rounds = 0;

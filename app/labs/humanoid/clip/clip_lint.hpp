@@ -12,14 +12,14 @@ namespace tendril::app {
 
 /// The clip as displayed, played once from its start: what an export writes.
 humanoid::Clip clip_as_shown(HumanoidPart part, Solvers& solvers, std::size_t clip, double rate);
-/// The ground that foot IK puts the feet on; null if it does not.
+/// The ground on which foot IK puts the feet; null without foot IK.
 const humanoid::Ground* ground_of_feet(const HumanoidPart& part, Solvers& solvers);
 
-/// The report is kept until character, bone map, clip or limits change; that of the result also until
-/// anything of IK, the curves or the springs does.
+/// Cached until character, bone map, clip or limits change; the report on the result also until IK, curves or
+/// springs do.
 class ClipLint {
   public:
-    /// Of the clip, or of what is shown of it: HumanoidView::judged says which. Null without a clip, and for
+    /// The report on the clip or on the result, as HumanoidView::judged says. Null without a clip, and for
     /// clips so long that a frame would stall: those need judge().
     const humanoid::LintReport* report(const HumanoidPart& part, Solvers& solvers);
     /// Judges the clip, however long it is.
@@ -48,7 +48,7 @@ struct CuredClip {
 /// Cures the faults of a clip that match `cure`, until no more can be. Throws std::invalid_argument if none
 /// can.
 CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* progress = nullptr);
-/// Whether a frame can wait for the lint of the chosen clip, as it is judged.
+/// Whether judging the chosen clip, as set, is quick enough for a frame to wait.
 bool judged_soon(const HumanoidPart& part);
 
 }  // namespace tendril::app

@@ -48,7 +48,7 @@ OnGround hips_at(const humanoid::Skeleton& skeleton, const std::vector<rig::Tran
     return {{placed[hips].position.z, placed[hips].position.x}, 2.0 * std::atan2(rotation.y, rotation.w)};
 }
 
-/// Takes the first round to the current one: z -> turn * z + move.
+/// The motion from the first round to the current one: z -> turn * z + move.
 struct RoundTurn {
     Complex turn{1.0, 0.0}, move{0.0, 0.0};
 };
@@ -67,7 +67,7 @@ rig::Transform transform(const RoundTurn& ground) {
             .rotation = {std::cos(half), 0.0, std::sin(half), 0.0}};
 }
 
-/// How far the pace has led at that time of a round.
+/// Displacement due to the pace after `time` in a round.
 Complex along(const Playback& playback, double time) {
     return {playback.pace.z * time, playback.pace.x * time};
 }

@@ -29,8 +29,8 @@ struct Playback {
     double speed = 1.0;       ///< 0 to fastest_clip
     bool loop = true;
     bool in_place = false;
-    bool travel = false;         ///< a clip that walks in place goes along with `pace`
-    bool targets_travel = true;  ///< targets go along with a clip that travels
+    bool travel = false;         ///< moves a clip that walks in place by `pace`
+    bool targets_travel = true;  ///< targets move along with a clip that travels
     glm::dvec3 pace{0.0};        ///< m/s, by measure_pace(); 0 without `travel`
     bool operator==(const Playback&) const = default;
 };
@@ -54,15 +54,15 @@ glm::dvec3 pace_of(const HumanoidPart& part, std::size_t clip);
 /// Call after a change of clip, bone map or Playback::travel.
 void measure_pace(HumanoidPart& part);
 
-/// Takes the targets along from where the clip was: each moves at the average speed of the round, turning
-/// with it, so that the clip reaches them in each round alike.
+/// Moves the targets along with the clip since `before`: each at the round's average velocity, turning with
+/// it, so that the clip meets them alike in every round.
 void carry_targets(HumanoidPart& part, const Playback& before);
 
 /// Whether the strip of the clip has marks of Motion lint.
 bool shows_lint_marks(const Workspace& workspace);
 
 /// The hips' ground velocity that playing in place removes at that moment, m/s at the recorded speed; with
-/// `travel`, that of the pace too.
+/// `travel`, plus the pace.
 glm::dvec3 missing_velocity(const Playback& playback, const LoadedCharacter& character,
                             std::optional<std::size_t> hips);
 
@@ -78,7 +78,7 @@ struct PlayedMotion {
 PlayedMotion with_motion(const HumanoidPart& part, const Character& source, const OutsideFile& file,
                          const std::string& clip);
 
-/// The motion that this clip is; null: a clip of the character's own.
+/// The motion that made this clip; null for a clip of the character's own.
 const LoadedMotion* motion_of(const LoadedCharacter& character, std::size_t clip);
 
 }  // namespace tendril::app

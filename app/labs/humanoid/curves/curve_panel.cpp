@@ -57,7 +57,7 @@ void add_curve_row(const HumanoidPanel& panel) {
     end_list();
 }
 
-/// The chain that the selection means: from a node down, or between two nodes.
+/// The selected chain: from a node down, or between two nodes.
 std::optional<BoneChain> selected_chain(const HumanoidPart& part) {
     const std::vector<std::size_t>& all = part.selection.all();
     if (all.empty() || all.size() > 2) return std::nullopt;
@@ -132,12 +132,12 @@ void curve_inspector(const HumanoidPanel& panel) {
 
 namespace {
 
-/// A node's or a bone's.
+/// Finds a node or a bone by name.
 std::size_t node_or_bone(const HumanoidPart& part, const std::string& name) {
     if (part.skeleton().find(name)) return node_named(part, name);
     if (const auto bone = humanoid::bone_named(name))
         if (const auto node = part.node_of(*bone)) return *node;
-    return node_named(part, name);  // which refuses it
+    return node_named(part, name);  // throws: there is no such node
 }
 
 /// A new curve through the pose; replaces the one that begins there, if any, but keeps its settings.
@@ -189,7 +189,7 @@ void set_bone_curve(const IkNow& now, HumanoidPart& part, const Arguments& given
     if (given.has("points")) set_points(now, part, *which, given.json("points"));
 }
 
-/// Completed with the ends of the chains that are worth bending.
+/// An argument completed with the ends of bendable chains.
 Argument chain_end_argument(const char* name, bool required, const char* help, std::size_t BoneChain::*end) {
     return offering(text_argument(name, required, help), [end](const Workspace& workspace) {
         const HumanoidPart& part = humanoid_part(workspace);

@@ -32,7 +32,7 @@ void emit_curve_points(const BoneCurve& curve, const std::vector<glm::vec3>& poi
         emit("humanoid.curve", arguments);
 }
 
-/// Into the space of the curve's points.
+/// Converts to the space of the curve's points.
 glm::vec3 into_space(const humanoid::Placement& space, glm::vec3 at) {
     return glm::vec3(glm::conjugate(space.rotation()) * (glm::dvec3(at) - space.position));
 }

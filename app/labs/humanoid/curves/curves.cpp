@@ -14,7 +14,7 @@ namespace {
 
 using humanoid::Bone;
 
-/// Metres, of all bones from `first` to `last` at rest; negative if it is not below.
+/// Total length of the bones from `first` to `last` at rest, metres; negative if `last` is not below.
 double length_between(const HumanoidPart& part, std::size_t first, std::size_t last) {
     double sum = 0.0;
     for (std::size_t at = last; at != first;) {
@@ -27,7 +27,7 @@ double length_between(const HumanoidPart& part, std::size_t first, std::size_t l
     return sum;
 }
 
-/// For each node, the child through which the longest way leads down, and how long that is.
+/// For each node, the child that begins the longest path down, and the path's length.
 struct LongestWays {
     std::vector<std::int32_t> child;
     std::vector<double> length;

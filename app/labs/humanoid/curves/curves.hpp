@@ -1,8 +1,8 @@
 // Tails, spines and tentacles of the character along curves (tendril/humanoid/bent_chain.hpp).
 //
-// Curves come right after the clip, before IK. Their control points are in the space of the node that the
-// chain hangs on, so a tail's curve goes with hips that IK moves, and hands still reach their targets from a
-// spine that is bent. Springs come last and swing about the curve.
+// Curves are applied right after the clip, before IK. Their control points are in the space of the chain's
+// parent node, so a tail's curve moves with hips that IK moves, and hands still reach their targets from a
+// bent spine. Springs come last and swing about the curve.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ inline constexpr std::size_t new_curve_points = 4;
 /// No two curves turn the same node.
 struct BoneCurve {
     std::string first, last;  ///< nodes, by name; the last one is the end
-    CurveShape shape;         ///< its points: those after the first node, in the space of its parent
-    /// The chain's joint that went on to another crossing when the points last changed.
+    CurveShape shape;         ///< the control points after the first node, in the space of its parent
+    /// The chain's joint that jumped to another crossing when the points last changed.
     std::optional<std::size_t> jumped{};
     bool operator==(const BoneCurve&) const = default;
 };
@@ -43,7 +43,7 @@ std::optional<BoneChain> chain_of(const HumanoidPart& part, const BoneCurve& cur
 std::vector<BoneChain> bendable_chains(const HumanoidPart& part);
 /// "tail_1 to tail_6"
 std::string title_of(const HumanoidPart& part, const BoneChain& chain);
-/// The end of the chain from there on: that of bendable_chains(), or else of the longest way down.
+/// The end of the chain from `first`: as in bendable_chains(), or else the end of the longest path down.
 std::size_t end_of_chain(const HumanoidPart& part, std::size_t first);
 
 /// The index of the curve that begins at the node.
@@ -57,10 +57,10 @@ std::string why_no_curve(const HumanoidPart& part, const BoneChain& chain);
 /// One per curve; null where the character has no such chain.
 using BentChains = std::vector<std::unique_ptr<humanoid::BentChain>>;
 
-/// Bends the pose along all curves. One report each; of a chain that is not there, an empty one.
+/// Bends the pose along all curves. One report each; an empty one if the chain is missing.
 std::vector<ik::CurveReport> bend(const HumanoidPart& part, const BentChains& chains,
                                   std::vector<rig::Transform>& pose);
-/// The joint that goes on to another crossing if the curve's points become `points`.
+/// The joint that jumps to another crossing if the curve's points become `points`.
 std::optional<std::size_t> jump_between(const HumanoidPart& part, humanoid::BentChain& chain,
                                         const CurveShape& before, const std::vector<glm::vec3>& points);
 
@@ -70,8 +70,8 @@ std::optional<std::size_t> jump_between(const HumanoidPart& part, humanoid::Bent
 std::vector<glm::vec3> shown_curve(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown,
                                    std::size_t curve);
 
-/// What of a curve a pick is: a control point, or a place on it, which ik::curve_point() of shown_curve()
-/// takes.
+/// The part of a curve that was picked: a control point, or a position on it as for ik::curve_point() of
+/// shown_curve().
 struct PickedCurve {
     std::size_t curve = 0;
     std::optional<std::size_t> control{};  ///< index into the shape's points
@@ -82,7 +82,7 @@ std::vector<Handle> curve_handles(const HumanoidPart& part, Solvers& solvers, co
 std::string curve_hint(const HumanoidPart& part, const PickedCurve& picked);
 void draw_bone_curves(const View& view, DrawList& list, const HumanoidPart& part, Solvers& solvers,
                       const ShownPose& shown);
-/// Of the mouse: a control point is moved, removed, or added where the curve was clicked.
+/// For the mouse: move a control point, remove it, or add one where the curve was clicked.
 void drag_control(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown,
                   const PickedCurve& picked, glm::vec3 to, Emit& emit);
 void remove_control(const HumanoidPart& part, const PickedCurve& picked, Emit& emit);

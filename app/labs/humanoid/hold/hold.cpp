@@ -30,7 +30,7 @@ Expected<humanoid::HoldReport> solve_hold(const HumanoidPart& part, humanoid::Bo
 
 namespace {
 
-/// Less than this is not worth telling, metres and radians.
+/// Smaller amounts are not reported, metres and radians.
 constexpr double told_way = 5e-4, told_turn = 9e-3;
 
 const char* side_name(std::size_t hand) {
@@ -47,7 +47,7 @@ std::string bone_words(Bone bone) {
     return lower_case(words);
 }
 
-/// "the left arm is straight; the left shoulder and left hand are at their limits". Of hands that hold.
+/// "the left arm is straight; the left shoulder and left hand are at their limits"; for hands with a grip.
 std::string hold_reason_text(const humanoid::HoldReport& report) {
     std::string text;
     const auto add = [&](const std::string& reason) { text += (text.empty() ? "" : "; ") + reason; };
@@ -138,7 +138,7 @@ Json hold_state(const HumanoidPart& part, const ShownPose& shown) {
 
 namespace {
 
-/// In front of the chest, as far as bent arms reach.
+/// A pose in front of the chest, within reach of bent arms.
 humanoid::ObjectPose before_chest(const IkNow& now, const HumanoidPart& part) {
     const humanoid::Facing facing = humanoid::facing(part.skeleton(), *part.map);
     const auto at = [&](Bone bone) { return now.shown.placed[*part.node_of(bone)].position; };

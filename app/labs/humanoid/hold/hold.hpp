@@ -1,5 +1,5 @@
-// The object that the hands hold in the Humanoid lab: solving, telling, drawing, commands. What it is: see
-// hold_setting.hpp.
+// The object that the hands hold in the Humanoid lab: solving, reporting, drawing, commands. For its settings
+// see hold_setting.hpp.
 #pragma once
 
 #include "app/labs/humanoid/draw.hpp"
@@ -21,11 +21,11 @@ Expected<humanoid::HoldReport> solve_hold(const HumanoidPart& part, humanoid::Bo
                                           std::span<const humanoid::BodyTarget> targets,
                                           const humanoid::BodyOptions& options, IkState& state);
 
-/// At its asked place, for the mouse.
+/// At its requested pose, for the mouse.
 Handle hold_handle(const HoldSetting& setting, const ShownPose& shown);
 void drag_hold(const HoldSetting& setting, const ShownPose& shown, const Handle::Frame& to, Emit& emit);
 
-/// Whether the object is elsewhere than asked, and whether the hand is on its grip, to what is worth telling:
+/// Whether the object is off its requested pose, and whether a hand is on its grip, up to reported amounts:
 /// half a millimetre, half a degree. HoldReport::closed() is stricter.
 bool gives_way(const humanoid::HoldReport& report);
 bool is_closed(const humanoid::GripReport& grip);

@@ -63,10 +63,10 @@ bool HoldSetting::holds(humanoid::Effector effector) const {
 
 namespace {
 
-// Of a person of 1 m, at size 1; metres.
+// For a character of 1 m, at size 1; metres.
 constexpr double wheel_radius = 0.11, rifle_length = 0.5, box_width = 0.2, box_depth = 0.15, bar = 0.008;
 constexpr double palm_reach = 0.045;                    // from the wrist to the middle of the palm
-constexpr double rifle_rear = -0.3, rifle_fore = 0.16;  // parts of its length, from its middle
+constexpr double rifle_rear = -0.3, rifle_fore = 0.16;  // fractions of its length, from its middle
 
 std::vector<HeldBar> wheel_shape(double size) {
     constexpr int parts = 24;
@@ -108,7 +108,7 @@ std::vector<HeldBar> box_shape(double size) {
     return bars;
 }
 
-/// `side`: 1 for the left hand, -1 for the right. `size`: of the person, metres, times that of the object.
+/// `side`: 1 left hand, -1 right. `size`: the object's size times the character's height, metres.
 humanoid::Palm palm_on(HeldKind kind, double side, double size) {
     const humanoid::Effector hand = side > 0.0 ? humanoid::Effector::LeftHand : humanoid::Effector::RightHand;
     switch (kind) {

@@ -1,4 +1,4 @@
-// The object that a character's hands hold: what it is and where it is asked to be. A value.
+// The object that a character's hands hold: its kind, size and requested pose. A value.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -23,19 +23,19 @@ enum class HoldingHands : std::uint8_t { Both, Left, Right };
 inline constexpr EnumNames<HoldingHands, 3> holding_hands{
     "hands", {{"both", "both"}, {"left", "left"}, {"right", "right"}}};
 
-/// X of the object is the character's left, Y up, Z forward, as long as it is not turned.
+/// Unturned, the object's X is the character's left, Y up, Z forward.
 struct HoldSetting {
     HeldKind kind = HeldKind::Wheel;
     HoldingHands hands = HoldingHands::Both;
     double size = 1.0;      ///< 1: usual for the character's height
-    bool with_body = true;  ///< it goes with the hips, as the clip and the ground have them
-    /// Where its middle is asked to be, metres: from the hips and turned with them if it goes with the body,
-    /// else in the character's space.
+    bool with_body = true;  ///< moves with the hips, as clip and ground place them
+    /// Requested position of its middle, metres: from the hips and turned with them if it moves with the
+    /// body, else in the character's space.
     glm::dvec3 position{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     bool operator==(const HoldSetting&) const = default;
 
-    /// In the character's space. `hips`: before IK of the body, turned from rest.
+    /// The requested pose in the character's space. `hips`: before IK of the body, turned from rest.
     humanoid::ObjectPose asked(const humanoid::ObjectPose& hips) const;
     void ask(const humanoid::ObjectPose& there, const humanoid::ObjectPose& hips);
     bool holds(humanoid::Effector effector) const;
@@ -48,7 +48,7 @@ struct HeldBar {
 };
 /// `height`: the character's, metres.
 std::vector<HeldBar> held_shape(const HoldSetting& setting, double height);
-/// Empty if the body's hands do not let palms lie on something: see humanoid::grip_of().
+/// Empty if the body's hands cannot lay their palms on an object: see humanoid::grip_of().
 std::vector<humanoid::Grip> held_grips(const HoldSetting& setting, const humanoid::Body& body, double height);
 
 }  // namespace tendril::app

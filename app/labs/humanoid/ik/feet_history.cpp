@@ -10,7 +10,7 @@
 namespace tendril::app {
 namespace {
 
-/// Of the blocks of a clip that is scrubbed from end to end, those remembered.
+/// Maximum number of blocks remembered, for a clip that is scrubbed from end to end.
 constexpr std::size_t most_pasts = 32;
 
 /// Steps through a clip's ticks.
@@ -74,7 +74,7 @@ FeetHistory::Before FeetHistory::before(const HumanoidPart& part, Solvers& solve
     const std::vector<Deepest>& deepest = pasts_[begin].deepest;
     for (std::int64_t i = std::max<std::int64_t>(tick - begin - lately, 0); i <= tick - begin; ++i)
         found.deepest = std::max(found.deepest, deepest[static_cast<std::size_t>(i)], less_deep);
-    // The past of the next block grows along while the clip plays, so that no frame has to make up for it.
+    // While the clip plays, the past of the next block is computed along, so that no frame has to catch up.
     if (block > 0) {
         const std::int64_t next = block * block_ticks, known = pasts_.contains(next) ? pasts_[next].tick : -1;
         at(std::min(tick, next + known + 2), next, part, solvers);

@@ -1,13 +1,13 @@
-// What foot IK remembers at each moment of a clip.
+// The state of foot IK at each moment of a clip.
 //
-// The corrected feet depend on what went before: hips ease, and feet stay where they were put down. So that a
-// moment looks the same whether it is played, scrubbed to or exported, its past is always the same one: the
-// clip from its start, in steps of a tick at the recorded speed. From the second block of `block_ticks` on,
-// the past begins a block before the moment's own, which bounds the work. Only a foot that has not left the
-// ground for half a minute would notice.
+// Corrected feet depend on earlier frames: hips ease, and feet stay where they were put down. For a moment to
+// look the same whether played, scrubbed to or exported, its past is always the same: the clip from its
+// start, in steps of a tick at the recorded speed. From the second block of `block_ticks` on, the past begins
+// one block earlier, which bounds the work. Only a foot that has not left the ground for half a minute
+// differs.
 //
-// Cost: a moment that follows the last one takes one step, some 50 µs; any other in the same blocks at most
-// `ticks_apart`; the first one of other settings all since the start, up to 0.2 s after a minute.
+// Cost: a moment after the last one takes one step, some 50 µs; another in the same blocks at most
+// `ticks_apart`; the first one with other settings all since the start, up to 0.2 s after a minute.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +26,9 @@ class Solvers;
 class FeetHistory {
   public:
     static constexpr std::int64_t block_ticks = 1800;  ///< 30 s
-    static constexpr std::int64_t ticks_apart = 16;    ///< between the states that are kept
+    static constexpr std::int64_t ticks_apart = 16;    ///< between stored states
 
-    /// The deepest that a foot has been in the ground lately: in the last `lately` ticks.
+    /// The deepest that a foot was in the ground in the last `lately` ticks.
     struct Deepest {
         std::size_t side = 0;  ///< 0 is left
         double depth = 0.0;    ///< metres
@@ -42,7 +42,7 @@ class FeetHistory {
         Deepest deepest{};
         double dt = 0.0;  ///< seconds from there to the moment; 0: nothing came before
     };
-    /// The state that the step to the part's moment starts from. Needs feet. The rest pose has no past.
+    /// The state from which to step to the part's moment. Needs feet. The rest pose has no past.
     Before before(const HumanoidPart& part, Solvers& solvers);
 
     /// The deeper of both feet.
@@ -59,7 +59,7 @@ class FeetHistory {
         FootIkSetting foot_ik;
         bool operator==(const Of&) const = default;
     };
-    /// The states since a tick, in steps.
+    /// The states since a tick, step by step.
     struct Past {
         std::vector<humanoid::FeetState> kept{};  // every ticks_apart
         std::vector<Deepest> deepest{};           // at each tick

@@ -28,8 +28,8 @@ struct GroundMesh : OutsideFile {
     TriangleMesh triangles;
     humanoid::Ground ground;
 };
-/// `file`: what the user called it, if that is not its path. Throws std::runtime_error that begins with the
-/// file name.
+/// `file`: the user's name for the file, if it differs from its path. Throws std::runtime_error that begins
+/// with the file name.
 std::shared_ptr<const GroundMesh> read_ground_mesh(const std::string& path, const std::string& file = {});
 
 /// Values that belong to other kinds are kept.

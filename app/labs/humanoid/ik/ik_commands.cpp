@@ -35,7 +35,7 @@ void let_go(Workspace& workspace, const IkSettings& settings, const std::vector<
     if (!plays) return;
     Release release = release_between(pose, shown_pose(workspace).before_springs,
                                       humanoid_part(workspace).node_of(humanoid::Bone::Hips));
-    // The other hand may have taken the object in the same change: it is on its grip at once.
+    // In the same change the other hand may have taken the object: it is on its grip at once.
     const HumanoidPart& now = humanoid_part(workspace);
     for (const humanoid::Effector hand : both_hands)
         if (holds(now, hand) && !(settings.hold && settings.hold->holds(hand)))
@@ -193,7 +193,7 @@ void look_from_aside(Workspace& workspace) {
 void set_foot_ik(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     FootIkSetting& setting = part.ik.foot_ik;
     set_fields(given, setting);
-    // One of the two takes the other along.
+    // A speed that is not given moves along with the other one.
     auto &enter = setting.options.enter_speed, &leave = setting.options.leave_speed;
     if (!given.has("leave_speed")) leave = std::max(leave, enter);
     if (!given.has("enter_speed")) enter = std::min(leave, enter);
@@ -257,7 +257,7 @@ void add_ik_commands(CommandTable& table) {
 
 namespace {
 
-/// The default, which suits a punch of 1.2 s, stretched over the clip.
+/// The default curve, made for a punch of 1.2 s, stretched to the clip's length.
 HandCurve curve_over(const humanoid::Clip* clip) {
     if (clip == nullptr) return {};
     const HandCurve usual;
@@ -302,7 +302,7 @@ void set_hand_ik(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     if (hand != "left") set_curve(part, 1, given);
 }
 
-/// In front of the head, for a look-at that has no position yet.
+/// In front of the head: the position for a look-at that has none yet.
 glm::dvec3 ahead_of_head(const IkNow& now, const HumanoidPart& part) {
     const glm::dvec3 forward = humanoid::facing(part.skeleton(), *part.map).forward;
     const std::size_t head = *part.node_of(humanoid::Bone::Head);

@@ -26,8 +26,8 @@ inline constexpr EnumNames<LimitsFrom, 3> limits_from{
      {"motion", "as in the clips", "Each joint turns as far as the character's clips turn it."},
      {"none", "none", "Joints turn as far as they are asked to."}}};
 
-// The library's options, beside what only the lab has. Files, commands and panels have those of them that the
-// tables list; the others keep their defaults, or follow from clip and character.
+// The library's options, plus the lab's own. Files, commands and panels have the options that the tables
+// list; the others keep their defaults, or follow from clip and character.
 
 /// `options.floor` and `options.root_velocity` follow from the clip.
 struct FootIkSetting {
@@ -52,7 +52,7 @@ struct HandIkSetting {
 
 struct LookAtSetting {
     bool on = false;
-    bool placed = false;  ///< a position was given or found
+    bool placed = false;  ///< a position was set or found
     humanoid::LookAtOptions options{.target = {0.0, 1.6, 2.0}};
     bool operator==(const LookAtSetting&) const = default;
 };
@@ -75,7 +75,7 @@ struct IkSettings {
     FootIkSetting foot_ik;
     HandIkSetting hand_ik;
     LookAtSetting look_at;
-    std::optional<HoldSetting> hold{};  ///< its hands have no targets
+    std::optional<HoldSetting> hold{};  ///< the hands that hold it have no targets
     bool operator==(const IkSettings&) const = default;
 
     std::optional<humanoid::BodyTarget>& target(humanoid::Effector effector) {
@@ -91,7 +91,7 @@ struct IkSettings {
     const humanoid::BodyTarget* hand_target(std::size_t hand) const;
 };
 
-/// What still fades out after a target was released; see release_between().
+/// The difference that still fades out after a target was released; see release_between().
 struct Release {
     double left = 0.0;  ///< seconds until it ends
     /// By node, relative to its local rotation.

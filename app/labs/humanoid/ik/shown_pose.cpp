@@ -60,7 +60,7 @@ void reach(const HumanoidPart& part, humanoid::Body& body, const std::vector<hum
         shown.refused = report.message();
 }
 
-/// If targets hold the body, only neck and head turn.
+/// If targets hold the body, turns only neck and head.
 void look(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state, ShownPose& shown) {
     const humanoid::LookAt* const look_at = part.ik.look_at.on ? solvers.look_at(part) : nullptr;
     if (look_at == nullptr) {
@@ -334,7 +334,7 @@ glm::vec3 standing_at(const Workspace& workspace) {
     return {at.x, shown.feet ? static_cast<float>(shown.feet->base) : 0.0f, at.z};
 }
 
-/// A single solve covers only part of a long distance: does the rest at once.
+/// Solves until the pose has settled: a single solve covers only part of a long distance.
 static ShownPose settled_pose(const HumanoidPart& part, Solvers& solvers, IkState& state) {
     constexpr int max_solves = 40;
     ShownPose shown;

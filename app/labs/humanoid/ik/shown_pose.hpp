@@ -24,8 +24,8 @@ struct ShownPose {
     std::optional<humanoid::HandsReport> hands;   ///< if hand IK is on
     std::optional<humanoid::LookAtReport> look;   ///< if look-at is on
     std::optional<humanoid::FeetReport> feet;     ///< if foot IK is on
-    humanoid::FeetState feet_state;               ///< what it remembers then
-    FeetHistory::Deepest deepest{};               ///< of the feet in the ground, lately
+    humanoid::FeetState feet_state;               ///< the state of foot IK after it
+    FeetHistory::Deepest deepest{};               ///< deepest recent position of the feet in the ground
     std::vector<ik::CurveReport> curves;          ///< in the order of the part's curves
     std::vector<humanoid::SpringReport> springs;  ///< in the order of the part's springs
     std::array<humanoid::SolePoints, 2> soles{};  ///< left, right
@@ -36,7 +36,7 @@ struct ShownPose {
         double margin = 0.0;     ///< Support::margin() of it, metres
     };
     std::optional<Balance> balance;   ///< if balance is on
-    std::array<bool, 2> hand_goes{};  ///< hand IK moves it to its target
+    std::array<bool, 2> hand_goes{};  ///< whether hand IK moves it to its target
     std::string refused;              ///< why targets are ignored: the library's message
 
     /// Distance between an effector and its target, metres; empty if it has none.
@@ -49,7 +49,7 @@ struct ShownPose {
 /// time.
 ShownPose solve_pose(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state);
 
-// What the solvers are given, also for exported code.
+// Input of the solvers, also for exported code.
 
 /// The pose of the clip, or of rest, before anything modifies it.
 std::vector<rig::Transform> unsolved_pose(const HumanoidPart& part);
@@ -65,7 +65,7 @@ humanoid::FeetOptions feet_options(const HumanoidPart& part, Solvers& solvers);
 humanoid::LookAtOptions look_options(const HumanoidPart& part, bool body_solved);
 humanoid::HandTargets hand_targets(const HumanoidPart& part);
 
-/// After the pose was set instead of reached over time: moves the springs along with it.
+/// Moves the springs along with a pose that was set rather than reached over time.
 void carry_springs(Workspace& workspace);
 
 /// Why a foot follows the clip although foot IK is on; empty if it does not. `side`: 0 is left.
@@ -93,7 +93,7 @@ glm::vec3 standing_at(const Workspace& workspace);
 /// library refuses a target.
 void solve_now(Workspace& workspace);
 
-// Releasing a target: the limb eases back to the clip, and the rest of the body gives up what only that
+// Releasing a target: the limb eases back to the clip, and the rest of the body relaxes from what only that
 // target required.
 //
 // The new pose is computed at once. While a clip plays, the difference to the old pose is stored and fades
@@ -101,21 +101,21 @@ void solve_now(Workspace& workspace);
 // GDC 2018), so that no joint jumps, whatever changed. Without a playing clip the limb returns at once.
 
 inline constexpr double release_seconds = 1.0;  ///< until everything has settled
-inline constexpr double fade_seconds = 0.2;     ///< the first part of it: until the limb is back
+inline constexpr double fade_seconds = 0.2;     ///< until the limb is back
 /// Speed at which the rest of the body approaches the clip, m/s of a target.
 inline constexpr double settle_speed = 1.2;
 
 /// The difference that fades out: rotations and hips translation from `now` to `before`.
 Release release_between(const std::vector<rig::Transform>& before, const std::vector<rig::Transform>& now,
                         std::optional<std::size_t> hips);
-/// The same for targets that moved at once: solves, and lets the difference to the pose `held` fade out.
+/// The same for targets that were set at once: solves, and lets the difference to the pose `held` fade out.
 void ease_from(HumanoidPart& part, Solvers& solvers, const std::vector<rig::Transform>& held);
 /// 1 right after the release, 0 once it has faded out.
 double fading(const Release& release);
 void apply(const Release& release, std::vector<rig::Transform>& pose, std::optional<std::size_t> hips);
 /// Advances time; becomes empty at the end.
 void pass(Release& release, double seconds);
-/// For a new target: drops what would keep its limb from reaching it at once.
+/// For a new target: drops any fading that would keep its limb from reaching it at once.
 void forget_on_the_way_to(Release& release, const humanoid::Skeleton& skeleton, std::size_t node);
 
 }  // namespace tendril::app

@@ -32,7 +32,7 @@ class Solvers {
     const humanoid::Feet* feet(const HumanoidPart& part);
     /// Null if there is no body, or no feet.
     const humanoid::Masses* masses(const HumanoidPart& part);
-    /// Null if the map is not that of a body; why_no_body() then has the reason.
+    /// Null if the map does not describe a body; why_no_body() then has the reason.
     const humanoid::Hands* hands(const HumanoidPart& part);
     const humanoid::LookAt* look_at(const HumanoidPart& part);
     /// In the order of the part's springs; null where the bone map leaves no room for one, for which

@@ -151,14 +151,14 @@ Json names_of(const Joints& joints) {
     return list;
 }
 
-/// Arguments of a command that sets the source of the joints' limits.
+/// Arguments of a command that sets where the joints take their limits from.
 ArgumentList taking(LimitsFrom from, const Joints& joints) {
     const NamedArgument which = joints.size() == 1 ? NamedArgument{"bone", humanoid::name(joints.front())}
                                                    : NamedArgument{"bones", SharedJson(names_of(joints))};
     return {{"from", limits_from.name(from)}, which};
 }
 
-/// The source of the limits. Each joint uses its own range of that kind, about its own axes.
+/// Chooses the source of the limits. Each joint uses its own range from it, about its own axes.
 void source_row(const HumanoidPanel& panel, const Joints& joints, LimitsFrom shown) {
     const LimitRanges& ranges = panel.runtime.solvers.limits(panel.part);
     Joints turned;

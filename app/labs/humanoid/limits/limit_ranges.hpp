@@ -28,7 +28,7 @@ class LimitRanges {
     /// The limits that apply.
     humanoid::BodyLimits in_force(const IkSettings& ik) const;
 
-    /// Null if the map is not that of a body.
+    /// Null if the map does not describe a body.
     const humanoid::BodyJoints* joints() const { return joints_ ? &*joints_ : nullptr; }
 
     /// The joint's current angles, and the shape of its limit. Only for joints with an adult() limit.
@@ -53,7 +53,7 @@ struct JointNow {
     LimitsFrom from = LimitsFrom::Defaults;
     ik::JointAngles angles{};
     float excess = 0.0f;  ///< radians beyond the limit in force
-    bool held = false;    ///< IK would turn it further
+    bool held = false;    ///< at its limit: IK would turn it further
 };
 /// Empty if the joint has no limits, or the body is not solved.
 std::optional<JointNow> joint_now(const HumanoidPart& part, Solvers& solvers, const ShownPose& shown,

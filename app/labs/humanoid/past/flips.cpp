@@ -51,7 +51,7 @@ bool in_arm(const HumanoidPart& part, std::size_t node, std::size_t hand) {
     });
 }
 
-/// What may have turned a bone between the two moments, as seen from where the clip puts it.
+/// The inputs that may have turned a bone between two moments, as seen from its position in the clip.
 std::vector<InputMove> inputs_of(const HumanoidMoment& was, const HumanoidMoment& is, std::size_t node) {
     const IkSettings &before = was.part.ik, &after = is.part.ik;
     const auto seen = [&](const glm::dvec3& from, const glm::dvec3& to) {

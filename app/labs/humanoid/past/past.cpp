@@ -200,7 +200,7 @@ void add_limits(const HumanoidMoment& was, const HumanoidMoment& is, std::vector
     }
 }
 
-/// Metres between an effector and its target; empty if it is not meant to get there, as a hand being blended.
+/// Metres between an effector and its target; empty if it need not get there, such as a hand being blended.
 std::optional<double> left_of(const HumanoidMoment& moment, humanoid::Effector effector) {
     for (std::size_t hand = 0; hand < 2; ++hand)
         if (both_hands[hand] == effector && moment.shown.hand_goes[hand] &&
@@ -224,7 +224,7 @@ void add_short_effectors(const HumanoidMoment& was, const HumanoidMoment& is,
     }
 }
 
-/// Where an arm that holds the object jumped without a bone that counts as flipped.
+/// Reports an arm that jumped while holding the object, if no bone counts as flipped.
 void add_hold_jump(const HumanoidMoment& was, const HumanoidMoment& is, Solvers& solvers,
                    std::vector<Incident>& incidents) {
     if (!was.shown.hold || !is.shown.hold || !incidents.empty()) return;
@@ -245,7 +245,7 @@ void add_hold_jump(const HumanoidMoment& was, const HumanoidMoment& is, Solvers&
                                   " arm jumped to another pose that holds the object"});
 }
 
-/// A change of a curve's points takes a joint to another crossing of it.
+/// Reports joints that jump to another crossing when a curve's points change.
 void add_curve_jumps(const HumanoidPart& was, const HumanoidPart& is, Solvers& solvers,
                      std::vector<Incident>& incidents) {
     if (was.loaded != is.loaded || was.curves == is.curves) return;

@@ -44,7 +44,7 @@ std::span<const FieldText> field_texts<SpringSetting>() {
 
 namespace {
 
-/// Which other spring would turn the same nodes; empty if none would.
+/// Which other spring turns the same nodes; empty if none.
 std::string overlap(const HumanoidPart& part, std::size_t node) {
     const std::string& name = part.skeleton()[node].name;
     if (const auto there = spring_on(part, node))
@@ -131,7 +131,7 @@ void read_springs(const JsonPlace& place, HumanoidPart& part) {
         SpringSetting spring{.node = each["node"].text()};
         const auto node = part.skeleton().find(spring.node);
         if (!node) each["node"].fail("the character has no node \"" + spring.node + "\"");
-        // A spring whose nodes now belong to the body stays, without effect.
+        // A spring whose nodes now belong to the body is kept, without effect.
         if (const std::string why = overlap(part, *node); !why.empty()) each["node"].fail(why);
         humanoid::SpringChainState state;
         load_known_fields(each, {{spring}, {state, MissingField::Refused, {"masses", "held"}}}, {"node"});

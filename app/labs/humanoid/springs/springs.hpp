@@ -21,7 +21,7 @@ inline constexpr std::size_t max_springs = 64;
 /// A spring on a node and all its descendants.
 struct SpringSetting {
     std::string node;                   ///< by name
-    humanoid::SpringOptions options{};  ///< the hit radius is that of the character's file
+    humanoid::SpringOptions options{};  ///< except for the hit radius, which the character's file gives
     bool operator==(const SpringSetting&) const = default;
 };
 
@@ -30,7 +30,7 @@ std::optional<std::size_t> spring_on(const HumanoidPart& part, std::size_t node)
 /// Why there can be no spring on the node: another spring is in the way, the node belongs to the body or has
 /// no parent. Empty if there can be one, provided that the node has some length.
 std::string why_no_spring(const HumanoidPart& part, std::size_t node);
-/// Puts the springs of the character's file on it, but for those that are not possible.
+/// Adds the springs in the character's file, except those that are not possible.
 void take_springs(HumanoidPart& part);
 /// The selected nodes that can have a spring, without descendants of one another.
 std::vector<std::size_t> selected_for_springs(const HumanoidPart& part);
@@ -53,19 +53,19 @@ namespace tendril::app {
 
 // Applying springs to a pose.
 
-/// The file's own spring from the same node down, if that has colliders; else null.
+/// The file's own spring from the same node down, if it has colliders; else null.
 const NamedSpring* colliding(const HumanoidPart& part, const SpringSetting& setting);
 humanoid::PlacedCapsule place(const SpringCollider& collider, const std::vector<humanoid::Placement>& placed);
 
-/// One per setting; null if the bone map leaves no room for it.
+/// One per setting; null if the bone map does not allow it.
 using SpringChains = std::vector<std::unique_ptr<humanoid::SpringChain>>;
 using SpringStates = std::vector<humanoid::SpringChainState>;
 
-/// Turns the nodes of the pose. With a dt of 0 no time passes. Colliders are where the pose has them before
-/// any spring turns it.
+/// Turns the nodes of the pose. With a dt of 0 no time passes. Colliders are placed before any spring turns
+/// the pose.
 std::vector<humanoid::SpringReport> swing(const HumanoidPart& part, const SpringChains& chains, double dt,
                                           std::vector<rig::Transform>& pose, SpringStates& states);
-/// After the pose was set instead of reached over time.
+/// For a pose that was set rather than reached over time.
 void carry(const std::vector<SpringSetting>& settings, const SpringChains& chains,
            std::vector<rig::Transform> pose, SpringStates& states);
 /// Whether everything moves negligibly slowly.

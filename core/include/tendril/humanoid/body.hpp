@@ -50,7 +50,7 @@ Bone bone_of(Effector effector) noexcept;
 
 struct BodyTarget {
     Effector effector = Effector::LeftHand;
-    glm::dvec3 position{0.0};  ///< of the bone's joint, metres, in the character's space
+    glm::dvec3 position{0.0};  ///< position of the bone's joint, metres, in the character's space
     /// The bone's rotation in the character's space; blended in by `weight` (up to 1) and clamped to the
     /// joint's limit. Without one a foot keeps the clip's rotation, so that it stays level, and a hand or the
     /// head turns with its parent bone.

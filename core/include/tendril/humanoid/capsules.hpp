@@ -42,7 +42,7 @@ struct SkinPoint {
 std::vector<BodyCapsule> fitted_capsules(const Skeleton& skeleton, const BoneMap& map,
                                          std::span<const SkinPoint> points);
 
-/// In the character's space.
+/// A capsule in the character's space.
 struct PlacedCapsule {
     glm::dvec3 from{0.0}, to{0.0};
     double radius = 0.0;

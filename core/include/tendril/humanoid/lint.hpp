@@ -63,7 +63,7 @@ struct Finding {
     double time = 0.0;       ///< time of `frame`, seconds
     double amount = 0.0;     ///< see the table above
     const char* unit = "";   ///< "mm", "deg", "m" or "times"
-    bool goes_on = false;    ///< a jump from which the motion does not come back
+    bool goes_on = false;    ///< a jump after which the motion does not return
     bool snaps = false;      ///< a knee that becomes straight, or stops being straight, within a frame
     bool has_cure = false;   ///< cure() can repair it
     std::string text{};      ///< all of this as a sentence

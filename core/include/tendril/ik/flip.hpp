@@ -33,12 +33,12 @@ struct InputMove {
     double distance = 0.0;  ///< metres, relative to the bone's root
     double angle = 0.0;     ///< radians, of its direction as seen from there, 0 to pi
     double turn = 0.0;      ///< radians, about itself
-    double share = 0.0;     ///< of the range of a number
+    double share = 0.0;     ///< change of a number, as a fraction of its range
 };
-/// Of a point; `from` and `to` relative to the bone's root.
+/// The move of a point; `from` and `to` are relative to the bone's root.
 InputMove move_between(const glm::dvec3& from, const glm::dvec3& to) noexcept;
-/// The rule itself, for chains, rigs and bodies: whether it moved far enough to explain that a bone turned by
-/// `radians`. `reach`: of the chain, or the size of the skeleton; metres.
+/// The rule itself, for chains, rigs and bodies: whether an input moved far enough to explain that a bone
+/// turned by `radians`. `reach`: of the chain, or the size of the skeleton; metres.
 bool explains(const InputMove& move, double radians, double reach, const FlipRule& rule = {}) noexcept;
 
 /// A chain in one frame: at least one joint; all finite. Metres, or any other unit throughout.

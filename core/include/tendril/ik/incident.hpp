@@ -33,8 +33,8 @@ enum class IncidentKind : std::uint8_t {
     Nan,  ///< a joint, the target or the pole target is not finite; amount: 0
     /// A bone's length differs from the first frame's; amount: metres, negative if shorter. One incident for
     /// all bones scaled by one factor, and one, the larger, for the two bones of a joint that moved alone:
-    /// both differ over the same frames, and at first their outer ends' distance changed under a quarter as
-    /// much.
+    /// they differ over the same frames, and the distance of their outer ends first changed under a quarter
+    /// as much.
     Length,
     Limit,   ///< a joint is beyond its limit; amount: degrees beyond it
     Missed,  ///< the tip does not reach a target within its reach; amount: metres short
@@ -158,7 +158,7 @@ class IncidentFinder {
     IncidentOptions options_;
     std::vector<ChainIncident> found_;
     std::uint64_t frames_ = 0, dropped_ = 0;
-    float reach_ = 0.0f;   ///< to the end effector, in the first finite frame
+    float reach_ = 0.0f;   ///< length to the end effector, in the first finite frame
     std::size_t end_ = 0;  ///< the end effector
     std::vector<float> lengths_;
     Episode nan_, missed_;

@@ -98,12 +98,12 @@ struct Input {
     const T* literal() const noexcept { return std::get_if<0>(&source); }
 };
 
-/// Reads and sets an Input, an Item or a Transform as an input of any value; each row of a table for one has
-/// it. `get` and `set` take its address. A literal that is set must have the type.
+/// Reads and sets an Input, an Item or a Transform as an input of any value, by its address; the table row of
+/// each has this. A literal that is set must have the type.
 struct InputAccess : FieldAccess {
     enum class Takes : std::uint8_t { Any, Literal, Item };
     Takes takes;
-    std::optional<Type> type;  ///< of a literal; none: any
+    std::optional<Type> type;  ///< a literal's type; none: any
     Input<Value> (*get)(const void* input);
     void (*set)(void* input, const Input<Value>& source);
 };

@@ -116,8 +116,8 @@ struct TransformDirection {
 };
 
 struct Unit;
-/// A list of units: those of a rig or of a for-each, in the order in which they run. Copies are deep; only
-/// rigs that Rig::with_unit made share units. As they change no more, comparing those is quick.
+/// A list of units: those of a rig or of a for-each, in the order in which they run. Copies are deep, but
+/// rigs made by Rig::with_unit() share unchanged units: these compare fast, and must never change.
 class Units {
     template <class List, class Element>
     struct Iterator {
@@ -159,7 +159,7 @@ class Units {
   private:
     friend class Rig;
     struct Held;
-    /// Shares the other units; neither list may be changed any more.
+    /// A copy with one unit replaced. The others are shared: neither list may change any more.
     Units with(std::size_t index, Unit unit) const;
 
     std::vector<Unit*> held_;  ///< each a Held

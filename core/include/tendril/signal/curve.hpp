@@ -70,7 +70,7 @@ void set_smooth_tangents(Curve& curve) noexcept;
 namespace tendril {
 template <>
 std::span<const Field> fields<signal::CurveKey>() noexcept;
-/// With its keys, the first of its fields.
+/// All fields, the keys first.
 template <>
 std::span<const Field> fields<signal::Curve>() noexcept;
 }  // namespace tendril

@@ -63,16 +63,16 @@ double elbow_excess(const BodyJoints& joints, const Arm& arm, const std::vector<
 /// The smallest turn that brings a ball joint within its limit, radians, by compass search (T. Kolda, R.
 /// Lewis, V. Torczon, SIAM Review 45(3), 2003). The excesses of cone and twist are too large where the bone
 /// points nearly against its rest, since any twist is a swing to another side there.
-double least_turn(const ik::Limit& limit, const glm::dvec3& along, const glm::dquat& turn) {
+double correction(const ik::Limit& limit, const glm::dvec3& along, const glm::dquat& turn) {
     const ik::detail::LimitedJoint joint = ik::detail::limited_joint(limit, math::narrow(along));
     const glm::quat wanted(static_cast<float>(turn.w), static_cast<float>(turn.x), static_cast<float>(turn.y),
                            static_cast<float>(turn.z));
     ik::JointAngles best = within(joint, angles_of(joint, wanted));
-    const auto way_from = [&](const ik::JointAngles& angles) {
+    const auto angle_from = [&](const ik::JointAngles& angles) {
         const glm::quat there = rotation_of(joint, angles);
         return 2.0 * half_angle_between({there.w, there.x, there.y, there.z}, turn);
     };
-    double least = way_from(best);
+    double least = angle_from(best);
     constexpr float smallest = 1e-3f;  // radians
     for (float step = 0.5f; step > smallest; step *= 0.5f)
         for (bool goes_on = true; goes_on;) {
@@ -83,15 +83,15 @@ double least_turn(const ik::Limit& limit, const glm::dvec3& along, const glm::dq
                     ik::JointAngles next = best;
                     next.*angle += by;
                     next = within(joint, next);
-                    const double way = way_from(next);
-                    if (way < least - 1e-6) least = way, best = next, goes_on = true;
+                    const double angle_left = angle_from(next);
+                    if (angle_left < least - 1e-6) least = angle_left, best = next, goes_on = true;
                 }
         }
     return least;
 }
 
 /// The smallest turn that brings a hinge within its limit, radians: bends sideways and twists count too.
-double least_turn_of_hinge(const ik::Limit& limit, const glm::dquat& turn) {
+double hinge_correction(const ik::Limit& limit, const glm::dquat& turn) {
     const glm::dvec3 axis = math::wide(limit.axis);
     const double within = std::clamp(detail::hinge_angle(axis, turn), static_cast<double>(limit.min),
                                      static_cast<double>(limit.max));
@@ -106,14 +106,14 @@ double excess_of(const BodyJoints& joints, Bone bone, const std::vector<Placemen
             return elbow_excess(joints, arm, placed);
     const ik::Limit& limit = joints.limit(bone);
     const bool is_hinge = limit.kind == ik::JointKind::Hinge;
-    if (is_hinge && by_default) return least_turn_of_hinge(limit, joints.turn(bone, placed));
+    if (is_hinge && by_default) return hinge_correction(limit, joints.turn(bone, placed));
     const auto excess = static_cast<double>(joints.excess(bone, placed));
     return excess <= most || is_hinge ? excess
-                                      : least_turn(limit, joints.direction(bone), joints.turn(bone, placed));
+                                      : correction(limit, joints.direction(bone), joints.turn(bone, placed));
 }
 
 /// The first and the worst frame of a joint's stay beyond its limit.
-struct Stay {
+struct Excursion {
     bool is_beyond = false;
     std::size_t first = 0, worst = 0;
     double most = 0.0;  // degrees
@@ -123,7 +123,7 @@ struct Stay {
 /// another axis.
 constexpr double shortest = 0.1;  // seconds
 
-void tell(Check& check, Bone bone, const Stay& stay, std::size_t last, double tolerated) {
+void add_finding(Check& check, Bone bone, const Excursion& stay, std::size_t last, double tolerated) {
     const double seconds = static_cast<double>(last - stay.first) / check.report.rate;
     if (!check.settings.limits && seconds < shortest) return;
     check.add(Fault::Limit, check.map[bone].node, stay.worst, stay.first, last, stay.most, "deg",
@@ -140,7 +140,7 @@ void check_limits(Check& check) {
         check.skeleton, check.map, given ? *given : default_limits(check.skeleton, check.map));
     if (!joints) return;
     const auto tolerated = [&](Bone bone) { return given ? check.settings.beyond : tolerance(bone); };
-    std::array<Stay, bone_count> stays{};
+    std::array<Excursion, bone_count> stays{};
     std::vector<rig::Transform> pose(check.skeleton.size());
     std::vector<Placement> placed(check.skeleton.size());
     for (std::size_t frame = 0; frame < check.report.frames; ++frame) {
@@ -150,9 +150,9 @@ void check_limits(Check& check) {
             const auto bone = static_cast<Bone>(i);
             const double most = tolerated(bone);
             const double excess = degrees * excess_of(*joints, bone, placed, !given, most / degrees);
-            Stay& stay = stays[i];
+            Excursion& stay = stays[i];
             const bool is_beyond = excess > most;
-            if (stay.is_beyond && !is_beyond) tell(check, bone, stay, frame - 1, most);
+            if (stay.is_beyond && !is_beyond) add_finding(check, bone, stay, frame - 1, most);
             if (is_beyond && (!stay.is_beyond || excess > stay.most)) {
                 if (!stay.is_beyond) stay.first = frame;
                 stay.worst = frame;
@@ -163,7 +163,7 @@ void check_limits(Check& check) {
     }
     for (std::size_t i = 0; i < bone_count; ++i)
         if (const auto bone = static_cast<Bone>(i); stays[i].is_beyond)
-            tell(check, bone, stays[i], check.report.frames - 1, tolerated(bone));
+            add_finding(check, bone, stays[i], check.report.frames - 1, tolerated(bone));
 }
 
 }  // namespace tendril::humanoid::lint_detail

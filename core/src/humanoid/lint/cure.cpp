@@ -24,26 +24,26 @@ std::size_t width_of(const Track<T>& track) {
 glm::dquat weighted(const glm::dquat& turn, double weight) {
     return rig::blend(glm::dquat(1.0, 0.0, 0.0, 0.0), turn, weight);
 }
-glm::dvec3 weighted(const glm::dvec3& way, double weight) {
-    return times(way, weight);
+glm::dvec3 weighted(const glm::dvec3& offset, double weight) {
+    return times(offset, weight);
 }
-glm::dquat way_between(const glm::dquat& from, const glm::dquat& to) {
+glm::dquat difference(const glm::dquat& from, const glm::dquat& to) {
     return math::compose(to, conjugate(from));
 }
-glm::dvec3 way_between(const glm::dvec3& from, const glm::dvec3& to) {
+glm::dvec3 difference(const glm::dvec3& from, const glm::dvec3& to) {
     return minus(to, from);
 }
-glm::dquat moved(const glm::dquat& value, const glm::dquat& way) {
-    return rig::normalised(math::compose(way, value));
+glm::dquat moved(const glm::dquat& value, const glm::dquat& offset) {
+    return rig::normalised(math::compose(offset, value));
 }
-glm::dvec3 moved(const glm::dvec3& value, const glm::dvec3& way) {
-    return plus(value, way);
+glm::dvec3 moved(const glm::dvec3& value, const glm::dvec3& offset) {
+    return plus(value, offset);
 }
 
-double likeness(const glm::dquat& a, const glm::dquat& b) {
+double alignment(const glm::dquat& a, const glm::dquat& b) {
     return dot(a, b);
 }
-double likeness(const glm::dvec3&, const glm::dvec3&) {
+double alignment(const glm::dvec3&, const glm::dvec3&) {
     return 1.0;
 }
 
@@ -63,7 +63,7 @@ void refit_tangents(Track<T>& track, double first, double last) {
     const std::size_t end = std::min(static_cast<std::size_t>(to) + 1, count);
     const auto key = [&](std::size_t i) -> T& { return track.values[3 * i + 1]; };
     for (std::size_t i = begin + 1; i < end; ++i)
-        if (likeness(key(i - 1), key(i)) < 0.0)
+        if (alignment(key(i - 1), key(i)) < 0.0)
             for (std::size_t k = 3 * i; k < track.values.size(); ++k) track.values[k] = -track.values[k];
     for (std::size_t i = begin; i < end; ++i) {
         const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, count - 1);
@@ -76,14 +76,14 @@ void refit_tangents(Track<T>& track, double first, double last) {
 
 /// Interpolates the keys from `first` to `last` between the track's values at `before` and `after`.
 template <class T>
-void bridge(const Channel& was, Track<T>& track, double before, double first, double last, double after) {
+void fill_gap(const Channel& was, Track<T>& track, double before, double first, double last, double after) {
     const T from = value_at(was, before, track), to = value_at(was, after, track);
     for (std::size_t i = 0; i < track.times.size(); ++i) {
         const double time = track.times[i];
         if (time < first || time > last) continue;
         const double part = (time - before) / (after - before);
         T& value = track.values[width_of(track) == 3 ? 3 * i + 1 : i];
-        value = moved(from, weighted(way_between(from, to), part));
+        value = moved(from, weighted(difference(from, to), part));
     }
     refit_tangents(track, first, last);
 }
@@ -91,20 +91,20 @@ void bridge(const Channel& was, Track<T>& track, double before, double first, do
 /// Spreads the jump between two times over the keys around it: those before it take half of it early, those
 /// after it the other half late.
 template <class T>
-void spread(const Channel& was, Track<T>& track, double before, double after) {
+void spread_jump(const Channel& was, Track<T>& track, double before, double after) {
     const T from = value_at(was, before, track), to = value_at(was, after, track);
     const double middle = 0.5 * (before + after);
     for (std::size_t i = 0; i < track.times.size(); ++i) {
         const double off = track.times[i] - middle, u = std::abs(off) / ease;
         if (u >= 1.0) continue;
-        const double weight = 0.5 * lint_detail::fading(u);
+        const double weight = 0.5 * lint_detail::falloff(u);
         T& value = track.values[width_of(track) == 3 ? 3 * i + 1 : i];
-        value = moved(value, weighted(off < 0.0 ? way_between(from, to) : way_between(to, from), weight));
+        value = moved(value, weighted(off < 0.0 ? difference(from, to) : difference(to, from), weight));
     }
     refit_tangents(track, middle - ease, middle + ease);
 }
 
-void mend_signs(Track<glm::dquat>& track) {
+void fix_signs(Track<glm::dquat>& track) {
     if (track.interpolation == Interpolation::Step) return;
     const std::size_t width = width_of(track);
     for (std::size_t i = 1; i < track.times.size(); ++i) {
@@ -115,24 +115,24 @@ void mend_signs(Track<glm::dquat>& track) {
     }
 }
 
-void mend_jump(const Clip& clip, const Finding& finding, double rate, Channel& channel) {
+void fix_jump(const Clip& clip, const Finding& finding, double rate, Channel& channel) {
     const Channel was = channel;
     const double frame = 1.0 / rate;
     const double first = static_cast<double>(finding.first) * frame;
     const double last = static_cast<double>(finding.last) * frame;
     const double before = std::max(first - frame, 0.0), after = std::min(last + frame, clip.duration);
     const bool turns = finding.fault == Fault::KneePop || finding.unit[0] == 'd';
-    const auto mend = [&](auto& track) {
+    const auto fix = [&](auto& track) {
         if (track.times.empty()) return;
         if (finding.goes_on)
-            spread(was, track, before, first);
+            spread_jump(was, track, before, first);
         else
-            bridge(was, track, before, first - 0.25 * frame, last + 0.25 * frame, after);
+            fill_gap(was, track, before, first - 0.25 * frame, last + 0.25 * frame, after);
     };
     if (turns)
-        mend(channel.rotation);
+        fix(channel.rotation);
     else
-        mend(channel.translation);
+        fix(channel.translation);
 }
 
 void scale_by(Clip& clip, double by) {
@@ -162,27 +162,27 @@ bool is_of_foot(const Finding& finding) {
 }
 
 /// The clip with the keys around the finding changed.
-Clip mended(const Skeleton& skeleton, const BoneMap& map, const Clip& clip, const Finding& finding,
-            double rate) {
+Clip repaired(const Skeleton& skeleton, const BoneMap& map, const Clip& clip, const Finding& finding,
+              double rate) {
     Clip cured = clip;
-    const auto each_of = [&](std::initializer_list<std::int32_t> nodes, auto mend) {
+    const auto each_of = [&](std::initializer_list<std::int32_t> nodes, auto fix) {
         for (Channel& channel : cured.channels)
             for (const std::int32_t node : nodes)
-                if (node >= 0 && channel.node == static_cast<std::size_t>(node)) mend(channel);
+                if (node >= 0 && channel.node == static_cast<std::size_t>(node)) fix(channel);
     };
     const auto node_of = [&](Bone bone) { return map[bone].node; };
     switch (finding.fault) {
         case Fault::SignFlip:
-            for (Channel& channel : cured.channels) mend_signs(channel.rotation);
+            for (Channel& channel : cured.channels) fix_signs(channel.rotation);
             break;
         case Fault::Jump:
-            each_of({finding.node}, [&](Channel& channel) { mend_jump(clip, finding, rate, channel); });
+            each_of({finding.node}, [&](Channel& channel) { fix_jump(clip, finding, rate, channel); });
             break;
         case Fault::KneePop: {
             const bool left = finding.node == node_of(Bone::LeftLowerLeg);
             each_of({node_of(left ? Bone::LeftUpperLeg : Bone::RightUpperLeg), finding.node,
                      node_of(left ? Bone::LeftFoot : Bone::RightFoot)},
-                    [&](Channel& channel) { mend_jump(clip, finding, rate, channel); });
+                    [&](Channel& channel) { fix_jump(clip, finding, rate, channel); });
             break;
         }
         case Fault::Scale:
@@ -200,10 +200,10 @@ Clip mended(const Skeleton& skeleton, const BoneMap& map, const Clip& clip, cons
 
 Expected<Clip> cured_once(const Skeleton& skeleton, const BoneMap& map, const Clip& clip,
                           const Finding& finding, const LintSettings& settings,
-                          const lint_detail::FootCure& how) {
+                          const lint_detail::FootCure& options) {
     LintReport report = lint_detail::blank_report(clip, settings);
-    if (!is_of_foot(finding)) return mended(skeleton, map, clip, finding, report.rate);
-    return lint_detail::cure_foot({skeleton, map, clip, settings, 0.0, report}, finding, how);
+    if (!is_of_foot(finding)) return repaired(skeleton, map, clip, finding, report.rate);
+    return lint_detail::cure_foot({skeleton, map, clip, settings, 0.0, report}, finding, options);
 }
 
 /// The maximum turn of a node from one frame to the next, degrees.
@@ -211,14 +211,14 @@ double fastest_turn(const Clip& clip, std::int32_t node, const LintReport& repor
     const auto channel = std::ranges::find_if(
         clip.channels, [&](const Channel& each) { return static_cast<std::int32_t>(each.node) == node; });
     if (channel == clip.channels.end()) return 0.0;
-    double most = 0.0;
+    double worst = 0.0;
     rig::Transform last, next;
     for (std::size_t i = 0; i < report.frames; ++i) {
         sample(*channel, std::min(static_cast<double>(i) / report.rate, clip.duration), next);
-        if (i > 0) most = std::max(most, length(lint_detail::step_between(last.rotation, next.rotation)));
+        if (i > 0) worst = std::max(worst, length(lint_detail::step_between(last.rotation, next.rotation)));
         last = next;
     }
-    return most;
+    return worst;
 }
 
 /// Whether a leg joint turns faster than before, and than the lint tolerates.
@@ -228,7 +228,7 @@ bool turns_faster(const BoneMap& map, const Clip& before, const Clip& after, con
                             Bone::RightLowerLeg, Bone::RightFoot}) {
         const bool is_knee = bone == Bone::LeftLowerLeg || bone == Bone::RightLowerLeg;
         const double now = fastest_turn(after, map[bone].node, report);
-        if (now > (is_knee ? settings.knee : settings.turn) * lint_detail::slower(report.rate) &&
+        if (now > (is_knee ? settings.knee : settings.turn) * lint_detail::fps_scale(report.rate) &&
             now > fastest_turn(before, map[bone].node, report))
             return true;
     }
@@ -242,7 +242,7 @@ constexpr lint_detail::FootCure foot_cures[]{{.ease = 0.15, .nearer = 0.005},
                                              {.ease = 0.3, .nearer = 0.0025},
                                              {.ease = 0.6, .nearer = 0.0025}};
 /// Maximum number of further faults cured with the first: a foot brought down to the floor may slide there.
-constexpr std::size_t most_more = 4;
+constexpr std::size_t max_follow_ups = 4;
 
 bool is_same(const Finding& a, const Finding& b, double rate) {
     constexpr double moved = 0.05;  // seconds by which a finding may move
@@ -275,10 +275,10 @@ Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& cl
                                         std::string_view(finding.text));
     const LintReport before = lint(skeleton, map, clip, settings);
     std::optional<Clip> fallback;  // a cure that turns a joint faster
-    for (const lint_detail::FootCure& how : foot_cures) {
-        Expected<Clip> cured = cured_once(skeleton, map, clip, finding, settings, how);
+    for (const lint_detail::FootCure& options : foot_cures) {
+        Expected<Clip> cured = cured_once(skeleton, map, clip, finding, settings, options);
         if (!cured) return cured;
-        for (std::size_t more = 0; more < most_more; ++more) {
+        for (std::size_t more = 0; more < max_follow_ups; ++more) {
             const LintReport after = lint(skeleton, map, *cured, settings);
             const auto is_left = [&](const Finding& each) {
                 return each.has_cure && is_same(each, finding, after.rate);
@@ -291,7 +291,7 @@ Expected<Clip> cure(const Skeleton& skeleton, const BoneMap& map, const Clip& cl
             }
             if (wrong.empty()) std::ranges::copy_if(after.findings, std::back_inserter(wrong), is_left);
             if (wrong.empty() || !wrong.front().has_cure) break;
-            cured = cured_once(skeleton, map, *cured, wrong.front(), settings, how);
+            cured = cured_once(skeleton, map, *cured, wrong.front(), settings, options);
             if (!cured) break;
         }
         if (!is_of_foot(finding)) break;

@@ -22,7 +22,7 @@ namespace {
 using namespace rig::detail;
 
 constexpr double stands = 0.02, swings = 0.08;  // metres above the floor
-constexpr double deepest = 0.1;                 // in leg lengths: maximum lowering of the hips
+constexpr double max_drop = 0.1;                // in leg lengths: maximum lowering of the hips
 
 /// The corrections, from the first frame that changes to the last.
 struct Plan {
@@ -76,37 +76,37 @@ class CuredLeg {
         return detail::place(limb_, Placement{}, pose);
     }
     /// Whether the clip stretches the leg so far that soft IK shortens it.
-    bool is_soft(std::size_t frame) const { return lengths_[frame] > hard(); }
+    bool is_soft(std::size_t frame) const { return lengths_[frame] > soft_start(); }
     /// The distance from hip to foot after soft IK, metres.
     double softened(double far) const {
-        if (!(far > hard() && hard() > 0.0)) return far;
-        return hard() + soft_ * (1.0 - math::decay((far - hard()) / soft_));
+        if (!(far > soft_start() && soft_start() > 0.0)) return far;
+        return soft_start() + soft_ * (1.0 - math::decay((far - soft_start()) / soft_));
     }
 
     /// Brings the leg's end to a position, or as near as `longest` lets it; the end keeps its rotation. The
     /// knee keeps its side, but the further it must bend, the more it takes the side to which it bends in the
     /// whole clip, because a straight leg has none.
-    void bring(const glm::dvec3& to, double longest, std::vector<rig::Transform>& pose) const {
+    void reach_for(const glm::dvec3& to, double longest, std::vector<rig::Transform>& pose) const {
         detail::LimbPlacement at = placed(pose);
-        const glm::dvec3 way = minus(to, at.upper.position);
-        const double far = length(way), near = std::min(far, longest);
+        const glm::dvec3 offset = minus(to, at.upper.position);
+        const double far = length(offset), near = std::min(far, longest);
         if (!(far > 0.0)) return;
         const double bent = bend(near) - bend(length(minus(at.end.position, at.upper.position)));
         const detail::Pole pole{rotated(at.upper.rotation(), forward_), std::max(bent, 0.0), false};
-        const glm::dvec3 end = plus(at.upper.position, times(way, near / far));
+        const glm::dvec3 end = plus(at.upper.position, times(offset, near / far));
         detail::apply(detail::bend_to(at, end, pole, 1.0), {1.0, 0.0, 0.0, 0.0}, limb_, at, pose);
     }
 
   private:
-    double hard() const noexcept { return full_ - soft_; }
+    double soft_start() const noexcept { return full_ - soft_; }
     /// Approximate distance of the knee from the line, for a leg of that length; in leg lengths.
     double bend(double far) const {
         return full_ > 0.0 ? 0.5 * std::sqrt(std::max(1.0 - far * far / (full_ * full_), 0.0)) : 0.0;
     }
     static glm::dvec3 knee(const detail::LimbPlacement& at) {
         const auto line = direction_of(minus(at.end.position, at.upper.position), 1e-9);
-        const glm::dvec3 way = minus(at.lower.position, at.upper.position);
-        return line ? across(way, *line) : way;
+        const glm::dvec3 offset = minus(at.lower.position, at.upper.position);
+        return line ? across(offset, *line) : offset;
     }
 
     Limb limb_;
@@ -128,13 +128,13 @@ class CuredLegs {
     const CuredLeg& foot() const noexcept { return foot_; }
 
     /// How far the hips must be lowered for the foot to reach its corrected position, metres.
-    double missing(std::size_t frame, const glm::dvec3& move) {
+    double shortfall(std::size_t frame, const glm::dvec3& move) {
         sample(check_.clip, check_.skeleton, check_.time_of(frame), pose_);
         const detail::LimbPlacement at = foot_.placed(pose_);
-        const glm::dvec3 way = minus(plus(at.end.position, move), at.upper.position);
-        const double longest = foot_.softened(length(way)), level2 = way.x * way.x + way.z * way.z;
-        if (dot(way, way) <= longest * longest || level2 >= longest * longest) return 0.0;
-        return std::min(-way.y - std::sqrt(longest * longest - level2), deepest * longest);
+        const glm::dvec3 leg = minus(plus(at.end.position, move), at.upper.position);
+        const double longest = foot_.softened(length(leg)), level2 = leg.x * leg.x + leg.z * leg.z;
+        if (dot(leg, leg) <= longest * longest || level2 >= longest * longest) return 0.0;
+        return std::min(-leg.y - std::sqrt(longest * longest - level2), max_drop * longest);
     }
     /// The clip's pose of that frame, with the foot moved and the hips lowered.
     const std::vector<rig::Transform>& posed(std::size_t frame, const glm::dvec3& move, double drop) {
@@ -147,10 +147,10 @@ class CuredLegs {
             for (std::size_t i = 0; foot_.limb().node(i) != hips_; ++i)
                 above = above * placement(pose_[foot_.limb().node(i)]);
             glm::dvec3& place = pose_[hips_].translation;
-            place = plus(place, detail::seen_from(above, {0.0, -drop, 0.0}));
+            place = plus(place, detail::to_local(above, {0.0, -drop, 0.0}));
         }
-        foot_.bring(foot.at, foot.longest, pose_);
-        if (other) other_->bring(other->at, other->longest, pose_);
+        foot_.reach_for(foot.at, foot.longest, pose_);
+        if (other) other_->reach_for(other->at, other->longest, pose_);
         return pose_;
     }
 
@@ -210,7 +210,7 @@ class Blend {
         const bool follows = back <= frame && moves_[frame - back],
                    leads = frame + on < moves_.size() && moves_[frame + on];
         const auto part = [](std::size_t off, std::size_t of) {
-            return fading(static_cast<double>(off) / static_cast<double>(of));
+            return falloff(static_cast<double>(off) / static_cast<double>(of));
         };
         if (follows && leads && back + on < far)
             return plus(times(*moves_[frame - back], part(back, back + on)),
@@ -238,21 +238,21 @@ Plan plan_of(CuredLegs& legs, const Blend& blend, std::size_t around, Height hei
         plan.moves.push_back(blend.at(i));
         // Only a standing foot must reach its position; a swinging one moves nearer to the hip instead.
         const double above = (height(i) + plan.moves.back().y - stands) / (swings - stands);
-        needed.push_back(fading(std::max(above, 0.0)) * legs.missing(i, plan.moves.back()));
+        needed.push_back(falloff(std::max(above, 0.0)) * legs.shortfall(i, plan.moves.back()));
     }
     plan.drops.assign(needed.size(), 0.0);
     for (std::size_t i = 0; i < needed.size(); ++i) {
         if (!(needed[i] > 0.0)) continue;
         for (std::size_t k = i - std::min(i, around); k < std::min(i + around, needed.size()); ++k) {
             const double off = static_cast<double>(k > i ? k - i : i - k) / static_cast<double>(around);
-            plan.drops[k] = std::max(plan.drops[k], needed[i] * fading(off));
+            plan.drops[k] = std::max(plan.drops[k], needed[i] * falloff(off));
         }
     }
     return plan;
 }
 
 /// The finding, and the same faults of that foot before and after it, each within `near` frames of the next.
-std::vector<Finding> together(const Check& check, const Finding& found, std::size_t near) {
+std::vector<Finding> adjacent_findings(const Check& check, const Finding& found, std::size_t near) {
     LintReport report = check.report;
     Check feet{check.skeleton, check.map, check.clip, check.settings, check.height, report};
     check_feet(feet);
@@ -290,7 +290,7 @@ std::optional<Limb> leg_of(const Skeleton& skeleton, const BoneMap& map, std::in
     return Limb::make(skeleton, upper, lower, foot, foot);
 }
 
-Expected<Clip> cure_foot(const Check& check, const Finding& found, const FootCure& how) {
+Expected<Clip> cure_foot(const Check& check, const Finding& found, const FootCure& options) {
     using tendril::detail::refused;
     const auto other_clip = [&] {
         return refused("cure", "finding", "one of this clip", std::string_view(found.text));
@@ -305,23 +305,23 @@ Expected<Clip> cure_foot(const Check& check, const Finding& found, const FootCur
         return other_clip();
     CuredLegs legs(check, std::move(*leg),
                    leg_of(check.skeleton, check.map, check.map[left ? Bone::RightFoot : Bone::LeftFoot].node),
-                   how.nearer);
-    const auto around = static_cast<std::size_t>(std::ceil(how.ease * rate));
+                   options.nearer);
+    const auto around = static_cast<std::size_t>(std::ceil(options.ease * rate));
     const FeetMotion motion = feet_motion(check);
-    const auto its = std::ranges::find(motion.feet, foot, &Foot::node);
+    const auto record = std::ranges::find(motion.feet, foot, &Foot::node);
     const auto floor = floor_of(motion, rate);
-    const bool is_known = floor && its != motion.feet.end();
+    const bool is_known = floor && record != motion.feet.end();
     // A leg that is only softened needs no blending.
     Blend blend(check.report.frames, found.snaps ? 1 : around);
     if (found.snaps) {
         blend.add(found.first, std::vector<glm::dvec3>(found.last - found.first + 1, glm::dvec3(0.0)));
     } else {
         if (!is_known || foot != found.node) return other_clip();
-        for (const Finding& each : together(check, found, 2 * around))
-            blend.add(each.first, moves_of(*its, each, motion, *floor, rate));
+        for (const Finding& each : adjacent_findings(check, found, 2 * around))
+            blend.add(each.first, moves_of(*record, each, motion, *floor, rate));
     }
     const Plan plan = plan_of(legs, blend, around, [&](std::size_t frame) {
-        return is_known ? its->height[frame] - *floor : swings;
+        return is_known ? record->height[frame] - *floor : swings;
     });
 
     const bool is_lowered = *std::max_element(plan.drops.begin(), plan.drops.end()) > 0.0;

@@ -11,25 +11,25 @@ using namespace rig::detail;
 
 // A stance begins under the speed `enter`, ends over `leave`, and stays lower than `low`. A standing foot
 // that slips briefly without being lifted has not taken a step.
-constexpr double enter = 0.6, leave = 1.2, low = 0.03;  // m/s, m
-constexpr double lifted = 0.025, shortest_step = 0.1;   // m, s
-constexpr double landing = 0.05;                        // s
+constexpr double enter_speed = 0.6, leave_speed = 1.2, low = 0.03;  // m/s, m
+constexpr double max_lift = 0.025, min_step_time = 0.1;             // m, s
+constexpr double landing_time = 0.05;                               // s
 
 /// A stance without its landing and lift-off: from the first to the last still frame. A foot that is never
 /// still slides throughout: a fixed time is cut from both ends.
-Stretch without_ends(const Stretch& stance, const Foot& foot, double rate) {
-    Stretch core = stance;
+FrameRange without_ends(const FrameRange& stance, const Foot& foot, double rate) {
+    FrameRange core = stance;
     while (core.first < core.last && !foot.still[core.first]) ++core.first;
     while (core.last > core.first && !foot.still[core.last]) --core.last;
     if (core.last > core.first) return core;
-    const auto ends = static_cast<std::size_t>(std::ceil(landing * rate));
+    const auto ends = static_cast<std::size_t>(std::ceil(landing_time * rate));
     if (stance.last - stance.first <= 2 * ends) return {stance.first, stance.first};
     return {stance.first + ends, stance.last - ends};
 }
 
 void check_skating(Check& check, const Foot& foot, const glm::dvec3& treadmill, double limit) {
     const double rate = check.report.rate;
-    for (const Stretch& stance : stances_of(foot, check.report.floor, rate)) {
+    for (const FrameRange& stance : stances_of(foot, check.report.floor, rate)) {
         const auto [first, last] = without_ends(stance, foot, rate);
         if (static_cast<double>(last - first) < 0.08 * rate) continue;
         glm::dvec3 slid(0.0);
@@ -38,7 +38,7 @@ void check_skating(Check& check, const Foot& foot, const glm::dvec3& treadmill, 
         for (std::size_t i = first + 1; i <= last; ++i) {
             const glm::dvec3 move = smallest_move(foot, i, times(treadmill, 1.0 / rate));
             slid = plus(slid, move);
-            if (foot.jolt[i] > leave) continue;  // a departure of one frame is a jump, not a slide
+            if (foot.min_speed[i] > leave_speed) continue;  // a departure of one frame is a jump, not a slide
             farthest = std::max(farthest, level(slid));
             if (level(move) > fastest) fastest = level(move), worst = i;
         }
@@ -51,8 +51,8 @@ void check_skating(Check& check, const Foot& foot, const glm::dvec3& treadmill, 
 
 /// Runs of frames for which `is_wrong` is true, of at least `shortest` seconds.
 template <class IsWrong>
-std::vector<Stretch> stretches(std::size_t frames, double rate, double shortest, IsWrong is_wrong) {
-    std::vector<Stretch> found;
+std::vector<FrameRange> ranges(std::size_t frames, double rate, double shortest, IsWrong is_wrong) {
+    std::vector<FrameRange> found;
     for (std::size_t i = 0; i < frames; ++i) {
         if (!is_wrong(i)) continue;
         if (!found.empty() && found.back().last + 1 == i)
@@ -60,7 +60,7 @@ std::vector<Stretch> stretches(std::size_t frames, double rate, double shortest,
         else
             found.push_back({i, i});
     }
-    std::erase_if(found, [&](const Stretch& each) {
+    std::erase_if(found, [&](const FrameRange& each) {
         return static_cast<double>(each.last - each.first + 1) < shortest * rate;
     });
     return found;
@@ -70,8 +70,8 @@ void check_floating(Check& check, const Foot& foot, double limit) {
     const double floor = check.report.floor, most = 0.08;
     // Without toes, a foot on tiptoe seems to float.
     const double tilt = foot.points.size() > 1 ? 20.0 : 8.0;
-    for (const Stretch& each :
-         stretches(foot.height.size(), check.report.rate, min_stance, [&](std::size_t i) {
+    for (const FrameRange& each :
+         ranges(foot.height.size(), check.report.rate, min_stance, [&](std::size_t i) {
              const double above = foot.height[i] - floor;
              return foot.still[i] && foot.tilt[i] < tilt && above > limit && above < most;
          })) {
@@ -86,7 +86,7 @@ void check_floating(Check& check, const Foot& foot, double limit) {
 
 void check_sinking(Check& check, const Foot& foot, double limit) {
     const double floor = check.report.floor, most = 0.12;
-    for (const Stretch& each : stretches(foot.height.size(), check.report.rate, 0.03, [&](std::size_t i) {
+    for (const FrameRange& each : ranges(foot.height.size(), check.report.rate, 0.03, [&](std::size_t i) {
              // The height of a sole below its bones is known only for a level foot.
              const double below = floor - foot.height[i];
              return below > limit + (foot.tilt[i] > 30.0 ? 0.04 : 0.0);
@@ -103,8 +103,8 @@ void check_sinking(Check& check, const Foot& foot, double limit) {
 
 }  // namespace
 
-std::vector<Stretch> stances_of(const Foot& foot, double floor, double rate) {
-    std::vector<Stretch> found;
+std::vector<FrameRange> stances_of(const Foot& foot, double floor, double rate) {
+    std::vector<FrameRange> found;
     bool stands = false, stepped = false;
     double stood_at = floor;  // height when last still
     for (std::size_t i = 0; i < foot.height.size(); ++i) {
@@ -113,14 +113,14 @@ std::vector<Stretch> stances_of(const Foot& foot, double floor, double rate) {
         // A moving foot that is lifted, even by 8 mm, takes a step.
         const bool steps = foot.speed[i] > 0.4 && height > stood_at + 0.008;
         stepped |= steps;
-        stands = height - floor < low && !steps && foot.speed[i] < (stands ? leave : enter);
+        stands = height - floor < low && !steps && foot.speed[i] < (stands ? leave_speed : enter_speed);
         if (!stands) continue;
         if (!found.empty()) {
             const std::size_t since = found.back().last;
             bool stayed_low = true;
-            for (std::size_t k = since; k <= i; ++k) stayed_low &= foot.height[k] - floor < lifted;
+            for (std::size_t k = since; k <= i; ++k) stayed_low &= foot.height[k] - floor < max_lift;
             if (i == since + 1 ||
-                (!stepped && stayed_low && static_cast<double>(i - since) < shortest_step * rate)) {
+                (!stepped && stayed_low && static_cast<double>(i - since) < min_step_time * rate)) {
                 found.back().last = i;
                 continue;
             }
@@ -134,18 +134,18 @@ std::vector<Stretch> stances_of(const Foot& foot, double floor, double rate) {
 /// Also covers the points in between: the motion of a rigid foot is linear in the point.
 glm::dvec3 smallest_move(const Foot& foot, std::size_t frame, const glm::dvec3& ground) {
     glm::dvec3 best(1e9);
-    const auto take = [&](const glm::dvec3& a, const glm::dvec3& b) {
-        const glm::dvec3 way = minus(b, a);
-        const double along = way.x * way.x + way.z * way.z;
-        const double part = along > 0.0 ? std::clamp(-(a.x * way.x + a.z * way.z) / along, 0.0, 1.0) : 0.0;
-        const glm::dvec3 move = plus(a, times(way, part));
+    const auto consider = [&](const glm::dvec3& a, const glm::dvec3& b) {
+        const glm::dvec3 line = minus(b, a);
+        const double along = line.x * line.x + line.z * line.z;
+        const double part = along > 0.0 ? std::clamp(-(a.x * line.x + a.z * line.z) / along, 0.0, 1.0) : 0.0;
+        const glm::dvec3 move = plus(a, times(line, part));
         if (level(move) < level(best)) best = move;
     };
     for (std::size_t k = 0; k < foot.points.size(); ++k) {
         const auto move = [&](std::size_t point) {
             return minus(minus(foot.at(point, frame), foot.at(point, frame - 1)), ground);
         };
-        take(move(k), move(k + 1 < foot.points.size() ? k + 1 : k));
+        consider(move(k), move(k + 1 < foot.points.size() ? k + 1 : k));
     }
     return best;
 }
@@ -156,7 +156,7 @@ std::optional<double> floor_of(const FeetMotion& motion, double rate) {
     for (const Foot& foot : motion.feet) {
         for (std::size_t i = 0; i < foot.height.size(); ++i) {
             const bool is_at_rest = std::abs(foot.height[i]) < 0.5 * width;
-            if (!foot.still[i] || (motion.rests_on_ground && !is_at_rest && !foot.carries(i))) continue;
+            if (!foot.still[i] || (motion.rests_on_ground && !is_at_rest && !foot.is_loaded(i))) continue;
             heights.push_back(foot.height[i]);
             if (is_at_rest) at_rest.push_back(foot.height[i]);
         }
@@ -178,7 +178,7 @@ void check_feet(Check& check) {
     if (!floor) return;
     check.report.has_floor = true;
     check.report.floor = *floor;
-    const double unknown = motion.knows_soles ? 0.0 : 0.015;
+    const double unknown = motion.has_soles ? 0.0 : 0.015;
     // For an in-place clip the ground's speed is a guess, and real hips vary in speed within a step. If no
     // foot is ever still, the moment of landing is unknown.
     const double slide = std::max(check.settings.skating + unknown + (motion.always_slides ? 0.02 : 0.0),

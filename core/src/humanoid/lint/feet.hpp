@@ -30,13 +30,13 @@ struct Foot {
     std::vector<glm::dvec3> positions{};  ///< positions of all points
     std::vector<glm::dvec3> ups{};        ///< up, in the foot's own space
     std::vector<double> speed{};          ///< speed of the point that moves the least, m/s
-    std::vector<double> jolt{};           ///< the slower of the speeds into and out of the frame, m/s
+    std::vector<double> min_speed{};      ///< the slower of the speeds into and out of the frame, m/s
     std::vector<bool> still{};            ///< it does not move, not even vertically
     std::vector<bool> upright{};          ///< the hips are up: the figure neither sits nor lies
     std::vector<double> height{};         ///< height of the lowest point
     std::vector<double> tilt{};           ///< from standing flat, degrees
 
-    bool carries(std::size_t frame) const { return still[frame] && upright[frame]; }
+    bool is_loaded(std::size_t frame) const { return still[frame] && upright[frame]; }
     const glm::dvec3& at(std::size_t point, std::size_t frame) const noexcept {
         return positions[frame * points.size() + point];
     }
@@ -48,7 +48,7 @@ struct FeetMotion {
     glm::dvec3 treadmill{0.0};       ///< the ground's velocity under a figure that walks in place, m/s
     bool always_slides = false;      ///< no foot is ever still
     bool rests_on_ground = false;    ///< in the rest pose the feet stand flat near height 0
-    bool knows_soles = false;        ///< feet stand as in the rest pose, which then gives the soles
+    bool has_soles = false;          ///< feet stand as in the rest pose, which then gives the soles
 };
 FeetMotion feet_motion(const Check& check);
 
@@ -56,11 +56,11 @@ FeetMotion feet_motion(const Check& check);
 /// the still frames are there, otherwise the most common height. If it rests on the ground, still feet
 /// elsewhere are ignored while it sits or lies. nullopt if feet hardly stand.
 std::optional<double> floor_of(const FeetMotion& motion, double rate);
-struct Stretch {
+struct FrameRange {
     std::size_t first, last;  // frames
 };
 /// Frames in which the foot stands on the floor.
-std::vector<Stretch> stances_of(const Foot& foot, double floor, double rate);
+std::vector<FrameRange> stances_of(const Foot& foot, double floor, double rate);
 /// The motion, since the frame before, of the point of the sole that moves the least, minus `ground`, the
 /// ground's own motion.
 glm::dvec3 smallest_move(const Foot& foot, std::size_t frame, const glm::dvec3& ground);

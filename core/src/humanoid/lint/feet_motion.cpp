@@ -9,10 +9,10 @@ namespace {
 
 using namespace rig::detail;
 
-constexpr double slow = 0.2;           // m/s: a slower foot is still
-constexpr double never_slow = 0.6;     // the same if feet slide all the time
-constexpr double as_on_ground = 15.0;  // degrees, the same if the rest pose stands on the ground
-constexpr double as_it_rests = 8.0;    // degrees that a standing foot may tilt from its rest
+constexpr double still_speed = 0.2;       // m/s: a slower foot is still
+constexpr double sliding_speed = 0.6;     // the same if feet slide all the time
+constexpr double max_ground_tilt = 15.0;  // degrees, the same if the rest pose stands on the ground
+constexpr double max_rest_tilt = 8.0;     // degrees that a standing foot may tilt from its rest
 constexpr glm::dvec3 up{0.0, 1.0, 0.0};
 
 struct Side {
@@ -43,7 +43,7 @@ Foot foot_of(const Check& check, const Side& side, const std::vector<Placement>&
 struct Rest {
     bool is_level = true, is_ground = false;
 };
-Rest look_at_rest(std::vector<Foot>& feet, double hips) {
+Rest measure_rest(std::vector<Foot>& feet, double hips) {
     double ground = std::numeric_limits<double>::max();
     for (const Foot& foot : feet)
         for (const SolePoint& point : foot.points) ground = std::min(ground, point.above);
@@ -89,7 +89,7 @@ bool is_upright(const Check& check, std::int32_t foot, const std::vector<Placeme
     return rises(foot, hips) && rises(hips, check.map[Bone::Head].node);
 }
 
-void record(const Check& check, const std::vector<Placement>& rest, FeetMotion& motion) {
+void sample_feet(const Check& check, const std::vector<Placement>& rest, FeetMotion& motion) {
     const Skeleton& skeleton = check.skeleton;
     const auto hips = static_cast<std::size_t>(check.map[Bone::Hips].node);
     std::vector<rig::Transform> pose(skeleton.size());
@@ -136,20 +136,20 @@ glm::dvec3 treadmill_of(const FeetMotion& motion, double rate) {
                     lowest[i] = height, moves[i] = minus(foot.at(k, i), foot.at(k, i - 1));
             }
     std::vector<double> sorted(lowest.begin() + 1, lowest.end()), x, z;
-    const double usual = middle_of(sorted);
+    const double usual = median(sorted);
     for (std::size_t i = 1; i < frames; ++i)
         if (lowest[i] < usual + 0.02) x.push_back(moves[i].x * rate), z.push_back(moves[i].z * rate);
-    const glm::dvec3 velocity{middle_of(x), 0.0, middle_of(z)};
+    const glm::dvec3 velocity{median(x), 0.0, median(z)};
     const double seconds = static_cast<double>(frames - 1) / rate;
-    const double got_on = level(minus(motion.hips.back(), motion.hips.front()));
-    if (level(velocity) < 0.25 || got_on > 0.35 * level(velocity) * seconds) return glm::dvec3(0.0);
+    const double advance = level(minus(motion.hips.back(), motion.hips.front()));
+    if (level(velocity) < 0.25 || advance > 0.35 * level(velocity) * seconds) return glm::dvec3(0.0);
     return velocity;
 }
 
 void measure_speed(Foot& foot, const glm::dvec3& treadmill, double rate) {
     const std::size_t frames = foot.ups.size();
     foot.speed.assign(frames, std::numeric_limits<double>::max());  // unknown for a single frame
-    foot.jolt.assign(frames, 0.0);
+    foot.min_speed.assign(frames, 0.0);
     foot.still.assign(frames, false);
     if (frames < 2) return;
     const auto slowest_between = [&](std::size_t from, std::size_t to) {
@@ -163,7 +163,7 @@ void measure_speed(Foot& foot, const glm::dvec3& treadmill, double rate) {
     for (std::size_t i = 0; i < frames; ++i) {
         const std::size_t from = i > 0 ? i - 1 : 0, to = i + 1 < frames ? i + 1 : i;
         foot.speed[i] = slowest_between(from, to);
-        if (from + 2 == to) foot.jolt[i] = std::min(slowest_between(from, i), slowest_between(i, to));
+        if (from + 2 == to) foot.min_speed[i] = std::min(slowest_between(from, i), slowest_between(i, to));
     }
 }
 
@@ -173,7 +173,7 @@ bool find_still(std::vector<Foot>& feet, double below) {
     for (Foot& foot : feet) {
         std::size_t count = 0;
         for (std::size_t i = 0; i < foot.speed.size(); ++i) {
-            foot.still[i] = foot.speed[i] < below && foot.jolt[i] < 3.0 * below;
+            foot.still[i] = foot.speed[i] < below && foot.min_speed[i] < 3.0 * below;
             count += foot.still[i];
         }
         any |= count > 2 && 20 * count > foot.speed.size();
@@ -187,11 +187,11 @@ bool stands_as_it_rests(const std::vector<Foot>& feet, bool rests_on_ground, dou
     std::vector<double> tilts;
     for (const Foot& foot : feet)
         for (std::size_t i = 0; i < foot.still.size(); ++i)
-            if (foot.carries(i)) tilts.push_back(foot.tilt[i]);
-    if (!rests_on_ground) return tilts.empty() || middle_of(tilts) < as_it_rests;
-    const auto alike = static_cast<std::size_t>(
-        std::count_if(tilts.begin(), tilts.end(), [](double each) { return each < as_on_ground; }));
-    return static_cast<double>(tilts.size()) < min_stance * rate || 5 * alike >= tilts.size();
+            if (foot.is_loaded(i)) tilts.push_back(foot.tilt[i]);
+    if (!rests_on_ground) return tilts.empty() || median(tilts) < max_rest_tilt;
+    const auto matching = static_cast<std::size_t>(
+        std::count_if(tilts.begin(), tilts.end(), [](double each) { return each < max_ground_tilt; }));
+    return static_cast<double>(tilts.size()) < min_stance * rate || 5 * matching >= tilts.size();
 }
 
 /// Learns the points' heights above the ground, and the feet's up directions, from the frames in which feet
@@ -203,13 +203,13 @@ void learn_soles(std::vector<Foot>& feet) {
     for (Foot& foot : feet) {
         glm::dvec3 sum(0.0);
         for (std::size_t i = 0; i < foot.still.size(); ++i)
-            if (foot.carries(i)) sum = plus(sum, foot.ups[i]);
+            if (foot.is_loaded(i)) sum = plus(sum, foot.ups[i]);
         if (const auto mean = direction_of(sum, 1e-9)) foot.flat = *mean;
         for (std::size_t k = 0; k < foot.points.size(); ++k) {
             heights.clear();
             for (const Foot& each : feet)
                 for (std::size_t i = 0; i < each.still.size() && k < each.points.size(); ++i)
-                    if (each.carries(i)) heights.push_back(each.at(k, i).y);
+                    if (each.is_loaded(i)) heights.push_back(each.at(k, i).y);
             if (heights.empty())
                 continue;  // no foot with such a point is ever still: it keeps its rest height
             std::sort(heights.begin(), heights.end());
@@ -241,18 +241,18 @@ FeetMotion feet_motion(const Check& check) {
     for (const Side& side : sides)
         if (check.map[side.foot].node >= 0) motion.feet.push_back(foot_of(check, side, placed));
     if (motion.feet.empty()) return motion;
-    const Rest rest = look_at_rest(motion.feet, placed[static_cast<std::size_t>(hips)].position.y);
-    record(check, placed, motion);
+    const Rest rest = measure_rest(motion.feet, placed[static_cast<std::size_t>(hips)].position.y);
+    sample_feet(check, placed, motion);
     motion.treadmill = treadmill_of(motion, check.report.rate);
     for (Foot& foot : motion.feet) {
         measure_speed(foot, motion.treadmill, check.report.rate);
         measure_heights(foot);
     }
-    motion.always_slides = !find_still(motion.feet, slow);
-    if (motion.always_slides) find_still(motion.feet, never_slow);
-    motion.knows_soles = rest.is_level && stands_as_it_rests(motion.feet, rest.is_ground, check.report.rate);
-    motion.rests_on_ground = rest.is_ground && motion.knows_soles;
-    if (!motion.knows_soles) {
+    motion.always_slides = !find_still(motion.feet, still_speed);
+    if (motion.always_slides) find_still(motion.feet, sliding_speed);
+    motion.has_soles = rest.is_level && stands_as_it_rests(motion.feet, rest.is_ground, check.report.rate);
+    motion.rests_on_ground = rest.is_ground && motion.has_soles;
+    if (!motion.has_soles) {
         learn_soles(motion.feet);
         for (Foot& foot : motion.feet) measure_heights(foot);
     }

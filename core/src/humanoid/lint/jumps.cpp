@@ -35,12 +35,12 @@ class Moves {
 /// each frame. So a fast motion, which turns by tens of degrees a frame and changes as fast, is no departure,
 /// and hides none.
 double spike(const Moves& moves, std::ptrdiff_t i, std::ptrdiff_t held, double minimum) {
-    constexpr double times_the_roughness = 8.0;
+    constexpr double min_ratio = 8.0;
     const auto frames = static_cast<double>(held);
     const glm::dvec3 trend = times(minus(moves[i - 1], moves[i + held + 1]), frames / (frames + 2.0));
     const glm::dvec3 departure = times(minus(minus(moves[i], moves[i + held]), trend), 0.5);
-    const double far = length(departure);
-    if (far <= minimum) return 0.0;
+    const double size = length(departure);
+    if (size <= minimum) return 0.0;
     const auto shifted = [&](std::ptrdiff_t k) {
         k = moves.inside(k);
         return k == i ? minus(moves[k], departure) : k == i + held ? plus(moves[k], departure) : moves[k];
@@ -48,35 +48,35 @@ double spike(const Moves& moves, std::ptrdiff_t i, std::ptrdiff_t held, double m
     for (std::ptrdiff_t k = i - 2; k <= i + held + 1; ++k) {
         const glm::dvec3 inner = minus(shifted(k + 1), shifted(k)),
                          outer = minus(shifted(k + 2), shifted(k - 1));
-        if (far <= times_the_roughness / 6.0 * length(minus(outer, times(inner, 3.0)))) return 0.0;
+        if (size <= min_ratio / 6.0 * length(minus(outer, times(inner, 3.0)))) return 0.0;
     }
-    return far;
+    return size;
 }
 
 /// How far the motion jumps at frame i without coming back; 0 if it does not.
 double step(const Moves& moves, std::ptrdiff_t i, double minimum) {
-    constexpr double times_the_change = 3.0;
+    constexpr double min_ratio = 3.0;
     const glm::dvec3 &before = moves[i - 1], &after = moves[i + 1];
-    const double far = apart(moves[i], middle(before, after));
-    if (far <= minimum) return 0.0;
+    const double size = apart(moves[i], middle(before, after));
+    if (size <= minimum) return 0.0;
     const double change =
         std::max({apart(before, after), apart(before, moves[i - 2]), apart(after, moves[i + 2])});
-    return far > times_the_change * change ? far : 0.0;
+    return size > min_ratio * change ? size : 0.0;
 }
 
 /// Whether to judge a track. Steps are intended: in all of a Step track, or (skip_steps) where two keys are
 /// at one time, as in files whose curves are held and interpolated in turn.
 template <class T>
-bool is_judged(const Track<T>& track) {
+bool is_checked(const Track<T>& track) {
     return track.times.size() > 2 && track.interpolation != Interpolation::Step;
 }
 
 /// Removes the steps from a track's moves: the motion continues there as in the frame before.
 template <class T>
 void skip_steps(const Check& check, const Track<T>& track, std::vector<glm::dvec3>& moves) {
-    const double rate = check.report.rate, one_moment = 1e-3 / rate;
+    const double rate = check.report.rate, tolerance = 1e-3 / rate;
     for (std::size_t k = 1; k < track.times.size(); ++k) {
-        if (track.times[k] - track.times[k - 1] > one_moment) continue;
+        if (track.times[k] - track.times[k - 1] > tolerance) continue;
         // The first frame at or after the second key; files round times.
         const auto frame = static_cast<std::size_t>(std::ceil(track.times[k] * rate - 2e-3));
         for (const std::size_t i : {frame, frame + 1}) {
@@ -91,7 +91,7 @@ void skip_steps(const Check& check, const Track<T>& track, std::vector<glm::dvec
 template <class T, class Member>
 void check_track(Check& check, const Channel& channel, const Track<T>& track, Member member, double unit,
                  double minimum, bool turns) {
-    if (!is_judged(track)) return;
+    if (!is_checked(track)) return;
     rig::Transform last, next;
     std::vector<glm::dvec3> moves(check.report.frames, glm::dvec3(0.0));
     for (std::size_t i = 0; i < moves.size(); ++i) {
@@ -106,14 +106,14 @@ void check_track(Check& check, const Channel& channel, const Track<T>& track, Me
     if (is_knee) return;  // check_knees() judges them
     for (const Outlier& each : outliers(moves, minimum)) {
         const double amount = turns ? each.amount : 1000.0 * each.amount;
-        const bool comes_back = each.until < check.report.frames;
-        std::string text = comes_back ? "jumps out and back by " : "jumps by ";
+        const bool returns = each.until < check.report.frames;
+        std::string text = returns ? "jumps out and back by " : "jumps by ";
         text += shown(amount) + (turns ? " degrees" : " mm");
         Finding& finding =
-            check.add(Fault::Jump, node, each.frame, each.frame, comes_back ? each.until - 1 : each.frame,
+            check.add(Fault::Jump, node, each.frame, each.frame, returns ? each.until - 1 : each.frame,
                       amount, turns ? "deg" : "mm", text);
         finding.has_cure = true;
-        finding.goes_on = !comes_back;
+        finding.goes_on = !returns;
     }
 }
 
@@ -143,7 +143,7 @@ double bend_of(const Check& check, const Leg& leg, const std::vector<Placement>&
 /// Finds legs that snap straight within a frame and stay straight, or the reverse: the knee accelerates
 /// towards straight and stops at once.
 void check_snaps(Check& check, std::int32_t node, const std::vector<double>& bends) {
-    const double minimum = check.settings.knee * slower(check.report.rate);
+    const double minimum = check.settings.knee * fps_scale(check.report.rate);
     const auto snap = [&](double from, double before, double straight, double after) {
         const double last = from - before, now = before - straight, next = std::abs(straight - after);
         return straight < 4.0 && now > minimum && now > 1.5 * std::abs(last) && last > -0.25 * now &&
@@ -198,7 +198,7 @@ std::vector<Outlier> outliers(const std::vector<glm::dvec3>& list, double minimu
 }
 
 void check_jumps(Check& check) {
-    const double turn = check.settings.turn * slower(check.report.rate);
+    const double turn = check.settings.turn * fps_scale(check.report.rate);
     const double shift = std::max(check.settings.shift * check.height, 1e-6);
     std::vector<Placement> rest(check.skeleton.size());
     place(check.skeleton, rest_pose(check.skeleton), rest);
@@ -228,14 +228,14 @@ void check_knees(Check& check) {
         for (std::size_t i = 1; i < moves.size(); ++i) moves[i].x = bends[i] - bends[i - 1];
         if (keys) skip_steps(check, *keys, moves);
         const std::int32_t node = check.map[leg.lower].node;
-        const std::vector<Outlier> pops = outliers(moves, check.settings.knee * slower(check.report.rate));
+        const std::vector<Outlier> pops = outliers(moves, check.settings.knee * fps_scale(check.report.rate));
         for (const Outlier& each : pops) {
-            const bool comes_back = each.until < check.report.frames;
-            Finding& finding = check.add(Fault::KneePop, node, each.frame, each.frame,
-                                         comes_back ? each.until - 1 : each.frame, each.amount, "deg",
-                                         "pops by " + shown(each.amount) + " degrees");
+            const bool returns = each.until < check.report.frames;
+            Finding& finding =
+                check.add(Fault::KneePop, node, each.frame, each.frame, returns ? each.until - 1 : each.frame,
+                          each.amount, "deg", "pops by " + shown(each.amount) + " degrees");
             finding.has_cure = true;
-            finding.goes_on = !comes_back;
+            finding.goes_on = !returns;
         }
         if (pops.empty()) check_snaps(check, node, bends);
     }

@@ -54,16 +54,16 @@ struct Outlier {
 std::vector<Outlier> outliers(const std::vector<glm::dvec3>& moves, double minimum);
 
 /// Scales thresholds given for 60 frames per second: at fewer, more happens in each frame.
-inline double slower(double rate) noexcept {
+inline double fps_scale(double rate) noexcept {
     return (2.0 + 60.0 / rate) / 3.0;
 }
 
 /// 1 at 0, 0 from 1 on; smooth.
-inline double fading(double u) noexcept {
+inline double falloff(double u) noexcept {
     return u >= 1.0 ? 0.0 : (1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u);
 }
 /// The median of at least one value, the greater of two in the middle. Reorders the values.
-inline double middle_of(std::vector<double>& values) {
+inline double median(std::vector<double>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
@@ -86,6 +86,6 @@ struct FootCure {
 
 /// The clip without the fault: the foot stands, or its leg no longer snaps. Refuses a finding that is not one
 /// of the clip's.
-Expected<Clip> cure_foot(const Check& check, const Finding& finding, const FootCure& how);
+Expected<Clip> cure_foot(const Check& check, const Finding& finding, const FootCure& options);
 
 }  // namespace tendril::humanoid::lint_detail

@@ -26,9 +26,9 @@ HWY_INLINE Lanes largest(const Points& p, Lanes so_far) {
     return hn::Max(hn::Max(so_far, hn::Abs(p.x)), hn::Max(hn::Abs(p.y), hn::Abs(p.z)));
 }
 
-/// Whether every bone of a register of chains is certainly at its length, and no joint too far out, which
-/// follows from the root and the reach. One pass without a root: |d^2 - l^2| <= 0.9 l a means that d is
-/// within 0.9 a of l. False if a coordinate is not finite.
+/// Whether every bone of a register of chains is certainly at its length and, judging by root and reach, no
+/// joint too far out. One pass without a square root: |d^2 - l^2| <= 0.9 l a means that d is within 0.9 a of
+/// l. False if a coordinate is not finite.
 HWY_INLINE bool certainly_fits(const Block& block, std::size_t i) {
     Points from = load_points(block.joint(0) + i);
     const Lanes furthest = hn::Add(largest(from, zero()), load(block.reach() + i));
@@ -58,7 +58,7 @@ HWY_INLINE void compare(const Block& block, std::size_t bone, std::size_t i, Lan
 struct Fit {
     Mask valid, loose, unclear;
 };
-/// Checks bone by bone, if surely_fit fails.
+/// Checks bone by bone, after certainly_fits() returned false.
 HWY_INLINE Fit fit_of(const Block& block, std::size_t i) {
     Fit fit{are_valid(load_points(block.joint(0) + i)), none(), none()};
     for (std::size_t bone = 0; bone < block.bones(); ++bone) {

@@ -1,5 +1,5 @@
-// The iterations of solve_many, block by block: FABRIK's two passes, the step of shape-inl.hpp, and the
-// decision how each chain continues, as in solve/loop.cpp and solve/convergence.hpp.
+// The iterations of solve_many, block by block: FABRIK's two passes, the step of shape-inl.hpp, and how each
+// chain continues, by the rules of solve/loop.cpp and solve/convergence.hpp.
 #include <array>
 
 #include "ik/batch/vector.hpp"

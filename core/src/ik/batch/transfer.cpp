@@ -61,7 +61,7 @@ HWY_INLINE void quads_out(D d, const float* from, std::size_t stride, float* to)
     hn::StoreU(quads.c, d, to + 2 * stride), hn::StoreU(quads.e, d, to + 3 * stride);
 }
 
-/// Writes four lists, from `done` floats on. At the end, some floats are written twice, not one by one.
+/// Writes four lists, from float `done` on. The last register may overlap floats already written.
 template <class D>
 HWY_INLINE void lists_out(D d, const float* rows, std::size_t count, float* lists, std::size_t done = 0) {
     const auto out = [&](std::size_t i) { quads_out(d, rows + i * block_lanes, count, lists + i); };

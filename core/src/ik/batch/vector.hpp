@@ -80,13 +80,13 @@ using Begin = Remaining(const Block& block, std::size_t lanes, bool every, bool 
 /// unchanged.
 using ClassifyLimited = void(const Block& block, std::size_t lanes);
 /// Solves the reachable chains from their joints and four rows of rotations per bone, in the order of
-/// glm::quat. A chain that does not converge is left to the scalar solver unchanged; but the last ones of a
-/// register move to the tile, from lane `used` on. Returns those, at most most_late per block.
+/// glm::quat. Chains that do not converge are left unchanged for the scalar solver, but a register's last
+/// ones move to the tile, from lane `used` on. Returns those, at most max_leftover per block.
 using SolveLimited = LaneList(const Block& block, std::size_t lanes, float* rotations, std::size_t used,
                               const LimitedJob& job);
 /// A few steps of the tile's first `used` lanes, without moving chains to the tile.
 using StepLimited = void(std::size_t used, const LimitedJob& job);
-/// Iterates the active lanes until they are done, wait for a perturbation, or reach the order's iterations.
+/// Iterates the active lanes until they are done, wait for a perturbation, or reach the job's iterations.
 using Iterate = Remaining(const Block& block, std::size_t lanes, const IterateJob& job);
 /// Sets targets and tolerances of the first `lanes` lanes; a negative tolerance means 1e-3 of the reach.
 using SetTargets = void(const Block& block, std::size_t lanes, const glm::vec3* targets, float tolerance);

@@ -238,7 +238,7 @@ void Work::write_back_joints(std::size_t lane, Scratch& scratch) const noexcept 
     }
 }
 
-/// The inverse of write_home.
+/// The inverse of write_back_joints().
 void Work::fetch_joints(const Tile& tile, std::size_t lane) const noexcept {
     const std::size_t chain = tile.chains[lane], each = in_.bones + 1;
     if (in_.joints != nullptr) {

@@ -38,7 +38,7 @@ struct Scratch {
     Rows shapes;  ///< shapes, gathered and second: see StepScratch
     Tile gathered, second;
     Tile tile;
-    Rows poses, rotations, limited;  ///< see LimitedOrder; allocated with limits
+    Rows poses, rotations, limited;  ///< see LimitedJob; allocated with limits
     Workspace scalar;                ///< for the scalar code
     Options options;                 ///< options of the chain in `scalar`
 };

@@ -58,8 +58,8 @@ Sextic split(Sextic& all) noexcept {
     return left;
 }
 
-/// The place between `low` and `high`, inside and outside the sphere about the origin, where the cubic
-/// crosses it: Newton's steps, bisection where they leave the bracket.
+/// The parameter where the cubic crosses the sphere about the origin, between `low` (inside) and `high`
+/// (outside). Newton's steps; bisection where they leave the bracket.
 double crossing(const Powers& cubic, double radius, double low, double high) noexcept {
     const double square = radius * radius;
     // The first step treats the cubic as a straight line along its slope at `low`.
@@ -149,7 +149,7 @@ Path::Path(std::span<const glm::vec3> points, CurveKind kind, const glm::dvec3& 
 }
 
 glm::dvec3 Path::control(std::ptrdiff_t index) const noexcept {
-    // Beyond the ends, the neighbour mirrored: tangents there are one-sided, and a B-spline reaches its ends.
+    // Beyond the ends, mirrors the neighbour: tangents there are one-sided, and a B-spline reaches its ends.
     const auto count = static_cast<std::ptrdiff_t>(points_.size());
     const auto at = [&](std::ptrdiff_t i) { return wide(points_[static_cast<std::size_t>(i)]); };
     if (index < 0) return minus(times(at(0), 2.0), at(1));

@@ -31,7 +31,7 @@ struct Powers {
     }
 };
 
-/// A place on the path: `t` in 0 to 1 on a piece, metres beyond the end on the ray that continues the last.
+/// A position on the path: `t` from 0 to 1 on a piece, or metres along the ray beyond the end.
 struct PathParam {
     std::size_t piece = 0;
     double t = 0.0;
@@ -54,10 +54,10 @@ class Path {
     glm::dvec3 point(const PathParam& param) noexcept;
     /// `tangent`: unit; `before` where the path has no direction.
     PathPoint sample(const PathParam& param, const glm::dvec3& before) noexcept;
-    /// The first place after `from` that is `length` metres from `joint`, which is the point at `from`.
+    /// The first position after `from` that is `length` metres from `joint`, the point at `from`.
     PathParam next(const PathParam& from, const glm::dvec3& joint, double length) noexcept;
-    /// Whether the distance from `centre` grows all the way from one place to the other, one of which is
-    /// `length` metres from it. Ignores dips of the squared distance by less than 1e-9 of length^2.
+    /// Whether the distance from `centre` grows all the way between two positions, one of them `length`
+    /// metres away. Ignores dips of the squared distance by less than 1e-9 of length^2.
     bool distance_grows(const PathParam& from, const PathParam& to, const glm::dvec3& centre,
                         double length) noexcept;
 
@@ -67,7 +67,7 @@ class Path {
         Cubic cubic{};
         Powers powers{};
         std::size_t index = static_cast<std::size_t>(-1);
-        double speed = 0.0, bend = 0.0;  ///< bounds of its first and second derivative
+        double speed = 0.0, bend = 0.0;  ///< bounds of the cubic's first and second derivative
     };
     const Piece& piece(std::size_t index) noexcept;
 

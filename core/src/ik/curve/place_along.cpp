@@ -50,8 +50,8 @@ bool is_valid(std::span<const glm::vec3> points, const CurveChain& chain, std::s
            std::ranges::all_of(options.weights, [](float each) { return each >= 0.0f && each <= 1.0f; });
 }
 
-/// Where the tip comes to lie, with all bones scaled by `factor`: metres beyond the end of the path, or, if
-/// negative, short of it.
+/// How far beyond the end of the path the tip lies with all bones scaled by `factor`, metres; negative if it
+/// falls short.
 double overshoot(Path& path, std::span<const float> lengths, double factor) noexcept {
     PathParam param;
     glm::dvec3 joint = path.point(param);
@@ -62,9 +62,9 @@ double overshoot(Path& path, std::span<const float> lengths, double factor) noex
     return path.on_ray(param) ? param.t : -length(minus(path.end(), joint));
 }
 
-/// The factor at which the tip lies on the end of the path, or the nearer bound: regula falsi (Illinois: M.
-/// Dowell, P. Jarratt, 1971), every fourth time halving. Where the tip jumps over the end, returns the better
-/// side of the jump.
+/// The factor at which the tip lies on the end of the path, or the nearer bound. Regula falsi (Illinois: M.
+/// Dowell, P. Jarratt, 1971), with a bisection every fourth step. Where the tip jumps over the end, returns
+/// the better side of the jump.
 double fitted_factor(Path& path, std::span<const float> lengths, double most) noexcept {
     struct Fit {
         double factor, overshoot;
@@ -146,7 +146,7 @@ glm::dvec3 turned_along(const glm::dvec3& side, const glm::dvec3& from, const gl
 /// The rotation that takes the unit vector `from` to `axis`, and `from_side`, perpendicular to it, to `side`.
 glm::dquat rotation_to(const glm::dvec3& axis, const glm::dvec3& side, const glm::dvec3& from,
                        const glm::dvec3& from_side) noexcept {
-    // The minimal rotation, then a twist about the axis; both by half their angles, and scaled at the end.
+    // The minimal rotation, then a twist about the axis: quaternions that are only normalised at the end.
     const glm::dvec3 swung = turned_along(from_side, from, axis);
     const double twist = 1.0 + dot(swung, side), swing = 1.0 + dot(from, axis);
     const double sine = dot(cross(swung, side), axis);
@@ -160,7 +160,7 @@ glm::dquat rotation_to(const glm::dvec3& axis, const glm::dvec3& side, const glm
     return unit_quaternion(to.w, to.x, to.y, to.z);
 }
 
-/// Compares with the last call, and remembers this one.
+/// Compares the joints' positions on the path with the last call's, and stores them for the next.
 class Jumps {
   public:
     Jumps(Path& path, std::span<const glm::vec3> points, CurveMemory& memory) noexcept
@@ -171,7 +171,7 @@ class Jumps {
     void root(const PathParam& param) noexcept {
         if (!memory_.at.empty()) remember(0, param);
     }
-    /// The bone from joint i - 1 to joint i, on the path. A joint beyond the first jump moves with it.
+    /// Compares the bone from joint i - 1 to joint i. Joints beyond the first jump move with it.
     void bone(std::size_t i, const PathParam& from, const glm::dvec3& start, const PathParam& param,
               double length) noexcept {
         if (memory_.at.empty()) return;
@@ -276,7 +276,7 @@ CurveReport place_along(std::span<const glm::vec3> points, const CurveChain& cha
         jumps.bone(i + 1, param, on_path, next, bone);
         if (path.on_ray(next)) ++report.bones_past_end;
 
-        // The side that turns least from the rest pose, then the path's, then the roll.
+        // The bone's side: transported along the rest pose, then along the path, then rolled.
         const glm::dvec3 rest = rest_direction(i);
         if (rest != rest_before) rest_side = turned_along(rest_side, rest_before, rest);
         rest_before = rest;

@@ -11,7 +11,7 @@ namespace tendril::ik {
 namespace {
 
 constexpr float near_root = 0.02f;  ///< of the reach
-/// Likewise, the bend. Two equal bones at 99.5 % of their reach, which turn by 11 degrees to change sides.
+/// Bend, of the reach: two equal bones at 99.5 % of their reach, which turn by 11 degrees to change sides.
 constexpr float nearly_straight = 0.05f;
 constexpr float close_to_pole = 0.17f;  ///< radians, ten degrees
 constexpr float on_axis = 1e-4f;  ///< radians: float coordinates of 500 times the reach are off by as much
@@ -24,12 +24,12 @@ float distance_to_segment(glm::vec3 point, glm::vec3 a, glm::vec3 b) noexcept {
 }
 
 /// Radians between two lines, 0 to pi/2.
-float off_line(glm::vec3 a, glm::vec3 b) noexcept {
+float line_angle(glm::vec3 a, glm::vec3 b) noexcept {
     const float angle = angle_between(a, b);
     return std::min(angle, static_cast<float>(math::pi) - angle);
 }
 
-/// Of the target or of the pole target about the line from root to target: the larger of each number.
+/// Movement of the target, or of the pole target about the line from root to target: the larger of each.
 InputMove input_move(const ReachPose& before, const ReachPose& after) noexcept {
     if (!before.target || !after.target) return {};
     const glm::vec3 from = *before.target - before.root(), to = *after.target - after.root();
@@ -87,9 +87,9 @@ InputMove move_between(const glm::dvec3& from, const glm::dvec3& to) noexcept {
 }
 
 bool explains(const InputMove& move, double radians, double reach, const FlipRule& rule) noexcept {
-    constexpr double still = 1e-9;  // rounding of a rotation, or of a share
+    constexpr double rounding = 1e-9;  // rounding of a rotation, or of a share
     const double angle = rule.angle_share * radians, share = rule.reach_share;
-    return move.turn >= std::max(angle, still) || move.share >= std::max(share, still) ||
+    return move.turn >= std::max(angle, rounding) || move.share >= std::max(share, rounding) ||
            (move.distance > 0.0 && move.angle >= angle && move.distance >= share * reach);
 }
 
@@ -127,7 +127,7 @@ PolePassage pole_passage(const ReachPose& before, const ReachPose& after) noexce
     const glm::vec3 from = *before.target - before.root(), to = *after.target - after.root(),
                     pole_from = *before.pole - before.root(), pole_to = *after.pole - after.root();
     return {math::dot(math::cross(from, pole_from), math::cross(to, pole_to)) < 0.0f,
-            std::min(off_line(from, pole_from), off_line(to, pole_to)) < close_to_pole};
+            std::min(line_angle(from, pole_from), line_angle(to, pole_to)) < close_to_pole};
 }
 
 bool passed_axis(const ReachPose& before, const ReachPose& after) noexcept {
@@ -137,7 +137,7 @@ bool passed_axis(const ReachPose& before, const ReachPose& after) noexcept {
         glm::vec3 axis(0.0f);
         axis[i] = 1.0f;
         const float turned = angle_between(math::cross(from, axis), math::cross(to, axis));
-        const float off = std::min(off_line(from, axis), off_line(to, axis));
+        const float off = std::min(line_angle(from, axis), line_angle(to, axis));
         const float passes = off < close_to_pole ? FlipRule{}.degrees : 90.0f;
         if (off < on_axis || in_degrees(turned) > passes) return true;
     }

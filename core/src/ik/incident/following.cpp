@@ -11,12 +11,12 @@
 
 namespace tendril::ik {
 
-// A step is only a jump if the next one is short again, or leads back, so it is judged with that one.
+// A step is a jump only if the next one is short again or leads back, so each is judged a frame later.
 bool IncidentFinder::detect_jump(Steps& steps, glm::vec3 was, glm::vec3 is, IncidentKind kind,
                                  const char* cause) {
-    const float least = std::max(jump_share * reach_, rounding_steps * options_.resolution);
-    const auto far = [&](float length, float beside) {
-        return length > least && length > jump_factor * beside;
+    const float min_step = std::max(jump_share * reach_, rounding_steps * options_.resolution);
+    const auto far = [&](float length, float reference) {
+        return length > min_step && length > jump_factor * reference;
     };
     const bool root = steps.kind == IncidentKind::Misplaced;
     const float step = math::distance(was, is), back = root ? step : math::distance(steps.from, is);
@@ -68,7 +68,7 @@ bool IncidentFinder::find_jumps(const ReachPose& pose) {
                             : "the target is somewhere else from one frame to the next");
 }
 
-// The middle one of five frames, or the middle two of six, against the path of those around them.
+// Compares the middle one of five frames, or the middle two of six, with the path of the others.
 void IncidentFinder::find_misplaced(const ReachPose& pose, bool aimed) {
     samples_.push_back({pose.root(), pose.joints[end_], aimed ? pose.target : std::nullopt});
     if (samples_.size() > 6) samples_.erase(samples_.begin());
@@ -78,23 +78,23 @@ void IncidentFinder::find_misplaced(const ReachPose& pose, bool aimed) {
     const bool all_aimed =
         std::ranges::all_of(samples_, [](const MotionSample& m) { return m.target.has_value(); });
     const float rounding = rounding_steps * options_.resolution;
-    const auto off = [](glm::vec3 before, glm::vec3 p, glm::vec3 after) {
+    const auto deviation = [](glm::vec3 before, glm::vec3 p, glm::vec3 after) {
         return math::length(p - 0.5f * (before + after));
     };
-    const float asked = all_aimed ? off(*at(3).target, *at(2).target, *at(1).target) : 0.0f;
+    const float target_offset = all_aimed ? deviation(*at(3).target, *at(2).target, *at(1).target) : 0.0f;
     ChainIncident found{
         .kind = IncidentKind::Misplaced, .frame = frames_ - 2, .last_frame = frames_ - 2, .joint = end_};
     for (const auto point : {&MotionSample::tip, &MotionSample::root}) {
         const auto p = [&](std::size_t ago) { return at(ago).*point; };
-        const float aside = off(p(3), p(2), p(1));
+        const float offset = deviation(p(3), p(2), p(1));
         const float steps = std::max(
             {math::distance(p(4), p(3)), math::distance(p(1), p(0)), 0.5f * math::distance(p(3), p(1))});
-        if (!(aside > std::max(spike_share * reach_, rounding) &&
-              aside > spike_steps * std::max(steps, asked)))
+        if (!(offset > std::max(spike_share * reach_, rounding) &&
+              offset > spike_step_ratio * std::max(steps, target_offset)))
             continue;
-        found.amount = static_cast<double>(aside);
+        found.amount = static_cast<double>(offset);
         found.cause = point == &MotionSample::root ? "the root is aside for one frame"
-                      : 2.0f * off(at(3).root, at(2).root, at(1).root) > aside
+                      : 2.0f * deviation(at(3).root, at(2).root, at(1).root) > offset
                           ? "the whole chain is aside for one frame"
                           : "the tip is aside for one frame";
         return note(found);
@@ -105,14 +105,14 @@ void IncidentFinder::find_misplaced(const ReachPose& pose, bool aimed) {
         const std::array<std::size_t, 6> order{5, 4, swapped ? 2u : 3u, swapped ? 3u : 2u, 1, 0};
         float sum = 0.0f;
         for (std::size_t i = 1; i < 5; ++i)
-            sum += off(point(at(order[i - 1])), point(at(order[i])), point(at(order[i + 1])));
+            sum += deviation(point(at(order[i - 1])), point(at(order[i])), point(at(order[i + 1])));
         return sum;
     };
     const auto tip = [](const MotionSample& m) { return m.tip; };
     const auto target = [](const MotionSample& m) { return *m.target; };
-    const float way = math::distance(at(5).tip, at(0).tip);
-    if (!(way > 5.0f * std::max(moving_share * reach_, rounding)) ||
-        bent(false, tip) < std::max(swapped_bends * bent(true, tip), swapped_way * way) ||
+    const float distance = math::distance(at(5).tip, at(0).tip);
+    if (!(distance > 5.0f * std::max(moving_share * reach_, rounding)) ||
+        bent(false, tip) < std::max(swap_bend_ratio * bent(true, tip), swap_distance_ratio * distance) ||
         (all_aimed && bent(false, target) >= bent(true, target)))
         return;
     found.frame = frames_ - 3;
@@ -121,12 +121,12 @@ void IncidentFinder::find_misplaced(const ReachPose& pose, bool aimed) {
     note(found);
 }
 
-// Frames that equal the one before: confirmed once tip and target move on as before.
+// Finds frames that equal the one before. Confirms them once tip and target move on as before.
 void IncidentFinder::find_repeated(const ReachPose& pose) {
     if (recent_.size() < 2) return;
     const ReachPose &before = recent_.back(), &earlier = recent_[recent_.size() - 2];
     if (pose.joints == before.joints) {
-        if (repeat_.frames == 0 && before.joints == earlier.joints) return;  // since the first frame
+        if (repeat_.frames == 0 && before.joints == earlier.joints) return;  // unmoved since the first frame
         if (repeat_.frames++ > 0) return;
         repeat_.step = before.joints[end_] - earlier.joints[end_];
         repeat_.earlier_step = 0.0f;
@@ -157,13 +157,13 @@ void IncidentFinder::add_repeat(const Repeat& hold) {
     cadence_.push_back(hold);
 }
 
-// Too few for a cadence are reported one by one; the last may start the next cadence.
+// Reports repeats singly if they are too few for a cadence; the last may start the next cadence.
 void IncidentFinder::close_cadence() {
     const std::size_t count = cadence_.size();
     const auto faults = std::ranges::count(cadence_, true, &Repeat::fault),
-               rested = std::ranges::count(cadence_, true, &Repeat::rested);
-    const auto most = [&](std::ptrdiff_t some) { return 2 * static_cast<std::size_t>(some) > count; };
-    if (count < min_cadence || (!most(rested) && !most(faults))) {
+               rests = std::ranges::count(cadence_, true, &Repeat::rested);
+    const auto is_majority = [&](std::ptrdiff_t some) { return 2 * static_cast<std::size_t>(some) > count; };
+    if (count < min_cadence || (!is_majority(rests) && !is_majority(faults))) {
         const Repeat latest = count > 0 ? cadence_.back() : Repeat{};
         for (std::size_t i = 0; i + 1 < count; ++i)
             if (cadence_[i].fault) note(cadence_[i].incident);
@@ -176,16 +176,16 @@ void IncidentFinder::close_cadence() {
     for (const Repeat& each : cadence_) held += each.incident.amount;
     const double span = static_cast<double>(latest.frame - all.frame),
                  new_frames = span - (held - latest.amount);
-    const auto beats = static_cast<double>(count - 1);
+    const auto steps = static_cast<double>(count - 1);
     cadence_.clear();
-    if (most(rested)) return;
+    if (is_majority(rests)) return;
     all.last_frame = latest.last_frame;
     all.amount = held;
     all.hertz = static_cast<double>(options_.fps) * new_frames / span;
     all.cause =
-        new_frames != beats   ? "the chain is updated at another rate than the log"
-        : span == 2.0 * beats ? "every second frame is new: the chain is updated at half the log's rate"
-        : span == 3.0 * beats ? "every third frame is new: the chain is updated at a third of the log's rate"
+        new_frames != steps   ? "the chain is updated at another rate than the log"
+        : span == 2.0 * steps ? "every second frame is new: the chain is updated at half the log's rate"
+        : span == 3.0 * steps ? "every third frame is new: the chain is updated at a third of the log's rate"
                               : "the chain is updated at a lower rate than the log";
     note(all);
 }
@@ -196,17 +196,17 @@ bool IncidentFinder::both_moved(const ReachPose& a, const ReachPose& b) const no
            math::distance(*a.target, *b.target) > moving;
 }
 
-// One repeated frame is a fault. Several may be a rest: the chain then slows down before, or restarts in
-// another direction or at another speed; but not if its target moved on.
+// One repeated frame is a fault. Several may be a rest, before which the chain slows down, or after which it
+// moves in another direction or at another speed; but not if its target moved on.
 bool IncidentFinder::resumes(const ReachPose& pose) const {
     const ReachPose& before = recent_.back();
     if (repeat_.frames == 1 || math::distance(repeat_.target, *latest_.target) > moving_share * reach_)
         return true;
     const glm::vec3 step = pose.joints[end_] - before.joints[end_];
     const float was = math::length(repeat_.step), is = math::length(step);
-    const float longest = resumed_faster * static_cast<float>(repeat_.frames + 1) * was;
-    return was > resumed_share * repeat_.earlier_step && is > resumed_share * was && is < longest &&
-           math::dot(repeat_.step, step) > resumed_cosine * was * is;
+    const float longest = max_resumed_step * static_cast<float>(repeat_.frames + 1) * was;
+    return was > min_resumed_step * repeat_.earlier_step && is > min_resumed_step * was && is < longest &&
+           math::dot(repeat_.step, step) > min_resumed_cosine * was * is;
 }
 
 void IncidentFinder::find_missed(const ReachPose& pose) {
@@ -216,14 +216,14 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
     const glm::vec3 tip = pose.joints[end_] - pose.root();
     float error = math::distance(tip, *pose.target - pose.root());
     if (error <= allowed) root_jumped_ = false;
-    // Late targets are met as they were seen from the root then, or in space by a root that moved on.
+    // Late targets: relative to the root of that frame, or in space with the root of this one.
     for (std::size_t i = targets_.size() - std::min(targets_.size(), max_lag); i < targets_.size(); ++i)
         for (const glm::vec3 target : {targets_[i], within_reach(targets_[i] + roots_[i] - pose.root())})
             error = std::min(error, math::distance(tip, target));
-    // A bone of another length moves the tip as well; that is reported.
+    // A bone of another length moves the tip too, and is reported already.
     const bool whole_bones = std::ranges::none_of(length_, &Episode::open);
     const bool reachable = distance < reach_ - allowed && distance > inner + allowed && whole_bones;
-    const bool approaching = missed_frames_ > 0 && error < approach * missed_before_;
+    const bool approaching = missed_frames_ > 0 && error < approach_ratio * missed_before_;
     if (!reachable || error <= allowed || approaching) {
         update_episode(missed_, false, {});
         missed_frames_ = reachable && error > allowed ? 1 : 0;
@@ -232,8 +232,8 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
     }
     missed_before_ = error;
     const bool whole = missed_frames_ == frames_ + 1;  // from the first frame on
-    if (missed_frames_ < missed_run && !whole) return;
-    if (root_jumped_) return;  // that is reported
+    if (missed_frames_ < min_missed_frames && !whole) return;
+    if (root_jumped_) return;  // already reported
     ChainIncident now{.kind = IncidentKind::Missed,
                       .frame = frames_ + 1 - missed_frames_,
                       .last_frame = frames_,
@@ -245,19 +245,19 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
     update_episode(missed_, true, now);
 }
 
-// Replaces a target out of reach by the nearest point in reach on its line.
+// Adds a frame to the paths of tip and target. A target out of reach becomes the nearest point in reach.
 void IncidentFinder::follow(const ReachPose& pose) {
     const glm::vec3 target = *pose.target - pose.root();
     const float moving = std::max(moving_share * reach_, options_.resolution);
     const auto moved = [&](glm::vec3 a, glm::vec3 b) { return math::distance(a, b) > moving; };
     if (!first_move_ && !targets_.empty() && moved(target, targets_.back())) first_move_ = frames_;
-    // After a jump of the tip alone, following is measured anew.
+    // If only the tip jumped, the paths start anew.
     const glm::vec3 tip_now = pose.joints[end_] - pose.root();
     if (!followers_.empty()) {
         float longest = math::distance(target, targets_.back());
         for (std::size_t i = 1; i < targets_.size(); ++i)
             longest = std::max(longest, math::distance(targets_[i - 1], targets_[i]));
-        if (math::distance(tip_now, followers_.back()) > spike_steps * longest + spike_share * reach_) {
+        if (math::distance(tip_now, followers_.back()) > spike_step_ratio * longest + spike_share * reach_) {
             targets_.clear();
             roots_.clear();
             followers_.clear();
@@ -312,7 +312,7 @@ void IncidentFinder::find_jitter(const ReachPose& pose) {
     }
     if (jitter_judged_) return;
     tips_.push_back(pose.joints[end_] - pose.root());
-    if (tips_.size() == fast_jitter || tips_.size() == still_window) judge_jitter();
+    if (tips_.size() == fast_jitter_frames || tips_.size() == still_window) judge_jitter();
 }
 
 // Jitter: an undamped oscillation about the mean, along the axis of largest variance.
@@ -343,9 +343,9 @@ void IncidentFinder::judge_jitter() {
         if (off != 0.0) before = off;
     }
     const double amplitude = 0.5 * (high - low);
-    const double least = std::max(static_cast<double>(jitter_share * reach_),
-                                  static_cast<double>(rounding_steps * options_.resolution));
-    if (crossings < jitter_crossings || amplitude < least || late < 0.5 * early) return;
+    const double min_amplitude = std::max(static_cast<double>(jitter_share * reach_),
+                                          static_cast<double>(rounding_steps * options_.resolution));
+    if (crossings < min_jitter_crossings || amplitude < min_amplitude || late < 0.5 * early) return;
     jitter_judged_ = true;
     note({.kind = IncidentKind::Jitter,
           .frame = still_since_,
@@ -388,28 +388,28 @@ std::array<double, IncidentFinder::max_lag + 1> IncidentFinder::Following::left(
     return squares;
 }
 
-// The frames ago at which the target's path fits the tip's best, up to an offset and a scale: a tip that
+// The lag, in frames, at which the target's path fits the tip's best up to an offset and a scale: a tip that
 // misses its target may still lag. A changing miss spoils the fit of positions more than of steps; noise
 // spoils the fit of short steps.
 std::size_t IncidentFinder::find_lag() const {
     const double least_rms = std::max(lag_share * static_cast<double>(reach_),
                                       static_cast<double>(rounding_steps * options_.resolution));
     std::size_t best = 0;
-    double best_ratio = lag_better;
+    double best_ratio = max_lag_ratio;
     std::array<std::array<double, max_lag + 1>, spans.size()> left{};
     std::ranges::transform(paths_, left.begin(), &Following::left);
     for (std::size_t i = 0; i < spans.size(); ++i) {
         const auto frames = static_cast<double>(paths_[i].frames);
         const double least = std::ranges::min(left[i]), same = frames * std::pow(0.1 * least_rms, 2.0);
-        // The first of those that fit alike: a target that circles is there again later.
+        // The first of equal fits: a circling target comes back later.
         const auto lag = static_cast<std::size_t>(
             std::ranges::find_if(left[i], [&](double each) { return each <= least + same; }) -
             left[i].begin());
         const double gained = std::sqrt((left[i][0] - left[i][lag]) / frames);
-        const bool fits =
-            frames >= lag_frames && lag > 0 && left[i][lag] < best_ratio * left[i][0] && gained > least_rms;
-        if (!fits ||
-            std::ranges::any_of(left, [&](const auto& other) { return other[lag] > lag_agrees * other[0]; }))
+        const bool fits = frames >= min_lag_frames && lag > 0 && left[i][lag] < best_ratio * left[i][0] &&
+                          gained > least_rms;
+        if (!fits || std::ranges::any_of(
+                         left, [&](const auto& other) { return other[lag] > max_other_ratio * other[0]; }))
             continue;
         best = lag;
         best_ratio = left[i][lag] / left[i][0];
@@ -420,7 +420,7 @@ std::size_t IncidentFinder::find_lag() const {
 void IncidentFinder::finish_following() {
     update_episode(missed_, false, {});
     judge_jitter();
-    // RepeatRun to the end, while the target goes on within reach.
+    // Frames repeated to the end, while the target goes on within reach.
     const bool limited = std::ranges::any_of(limit_, &Episode::open);
     const double usual = cadence_.size() >= min_cadence ? cadence_.back().incident.amount + 1.0 : 1.0;
     if (static_cast<double>(repeat_.frames) > usual && repeat_.moved && !limited && !recent_.empty()) {
@@ -439,10 +439,10 @@ void IncidentFinder::finish_following() {
         }
     }
     const std::size_t best = find_lag();
-    // A lower update rate lags by less than its period.
-    const bool beats =
+    // A lower update rate explains a lag shorter than its period.
+    const bool explained =
         cadence_.size() >= min_cadence && cadence_[0].incident.frame + best < cadence_[1].incident.frame;
-    if (best == 0 || beats) return;
+    if (best == 0 || explained) return;
     // Where the target was before the first frame is unknown.
     std::erase_if(found_, [&](const ChainIncident& each) {
         return each.kind == IncidentKind::Missed && each.frame == 0 &&

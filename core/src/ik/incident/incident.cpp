@@ -24,15 +24,15 @@ glm::vec3 transported(glm::vec3 v, glm::vec3 from, glm::vec3 to) noexcept {
     return v + math::cross(axis, v) + math::cross(axis, math::cross(axis, v)) / (1.0f + cosine);
 }
 
-/// All bones that change by one factor over the same frames are one incident. `found`: sorted by frame.
+/// Merges bones that change by one factor over the same frames into one incident. `found`: sorted by frame.
 void merge_scaled(std::vector<ChainIncident>& found, const std::vector<float>& lengths) {
-    constexpr double equal = 0.02;  // of the factor
+    constexpr double equal = 0.02;  // relative to the factor
     for (std::size_t i = 0; i < found.size(); ++i) {
         const ChainIncident first = found[i];
         const auto share = [&](const ChainIncident& each) {
             return 1.0 + each.amount / static_cast<double>(lengths[each.joint - 1]);
         };
-        const auto alike = [&](const ChainIncident& each) {
+        const auto matches = [&](const ChainIncident& each) {
             return each.kind == IncidentKind::Length && each.joint != no_joint && each.frame == first.frame &&
                    each.last_frame == first.last_frame &&
                    std::abs(share(each) - share(first)) <= equal * std::max(share(first), equal);
@@ -41,10 +41,10 @@ void merge_scaled(std::vector<ChainIncident>& found, const std::vector<float>& l
         std::size_t bones = 0;
         double amount = 0.0;
         for (std::size_t j = i; j < found.size() && found[j].frame == first.frame; ++j)
-            if (alike(found[j])) ++bones, amount += found[j].amount;
+            if (matches(found[j])) ++bones, amount += found[j].amount;
         if (bones != lengths.size()) continue;
         const bool point = share(first) < equal * equal;
-        std::erase_if(found, [&](const ChainIncident& each) { return &each > &found[i] && alike(each); });
+        std::erase_if(found, [&](const ChainIncident& each) { return &each > &found[i] && matches(each); });
         found[i].joint = no_joint;
         found[i].amount = amount;
         found[i].cause = point ? "all joints are at one point: a frame that was never written"
@@ -173,11 +173,11 @@ const char* IncidentFinder::nan_cause(const TraceFrame& frame) const noexcept {
     for (std::size_t i = 1; i < was.joints.size(); ++i)
         if (was.joints[i] == was.joints[i - 1]) return "a bone has no length, and so no direction";
     if (!frame.target) return text(FlipCause::Unexplained);
-    const glm::vec3 way = *frame.target - (finite(frame.joints.front()) ? frame.joints.front() : was.root());
-    const float distance = math::length(way);
+    const glm::vec3 line = *frame.target - (finite(frame.joints.front()) ? frame.joints.front() : was.root());
+    const float distance = math::length(line);
     if (distance <= 1e-4f * reach_) return "the target is on the root, where it has no direction";
     if (frame.pole) {
-        const float angle = angle_between(way, *frame.pole - (*frame.target - way));
+        const float angle = angle_between(line, *frame.pole - (*frame.target - line));
         if (in_degrees(std::min(angle, static_cast<float>(math::pi) - angle)) < 0.5f)
             return "the pole target is on the target's line, where the bend has no direction";
     }
@@ -205,7 +205,7 @@ void IncidentFinder::find_lengths(const ReachPose& pose, bool aimed) {
         const float allowed = std::max(length_share * lengths_[i], rounded_lengths * options_.resolution);
         const bool beyond = aimed && off > 0.0f && math::distance(*pose.target, pose.root()) > reach_;
         const bool active = std::abs(off) > allowed;
-        // Both bones of a joint change at once: it moved alone if the outer ends stayed as far apart.
+        // Both bones at a joint change at once. If their outer ends stay as far apart, only that joint moved.
         const bool opens = active && !length_[i].open;
         if (opens && opened && !recent_.empty() && found_.size() < max_incidents) {
             const std::vector<glm::vec3>& was = recent_.back().joints;
@@ -268,8 +268,8 @@ void IncidentFinder::find_flips(const ReachPose& pose, bool jumped, bool aimed) 
     const auto cause = [&](const ReachPose& was) {
         return jumped ? FlipCause::TargetJump : cause_of_flip(was, pose, aimed);
     };
-    // A bone that turns far and moves much further than its target flips, whatever the target's angle, which
-    // is arbitrary close to the root. A damped solver takes some frames for it.
+    // A bone flips if it turns far and moves much further than its target. The target's angle is ignored,
+    // since close to the root it is arbitrary. A damped solver takes several frames to flip.
     const auto find_swing = [&](const ReachPose& was, float degrees) -> std::optional<BoneTurn> {
         const BoneTurn turn = furthest_turn(was, pose);
         const bool far = in_degrees(turn.radians) > degrees;
@@ -297,7 +297,7 @@ FlipCause IncidentFinder::cause_of_flip(const ReachPose& before, const ReachPose
     return axis ? FlipCause::PassedAxis : cause;
 }
 
-/// A rotation turns the bone from where it pointed to where it points, and rolls it about itself by the rest.
+/// Finds rolls: the part of a bone's rotation about itself, beyond the swing to its new direction.
 void IncidentFinder::find_rolls(const ReachPose& pose, std::span<const glm::quat> rotations) {
     const std::vector<glm::quat> before = std::exchange(rotations_, {rotations.begin(), rotations.end()});
     const bool flips = flipped_ && flipped_at_ == frames_;
@@ -308,13 +308,13 @@ void IncidentFinder::find_rolls(const ReachPose& pose, std::span<const glm::quat
         const glm::vec3 from = was[i + 1] - was[i], to = pose.joints[i + 1] - pose.joints[i];
         const auto pointed = math::direction_of(from, 0.0f), bone = math::direction_of(to, 0.0f);
         if (!pointed || !bone) continue;
-        // Swing-twist: the part about the bone, after the swing that takes it there.
+        // Swing-twist decomposition: the swing to the new direction first, then the roll about the bone.
         const glm::quat turn = math::compose(rotations[i], math::conjugate(before[i]));
         const glm::quat swing = math::minimal_rotation(*pointed, *bone);
         const glm::quat roll = math::compose(turn, math::conjugate(swing));
         const float radians = 2.0f * std::atan2(std::abs(math::dot(glm::vec3(roll.x, roll.y, roll.z), *bone)),
                                                 std::abs(roll.w));
-        if (radians > furthest.radians) furthest = {i, radians};  // not if it is not finite
+        if (radians > furthest.radians) furthest = {i, radians};  // false for NaN
     }
     const float degrees = in_degrees(furthest.radians);
     if (!(degrees > std::max(options_.flip_degrees, roll_degrees)) ||
@@ -375,20 +375,20 @@ void IncidentFinder::finish() {
     if (!cadence_.empty() && cadence_.back().fault) note(cadence_.back().incident);
     std::ranges::stable_sort(found_, {}, &ChainIncident::frame);
     merge_scaled(found_, lengths_);
-    // A joint out of its place changes both its bones over the same frames: one incident, the larger.
-    std::size_t kept = 0;
-    bool merged = true;  // the last one is
+    // A joint out of place changes both its bones over the same frames: one incident, the larger.
+    std::size_t count = 0;
+    bool merged = true;  // whether the last one was
     for (const ChainIncident& each : found_) {
-        ChainIncident* const before = kept > 0 ? &found_[kept - 1] : nullptr;
+        ChainIncident* const before = count > 0 ? &found_[count - 1] : nullptr;
         merged = !merged && before->kind == IncidentKind::Length && each.kind == IncidentKind::Length &&
                  before->frame == each.frame && before->last_frame == each.last_frame &&
                  before->joint + 1 == each.joint && displaced_.contains({each.frame, before->joint});
         if (!merged)
-            found_[kept++] = each;
+            found_[count++] = each;
         else if (std::abs(each.amount) > std::abs(before->amount))
             *before = each;
     }
-    found_.resize(kept);
+    found_.resize(count);
 }
 
 }  // namespace tendril::ik

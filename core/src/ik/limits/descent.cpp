@@ -38,7 +38,7 @@ void LimitedDescent::reach(Problem& problem, Watch watch) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
     limited_reaching(problem, watch);
     const float reached = error_of(problem, scratch.trial);
-    reaches_ = reached < reaching_pays * error_;
+    reaches_ = reached < max_reach_ratio * error_;
     if (reached < error_ && may_take(problem)) {
         scratch.swap_pose(scratch.trial);
         error_ = reached;

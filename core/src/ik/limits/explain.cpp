@@ -50,7 +50,7 @@ class Explanation {
     LimitedJoint limit_of(std::size_t joint) const noexcept {
         return limited_joint(options_.limits[joint], scratch_.rest_directions[joint]);
     }
-    /// Errors up to this have arrived.
+    /// Maximum error of a tip that has arrived.
     float tolerance() const noexcept { return fine * scratch_.reach; }
 
     Workspace& scratch_;
@@ -126,7 +126,7 @@ float Explanation::stopped(std::size_t joint) const noexcept {
     return size * excess_of(limit, angles_of(limit, turned)) / small_turn;
 }
 
-/// Among equal joints, the one nearer to the root comes first.
+/// Lists the joints whose limits stop most; among equals, the one nearer to the root comes first.
 void Explanation::find_candidates() noexcept {
     for (std::size_t joint = 0; joint < options_.limits.size(); ++joint) {
         const Candidate next{joint, stopped(joint)};
@@ -160,8 +160,8 @@ JointAngles Explanation::needed_angles(const Outcome& freed) noexcept {
     for (int i = 0; i < halvings; ++i) {
         const float part = 0.5f * (low + high);
         const Outcome some = with(freed.joint, widened(options_.limits[freed.joint], freed.angles, part));
-        // A different start may arrive within the joint's own limit: that says nothing about the range it
-        // needs.
+        // From another start the tip may arrive within the joint's own limit, which says nothing about the
+        // range needed.
         const bool enough =
             some.over > 2.0f * at_bound && some.error <= std::max(freed.error, 2.0f * tolerance());
         (enough ? high : low) = part;

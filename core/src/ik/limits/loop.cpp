@@ -86,7 +86,7 @@ enum class End { Stalled, StalledInDescent, StalledAtOnce, Unfinished };
 Status status_of(Problem& problem, const Reachable& can, End end) noexcept {
     if (arrived(problem, can)) return can.status;
     if (end == End::Unfinished) return Status::IterationLimit;
-    // As near as floats can resolve. Out of reach: about as near as a chain that is still straightening.
+    // As near as floats can resolve or, out of reach, about as near as a chain that still straightens.
     const float reach = problem.scratch.reach;
     const float converged = std::max(
         problem.tolerance, can.status == Status::Converged ? 1e-5f * reach : can.residual + 1e-3f * reach);
@@ -111,7 +111,7 @@ void save_if_nearer(Problem& problem, Attempt& attempt) noexcept {
     problem.scratch.limited.best = problem.scratch.limited.pose;
 }
 
-/// Detects whether the last solve by this method continues: unchanged chain, target nearby.
+/// Detects whether this continues the last solve: the same method and chain, and a target nearby.
 void detect_drag(Method method, const Problem& problem, bool unchanged, Attempt& attempt) noexcept {
     const LimitMemory& memory = problem.state.limits;
     if (method != Method::Fabrik || !memory.valid || !unchanged || problem.options.restarts) return;
@@ -161,8 +161,7 @@ bool bend_if_singular(Problem& problem, Watch watch) noexcept {
 template <class Watch>
 bool next_start(Problem& problem, Attempt& attempt, Watch watch) noexcept {
     save_if_nearer(problem, attempt);
-    // A chain that its limits keep stretched towards a dragged target was already bent in vain in an earlier
-    // solve.
+    // A chain whose limits keep it stretched towards a dragged target was bent in vain by an earlier solve.
     const bool fixed = attempt.dragged && problem.state.limits.limited;
     if (!fixed && bend_if_singular(problem, watch)) return true;
     const int maximum = problem.options.restarts.value_or(attempt.dragged ? 0 : default_restarts);

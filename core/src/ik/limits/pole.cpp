@@ -32,7 +32,7 @@ bool try_swivel(Problem& problem, const glm::vec3& line, float angle) noexcept {
     return excess_of(scratch.limits[0], angles_of(scratch.limits[0], scratch.trial.local[0])) <= at_bound;
 }
 
-void swivel_as_far_as_allowed(Problem& problem, const glm::vec3& line, float angle) noexcept {
+void swivel_within_limits(Problem& problem, const glm::vec3& line, float angle) noexcept {
     if (try_swivel(problem, line, angle)) return;
     float minimum = 0.0f, maximum = 1.0f;
     for (int i = 0; i < 10; ++i) {
@@ -96,7 +96,7 @@ void face_pole_within_limits(Problem& problem, Watch watch) noexcept {
     const float angle = size > 0.0f ? angle_between(problem, scratch.pose, line) : 0.0f;
     commit(problem);
     if (std::abs(angle) <= at_bound) return;
-    swivel_as_far_as_allowed(problem, line, angle);
+    swivel_within_limits(problem, line, angle);
     forward_kinematics(problem, scratch.trial);
     if (accept_turned(problem, watch)) remember_pose(problem);
 }

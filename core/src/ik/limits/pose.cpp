@@ -56,7 +56,7 @@ static void set_mobilities(LimitedScratch& scratch, std::span<const Limit> limit
 
 bool load_limits(Workspace& scratch, std::span<const Limit> limits, bool planar) noexcept {
     bool changed = false;
-    if (planar != scratch.limited.planar) scratch.limited.made = false;  // for other rest directions
+    if (planar != scratch.limited.planar) scratch.limited.made = false;  // made for other rest directions
     scratch.limited.planar = planar;
     for (std::size_t i = 0; i < limits.size(); ++i) {
         if (scratch.limited.made && limits[i] == scratch.limited.source[i]) continue;

@@ -24,7 +24,7 @@ bool all_free(const Problem& problem) noexcept {
 float descend_to_stall(Problem& problem, float converged) noexcept {
     LimitedDescent descent(problem, std::numeric_limits<float>::infinity());
     descent.continue_from(tune::limits::first_damping, false);
-    for (int step = 0; step < blame_steps && !descent.stalled() && descent.error() > converged; ++step) {
+    for (int step = 0; step < limit_test_steps && !descent.stalled() && descent.error() > converged; ++step) {
         descent.iterate(problem, Unwatched());
     }
     return descent.error();
@@ -62,9 +62,9 @@ bool is_stopped_by_limits(Problem& problem, PoseUsed pose_used) noexcept {
         allowed += dot(rotation, rotation);
     }
     const float requested = dot(wanted.move, wanted.move) + dot(wanted.rotation, wanted.rotation);
-    // On a line with its target, every chain of ball joints would have bent.
+    // A chain of ball joints on a line with its target would have been bent already.
     if (free <= singular * singular * requested) return !all_free(problem);
-    return free - allowed >= blamed_part * free;
+    return free - allowed >= min_limit_share * free;
 }
 
 bool limits_stop_tip(Problem& problem, float converged) noexcept {

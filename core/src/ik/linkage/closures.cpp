@@ -40,11 +40,11 @@ void LinkageSolve::add_rows(const LinkageWork::Block& block, std::size_t equatio
                             std::size_t origin) noexcept {
     double scale = 0.0;
     for (std::size_t r = 0; r < block.count; ++r) scale = std::max(scale, norm_of(work_.row(r)));
-    std::array<double, 6> left{};
+    std::array<double, 6> margins{};
     for (std::size_t r = 0; r < block.count; ++r)
-        left[r] = add_row(work_.row(r), block.errors[r], scale, 6 * origin + r);
-    std::sort(left.begin(), left.end(), std::greater<>());
-    rank_margin_ = std::min(rank_margin_, left[equations - 1]);
+        margins[r] = add_row(work_.row(r), block.errors[r], scale, 6 * origin + r);
+    std::sort(margins.begin(), margins.end(), std::greater<>());
+    rank_margin_ = std::min(rank_margin_, margins[equations - 1]);
 }
 
 void LinkageSolve::find_correction() noexcept {
@@ -52,7 +52,7 @@ void LinkageSolve::find_correction() noexcept {
     rank_margin_ = 1.0;
     for (std::size_t i = 0; i < work_.joints.size(); ++i) {
         if (!work_.blocked[i]) continue;
-        // A ball at its maximum turns no further outward: its columns stay free, but for this direction.
+        // A ball at its maximum may not turn further outward: this row removes that direction only.
         const std::span<double> row = work_.row(0);
         std::ranges::fill(row, 0.0);
         const glm::dvec3 outward = work_.outward_of(i);
@@ -68,9 +68,9 @@ void LinkageSolve::find_correction() noexcept {
     if (!keeps_exact_) return;
     for (std::size_t i = 0; i < goals_.targets.size(); ++i) {
         if (!goals_.targets[i].exact) continue;
-        LinkTarget kept = goals_.targets[i];
-        kept.to = work_.exact_positions[i];
-        add_rows(work_.target_block(kept), work_.planar ? 2 : 3, work_.linkage.closures.size() + i);
+        LinkTarget target = goals_.targets[i];
+        target.to = work_.exact_positions[i];
+        add_rows(work_.target_block(target), work_.planar ? 2 : 3, work_.linkage.closures.size() + i);
     }
 }
 
@@ -102,12 +102,12 @@ bool LinkageSolve::update_active_set() noexcept {
 }
 
 bool LinkageSolve::project_to_closures(double allowed) noexcept {
-    constexpr int enough = 12;
+    constexpr int max_steps = 12;
     work_.release();
     std::ranges::fill(work_.moved, 0.0);
     for (int i = 0;; ++i) {
         if (closed()) return true;
-        if (i == enough || work_.columns == 0) return false;
+        if (i == max_steps || work_.columns == 0) return false;
         ++iterations_;
         std::ranges::fill(work_.step, 0.0);
         do {
@@ -115,7 +115,7 @@ bool LinkageSolve::project_to_closures(double allowed) noexcept {
             find_correction();
         } while (update_active_set());
         for (std::size_t k = 0; k < work_.columns; ++k) work_.moved[k] += work_.step[k];
-        // NaN is not within either.
+        // Rejects NaN too.
         if (!(norm_of(work_.moved) <= allowed)) return false;
         work_.take_step(std::min(1.0, max_turn_step / work_.max_turn()));
         work_.move_links();
@@ -128,11 +128,11 @@ void LinkageSolve::assemble() noexcept {
     if (project_to_closures(1e9)) return;
     restore(work_.nearest);
     if (close_from_here()) return;
-    // Unchanged since the last solve, or out of iterations: the next solve continues.
+    // The pose is unchanged since the last solve, or iterations ran out: the next solve continues.
     if (!descended_ || out_of_iterations_) return;
     work_.nearest = work_.joints;
-    double least = cost();
-    bool cut_short = false;  // the descent to the nearest pose
+    double least_cost = cost();
+    bool cut_short = false;  // whether the nearest pose's descent ran out of iterations
     std::uint64_t random = 1;
     for (int i = 0; i < restarts && !out_of_iterations_; ++i) {
         work_.randomize_step(random, math::pi);
@@ -142,8 +142,8 @@ void LinkageSolve::assemble() noexcept {
             out_of_iterations_ = false;
             return;
         }
-        if (cost() >= 0.999 * least) continue;
-        least = cost();
+        if (cost() >= 0.999 * least_cost) continue;
+        least_cost = cost();
         work_.nearest = work_.joints;
         cut_short = out_of_iterations_;
     }
@@ -156,10 +156,10 @@ bool LinkageSolve::close_from_here() noexcept {
     descend(Aim::Closures);
     closes_ = true;
     if (closed()) return true;
-    work_.kept = work_.joints;
+    work_.before_step = work_.joints;
     // Newton's steps only help if a closed pose is near.
     if (cost() < 1e-4 * work_.size * work_.size && project_to_closures(0.1)) return true;
-    restore(work_.kept);
+    restore(work_.before_step);
     return false;
 }
 

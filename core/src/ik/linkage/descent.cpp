@@ -8,7 +8,7 @@
 namespace tendril::ik::detail {
 namespace {
 
-constexpr double shortest_step = 1e-10;  ///< of a descent: it has ended
+constexpr double shortest_step = 1e-10;  ///< radians or sizes; below it a descent has ended
 constexpr double retry_damping = 1e-3;   ///< minimum damping after a rejected step
 
 double largest_of(std::span<const double> step) noexcept {
@@ -27,7 +27,7 @@ double LinkageSolve::target_weight(const LinkTarget& target) const noexcept {
 void LinkageSolve::add_equation(std::span<double> row, double error, double weight) noexcept {
     for (std::size_t i = 0; i < row.size(); ++i) {
         if (work_.held[i]) row[i] = 0.0;
-        work_.pull[i] += weight * row[i] * error;
+        work_.force[i] += weight * row[i] * error;
     }
     const double before = norm_of(row);
     work_.basis.remove_from(row);
@@ -42,7 +42,7 @@ void LinkageSolve::add_equation(std::span<double> row, double error, double weig
 }
 
 void LinkageSolve::find_equations() noexcept {
-    for (std::vector<double>* const each : {&work_.square, &work_.gradient, &work_.pull, &work_.curvature})
+    for (std::vector<double>* const each : {&work_.square, &work_.gradient, &work_.force, &work_.curvature})
         std::ranges::fill(*each, 0.0);
     if (aim_ == Aim::Closures) {
         for (std::size_t i = 0; i < work_.linkage.closures.size(); ++i) {
@@ -71,7 +71,7 @@ void LinkageSolve::find_equations() noexcept {
 
 /// Adds the constraints' second derivatives, times their multipliers; projects onto the freedoms left.
 void LinkageSolve::find_curvature() noexcept {
-    work_.basis.multipliers(work_.pull, work_.multiplier);
+    work_.basis.multipliers(work_.force, work_.multiplier);
     for (std::size_t k = 0; k < work_.basis.rank();) {
         // The rows of one block follow each other.
         const std::size_t block = work_.row_origin[k] / 6;
@@ -156,7 +156,7 @@ bool LinkageSolve::solve_equations(double damping, bool curved) noexcept {
 }
 
 /// Metres by which a step along the gradient would move the targets' points.
-double LinkageSolve::pull_along_gradient() const noexcept {
+double LinkageSolve::move_along_gradient() const noexcept {
     const std::size_t count = work_.columns;
     double slope = 0.0, square = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -168,22 +168,22 @@ double LinkageSolve::pull_along_gradient() const noexcept {
     return square > 0.0 ? slope / std::sqrt(square) : 0.0;
 }
 
-/// Newton's step, or a Gauss-Newton step where Newton's leads to no minimum.
+/// Finds Newton's step, or a Gauss-Newton step where Newton's leads to no minimum.
 void LinkageSolve::find_descent(double damping) noexcept {
     find_equations();
-    convex_ = !plain_ && solve_equations(damping, true);
+    convex_ = !gauss_newton_ && solve_equations(damping, true);
     if (!convex_) static_cast<void>(solve_equations(damping, false));
     const std::size_t count = work_.columns;
     predicted_gain_ = 0.0;
     for (std::size_t i = 0; i < count; ++i) predicted_gain_ += work_.gradient[i] * work_.solution[i];
-    if (initial_pull_ < 0.0 && aims_at_targets()) initial_pull_ = pull_along_gradient();
+    if (initial_move_ < 0.0 && aims_at_targets()) initial_move_ = move_along_gradient();
     if (convex_) return;
     double bend = 0.0;
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t k = 0; k < count; ++k)
             bend += work_.step[i] * work_.step[k] *
                     (work_.curvature[i * count + k] + work_.square[i < k ? k * count + i : i * count + k]);
-    curves_down_ = bend < 0.0;
+    negative_curvature_ = bend < 0.0;
 }
 
 bool LinkageSolve::at_bound(std::size_t link, double by) const noexcept {
@@ -192,7 +192,7 @@ bool LinkageSolve::at_bound(std::size_t link, double by) const noexcept {
     return by < 0.0 ? value <= each.minimum + bound_width * unit : value >= each.maximum - bound_width * unit;
 }
 
-/// Takes one damped step and projects to the closures. False, and the pose is restored, if it gains nothing.
+/// Takes one damped step and projects to the closures. If it gains nothing, restores the pose: false.
 bool LinkageSolve::descent_step(double damping) noexcept {
     work_.release();
     std::ranges::fill(work_.step, 0.0);
@@ -216,31 +216,31 @@ bool LinkageSolve::descent_step(double damping) noexcept {
     store_active();
     if (!(largest_of(work_.step) > shortest_step)) return false;
     // Negative curvature: the gradient starts small and grows, so the step is made long.
-    constexpr double leap = 0.1;
-    const double wide = work_.max_turn();
-    const bool leaps = !convex_ && curves_down_ && damping < retry_damping;
-    double part = std::min(leaps ? std::max(1.0, leap / wide) : 1.0, max_turn_step / wide);
+    constexpr double long_step = 0.1;
+    const double turn = work_.max_turn();
+    const bool lengthen = !convex_ && negative_curvature_ && damping < retry_damping;
+    double part = std::min(lengthen ? std::max(1.0, long_step / turn) : 1.0, max_turn_step / turn);
     for (std::size_t i = 0; i < work_.joints.size(); ++i) {
         const Link& link = work_.linkage.links[i];
         const double by = work_.step[work_.column[i]];
         if (link.joint == LinkJoint::Ball || !work_.ranged(i) || by == 0.0) continue;
-        const double left =
+        const double to_bound =
             ((by < 0.0 ? link.minimum : link.maximum) - work_.joints[i].value) / work_.unit_of(i);
-        if (part * std::abs(by) > std::abs(left)) part = std::abs(left / by);
+        if (part * std::abs(by) > std::abs(to_bound)) part = std::abs(to_bound / by);
     }
     const double before = cost(), predicted = part * norm_of(work_.step);
-    work_.kept = work_.joints;
+    work_.before_step = work_.joints;
     work_.take_step(part);
     work_.move_links();
     ++iterations_;
-    const bool kept = !closes_ || project_to_closures(0.5 * predicted + 1e-9);
+    const bool projected = !closes_ || project_to_closures(0.5 * predicted + 1e-9);
     // The last step may gain less than rounding.
     const double after = cost();
-    if (kept && (after < before || (at_minimum(before) && after <= before * (1.0 + 1e-13)))) {
-        curved_down_ = curved_down_ || (!convex_ && curves_down_ && aims_at_targets());
+    if (projected && (after < before || (at_minimum(before) && after <= before * (1.0 + 1e-13)))) {
+        was_nonconvex_ = was_nonconvex_ || (!convex_ && negative_curvature_ && aims_at_targets());
         return true;
     }
-    restore(work_.kept);
+    restore(work_.before_step);
     return false;
 }
 
@@ -252,21 +252,21 @@ bool LinkageSolve::perturb() noexcept {
     find_correction();
     work_.randomize_step(random, 0.02);
     work_.basis.remove_from(work_.step);
-    work_.kept = work_.joints;
+    work_.before_step = work_.joints;
     work_.take_step(1.0);
     work_.move_links();
     if (!closes_ || project_to_closures(0.1)) return true;
-    restore(work_.kept);
+    restore(work_.before_step);
     return false;
 }
 
-/// Whether it took a step.
+/// Returns whether it took a step.
 bool LinkageSolve::descend_from_here() noexcept {
-    const double enough = 1e-20 * work_.size * work_.size;
+    const double min_cost = 1e-20 * work_.size * work_.size;
     double damping = 1e-9, before = cost();
     bool moved = false;
-    plain_ = false;
-    for (int slow = 0; before > enough && damping < 1e9 && slow < 3;) {
+    gauss_newton_ = false;
+    for (int slow = 0; before > min_cost && damping < 1e9 && slow < 3;) {
         if (iterations_ >= options_.max_iterations) {
             out_of_iterations_ = true;
             break;
@@ -274,12 +274,12 @@ bool LinkageSolve::descend_from_here() noexcept {
         if (!descent_step(damping)) {
             if (!(largest_of(work_.step) > shortest_step) || at_minimum(before)) break;
             // Near dependent closures Newton's step may fail where a Gauss-Newton step works.
-            plain_ = convex_;
-            if (!plain_) damping = std::max(damping * 16.0, retry_damping);
+            gauss_newton_ = convex_;
+            if (!gauss_newton_) damping = std::max(damping * 16.0, retry_damping);
             continue;
         }
         moved = true;
-        plain_ = false;
+        gauss_newton_ = false;
         if (at_minimum(before)) break;
         damping = std::max(damping * 0.25, 1e-9);
         const double after = cost();
@@ -298,11 +298,11 @@ void LinkageSolve::descend(Aim aim) noexcept {
     descended_ = descend_from_here();
     if (descended_ || convex_ || out_of_iterations_ || start <= 1e-12 * work_.size * work_.size) return;
     // Collinear with the target: no descent direction.
-    work_.best = work_.joints;
+    work_.saved = work_.joints;
     if (perturb()) {
         descended_ = descend_from_here() && cost() < 0.999 * start;
         if (descended_) return;
-        restore(work_.best);
+        restore(work_.saved);
     }
     descent_step(1.0);
 }

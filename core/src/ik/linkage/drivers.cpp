@@ -7,9 +7,9 @@
 namespace tendril::ik::detail {
 namespace {
 
-/// Minimum substep, radians or sizes; below it a driver has stopped. A joint then is off a dead point by the
-/// root of this; the closures' tolerance must be far finer, or the solve could change sides.
-constexpr double finest_substep = 1e-7;
+/// Minimum substep, radians or sizes; a driver that needs a shorter one stops. A joint is then off a dead
+/// point by the square root of this; were closures not far finer, the solve could change sides.
+constexpr double min_substep = 1e-7;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ double LinkageSolve::driver_distance(const LinkDriver& driver) const noexcept {
     return (to - work_.driver_starts[driver.link]) / work_.unit_of(driver.link);
 }
 
-/// Repeats the joints' last move, or its reverse; false if the drivers go another way.
+/// Steps by the joints' last move, or its reverse; false if the drivers go another way.
 bool LinkageSolve::repeat_last_move(double part) noexcept {
     double along = 0.0, square = 0.0, wanted = 0.0;
     for (const LinkDriver& each : goals_.drivers) {
@@ -40,7 +40,7 @@ bool LinkageSolve::repeat_last_move(double part) noexcept {
     return true;
 }
 
-/// The step of a substep, between two parts of the way, along the tangent.
+/// Finds the step along the tangent, from one part of the drivers' way to another.
 void LinkageSolve::find_tangent(double from, double to) noexcept {
     work_.release();
     std::ranges::fill(work_.step, 0.0);
@@ -52,7 +52,7 @@ void LinkageSolve::find_tangent(double from, double to) noexcept {
     } while (update_active_set());
 }
 
-/// One substep along the tangent; where branches may cross there is none, and it repeats the last move.
+/// One substep along the tangent. Where branches may cross there is none: repeats the last move.
 bool LinkageSolve::drive_substep(double from, double to) noexcept {
     constexpr double crossing = 1e-2;
     find_tangent(from, to);
@@ -65,13 +65,13 @@ bool LinkageSolve::drive_substep(double from, double to) noexcept {
     return take_drive_step(to);
 }
 
-/// Takes the step, and returns to the closures with the drivers where they are at `to`.
+/// Takes the step and projects to the closures, with the drivers at their values for `to`.
 bool LinkageSolve::take_drive_step(double to) noexcept {
-    work_.kept = work_.joints;
+    work_.before_step = work_.joints;
     ++iterations_;
     const double predicted = length_of_step_ = norm_of(work_.step);
-    const bool wide = !(work_.max_turn() <= max_turn_step);
-    if (!wide) {
+    const bool too_long = !(work_.max_turn() <= max_turn_step);
+    if (!too_long) {
         work_.take_step(1.0);
         for (const LinkDriver& each : goals_.drivers) {
             const Link& link = work_.linkage.links[each.link];
@@ -81,15 +81,15 @@ bool LinkageSolve::take_drive_step(double to) noexcept {
             work_.joints[each.link].value = std::clamp(value, link.minimum, link.maximum);
         }
         work_.move_links();
-        // Rejects a correction to another branch.
+        // Rejects a correction that leads to another branch.
         if (project_to_closures(0.5 * predicted)) {
             for (std::size_t i = 0; i < work_.joints.size(); ++i)
-                work_.joints[i].last = work_.joints[i].value - work_.kept[i].value;
+                work_.joints[i].last = work_.joints[i].value - work_.before_step[i].value;
             return true;
         }
     }
     store_active();
-    restore(work_.kept);
+    restore(work_.before_step);
     return false;
 }
 
@@ -107,8 +107,8 @@ void LinkageSolve::drive() noexcept {
         if (!work_.straight[work_.column[each.link]]) longest_turn = std::max(longest_turn, distance);
     }
     if (longest == 0.0) return;
-    const double furthest = std::min(1.0, 0.9 * max_turn_step / longest_turn);
-    double at = 0.0, by = furthest;
+    const double max_part = std::min(1.0, 0.9 * max_turn_step / longest_turn);
+    double at = 0.0, by = max_part;
     while (at < 1.0) {
         if (iterations_ >= options_.max_iterations) {
             out_of_iterations_ = true;
@@ -118,12 +118,12 @@ void LinkageSolve::drive() noexcept {
         min_rank_margin_ = 1.0;
         if (drive_substep(at, to) && !jumped_branch()) {
             at = to;
-            by = std::min(2.0 * by, furthest);
+            by = std::min(2.0 * by, max_part);
             work_.active.clear();
             continue;
         }
         by = 0.5 * (to - at);
-        if (by * longest < finest_substep) {
+        if (by * longest < min_substep) {
             stopped_ = true;
             return;
         }

@@ -1,4 +1,4 @@
-// The value: names, places, and what is refused.
+// Linkages as data: names, positions, and checks.
 #include "tendril/ik/linkage.hpp"
 
 #include <cmath>
@@ -22,10 +22,10 @@ constexpr const char* closure_names[] = {"point", "frame"};
 constexpr const char* status_names[] = {"Reached", "TargetMissed",   "Limited",     "DeadPoint",
                                         "Open",    "IterationLimit", "InvalidInput"};
 
-constexpr double no_end = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 constexpr FieldRange any_place{-max_magnitude, max_magnitude};
-/// Metres from one end of so many links to the other and back, each as long as may be. Angles are far less.
-constexpr double farthest = 2.0 * static_cast<double>(max_links) * static_cast<double>(max_magnitude);
+/// Metres: max_links links of maximum length, end to end and back. Angles are far smaller.
+constexpr double max_span = 2.0 * static_cast<double>(max_links) * static_cast<double>(max_magnitude);
 
 }  // namespace
 
@@ -46,7 +46,7 @@ namespace {
 Result check_range(const Link& link, std::size_t at) noexcept {
     if (link.joint == LinkJoint::Ball) {
         // By default a ball turns all the way; its rest and minimum have no effect.
-        if (!((link.maximum >= 0.0 && link.maximum <= math::pi) || link.maximum == no_end))
+        if (!((link.maximum >= 0.0 && link.maximum <= math::pi) || link.maximum == unbounded))
             return refused("linkage", {"links", at, "maximum"}, "0 to pi, or infinite", link.maximum);
         return {};
     }
@@ -102,8 +102,8 @@ std::span<const Field> fields<ik::Link>() noexcept {
                                      field<&Link::at>("at", any_place, "m"),
                                      field<&Link::axis>("axis", any_place),
                                      field<&Link::rest>("rest", any_place),
-                                     field<&Link::minimum>("minimum", {-no_end, max_magnitude}),
-                                     field<&Link::maximum>("maximum", {-max_magnitude, no_end})};
+                                     field<&Link::minimum>("minimum", {-unbounded, max_magnitude}),
+                                     field<&Link::maximum>("maximum", {-max_magnitude, unbounded})};
     return rows;
 }
 
@@ -140,9 +140,9 @@ std::span<const Field> fields<ik::Linkage>() noexcept {
 template <>
 std::span<const Field> fields<ik::JointPlace>() noexcept {
     using namespace ik;
-    static constexpr Field rows[] = {field<&JointPlace::value>("value", {-farthest, farthest}),
+    static constexpr Field rows[] = {field<&JointPlace::value>("value", {-max_span, max_span}),
                                      field<&JointPlace::turn>("turn", unit_length),
-                                     field<&JointPlace::last>("last", {-farthest, farthest})};
+                                     field<&JointPlace::last>("last", {-max_span, max_span})};
     return rows;
 }
 
@@ -156,7 +156,7 @@ std::span<const Field> fields<ik::LinkageState>() noexcept {
 template <>
 std::span<const Field> fields<ik::LinkageReport>() noexcept {
     using namespace ik;
-    constexpr FieldRange length{0, farthest};
+    constexpr FieldRange length{0, max_span};
     static constexpr Field rows[] = {field<&LinkageReport::status>("status", status_names),
                                      field<&LinkageReport::iterations>("iterations", {0, 1e6}),
                                      field<&LinkageReport::closed_to>("closed_to", length, "m"),
@@ -164,7 +164,7 @@ std::span<const Field> fields<ik::LinkageReport>() noexcept {
                                      field<&LinkageReport::driver_residual>("driver_residual", length),
                                      field<&LinkageReport::freedom>("freedom", {0, 1e6}),
                                      field<&LinkageReport::stopped>("stopped", {0, max_links}),
-                                     field<&LinkageReport::stopped_at>("stopped_at", {-farthest, farthest}),
+                                     field<&LinkageReport::stopped_at>("stopped_at", {-max_span, max_span}),
                                      field<&LinkageReport::passed_dead_point>("passed_dead_point"),
                                      field<&LinkageReport::jumped>("jumped", {0, max_links}),
                                      field<&LinkageReport::jump>("jump", length, "m")};

@@ -21,22 +21,22 @@ Point2 point_at_angle(double radius, double radians) noexcept {
     return {radius * turn.cosine, radius * turn.sine};
 }
 
-/// Where two circles cross, to the left of the line from `a` to `b`; the nearest to that if they do not.
-Point2 crossing_left(const Point2& a, double from_a, const Point2& b, double from_b) noexcept {
+/// Where two circles cross, left of the line from `a` to `b`; where they come nearest if they do not.
+Point2 left_crossing(const Point2& a, double radius_a, const Point2& b, double radius_b) noexcept {
     const Point2 line{b.x - a.x, b.y - a.y};
     const double square = std::max(line.x * line.x + line.y * line.y, 1e-300);
-    const double along = 0.5 * (1.0 + (from_a * from_a - from_b * from_b) / square);
-    const double aside = std::sqrt(std::max(from_a * from_a / square - along * along, 0.0));
-    return {a.x + along * line.x - aside * line.y, a.y + along * line.y + aside * line.x};
+    const double along = 0.5 * (1.0 + (radius_a * radius_a - radius_b * radius_b) / square);
+    const double height = std::sqrt(std::max(radius_a * radius_a / square - along * along, 0.0));
+    return {a.x + along * line.x - height * line.y, a.y + along * line.y + height * line.x};
 }
 
 constexpr SketchHold pinned = SketchHold::Pinned;
 
-double apart_by(const Point2& a, const Point2& b) noexcept {
+double point_distance(const Point2& a, const Point2& b) noexcept {
     return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
 }
 /// Whether bars of the lengths `a` and `b` can join two points `apart`, within rounding.
-bool joins_over(double apart, double a, double b) noexcept {
+bool closes_triangle(double apart, double a, double b) noexcept {
     const double slack = 1e-12 * (a + b + apart);
     return apart <= a + b + slack && apart >= std::abs(a - b) - slack;
 }
@@ -46,8 +46,8 @@ bool joins_over(double apart, double a, double b) noexcept {
 Expected<LinkageSketch> four_bar(const FourBar& lengths) {
     const auto& [ground, crank, coupler, rocker, coupler_point] = lengths;
     if (const Result bad = check_fields("four_bar", lengths); !bad) return bad;
-    // B to D: what the crank can make it, and what coupler and rocker can. Where the crank cannot be at 0, or
-    // the linkage would be flat there or B on D, it is drawn in the middle of its range.
+    // Range of the distance BD that crank and ground allow, and coupler and rocker too. If the crank cannot
+    // be at 0, or the linkage would be flat there or B on D, it is drawn in the middle of that range.
     const double low = std::max(std::abs(ground - crank), std::abs(coupler - rocker)),
                  high = std::min(ground + crank, coupler + rocker);
     if (!(low <= high)) {
@@ -66,7 +66,7 @@ Expected<LinkageSketch> four_bar(const FourBar& lengths) {
         angle = math::arctangent(std::sqrt(std::max(1.0 - cosine * cosine, 0.0)), cosine);
     }
     const Point2 b = point_at_angle(crank, angle), d{ground, 0.0};
-    const Point2 c = crossing_left(b, coupler, d, rocker);
+    const Point2 c = left_crossing(b, coupler, d, rocker);
     const double x = (c.x - b.x) / coupler, y = (c.y - b.y) / coupler;
     const Point2& p = coupler_point;
     LinkageSketch sketch;
@@ -85,7 +85,7 @@ Expected<LinkageSketch> slider_crank(const SliderCrank& lengths) {
     if (const Result bad = check_fields("slider_crank", lengths); !bad) return bad;
     if (!(std::abs(offset) <= crank + rod))
         return refused("slider_crank", "offset", "at most crank and rod together", offset);
-    // Where the rod does not reach down from 0, the crank is turned towards the slider's line.
+    // Where the rod does not reach down from a crank at 0, the crank is turned towards the slider's line.
     const double lift = std::abs(offset) <= rod
                             ? 0.0
                             : offset - std::copysign(0.5 * (rod + std::abs(offset) - crank), offset);
@@ -102,12 +102,12 @@ Expected<LinkageSketch> slider_crank(const SliderCrank& lengths) {
 
 Expected<LinkageSketch> peaucellier(const Peaucellier& lengths) {
     if (const Result bad = check_fields("peaucellier", lengths); !bad) return bad;
-    if (!joins_over(2.0 * lengths.crank, lengths.long_bar, lengths.short_bar))
+    if (!closes_triangle(2.0 * lengths.crank, lengths.long_bar, lengths.short_bar))
         return refused("peaucellier", "crank", "such that long and short bars join O and C, 2 crank apart",
                        lengths.crank);
     // Drawn with C on +X, where O, C and P are on one line.
     const Point2 o{0.0, 0.0}, c{2.0 * lengths.crank, 0.0};
-    const Point2 a = crossing_left(o, lengths.long_bar, c, lengths.short_bar), b{a.x, -a.y};
+    const Point2 a = left_crossing(o, lengths.long_bar, c, lengths.short_bar), b{a.x, -a.y};
     LinkageSketch sketch;
     sketch.points = {{"O", o, pinned}, {"Q", {lengths.crank, 0.0}, pinned}, {"A", a}, {"B", b},
                      {"C", c},         {"P", {2.0 * a.x - c.x, 0.0}}};
@@ -159,19 +159,19 @@ Expected<LinkageSketch> jansen(const Jansen& lengths) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = lengths;
     if (const Result bad = check_fields("jansen", lengths); !bad) return bad;
     const Point2 crank{m, 0.0}, pivot{-a, -l};
-    const Point2 upper = crossing_left(pivot, b, crank, j), lower = crossing_left(crank, k, pivot, c);
-    const Point2 back = crossing_left(pivot, d, upper, e), knee = crossing_left(lower, g, back, f);
-    const Point2 foot = crossing_left(lower, i, knee, h);
+    const Point2 upper = left_crossing(pivot, b, crank, j), lower = left_crossing(crank, k, pivot, c);
+    const Point2 back = left_crossing(pivot, d, upper, e), knee = left_crossing(lower, g, back, f);
+    const Point2 foot = left_crossing(lower, i, knee, h);
     const struct {
         const char* names;
         double apart, one, other;
-    } triangles[] = {{"j", apart_by(pivot, crank), b, j},
-                     {"k", apart_by(pivot, crank), k, c},
+    } triangles[] = {{"j", point_distance(pivot, crank), b, j},
+                     {"k", point_distance(pivot, crank), k, c},
                      {"e", b, d, e},
-                     {"g", apart_by(lower, back), g, f},
+                     {"g", point_distance(lower, back), g, f},
                      {"h", g, i, h}};
     for (const auto& each : triangles)
-        if (!joins_over(each.apart, each.one, each.other))
+        if (!closes_triangle(each.apart, each.one, each.other))
             return refused("jansen", each.names, "such that its triangle closes with the crank at 0",
                            each.other);
     LinkageSketch sketch;
@@ -201,7 +201,7 @@ std::size_t add_universal(Linkage& linkage, const std::string& name, std::size_t
     return linkage.links.size() - 1;
 }
 
-/// The first rod holds the platform by a ball, the others close on it.
+/// The first rod carries the platform by a ball; the others close on it.
 void join_platform(Linkage& linkage, std::size_t& platform, std::size_t rod, const std::string& name,
                    const glm::dvec3& at) {
     if (platform != ground_link) {
@@ -221,7 +221,7 @@ glm::dvec3 in_base(const Point2& flat, double z) noexcept {
 Expected<Linkage> delta(const Delta& lengths) {
     const auto& [base_radius, platform_radius, upper_arm, forearm, width] = lengths;
     if (const Result bad = check_fields("delta", lengths); !bad) return bad;
-    // As drawn, the arms point 30 degrees down.
+    // Drawn with the arms 30 degrees down.
     constexpr double down = math::pi / 6.0;
     const double elbow_radius = base_radius + upper_arm * std::sqrt(0.75);
     const double aside = elbow_radius - platform_radius, elbow_z = -0.5 * upper_arm;
@@ -262,7 +262,7 @@ std::optional<std::array<double, 3>> delta_motors(const Delta& lengths, const gl
     std::array<double, 3> motors{};
     for (std::size_t i = 0; i < 3; ++i) {
         const Point2 out = point_at_angle(1.0, static_cast<double>(i) * 2.0 * math::pi / 3.0);
-        // From the hinge to the wrist: along the arm's plane, across it, and up.
+        // The wrist from the hinge: x along the arm's plane, y across it, z up.
         const double x =
             platform.x * out.x + platform.y * out.y + lengths.platform_radius - lengths.base_radius;
         const double y = platform.y * out.x - platform.x * out.y, z = platform.z, arm = lengths.upper_arm;
@@ -278,7 +278,7 @@ std::optional<std::array<double, 3>> delta_motors(const Delta& lengths, const gl
 namespace {
 
 struct StewartEnds {
-    glm::dvec3 base, top;  ///< the top as it is on the platform, from its centre
+    glm::dvec3 base, top;  ///< the top is relative to the platform's centre
 };
 StewartEnds ends_of_leg(const Stewart& lengths, std::size_t leg) noexcept {
     const double third = static_cast<double>(leg / 2) * 2.0 * math::pi / 3.0, side = leg % 2 ? 1.0 : -1.0;
@@ -301,7 +301,7 @@ Expected<Linkage> stewart(const Stewart& lengths) {
         const StewartEnds ends = ends_of_leg(lengths, i);
         const glm::dvec3 top = detail::plus(ends.top, centre), along = detail::minus(top, ends.base);
         const std::string name = "leg_" + std::to_string(i), number = std::to_string(i);
-        // Across the leg, and level.
+        // Horizontal, across the leg.
         const glm::dvec3 level{-along.y, along.x, 0.0};
         const bool upright = !(detail::length(level) > 1e-9);
         const std::size_t rod = add_universal(linkage, "swivel_" + number, ground_link, ends.base,

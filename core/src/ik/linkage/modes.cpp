@@ -28,7 +28,7 @@ int LinkageSolve::completed_mode(std::span<double> free, std::size_t& count) noe
     static_cast<void>(closure_rank());
     count = 0;
     const std::size_t columns = work_.columns, wanted = free_columns();
-    for (const double least : {0.3, 1e-9})  // what is left of an axis: short ones are rounding
+    for (const double least : {0.3, 1e-9})  // part of an axis that is left; short ones are rounding
         for (std::size_t col = 0; col < columns && work_.basis.rank() < wanted; ++col) {
             if (work_.held[col]) continue;
             const std::span<double> axis = work_.row(0);
@@ -40,23 +40,23 @@ int LinkageSolve::completed_mode(std::span<double> free, std::size_t& count) noe
     return work_.basis.rank() < wanted ? 0 : work_.basis.orientation(work_.held, work_.square);
 }
 
-/// Whether the last substep of a drive, which began at `kept`, jumped to another branch; it is then undone.
-/// Branches that come nearer to each other than `crossing` count as crossing.
+/// Whether the last substep of a drive, which began at `before_step`, jumped to another branch; if so, undoes
+/// it. Branches nearer to each other than `crossing` count as crossing.
 bool LinkageSolve::jumped_branch() noexcept {
-    // Radians or sizes. The closures' tolerance leaves a singular pose undetermined by its root, 1e-5.
+    // Radians or sizes. The closures' tolerance determines a singular pose only to its square root, 1e-5.
     constexpr double crossing = 1e-4;
-    // From 30 degrees off a singular pose a substep does not reach 30 beyond it: no joint turns by more than
-    // widest_step.
+    // From 30 degrees off a singular pose, a substep does not get 30 degrees beyond it: no joint turns by
+    // more than max_turn_step.
     constexpr double far_from_singular = 0.5;
     if (min_rank_margin_ > far_from_singular || length_of_step_ <= crossing) return false;
     std::size_t before_count = 0, count = 0;
-    work_.best = work_.joints;
-    restore(work_.kept);
+    work_.saved = work_.joints;
+    restore(work_.before_step);
     const int before = completed_mode(work_.factor, before_count);
-    restore(work_.best);
+    restore(work_.saved);
     const int after = completed_mode(work_.curvature, count);
     if (count != before_count) return false;
-    // The sign of a determinant depends on the directions' own, which change by less than a right angle.
+    // The determinant's sign also depends on the free directions, which change by less than a right angle.
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t k = 0; k < count; ++k) {
             double dot = 0.0;
@@ -65,7 +65,7 @@ bool LinkageSolve::jumped_branch() noexcept {
             work_.square[i * count + k] = dot;
         }
     if (before * after * sign_of_determinant(work_.square, count) >= 0) return false;
-    restore(work_.kept);
+    restore(work_.before_step);
     return true;
 }
 
@@ -74,7 +74,7 @@ int LinkageSolve::mode() noexcept {
     const std::size_t rank = closure_rank();
     const std::size_t free = free_columns();
     if (rank != free || rank == 0) return 0;
-    // The basis' rows are the closures' by a triangular matrix of positive diagonal: the same sign.
+    // The basis is the closures' rows times a triangular matrix with a positive diagonal: the same sign.
     return work_.basis.orientation(work_.held, work_.square);
 }
 
@@ -107,12 +107,12 @@ bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const Lin
     constexpr double same = 1e-6;
     const LinkageGoals goals{drivers, {}};
     const LinkageOptions options{.max_iterations = 100000};
-    const auto take = [&] {
+    const auto load = [&] {
         work.joints = state.joints;
         work.clamp_to_ranges();
         work.move_links();
     };
-    take();
+    load();
     LinkageSolve from(work, goals, options);
     from.hold_drivers();
     const int mode = from.mode();
@@ -129,9 +129,9 @@ bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const Lin
         LinkageSolve solve(work, goals, options);
         solve.hold_drivers();
         if (!solve.close_from_here()) continue;
-        const double far = distance_of_modes(work, here);
-        if (far < same || far >= nearest || solve.mode() == 0) continue;
-        nearest = far;
+        const double distance = distance_of_modes(work, here);
+        if (distance < same || distance >= nearest || solve.mode() == 0) continue;
+        nearest = distance;
         for (std::size_t i = 0; i < here.size(); ++i) {
             if (work.linkage.links[i].joint == LinkJoint::Hinge)
                 work.joints[i].value -= whole_turns(work.joints[i].value - here[i].value);
@@ -141,7 +141,7 @@ bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const Lin
     const bool found = nearest < 1e300;
     work.active.clear();
     work.open.clear();
-    take();
+    load();
     return found;
 }
 

@@ -1,4 +1,4 @@
-// From joints and bars in the plane to links, their tree and its closures.
+// Makes links, a tree of joints and closures from points and bars in the plane.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -32,7 +32,7 @@ bool joins(const SketchBar& bar, std::size_t point) noexcept {
     return std::ranges::find(bar.points, point) != bar.points.end();
 }
 
-/// `bar "coupler"`, or by its number where it has no name.
+/// `bar "coupler"`, or the bar's number if it has no name.
 std::string label(const char* kind, const std::string& name, std::size_t index) {
     return name.empty() ? std::string(kind) + " " + std::to_string(index)
                         : std::string(kind) + " \"" + name + "\"";
@@ -78,8 +78,8 @@ class SketchTree {
         return std::move(linkage_);
     }
 
-    /// For each bar, and last the ground: its rotation that the closures leave free, by the joints' columns.
-    /// Floating pieces hang on any of their points.
+    /// For each bar, and last the ground, its rotation in the motions that the closures leave free, by
+    /// column. Floating pieces are fixed at one of their points.
     std::vector<std::vector<double>> free_turning() {
         place_holds();
         for (std::size_t i = 0; i < sketch_.bars.size(); ++i) {
@@ -257,7 +257,7 @@ class SketchTree {
                     {sketch_.points[each].name, ClosureKind::Point, owner_[each], index, at(each), at(each)});
         }
     }
-    /// The link's value is the motor's angle.
+    /// Makes the link's value the motor's angle.
     void turn_by(Link& link, std::size_t bar, const SketchMotor& motor) const {
         link.name = motor.name;
         link.minimum = motor.minimum;
@@ -273,7 +273,7 @@ class SketchTree {
         angle -= turn * std::round(angle / turn);
         if (angle < motor.minimum) angle += turn * std::ceil((motor.minimum - angle) / turn - rounding);
         if (angle > motor.maximum) angle -= turn * std::ceil((angle - motor.maximum) / turn - rounding);
-        // At the end of its range, to rounding.
+        // Snaps to the end of the range, to rounding.
         return std::abs(angle - motor.minimum) < rounding   ? motor.minimum
                : std::abs(angle - motor.maximum) < rounding ? motor.maximum
                                                             : angle;
@@ -285,11 +285,11 @@ class SketchTree {
     const LinkageSketch& sketch_;
     Linkage linkage_;
     std::vector<std::size_t> link_of_bar_;
-    std::vector<std::size_t> owner_;   ///< of each point: the link whose point it is
+    std::vector<std::size_t> owner_;   ///< by point: the link that it belongs to
     std::vector<std::size_t> driven_;  ///< motors whose hinges are in the tree
 };
 
-using Bars = std::vector<std::size_t>;  ///< in order; the ground is the bar after the sketch's last
+using Bars = std::vector<std::size_t>;  ///< ascending; the ground's number follows the last bar's
 
 /// Splits joined bars into sets that rotate alike in every motion of the whole set.
 std::vector<Bars> split_rigid(const LinkageSketch& sketch, const Bars& set) {
@@ -300,7 +300,7 @@ std::vector<Bars> split_rigid(const LinkageSketch& sketch, const Bars& set) {
         for (SketchPoint& each : subset.points) each.hold = SketchHold::Free;
     const std::vector<std::vector<double>> free = SketchTree(subset).free_turning();
     const auto alike = [&](std::size_t a, std::size_t b) {
-        constexpr double rounding = 1e-6;  // for rows to whose rank 1e-9 of one counts
+        constexpr double rounding = 1e-6;  // well above 1e-9, what counts for the rank of a row
         return std::ranges::equal(free[a], free[b],
                                   [](double x, double y) { return std::abs(x - y) < rounding; });
     };
@@ -413,14 +413,14 @@ std::span<const Field> fields<ik::SketchBar>() noexcept {
 template <>
 std::span<const Field> fields<ik::SketchMotor>() noexcept {
     using namespace ik;
-    constexpr double no_end = std::numeric_limits<double>::infinity();
+    constexpr double unbounded = std::numeric_limits<double>::infinity();
     static constexpr Field rows[] = {
         field<&SketchMotor::name>("name"),
         index<&SketchMotor::point>("point", "points"),
         index<&SketchMotor::bar>("bar", "bars"),
         index<&SketchMotor::against>("against", "bars", true),
-        field<&SketchMotor::minimum>("minimum", {-no_end, max_magnitude}, "rad"),
-        field<&SketchMotor::maximum>("maximum", {-max_magnitude, no_end}, "rad")};
+        field<&SketchMotor::minimum>("minimum", {-unbounded, max_magnitude}, "rad"),
+        field<&SketchMotor::maximum>("maximum", {-max_magnitude, unbounded}, "rad")};
     return rows;
 }
 

@@ -33,12 +33,12 @@ void LinkageSolve::finish(LinkageReport& report) noexcept {
         report.residual = std::max(report.residual, gap);
         missed = missed || gap > reached * work_.size;
     }
-    double furthest = -1.0;
+    double largest = -1.0;
     for (const LinkDriver& each : goals_.drivers) {
-        const double left = std::abs(each.value - work_.joints[each.link].value);
-        report.driver_residual = std::max(report.driver_residual, left);
-        if (!stopped_ || left / work_.unit_of(each.link) <= furthest) continue;
-        furthest = left / work_.unit_of(each.link);
+        const double error = std::abs(each.value - work_.joints[each.link].value);
+        report.driver_residual = std::max(report.driver_residual, error);
+        if (!stopped_ || error / work_.unit_of(each.link) <= largest) continue;
+        largest = error / work_.unit_of(each.link);
         report.stopped = each.link;
         report.stopped_at = work_.joints[each.link].value;
     }
@@ -72,8 +72,8 @@ void LinkageSolve::finish(LinkageReport& report) noexcept {
 
 /// Reports the target point that moved furthest, if far beyond its initial pull.
 void LinkageSolve::find_jump(LinkageReport& report) noexcept {
-    constexpr double further = 4.0, least = 0.01;  // of the size
-    const double expected = std::max(further * initial_pull_, least * work_.size);
+    constexpr double ratio = 4.0, min_share = 0.01;  // of the size
+    const double expected = std::max(ratio * initial_move_, min_share * work_.size);
     for (std::size_t i = 0; i < goals_.targets.size(); ++i) {
         const LinkTarget& target = goals_.targets[i];
         const double moved = length(minus(work_.position_of(target), work_.target_starts[i]));
@@ -104,7 +104,7 @@ LinkageReport LinkageSolve::run() noexcept {
             descend(Aim::Drivers);
             hold_drivers();
         }
-        // The drivers may have arrived on another path.
+        // The drivers may have arrived by another path.
         stopped_ = std::ranges::any_of(goals_.drivers, [&](const LinkDriver& each) {
             return !(std::abs(work_.driver_error(each)) <= reached);
         });
@@ -121,7 +121,7 @@ LinkageReport LinkageSolve::run() noexcept {
         descend(Aim::Targets);
         keeps_exact_ = false;
         report.passed_dead_point = mode_before * watched_mode() < 0;
-        if (curved_down_) find_jump(report);
+        if (was_nonconvex_) find_jump(report);
     }
     finish(report);
     return report;

@@ -8,8 +8,8 @@
 
 namespace tendril::ik::detail {
 
-constexpr double max_turn_step = 0.5;  ///< of a joint in one step, radians: the tangent says little beyond
-constexpr double reached = 1e-6;       ///< a driver's or target's tolerance, radians or sizes
+constexpr double max_turn_step = 0.5;  ///< of a joint, radians: beyond it the tangent misleads
+constexpr double reached = 1e-6;       ///< tolerance of a driver or target, radians or sizes
 
 inline double norm_of(std::span<const double> step) noexcept {
     double sum = 0.0;
@@ -41,15 +41,15 @@ class LinkageSolve {
         return std::max(tolerance_, 1e3 * std::max(1e-10 * work_.size, work_.rounding));
     }
     bool at_bound(std::size_t link, double by) const noexcept;
-    /// Newton's step on closures and reached exact targets; leaves the basis of their rows. Held columns keep
-    /// their step.
+    /// Finds Newton's step on closures and reached exact targets, and the basis of their rows. Held columns
+    /// keep their step.
     void find_correction() noexcept;
-    /// `origin`: the closure, or how many closures there are and the target.
+    /// `origin`: the closure's index, or the target's plus the number of closures.
     void add_rows(const LinkageWork::Block& block, std::size_t equations, std::size_t origin) noexcept;
     double add_row(std::span<double> row, double error, double scale, std::size_t origin) noexcept;
     void clear_step() noexcept;
     bool update_active_set() noexcept;
-    /// Newton's steps to the closures. False if they diverge or their norm exceeds `allowed`.
+    /// Takes Newton's steps to the closures. False if they diverge or their norm exceeds `allowed`.
     bool project_to_closures(double allowed) noexcept;
 
     void assemble() noexcept;
@@ -71,7 +71,7 @@ class LinkageSolve {
     void find_equations() noexcept;
     void find_curvature() noexcept;
     void find_descent(double damping) noexcept;
-    double pull_along_gradient() const noexcept;
+    double move_along_gradient() const noexcept;
     bool aims_at_targets() const noexcept { return aim_ == Aim::ExactTargets || aim_ == Aim::Targets; }
     bool solve_equations(double damping, bool curved) noexcept;
     double cost() noexcept;
@@ -92,22 +92,22 @@ class LinkageSolve {
     bool closes_ = true;  ///< closures are constraints, not goals
     /// Smallest part of a closure row that is independent of the rows before; near 0 at a loss of rank.
     double rank_margin_ = 1.0;
-    double min_rank_margin_ = 1.0;  ///< the smallest of these in a substep of a drive
-    double length_of_step_ = 0.0;   ///< of that substep, as predicted
-    bool keeps_exact_ = false;      ///< exact targets are constraints too
-    double max_weight_ = 0.0;       ///< of the weights of the aim's targets
-    bool descended_ = false;        ///< the last descent took a step
-    double predicted_gain_ = 0.0;   ///< of the last step of a descent
-    bool convex_ = true;            ///< the last step was Newton's: the curvature was positive
-    bool plain_ = false;            ///< use a Gauss-Newton step next
-    bool curves_down_ = false;      ///< the cost curves downwards along the last step
+    double min_rank_margin_ = 1.0;     ///< the smallest of these in a substep of a drive
+    double length_of_step_ = 0.0;      ///< predicted length of that substep
+    bool keeps_exact_ = false;         ///< exact targets are constraints too
+    double max_weight_ = 0.0;          ///< maximum weight of the aim's targets
+    bool descended_ = false;           ///< the last descent took a step
+    double predicted_gain_ = 0.0;      ///< for the last step of a descent
+    bool convex_ = true;               ///< the last step was Newton's: the curvature was positive
+    bool gauss_newton_ = false;        ///< use a Gauss-Newton step next
+    bool negative_curvature_ = false;  ///< the cost curves downwards along the last step
     /// Metres by which a step along the first gradient moves the targets' points. Negative until known.
-    double initial_pull_ = -1.0;
-    bool curved_down_ = false;  ///< whether a step with curves_down_ was taken
+    double initial_move_ = -1.0;
+    bool was_nonconvex_ = false;  ///< whether a step with negative_curvature_ was taken
     bool stopped_ = false, out_of_iterations_ = false, beyond_range_ = false;
 };
 
-/// Finds the nearest closed pose in another assembly mode, the drivers' joints where they are.
+/// Finds the nearest closed pose in another assembly mode, with the drivers' joints held.
 bool find_other_mode(LinkageWork& work, LinkageState& state, std::span<const LinkDriver> drivers) noexcept;
 
 }  // namespace tendril::ik::detail

@@ -55,7 +55,7 @@ bool fits(const LinkageState& state, const detail::LinkageWork& work) noexcept {
            });
 }
 
-bool drives(std::span<const LinkDriver> drivers, detail::LinkageWork& work) noexcept {
+bool mark_drivers(std::span<const LinkDriver> drivers, detail::LinkageWork& work) noexcept {
     std::ranges::fill(work.driven, std::uint8_t{0});
     for (const LinkDriver& each : drivers) {
         if (each.link >= work.linkage.links.size() || !(std::abs(each.value) <= state_limit) ||
@@ -68,7 +68,7 @@ bool drives(std::span<const LinkDriver> drivers, detail::LinkageWork& work) noex
     return true;
 }
 
-bool aims(std::span<const LinkTarget> targets, const detail::LinkageWork& work) noexcept {
+bool valid_targets(std::span<const LinkTarget> targets, const detail::LinkageWork& work) noexcept {
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const LinkTarget& each = targets[i];
         if (each.point >= work.linkage.points.size() || !(each.weight > 0.0 && each.weight <= state_limit))
@@ -86,14 +86,14 @@ constexpr Field solver_rows[] = {
     field<&LinkageOptions::tolerance>("tolerance", {0.0, state_limit}, "m").over(),
     index<&LinkageOptions::watched>("watched", "links")};
 
-bool allows(const LinkageOptions& options, const detail::LinkageWork& work) noexcept {
+bool valid_options(const LinkageOptions& options, const detail::LinkageWork& work) noexcept {
     return tendril::detail::are_in_range<solver_rows>(&options) &&
            std::ranges::all_of(options.watched, [&](std::size_t each) {
                return each < work.linkage.links.size() && work.linkage.links[each].joint != LinkJoint::Ball;
            });
 }
 
-/// Into the joints' ranges, with unit rotations.
+/// Loads a state: clamps joints to their ranges and normalises rotations.
 void take_state(detail::LinkageWork& work, const LinkageState& state) noexcept {
     work.joints = state.joints;
     work.clamp_to_ranges();
@@ -104,8 +104,8 @@ void take_state(detail::LinkageWork& work, const LinkageState& state) noexcept {
 LinkageReport LinkageSolver::solve(LinkageState& state, const LinkageGoals& goals,
                                    const LinkageOptions& options) noexcept {
     LinkageReport report;
-    if (!parts_ || !fits(state, *parts_) || !drives(goals.drivers, *parts_) ||
-        !aims(goals.targets, *parts_) || !allows(options, *parts_)) {
+    if (!parts_ || !fits(state, *parts_) || !mark_drivers(goals.drivers, *parts_) ||
+        !valid_targets(goals.targets, *parts_) || !valid_options(options, *parts_)) {
         report.status = LinkageStatus::InvalidInput;
         return report;
     }
@@ -117,7 +117,7 @@ LinkageReport LinkageSolver::solve(LinkageState& state, const LinkageGoals& goal
 }
 
 bool LinkageSolver::other_mode(LinkageState& state, std::span<const LinkDriver> drivers) noexcept {
-    if (!parts_ || !fits(state, *parts_) || !drives(drivers, *parts_)) return false;
+    if (!parts_ || !fits(state, *parts_) || !mark_drivers(drivers, *parts_)) return false;
     return parts_->columns > 0 && detail::find_other_mode(*parts_, state, drivers);
 }
 
@@ -150,15 +150,15 @@ double LinkageSolver::balance(const LinkageState& state, std::size_t link, std::
                         linkage().links[each].joint == LinkJoint::Ball ? 3 : 1, std::uint8_t{1});
     work.release();
     static_cast<void>(solve.closure_rank());
-    std::ranges::fill(work.pull, 0.0);
-    work.pull[work.column[link]] = 1.0;
-    work.basis.multipliers(work.pull, work.multiplier);
+    std::ranges::fill(work.force, 0.0);
+    work.force[work.column[link]] = 1.0;
+    work.basis.multipliers(work.force, work.multiplier);
     std::ranges::fill(forces, glm::dvec3(0.0));
     for (std::size_t k = 0; k < work.basis.rank(); ++k)
         if (const std::size_t row = work.row_origin[k] % 6; row < 3)
             forces[work.row_origin[k] / 6][static_cast<int>(row)] += work.multiplier[k];
-    work.basis.remove_from(work.pull);
-    return detail::norm_of(work.pull);
+    work.basis.remove_from(work.force);
+    return detail::norm_of(work.force);
 }
 
 bool LinkageSolver::place(const LinkageState& state) noexcept {

@@ -15,7 +15,7 @@ glm::dquat turn_by_vector(const glm::dvec3& vector) noexcept {
     const double angle = length(vector);
     return angle > 0.0 ? rotation_about(times(vector, 1.0 / angle), angle) : glm::dquat(1.0, 0.0, 0.0, 0.0);
 }
-/// The shortest rotation's vector.
+/// The rotation vector of the shorter way round.
 glm::dvec3 vector_of_turn(const glm::dquat& turn) noexcept {
     const glm::dvec3 sine{turn.x, turn.y, turn.z};
     const double size = length(sine), sign = turn.w < 0.0 ? -1.0 : 1.0;
@@ -56,23 +56,23 @@ double RowBasis::add(std::span<double> row, double scale) noexcept {
         before += row[i] * row[i];
     }
     if (!(before > 0.0) || count_ == columns_) return 0.0;
-    double left = before;
+    double square = before;
     double* parts = triangle_.data() + count_ * columns_;
     std::fill(parts, parts + count_, 0.0);
     for (int pass = 0; pass < 2; ++pass) {
-        const double start = left;
+        const double start = square;
         subtract_from(row.data(), window, parts);
-        left = 0.0;
-        for (std::size_t i = window.first; i < window.last; ++i) left += row[i] * row[i];
-        if (left > 0.25 * start) break;
+        square = 0.0;
+        for (std::size_t i = window.first; i < window.last; ++i) square += row[i] * row[i];
+        if (square > 0.25 * start) break;
     }
-    const double size = std::sqrt(left);
+    const double size = std::sqrt(square);
     if (!(size > 1e-9 * scale)) return 0.0;
     parts[count_] = size;
     const double inverse = 1.0 / size;
-    double* kept = rows_.data() + count_ * columns_;
-    std::fill(kept, kept + columns_, 0.0);
-    for (std::size_t i = window.first; i < window.last; ++i) kept[i] = row[i] *= inverse;
+    double* unit = rows_.data() + count_ * columns_;
+    std::fill(unit, unit + columns_, 0.0);
+    for (std::size_t i = window.first; i < window.last; ++i) unit[i] = row[i] *= inverse;
     windows_[count_++] = window;
     return size;
 }
@@ -173,7 +173,7 @@ LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
     step.resize(columns);
     block_rows.resize(6 * columns);
     moved.resize(columns);
-    kept = best = nearest = joints;
+    before_step = saved = nearest = joints;
     straight.resize(columns);
     for (std::size_t i = 0; i < count; ++i) straight[column[i]] = linkage.links[i].joint == LinkJoint::Slider;
     for (const Closure& each : linkage.closures)
@@ -185,7 +185,7 @@ LinkageWork::LinkageWork(const Linkage& from) : linkage(from) {
     square.resize(columns * columns);
     curvature.resize(columns * columns);
     factor.resize(columns * columns);
-    for (std::vector<double>* const each : {&gradient, &pull, &multiplier, &solution}) each->resize(columns);
+    for (std::vector<double>* const each : {&gradient, &force, &multiplier, &solution}) each->resize(columns);
     row_origin.resize(columns);
     target_starts.resize(linkage.points.size());
     exact_positions.resize(linkage.points.size());
@@ -351,7 +351,7 @@ void LinkageWork::add_curvature(std::size_t link, const glm::dvec3& at, const gl
         for (std::size_t a = 0; a < (ball ? 3u : 1u); ++a) {
             const glm::dvec3 axis = ball ? world_axes[a] : axes[inner];
             const glm::dvec3 moves = kind == LinkJoint::Slider ? times(axis, size) : cross(axis, arm);
-            // By itself, a ball turns half about one axis first and half about the other.
+            // A ball's rotation has no order of axes: half about one axis first, half about the other.
             if (kind == LinkJoint::Hinge) add(column[inner], column[inner], dot(along, cross(axis, moves)));
             for (std::size_t b = 0; ball && b <= a; ++b) {
                 const glm::dvec3 other = cross(world_axes[b], arm);

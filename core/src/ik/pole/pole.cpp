@@ -16,7 +16,7 @@ using namespace tune::pole;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-constexpr double no_side = 1e-6;  ///< fraction of the reach: smaller offsets are rounding
+constexpr double min_offset = 1e-6;  ///< fraction of the reach: smaller offsets are rounding
 
 /// Direction and size of the chain's offset from a line through its root.
 struct Bend {
@@ -30,9 +30,9 @@ Bend bend_of(const Problem& problem, const glm::dvec3& line) noexcept {
     Bend bend;
     for (std::size_t i = 1; i < problem.bones(); ++i) {
         const glm::dvec3 offset = across(minus(wide(problem.joints[i]), root), line);
-        const double beside =
+        const double adjacent =
             static_cast<double>(problem.lengths()[i - 1]) + static_cast<double>(problem.lengths()[i]);
-        bend.side = plus(bend.side, times(offset, beside / whole));
+        bend.side = plus(bend.side, times(offset, adjacent / whole));
         bend.furthest = std::max(bend.furthest, dot(offset, offset));
     }
     bend.furthest = std::sqrt(bend.furthest);
@@ -57,7 +57,7 @@ bool is_on_line(const Problem& problem, const glm::dvec3& to_target) noexcept {
         const glm::dvec3 arm = wide(minus(joint, root));
         if (dot(arm, arm) > dot(furthest, furthest)) furthest = arm;
     }
-    return lies_along(problem, direction_of(furthest, no_side * reach));
+    return lies_along(problem, direction_of(furthest, min_offset * reach));
 }
 
 /// The angle about `line` from one vector to another, -pi to pi, ignoring their components along the line.
@@ -100,15 +100,15 @@ std::optional<glm::dvec3> pole_side(const Problem& problem, const glm::dvec3& fr
                                     const glm::dvec3& line) noexcept {
     if (problem.options.plane) return planar_side(problem, line);
     const glm::dvec3 arm = minus(wide(*problem.options.pole), from);
-    const double minimum = 10.0 * no_side * static_cast<double>(problem.scratch.reach);
-    return direction_of(across(arm, line), std::max(minimum, no_side * length(arm)));
+    const double minimum = 10.0 * min_offset * static_cast<double>(problem.scratch.reach);
+    return direction_of(across(arm, line), std::max(minimum, min_offset * length(arm)));
 }
 
 /// The angle about `line` by which the whole chain faces its pole, limited by the allowance, which it uses
 /// up.
 double whole_angle(Problem& problem, const glm::dvec3& line) noexcept {
     const Bend bend = bend_of(problem, line);
-    const double minimum = no_side * static_cast<double>(problem.scratch.reach);
+    const double minimum = min_offset * static_cast<double>(problem.scratch.reach);
     const std::optional<glm::dvec3> to = pole_side(problem, wide(problem.root()), line);
     if (!to || !direction_of(bend.side, minimum)) return 0.0;
     const double angle =
@@ -154,7 +154,7 @@ template <class Watch>
 void face_with_whole_chain(Problem& problem, Watch watch) noexcept {
     // With the tip at the root, the tolerance decides where a line in the plane points.
     const double minimum =
-        (problem.options.plane ? closed_tip : no_side) * static_cast<double>(problem.scratch.reach);
+        (problem.options.plane ? closed_tip : min_offset) * static_cast<double>(problem.scratch.reach);
     const std::optional<glm::dvec3> line =
         direction_of(minus(wide(problem.joints.back()), wide(problem.root())), minimum);
     if (!line) return;
@@ -165,7 +165,7 @@ void face_with_whole_chain(Problem& problem, Watch watch) noexcept {
 /// Turns one joint about the line through its neighbours. Returns the angle, radians.
 template <class Watch>
 double face_with_joint(Problem& problem, std::size_t joint, Watch watch) noexcept {
-    const double minimum = no_side * static_cast<double>(problem.scratch.reach);
+    const double minimum = min_offset * static_cast<double>(problem.scratch.reach);
     std::vector<glm::dvec3>& joints = problem.scratch.pole.wide_joints;
     const glm::dvec3 before = joints[joint - 1];
     const std::optional<glm::dvec3> line = direction_of(minus(joints[joint + 1], before), minimum);
@@ -204,7 +204,7 @@ bool bend_to_pole(Problem& problem, Watch watch) noexcept {
     if (!problem.options.pole && !problem.options.plane) return false;
     const double reach = static_cast<double>(problem.scratch.reach);
     const glm::dvec3 root = wide(problem.root()), arm = minus(wide(problem.target), root);
-    const std::optional<glm::dvec3> line = direction_of(arm, no_side * reach);
+    const std::optional<glm::dvec3> line = direction_of(arm, min_offset * reach);
     if (!line || !is_on_line(problem, *line)) return false;
     const std::optional<glm::dvec3> side = pole_side(problem, root, *line);
     if (!side) return false;

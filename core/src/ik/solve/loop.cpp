@@ -137,7 +137,7 @@ Report solve_reached(Method method, Problem& problem, const glm::vec3& goal, Wat
         transport_to_pole(problem, watch);
         report = iterations(method, problem, goal, watch);
     }
-    face_pole(problem, watch);  // turns about the line from root to tip, so the residual stays
+    face_pole(problem, watch);  // the turn is about the line from root to tip, so the residual stays
     return *report;
 }
 

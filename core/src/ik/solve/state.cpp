@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* operation = "ik::State";
 constexpr glm::quat unturned{1.0f, 0.0f, 0.0f, 0.0f};
-/// From the root: two coordinates of at most 1e9 m, and a chain's reach beyond.
+/// Offsets from the root: the difference of two coordinates of up to 1e9 m, and a chain's reach beyond.
 constexpr FieldRange offsets{-4e9, 4e9};
 
 Result check_finite(const Argument& argument, const glm::vec3& p) noexcept {

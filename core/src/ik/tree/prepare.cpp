@@ -67,10 +67,10 @@ void assign_nodes(TreeScratch& scratch) noexcept {
 glm::dvec3 reachable(const TreeScratch& scratch, const Effector& effector) noexcept {
     const glm::vec3& root = scratch.start[0];
     glm::dvec3 way = between(root, effector.target);
-    const double far = length(way), wanted = scratch.path[effector.joint].clamped(far);
-    if (wanted == far) return wide(effector.target);
+    const double distance = length(way), wanted = scratch.path[effector.joint].clamped(distance);
+    if (wanted == distance) return wide(effector.target);
     // A target at the root has no direction: uses the joint's.
-    if (far < 1e-6 * wanted) way = between(root, scratch.start[effector.joint]);
+    if (distance < 1e-6 * wanted) way = between(root, scratch.start[effector.joint]);
     const glm::dvec3 along = direction_of(way, 1e-6 * wanted).value_or(glm::dvec3(1.0, 0.0, 0.0));
     return plus(wide(root), times(along, wanted));
 }
@@ -114,7 +114,7 @@ void assign_centroid_weights(TreeScratch& scratch) noexcept {
 }
 
 /// The only effector with a weight that can move; null if there is none or more than one.
-const Effector* only_one(const TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
+const Effector* single_effector(const TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
     const Effector* only = nullptr;
     for (const Effector& effector : effectors) {
         if (effector.weight == 0.0f || scratch.node_of[effector.joint] == 0) continue;
@@ -139,7 +139,7 @@ void prepare(TreeScratch& scratch, std::span<const glm::vec3> joints,
 }
 
 bool solve_out_of_reach(TreeScratch& scratch, std::span<const Effector> effectors) noexcept {
-    const Effector* const effector = only_one(scratch, effectors);
+    const Effector* const effector = single_effector(scratch, effectors);
     if (!effector) return false;
     const Reachability& can = scratch.path[effector->joint];
     const Status status = can.status(gap(scratch.at[0], effector->target), 0.0);

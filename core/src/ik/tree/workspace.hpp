@@ -110,7 +110,7 @@ static inline double gap(const glm::vec3& a, const glm::vec3& b) noexcept {
     return length(between(a, b));
 }
 
-/// Like step() of math/point.hpp, but for bones of any size: only points closer than 1e-15 m have no
+/// Like step() in math/point.hpp, but for bones of any size: only points less than 1e-15 m apart have no
 /// direction.
 static inline glm::vec3 at_length(const glm::vec3& anchor, const glm::vec3& old, float length) noexcept {
     const float x = old.x - anchor.x, y = old.y - anchor.y, z = old.z - anchor.z;
