@@ -35,6 +35,7 @@ struct Incident {
     std::string name{};            ///< name of the affected bone, control or unit, if it has one
     float degrees = 0.0f;          ///< a flip: how far a bone at the joint turned; a limit: its angle; else 0
     std::string cause;             ///< for display: "the chain was straight (collinear)"
+    std::string title{};           ///< for display: "Frame 63: NaN at joint 2"; empty: by kind and age
     std::string cure{};            ///< for display, a sentence; empty if there is none
     std::vector<Cure> buttons{};   ///< apply the cure, where commands can
 };

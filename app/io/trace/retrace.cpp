@@ -24,6 +24,12 @@ glm::vec3 across(glm::vec3 way) {
     return glm::normalize(glm::cross(way, other));
 }
 
+/// +X for joints in one place.
+glm::vec3 direction(glm::vec3 from, glm::vec3 to) {
+    const float length = glm::distance(from, to);
+    return length > 0.0f ? (to - from) / length : glm::vec3(1, 0, 0);
+}
+
 }  // namespace
 
 bool is_finite_point(glm::vec3 p) {
@@ -41,14 +47,27 @@ std::optional<glm::vec3> TraceSolve::pole(const TracedFrame& frame) const {
     return frame.joints.front() + pole_by;
 }
 
+std::vector<ik::Limit> TraceSolve::limits(std::span<const glm::vec3> joints) const {
+    if (hinge == 0) return {};
+    const auto joint = static_cast<std::size_t>(hinge);
+    if (joint + 1 >= joints.size()) throw std::invalid_argument("a hinge must be between root and tip");
+    // Angles count from the pose in the first frame, where the bend is that far from straight.
+    const glm::vec3 above = direction(joints[joint - 1], joints[joint]),
+                    below = direction(joints[joint], joints[joint + 1]), axis = glm::cross(above, below);
+    const float bend = ik::angle_between(above, below);
+    std::vector<ik::Limit> limits(joints.size() - 1);
+    limits[joint] = ik::Limit::hinge(glm::length(axis) > 1e-4f ? glm::normalize(axis) : across(below), -bend,
+                                     glm::pi<float>() - bend);
+    return limits;
+}
+
 void Retrace::begin(const TracedFrame& frame) {
     joints_ = frame.joints;
     std::vector<float> lengths;
     std::vector<glm::vec3> rest;
     for (std::size_t i = 1; i <= frame.end_effector(); ++i) {
-        const glm::vec3 bone = joints_[i] - joints_[i - 1];
-        lengths.push_back(glm::length(bone));
-        rest.push_back(lengths.back() > 0.0f ? bone / lengths.back() : glm::vec3(1, 0, 0));
+        lengths.push_back(glm::distance(joints_[i - 1], joints_[i]));
+        rest.push_back(direction(joints_[i - 1], joints_[i]));
     }
     auto made = ik::Solver::make(lengths, rest);
     if (!made) throw std::invalid_argument(made.message());
@@ -56,16 +75,7 @@ void Retrace::begin(const TracedFrame& frame) {
         throw std::invalid_argument(taken.message());
     solver_.emplace(std::move(made).value());
     state_ = solver_->initial_state();
-    limits_.clear();
-    if (how_.hinge == 0) return;
-    const auto joint = static_cast<std::size_t>(how_.hinge);
-    if (joint >= lengths.size()) throw std::invalid_argument("a hinge must be between root and tip");
-    // Angles count from the pose in the first frame, where the bend is that far from straight.
-    const glm::vec3 axis = glm::cross(rest[joint - 1], rest[joint]);
-    const float bend = ik::angle_between(rest[joint - 1], rest[joint]);
-    limits_.resize(lengths.size());
-    limits_[joint] = ik::Limit::hinge(glm::length(axis) > 1e-4f ? glm::normalize(axis) : across(rest[joint]),
-                                      -bend, glm::pi<float>() - bend);
+    limits_ = how_.limits(std::span(joints_).first(lengths.size() + 1));
 }
 
 const std::vector<glm::vec3>& Retrace::follow(const TracedFrame& frame) {

@@ -47,6 +47,9 @@ struct TraceSolve {
     bool operator==(const TraceSolve&) const = default;
     /// The pole target of a frame after the change.
     std::optional<glm::vec3> pole(const TracedFrame& frame) const;
+    /// The hinge, for the joints of the first frame up to the end effector; empty without one. Throws
+    /// std::invalid_argument if it is at the root or the tip.
+    std::vector<ik::Limit> limits(std::span<const glm::vec3> joints) const;
 };
 
 /// A chain that is led through frames, from the pose of the first. Joints beyond the end effector are carried

@@ -64,8 +64,8 @@ std::string incident_text(const ik::ChainIncident& incident, const std::vector<s
 
 }  // namespace
 
-std::string TracedIncident::text(const std::vector<std::string>& bones) const {
-    return frames_of(*this) + ": " + incident_text(*this, bones) + ": " + cause;
+std::string TracedIncident::title(const std::vector<std::string>& bones) const {
+    return frames_of(*this) + ": " + incident_text(*this, bones);
 }
 
 TraceReader::TraceReader(std::istream& in, const ConventionChoice& choice, std::optional<double> fps)

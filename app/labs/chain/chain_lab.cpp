@@ -175,6 +175,7 @@ Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
         }
         return bounds_of(low, high);
     }
+    if (const TracedPose* const pose = traced_pose(part)) return trace_bounds(*pose);
     glm::vec3 low = part.target, high = part.target;
     for (const Segment& segment : part.chain.segments()) {
         low = glm::min(low, segment.position);

@@ -38,6 +38,7 @@ struct ShownTrace;
 struct TracedPose {
     std::vector<glm::vec3> joints, ghost;
     std::shared_ptr<const ShownTrace> trace{};
+    std::uint64_t frame = 0;  ///< in the trace, counted from 0
 };
 
 struct ChainPart final : Part {

@@ -13,6 +13,7 @@
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
+#include "app/labs/chain/engine_trace.hpp"
 #include "app/labs/kit/code_text.hpp"
 
 namespace tendril::app {
@@ -24,6 +25,14 @@ const ik::Options plain_options;
 class ChainProgram {
   public:
     explicit ChainProgram(const ChainPart& part) : part_(part) {
+        if (const TracedPose* const pose = traced_pose(part)) {
+            part_ = part_as_written(part, *pose);
+            const Conventions& space = pose->trace->conventions;
+            unit_ = trace_units.title(space.unit.value);
+            origin_ = "// Starts as in the first frame of " + pose->trace->name + ", in its axes and unit (" +
+                      trace_ups.title(space.up.value) + ", " + trace_hands.title(space.handed.value) + ", " +
+                      unit_ + "), with the target of frame " + std::to_string(pose->frame) + '.';
+        }
         if (part_.mode == ChainMode::Curve) part_.chain = Chain(part_.along.given);
         part_.study.rewind(part_.chain, part_.reach);
     }
@@ -61,7 +70,7 @@ class ChainProgram {
     }
 
     ChainPart part_;
-    std::string code_;
+    std::string code_, unit_ = "metres", origin_{};
 };
 
 std::string ChainProgram::text() {
@@ -87,6 +96,7 @@ std::size_t ChainProgram::limit_count() const {
 void ChainProgram::head() {
     line("// A chain of " + std::to_string(part_.chain.size()) + " segments, exported from Tendril. " +
          chain_modes.help(part_.mode));
+    if (!origin_.empty()) line(origin_);
     line("//");
     line("// CMake: find_package(tendril REQUIRED)");
     line("//        target_link_libraries(your_program PRIVATE tendril::core)");
@@ -101,7 +111,7 @@ void ChainProgram::head() {
 }
 
 void ChainProgram::chain() {
-    say("// Where each segment is, and how far it is from the one before; metres.");
+    say("// Where each segment is, and how far it is from the one before; " + unit_ + '.');
     const auto segments = part_.chain.segments();
     if (segments.size() > max_listed) {
         say("std::vector<tendril::Segment> segments;");
@@ -207,13 +217,13 @@ void ChainProgram::curve() {
 void ChainProgram::options() {
     const ReachSettings& chosen = part_.reach;
     ik::Options options = solver_options(chosen, ik::Solver(part_.chain).reach());
-    const auto set = [&](const std::string& what, const std::string& value, const char* comment = "") {
+    const auto set = [&](const std::string& what, const std::string& value, const std::string& comment = "") {
         say("options." + what + " = " + value + ";" + comment);
     };
     line("");
     say("ik::Options options;");
     set("tolerance", literal(*options.tolerance),
-        chosen.options.tolerance ? "  // metres" : "  // metres: 1e-3 of the reach");
+        "  // " + unit_ + (chosen.options.tolerance ? "" : ": 1e-3 of the reach"));
     set("max_iterations", std::to_string(options.max_iterations));
     plane();
     options.tolerance.reset(), options.max_iterations = plain_options.max_iterations;

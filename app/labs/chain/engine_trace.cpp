@@ -141,9 +141,9 @@ Incident incident_of(const TracedIncident& found, const ShownTrace& trace,
                       .tick = at > 0 ? at - 1 : 0,
                       .joint = found.joint == ik::no_joint ? after.chain.size() - 1 : found.joint,
                       .degrees = static_cast<float>(std::abs(found.amount)),
-                      .cause = found.cause};
+                      .cause = found.cause,
+                      .title = found.title(trace.bones)};
     if (found.kind != ik::IncidentKind::Flip) {
-        incident.cause = found.text(trace.bones);
         if (found.kind != ik::IncidentKind::Limit) incident.degrees = 0.0f;
         return incident;
     }
@@ -173,8 +173,9 @@ class Moments {
             part->reach.method = solve.method;
             part->reach.options.soft_zone = solve.soft_zone;
             part->reach.options.pole = solve.pole(frame);
-            auto traced =
-                std::make_shared<TracedPose>(TracedPose{positions(part->chain), ghost.follow(frame), trace});
+            auto traced = std::make_shared<TracedPose>(
+                TracedPose{positions(part->chain), ghost.follow(frame), trace,
+                           static_cast<std::uint64_t>(trace->view.from) + all.size()});
             flips.add({.joints = traced->ghost, .target = part->target, .pole = part->reach.options.pole});
             float apart = 0.0f;
             for (std::size_t i = 0; i < traced->joints.size(); ++i)
@@ -193,16 +194,12 @@ class Moments {
     std::optional<std::uint64_t> flip;    ///< first frame where Tendril's solve flips
 };
 
-/// The first flip in the displayed frames or, without one, the first incident.
+/// The first incident in the displayed frames.
 const TracedIncident* first_shown(const ShownTrace& trace) {
-    const TracedIncident* first = nullptr;
     const auto from = static_cast<std::uint64_t>(trace.view.from);
-    for (const TracedIncident& each : trace.incidents) {
-        if (each.frame < from || each.frame >= from + trace.frames.size()) continue;
-        if (each.kind == ik::IncidentKind::Flip) return &each;
-        if (first == nullptr) first = &each;
-    }
-    return first;
+    for (const TracedIncident& each : trace.incidents)
+        if (each.frame >= from && each.frame < from + trace.frames.size()) return &each;
+    return nullptr;
 }
 
 std::string shown_text(const ShownTrace& trace, std::size_t shown) {
@@ -242,10 +239,12 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
         ++shown;
     }
     if (moments.parted)
-        workspace.rewind.note({.kind = Incident::Kind::Status,
-                               .tick = *moments.parted > 0 ? *moments.parted - 1 : 0,
-                               .joint = moments.all.front()->chain.size() - 1,
-                               .cause = "Tendril's solve departs"});
+        workspace.rewind.note(
+            {.kind = Incident::Kind::Status,
+             .tick = *moments.parted > 0 ? *moments.parted - 1 : 0,
+             .joint = moments.all.front()->chain.size() - 1,
+             .cause = "there the ghost is over 5 % of the reach away",
+             .title = "Frame " + std::to_string(first + *moments.parted) + ": Tendril's solve departs"});
     if (!same_frames) {
         workspace.ui.incident.reset();
         if (wrong != nullptr) workspace.ui.incident = incident_of(*wrong, *trace, moments.all);
@@ -329,6 +328,36 @@ void draw_traced_ghost(const View& view, const ChainPart& part, DrawList& list) 
     for (std::size_t i = 1; i < ghost.size(); ++i)
         list.line(ghost[i - 1], ghost[i], 3.0f * view.scale, colour);
     for (const glm::vec3 joint : ghost) list.sphere(joint, 4.5f * view.scale, Unit::Pixels, colour);
+}
+
+Verdict trace_verdict(const TracedPose& pose) {
+    const TracedIncident* const first = first_shown(*pose.trace);
+    if (first == nullptr) return {"No incident in these frames", Verdict::Kind::Good};
+    return {first->title(pose.trace->bones), Verdict::Kind::Bad, capitalised(first->cause) + "."};
+}
+
+Bounds trace_bounds(const TracedPose& pose) {
+    glm::vec3 low = pose.joints.front(), high = low;
+    for (const TracedFrame& frame : pose.trace->frames) {
+        const auto take = [&](glm::vec3 p) { low = glm::min(low, p), high = glm::max(high, p); };
+        std::ranges::for_each(frame.joints, take);
+        take(frame.goal());
+    }
+    return bounds_of(low, high, 0.001f);
+}
+
+ChainPart part_as_written(const ChainPart& part, const TracedPose& pose) {
+    const ShownTrace& trace = *pose.trace;
+    const TracedFrame& first = trace.frames.front();
+    const auto written = [&](glm::vec3 p) { return glm::vec3(trace.conventions.written(p)); };
+    std::vector<glm::vec3> joints;
+    for (std::size_t i = 0; i <= first.end_effector(); ++i) joints.push_back(written(first.joints[i]));
+    ChainPart there = part;
+    there.chain = chain_through(joints);
+    there.target = written(part.target);
+    if (auto& pole = there.reach.options.pole) pole = written(*pole);
+    there.reach.limits = trace.view.solve().limits(joints);
+    return there;
 }
 
 void trace_rows(const TracedPose& pose, MoreRows& more, Emit& emit) {

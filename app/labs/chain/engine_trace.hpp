@@ -13,6 +13,7 @@
 #include "app/fields/fields.hpp"
 #include "app/io/trace/trace.hpp"
 #include "app/labs/chain/chain_part.hpp"
+#include "app/labs/kit/panel_rows.hpp"
 #include "app/view/draw_list.hpp"
 #include "app/widgets/emit.hpp"
 #include "app/widgets/more.hpp"
@@ -58,6 +59,12 @@ const TracedPose* traced_pose(const ChainPart& part);
 /// The ghost's solver.
 ik::Method traced_method(const TracedPose& pose);
 void draw_traced_ghost(const View& view, const ChainPart& part, DrawList& list);
+/// The first incident in the shown frames.
+Verdict trace_verdict(const TracedPose& pose);
+/// All shown frames, joints and targets.
+Bounds trace_bounds(const TracedPose& pose);
+/// The ghost's first pose, and what it solves now, in the axes and unit of the trace: for export.
+ChainPart part_as_written(const ChainPart& part, const TracedPose& pose);
 /// Panel: how the trace is read and why, and how Tendril solves it.
 void trace_rows(const TracedPose& pose, MoreRows& more, Emit& emit);
 

@@ -347,6 +347,7 @@ std::string status_text(const ChainPart& part) {
 }
 
 Verdict chain_verdict(const ChainPart& part) {
+    if (const TracedPose* const pose = traced_pose(part)) return trace_verdict(*pose);
     if (part.chain.empty()) return {"No joints", Verdict::Kind::Open};
     if (part.mode == ChainMode::Reach) return reach_verdict(part);
     if (part.mode == ChainMode::Curve) return curve_verdict(part);
@@ -370,6 +371,11 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
         note("This is one step of the solve. The last step shows the report.");
         return;
     }
+    if (const TracedPose* const pose = traced_pose(part))
+        return show_verdict(chain_verdict(part), palette, emit, {.verdict = 2, .notes = 1}, [pose] {
+            note(pose->trace->name + ", frame " + std::to_string(pose->frame) + " of " +
+                 std::to_string(pose->trace->all) + '.');
+        });
     const VerdictLines reserved = part.mode == ChainMode::Reach
                                       ? VerdictLines{.verdict = 1, .notes = 3, .paragraphs = 2}
                                       // the status in two lines, what ran

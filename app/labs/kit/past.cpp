@@ -66,6 +66,7 @@ constexpr std::size_t moments_a_frame = 16;
 
 /// "Joint 2 flipped: one of its bones turned 128 degrees in one tick"
 std::string incident_title(const Incident& incident) {
+    if (!incident.title.empty()) return incident.title;
     const bool named = !incident.name.empty();
     const std::string joint = named ? "Bone " + incident.name : "Joint " + std::to_string(incident.joint);
     switch (incident.kind) {
@@ -444,7 +445,8 @@ void incident_row(const Workspace& workspace, std::size_t number, const Palette&
     colour_mark(incident_colour(incident, palette));
     // Only the first words of a flip: the angle appears once it is selected.
     std::string title = incident_title(incident);
-    title = title.substr(0, title.find(':')) + ", " + age_text(workspace, incident);
+    if (incident.title.empty())
+        title = title.substr(0, title.find(':')) + ", " + age_text(workspace, incident);
     ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, ImVec2(0.0f, 0.5f));
     if (ImGui::Selectable(elided(title, ImGui::GetContentRegionAvail().x).c_str(), chosen,
                           ImGuiSelectableFlags_None, {0.0f, ImGui::GetFrameHeight()})) {

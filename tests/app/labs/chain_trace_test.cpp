@@ -1,9 +1,13 @@
 // A trace from an engine, opened in the Chain lab: the strip is the trace, with its marks.
 #include "app/labs/chain/engine_trace.hpp"
 
+#include <cstdio>
 #include <fstream>
+#include <limits>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/chain/code.hpp"
+#include "app/labs/chain/panel.hpp"
 #include "tests/app/io/trace_support.hpp"
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
@@ -13,6 +17,7 @@ namespace tendril::app {
 namespace {
 
 using test::made::Format;
+using test::made::MadeFrame;
 using test::made::MadeTrace;
 using test::made::Plant;
 
@@ -56,6 +61,43 @@ TEST_F(ChainTrace, EachFrameIsAMomentAndAFlipIsMarkedWithItsCauseAndCure) {
     run("time.incident", {{"number", 0}});
     EXPECT_TRUE(workspace.ui.incident);
     EXPECT_EQ(workspace.moment, made.frame);
+}
+
+TEST_F(ChainTrace, TheTitleIsTheFirstIncidentAndEveryFrameIsInView) {
+    MadeTrace made = test::made::TraceMaker(5).make(Plant::FlipAtPole);
+    made.frames[20].joints[2].x = std::numeric_limits<double>::quiet_NaN();
+    run("chain.trace", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
+    EXPECT_EQ(workspace.moment, 20u);
+    EXPECT_TRUE(chain_verdict(part()).text.starts_with("Frame 20: NaN at joint 2"))
+        << chain_verdict(part()).text;
+    EXPECT_TRUE(workspace.ui.incident->title.starts_with("Frame 20: NaN at joint 2"));
+    EXPECT_TRUE(flips()[0].title.starts_with("Frame 60: flip at joint 1")) << flips()[0].title;
+    const Bounds bounds = ChainLab().bounds(workspace, false);
+    for (const MadeFrame& frame : made.frames)
+        EXPECT_LE(glm::distance(glm::vec3(frame.target), bounds.centre), bounds.radius);
+}
+
+TEST_F(ChainTrace, CodeIsInTheTracesAxesAndUnitWithTheChosenCure) {
+    const MadeTrace made = test::made::TraceMaker(5).make(Plant::FlipAtPole);
+    run("chain.trace", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
+    run("chain.trace", {{"soft_zone", 0.05}, {"hinge", 1}});
+    const std::string code = chain_code(part());
+    EXPECT_NE(code.find("Z up, left-handed, centimetres"), code.npos) << code;
+    EXPECT_NE(code.find("options.soft_zone = 0.05f;"), code.npos) << code;
+    EXPECT_NE(code.find("limits[1]"), code.npos) << code;
+    // Z up and left-handed: Y and Z change places.
+    const auto expect_point = [&](std::size_t at, const char* format, const glm::dvec3& is) {
+        glm::vec3 p(0.0f);
+        ASSERT_NE(at, code.npos);
+        ASSERT_EQ(std::sscanf(code.c_str() + at, format, &p.x, &p.y, &p.z), 3) << code;
+        EXPECT_LT(glm::distance(p, 100.0f * glm::vec3(is.x, is.z, is.y)), 1e-2f);
+    };
+    expect_point(code.find("target{"), "target{%ff, %ff, %ff}", made.frames[made.frame].target);
+    std::size_t at = code.find("segments{");
+    for (const glm::dvec3& joint : made.frames[0].joints) {
+        at = code.find("{{", at + 1);
+        expect_point(at, "{{%ff, %ff, %ff}", joint);
+    }
 }
 
 TEST_F(ChainTrace, TheGhostIsTendrilsSolveUntilTheChainIsChanged) {
@@ -143,7 +185,7 @@ TEST_F(ChainTrace, AFrameThatIsNotFiniteHoldsThePoseBefore) {
     run("chain.trace", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
     const auto& all = workspace.rewind.incidents();
     EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Incident& each) {
-        return each.tick + 1 == made.frame && each.cause.find("NaN at joint") != std::string::npos;
+        return each.tick + 1 == made.frame && each.title.find("NaN at joint") != std::string::npos;
     }));
     const glm::vec3 held(made.frames[made.frame - 1].joints[1]);
     EXPECT_LT(glm::distance(part().chain.position(1), held), 1e-4f);
