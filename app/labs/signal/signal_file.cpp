@@ -20,6 +20,13 @@ std::span<const tendril::Field> tendril::fields<tendril::app::SignalInput>() noe
         field<&SignalInput::hand>("hand", amplitudes)};
     return rows;
 }
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::SignalStage>() noexcept {
+    using app::SignalStage;
+    static constexpr Field rows[] = {kinds<&SignalStage::filter>("kind", signal::kind_names),
+                                     field<&SignalStage::enabled>("enabled")};
+    return rows;
+}
 
 namespace tendril::app {
 namespace {
@@ -66,18 +73,15 @@ SignalInput load_input(const JsonPlace& place) {
 
 /// A stage of a preset has no state.
 SignalStage load_stage(const JsonPlace& place, bool preset = false) {
-    SignalStage stage{filter_from_json(place.json(), place.where())};
-    if (preset && !place.has("enabled")) return stage;
-    stage.enabled = place["enabled"].flag();
-    if (preset) return stage;
-    const JsonPlace state = place["state"];
-    stage.state = filter_state_from_json(state.json(), state.where());
+    SignalStage stage;
+    load_known_fields(place, stage, {"state"});
+    check_filter(place, stage.filter);
+    if (!preset) stage.state = filter_state_from_json(place["state"]);
     return stage;
 }
 
 Json save_stage(const SignalStage& stage) {
-    Json json = filter_json(stage.filter);
-    json["enabled"] = stage.enabled;
+    Json json = save_fields(stage);
     json["state"] = filter_state_json(stage.state);
     return json;
 }
@@ -104,8 +108,7 @@ Fitting load_fitting(const SignalPart& part, const JsonPlace& place) {
     constexpr std::size_t max_shares = 1000;
     if (part.wanted.size() < 2 || part.recording) place.fail("there is no response to fit to");
     if (part.fits.size() >= signal::kinds().size()) place.fail("every kind is fitted already");
-    const JsonPlace from = place["from"];
-    return {filters_from_json(from.json(), from.where(), max_stages), place["shares"].index(max_shares)};
+    return {filters_from_json(place["from"], max_stages), place["shares"].index(max_shares)};
 }
 
 void load_fits(SignalPart& part, const JsonPlace& place) {
@@ -119,9 +122,7 @@ void load_fits(SignalPart& part, const JsonPlace& place) {
                           (*recording)["rows"].index(part.wanted.size() - 1), (*recording)["begun"].flag()};
     }
     place["ranking"].for_each("fits", 100, [&](const JsonPlace& each) {
-        const JsonPlace filter = each["filter"];
-        part.fits.push_back(
-            {filter_from_json(filter.json(), filter.where()), each["residual"].real(0.0, max_residual), 0});
+        part.fits.push_back({filter_from_json(each["filter"]), each["residual"].real(0.0, max_residual), 0});
     });
     if (const auto fitting = place.optional("fitting")) part.fitting = load_fitting(part, *fitting);
 }
