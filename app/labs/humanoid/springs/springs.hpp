@@ -21,7 +21,7 @@ inline constexpr std::size_t max_springs = 64;
 /// A spring on a node and all its descendants.
 struct SpringSetting {
     std::string node;                   ///< by name
-    humanoid::SpringOptions options{};  ///< the hit radius is that of the character's file
+    humanoid::SpringOptions options{};  ///< initially as in the character's file
     bool operator==(const SpringSetting&) const = default;
 };
 
@@ -30,6 +30,11 @@ std::optional<std::size_t> spring_on(const HumanoidPart& part, std::size_t node)
 /// Why there can be no spring on the node: another spring is in the way, the node belongs to the body or has
 /// no parent. Empty if there can be one, provided that the node has some length.
 std::string why_no_spring(const HumanoidPart& part, std::size_t node);
+inline double max_hit_radius() {
+    return field_of<&humanoid::SpringOptions::hit_radius>().range.high;
+}
+/// The setting with which a spring on the node begins.
+SpringSetting usual_spring(const HumanoidPart& part, std::size_t node);
 /// Puts the springs of the character's file on it, but for those that are not possible.
 void take_springs(HumanoidPart& part);
 /// The selected nodes that can have a spring, without descendants of one another.
@@ -43,11 +48,8 @@ void read_springs(const JsonPlace& place, HumanoidPart& part);
 
 }  // namespace tendril::app
 
-/// Except for its node.
 template <>
-std::span<const tendril::Field> tendril::fields<tendril::app::SpringSetting>() noexcept;
-template <>
-std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::SpringSetting>();
+std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::humanoid::SpringOptions>();
 
 namespace tendril::app {
 
