@@ -158,11 +158,11 @@ struct ToJson {
     Json operator()(const ik::State& state) const { return {{"ik", save_ik_state(state)}}; }
 };
 
-/// One that has not started has no rotations of unit length yet.
+/// Rotations are not of unit length before it has started.
 template <class T>
 rig::UnitMemory read_spring(const JsonPlace& place) {
     signal::SpringState<T> state;
-    if (!place["started"].flag()) return {state};
+    if (std::is_same_v<T, glm::dquat> && !place["started"].flag()) return {state};
     load_known_fields(place, {spring_fields<T>(), &state});
     check_unit(place["value"], state.value);
     check_unit(place["previous_target"], state.previous_target);

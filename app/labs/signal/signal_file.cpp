@@ -4,6 +4,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/fields/fields.hpp"
+#include "app/fields/input_json.hpp"
 #include "app/labs/signal/filter_json.hpp"
 #include "app/labs/signal/presets.hpp"
 #include "app/labs/signal/signal_part.hpp"
@@ -112,6 +113,7 @@ Fitting load_fitting(const SignalPart& part, const JsonPlace& place) {
 }
 
 void load_fits(SignalPart& part, const JsonPlace& place) {
+    check_members(place, {"input", "wanted", "recording", "ranking", "fitting"});
     part.fit_input = load_rows(place["input"], "rows", max_wanted);
     place["wanted"].for_each("values", max_wanted,
                              [&](const JsonPlace& each) { part.wanted.push_back(each.real()); });
@@ -143,6 +145,7 @@ Json SignalPart::save() const {
 
 std::shared_ptr<Part> SignalPart::load(const Json& json, const std::string& where) const {
     const JsonPlace place(json, where);
+    check_members(place, {"filters", "input", "time", "past", "selected", "plot", "fit"});
     auto part = std::make_shared<SignalPart>();
     place["filters"].for_each("filters", max_stages,
                               [&](const JsonPlace& each) { part->stages.push_back(load_stage(each)); });

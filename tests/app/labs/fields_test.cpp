@@ -443,7 +443,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Whole{rope_lab, {"rope.preset", {{"name", "bridge"}}}, {"/swings/0"}},
                     Whole{signal_lab,
                           {"signal.preset", {{"name", "four_filters"}}},
-                          {"/input", "/filters/0", "/filters/0/state/motion", "/filters/3/state/spring"}},
+                          {"", "/input", "/fit", "/filters/0", "/filters/0/state/motion",
+                           "/filters/3/state/spring"}},
                     Whole{chain_lab, {"chain.preset", {{"name", "arm"}}}, {"/segments/0", "/segments/3"}}),
     [](const auto& given) { return given.param.lab + std::to_string(given.index); });
 

@@ -48,7 +48,7 @@ double value(const FilterState& state) noexcept;
 bool started(const FilterState& state) noexcept;
 
 /// Checks ranges and relations between parameters. InvalidArgument, naming the parameter and its value:
-/// `rate_limit: rise must be 0 to 1e9 1/s, got -1`.
+/// `rate_limit: rise must be 0 to 1e9 1/s, got -1`. A curve has 1 to 1000 keys.
 Result check(const Filter& filter) noexcept;
 
 /// In the order of Filter's alternatives.
