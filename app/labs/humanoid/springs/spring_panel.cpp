@@ -68,8 +68,9 @@ void put_on_springs_row(const HumanoidPanel& panel) {
 /// Shows one spring; editing sets all.
 void setting_rows(const HumanoidPanel& panel, const SpringSetting& spring,
                   const std::vector<std::string>& nodes) {
-    FieldRows(spring.options, "humanoid.spring", panel.emit, {of_nodes(nodes)})
-        .rows("strength", "critical_damping", "weight", "max_angle");
+    const FieldRows rows(spring.options, "humanoid.spring", panel.emit, {of_nodes(nodes)});
+    rows.rows("strength", "critical_damping", "weight", "max_angle");
+    if (colliding(panel.part, spring) != nullptr) rows.row("hit_radius");
 }
 
 }  // namespace

@@ -26,7 +26,14 @@ std::span<const FieldText> field_texts<humanoid::SpringOptions>() {
          .label = "max angle",
          .help = "The largest angle by which a bone turns away from the clip.",
          .step = 0.5f,
-         .decimals = 0}};
+         .decimals = 0},
+        {.name = "hit_radius",
+         .label = "hit radius",
+         .help = "How far its bones' ends keep outside the spheres and capsules of the file.",
+         .step = 0.05f,
+         .decimals = 1,
+         .scale = 100.0,
+         .unit = "cm"}};
     return texts;
 }
 

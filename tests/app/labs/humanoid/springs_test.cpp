@@ -271,6 +271,9 @@ TEST_F(HumanoidSprings, AreKeptOutOfTheCollidersOfTheirFile) {
     const std::size_t before = drawn().strokes.size();
     run("humanoid.select", {{"node", "hair"}});
     EXPECT_GT(drawn().strokes.size(), before + 20);
+    run("humanoid.spring", {{"node", "hair"}, {"hit_radius", 0.05}});
+    tick(1000);
+    EXPECT_NEAR(apart(), 0.15, 1e-6);
 }
 
 }  // namespace
