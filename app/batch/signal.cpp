@@ -25,7 +25,7 @@ Filters read_filters(const std::string& path) {
         const Json json = parse_json(text);
         const char* const where = json.is_array() ? "filters" : "filter";
         try {
-            return filters_from_json(json, where, max_filters);
+            return filters_from_json({json, where}, max_filters);
         } catch (const ParseError&) {
             throw;
         } catch (const std::runtime_error& error) {

@@ -122,7 +122,6 @@ std::vector<Table> tables() {
                            table<signal::MotionState>("MotionState"),
                            table<signal::MovingAverageState>("MovingAverageState"),
                            table<signal::InertializeState>("InertializeState"),
-                           table<signal::Curve>("Curve"),
                            table<rig::AimOptions>("AimOptions"),
                            table<rig::BackwardOptions>("BackwardOptions"),
                            table<rig::CollectOptions>("CollectOptions"),
@@ -132,7 +131,7 @@ std::vector<Table> tables() {
                            table<rig::Definition>("Definition"),
                            table<rig::Unit>("Unit")};
     for (const signal::Kind& kind : signal::kinds())
-        all.push_back({kind.name, kind.fields, [&kind] {
+        all.push_back({kind.name, kind.table(), [&kind] {
                            const auto filter = std::make_shared<signal::Filter>(kind.blank());
                            return std::shared_ptr<void>(filter, signal::fields_in(*filter));
                        }});

@@ -28,7 +28,8 @@ double some_dt(Random& random) {
 Filter some_filter(const signal::Kind& kind, Random& random) {
     for (;;) {
         Filter filter = kind.blank();
-        for (const Field& field : kind.fields) {
+        for (const Field& field : kind.table()) {
+            if (field.count != nullptr) continue;
             const bool is_flag = field.type == FieldType::Flag;
             for (int i = 0; i < field.size(); ++i) {
                 const double value = static_cast<double>(random.below(is_flag ? 2 : 256));

@@ -320,7 +320,7 @@ Filter filter_of(const std::string& kind, const Json& parameters) {
     EXPECT_NE(found, nullptr) << kind;
     Filter filter = found->blank();
     std::size_t read = 0;
-    for (const Field& field : found->fields) {
+    for (const Field& field : found->table()) {
         const auto given = parameters.find(field.name);
         if (given == parameters.end()) continue;
         ++read;

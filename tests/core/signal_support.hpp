@@ -37,7 +37,7 @@ inline signal::Filter filter_of(std::string_view kind,
     EXPECT_NE(found, nullptr) << kind;
     signal::Filter filter = found->blank();
     for (const auto& [name, value] : parameters) {
-        const Field* const field = find_field(found->fields, name);
+        const Field* const field = find_field(found->table(), name);
         EXPECT_NE(field, nullptr) << kind << " has no " << name;
         if (field != nullptr) field->set(signal::fields_in(filter), {value, value});
     }

@@ -30,7 +30,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const std::vector<signal::Sample> samples = rows();
     std::vector<signal::Filter> filters;
     try {
-        filters = app::filters_from_json(app::parse_json(fuzz::text_of(data, size)), "filters", max_filters);
+        filters =
+            app::filters_from_json({app::parse_json(fuzz::text_of(data, size)), "filters"}, max_filters);
     } catch (const std::runtime_error& error) {
         check(error.what()[0] != '\0', "a refusal says why");
         return 0;
@@ -38,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check(filters.size() <= max_filters, "no more than may be");
     for (const signal::Filter& filter : filters) {
         check(static_cast<bool>(signal::check(filter)), "the library takes it");
-        check(app::filter_from_json(app::filter_json(filter), "filter") == filter,
+        check(app::filter_from_json({app::filter_json(filter), "filter"}) == filter,
               "it is written as it was read");
         for (const double output : signal::run({&filter, 1}, samples))
             check(!std::isnan(output), "what comes out is a number");

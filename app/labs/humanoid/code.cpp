@@ -372,13 +372,11 @@ class HumanoidProgram {
         for (std::size_t i = 0; i < chains.size(); ++i) {
             if (chains[i] == nullptr) continue;
             const std::string name = "spring_" + std::to_string(i);
-            humanoid::SpringOptions options = part_.springs[i].options;
-            if (const NamedSpring* file = colliding(part_, part_.springs[i]))
-                options.hit_radius = file->hit_radius;
             say("");
             make_solver("SpringChain", name,
                         "*skeleton, map, *skeleton->find(" + string_text(part_.springs[i].node) + ')');
-            list("const humanoid::SpringOptions " + name + "_options{", member_texts(options), "};");
+            list("const humanoid::SpringOptions " + name + "_options{",
+                 member_texts(part_.springs[i].options), "};");
             say("humanoid::SpringChainState " + name + "_state;");
             if (i >= part_.ik_state.springs.size()) continue;
             for (const humanoid::SpringMass& mass : part_.ik_state.springs[i].masses)

@@ -69,9 +69,6 @@ Json save_playback(const HumanoidPart& part) {
         json["name"] = part.clip()->name;
         json["index"] = *playback.clip;
     }
-    json["playing"] = playback.playing;
-    json["time"] = playback.time;
-    json["rounds"] = playback.rounds;
     json.update(save_fields(playback));
     return json;
 }
@@ -92,19 +89,11 @@ std::size_t read_clip(const JsonPlace& place, const LoadedCharacter& character) 
 Playback read_playback(const JsonPlace& place, const LoadedCharacter& character) {
     Playback playback;
     if (place.has("name")) playback.clip = read_clip(place, character);
-    if (const auto playing = place.optional("playing")) playback.playing = playing->flag();
-    load_known_fields(
-        place, {{playback}},
-        {"name", "index", "playing", "time", "rounds", "carry_targets"});  // the last: older files
-    if (const auto time = place.optional("time")) {
-        const double at =
-            playback.clip ? time->real(0.0, character.clips()[*playback.clip].duration) : time->real();
-        if (playback.clip) playback.time = at;
-    }
-    if (const auto rounds = place.optional("rounds")) {
-        const auto count = static_cast<std::int64_t>(rounds->count(max_rounds));
-        if (playback.clip) playback.rounds = count;
-    }
+    load_known_fields(place, playback, {"name", "index", "carry_targets"});  // the last: older files
+    if (!playback.clip)
+        playback.time = 0.0, playback.rounds = 0;
+    else if (const auto time = place.optional("time"))
+        time->real(0.0, character.clips()[*playback.clip].duration);
     return playback;
 }
 

@@ -252,7 +252,7 @@ Json springs_state(const Workspace& workspace, const ShownPose& shown) {
         Json bones = Json::array();
         if (chains[i] != nullptr)
             for (const std::size_t node : chains[i]->bones()) bones.push_back(part.skeleton()[node].name);
-        list.push_back(save_fields(each));
+        list.push_back(save_fields(each.options));
         list.back().update({{"node", each.node},
                             {"bones", std::move(bones)},
                             {"angle_deg", glm::degrees(shown.springs[i].angle)}});
@@ -265,14 +265,8 @@ Json springs_state(const Workspace& workspace, const ShownPose& shown) {
 Json clip_state(const HumanoidPart& part) {
     const humanoid::Clip* clip = part.clip();
     if (clip == nullptr) return nullptr;
-    const Playback& playback = part.playback;
-    Json json = save_fields(playback);
-    json.update({{"name", clip->name},
-                 {"time", playback.time},
-                 {"duration", clip->duration},
-                 {"playing", playback.playing},
-                 {"pace", dpoint(playback.pace)},
-                 {"rounds", playback.rounds}});
+    Json json = save_fields(part.playback);
+    json.update({{"name", clip->name}, {"duration", clip->duration}, {"pace", dpoint(part.playback.pace)}});
     return json;
 }
 
@@ -289,10 +283,10 @@ Json HumanoidLab::state(const Workspace& workspace) const {
                 {"clip", clip_state(part)},
                 {"clips", names(part.loaded->clips(), [](const humanoid::Clip& clip) { return clip.name; })},
                 {"feet", feet_state(part, humanoid_runtime(workspace).solvers, shown)},
-                {"foot_ik", part.ik.foot_ik.on},
+                {"foot_ik", save_fields(part.ik.foot_ik)},
                 {"hand_ik", hands_state(part, shown)},
                 {"hold", hold_state(part, shown)},
-                {"skinning", skinnings.name(part.view.skinning)},
+                {"view", save_fields(part.view)},
                 {"look_at", look_state(part, shown)},
                 {"ground", ground_state(part.ik.ground)},
                 {"springs", springs_state(workspace, shown)},

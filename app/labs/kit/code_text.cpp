@@ -74,6 +74,10 @@ std::string pascal_text(std::string_view name) {
     return text;
 }
 
+std::string library_name(std::string_view type) {
+    return std::string(type.substr(std::string_view("tendril::").size()));
+}
+
 std::string literal_code(bool value) {
     return value ? "true" : "false";
 }
@@ -102,11 +106,6 @@ std::string literal_code(const rig::Value& value) {
 }
 
 namespace {
-
-/// "tendril::ik::Side" as "ik::Side"
-std::string library_name(std::string_view type) {
-    return std::string(type.substr(std::string_view("tendril::").size()));
-}
 
 std::string code(const rig::Item& item) {
     const auto* name = std::get_if<std::string>(&item.which);

@@ -36,6 +36,9 @@ std::string string_text(std::string_view text);
 /// "one_euro" as "OneEuro"
 std::string pascal_text(std::string_view name);
 
+/// "tendril::ik::Side" as "ik::Side"
+std::string library_name(std::string_view type);
+
 /// ".damping = 0.5": each member that is not at its default, with its structs and lists, in table order;
 /// without defaults each that is not empty. Members must be named, and declared in the order of, their
 /// fields. The elements of a list of structs are on a line each, after `margin`.

@@ -1,10 +1,13 @@
-// JSON of the library's IK states.
+// JSON of the library's states of IK and of springs.
 #pragma once
 
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <string>
+#include <tendril/fields.hpp>
 #include <tendril/ik/state.hpp>
+#include <tendril/signal/input.hpp>
+#include <tendril/signal/spring.hpp>
 #include <vector>
 
 #include "app/document/json.hpp"
@@ -34,5 +37,18 @@ Json save_ik_state(const ik::State& state);
 /// The state of `bones` bones, at rest if the file has no rotations. `joints` are for a pole without joints.
 /// Throws std::runtime_error that begins with the JSON path of the fault.
 ik::State load_ik_state(const JsonPlace& place, std::size_t bones, const std::vector<glm::vec3>& joints = {});
+
+/// The fields of a spring's state as rigs and filters save it. A spring may reach max_output, which the
+/// library's own table does not allow.
+template <class T>
+std::span<const Field> spring_fields() noexcept {
+    using State = signal::SpringState<T>;
+    constexpr FieldRange outputs{-signal::max_output, signal::max_output};
+    static constexpr Field rows[] = {field<&State::value>("value", outputs).needed(),
+                                     field<&State::velocity>("velocity", outputs).needed(),
+                                     field<&State::previous_target>("previous_target", outputs).needed(),
+                                     field<&State::started>("started").needed()};
+    return rows;
+}
 
 }  // namespace tendril::app

@@ -3,6 +3,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/labs/kit/code_text.hpp"
+#include "app/labs/kit/library_json.hpp"
 #include "app/labs/rig/values.hpp"
 
 namespace tendril::app {
@@ -41,11 +42,9 @@ std::string control_code(const rig::Control& control) {
 std::string definition_code(const rig::Definition& definition) {
     std::string text = "static rig::Definition definition() {\n    rig::Definition made;\n";
     for (const rig::Element& element : definition.elements) {
-        text += "    made.elements.push_back({.name = " + string_text(element.name) +
-                ", .kind = rig::ElementKind::" + pascal_text(rig::name(element.kind));
-        if (!element.parent.empty()) text += ", .parent = " + string_text(element.parent);
-        if (element.initial != rig::Transform())
-            text += ",\n                             .initial = " + literal_code(element.initial);
+        const rig::Element usual;
+        text += "    made.elements.push_back({" +
+                joined(member_texts({fields<rig::Element>().first(4), &element, &usual}));
         if (element.control)
             text += ",\n                             .control = " + control_code(*element.control);
         text += "});\n";
@@ -144,15 +143,11 @@ struct MemoryCode {
         return held("rig::Turned{" + literal_code(turned.rotation) + '}');
     }
     std::string operator()(const signal::OutputState& state) const {
-        return held("signal::OutputState{.value = " + double_text(state.value) +
-                    ", .started = " + literal_code(state.started) + '}');
+        return held("signal::OutputState" + struct_text(state));
     }
     template <class T>
     std::string operator()(const signal::SpringState<T>& state) const {
-        return held("signal::SpringState<" + type<T>() + ">{.value = " + literal_code(state.value) +
-                    ", .velocity = " + literal_code(state.velocity) +
-                    ", .previous_target = " + literal_code(state.previous_target) +
-                    ", .started = " + literal_code(state.started) + '}');
+        return held("signal::SpringState<" + type<T>() + ">" + struct_text({spring_fields<T>(), &state}));
     }
     std::string operator()(const ik::State& state) const {
         std::string text =

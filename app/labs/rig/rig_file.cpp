@@ -18,6 +18,19 @@
 #include "app/labs/rig/take.hpp"
 #include "app/labs/rig/values.hpp"
 
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::RateDifference>() noexcept {
+    using Rates = app::RateDifference;
+    constexpr FieldRange reached{0.0, app::max_reached}, times{0.0, 1e9}, frames{0.0, app::max_rate_frames};
+    static constexpr Field rows[] = {
+        field<&Rates::mm>("mm", reached),       field<&Rates::degrees>("degrees", {0.0, 360.0}),
+        field<&Rates::scale>("scale", reached), field<&Rates::bone>("bone"),
+        field<&Rates::between>("between"),      field<&Rates::seconds>("seconds", times),
+        field<&Rates::ticks>("ticks", times),   field<&Rates::frames>("frames", frames),
+        field<&Rates::done>("done", frames),    field<&Rates::running>("running")};
+    return rows;
+}
+
 namespace tendril::app {
 namespace {
 
@@ -194,26 +207,12 @@ RigWalk read_walk(const JsonPlace& place, const std::string& control, const RigP
     return walk;
 }
 
-RateDifference read_rates(const JsonPlace& place) {
-    check_members(place, {"mm", "degrees", "scale", "bone", "between", "seconds", "ticks", "frames", "done",
-                          "running"});
-    const auto scale = place.optional("scale");
-    const std::size_t frames = place.has("frames") ? place["frames"].index(max_rate_frames) : 0;
-    return {.mm = place["mm"].real(0.0, max_reached),
-            .degrees = place["degrees"].real(0.0, 360.0),
-            .scale = scale ? scale->real(0.0, max_reached) : 0.0,
-            .bone = place["bone"].text(),
-            .between = place["between"].text(),
-            .seconds = place["seconds"].real(0.0, 1e9),
-            .ticks = place["ticks"].real(0.0, 1e9),
-            .frames = frames,
-            .done = place.has("done") ? place["done"].index(frames) : 0,
-            .running = place.has("running") && place["running"].flag()};
-}
-
 /// A running comparison must have the number of frames that its ticks give.
 RateDifference read_rates(const JsonPlace& place, const RigPart& part) {
-    RateDifference rates = read_rates(place);
+    RateDifference rates;
+    load_known_fields(place,
+                      {{rates, MissingField::Refused, {"scale", "frames", "done", "running"}}});  // newer
+    if (rates.done > rates.frames) place["done"].fail("there are only " + std::to_string(rates.frames));
     if (!rates.running) return rates;
     RigPart begun = part;
     const double max_ticks = max_rate_seconds / tick_seconds;
@@ -240,19 +239,10 @@ Json walks_json(const RigPart& part) {
     return walks;
 }
 
-Json rates_json(const RigPart& part) {
-    if (!part.rates) return nullptr;
-    const RateDifference& most = *part.rates;
-    return {{"mm", most.mm},          {"degrees", most.degrees}, {"scale", most.scale},
-            {"bone", most.bone},      {"between", most.between}, {"seconds", most.seconds},
-            {"ticks", most.ticks},    {"frames", most.frames},   {"done", most.done},
-            {"running", most.running}};
-}
-
 void save_time(const RigPart& part, Json& state) {
     state["take"] = take_json(part);
     if (!part.walks.empty()) state["motions"] = walks_json(part);
-    if (part.rates) state["rates"] = rates_json(part);
+    if (part.rates) state["rates"] = save_fields(*part.rates);
     if (part.clip) state["clip"] = clip_json(part);
 }
 

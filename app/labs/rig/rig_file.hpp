@@ -11,9 +11,7 @@ void save_time(const RigPart& part, Json& state);
 /// `part` must already have its rig and its state.
 void load_time(const JsonPlace& state, RigPart& part);
 
-/// --state shows these too.
-Json walks_json(const RigPart& part);
-Json rates_json(const RigPart& part);
+Json walks_json(const RigPart& part);  ///< --state shows it too
 
 // A clip in a scene file, with the result of its backward solve:
 //

@@ -17,6 +17,7 @@
 
 #include "app/document/document.hpp"
 #include "app/document/workspace.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/kit/flips.hpp"
 #include "app/labs/kit/motion.hpp"
 #include "app/labs/kit/selection.hpp"
@@ -222,3 +223,6 @@ inline const RigPart& rig_part(const Workspace& workspace) {
 }
 
 }  // namespace tendril::app
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::RateDifference>() noexcept;

@@ -150,47 +150,34 @@ constexpr double max_remembered = signal::max_output;
 struct ToJson {
     Json operator()(std::monostate) const { return nullptr; }
     Json operator()(const rig::Turned& turned) const { return {{"turned", dquaternion(turned.rotation)}}; }
-    Json operator()(const signal::OutputState& state) const {
-        return {{"output", {{"value", state.value}, {"started", state.started}}}};
-    }
+    Json operator()(const signal::OutputState& state) const { return {{"output", save_fields(state)}}; }
     template <class T>
     Json operator()(const signal::SpringState<T>& state) const {
-        return {{"spring",
-                 {{"value", value_json(state.value)},
-                  {"velocity", value_json(state.velocity)},
-                  {"previous_target", value_json(state.previous_target)},
-                  {"started", state.started}}}};
+        return {{"spring", save_fields({spring_fields<T>(), &state})}};
     }
     Json operator()(const ik::State& state) const { return {{"ik", save_ik_state(state)}}; }
 };
 
+/// Rotations are not of unit length before it has started.
 template <class T>
-signal::SpringState<T> read_spring(const JsonPlace& place, rig::Type type) {
-    using Rate = signal::Rate<T>;
-    const rig::Type rate = std::is_same_v<T, double> ? rig::Type::Number : rig::Type::Vector;
-    const rig::Value value = read_value(place["value"], type, max_remembered);
-    const rig::Value target = read_value(place["previous_target"], type, max_remembered);
-    const bool started = place["started"].flag();
-    if (started) {  // before that the rotations are not of unit length
-        check_unit(place["value"], value);
-        check_unit(place["previous_target"], target);
-    }
-    return {.value = std::get<T>(value),
-            .velocity = std::get<Rate>(read_value(place["velocity"], rate, max_remembered)),
-            .previous_target = std::get<T>(target),
-            .started = started};
+rig::UnitMemory read_spring(const JsonPlace& place) {
+    signal::SpringState<T> state;
+    if (std::is_same_v<T, glm::dquat> && !place["started"].flag()) return {state};
+    load_known_fields(place, {spring_fields<T>(), &state});
+    check_unit(place["value"], state.value);
+    check_unit(place["previous_target"], state.previous_target);
+    return {state};
 }
 
 rig::UnitMemory read_any_spring(const JsonPlace& place) {
-    check_members(place, {"value", "velocity", "previous_target", "started"});
-    const rig::Type type = type_of(read_any_value(place["value"], max_remembered));
-    switch (type) {
+    check_members(place, field_names(spring_fields<double>(), nullptr));
+    switch (type_of(read_any_value(place["value"], max_remembered))) {
         case rig::Type::Number:
-            return {read_spring<double>(place, type)};
+            return read_spring<double>(place);
         case rig::Type::Vector:
-            return {read_spring<glm::dvec3>(place, type)};
+            return read_spring<glm::dvec3>(place);
         case rig::Type::Rotation:
-            return {read_spring<glm::dquat>(place, type)};
+            return read_spring<glm::dquat>(place);
         default:
             place["value"].fail("expected a number, a vector or a rotation");
     }
@@ -215,10 +202,9 @@ rig::UnitMemory read_memory(const JsonPlace& place) {
         return {rig::Turned{std::get<glm::dquat>(read_stored(place["turned"], rig::Type::Rotation))}};
     if (place.has("spring")) return read_any_spring(place["spring"]);
     if (place.has("ik")) return {read_chain(place["ik"])};
-    const JsonPlace output = place["output"];
-    check_members(output, {"value", "started"});
-    const rig::Value value = read_value(output["value"], rig::Type::Number, max_remembered);
-    return {signal::OutputState{.value = std::get<double>(value), .started = output["started"].flag()}};
+    signal::OutputState output;
+    load_known_fields(place["output"], output);
+    return {output};
 }
 
 // The Rig lab's --state.
@@ -230,15 +216,11 @@ Json elements_state(const RigPart& part, const rig::Hierarchy& elements) {
     for (std::size_t i = 0; i < part.state->controls.size(); ++i) {
         const rig::Element& element = part.rig.definition().elements[i];
         const rig::ElementId id = part.rig.id(i);
-        Json json{{"name", element.name},
-                  {"kind", rig::name(element.kind)},
-                  {"parent", element.parent.empty() ? Json(nullptr) : Json(element.parent)},
-                  {"local", transform_json(*elements.known(id, rig::Space::Local))},
-                  {"global", transform_json(*elements.known(id, rig::Space::Global))}};
-        if (element.control) {
-            json["control"] = rig::name(element.control->kind);
+        Json json = save_fields(element);
+        json["local"] = transform_json(*elements.known(id, rig::Space::Local));
+        json["global"] = transform_json(*elements.known(id, rig::Space::Global));
+        if (element.control)
             json["value"] = control_value_json(element.control->kind, part.state->controls[i]);
-        }
         list.push_back(std::move(json));
     }
     return list;
@@ -257,12 +239,9 @@ Json unit_state(const RigPart& part, const rig::Unit& unit, std::size_t& at) {
     Json outputs = Json::object();
     const std::vector<rig::Output> names = rig::outputs(unit.operation);
     for (std::size_t i = 0; i < names.size(); ++i) outputs[names[i].name] = value_json(state.outputs[i]);
-    Json json{{"name", unit.name},
-              {"unit", rig::operation_name(unit.operation.index())},
-              {"enabled", unit.enabled},
-              {"microseconds", 0.0},
-              {"warning", rig::message(state.warning)},
-              {"outputs", std::move(outputs)}};
+    Json json = save_fields(unit);
+    json.update(
+        {{"microseconds", 0.0}, {"warning", rig::message(state.warning)}, {"outputs", std::move(outputs)}});
     if (const auto* loop = std::get_if<rig::ForEach>(&unit.operation)) {
         json["body"] = Json::array();
         for (const rig::Unit& inner : loop->body) json["body"].push_back(unit_state(part, inner, at));
@@ -368,7 +347,7 @@ Json RigLab::state(const Workspace& workspace) const {
                 {"take", take_state(part)},
                 {"motions", walks_json(part)},
                 {"clip", clip_state(part)},
-                {"rates", rates_json(part)}};
+                {"rates", part.rates ? save_fields(*part.rates) : Json()}};
 }
 
 }  // namespace tendril::app

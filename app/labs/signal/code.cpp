@@ -1,24 +1,14 @@
 #include "app/labs/signal/code.hpp"
 
-#include <string_view>
-
 #include "app/labs/kit/code_text.hpp"
-#include "app/labs/signal/filter_fields.hpp"
 
 namespace tendril::app {
 namespace {
 
-std::string type_name(std::string_view kind) {
-    const std::string name = pascal_text(kind);
-    return name == "Spring" ? "Spring<>" : name;
-}
-
 std::string initialiser(const signal::Filter& filter) {
-    const auto* const curve = std::get_if<signal::Curve>(&filter);
-    const std::vector<std::string> members =
-        curve != nullptr ? member_texts({fields<signal::Curve>(), curve}, "                        ")
-                         : member_texts(filter_fields(filter));
-    return "signal::" + type_name(signal::kind(filter)) + "{" + joined(members) + "}";
+    const signal::Kind& kind = signal::kind_of(filter);
+    return library_name(kind.in_code) +
+           struct_text({kind.table(), signal::fields_in(filter)}, "                        ");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Labels and help for the fields of filters. The fields themselves are in signal::kinds().
+// Labels and help for the fields of filters.
 #pragma once
 
 #include <span>
@@ -8,14 +8,7 @@
 
 namespace tendril::app {
 
-inline FieldsOf filter_fields(const signal::Filter& filter) {
-    return {signal::kind_of(filter).fields, signal::fields_in(filter)};
-}
-inline FieldsIn filter_fields(signal::Filter& filter) {
-    return {signal::kind_of(filter).fields, signal::fields_in(filter)};
-}
-
-/// One per field of the kind, in the same order.
+/// One per field of the kind, in the same order; none for a curve's keys, which have an editor.
 std::span<const FieldText> filter_texts(const signal::Kind& kind);
 
 }  // namespace tendril::app

@@ -11,43 +11,16 @@
 #include "app/fields/fields.hpp"
 #include "app/fields/input_json.hpp"
 #include "app/io/samples.hpp"
-#include "app/labs/signal/filter_fields.hpp"
+#include "app/labs/kit/library_json.hpp"
+#include "app/labs/signal/signal_part.hpp"
 
 namespace tendril::app {
 namespace {
 
-[[noreturn]] void fail(const std::string& where, const std::string& what) {
-    throw std::runtime_error(where.empty() ? what : where + ": " + what);
+/// The filter alone, without what the lab has beside it.
+std::span<const Field> filter_row() {
+    return fields<SignalStage>().first(1);
 }
-
-std::string place(const std::string& where, std::string_view key) {
-    return where.empty() ? std::string(key) : where + "." + std::string(key);
-}
-
-}  // namespace
-
-namespace {
-
-/// Includes a curve's keys.
-FieldsIn file_fields(signal::Filter& filter) {
-    if (auto* const curve = std::get_if<signal::Curve>(&filter)) return *curve;
-    return filter_fields(filter);
-}
-
-}  // namespace
-
-Json parameters_json(const signal::Filter& filter) {
-    if (const auto* curve = std::get_if<signal::Curve>(&filter)) return save_fields(*curve);
-    return save_fields(filter_fields(filter));
-}
-
-Json filter_json(const signal::Filter& filter) {
-    Json json{{"kind", signal::kind(filter)}};
-    json.update(parameters_json(filter));
-    return json;
-}
-
-namespace {
 
 /// The value that an out-of-order parameter conflicts with.
 std::string other_end(const signal::Filter& filter) {
@@ -64,48 +37,34 @@ std::string other_end(const signal::Filter& filter) {
 
 }  // namespace
 
-void set_parameters(signal::Filter& filter, const Json& given, const std::string& where,
-                    const std::vector<std::string_view>& others) {
-    signal::Filter changed = filter;
-    load_known_fields({given, where}, file_fields(changed), others, MissingField::Kept);
-    if (const auto* curve = std::get_if<signal::Curve>(&changed); curve != nullptr && curve->keys.empty())
-        fail(place(where, "keys"), "expected at least one key, found none");
-    if (const Result result = signal::check(changed); !result)
-        fail(where, result.message() + other_end(changed));
-    filter = std::move(changed);
+Json filter_json(const signal::Filter& filter) {
+    const SignalStage stage{filter};
+    return save_fields({filter_row(), &stage});
 }
 
-signal::Filter filter_from_json(const Json& json, const std::string& where) {
-    if (!json.is_object())
-        fail(where, "expected a filter, an object with its kind, found " + json_summary(json));
-    const std::string at = place(where, "kind");
-    const std::string name = json_text(json_member(json, "kind", where), at);
-    const signal::Kind* kind = signal::find_kind(name);
-    if (kind == nullptr)
-        fail(at, "expected one of " + kind_names() + ", found " + json_summary(json["kind"]));
-    signal::Filter filter = kind->blank();
-    std::vector<std::string_view> any;
-    for (const auto& [member, value] : json.items()) any.push_back(member);
-    set_parameters(filter, json, where, any);
-    return filter;
+void check_filter(const JsonPlace& place, const signal::Filter& filter) {
+    if (const Result bad = signal::check(filter); !bad) place.fail(bad.message() + other_end(filter));
 }
 
-std::vector<signal::Filter> filters_from_json(const Json& json, const std::string& where, std::size_t most) {
-    if (!json.is_array()) return {filter_from_json(json, where)};
-    if (json.size() > most) {
-        fail(where,
-             "has " + std::to_string(json.size()) + " filters; the maximum is " + std::to_string(most));
-    }
+signal::Filter filter_from_json(const JsonPlace& place) {
+    SignalStage stage;
+    load_fields(place, {filter_row(), &stage});
+    check_filter(place, stage.filter);
+    return std::move(stage.filter);
+}
+
+std::vector<signal::Filter> filters_from_json(const JsonPlace& place, std::size_t most) {
+    if (!place.json().is_array()) return {filter_from_json(place)};
     std::vector<signal::Filter> filters;
-    for (const Json& each : json)
-        filters.push_back(filter_from_json(each, place(where, std::to_string(filters.size()))));
+    place.for_each("filters", most,
+                   [&](const JsonPlace& each) { filters.push_back(filter_from_json(each)); });
     return filters;
 }
 
 std::string kind_names() {
     std::string names;
-    for (const signal::Kind& kind : signal::kinds())
-        names += (names.empty() ? "" : ", ") + std::string(kind.name);
+    for (const char* const name : signal::kind_names)
+        names += (names.empty() ? "" : ", ") + std::string(name);
     return names;
 }
 
@@ -150,15 +109,9 @@ struct Held {
 constexpr const char* state_names[] = {"output", "spring", "motion", "moving_average", "inertialize"};
 constexpr Field held = kinds<&Held::state>("state", state_names);
 
-/// A spring may reach max_output, which the library's own table does not allow.
 std::span<const Field> state_table(const Held& of) {
-    using Spring = signal::SpringState<>;
-    constexpr FieldRange outputs{-signal::max_output, signal::max_output};
-    static constexpr Field spring[] = {field<&Spring::started>("started").needed(),
-                                       field<&Spring::value>("value", outputs).needed(),
-                                       field<&Spring::velocity>("velocity", outputs).needed(),
-                                       field<&Spring::previous_target>("previous_target", outputs).needed()};
-    return std::holds_alternative<Spring>(of.state) ? spring : held.kind(&of).table();
+    return std::holds_alternative<signal::SpringState<>>(of.state) ? spring_fields<double>()
+                                                                   : held.kind(&of).table();
 }
 
 }  // namespace
@@ -171,8 +124,8 @@ Json filter_state_json(const signal::FilterState& state) {
     return Json{{state_names[state.index()], std::move(json)}};
 }
 
-signal::FilterState filter_state_from_json(const Json& json, const std::string& where) {
-    const JsonPlace place(json, where);
+signal::FilterState filter_state_from_json(const JsonPlace& place) {
+    const Json& json = place.json();
     if (!json.is_object() || json.size() != 1)
         place.fail("expected the state of a filter, found " + json_summary(json));
     const auto name = std::ranges::find(state_names, json.begin().key());

@@ -106,7 +106,7 @@ class KindFit final : public FitTask {
     /// Resets each parameter that makes no difference to its default.
     void leave_defaults(signal::Filter& filter) {
         const signal::Filter blank = kind_.blank();
-        for (const Field& field : kind_.fields) {
+        for (const Field& field : kind_.table()) {
             signal::Filter plain = filter;
             field.set(signal::fields_in(plain), field.get(signal::fields_in(blank)));
             if (!signal::check(plain)) continue;
@@ -129,8 +129,8 @@ std::size_t parameters_set(const signal::Filter& filter) {
     const signal::Kind& kind = signal::kind_of(filter);
     const signal::Filter blank = kind.blank();
     std::size_t count = 0;
-    for (const Field& field : kind.fields)
-        for (int i = 0; i < field.size(); ++i)
+    for (const Field& field : kind.table())
+        for (int i = 0; field.count == nullptr && i < field.size(); ++i)
             count += field.number(signal::fields_in(filter), i) != field.number(signal::fields_in(blank), i);
     if (const auto* curve = std::get_if<signal::Curve>(&filter)) count += 2 * curve->keys.size();
     return count;

@@ -90,7 +90,7 @@ double Dimension::at(double value) const {
 
 Dimension dimension(const signal::Kind& kind, const char* field, double low, double high, Scale scale,
                     bool stepped) {
-    const Field* const found = find_field(kind.fields, field);
+    const Field* const found = find_field(kind.table(), field);
     if (found == nullptr) throw std::logic_error(std::string(kind.name) + " has no field " + field);
     // Within the field's own range; a logarithmic scale stays clear of 0.
     const double from = std::clamp(low, found->range.low, found->range.high);

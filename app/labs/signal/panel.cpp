@@ -201,12 +201,11 @@ void parameter_rows(const Workspace& workspace, const Palette& palette, Emit& em
     const PanelSection ids(title.c_str());
     ImGui::PushID(static_cast<int>(at));
     MoreRows more;
-    const signal::Filter usual = signal::kind_of(filter).blank();
-    FieldRows(filter_fields(filter), filter_texts(signal::kind_of(filter)), "signal.filter.set", emit,
-              {{"at", at}})
-        .under(more)
-        .compared_with(filter_fields(usual))
-        .all();
+    const signal::Kind& kind = signal::kind_of(filter);
+    FieldRows rows({kind.table(), signal::fields_in(filter), kind.fresh()}, filter_texts(kind),
+                   "signal.filter.set", emit, {{"at", at}});
+    rows.under(more);
+    for (const FieldText& text : filter_texts(kind)) rows.row(text.name);
     if (const auto* spring = std::get_if<signal::Spring<>>(&filter))
         more.add("half-life, duration, bounce", {}, false,  // strength and damping have rows of their own
                  [spring, at, &emit] { spring_rows(*spring, at, emit); });
@@ -217,7 +216,7 @@ void parameter_rows(const Workspace& workspace, const Palette& palette, Emit& em
         const double input = range != 0.0 ? (before - curve->source_min) / range : 0.0;
         if (curve_editor("curve", edited, stage_colour(palette, part, at), 11.0f, input))
             emit.continuously("signal.filter.set",
-                              {{"at", at}, {"keys", SharedJson(parameters_json(edited).at("keys"))}});
+                              {{"at", at}, {"keys", SharedJson(save_fields(edited).at("keys"))}});
         note("Drag a key. Double-click adds one, right-click removes it.");
     }
     more_rows(workspace, title.c_str(), more, emit);

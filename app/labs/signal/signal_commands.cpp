@@ -45,7 +45,7 @@ std::vector<Argument> parameter_arguments() {
                  .required = false,
                  .help = "each with time, value, arrive, leave and piece"},
                 kind);
-        for (Argument& each : field_arguments(kind.fields, filter_texts(kind))) add(std::move(each), kind);
+        for (Argument& each : field_arguments(kind.table(), filter_texts(kind))) add(std::move(each), kind);
     }
     for (std::size_t i = 0; i < arguments.size(); ++i)
         arguments[i].help = "Of " + owners[i] + ": " + arguments[i].help;
@@ -63,19 +63,26 @@ std::size_t stage_index(const SignalPart& part, const Arguments& given, const ch
                   std::to_string(index));
 }
 
+/// Keeps those that are not given.
+void set_parameters(signal::Filter& filter, const Arguments& given) {
+    const JsonPlace place(given.json(), "");
+    load_known_fields(place, {signal::kind_of(filter).table(), signal::fields_in(filter)}, {"kind", "at"},
+                      MissingField::Kept);
+    check_filter(place, filter);
+}
+
 void add(SignalPart& part, const Arguments& given) {
-    const signal::Kind& kind = *signal::find_kind(given.text("kind"));
     if (part.stages.size() >= max_stages)
         throw Refused("there are " + std::to_string(max_stages) + " filters, which is the maximum");
-    SignalStage stage{kind.blank()};
-    set_parameters(stage.filter, given.json(), "", {"kind", "at"});
+    SignalStage stage{signal::find_kind(given.text("kind"))->blank()};
+    set_parameters(stage.filter, given);
     const std::size_t at = given.has("at") ? stage_index(part, given, "at", true) : part.stages.size();
     part.stages.insert(part.stages.begin() + static_cast<std::ptrdiff_t>(at), std::move(stage));
     part.selected = at;
 }
 
 void set(SignalPart& part, const Arguments& given) {
-    set_parameters(part.stages[stage_index(part, given, "at")].filter, given.json(), "", {"kind", "at"});
+    set_parameters(part.stages[stage_index(part, given, "at")].filter, given);
 }
 
 void remove(SignalPart& part, const Arguments& given) {
@@ -119,8 +126,8 @@ void remove_selected(SignalPart& part, const Arguments&) {
 
 void add_filter_commands(CommandTable& table) {
     const Argument at = filter_argument(index_argument("at", true, "which filter, from 0", max_stages));
-    std::vector<Argument> adding{choice_argument("kind", true, "which kind",
-                                                 names(signal::kinds(), std::mem_fn(&signal::Kind::name)))};
+    std::vector<Argument> adding{
+        choice_argument("kind", true, "which kind", {signal::kind_names.begin(), signal::kind_names.end()})};
     std::vector<Argument> setting{at};
     for (const Argument& parameter : parameter_arguments()) {
         adding.push_back(parameter);

@@ -4,6 +4,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/fields/fields.hpp"
+#include "app/fields/input_json.hpp"
 #include "app/labs/signal/filter_json.hpp"
 #include "app/labs/signal/presets.hpp"
 #include "app/labs/signal/signal_part.hpp"
@@ -18,6 +19,13 @@ std::span<const tendril::Field> tendril::fields<tendril::app::SignalInput>() noe
         field<&SignalInput::kind>("kind", kinds), field<&SignalInput::amplitude>("amplitude", amplitudes),
         field<&SignalInput::period>("period", {app::min_input_period, app::max_input_period}),
         field<&SignalInput::hand>("hand", amplitudes)};
+    return rows;
+}
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::SignalStage>() noexcept {
+    using app::SignalStage;
+    static constexpr Field rows[] = {kinds<&SignalStage::filter>("kind", signal::kind_names),
+                                     field<&SignalStage::enabled>("enabled")};
     return rows;
 }
 
@@ -66,18 +74,15 @@ SignalInput load_input(const JsonPlace& place) {
 
 /// A stage of a preset has no state.
 SignalStage load_stage(const JsonPlace& place, bool preset = false) {
-    SignalStage stage{filter_from_json(place.json(), place.where())};
-    if (preset && !place.has("enabled")) return stage;
-    stage.enabled = place["enabled"].flag();
-    if (preset) return stage;
-    const JsonPlace state = place["state"];
-    stage.state = filter_state_from_json(state.json(), state.where());
+    SignalStage stage;
+    load_known_fields(place, stage, {"state"});
+    check_filter(place, stage.filter);
+    if (!preset) stage.state = filter_state_from_json(place["state"]);
     return stage;
 }
 
 Json save_stage(const SignalStage& stage) {
-    Json json = filter_json(stage.filter);
-    json["enabled"] = stage.enabled;
+    Json json = save_fields(stage);
     json["state"] = filter_state_json(stage.state);
     return json;
 }
@@ -104,11 +109,11 @@ Fitting load_fitting(const SignalPart& part, const JsonPlace& place) {
     constexpr std::size_t max_shares = 1000;
     if (part.wanted.size() < 2 || part.recording) place.fail("there is no response to fit to");
     if (part.fits.size() >= signal::kinds().size()) place.fail("every kind is fitted already");
-    const JsonPlace from = place["from"];
-    return {filters_from_json(from.json(), from.where(), max_stages), place["shares"].index(max_shares)};
+    return {filters_from_json(place["from"], max_stages), place["shares"].index(max_shares)};
 }
 
 void load_fits(SignalPart& part, const JsonPlace& place) {
+    check_members(place, {"input", "wanted", "recording", "ranking", "fitting"});
     part.fit_input = load_rows(place["input"], "rows", max_wanted);
     place["wanted"].for_each("values", max_wanted,
                              [&](const JsonPlace& each) { part.wanted.push_back(each.real()); });
@@ -119,9 +124,7 @@ void load_fits(SignalPart& part, const JsonPlace& place) {
                           (*recording)["rows"].index(part.wanted.size() - 1), (*recording)["begun"].flag()};
     }
     place["ranking"].for_each("fits", 100, [&](const JsonPlace& each) {
-        const JsonPlace filter = each["filter"];
-        part.fits.push_back(
-            {filter_from_json(filter.json(), filter.where()), each["residual"].real(0.0, max_residual), 0});
+        part.fits.push_back({filter_from_json(each["filter"]), each["residual"].real(0.0, max_residual), 0});
     });
     if (const auto fitting = place.optional("fitting")) part.fitting = load_fitting(part, *fitting);
 }
@@ -142,6 +145,7 @@ Json SignalPart::save() const {
 
 std::shared_ptr<Part> SignalPart::load(const Json& json, const std::string& where) const {
     const JsonPlace place(json, where);
+    check_members(place, {"filters", "input", "time", "past", "selected", "plot", "fit"});
     auto part = std::make_shared<SignalPart>();
     place["filters"].for_each("filters", max_stages,
                               [&](const JsonPlace& each) { part->stages.push_back(load_stage(each)); });

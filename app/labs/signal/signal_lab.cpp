@@ -146,8 +146,7 @@ Json SignalLab::state(const Workspace& workspace) const {
     for (std::size_t i = 0; i < part.stages.size(); ++i) {
         const SignalStage& stage = part.stages[i];
         const StageMeasures& measures = analysis.stages[i];
-        Json json{{"kind", signal::kind(stage.filter)}, {"enabled", stage.enabled}};
-        json.update(parameters_json(stage.filter));
+        Json json = save_fields(stage);
         json["output"] = output_of(part, i);
         json["following"] = following_name(measures.following);
         json["lag_ms"] = number_or_null(measures.lag, 1e3);
@@ -159,11 +158,10 @@ Json SignalLab::state(const Workspace& workspace) const {
     }
     for (const Fit& fit : part.fits)
         fits.push_back({{"filter", filter_json(fit.filter)}, {"residual", fit.residual}});
+    Json input = save_fields(part.input);
+    input["value"] = input_of(part);
     return Json{{"lab", signal_lab},
-                {"input", input_of(part)},
-                {"input_kind", input_kinds.name(part.input.kind)},
-                {"amplitude", part.input.amplitude},
-                {"period", part.input.period},
+                {"input", std::move(input)},
                 {"output", output_of(part)},
                 {"verdict", signal_verdict(part, analysis.whole).text},
                 {"filters", std::move(filters)},

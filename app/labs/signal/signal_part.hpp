@@ -12,6 +12,7 @@
 #include "app/document/document.hpp"
 #include "app/document/names.hpp"
 #include "app/document/workspace.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/signal/fit.hpp"
 
 namespace tendril::app {
@@ -158,3 +159,8 @@ void end_recording(SignalPart& part);
 void record(SignalPart& part);
 
 }  // namespace tendril::app
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::SignalInput>() noexcept;  ///< not its rows
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::SignalStage>() noexcept;  ///< not its state

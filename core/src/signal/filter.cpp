@@ -7,34 +7,15 @@ namespace {
 
 using tendril::detail::refused;
 
+template <class P, class... Kinds>
+constexpr bool is_one = (std::is_same_v<P, Kinds> || ...);
 template <class P>
-struct StateOf {
-    using type = OutputState;
-};
-template <>
-struct StateOf<Spring<>> {
-    using type = SpringState<>;
-};
-template <>
-struct StateOf<SmoothDamp> {
-    using type = MotionState;
-};
-template <>
-struct StateOf<SpringSemiImplicit> {
-    using type = MotionState;
-};
-template <>
-struct StateOf<OneEuro> {
-    using type = MotionState;
-};
-template <>
-struct StateOf<MovingAverage> {
-    using type = MovingAverageState;
-};
-template <>
-struct StateOf<Inertialize> {
-    using type = InertializeState;
-};
+using StateOf = std::conditional_t<
+    is_one<P, Spring<>>, SpringState<>,
+    std::conditional_t<
+        is_one<P, SmoothDamp, SpringSemiImplicit, OneEuro>, MotionState,
+        std::conditional_t<is_one<P, MovingAverage>, MovingAverageState,
+                           std::conditional_t<is_one<P, Inertialize>, InertializeState, OutputState>>>>;
 
 Result check_between(const ScaleBiasClamp& parameters) noexcept {
     if (parameters.clamp_min <= parameters.clamp_max) return {};
@@ -57,7 +38,7 @@ Result check_between(const P&) noexcept {
 double step(const Filter& filter, FilterState& state, double input, double dt) noexcept {
     return std::visit(
         [&]<class P>(const P& parameters) {
-            using State = typename StateOf<P>::type;
+            using State = StateOf<P>;
             if (State* const kept = std::get_if<State>(&state)) return step(parameters, *kept, input, dt);
             State fresh;
             const double output = step(parameters, fresh, input, dt);
@@ -82,7 +63,7 @@ bool started(const FilterState& state) noexcept {
 
 Result check(const Filter& filter) noexcept {
     const Kind& kind = kind_of(filter);
-    if (const Result bad = check_fields(kind.name, kind.fields, fields_in(filter)); !bad) return bad;
+    if (const Result bad = check_fields(kind.name, kind.table(), fields_in(filter)); !bad) return bad;
     return std::visit([](const auto& parameters) { return check_between(parameters); }, filter);
 }
 

@@ -18,16 +18,23 @@ constexpr Field number(const char* name, const char* unit, FieldRange range, Fie
     return row;
 }
 
+/// The table of a kind.
+template <class P>
+constexpr Field rows[1]{};
+
 constexpr FieldRange any{-1e9, 1e9}, amount{0.0, 1e9}, speeds{-1e6, 1e6}, seconds{0.0, 1e4};
 constexpr FieldRange strengths{0.0, max_strength}, dampings{0.0, max_damping}, cutoffs{0.0, 1e6};
 constexpr FieldRange usual_values{-10.0, 10.0}, usual_speeds{0.1, 60.0}, usual_strengths{0.1, 20.0};
 constexpr FieldRange usual_seconds{0.005, 2.0};
 
-constexpr Field interp_to_fields[] = {
+template <>
+constexpr Field rows<InterpTo>[] = {
     number<&InterpTo::speed>("speed", "1/s", speeds, usual_speeds, Logarithmic)};
-constexpr Field interp_to_exact_fields[] = {
+template <>
+constexpr Field rows<InterpToExact>[] = {
     number<&InterpToExact::speed>("speed", "1/s", speeds, usual_speeds, Logarithmic)};
-constexpr Field scale_bias_clamp_fields[] = {
+template <>
+constexpr Field rows<ScaleBiasClamp>[] = {
     field<&ScaleBiasClamp::map_range>("map_range"),
     number<&ScaleBiasClamp::in_range>("in_range", "", any, usual_values),
     number<&ScaleBiasClamp::out_range>("out_range", "", any, usual_values),
@@ -39,33 +46,43 @@ constexpr Field scale_bias_clamp_fields[] = {
     field<&ScaleBiasClamp::interp>("interp"),
     number<&ScaleBiasClamp::speed_increasing>("speed_increasing", "1/s", speeds, usual_speeds, Logarithmic),
     number<&ScaleBiasClamp::speed_decreasing>("speed_decreasing", "1/s", speeds, usual_speeds, Logarithmic)};
-constexpr Field spring_fields[] = {
+template <>
+constexpr Field rows<Spring<>>[] = {
     number<&Spring<>::strength>("strength", "Hz", strengths, usual_strengths, Logarithmic),
     number<&Spring<>::critical_damping>("critical_damping", "", dampings, {0.0, 3.0}),
     number<&Spring<>::force>("force", "1/s^2", any, {-100.0, 100.0}),
     number<&Spring<>::target_velocity_amount>("target_velocity_amount", "", {0.0, 1.0}, {0.0, 1.0})};
-constexpr Field exponential_decay_fields[] = {
+template <>
+constexpr Field rows<ExponentialDecay>[] = {
     number<&ExponentialDecay::halflife>("halflife", "s", seconds, usual_seconds, Logarithmic)};
-constexpr Field rate_limit_fields[] = {
+template <>
+constexpr Field rows<RateLimit>[] = {
     number<&RateLimit::rise>("rise", "1/s", amount, {0.05, 50.0}, Logarithmic),
     number<&RateLimit::fall>("fall", "1/s", amount, {0.05, 50.0}, Logarithmic)};
-constexpr Field smooth_damp_fields[] = {
+template <>
+constexpr Field rows<SmoothDamp>[] = {
     number<&SmoothDamp::smooth_time>("smooth_time", "s", seconds, usual_seconds, Logarithmic),
     number<&SmoothDamp::max_speed>("max_speed", "1/s", amount, {0.1, 1e6}, Logarithmic)};
-constexpr Field spring_semi_implicit_fields[] = {
+template <>
+constexpr Field rows<SpringSemiImplicit>[] = {
     number<&SpringSemiImplicit::strength>("strength", "Hz", strengths, usual_strengths, Logarithmic),
     number<&SpringSemiImplicit::critical_damping>("critical_damping", "", dampings, {0.0, 3.0})};
-constexpr Field one_euro_fields[] = {
+template <>
+constexpr Field rows<OneEuro>[] = {
     number<&OneEuro::min_cutoff>("min_cutoff", "Hz", cutoffs, {0.05, 20.0}, Logarithmic),
     number<&OneEuro::beta>("beta", "", cutoffs, {0.0, 2.0}),
     number<&OneEuro::derivative_cutoff>("derivative_cutoff", "Hz", cutoffs, {0.05, 20.0}, Logarithmic),
     number<&OneEuro::reset_jump>("reset_jump", "", amount, {0.0, 2.0})};
-constexpr Field moving_average_fields[] = {
+template <>
+constexpr Field rows<MovingAverage>[] = {
     number<&MovingAverage::window>("window", "s", {0.0, 3600.0}, usual_seconds, Logarithmic)};
-constexpr Field dead_zone_fields[] = {number<&DeadZone::width>("width", "", amount, {0.0, 2.0})};
-constexpr Field hysteresis_fields[] = {number<&Hysteresis::low>("low", "", any, {-2.0, 2.0}),
-                                       number<&Hysteresis::high>("high", "", any, {-2.0, 2.0})};
-constexpr Field inertialize_fields[] = {
+template <>
+constexpr Field rows<DeadZone>[] = {number<&DeadZone::width>("width", "", amount, {0.0, 2.0})};
+template <>
+constexpr Field rows<Hysteresis>[] = {number<&Hysteresis::low>("low", "", any, {-2.0, 2.0}),
+                                      number<&Hysteresis::high>("high", "", any, {-2.0, 2.0})};
+template <>
+constexpr Field rows<Inertialize>[] = {
     number<&Inertialize::halflife>("halflife", "s", seconds, usual_seconds, Logarithmic),
     number<&Inertialize::threshold>("threshold", "", amount, {0.01, 2.0}, Logarithmic)};
 constexpr const char* pieces[] = {"constant", "linear", "cubic"};
@@ -83,23 +100,12 @@ template <class P>
 Filter blank() noexcept {
     return P{};
 }
-
-constexpr std::array<Kind, std::variant_size_v<Filter>> all_kinds{{
-    {"interp_to", blank<InterpTo>, interp_to_fields},
-    {"interp_to_exact", blank<InterpToExact>, interp_to_exact_fields},
-    {"scale_bias_clamp", blank<ScaleBiasClamp>, scale_bias_clamp_fields},
-    {"spring", blank<Spring<>>, spring_fields},
-    {"exponential_decay", blank<ExponentialDecay>, exponential_decay_fields},
-    {"rate_limit", blank<RateLimit>, rate_limit_fields},
-    {"smooth_damp", blank<SmoothDamp>, smooth_damp_fields},
-    {"spring_semi_implicit", blank<SpringSemiImplicit>, spring_semi_implicit_fields},
-    {"one_euro", blank<OneEuro>, one_euro_fields},
-    {"moving_average", blank<MovingAverage>, moving_average_fields},
-    {"dead_zone", blank<DeadZone>, dead_zone_fields},
-    {"hysteresis", blank<Hysteresis>, hysteresis_fields},
-    {"inertialize", blank<Inertialize>, inertialize_fields},
-    {"curve", blank<Curve>, std::span(curve_fields).subspan(1)},
-}};
+template <std::size_t... index>
+constexpr std::array<Kind, sizeof...(index)> all(std::index_sequence<index...>) noexcept {
+    return {{{tendril::detail::FieldKinds<Filter>::list[index], kind_names[index],
+              blank<std::variant_alternative_t<index, Filter>>}...}};
+}
+constexpr auto all_kinds = all(std::make_index_sequence<std::variant_size_v<Filter>>());
 
 }  // namespace
 
@@ -136,6 +142,25 @@ const char* kind(const Filter& filter) noexcept {
 }  // namespace tendril::signal
 
 namespace tendril {
+
+template <class Struct>
+std::span<const Field> fields() noexcept {
+    return signal::rows<Struct>;
+}
+template std::span<const Field> fields<signal::InterpTo>() noexcept;
+template std::span<const Field> fields<signal::InterpToExact>() noexcept;
+template std::span<const Field> fields<signal::ScaleBiasClamp>() noexcept;
+template std::span<const Field> fields<signal::Spring<>>() noexcept;
+template std::span<const Field> fields<signal::ExponentialDecay>() noexcept;
+template std::span<const Field> fields<signal::RateLimit>() noexcept;
+template std::span<const Field> fields<signal::SmoothDamp>() noexcept;
+template std::span<const Field> fields<signal::SpringSemiImplicit>() noexcept;
+template std::span<const Field> fields<signal::OneEuro>() noexcept;
+template std::span<const Field> fields<signal::MovingAverage>() noexcept;
+template std::span<const Field> fields<signal::DeadZone>() noexcept;
+template std::span<const Field> fields<signal::Hysteresis>() noexcept;
+template std::span<const Field> fields<signal::Inertialize>() noexcept;
+
 namespace {
 
 constexpr FieldRange outputs{-signal::max_output, signal::max_output};
@@ -145,8 +170,8 @@ constexpr FieldRange outputs{-signal::max_output, signal::max_output};
 template <>
 std::span<const Field> fields<signal::OutputState>() noexcept {
     using signal::OutputState;
-    static constexpr Field rows[] = {field<&OutputState::started>("started").needed(),
-                                     field<&OutputState::value>("value", outputs).needed()};
+    static constexpr Field rows[] = {field<&OutputState::value>("value", outputs).needed(),
+                                     field<&OutputState::started>("started").needed()};
     return rows;
 }
 

@@ -210,7 +210,7 @@ TEST_F(SignalProgram, says_what_is_wrong_with_a_filter_and_where) {
         {R"({"kind": "curve", "keys": [{"time": 0}]})", {"filter.keys.0", "value"}},
         {R"({"kind": "curve", "keys": [{"time": 0, "value": 0, "piece": "round"}]})",
          {"filter.keys.0.piece", "round"}},
-        {"7", {"filter", "expected a filter"}},
+        {"7", {"filter", "expected an object", "7"}},
         {"{", {"filter.json", "line 1"}},
     };
     for (const Bad& bad : all) {

@@ -42,7 +42,7 @@ class Files : public testing::Test {
         const std::string golden = source_path("tests/app/golden/");
         return {{path("arm.json"), "chain", "segments", 7},
                 {path("arm.scene"), "chain", "segments", 7},
-                {path("rows.CSV"), "signal", "input_kind", "csv"},
+                {path("rows.CSV"), "signal", "input.kind", "csv"},
                 {golden + "body.glb", "humanoid", "character.file", golden + "body.glb"},
                 {golden + "a_pose.bvh", "humanoid", "character.file", golden + "a_pose.bvh"},
                 {path("map.json"), "humanoid", "lab", "humanoid"}};
@@ -101,7 +101,7 @@ TEST_F(Files, AreListedByKindInTheDialog) {
     ScriptText script =
         in("rope").key("ctrl+o").wait(2).click({757, 485}).wait(2).text("csv").key("enter").wait(2);
     script.click({400, 235}).click({400, 235}).wait(2);  // the first of the list, of four files in all
-    expect_opened(state_after(script), {"rows.CSV", "signal", "input_kind", "csv"});
+    expect_opened(state_after(script), {"rows.CSV", "signal", "input.kind", "csv"});
 }
 
 TEST_F(Files, OfTheCommandLineStartTheSession) {

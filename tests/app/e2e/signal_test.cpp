@@ -31,20 +31,20 @@ TEST(SignalInTheWindow, TheDraggedBallIsTheInput) {
     const ScriptText before = signal_lab();
     ScriptText script = dragged_ball(before, 60.0f).up().wait(120);
     const Json state = state_after(script);
-    EXPECT_EQ(state.at("input_kind"), "hand");
-    const double input = state.at("input").get<double>();
+    EXPECT_EQ(state.at("input").at("kind"), "hand");
+    const double input = state.at("input").at("value").get<double>();
     EXPECT_GT(input, 0.3);
     EXPECT_NEAR(state.at("output").get<double>(), input, 0.1 * input) << "the spring follows";
     const float moved = handle(state_after(before), "hand").y - handle(state, "hand").y;
     EXPECT_NEAR(moved, 60.0f, 1.5f);
     const Json back = state_after(script.command("undo").wait(1));
-    EXPECT_NEAR(back.at("input").get<double>(), 0.0, 1e-6) << "the whole drag is one step";
+    EXPECT_NEAR(back.at("input").at("value").get<double>(), 0.0, 1e-6) << "the whole drag is one step";
 }
 
 TEST(SignalInTheWindow, DraggingReplacesAWave) {
     const ScriptText before = opened().wait(30).command("time.pause");
     ScriptText script = dragged_ball(before, -30.0f).up();
-    EXPECT_EQ(state_after(script).at("input_kind"), "hand");
+    EXPECT_EQ(state_after(script).at("input").at("kind"), "hand");
 }
 
 TEST(SignalInTheWindow, AResponseIsDrawnWithTheMouse) {
@@ -151,7 +151,7 @@ TEST(SignalInTheWindow, AResponseIsShownWithTheOutputBall) {
     EXPECT_EQ(state.at("recording"), false) << "letting go ends it";
     EXPECT_GT(state.at("wanted").get<int>(), 25);
     EXPECT_LT(state.at("wanted").get<int>(), 40);
-    EXPECT_EQ(state.at("input_kind"), "square") << "the input is not the hand";
+    EXPECT_EQ(state.at("input").at("kind"), "square") << "the input is not the hand";
     const Json undone = state_after(script.command("undo"));
     EXPECT_EQ(undone.at("recording"), true) << "the drag is one step";
     EXPECT_EQ(undone.at("seconds"), 0.0);
@@ -263,10 +263,10 @@ TEST(SignalInTheWindow, AFileIsTypedIntoThePanel) {
     ScriptText script =
         opened().command("view.fold", {{"section", "signal: Input"}, {"folded", false}}).wait(2);
     script.click({170.0f, 466.0f}).text((folder / "rows.csv").c_str());
-    EXPECT_EQ(state_after(script).at("input_kind"), "square") << "not before Enter";
+    EXPECT_EQ(state_after(script).at("input").at("kind"), "square") << "not before Enter";
     const Json state = state_after(script.key("enter").wait(10));
-    EXPECT_EQ(state.at("input_kind"), "csv");
-    EXPECT_EQ(state.at("input"), 7.0);
+    EXPECT_EQ(state.at("input").at("kind"), "csv");
+    EXPECT_EQ(state.at("input").at("value"), 7.0);
 }
 
 TEST(SignalInTheWindow, ADroppedCsvThatIsRefusedSaysWhy) {
@@ -284,7 +284,7 @@ TEST(SignalInTheWindow, ADroppedCsvThatIsRefusedSaysWhy) {
     };
     const auto state = [&] { return app::parse_json(read(folder / "state.json")); };
     EXPECT_TRUE(complained(drop("signal", "hole.csv"), 0, {"hole.csv", "row 2, column 2"}));
-    EXPECT_EQ(state().at("input_kind"), "square");
+    EXPECT_EQ(state().at("input").at("kind"), "square");
     EXPECT_TRUE(complained(drop("chain", "hole.csv"), 0, {"hole.csv", "row 2, column 2"}));
     EXPECT_EQ(state().at("segments").size(), 8u);
 }

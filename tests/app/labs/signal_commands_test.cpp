@@ -68,14 +68,14 @@ TEST_F(SignalCommands, DisabledFiltersPassTheInputThrough) {
     EXPECT_EQ(state().at("output"), 0.0);
     run("signal.filter.enable", {{"at", 0}});
     wait(1);
-    EXPECT_EQ(state().at("output"), state().at("input"));
+    EXPECT_EQ(state().at("output"), state().at("input").at("value"));
 }
 
 TEST_F(SignalCommands, TheHandReplacesTheInputAndIsRecorded) {
     run("signal.hand", {{"value", 0.25}});
-    EXPECT_EQ(state().at("input_kind"), "hand");
+    EXPECT_EQ(state().at("input").at("kind"), "hand");
     wait(1);
-    EXPECT_EQ(state().at("input"), 0.25);
+    EXPECT_EQ(state().at("input").at("value"), 0.25);
     for (int i = 0; i < 40; ++i) {
         run("signal.hand", {{"value", std::sin(0.2 * i)}});
         wait(1);
@@ -84,7 +84,7 @@ TEST_F(SignalCommands, TheHandReplacesTheInputAndIsRecorded) {
     double most = 0.0;
     for (int i = 0; i < 60; ++i) {
         wait(1);
-        most = std::max(most, state().at("input").get<double>());
+        most = std::max(most, state().at("input").at("value").get<double>());
     }
     EXPECT_NEAR(most, 1.0, 0.02);
 }
@@ -116,7 +116,7 @@ TEST_F(SignalCommands, AResponseIsRecordedByHand) {
     run("signal.fit.hand", {{"value", -0.5}});
     EXPECT_TRUE(lab().moving(workspace));
     wait(30);
-    EXPECT_EQ(state().at("input"), 1.0) << "the input plays from its start";
+    EXPECT_EQ(state().at("input").at("value"), 1.0) << "the input plays from its start";
     run("signal.fit.hand", {{"value", 0.75}});
     wait(15);
     EXPECT_EQ(state().at("wanted"), 45);
@@ -151,10 +151,10 @@ TEST_F(SignalCommands, AGestureIsTheInputForARecordedResponse) {
         wait(1);
     }
     run("signal.fit.record");
-    EXPECT_EQ(state().at("input_kind"), "recorded");
+    EXPECT_EQ(state().at("input").at("kind"), "recorded");
     run("signal.fit.hand", {{"value", 1}});
     wait(20);
-    EXPECT_GT(state().at("input").get<double>(), 1.0) << "it is played";
+    EXPECT_GT(state().at("input").at("value").get<double>(), 1.0) << "it is played";
     run("signal.fit.stop");
     EXPECT_EQ(part().wanted.size(), 20u);
 }

@@ -88,7 +88,7 @@ TEST(SignalFilters, EveryStateSurvivesJson) {
             signal::step(filter, state, input, 1.0 / 60.0);
         }
         const Json remembered = parse_json(filter_state_json(state).dump());
-        EXPECT_EQ(filter_state_from_json(remembered, "state"), state) << kind.name;
+        EXPECT_EQ(filter_state_from_json({remembered, "state"}), state) << kind.name;
     }
 }
 

@@ -257,6 +257,8 @@ void scale_places(HumanoidPart& part, double factor) {
         if (target) scale(target->position);
     if (part.ik.look_at.placed) scale(part.ik.look_at.options.target);
     if (part.ik.hold) scale(part.ik.hold->position);
+    for (SpringSetting& each : part.springs)
+        each.options.hit_radius = std::min(factor * each.options.hit_radius, max_hit_radius());
 }
 
 /// Reads the character's file with another unit or other axes.

@@ -289,8 +289,12 @@ void HumanoidLab::timeline(const Workspace& workspace, Emit& emit) const {
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Playback>() noexcept {
     using app::Playback;
-    static constexpr Field rows[] = {field<&Playback::speed>("speed", {0.0, app::fastest_clip}),
-                                     field<&Playback::loop>("loop"), field<&Playback::in_place>("in_place"),
+    static constexpr Field rows[] = {field<&Playback::playing>("playing"),
+                                     field<&Playback::time>("time", {0.0, app::longest_playback}, "s"),
+                                     field<&Playback::rounds>("rounds", {0.0, app::max_rounds}),
+                                     field<&Playback::speed>("speed", {0.0, app::fastest_clip}),
+                                     field<&Playback::loop>("loop"),
+                                     field<&Playback::in_place>("in_place"),
                                      field<&Playback::travel>("travel"),
                                      field<&Playback::targets_travel>("targets_travel")};
     return rows;
@@ -404,7 +408,8 @@ void add_clip_commands(CommandTable& table) {
         clip_argument("name", "which clip; empty: the rest pose"),
         integer_argument("index", "instead of the name, counted from 0", 0, 1e6),
         switch_argument("play", "false: pauses"),
-        number_argument("time", "seconds from its start; beyond its duration, in a later round", 0.0, 1e6)};
+        number_argument("time", "seconds from its start; beyond its duration, in a later round", 0.0,
+                        longest_playback)};
     for (Argument& each : field_arguments<Playback>()) arguments.push_back(std::move(each));
     Command clip = part_command<HumanoidPart>(
         humanoid_lab, "humanoid.clip", "Choose and play a clip", std::move(arguments),

@@ -15,7 +15,7 @@
 
 namespace tendril::app {
 
-inline constexpr double fastest_clip = 10.0;
+inline constexpr double fastest_clip = 10.0, longest_playback = 1e6;  ///< seconds
 inline constexpr std::int64_t max_rounds = 1'000'000;
 
 struct Workspace;

@@ -65,16 +65,12 @@ void put_on_springs_row(const HumanoidPanel& panel) {
     end_row();
 }
 
-bool same_settings(SpringSetting a, const SpringSetting& b) {
-    a.node = b.node;
-    return a == b;
-}
-
 /// Shows one spring; editing sets all.
 void setting_rows(const HumanoidPanel& panel, const SpringSetting& spring,
                   const std::vector<std::string>& nodes) {
-    FieldRows(spring, "humanoid.spring", panel.emit, {of_nodes(nodes)})
-        .rows("strength", "critical_damping", "weight", "max_angle");
+    const FieldRows rows(spring.options, "humanoid.spring", panel.emit, {of_nodes(nodes)});
+    rows.rows("strength", "critical_damping", "weight", "max_angle");
+    if (colliding(panel.part, spring) != nullptr) rows.row("hit_radius");
 }
 
 }  // namespace
@@ -108,7 +104,7 @@ void spring_inspector(const HumanoidPanel& panel) {
     const PanelSection ids(nodes.size() == 1 ? ("Spring: " + spring.node).c_str()
                                              : (count_text(nodes.size(), "spring") + " selected").c_str());
     const bool alike = std::ranges::all_of(
-        selected, [&](std::size_t each) { return same_settings(part.springs[each], spring); });
+        selected, [&](std::size_t each) { return part.springs[each].options == spring.options; });
     if (nodes.size() > 1)
         note((alike ? "Showing the one from " : "They differ. Showing the one from ") + spring.node +
              " down; changes apply to all.");
@@ -148,7 +144,7 @@ std::size_t added(HumanoidPart& part, std::size_t node) {
         throw std::invalid_argument(chain.error().message());
     if (part.springs.size() >= max_springs)
         throw std::invalid_argument("there are " + std::to_string(max_springs) + " springs already");
-    part.springs.push_back({.node = part.skeleton()[node].name});
+    part.springs.push_back(usual_spring(part, node));
     part.ik_state.springs.resize(part.springs.size());
     return part.springs.size() - 1;
 }
@@ -160,7 +156,7 @@ void set_spring(HumanoidPart& part, std::size_t node, const Arguments& given) {
         return;
     }
     if (!which) which = added(part, node);
-    set_fields(given, part.springs[*which]);
+    set_fields(given, part.springs[*which].options);
 }
 
 void set_springs(HumanoidPart& part, const Arguments& given) {
@@ -179,7 +175,7 @@ void add_spring_commands(CommandTable& table) {
         node_argument("node", false,
                       "by name: it and everything below it, which must not be bones of the body"),
         name_list_argument("nodes", "node"), switch_argument("on", "false: takes them off")};
-    for (Argument& each : field_arguments<SpringSetting>()) arguments.push_back(std::move(each));
+    for (Argument& each : field_arguments<humanoid::SpringOptions>()) arguments.push_back(std::move(each));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.spring", "Let nodes swing on springs", std::move(arguments),
         "Lets ears, antennae or a tail trail behind on springs; anything omitted stays as it is",

@@ -5,25 +5,13 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
-#include "app/fields/field_in.hpp"
 #include "app/fields/fields.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
-
-template <>
-std::span<const tendril::Field> tendril::fields<tendril::app::SpringSetting>() noexcept {
-    using app::SpringSetting;
-    using humanoid::SpringOptions;
-    static const Field rows[] = {app::field_in<&SpringSetting::options, &SpringOptions::strength>(),
-                                 app::field_in<&SpringSetting::options, &SpringOptions::critical_damping>(),
-                                 app::field_in<&SpringSetting::options, &SpringOptions::weight>(),
-                                 app::field_in<&SpringSetting::options, &SpringOptions::max_angle>()};
-    return rows;
-}
 
 namespace tendril::app {
 
 template <>
-std::span<const FieldText> field_texts<SpringSetting>() {
+std::span<const FieldText> field_texts<humanoid::SpringOptions>() {
     static constexpr FieldText texts[] = {
         {.name = "strength",
          .label = "strength",
@@ -38,13 +26,20 @@ std::span<const FieldText> field_texts<SpringSetting>() {
          .label = "max angle",
          .help = "The largest angle by which a bone turns away from the clip.",
          .step = 0.5f,
-         .decimals = 0}};
+         .decimals = 0},
+        {.name = "hit_radius",
+         .label = "hit radius",
+         .help = "How far its bones' ends keep outside the spheres and capsules of the file.",
+         .step = 0.05f,
+         .decimals = 1,
+         .scale = 100.0,
+         .unit = "cm"}};
     return texts;
 }
 
 namespace {
 
-/// Which other spring turns the same nodes; empty if none.
+/// Which other spring would turn the same nodes; empty if none would.
 std::string overlap(const HumanoidPart& part, std::size_t node) {
     const std::string& name = part.skeleton()[node].name;
     if (const auto there = spring_on(part, node))
@@ -79,11 +74,19 @@ std::string why_no_spring(const HumanoidPart& part, std::size_t node) {
     return overlap(part, node);
 }
 
+SpringSetting usual_spring(const HumanoidPart& part, std::size_t node) {
+    SpringSetting setting{.node = part.skeleton()[node].name};
+    for (const NamedSpring& each : part.loaded->character.springs)
+        if (each.node == node && !each.colliders.empty())
+            setting.options.hit_radius = std::min(each.hit_radius, max_hit_radius());
+    return setting;
+}
+
 void take_springs(HumanoidPart& part) {
     for (const NamedSpring& each : part.loaded->character.springs) {
         if (part.springs.size() == max_springs || !why_no_spring(part, each.node).empty()) continue;
-        part.springs.push_back({part.skeleton()[each.node].name,
-                                {.strength = each.strength, .critical_damping = each.critical_damping}});
+        SpringSetting& spring = part.springs.emplace_back(usual_spring(part, each.node));
+        spring.options.strength = each.strength, spring.options.critical_damping = each.critical_damping;
     }
     part.ik_state.springs.resize(part.springs.size());
 }
@@ -119,7 +122,7 @@ Json springs_json(const HumanoidPart& part) {
     for (std::size_t i = 0; i < part.springs.size(); ++i) {
         const SpringSetting& each = part.springs[i];
         Json json{{"node", each.node}};
-        json.update(save_fields(each));
+        json.update(save_fields(each.options));
         json.update(save_fields(i < part.ik_state.springs.size() ? part.ik_state.springs[i] : none));
         list.push_back(std::move(json));
     }
@@ -128,13 +131,15 @@ Json springs_json(const HumanoidPart& part) {
 
 void read_springs(const JsonPlace& place, HumanoidPart& part) {
     place.for_each("springs", max_springs, [&](const JsonPlace& each) {
-        SpringSetting spring{.node = each["node"].text()};
-        const auto node = part.skeleton().find(spring.node);
-        if (!node) each["node"].fail("the character has no node \"" + spring.node + "\"");
-        // A spring whose nodes now belong to the body is kept, without effect.
+        const std::string name = each["node"].text();
+        const auto node = part.skeleton().find(name);
+        if (!node) each["node"].fail("the character has no node \"" + name + "\"");
+        // A spring whose nodes now belong to the body stays, without effect.
         if (const std::string why = overlap(part, *node); !why.empty()) each["node"].fail(why);
+        SpringSetting spring = usual_spring(part, *node);
         humanoid::SpringChainState state;
-        load_known_fields(each, {{spring}, {state, MissingField::Refused, {"masses", "held"}}}, {"node"});
+        load_known_fields(each, {{spring.options}, {state, MissingField::Refused, {"masses", "held"}}},
+                          {"node"});
         part.springs.push_back(std::move(spring));
         part.ik_state.springs.push_back(std::move(state));
     });
@@ -162,17 +167,15 @@ std::vector<humanoid::SpringReport> swing(const HumanoidPart& part, const Spring
             states[i] = {};
             continue;
         }
-        humanoid::SpringOptions options = part.springs[i].options;
         std::vector<humanoid::PlacedCapsule> colliders;
         if (const NamedSpring* file = colliding(part, part.springs[i])) {
             if (placed.empty()) {
                 placed.resize(pose.size());
                 humanoid::place(part.skeleton(), pose, placed);
             }
-            options.hit_radius = file->hit_radius;
             for (const SpringCollider& each : file->colliders) colliders.push_back(place(each, placed));
         }
-        reports[i] = chains[i]->step(pose, options, dt, states[i], colliders);
+        reports[i] = chains[i]->step(pose, part.springs[i].options, dt, states[i], colliders);
     }
     return reports;
 }

@@ -5,11 +5,12 @@
 //     signal::FilterState state;
 //     output = signal::step(filter, state, input, dt);
 //
-// One table, kinds(), lists every kind with the fields of its struct (tendril/fields.hpp). Code that reads
+// One list, kinds(), has every kind with the table of its struct (tendril/fields.hpp). Code that reads
 // files, draws panels, fits parameters or generates code uses it and needs no list of its own. A program that
 // knows its filters calls the `step` of their own headers instead.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string_view>
 #include <variant>
@@ -47,14 +48,19 @@ double value(const FilterState& state) noexcept;
 bool started(const FilterState& state) noexcept;
 
 /// Checks ranges and relations between parameters. InvalidArgument, naming the parameter and its value:
-/// `rate_limit: rise must be 0 to 1e9 1/s, got -1`.
+/// `rate_limit: rise must be 0 to 1e9 1/s, got -1`. A curve has 1 to 1000 keys.
 Result check(const Filter& filter) noexcept;
 
-struct Kind {
+/// In the order of Filter's alternatives.
+inline constexpr std::array<const char*, std::variant_size_v<Filter>> kind_names{
+    "interp_to",  "interp_to_exact", "scale_bias_clamp",     "spring",   "exponential_decay",
+    "rate_limit", "smooth_damp",     "spring_semi_implicit", "one_euro", "moving_average",
+    "dead_zone",  "hysteresis",      "inertialize",          "curve"};
+
+/// The table of a kind, such as fields<OneEuro>(), and its name.
+struct Kind : FieldKind {
     const char* name;            ///< "one_euro"
     Filter (*blank)() noexcept;  ///< makes one with default parameters
-    /// The fields of the struct that a filter of this kind holds, without a curve's keys.
-    std::span<const Field> fields;
 };
 
 /// In the order of Filter's alternatives.
@@ -62,8 +68,8 @@ std::span<const Kind> kinds() noexcept;
 /// Null for an unknown name.
 const Kind* find_kind(std::string_view name) noexcept;
 const Kind& kind_of(const Filter& filter) noexcept;
-/// The struct that the filter holds. Use only with kind_of(filter).fields: a row of another kind would access
-/// memory out of bounds.
+/// The struct that the filter holds. Use only with kind_of(filter).table(): a row of another kind would
+/// access memory out of bounds.
 void* fields_in(Filter& filter) noexcept;
 const void* fields_in(const Filter& filter) noexcept;
 /// The name of the filter's kind.

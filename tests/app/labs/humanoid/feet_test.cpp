@@ -99,7 +99,7 @@ TEST_F(HumanoidFeet, RestartWhereTheGroundRises) {
             tick();
         }
         EXPECT_LT(vector(state().at("character").at("bones").at("Hips").at("position")).z, 6.0) << kind;
-        EXPECT_TRUE(state().at("foot_ik").get<bool>());
+        EXPECT_TRUE(state().at("foot_ik").at("on").get<bool>());
     }
 }
 

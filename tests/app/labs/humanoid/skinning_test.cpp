@@ -40,18 +40,18 @@ class HumanoidSkinning : public HumanoidTest {
 };
 
 TEST_F(HumanoidSkinning, SpreadsTwistUnlessLinearBlendingIsChosen) {
-    EXPECT_EQ(state().at("skinning"), "twist_spread");
+    EXPECT_EQ(state().at("view").at("skinning"), "twist_spread");
     run("humanoid.clip", {{"time", 0}});
     const float untwisted = girth(drawn());
     run("humanoid.clip", {{"time", 1}});
     const float spread = girth(drawn());
     run("humanoid.view", {{"skinning", "linear"}});
-    EXPECT_EQ(state().at("skinning"), "linear");
+    EXPECT_EQ(state().at("view").at("skinning"), "linear");
     EXPECT_EQ(drawn().weights, nullptr);
     EXPECT_LT(girth(drawn()), 0.6f * untwisted);
     EXPECT_GT(spread, 0.95f * untwisted);
     run("humanoid.view", {{"skin", "solid"}});
-    EXPECT_EQ(state().at("skinning"), "linear");
+    EXPECT_EQ(state().at("view").at("skinning"), "linear");
     expect_refused("humanoid.view", {{"skinning", "dual_quaternion"}}, {"skinning", "twist_spread"});
     run("humanoid.view", {{"skinning", "twist_spread"}});
     EXPECT_EQ(girth(drawn()), spread);

@@ -236,8 +236,14 @@ TEST_F(HumanoidSprings, OfAVrmArePresentOnceItIsLoaded) {
     run("humanoid.spring", {{"node", "hair"}, {"strength", 5.0}});
     EXPECT_EQ(humanoid_part(reopened()).springs[0].options.strength, 5.0) << "the scene's, and only once";
     EXPECT_EQ(humanoid_part(reopened()).springs.size(), 1u);
-    run("undo");
-    run("undo");
+    Json older = save_scene(workspace);
+    older["labs"]["humanoid"]["springs"][0].erase("hit_radius");
+    Workspace other = make_blank_workspace(labs);
+    load_scene(other, older);
+    EXPECT_EQ(humanoid_part(other).springs, part().springs) << "the radius is the file's";
+    run("humanoid.scale", {{"metres", 0.5}});
+    EXPECT_EQ(part().springs[0].options.hit_radius, 0.01);
+    for (int i = 0; i < 3; ++i) run("undo");
     EXPECT_TRUE(part().springs.empty());
 }
 
@@ -265,6 +271,9 @@ TEST_F(HumanoidSprings, AreKeptOutOfTheCollidersOfTheirFile) {
     const std::size_t before = drawn().strokes.size();
     run("humanoid.select", {{"node", "hair"}});
     EXPECT_GT(drawn().strokes.size(), before + 20);
+    run("humanoid.spring", {{"node", "hair"}, {"hit_radius", 0.05}});
+    tick(1000);
+    EXPECT_NEAR(apart(), 0.15, 1e-6);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ TEST_F(RigCode, IncludesSetValuesAndMemory) {
         "state.controls[*made->element(\"head\")] = rig::Value(rig::Transform{.translation = {0.5, 1.0, "
         "0.0}");
     expect_says("state.elements.put(id(\"left 2\"), rig::Space::Local");
-    expect_says("signal::SpringState<glm::dvec3>{.value = glm::dvec3{");
+    expect_says("signal::SpringState<glm::dvec3>{.value = {");
 }
 
 TEST_F(RigCode, NamesAreWrittenSoThatTheyReadBack) {
