@@ -47,6 +47,10 @@ struct TraceSolve {
     bool operator==(const TraceSolve&) const = default;
     /// The pole target of a frame after the change.
     std::optional<glm::vec3> pole(const TracedFrame& frame) const;
+    /// Without the hinge.
+    ik::Options options(const TracedFrame& frame) const {
+        return {.pole = pole(frame), .soft_zone = soft_zone};
+    }
 };
 
 /// A chain that is led through frames, from the pose of the first. Joints beyond the end effector are carried

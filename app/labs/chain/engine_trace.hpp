@@ -21,22 +21,13 @@ namespace tendril::app {
 
 struct View;
 
-/// The settings of chain.trace: how a trace is read and shown.
-struct TraceView {
+/// The settings of chain.trace: how a trace is read and shown, and how Tendril solves it.
+struct TraceView : TraceSolve {
     TraceUp up = TraceUp::Y;
     TraceHand handed = TraceHand::Right;
     TraceUnit unit = TraceUnit::Metres;
     QuaternionOrder rotations = QuaternionOrder::Xyzw;
     int from = 0;  ///< the first frame shown
-    // Tendril's solve:
-    ik::Method solver = ik::Method::Fabrik;
-    float soft_zone = 0.0f;
-    glm::vec3 pole_by{0.0f};
-    int hinge = 0;
-
-    TraceSolve solve() const {
-        return {.method = solver, .soft_zone = soft_zone, .pole_by = pole_by, .hinge = hinge};
-    }
 };
 
 /// The trace on the strip. Not saved.
