@@ -274,11 +274,9 @@ std::span<const FieldText> field_texts<rope::Settings>() {
                                           rope_solvers.row(rope::Solver::Xpbd),
                                           rope_solvers.row(rope::Solver::Relaxation)};
     static constexpr FieldText texts[] = {
-        {.name = "substep",
-         .label = "substep",
+        {.name = "substep",  // the panel has a row of substeps per second
          .help = "The length of the equal steps that the simulation takes. Shorter ones follow fast motion "
-                 "better and cost more.",
-         .decimals = 5},
+                 "better and cost more."},
         {.name = "iterations",
          .label = "iterations",
          .help = "The maximum number of passes per substep. Direct stops as soon as it has converged; with "
