@@ -173,19 +173,8 @@ std::string LinkageLab::hint(const Workspace& workspace, PickId pick) const {
     const ik::LinkPoint* const point = picked_point(part, pick);
     const std::string name = point != nullptr ? point->name : "";
     const bool stays = point != nullptr && point->link == ik::ground_link;
-    switch (part.tool) {
-        case LinkageTool::Draw:
-            return point != nullptr ? name + ": drag from here draws a bar."
-                                    : "Drag draws a bar. A click adds a joint, on a bar or beside it.";
-        case LinkageTool::Pin:
-            return point != nullptr ? name + ": click pins it to the ground, or lets it move again."
-                                    : "Click a joint to pin it to the ground.";
-        case LinkageTool::Motor:
-            return point != nullptr ? name + ": click adds a motor, or takes it away."
-                                    : "Click a joint to put a motor there: on a pin, or between two bars.";
-        case LinkageTool::Move:
-            break;
-    }
+    if (part.tool != LinkageTool::Move)
+        return (point != nullptr ? name + ". " : name) + linkage_tools.help(part.tool);
     if (point == nullptr) return {};
     const bool named = kind_of(part.shape->mechanism) != nullptr;
     return name + (stays && named ? ": pinned where the mechanism's lengths put it. Click selects it."

@@ -278,20 +278,6 @@ class EveryField : public LabTest, public testing::WithParamInterface<Row> {
     }
 };
 
-/// A field without a text would have neither an argument nor a row.
-TEST(FilterFields, EachHasItsText) {
-    for (const signal::Kind& kind : signal::kinds()) {
-        const std::span<const FieldText> texts = filter_texts(kind);
-        ASSERT_EQ(texts.size(), kind.fields.size()) << kind.name;
-        for (std::size_t i = 0; i < texts.size(); ++i) {
-            EXPECT_STREQ(texts[i].name, kind.fields[i].name) << kind.name;
-            std::string name = texts[i].name;
-            std::ranges::replace(name, '_', ' ');
-            EXPECT_NE(name.find(texts[i].label), name.npos) << "the label is the name or a part of it";
-        }
-    }
-}
-
 const char* const sketch_file = R"({
     "points": [{"name": "A", "hold": "pinned"}, {"name": "B", "at": [1.5, 0.0], "hold": "guided", "guide_deg": 30.0}],
     "bars": [{"name": "bar", "points": ["A", "B"]}],
