@@ -81,6 +81,7 @@ bool FieldRows::changed(const Field& field) const {
 }
 
 void FieldRows::draw(const Field& field, const FieldText& usual, const RowOptions& options) const {
+    note_text(&usual, usual.label);
     FieldText text = usual;
     if (options.unit != nullptr) text.unit = options.unit;
     if (field.type == FieldType::Choice && !text.listed) return button_rows(field, text);
@@ -187,8 +188,9 @@ void FieldRows::list_row(const Field& field, const FieldText& text, const RowOpt
     std::vector<const char*> titles;
     for (const EnumRow& each : text.choices) titles.push_back(each.title);
     int at = chosen(field, text);
-    if (choice_field(text.label, at, titles.data(), static_cast<int>(titles.size()), nullptr,
-                     options.swatches))
+    const auto& why_not = options.why_not_choices;
+    if (choice_field(text.label, at, titles.data(), static_cast<int>(titles.size()),
+                     why_not.empty() ? nullptr : why_not.data(), options.swatches))
         emit_(command_, arguments(field, text.choices[static_cast<std::size_t>(at)].name));
 }
 

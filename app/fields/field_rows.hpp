@@ -20,6 +20,8 @@ struct RowOptions {
     std::string why_not{};               ///< reason to disable the row; empty if enabled
     const char* unit = nullptr;          ///< shown instead of the field's
     std::vector<glm::vec3> swatches{};   ///< of listed choices, in their order: the colours that they mean
+    /// Reasons to disable listed choices, in their order, null where enabled; if any is disabled.
+    std::vector<const char*> why_not_choices{};
 };
 
 class FieldRows {

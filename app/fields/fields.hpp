@@ -26,8 +26,8 @@ FieldRange file_range(const Field& field);
 
 /// A field's presentation.
 struct FieldText {
-    const char* name;    ///< the field's, as in its table
-    const char* label;   ///< in a panel
+    const char* name;             ///< the field's, as in its table
+    const char* label = nullptr;  ///< of its row in a panel; none: it has no row
     const char* help;    ///< its effect, in a sentence or two: for the panel and the command's argument
     float step = 0.01f;  ///< change of the shown value per pixel of a drag
     int decimals = 2;

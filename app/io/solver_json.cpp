@@ -1,5 +1,7 @@
 #include "app/io/solver_json.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/document/json_complete.hpp"
@@ -58,11 +60,19 @@ ik::Method method_from_name(const std::string& name, const std::string& where) {
                              json_summary(Json(name)));
 }
 
-std::string method_names() {
-    std::string names;
-    for (const ik::Method method : ik::all_methods)
-        names += (names.empty() ? "" : ", ") + std::string(ik::name(method));
+std::span<const char* const> solver_names() {
+    static const auto names = [] {
+        std::array<const char*, ik::all_methods.size()> all{};
+        std::ranges::transform(ik::all_methods, all.begin(), [](ik::Method each) { return ik::name(each); });
+        return all;
+    }();
     return names;
+}
+
+std::string method_names() {
+    std::string all;
+    for (const char* const name : solver_names()) all += (all.empty() ? "" : ", ") + std::string(name);
+    return all;
 }
 
 }  // namespace tendril::app

@@ -5,6 +5,7 @@
 //    "right_deg": 60, "twist_min_deg": -45, "twist_max_deg": 45, "stiffness": 0.5}
 #pragma once
 
+#include <span>
 #include <string>
 #include <tendril/ik/limit.hpp>
 #include <tendril/ik/method.hpp>
@@ -32,6 +33,8 @@ Json report_json(ik::Method method, const ik::Report& report);
 
 /// Throws std::runtime_error that begins with `where` and lists the names.
 ik::Method method_from_name(const std::string& name, const std::string& where);
+/// By ik::Method.
+std::span<const char* const> solver_names();
 /// "fabrik, fabrik_plain, ccd, ..."
 std::string method_names();
 

@@ -6,6 +6,7 @@
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
+#include "app/fields/input_json.hpp"
 #include "app/view/assets.hpp"
 
 namespace tendril::app {
@@ -19,27 +20,18 @@ std::string some_text(const JsonPlace& place) {
     return text;
 }
 
-void check_only(const JsonPlace& place, std::initializer_list<std::string_view> known) {
-    if (!place.json().is_object()) place.fail("expected an object, found " + json_summary(place.json()));
-    try {
-        check_members(place.json(), known);
-    } catch (const std::runtime_error& error) {
-        place.fail(error.what());
-    }
-}
-
 CardCondition read_condition(const JsonPlace& place) {
     using Kind = CardCondition::Kind;
     if (place.has("present")) {
-        check_only(place, {"present"});
+        check_members(place, {"present"});
         return {.kind = Kind::Present, .name = some_text(place["present"])};
     }
     if (place.has("event")) {
-        check_only(place, {"event"});
+        check_members(place, {"event"});
         return {.kind = Kind::Noted, .name = some_text(place["event"])};
     }
     if (place.has("avoided")) {
-        check_only(place, {"avoided", "after", "within"});
+        check_members(place, {"avoided", "after", "within"});
         return {.kind = Kind::Avoided,
                 .name = some_text(place["avoided"]),
                 .cure = some_text(place["after"]),
@@ -62,14 +54,14 @@ CardLine read_line(const JsonPlace& place) {
 
 void read_place(const JsonPlace& place, CardStep& step) {
     using Place = CardStep::Place;
-    check_only(place, {"handle", "panel", "inspector"});
+    check_members(place, {"handle", "panel", "inspector"});
     if (place.json().size() != 1) place.fail("expected one of \"handle\", \"panel\", \"inspector\"");
     step.place = place.has("handle") ? Place::Handle : place.has("panel") ? Place::Panel : Place::Inspector;
     step.place_name = some_text(place[place.json().begin().key().c_str()]);
 }
 
 CardStep read_step(const JsonPlace& place) {
-    check_only(place, {"text", "place", "by", "when", "script"});
+    check_members(place, {"text", "place", "by", "when", "script"});
     CardStep step;
     step.text = some_text(place["text"]);
     read_place(place["place"], step);
@@ -86,7 +78,7 @@ CardStep read_step(const JsonPlace& place) {
 }
 
 Card read_card(const JsonPlace& top) {
-    check_only(top, {"title", "scene", "steps"});
+    check_members(top, {"title", "scene", "steps"});
     Card card;
     card.title = some_text(top["title"]);
     top["scene"].for_each("commands", max_lines,

@@ -19,6 +19,10 @@ void note_row_of(std::string_view command, std::string_view argument) {
     search->found.insert(search->found.end(), search->inside.begin(), search->inside.end());
 }
 
+void note_text(const void* text, const char* label) {
+    if (RowSearch* const search = row_search()) search->texts.emplace_back(text, ImGui::GetID(label));
+}
+
 SearchWindow::SearchWindow(RowSearch& search) {
     number_editing().search = &search;
     ImGui::SetNextWindowPos({-20000.0f, -20000.0f});

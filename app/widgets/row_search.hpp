@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace tendril::app {
@@ -14,12 +15,16 @@ struct RowSearch {
     std::vector<std::string> arguments{};
     std::vector<std::string> inside{};  ///< the folded sections around the row being drawn
     std::vector<std::string> found{};   ///< the folded sections around a row of the command
+    /// Every row of a table: its text, and its id for Dear ImGui.
+    std::vector<std::pair<const void*, unsigned>> texts{};
 };
 
 /// Null unless a search is running.
 RowSearch* row_search();
 /// Every row of a command calls this.
 void note_row_of(std::string_view command, std::string_view argument);
+/// Every row of a table calls this; `label` is the row's.
+void note_text(const void* text, const char* label);
 /// Draws a panel out of sight for a search.
 class SearchWindow {
   public:

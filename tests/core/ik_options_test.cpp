@@ -1,5 +1,5 @@
-// The table in method.hpp: an option that a method honours changes the result in some case; one that it does
-// not honour never changes anything.
+// The methods in the rows of fields<Options>(): an option that a method honours changes the result in some
+// case; one that it does not honour never changes anything.
 #include <cstring>
 
 #include "ik_limited_support.hpp"

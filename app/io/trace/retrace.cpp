@@ -86,10 +86,8 @@ const std::vector<glm::vec3>& Retrace::follow(const TracedFrame& frame) {
     if (!solver_) begin(frame);
     const glm::vec3 by = frame.joints.front() - joints_.front();
     for (glm::vec3& joint : joints_) joint += by;
-    ik::Options options;
+    ik::Options options = how_.options(frame);
     options.limits = limits_;
-    options.pole = how_.pole(frame);
-    options.soft_zone = how_.soft_zone;
     const std::size_t end = frame.end_effector();
     const glm::vec3 was = joints_[end];
     solver_->solve(how_.method, std::span(joints_).first(end + 1), state_, frame.goal(), options);

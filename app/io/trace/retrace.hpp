@@ -50,6 +50,10 @@ struct TraceSolve {
     /// The hinge, for the joints of the first frame up to the end effector; empty without one. Throws
     /// std::invalid_argument if it is at the root or the tip.
     std::vector<ik::Limit> limits(std::span<const glm::vec3> joints) const;
+    /// Without the hinge.
+    ik::Options options(const TracedFrame& frame) const {
+        return {.pole = pole(frame), .soft_zone = soft_zone};
+    }
 };
 
 /// A chain that is led through frames, from the pose of the first. Joints beyond the end effector are carried

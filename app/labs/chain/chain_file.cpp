@@ -10,24 +10,48 @@
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/kit/arguments.hpp"
 
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::ChainPart>() noexcept {
+    using app::ChainPart;
+    static constexpr auto modes = app::chain_modes.name_array();
+    constexpr FieldRange anywhere{-max_magnitude, max_magnitude};
+    static constexpr Field rows[] = {
+        field<&ChainPart::mode>("mode", modes),
+        field<&ChainPart::index>("index", {0.0, app::max_segments - 1}),
+        list<&ChainPart::iterations>("iterations", {1.0, app::max_iterations})
+            .with_names(std::span(modes).first<4>()),
+        field<&ChainPart::tolerance>("tolerance", {0.0, max_magnitude}, "m"),
+        field<&ChainPart::target>("target", anywhere, "m"),
+        field<&ChainPart::reach_target>("reach_target", anywhere, "m").sparsely(),
+        nested<&ChainPart::motion>("motion"),
+        nested<&ChainPart::flips>("flips")};
+    return rows;
+}
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::ReachResult>() noexcept {
+    using app::ReachResult;
+    static const Field rows[] = {field<&ReachResult::method>("solver", app::solver_names()),
+                                 nested<&ReachResult::report>("report"),
+                                 nested<&ReachResult::active_limit>("active_limit")};
+    return rows;
+}
+
 namespace tendril::app {
 namespace {
 
-Json save_result(const ReachResult& result) {
-    Json json{{"solver", ik::name(result.method)}, {"report", save_fields(result.report)}};
-    if (result.active_limit) json["active_limit"] = save_fields(*result.active_limit);
-    return json;
-}
-
-ReachResult load_result(const JsonPlace& place, const Chain& chain) {
-    ReachResult result;
-    result.method = load_method(place["solver"]);
-    load_all_fields(place["report"], result.report);
-    if (const auto limit = place.optional("active_limit")) {
-        load_all_fields(*limit, result.active_limit.emplace());
-        if (result.active_limit->joint >= chain.size()) (*limit)["joint"].fail("there is no such joint");
+Json save_reach(const ReachSettings& settings, const Chain& chain) {
+    Json json = save_fields(settings);
+    if (settings.plane) {
+        Json& plane = json["plane"] = {{"normal", point(settings.plane->normal)},
+                                       {"bend", bend_sides.name(settings.plane->bend)}};
+        for (const ik::AngleLimit& limit : settings.plane->limits)
+            plane["limits"].push_back(save_fields(limit));
+        for (const ik::Limit& limit : settings.plane->aside) plane["aside"].push_back(limit_json(limit));
     }
-    return result;
+    for (const ik::Limit& limit : settings.limits) json["limits"].push_back(limit_json(limit));
+    save_state(json, settings.state, positions(chain));
+    return json;
 }
 
 /// Writes the crossings of the curve that the joints are at, and the joint that jumped to one.
@@ -54,15 +78,9 @@ void load_crossings(const JsonPlace& place, ChainPart& part) {
 Json ChainPart::save() const {
     Json segments = Json::array();
     for (const Segment& segment : own_chain(*this).segments()) segments.push_back(save_fields(segment));
-    Json json{{"mode", chain_modes.name(mode)}, {"index", index}};
-    for (std::size_t i = 0; i < iterations.size(); ++i)
-        json["iterations"][chain_modes.rows[i].name] = iterations[i];
-    json["tolerance"] = number(tolerance);
-    json["target"] = point(target);
-    if (reach_target) json["reach_target"] = point(*reach_target);
+    Json json = save_fields(*this);
     json["selected"] = chosen_point ? Json(chain_points.name(*chosen_point)) : selection.save();
     json["default_direction"] = point(chain.default_direction());
-    json["motion"] = save_motion(motion);
     json["segments"] = std::move(segments);
     json["reach"] = save_reach(reach, chain);
     json["curve"] = save_curve(curve);
@@ -72,10 +90,9 @@ Json ChainPart::save() const {
     }
     if (study.open()) json["study"] = save_study(study);
     if (result) {
-        json["result"] = save_result(*result);
+        json["result"] = save_fields(*result);
         if (!study.last_start.empty()) json["before"] = save_start(study.last_start, study.last_state);
     }
-    json["flips"] = save_fields(flips);
     return json;
 }
 
@@ -116,21 +133,16 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
     const JsonPlace place(json, where);
     auto part = std::make_shared<ChainPart>();
     try {
-        part->mode = chain_modes.value(place["mode"].text());
-        const JsonPlace repeats = place["iterations"];
-        for (std::size_t i = 0; i < part->iterations.size(); ++i)
-            part->iterations[i] = repeats[chain_modes.rows[i].name].integer(1, max_iterations);
-        part->tolerance = place["tolerance"].number(0.0f, max_magnitude);
-        part->target = place["target"].point();
+        static constexpr std::string_view newer[] = {"reach_target", "flips"};
+        load_all_fields(place, *part, newer);
         // Some older scenes have one in mode Reach too.
-        if (const auto kept = place.optional("reach_target"); kept && part->mode != ChainMode::Reach)
-            part->reach_target = kept->point();
+        if (part->mode == ChainMode::Reach) part->reach_target.reset();
         part->motion = load_motion(place["motion"]);
         part->chain = require_value(
             Chain::from_segments(load_segments(place["segments"]), place["default_direction"].point()));
 
         const int last = std::max(0, static_cast<int>(part->chain.size()) - 1);
-        part->index = static_cast<std::size_t>(place["index"].integer(0, last));
+        static_cast<void>(place["index"].integer(0, last));
         // Scenes older than mode Reach lack this member.
         if (place.has("reach")) part->reach = load_reach(place["reach"], part->chain);
         if (const auto drawn = place.optional("curve")) part->curve = load_curve(*drawn);
@@ -150,11 +162,14 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
         }
         if (const auto solved = place.optional("result")) {
             if (part->mode != ChainMode::Reach) solved->fail("is for mode reach");
-            part->result = load_result(*solved, part->chain);
+            static constexpr std::string_view not_always[] = {"active_limit"};
+            load_all_fields(*solved, part->result.emplace(), not_always);
+            const auto& limit = part->result->active_limit;
+            if (limit && limit->joint >= part->chain.size())
+                (*solved)["active_limit"]["joint"].fail("there is no such joint");
             if (const auto before = place.optional("before"))
                 load_start(*before, part->chain, part->study.last_start, part->study.last_state);
         }
-        if (const auto rule = place.optional("flips")) load_fields(*rule, part->flips);
         ChainRuntime runtime;  // the part belongs to no workspace yet
         keep_step(*part, runtime);
         check_range(*part);
@@ -175,47 +190,36 @@ std::shared_ptr<Part> ChainPart::load(const Json& json, const std::string& where
 
 // Mode Reach.
 
-ik::Method load_method(const JsonPlace& place) {
-    const auto method = ik::method_named(place.text());
-    if (!method) place.fail("there is no solver \"" + place.text() + "\"");
-    return *method;
-}
-
 namespace {
 
 /// A list with one entry per bone; none if it is missing or empty.
-std::optional<JsonPlace> bone_list(const JsonPlace& owner, const char* key, std::size_t bones) {
+std::optional<JsonPlace> bone_list(const JsonPlace& owner, const char* key, const Chain& chain) {
     std::optional<JsonPlace> list = owner.optional(key);
     if (!list || (list->json().is_array() && list->json().empty())) return std::nullopt;
-    list->check_size(bones, "values, one for each bone");
+    list->check_size(chain.size() < 2 ? 0 : chain.size() - 1, "values, one for each bone");
     return list;
 }
 
 std::vector<ik::Limit> load_limits(const JsonPlace& owner, const char* key, const Chain& chain) {
     std::vector<ik::Limit> limits;
-    const std::size_t bones = chain.size() < 2 ? 0 : chain.size() - 1;
-    const auto list = bone_list(owner, key, bones);
-    for (std::size_t i = 0; list && i < bones; ++i) {
-        const JsonPlace each = list->element(i);
+    const auto load = [&](const JsonPlace& each) {
         limits.push_back(limit_from_json(each.json(), each.where()));
         if (const char* why = ik::fault(limits.back(), chain.default_direction())) each.fail(why);
-    }
+    };
+    if (const auto list = bone_list(owner, key, chain)) list->for_each("limits", chain.size(), load);
     return limits;
 }
 
 ChainPlane load_plane(const JsonPlace& place, const Chain& chain) {
-    const std::size_t bones = chain.size() < 2 ? 0 : chain.size() - 1;
     ChainPlane plane;
     plane.normal = place["normal"].point();
     if (!(glm::length(plane.normal) > 1e-6f)) place["normal"].fail("must be longer than 1e-6");
     if (const auto bend = place.optional("bend")) plane.bend = bend->choice(bend_sides);
-    if (const auto limits = bone_list(place, "limits", bones)) {
-        for (std::size_t i = 0; i < bones; ++i) {
-            const JsonPlace each = limits->element(i);
-            load_fields(each, plane.limits.emplace_back());
-            if (const char* why = ik::fault(plane.limits.back())) each.fail(why);
-        }
-    }
+    const auto load = [&](const JsonPlace& each) {
+        load_fields(each, plane.limits.emplace_back());
+        if (const char* why = ik::fault(plane.limits.back())) each.fail(why);
+    };
+    if (const auto limits = bone_list(place, "limits", chain)) limits->for_each("limits", chain.size(), load);
     plane.aside = load_limits(place, "aside", chain);
     return plane;
 }
@@ -238,24 +242,8 @@ ik::State load_state(const JsonPlace& owner, const std::vector<glm::vec3>& joint
     return saved ? load_ik_state(*saved, bones, from_root(joints)) : ik::State();
 }
 
-Json save_reach(const ReachSettings& settings, const Chain& chain) {
-    Json json{{"solver", ik::name(settings.method)}};
-    json.update(save_fields(settings));
-    if (settings.plane) {
-        Json& plane = json["plane"] = {{"normal", point(settings.plane->normal)},
-                                       {"bend", bend_sides.name(settings.plane->bend)}};
-        for (const ik::AngleLimit& limit : settings.plane->limits)
-            plane["limits"].push_back(save_fields(limit));
-        for (const ik::Limit& limit : settings.plane->aside) plane["aside"].push_back(limit_json(limit));
-    }
-    for (const ik::Limit& limit : settings.limits) json["limits"].push_back(limit_json(limit));
-    save_state(json, settings.state, positions(chain));
-    return json;
-}
-
 ReachSettings load_reach(const JsonPlace& place, const Chain& chain) {
     ReachSettings settings;
-    settings.method = load_method(place["solver"]);
     load_fields(place, settings);
     if (const auto plane = place.optional("plane")) settings.plane = load_plane(*plane, chain);
     if (settings.plane && place.has("limits")) place["limits"].fail("a chain in a plane has the plane's");

@@ -9,7 +9,6 @@
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/engine_trace.hpp"
-#include "app/labs/chain/presets.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/kit/past.hpp"
 
@@ -36,6 +35,12 @@ Handle joint_handle(const ChainPart& part, std::size_t index, glm::vec3 at) {
             segment_pick(index),
             {at},
             part.study.open() || part.mode == ChainMode::Curve ? Drag::Nothing : Drag::Position};
+}
+
+Bounds bounds_around(const std::vector<glm::vec3>& points, float smallest = 0.5f) {
+    glm::vec3 low = points.front(), high = low;
+    for (const glm::vec3& each : points) low = glm::min(low, each), high = glm::max(high, each);
+    return bounds_of(low, high, smallest);
 }
 
 }  // namespace
@@ -158,40 +163,28 @@ Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
         const bool target = part.chosen_point == ChainPoint::Target;
         return {target ? part.target : part.reach.options.pole.value_or(part.target), 0.5f};
     }
+    std::vector<glm::vec3> all;
     if (selection_only && !part.along.selection.empty()) {
-        glm::vec3 low(1e30f), high(-1e30f);
-        for (const std::size_t i : part.along.selection.all()) {
-            low = glm::min(low, part.curve.points[i]);
-            high = glm::max(high, part.curve.points[i]);
-        }
-        return bounds_of(low, high);
+        for (const std::size_t i : part.along.selection.all()) all.push_back(part.curve.points[i]);
+        return bounds_around(all);
     }
     if (selection_only && !part.selection.empty()) {
-        glm::vec3 low(1e30f), high(-1e30f);
         for (const std::size_t i : part.selection.all()) {
             const glm::vec3 around(1.5f * part.chain.length(i) / glm::sqrt(3.0f));
-            low = glm::min(low, part.chain.position(i) - around);
-            high = glm::max(high, part.chain.position(i) + around);
+            all.insert(all.end(), {part.chain.position(i) - around, part.chain.position(i) + around});
         }
-        return bounds_of(low, high);
+        return bounds_around(all);
     }
-    if (const TracedPose* const pose = traced_pose(part)) return trace_bounds(*pose);
-    glm::vec3 low = part.target, high = part.target;
-    for (const Segment& segment : part.chain.segments()) {
-        low = glm::min(low, segment.position);
-        high = glm::max(high, segment.position);
-    }
+    if (const TracedPose* const pose = traced_pose(part)) return bounds_around(traced_points(*pose));
+    all = positions(part.chain);
+    all.push_back(part.target);
     if (part.mode == ChainMode::Curve)
-        for (const glm::vec3& each : part.curve.points)
-            low = glm::min(low, each), high = glm::max(high, each);
-    for (const glm::vec3& joint : part.study.start) low = glm::min(low, joint), high = glm::max(high, joint);
-    if (part.mode == ChainMode::Reach && part.reach.options.pole) {
-        low = glm::min(low, *part.reach.options.pole);
-        high = glm::max(high, *part.reach.options.pole);
-    }
+        all.insert(all.end(), part.curve.points.begin(), part.curve.points.end());
+    all.insert(all.end(), part.study.start.begin(), part.study.start.end());
+    if (part.mode == ChainMode::Reach && part.reach.options.pole) all.push_back(*part.reach.options.pole);
     // A chain of a few centimetres fills the view as a long one does.
     const float reach = part.chain.reach();
-    return bounds_of(low, high, reach > 0.0f ? std::clamp(0.5f * reach, 0.001f, 0.5f) : 0.5f);
+    return bounds_around(all, reach > 0.0f ? std::clamp(0.5f * reach, 0.001f, 0.5f) : 0.5f);
 }
 
 std::vector<PaneTitle> ChainLab::panes(const Workspace& workspace) const {
@@ -287,7 +280,7 @@ std::vector<LabSetting> ChainLab::settings() const {
 }
 
 std::vector<CommandCall> ChainLab::opening() const {
-    return {{"chain.preset", {{"name", reaching_arm}}},
+    return {{"chain.preset", {{"name", "reaching_arm"}}},
             // In the view plane through root and pole target, so that a drag passes over the pole target.
             {"chain.motion", {{"path", "sweep"}, {"radius", 0.4f}, {"period", 9.0f}}},
             {"view.segments", {{"style", "bones"}}},

@@ -15,17 +15,16 @@
 namespace tendril::app {
 ChainPart first_chain() {
     ChainPart part;
-    part.chain = make_preset("start", 8, 1);
+    part.chain = make_preset(preset_named("start"), 8);
     part.target = part.chain.position(part.chain.size() - 1);
     return part;
 }
 
 bool operator==(const ChainPart& a, const ChainPart& b) {
-    return a.mode == b.mode && a.index == b.index && a.iterations == b.iterations &&
-           a.tolerance == b.tolerance && a.target == b.target && a.reach_target == b.reach_target &&
-           a.selection == b.selection && a.chosen_point == b.chosen_point && a.motion == b.motion &&
-           a.chain == b.chain && a.reach == b.reach && a.result == b.result && a.study == b.study &&
-           a.flips == b.flips && a.curve == b.curve && a.along == b.along;
+    const auto same = [&](const Field& field) { return same_field(field, &a, &b); };
+    return std::ranges::all_of(fields<ChainPart>(), same) && a.selection == b.selection &&
+           a.chosen_point == b.chosen_point && a.chain == b.chain && a.reach == b.reach &&
+           a.result == b.result && a.study == b.study && a.curve == b.curve && a.along == b.along;
 }
 
 void check_range(const ChainPart& part) {

@@ -107,3 +107,9 @@ void keep_step(ChainPart& part, ChainRuntime& runtime);
 float length_error(const Chain& chain, std::size_t index);
 
 }  // namespace tendril::app
+
+/// The values that scenes have as they are; the others have JSON of their own.
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::ChainPart>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::ReachResult>() noexcept;

@@ -22,6 +22,46 @@ namespace {
 /// The library's defaults, which the program need not set.
 const ik::Options plain_options;
 
+/// "static const float NAME[] = {...};", four numbers per line.
+std::string number_table(const char* name, const std::vector<float>& numbers) {
+    std::string text = "static const float " + std::string(name) + "[] = {\n";
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        text += i % 4 == 0 ? "    " : " ";
+        text += literal(numbers[i]);
+        text += i % 4 == 3 ? ",\n" : ",";
+    }
+    return text + "};\n";
+}
+
+std::vector<float> segment_numbers(const Chain& chain) {
+    std::vector<float> numbers;
+    for (const auto& [position, length] : chain.segments())
+        numbers.insert(numbers.end(), {position.x, position.y, position.z, length});
+    return numbers;
+}
+
+std::vector<float> rotation_numbers(const std::vector<glm::quat>& rotations) {
+    std::vector<float> numbers;
+    for (const glm::quat& q : rotations) numbers.insert(numbers.end(), {q.w, q.x, q.y, q.z});
+    return numbers;
+}
+
+/// A type JointLimit {joint, limit} and a table joint_limits of the limits that are not free.
+std::string limit_table(const std::vector<ik::Limit>& limits) {
+    std::string text =
+        "struct JointLimit {\n"
+        "    std::size_t joint;\n"
+        "    ik::Limit limit;\n"
+        "};\n"
+        "static const JointLimit joint_limits[] = {\n";
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+        const ik::Limit& limit = limits[i];
+        if (limit == ik::Limit{}) continue;
+        text += "    {" + std::to_string(i) + ", {" + joined(limit_members(limit)) + "}},\n";
+    }
+    return text + "};\n";
+}
+
 class ChainProgram {
   public:
     explicit ChainProgram(const ChainPart& part) : part_(part) {
@@ -175,7 +215,7 @@ void ChainProgram::reach() {
     memory();
     line("");
     say("// From here on once a frame, with the same solver, state and options.");
-    say("const ik::Report report = solver.solve(ik::Method::" + enumerator(part_.reach.method) +
+    say("const ik::Report report = solver.solve(ik::Method::" + pascal_text(ik::name(part_.reach.method)) +
         ", chain, state, target, options);");
     say("std::printf(\"%s after %d iterations, %g m from the target\\n\", ik::name(report.status),");
     say("            report.iterations, report.residual);");
@@ -320,52 +360,6 @@ std::string chain_code(const ChainPart& part) {
 
 std::string ChainLab::code(const Workspace& workspace) const {
     return chain_code(chain_part(workspace));
-}
-
-std::string enumerator(ik::Method method) {
-    return pascal_text(ik::name(method));
-}
-
-std::string enumerator(ik::JointKind kind) {
-    return pascal_text(ik::name(kind));
-}
-
-std::string number_table(const char* name, const std::vector<float>& numbers) {
-    std::string text = "static const float " + std::string(name) + "[] = {\n";
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        text += i % 4 == 0 ? "    " : " ";
-        text += literal(numbers[i]);
-        text += i % 4 == 3 ? ",\n" : ",";
-    }
-    return text + "};\n";
-}
-
-std::vector<float> segment_numbers(const Chain& chain) {
-    std::vector<float> numbers;
-    for (const auto& [position, length] : chain.segments())
-        numbers.insert(numbers.end(), {position.x, position.y, position.z, length});
-    return numbers;
-}
-
-std::vector<float> rotation_numbers(const std::vector<glm::quat>& rotations) {
-    std::vector<float> numbers;
-    for (const glm::quat& q : rotations) numbers.insert(numbers.end(), {q.w, q.x, q.y, q.z});
-    return numbers;
-}
-
-std::string limit_table(const std::vector<ik::Limit>& limits) {
-    std::string text =
-        "struct JointLimit {\n"
-        "    std::size_t joint;\n"
-        "    ik::Limit limit;\n"
-        "};\n"
-        "static const JointLimit joint_limits[] = {\n";
-    for (std::size_t i = 0; i < limits.size(); ++i) {
-        const ik::Limit& limit = limits[i];
-        if (limit == ik::Limit{}) continue;
-        text += "    {" + std::to_string(i) + ", {" + joined(limit_members(limit)) + "}},\n";
-    }
-    return text + "};\n";
 }
 
 // The clipboard.

@@ -216,9 +216,7 @@ void set_target(ChainPart& part, const Arguments& given, ChainRuntime& runtime) 
 /// Starts the path at the target, so that the target never jumps.
 void set_motion(ChainPart& part, const Arguments& given) {
     Motion motion = part.motion;
-    motion.path = motion_paths.value(given.text("path"));
-    if (given.has("radius")) motion.radius = given.number("radius");
-    if (given.has("period")) motion.period = given.number("period");
+    set_fields(given, motion);
     motion.ticks = 0;
     motion.centre = glm::vec3(0.0f);
     motion.centre = part.target - motion_point(motion, 0);
@@ -263,11 +261,7 @@ void add_mode_commands(CommandTable& table) {
              }),
          index_list_argument("controls", "control")},
         "Selects joints, the target, the pole target, or control points", select, Effect::Look));
-    table.add(chain_command("chain.motion", "Move the target along a path",
-                            {choice_argument("path", true, "the path", motion_paths.names()),
-                             number_argument("radius", "metres", 0, static_cast<double>(max_motion_radius)),
-                             number_argument("period", "seconds per round", shortest_decimal(min_period),
-                                             shortest_decimal(max_period))},
+    table.add(chain_command("chain.motion", "Move the target along a path", field_arguments<Motion>(),
                             "Moves the target along a path while the simulation runs", set_motion));
     table.add(chain_command(
         "chain.seek", "Place the target on its path",

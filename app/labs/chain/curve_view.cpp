@@ -82,7 +82,7 @@ LabSetting curve_frames() {
 
 void curve_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
     for (const Preset& preset : presets())
-        if (is_along_curve(preset.name)) preset_button(preset, 3, emit);
+        if (preset.curved()) preset_button(preset, 3, emit);
     end_row();
     FieldRows(part.curve, "chain.curve", emit)
         .under(more)

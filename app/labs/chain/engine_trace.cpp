@@ -18,6 +18,7 @@
 #include "app/document/text.hpp"
 #include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
+#include "app/io/solver_json.hpp"
 #include "app/io/solver_text.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/commands.hpp"
@@ -32,6 +33,11 @@ namespace {
 constexpr float parted_share = 0.05f;
 
 constexpr std::uint64_t max_from = 2'000'000'000;
+
+/// Of a trace's view: how Tendril solves it.
+std::span<const Field> solve_fields() {
+    return fields<TraceView>().first(4);
+}
 
 std::unique_ptr<std::istream> open_source(const ShownTrace& trace) {
     if (trace.path.empty()) return std::make_unique<std::istringstream>(trace.text);
@@ -119,14 +125,12 @@ void load_frames(ShownTrace& trace, std::optional<std::uint64_t> from) {
 
 /// A button that shows Tendril's solve with that change.
 Cure cure_of(const Prevention& prevention, const Conventions& space) {
-    const TraceSolve& solve = prevention.solve;
+    CommandCall call{"chain.trace", {}};
+    const Json solve = save_fields({solve_fields(), &prevention.solve});
+    for (const auto& [name, value] : solve.items()) call.arguments.push_back({name, SharedJson(value)});
     return {"Show",
             "Runs chain.trace: the ghost is solved with " + prevention.text(space) + ", and does not flip.",
-            {{"chain.trace",
-              {{"solver", ik::name(solve.method)},
-               {"soft_zone", solve.soft_zone},
-               {"pole_by", solve.pole_by},
-               {"hinge", solve.hinge}}}},
+            {std::move(call)},
             prevention.title()};
 }
 
@@ -162,7 +166,7 @@ Incident incident_of(const TracedIncident& found, const ShownTrace& trace,
 class Moments {
   public:
     explicit Moments(std::shared_ptr<const ShownTrace> trace) {
-        const TraceSolve solve = trace->view.solve();
+        const TraceSolve& solve = trace->view;
         Retrace ghost(solve);
         ik::IncidentFinder flips({.end_effector = trace->frames.front().end});
         for (const TracedFrame& frame : trace->frames) {
@@ -171,8 +175,7 @@ class Moments {
             part->chain = chain_through(frame.joints);
             part->target = frame.goal();
             part->reach.method = solve.method;
-            part->reach.options.soft_zone = solve.soft_zone;
-            part->reach.options.pole = solve.pole(frame);
+            part->reach.options = solve.options(frame);
             auto traced = std::make_shared<TracedPose>(
                 TracedPose{positions(part->chain), ghost.follow(frame), trace,
                            static_cast<std::uint64_t>(trace->view.from) + all.size()});
@@ -250,7 +253,7 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
         if (wrong != nullptr) workspace.ui.incident = incident_of(*wrong, *trace, moments.all);
     }
     if (same_frames) {
-        const std::string solve = std::string("Tendril's solve, ") + solver_title(trace->view.solver) + ": ";
+        const std::string solve = std::string("Tendril's solve, ") + solver_title(trace->view.method) + ": ";
         workspace.toast(
             solve + (moments.flip ? "flips at frame " + std::to_string(first + *moments.flip) : "no flip"));
         return;
@@ -317,7 +320,7 @@ const TracedPose* traced_pose(const ChainPart& part) {
 }
 
 ik::Method traced_method(const TracedPose& pose) {
-    return pose.trace->view.solver;
+    return pose.trace->view.method;
 }
 
 void draw_traced_ghost(const View& view, const ChainPart& part, DrawList& list) {
@@ -336,14 +339,13 @@ Verdict trace_verdict(const TracedPose& pose) {
     return {first->title(pose.trace->bones), Verdict::Kind::Bad, capitalised(first->cause) + "."};
 }
 
-Bounds trace_bounds(const TracedPose& pose) {
-    glm::vec3 low = pose.joints.front(), high = low;
+std::vector<glm::vec3> traced_points(const TracedPose& pose) {
+    std::vector<glm::vec3> all;
     for (const TracedFrame& frame : pose.trace->frames) {
-        const auto take = [&](glm::vec3 p) { low = glm::min(low, p), high = glm::max(high, p); };
-        std::ranges::for_each(frame.joints, take);
-        take(frame.goal());
+        all.insert(all.end(), frame.joints.begin(), frame.joints.end());
+        all.push_back(frame.goal());
     }
-    return bounds_of(low, high, 0.001f);
+    return all;
 }
 
 ChainPart part_as_written(const ChainPart& part, const TracedPose& pose) {
@@ -366,7 +368,7 @@ void trace_rows(const TracedPose& pose, MoreRows& more, Emit& emit) {
     FieldRows rows(trace.view, "chain.trace", emit);
     rows.under(more).rows("up", "handed", "unit");
     if (trace.conventions.has_rotations) rows.row("rotations");
-    rows.rows("solver", "soft_zone", "pole_by", "hinge");
+    for (const Field& field : solve_fields()) rows.row(field.name);
     if (trace.all <= trace.frames.size()) return;
     rows.row("from");
     const auto from = static_cast<std::uint64_t>(trace.view.from);
@@ -461,19 +463,14 @@ std::span<const tendril::Field> tendril::fields<tendril::app::TraceView>() noexc
     static constexpr auto hands = trace_hands.name_array();
     static constexpr auto units = trace_units.name_array();
     static constexpr auto orders = quaternion_orders.name_array();
-    static const auto methods = [] {
-        std::array<const char*, ik::all_methods.size()> names{};
-        std::ranges::transform(ik::all_methods, names.begin(), [](ik::Method m) { return ik::name(m); });
-        return names;
-    }();
-    static const Field rows[] = {field<&TraceView::up>("up", ups),
+    static const Field rows[] = {field<&TraceView::method>("solver", solver_names()),
+                                 field<&TraceView::soft_zone>("soft_zone"),
+                                 field<&TraceView::pole_by>("pole_by", {-max_magnitude, max_magnitude}, "m"),
+                                 field<&TraceView::hinge>("hinge", {0.0, max_trace_joints}),
+                                 field<&TraceView::up>("up", ups),
                                  field<&TraceView::handed>("handed", hands),
                                  field<&TraceView::unit>("unit", units),
                                  field<&TraceView::rotations>("rotations", orders),
-                                 field<&TraceView::from>("from", {0.0, max_from}),
-                                 field<&TraceView::solver>("solver", methods),
-                                 field<&TraceView::soft_zone>("soft_zone"),
-                                 field<&TraceView::pole_by>("pole_by", {-max_magnitude, max_magnitude}, "m"),
-                                 field<&TraceView::hinge>("hinge", {0.0, max_trace_joints})};
+                                 field<&TraceView::from>("from", {0.0, max_from})};
     return rows;
 }

@@ -22,22 +22,13 @@ namespace tendril::app {
 
 struct View;
 
-/// The settings of chain.trace: how a trace is read and shown.
-struct TraceView {
+/// The settings of chain.trace: how a trace is read and shown, and how Tendril solves it.
+struct TraceView : TraceSolve {
     TraceUp up = TraceUp::Y;
     TraceHand handed = TraceHand::Right;
     TraceUnit unit = TraceUnit::Metres;
     QuaternionOrder rotations = QuaternionOrder::Xyzw;
     int from = 0;  ///< the first frame shown
-    // Tendril's solve:
-    ik::Method solver = ik::Method::Fabrik;
-    float soft_zone = 0.0f;
-    glm::vec3 pole_by{0.0f};
-    int hinge = 0;
-
-    TraceSolve solve() const {
-        return {.method = solver, .soft_zone = soft_zone, .pole_by = pole_by, .hinge = hinge};
-    }
 };
 
 /// The trace on the strip. Not saved.
@@ -61,8 +52,8 @@ ik::Method traced_method(const TracedPose& pose);
 void draw_traced_ghost(const View& view, const ChainPart& part, DrawList& list);
 /// The first incident in the shown frames.
 Verdict trace_verdict(const TracedPose& pose);
-/// All shown frames, joints and targets.
-Bounds trace_bounds(const TracedPose& pose);
+/// Joints and targets of all shown frames.
+std::vector<glm::vec3> traced_points(const TracedPose& pose);
 /// The ghost's first pose, and what it solves now, in the axes and unit of the trace: for export.
 ChainPart part_as_written(const ChainPart& part, const TracedPose& pose);
 /// Panel: how the trace is read and why, and how Tendril solves it.

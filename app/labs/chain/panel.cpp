@@ -40,11 +40,14 @@ float length_of_next(const Chain& chain) {
     return length;
 }
 
+std::string tooltip_of(const Preset& preset) {
+    return count_text(static_cast<std::size_t>(preset.count), "joint") + preset.what;
+}
+
 }  // namespace
 
 void preset_button(const Preset& preset, int of, Emit& emit) {
-    const std::string what = count_text(preset.count, "joint") + preset.what;
-    if (!row_button(preset.title, of, true, what.c_str())) return;
+    if (!row_button(preset.title.c_str(), of, true, tooltip_of(preset).c_str())) return;
     emit("chain.preset", {{"name", preset.name}});
     emit("camera.frame", {{"what", "all"}});
 }
@@ -114,7 +117,7 @@ void plane_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
         look_at_plane(plane, emit);
     end_row();
     for (const Preset& preset : presets())
-        if (is_planar(preset.name)) preset_button(preset, preset.of, emit);
+        if (preset.planar()) preset_button(preset, preset.of, emit);
     end_row();
     more.add("normal", {"chain.plane", {"normal"}}, plane.normal != ChainPlane().normal, [&plane, &emit] {
         glm::vec3 normal = plane.normal;
@@ -155,32 +158,19 @@ void target_rows(const ChainPart& part, bool playing, Emit& emit) {
     if (point_field("target", target, 0.01f)) emit.continuously("chain.target", {{"to", target}});
     explain("Where the target is. It can be dragged in the scene too.");
 
-    const auto titles = motion_paths.titles();
-    int path = static_cast<int>(part.motion.path);
-    if (choice_field("moves", path, titles.data(), static_cast<int>(titles.size()))) {
-        emit("chain.motion", {{"path", motion_paths.name(static_cast<Motion::Path>(path))}});
-    }
-    explain(
-        "A path that the target follows while the simulation runs. It shows how a solver follows motion.");
+    const FieldRows path(part.motion, "chain.motion", emit);
+    path.row("path");
     if (part.motion.path == Motion::Path::Still) return;
     if (!playing) note("The simulation is paused. Space runs it.");
-    const auto with = [&](const char* name, float value) {
-        emit.continuously("chain.motion", {{"path", motion_paths.name(part.motion.path)}, {name, value}});
-    };
-    float radius = part.motion.radius, period = part.motion.period;
-    if (number_field("radius", radius, 0.01f, 0.0f, 1000.0f, "%.2f m")) with("radius", radius);
-    explain("How far the path goes to each side of its centre.");
-    if (number_field("period", period, 0.02f, min_period, max_period, "%.2f s")) with("period", period);
-    explain("How long one round takes. Shorter is faster.");
+    path.rows("radius", "period");
 }
 
 void preset_rows(Emit& emit) {
     std::vector<PresetButton> buttons;
     for (const Preset& preset : presets()) {
         // These are shown below their mode or switch.
-        if (preset.of == 0 || is_planar(preset.name)) continue;
-        buttons.push_back(
-            {preset.name, preset.title, count_text(preset.count, "joint") + preset.what, preset.of});
+        if (preset.of == 0 || preset.planar()) continue;
+        buttons.push_back({preset.name, preset.title, tooltip_of(preset), preset.of});
     }
     if (app::preset_rows(chain_lab, buttons, "Removes every joint", emit))
         emit("camera.frame", {{"what", "all"}});  // presets differ in size
@@ -417,7 +407,7 @@ void solver_row(const ReachSettings& reach, const Field& field, MoreRows& more, 
 void option_rows(const ReachSettings& reach, float length, MoreRows& more, Emit& emit) {
     for (const Field& field : fields<ReachSettings>()) {
         const std::string_view name = field.name;
-        if (name.starts_with("pole")) continue;  // below its switch
+        if (name == "solver" || name.starts_with("pole")) continue;  // in a row of its own; below its switch
         std::optional<double> otherwise;
         if (name == "tolerance") otherwise = reach_tolerance(reach, length);
         if (name == "restarts") otherwise = default_restarts;

@@ -18,8 +18,8 @@ namespace tendril::app {
 
 bool ReachSettings::operator==(const ReachSettings& other) const {
     const auto same = [&](const Field& field) { return same_field(field, this, &other); };
-    return method == other.method && std::ranges::all_of(fields<ReachSettings>(), same) &&
-           plane == other.plane && limits == other.limits && state == other.state;
+    return std::ranges::all_of(fields<ReachSettings>(), same) && plane == other.plane &&
+           limits == other.limits && state == other.state;
 }
 
 std::vector<glm::vec3> positions(const Chain& chain) {
@@ -269,10 +269,6 @@ ik::Limit limit_around_pose(ik::JointKind kind, const ReachSettings& settings, c
     limit.twist_min = std::min(limit.twist_min, at.twist);
     limit.twist_max = std::max(limit.twist_max, at.twist);
     return limit;
-}
-
-void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limit, const Chain& chain) {
-    set_limits(settings, {{joint, limit}}, chain);
 }
 
 void set_limits(ReachSettings& settings, const std::vector<std::pair<std::size_t, ik::Limit>>& limits,

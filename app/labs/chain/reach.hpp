@@ -119,7 +119,6 @@ ik::Limit limit_of(const ReachSettings& settings, std::size_t joint);
 ik::Limit limit_around_pose(ik::JointKind kind, const ReachSettings& settings, const Chain& chain,
                             std::size_t joint, std::optional<glm::vec3> axis);
 /// Throws std::invalid_argument for an invalid limit.
-void set_limit(ReachSettings& settings, std::size_t joint, const ik::Limit& limit, const Chain& chain);
 void set_limits(ReachSettings& settings, const std::vector<std::pair<std::size_t, ik::Limit>>& limits,
                 const Chain& chain);
 
@@ -145,10 +144,8 @@ inline constexpr EnumNames<ik::JointKind, 7> joint_kinds{"kind of joint",
 /// belongs to: pole joints equal to it are omitted.
 void save_state(Json& json, const ik::State& state, const std::vector<glm::vec3>& joints);
 ik::State load_state(const JsonPlace& owner, const std::vector<glm::vec3>& joints);
-Json save_reach(const ReachSettings& settings, const Chain& chain);
-// These throw std::runtime_error with the JSON path of the fault.
+/// Throws std::runtime_error with the JSON path of the fault.
 ReachSettings load_reach(const JsonPlace& place, const Chain& chain);
-ik::Method load_method(const JsonPlace& place);
 
 }  // namespace tendril::app
 

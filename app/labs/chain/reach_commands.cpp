@@ -15,8 +15,10 @@ std::span<const tendril::Field> tendril::fields<tendril::app::ReachSettings>() n
     using ik::Options;
     constexpr double half_turn = 3.1415927410125732;  // as a float
     static const Field rows[] = {
+        field<&Settings::method>("solver", solver_names()).needed(),
         field_in<&Settings::options, &Options::max_iterations>("iterations", FieldRange{1, max_iterations}),
         field_in<&Settings::options, &Options::tolerance>(),
+        field_in<&Settings::options, &Options::every_iteration>(),
         field_in<&Settings::options, &Options::snap_back>(),
         field_in<&Settings::options, &Options::soft_zone>(),
         field_in<&Settings::options, &Options::damping>(),
@@ -41,6 +43,10 @@ std::span<const FieldText> field_texts<ReachSettings>() {
          .help = "How far from the target the tip may be when the solver stops. Less takes more iterations.",
          .step = 0.0002f,
          .decimals = 4,
+         .more = true},
+        {.name = "every_iteration",
+         .label = "Every iteration",
+         .help = "Runs all iterations, even once the tip is on the target: to compare how solvers converge.",
          .more = true},
         {.name = "snap_back",
          .label = "rest blend",
@@ -119,7 +125,6 @@ std::span<const FieldText> field_texts<ik::Limit>() {
          .listed = true,
          .choices = joint_kinds.rows},
         {.name = "axis",
-         .label = "axis",
          .help = "The axis of upward rotation, in world axes with the chain straight; a hinge turns about it "
                  "alone."},
         {.name = "min",
@@ -278,9 +283,8 @@ std::vector<Argument> limit_arguments() {
 
 void add_reach_commands(CommandTable& table) {
     std::vector<Argument> solver = field_arguments<ReachSettings>();
-    solver.insert(solver.begin(),
-                  choice_argument("name", false, "unchanged if omitted, like all the others",
-                                  names(ik::all_methods, [](ik::Method m) { return ik::name(m); })));
+    solver.insert(solver.begin(), choice_argument("name", false, "unchanged if omitted, like all the others",
+                                                  {solver_names().begin(), solver_names().end()}));
     solver.push_back(switch_argument("default_tolerance", "true: 1e-3 of the reach"));
     solver.push_back(switch_argument("default_restarts", "true: 8, but none while the target is dragged"));
     table.add(chain_command("chain.solver", "Set the solver", std::move(solver),

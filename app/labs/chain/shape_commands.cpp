@@ -132,17 +132,11 @@ void reset(ChainPart& part, const Arguments&) {
 }
 
 void take_preset(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
-    const std::string name = given.text("name");
-    const Preset& preset = named(
-        presets(), [](const Preset& p) { return p.name; }, name, "preset");
-    const std::size_t count =
-        given.has("count") ? static_cast<std::size_t>(given.integer("count")) : preset.count;
+    const Preset& preset = preset_named(given.text("name"));
+    const int count = given.has("count") ? given.integer("count") : preset.count;
     const std::uint32_t seed = given.has("seed") ? static_cast<std::uint32_t>(given.integer("seed")) : 1u;
-    take_chain(part, make_preset(name, count, seed));
-    if (name == reaching_arm) make_it_reach(part, runtime);
-    if (name == straight_chain_preset) make_it_stall(part, runtime);
-    if (is_along_curve(name)) put_on_curve(part, name);
-    if (is_planar(name)) make_it_planar(part, name, runtime);
+    take_chain(part, make_preset(preset, static_cast<std::size_t>(count), seed));
+    take_scene(part, preset, runtime);
 }
 
 }  // namespace

@@ -11,12 +11,10 @@
 namespace tendril::app {
 namespace {
 
-Json reach_state(const ChainPart& part) {
-    Json json = save_reach(part.reach, part.chain);
+/// `json` is how the settings are saved.
+Json reach_state(const ChainPart& part, Json json) {
     json.erase("state");
-    json["report"] = nullptr;
-    json["active_limit"] = nullptr;
-    json["explanation"] = nullptr;
+    json.update({{"report", nullptr}, {"active_limit", nullptr}, {"explanation", nullptr}});
     if (!part.result) return json;
     json["report"] = report_json(part.result->method, part.result->report);
     if (part.result->active_limit) {
@@ -26,20 +24,19 @@ Json reach_state(const ChainPart& part) {
     return json;
 }
 
-Json curve_state(const ChainPart& part) {
-    Json json = save_curve(part.curve);
+Json curve_state(const ChainPart& part, Json json) {
     json["selected"] = part.along.selection.all();
     json["rotations"] = Json::array();
     for (const glm::quat& each : part.reach.state.rotations) json["rotations"].push_back(quaternion(each));
     const auto& report = part.along.report;
     if (!report) return json;
-    json["status"] = ik::name(report->status);
-    json["bones_past_end"] = report->bones_past_end;
-    json["past_end"] = number(report->past_end);
-    json["short_of_end"] = number(report->short_of_end);
-    json["factor"] = number(report->factor);
-    json["jumped"] = report->jumped ? Json(*report->jumped) : Json(nullptr);
-    json["collapsed"] = report->collapsed;
+    json.update({{"status", ik::name(report->status)},
+                 {"bones_past_end", report->bones_past_end},
+                 {"past_end", number(report->past_end)},
+                 {"short_of_end", number(report->short_of_end)},
+                 {"factor", number(report->factor)},
+                 {"jumped", report->jumped ? Json(*report->jumped) : Json(nullptr)},
+                 {"collapsed", report->collapsed}});
     return json;
 }
 
@@ -61,10 +58,9 @@ Json microscope_state(const ShownChain& shown) {
     }
     const std::vector<glm::vec3> joints = shown_joints(shown);
     json["residual"] = number(shown_residual(part, joints));
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-        json["positions"].push_back(point(joints[i]));
+    json["positions"] = points_json(joints);
+    for (std::size_t i = 0; i < joints.size(); ++i)
         json["lengths"].push_back(number(shown_segment(shown, joints, i).length));
-    }
     for (const float residual : trace.residuals) json["residuals"].push_back(number(residual));
     return json;
 }
@@ -76,14 +72,12 @@ Json race_state(const ShownChain& shown) {
         Json each = report_json(racer.method, racer.report);
         each["ends_with"] = number(racer.residuals.back());
         each["restored"] = racer.restored;
-        for (const glm::vec3& joint : racer.joints) each["positions"].push_back(point(joint));
+        each["positions"] = points_json(racer.joints);
         const RacerAt at = racer_at(racer, shown.step());
-        Json positions = Json::array();
-        for (const glm::vec3& joint : at.joints) positions.push_back(point(joint));
         each["shown"] = {{"iteration", at.iteration},
                          {"finished", at.finished},
                          {"residual", number(at.error)},
-                         {"positions", std::move(positions)}};
+                         {"positions", points_json(at.joints)}};
         json.push_back(std::move(each));
     }
     return json;
@@ -98,36 +92,33 @@ Json ChainLab::state(const Workspace& workspace) const {
         return segments.empty() ? Json(nullptr)
                                 : point(tail ? segments.back().position : segments.front().position);
     };
-    Json list = Json::array();
-    for (const Segment& segment : segments) {
-        list.push_back({{"position", point(segment.position)}, {"length", number(segment.length)}});
-    }
     const float tolerance =
         part.mode == ChainMode::Reach ? reach_tolerance(part.reach, part.chain.reach()) : part.tolerance;
-    Json json{{"lab", chain_lab},
-              {"mode", chain_modes.name(part.mode)},
-              {"index", part.index},
-              {"iterations", iterations_of(part, part.mode)},
-              {"tolerance", number(tolerance)},
-              {"target", point(part.target)},
-              {"head", end(false)},
-              {"tail", end(true)},
-              {"selected", part.chosen_point         ? Json(chain_points.name(*part.chosen_point))
-                           : part.selection.active() ? Json(*part.selection.active())
-                                                     : Json(nullptr)},
-              {"selection", part.selection.all()},
-              {"reach", number(part.chain.reach())},
-              {"verdict", chain_verdict(part).text},
-              {"motion", motion_paths.name(part.motion.path)},
-              {"past", past_state(workspace, chain_past())},
-              {"segments", std::move(list)}};
+    Json json = Lab::state(workspace);
+    Json list = Json::array(), solve = std::move(json["reach"]), curve = std::move(json["curve"]);
+    for (const Segment& segment : segments) list.push_back(save_fields(segment));
+    for (const char* const shown_otherwise : {"result", "before", "study", "crossings", "curve"})
+        json.erase(shown_otherwise);
+    json.update({{"iterations", iterations_of(part, part.mode)},
+                 {"tolerance", number(tolerance)},
+                 {"head", end(false)},
+                 {"tail", end(true)},
+                 {"selected", part.chosen_point         ? Json(chain_points.name(*part.chosen_point))
+                              : part.selection.active() ? Json(*part.selection.active())
+                                                        : Json(nullptr)},
+                 {"selection", part.selection.all()},
+                 {"reach", number(part.chain.reach())},
+                 {"verdict", chain_verdict(part).text},
+                 {"motion", motion_paths.name(part.motion.path)},
+                 {"past", past_state(workspace, chain_past())},
+                 {"segments", std::move(list)}});
     if (part.reach.plane) {
         json["plane"] = {{"normal", point(glm::normalize(part.reach.plane->normal))}};
         json["off_plane"] = number(off_plane(part.chain, part.reach, part.target));
         json["side"] = ik::name(part.reach.state.side);
     }
-    if (part.mode == ChainMode::Reach) json["solve"] = reach_state(part);
-    if (part.mode == ChainMode::Curve) json["curve"] = curve_state(part);
+    if (part.mode == ChainMode::Reach) json["solve"] = reach_state(part, std::move(solve));
+    if (part.mode == ChainMode::Curve) json["curve"] = curve_state(part, std::move(curve));
     const ShownChain shown = shown_chain(workspace);
     if (shown.trace) json["microscope"] = microscope_state(shown);
     if (!shown.race) return json;

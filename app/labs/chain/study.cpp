@@ -10,6 +10,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/document/units.hpp"
+#include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/kit/arguments.hpp"
@@ -121,8 +122,7 @@ bool Study::operator==(const Study& other) const {
 }
 
 Json save_start(const std::vector<glm::vec3>& joints, const ik::State& state) {
-    Json json{{"start", Json::array()}};
-    for (const glm::vec3& at : joints) json["start"].push_back(point(at));
+    Json json{{"start", points_json(joints)}};
     save_state(json, state, joints);
     return json;
 }
@@ -165,7 +165,7 @@ Study load_study(const JsonPlace& place, const Chain& chain) {
         study.step = static_cast<std::size_t>(iteration->integer(0, max_iterations));
     study.racers.fill(false);
     place["solvers"].for_each("solvers", ik::all_methods.size(), [&](const JsonPlace& each) {
-        study.racers[static_cast<std::size_t>(load_method(each))] = true;
+        study.racers[static_cast<std::size_t>(method_from_name(each.text(), each.where()))] = true;
     });
     return study;
 }

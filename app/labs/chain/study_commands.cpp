@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/chain/commands.hpp"
@@ -32,19 +33,22 @@ Argument start_argument() {
 }
 
 /// Studies need mode Reach; the chain then shows the result of a solve from the study's start.
-void open(ChainPart& part, const Arguments& given, ChainRuntime& runtime, Study::Kind kind) {
+template <Study::Kind kind>
+void open(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     if (!part.result) part.study.last_start.clear();  // bent by hand since the last solve
     part.study.begin(kind, start_of(given), part.chain, part.reach);
     enter_mode(part, ChainMode::Reach);
     reach_for(part, part.target, runtime);
 }
 
-void open_microscope(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
-    open(part, given, runtime, Study::Kind::Microscope);
-}
-
 void check_microscope(const ChainPart& part) {
     if (part.study.kind != Study::Kind::Microscope) throw Refused("the microscope is not open");
+}
+/// `check` refuses if another study is open, or none.
+template <void (*check)(const ChainPart&)>
+void close(ChainPart& part, const Arguments&) {
+    check(part);
+    part.study.close();
 }
 void check_study(const ChainPart& part) {
     if (!part.study.open()) throw Refused("neither the microscope nor a race is open");
@@ -119,24 +123,6 @@ void play_race(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     play(part, given.has("pace") ? given.number("pace") : race_pace(last), runtime);
 }
 
-void pause(ChainPart& part, const Arguments&) {
-    check_microscope(part);
-    part.study.pace = 0.0f;
-}
-
-void close_microscope(ChainPart& part, const Arguments&) {
-    check_microscope(part);
-    part.study.close();
-}
-void close_race(ChainPart& part, const Arguments&) {
-    check_race(part);
-    part.study.close();
-}
-
-void open_race(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
-    open(part, given, runtime, Study::Kind::Race);
-}
-
 void choose_racer(ChainPart& part, const Arguments& given) {
     check_race(part);
     const ik::Method method = *ik::method_named(given.text("name"));
@@ -174,8 +160,8 @@ Command opening(Command command) {
 
 void add_microscope_commands(CommandTable& table) {
     table.add(opening(chain_command("microscope.open", "Open the microscope", {start_argument()},
-                                    "Shows a solve step by step, always from the same start", open_microscope,
-                                    Effect::Edit)));
+                                    "Shows a solve step by step, always from the same start",
+                                    open<Study::Kind::Microscope>, Effect::Edit)));
     table.add(chain_command("microscope.seek", "Show a step of the solve",
                             {{.name = "step",
                               .type = ArgumentType::Integer,
@@ -191,11 +177,16 @@ void add_microscope_commands(CommandTable& table) {
                             {number_argument("pace", "steps per second; default: 8",
                                              shortest_decimal(slowest_pace), shortest_decimal(fastest_pace))},
                             "Plays the steps up to the last", play_microscope, Effect::Look));
-    table.add(chain_command("microscope.pause", "Pause the solve's steps", {}, "Stops playing the steps",
-                            pause, Effect::Look));
+    table.add(chain_command(
+        "microscope.pause", "Pause the solve's steps", {}, "Stops playing the steps",
+        [](ChainPart& part, const Arguments&) {
+            check_microscope(part);
+            part.study.pace = 0.0f;
+        },
+        Effect::Look));
     table.add(chain_command("microscope.close", "Close the microscope", {},
-                            "Closes the microscope; the chain stays as the solve left it", close_microscope,
-                            Effect::Look));
+                            "Closes the microscope; the chain stays as the solve left it",
+                            close<check_microscope>, Effect::Look));
 }
 
 }  // namespace
@@ -203,14 +194,13 @@ void add_microscope_commands(CommandTable& table) {
 void add_study_commands(CommandTable& table) {
     add_microscope_commands(table);
     table.add(opening(chain_command("race.open", "Start a race of solvers", {start_argument()},
-                                    "Runs several solvers from the same start to the same target", open_race,
-                                    Effect::Edit)));
-    table.add(
-        chain_command("race.solver", "Choose which solvers race",
-                      {choice_argument("name", true, "which solver",
-                                       names(ik::all_methods, [](ik::Method m) { return ik::name(m); })),
-                       {.name = "on", .type = ArgumentType::Boolean, .help = "true: it takes part"}},
-                      "Lets a solver take part in the race", choose_racer, Effect::Look));
+                                    "Runs several solvers from the same start to the same target",
+                                    open<Study::Kind::Race>, Effect::Edit)));
+    table.add(chain_command(
+        "race.solver", "Choose which solvers race",
+        {choice_argument("name", true, "which solver", {solver_names().begin(), solver_names().end()}),
+         {.name = "on", .type = ArgumentType::Boolean, .help = "true: it takes part"}},
+        "Lets a solver take part in the race", choose_racer, Effect::Look));
     table.add(chain_command("race.side_by_side", "Show the race side by side",
                             {{.name = "on", .type = ArgumentType::Boolean, .help = "false: overlaid"}},
                             "Shows the chains of the race beside each other", lay_out_race, Effect::Look));
@@ -230,7 +220,7 @@ void add_study_commands(CommandTable& table) {
         "Plays the race iteration by iteration, from its start if it is at its end", play_race,
         Effect::Look));
     table.add(chain_command("race.close", "Close the race", {},
-                            "Closes the race; the chain stays as its own solver left it", close_race,
+                            "Closes the race; the chain stays as its own solver left it", close<check_race>,
                             Effect::Look));
     add_race_file_commands(table);
 }

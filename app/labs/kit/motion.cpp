@@ -10,7 +10,6 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/document/workspace.hpp"
-#include "app/fields/fields.hpp"
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Motion>() noexcept {
@@ -26,6 +25,23 @@ std::span<const tendril::Field> tendril::fields<tendril::app::Motion>() noexcept
 }
 
 namespace tendril::app {
+
+template <>
+std::span<const FieldText> field_texts<Motion>() {
+    static constexpr FieldText texts[] = {
+        {.name = "path",
+         .label = "moves",
+         .help = "A path that the target follows while the simulation runs. It shows how a solver follows "
+                 "motion.",
+         .listed = true,
+         .choices = motion_paths.rows},
+        {.name = "radius", .label = "radius", .help = "How far the path goes to each side of its centre."},
+        {.name = "period",
+         .label = "period",
+         .help = "How long one round takes. Shorter is faster.",
+         .step = 0.02f}};
+    return texts;
+}
 
 double round_angle(double seconds, float period) {
     const double rounds = seconds / static_cast<double>(period);

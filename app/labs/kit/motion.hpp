@@ -8,6 +8,7 @@
 
 #include "app/document/json.hpp"
 #include "app/document/names.hpp"
+#include "app/fields/fields.hpp"
 
 namespace tendril::app {
 
@@ -46,3 +47,9 @@ Json save_motion(const Motion& motion);
 Motion load_motion(const JsonPlace& place);
 
 }  // namespace tendril::app
+
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Motion>() noexcept;
+/// Of path, radius and period.
+template <>
+std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::Motion>();

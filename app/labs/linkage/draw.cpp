@@ -94,7 +94,7 @@ class LinkageDrawing {
         for (std::size_t i = 0; i < sketch.points.size(); ++i) {
             const ik::SketchPoint& point = sketch.points[i];
             if (point.hold == ik::SketchHold::Pinned) pin(at(i));
-            if (point.hold == ik::SketchHold::Guided) rail(at(i), point.guide);
+            if (point.hold == ik::SketchHold::Guided) rail(at(i), guide_direction(point));
         }
     }
 
@@ -128,8 +128,8 @@ class LinkageDrawing {
         list_.line(left - glm::vec3(0.6f * unit, 0, 0), right + glm::vec3(0.6f * unit, 0, 0), px(2.0f),
                    colour);
     }
-    void rail(const glm::vec3& at, double angle) {
-        const glm::vec3 way(std::cos(angle), std::sin(angle), 0.0f), side(-way.y, way.x, 0.0f);
+    void rail(const glm::vec3& at, const glm::dvec2& along) {
+        const glm::vec3 way(along, 0.0f), side(-way.y, way.x, 0.0f);
         const float unit = px(9.0f) * view_.camera.metres_per_pixel(at);
         const glm::vec4 colour = opaque(view_.palette.target);
         for (const float by : {-1.0f, 1.0f})

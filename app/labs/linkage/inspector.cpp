@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "app/document/units.hpp"
+#include "app/fields/field_rows.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
@@ -139,10 +139,9 @@ void joint_rows(const LinkagePart& part, Emit& emit) {
     end_row();
     pair_motor_rows(*part.shape, *at, emit);
     if (guided) {
-        auto along = static_cast<float>(glm::degrees(part.shape->sketch.points[*at].guide));
-        if (number_field("line", along, 0.5f, -360.0f, 360.0f, "%.1f deg"))
-            emit.continuously("linkage.guide", {{"point", part.selected}, {"angle_deg", along}});
-        explain("The direction of its line, from +X.");
+        FieldRows({guide_fields(), &part.shape->sketch.points[*at]}, field_texts<ik::SketchPoint>(),
+                  "linkage.guide", emit, {{"point", part.selected}})
+            .all();
         if (part.linkage().find_link(part.selected)) linkage_range_rows(part, part.selected, emit);
     }
 }

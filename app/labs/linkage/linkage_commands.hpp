@@ -2,9 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 #include "app/document/command.hpp"
 #include "app/document/json_place.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/linkage/linkage_part.hpp"
 
 namespace tendril::app {
@@ -24,6 +27,12 @@ inline constexpr double usual_motor_rate = 90.0;
 inline bool is_on_bar(const ik::SketchBar& bar, std::size_t point) {
     return std::ranges::count(bar.points, point) > 0;
 }
+/// The direction of a sliding joint's line.
+inline glm::dvec2 guide_direction(const ik::SketchPoint& point) {
+    return {std::cos(point.guide), std::sin(point.guide)};
+}
+/// The row of that line, as the command linkage.guide and the inspector have it.
+std::span<const Field> guide_fields();
 /// The bars that meet at a point of the sketch.
 std::vector<std::size_t> bars_at(const ik::LinkageSketch& sketch, std::size_t point);
 /// Whether the inspector offers a motor for each pair of bars at the point: it is free, and they are few.
@@ -56,3 +65,6 @@ void require_linkage_joint(const LinkagePart& part, const std::string& joint);
 std::size_t require_linkage_point(const LinkagePart& part, const std::string& name);
 
 }  // namespace tendril::app
+
+template <>
+std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::ik::SketchPoint>();

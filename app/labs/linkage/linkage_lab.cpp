@@ -173,19 +173,8 @@ std::string LinkageLab::hint(const Workspace& workspace, PickId pick) const {
     const ik::LinkPoint* const point = picked_point(part, pick);
     const std::string name = point != nullptr ? point->name : "";
     const bool stays = point != nullptr && point->link == ik::ground_link;
-    switch (part.tool) {
-        case LinkageTool::Draw:
-            return point != nullptr ? name + ": drag from here draws a bar."
-                                    : "Drag draws a bar. A click adds a joint, on a bar or beside it.";
-        case LinkageTool::Pin:
-            return point != nullptr ? name + ": click pins it to the ground, or lets it move again."
-                                    : "Click a joint to pin it to the ground.";
-        case LinkageTool::Motor:
-            return point != nullptr ? name + ": click adds a motor, or takes it away."
-                                    : "Click a joint to put a motor there: on a pin, or between two bars.";
-        case LinkageTool::Move:
-            break;
-    }
+    if (part.tool != LinkageTool::Move)
+        return (point != nullptr ? name + ". " : name) + linkage_tools.help(part.tool);
     if (point == nullptr) return {};
     const bool named = kind_of(part.shape->mechanism) != nullptr;
     return name + (stays && named ? ": pinned where the mechanism's lengths put it. Click selects it."
@@ -249,10 +238,10 @@ Json linkage_state(const LinkagePart& part) {
         drivers[each.joint] = in_degrees(part, each.joint, part.value_of(each.joint));
     for (const std::size_t each : result.active) active.push_back(part.linkage().links[each].name);
     for (const std::size_t each : result.open_closures) open.push_back(part.linkage().closures[each].name);
-    for (const LinkageTarget& each : part.targets)
-        targets[each.point] = {
-            {"to", dpoint(each.to)},
-            {"residual", glm::distance(each.to, part.at(*part.linkage().find_point(each.point)))}};
+    for (const LinkageTarget& each : part.targets) {
+        Json& target = targets[each.point] = save_fields(each);
+        target["residual"] = glm::distance(each.to, part.at(*part.linkage().find_point(each.point)));
+    }
     if (const LinkageTarget* const target = jumped_target(part))
         jumped = {{"point", target->point}, {"distance", result.report.jump}};
     const ik::LinkageFreedom freedom = freedom_of(part);
@@ -280,12 +269,12 @@ Json LinkageLab::state(const Workspace& workspace) const {
         const std::string& joint = part.linkage().links[turn.joint].name;
         worst = {{"degrees", found->degrees}, {"at", shown_value(part, joint, found->value).value}};
     }
-    Json state = linkage_state(part);
-    state.update({{"lab", linkage_lab},
-                  {"transmission_angle", std::isfinite(transmission) ? Json(transmission) : Json(nullptr)},
+    Json state = Lab::state(workspace);
+    Json motors = std::move(state["drivers"]);  // `drivers` has their angles alone
+    state["motors"] = std::move(motors);
+    state.update(linkage_state(part));
+    state.update({{"transmission_angle", std::isfinite(transmission) ? Json(transmission) : Json(nullptr)},
                   {"transmission_minimum", std::move(worst)},
-                  {"selected", part.selected.empty() ? Json(nullptr) : Json(part.selected)},
-                  {"tool", linkage_tools.name(part.tool)},
                   {"seconds", part.time},
                   {"past", past_state(workspace, linkage_past())}});
     return state;

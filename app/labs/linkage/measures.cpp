@@ -32,8 +32,7 @@ double transmission_in(const LinkagePart& part, const DrivenLoop& loop) {
     const auto fold = [](double degrees) { return std::min(degrees, 180.0 - degrees); };
     const glm::dvec2 coupler = way(part, loop.end, loop.tip);
     if (loop.has_rocker()) return fold(between(coupler, way(part, loop.end, loop.pin)));
-    const double guide = part.shape->sketch.points[loop.end].guide;
-    return 90.0 - fold(between(coupler, {std::cos(guide), std::sin(guide)}));
+    return 90.0 - fold(between(coupler, guide_direction(part.shape->sketch.points[loop.end])));
 }
 
 /// The driven loop if it is the linkage's only loop; otherwise null.
@@ -337,10 +336,10 @@ std::optional<RoundCranks> shorter_round_cranks(const LinkagePart& part) {
         longest = drag_link ? reach : std::min(reach, bars->ground - gap);
     } else if (const DrivenLoop* const loop = only_loop(part)) {
         // The coupler must reach the slider's line from every point of the crank's circle.
-        const double guide = part.shape->sketch.points[loop->end].guide;
+        const glm::dvec2 line = guide_direction(part.shape->sketch.points[loop->end]);
         const glm::dvec2 to_line = way(part, part.shape->sketch.motors[loop->motor].point, loop->end);
-        longest = glm::length(way(part, loop->tip, loop->end)) -
-                  std::abs(to_line.x * std::sin(guide) - to_line.y * std::cos(guide));
+        longest =
+            glm::length(way(part, loop->tip, loop->end)) - std::abs(to_line.x * line.y - to_line.y * line.x);
     }
     return longest > length_step ? std::optional(RoundCranks{shortest, longest}) : std::nullopt;
 }

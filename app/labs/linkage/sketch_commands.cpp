@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
+#include <numbers>
 #include <utility>
 
 #include "app/document/json_complete.hpp"
@@ -111,7 +111,8 @@ void guide(LinkageSketch& sketch, const Arguments& given) {
     if (sketch.points[index].hold != SketchHold::Guided && is_link_name(sketch, sketch.points[index].name))
         throw Refused("\"" + sketch.points[index].name + "\" is a bar's or motor's name: it cannot slide");
     sketch.points[index].hold = SketchHold::Guided;
-    sketch.points[index].guide = glm::radians(given.has("angle_deg") ? given.real("angle_deg") : 0.0);
+    sketch.points[index].guide = 0.0;
+    set_fields(given, {guide_fields(), &sketch.points[index]});
     remove_motors_at(sketch, index);
 }
 
@@ -280,6 +281,26 @@ Argument end_argument(const char* name) {
 
 }  // namespace
 
+std::span<const Field> guide_fields() {
+    static const Field row = [] {
+        Field named = field_of<&ik::SketchPoint::guide>();
+        named.name = "angle";
+        named.usual = {-std::numbers::pi, std::numbers::pi};
+        return named;
+    }();
+    return {&row, 1};
+}
+
+template <>
+std::span<const FieldText> field_texts<ik::SketchPoint>() {
+    static constexpr FieldText texts[] = {{.name = "angle",
+                                           .label = "line",
+                                           .help = "The direction of its line, from +X; by default 0.",
+                                           .step = 0.5f,
+                                           .decimals = 1}};
+    return texts;
+}
+
 std::vector<std::size_t> bars_at(const LinkageSketch& sketch, std::size_t point) {
     std::vector<std::size_t> bars;
     for (std::size_t b = 0; b < sketch.bars.size(); ++b)
@@ -310,10 +331,10 @@ void add_sketch_commands(CommandTable& table) {
     table.add(sketch_command("linkage.pin", "Pin a joint to the ground",
                              {point, switch_argument("on", "toggles if omitted")},
                              "Pins a joint to the ground, or lets it move again", pin));
-    table.add(
-        sketch_command("linkage.guide", "Slide a joint on a line",
-                       {point, number_argument("angle_deg", "of the line, from +X; 0 if omitted", -360, 360)},
-                       "Holds a joint on a straight line through where it is", guide));
+    std::vector<Argument> line = field_arguments(guide_fields(), field_texts<ik::SketchPoint>());
+    line.insert(line.begin(), point);
+    table.add(sketch_command("linkage.guide", "Slide a joint on a line", std::move(line),
+                             "Holds a joint on a straight line through where it is", guide));
     table.add(sketch_command("linkage.move", "Move a joint of the drawing", {point, place_argument("to")},
                              "Puts a joint somewhere else: its bars change their lengths", move));
     table.add(sketch_command(

@@ -160,33 +160,32 @@ std::span<const FieldText> field_texts<RopeView>() {
 
 template <>
 std::span<const FieldText> field_texts<rope::RopeShape>() {
-    static constexpr FieldText texts[] = {
-        {.name = "from", .label = "from", .help = "Its first particle."},
-        {.name = "to", .label = "to", .help = "Its last particle."},
-        {.name = "segments", .label = "segments", .help = "Default: 32."},
-        {.name = "length", .label = "length", .help = "Default: the distance."},
-        {.name = "radius", .label = "radius", .help = "Half its thickness; default: 0.02."},
-        {.name = "density", .label = "density", .help = "Default: 1."},
-        {.name = "bending", .label = "bending", .help = "Its bending stiffness; default: 0."},
-        {.name = "pin_start", .label = "pin the start", .help = "Pins its first particle."},
-        {.name = "pin_end", .label = "pin the end", .help = "Pins its last particle."}};
+    static constexpr FieldText texts[] = {{.name = "from", .help = "Its first particle."},
+                                          {.name = "to", .help = "Its last particle."},
+                                          {.name = "segments", .help = "Default: 32."},
+                                          {.name = "length", .help = "Default: the distance."},
+                                          {.name = "radius", .help = "Half its thickness; default: 0.02."},
+                                          {.name = "density", .help = "Default: 1."},
+                                          {.name = "bending", .help = "Its bending stiffness; default: 0."},
+                                          {.name = "pin_start", .help = "Pins its first particle."},
+                                          {.name = "pin_end", .help = "Pins its last particle."}};
     return texts;
 }
 
 template <>
 std::span<const FieldText> field_texts<rope::ClothShape>() {
     static constexpr FieldText texts[] = {
-        {.name = "corner", .label = "corner", .help = "The first particle of the first row."},
-        {.name = "along", .label = "along", .help = "From the corner to the other end of the first row."},
-        {.name = "down", .label = "down", .help = "From the corner to the last row."},
-        {.name = "columns", .label = "columns", .help = "Particles in a row; default: 24."},
-        {.name = "rows", .label = "rows", .help = "Default: 24."},
-        {.name = "radius", .label = "radius", .help = "Half its thickness; default: 0.01."},
-        {.name = "density", .label = "density", .help = "Default: the material's."},
-        {.name = "shear", .label = "shear", .help = "Compliance; default: the material's."},
-        {.name = "bend", .label = "bend", .help = "Compliance; default: the material's."},
-        {.name = "tear", .label = "tears at", .help = "The strain at which links tear; 0: never."},
-        {.name = "pins", .label = "pins", .help = "Which part of its first row is pinned"}};
+        {.name = "corner", .help = "The first particle of the first row."},
+        {.name = "along", .help = "From the corner to the other end of the first row."},
+        {.name = "down", .help = "From the corner to the last row."},
+        {.name = "columns", .help = "Particles in a row; default: 24."},
+        {.name = "rows", .help = "Default: 24."},
+        {.name = "radius", .help = "Half its thickness; default: 0.01."},
+        {.name = "density", .help = "Default: the material's."},
+        {.name = "shear", .help = "Compliance; default: the material's."},
+        {.name = "bend", .help = "Compliance; default: the material's."},
+        {.name = "tear", .help = "The strain at which links tear; 0: never."},
+        {.name = "pins", .help = "Which part of its first row is pinned"}};
     return texts;
 }
 
@@ -201,30 +200,28 @@ std::span<const FieldText> field_texts<rope::TieShape>() {
 template <>
 std::span<const FieldText> field_texts<rope::HairShape>() {
     static constexpr FieldText texts[] = {
-        {.name = "length", .label = "length", .help = "Of a strand; default: 0.5."},
-        {.name = "segments", .label = "segments", .help = "Of a strand; default: 16."},
-        {.name = "radius", .label = "radius", .help = "Half the thickness of a strand; default: 0.004."},
-        {.name = "density", .label = "density", .help = "Default: 0.05."},
-        {.name = "bend", .label = "bend", .help = "Compliance; default: 0.1."}};
+        {.name = "length", .help = "Of a strand; default: 0.5."},
+        {.name = "segments", .help = "Of a strand; default: 16."},
+        {.name = "radius", .help = "Half the thickness of a strand; default: 0.004."},
+        {.name = "density", .help = "Default: 0.05."},
+        {.name = "bend", .help = "Compliance; default: 0.1."}};
     return texts;
 }
 
 template <>
 std::span<const FieldText> field_texts<rope::HairPatch>() {
     static constexpr FieldText texts[] = {
-        {.name = "centre", .label = "centre", .help = "The middle of the patch that it grows from."},
-        {.name = "direction",
-         .label = "direction",
-         .help = "Of growth; default: down, or outwards from a collider."},
-        {.name = "strands", .label = "strands", .help = "Default: 32."},
-        {.name = "spread", .label = "spread", .help = "The radius of the patch; default: 0.1."}};
+        {.name = "centre", .help = "The middle of the patch that it grows from."},
+        {.name = "direction", .help = "Of growth; default: down, or outwards from a collider."},
+        {.name = "strands", .help = "Default: 32."},
+        {.name = "spread", .help = "The radius of the patch; default: 0.1."}};
     return texts;
 }
 
 template <>
 std::span<const FieldText> field_texts<rope::Shape>() {
     static constexpr FieldText texts[] = {
-        {.name = "centre", .label = "centre", .help = "The middle of a sphere or box."},
+        {.name = "centre", .help = "The middle of a sphere or box."},
         {.name = "radius",
          .label = "radius",
          .help = "From the middle of a sphere or capsule to its surface.",
@@ -232,7 +229,7 @@ std::span<const FieldText> field_texts<rope::Shape>() {
          .decimals = 3},
         {.name = "a", .label = "one end", .help = "The middle of one of a capsule's round ends."},
         {.name = "b", .label = "other end", .help = "The middle of its other round end."},
-        {.name = "point", .label = "point", .help = "A point on a plane."},
+        {.name = "point", .help = "A point on a plane."},
         {.name = "normal",
          .label = "normal",
          .help = "The direction out of a plane: ropes stay on this side. Its length does not matter.",
@@ -277,11 +274,9 @@ std::span<const FieldText> field_texts<rope::Settings>() {
                                           rope_solvers.row(rope::Solver::Xpbd),
                                           rope_solvers.row(rope::Solver::Relaxation)};
     static constexpr FieldText texts[] = {
-        {.name = "substep",
-         .label = "substep",
+        {.name = "substep",  // the panel has a row of substeps per second
          .help = "The length of the equal steps that the simulation takes. Shorter ones follow fast motion "
-                 "better and cost more.",
-         .decimals = 5},
+                 "better and cost more."},
         {.name = "iterations",
          .label = "iterations",
          .help = "The maximum number of passes per substep. Direct stops as soon as it has converged; with "

@@ -1,5 +1,6 @@
 // A chain as a C++ program: its text. tests/package/code.cmake compiles and runs it.
 #include "app/labs/chain/code.hpp"
+#include "app/labs/kit/code_text.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 
 #include <cmath>

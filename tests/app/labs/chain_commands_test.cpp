@@ -74,7 +74,7 @@ TEST_F(ChainCommands, PresetsAreValidAtEverySize) {
             const Chain& chain = part().chain;
             ASSERT_EQ(chain.size(), static_cast<std::size_t>(count));
             const bool curved = part().mode == ChainMode::Curve;
-            ASSERT_EQ(curved, is_along_curve(name));
+            ASSERT_EQ(curved, preset_named(name).curved());
             if (!curved) {
                 EXPECT_EQ(part().target, chain.position(chain.size() - 1));
             } else if (count > 1) {

@@ -2,12 +2,17 @@
 // refused by the command and in a file, by name, and changes nothing.
 #include "app/fields/fields.hpp"
 
+#include <imgui.h>
+
 #include <limits>
+#include <set>
 #include <tendril/ik/linkage_sketch.hpp>
 #include <tendril/rope/settings.hpp>
 
+#include "app/app.hpp"
 #include "app/document/command.hpp"
 #include "app/labs/chain/chain_lab.hpp"
+#include "app/labs/chain/engine_trace.hpp"
 #include "app/labs/chain/reach.hpp"
 #include "app/labs/humanoid/attachments/attachments.hpp"
 #include "app/labs/humanoid/humanoid_lab.hpp"
@@ -16,13 +21,16 @@
 #include "app/labs/kit/code_text.hpp"
 #include "app/labs/kit/flips.hpp"
 #include "app/labs/kit/world_file.hpp"
+#include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "app/labs/rope/rope_fields.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_part.hpp"
 #include "app/labs/signal/filter_fields.hpp"
 #include "app/labs/signal/signal_part.hpp"
+#include "app/widgets/row_search.hpp"
 #include "tests/app/labs/lab_support.hpp"
+#include "tests/app/support/full_scenes.hpp"
 #include "tests/places.hpp"
 #include "tests/says.hpp"
 
@@ -98,6 +106,7 @@ std::vector<Table> all_tables() {
         table_of<ReachSettings>(chain_lab, "chain.solver", "/reach"),
         table_of<CurveSettings>(chain_lab, "chain.curve", "/curve"),
         table_of<FlipRule>(chain_lab, "chain.flips", "/flips"),
+        table_of<Motion>(chain_lab, "chain.motion", "/motion"),
         // Files leave out the usual rule.
         table_of<FlipRule>(rig_lab, "rig.flips", "/state/flips", Json::object(), {{"degrees", 40}}),
         table_of<FlipRule>(humanoid_lab, "humanoid.flips", "/flips", Json::object(), {{"degrees", 40}}),
@@ -270,21 +279,6 @@ class EveryField : public LabTest, public testing::WithParamInterface<Row> {
     }
 };
 
-/// A field without a text would have neither an argument nor a row.
-TEST(FilterFields, EachHasItsText) {
-    for (const signal::Kind& kind : signal::kinds()) {
-        const std::span<const FieldText> texts = filter_texts(kind);
-        const auto fields = kind.table().last(texts.size());  // a curve's keys have none
-        EXPECT_TRUE(fields.size() == kind.table().size() || kind.table()[0].count != nullptr) << kind.name;
-        for (std::size_t i = 0; i < texts.size(); ++i) {
-            EXPECT_STREQ(texts[i].name, fields[i].name) << kind.name;
-            std::string name = texts[i].name;
-            std::ranges::replace(name, '_', ' ');
-            EXPECT_NE(name.find(texts[i].label), name.npos) << "the label is the name or a part of it";
-        }
-    }
-}
-
 const char* const sketch_file = R"({
     "points": [{"name": "A", "hold": "pinned"}, {"name": "B", "at": [1.5, 0.0], "hold": "guided", "guide_deg": 30.0}],
     "bars": [{"name": "bar", "points": ["A", "B"]}],
@@ -374,8 +368,25 @@ struct Shape {
     const char* lab;
     const char* command;
     std::span<const Field> fields;
+    std::span<const FieldText> texts;
     Json with;  ///< further required arguments
 };
+
+template <class Struct>
+Shape shape_of(const char* lab, const char* command, Json with) {
+    return {lab, command, fields<Struct>(), field_texts<Struct>(), std::move(with)};
+}
+
+std::vector<Shape> shapes() {
+    const Json up{0, 1, 0}, right{1, 0, 0}, down{0, -1, 0};
+    return {shape_of<rope::RopeShape>(rope_lab, "rope.add", {{"from", up}, {"to", right}}),
+            shape_of<rope::ClothShape>(rope_lab, "rope.cloth.add",
+                                       {{"corner", up}, {"along", right}, {"down", down}}),
+            shape_of<rope::HairShape>(rope_lab, "rope.hair.add", {{"centre", up}}),
+            shape_of<rope::HairPatch>(rope_lab, "rope.hair.add", {{"centre", up}}),
+            shape_of<BodySettings>(rope_lab, "rope.set", {{"rope", "rope"}}),
+            shape_of<AttachmentShape>(humanoid_lab, "humanoid.attach", {{"bone", "Head"}, {"kind", "hair"}})};
+}
 
 class EveryShape : public LabTest {
   protected:
@@ -383,22 +394,11 @@ class EveryShape : public LabTest {
 };
 
 TEST_F(EveryShape, IsRefusedOutOfItsRangeAndChangesNothing) {
-    const Json up{0, 1, 0}, right{1, 0, 0}, down{0, -1, 0};
-    const Shape shapes[] = {
-        {rope_lab, "rope.add", fields<rope::RopeShape>(), {{"from", up}, {"to", right}}},
-        {rope_lab,
-         "rope.cloth.add",
-         fields<rope::ClothShape>(),
-         {{"corner", up}, {"along", right}, {"down", down}}},
-        {rope_lab, "rope.hair.add", fields<rope::HairShape>(), {{"centre", up}}},
-        {rope_lab, "rope.hair.add", fields<rope::HairPatch>(), {{"centre", up}}},
-        {rope_lab, "rope.set", fields<BodySettings>(), {{"rope", "rope"}}},
-        {humanoid_lab, "humanoid.attach", fields<AttachmentShape>(), {{"bone", "Head"}, {"kind", "hair"}}}};
-    for (const Shape& shape : shapes) {
+    for (const Shape& shape : shapes()) {
         run("lab.open", {{"name", shape.lab}});
         if (shape.lab == std::string_view(rope_lab)) {
             run("rope.clear");
-            run("rope.add", {{"from", up}, {"to", right}, {"name", "rope"}});
+            run("rope.add", {{"from", {0, 1, 0}}, {"to", {1, 0, 0}}, {"name", "rope"}});
         }
         for (const Field& field : shape.fields)
             for (const Json& value : bad(field)) {
@@ -410,6 +410,102 @@ TEST_F(EveryShape, IsRefusedOutOfItsRangeAndChangesNothing) {
             }
     }
 }
+
+/// The texts of a lab's tables.
+std::vector<std::span<const FieldText>> texts_of(std::string_view lab) {
+    std::vector<std::span<const FieldText>> all;
+    for (const Table& table : tables())
+        if (lab == table.lab) all.push_back(table.texts);
+    for (const Shape& shape : shapes())
+        if (lab == shape.lab) all.push_back(shape.texts);
+    if (lab == chain_lab) all.insert(all.end(), {field_texts<ik::AngleLimit>(), field_texts<TraceView>()});
+    if (lab == humanoid_lab) all.insert(all.end(), {field_texts<HandCurve>(), field_texts<FileSpace>()});
+    if (lab == linkage_lab) all.push_back(field_texts<ik::SketchPoint>());
+    if (lab == linkage_lab)
+        for (const MechanismKind& kind : mechanism_kinds()) all.push_back(kind.texts);
+    return all;
+}
+
+/// Scenes with objects that no other scene has.
+std::vector<test::Shown> further_scenes(const Lab& lab) {
+    using test::call;
+    const std::string frame = R"({"joints": [[0, 0, 0], [0, 1, 0], [0, 2, 0]], "target": [0, 2, 0],)"
+                              R"( "rotations": [[0, 0, 0, 1], [0, 0, 0, 1]]})"
+                              "\n";
+    std::string trace;
+    for (std::uint64_t i = 0; i <= Rewind::max_ticks; ++i) trace += frame;
+    if (lab.name() == chain_lab)
+        return {
+            {"in a plane",
+             {call("chain.mode", {{"mode", "reach"}}), call("chain.plane", {{"normal", glm::vec3(0, 0, 1)}}),
+              call("chain.select", {{"index", 1}})}},
+            {"a trace", {call("chain.trace", {{"text", trace}})}}};
+    if (lab.name() == linkage_lab)
+        return {
+            {"a joint that slides",
+             {call("linkage.preset", {{"name", "slider_crank"}}), call("linkage.select", {{"point", "S"}})}}};
+    if (lab.name() == rope_lab)
+        return {{"a tie", {call("rope.preset", {{"name", "line"}}), call("rope.select", {{"tie", "tie"}})}},
+                {"a ball that turns",
+                 {call("rope.preset", {{"name", "drape"}}),
+                  call("rope.collider.drive", {{"name", "ball"}, {"spin_deg", 90.0f}}),
+                  call("rope.select", {{"collider", "ball"}})}}};
+    if (lab.name() == humanoid_lab)
+        return {{"a root with an offset",
+                 {call("humanoid.load", {{"path", test::source_path("tests/app/golden/a_pose.bvh")}})}},
+                {"balance and an object",
+                 {call("humanoid.balance", {{"on", true}}), call("humanoid.hold", {{"kind", "wheel"}})}},
+                {"a curve",
+                 {call("humanoid.curve", {{"first", "Spine"}, {"fit", true}}),
+                  call("humanoid.select", {{"node", "Spine"}})}}};
+    return {};
+}
+
+class EveryText : public testing::TestWithParam<const char*> {};
+
+/// Panels draw the rows of a table by name. A row that none of them names could be set only by a command.
+TEST_P(EveryText, IsDrawnByAPanelOnceInItsSection) {
+    const auto window = open_offscreen({320, 240});
+    App app(*window);
+    app.tick(nullptr);
+    const Lab& lab = *app.labs().find(GetParam());
+    std::vector<test::Shown> scenes = test::all_scenes(lab, app.commands());
+    for (test::Shown& each : further_scenes(lab)) scenes.push_back(std::move(each));
+    std::set<const void*> drawn;
+    for (const test::Shown& scene : scenes) {
+        app.run({"scene.new", Json::object()});
+        app.run({"lab.open", Json{{"name", GetParam()}}});
+        for (const CommandCall& each : scene.commands) app.run({each.name, to_json(each.arguments)});
+        RowSearch search;
+        Emit unused;
+        std::set<unsigned> ids;
+        ImGui::NewFrame();
+        {
+            const SearchWindow unfolded(search);
+            lab.panel(app.workspace(), unused);
+            lab.inspector(app.workspace(), unused);
+        }
+        ImGui::EndFrame();
+        for (const auto& [text, id] : search.texts) {
+            drawn.insert(text);
+            EXPECT_TRUE(ids.insert(id).second)
+                << scene.name << ": " << static_cast<const FieldText*>(text)->name << " is there twice";
+        }
+    }
+    std::set<const void*> known;
+    for (const std::span<const FieldText> texts : texts_of(GetParam()))
+        for (const FieldText& text : texts)
+            if (known.insert(&text).second) {
+                EXPECT_EQ(drawn.contains(&text), text.label != nullptr) << text.name << ": " << text.help;
+            }
+    for (const void* const text : drawn)
+        EXPECT_TRUE(known.contains(text))
+            << static_cast<const FieldText*>(text)->name << " is in no table of texts_of()";
+}
+
+INSTANTIATE_TEST_SUITE_P(Labs, EveryText,
+                         testing::Values(chain_lab, rope_lab, signal_lab, rig_lab, humanoid_lab,
+                                         linkage_lab));
 
 /// Objects of a lab's scene that tables read whole.
 struct Whole {

@@ -16,6 +16,10 @@ TEST_F(LinkageTest, StateIsAsSpecified) {
     EXPECT_EQ(now.at("lab"), "linkage");
     EXPECT_EQ(now.at("gruebler"), 1);
     EXPECT_EQ(now.at("active"), Json::array());
+    EXPECT_EQ(now.at("mechanism").at("name"), "four_bar");
+    draw_four_bar();
+    run("linkage.guide", {{"point", "D"}, {"angle_deg", 30}});
+    EXPECT_NE(state().at("sketch").dump().find("\"guide_deg\":30.0"), std::string::npos);
 }
 
 TEST_F(LinkageTest, ALengthChangesAndTheHeldCrankStays) {

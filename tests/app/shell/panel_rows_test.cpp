@@ -5,7 +5,6 @@
 #include <cmath>
 #include <memory>
 #include <string>
-#include <tendril/rope/settings.hpp>
 #include <utility>
 #include <vector>
 
@@ -14,14 +13,7 @@
 
 #include "app/app.hpp"
 #include "app/document/json_complete.hpp"
-#include "app/fields/fields.hpp"
 #include "app/labs/card.hpp"
-#include "app/labs/chain/reach.hpp"
-#include "app/labs/humanoid/clip/playback.hpp"
-#include "app/labs/humanoid/ik/ik_settings.hpp"
-#include "app/labs/kit/world_file.hpp"
-#include "app/labs/rope/rope_fields.hpp"
-#include "app/labs/rope/rope_part.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/layout_faults.hpp"
 #include "tests/places.hpp"
@@ -166,14 +158,6 @@ class RowsUnderMore : public testing::Test {
                    each.text == label;
         });
     }
-    template <class Struct>
-    void expect_all() {
-        for (const FieldText& text : field_texts<Struct>()) {
-            EXPECT_TRUE(!text.more || shows(text.label) || shows(std::string(text.label) + " x"))
-                << text.label;
-        }
-    }
-
     std::unique_ptr<Window> window_ = open_offscreen({1440, 2400});  // nothing is scrolled out of view
     App app_{*window_};
     FrameRecorder recorder_;
@@ -183,21 +167,10 @@ TEST_F(RowsUnderMore, AreShownByOpeningIt) {
     run("chain.preset", {{"name", "reaching_arm"}});
     EXPECT_FALSE(shows("tolerance"));
     run("view.fold", {{"section", "chain: Mode and solver, more"}, {"folded", false}});
-    expect_all<ReachSettings>();
-    open("rope");
-    unfold_all("rope");
-    expect_all<rope::Settings>();
-    expect_all<RopeView>();
-    EXPECT_TRUE(shows("substeps"));
+    EXPECT_TRUE(shows("tolerance"));
     open("humanoid");
     unfold_all("humanoid");
-    run("humanoid.foot_ik", {{"on", true}});
-    expect_all<FootIkSetting>();
-    run("humanoid.balance", {{"on", true}});
-    expect_all<BalanceSetting>();
-    expect_all<Playback>();
     EXPECT_TRUE(shows("mesh file"));
-    EXPECT_TRUE(shows("flip over"));
 }
 
 TEST_F(RowsUnderMore, ChangedOnesAreCountedInItsTitle) {

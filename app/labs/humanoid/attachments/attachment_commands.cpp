@@ -71,17 +71,15 @@ namespace tendril::app {
 template <>
 std::span<const FieldText> field_texts<AttachmentShape>() {
     static constexpr FieldText texts[] = {
-        {.name = "length", .label = "length", .help = "From the held end to the free end."},
-        {.name = "segments", .label = "segments", .help = "How many along its length."},
-        {.name = "width", .label = "width", .help = "Of a cloth, or of the patch that hair grows on."},
-        {.name = "thickness", .label = "thickness", .help = "Of the rope, a hair or the cloth."},
-        {.name = "strands", .label = "strands", .help = "How many hairs there are."},
+        {.name = "length", .help = "From the held end to the free end."},
+        {.name = "segments", .help = "How many along its length."},
+        {.name = "width", .help = "Of a cloth, or of the patch that hair grows on."},
+        {.name = "thickness", .help = "Of the rope, a hair or the cloth."},
+        {.name = "strands", .help = "How many hairs there are."},
         {.name = "offset",
-         .label = "offset",
          .help = "From the bone to where it is held, in the axes of the character at rest; if omitted, "
                  "just off the body."},
         {.name = "direction",
-         .label = "direction",
          .help = "The direction it points in at first, in the axes of the character at rest."}};
     return texts;
 }

@@ -162,13 +162,9 @@ void foot_row(const HumanoidPanel& panel, std::size_t side) {
 
 void standing_rows(const HumanoidPanel& panel, MoreRows& more) {
     const IkSettings& ik = panel.part.ik;
-    int kind = static_cast<int>(ik.ground.kind);
-    const auto titles = ground_kinds.titles();
-    std::array<const char*, titles.size()> why_not{};
-    if (!ik.ground.mesh) why_not.back() = "type its path under More";
-    if (choice_field("ground", kind, titles.data(), static_cast<int>(titles.size()), why_not.data()))
-        panel.emit("humanoid.ground", {{"kind", ground_kinds.name(static_cast<GroundKind>(kind))}});
-    explain(ground_kinds.help(ik.ground.kind));
+    RowOptions kinds{.why_not_choices = std::vector<const char*>(std::size(ground_kinds.rows))};
+    if (!ik.ground.mesh) kinds.why_not_choices.back() = "type its path under More";
+    FieldRows(ik.ground, "humanoid.ground", panel.emit).row("kind", kinds);
     more.add("mesh file", {"humanoid.ground", {"path"}}, ik.ground.mesh != nullptr, [&panel, &ik] {
         std::string path = ik.ground.mesh ? ik.ground.mesh->path : std::string();
         if (text_field("mesh file", path, "a .gltf or .glb file") && !path.empty())

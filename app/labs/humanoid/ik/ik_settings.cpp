@@ -135,7 +135,8 @@ std::span<const FieldText> field_texts<GroundSetting>() {
     static constexpr FieldText texts[] = {
         {.name = "kind",
          .label = "ground",
-         .help = "What the character walks on",
+         .help = "What the character walks on.",
+         .listed = true,
          .choices = ground_kinds.rows},
         {.name = "angle_deg",
          .label = "angle",

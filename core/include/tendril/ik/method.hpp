@@ -1,39 +1,23 @@
 // The methods that solve a chain, and which options each of them honours.
 //
-// An option that a method does not honour changes neither pose nor report. `without` and `within` mean
-// without and within joint limits. honours() reads this from the rows of fields<Options>(), and a test
-// verifies it:
+// An option that a method does not honour changes neither pose nor report. The option's row in
+// fields<Options>() says which methods honour it, without and within joint limits (Field::without_limits and
+// within_limits, given by Field::by()). honours() reads the rows, and a test verifies them. Some options have
+// a special meaning:
 //
-//     option           fabrik       plain     ccd       transpose dls, svd  two_bone
-//     tolerance        both         both      both      both      both      both (1)
-//     max_iterations   both         both      both      both      both      within
-//     every_iteration  both         both      both      both      both      within
-//     limits           yes          yes       yes       yes       yes       yes (2)
-//     plane            both (7)     both      both      both      both      both
-//     pole             both         both      both      both      both      both
-//     pole_turn        without (3)  without   without   without   without   never (3)
-//     snap_back        both         both      both      both      both      within
-//     tip_orientation  both         both      both      both      both      both (4)
-//     soft_zone        both         both      both      both      both      both
-//     damping          never        never     never     never     both      within (2)
-//     stretch          never        never     never     never     never     without (5)
-//     twist            never        never     never     never     never     both (4)
-//     weight           both         both      both      both      both      both
-//     restarts         within       never     never     never     never     never
-//     rotations        without (6)  without   without   without   without   without
-//     residuals        both         both      both      both      both      both
-//
-// `plain` is fabrik_plain, `stretch` is start_stretch_ratio and max_stretch_scale.
-// (1) Two bones are solved as exactly as floats allow; the tolerance only decides the status.
-// (2) Within limits, a two-bone solve starts from its closed form and continues with damped least squares.
-// (3) Within limits, the whole chain always turns to its pole at once: turning joints one by one would bend
-//     all of them. A chain of two bones has one joint to turn, so both modes are the same.
-// (4) A tip orientation fixes the last bone, so a two-bone solve takes three bones, or two of which one is
-//     left to solve. Within limits it is damped least squares from the start, without twist.
-// (5) Not if a tendril::Chain is solved, which keeps its lengths.
-// (6) Within limits the rotations are always kept up to date, because limits are defined on them.
-// (7) A chain in a plane has its own limits (Plane::limits). It is solved as within limits, but its rotations
-//     are updated only as without, and pole_turn and twist have no effect.
+//   tolerance        Two bones are solved as exactly as floats allow; it only decides the status.
+//   limits, damping  Within limits, a two-bone solve starts from its closed form and continues with damped
+//                    least squares.
+//   pole_turn        Within limits, the whole chain always turns to its pole at once: turning joints one by
+//                    one would bend all of them. A chain of two bones has one joint to turn, so both modes
+//                    are the same.
+//   tip_orientation  It fixes the last bone, so a two-bone solve takes three bones, or two of which one is
+//                    left to solve. Within limits it is damped least squares from the start, without twist.
+//   start_stretch_ratio, max_stretch_scale
+//                    Not if a tendril::Chain is solved, which keeps its lengths.
+//   rotations        Within limits they are always kept up to date, because limits are defined on them.
+//   plane            A chain in a plane has its own limits (Plane::limits). It is solved as within limits,
+//                    but its rotations are updated only as without, and pole_turn and twist have no effect.
 #pragma once
 
 #include <array>

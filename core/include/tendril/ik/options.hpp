@@ -17,7 +17,7 @@
 
 namespace tendril::ik {
 
-/// The table in method.hpp shows which method honours which option, as do the rows of fields<Options>().
+/// The rows of fields<Options>() say which methods honour an option: see honours() in method.hpp.
 struct Options {
     /// Metres, 0 to max_magnitude; by default 1e-3 of the reach.
     std::optional<float> tolerance{};
