@@ -156,6 +156,8 @@ std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::rope
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Swing>() noexcept;
 template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Jitter>() noexcept;
+template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::RopeView>() noexcept;
 template <>
 std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::app::RopeView>();
