@@ -345,14 +345,14 @@ void length_plot(const std::vector<RopeSample>& samples, const Palette& palette)
 /// The present numbers of each racer, and their curves; `timed`: with the cost too.
 void race_rows(const RopePart& part, bool timed, const Palette& palette, Emit& emit) {
     const PanelSection ids("Race");
-    const std::vector<RopeRacer> racers = rope_racers(part);
+    const auto racers = rope_racers(part);
     for (const RopeRacer& racer : racers) {
         colour_mark(rope_solver_colour(palette, racer.solver()));
         ImGui::AlignTextToFramePadding();
         ImGui::TextUnformatted(rope_solvers.title(racer.solver()));
         ImGui::SameLine();
         text_flush_right(timed ? cost_text(racer.samples) : "");
-        small_right(racer_text(racer.last()));
+        small_right(racer_text(last_sample(racer)));
     }
     const auto curves = [&](const char* name, const char* unit, float RopeSample::*value, float scale,
                             float min_y) {

@@ -145,9 +145,9 @@ std::optional<RopeSelection> load_selection(const JsonPlace& place, const NamedW
 
 /// A racer's data besides its world: held particles, and the last ten seconds, a column for each number
 /// except the cost, which depends on the computer.
-void save_racer(Json& json, const std::optional<Hold>& hold, const std::vector<RopeSample>& samples) {
-    if (hold) json["held"] = save_fields(*hold);
-    for (const RopeSample& each : samples) {
+void save_racer(Json& json, const RopeRacer& racer) {
+    if (racer.hold) json["held"] = save_fields(*racer.hold);
+    for (const RopeSample& each : racer.samples) {
         Json row = save_fields(each);
         row.update(save_fields(each.report));
         for (const auto& [name, value] : row.items()) json["samples"][name].push_back(value);
@@ -182,10 +182,9 @@ std::vector<RopeSample> load_samples(const JsonPlace& place) {
     return samples;
 }
 
-void load_racer(const JsonPlace& place, const NamedWorld& world, std::optional<Hold>& hold,
-                std::vector<RopeSample>& samples) {
-    if (const auto held = place.optional("held")) hold = load_hold(*held, world);
-    if (const auto columns = place.optional("samples")) samples = load_samples(*columns);
+void load_racer(const JsonPlace& place, RopeRacer& racer) {
+    if (const auto held = place.optional("held")) racer.hold = load_hold(*held, *racer.world);
+    if (const auto columns = place.optional("samples")) racer.samples = load_samples(*columns);
 }
 
 }  // namespace
@@ -194,9 +193,9 @@ Json RopePart::save() const {
     Json json = save_sparse_fields(*this);
     json["selected"] = save_selection(selection);
     json["world"] = save_world(*world);
-    save_racer(json, hold, samples);
-    for (const Rival& rival : rivals)
-        save_racer(json["rivals"].emplace_back(save_world(*rival.world)), rival.hold, rival.samples);
+    save_racer(json, *this);
+    for (const RopeRacer& rival : rivals)
+        save_racer(json["rivals"].emplace_back(save_world(*rival.world)), rival);
     if (walker.figure) json["character"] = save_walker(walker);
     return json;
 }
@@ -235,14 +234,14 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
     part->usual = part->world->settings();
     if (const auto racing = place.optional("rivals"))
         racing->for_each("rivals", 2, [&](const JsonPlace& each) {
-            Rival rival;
+            RopeRacer rival;
             rival.world = read_world(each, racing_too);
             for (const RopeRacer& racer : rope_racers(*part))
-                if (racer.solver() == rival.world->settings().solver) each.fail("its solver races already");
-            load_racer(each, *rival.world, rival.hold, rival.samples);
+                if (racer.solver() == rival.solver()) each.fail("its solver races already");
+            load_racer(each, rival);
             part->rivals.push_back(std::move(rival));
         });
-    load_racer(place, *part->world, part->hold, part->samples);
+    load_racer(place, *part);
     check_swings(part->swings, place["swings"], *part->world);
     if (const auto character = place.optional("character")) part->walker = load_walker(*character);
     part->selection = load_selection(place["selected"], *part->world);
@@ -331,7 +330,7 @@ Json RopeLab::state(const Workspace& workspace) const {
     Json race = nullptr;
     if (!part.rivals.empty())
         for (const RopeRacer& racer : rope_racers(part)) {
-            const RopeSample last = racer.last();
+            const RopeSample last = last_sample(racer);
             race.push_back({{"solver", rope_solvers.name(racer.solver())},
                             {"length_error", number(last.error)},
                             {"as_solved", number(last.stretch)},
