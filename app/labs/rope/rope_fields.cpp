@@ -37,7 +37,8 @@ std::span<const tendril::Field> tendril::fields<tendril::app::RopeView>() noexce
     using app::RopeView;
     static constexpr Field rows[] = {field<&RopeView::strain>("strain"),
                                      field<&RopeView::particles>("particles"),
-                                     field<&RopeView::sides>("sides", {app::min_sides, app::max_sides})};
+                                     field<&RopeView::sides>("sides", {app::min_sides, app::max_sides}),
+                                     field<&RopeView::thickness>("thickness", {0.1, 20.0})};
     return rows;
 }
 
@@ -161,6 +162,15 @@ std::span<const FieldText> field_texts<RopeView>() {
         {.name = "sides",
          .label = "sides",
          .help = "How many sides ropes have in the picture. More look rounder and take longer to draw.",
+         .more = true},
+        {.name = "thickness",
+         .label = "thickness",
+         .help =
+             "How many times as thick as they are ropes and hair are drawn, so that thin ones can be seen "
+             "and caught. They collide as before.",
+         .step = 0.02f,
+         .decimals = 1,
+         .unit = "times",
          .more = true}};
     return texts;
 }

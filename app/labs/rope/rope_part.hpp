@@ -67,6 +67,7 @@ struct RopeView {
     bool particles = false;  ///< show particles as balls
     bool strain = false;     ///< colour links by their strain
     int sides = 16;          ///< sides of the tube, 3 to 64
+    float thickness = 1.0f;  ///< times as thick as they are: ropes and hair
     bool operator==(const RopeView&) const = default;
 };
 
