@@ -107,6 +107,7 @@ TEST_F(RopeSet, TheMaterialStaysTheSameAsABodyGrows) {
     EXPECT_NEAR(rope["mass"].get<double>(), 3.0 * mass, 0.15 * mass);
     expect_near(rope["stretch"], 1e-3);
     EXPECT_EQ(rope["segments"], 24);
+    for (const auto& [name, value] : rope.items()) EXPECT_EQ(state()["ropes"][0][name], value) << name;
     run("rope.set", {{"rope", "cloth"}, {"length", 2}, {"width", 0.5}, {"columns", 12}, {"rows", 5}});
     const Json cloth = made_of("cloth");
     expect_near(cloth["length"], 2.0);
