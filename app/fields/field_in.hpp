@@ -1,4 +1,4 @@
-// Rows for what a struct holds of another one, with the name, unit and range that they have in its own table.
+// Rows with the name, unit and range that another struct's table has.
 #pragma once
 
 #include <optional>
@@ -33,6 +33,14 @@ Field field_in(const char* name = nullptr, std::optional<FieldRange> within = {}
     if (within) row.range = *within, row.over_low = false;
     row.get = In::get, row.set = In::set, row.fits = In::fits;
     return row;
+}
+
+/// field_like<&BodySettings::length, &rope::HairShape::length>(): a row for a number that the library has
+/// under a function, with the name, unit and range that it has as the member of a shape.
+template <auto member, auto like>
+Field field_like(const char* name = nullptr) noexcept {
+    const Field& of = field_of<like>();
+    return field<member>(name != nullptr ? name : of.name, of.range, of.unit);
 }
 
 }  // namespace tendril::app

@@ -80,10 +80,8 @@ bool FieldRows::changed(const Field& field) const {
     return of_.fresh != nullptr && !same_field(field, of_.object, of_.fresh);
 }
 
-void FieldRows::draw(const Field& field, const FieldText& usual, const RowOptions& options) const {
-    note_text(&usual, usual.label);
-    FieldText text = usual;
-    if (options.unit != nullptr) text.unit = options.unit;
+void FieldRows::draw(const Field& field, const FieldText& text, const RowOptions& options) const {
+    note_text(&text, text.label);
     if (field.type == FieldType::Choice && !text.listed) return button_rows(field, text);
     ImGui::BeginDisabled(!options.why_not.empty());
     if (field.type == FieldType::Flag)

@@ -18,7 +18,6 @@ struct RowOptions {
     std::optional<FieldRange> within{};  ///< narrower range, set by another field
     std::optional<double> otherwise{};   ///< shown while an optional field is empty
     std::string why_not{};               ///< reason to disable the row; empty if enabled
-    const char* unit = nullptr;          ///< shown instead of the field's
     std::vector<glm::vec3> swatches{};   ///< of listed choices, in their order: the colours that they mean
     /// Reasons to disable listed choices, in their order, null where enabled; if any is disabled.
     std::vector<const char*> why_not_choices{};

@@ -218,21 +218,26 @@ const Field* key_of(const Field& list) {
     return first.type == FieldType::Text && !first.optional ? &first : nullptr;
 }
 
+/// The names of a list's elements.
+struct NamesOf {
+    const Field* list;
+    const void* object;
+
+    std::size_t size() const { return list == nullptr ? 0 : list->count(object); }
+    std::string_view operator[](std::size_t i) const { return key_of(*list)->text(list->address(object, i)); }
+};
+
 /// A struct, and those around it.
 struct Scope {
     const Scope* above;
     std::span<const Field> table;
     const void* object;
 
-    /// The names of a list's elements, for an index of one.
-    std::vector<std::string_view> names(std::string_view list) const {
+    /// For an index into the list of that name.
+    NamesOf names(std::string_view list) const {
         if (above == nullptr) return {};
         const Field* const found = find_field(above->table, list);
-        if (found == nullptr) return above->names(list);
-        std::vector<std::string_view> all;
-        for (std::size_t i = 0; i < found->count(above->object); ++i)
-            all.push_back(key_of(*found)->text(found->address(above->object, i)));
-        return all;
+        return found == nullptr ? above->names(list) : NamesOf{found, above->object};
     }
 };
 
@@ -253,7 +258,7 @@ Json save_element(const Field& field, const void* at, const Scope& scope) {
     if (field.type == FieldType::Text) return text_json(field.text(at));
     if (field.type == FieldType::Other) return input_json(rig::access_of(field), at);
     if (field.type != FieldType::Index) return saved(field, field.get(at));
-    const std::vector<std::string_view> names = scope.names(field.of);
+    const NamesOf names = scope.names(field.of);
     const double index = field.get(at)[0];
     return index < static_cast<double>(names.size()) ? text_json(names[static_cast<std::size_t>(index)])
                                                      : Json(nullptr);
@@ -278,8 +283,13 @@ bool is_left_out(const Field& field, const void* object) {
            (field.type == FieldType::Text ? field.text(object).empty() : field.empty(object));
 }
 
+bool is_its_value(std::span<const Field> table) {
+    return table.size() == 1 && *table[0].name == '\0';
+}
+
 /// Without the members that are as in `fresh`, if there is one.
 Json save_struct(const Scope& scope, const void* fresh) {
+    if (is_its_value(scope.table)) return save_list(scope.table[0], scope);
     Json json = Json::object();
     for (const Field& field : scope.table)  // the kind of a unit comes first
         if (field.type == FieldType::Kind && !field.optional) json[field.name] = nullptr;
@@ -323,6 +333,7 @@ class Loader {
         : missing_(missing), only_known_(only_known), newer_(newer) {}
 
     void fields(const JsonPlace& place, const Scope& scope) const {
+        if (is_its_value(scope.table)) return list(place, scope.table[0], scope);
         kinds(place, scope);
         if (only_known_) check_members(place, known_names(place, scope.table, scope.object));
         beside(place, scope);
@@ -382,14 +393,14 @@ class Loader {
             field.set(at, field.type == FieldType::Index ? index(place, field, scope) : loaded(place, field));
     }
     static FieldValue index(const JsonPlace& place, const Field& field, const Scope& scope) {
-        const std::vector<std::string_view> names = scope.names(field.of);
-        const auto found = std::ranges::find(names, place.text());
-        if (found == names.end()) {
-            std::string one = field.of;
-            one.pop_back();
-            place.fail("there is no " + one + " \"" + place.text() + "\"");
-        }
-        return {static_cast<double>(found - names.begin())};
+        const NamesOf names = scope.names(field.of);
+        const std::string name = place.text();
+        for (std::size_t i = 0; i < names.size(); ++i)
+            if (names[i] == name) return {static_cast<double>(i)};
+        const std::string_view of = field.of;
+        const bool bodies = of.ends_with("ies");
+        place.fail("there is no " + std::string(of.substr(0, of.size() - (bodies ? 3 : 1))) +
+                   (bodies ? "y \"" : " \"") + name + "\"");
     }
     /// A struct or another value.
     void nested(const JsonPlace& place, const Field& field, const Scope& scope) const {

@@ -72,9 +72,9 @@ struct FieldsIn {
 /// Whether two structs have the same in this row.
 bool same_field(const Field& field, const void* a, const void* b);
 
-// In files an element of a list whose first row is a text is known by it: texts of a list are not empty and
-// differ unless it is optional, and an index is the text of its element. No text, no element and an infinite
-// number are null. An angle that old files have in radians, under its plain name, is read.
+// In files elements whose first row is a text are known by it: it is not empty and differs unless optional,
+// and an index is its element's text. A list without a name, a struct's only row, stands for the struct. No
+// text, no element and an infinite number are null. Old angles in radians, under the plain name, are read.
 
 /// Includes nested structs and lists. A list with names leaves out its empty elements.
 Json save_fields(FieldsOf of);

@@ -1,6 +1,7 @@
 #include "app/labs/kit/world_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <tendril/magnitude.hpp>
@@ -33,6 +34,9 @@ struct TieRow {
     rope::Tie tie;
     std::string name;
 };
+struct CollisionRow {
+    std::array<std::size_t, 2> bodies{};
+};
 
 /// A world without the lists that files store as rows of numbers.
 struct WorldRows {
@@ -44,6 +48,7 @@ struct WorldRows {
     std::vector<BodyRow> bodies{};
     std::vector<PinRow> pins{};
     std::vector<TieRow> ties{};
+    std::vector<CollisionRow> collisions{};
 };
 
 /// A row's own fields, and those of its first member, which shares its address.
@@ -56,6 +61,7 @@ std::vector<Field> with_fields_of(First Row::*, std::initializer_list<Field> own
     return all;
 }
 
+constexpr std::size_t max_lab_collisions = max_lab_particles * (max_lab_particles + 1) / 2;
 constexpr FieldRange times{0.0, 10.0}, counts{0.0, 9007199254740992.0};
 
 }  // namespace
@@ -95,6 +101,12 @@ std::span<const Field> fields<app::TieRow>() noexcept {
 }
 
 template <>
+std::span<const Field> fields<app::CollisionRow>() noexcept {
+    static constexpr Field rows[] = {index<&app::CollisionRow::bodies>("", "bodies")};
+    return rows;
+}
+
+template <>
 std::span<const Field> fields<app::WorldRows>() noexcept {
     using app::WorldRows;
     static constexpr Field rows[] = {
@@ -107,7 +119,8 @@ std::span<const Field> fields<app::WorldRows>() noexcept {
         list<&WorldRows::colliders>("colliders").sparsely().up_to(app::max_lab_colliders).needed(),
         list<&WorldRows::bodies>("bodies").sparsely().up_to(app::max_lab_particles).needed(),
         list<&WorldRows::pins>("pins").sparsely().up_to(app::max_lab_particles).needed(),
-        list<&WorldRows::ties>("ties").sparsely().up_to(app::max_lab_ties)};
+        list<&WorldRows::ties>("ties").sparsely().up_to(app::max_lab_ties),
+        list<&WorldRows::collisions>("collisions").up_to(app::max_lab_collisions)};
     return rows;
 }
 
@@ -177,32 +190,6 @@ rope::Link load_link(const JsonPlace& place, std::size_t particles) {
     return link;
 }
 
-/// Pairs of names, in the order of bodies.
-Json save_collisions(const NamedWorld& world) {
-    const auto& bodies = world.state().bodies;
-    Json pairs = Json::array();
-    for (std::size_t a = 0; a < bodies.size(); ++a)
-        for (std::size_t b = a; b < bodies.size(); ++b) {
-            const std::string &first = world.name(bodies[a]), &second = world.name(bodies[b]);
-            if (world.collides(first, second)) pairs.push_back({first, second});
-        }
-    return pairs;
-}
-
-void load_collisions(const JsonPlace& place, const std::vector<std::string>& bodies, rope::State& state) {
-    const auto body = [&](const JsonPlace& name) {
-        const auto found = std::find(bodies.begin(), bodies.end(), name.text());
-        if (found == bodies.end()) name.fail("there is no body " + json_summary(name.json()));
-        return rope::BodyId{static_cast<std::uint32_t>(found - bodies.begin()), 1};  // as slots are numbered
-    };
-    place.for_each("collisions", bodies.size() * (bodies.size() + 1) / 2, [&](const JsonPlace& pair) {
-        if (!pair.json().is_array() || pair.json().size() != 2)
-            pair.fail("expected the names of two bodies, found " + json_summary(pair.json()));
-        const auto at = [&](std::size_t i) { return JsonPlace(pair.json()[i], pair.where()); };
-        state.collisions.push_back({body(at(0)), body(at(1))});
-    });
-}
-
 /// [a, b, x, y, z]
 rope::BodyContact load_contact(const JsonPlace& place, std::size_t particles) {
     const Json& row = place.json();
@@ -243,13 +230,20 @@ Json save_world(const NamedWorld& world) {
                                        : static_cast<std::size_t>(holder - state.colliders.data())});
     }
     for (const rope::Tie& each : state.ties) rows.ties.push_back({each, world.name(each)});
+    const auto place_of = [&](rope::BodyId id) {
+        return static_cast<std::size_t>(world.world().find(id) - state.bodies.data());
+    };
+    for (const rope::Collision& each : state.collisions) {
+        const auto [a, b] = std::minmax({place_of(each.a), place_of(each.b)});
+        rows.collisions.push_back({{a, b}});
+    }
+    std::ranges::sort(rows.collisions, {}, &CollisionRow::bodies);
     Json json = save_sparse_fields(rows), links = Json::array(), particles = Json::array();
     for (const rope::Link& link : state.links) links.push_back(save_link(link));
     for (std::size_t i = 0; i < state.position.size(); ++i) particles.push_back(save_particle(state, i));
     json["particles"] = std::move(particles);
     json["links"] = std::move(links);
     if (state.collisions.empty()) return json;
-    json["collisions"] = save_collisions(world);
     Json& contacts = json["contacts"] = Json::array();
     for (const rope::BodyContact& each : state.contacts)
         contacts.push_back({each.a, each.b, each.force.x, each.force.y, each.force.z});
@@ -258,7 +252,7 @@ Json save_world(const NamedWorld& world) {
 
 NamedWorld load_world(const JsonPlace& place, std::span<const std::string_view> besides) {
     constexpr std::size_t max_links = 8 * max_lab_particles;  // a cloth has six for each particle
-    std::vector<std::string_view> others{"particles", "links", "collisions", "contacts"};
+    std::vector<std::string_view> others{"particles", "links", "contacts"};
     others.insert(others.end(), besides.begin(), besides.end());
     rope::State state;
     // Sizes first: oversized lists are refused before they are read.
@@ -273,25 +267,23 @@ NamedWorld load_world(const JsonPlace& place, std::span<const std::string_view> 
     for (const ColliderRow& each : rows.colliders) state.colliders.push_back(each.collider);
     for (const BodyRow& each : rows.bodies) state.bodies.push_back(each.body);
     for (const TieRow& each : rows.ties) state.ties.push_back(each.tie);
+    const auto numbered = [](std::size_t slot) { return static_cast<std::uint32_t>(slot); };
     for (const PinRow& each : rows.pins) {
         state.pins.push_back(each.pin);
-        if (each.collider != no_collider)
-            state.pins.back().collider = {static_cast<std::uint32_t>(each.collider),
-                                          1};  // as slots are numbered
+        if (each.collider != no_collider) state.pins.back().collider = {numbered(each.collider), 1};
     }
+    for (const auto& [pair] : rows.collisions)
+        state.collisions.push_back({{numbered(pair[0]), 1}, {numbered(pair[1]), 1}});
     place["links"].for_each("links", max_links,
                             [&](const JsonPlace& row) { state.links.push_back(load_link(row, size)); });
     const auto names_of = [](const auto& list) {
         return names(list, [](const auto& row) { return row.name; });
     };
-    const std::vector<std::string> body_names = names_of(rows.bodies);
-    if (const auto collisions = place.optional("collisions")) {
-        load_collisions(*collisions, body_names, state);
+    if (place.has("collisions"))
         place["contacts"].for_each("contacts", 8 * max_lab_particles, [&](const JsonPlace& row) {
             state.contacts.push_back(load_contact(row, size));
         });
-    }
-    NamedWorld world(std::move(state), body_names, names_of(rows.colliders), names_of(rows.ties));
+    NamedWorld world(std::move(state), names_of(rows.bodies), names_of(rows.colliders), names_of(rows.ties));
     for (const BodyRow& each : rows.bodies) world.set_colour(each.name, each.colour);
     return world;
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "app/document/json_complete.hpp"
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rope/panel.hpp"
 #include "app/labs/rope/rope_fields.hpp"
@@ -196,12 +197,19 @@ void cut_cloth(RopeEdit& edit, const Arguments& given) {
     edit.said += off > named ? " and " + std::to_string(off - named) + " more came off" : " came off";
 }
 
-/// A name, followed by the fields of `Shapes`.
+/// The fields of `Shapes`, with their defaults, and a name.
 template <class... Shapes>
 std::vector<Argument> adding_arguments(const char* otherwise) {
     std::vector<Argument> all;
-    for (const std::vector<Argument>& each : {field_arguments<Shapes>()...})
-        all.insert(all.end(), each.begin(), each.end());
+    const FieldsOf fresh[] = {{fields<Shapes>(), tendril::detail::fresh<Shapes>()}...};
+    for (const FieldsOf& shape : fresh) {
+        const Json usual = save_fields(shape);
+        for (Argument& each : field_arguments(shape.table, field_texts<BodySettings>())) {
+            const Json& value = usual.at(each.name);
+            if (value.is_number()) each.help += " Default: " + value.dump() + '.';
+            all.push_back(std::move(each));
+        }
+    }
     all.push_back(text_argument("name", false, otherwise));
     return all;
 }

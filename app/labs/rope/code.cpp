@@ -40,7 +40,7 @@ std::size_t place_of(const rope::State& state, rope::ColliderId collider) {
 
 class RopeProgram {
   public:
-    explicit RopeProgram(const RopePart& part) : part_(part), world_(*released(part.world, part.hold)) {}
+    explicit RopeProgram(const RopePart& part) : part_(part), world_(*released(part)) {}
 
     std::string text() {
         head();

@@ -41,7 +41,7 @@ class Drawing {
         for (const rope::Body& body : world_.state().bodies) {
             const bool coloured = part_.view.strain || marked(body);
             if (body.kind != rope::Body::Kind::Cloth)
-                draw_strands(list_, view_.camera, body, positions_, colours_, part_.view.sides);
+                draw_strands(list_, view_.camera, as_drawn(body), positions_, colours_, part_.view.sides);
             else
                 draw_cloth(list_, view_.camera, world_, body, positions_,
                            coloured ? std::span<const glm::vec3>(colours_) : std::span<const glm::vec3>(),
@@ -58,6 +58,13 @@ class Drawing {
 
   private:
     float px(float pixels) const { return pixels * view_.scale; }
+    float radius(const rope::Body& body) const {
+        return body.kind == rope::Body::Kind::Cloth ? body.radius : part_.view.thickness * body.radius;
+    }
+    rope::Body as_drawn(rope::Body body) const {
+        body.radius = radius(body);
+        return body;
+    }
     bool lit(PickId pick) const { return hovered_ == pick || dragged_ == pick; }
     bool chosen(const rope::Body& body) const {
         return part_.selection && part_.selection->of_particles() &&
@@ -138,12 +145,12 @@ class Drawing {
             const double lightest = *std::min_element(first, first + static_cast<std::ptrdiff_t>(body.count));
             for (std::size_t i = body.first; i < body.first + body.count; ++i) {
                 if (mass[i] < heavy_from * lightest) continue;
-                const auto radius =
+                const auto ball =
                     static_cast<float>(std::cbrt(0.75 * mass[i] / (3.14159265358979 * weight_density)));
-                if (radius <= body.radius) continue;
+                if (ball <= radius(body)) continue;
                 const PickId pick = particle_pick(i);
                 const glm::vec3 colour = lit(pick) ? view_.palette.accent : colours_[i];
-                solid(list_.sphere(positions_[i], radius, Unit::Metres, glm::vec4(colour, 1.0f)), pick);
+                solid(list_.sphere(positions_[i], ball, Unit::Metres, glm::vec4(colour, 1.0f)), pick);
             }
         }
     }
@@ -159,12 +166,12 @@ class Drawing {
             const rope::Body& body = state.bodies[b];
             if (link.kind != rope::Link::Kind::Stretch || body.kind == rope::Body::Kind::Hair) continue;
             const glm::vec3 from = positions_[link.a], to = positions_[link.b], middle = 0.5f * (from + to);
-            catchable(from, cuts ? to : middle, body.radius, link.a);
-            if (!cuts) catchable(middle, to, body.radius, link.b);
+            catchable(from, cuts ? to : middle, radius(body), link.a);
+            if (!cuts) catchable(middle, to, radius(body), link.b);
             const bool last = link.b + 1 == body.first + body.count && hovered_ == particle_pick(link.b);
             const bool hit = hovered_ == particle_pick(link.a) || last;
             if (cuts && hit && body.kind == rope::Body::Kind::Rope) {
-                const float thick = 1.15f * body.radius;
+                const float thick = 1.15f * radius(body);
                 list_.bone(from, to, thick, thick, glm::vec4(view_.palette.limit, 1.0f));
             }
         }
@@ -192,7 +199,7 @@ class Drawing {
     }
     float thickness(std::size_t particle) const {
         const rope::Body& body = *picked_particle(world_, particle_pick(particle))->body;
-        return std::max(body.radius, px(2.0f) * view_.camera.metres_per_pixel(positions_[particle]));
+        return std::max(radius(body), px(2.0f) * view_.camera.metres_per_pixel(positions_[particle]));
     }
 
     void particles() {
@@ -221,7 +228,7 @@ class Drawing {
     }
     /// In pixels: a little more than the rope's thickness, so that the ball is visible.
     float ball_radius(const rope::Body& body, std::size_t particle) const {
-        const float thick = body.radius / view_.camera.metres_per_pixel(positions_[particle]);
+        const float thick = radius(body) / view_.camera.metres_per_pixel(positions_[particle]);
         return std::clamp(1.3f * thick, px(3.0f), std::max(px(6.0f), 1.3f * thick));
     }
 

@@ -124,14 +124,7 @@ void time_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
         emit.continuously("time.speed", {{"factor", percent / 100.0f}});
     explain("How fast time passes in the lab. Under 100 % is slow motion.");
     settings_rows(part, emit).under(more).row("longest_frame");
-    more.add("frame-time jitter", {"rope.jitter", {"dial"}}, part.jitter.dial > 0.0f, [&part, &emit] {
-        float dial = 100.0f * part.jitter.dial;
-        if (number_field("frame-time jitter", dial, 0.5f, 0.0f, 100.0f, "%.0f %%"))
-            emit.continuously("rope.jitter", {{"dial", dial / 100.0f}});
-        explain(
-            "How uneven frames are, like those of a program that stutters: 0 is even frames, 100 is frames "
-            "of 1 to 250 ms. The picture stutters, the simulation stays the same.");
-    });
+    FieldRows(part.jitter, "rope.jitter", emit).under(more).row("dial");
 }
 
 }  // namespace
@@ -157,7 +150,7 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
     section("Solver", false, [&](MoreRows& more) { solver_rows(part, more, emit); });
     section("Time", false, [&](MoreRows& more) { time_rows(workspace, more, emit); });
     section("Show", false, [&](MoreRows& more) {
-        FieldRows(part.view, "rope.view", emit).under(more).rows("strain", "particles", "sides");
+        FieldRows(part.view, "rope.view", emit).under(more).all();
         past_rows(workspace, rope_past(), emit);
     });
     section("Export", false, [&](MoreRows&) {
@@ -183,11 +176,13 @@ namespace {
 void body_rows(const NamedWorld& world, const rope::Body& body, const Palette& colours, Emit& emit) {
     const PanelSection ids(world.name(body).c_str());
     const BodySettings settings = settings_of(world, body);
-    const FieldRows rows(settings, "rope.set", emit, {{"rope", world.name(body)}});
-    for (const Field& field : fields<BodySettings>()) {
-        if (field.optional && field.empty(&settings)) continue;  // the body has no such links
+    const std::vector<Field> table = body_fields(settings);
+    const FieldRows rows({table, &settings}, field_texts<BodySettings>(), "rope.set", emit,
+                         {{"rope", world.name(body)}});
+    for (const Field& field : table) {
         const std::string_view name = field.name;
         RowOptions options;
+        if (name == "friction") options.otherwise = world.settings().friction;
         if (name == "length" && !(settings.length > 0.0f))
             options.why_not = "All its particles are in one place: there is no length to scale.";
         if (name == "bending" && world.settings().solver != rope::Solver::Direct)
@@ -196,7 +191,6 @@ void body_rows(const NamedWorld& world, const rope::Body& body, const Palette& c
         if (name == "colour")
             for (const BodyColour each : body_colours.values())
                 options.swatches.push_back(body_colour(each, body.kind, colours));
-        if (name == "density" && body.kind == rope::Body::Kind::Cloth) options.unit = "kg/m^2";
         rows.row(name, options);
     }
     const ArgumentList which{{"rope", world.name(body)}};
@@ -293,20 +287,13 @@ void collider_rows(const RopePart& part, const rope::Collider& collider, Emit& e
     if (point_field("at", at, 0.01f)) emit.continuously("rope.collider.move", {{"name", name}, {"to", at}});
     explain("Where the collider is. It can be dragged in the picture too.");
     shape_rows(collider, name, emit);
-    const auto found = std::find_if(part.swings.begin(), part.swings.end(),
-                                    [&](const Swing& swing) { return swing.collider == name; });
+    const auto found = std::ranges::find(part.swings, name, &Swing::collider);
     const bool swings = found != part.swings.end();
     glm::vec3 by = swings ? found->swing : glm::vec3(0.0f);
-    float period = swings ? found->period : 2.0f;
-    const auto swing = [&] {
-        emit.continuously("rope.collider.swing", {{"name", name}, {"by", by}, {"period", period}});
-    };
-    if (point_field("swings by", by, 0.01f)) swing();
+    if (point_field("swings by", by, 0.01f))
+        emit.continuously("rope.collider.swing", {{"name", name}, {"by", by}});
     explain("How far the collider swings to each side of where it is. With 0, 0, 0 it stands still.");
-    if (swings) {
-        if (number_field("period", period, 0.02f, min_period, max_period, "%.2f s")) swing();
-        explain("How long it takes to swing there and back.");
-    }
+    if (swings) FieldRows(*found, "rope.collider.swing", emit, {{"name", name}}).row("period");
     const FieldRows drive(collider.drive, "rope.collider.drive", emit, {{"name", name}});
     drive.rows("velocity", "spin");
     if (collider.drive.spin != 0.0f) drive.row("axis");
@@ -358,14 +345,14 @@ void length_plot(const std::vector<RopeSample>& samples, const Palette& palette)
 /// The present numbers of each racer, and their curves; `timed`: with the cost too.
 void race_rows(const RopePart& part, bool timed, const Palette& palette, Emit& emit) {
     const PanelSection ids("Race");
-    const std::vector<RopeRacer> racers = rope_racers(part);
+    const auto racers = rope_racers(part);
     for (const RopeRacer& racer : racers) {
         colour_mark(rope_solver_colour(palette, racer.solver()));
         ImGui::AlignTextToFramePadding();
         ImGui::TextUnformatted(rope_solvers.title(racer.solver()));
         ImGui::SameLine();
         text_flush_right(timed ? cost_text(racer.samples) : "");
-        small_right(racer_text(racer.last()));
+        small_right(racer_text(last_sample(racer)));
     }
     const auto curves = [&](const char* name, const char* unit, float RopeSample::*value, float scale,
                             float min_y) {
@@ -419,20 +406,19 @@ void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit)
     reading("energy", "%.3f J%s", static_cast<double>(last.energy), part.quiet_ticks > 0 ? ", at rest" : "");
     const double lost = static_cast<double>(last_second(part.samples).contact_loss);
     MoreRows more;
-    more.add("as solved", {}, false, [&] {
-        reading("as solved", "%s", share_text(last.stretch).c_str());
-        explain("The length error that the solver left: for hair, before colliders displaced anything.");
-    });
-    more.add("lost to contact", {}, false, [&] {
-        reading("lost to contact", "%.3f J", lost);
-        explain("Energy lost to contact and friction in the last second, by bodies near colliders at rest.");
-    });
-    more.add("substeps dropped", {}, false, [&] {
-        reading("substeps dropped", "%llu", static_cast<unsigned long long>(state.dropped));
-        explain(
-            "Substeps of the simulated time that were skipped: from frames over the longest frame, and "
-            "where the work exceeds what a tick allows. A slow machine skips none: time passes slower.");
-    });
+    const auto add = [&](const char* name, const std::string& text, const char* help) {
+        more.add(name, {}, false, [=] {
+            reading(name, "%s", text.c_str());
+            explain(help);
+        });
+    };
+    add("as solved", share_text(last.stretch),
+        "The length error that the solver left: for hair, before colliders displaced anything.");
+    add("lost to contact", fixed_text(lost, 3) + " J",
+        "Energy lost to contact and friction in the last second, by bodies near colliders at rest.");
+    add("substeps dropped", std::to_string(state.dropped),
+        "Substeps of the simulated time that were skipped: from frames over the longest frame, and where the "
+        "work exceeds what a tick allows. A slow machine skips none: time passes slower.");
     const std::string cost = workspace.clock.measured ? cost_text(part.samples) : "";
     if (!cost.empty())
         more.add("time per tick, real time", {}, false, [&] {

@@ -56,9 +56,8 @@ const rope::Collider* holder_of(const NamedWorld& world, std::size_t particle) {
 bool is_pinned(const RopePart& part, PickId pick) {
     const auto pane = static_cast<std::size_t>(pick / picks_in_pane),
                particle = static_cast<std::size_t>(pick % picks_in_pane);
-    const bool own = pane == 0 || pane > part.rivals.size();
-    const NamedWorld& world = picked_world(part, pick);
-    return world.pinned(particle) && !is_held(world, own ? part.hold : part.rivals[pane - 1].hold, particle);
+    const RopeRacer& racer = racer_in(part, pane);
+    return racer.world->pinned(particle) && !is_held(racer, particle);
 }
 
 constexpr glm::vec3 along_x(1.0f, 0.0f, 0.0f), upright(0.0f, 1.0f, 0.0f);

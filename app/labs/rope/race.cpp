@@ -14,10 +14,6 @@
 namespace tendril::app {
 namespace {
 
-rope::Solver solver_of(const std::shared_ptr<const NamedWorld>& world) {
-    return world->settings().solver;
-}
-
 std::shared_ptr<const NamedWorld> with_settings(std::shared_ptr<const NamedWorld> world,
                                                 rope::Settings settings, rope::Solver solver) {
     settings.solver = solver;
@@ -29,51 +25,47 @@ std::shared_ptr<const NamedWorld> with_settings(std::shared_ptr<const NamedWorld
 
 /// If a rival has the own world's new solver, the two swap places; the rival gets the solver that it `had`.
 void change_places(RopePart& part, rope::Solver had) {
-    const rope::Solver now = solver_of(part.world);
-    for (Rival& rival : part.rivals) {
-        if (now == had || solver_of(rival.world) != now) continue;
-        std::swap(part.world, rival.world);
-        std::swap(part.samples, rival.samples);
-        std::swap(part.hold, rival.hold);
+    const rope::Solver now = part.solver();
+    for (RopeRacer& rival : part.rivals) {
+        if (now == had || rival.solver() != now) continue;
+        std::swap<RopeRacer>(part, rival);
         rival.world = with_settings(rival.world, rival.world->settings(), had);
     }
 }
 
 }  // namespace
 
-RopeSample RopeRacer::last() const {
-    return samples.empty() ? sample_of(world) : samples.back();
+RopeSample last_sample(const RopeRacer& racer) {
+    return racer.samples.empty() ? sample_of(*racer.world) : racer.samples.back();
 }
 
-std::vector<RopeRacer> rope_racers(const RopePart& part) {
-    std::vector<RopeRacer> racers{{*part.world, part.samples}};
-    for (const Rival& rival : part.rivals) racers.push_back({*rival.world, rival.samples});
+std::vector<std::reference_wrapper<const RopeRacer>> rope_racers(const RopePart& part) {
+    std::vector<std::reference_wrapper<const RopeRacer>> racers{part};
+    racers.insert(racers.end(), part.rivals.begin(), part.rivals.end());
     return racers;
 }
 
-const NamedWorld& world_in(const RopePart& part, std::size_t pane) {
-    return pane == 0 || pane > part.rivals.size() ? *part.world : *part.rivals[pane - 1].world;
+const RopeRacer& racer_in(const RopePart& part, std::size_t pane) {
+    return pane == 0 || pane > part.rivals.size() ? part : part.rivals[pane - 1];
 }
 
 void begin_race(RopePart& part) {
     part.samples.clear();
     part.rivals.clear();
     for (const rope::Solver solver : {rope::Solver::Direct, rope::Solver::Xpbd, rope::Solver::Relaxation})
-        if (solver != solver_of(part.world))
+        if (solver != part.solver())
             part.rivals.push_back({with_settings(part.world, part.world->settings(), solver), {}, part.hold});
 }
 
-RopePart part_of_rival(const RopePart& part, const Rival& rival) {
+RopePart part_of_rival(const RopePart& part, const RopeRacer& rival) {
     RopePart same = part;
-    same.world = rival.world;
-    same.samples = rival.samples;
-    same.hold = rival.hold;
+    static_cast<RopeRacer&>(same) = rival;
     same.rivals.clear();
     return same;
 }
 
 void change_rivals(RopePart& part, const RopePart& old, const std::function<void(RopePart&)>& change) {
-    for (Rival& rival : part.rivals) {
+    for (RopeRacer& rival : part.rivals) {
         RopePart same = part_of_rival(old, rival);
         try {
             change(same);
@@ -82,17 +74,16 @@ void change_rivals(RopePart& part, const RopePart& old, const std::function<void
         } catch (const std::logic_error&) {
             continue;
         }
-        rival = {with_settings(same.world, same.world->settings(), solver_of(rival.world)),
-                 std::move(same.samples), std::move(same.hold)};
+        same.world = with_settings(same.world, same.world->settings(), rival.solver());
+        rival = std::move(same);
     }
-    change_places(part, solver_of(old.world));
+    change_places(part, old.solver());
 }
 
 void take_settings(RopePart& part, const rope::Settings& settings) {
-    const rope::Solver had = solver_of(part.world);
+    const rope::Solver had = part.solver();
     part.world = with_settings(part.world, settings, settings.solver);
-    for (Rival& rival : part.rivals)
-        rival.world = with_settings(rival.world, settings, solver_of(rival.world));
+    for (RopeRacer& rival : part.rivals) rival.world = with_settings(rival.world, settings, rival.solver());
     change_places(part, had);
 }
 
@@ -111,7 +102,7 @@ std::vector<PaneTitle> rope_panes(const RopePart& part, const Palette& palette, 
     for (const RopeRacer& racer : rope_racers(part)) {
         const std::string measured = cost ? cost_text(racer.samples) : "";
         const std::string time = measured.empty() ? "" : ", " + measured;
-        titles.push_back({rope_solvers.title(racer.solver()), racer_text(racer.last()) + time,
+        titles.push_back({rope_solvers.title(racer.solver()), racer_text(last_sample(racer)) + time,
                           rope_solver_colour(palette, racer.solver())});
     }
     return titles;

@@ -15,22 +15,19 @@ namespace tendril::app {
 
 class CommandTable;
 
-/// One of the worlds of a part, in the order of its panes: its own, then the rivals'.
-struct RopeRacer {
-    const NamedWorld& world;
-    const std::vector<RopeSample>& samples;
-
-    rope::Solver solver() const { return world.settings().solver; }
-    RopeSample last() const;
-};
-std::vector<RopeRacer> rope_racers(const RopePart& part);
-/// The world that is drawn in a pane; the part's own if there is no such pane.
-const NamedWorld& world_in(const RopePart& part, std::size_t pane);
+/// In the order of the panes: the part itself, then its rivals.
+std::vector<std::reference_wrapper<const RopeRacer>> rope_racers(const RopePart& part);
+RopeSample last_sample(const RopeRacer& racer);
+/// The one that is drawn in a pane; the part itself if there is no such pane.
+const RopeRacer& racer_in(const RopePart& part, std::size_t pane);
+inline const NamedWorld& world_in(const RopePart& part, std::size_t pane) {
+    return *racer_in(part, pane).world;
+}
 
 /// Starts the race from the present state of the part's own world.
 void begin_race(RopePart& part);
 /// The part with the rival's world, samples and drag in place of its own.
-RopePart part_of_rival(const RopePart& part, const Rival& rival);
+RopePart part_of_rival(const RopePart& part, const RopeRacer& rival);
 /// Applies to each rival the command that changed `part`'s own world, which was `old` before. A rival that
 /// lacks the named object, such as a tie that tore there, stays as it is. If the command chose a rival's
 /// solver, the two change places.

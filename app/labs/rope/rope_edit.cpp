@@ -80,7 +80,8 @@ Command rope_command(const char* name, const char* title, std::vector<Argument> 
 bool operator==(const RopePart& a, const RopePart& b) {
     return a.world == b.world && a.swings == b.swings && a.walker == b.walker && a.time == b.time &&
            a.tool == b.tool && a.selection == b.selection && a.hold == b.hold && a.jitter == b.jitter &&
-           a.view == b.view && std::ranges::equal(a.rivals, b.rivals, {}, &Rival::world, &Rival::world);
+           a.view == b.view &&
+           std::ranges::equal(a.rivals, b.rivals, {}, &RopeRacer::world, &RopeRacer::world);
 }
 
 void check_particle_count(const NamedWorld& world, std::size_t more) {
@@ -174,25 +175,17 @@ std::size_t body_with(const rope::State& state, std::size_t particle, std::size_
     return near;
 }
 
-std::vector<std::size_t> held_particles(const NamedWorld& world, const std::optional<Hold>& hold) {
+std::vector<std::size_t> held_particles(const RopeRacer& racer) {
     std::vector<std::size_t> held;
-    const rope::Body* body = hold ? world.find(hold->body) : nullptr;
+    const rope::Body* body = racer.hold ? racer.world->find(racer.hold->body) : nullptr;
     if (body == nullptr) return held;
-    for (const std::size_t each : hold->particles)
-        if (each < body->count && world.pinned(body->first + each)) held.push_back(body->first + each);
+    for (const std::size_t each : racer.hold->particles)
+        if (each < body->count && racer.world->pinned(body->first + each)) held.push_back(body->first + each);
     return held;
 }
 
-std::vector<std::size_t> held_particles(const RopePart& part) {
-    return held_particles(*part.world, part.hold);
-}
-
-bool is_held(const NamedWorld& world, const std::optional<Hold>& hold, std::size_t particle) {
-    return std::ranges::binary_search(held_particles(world, hold), particle);
-}
-
-bool is_held(const RopePart& part, std::size_t particle) {
-    return is_held(*part.world, part.hold, particle);
+bool is_held(const RopeRacer& racer, std::size_t particle) {
+    return std::ranges::binary_search(held_particles(racer), particle);
 }
 
 void forget_held(RopePart& part, const NamedParticle& named) {
@@ -203,23 +196,22 @@ void forget_held(RopePart& part, const NamedParticle& named) {
 
 bool holds(const RopePart& part) {
     return part.hold ||
-           std::ranges::any_of(part.rivals, [](const Rival& each) { return each.hold.has_value(); });
+           std::ranges::any_of(part.rivals, [](const RopeRacer& each) { return each.hold.has_value(); });
 }
 
 void let_go(RopePart& part) {
-    part.world = released(part.world, part.hold);
-    part.hold.reset();
-    for (Rival& rival : part.rivals) {
-        rival.world = released(rival.world, rival.hold);
-        rival.hold.reset();
-    }
+    const auto release = [](RopeRacer& racer) {
+        racer.world = released(racer);
+        racer.hold.reset();
+    };
+    release(part);
+    std::ranges::for_each(part.rivals, release);
 }
 
-std::shared_ptr<const NamedWorld> released(std::shared_ptr<const NamedWorld> world,
-                                           const std::optional<Hold>& hold) {
-    const std::vector<std::size_t> held = held_particles(*world, hold);
-    if (held.empty()) return world;
-    auto free = std::make_shared<NamedWorld>(*world);
+std::shared_ptr<const NamedWorld> released(const RopeRacer& racer) {
+    const std::vector<std::size_t> held = held_particles(racer);
+    if (held.empty()) return racer.world;
+    auto free = std::make_shared<NamedWorld>(*racer.world);
     for (const std::size_t each : held) free->unpin(each);
     return free;
 }

@@ -76,19 +76,16 @@ std::string free_name(const std::string& kind, Taken taken) {
 }
 
 /// The particles that a drag still holds, as indices in the world, or in a rival's world.
-std::vector<std::size_t> held_particles(const RopePart& part);
-std::vector<std::size_t> held_particles(const NamedWorld& world, const std::optional<Hold>& hold);
-bool is_held(const RopePart& part, std::size_t particle);
-bool is_held(const NamedWorld& world, const std::optional<Hold>& hold, std::size_t particle);
+std::vector<std::size_t> held_particles(const RopeRacer& racer);
+bool is_held(const RopeRacer& racer, std::size_t particle);
 /// Stops holding the particle, because it was pinned or released.
 void forget_held(RopePart& part, const NamedParticle& named);
 /// Whether a drag holds particles, here or in a rival's world.
 bool holds(const RopePart& part);
 /// Ends the drag, in all worlds.
 void let_go(RopePart& part);
-/// The world, or a rival's world, with the drag released.
-std::shared_ptr<const NamedWorld> released(std::shared_ptr<const NamedWorld> world,
-                                           const std::optional<Hold>& hold);
+/// Its world with the drag released.
+std::shared_ptr<const NamedWorld> released(const RopeRacer& racer);
 /// Updates selection and drag after a body was edited in the world: the selection stays with the active
 /// particle, on its piece; a drag of particles that are no longer on one piece ends.
 void follow_particles(RopePart& part, NamedWorld& world, const std::string& body, const Became& became);

@@ -1,45 +1,44 @@
 #include "app/labs/rope/rope_fields.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <tendril/magnitude.hpp>
 
 #include "app/document/argument.hpp"
 #include "app/document/refused.hpp"
+#include "app/fields/field_in.hpp"
 #include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::BodySettings>() noexcept {
     using app::BodySettings;
-    constexpr FieldRange any{0.0, max_magnitude}, extent{1e-6, max_magnitude};
-    constexpr double most = app::max_lab_particles;
+    using rope::Body, rope::ClothShape, rope::HairShape, rope::RopeShape;
     static constexpr auto colours = app::body_colours.name_array();
-    static constexpr Field rows[] = {
-        field<&BodySettings::length>("length", extent, "m"),
-        field<&BodySettings::width>("width", extent, "m"),
-        field<&BodySettings::segments>("segments", {1.0, most - 1.0}),
-        field<&BodySettings::columns>("columns", {2.0, most / 2.0}),
-        field<&BodySettings::rows>("rows", {2.0, most / 2.0}),
-        field<&BodySettings::mass>("mass", {1e-9, max_magnitude}, "kg"),
-        field<&BodySettings::density>("density", {rope::min_density, max_magnitude}, "kg/m"),
-        field<&BodySettings::radius>("radius", any, "m"),
-        field<&BodySettings::friction>("friction", {0.0, rope::max_friction}),
-        field<&BodySettings::stretch>("stretch", any, "1/N"),
-        field<&BodySettings::bending>("bending", any, "N m^2"),
-        field<&BodySettings::shear>("shear", any, "m/N"),
-        field<&BodySettings::bend>("bend", any, "m/N"),
-        field<&BodySettings::tear>("tear", any),
-        field<&BodySettings::colour>("colour", colours)};
+    static const Field rows[] = {app::field_like<&BodySettings::length, &HairShape::length>(),
+                                 app::field_like<&BodySettings::width, &HairShape::length>("width"),
+                                 app::field_like<&BodySettings::segments, &RopeShape::segments>(),
+                                 app::field_like<&BodySettings::columns, &ClothShape::columns>(),
+                                 app::field_like<&BodySettings::rows, &ClothShape::rows>(),
+                                 field<&BodySettings::mass>("mass", {1e-9, max_magnitude}, "kg"),
+                                 app::field_like<&BodySettings::density, &RopeShape::density>(),
+                                 app::field_in<&BodySettings::body, &Body::radius>(),
+                                 app::field_in<&BodySettings::body, &Body::friction>(),
+                                 field<&BodySettings::stretch>("stretch", {0.0, max_magnitude}, "1/N"),
+                                 app::field_in<&BodySettings::body, &Body::bending>(),
+                                 app::field_like<&BodySettings::shear, &ClothShape::shear>(),
+                                 app::field_like<&BodySettings::bend, &ClothShape::bend>(),
+                                 app::field_in<&BodySettings::body, &Body::tear>(),
+                                 field<&BodySettings::colour>("colour", colours)};
     return rows;
 }
 
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::RopeView>() noexcept {
     using app::RopeView;
-    static constexpr Field rows[] = {field<&RopeView::particles>("particles"),
-                                     field<&RopeView::strain>("strain"),
-                                     field<&RopeView::sides>("sides", {app::min_sides, app::max_sides})};
+    static constexpr Field rows[] = {field<&RopeView::strain>("strain"),
+                                     field<&RopeView::particles>("particles"),
+                                     field<&RopeView::sides>("sides", {app::min_sides, app::max_sides}),
+                                     field<&RopeView::thickness>("thickness", {0.1, 20.0})};
     return rows;
 }
 
@@ -49,8 +48,9 @@ namespace {
 
 // Rows that bodies and ties share.
 
-constexpr FieldText length_row(const char* help) {
-    return {.name = "length", .label = "length", .help = help, .step = 0.005f, .decimals = 3};
+/// In millimetres or grams.
+constexpr FieldText fine_row(const char* name, const char* help) {
+    return {.name = name, .label = name, .help = help, .step = 0.005f, .decimals = 3};
 }
 constexpr FieldText compliance_row(const char* name, int decimals, const char* help) {
     return {.name = name,
@@ -78,30 +78,27 @@ constexpr FieldText tears_row(const char* name, bool percent, const char* help) 
 template <>
 std::span<const FieldText> field_texts<BodySettings>() {
     static constexpr FieldText texts[] = {
-        length_row(
-            "Of a rope, a row of a cloth or a strand of hair: all of its segments change in proportion, and "
-            "its mass with them."),
-        {.name = "width",
-         .label = "width",
-         .help = "Of a cloth, across its rows.",
-         .step = 0.005f,
-         .decimals = 3},
+        {.name = "from", .help = "A rope's first particle."},
+        {.name = "to", .help = "A rope's last particle."},
+        {.name = "corner", .help = "The first particle of a cloth's first row."},
+        {.name = "along", .help = "From the corner to the other end of the first row."},
+        {.name = "down", .help = "From the corner to the last row."},
+        fine_row("length",
+                 "Of a rope, a row of a cloth or a strand of hair: all of its segments change in proportion, "
+                 "and its mass with them. A new rope is by default as long as its ends are apart."),
+        fine_row("width", "Of a cloth, across its rows."),
         {.name = "segments",
          .label = "segments",
-         .help = "Of a rope or a strand of hair. It keeps its shape, motion and material; pins and ties stay "
-                 "where they are."},
+         .help = "Of a rope or a strand of hair. A change keeps shape, motion and material; pins and ties "
+                 "stay where they are."},
         {.name = "columns",
          .label = "columns",
-         .help = "Particles in a row of a cloth. It keeps its shape, motion and material."},
+         .help = "Particles in a row of a cloth. A change keeps shape, motion and material."},
         {.name = "rows",
          .label = "rows",
-         .help = "Rows of particles of a cloth. It keeps its shape, motion and material."},
-        {.name = "mass", .label = "mass", .help = "Total mass of the body.", .step = 0.005f, .decimals = 3},
-        {.name = "density",
-         .label = "density",
-         .help = "Mass of a metre of a rope or strand, or of a square metre of cloth.",
-         .step = 0.005f,
-         .decimals = 3},
+         .help = "Rows of particles of a cloth. A change keeps shape, motion and material."},
+        fine_row("mass", "Total mass of the body."),
+        fine_row("density", "Mass of a metre of a rope or strand, or of a square metre of cloth."),
         {.name = "radius",
          .label = "radius",
          .help = "Half its thickness: how far its particles keep from colliders.",
@@ -140,7 +137,14 @@ std::span<const FieldText> field_texts<BodySettings>() {
              "Its colour in the picture and the legend. By its kind, ropes, cloth and hair differ. Strain "
              "shown as colour hides it.",
          .listed = true,
-         .choices = body_colours.rows}};
+         .choices = body_colours.rows},
+        {.name = "pin_start", .help = "Pins a rope's first particle."},
+        {.name = "pin_end", .help = "Pins a rope's last particle."},
+        {.name = "pins", .help = "Which part of a cloth's first row is pinned; default: none"},
+        {.name = "centre", .help = "The middle of the patch that hair grows from."},
+        {.name = "direction", .help = "Of growth; default: down, or outwards from a collider."},
+        {.name = "strands", .help = "Strands of hair in the patch."},
+        {.name = "spread", .help = "The radius of the patch."}};
     return texts;
 }
 
@@ -154,67 +158,24 @@ std::span<const FieldText> field_texts<RopeView>() {
         {.name = "sides",
          .label = "sides",
          .help = "How many sides ropes have in the picture. More look rounder and take longer to draw.",
+         .more = true},
+        {.name = "thickness",
+         .label = "thickness",
+         .help =
+             "How many times as thick as they are ropes and hair are drawn, so that thin ones can be seen "
+             "and caught. They collide as before.",
+         .step = 0.02f,
+         .decimals = 1,
+         .unit = "times",
          .more = true}};
-    return texts;
-}
-
-template <>
-std::span<const FieldText> field_texts<rope::RopeShape>() {
-    static constexpr FieldText texts[] = {{.name = "from", .help = "Its first particle."},
-                                          {.name = "to", .help = "Its last particle."},
-                                          {.name = "segments", .help = "Default: 32."},
-                                          {.name = "length", .help = "Default: the distance."},
-                                          {.name = "radius", .help = "Half its thickness; default: 0.02."},
-                                          {.name = "density", .help = "Default: 1."},
-                                          {.name = "bending", .help = "Its bending stiffness; default: 0."},
-                                          {.name = "pin_start", .help = "Pins its first particle."},
-                                          {.name = "pin_end", .help = "Pins its last particle."}};
-    return texts;
-}
-
-template <>
-std::span<const FieldText> field_texts<rope::ClothShape>() {
-    static constexpr FieldText texts[] = {
-        {.name = "corner", .help = "The first particle of the first row."},
-        {.name = "along", .help = "From the corner to the other end of the first row."},
-        {.name = "down", .help = "From the corner to the last row."},
-        {.name = "columns", .help = "Particles in a row; default: 24."},
-        {.name = "rows", .help = "Default: 24."},
-        {.name = "radius", .help = "Half its thickness; default: 0.01."},
-        {.name = "density", .help = "Default: the material's."},
-        {.name = "shear", .help = "Compliance; default: the material's."},
-        {.name = "bend", .help = "Compliance; default: the material's."},
-        {.name = "tear", .help = "The strain at which links tear; 0: never."},
-        {.name = "pins", .help = "Which part of its first row is pinned"}};
     return texts;
 }
 
 template <>
 std::span<const FieldText> field_texts<rope::TieShape>() {
     static constexpr FieldText texts[] = {
-        length_row("How far apart it keeps its two particles; 0: in one place."),
+        fine_row("length", "How far apart it keeps its two particles; 0: in one place."),
         tears_row("strength", false, "The force at which it tears; 0: never.")};
-    return texts;
-}
-
-template <>
-std::span<const FieldText> field_texts<rope::HairShape>() {
-    static constexpr FieldText texts[] = {
-        {.name = "length", .help = "Of a strand; default: 0.5."},
-        {.name = "segments", .help = "Of a strand; default: 16."},
-        {.name = "radius", .help = "Half the thickness of a strand; default: 0.004."},
-        {.name = "density", .help = "Default: 0.05."},
-        {.name = "bend", .help = "Compliance; default: 0.1."}};
-    return texts;
-}
-
-template <>
-std::span<const FieldText> field_texts<rope::HairPatch>() {
-    static constexpr FieldText texts[] = {
-        {.name = "centre", .help = "The middle of the patch that it grows from."},
-        {.name = "direction", .help = "Of growth; default: down, or outwards from a collider."},
-        {.name = "strands", .help = "Default: 32."},
-        {.name = "spread", .help = "The radius of the patch; default: 0.1."}};
     return texts;
 }
 
@@ -265,6 +226,31 @@ std::span<const FieldText> field_texts<rope::Drive>() {
          .help = "How fast it turns; what lies on it turns along.",
          .step = 0.5f,
          .decimals = 1}};
+    return texts;
+}
+
+template <>
+std::span<const FieldText> field_texts<Swing>() {
+    static constexpr FieldText texts[] = {{.name = "period",
+                                           .label = "period",
+                                           .help = "How long it takes to swing there and back.",
+                                           .step = 0.02f}};
+    return texts;
+}
+
+template <>
+std::span<const FieldText> field_texts<Jitter>() {
+    static constexpr FieldText texts[] = {
+        {.name = "dial",
+         .label = "frame-time jitter",
+         .help =
+             "How uneven frames are, like those of a program that stutters: at 0 they are even, at 100 %, "
+             "in commands 1, they last 1 to 250 ms. The picture stutters, the simulation stays the same.",
+         .step = 0.5f,
+         .decimals = 0,
+         .scale = 100.0,
+         .unit = "%",
+         .more = true}};
     return texts;
 }
 
@@ -351,16 +337,13 @@ BodySettings settings_of(const NamedWorld& world, const rope::Body& body) {
         return static_cast<float>(world.world().compliance(body, kind));
     };
     const rope::Resolution now = rope::resolution(body);
-    BodySettings settings{.length = static_cast<float>(world.length(body)),
+    BodySettings settings{.body = body,
+                          .length = static_cast<float>(world.length(body)),
                           .mass = world.world().mass(body),
-                          .radius = body.radius,
-                          .friction = body.friction.value_or(world.settings().friction),
                           .stretch = compliance(Kind::Stretch),
                           .colour = world.colour(body)};
     if (const double density = world.world().density(body); density > 0.0) settings.density = density;
-    if (body.kind == rope::Body::Kind::Rope) settings.bending = body.bending;
     if (body.kind != rope::Body::Kind::Rope) settings.bend = compliance(Kind::Bend);
-    if (body.kind != rope::Body::Kind::Hair) settings.tear = body.tear;
     if (body.kind != rope::Body::Kind::Cloth) {
         settings.segments = static_cast<int>(now.columns) - 1;
         return settings;
@@ -372,13 +355,30 @@ BodySettings settings_of(const NamedWorld& world, const rope::Body& body) {
     return settings;
 }
 
+std::vector<Field> body_fields(const BodySettings& of) {
+    using Kind = rope::Body::Kind;
+    std::vector<Field> rows;
+    for (const Field& field : fields<BodySettings>()) {
+        const std::string_view name = field.name;
+        const bool lacks = name == "bending" ? of.body.kind != Kind::Rope
+                           : name == "tear"  ? of.body.kind == Kind::Hair
+                                             : name != "friction" && field.empty(&of);
+        if (lacks) continue;
+        rows.push_back(field);
+        if (name == "density" && of.body.kind == Kind::Cloth)
+            rows.back().unit = field_of<&rope::ClothShape::density>().unit;
+    }
+    return rows;
+}
+
 void set_body(RopeEdit& edit, const std::string& name, const Arguments& given) {
     using Kind = rope::Link::Kind;
     using rope::World;
     const rope::Body& body = body_of(edit.seen(), name);
     const BodySettings now = settings_of(edit.seen(), body);
+    const std::vector<Field> rows = body_fields(now);
     for (const Field& field : fields<BodySettings>())
-        if (given.has(field.name) && field.optional && std::isnan(field.get(&now)[0]))
+        if (given.has(field.name) && find_field(rows, field.name) == nullptr)
             throw Refused("\"" + name + "\" is a " + rope::body_kinds[static_cast<std::size_t>(body.kind)] +
                           "; it has no " + field.name);
     if (given.has("mass") && given.has("density"))
@@ -396,17 +396,17 @@ void set_body(RopeEdit& edit, const std::string& name, const Arguments& given) {
     if (wanted.width != now.width) world.change(name, &World::set_width, *wanted.width);
     if (given.has("mass")) world.change(name, &World::set_mass, wanted.mass);
     if (given.has("density")) world.change(name, &World::set_density, *wanted.density);
-    if (wanted.radius != now.radius) world.change(name, &World::set_radius, wanted.radius);
+    if (wanted.body.radius != now.body.radius) world.change(name, &World::set_radius, wanted.body.radius);
     if (given.has("friction")) {
-        const bool own = wanted.friction != world.settings().friction;
-        world.change(name, &World::set_friction, own ? std::optional(wanted.friction) : std::nullopt);
+        const bool own = wanted.body.friction != world.settings().friction;
+        world.change(name, &World::set_friction, own ? wanted.body.friction : std::nullopt);
     }
     if (wanted.stretch != now.stretch)
         world.change(name, &World::set_compliance, Kind::Stretch, *wanted.stretch);
-    if (wanted.bending != now.bending) world.change(name, &World::set_bending, *wanted.bending);
+    if (wanted.body.bending != now.body.bending) world.change(name, &World::set_bending, wanted.body.bending);
     if (wanted.shear != now.shear) world.change(name, &World::set_compliance, Kind::Shear, *wanted.shear);
     if (wanted.bend != now.bend) world.change(name, &World::set_compliance, Kind::Bend, *wanted.bend);
-    if (wanted.tear != now.tear) world.change(name, &World::set_tear, *wanted.tear);
+    if (wanted.body.tear != now.body.tear) world.change(name, &World::set_tear, wanted.body.tear);
     if (wanted.colour != now.colour) world.set_colour(name, wanted.colour);
     if (given.has("name")) rename_body(edit, name, given.text("name"));
 }

@@ -5,33 +5,30 @@
 #include <tendril/rope/hair_roots.hpp>
 
 #include "app/fields/fields.hpp"
-#include "app/labs/kit/named_world.hpp"
+#include "app/labs/rope/rope_part.hpp"
 
 namespace tendril::app {
 
 class Arguments;
 
-/// Optional fields are empty if the body has no such links or cannot tear.
+/// What rope.set changes of a body: what the library keeps of it, and what its particles and links come to.
+/// Those are empty if the body has no such particles or links.
 struct BodySettings {
+    rope::Body body;                       ///< its radius, friction, bending and tear
     float length = 1.0f;                   ///< metres; a row's of a cloth, a strand's of hair
     std::optional<float> width{};          ///< metres, across the rows of a cloth
     std::optional<int> segments{};         ///< segments of a rope or of each strand
     std::optional<int> columns{}, rows{};  ///< particles of a cloth
     double mass = 1.0;                     ///< kilograms, of the whole body
     std::optional<double> density{};       ///< kg/m, for cloth kg/m^2; none for a body without length
-    float radius = 0.02f;                  ///< metres: half of its thickness
-    float friction = 0.0f;                 ///< the world's, unless the body has its own
-    /// Strain per newton, for a rope, a strand, or a strip of cloth a metre wide.
-    std::optional<float> stretch{};
-    std::optional<float> bending{};  ///< bending stiffness of a rope, N m^2
-    /// Compliance of its links, m/N.
-    std::optional<float> shear{}, bend{};
-    std::optional<float> tear{};  ///< strain at which its links tear; 0: never
-    BodyColour colour{};
-    bool operator==(const BodySettings&) const = default;
+    std::optional<float> stretch{};        ///< 1/N, for a rope, a strand, or a metre's width of cloth
+    std::optional<float> shear{}, bend{};  ///< compliance of its links, m/N
+    BodyColour colour = BodyColour::ByKind;
 };
 
 BodySettings settings_of(const NamedWorld& world, const rope::Body& body);
+/// The rows that the body has: a cloth has no bending.
+std::vector<Field> body_fields(const BodySettings& of);
 
 class RopeEdit;
 
@@ -46,24 +43,21 @@ std::span<const tendril::Field> tendril::fields<tendril::app::BodySettings>() no
 
 namespace tendril::app {
 
+/// Also for the shapes that make bodies, and for patches of hair.
 template <>
 std::span<const FieldText> field_texts<BodySettings>();
 template <>
 std::span<const FieldText> field_texts<rope::Settings>();
 template <>
-std::span<const FieldText> field_texts<rope::RopeShape>();
-template <>
-std::span<const FieldText> field_texts<rope::ClothShape>();
-template <>
 std::span<const FieldText> field_texts<rope::TieShape>();
-template <>
-std::span<const FieldText> field_texts<rope::HairShape>();
-template <>
-std::span<const FieldText> field_texts<rope::HairPatch>();
 /// For all kinds of collider.
 template <>
 std::span<const FieldText> field_texts<rope::Shape>();
 template <>
 std::span<const FieldText> field_texts<rope::Drive>();
+template <>
+std::span<const FieldText> field_texts<Swing>();
+template <>
+std::span<const FieldText> field_texts<Jitter>();
 
 }  // namespace tendril::app

@@ -16,6 +16,7 @@
 #include "app/labs/rope/panel.hpp"
 #include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_edit.hpp"
+#include "app/labs/rope/rope_fields.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "app/labs/rope/rope_part.hpp"
 #include "app/labs/rope/rope_time.hpp"
@@ -70,6 +71,16 @@ std::span<const tendril::Field> tendril::fields<tendril::app::Jitter>() noexcept
     return rows;
 }
 
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Hold>() noexcept {
+    using app::Hold, app::max_lab_particles;
+    static constexpr Field rows[] = {field<&Hold::body>("rope").needed(),
+                                     list<&Hold::particles>("particles", {0.0, max_lab_particles - 1})
+                                         .up_to(max_lab_particles, 1)
+                                         .needed()};
+    return rows;
+}
+
 /// The fields that do not depend on the world.
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::RopePart>() noexcept {
@@ -88,11 +99,13 @@ std::span<const tendril::Field> tendril::fields<tendril::app::RopePart>() noexce
 namespace tendril::app {
 namespace {
 
+void check_found(const JsonPlace& name, const char* what, const void* found) {
+    if (found == nullptr) name.fail(std::string("there is no ") + what + ' ' + json_summary(name.json()));
+}
+
 void check_swings(const std::vector<Swing>& swings, const JsonPlace& place, const NamedWorld& world) {
     for (std::size_t i = 0; i < swings.size(); ++i) {
-        const JsonPlace name = place.element(i)["collider"];
-        if (world.find_collider(swings[i].collider) == nullptr)
-            name.fail("there is no collider " + json_summary(name.json()));
+        check_found(place.element(i)["collider"], "collider", world.find_collider(swings[i].collider));
         try {
             require(swings[i]);
         } catch (const std::invalid_argument& error) {
@@ -112,22 +125,18 @@ std::optional<RopeSelection> load_selection(const JsonPlace& place, const NamedW
     if (place.json().is_null()) return std::nullopt;
     RopeSelection selection;
     if (place.has("collider")) {
-        const JsonPlace collider = place["collider"];
-        selection.collider = collider.text();
-        if (world.find_collider(selection.collider) == nullptr)
-            collider.fail("there is no collider " + json_summary(collider.json()));
+        selection.collider = place["collider"].text();
+        check_found(place["collider"], "collider", world.find_collider(selection.collider));
         return selection;
     }
     if (place.has("tie")) {
-        const JsonPlace tie = place["tie"];
-        selection.tie = tie.text();
-        if (world.find_tie(selection.tie) == nullptr) tie.fail("there is no tie " + json_summary(tie.json()));
+        selection.tie = place["tie"].text();
+        check_found(place["tie"], "tie", world.find_tie(selection.tie));
         return selection;
     }
-    const JsonPlace rope = place["rope"];
-    selection.body = rope.text();
+    selection.body = place["rope"].text();
     const rope::Body* body = world.find(selection.body);
-    if (body == nullptr) rope.fail("there is no rope " + json_summary(rope.json()));
+    check_found(place["rope"], "rope", body);
     if (body->count == 0) return std::nullopt;
     selection.particles = Selection::load(place["particle"], body->count);
     if (selection.particles.empty()) place["particle"].fail("no particle is selected");
@@ -136,9 +145,9 @@ std::optional<RopeSelection> load_selection(const JsonPlace& place, const NamedW
 
 /// A racer's data besides its world: held particles, and the last ten seconds, a column for each number
 /// except the cost, which depends on the computer.
-void save_racer(Json& json, const std::optional<Hold>& hold, const std::vector<RopeSample>& samples) {
-    if (hold) json["held"] = {{"rope", hold->body}, {"particles", hold->particles}};
-    for (const RopeSample& each : samples) {
+void save_racer(Json& json, const RopeRacer& racer) {
+    if (racer.hold) json["held"] = save_fields(*racer.hold);
+    for (const RopeSample& each : racer.samples) {
         Json row = save_fields(each);
         row.update(save_fields(each.report));
         for (const auto& [name, value] : row.items()) json["samples"][name].push_back(value);
@@ -146,17 +155,16 @@ void save_racer(Json& json, const std::optional<Hold>& hold, const std::vector<R
 }
 
 std::optional<Hold> load_hold(const JsonPlace& place, const NamedWorld& world) {
-    Hold hold{.body = place["rope"].text(), .particles = {}};
+    Hold hold;
+    load_all_fields(place, hold);
     const rope::Body* const body = world.find(hold.body);
-    if (body == nullptr) place["rope"].fail("there is no rope \"" + hold.body + "\"");
+    check_found(place["rope"], "rope", body);
     const JsonPlace list = place["particles"];
-    list.for_each("particles", body->count, [&](const JsonPlace& each) {
-        hold.particles.push_back(each.index(body->count - 1));
-        if (!world.pinned(body->first + hold.particles.back())) each.fail("it is not pinned, so not held");
-    });
-    if (hold.particles.empty() ||
-        std::ranges::adjacent_find(hold.particles, std::greater_equal<>()) != hold.particles.end())
-        list.fail("expected ascending particles, at least one");
+    for (std::size_t i = 0; i < hold.particles.size(); ++i)
+        if (hold.particles[i] >= body->count || !world.pinned(body->first + hold.particles[i]))
+            list.element(i).fail("it is not pinned, so not held");
+    if (std::ranges::adjacent_find(hold.particles, std::greater_equal<>()) != hold.particles.end())
+        list.fail("expected ascending particles");
     return hold;
 }
 
@@ -174,10 +182,9 @@ std::vector<RopeSample> load_samples(const JsonPlace& place) {
     return samples;
 }
 
-void load_racer(const JsonPlace& place, const NamedWorld& world, std::optional<Hold>& hold,
-                std::vector<RopeSample>& samples) {
-    if (const auto held = place.optional("held")) hold = load_hold(*held, world);
-    if (const auto columns = place.optional("samples")) samples = load_samples(*columns);
+void load_racer(const JsonPlace& place, RopeRacer& racer) {
+    if (const auto held = place.optional("held")) racer.hold = load_hold(*held, *racer.world);
+    if (const auto columns = place.optional("samples")) racer.samples = load_samples(*columns);
 }
 
 }  // namespace
@@ -186,9 +193,9 @@ Json RopePart::save() const {
     Json json = save_sparse_fields(*this);
     json["selected"] = save_selection(selection);
     json["world"] = save_world(*world);
-    save_racer(json, hold, samples);
-    for (const Rival& rival : rivals)
-        save_racer(json["rivals"].emplace_back(save_world(*rival.world)), rival.hold, rival.samples);
+    save_racer(json, *this);
+    for (const RopeRacer& rival : rivals)
+        save_racer(json["rivals"].emplace_back(save_world(*rival.world)), rival);
     if (walker.figure) json["character"] = save_walker(walker);
     return json;
 }
@@ -227,14 +234,14 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
     part->usual = part->world->settings();
     if (const auto racing = place.optional("rivals"))
         racing->for_each("rivals", 2, [&](const JsonPlace& each) {
-            Rival rival;
+            RopeRacer rival;
             rival.world = read_world(each, racing_too);
             for (const RopeRacer& racer : rope_racers(*part))
-                if (racer.solver() == rival.world->settings().solver) each.fail("its solver races already");
-            load_racer(each, *rival.world, rival.hold, rival.samples);
+                if (racer.solver() == rival.solver()) each.fail("its solver races already");
+            load_racer(each, rival);
             part->rivals.push_back(std::move(rival));
         });
-    load_racer(place, *part->world, part->hold, part->samples);
+    load_racer(place, *part);
     check_swings(part->swings, place["swings"], *part->world);
     if (const auto character = place.optional("character")) part->walker = load_walker(*character);
     part->selection = load_selection(place["selected"], *part->world);
@@ -245,56 +252,38 @@ std::shared_ptr<Part> RopePart::load(const Json& json, const std::string& where)
 
 namespace {
 
-/// All particles, as in the picture.
-struct ShownParticles {
-    std::vector<glm::dvec3> pose;
-    std::vector<bool> pinned;
-    explicit ShownParticles(const NamedWorld& world) : pose(world.size()), pinned(world.size()) {
-        world.world().pose(pose);
-        for (const rope::Pin& pin : world.state().pins) pinned[pin.particle] = true;
-    }
-};
-
-Json body_state(const NamedWorld& world, const rope::Body& body, const ShownParticles& all) {
+/// `pose`: of all particles, as in the picture.
+Json body_state(const NamedWorld& world, const rope::Body& body, const std::vector<glm::dvec3>& pose) {
     Json particles = Json::array();
     for (std::size_t i = body.first; i < body.first + body.count; ++i)
-        particles.push_back({{"position", dpoint(all.pose[i])}, {"pinned", bool(all.pinned[i])}});
-    Json json{{"name", world.name(body)},
-              {"length", world.length(body)},
-              {"colour", body_colours.name(world.colour(body))},
-              {"radius", number(body.radius)},
-              {"particles", std::move(particles)},
-              {"stretch", number(body.stretch)},
-              {"length_error", world.length_error(body)},
-              {"energy", world.energy(body)}};
+        particles.push_back({{"position", dpoint(pose[i])}, {"pinned", world.pinned(i)}});
+    const BodySettings settings = settings_of(world, body);
+    const std::vector<Field> rows = body_fields(settings);
+    Json json = save_fields({rows, &settings});
+    json.update({{"name", world.name(body)},
+                 {"particles", std::move(particles)},
+                 {"as_solved", number(body.stretch)},
+                 {"length_error", world.length_error(body)},
+                 {"energy", world.energy(body)}});
     if (body.kind != rope::Body::Kind::Rope) json["row"] = body.row;
     if (!body.cells.empty()) json["cells"] = body.cells;
     return json;
 }
 
 Json collider_state(const RopePart& part, const rope::Collider& collider) {
-    const std::string& name = part.world->name(collider);
-    Json json{{"name", name}};
     rope::Collider shown = collider;
     shown.shape = part.world->shape(collider);
-    json.update(save_fields({fields<rope::Collider>().first(1), &shown}));
-    json["centre"] = point(rope::centre(shown.shape));
-    if (collider.drive.any()) json["drive"] = save_fields(collider.drive);
-    for (const Swing& swing : part.swings) {
-        if (swing.collider == name)
-            json["swing"] = {{"by", point(swing.swing)},
-                             {"middle", point(swing.middle)},
-                             {"period", number(swing.period)}};
-    }
+    Json json = save_sparse_fields(shown);
+    json.update({{"name", part.world->name(collider)}, {"centre", point(rope::centre(shown.shape))}});
+    for (const Swing& swing : part.swings)
+        if (swing.collider == part.world->name(collider)) json["swing"] = save_fields(swing);
     return json;
 }
 
 Json tie_state(const NamedWorld& world, const rope::Tie& tie, const std::vector<OverPulled>& pulled) {
-    Json json{{"name", world.name(tie)},
-              {"length", number(tie.length)},
-              {"strength", number(tie.strength)},
-              {"tension", nullptr}};
-    if (const auto tension = measured_tension(tie, pulled)) json["tension"] = number(*tension);
+    Json json = save_fields(tie);
+    const auto tension = measured_tension(tie, pulled);
+    json.update({{"name", world.name(tie)}, {"tension", tension ? Json(number(*tension)) : Json(nullptr)}});
     const auto end = [&](const char* body, const char* index, std::size_t particle) {
         const ParticlePlace place = *picked_particle(world, particle_pick(particle));
         json[body] = world.name(*place.body);
@@ -303,13 +292,6 @@ Json tie_state(const NamedWorld& world, const rope::Tie& tie, const std::vector<
     end("a", "a_particle", tie.a);
     end("b", "b_particle", tie.b);
     return json;
-}
-
-Json report_state(const RopeReport& report) {
-    return {{"inside", report.inside},
-            {"unconverged", report.unconverged},
-            {"suspended", report.suspended},
-            {"contact_loss", number(report.contact_loss)}};
 }
 
 Json selection_state(const std::optional<RopeSelection>& selection) {
@@ -326,14 +308,12 @@ Json RopeLab::state(const Workspace& workspace) const {
     const RopePart& part = rope_part(workspace);
     const NamedWorld& world = *part.world;
     const rope::State& now = world.state();
-    const ShownParticles particles(world);
+    std::vector<glm::dvec3> pose(world.size());
+    world.world().pose(pose);
     Json ropes = Json::array(), cloths = Json::array(), hair = Json::array(), colliders = Json::array();
-    for (const rope::Body& body : now.bodies) {
-        Json& list = body.kind == rope::Body::Kind::Rope    ? ropes
-                     : body.kind == rope::Body::Kind::Cloth ? cloths
-                                                            : hair;
-        list.push_back(body_state(world, body, particles));
-    }
+    Json* const lists[] = {&ropes, &cloths, &hair};
+    for (const rope::Body& body : now.bodies)
+        lists[static_cast<std::size_t>(body.kind)]->push_back(body_state(world, body, pose));
     for (const rope::Collider& collider : now.colliders) colliders.push_back(collider_state(part, collider));
     Json ties = Json::array();
     const std::vector<OverPulled> pulled = over_pulled(world);
@@ -343,24 +323,25 @@ Json RopeLab::state(const Workspace& workspace) const {
         collisions.push_back(
             {world.name(*world.world().find(each.a)), world.name(*world.world().find(each.b))});
     Json held = nullptr;
-    if (part.hold)
-        held = {{"rope", part.hold->body},
-                {"particle", part.hold->particles.front()},
-                {"particles", part.hold->particles}};
+    if (part.hold) {
+        held = save_fields(*part.hold);
+        held["particle"] = part.hold->particles.front();
+    }
     Json race = nullptr;
     if (!part.rivals.empty())
         for (const RopeRacer& racer : rope_racers(part)) {
-            const RopeSample last = racer.last();
+            const RopeSample last = last_sample(racer);
             race.push_back({{"solver", rope_solvers.name(racer.solver())},
                             {"length_error", number(last.error)},
                             {"as_solved", number(last.stretch)},
                             {"energy", number(last.energy)}});
         }
     const Verdict verdict = rope_verdict(part);
+    const RopeReport report = last_second(part.samples);
     return Json{{"lab", rope_lab},
                 {"verdict", verdict.text},
                 {"why", verdict.why},
-                {"last_second", report_state(last_second(part.samples))},
+                {"last_second", save_fields(report)},
                 {"ropes", std::move(ropes)},
                 {"cloths", std::move(cloths)},
                 {"hair", std::move(hair)},
@@ -372,6 +353,7 @@ Json RopeLab::state(const Workspace& workspace) const {
                 {"substeps", now.substeps},
                 {"substeps_dropped", now.dropped},
                 {"settings", save_fields(now.settings)},
+                {"view", save_fields(part.view)},
                 {"seconds", part.time},
                 {"speed", number(workspace.clock.speed)},
                 {"tool", rope_tools.name(part.tool)},

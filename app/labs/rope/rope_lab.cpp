@@ -107,7 +107,7 @@ void RopeLab::step(Workspace& workspace) const {
             RopePart same = part_of_rival(part, part.rivals[i]);
             pass_tick(same, clock, measured, runtime.of_rivals[i]);
             rests = rests && at_rest(same);
-            part.rivals[i] = {std::move(same.world), std::move(same.samples), std::move(same.hold)};
+            part.rivals[i] = std::move(same);
         }
         pass_tick(part, clock, measured, runtime.workspace);
         // A tick without a substep does not show whether the ropes rest.
@@ -188,7 +188,7 @@ Bounds RopeLab::bounds(const Workspace& workspace, bool selection_only) const {
     constexpr float none = 1e30f;
     glm::vec3 low(none), high(-none);
     for (const RopeRacer& racer : rope_racers(part)) {
-        for (const glm::vec3& at : racer.world.positions()) {
+        for (const glm::vec3& at : racer.world->positions()) {
             low = glm::min(low, at);
             high = glm::max(high, at);
         }

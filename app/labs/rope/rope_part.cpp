@@ -6,13 +6,12 @@
 namespace tendril::app {
 namespace {
 
-/// Memory of one racer. Counts the lists of the state, not the world's caches.
-std::size_t bytes_of(const NamedWorld& world, const std::vector<RopeSample>& samples,
-                     const std::optional<Hold>& hold) {
-    const rope::State& state = world.state();
-    std::size_t all = sizeof(NamedWorld) + bytes_in(samples);
+/// Counts the lists of the state, not the world's caches.
+std::size_t bytes_of(const RopeRacer& racer) {
+    const rope::State& state = racer.world->state();
+    std::size_t all = sizeof(RopeRacer) + sizeof(NamedWorld) + bytes_in(racer.samples);
     for (const rope::Body& body : state.bodies) all += bytes_in(body.cells);
-    if (hold) all += bytes_in(hold->particles);
+    if (racer.hold) all += bytes_in(racer.hold->particles);
     return all + bytes_in(state.position, state.displacement, state.mass, state.links, state.bodies,
                           state.pins, state.colliders, state.ties, state.collisions, state.contacts);
 }
@@ -51,9 +50,8 @@ std::vector<std::filesystem::path> RopePart::files() const {
 }
 
 std::size_t RopePart::bytes() const {
-    std::size_t all = sizeof(*this) + bytes_of(*world, samples, hold) + bytes_in(swings);
-    for (const Rival& rival : rivals)
-        all += sizeof(Rival) + bytes_of(*rival.world, rival.samples, rival.hold);
+    std::size_t all = sizeof(*this) + bytes_of(*this) + bytes_in(swings);
+    for (const RopeRacer& rival : rivals) all += bytes_of(rival);
     return selection ? all + bytes_in(selection->particles.all()) : all;
 }
 

@@ -67,6 +67,7 @@ struct RopeView {
     bool particles = false;  ///< show particles as balls
     bool strain = false;     ///< colour links by their strain
     int sides = 16;          ///< sides of the tube, 3 to 64
+    float thickness = 1.0f;  ///< times as thick as they are: ropes and hair
     bool operator==(const RopeView&) const = default;
 };
 
@@ -93,15 +94,15 @@ struct RopeSample {
 };
 inline constexpr std::size_t max_rope_samples = 600;  ///< ten seconds
 
-/// The scene as another solver runs it in a race.
-struct Rival {
-    std::shared_ptr<const NamedWorld> world;
-    std::vector<RopeSample> samples;
-    std::optional<Hold> hold;  ///< with the rival's own indices and names: a body may have torn there only
+/// A world with its curves and what a drag holds in it: the part's own, and in a race those of other solvers.
+struct RopeRacer {
+    std::shared_ptr<const NamedWorld> world = std::make_shared<const NamedWorld>();
+    std::vector<RopeSample> samples{};  ///< of the last ticks
+    std::optional<Hold> hold{};         ///< in this world: a body may have torn in one of them only
+    rope::Solver solver() const { return world->settings().solver; }
 };
 
-struct RopePart final : Part {
-    std::shared_ptr<const NamedWorld> world = std::make_shared<const NamedWorld>();
+struct RopePart final : Part, RopeRacer {
     /// The settings that the scene was opened with: only settings that differ count as changed. Not saved.
     rope::Settings usual;
     std::vector<Swing> swings;
@@ -109,12 +110,10 @@ struct RopePart final : Part {
     double time = 0.0;  ///< simulated time, seconds
     RopeTool tool = RopeTool::Move;
     std::optional<RopeSelection> selection;
-    std::optional<Hold> hold;
     Jitter jitter;
     RopeView view;
-    int quiet_ticks = 0;              ///< consecutive ticks without noticeable motion
-    std::vector<RopeSample> samples;  ///< samples of the last ticks
-    std::vector<Rival> rivals;        ///< in a race (race.hpp)
+    int quiet_ticks = 0;            ///< consecutive ticks without noticeable motion
+    std::vector<RopeRacer> rivals;  ///< in a race (race.hpp)
 
     std::shared_ptr<Part> clone() const override { return std::make_shared<RopePart>(*this); }
     Json save() const override;
@@ -155,6 +154,8 @@ std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::rope
 /// For files.
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Swing>() noexcept;
+template <>
+std::span<const tendril::Field> tendril::fields<tendril::app::Jitter>() noexcept;
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::RopeView>() noexcept;
 template <>

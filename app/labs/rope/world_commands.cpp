@@ -61,7 +61,7 @@ void blow(RopeEdit& edit, const Arguments& given) {
 }
 
 void set_jitter(RopeEdit& edit, const Arguments& given) {
-    edit.part.jitter.dial = given.number("dial");
+    set_fields(given, edit.part.jitter);
     edit.part.jitter.frame = 0.0;  // the next frame already uses the new dial
 }
 
@@ -94,15 +94,17 @@ void add_world_commands(CommandTable& table) {
               });
     table.add(rope_command("rope.settings", "Set how ropes are simulated", settings_arguments(),
                            "Sets how ropes are simulated; omitted settings are kept", settings));
-    table.add(rope_command("rope.wind", "Set the wind",
-                           {point_argument("velocity", true, "of the air, m/s; 0: no air"),
-                            number_argument("gusts", "strength of the gusts relative to the wind", 0.0, 1.0),
-                            switch_argument("still_air", "true: air resists without wind too")},
+    std::vector<Argument> wind = field_arguments<rope::Settings>();
+    std::erase_if(wind, [](const Argument& each) {
+        return each.name != "wind" && each.name != "gusts" && each.name != "still_air";
+    });
+    wind.front().name = "velocity", wind.front().required = true;
+    table.add(rope_command("rope.wind", "Set the wind", std::move(wind),
                            "Sets the wind that cloth, ropes and hair are in", blow));
-    table.add(
-        rope_command("rope.jitter", "Make frame times uneven",
-                     {{.name = "dial", .help = "0: even frames; 1: from 1 to 250 ms", .low = 0, .high = 1}},
-                     "Makes frames uneven, as in a program that stutters", set_jitter));
+    std::vector<Argument> dial = field_arguments<Jitter>();
+    dial.front().required = true;
+    table.add(rope_command("rope.jitter", "Make frame times uneven", std::move(dial),
+                           "Makes frames uneven, as in a program that stutters", set_jitter));
 }
 
 // Commands on colliders.
@@ -135,8 +137,7 @@ std::vector<Argument> shape_arguments() {
 }
 
 Swing* swing_of(RopePart& part, const std::string& collider) {
-    const auto found = std::find_if(part.swings.begin(), part.swings.end(),
-                                    [&](const Swing& swing) { return swing.collider == collider; });
+    const auto found = std::ranges::find(part.swings, collider, &Swing::collider);
     return found == part.swings.end() ? nullptr : &*found;
 }
 
@@ -188,17 +189,16 @@ void remove_collider(RopeEdit& edit, const Arguments& given) {
 /// A swing continues from where it is, so that changing its amplitude or period does not make it jump.
 void set_swing(RopeEdit& edit, const Arguments& given) {
     const rope::Collider& collider = collider_of(edit.seen(), given.text("name"));
-    const glm::vec3 by = given.point("by");
     const std::string name = given.text("name");
     Swing* swing = swing_of(edit.part, name);
-    if (by == glm::vec3(0.0f)) {
+    Swing wanted = swing ? *swing : Swing{.collider = name};
+    const glm::vec3 at = swing ? swing_point(*swing, edit.part.time) : rope::centre(collider.shape);
+    if (given.has("by")) wanted.swing = given.point("by");
+    set_fields(given, wanted);
+    if (wanted.swing == glm::vec3(0.0f)) {
         std::erase_if(edit.part.swings, [&](const Swing& s) { return s.collider == name; });
         return;
     }
-    Swing wanted = swing ? *swing : Swing{.collider = name};
-    const glm::vec3 at = swing ? swing_point(*swing, edit.part.time) : rope::centre(collider.shape);
-    wanted.swing = by;
-    if (given.has("period")) wanted.period = given.number("period");
     if (swing && wanted == *swing) return;
     centre_on(wanted, at, edit.part.time);
     if (swing)
@@ -243,11 +243,11 @@ void add_collider_commands(CommandTable& table) {
     drive.insert(drive.begin(), name_argument());
     table.add(rope_command("rope.collider.drive", "Move a collider steadily", std::move(drive),
                            "Moves and turns a collider steadily; it carries what lies on it", set_drive));
-    table.add(rope_command(
-        "rope.collider.swing", "Swing a collider",
-        {name_argument(), point_argument("by", true, "metres to each side; 0: off"),
-         number_argument("period", "seconds", shortest_decimal(min_period), shortest_decimal(max_period))},
-        "Makes a collider swing to and fro", set_swing));
+    std::vector<Argument> swing = field_arguments<Swing>();
+    swing.insert(swing.begin(),
+                 {name_argument(), point_argument("by", false, "metres to each side; 0: off")});
+    table.add(rope_command("rope.collider.swing", "Swing a collider", std::move(swing),
+                           "Makes a collider swing to and fro", set_swing));
 }
 
 // Commands on selection, drags and view. Only the effect of a drag on a rope is an undo step.

@@ -101,6 +101,14 @@ Table table_of(ik::JointKind kind) {
             .name = ik::name(kind)};
 }
 
+/// Texts that several tables share.
+bool are_shared(std::span<const FieldText> texts) {
+    for (const auto& each :
+         {field_texts<rope::Shape>(), field_texts<ik::Limit>(), field_texts<BodySettings>()})
+        if (texts.data() == each.data()) return true;
+    return false;
+}
+
 std::vector<Table> all_tables() {
     std::vector<Table> all{
         table_of<ReachSettings>(chain_lab, "chain.solver", "/reach"),
@@ -119,6 +127,22 @@ std::vector<Table> all_tables() {
          .with = {{"name", "ball"}},
          .first = {{"velocity", {1, 0, 0}}},
          .made = {"rope.preset", {{"name", "drape"}}}},
+        {.lab = rope_lab,
+         .command = "rope.set",
+         .path = "/world/bodies/0",
+         .fields = fields<rope::Body>().subspan(5, 4),  // radius, tear, bending, friction
+         .texts = field_texts<BodySettings>(),
+         .with = {{"rope", "rope"}},
+         .first = {{"tear", 0.5}, {"bending", 0.5}, {"friction", 0.125}},  // else files leave them out
+         .made = {"rope.add", {{"from", glm::vec3(0.0f)}, {"to", glm::vec3(1.0f)}}}},
+        {.lab = rope_lab,
+         .command = "rope.collider.swing",
+         .path = "/swings/0",
+         .fields = fields<Swing>(),
+         .texts = field_texts<Swing>(),
+         .with = {{"name", "ball"}},
+         .made = {"rope.preset", {{"name", "bridge"}}}},
+        table_of<Jitter>(rope_lab, "rope.jitter", "/jitter"),
         table_of<RopeView>(rope_lab, "rope.view", "/view"),
         {.lab = rope_lab,
          .command = "rope.tie.set",
@@ -178,10 +202,9 @@ std::vector<Row> rows() {
     std::vector<Row> all;
     for (const Table& table : tables())
         for (const FieldText& text : table.texts)
-            // Kinds of colliders and limits share their texts; elsewhere a text without a field is a mistake.
+            // A text without a field is a mistake, unless another table with these texts has the field.
             if (const Field* const field = find_field(table.fields, text.name);
-                field != nullptr || (table.texts.data() != field_texts<rope::Shape>().data() &&
-                                     table.texts.data() != field_texts<ik::Limit>().data()))
+                field != nullptr || !are_shared(table.texts))
                 all.push_back({&table, field});
     return all;
 }

@@ -52,6 +52,7 @@ TEST_F(RopeCollisionTest, AllIsEveryRopeAndClothAndUndoneInOneStep) {
                                                   {"other", "other"},
                                                   {"other", "sail"},
                                                   {"sail", "sail"}}));
+    EXPECT_EQ(lab().state(reopened())["collisions"], state()["collisions"]);
     run("undo");
     EXPECT_EQ(state()["collisions"], Json::array());
     collide("other", "all");

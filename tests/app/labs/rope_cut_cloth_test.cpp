@@ -204,11 +204,10 @@ TEST_F(RopeCutCloth, TornClothSeparates) {
     }
     EXPECT_GT(world().state().bodies.size(), 1u);
     for (const rope::Body& each : world().state().bodies) {
-        const BodySettings made_of = settings_of(world(), each);
-        EXPECT_EQ(made_of.tear, 0.05f);
-        EXPECT_EQ(made_of.bend.value_or(0.25f), 0.25f);
-        EXPECT_EQ(made_of.friction, 0.75f);
-        EXPECT_EQ(made_of.colour, BodyColour::Teal);
+        EXPECT_EQ(each.tear, 0.05f);
+        EXPECT_EQ(settings_of(world(), each).bend.value_or(0.25f), 0.25f);
+        EXPECT_EQ(each.friction, 0.75f);
+        EXPECT_EQ(world().colour(each), BodyColour::Teal);
     }
 }
 
