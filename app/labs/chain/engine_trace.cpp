@@ -358,7 +358,7 @@ ChainPart part_as_written(const ChainPart& part, const TracedPose& pose) {
     there.chain = chain_through(joints);
     there.target = written(part.target);
     if (auto& pole = there.reach.options.pole) pole = written(*pole);
-    there.reach.limits = trace.view.solve().limits(joints);
+    there.reach.limits = trace.view.limits(joints);
     return there;
 }
 
