@@ -395,18 +395,18 @@ struct Shape {
     Json with;  ///< further required arguments
 };
 
-template <class Struct>
+template <class Struct, class Texts = Struct>
 Shape shape_of(const char* lab, const char* command, Json with) {
-    return {lab, command, fields<Struct>(), field_texts<Struct>(), std::move(with)};
+    return {lab, command, fields<Struct>(), field_texts<Texts>(), std::move(with)};
 }
 
 std::vector<Shape> shapes() {
     const Json up{0, 1, 0}, right{1, 0, 0}, down{0, -1, 0};
-    return {shape_of<rope::RopeShape>(rope_lab, "rope.add", {{"from", up}, {"to", right}}),
-            shape_of<rope::ClothShape>(rope_lab, "rope.cloth.add",
-                                       {{"corner", up}, {"along", right}, {"down", down}}),
-            shape_of<rope::HairShape>(rope_lab, "rope.hair.add", {{"centre", up}}),
-            shape_of<rope::HairPatch>(rope_lab, "rope.hair.add", {{"centre", up}}),
+    return {shape_of<rope::RopeShape, BodySettings>(rope_lab, "rope.add", {{"from", up}, {"to", right}}),
+            shape_of<rope::ClothShape, BodySettings>(rope_lab, "rope.cloth.add",
+                                                     {{"corner", up}, {"along", right}, {"down", down}}),
+            shape_of<rope::HairShape, BodySettings>(rope_lab, "rope.hair.add", {{"centre", up}}),
+            shape_of<rope::HairPatch, BodySettings>(rope_lab, "rope.hair.add", {{"centre", up}}),
             shape_of<BodySettings>(rope_lab, "rope.set", {{"rope", "rope"}}),
             shape_of<AttachmentShape>(humanoid_lab, "humanoid.attach", {{"bone", "Head"}, {"kind", "hair"}})};
 }

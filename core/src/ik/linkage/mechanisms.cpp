@@ -201,7 +201,7 @@ std::size_t add_universal(Linkage& linkage, const std::string& name, std::size_t
     return linkage.links.size() - 1;
 }
 
-/// The first rod carries the platform by a ball; the others close on it.
+/// The platform hangs on the first rod by a ball; the others close on it.
 void join_platform(Linkage& linkage, std::size_t& platform, std::size_t rod, const std::string& name,
                    const glm::dvec3& at) {
     if (platform != ground_link) {
