@@ -24,6 +24,7 @@
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/kit/flips.hpp"
+#include "app/view/camera.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
@@ -258,7 +259,9 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
             solve + (moments.flip ? "flips at frame " + std::to_string(first + *moments.flip) : "no flip"));
         return;
     }
-    frame_unless_seen(workspace, ChainLab().bounds(workspace, false));
+    const Bounds bounds = ChainLab().bounds(workspace, false);
+    workspace.camera =
+        framed(workspace.camera, {{0.0f, 0.0f}, workspace.ui.view_size}, bounds.centre, bounds.radius);
     workspace.toast(shown_text(*trace, shown));
     for (const std::string& note : trace->notes) workspace.toast(note, ToastKind::Refusal);
 }

@@ -29,8 +29,10 @@
 #include "app/labs/signal/filter_fields.hpp"
 #include "app/labs/signal/signal_part.hpp"
 #include "app/widgets/row_search.hpp"
+#include "tests/app/labs/humanoid/humanoid_support.hpp"
 #include "tests/app/labs/lab_support.hpp"
 #include "tests/app/support/full_scenes.hpp"
+#include "tests/app/support/temp_folder.hpp"
 #include "tests/places.hpp"
 #include "tests/says.hpp"
 
@@ -450,7 +452,7 @@ std::vector<std::span<const FieldText>> texts_of(std::string_view lab) {
 }
 
 /// Scenes with objects that no other scene has.
-std::vector<test::Shown> further_scenes(const Lab& lab) {
+std::vector<test::Shown> further_scenes(const Lab& lab, const test::TempFolder& folder) {
     using test::call;
     const std::string frame = R"({"joints": [[0, 0, 0], [0, 1, 0], [0, 2, 0]], "target": [0, 2, 0],)"
                               R"( "rotations": [[0, 0, 0, 1], [0, 0, 0, 1]]})"
@@ -473,14 +475,19 @@ std::vector<test::Shown> further_scenes(const Lab& lab) {
                  {call("rope.preset", {{"name", "drape"}}),
                   call("rope.collider.drive", {{"name", "ball"}, {"spin_deg", 90.0f}}),
                   call("rope.select", {{"collider", "ball"}})}}};
-    if (lab.name() == humanoid_lab)
-        return {{"a root with an offset",
+    if (lab.name() == humanoid_lab) {
+        const std::string hair = (folder / "hair.vrm").string();
+        test::write(hair, vrm_with_hair);
+        return {{"a spring that collides",
+                 {call("humanoid.load", {{"path", hair}}), call("humanoid.select", {{"node", "hair"}})}},
+                {"a root with an offset",
                  {call("humanoid.load", {{"path", test::source_path("tests/app/golden/a_pose.bvh")}})}},
                 {"balance and an object",
                  {call("humanoid.balance", {{"on", true}}), call("humanoid.hold", {{"kind", "wheel"}})}},
                 {"a curve",
                  {call("humanoid.curve", {{"first", "Spine"}, {"fit", true}}),
                   call("humanoid.select", {{"node", "Spine"}})}}};
+    }
     return {};
 }
 
@@ -493,7 +500,8 @@ TEST_P(EveryText, IsDrawnByAPanelOnceInItsSection) {
     app.tick(nullptr);
     const Lab& lab = *app.labs().find(GetParam());
     std::vector<test::Shown> scenes = test::all_scenes(lab, app.commands());
-    for (test::Shown& each : further_scenes(lab)) scenes.push_back(std::move(each));
+    const test::TempFolder folder;
+    for (test::Shown& each : further_scenes(lab, folder)) scenes.push_back(std::move(each));
     std::set<const void*> drawn;
     for (const test::Shown& scene : scenes) {
         app.run({"scene.new", Json::object()});

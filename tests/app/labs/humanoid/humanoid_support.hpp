@@ -11,6 +11,15 @@
 
 namespace tendril::app {
 
+/// Hair on the hips that hangs into a capsule below them.
+inline constexpr const char* vrm_with_hair =
+    R"({"asset":{"version":"2.0"},"nodes":[{"name":"hips","children":[1]},)"
+    R"({"name":"hair","translation":[0.05,1,0],"children":[2]},{"name":"tip","translation":[0,-0.2,0]}],)"
+    R"("skins":[{"joints":[0]}],"extensions":{"VRMC_springBone":{)"
+    R"("colliders":[{"node":0,"shape":{"capsule":{"offset":[0,0.8,0],"tail":[0,0.6,0],"radius":0.1}}}],)"
+    R"("colliderGroups":[{"colliders":[0]}],"springs":[)"
+    R"({"joints":[{"node":1,"hitRadius":0.02,"stiffness":1},{"node":2}],"colliderGroups":[0]}]}}})";
+
 class HumanoidTest : public LabTest {
   protected:
     HumanoidTest() : LabTest(humanoid_lab) {}

@@ -25,16 +25,8 @@ class HumanoidSprings : public HumanoidTest {
         for (const char* node : {"antenna_l_1", "antenna_r_1", "tail_1"})
             run("humanoid.spring", {{"node", node}});
     }
-    /// Hair on the hips that hangs into a sphere below them.
     void load_hair() {
-        test::write(
-            folder / "hair.vrm",
-            R"({"asset":{"version":"2.0"},"nodes":[{"name":"hips","children":[1]},)"
-            R"({"name":"hair","translation":[0.05,1,0],"children":[2]},{"name":"tip","translation":[0,-0.2,0]}],)"
-            R"("skins":[{"joints":[0]}],"extensions":{"VRMC_springBone":{)"
-            R"("colliders":[{"node":0,"shape":{"capsule":{"offset":[0,0.8,0],"tail":[0,0.6,0],"radius":0.1}}}],)"
-            R"("colliderGroups":[{"colliders":[0]}],"springs":[)"
-            R"({"joints":[{"node":1,"hitRadius":0.02,"stiffness":1},{"node":2}],"colliderGroups":[0]}]}}})");
+        test::write(folder / "hair.vrm", vrm_with_hair);
         run("humanoid.load", {{"path", (folder / "hair.vrm").string()}});
     }
     void dance() { run("humanoid.clip", {{"index", 0}, {"play", true}}); }
