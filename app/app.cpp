@@ -373,6 +373,7 @@ Json App::lab_state() const {
                    {"degrees", number(incident.degrees)},
                    {"cause", incident.cause}};
         if (!incident.name.empty()) event["name"] = incident.name;
+        if (!incident.title.empty()) event["title"] = incident.title;
         state["events"].push_back(std::move(event));
     }
     // Before the first tick the past is only reported while looking back.

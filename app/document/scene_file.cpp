@@ -158,7 +158,7 @@ CameraPose load_camera(const Json& json, const std::string& where) {
 std::string stand_in_note(const std::string& lab, const Part& part) {
     if (!part.unread) return {};
     return part.unread_why + ". " +
-           (part.replaces_unread
+           (part.replaces_unread && !part.unread_stand_in
                 ? "Saving replaces what the scene still has of the " + lab + " lab; undo brings it back."
                 : "The " + lab +
                       " lab is blank; saving keeps what the scene has of it until you change it. "

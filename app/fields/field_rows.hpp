@@ -51,9 +51,10 @@ class FieldRows {
     void rows(Names... names) const {
         (row(names), ...);
     }
-    /// A row for every field, in the order of the table.
+    /// A row for every field that has a label, in the order of the table.
     void all() const {
-        for (const Field& field : of_.table) row(field.name);
+        for (const Field& field : of_.table)
+            if (text_of(field).label != nullptr) row(field.name);
     }
 
   private:

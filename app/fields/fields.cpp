@@ -398,7 +398,7 @@ class Loader {
         for (std::size_t i = 0; i < names.size(); ++i)
             if (names[i] == name) return {static_cast<double>(i)};
         const std::string_view of = field.of;
-        const bool bodies = of.ends_with("ies");
+        const bool bodies = of == "bodies";
         place.fail("there is no " + std::string(of.substr(0, of.size() - (bodies ? 3 : 1))) +
                    (bodies ? "y \"" : " \"") + name + "\"");
     }

@@ -10,6 +10,7 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
+#include "app/document/text.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/commands.hpp"
 #include "app/labs/chain/draw.hpp"
@@ -69,7 +70,9 @@ class ChainProgram {
             part_ = part_as_written(part, *pose);
             const Conventions& space = pose->trace->conventions;
             unit_ = trace_units.title(space.unit.value);
-            origin_ = "// Starts as in the first frame of " + pose->trace->name + ", in its axes and unit (" +
+            unit_symbol_ = trace_units.name(space.unit.value);
+            origin_ = "// Starts with the bones as in frame " + std::to_string(pose->trace->view.from) +
+                      " of " + printable(pose->trace->name) + ", in its axes and unit (" +
                       trace_ups.title(space.up.value) + ", " + trace_hands.title(space.handed.value) + ", " +
                       unit_ + "), with the target of frame " + std::to_string(pose->frame) + '.';
         }
@@ -110,7 +113,7 @@ class ChainProgram {
     }
 
     ChainPart part_;
-    std::string code_, unit_ = "metres", origin_{};
+    std::string code_, unit_ = "metres", unit_symbol_ = "m", origin_{};
 };
 
 std::string ChainProgram::text() {
@@ -217,7 +220,8 @@ void ChainProgram::reach() {
     say("// From here on once a frame, with the same solver, state and options.");
     say("const ik::Report report = solver.solve(ik::Method::" + pascal_text(ik::name(part_.reach.method)) +
         ", chain, state, target, options);");
-    say("std::printf(\"%s after %d iterations, %g m from the target\\n\", ik::name(report.status),");
+    say("std::printf(\"%s after %d iterations, %g " + unit_symbol_ +
+        " from the target\\n\", ik::name(report.status),");
     say("            report.iterations, report.residual);");
 }
 

@@ -247,7 +247,7 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
             {.kind = Incident::Kind::Status,
              .tick = *moments.parted > 0 ? *moments.parted - 1 : 0,
              .joint = moments.all.front()->chain.size() - 1,
-             .cause = "there the ghost is over 5 % of the reach away",
+             .cause = "the ghost is more than 5 % of the reach from the trace",
              .title = "Frame " + std::to_string(first + *moments.parted) + ": Tendril's solve departs"});
     if (!same_frames) {
         workspace.ui.incident.reset();
@@ -338,7 +338,7 @@ void draw_traced_ghost(const View& view, const ChainPart& part, DrawList& list) 
 
 Verdict trace_verdict(const TracedPose& pose) {
     const TracedIncident* const first = first_shown(*pose.trace);
-    if (first == nullptr) return {"No incident in these frames", Verdict::Kind::Good};
+    if (first == nullptr) return {"No incidents in these frames", Verdict::Kind::Good};
     return {first->title(pose.trace->bones), Verdict::Kind::Bad, capitalised(first->cause) + "."};
 }
 
@@ -355,13 +355,20 @@ ChainPart part_as_written(const ChainPart& part, const TracedPose& pose) {
     const ShownTrace& trace = *pose.trace;
     const TracedFrame& first = trace.frames.front();
     const auto written = [&](glm::vec3 p) { return glm::vec3(trace.conventions.written(p)); };
+    // The ghost goes along with the root.
+    const glm::vec3 by = pose.joints.front() - first.joints.front();
     std::vector<glm::vec3> joints;
-    for (std::size_t i = 0; i <= first.end_effector(); ++i) joints.push_back(written(first.joints[i]));
+    for (std::size_t i = 0; i <= first.end_effector(); ++i) joints.push_back(written(first.joints[i] + by));
     ChainPart there = part;
     there.chain = chain_through(joints);
     there.target = written(part.target);
     if (auto& pole = there.reach.options.pole) pole = written(*pole);
-    there.reach.limits = trace.view.limits(joints);
+    there.reach.limits = trace.view.limits(std::span(first.joints).first(joints.size()));
+    if (trace.view.hinge > 0) {
+        glm::vec3& axis = there.reach.limits[static_cast<std::size_t>(trace.view.hinge)].axis;
+        axis = glm::normalize(written(axis));
+        if (trace.conventions.handed.value == TraceHand::Left) axis = -axis;  // a mirror turns the other way
+    }
     return there;
 }
 

@@ -162,8 +162,8 @@ std::span<const FieldText> field_texts<RopeView>() {
         {.name = "thickness",
          .label = "thickness",
          .help =
-             "How many times as thick as they are ropes and hair are drawn, so that thin ones can be seen "
-             "and caught. They collide as before.",
+             "Draws ropes and hair this many times thicker, so that thin ones are easier to see and grab. "
+             "Collisions do not change.",
          .step = 0.02f,
          .decimals = 1,
          .unit = "times",
@@ -244,8 +244,8 @@ std::span<const FieldText> field_texts<Jitter>() {
         {.name = "dial",
          .label = "frame-time jitter",
          .help =
-             "How uneven frames are, like those of a program that stutters: at 0 they are even, at 100 %, "
-             "in commands 1, they last 1 to 250 ms. The picture stutters, the simulation stays the same.",
+             "How uneven frames are. 0: all alike; 100 % (1 in commands): 1 to 250 ms. The picture stutters, "
+             "the simulation stays the same.",
          .step = 0.5f,
          .decimals = 0,
          .scale = 100.0,

@@ -161,7 +161,9 @@ std::optional<Hold> load_hold(const JsonPlace& place, const NamedWorld& world) {
     check_found(place["rope"], "rope", body);
     const JsonPlace list = place["particles"];
     for (std::size_t i = 0; i < hold.particles.size(); ++i)
-        if (hold.particles[i] >= body->count || !world.pinned(body->first + hold.particles[i]))
+        if (hold.particles[i] >= body->count)
+            list.element(i).fail("there is no such particle");
+        else if (!world.pinned(body->first + hold.particles[i]))
             list.element(i).fail("it is not pinned, so not held");
     if (std::ranges::adjacent_find(hold.particles, std::greater_equal<>()) != hold.particles.end())
         list.fail("expected ascending particles");

@@ -193,6 +193,7 @@ void set_swing(RopeEdit& edit, const Arguments& given) {
     Swing* swing = swing_of(edit.part, name);
     Swing wanted = swing ? *swing : Swing{.collider = name};
     const glm::vec3 at = swing ? swing_point(*swing, edit.part.time) : rope::centre(collider.shape);
+    if (!swing && !given.has("by")) throw Refused("expected by: the collider does not swing");
     if (given.has("by")) wanted.swing = given.point("by");
     set_fields(given, wanted);
     if (wanted.swing == glm::vec3(0.0f)) {

@@ -220,13 +220,13 @@ class Resampling {
     bool filled(std::size_t c, std::size_t r) const {
         if (body_.cells.empty()) return true;
         return particle_[old_cell(column_[c].nearest(), row_[r].nearest())] < body_.count &&
-               ((c > 0 && total(c - 1, r, c, r)) || (r > 0 && total(c, r - 1, c, r)) ||
-                (c + 1 < to_.columns && total(c, r, c + 1, r)) ||
-                (r + 1 < to_.rows && total(c, r, c, r + 1)));
+               ((c > 0 && is_whole(c - 1, r, c, r)) || (r > 0 && is_whole(c, r - 1, c, r)) ||
+                (c + 1 < to_.columns && is_whole(c, r, c + 1, r)) ||
+                (r + 1 < to_.rows && is_whole(c, r, c, r + 1)));
     }
 
     /// Whether the cloth is whole between two of the new particles, which may be one.
-    bool total(std::size_t c0, std::size_t r0, std::size_t c1, std::size_t r1) const {
+    bool is_whole(std::size_t c0, std::size_t r0, std::size_t c1, std::size_t r1) const {
         const auto low_c = std::min(column_[c0].before, column_[c1].before),
                    high_c = std::max(column_[c0].after(), column_[c1].after()),
                    low_r = std::min(row_[r0].before, row_[r1].before),
@@ -244,7 +244,7 @@ class Resampling {
         const auto at = [&](std::size_t i, std::size_t k) {
             return list[body_.first + particle_[old_cell(i, k)]];
         };
-        if (!total(c, r, c, r)) return at(column.nearest(), row.nearest());
+        if (!is_whole(c, r, c, r)) return at(column.nearest(), row.nearest());
         const auto in_row = [&](std::size_t k) {
             const dvec3 before = at(column.before, k);
             return column.part > 0.0 ? before + column.part * (at(column.before + 1, k) - before) : before;
@@ -333,7 +333,7 @@ class Resampling {
         const auto add = [&](std::uint32_t a, std::uint32_t b, Link::Kind kind) {
             const std::size_t ca = a % columns, ra = a / columns, cb = b % columns, rb = b / columns;
             const Link* const like = example_link_[static_cast<std::size_t>(kind)];
-            if (like == nullptr || !total(ca, ra, cb, rb)) return;
+            if (like == nullptr || !is_whole(ca, ra, cb, rb)) return;
             Link link{.a = a, .b = b, .rest = 0.0f, .kind = kind, .compliance = like->compliance};
             link.rest = static_cast<float>(detail::length(grid.at(cb, rb) - grid.at(ca, ra)));
             if (kind == Link::Kind::Stretch) {

@@ -79,7 +79,13 @@ TEST_F(ChainTrace, TheTitleIsTheFirstIncidentAndEveryFrameIsInView) {
 }
 
 TEST_F(ChainTrace, CodeIsInTheTracesAxesAndUnitWithTheChosenCure) {
-    const MadeTrace made = test::made::TraceMaker(5).make(Plant::FlipAtPole);
+    MadeTrace made = test::made::TraceMaker(5).make(Plant::FlipAtPole);
+    for (std::size_t i = 0; i < made.frames.size(); ++i) {  // its root moves
+        const glm::dvec3 by(0.01 * static_cast<double>(i), 0.0, 0.0);
+        for (glm::dvec3& joint : made.frames[i].joints) joint += by;
+        made.frames[i].target += by;
+        *made.frames[i].pole += by;
+    }
     run("chain.trace", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
     run("chain.trace", {{"soft_zone", 0.05}, {"hinge", 1}});
     const std::string code = chain_code(part());
@@ -93,12 +99,14 @@ TEST_F(ChainTrace, CodeIsInTheTracesAxesAndUnitWithTheChosenCure) {
         ASSERT_EQ(std::sscanf(code.c_str() + at, format, &p.x, &p.y, &p.z), 3) << code;
         EXPECT_LT(glm::distance(p, 100.0f * glm::vec3(is.x, is.z, is.y)), 1e-2f);
     };
-    expect_point(code.find("target{"), "target{%ff, %ff, %ff}", made.frames[made.frame].target);
+    const MadeFrame &first = made.frames[0], &now = made.frames[traced_pose(part())->frame];
+    expect_point(code.find("target{"), "target{%ff, %ff, %ff}", now.target);
     std::size_t at = code.find("segments{");
-    for (const glm::dvec3& joint : made.frames[0].joints) {
+    for (const glm::dvec3& joint : first.joints) {
         at = code.find("{{", at + 1);
-        expect_point(at, "{{%ff, %ff, %ff}", joint);
+        expect_point(at, "{{%ff, %ff, %ff}", joint + now.joints[0] - first.joints[0]);
     }
+    EXPECT_NE(code.find("%g cm from the target"), code.npos) << code;
 }
 
 TEST_F(ChainTrace, TheGhostIsTendrilsSolveUntilTheChainIsChanged) {

@@ -304,6 +304,17 @@ class EveryField : public LabTest, public testing::WithParamInterface<Row> {
     }
 };
 
+/// A field without a text has neither an argument nor a row.
+TEST(FilterFields, EachHasItsText) {
+    for (const signal::Kind& kind : signal::kinds()) {
+        const std::span<const FieldText> texts = filter_texts(kind);
+        const auto fields = kind.table().last(texts.size());  // a curve's keys have none
+        EXPECT_TRUE(fields.size() == kind.table().size() || kind.table()[0].count != nullptr) << kind.name;
+        for (std::size_t i = 0; i < texts.size(); ++i)
+            EXPECT_STREQ(texts[i].name, fields[i].name) << kind.name;
+    }
+}
+
 const char* const sketch_file = R"({
     "points": [{"name": "A", "hold": "pinned"}, {"name": "B", "at": [1.5, 0.0], "hold": "guided", "guide_deg": 30.0}],
     "bars": [{"name": "bar", "points": ["A", "B"]}],

@@ -163,6 +163,8 @@ TEST_F(RopeSet, ABodyCanHaveItsOwnFriction) {
     run("rope.set", {{"rope", "rope"}, {"friction", 0.75}});
     EXPECT_EQ(friction("rope"), 0.75);
     EXPECT_EQ(friction("cloth"), nullptr) << "the world's";
+    run("rope.settings", {{"friction", 0.5}});
+    EXPECT_EQ(friction("rope"), 0.75) << "its own";
     run("rope.copy");
     EXPECT_NE(workspace.ui.copied.value().find(".friction = 0.75f"), std::string::npos);
     run("rope.settings", {{"friction", 0.25}});
