@@ -77,6 +77,7 @@ struct UiState {
     std::optional<VideoProgress> filming;       ///< the video being written
     bool ends_filming = false;                  ///< stop writing it
     std::optional<Incident> incident;           ///< the pose before it is shown over the pose after it
+    bool incident_chosen = false;               ///< by the user: the inspector scrolls to it
     std::map<std::string, CardProgress> cards;  ///< things to try, by lab
     bool asks_to_quit = false;                  ///< the question about unsaved work is open
     bool quit = false;

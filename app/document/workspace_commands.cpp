@@ -98,6 +98,7 @@ void show_incident(Workspace& w, const Arguments& given) {
     }
     w.clock.replaying = false;
     w.ui.incident = incident;
+    w.ui.incident_chosen = true;
 }
 
 /// The shortest decimals, as the user would type them.

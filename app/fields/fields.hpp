@@ -86,7 +86,7 @@ void load_fields(const JsonPlace& place, FieldsIn in);
 /// The same, but a missing field is an error, unless it is in `newer`: old files lack those.
 void load_all_fields(const JsonPlace& place, FieldsIn in, std::span<const std::string_view> newer = {});
 
-/// What a missing field means: it keeps its value unless it is required; it is an error; it keeps its value.
+/// A missing field keeps its value unless it is required; is an error; or always keeps its value.
 enum class MissingField { Default, Refused, Kept };
 /// The fields of a struct that an object in a file has, perhaps beside another's.
 struct KnownFields {

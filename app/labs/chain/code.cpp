@@ -261,14 +261,11 @@ void ChainProgram::curve() {
 void ChainProgram::options() {
     const ReachSettings& chosen = part_.reach;
     ik::Options options = solver_options(chosen, ik::Solver(part_.chain).reach());
-    const auto set = [&](const std::string& what, const std::string& value, const std::string& comment = "") {
-        say("options." + what + " = " + value + ";" + comment);
-    };
     line("");
     say("ik::Options options;");
-    set("tolerance", literal(*options.tolerance),
-        "  // " + unit_ + (chosen.options.tolerance ? "" : ": 1e-3 of the reach"));
-    set("max_iterations", std::to_string(options.max_iterations));
+    say("options.tolerance = " + literal(*options.tolerance) + ";  // " + unit_ +
+        (chosen.options.tolerance ? "" : ": 1e-3 of the reach"));
+    say("options.max_iterations = " + std::to_string(options.max_iterations) + ";");
     plane();
     options.tolerance.reset(), options.max_iterations = plain_options.max_iterations;
     options.plane.reset(), options.limits = {};

@@ -35,7 +35,7 @@ constexpr float parted_share = 0.05f;
 
 constexpr std::uint64_t max_from = 2'000'000'000;
 
-/// Of a trace's view: how Tendril solves it.
+/// The rows of a trace's view that say how Tendril solves it.
 std::span<const Field> solve_fields() {
     return fields<TraceView>().first(4);
 }
@@ -251,6 +251,7 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
              .title = "Frame " + std::to_string(first + *moments.parted) + ": Tendril's solve departs"});
     if (!same_frames) {
         workspace.ui.incident.reset();
+        workspace.ui.incident_chosen = false;  // the title names it
         if (wrong != nullptr) workspace.ui.incident = incident_of(*wrong, *trace, moments.all);
     }
     if (same_frames) {

@@ -31,7 +31,7 @@ Command keeping(Command command);
 /// "sign_flip"
 std::optional<humanoid::Fault> fault_named(const std::string& name);
 
-/// What a command may read while it changes the part.
+/// State that a command may read while it changes the part.
 struct IkNow {
     const ShownPose& shown;
     Solvers& solvers;

@@ -50,7 +50,7 @@ void scale_row(const HumanoidPanel& panel) {
     explain("The length of one unit in the file. The character's height shows whether it is right.");
 }
 
-/// What is implausible about a person's height, and a button that fixes it.
+/// Warns of a height that no person has, with a button that fixes it.
 void unit_rows(const HumanoidPanel& panel) {
     const auto doubt = panel.part.loaded->doubted_unit(*panel.part.map);
     if (panel.part.loaded->file.empty() || !doubt) return;

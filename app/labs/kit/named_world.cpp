@@ -132,10 +132,6 @@ std::string NamedWorld::add_hair(const std::string& name, rope::HairShape shape,
     return name_body(require_value(world_.add_hair(shape)), name, "hair");
 }
 
-void NamedWorld::remove(std::string_view body) {
-    require_ok(world_.remove(id(body)));
-}
-
 Became NamedWorld::cut(std::string_view rope, std::size_t segment) {
     const rope::Body* const whole = find(rope);
     Became became{std::vector<std::size_t>(whole == nullptr ? 0 : whole->count), {}};
@@ -207,16 +203,6 @@ void NamedWorld::add_collider(const std::string& name, const rope::Shape& shape)
     if (find_collider(name) != nullptr) refuse("add_collider", "one that no other collider has", name);
     set_slot(colliders_, require_value(world_.add_collider(shape)).index, name);
 }
-void NamedWorld::move_capsule(std::string_view name, const rope::Capsule& to, double seconds) {
-    require_ok(world_.move_capsule(collider_id(name), to, seconds));
-}
-void NamedWorld::set_collider(std::string_view name, const rope::Shape& shape) {
-    require_ok(world_.set_collider(collider_id(name), shape));
-}
-void NamedWorld::remove_collider(std::string_view name) {
-    require_ok(world_.remove_collider(collider_id(name)));
-}
-
 void NamedWorld::drag_pins(rope::Workspace& workspace, std::span<const rope::PinPlace> pins) {
     require_ok(rope::drag_pins(world_, workspace, pins));
 }

@@ -80,7 +80,6 @@ class NamedWorld {
     std::string add_cloth(const std::string& name, const rope::ClothShape& shape);
     /// `attach` is a collider's name, or empty.
     std::string add_hair(const std::string& name, rope::HairShape shape, const std::string& attach = {});
-    void remove(std::string_view body);
     // Pieces that come off a body have its colour, and its name with the next free number.
     Became cut(std::string_view rope, std::size_t segment);
     Became cut_cloth(std::string_view cloth, std::span<const rope::ClothLine> lines);
@@ -106,9 +105,6 @@ class NamedWorld {
     void set_collides(std::string_view a, std::string_view b, bool on);
     bool collides(std::string_view a, std::string_view b) const { return world_.collides(id(a), id(b)); }
     void add_collider(const std::string& name, const rope::Shape& shape);
-    void move_capsule(std::string_view name, const rope::Capsule& to, double seconds = 0.0);
-    void set_collider(std::string_view name, const rope::Shape& shape);
-    void remove_collider(std::string_view name);
 
     // Quasi-static drags, for while the simulation is paused.
     void drag_pins(rope::Workspace& workspace, std::span<const rope::PinPlace> pins);

@@ -480,7 +480,7 @@ void incident_rows(const Workspace& workspace, const Palette& palette, Emit& emi
     for (const Cure& cure : shown->buttons) cure_line(cure.text, cure, emit);
     if (const std::string lost = discards_text(workspace); !lost.empty()) note(lost);
     // Scroll to the incident if its mark on the strip was clicked.
-    if (appears && !ImGui::IsWindowHovered()) ImGui::SetScrollHereY(1.0f);
+    if (appears && workspace.ui.incident_chosen && !ImGui::IsWindowHovered()) ImGui::SetScrollHereY(1.0f);
 }
 
 }  // namespace tendril::app

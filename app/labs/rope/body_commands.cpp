@@ -97,7 +97,7 @@ void move_body(RopeEdit& edit, const Arguments& given) {
 
 void remove_body(RopeEdit& edit, const Arguments& given) {
     body_of(edit.seen(), given.text("name"));
-    edit.world().remove(given.text("name"));
+    edit.world().change(given.text("name"), &rope::World::remove);
     forget_missing(edit.part);
 }
 
@@ -107,9 +107,9 @@ void remove_selected(RopeEdit& edit, const Arguments&) {
     if (!selection->tie.empty())
         edit.world().change(selection->tie, &rope::World::untie);
     else if (!selection->collider.empty())
-        edit.world().remove_collider(selection->collider);
+        edit.world().change(selection->collider, &rope::World::remove_collider);
     else
-        edit.world().remove(selection->body);
+        edit.world().change(selection->body, &rope::World::remove);
     forget_missing(edit.part);
 }
 

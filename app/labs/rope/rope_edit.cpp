@@ -42,7 +42,7 @@ void RopeEdit::move_collider(const std::string& name, const glm::vec3& to) {
 }
 
 void RopeEdit::set_collider(const std::string& name, const rope::Shape& shape) {
-    if (seconds_ > 0.0) return world().set_collider(name, shape);
+    if (seconds_ > 0.0) return world().change(name, &rope::World::set_collider, shape);
     world().drag_collider(workspace_, name, shape);
     dragged();
 }

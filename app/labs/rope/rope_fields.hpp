@@ -11,7 +11,7 @@ namespace tendril::app {
 
 class Arguments;
 
-/// What rope.set changes of a body: what the library keeps of it, and what its particles and links come to.
+/// The settings of rope.set: the library's body, and quantities computed from its particles and links.
 /// Those are empty if the body has no such particles or links.
 struct BodySettings {
     rope::Body body;                       ///< its radius, friction, bending and tear

@@ -87,9 +87,10 @@ void aim_walker(const Walker& walker, NamedWorld& world, double now, double next
         const rope::Collider* const there = world.find_collider(each.name);
         if (there == nullptr || !std::holds_alternative<rope::Capsule>(there->shape)) continue;
         if (again)
-            world.set_collider(each.name, each.shape);
+            world.change(each.name, &rope::World::set_collider, each.shape);
         else
-            world.move_capsule(each.name, each.shape, world.world().pending() + (next - now));
+            world.change(each.name, &rope::World::move_capsule, each.shape,
+                         world.world().pending() + (next - now));
     }
 }
 
@@ -117,7 +118,8 @@ namespace {
 void leave(RopeEdit& edit) {
     if (!edit.part.walker.figure) return;
     for (const WalkerCapsule& each : walker_capsules(edit.part.walker, edit.part.time))
-        if (edit.seen().find_collider(each.name) != nullptr) edit.world().remove_collider(each.name);
+        if (edit.seen().find_collider(each.name) != nullptr)
+            edit.world().change(each.name, &rope::World::remove_collider);
     edit.part.walker = {};
     forget_missing(edit.part);
 }

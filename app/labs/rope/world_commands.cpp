@@ -182,7 +182,7 @@ void move(RopeEdit& edit, const Arguments& given) {
 
 void remove_collider(RopeEdit& edit, const Arguments& given) {
     collider_of(edit.seen(), given.text("name"));
-    edit.world().remove_collider(given.text("name"));
+    edit.world().change(given.text("name"), &rope::World::remove_collider);
     forget_missing(edit.part);
 }
 

@@ -36,8 +36,5 @@ inline Result check_vector(std::string_view operation, const Argument& argument,
     }
     return {};
 }
-inline Result check_weight(std::string_view operation, const Argument& argument, double value) noexcept {
-    return value >= 0.0 && value <= 1.0 ? Result() : refused(operation, argument, "from 0 to 1", value);
-}
 
 }  // namespace tendril::rig::detail

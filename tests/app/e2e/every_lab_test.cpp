@@ -123,7 +123,8 @@ TEST_P(EveryScene, SurvivesRandomEventsAndCommandsAndReplaysThem) {
             app.workspace().cameras.clear();
             app.start_recording();
             Monkey monkey(app, 11, vocabulary(app, GetParam().lab), words_of(GetParam().scene));
-            for (int i = 0; i < 60 && !HasFailure(); ++i) {
+            const int events = tendril::test::sanitizer_factor > 1 ? 30 : 60;
+            for (int i = 0; i < events && !HasFailure(); ++i) {
                 monkey.act();
                 if (i % 20 == 0) expect_finite(app.state(), "state");
                 if (i % 10 == 9) expect_opens_again(app.workspace());

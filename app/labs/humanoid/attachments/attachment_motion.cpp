@@ -102,23 +102,23 @@ void match_colliders(NamedWorld& world, const std::vector<NamedShape>& wanted) {
     const std::size_t shared = count_shared(world, wanted);
     while (world.state().colliders.size() > shared) {
         const std::string name = world.name(world.state().colliders.back());
-        world.remove_collider(name);
+        world.change(name, &rope::World::remove_collider);
     }
     for (std::size_t i = shared; i < wanted.size(); ++i) world.add_collider(wanted[i].name, wanted[i].shape);
 }
 
 void place_colliders(NamedWorld& world, const std::vector<NamedShape>& wanted) {
     match_colliders(world, wanted);
-    for (const NamedShape& each : wanted) world.set_collider(each.name, each.shape);
+    for (const NamedShape& each : wanted) world.change(each.name, &rope::World::set_collider, each.shape);
 }
 
 void move_colliders(NamedWorld& world, const std::vector<NamedShape>& wanted, double seconds) {
     match_colliders(world, wanted);
     for (const NamedShape& each : wanted) {
         if (const auto* capsule = std::get_if<rope::Capsule>(&each.shape))
-            world.move_capsule(each.name, *capsule, seconds);
+            world.change(each.name, &rope::World::move_capsule, *capsule, seconds);
         else
-            world.set_collider(each.name, each.shape);
+            world.change(each.name, &rope::World::set_collider, each.shape);
     }
 }
 
@@ -261,8 +261,8 @@ void carry(Attachments& attachments, const Wearer& wearer, rope::Workspace& work
     // The capsules first move rigidly with the first attachment, in their old pose, then to the new pose.
     for (const rope::Collider& each : attachments.world->state().colliders)
         if (const auto* capsule = std::get_if<rope::Capsule>(&each.shape))
-            world->set_collider(
-                world->name(each),
+            world->change(
+                world->name(each), &rope::World::set_collider,
                 rope::Capsule{glm::vec3(carriers.front().point(dvec3(capsule->a))),
                               glm::vec3(carriers.front().point(dvec3(capsule->b))), capsule->radius});
     push_aside(*world, colliders, workspace);

@@ -198,7 +198,7 @@ void remove_attachment(Attachments& attachments, const std::string& name) {
     if (attachments.find(name) == nullptr)
         throw std::invalid_argument("there is no attachment \"" + name + "\"");
     auto world = std::make_shared<NamedWorld>(*attachments.world);
-    world->remove(name);
+    world->change(name, &rope::World::remove);
     attachments.world = std::move(world);
     std::erase_if(attachments.list, [&](const Attachment& each) { return each.name == name; });
     if (attachments.list.empty()) attachments.world = std::make_shared<const NamedWorld>();
