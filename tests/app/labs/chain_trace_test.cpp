@@ -75,6 +75,7 @@ TEST_F(ChainTrace, TheTitleIsTheFirstIncidentAndEveryFrameIsInView) {
     const Bounds bounds = ChainLab().bounds(workspace, false);
     for (const MadeFrame& frame : made.frames)
         EXPECT_LE(glm::distance(glm::vec3(frame.target), bounds.centre), bounds.radius);
+    EXPECT_FALSE(workspace.ui.incident_chosen) << "the inspector would scroll its title away";
     EXPECT_EQ(workspace.camera.target, bounds.centre);
 }
 
