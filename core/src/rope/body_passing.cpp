@@ -82,15 +82,26 @@ void BodyContacts::prevent_crossing() {
         if (any && left_search_range()) search(scratch_.x);
     }
     if (!any) return;
-    // Cuts the step of all bodies: a pair that did not cross in a whole step does not in a part of it.
+    // Cuts the step of bodies that would still cross, but for the mean motion of those that may meet: a pair
+    // that did not cross in a whole step does not in a part of it.
+    group_bodies(Joined::Near);
     for (int i = 0; i <= max_step_cuts; ++i) {
         const double factor = i < max_step_cuts ? 0.5 : 0.0;
-        each_particle([&](std::size_t k) {
-            scratch_.x[k] = state_.position[k] + factor * (scratch_.x[k] - state_.position[k]);
-        });
-        if (std::none_of(s_.pairs.begin(), s_.pairs.end(),
-                         [&](const Pair& pair) { return crosses(pair, where); }))
-            break;
+        bool crossing = false;
+        for (const std::uint32_t group : Plan::part(plan_.bodies, island_.bodies)) {
+            const auto crosses_here = [&](const Pair& pair) {
+                return scratch_.body_group[pair.body_a] == group && crosses(pair, where);
+            };
+            if (std::none_of(s_.pairs.begin(), s_.pairs.end(), crosses_here)) continue;
+            crossing = true;
+            const dvec3 mean =
+                free_mean(group, [&](std::size_t k) { return scratch_.x[k] - state_.position[k]; });
+            each_in_group(group, [&](std::size_t k) {
+                const dvec3 moved = scratch_.x[k] - state_.position[k];
+                scratch_.x[k] = state_.position[k] + mean + factor * (moved - mean);
+            });
+        }
+        if (!crossing) break;
     }
     ++local_.done.fallbacks;
 }

@@ -107,8 +107,23 @@ void Substep::shorten_steps() {
     }
 }
 
+/// The mean of a motion over a chain, by mass; 0 if a pin or a collider may hold it.
+template <class Motion>
+dvec3 Substep::free_mean(const Plan::Chain& chain, const Motion& motion) const {
+    dvec3 sum(0.0);
+    double mass = 0.0;
+    for (std::uint32_t k = 0; k <= chain.links; ++k) {
+        const std::uint32_t i = plan_.nodes[chain.first_node + k];
+        if (scratch_.weight[i] == 0.0 || is_near(chain.body)) return dvec3(0.0);
+        sum += state_.mass[i] * motion(i);
+        mass += state_.mass[i];
+    }
+    return (1.0 / mass) * sum;
+}
+
 /// Cuts a step that gains energy, ends in a collider, or did not converge. Scaling velocities would not
-/// remove a gain by bending. If halving fails, particles stay or step back, which gains nothing.
+/// remove a gain by bending. If halving fails, particles stay or step back, which gains nothing. A chain that
+/// nothing holds falls on all the while: only motion relative to its mean is cut.
 void Substep::shorten_step(std::uint32_t number) {
     const Plan::Chain& chain = plan_.chains[number];
     const bool failed = !(scratch_.chain_error[number] <= fallback_error);
@@ -142,11 +157,19 @@ void Substep::shorten_step(std::uint32_t number) {
     };
     if (!is_bad()) return;
     ++report_.fallbacks;
+    const dvec3 fall =
+                    free_mean(chain, [&](std::uint32_t p) { return scratch_.base[p] - state_.position[p]; }),
+                solved =
+                    free_mean(chain, [&](std::uint32_t p) { return scratch_.x[p] - state_.position[p]; }),
+                before = free_mean(chain, [&](std::uint32_t p) { return state_.displacement[p]; });
+    each([&](std::uint32_t p) { return scratch_.x[p] + (fall - solved); });
     for (int i = 0; i < max_step_halvings && is_bad(); ++i)
-        each([&](std::uint32_t p) { return 0.5 * (state_.position[p] + scratch_.x[p]); });
+        each([&](std::uint32_t p) { return 0.5 * (state_.position[p] + fall + scratch_.x[p]); });
     for (const double back : {0.0, 0.5, 1.0}) {
         if (!is_bad()) break;
-        each([&](std::uint32_t p) { return state_.position[p] - back * state_.displacement[p]; });
+        each([&](std::uint32_t p) {
+            return state_.position[p] + fall - back * (state_.displacement[p] - before);
+        });
     }
 }
 

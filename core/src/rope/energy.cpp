@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "rope/body_contacts.hpp"
 #include "rope/build.hpp"
 #include "rope/geometry.hpp"
 #include "rope/substep.hpp"
@@ -137,11 +138,13 @@ Substep::Slowdown Substep::Ledger::slowdown() const {
         const double apart = std::max(0.0, kinetic_ - whole);
         slowdown.relative_factor = velocity_scale(apart, elastic_release_, remaining_gain);
         remaining_gain -= energy_removed(apart, elastic_release_, slowdown.relative_factor);
-        slowdown.mean_factor = velocity_scale(whole, gravity_work_, remaining_gain);
-        remaining_gain -= energy_removed(whole, gravity_work_, slowdown.mean_factor);
+        if (near_ != Scratch::Nearest::None) {
+            slowdown.mean_factor = velocity_scale(whole, gravity_work_, remaining_gain);
+            remaining_gain -= energy_removed(whole, gravity_work_, slowdown.mean_factor);
+        }
     }
     slowdown.remaining_gain = remaining_gain;
-    if (near_ != Scratch::Nearest::None && remaining_gain > 0.0 && elastic_ > 0.0)
+    if ((near_ != Scratch::Nearest::None || !pinned_) && remaining_gain > 0.0 && elastic_ > 0.0)
         slowdown.tension_factor = std::sqrt(std::max(0.0, 1.0 - remaining_gain / elastic_));
     return slowdown;
 }
@@ -181,17 +184,10 @@ bool Substep::tied_in_grid(const Plan::Island& part, std::size_t link) const {
     return part.tied != 0 && plan_.tied[part.tied - 1].link_blocks[link] == Plan::no_block;
 }
 
-Substep::Ledger Substep::ledger_of(const Plan::Island& part) const {
-    Scratch::Nearest near = Scratch::Nearest::None;
-    const std::span<const std::uint32_t> bodies = Plan::part(plan_.bodies, part.bodies);
-    for (const std::uint32_t body : bodies) near = std::max(near, scratch_.body_near[body]);
-    Ledger ledger(*this, near);
+void Substep::add_part(Ledger& ledger, const Plan::Island& part) const {
     each_particle_of(part, [&](std::size_t i) { ledger.add_particle(i); });
     const bool direct = state_.settings.solver == Solver::Direct;
-    if (direct && part.grid != 0) {
-        ledger.add_cloth(scratch_.cloths[part.grid - 1]);
-        return ledger;
-    }
+    if (direct && part.grid != 0) return ledger.add_cloth(scratch_.cloths[part.grid - 1]);
     const Plan::Range grids = direct && part.tied != 0 ? plan_.tied[part.tied - 1].grids : Plan::Range{};
     for (std::uint32_t g = 0; g < grids.count; ++g) ledger.add_cloth(scratch_.cloths[grids.first + g]);
     if (direct && part.tied != 0)
@@ -199,6 +195,14 @@ Substep::Ledger Substep::ledger_of(const Plan::Island& part) const {
     const std::span<const std::uint32_t> links = Plan::part(plan_.links, part.links);
     for (std::size_t k = 0; k < links.size(); ++k)
         if (!direct || !tied_in_grid(part, k)) ledger.add_link(links[k]);
+}
+
+Substep::Ledger Substep::ledger_of(const Plan::Island& part) const {
+    Scratch::Nearest near = Scratch::Nearest::None;
+    for (const std::uint32_t body : Plan::part(plan_.bodies, part.bodies))
+        near = std::max(near, scratch_.body_near[body]);
+    Ledger ledger(*this, near);
+    add_part(ledger, part);
     return ledger;
 }
 
@@ -210,36 +214,56 @@ Substep::Slowdown Substep::limit_gain(const Ledger& ledger) {
                                                                                   : Slowdown{};
 }
 
-/// Limits each part of an island by itself: if one is slowed, the others still fall. Energy that a cloth
-/// gains from a rope falling on it is lost.
+/// Limits each part of an island by itself, and bodies that contacts join together: one gains the energy that
+/// another loses.
 void Substep::limit_energy() {
     const std::span<const Plan::Island> parts = plan_.parts_of(island_);
     local_.part_slowdown.assign(parts.size(), {});
-    bool isolated = false;
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-        if (!parts[k].isolated) local_.part_slowdown[k] = limit_gain(ledger_of(parts[k]));
-        isolated |= parts[k].isolated;
-    }
-    if (!isolated) return;
-    // A chain gains through a contact the energy that the other chain loses.
-    std::span<const std::uint32_t> together;
-    if (island_.contacts != 0) together = scratch_.body_contacts[island_.contacts - 1].chains;
-    if (!together.empty()) {
-        Scratch::Nearest near = Scratch::Nearest::None;
-        for (const std::uint32_t r : together)
-            near = std::max(near, scratch_.body_near[plan_.chains[r].body]);
-        Ledger ledger(*this, near);
-        for (const std::uint32_t r : together) add_chain(ledger, plan_.chains[r]);
-        const Slowdown slowdown = limit_gain(ledger);
-        for (const std::uint32_t r : together) scratch_.chain_slowdown[r] = slowdown;
-    }
-    for (const Plan::Island& part : parts)
-        for (std::uint32_t r = part.chains.first; part.isolated && r < part.chains.first + part.chains.count;
-             ++r) {
-            if (std::binary_search(together.begin(), together.end(), r)) continue;
-            if (!scratch_.chain_slowdown[r])
-                scratch_.chain_slowdown[r] = limit_gain(ledger_of(plan_.chains[r]));
+    std::span<const std::uint32_t> groups;
+    if (island_.contacts != 0) groups = BodyContacts(*this).group_bodies(BodyContacts::Joined::Touching);
+    const auto group_of = [&](std::uint32_t body) {
+        return groups.empty() ? body : scratch_.body_group[body];
+    };
+    const auto each_part = [&](auto visit, auto visit_chain) {
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            const Plan::Range& chains = parts[k].chains;
+            if (!parts[k].isolated) visit(k, group_of(plan_.bodies[parts[k].bodies.first]));
+            for (std::uint32_t r = chains.first; parts[k].isolated && r < chains.first + chains.count; ++r)
+                visit_chain(r, group_of(plan_.chains[r].body));
         }
+    };
+    const auto alone = [&](std::uint32_t group) {
+        return !std::binary_search(groups.begin(), groups.end(), group);
+    };
+    each_part(
+        [&](std::size_t k, std::uint32_t group) {
+            if (alone(group)) local_.part_slowdown[k] = limit_gain(ledger_of(parts[k]));
+        },
+        [&](std::uint32_t r, std::uint32_t group) {
+            if (alone(group) && !scratch_.chain_slowdown[r])
+                scratch_.chain_slowdown[r] = limit_gain(ledger_of(plan_.chains[r]));
+        });
+    for (const std::uint32_t group : groups) {
+        Scratch::Nearest near = Scratch::Nearest::None;
+        for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies))
+            if (group_of(body) == group) near = std::max(near, scratch_.body_near[body]);
+        Ledger ledger(*this, near);
+        each_part(
+            [&](std::size_t k, std::uint32_t of) {
+                if (of == group) add_part(ledger, parts[k]);
+            },
+            [&](std::uint32_t r, std::uint32_t of) {
+                if (of == group) add_chain(ledger, plan_.chains[r]);
+            });
+        const Slowdown slowdown = limit_gain(ledger);
+        each_part(
+            [&](std::size_t k, std::uint32_t of) {
+                if (of == group) local_.part_slowdown[k] = slowdown;
+            },
+            [&](std::uint32_t r, std::uint32_t of) {
+                if (of == group) scratch_.chain_slowdown[r] = slowdown;
+            });
+    }
 }
 
 /// Scales velocities and the tension of elastic links; positions stay.

@@ -155,7 +155,8 @@ struct BodyContactScratch {
     std::vector<Contact> projected;     ///< by depth
     std::vector<Side> sides;            ///< sorted by chain and bond
     std::vector<std::uint32_t> chains;  ///< solved together
-    std::vector<std::uint8_t> reused;   ///< whether a contact continues each State::contacts
+    std::vector<std::uint32_t> groups;
+    std::vector<std::uint8_t> reused;  ///< whether a contact continues each State::contacts
 };
 
 /// Shared by the islands: each writes only data of its own bodies, links, chains and chunks. Colliders have
@@ -170,6 +171,7 @@ struct Scratch {
     /// The colliders near a body. Impact: a resting one displaced it faster than correction_speed.
     enum class Nearest : std::uint8_t { None, Resting, Impact, Moving };
     std::vector<Nearest> body_near;
+    std::vector<std::uint32_t> body_group;  ///< the first of the bodies that contacts join it to
     std::vector<std::uint8_t> body_failed;  ///< whether a body could not be solved
     std::vector<glm::dvec3> chunk_low, chunk_high;
     struct Moving {

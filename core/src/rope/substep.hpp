@@ -96,6 +96,8 @@ class Substep : IslandStep {
     void relax_failed_bodies();
     void shorten_steps();
     void shorten_step(std::uint32_t chain);
+    template <class Motion>
+    glm::dvec3 free_mean(const Plan::Chain& chain, const Motion& motion) const;
     double correction_scale(const Plan::Chain& chain) const;
     void scale_correction(const Plan::Chain& chain);
     void gather(const detail::Block& block, const Batch& batch) const;
@@ -109,6 +111,7 @@ class Substep : IslandStep {
     using Slowdown = Scratch::Slowdown;
     Ledger ledger_of(const Plan::Chain& chain) const;
     Ledger ledger_of(const Plan::Island& part) const;
+    void add_part(Ledger& ledger, const Plan::Island& part) const;
     bool tied_in_grid(const Plan::Island& part, std::size_t link) const;
     void add_chain(Ledger& ledger, const Plan::Chain& chain) const;
     void limit_energy();

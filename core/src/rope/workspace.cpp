@@ -19,6 +19,7 @@ void size(Scratch& scratch, const State& state, const Plan& plan) {
     scratch.weight.resize(particles);
     scratch.touch.assign(particles, Touch{});
     scratch.body_near.assign(state.bodies.size(), Scratch::Nearest::None);
+    scratch.body_group.assign(state.bodies.size(), 0);
     scratch.body_failed.assign(state.bodies.size(), 0);
     scratch.multiplier.resize(state.links.size());
     scratch.chunk_low.resize(plan.chunks.size());
