@@ -102,13 +102,6 @@ TEST_F(HumanoidTargets, StopAtLimitsWhichSaySo) {
     EXPECT_GT(residual("LeftHand"), 0.01) << "the clips never go there";
 }
 
-TEST_F(HumanoidTargets, NeedABody) {
-    run("humanoid.map", {{"bone", "LeftHand"}});
-    expect_refused("humanoid.target", {{"effector", "right_hand"}, {"to", {0, 1, 0}}},
-                   {"full-body IK is off: LeftHand is missing"});
-    run("humanoid.target", {{"effector", "right_hand"}, {"weight", 0}});
-}
-
 TEST_F(HumanoidTargets, AreIgnoredWhileABoneIsMissing) {
     target("left_hand", 0.4, 1.5, 0.4);
     const Json reached = state();
