@@ -195,7 +195,7 @@ void App::take_event(const Event& event, Emit& emit) {
         layout_ = lay_out(size_, ui_scale(), workspace_.settings, lab().timeline_height(workspace_),
                           lab().canvas_share(workspace_));
     } else if (const auto* drop = std::get_if<Drop>(&event)) {
-        if (!drop->paths.empty()) emit("file.open", {{"path", drop->paths.front()}});
+        if (!drop->paths.empty()) emit("file.open", {{"path", drop->paths.front()}, {"ask", true}});
     } else if (const auto* text = std::get_if<TextInput>(&event)) {
         // Only pasting sends text while Ctrl is held without Alt (AltGr types characters as both).
         if (input_.ctrl() && !input_.alt()) take_paste(text->utf8, emit);

@@ -69,11 +69,12 @@ std::vector<std::string> play_motion(Character& character, const std::string& mo
     std::vector<std::string> notes = guesses_of(character, map);
     if (motion.empty()) return notes;
     const Character source = read_character(motion);
+    const humanoid::BoneMap source_map = bone_map(source);
     const Clip* const first = &clip_named(source, motion, clip ? *clip : std::string_view());
     character.clips.clear();
     for (const Clip& each : source.clips) {
         if (clip && &each != first) continue;
-        RetargetedMotion made = retargeted_clip(source, motion, each, character.skeleton, map);
+        RetargetedMotion made = retargeted_clip(source, source_map, motion, each, character.skeleton, map);
         if (character.clips.empty())
             notes.push_back(fs::path(motion).filename().string() + ": " + joined(made.notes));
         character.clips.push_back(std::move(made.clip));

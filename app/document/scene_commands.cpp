@@ -80,9 +80,13 @@ void add_recovery_commands(CommandTable& table) {
 }
 
 void add_dialog_commands(CommandTable& table) {
-    table.add("scene.open_dialog", "Choose a file to open", {},
+    table.add("scene.open_dialog", "Choose a file to open",
+              {text_argument("by", false, "the command that opens it, as in file.open")},
               "Shows a dialog to open a scene or a file that a lab reads", Effect::Look,
-              [](Workspace& w, const Arguments&) { w.ui.file_dialog = UiState::FileDialog::Open; });
+              [](Workspace& w, const Arguments& a) {
+                  w.ui.file_dialog = UiState::FileDialog::Open;
+                  w.ui.browses_for = a.has("by") ? a.text("by") : std::string();
+              });
     table.add("scene.save_dialog", "Save the scene",
               {switch_argument("ask", "asks for a name even if the scene has one")},
               "Saves the scene; asks for a name if it has no file yet", Effect::Look,

@@ -78,6 +78,7 @@ void Workspace::start_anew() {
 
 void Workspace::close_file_dialog() {
     ui.file_dialog = UiState::FileDialog::None;
+    ui.file_question = {};
     if (std::exchange(ui.plays_after_dialog, false)) clock.playing = true;
 }
 

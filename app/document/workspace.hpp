@@ -57,6 +57,12 @@ struct Recoverable {
     std::string title;  ///< as shown: "arm.json, 2026-11-21 14:03"
 };
 
+/// One of the ways to open a file that has several.
+struct FileWay {
+    std::string title, help;
+    std::string command;  ///< opens the file, given as `path`
+};
+
 inline constexpr int min_picture = 16, max_picture = 8192;  ///< pixels, each way
 
 /// Transient state of the window.
@@ -66,6 +72,11 @@ struct UiState {
     bool settings = false;
     enum class FileDialog { None, Open, SaveAs, SaveAndQuit, Video } file_dialog = FileDialog::None;
     bool plays_after_dialog = false;  ///< the simulation resumes when the dialog closes
+    std::string browses_for;          ///< the command that the file to open is for; empty: that of its kind
+    struct FileQuestion {
+        std::string path;
+        std::vector<FileWay> ways{};  ///< none: nothing is asked
+    } file_question;
     std::vector<Toast> toasts;
     std::vector<Recoverable> recoverable;  ///< until the user answers
     glm::vec2 view_size{1000.0f, 700.0f};  ///< the 3D view, or its first pane, in window coordinates
@@ -84,7 +95,8 @@ struct UiState {
 
     /// Whether something that Esc closes covers the scene.
     bool covered() const {
-        return help || palette || settings || asks_to_quit || file_dialog != FileDialog::None;
+        return help || palette || settings || asks_to_quit || file_dialog != FileDialog::None ||
+               !file_question.ways.empty();
     }
 };
 

@@ -43,9 +43,29 @@ Command opener(const FileRoute& route) {
     return *own.find(route.kind.command);
 }
 
+/// The lab of a command that reads a file.
+FileRoute route_of(const Labs& labs, const std::string& command) {
+    for (const auto& lab : labs.all()) {
+        CommandTable own;
+        lab->add_commands(own);
+        const Command* const found = own.find(command);
+        if (found != nullptr && found->effect == Effect::Edit &&
+            std::ranges::find(found->arguments, "path", &Argument::name) != found->arguments.end())
+            return {lab.get(), {{}, {}, command}};
+    }
+    throw Refused("by: no command \"" + command + "\" opens a file");
+}
+
 /// Opens the lab last, so that a refusal leaves the present one open.
-void open(const Labs& labs, Workspace& workspace, const std::string& path) {
-    const FileRoute route = file_route(labs, path);
+void open(const Labs& labs, Workspace& workspace, const Arguments& given) {
+    const std::string path = given.text("path"), by = given.has("by") ? given.text("by") : "";
+    const FileRoute route = by.empty() ? file_route(labs, path) : route_of(labs, by);
+    if (by.empty() && route.lab != nullptr && given.has("ask") && given.boolean("ask"))
+        if (std::vector<FileWay> ways = route.lab->file_ways(workspace, path); !ways.empty()) {
+            workspace.close_file_dialog();
+            workspace.ui.file_question = {path, std::move(ways)};
+            return;
+        }
     Json arguments = to_json(route.kind.arguments);
     arguments["path"] = path;
     opener(route).apply(workspace, Arguments(arguments));
@@ -103,10 +123,14 @@ FileRoute file_route(const Labs& labs, const fs::path& file) {
 void add_file_command(CommandTable& table, const Labs& labs) {
     table.add({.name = "file.open",
                .title = "Open a file in its lab",
-               .arguments = {text_argument("path", true, all_kinds(file_routes(labs)))},
+               .arguments = {text_argument("path", true, all_kinds(file_routes(labs))),
+                             text_argument("by", false,
+                                           "the command that opens it, such as humanoid.motion.load; "
+                                           "default: that of its kind"),
+                             switch_argument("ask", "shows a choice if there are several ways to open it")},
                .help = "Opens a file of any kind, and the lab that reads it; undo restores what was before",
                .effect = Effect::Edit,
-               .apply = [&labs](Workspace& w, const Arguments& a) { open(labs, w, a.text("path")); },
+               .apply = [&labs](Workspace& w, const Arguments& a) { open(labs, w, a); },
                .finish =
                    [&labs](Workspace& w) {
                        for (const FileRoute& route : file_routes(labs))

@@ -217,6 +217,12 @@ class Lab {
     /// The files that the lab reads, besides scenes. Opening one, in whichever way, opens the lab too.
     virtual std::vector<FileKind> files() const { return {}; }
 
+    /// If this file can be opened in several ways now: all of them. file.open with `ask` lets the user
+    /// choose.
+    virtual std::vector<FileWay> file_ways(const Workspace&, const std::filesystem::path&) const {
+        return {};
+    }
+
     /// The command that Ctrl+V over the view runs for this text. By default the lab takes no text and gives
     /// no reason.
     virtual TakenText takes_text(const std::string& /*text*/) const { return {}; }

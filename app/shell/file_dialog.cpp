@@ -51,7 +51,9 @@ void FileDialog::open_folder(const fs::path& folder) {
 /// The command closes the dialog if it succeeds: a refused name stays for editing.
 void FileDialog::send(const fs::path& path, Emit& emit) {
     if (filming()) return emit("view.video", video_.arguments(path));
-    emit(saving() ? "scene.save" : "file.open", {{"path", path.string()}});
+    if (saving()) return emit("scene.save", {{"path", path.string()}});
+    if (by_.empty()) return emit("file.open", {{"path", path.string()}, {"ask", true}});
+    emit("file.open", {{"path", path.string()}, {"by", by_}});
 }
 
 void FileDialog::take(Emit& emit) {
@@ -72,7 +74,10 @@ void FileDialog::take(Emit& emit) {
 
 void FileDialog::start(const Workspace& workspace, const Labs& labs) {
     kinds_.clear();
-    for (FileRoute& route : file_routes(labs)) kinds_.push_back(std::move(route.kind));
+    by_ = workspace.ui.browses_for;
+    for (FileRoute& route : file_routes(labs))
+        if (by_.empty() || (route.lab != nullptr && by_.starts_with(route.lab->name() + '.')))
+            kinds_.push_back(std::move(route.kind));
     filter_ = 0;
     std::error_code error;
     open_folder(workspace.path.empty() ? fs::current_path(error)

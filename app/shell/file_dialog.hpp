@@ -46,6 +46,7 @@ class FileDialog {
     std::filesystem::path folder_;
     std::vector<Entry> entries_;
     std::vector<FileKind> kinds_;  ///< kinds that can be opened
+    std::string by_;               ///< UiState::browses_for
     int filter_ = 0;               ///< 0: all kinds; else the index of one, plus 1
     std::array<char, 1024> name_{};
     std::string error_;

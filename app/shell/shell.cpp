@@ -386,6 +386,7 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     show_filming(frame, emit);
     show_recovery(frame, emit);
     show_quit(frame, emit);
+    show_file_question(frame, emit);
     show_toasts(frame);
 }
 

@@ -75,6 +75,8 @@ void show_help(const ShellFrame& frame, Emit& emit);
 void show_settings(const ShellFrame& frame, Emit& emit);
 void show_recovery(const ShellFrame& frame, Emit& emit);
 void show_quit(const ShellFrame& frame, Emit& emit);
+/// How to open a file that has several ways.
+void show_file_question(const ShellFrame& frame, Emit& emit);
 void show_filming(const ShellFrame& frame, Emit& emit);
 void show_toasts(const ShellFrame& frame);
 /// Returns its rectangle, empty if not shown.

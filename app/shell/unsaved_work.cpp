@@ -1,4 +1,4 @@
-// Questions about unsaved work: before quitting, and after a crash.
+// Questions: about unsaved work, before quitting and after a crash; and how to open a file.
 #include <imgui.h>
 
 #include "app/shell/shell.hpp"
@@ -39,6 +39,24 @@ void show_quit(const ShellFrame& frame, Emit& emit) {
         emit("quit", {{"unsaved", "save"}});
     if (row_button("Discard", 3, true, "Quits; the changes are lost")) emit("quit", {{"unsaved", "discard"}});
     if (row_button("Cancel", 3, true, "Esc: goes on working")) emit("view.close");
+    ImGui::End();
+}
+
+void show_file_question(const ShellFrame& frame, Emit& emit) {
+    const auto& [path, ways] = frame.workspace.ui.file_question;
+    if (ways.empty()) return;
+    const float scale = frame.layout.scale;
+    const std::string file = std::filesystem::path(path).filename().string();
+    if (!begin_sheet("Open a file", frame.screen(),
+                     {460.0f * scale, (112.0f + 36.0f * static_cast<float>(ways.size())) * scale}))
+        emit("view.close");
+    text_elided(file, ImGui::GetContentRegionAvail().x);
+    explain(path.c_str());
+    ImGui::Spacing();
+    for (const FileWay& way : ways)
+        if (row_button(way.title.c_str(), 1, true, way.help.c_str()))
+            emit("file.open", {{"path", path}, {"by", way.command}});
+    if (row_button("Cancel", 1, true, "Esc: opens nothing")) emit("view.close");
     ImGui::End();
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "app/document/units.hpp"
+#include "app/widgets/emit.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"
 #include "app/widgets/number_entry.hpp"
@@ -209,8 +210,9 @@ bool shows_cut_text(const char* id, const std::string& text) {
     return true;
 }
 
-bool text_field(const char* name, std::string& value, const char* hint) {
+bool text_field(const char* name, std::string& value, const char* hint, float room) {
     const std::string id = begin_row(name);
+    if (room > 0.0f) ImGui::SetNextItemWidth(-room);
     TextEditing& typed = number_editing().typed;
     const ImGuiID own = ImGui::GetID(id.c_str());
     const int frame = ImGui::GetFrameCount();
@@ -232,6 +234,17 @@ bool text_field(const char* name, std::string& value, const char* hint) {
     const bool left = edited && !ImGui::IsItemActive() && !escape_pressed() && text != typed.before;
     value = text.data();
     return (entered || left) && !value.empty();
+}
+
+bool path_field(const char* name, std::string& value, const char* hint, const char* by, Emit& emit) {
+    constexpr const char* title = "Browse";
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x, padding = ImGui::GetStyle().FramePadding.x;
+    const bool entered = text_field(name, value, hint, ImGui::CalcTextSize(title).x + padding + gap);
+    ImGui::SameLine(0.0f, gap);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.5f * padding, ImGui::GetStyle().FramePadding.y});
+    if (ImGui::Button((std::string(title) + "##" + name).c_str())) emit("scene.open_dialog", {{"by", by}});
+    ImGui::PopStyleVar();
+    return entered;
 }
 
 bool point_field(const char* name, glm::vec3& value, float speed, float most, const char* format) {

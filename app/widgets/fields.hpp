@@ -9,6 +9,8 @@
 
 namespace tendril::app {
 
+class Emit;
+
 /// A scope for ids: rows drawn while it exists may reuse names of rows in other sections.
 class [[nodiscard]] IdScope {
   public:
@@ -43,7 +45,10 @@ bool integer_field(const char* name, int& value, int low, int high);
 bool integer_slider(const char* name, int& value, int low, int high);
 /// A line of text. Typing takes effect on Enter, Tab or a click elsewhere; Escape cancels it. `hint` is shown
 /// while the line is empty. `value` always follows what is typed, for a button beside the field.
-bool text_field(const char* name, std::string& value, const char* hint);
+/// `room`: pixels that stay free on the right.
+bool text_field(const char* name, std::string& value, const char* hint, float room = 0.0f);
+/// A path, with a button that opens the file dialog for the command `by`.
+bool path_field(const char* name, std::string& value, const char* hint, const char* by, Emit& emit);
 /// Call before an ImGui::InputText() of that id and text. Text that is too wide for the next item and is not
 /// being edited is shown here instead, cut in the middle, until it is clicked; a tooltip shows all of it.
 /// Returns true if it is shown, so that there is nothing to edit in this frame.

@@ -83,16 +83,6 @@ TEST_F(HumanoidBalance, MassesAreThePapers) {
     EXPECT_LT(centre.y, 0.60 * 1.8);
 }
 
-TEST_F(HumanoidBalance, AMapWithoutANeededBoneIsRefusedReviewedOrNot) {
-    for (std::size_t i = 0; i < bone_count; ++i) {
-        const auto bone = static_cast<Bone>(i);
-        BoneMap without = map;
-        without[bone].node = -1;
-        EXPECT_EQ(find_masses(skeleton, without).ok(), !is_needed(bone)) << name(bone);
-        EXPECT_EQ(without.is_usable(), !is_needed(bone)) << name(bone);
-    }
-}
-
 TEST_F(HumanoidBalance, BothFeetSupportTheRestPose) {
     const Support support = find_support(soles, placed(rest));
     EXPECT_EQ(support.standing, (std::array{1.0, 1.0}));

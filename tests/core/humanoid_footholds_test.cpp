@@ -85,26 +85,5 @@ TEST_F(Footholds, KneesDoNotPop) {
     EXPECT_LE(pops, 9);  // 43 without footholds
 }
 
-TEST_F(Footholds, AFootTooFastForTheStairsIsReported) {
-    const Ground stairs = *Ground::stairs(0.2, 0.25);
-    double deepest = 0.0, late = 0.0;
-    walk(stairs, true, 1.5, 0.0, [&](int, const FeetReport& report) {
-        for (const FootReport& foot : report.feet) {
-            double depth = 0.0;
-            for (const glm::dvec3& point : {foot.heel, foot.toe}) {
-                const auto hit = stairs.below(point + glm::dvec3(0, 0.5, 0));
-                depth = std::max(depth, hit->height - point.y);
-            }
-            EXPECT_GE(foot.depth, depth - 1e-9);
-            if (foot.depth > deepest) deepest = foot.depth, late = foot.late;
-        }
-    });
-    EXPECT_GT(deepest, 0.05);
-    EXPECT_GT(late, 0.5 * deepest);
-    walk(*Ground::flat(), true, 1.5, 0.0, [&](int, const FeetReport& report) {
-        for (const FootReport& foot : report.feet) EXPECT_LT(foot.depth, 0.001);
-    });
-}
-
 }  // namespace
 }  // namespace tendril::test

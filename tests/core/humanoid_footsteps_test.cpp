@@ -57,16 +57,6 @@ class HumanoidFootsteps : public testing::Test {
     int begun = 0;
 };
 
-TEST_F(HumanoidFootsteps, StepsToCatchTheBody) {
-    const BodyReport report = reach({-0.2, 1.0, 1.6});
-    EXPECT_GE(begun, 1);
-    EXPECT_LE(begun, 2);
-    EXPECT_FALSE(steps.stepping());
-    EXPECT_LT(report.residual, 0.03);  // half a metre without a step
-    EXPECT_GT(margin(), 0.0);
-    EXPECT_GT(std::max(steps.feet[0].to.z, steps.feet[1].to.z), 0.3);
-}
-
 TEST_F(HumanoidFootsteps, ANearTargetNeedsNoStep) {
     reach({-0.2, 1.1, 0.95});
     EXPECT_EQ(begun, 0);
@@ -111,32 +101,6 @@ TEST_F(HumanoidFootsteps, WithoutTargetsTheFeetStepBack) {
     solve({});
     EXPECT_EQ(pose, rest);
     EXPECT_EQ(state, BodyState());
-}
-
-TEST_F(HumanoidFootsteps, ZeroTimeTakesNoStep) {
-    for (int i = 0; i < 100; ++i) solve({{Effector::RightHand, {-0.2, 1.0, 1.6}}}, 0.0);
-    EXPECT_FALSE(steps.away());
-}
-
-TEST_F(HumanoidFootsteps, OnStairsAFootLandsOnAStep) {
-    const Ground stairs = *Ground::stairs(0.12, 0.4);
-    ground = &stairs;
-    // The character starts on level ground, before the first step.
-    const auto hips = static_cast<std::size_t>(map[Bone::Hips].node);
-    rest[hips].translation.z -= 0.3;
-    const glm::dvec3 from{-0.72, 1.45, -0.3}, to{-0.2, 1.2, 1.3};
-    for (int i = 1; i <= 300; ++i)
-        solve({{Effector::RightHand, glm::mix(from, to, std::min(1.0, i / 120.0))}});
-    ASSERT_GE(begun, 1);
-    EXPECT_FALSE(steps.stepping());
-    const std::array<SolePoints, 2> at = sole_points(soles, solved);
-    bool climbed = false;
-    for (const SolePoints& sole : at) {
-        const double step = stairs.highest(sole.toe.x, sole.toe.z)->height;
-        EXPECT_NEAR(sole.toe.y, step, 0.02);
-        climbed = climbed || step > 0.1;
-    }
-    EXPECT_TRUE(climbed);
 }
 
 TEST_F(HumanoidFootsteps, AFootClimbsOneStairAfterAnother) {

@@ -64,10 +64,9 @@ const humanoid::Clip& clip_named(const Character& character, const std::filesyst
     throw refusal_of(file, "has no clip \"" + std::string(name) + "\"; it has " + names);
 }
 
-RetargetedMotion retargeted_clip(const Character& source, const std::filesystem::path& file,
-                                 const humanoid::Clip& clip, const humanoid::Skeleton& skeleton,
-                                 const humanoid::BoneMap& map) {
-    const humanoid::BoneMap source_map = bone_map(source);
+RetargetedMotion retargeted_clip(const Character& source, const humanoid::BoneMap& source_map,
+                                 const std::filesystem::path& file, const humanoid::Clip& clip,
+                                 const humanoid::Skeleton& skeleton, const humanoid::BoneMap& map) {
     auto made = humanoid::retarget({source.skeleton, source_map}, clip, {skeleton, map});
     if (!made) throw refusal_of(file, std::string(made.message()));
     RetargetedMotion motion{.clip = std::move(made->clip), .notes = {what_stays(*made, skeleton)}};

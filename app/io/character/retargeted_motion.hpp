@@ -22,9 +22,9 @@ const humanoid::Clip& clip_named(const Character& character, const std::filesyst
                                  std::string_view name);
 
 /// Throws std::runtime_error that begins with the file's name.
-RetargetedMotion retargeted_clip(const Character& source, const std::filesystem::path& file,
-                                 const humanoid::Clip& clip, const humanoid::Skeleton& skeleton,
-                                 const humanoid::BoneMap& map);
+RetargetedMotion retargeted_clip(const Character& source, const humanoid::BoneMap& source_map,
+                                 const std::filesystem::path& file, const humanoid::Clip& clip,
+                                 const humanoid::Skeleton& skeleton, const humanoid::BoneMap& map);
 
 /// Sentences: how a file without a unit or an up axis was read, and which bones' matches are unsure.
 std::vector<std::string> guesses_of(const Character& character, const humanoid::BoneMap& map);

@@ -35,6 +35,9 @@ glm::dvec3 end_of(const HumanoidPart& part, std::size_t node);
 /// Colour of the centre of mass: a warning outside the feet, unless a foot is stepping to catch it.
 glm::vec3 balance_colour(const HumanoidPart& part, const ShownPose& shown, const Palette& colours);
 
+/// A sphere around the figure as shown, its skin included.
+Bounds figure_bounds(const Workspace& workspace);
+
 // Attachments, joint limits and the past.
 
 /// The colour of attached ropes and cloth.

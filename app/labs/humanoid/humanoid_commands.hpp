@@ -28,6 +28,9 @@ void finish_loading(Workspace& workspace);
 /// Wraps a command so that in a window it keeps the bone map that it corrected.
 Command keeping(Command command);
 
+/// Wraps a command so that the camera follows the character to where a clip begins, as it does in playback.
+Command followed(Command command);
+
 /// "sign_flip"
 std::optional<humanoid::Fault> fault_named(const std::string& name);
 

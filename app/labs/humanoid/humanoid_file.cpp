@@ -1,13 +1,11 @@
 // The Humanoid lab in a scene file: the character's file name and all that the user has set. Loading reads
 // the character's file again.
 #include <optional>
-#include <utility>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
 #include "app/fields/fields.hpp"
 #include "app/fields/input_json.hpp"
-#include "app/io/character/read.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
 #include "app/labs/humanoid/clip/playback.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
@@ -38,6 +36,13 @@ Corrections read_corrections(const JsonPlace& place, const humanoid::Skeleton& s
         corrections[*bone] = static_cast<std::int32_t>(*node);
     }
     return corrections;
+}
+
+Json reading_json(const Reading& reading, const humanoid::Skeleton& skeleton) {
+    return {{"scale", reading.scale},
+            {"space", save_fields(reading.space)},
+            {"bones", corrections_json(reading.bones, skeleton)},
+            {"limits", limits_from.name(reading.limits)}};
 }
 
 /// Settings missing from the file keep their values in `reading`.
@@ -100,13 +105,14 @@ Playback read_playback(const JsonPlace& place, const LoadedCharacter& character)
 Json edits_json(const LoadedCharacter& character) {
     Json list = Json::array();
     for (const ClipEdit& each : character.edits) {
-        Json json{{"scale", each.as.scale},
-                  {"space", save_fields(each.as.space)},
-                  {"bones", corrections_json(each.as.bones, character.skeleton())},
-                  {"limits", limits_from.name(each.as.limits)}};
+        Json json = reading_json(each.as, character.skeleton());
         if (const auto* motion = std::get_if<LoadedMotion>(&each.what)) {
             json.update(save_outside_file(*motion));
             json["clip"] = motion->clip;
+            if (motion->source) {
+                json["source"] = reading_json(motion->source_as, motion->source->skeleton());
+                json["source"]["edits"] = edits_json(*motion->source);
+            }
         } else {
             const ClipCure& cure = std::get<ClipCure>(each.what);
             json["clip"] = cure.clip;
@@ -130,17 +136,27 @@ ClipCure read_cure(const JsonPlace& place) {
     return cure;
 }
 
+void read_edits(const JsonPlace& place, HumanoidPart& part);
+
+/// The part that a motion was retargeted from.
+HumanoidPart read_source(const JsonPlace& place) {
+    HumanoidPart source(read_outside_file(place, [](const std::string& path, const std::string& file) {
+        return load_character(path, nullptr, file);
+    }));
+    const auto as = place.optional("source");
+    if (!as) return source;
+    check_members(*as, {"scale", "space", "bones", "limits", "edits"});
+    take(*as, source, read_reading(*as, reading_of(source), source.skeleton()));
+    read_edits(*as, source);
+    return source;
+}
+
 void read_edit(const JsonPlace& place, HumanoidPart& part) {
     const ClipCure cure = read_cure(place);
-    std::optional<std::pair<Character, OutsideFile>> motion;
-    if (place.has("file"))
-        motion = read_outside_file(place, [](const std::string& path, const std::string& file) {
-            Character source = read_character(path);
-            return std::pair(std::move(source), outside_file(path, file));
-        });
+    std::optional<HumanoidPart> source;
+    if (place.has("file")) source = read_source(place);
     try {
-        part.loaded = motion ? with_motion(part, motion->first, motion->second, cure.clip).loaded
-                             : cured(part, cure).loaded;
+        part.loaded = source ? with_motion(part, *source, cure.clip).loaded : cured(part, cure).loaded;
     } catch (const std::exception& error) {
         place["clip"].fail(error.what());
     }
@@ -156,7 +172,7 @@ void read_edits(const JsonPlace& place, HumanoidPart& part) {
         if (!edits) continue;
         edits->for_each(key, max_edits, [&](const JsonPlace& each) {
             check_members(each, {"file", "path", "crc32", "scale", "space", "bones", "limits", "clip", "kind",
-                                 "node", "frame"});
+                                 "node", "frame", "source"});
             take(each, part, read_reading(each, now, part.skeleton()));
             read_edit(each, part);
         });
@@ -179,7 +195,8 @@ Json HumanoidPart::save() const {
     json["ik"] = ik_json(*this);
     if (!springs.empty()) json["springs"] = springs_json(*this);
     if (!curves.empty()) json["curves"] = curves_json(*this);
-    if (!attachments.list.empty()) json["attachments"] = attachments_json(attachments);
+    if (!attachments.list.empty() || attachments.world->settings() != attachment_settings)
+        json["attachments"] = attachments_json(attachments);
     json["quiet_ticks"] = quiet_ticks;
     if (flips != FlipRule()) json["flips"] = save_fields(flips);
     json["selected"] = save_selection(selection, skeleton());

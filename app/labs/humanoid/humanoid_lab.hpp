@@ -47,6 +47,8 @@ class HumanoidLab final : public Lab {
     std::string hint(const Workspace& workspace, PickId pick) const override;
     Bounds bounds(const Workspace& workspace, bool selection_only) const override;
     std::vector<FileKind> files() const override;
+    std::vector<FileWay> file_ways(const Workspace& workspace,
+                                   const std::filesystem::path& file) const override;
 
     void panel(const Workspace& workspace, Emit& emit) const override;
     void inspector(const Workspace& workspace, Emit& emit) const override;

@@ -80,8 +80,11 @@ std::size_t bytes_of(const LoadedCharacter& loaded) {
                      bytes_of(channel.scale);
     };
     for (const humanoid::Clip& clip : loaded.clips()) add(clip);
-    for (const ClipEdit& edit : loaded.edits)
+    for (const ClipEdit& edit : loaded.edits) {
         if (edit.clip) add(*edit.clip);
+        if (const auto* motion = std::get_if<LoadedMotion>(&edit.what); motion != nullptr && motion->source)
+            bytes += share_of(motion->source, bytes_of(*motion->source));
+    }
     if (loaded.source) bytes += share_of(loaded.source, bytes_of(*loaded.source));
     const auto& mesh = loaded.character.skin.mesh;
     return bytes + (mesh ? share_of(mesh, bytes_of(*mesh)) : 0);

@@ -253,31 +253,76 @@ std::vector<MouseHelp> HumanoidLab::mouse_help() const {
             {"Ctrl+drag on nothing", "draws a box that selects the nodes in it; with Shift it adds them"}};
 }
 
+namespace {
+
+struct Box {
+    glm::vec3 low, high;
+    explicit Box(glm::vec3 at) : low(at), high(at) {}
+    void take(const glm::vec3& at) { low = glm::min(low, at), high = glm::max(high, at); }
+};
+
+/// How large the figure is at rest, metres.
+float size_of(const HumanoidPart& part) {
+    const RestBounds& rest = part.loaded->bounds;
+    return static_cast<float>(std::max(0.01, glm::distance(rest.low, rest.high)));
+}
+
+/// Around its nodes, and as far beyond them as its skin reaches at rest.
+Box figure_box(const HumanoidPart& part, const ShownPose& shown) {
+    const LoadedCharacter& loaded = *part.loaded;
+    Box now(shown.point(0)), rest(glm::vec3(loaded.rest[0].position));
+    for (std::size_t i = 0; i < part.skeleton().size(); ++i) {
+        now.take(shown.point(i));
+        rest.take(glm::vec3(loaded.rest[i].position));
+    }
+    now.low -= glm::max(rest.low - glm::vec3(loaded.bounds.low), 0.0f);
+    now.high += glm::max(glm::vec3(loaded.bounds.high) - rest.high, 0.0f);
+    return now;
+}
+
+}  // namespace
+
+Bounds figure_bounds(const Workspace& workspace) {
+    const HumanoidPart& part = humanoid_part(workspace);
+    const Box box = figure_box(part, shown_pose(workspace));
+    return bounds_of(box.low, box.high, 0.2f * size_of(part));
+}
+
 Bounds HumanoidLab::bounds(const Workspace& workspace, bool selection_only) const {
     const HumanoidPart& part = humanoid_part(workspace);
     const ShownPose& shown = shown_pose(workspace);
-    const float size =
-        static_cast<float>(std::max(0.01, glm::distance(part.loaded->bounds.low, part.loaded->bounds.high)));
     const std::vector<std::size_t>& selected = part.selection.all();
-    const bool all = !selection_only || selected.empty();
-    glm::vec3 low = shown.point(all ? 0 : selected.front()), high = low;
-    const auto take = [&](glm::vec3 at) {
-        low = glm::min(low, at);
-        high = glm::max(high, at);
-    };
-    if (!all) {
-        for (const std::size_t node : selected) take(shown.point(node));
-        return bounds_of(low, high, 0.12f * size);
+    if (selection_only && !selected.empty()) {
+        Box box(shown.point(selected.front()));
+        for (const std::size_t node : selected) box.take(shown.point(node));
+        return bounds_of(box.low, box.high, 0.12f * size_of(part));
     }
-    for (std::size_t i = 0; i < part.skeleton().size(); ++i) take(shown.point(i));
+    Box box = figure_box(part, shown);
     for (const auto& target : part.ik.targets)
-        if (target) take(glm::vec3(target->position));
-    if (part.ik.look_at.on) take(glm::vec3(part.ik.look_at.options.target));
+        if (target) box.take(glm::vec3(target->position));
+    if (part.ik.look_at.on) box.take(glm::vec3(part.ik.look_at.options.target));
     for (std::size_t i = 0; i < part.curves.size(); ++i)
         for (const glm::vec3& each : shown_curve(part, humanoid_runtime(workspace).solvers, shown, i))
-            take(each);
-    if (part.ik.hold) take(glm::vec3(part.ik.hold->asked(shown.hips).position));
-    return bounds_of(low, high, 0.2f * size);
+            box.take(each);
+    if (part.ik.hold) box.take(glm::vec3(part.ik.hold->asked(shown.hips).position));
+    for (const glm::vec3& each : part.attachments.world->positions()) box.take(each);
+    // A view that stays shows where a clip leads, too, unless that would make the figure tiny.
+    const auto hips = part.node_of(humanoid::Bone::Hips);
+    if (hips && part.clip() != nullptr && !part.view.follow) {
+        Playback end = part.playback;
+        end.rounds = 0;
+        const glm::vec3 stands = shown.point(*hips);
+        for (const double time : {0.0, part.clip()->duration}) {
+            end.time = time;
+            std::vector<humanoid::Placement> placed(part.skeleton().size());
+            humanoid::place(part.skeleton(), animated_pose(end, *part.loaded, hips), placed);
+            const glm::vec3 way = glm::vec3(placed[*hips].position) - stands;
+            const float farthest = 3.0f * size_of(part), far = glm::length(way);
+            const glm::vec3 shown_way = way * (far > farthest ? farthest / far : 1.0f);
+            box.take(box.low + shown_way), box.take(box.high + shown_way);
+        }
+    }
+    return bounds_of(box.low, box.high, 0.2f * size_of(part));
 }
 
 }  // namespace tendril::app

@@ -50,7 +50,7 @@ void settings_row(const HumanoidPanel& panel, const std::string& node, const cha
 void spring_rows(const HumanoidPanel& panel);
 /// Curves that a tail or the spine bends along.
 void curve_rows(const HumanoidPanel& panel);
-/// Attachments, and the order of a tick.
+/// Attachments, their wind, and the order of a tick.
 void attachment_rows(const HumanoidPanel& panel);
 /// The ground, and foot IK.
 void ground_rows(const HumanoidPanel& panel);

@@ -292,6 +292,7 @@ Json HumanoidLab::state(const Workspace& workspace) const {
                 {"springs", springs_state(workspace, shown)},
                 {"curves", curves_state(part, humanoid_runtime(workspace).solvers, shown)},
                 {"attachments", attachments_state(part)},
+                {"wind", save_fields({wind_fields(), &part.attachments.world->settings()})},
                 {"order", {"clip", "curves", "IK", "rig", "springs", "ropes"}},
                 {"past", past_state(workspace, humanoid_past())},
                 {"selected", active_name(part.selection, part.skeleton())},

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "app/document/json_complete.hpp"
 #include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
@@ -227,6 +228,99 @@ std::vector<glm::vec3> NamedWorld::positions() const {
 
 rope::Advance NamedWorld::advance(double seconds, rope::Workspace& workspace, std::uint64_t max_substeps) {
     return world_.advance(seconds, workspace, {.max_substeps = max_substeps});
+}
+
+template <>
+std::span<const FieldText> field_texts<rope::Settings>() {
+    static constexpr EnumRow solvers[] = {rope_solvers.row(rope::Solver::Direct),
+                                          rope_solvers.row(rope::Solver::Xpbd),
+                                          rope_solvers.row(rope::Solver::Relaxation)};
+    static constexpr FieldText texts[] = {
+        {.name = "substep",  // the panel has a row of substeps per second
+         .help = "The length of the equal steps that the simulation takes. Shorter ones follow fast motion "
+                 "better and cost more."},
+        {.name = "iterations",
+         .label = "iterations",
+         .help = "The maximum number of passes per substep. Direct stops as soon as it has converged; with "
+                 "the others, more passes stretch a rope less and cost more.",
+         .more = true},
+        {.name = "solver",
+         .label = "solver",
+         .help = "How the lengths of ropes are kept.",
+         .listed = true,
+         .choices = solvers},
+        {.name = "damping",
+         .label = "damping",
+         .help = "How fast motion dies away. Raise it if ropes swing for too long.",
+         .more = true},
+        {.name = "gravity",
+         .label = "gravity",
+         .help = "The acceleration due to gravity, along each axis; Y points up. On Earth it is 0, -9.81, 0.",
+         .step = 0.05f,
+         .more = true},
+        {.name = "gravity_scale", .label = "gravity scale", .help = "Multiplies gravity.", .more = true},
+        {.name = "external",
+         .label = "push",
+         .help = "A steady acceleration of everything that moves, in addition to gravity.",
+         .step = 0.05f,
+         .more = true},
+        {.name = "wind",
+         .label = "wind",
+         .help = "The velocity of the air along each axis. It pushes cloth, ropes and hair, and makes a flag "
+                 "flutter. At 0 there is no air, unless still air resists.",
+         .step = 0.05f,
+         .decimals = 1,
+         .in_line = true},
+        {.name = "gusts",
+         .label = "gusts",
+         .help = "How much the wind varies, relative to its speed. At 0 it is steady.",
+         .more = true},
+        {.name = "still_air",
+         .label = "still air resists",
+         .help = "Whether air resists without wind too: cloth then falls slowly, and swings less and less.",
+         .more = true},
+        {.name = "compliance",
+         .label = "compliance",
+         .help = "How elastic ropes are: the fraction of its length that a rope stretches per newton. 0 does "
+                 "not stretch; relaxation ignores it.",
+         .scale = 100.0,
+         .unit = "%/N",
+         .more = true},
+        {.name = "friction",
+         .label = "friction",
+         .help = "Coulomb's coefficient between ropes and colliders. At 0 ropes slide off; more holds "
+                 "them.",
+         .more = true},
+        {.name = "longest_frame",
+         .label = "longest frame",
+         .help = "The most time that a frame simulates; the rest is dropped, so that a slow frame does not "
+                 "make the next one slower.",
+         .step = 1.0f,
+         .decimals = 0,
+         .scale = 1000.0,
+         .unit = "ms",
+         .more = true}};
+    return texts;
+}
+
+namespace {
+
+/// The three rows from "wind" on.
+template <class Row>
+std::span<const Row> from_wind(std::span<const Row> rows) {
+    const auto wind =
+        std::ranges::find_if(rows, [](const Row& each) { return std::string_view(each.name) == "wind"; });
+    return {wind, wind + 3};
+}
+
+}  // namespace
+
+std::span<const Field> wind_fields() {
+    return from_wind(fields<rope::Settings>());
+}
+
+std::span<const FieldText> wind_texts() {
+    return from_wind(field_texts<rope::Settings>());
 }
 
 }  // namespace tendril::app

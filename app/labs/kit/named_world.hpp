@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/document/names.hpp"
+#include "app/fields/fields.hpp"
 #include "app/labs/kit/arguments.hpp"
 
 namespace tendril::app {
@@ -141,5 +142,11 @@ class NamedWorld {
     std::vector<std::string> bodies_, colliders_, ties_;  ///< by slot
     std::vector<BodyColour> colours_;                     ///< bodies' colours, by slot
 };
+
+template <>
+std::span<const FieldText> field_texts<rope::Settings>();
+/// Its rows "wind", "gusts" and "still_air".
+std::span<const Field> wind_fields();
+std::span<const FieldText> wind_texts();
 
 }  // namespace tendril::app

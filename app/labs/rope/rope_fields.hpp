@@ -47,8 +47,6 @@ namespace tendril::app {
 template <>
 std::span<const FieldText> field_texts<BodySettings>();
 template <>
-std::span<const FieldText> field_texts<rope::Settings>();
-template <>
 std::span<const FieldText> field_texts<rope::TieShape>();
 /// For all kinds of collider.
 template <>

@@ -149,8 +149,6 @@ inline constexpr EnumNames<RopeTool, 4> rope_tools{
 
 }  // namespace tendril::app
 
-template <>
-std::span<const tendril::app::FieldText> tendril::app::field_texts<tendril::rope::Settings>();
 /// For files.
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Swing>() noexcept;

@@ -94,10 +94,7 @@ void add_world_commands(CommandTable& table) {
               });
     table.add(rope_command("rope.settings", "Set how ropes are simulated", settings_arguments(),
                            "Sets how ropes are simulated; omitted settings are kept", settings));
-    std::vector<Argument> wind = field_arguments<rope::Settings>();
-    std::erase_if(wind, [](const Argument& each) {
-        return each.name != "wind" && each.name != "gusts" && each.name != "still_air";
-    });
+    std::vector<Argument> wind = field_arguments(wind_fields(), wind_texts());
     wind.front().name = "velocity", wind.front().required = true;
     table.add(rope_command("rope.wind", "Set the wind", std::move(wind),
                            "Sets the wind that cloth, ropes and hair are in", blow));

@@ -9,6 +9,7 @@
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/places.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {
@@ -127,6 +128,48 @@ TEST_F(FileDialogTest, ShowsTheEndOfALongNameUntilItIsTypedInto) {
     type("_b.json");
     const std::string typed = text();
     EXPECT_NE(typed.find("_b.json"), std::string::npos) << typed;
+}
+
+/// A BVH dropped on a character: the choice is made by a click, and Escape opens nothing.
+TEST_F(FileDialogTest, AsksHowToOpenAMotionOnACharacter) {
+    const std::string motion = source_path("tests/app/golden/faulty_walk.bvh");
+    app_.run({"file.open", Json{{"path", source_path("tests/app/golden/body.glb")}}});
+    const auto character = [&] { return app_.state().at("character").at("file").get<std::string>(); };
+    const std::string before = character();
+    const auto drop = [&] {
+        const Event event = Drop{{motion}};
+        app_.tick(&event);
+        for (int i = 0; i < 4; ++i) app_.tick(nullptr);
+    };
+    drop();
+    EXPECT_TRUE(says(text(), "Open a file faulty_walk.bvh Play it on the figure Open it alone Cancel"));
+    key("escape");
+    EXPECT_EQ(text().find("Play it on the figure"), std::string::npos);
+    EXPECT_TRUE(app_.state().at("clip").is_null() || app_.state().at("clip").at("name") != "motion");
+    drop();
+    click(at("Play it on the figure"));
+    EXPECT_EQ(app_.state().at("clip").at("name"), "motion");
+    EXPECT_EQ(character(), before);
+    drop();
+    click(at("Open it alone"));
+    EXPECT_EQ(character(), motion);
+    EXPECT_EQ(text().find("Play it on the figure"), std::string::npos);
+}
+
+TEST_F(FileDialogTest, BrowsesForTheFileOfARow) {
+    app_.run({"lab.open", Json{{"name", "humanoid"}}});
+    std::filesystem::copy(source_path("tests/app/golden/body.glb"), folder_ / "body.glb");
+    app_.run({"scene.save", Json{{"path", (folder_ / "arm.json").string()}}});
+    click(at("Browse"));
+    click(at("body.glb"));
+    click(at("Open"));
+    EXPECT_EQ(app_.state().at("character").at("file"), (folder_ / "body.glb").string());
+    app_.run({"scene.open_dialog", Json{{"by", "humanoid.motion.load"}}});
+    for (int i = 0; i < 4; ++i) app_.tick(nullptr);
+    type("body.glb");
+    key("enter");
+    app_.tick(nullptr);
+    EXPECT_EQ(app_.state().at("clip").at("name"), "wave_2") << "played, not asked about";
 }
 
 }  // namespace

@@ -111,21 +111,6 @@ TEST_F(LintTest, FindsFeetSlowerThanTheBody) {
     for (const Finding& each : report.findings) EXPECT_EQ(each.fault, Fault::Skating) << each.text;
 }
 
-TEST_F(LintTest, finds_a_sunk_foot) {
-    for (const double depth : {0.03, 0.04}) {
-        Frames frames = walk();
-        for (std::size_t k = 74; k < 92; ++k)
-            frames.move_foot(k, "Left", {0, -depth * std::sin(3.14159 * ramp(k, 74, 91)), 0});
-        const LintReport report = run(frames.clip());
-        ASSERT_FALSE(report.findings.empty()) << depth;
-        EXPECT_EQ(report.findings[0].fault, Fault::Sinking) << texts(report);
-        EXPECT_NEAR(report.findings[0].amount, 1000.0 * depth, 12.0) << texts(report);
-        EXPECT_EQ(report.findings[0].node, node("LeftFoot"));
-        EXPECT_GE(report.findings[0].frame, 74u);
-        EXPECT_LE(report.findings[0].frame, 91u);
-    }
-}
-
 TEST_F(LintTest, FindsLoweredHipsAndFloatingFeet) {
     for (const double by : {-0.06, -0.035, 0.04, 0.06}) {
         Frames frames = walk();

@@ -120,6 +120,12 @@ std::vector<Table> all_tables() {
         // Files leave out the usual rule.
         table_of<FlipRule>(rig_lab, "rig.flips", "/state/flips", Json::object(), {{"degrees", 40}}),
         table_of<FlipRule>(humanoid_lab, "humanoid.flips", "/flips", Json::object(), {{"degrees", 40}}),
+        {.lab = humanoid_lab,
+         .command = "humanoid.wind",
+         .path = "/attachments/world/settings",
+         .fields = wind_fields(),
+         .texts = wind_texts(),
+         .first = {{"gusts", 0.5}}},
         table_of<rope::Settings>(rope_lab, "rope.settings", "/world/settings"),
         {.lab = rope_lab,
          .command = "rope.collider.drive",

@@ -120,6 +120,15 @@ void attach(Workspace& workspace, const Arguments& given) {
     });
 }
 
+void set_wind(HumanoidPart& part, const Arguments& given) {
+    NamedWorld world = *part.attachments.world;
+    rope::Settings wanted = world.settings();
+    set_fields(given, wanted);
+    world.set_settings(wanted);
+    part.attachments.world = std::make_shared<const NamedWorld>(std::move(world));
+    part.quiet_ticks = 0;
+}
+
 }  // namespace
 
 void add_attachment_commands(CommandTable& table) {
@@ -134,6 +143,11 @@ void add_attachment_commands(CommandTable& table) {
                        "character's height",
                .effect = Effect::Edit,
                .apply = attach});
+    table.add(part_command<HumanoidPart>(
+        humanoid_lab, "humanoid.wind", "Set the character's wind",
+        field_arguments(wind_fields(), wind_texts()),
+        "Sets the wind that ropes, hair and cloth on the character are in; anything omitted stays as it is",
+        set_wind));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.detach", "Detach a rope, hair or cloth",
         {offering(text_argument("name", true, "of the attachment"),
@@ -180,8 +194,10 @@ Attachments read_attachments(const JsonPlace& place, const humanoid::Skeleton& s
     const JsonPlace world_place = place["world"];
     try {
         NamedWorld world = load_world(world_place);
+        const rope::Settings& saved = world.settings();
         rope::Settings settings = attachment_settings;
-        settings.substep = world.settings().substep;
+        settings.substep = saved.substep;
+        settings.wind = saved.wind, settings.gusts = saved.gusts, settings.still_air = saved.still_air;
         world.set_settings(settings);
         attachments.world = std::make_shared<const NamedWorld>(std::move(world));
     } catch (const std::logic_error& error) {  // the library's message, with the JSON path

@@ -213,7 +213,7 @@ void push_aside(NamedWorld& world, const std::vector<NamedShape>& colliders, rop
     rope::State still = before;
     std::ranges::fill(still.displacement, dvec3(0.0));
     still.settings.damping = rope::max_rate;
-    still.settings.gravity = glm::vec3(0.0f);
+    still.settings.gravity = still.settings.wind = glm::vec3(0.0f);
     still.settings.substep = longest_substep;
     still.displaced_in = still.remainder = 0.0;
     world.put(std::move(still));
@@ -292,6 +292,8 @@ void advance(Attachments& attachments, const Wearer& wearer, rope::Workspace& wo
 
 bool at_rest(const Attachments& attachments) {
     const rope::World& world = attachments.world->world();
+    if (world.size() > 0 && world.settings().wind != glm::vec3(0.0f) && world.settings().gusts > 0.0f)
+        return false;
     for (std::size_t i = 0; i < world.size(); ++i)
         if (glm::length(world.velocity(i)) > resting_speed) return false;
     return true;

@@ -17,7 +17,7 @@ void advance(Attachments& attachments, const Wearer& wearer, rope::Workspace& wo
 /// it out of the body. No time passes. Does nothing if no node moved.
 void carry(Attachments& attachments, const Wearer& wearer, rope::Workspace& workspace);
 
-/// Whether everything moves negligibly slowly.
+/// Whether everything moves negligibly slowly, and no gusts go on.
 bool at_rest(const Attachments& attachments);
 
 // Attachments of the lab's character, for commands and ticks.

@@ -4,6 +4,7 @@
 #include <imgui.h>
 #include <algorithm>
 
+#include "app/fields/field_rows.hpp"
 #include "app/labs/humanoid/panel.hpp"
 #include "app/labs/kit/panel_rows.hpp"
 #include "app/labs/kit/world_drawing.hpp"
@@ -48,7 +49,7 @@ void holder_field(const HumanoidPanel& panel) {
 }  // namespace
 
 void attachment_rows(const HumanoidPanel& panel) {
-    const FoldingSection open(panel.workspace, "Attachments", panel.emit, false);
+    const FoldingSection open(panel.workspace, "Attachments and wind", panel.emit, false);
     if (!open) return;
     note("Order in each tick: clip, curves, IK, rig, springs, ropes.");
     explain(
@@ -67,6 +68,9 @@ void attachment_rows(const HumanoidPanel& panel) {
     if (row_button("Add", 1, room, room ? "Hangs it on that bone" : "No more can be added"))
         panel.emit("humanoid.attach", {{"bone", kept.attach_to}, {"kind", attachment_kinds.name(kind)}});
     end_row();
+    FieldRows({wind_fields(), &panel.part.attachments.world->settings(), &attachment_settings}, wind_texts(),
+              "humanoid.wind", panel.emit)
+        .all();
 }
 
 glm::vec3 attached_colour(const Palette& palette) {

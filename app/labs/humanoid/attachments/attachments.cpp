@@ -129,6 +129,13 @@ std::string free_name(const Attachments& attachments, AttachmentKind kind) {
 
 }  // namespace
 
+std::shared_ptr<const NamedWorld> empty_world(rope::Settings settings) {
+    settings.substep = attachment_settings.substep;
+    NamedWorld world;
+    world.set_settings(settings);
+    return std::make_shared<const NamedWorld>(std::move(world));
+}
+
 std::vector<glm::dvec3> made_offsets(const Attachment& attachment, const Wearer& wearer) {
     const std::size_t node = *wearer.loaded.skeleton().find(attachment.node);
     const glm::dvec3 rest = wearer.loaded.rest[node].position;
@@ -179,10 +186,6 @@ void add_attachment(Attachments& attachments, const Wearer& wearer, Attachment w
     wanted.frame = wearer.frame(node);
     const auto move = [&](const glm::dvec3& at) { return wanted.frame.apply(at - rest); };
     auto world = std::make_shared<NamedWorld>(*attachments.world);
-    if (attachments.list.empty()) {
-        *world = NamedWorld();
-        world->set_settings(attachment_settings);
-    }
     append(*world, wanted.name, made.world.state(), move);
     const std::size_t first = world->find(wanted.name)->first;
     wanted.pins.clear();
@@ -201,11 +204,11 @@ void remove_attachment(Attachments& attachments, const std::string& name) {
     world->change(name, &rope::World::remove);
     attachments.world = std::move(world);
     std::erase_if(attachments.list, [&](const Attachment& each) { return each.name == name; });
-    if (attachments.list.empty()) attachments.world = std::make_shared<const NamedWorld>();
+    if (attachments.list.empty()) attachments.world = empty_world(attachments.world->settings());
 }
 
 Attachments remade(const Attachments& attachments, const Wearer& wearer, double scale) {
-    Attachments all;
+    Attachments all{{}, empty_world(attachments.world->settings())};
     for (Attachment each : attachments.list) {
         scale_lengths(each.shape, scale);
         each.shape.offset *= scale;

@@ -69,9 +69,12 @@ struct Attachment {
     bool operator==(const Attachment&) const = default;
 };
 
+/// A world without bodies. Its wind stays as in `settings`.
+std::shared_ptr<const NamedWorld> empty_world(rope::Settings settings = attachment_settings);
+
 struct Attachments {
     std::vector<Attachment> list;
-    std::shared_ptr<const NamedWorld> world = std::make_shared<const NamedWorld>();  ///< never null
+    std::shared_ptr<const NamedWorld> world = empty_world();  ///< never null; its settings have the wind
 
     const Attachment* find(const std::string& name) const;
     bool operator==(const Attachments& other) const;

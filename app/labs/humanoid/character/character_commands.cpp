@@ -6,11 +6,15 @@
 #include <stdexcept>
 
 #include "app/document/atomic_file.hpp"
+#include "app/document/text.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/map_file.hpp"
+#include "app/io/character/read.hpp"
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
 #include "app/labs/humanoid/clip/clip_lint.hpp"
+#include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
+#include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/kit/arguments.hpp"
@@ -162,30 +166,31 @@ void add_kept_map_commands(CommandTable& table) {
 
 namespace {
 
-/// Frames the whole character, in the lab's current view or the one that it will open with.
-void show_all(Workspace& workspace, const LoadedCharacter& character) {
+/// Frames the whole figure as it stands now, in the lab's current view or the one that it will open with.
+void show_all(Workspace& workspace) {
     CameraPose& camera = workspace.lab == humanoid_lab ? workspace.camera : workspace.cameras[humanoid_lab];
     camera = workspace.first_view_of(humanoid_lab);
-    if (character.file.empty()) return;
-    const glm::vec3 centre(0.5 * (character.bounds.low + character.bounds.high));
-    const auto radius = static_cast<float>(0.5 * glm::distance(character.bounds.low, character.bounds.high));
-    camera = framed(camera, {{0.0f, 0.0f}, workspace.ui.view_size}, centre, std::max(radius, 0.01f));
+    if (humanoid_part(workspace).loaded->file.empty()) return;
+    const Bounds all = figure_bounds(workspace);
+    camera = framed(camera, {{0.0f, 0.0f}, workspace.ui.view_size}, all.centre, all.radius);
 }
 
 /// What loading another character would discard, for the user: "2 fixes, 1 loaded motion"; empty if the user
-/// made nothing.
-std::string discarded_text(const HumanoidPart& part) {
+/// made nothing. `keeps_clip`: the chosen clip goes along, with its fixes and the bones that it was read by.
+std::string discarded_text(const HumanoidPart& part, bool keeps_clip) {
     std::string text;
     const auto add = [&](std::size_t count, const char* one, const char* many) {
         if (count == 0) return;
         text += (text.empty() ? "" : ", ") + std::to_string(count) + ' ' + (count == 1 ? one : many);
     };
-    const std::vector<ClipEdit>& edits = part.loaded->edits;
+    std::vector<ClipEdit> edits = part.loaded->edits;
+    if (keeps_clip)
+        std::erase_if(edits, [&](const ClipEdit& each) { return each.clip->name == part.clip()->name; });
     const auto motions = static_cast<std::size_t>(std::ranges::count_if(
         edits, [](const ClipEdit& each) { return std::holds_alternative<LoadedMotion>(each.what); }));
     add(edits.size() - motions, "fix of a clip", "fixes of clips");
     add(motions, "loaded motion", "loaded motions");
-    add(corrections_of(*part.map, *part.loaded).size(), "corrected bone", "corrected bones");
+    if (!keeps_clip) add(corrections_of(*part.map, *part.loaded).size(), "corrected bone", "corrected bones");
     add(static_cast<std::size_t>(
             std::ranges::count_if(part.ik.targets, [](const auto& each) { return each.has_value(); })),
         "target", "targets");
@@ -199,23 +204,35 @@ std::string discarded_text(const HumanoidPart& part) {
     return text;
 }
 
-void show(Workspace& workspace, SharedCharacter character) {
-    if (const std::string text = discarded_text(humanoid_part(workspace)); !text.empty())
-        workspace.toast("Discarded with the last character: " + text + ". Undo brings it back.");
+/// `plays`: on it plays the clip of the character before it.
+void show(Workspace& workspace, SharedCharacter character, bool plays) {
+    const HumanoidPart& before = humanoid_part(workspace);
     HumanoidPart part(std::move(character));
     // A file with one clip is that clip.
     if (part.loaded->clips().size() == 1) part.playback = {.clip = 0, .playing = true};
+    std::string text;
+    if (plays) {
+        if (before.clip() == nullptr) throw std::invalid_argument("no clip is chosen");
+        PlayedMotion played = with_motion(part, before, before.clip()->name);
+        part.loaded = std::move(played.loaded);
+        play_last_clip(part);
+        text = played.text;
+    }
+    if (const std::string lost = discarded_text(before, plays); !lost.empty())
+        text +=
+            (plays ? " " : "") + ("Discarded with the last character: " + lost) + ". Undo brings it back.";
+    if (!text.empty()) workspace.toast(text);
     take_springs(part);
-    const HumanoidPart& before = humanoid_part(workspace);
     part.view = before.view;
+    part.attachments.world = empty_world(before.attachments.world->settings());
     part.selection = selection_in(part.skeleton(), before.selection, before.skeleton());
     workspace.document.edit<HumanoidPart>(humanoid_lab) = part;
-    show_all(workspace, *part.loaded);
+    show_all(workspace);
     if (const std::string& why = humanoid_runtime(workspace).kept_maps.refused(workspace); !why.empty())
         workspace.toast(why, ToastKind::Refusal);
 }
 
-void load(Workspace& workspace, const Arguments& given) {
+void load(Workspace& workspace, const Arguments& given, bool plays) {
     const std::string file = given.has("path") ? given.text("path") : std::string();
     if (given.has("path") && file.empty()) throw std::invalid_argument("path is empty");
     Loading& loading = humanoid_runtime(workspace).loading;
@@ -223,14 +240,25 @@ void load(Workspace& workspace, const Arguments& given) {
         return loading.begin({.command = "humanoid.load",
                               .what = "Loading " + std::filesystem::path(file).filename().string(),
                               .from = workspace.lab,
-                              .run = [file](LoadProgress& progress) -> Loading::Change {
-                                  return [character = load_character(file, &progress)](Workspace& now) {
-                                      show(now, character);
-                                  };
+                              .run = [file, plays](LoadProgress& progress) -> Loading::Change {
+                                  return [character = load_character(file, &progress),
+                                          plays](Workspace& now) { show(now, character, plays); };
                               }});
     SharedCharacter character = load_character(file);
     loading.cancel();
-    show(workspace, std::move(character));
+    show(workspace, std::move(character), plays);
+}
+
+/// Whether a file has a motion and nothing to see: a BVH, a VRM animation, or a glTF or FBX without a mesh.
+bool is_bare_motion(const std::filesystem::path& file) {
+    const std::string ending = lower_case(file.extension().string());
+    if (ending == ".bvh" || ending == ".vrma") return true;
+    try {
+        const std::string bytes = character_bytes(file);
+        return bytes.find(ending == ".fbx" ? "Geometry" : "\"meshes\"") == bytes.npos;
+    } catch (const std::exception&) {
+        return false;  // opening it says why
+    }
 }
 
 void map(HumanoidPart& part, const Arguments& given) {
@@ -280,7 +308,7 @@ void read_again(Workspace& workspace, double metres, const FileSpace& space) {
     part.ik_state.hold = {};
     scale_places(part, metres / was);
     remake_attachments(workspace, metres / was);
-    show_all(workspace, *loaded);
+    show_all(workspace);
 }
 
 void rescale(Workspace& workspace, const Arguments& given) {
@@ -324,6 +352,25 @@ void set_t_pose(HumanoidPart& part, const Arguments& given) {
 }
 
 }  // namespace
+
+std::vector<FileWay> HumanoidLab::file_ways(const Workspace& workspace,
+                                            const std::filesystem::path& file) const {
+    const HumanoidPart& part = humanoid_part(workspace);
+    const LoadedCharacter& loaded = *part.loaded;
+    if (loaded.file.empty() || !part.map->is_usable() || !ends_as_character(file)) return {};
+    const std::string before = std::filesystem::path(loaded.file).filename().string();
+    const bool shows_motion = !loaded.character.skin.mesh && part.clip() != nullptr;
+    const FileWay alone{"Open it alone", "Replaces " + before, "humanoid.load"};
+    if (is_bare_motion(file) != shows_motion) {
+        if (!shows_motion)
+            return {{"Play it on the figure", "A clip for " + before + ", by the bone maps",
+                     "humanoid.motion.load"},
+                    alone};
+        return {{"Play " + part.clip()->name + " on it", "With the fixes made on it", "humanoid.motion.take"},
+                alone};
+    }
+    return {};
+}
 
 void finish_loading(Workspace& workspace) {
     Loading& loading = humanoid_runtime(workspace).loading;
@@ -392,8 +439,15 @@ void add_character_commands(CommandTable& table) {
              "Loads a character: in its rest pose, or playing if it has just one clip; selected nodes that "
              "it also has stay selected",
          .effect = Effect::Edit,
-         .apply = load,
+         .apply = [](Workspace& workspace, const Arguments& given) { load(workspace, given, false); },
          .finish = finish_loading});
+    table.add({.name = "humanoid.motion.take",
+               .title = "Load a character for this motion",
+               .arguments = {text_argument("path", true, "a .gltf, .glb, .vrm, .fbx or .bvh file")},
+               .help = "Loads a character, and plays the chosen clip on it, with the fixes made on that clip",
+               .effect = Effect::Edit,
+               .apply = [](Workspace& workspace, const Arguments& given) { load(workspace, given, true); },
+               .finish = finish_loading});
     table.add("humanoid.load.cancel", "Stop loading or fixing", {},
               "Stops loading a large file or fixing a long clip; the current character stays", Effect::Look,
               [](Workspace& workspace, const Arguments&) { humanoid_runtime(workspace).loading.cancel(); });
@@ -498,6 +552,9 @@ void cure_clip(Workspace& workspace, const Arguments& given) {
     cure.node = given_text(given, "node");
     if (!cure.node.empty()) node_named(part, cure.node);
     if (given.has("frame")) cure.frame = static_cast<std::size_t>(given.integer("frame"));
+    HumanoidRuntime& runtime = humanoid_runtime(workspace);
+    if (part.view.judged == JudgedClip::Result && part.clip() != nullptr && part.clip()->name == cure.clip)
+        require_cure_in_clip(part, cure, *runtime.lint.judge(part, runtime.solvers));
     const auto put = [](Workspace& now, CuredClip result) {
         HumanoidPart& changed = now.document.edit<HumanoidPart>(humanoid_lab);
         changed.loaded = std::move(result.loaded);
@@ -505,17 +562,17 @@ void cure_clip(Workspace& workspace, const Arguments& given) {
         now.toast(result.text);
     };
     if (!workspace.clock.measured || judged_soon(part)) return put(workspace, cured(part, cure));
-    humanoid_runtime(workspace).loading.begin(
-        {.command = "humanoid.cure",
-         .what = "Fixing " + cure.clip,
-         .from = workspace.lab,
-         .run = [was = part, cure, put](LoadProgress& progress) -> Loading::Change {
-             return [loaded = was.loaded, result = cured(was, cure, &progress), put](Workspace& now) {
-                 if (humanoid_part(now).loaded != loaded)
-                     throw Refused("humanoid.cure: the character has changed");
-                 put(now, result);
-             };
-         }});
+    runtime.loading.begin({.command = "humanoid.cure",
+                           .what = "Fixing " + cure.clip,
+                           .from = workspace.lab,
+                           .run = [was = part, cure, put](LoadProgress& progress) -> Loading::Change {
+                               return [loaded = was.loaded, result = cured(was, cure, &progress),
+                                       put](Workspace& now) {
+                                   if (humanoid_part(now).loaded != loaded)
+                                       throw Refused("humanoid.cure: the character has changed");
+                                   put(now, result);
+                               };
+                           }});
 }
 
 }  // namespace

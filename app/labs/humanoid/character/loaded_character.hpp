@@ -31,12 +31,8 @@ struct ClipCure {
     bool operator==(const ClipCure&) const = default;
 };
 
-/// A clip retargeted from another file.
-struct LoadedMotion : OutsideFile {
-    std::string clip;                  ///< its name there
-    std::vector<std::string> notes{};  ///< RetargetedMotion::notes
-    bool operator==(const LoadedMotion&) const = default;
-};
+struct LoadedCharacter;
+using SharedCharacter = std::shared_ptr<const LoadedCharacter>;
 
 /// The bones that the user has mapped to other nodes than the file's names suggest; -1: to none.
 using Corrections = std::map<humanoid::Bone, std::int32_t>;
@@ -47,6 +43,17 @@ struct Reading {
     FileSpace space{};
     Corrections bones{};
     LimitsFrom limits = LimitsFrom::Defaults;
+    bool operator==(const Reading&) const = default;
+};
+
+/// A clip retargeted from another file.
+struct LoadedMotion : OutsideFile {
+    std::string clip;                  ///< its name there
+    std::vector<std::string> notes{};  ///< RetargetedMotion::notes
+    /// The clip's character, with the fixes made on it; null: as its file is read.
+    SharedCharacter source{};
+    Reading source_as{};
+    bool operator==(const LoadedMotion&) const = default;
 };
 
 /// A clip that was added or changed. A scene file has `what` and `as`, and its clip is made again from them.
@@ -71,7 +78,6 @@ struct LoadedCharacter : OutsideFile {
         return app::doubted_unit(height(), character.scale, map);
     }
 };
-using SharedCharacter = std::shared_ptr<const LoadedCharacter>;
 
 /// An empty path gives the stick figure. `file`: the user's name for the file, if it differs. Throws
 /// std::runtime_error that begins with the file name.

@@ -42,13 +42,29 @@ LintReport lint_of(const HumanoidPart& part, const Clip& clip, const humanoid::G
                 {.rate = rate, .limits = limits ? &*limits : nullptr, .ground = ground});
 }
 
-/// Lints the clip as shown. Its findings have no cure: a cure would change the clip as read.
+/// Lints the clip as shown. A cure changes the clip as read, so that only what is wrong there too has one.
 LintReport lint_of_result(const HumanoidPart& part, Solvers& solvers) {
     const double rate = humanoid::frame_rate(*part.clip());
+    const LintReport before = lint_of(part, *part.clip());
     LintReport report = lint_of(part, clip_as_shown(part, solvers, *part.playback.clip, rate),
                                 ground_of_feet(part, solvers), rate);
-    for (Finding& each : report.findings) each.has_cure = false;
+    const std::vector<Finding> made = new_findings(before, report);
+    for (Finding& each : report.findings)
+        if (std::ranges::find(made, each.text, &Finding::text) != made.end()) each.has_cure = false;
     return report;
+}
+
+/// Why a finding has no cure, or if it has one, why that was refused.
+std::string why_no_fix(const HumanoidPart& part, const Finding& finding, JudgedClip judged) {
+    using enum humanoid::Fault;
+    if (finding.has_cure) return "its fix would make a new fault";
+    if (judged == JudgedClip::Result)
+        return finding.unit == std::string_view("mm") && part.ik.foot_ik.on
+                   ? "not in the clip: foot IK makes it on this ground; gentler ground or a slower clip helps"
+                   : "not in the clip: IK, curves or springs make it";
+    return finding.fault == Limit   ? "the pose may be meant; wider limits accept it"
+           : finding.fault == Scale ? "the skeleton is that size; the file's unit corrects it"
+                                    : "no change of a few keys mends it";
 }
 
 bool is_meant(const Finding& finding, const ClipCure& cure, const humanoid::Skeleton& skeleton) {
@@ -144,19 +160,29 @@ std::string faults_text(std::size_t count) {
 }
 
 /// `left`: all that are left. Those that were to be fixed are named, with the reason.
-std::string cured_text(const std::string& clip, std::size_t done, std::size_t left,
-                       const std::vector<Finding>& meant) {
-    constexpr std::size_t most = 3;
+std::string cured_text(const HumanoidPart& part, JudgedClip judged, const std::string& clip, std::size_t done,
+                       std::size_t left, const std::vector<Finding>& meant) {
+    const std::size_t told = std::min<std::size_t>(meant.size(), 3);
     std::string text = clip + ": " + faults_text(done) + " fixed, " +
                        (left == 0 ? std::string("none") : std::to_string(left)) + " left";
-    for (std::size_t i = 0; i < std::min(meant.size(), most); ++i)
-        text += (i == 0 ? ": " : "; ") + meant[i].text +
-                (meant[i].has_cure ? ", whose fix would make a new fault" : ", for which there is no fix");
-    if (meant.size() > most) text += "; and " + std::to_string(meant.size() - most) + " more";
+    for (std::size_t i = 0; i < told; ++i) {
+        const std::string why = why_no_fix(part, meant[i], judged);
+        text += (i == 0 ? ": " : "; ") + meant[i].text;
+        if (i + 1 == told || why_no_fix(part, meant[i + 1], judged) != why) text += ": no fix, " + why;
+    }
+    if (meant.size() > told) text += "; and " + std::to_string(meant.size() - told) + " more";
     return text;
 }
 
 }  // namespace
+
+void require_cure_in_clip(const HumanoidPart& part, const ClipCure& cure, const LintReport& result) {
+    std::vector<Finding> meant = result.findings;
+    std::erase_if(meant, [&](const Finding& each) { return !is_meant(each, cure, part.skeleton()); });
+    if (!meant.empty() && std::ranges::none_of(meant, &Finding::has_cure))
+        throw std::invalid_argument(
+            cured_text(part, JudgedClip::Result, cure.clip, 0, result.findings.size(), meant));
+}
 
 CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* progress) {
     const std::vector<Clip>& clips = part.loaded->clips();
@@ -196,13 +222,11 @@ CuredClip cured(const HumanoidPart& part, const ClipCure& cure, LoadProgress* pr
     const std::size_t now = left.size();
     std::erase_if(left, [&](const Finding& each) { return !is_meant(each, cure, part.skeleton()); });
     if (clip == *place) {
-        const auto fixable = std::ranges::find_if(left, &Finding::has_cure);
-        if (fixable == left.end())
-            throw std::invalid_argument("clip " + cure.clip + " has no such fault that can be fixed");
-        throw std::invalid_argument(fixable->text + " cannot be fixed without a new fault");
+        if (left.empty()) throw std::invalid_argument("clip " + cure.clip + " has no such fault");
+        throw std::invalid_argument(cured_text(part, JudgedClip::Clip, cure.clip, 0, now, left));
     }
     return {edited(part.loaded, {cure, reading_of(part), std::make_shared<const Clip>(std::move(clip))}),
-            cured_text(cure.clip, before - now, now, left)};
+            cured_text(part, JudgedClip::Clip, cure.clip, before - now, now, left)};
 }
 
 // The panel's rows: the findings of the lint with their cures, and where maps and clips are saved.
@@ -249,14 +273,17 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
     const float em = ImGui::GetFontSize(), line = ImGui::GetTextLineHeight();
     const ImVec2 at = ImGui::GetCursorPos();
     const float width = ImGui::GetContentRegionAvail().x;
-    const float mend =
-        finding.has_cure ? ImGui::CalcTextSize("Fix").x + 2.0f * ImGui::GetStyle().FramePadding.x : 0.0f;
+    const float mend = finding.has_cure
+                           ? ImGui::CalcTextSize("Fix").x + 2.0f * ImGui::GetStyle().FramePadding.x
+                           : ImGui::CalcTextSize("no fix").x;
     std::string where = "frame " + std::to_string(finding.frame);
     if (finding.node >= 0) where += ", " + panel.part.called(static_cast<std::size_t>(finding.node));
     ImGui::PushID(id);
     if (ImGui::Selectable("##finding", false, ImGuiSelectableFlags_AllowItemOverlap, {width, 2.2f * line}))
         go_to_finding(panel, finding);
-    explain((where + ": " + finding.text).c_str());
+    const std::string why =
+        finding.has_cure ? "" : ". No fix: " + why_no_fix(panel.part, finding, panel.part.view.judged) + '.';
+    explain((where + ": " + finding.text + why).c_str());
     const ImVec2 after = ImGui::GetCursorPos();
     const std::string value = amount(finding);
     ImGui::SetCursorPos(at);
@@ -266,7 +293,10 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
     ImGui::TextUnformatted(value.c_str());
     ImGui::SetCursorPos({at.x, at.y + 1.1f * line});
     ImGui::TextDisabled("%s", elided(where, width - mend - 0.4f * em).c_str());
-    if (finding.has_cure) {
+    if (!finding.has_cure) {
+        ImGui::SetCursorPos({at.x + width - ImGui::CalcTextSize("no fix").x, at.y + 1.1f * line});
+        ImGui::TextDisabled("no fix");
+    } else {
         ImGui::SetCursorPos({at.x + width - mend, at.y + 1.1f * line});
         if (ImGui::SmallButton("Fix")) cure(panel, finding);
         explain("Changes the keys around it and leaves the rest of the motion alone.");
@@ -300,8 +330,7 @@ static void findings_rows(const HumanoidPanel& panel) {
     if (findings.empty()) return note("No faults found.");
     note(std::to_string(findings.size()) + (findings.size() == 1 ? " finding" : " findings") + ", at " +
          fixed_text(report->rate, report->rate == std::floor(report->rate) ? 0 : 2) + " frames a second");
-    const bool any = std::ranges::any_of(findings, &Finding::has_cure);
-    if (row_button("Fix all", 1, any, "Fixes all that can be fixed, as one step to undo"))
+    if (row_button("Fix all", 1, true, "Fixes all that can be fixed, as one step to undo; says why not"))
         panel.emit("humanoid.cure", {});
     end_row();
     progress_row(panel, "humanoid.cure");
@@ -345,7 +374,7 @@ void export_rows(const HumanoidPanel& panel) {
 
 void map_rows(const HumanoidPanel& panel) {
     auto& state = panel.runtime.panel;
-    text_field("map file", state.map_file, "bones.json");
+    path_field("map file", state.map_file, "bones.json", "humanoid.map.load", panel.emit);
     explain("A bone map file to save to or load from. It suits every character with the same node names.");
     if (row_button("Save map", 2, !state.map_file.empty(), "To the file; asks before it replaces one"))
         panel.emit("humanoid.map.save", {{"path", state.map_file}});

@@ -41,6 +41,10 @@ class ClipLint {
     std::optional<humanoid::LintReport> report_;
 };
 
+/// Throws std::invalid_argument, with the reasons, if IK makes everything in the report on the result that
+/// matches `cure`: then there is nothing to cure in the clip.
+void require_cure_in_clip(const HumanoidPart& part, const ClipCure& cure, const humanoid::LintReport& result);
+
 struct CuredClip {
     SharedCharacter loaded;
     std::string text;  ///< for the user: how many faults are fixed, and which are left and why

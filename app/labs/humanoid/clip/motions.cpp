@@ -28,21 +28,50 @@ std::string free_name(const LoadedCharacter& character, const std::string& wante
     return name;
 }
 
+/// How often a motion was taken along to another character, at most. A scene file nests them.
+int times_taken(const LoadedCharacter& character) {
+    int most = 0;
+    for (const ClipEdit& each : character.edits)
+        if (const auto* motion = std::get_if<LoadedMotion>(&each.what); motion != nullptr && motion->source)
+            most = std::max(most, 1 + times_taken(*motion->source));
+    return most;
+}
+constexpr int max_times_taken = 12;
+
 }  // namespace
 
-PlayedMotion with_motion(const HumanoidPart& part, const Character& source, const OutsideFile& file,
-                         const std::string& clip) {
-    const std::filesystem::path path(file.path);
-    const Clip& wanted = clip_named(source, path, clip);
-    RetargetedMotion motion = retargeted_clip(source, path, wanted, part.skeleton(), *part.map);
+PlayedMotion with_motion(const HumanoidPart& part, const HumanoidPart& source, const std::string& clip) {
+    const LoadedCharacter& from = *source.loaded;
+    if (times_taken(from) >= max_times_taken)
+        throw std::runtime_error("the clip was taken to " + std::to_string(max_times_taken) +
+                                 " characters already, the maximum: export it, and load that file");
+    const std::filesystem::path path(from.path);
+    const Clip& wanted = clip_named(from.character, path, clip);
+    RetargetedMotion motion =
+        retargeted_clip(from.character, *source.map, path, wanted, part.skeleton(), *part.map);
     motion.clip.name = free_name(*part.loaded, wanted.name);
+    const bool fixed = std::ranges::any_of(from.edits, [&](const ClipEdit& each) {
+        const auto* const cure = std::get_if<ClipCure>(&each.what);
+        return cure != nullptr && cure->clip == wanted.name;
+    });
     PlayedMotion played;
-    played.text =
-        "Clip " + motion.clip.name + " from " + path.filename().string() + ". " + motion.notes.front();
-    played.loaded =
-        edited(part.loaded, {LoadedMotion{file, wanted.name, std::move(motion.notes)}, reading_of(part),
-                             std::make_shared<const Clip>(std::move(motion.clip))});
+    played.text = "Clip " + motion.clip.name + " from " + path.filename().string() +
+                  (fixed ? ", with its fixes. " : ". ") + motion.notes.front();
+    LoadedMotion made{from, wanted.name, std::move(motion.notes)};
+    if (from.source || !corrections_of(*source.map, from).empty())
+        made.source = source.loaded, made.source_as = reading_of(source);
+    played.loaded = edited(part.loaded, {std::move(made), reading_of(part),
+                                         std::make_shared<const Clip>(std::move(motion.clip))});
     return played;
+}
+
+void play_last_clip(HumanoidPart& part) {
+    part.playback.clip = part.loaded->clips().size() - 1;
+    part.playback.time = 0.0;
+    part.playback.rounds = 0;
+    part.playback.playing = true;
+    measure_pace(part);
+    part.quiet_ticks = 0;
 }
 
 const LoadedMotion* motion_of(const LoadedCharacter& character, std::size_t clip) {
@@ -58,18 +87,12 @@ const LoadedMotion* motion_of(const LoadedCharacter& character, std::size_t clip
 namespace {
 
 void load_motion(Workspace& workspace, const Arguments& given) {
-    const std::string path = given.text("path");
-    const Character source = read_character(path);
-    PlayedMotion played = with_motion(humanoid_part(workspace), source, outside_file(path),
-                                      given.has("clip") ? given.text("clip") : std::string());
+    PlayedMotion played =
+        with_motion(humanoid_part(workspace), HumanoidPart(load_character(given.text("path"))),
+                    given.has("clip") ? given.text("clip") : std::string());
     HumanoidPart& part = workspace.document.edit<HumanoidPart>(humanoid_lab);
     part.loaded = std::move(played.loaded);
-    part.playback.clip = part.loaded->clips().size() - 1;
-    part.playback.time = 0.0;
-    part.playback.rounds = 0;
-    part.playback.playing = true;
-    measure_pace(part);
-    part.quiet_ticks = 0;
+    play_last_clip(part);
     workspace.toast(played.text);
 }
 
@@ -82,7 +105,9 @@ void motion_rows(const HumanoidPanel& panel, MoreRows& more) {
         explain(
             "A file with a motion of another character: .vrma, .vrm, .gltf, .glb, .fbx or .bvh. Its first "
             "clip is carried over by the two bone maps, with the feet on the ground where the other's are.");
-        if (row_button("Load motion", 1, !path.empty(), "Adds it to this character's clips and plays it"))
+        if (row_button("Browse", 2, true, "Chooses a motion, and plays it on this character"))
+            panel.emit("scene.open_dialog", {{"by", "humanoid.motion.load"}});
+        if (row_button("Load motion", 2, !path.empty(), "Adds it to this character's clips and plays it"))
             panel.emit("humanoid.motion.load", {{"path", path}});
         end_row();
     });
@@ -94,13 +119,17 @@ void motion_rows(const HumanoidPanel& panel, MoreRows& more) {
 }
 
 void add_motion_commands(CommandTable& table) {
-    table.add("humanoid.motion.load", "Load another character's motion",
-              {text_argument("path", true, "a .vrma, .vrm, .gltf, .glb, .fbx or .bvh file with a clip"),
-               text_argument("clip", false, "which one, by name; default: the first")},
-              "Plays a clip of another character on this one, by the two bone maps: limbs, hands and fingers "
-              "point in the same directions, feet stand where the other's do, and the hips move in "
-              "proportion to the legs",
-              Effect::Edit, load_motion);
+    table.add(followed(
+        {.name = "humanoid.motion.load",
+         .title = "Load another character's motion",
+         .arguments = {text_argument("path", true,
+                                     "a .vrma, .vrm, .gltf, .glb, .fbx or .bvh file with a clip"),
+                       text_argument("clip", false, "which one, by name; default: the first")},
+         .help = "Plays a clip of another character on this one, by the two bone maps: limbs, hands and "
+                 "fingers point in the same directions, feet stand where the other's do, and the hips move "
+                 "in proportion to the legs",
+         .effect = Effect::Edit,
+         .apply = load_motion}));
 }
 
 }  // namespace tendril::app

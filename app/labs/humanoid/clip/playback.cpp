@@ -403,6 +403,20 @@ void set_clip(HumanoidPart& part, const Arguments& given) {
 
 }  // namespace
 
+Command followed(Command command) {
+    command.apply = [apply = command.apply](Workspace& workspace, const Arguments& given) {
+        const glm::vec3 before = hips_at(workspace);
+        apply(workspace, given);
+        if (workspace.lab != humanoid_lab || !humanoid_part(workspace).view.follow) return;
+        glm::vec3 way = hips_at(workspace) - before;
+        // Ignores small changes of height, so that a figure that crouches stays put in the view. Large ones
+        // count: the hips of captured figures rest at the origin.
+        if (std::abs(way.y) < 0.3f) way.y = 0.0f;
+        workspace.camera.target += way;
+    };
+    return command;
+}
+
 void add_clip_commands(CommandTable& table) {
     std::vector<Argument> arguments{
         clip_argument("name", "which clip; empty: the rest pose"),
@@ -414,18 +428,7 @@ void add_clip_commands(CommandTable& table) {
     Command clip = part_command<HumanoidPart>(
         humanoid_lab, "humanoid.clip", "Choose and play a clip", std::move(arguments),
         "Chooses a clip, its time and how it plays; anything omitted stays as it is", set_clip);
-    // Clips may begin anywhere, so the camera follows the character, as it does during playback.
-    clip.apply = [set = clip.apply](Workspace& workspace, const Arguments& given) {
-        const glm::vec3 before = hips_at(workspace);
-        set(workspace, given);
-        if (workspace.lab != humanoid_lab || !humanoid_part(workspace).view.follow) return;
-        glm::vec3 way = hips_at(workspace) - before;
-        // Ignores small changes of height, so that a figure that crouches stays put in the view. Large ones
-        // count: the hips of captured figures rest at the origin.
-        if (std::abs(way.y) < 0.3f) way.y = 0.0f;
-        workspace.camera.target += way;
-    };
-    table.add(std::move(clip));
+    table.add(followed(std::move(clip)));
     table.add(part_command<HumanoidPart>(
         humanoid_lab, "humanoid.play", "Play or pause the clip",
         {{.name = "on", .type = ArgumentType::Boolean, .help = "false: pauses"}},

@@ -73,10 +73,11 @@ struct PlayedMotion {
     std::string text;        ///< for the user: the clip's name, and what was not retargeted
 };
 
-/// Retargets the clip of that name (empty: the first one) of a character read from `file`. Throws
-/// std::runtime_error that begins with the file's name.
-PlayedMotion with_motion(const HumanoidPart& part, const Character& source, const OutsideFile& file,
-                         const std::string& clip);
+/// Retargets the clip of that name (empty: the first one) of another character, with the fixes made on it.
+/// Throws std::runtime_error that begins with the name of its file.
+PlayedMotion with_motion(const HumanoidPart& part, const HumanoidPart& source, const std::string& clip);
+/// Chooses the last clip, and plays it.
+void play_last_clip(HumanoidPart& part);
 
 /// The motion that made this clip; null for a clip of the character's own.
 const LoadedMotion* motion_of(const LoadedCharacter& character, std::size_t clip);

@@ -139,7 +139,7 @@ Json hold_state(const HumanoidPart& part, const ShownPose& shown) {
 namespace {
 
 /// A pose in front of the chest, within reach of bent arms.
-humanoid::ObjectPose before_chest(const IkNow& now, const HumanoidPart& part) {
+humanoid::ObjectPose before_chest(const IkNow& now, const HumanoidPart& part, HeldKind kind) {
     const humanoid::Facing facing = humanoid::facing(part.skeleton(), *part.map);
     const auto at = [&](Bone bone) { return now.shown.placed[*part.node_of(bone)].position; };
     const auto rest = [&](Bone bone) { return part.loaded->rest[*part.node_of(bone)]; };
@@ -149,9 +149,11 @@ humanoid::ObjectPose before_chest(const IkNow& now, const HumanoidPart& part) {
     ahead.y = 0.0;
     ahead = glm::length(ahead) > 1e-6 ? glm::normalize(ahead) : facing.forward;
     const glm::dvec3 left = glm::cross(facing.up, ahead);
-    return {
-        0.5 * (at(Bone::LeftUpperArm) + at(Bone::RightUpperArm)) + arm * (0.68 * ahead - 0.32 * facing.up),
-        rig::normalised(glm::quat_cast(glm::dmat3(left, facing.up, ahead)))};
+    // A rifle's stock is beside the chest, not in it.
+    const glm::dvec3 aside = kind == HeldKind::Rifle ? 0.09 * facing.up - 0.25 * left : glm::dvec3(0.0);
+    return {0.5 * (at(Bone::LeftUpperArm) + at(Bone::RightUpperArm)) +
+                arm * (0.68 * ahead - 0.32 * facing.up + aside),
+            rig::normalised(glm::quat_cast(glm::dmat3(left, facing.up, ahead)))};
 }
 
 void place_as_given(const Arguments& given, humanoid::ObjectPose& asked) {
@@ -162,9 +164,10 @@ void place_as_given(const Arguments& given, humanoid::ObjectPose& asked) {
 void set_hold(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     require_body(now, part);
     HoldSetting setting = part.ik.hold.value_or(HoldSetting());
-    humanoid::ObjectPose asked = part.ik.hold ? setting.asked(now.shown.hips) : before_chest(now, part);
     const bool with_body = setting.with_body;
+    humanoid::ObjectPose asked = setting.asked(now.shown.hips);
     set_fields(given, setting, "rotation");  // which is in the character's space
+    if (!part.ik.hold) asked = before_chest(now, part, setting.kind);
     place_as_given(given, asked);
     if (!part.ik.hold || setting.with_body != with_body || given.has("to") || given.has("rotation"))
         setting.ask(asked, now.shown.hips);

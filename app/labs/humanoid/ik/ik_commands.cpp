@@ -171,7 +171,10 @@ void set_ground(const IkNow& now, HumanoidPart& part, const Arguments& given) {
     GroundSetting& ground = part.ik.ground;
     const humanoid::GroundKind before = ground.kind;
     set_fields(given, ground);
-    if (given.has("path")) ground.mesh = read_ground_mesh(given.text("path"));
+    if (given.has("path")) {
+        ground.mesh = read_ground_mesh(given.text("path"));
+        if (!given.has("kind")) ground.kind = humanoid::GroundKind::Mesh;
+    }
     if (ground.kind == humanoid::GroundKind::Mesh && !ground.mesh)
         throw std::invalid_argument("path is missing: the file with the mesh");
     make_ground(ground);

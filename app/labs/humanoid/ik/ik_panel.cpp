@@ -167,7 +167,7 @@ void standing_rows(const HumanoidPanel& panel, MoreRows& more) {
     FieldRows(ik.ground, "humanoid.ground", panel.emit).row("kind", kinds);
     more.add("mesh file", {"humanoid.ground", {"path"}}, ik.ground.mesh != nullptr, [&panel, &ik] {
         std::string path = ik.ground.mesh ? ik.ground.mesh->path : std::string();
-        if (text_field("mesh file", path, "a .gltf or .glb file") && !path.empty())
+        if (path_field("mesh file", path, ".gltf, .glb", "humanoid.ground", panel.emit) && !path.empty())
             panel.emit("humanoid.ground", {{"kind", "mesh"}, {"path", path}});
         explain("A file whose triangles become the ground. Enter loads it.");
     });

@@ -50,6 +50,38 @@ TEST_F(HumanoidAttach, MakesATailAPonytailAndACape) {
     EXPECT_LT(particle_depth(), 1e-4);
 }
 
+/// One wind for everything that hangs. It is of the scene: attachments and characters come and go in it.
+TEST_F(HumanoidAttach, HangsInOneWind) {
+    const Json wind{{"wind", {4.0, 0.0, -2.0}}, {"gusts", 0.3}};
+    run("humanoid.wind", wind);
+    EXPECT_FALSE(lab().moving(workspace)) << "nothing hangs";
+    dress();
+    const auto middle = [&](const char* name) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < body(name).count; ++i) sum += particle(name, i).x;
+        return sum / static_cast<double>(body(name).count);
+    };
+    for (const char* name : {"cape", "ponytail", "tail"}) EXPECT_NEAR(middle(name), 0.0, 0.01) << name;
+    wait(90);
+    for (const char* name : {"cape", "ponytail", "tail"}) EXPECT_GT(middle(name), 0.02) << name;
+    EXPECT_LT(particle_depth(), 0.005);
+    expect_goes_on_the_same();
+    wait(600);
+    EXPECT_TRUE(lab().moving(workspace)) << "gusts go on";
+    run("humanoid.clip", {{"name", "walk"}, {"time", 0.6}});
+    EXPECT_TRUE(all_finite());
+    run("humanoid.load");
+    EXPECT_TRUE(state().at("attachments").empty());
+    EXPECT_EQ(state().at("wind"), Json({{"wind", {4.0, 0.0, -2.0}}, {"gusts", 0.3}, {"still_air", false}}));
+    EXPECT_EQ(lab().state(reopened()), state());
+    refuses("humanoid.wind", {{"wind", {2000.0, 0.0, 0.0}}}, "wind.0 number");
+    run("humanoid.wind", {{"wind", {0.0, 0.0, 0.0}}});
+    dress();
+    int ticks = 0;
+    for (; ticks < 3000 && lab().moving(workspace); ++ticks) tick();
+    EXPECT_LT(ticks, 3000) << "it comes to rest in still air";
+}
+
 TEST_F(HumanoidAttach, HangsBehindTheBodyAndComesToRest) {
     dress();
     EXPECT_TRUE(lab().moving(workspace));

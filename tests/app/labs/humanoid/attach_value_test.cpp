@@ -9,13 +9,6 @@
 namespace tendril::app {
 namespace {
 
-TEST_F(HumanoidAttach, LoadingACharacterRemovesIt) {
-    dress();
-    run("humanoid.load");
-    EXPECT_TRUE(part().attachments == Attachments());
-    EXPECT_TRUE(state().at("attachments").empty());
-}
-
 /// After scrubbing, or choosing another clip, everything is where it was relative to its bone.
 TEST_F(HumanoidAttach, IsCarriedAlongWhenTheCharacterJumps) {
     dress();

@@ -65,14 +65,6 @@ TEST_F(HumanoidBalanceLab, ThePanelSaysWhereTheCentreOfMassIs) {
     EXPECT_TRUE(test::says(where({-4.0, 0.0, 0.0}), "m right of the feet"));
 }
 
-TEST_F(HumanoidBalanceLab, TheCodeKeepsTheBalanceToo) {
-    run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.3, 1.3, 0.4}}});
-    EXPECT_FALSE(test::says(lab().code(workspace), "body_options"));
-    run("humanoid.balance", {{"on", true}, {"reserve", 0.5}});
-    EXPECT_TRUE(test::says(lab().code(workspace), "BodyOptions body_options .balance = true .reserve = 0.5"));
-    EXPECT_TRUE(test::says(lab().code(workspace), "body->solve(pose, targets, body_state, body_options)"));
-}
-
 TEST_F(HumanoidBalanceLab, TheGroundShowsTheSupportArea) {
     const std::size_t before = drawn().strokes.size();
     run("humanoid.balance", {{"on", true}});
@@ -92,7 +84,8 @@ TEST_F(HumanoidBalanceLab, AFootStepsWhileTheSimulationRuns) {
     tick(8);
     const Workspace other = reopened();  // in the middle of a step
     EXPECT_EQ(humanoid_part(other).ik_state, part().ik_state);
-    EXPECT_TRUE(test::says(lab().code(workspace), ".feet = humanoid::FootShift"));
+    EXPECT_TRUE(test::says(lab().code(workspace),
+                           "BodyOptions body_options .balance = true .feet = humanoid::FootShift"));
     tick(400);
     EXPECT_FALSE(balance().at("stepping").get<bool>());
     EXPECT_FALSE(lab().moving(workspace));
@@ -131,18 +124,6 @@ TEST_F(HumanoidBalanceLab, ItExplainsWhyItDoesNotAct) {
     EXPECT_TRUE(test::says(why(), "does not act hand IK moves the arms alone"));
     run("humanoid.target", {{"effector", "head"}});
     EXPECT_EQ(why(), "");
-}
-
-TEST_F(HumanoidBalanceLab, StepsCanBeSwitchedOff) {
-    run("humanoid.balance", {{"on", true}, {"steps", false}});
-    drag("right_hand", {-0.2, 1.0, 1.6});
-    tick(100);
-    EXPECT_FALSE(part().ik_state.steps.away());
-    run("humanoid.balance", {{"steps", true}});
-    tick(100);
-    EXPECT_TRUE(part().ik_state.steps.away());
-    run("humanoid.balance", {{"on", false}});
-    EXPECT_FALSE(part().ik_state.steps.away());
 }
 
 TEST_F(HumanoidBalanceLab, CharactersThatOthersMadeStandNoWorseWithIt) {

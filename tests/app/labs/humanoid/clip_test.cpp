@@ -18,24 +18,6 @@ using HumanoidClips = HumanoidTest;
 
 constexpr double walk_seconds = 1.1, walk_metres = 1.1;
 
-TEST_F(HumanoidClips, TargetsTravelFromRoundToRound) {
-    run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
-    const glm::dvec3 hand = bone("LeftHand");
-    const glm::dvec3 to = hand + glm::dvec3(0.05, 0.1, 0.1);
-    run("humanoid.target", {{"effector", "left_hand"}, {"to", {to.x, to.y, to.z}}});
-    const auto at = [&] { return part().ik.target(humanoid::Effector::LeftHand)->position; };
-    const double duration = part().clip()->duration;
-    const auto short_by = [&] { return *shown_pose(workspace).residual(humanoid::Effector::LeftHand); };
-    EXPECT_LT(short_by(), 1e-3);
-    run("humanoid.clip", {{"play", true}, {"loop", true}});
-    tick(static_cast<int>(3.0 * duration * 60.0));  // three rounds on, at about the same time of the clip
-    EXPECT_EQ(part().playback.rounds, 3);
-    EXPECT_GT(at().z, to.z + 1.0);
-    EXPECT_LT(short_by(), 0.01);
-    run("humanoid.clip", {{"play", false}, {"time", 0.3}});  // and back to the first
-    EXPECT_LT(glm::distance(at(), to), 1e-6);
-}
-
 TEST_F(HumanoidClips, LintMarksAreExplainedInTheLegend) {
     const auto explained = [&] {
         const std::vector<LegendRow> rows = lab().legend(workspace);
@@ -246,6 +228,38 @@ TEST_F(HumanoidClips, TheCameraFollowsThem) {
     tick(60);
     EXPECT_NEAR(workspace.camera.target.z, before.z + 1.0f, 1e-3f);
     EXPECT_FALSE(part().view.follow);
+}
+
+/// Captured figures rest at the origin and begin elsewhere.
+TEST_F(HumanoidClips, AreFramedWhereTheyBegin) {
+    const test::TempFolder folder;
+    std::string text = bvh_figure();
+    text.replace(text.find("\n0 0 0 "), 7, "\n400 0 0 ");
+    test::write(folder / "aside.bvh", text);
+    run("humanoid.load", {{"path", (folder / "aside.bvh").string()}});
+    EXPECT_NEAR(workspace.camera.target.x, 4.0f, 0.5f);
+    run("humanoid.load");
+    const float before = workspace.camera.target.x;
+    run("humanoid.motion.load", {{"path", (folder / "aside.bvh").string()}});
+    EXPECT_NEAR(workspace.camera.target.x - before, bone("Hips").x, 0.01) << "the view goes along";
+}
+
+/// *Home*: the head with its skin, and the way that a clip goes if the camera does not follow.
+TEST_F(HumanoidClips, HomeFramesHeadsAndWalkers) {
+    const auto frames = [&](const glm::dvec3& point) {
+        const Bounds all = lab().bounds(workspace, false);
+        return glm::distance(glm::dvec3(all.centre), point) < static_cast<double>(all.radius) + 1e-3;
+    };
+    run("humanoid.clip", {{"name", "walk"}, {"time", 1.1}});
+    const glm::dvec3 top = bone("Head") + glm::dvec3(0.0, 0.15, 0.0);
+    run("humanoid.clip", {{"time", 0.0}});
+    EXPECT_FALSE(frames(top));
+    run("humanoid.view", {{"follow", false}});
+    EXPECT_TRUE(frames(top));
+    const auto robot = test::characters_folder() / "robot.glb";
+    if (!std::filesystem::exists(robot)) return;
+    run("humanoid.load", {{"path", robot.string()}});
+    EXPECT_TRUE(frames(part().loaded->bounds.low) && frames(part().loaded->bounds.high));
 }
 
 }  // namespace

@@ -65,17 +65,6 @@ TEST_F(HumanoidFeetHistory, LooksScrubbedAsItWasPlayed) {
             }
 }
 
-TEST_F(HumanoidFeetHistory, LooksTheSameInSlowMotion) {
-    // The figure walks at one metre per second: no tread ends exactly at a tick.
-    const Json stairs{{"kind", "stairs"}, {"step_height", 0.16}, {"step_depth", 0.353}};
-    put_on(stairs, "walk", 1.0);
-    const auto full = played(120);
-    put_on(stairs, "walk", 0.5);
-    const auto half = played(240);
-    for (std::size_t i = 0; i < full.size(); ++i)
-        EXPECT_LT(apart(full[i].second, half[2 * i + 1].second), tenth_of_a_millimetre) << full[i].first;
-}
-
 TEST_F(HumanoidFeetHistory, LooksTheSameInPlace) {
     put_on({{"kind", "flat"}}, "walk", 0.8, true);
     const auto moments = played(300);

@@ -82,6 +82,7 @@ TEST_F(HumanoidFiles, TheResultIsLintedAndAnExportReportsNewFindings) {
     run("humanoid.view", {{"judged", "result"}});
     ASSERT_FALSE(report().findings.empty());
     for (const humanoid::Finding& each : report().findings) EXPECT_FALSE(each.has_cure) << each.text;
+    refuses("humanoid.cure", Json::object(), "walk 0 faults fixed LeftFoot no fix not in the clip IK");
     const std::size_t count = report().findings.size();
     run("humanoid.export", {{"path", path("out.glb")}});
     const std::string told = workspace.ui.toasts.back().text;
@@ -92,8 +93,13 @@ TEST_F(HumanoidFiles, TheResultIsLintedAndAnExportReportsNewFindings) {
     run("humanoid.clip", {{"index", 0}});
     EXPECT_EQ(report().findings.size(), count);
     EXPECT_EQ(report().rate, 60.0);
-    // A fault that the clip had before is not new.
+    // A fault that the clip had before is not new, and is fixed in the clip.
     run("humanoid.load", {{"path", faulty()}});
+    run("humanoid.clip", {{"index", 0}});
+    ASSERT_TRUE(report().findings.size() == 1 && report().findings[0].has_cure);
+    run("humanoid.cure");
+    EXPECT_TRUE(report().findings.empty());
+    run("undo");
     run("humanoid.export", {{"path", path("again.glb")}});
     tells("1 finding in the written clip none of them new");
     const std::string panel = [&] {
@@ -264,34 +270,25 @@ TEST_F(HumanoidScenes, ThatWereBrokenAreRefusedWithThePlace) {
     Json fewer = scene["attachments"]["list"], particles = scene["attachments"]["world"]["particles"];
     fewer.erase(0), particles.erase(0);
     const std::tuple<const char*, Json, const char*> faults[] = {
-        {"/file", 3, "labs.humanoid.file"},
         {"/bones", {{"Tail", "Hips"}}, "no bone \"Tail\""},
         {"/bones", {{"Head", "Tail"}}, "labs.humanoid.bones.Head"},
-        {"/bones", 3, "labs.humanoid.bones"},
         {"/clip/name", "run", "no clip \"run\""},
         {"/clip/time", 1e4, "labs.humanoid.clip.time"},
-        {"/t_pose", 1, "labs.humanoid.t_pose"},
         {"/ik/targets/tail", 1, "no effector \"tail\""},
         {"/ik/targets/left_foot/position", {0, 1}, "labs.humanoid.ik.targets.left_foot.position"},
         {"/ik/targets/left_foot/rotation", {0, 0, 0, 0}, "length 1"},
-        {"/ik", "x", "labs.humanoid.ik: expected an object"},
         {"/ik/limits", "dreams", "labs.humanoid.ik.limits: expected one of defaults, motion, none"},
         {"/ik/body/turns/0", {0, 0, 0}, "labs.humanoid.ik.body.turns"},
         {"/ik/joint_limits", {{"Tail", "motion"}}, "there is no bone \"Tail\""},
         {"/ik/joint_limits", {{"Head", "dreams"}}, "unknown source of limits \"dreams\""},
-        {"/ik/joint_limits", Json::array({1}), "expected an object of bones"},
         {"/ik/release/left", 1e9, "ik.release.left"},
         {"/ik/release/turns/fin", {0, 0, 0, 1}, "no node \"fin\""},
-        {"/ik/release/turns", 3, "ik.release.turns"},
-        {"/selected", 7, "labs.humanoid.selected"},
         {"/selected", {{"active", "Head"}}, "labs.humanoid.selected"},
         {"/selected", {{"all", {"Head"}}}, "labs.humanoid.selected"},
         {"/selected/all", {"Hips"}, "labs.humanoid.selected.active"},
-        {"/selected/all", "Head", "labs.humanoid.selected.all"},
         {"/selected/all/1", 1, "labs.humanoid.selected.all"},
         {"/springs/0/node", "wing", "no node \"wing\""},
         {"/springs/1/node", "antenna_l_3", "springs.1.node"},
-        {"/springs/1/masses/0/target", nullptr, "target"},
         {"/curves/0/first", "wing", "no node \"wing\""},
         {"/curves/0/last", "Hips", "curves.0.last"},
         {"/curves/1", scene["curves"][0], "curves.1.first"},
@@ -303,7 +300,6 @@ TEST_F(HumanoidScenes, ThatWereBrokenAreRefusedWithThePlace) {
         {"/attachments/list", fewer, "one body for each"},
         {"/attachments/list/1/pins/0/particle", 4000, "attachments.list.1.pins.0.particle"},
         {"/attachments/list/1/frame/turn", {0, 0, 0, 0}, "quaternion"},
-        {"/attachments/list/1/shape/length", -1, "length"},
         {"/attachments/list/1/shape/direction", {0, 2, 0}, "list.1.shape.direction"},
         {"/attachments/world/particles", particles, "attachments.world"}};
     for (const auto& [at, value, says] : faults) expect_scene_refused(at, value, says);

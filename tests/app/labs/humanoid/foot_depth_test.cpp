@@ -90,27 +90,5 @@ TEST_F(FootDepth, OfThirdPartyClipsIsAlwaysReported) {
     }
 }
 
-/// A walk of another skeleton, on stairs: no planted foot has a step in its sole.
-TEST_F(FootDepth, OfAPlantedSoleIsZero) {
-    const auto folder = test::characters_folder();
-    if (!std::filesystem::exists(folder / "human_male.glb")) GTEST_SKIP() << folder << " is not there";
-    run("humanoid.load", {{"path", (folder / "human_male.glb").string()}});
-    run("humanoid.motion.load", {{"path", (folder / "cmu_12_01_walk.bvh").string()}});
-    stairs(0.15, 0.3);
-    double deepest = 0.0;
-    int planted = 0;
-    for (int i = 0; i < 5 * 262; ++i) {
-        tick();
-        if (!shown().feet) continue;
-        for (std::size_t side = 0; side < 2; ++side)
-            if (shown().feet->feet[side].planted) {
-                ++planted;
-                deepest = std::max(deepest, depth(side, 12));
-            }
-    }
-    EXPECT_GT(planted, 500);
-    EXPECT_LT(deepest, 0.01);
-}
-
 }  // namespace
 }  // namespace tendril::app

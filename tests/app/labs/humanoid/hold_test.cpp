@@ -3,6 +3,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/labs/humanoid/attachments/attachment_motion.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
@@ -26,6 +27,28 @@ TEST_F(HumanoidHold, PutsBothHandsOnEachObject) {
         EXPECT_LT(number("moved"), 0.002) << kind;
         EXPECT_LT(number("turned_deg"), 1.0) << kind;
         EXPECT_EQ(state().at("verdict"), std::string("Holds the ") + kind);
+    }
+}
+
+/// At rest and walking.
+TEST_F(HumanoidHold, ARifleIsBesideTheWristsAndTheChest) {
+    run("humanoid.hold", {{"kind", "rifle"}});
+    for (int i = 0; i <= 6; ++i) {
+        Solvers& solvers = humanoid_runtime(workspace).solvers;
+        const ShownPose& shown = shown_pose(workspace);
+        const Wearer wearer = wearer_of(part(), solvers, shown);
+        for (const humanoid::BodyCapsule& each : solvers.volume(part())) {
+            const bool forearm =
+                each.bone == humanoid::Bone::LeftLowerArm || each.bone == humanoid::Bone::RightLowerArm;
+            if (!forearm && (each.bone != humanoid::Bone::UpperChest || i > 0)) continue;
+            for (const humanoid::PlacedCapsule& bar : wearer.held)
+                EXPECT_GT(humanoid::gap(humanoid::place(each, *part().map, shown.placed), bar),
+                          forearm ? 0.0 : -0.01)
+                    << humanoid::name(each.bone) << ' ' << i;
+        }
+        run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+        tick(11);
+        EXPECT_LT(number("moved"), 0.01);
     }
 }
 

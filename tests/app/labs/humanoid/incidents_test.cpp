@@ -122,20 +122,6 @@ TEST_F(HumanoidIncidents, CorrectMotionHasNoFlips) {
     }
 }
 
-TEST_F(HumanoidIncidents, GesturesAndReleasedTargetsAreNoFlips) {
-    run("humanoid.clip", {{"name", "walk"}, {"play", true}, {"in_place", true}});
-    for (int i = 0; i < 120; ++i) {
-        const double t = 0.05 * i;
-        EXPECT_TRUE(
-            only(Kind::Flip, moved("left_hand", {0.35 + 0.2 * std::cos(t), 1.3 + 0.25 * std::sin(t), 0.35}))
-                .empty())
-            << i;
-        EXPECT_TRUE(only(Kind::Flip, ticked()).empty()) << i;
-    }
-    EXPECT_TRUE(incidents_of("humanoid.target", {{"effector", "left_hand"}, {"weight", 0}}).empty());
-    for (int i = 0; i < 30; ++i) EXPECT_TRUE(only(Kind::Flip, ticked()).empty()) << i;
-}
-
 TEST_F(HumanoidIncidents, FastRotationsOfAClipOrAReleaseAreNoFlips) {
     double fastest = 0.0;
     const auto none = [&](int ticks) {

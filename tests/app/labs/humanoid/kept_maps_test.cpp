@@ -2,7 +2,6 @@
 #include "app/io/character/map_file.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
-#include "tests/app/support/program.hpp"
 #include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::app {
@@ -89,33 +88,6 @@ TEST_F(HumanoidKeptMaps, InvalidOnesAreSkippedWithAMessage) {
     workspace.config.clear();
     EXPECT_TRUE(kept().is_null());
     expect_refused("humanoid.map.keep", {}, {"no folder"});
-}
-
-TEST_F(HumanoidKeptMaps, OfOneRunAreOfferedInTheNext) {
-    const test::TempFolder folder;
-    const auto state_after = [&](const std::string& script) {
-        test::write(folder / "script.jsonl", script);
-        const test::Outcome outcome =
-            test::run_program({"--headless", "--script", (folder / "script.jsonl").string(), "--state",
-                               (folder / "state.json").string()},
-                              {{"XDG_CONFIG_HOME", (folder / "config").string()}}, config_.path());
-        EXPECT_TRUE(test::succeeded(outcome));
-        return parse_json(test::read(folder / "state.json")).at("character");
-    };
-    const std::string opened =
-        "{\"command\": \"lab.open\", \"name\": \"humanoid\"}\n{\"command\": \"humanoid.load\", \"path\": "
-        "\"figure.bvh\"}\n";
-    const std::string corrected =
-        opened + "{\"command\": \"humanoid.map\", \"bone\": \"LeftHand\", \"node\": \"LeftHand end\"}\n";
-    state_after(corrected);
-    EXPECT_FALSE(fs::exists(folder / "config")) << "nothing is written without being told";
-    state_after(corrected + "{\"command\": \"humanoid.map.keep\"}\n");
-    const Json next = state_after(opened);
-    EXPECT_EQ(next.at("kept_map"), Json({{"changes", {{"LeftHand", "LeftHand end"}}}}));
-    EXPECT_EQ(next.at("bones").at("LeftHand").at("node"), "LeftHand");
-    const Json used = state_after(opened + "{\"command\": \"humanoid.map.use\"}\n");
-    EXPECT_TRUE(used.at("kept_map").is_null());
-    EXPECT_EQ(used.at("bones").at("LeftHand").at("node"), "LeftHand end");
 }
 
 }  // namespace

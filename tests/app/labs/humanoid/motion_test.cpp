@@ -199,13 +199,66 @@ TEST_F(HumanoidMotions, UnretargetableMotionsAreRefusedOrReported) {
     refuses("humanoid.motion.load", {{"path", path("wave.vrma")}}, "wave.vrma to.map Hips");
 }
 
+/// The choice is offered between a character that has a skin and a motion, whichever is opened first.
+TEST_F(HumanoidMotions, OpeningAFileAsksWhetherTheMotionPlaysOnTheFigure) {
+    const std::string figure = tendril::test::source_path("tests/app/golden/body.glb"),
+                      motion = path("wave.vrma");
+    const auto ways = [&](const std::string& file) {
+        std::string commands;
+        for (const FileWay& each : lab().file_ways(workspace, file)) commands += each.command + ' ';
+        return commands;
+    };
+    EXPECT_EQ(ways(motion), "") << "nothing was loaded";
+    run("humanoid.load", {{"path", figure}});
+    EXPECT_EQ(ways(figure) + ways(path("gone.glb")) + ways(path("map.json")), "");
+    EXPECT_EQ(ways(motion), "humanoid.motion.load humanoid.load ");
+    const Json before = saved();
+    run("file.open", {{"path", motion}, {"ask", true}});
+    EXPECT_EQ(workspace.ui.file_question.path, motion);
+    EXPECT_EQ(saved(), before);
+    expect_refused("file.open", {{"path", motion}, {"by", "humanoid.export"}}, {"by", "humanoid.export"});
+    run("file.open", {{"path", motion}, {"by", "humanoid.motion.load"}});
+    EXPECT_TRUE(workspace.ui.file_question.ways.empty());
+    EXPECT_EQ(part().clip()->name, "wave_2") << "the figure has a wave of its own";
+    run("undo");
+    EXPECT_EQ(saved(), before);
+    run("file.open", {{"path", motion}});
+    EXPECT_EQ(part().loaded->file, motion) << "scripts are not asked";
+    EXPECT_EQ(ways(motion), "");
+    EXPECT_EQ(ways(figure), "humanoid.motion.take humanoid.load ");
+}
+
+TEST_F(HumanoidMotions, FixesGoAlongToAnotherCharacter) {
+    const std::string figure = treadmill_figure(folder_.path());
+    run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/faulty_walk.bvh")}});
+    run("humanoid.motion.take", {{"path", figure}});
+    const humanoid::Clip unfixed = *part().clip();
+    run("undo");
+    run("humanoid.cure");
+    const HumanoidPart fixed = part();
+    run("humanoid.motion.take", {{"path", figure}});
+    tells("motion from faulty_walk.bvh with its fixes");
+    EXPECT_EQ(workspace.ui.toasts.back().text.find("Discarded"), std::string::npos);
+    EXPECT_FALSE(*part().clip() == unfixed);
+    const HumanoidPart other(load_character(figure));
+    EXPECT_TRUE(*part().clip() == with_motion(other, fixed, "motion").loaded->clips().back());
+    EXPECT_TRUE(humanoid_part(reopened()).loaded->clips() == part().loaded->clips());
+    run("undo");
+    run("humanoid.load", {{"path", figure}});
+    tells("Discarded 1 fix of a clip");
+    run("humanoid.clip", {{"name", ""}});
+    expect_refused("humanoid.motion.take", {{"path", figure}}, {"no clip"});
+}
+
 /// Motions and fixes keep the unit, axes, bones and limits that they were made with.
 TEST_F(HumanoidMotions, OpenAsSavedForAnyOrderOfEdits) {
     const std::string faulty = tendril::test::source_path("tests/app/golden/faulty_walk.bvh");
+    const std::string figure = treadmill_figure(folder_.path());
     test::write(folder_ / "figure.bvh", bvh_figure());
     const std::vector<std::pair<const char*, Json>> edits{
         {"humanoid.motion.load", {{"path", path("wave.vrma")}}},
         {"humanoid.motion.load", {{"path", faulty}}},
+        {"humanoid.motion.take", {{"path", figure}}},
         {"humanoid.up", {{"axis", "z"}}},
         {"humanoid.up", {{"axis", "y"}}},
         {"humanoid.scale", {{"metres", 0.7}}},

@@ -140,22 +140,6 @@ TEST_F(HumanoidMouse, OverThePanelDoesNotKeepTheOldCharactersRows) {
     EXPECT_LT(height("Bones"), 100.0f) << "it comes first";
 }
 
-TEST_F(HumanoidMouse, ReadsAFileThatIsDropped) {
-    const TempFolder folder;
-    const std::string path = (folder / "figure.bvh").string();
-    std::ofstream(path) << bvh_figure();
-    send(Drop{{path}});
-    EXPECT_EQ(app_.state().at("character").at("file"), path);
-    const Json state = app_.state();
-    for (const char* bone : {"node.Head", "node.LeftFoot", "node.RightHand"}) {
-        const glm::vec2 pixel = handle(state, bone);
-        EXPECT_GT(pixel.x, 300) << bone << " is in view";
-        EXPECT_LT(pixel.x, 980) << bone;
-        EXPECT_GT(pixel.y, 60) << bone;
-        EXPECT_LT(pixel.y, 700) << bone;
-    }
-}
-
 class HumanoidPanels : public HumanoidTest {
   protected:
     test::PanelReader reader_;

@@ -34,7 +34,8 @@ class HumanoidPast : public HumanoidTest {
     }
     std::map<std::uint64_t, double> values() const {
         std::map<std::uint64_t, double> by_tick;
-        for (const PastValue& each : past_values(workspace, humanoid_past(), *humanoid_past().curve(workspace)))
+        for (const PastValue& each :
+             past_values(workspace, humanoid_past(), *humanoid_past().curve(workspace)))
             by_tick[each.tick] = static_cast<double>(each.value);
         return by_tick;
     }
@@ -89,28 +90,6 @@ TEST_F(HumanoidPast, ErrorsAreTheSelectedEffectorsOrTheFarthest) {
     }
 }
 
-TEST_F(HumanoidPast, AMomentIsSolvedOnceWhateverIsPlotted) {
-    walk(50);
-    plot("swing", "LeftLowerLeg");
-    static_cast<void>(values());
-    EXPECT_EQ(humanoid_runtime(workspace).past.size(), 51u);
-    const auto parts = [&] {
-        std::vector<const PastPose*> poses;
-        for (const Rewind::Moment& moment : workspace.rewind.moments())
-            poses.push_back(&humanoid_runtime(workspace).past.of(moment.part, []() -> PastPose {
-                ADD_FAILURE() << "it was not kept";
-                return {};
-            }));
-        return poses;
-    };
-    const auto before = parts();
-    plot("error", "LeftHand");
-    static_cast<void>(values());
-    for (const Rewind::Moment& moment : workspace.rewind.moments())
-        static_cast<void>(humanoid_past().pose(workspace, moment.part));
-    EXPECT_EQ(parts(), before);
-}
-
 TEST_F(HumanoidPast, AFewMomentsAreComputedAtATimeNewestFirst) {
     walk(100);
     plot("swing", "LeftLowerLeg");
@@ -146,12 +125,6 @@ TEST_F(HumanoidPast, ResultsAreDroppedOnceNothingIsPlotted) {
     EXPECT_EQ(humanoid_runtime(workspace).past.size(), 21u) << "there are ghosts";
     run("view.humanoid_ghosts", {{"of", "nothing"}});
     forget_past_poses(workspace);
-    EXPECT_EQ(humanoid_runtime(workspace).past.size(), 0u);
-}
-
-TEST_F(HumanoidPast, NothingIsComputedWhileNothingIsPlotted) {
-    walk(20);
-    static_cast<void>(state());
     EXPECT_EQ(humanoid_runtime(workspace).past.size(), 0u);
 }
 

@@ -129,21 +129,6 @@ TEST_F(HumanoidRelease, EasesBackIntoAPlayingClip) {
     }
 }
 
-TEST_F(HumanoidRelease, OfOneHandKeepsTheOtherOnItsTarget) {
-    for (int i = 0; i < 10; ++i) {
-        begin_anew(true);
-        run("humanoid.clip", {{"speed", 0.1}, {"targets_travel", false}});
-        reach_with_both_hands();
-        if (left("left_hand") > 1e-4 || left("right_hand") > 1e-4) continue;
-        const glm::dvec3 held = bone("LeftHand");
-        let_go("right_hand");
-        for (int k = 0; k < 20; ++k) {
-            tick();
-            EXPECT_LT(glm::distance(bone("LeftHand"), held), 2e-3) << i << ' ' << k;
-        }
-    }
-}
-
 TEST_F(HumanoidRelease, OfAHandMovedByHandIkEasesToo) {
     begin_anew(true);
     run("humanoid.hand_ik", {{"on", true}});

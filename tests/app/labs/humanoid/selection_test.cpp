@@ -127,18 +127,6 @@ TEST_F(HumanoidSelection, TheInspectorShowsTheNumberAndTheActiveOne) {
     EXPECT_EQ(inspector().find("set on all"), std::string::npos);
 }
 
-TEST_F(HumanoidSelection, ComesFirstInTheInspector) {
-    const auto before_character = [&] {
-        const std::string text = inspector();
-        return text.find("Selection") < text.find("Character");
-    };
-    EXPECT_FALSE(before_character());
-    select({"Head"});
-    run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.4, 1.5, 0.7}}});
-    EXPECT_TRUE(before_character());
-    EXPECT_LT(inspector().find("Selection"), inspector().find("Targets"));
-}
-
 /// The number of strengths of the selection colour behind rows.
 TEST_F(HumanoidSelection, SelectedRowsOfTheBoneMapAreHighlighted) {
     const auto filled = [&](glm::vec3 colour) {

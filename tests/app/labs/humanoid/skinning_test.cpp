@@ -2,12 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
-#include "tests/app/support/temp_folder.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::app {
@@ -65,20 +62,6 @@ TEST_F(HumanoidSkinning, FollowsTheBoneMap) {
     run("humanoid.load");
     run("undo");
     EXPECT_EQ(drawn().weights, nullptr);
-}
-
-TEST_F(HumanoidSkinning, IsNotPartOfAnExport) {
-    const test::TempFolder folder;
-    std::string written[2];
-    for (const int i : {0, 1}) {
-        run("humanoid.view", {{"skinning", i == 0 ? "linear" : "twist_spread"}});
-        const std::string path = (folder / "out.glb").string();
-        run("humanoid.export", {{"path", path}});
-        std::ifstream file(path, std::ios::binary);
-        written[i].assign(std::istreambuf_iterator<char>(file), {});
-    }
-    EXPECT_FALSE(written[0].empty());
-    EXPECT_TRUE(written[0] == written[1]);
 }
 
 }  // namespace

@@ -40,51 +40,6 @@ TEST_F(HumanoidTargets, AreReachedWithoutATick) {
     EXPECT_EQ(residual("RightFoot"), 0.0);
 }
 
-TEST_F(HumanoidTargets, OutOfReachReportTheRemainingDistance) {
-    run("humanoid.target", {{"effector", "right_foot"}, {"to", {-0.1, 0.09, 0.0}}});
-    target("left_hand", 3.0, 1.4, 0.0);
-    const double left = residual("LeftHand");
-    EXPECT_GT(left, 1.0);
-    EXPECT_NEAR(left, glm::distance(bone("LeftHand"), glm::dvec3(3.0, 1.4, 0.0)), 1e-9);
-}
-
-TEST_F(HumanoidTargets, AtRestGiveAStillPose) {
-    run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
-    target("left_hand", 0.4, 1.4, 0.6);
-    run("humanoid.foot_ik", {{"on", true}});
-    run("humanoid.ground", {{"kind", "flat"}});
-    tick(120);
-    const Json before = state().at("character").at("nodes");
-    run("humanoid.target", {{"effector", "left_hand"}});
-    tick(60);
-    const Json after = state().at("character").at("nodes");
-    for (std::size_t i = 0; i < before.size(); ++i)
-        EXPECT_LT(glm::distance(vector(before[i].at("position")), vector(after[i].at("position"))), 1e-5);
-}
-
-TEST_F(HumanoidTargets, ReleasedRestoreTheClipsPoseBitForBit) {
-    run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
-    const Json before = state();
-    target("left_hand", 0.4, 1.5, 0.7);
-    target("head", 0.1, 1.4, 0.4);
-    EXPECT_NE(state(), before);
-    run("humanoid.target", {{"effector", "left_hand"}, {"weight", 0}});
-    run("humanoid.target", {{"effector", "head"}, {"weight", 0}});
-    EXPECT_EQ(state(), before);
-}
-
-TEST_F(HumanoidTargets, TurnTheBoneThatHasARotation) {
-    run("humanoid.limits", {{"from", "none"}});
-    const glm::dquat wanted = glm::angleAxis(0.5, glm::normalize(glm::dvec3(0.2, 1.0, 0.3)));
-    run("humanoid.target", {{"effector", "right_hand"},
-                            {"to", {-0.5, 1.2, 0.3}},
-                            {"rotation", {wanted.x, wanted.y, wanted.z, wanted.w}}});
-    const glm::dquat is = quaternion(bones().at("RightHand").at("rotation"));
-    EXPECT_GT(std::abs(glm::dot(is, wanted)), std::cos(0.5 * glm::radians(1.0)));
-    run("humanoid.target", {{"effector", "right_hand"}, {"to", {-0.5, 1.25, 0.3}}});
-    EXPECT_FALSE(state().at("body").at("targets").at("right_hand").at("rotation").is_null()) << "is kept";
-}
-
 TEST_F(HumanoidTargets, WithoutAPositionKeepTheEffectorInPlace) {
     run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
     const glm::dvec3 hand = bone("LeftHand");
@@ -145,13 +100,6 @@ TEST_F(HumanoidTargets, StopAtLimitsWhichSaySo) {
     run("humanoid.limits", {{"from", "motion"}});
     EXPECT_EQ(state().at("body").at("limits"), "motion");
     EXPECT_GT(residual("LeftHand"), 0.01) << "the clips never go there";
-}
-
-TEST_F(HumanoidTargets, NeedABody) {
-    run("humanoid.map", {{"bone", "LeftHand"}});
-    expect_refused("humanoid.target", {{"effector", "right_hand"}, {"to", {0, 1, 0}}},
-                   {"full-body IK is off: LeftHand is missing"});
-    run("humanoid.target", {{"effector", "right_hand"}, {"weight", 0}});
 }
 
 TEST_F(HumanoidTargets, AreIgnoredWhileABoneIsMissing) {
