@@ -180,6 +180,9 @@ TEST_P(HistoryReplaySeeds, UndoingAndRedoingEverythingLosesNothing) {
     const std::size_t steps = app.workspace().history.size();
     for (std::size_t i = 0; i < steps; ++i) EXPECT_FALSE(refused(app, "undo"));
     while (app.workspace().history.can_redo()) EXPECT_FALSE(refused(app, "redo"));
+    tap(app, "ctrl+y");
+    EXPECT_EQ(app.workspace().ui.toasts.back().text, "Nothing to redo.");
+    EXPECT_EQ(app.workspace().ui.toasts.back().kind, ToastKind::Info) << "no fault";
     EXPECT_EQ(app.workspace().history.size(), steps);
     EXPECT_EQ(Json::diff(scene.at("labs"), save_scene(app.workspace()).at("labs")).dump(1), "[]");
     app.run({"lab.open", Json{{"name", lab}}});
