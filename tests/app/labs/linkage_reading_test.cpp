@@ -438,10 +438,9 @@ TEST_F(LinkageReading, AnglesAreShownWithinATurn) {
     EXPECT_EQ(linkage_verdict(part(), runtime(), false).why,
               "Paused: 2 whole turns backwards. Space continues.");
     EXPECT_EQ(motor_button(part(), false), "Continue");
-    // A crank drawn at 340 degrees passes 0 after 20.
+    // 300 degrees from where it was drawn, it has passed 360.
     draw_four_bar();
-    run("linkage.move",
-        {{"point", "B"}, {"to", {std::cos(glm::radians(-20.0)), std::sin(glm::radians(-20.0)), 0}}});
+    run("linkage.move", {{"point", "B"}, {"to", {-0.94, 0.34, 0}}});
     run("linkage.motor", {{"joint", "motor 1"}, {"deg_per_s", 360}});
     wait(50);
     EXPECT_EQ(linkage_verdict(part(), runtime()).why, "The motor runs.");
