@@ -158,8 +158,10 @@ std::string ChainLab::hint(const Workspace& workspace, PickId pick) const {
 }
 
 std::string ChainLab::invitation(const Workspace& workspace) const {
-    return traced_pose(chain_part(workspace)) ? "Drag along the strip below: each frame of the trace."
-                                              : "Drag the orange ball.";
+    const ChainPart& part = chain_part(workspace);
+    if (part.chain.empty()) return "Add a joint, or take a preset.";
+    return traced_pose(part) ? "Drag along the strip below: each frame of the trace."
+                             : "Drag the orange ball.";
 }
 
 Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {

@@ -117,16 +117,16 @@ void joint_rows(const LinkagePart& part, LinkageRuntime& runtime, Emit& emit) {
     const auto at = part.linkage().find_point(part.selected);
     if (!at) return note("Click a joint to select it: its path is drawn.");
     const glm::dvec3 place = part.at(*at);
-    reading("name", "%s", part.selected.c_str());
-    explain("As in files and commands.");
+    const std::string speed = point_speed_text(part, part.selected, runtime);
+    if (speed.empty()) {
+        reading("name", "%s", part.selected.c_str());
+        explain("As in files and commands.");
+    } else {
+        reading(("speed of " + part.selected).c_str(), "%s", speed.c_str());
+        explain("At the motor's speed; of one that is stopped, at 90 degrees a second. Show plots it.");
+    }
     reading("at", "%.3f  %.3f  %.3f m", place.x, place.y, place.z);
     explain("Where it is: X, Y and Z.");
-    if (const std::string speed = point_speed_text(part, part.selected, runtime); !speed.empty()) {
-        reading("speed", "%s", speed.c_str());
-        explain(
-            "While the motor runs, at its speed; of one that is stopped, at 90 degrees a second. Show plots "
-            "it.");
-    }
     const double angle = angle_at(part, part.selected);
     if (std::isfinite(angle)) {
         reading("angle", "%s", angle_text(angle).c_str());
