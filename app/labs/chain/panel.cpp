@@ -289,7 +289,7 @@ Verdict reach_verdict(const ChainPart& part) {
         case ik::Status::Stalled:
             return {"Stalled: " + off + " short", Verdict::Kind::Bad};
         case ik::Status::IterationLimit:
-            return {"Did not converge: " + off + " short", Verdict::Kind::Bad};
+            return {"Did not converge", Verdict::Kind::Bad};
         case ik::Status::InvalidInput:
             break;
     }
@@ -329,7 +329,8 @@ std::string status_text(const ChainPart& part) {
         case ik::Status::Stalled:
             return stalled_text(part);
         case ik::Status::IterationLimit:
-            return "It ran out of iterations.";
+            return "It ran out of iterations " + distance_text(part.result->report.residual) +
+                   " from the target.";
         case ik::Status::InvalidInput:
             break;
     }
