@@ -289,7 +289,7 @@ Verdict reach_verdict(const ChainPart& part) {
         case ik::Status::Stalled:
             return {"Stalled: " + off + " short", Verdict::Kind::Bad};
         case ik::Status::IterationLimit:
-            return {"Did not converge", Verdict::Kind::Bad};
+            return {"Did not converge: " + off + " off", Verdict::Kind::Bad};
         case ik::Status::InvalidInput:
             break;
     }
@@ -329,8 +329,7 @@ std::string status_text(const ChainPart& part) {
         case ik::Status::Stalled:
             return stalled_text(part);
         case ik::Status::IterationLimit:
-            return "It ran out of iterations " + distance_text(part.result->report.residual) +
-                   " from the target.";
+            return "It ran out of iterations.";
         case ik::Status::InvalidInput:
             break;
     }
