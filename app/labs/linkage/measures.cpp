@@ -161,7 +161,8 @@ double point_speed(const LinkagePart& part, std::string_view point, LinkageRunti
     if (!(quickest > 0.0)) return no_angle;
     constexpr double small_turn = 1e-3;  // radians; a motor reaches its value within 1e-6
     const double seconds = small_turn / quickest;
-    for (const double by : {seconds, -seconds}) {  // backwards only at the end of a range
+    std::vector<glm::dvec3> ends;  // one of them at the end of a range
+    for (const double by : {-seconds, seconds}) {
         std::vector<ik::LinkDriver> drivers;
         for (const LinkageDrive& each : drives)
             drivers.push_back(
@@ -169,10 +170,13 @@ double point_speed(const LinkagePart& part, std::string_view point, LinkageRunti
         ik::LinkageState state = part.state;
         const ik::LinkageStatus status = solver.solve(state, {drivers, {}}).status;
         if (status == ik::LinkageStatus::Reached)
-            return glm::distance(solver.point(*at), part.at(*at)) / seconds;
-        if (status != ik::LinkageStatus::Limited) break;
+            ends.push_back(solver.point(*at));
+        else if (status != ik::LinkageStatus::Limited)
+            return no_angle;
     }
-    return no_angle;
+    if (ends.empty()) return no_angle;
+    if (ends.size() == 1) return glm::distance(ends[0], part.at(*at)) / seconds;
+    return glm::distance(ends[0], ends[1]) / (2.0 * seconds);
 }
 
 std::string point_speed_text(const LinkagePart& part, std::string_view point, LinkageRuntime& runtime) {

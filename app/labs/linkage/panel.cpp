@@ -11,6 +11,7 @@
 #include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/labs/kit/past.hpp"
+#include "app/labs/linkage/draw.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
 #include "app/labs/linkage/measures.hpp"
@@ -291,7 +292,8 @@ float lines_left() {
 /// Plots the number over the joint that leads the turn, beside the plot over time.
 void turn_plot(const Workspace& workspace, std::vector<Curve> curves, const std::string& unit) {
     const LinkagePart& part = linkage_part(workspace);
-    const LinkageTurn& turn = workspace.runtimes.of<LinkageRuntime>(linkage_lab).turn(part);
+    auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
+    const LinkageTurn& turn = runtime.turn(part);
     const std::string& joint = part.linkage().links[turn.joint].name;
     const auto now = static_cast<float>(shown_value(part, joint, part.value_of(joint)).value);
     const Curve line = curves.front();
@@ -304,6 +306,8 @@ void turn_plot(const Workspace& workspace, std::vector<Curve> curves, const std:
     }
     if (std::isfinite(value))
         curves.push_back({.name = "now", .colour = line.colour, .points = {{now, value}}, .width = 1.7f});
+    const PathSpeed fast = path_speed(runtime.path(part));
+    const bool cut = unit == "m/s" && fast.exceeded;  // a speed has no limit at a dead point
     std::string title = transmission ? line.name + " (poor below 40)" : line.name;
     const float room = ImGui::GetContentRegionAvail().x - 4.0f * ImGui::GetFontSize();
     if (ImGui::CalcTextSize(title.c_str()).x > room) title = line.name;
@@ -316,7 +320,10 @@ void turn_plot(const Workspace& workspace, std::vector<Curve> curves, const std:
           .from_x = split ? 0.0f : from,
           .min_x = split ? 360.0f : to,
           .low_y = 0.0f,
-          .high_y = transmission ? 90.0f : 1.1f * high,
+          .high_y = transmission ? 90.0f
+                    : cut        ? static_cast<float>(fast.fast)
+                                 : 1.1f * high,
+          .fixed_y = cut,
           .level = transmission ? static_cast<float>(poor_transmission) : 0.0f,
           .at_x = now},
          lines_left());
