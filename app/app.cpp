@@ -259,6 +259,10 @@ void App::run_emitted(Emit& emit, From from) {
             take_pictures();
             if (command.continuous && pointer_.dragged() != no_pick) workspace_.settings.hint_seen = true;
         } catch (const Refused& refusal) {
+            if (command.name == "undo" || command.name == "redo") {  // there is none: no fault
+                workspace_.toast(capitalised(refusal.reason()) + ".");
+                continue;
+            }
             refuse(refusal.reason());
             // Only the lab's own refusals become incidents, not those of other files.
             if (command.name.starts_with(workspace_.lab + ".")) note_refusal(refusal.what());

@@ -11,6 +11,12 @@ const char* solver_title(ik::Method method) {
     return titles[static_cast<std::size_t>(method)];
 }
 
+const char* outcome_name(ik::Status status) {
+    static constexpr const char* names[] = {"converged", "out of reach",     "too close",    "at its limits",
+                                            "stalled",   "did not converge", "not supported"};
+    return names[static_cast<std::size_t>(status)];
+}
+
 std::string ran_text(ik::Method method, const ik::Report& report) {
     std::string text = solver_title(method);
     const bool closed = report.closed_form && report.iterations == 0 && method != ik::Method::TwoBone;

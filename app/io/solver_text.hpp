@@ -10,6 +10,9 @@ namespace tendril::app {
 /// "FABRIK, accelerated"
 const char* solver_title(ik::Method method);
 
+/// How a solve ended: "converged", "out of reach", "did not converge" within its iterations.
+const char* outcome_name(ik::Status status);
+
 /// The solvers that ran in a solve: "FABRIK, accelerated + least squares, 3 restarts", or "FABRIK,
 /// accelerated, 1 perturbation" for a chain that had stalled or was collinear. Methods keep their names with
 /// limits, although FABRIK then omits its accelerated step and two bones continue with least-squares steps.

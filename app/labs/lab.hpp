@@ -123,7 +123,7 @@ class Lab {
     // opening
     virtual CameraPose first_view() const { return {}; }
     /// The first thing to try: "Drag the orange ball." Empty: none.
-    virtual const char* invitation() const { return ""; }
+    virtual std::string invitation(const Workspace&) const { return {}; }
 
     /// Commands that turn the blank part into the scene that a new window opens on, preferably one that
     /// moves by itself. Those that change a setting are skipped if the user has already chosen it.

@@ -229,7 +229,7 @@ Rect show_first_hint(const ShellFrame& frame) {
     const auto size_of = [&](const std::string& text) {
         return ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
     };
-    const std::string first = frame.lab.invitation();
+    const std::string first = frame.lab.invitation(frame.workspace);
     const std::string rest = orbit_hint(mouse_preset(frame.workspace.settings)) + " ? shows every key.";
     std::string text = first + " " + rest;
     if (ImGui::CalcTextSize(text.c_str()).x > wrap) text = first + "\n" + rest;

@@ -50,6 +50,19 @@ inline glm::dvec3 random_place(Random& random, float range) {
     return {x, y, 0.0};
 }
 
+/// Two cranks of 1 m, joined by an elbow.
+inline LinkageSketch five_bar() {
+    LinkageSketch sketch;
+    sketch.points = {{"A", {0, 0}, SketchHold::Pinned},
+                     {"B", {0, 1}},
+                     {"C", {1, 1.8}},
+                     {"D", {2, 1}},
+                     {"E", {2, 0}, SketchHold::Pinned}};
+    sketch.bars = {{"left", {0, 1}}, {"BC", {1, 2}}, {"CD", {2, 3}}, {"right", {4, 3}}};
+    sketch.motors = {{"left", 0, 0}, {"right", 4, 3}};
+    return sketch;
+}
+
 /// A crank with dyads: each new point is joined by two bars to two earlier points.
 inline LinkageSketch random_sketch(Random& random) {
     LinkageSketch sketch;

@@ -284,16 +284,8 @@ TEST(Linkage, AnUnreachablePointIsApproachedAsBruteForceDoes) {
 }
 
 TEST(Linkage, ContradictingDriversComeAsCloseAsPossible) {
-    // A planar five-bar whose two cranks would tear it apart half way.
-    LinkageSketch sketch;
-    sketch.points = {{"A", {0, 0}, SketchHold::Pinned},
-                     {"B", {0, 1}},
-                     {"C", {1, 1.8}},
-                     {"D", {2, 1}},
-                     {"E", {2, 0}, SketchHold::Pinned}};
-    sketch.bars = {{"left", {0, 1}}, {"BC", {1, 2}}, {"CD", {2, 3}}, {"right", {4, 3}}};
-    sketch.motors = {{"left", 0, 0}, {"right", 4, 3}};
-    Machine machine{Expected<LinkageSketch>(sketch)};
+    // Two cranks that would tear it apart half way.
+    Machine machine{Expected<LinkageSketch>(five_bar())};
     const double reach = 2.0 * std::hypot(1.0, 0.8);
     for (const double open : {0.3, 0.7, 1.2}) {
         const double left = deg(90) + open, right = deg(90) - 1.5 * open;
@@ -317,32 +309,51 @@ TEST(Linkage, ContradictingDriversComeAsCloseAsPossible) {
 
 // ------------------------------------------------------------------------------------------------- modes
 
-TEST(Linkage, TheOtherModeIsTheMirrorImageAndItsOtherTheFirst) {
-    Machine machine{four_bar()};
-    machine.drive("crank", deg(40));
-    const LinkageState first = machine.state;
-    const glm::dvec3 b = machine.point("B"), c = machine.point("C"), d = machine.point("D");
-    const LinkDriver crank{machine.link("crank"), machine.value("crank")};
-    ASSERT_TRUE(machine.solver.other_mode(machine.state, {&crank, 1}));
-    machine.drive("crank", deg(40));
-    const glm::dvec3 along = glm::normalize(d - b),
-                     mirrored = b + 2.0 * glm::dot(c - b, along) * along - (c - b);
-    EXPECT_LE(glm::length(machine.point("C") - mirrored), 1e-6);
-    ASSERT_TRUE(machine.solver.other_mode(machine.state, {&crank, 1}));
-    machine.drive("crank", deg(40));
-    EXPECT_LE(glm::length(machine.point("C") - c), 1e-6);
-    EXPECT_FALSE(machine.solver.other_mode(machine.state, std::vector<LinkDriver>{{0, nan}}));
-}
-
-TEST(Linkage, AParallelogramStaysOneThroughItsFlatPoses) {
-    Machine machine{four_bar({.ground = 2.0, .crank = 1.0, .coupler = 2.0, .rocker = 1.0})};
-    for (int degrees = 1; degrees <= 720; ++degrees) {
-        const LinkageReport report = machine.drive("crank", deg(degrees));
-        ASSERT_EQ(report.status, LinkageStatus::Reached) << degrees;
-        ASSERT_LE(glm::length(machine.point("C") - machine.point("B") - glm::dvec3(2, 0, 0)), 1e-6)
-            << degrees;
-        ASSERT_FALSE(report.passed_dead_point) << degrees;
+// Each of its three dyads may cross on either side.
+TEST(Linkage, JansensLegTakesAllItsModesInTurn) {
+    const Jansen lengths;
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = lengths;
+    using Point = glm::dvec2;
+    const auto crossing = [](const Point& p, double from_p, const Point& q, double from_q, bool left) {
+        const Point way = q - p;
+        const double apart = glm::length(way),
+                     along = (apart * apart + from_p * from_p - from_q * from_q) / (2.0 * apart);
+        const double beside = std::sqrt(from_p * from_p - along * along);  // NaN: they do not meet
+        return p + along / apart * way + (left ? 1.0 : -1.0) * beside / apart * Point(-way.y, way.x);
+    };
+    std::size_t all = 0;
+    for (int angle = 7; angle < 360; angle += 20) {
+        Machine machine{jansen()};
+        machine.drive("motor", deg(angle));
+        const Point crank = m * Point(std::cos(deg(angle)), std::sin(deg(angle))), pivot(-a, -l);
+        std::vector<Point> feet;
+        for (int sides = 0; sides < 8; ++sides) {
+            const Point upper = crossing(pivot, b, crank, j, (sides & 1) != 0),
+                        lower = crossing(crank, k, pivot, c, (sides & 2) != 0),
+                        back = crossing(pivot, d, upper, e, true),  // one bar with `upper`
+                knee = crossing(lower, g, back, f, (sides & 4) != 0),
+                        foot = crossing(lower, i, knee, h, true);
+            if (std::isfinite(foot.x)) feet.push_back(foot);
+        }
+        std::vector<std::size_t> seen;
+        for (std::size_t turn = 0; turn < 2 * feet.size(); ++turn) {
+            const LinkDriver driver{machine.link("motor"), machine.value("motor")};
+            ASSERT_TRUE(machine.solver.other_mode(machine.state, {&driver, 1}));
+            machine.solver.solve(machine.state, {{&driver, 1}, {}});
+            const Point foot(machine.point("foot"));
+            const auto is = std::ranges::find_if(
+                feet, [&](const Point& each) { return glm::distance(each, foot) < 1e-4; });
+            ASSERT_NE(is, feet.end()) << angle;
+            seen.push_back(static_cast<std::size_t>(is - feet.begin()));
+        }
+        for (std::size_t each = 0; each < feet.size(); ++each)
+            EXPECT_EQ(std::ranges::count(seen, each), 2)
+                << angle << ": mode " << each << " of " << feet.size();
+        all += feet.size();
     }
+    EXPECT_GT(all, 100u);
+    Machine machine{jansen()};
+    EXPECT_FALSE(machine.solver.other_mode(machine.state, std::vector<LinkDriver>{{0, nan}}));
 }
 
 TEST(Linkage, ATargetThatPullsItPastADeadPointIsReported) {

@@ -22,16 +22,6 @@ constexpr SketchHold pinned = SketchHold::Pinned;
 
 // -------------------------------------------------------------------------------------- drivers that stop
 
-/// Two cranks of 1 m, joined by an elbow.
-LinkageSketch five_bar() {
-    LinkageSketch sketch;
-    sketch.points = {
-        {"A", {0, 0}, pinned}, {"B", {0, 1}}, {"C", {1, 1.8}}, {"D", {2, 1}}, {"E", {2, 0}, pinned}};
-    sketch.bars = {{"left", {0, 1}}, {"BC", {1, 2}}, {"CD", {2, 3}}, {"right", {4, 3}}};
-    sketch.motors = {{"left", 0, 0}, {"right", 4, 3}};
-    return sketch;
-}
-
 // 20000 solves were run once.
 TEST(Linkage, AtADeadPointADriverIsOffItsValue) {
     Machine machine{Expected<LinkageSketch>(five_bar())};

@@ -157,6 +157,13 @@ std::string ChainLab::hint(const Workspace& workspace, PickId pick) const {
     return name_of(part, index) + ": click selects it, drag pulls it.";
 }
 
+std::string ChainLab::invitation(const Workspace& workspace) const {
+    const ChainPart& part = chain_part(workspace);
+    if (part.chain.empty()) return "Add a joint, or take a preset.";
+    return traced_pose(part) ? "Drag along the strip below: each frame of the trace."
+                             : "Drag the orange ball.";
+}
+
 Bounds ChainLab::bounds(const Workspace& workspace, bool selection_only) const {
     const ChainPart& part = chain_part(workspace);
     if (selection_only && part.chosen_point) {

@@ -51,7 +51,7 @@ class ChainLab final : public Lab {
     std::string title() const override { return "Chain"; }
     std::shared_ptr<Part> blank() const override;
     CameraPose first_view() const override;
-    const char* invitation() const override { return "Drag the orange ball."; }
+    std::string invitation(const Workspace& workspace) const override;
     void add_commands(CommandTable& table) const override;
 
     bool moving(const Workspace& workspace) const override;

@@ -110,8 +110,10 @@ void pull_joints(ChainPart& part, const std::vector<JointPull>& asked, ChainRunt
 
 namespace {
 
-void set_mode(ChainPart& part, const Arguments& given) {
+void set_mode(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
     const ChainMode mode = chain_modes.value(given.text("mode"));
+    const std::size_t led = part.index;
+    const bool was_led = mode == ChainMode::WithIndex && part.mode == mode;
     if (given.has("index")) {
         const std::size_t index = index_of(given);
         check_index(part, index);
@@ -120,6 +122,7 @@ void set_mode(ChainPart& part, const Arguments& given) {
         part.index = *part.selection.active();
     }
     enter_mode(part, mode);
+    if (was_led && part.index != led) reach_for(part, part.target, runtime);
     if (part.mode != ChainMode::Reach) part.study.close();
     if (part.mode != ChainMode::Reach && part.chosen_point == ChainPoint::Pole) part.chosen_point.reset();
     if (part.mode == ChainMode::Curve) part.chosen_point.reset();  // its target is a control point
@@ -239,7 +242,9 @@ void add_mode_commands(CommandTable& table) {
          index_argument(false, "which segment with_index pulls"),
          integer_argument("iterations", "maximum, for fixed and reach", 1, max_iterations),
          number_argument("tolerance", "metres from the target at which fixed or reach stops", 0, 1e9)},
-        "Sets how the chain follows the target, from the next move of the target on", set_mode));
+        "Sets how the chain follows the target, from the next move of the target on; another index of "
+        "with_index goes to the target at once",
+        set_mode));
     table.add(chain_command("chain.target", "Move the target", {point_argument("to", true, "metres")},
                             "Moves the target and applies the mode once", set_target));
     table.add(chain_command("chain.pull", "Pull a joint",

@@ -289,7 +289,7 @@ Verdict reach_verdict(const ChainPart& part) {
         case ik::Status::Stalled:
             return {"Stalled: " + off + " short", Verdict::Kind::Bad};
         case ik::Status::IterationLimit:
-            return {"Not there yet: " + off + " to go", Verdict::Kind::Bad};
+            return {"Did not converge: " + off + " off", Verdict::Kind::Bad};
         case ik::Status::InvalidInput:
             break;
     }

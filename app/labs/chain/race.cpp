@@ -8,7 +8,9 @@
 #include <tendril/ik/solver.hpp>
 #include <utility>
 
+#include "app/document/text.hpp"
 #include "app/document/units.hpp"
+#include "app/io/solver_text.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
 
 namespace tendril::app {
@@ -142,25 +144,8 @@ std::string progress_text(const RacerAt& at) {
 }
 
 std::string outcome_text(const Racer& racer, const RacerAt& at) {
-    if (!at.finished) return progress_text(at);
-    const std::string after = " after " + std::to_string(at.iteration);
-    switch (racer.report.status) {
-        case ik::Status::Converged:
-            break;
-        case ik::Status::Stretched:
-            return "stopped" + after + ", out of reach";
-        case ik::Status::TooClose:
-            return "stopped" + after + ", target too close";
-        case ik::Status::Limited:
-            return "stopped" + after + ", at its limits";
-        case ik::Status::Stalled:
-            return "stalled" + after;
-        case ik::Status::IterationLimit:
-            return "stopped" + after + ", none left";
-        case ik::Status::InvalidInput:
-            return "does not support this chain";
-    }
-    return progress_text(at);
+    if (!at.finished || racer.report.status == ik::Status::Converged) return progress_text(at);
+    return "stopped after " + std::to_string(at.iteration) + ", " + outcome_name(racer.report.status);
 }
 
 std::string error_reading(const RacerAt& at) {
@@ -168,12 +153,12 @@ std::string error_reading(const RacerAt& at) {
 }
 
 std::string error_text(const Racer& racer, const RacerAt& at) {
-    const std::string status = at.finished ? std::string(ik::name(racer.report.status)) + ", " : "";
+    const std::string status = at.finished ? capitalised(outcome_name(racer.report.status)) + ", " : "";
     return status + si_text(static_cast<double>(at.error), "m") + " from the target";
 }
 
 std::string end_text(const Racer& racer) {
-    return std::string(ik::name(racer.report.status)) + ", " +
+    return capitalised(outcome_name(racer.report.status)) + ", " +
            si_text(static_cast<double>(racer.residuals.back()), "m") + " from the target";
 }
 

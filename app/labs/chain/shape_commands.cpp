@@ -114,17 +114,11 @@ void remove_selected(ChainPart& part, const Arguments&) {
 }
 
 void clear(ChainPart& part, const Arguments& given) {
-    Chain empty;
+    ChainPart empty;
+    empty.mode = part.mode;
     if (given.has("default_direction"))
-        require_ok(empty.set_default_direction(given.point("default_direction")));
-    part.chain = empty;
-    part.selection.clear();
-    part.chosen_point.reset();
-    part.index = 0;
-    part.motion.path = Motion::Path::Still;
-    forget_limits(part.reach);
-    part.reach.state = {};
-    shape_changed(part);
+        require_ok(empty.chain.set_default_direction(given.point("default_direction")));
+    part = std::move(empty);
 }
 
 void reset(ChainPart& part, const Arguments&) {
@@ -163,7 +157,7 @@ void add_shape_commands(CommandTable& table) {
     table.add(chain_command("chain.clear", "Remove every joint",
                             {point_argument("default_direction", false,
                                             "unit vector along which a chain without a direction extends")},
-                            "Removes every segment", clear));
+                            "Removes every segment, and sets all but the mode as at first", clear));
     table.add(chain_command("chain.add", "Add a joint at the tip", {length_argument(), position_argument()},
                             "Appends a segment at the tail", add));
     table.add(

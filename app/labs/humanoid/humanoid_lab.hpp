@@ -14,7 +14,7 @@ class HumanoidLab final : public Lab {
     std::string title() const override { return "Humanoid"; }
     std::shared_ptr<Part> blank() const override { return std::make_shared<HumanoidPart>(); }
     CameraPose first_view() const override;
-    const char* invitation() const override { return "Drag an orange ball."; }
+    std::string invitation(const Workspace&) const override { return "Drag an orange ball."; }
     void add_commands(CommandTable& table) const override;
 
     bool moving(const Workspace& workspace) const override;

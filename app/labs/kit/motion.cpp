@@ -30,7 +30,7 @@ template <>
 std::span<const FieldText> field_texts<Motion>() {
     static constexpr FieldText texts[] = {
         {.name = "path",
-         .label = "moves",
+         .label = "motion",
          .help = "A path that the target follows while the simulation runs. It shows how a solver follows "
                  "motion.",
          .listed = true,

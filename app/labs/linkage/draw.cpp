@@ -45,12 +45,11 @@ class LinkageDrawing {
 
     void path() {
         const std::vector<PathPoint> path = runtime_.path(part_);
-        double fastest = 0.0;
-        for (const PathPoint& each : path) fastest = std::max(fastest, each.speed);
+        const double fast = path_speed(path).fast;
         for (std::size_t i = 0; i < path.size(); ++i) {
             const std::size_t next = (i + 1) % path.size();
             if (next == 0 && !runtime_.turn(part_).whole) break;
-            const double share = fastest > 0.0 ? path[next].speed / fastest : 0.0;
+            const double share = fast > 0.0 ? path[next].speed / fast : 0.0;
             list_.line(in_scene(part_, path[i].at), in_scene(part_, path[next].at), px(2.5f),
                        opaque(speed_colour(view_.palette, share)));
         }
@@ -186,10 +185,11 @@ class LinkageDrawing {
         constexpr std::size_t few = 8;
         const bool room = part_.copies.empty() && part_.linkage().points.size() <= few;
         const bool named = lit || room || view_.workspace.settings.labels == LabelMode::Always;
+        const std::string speed = lit ? point_speed_text(part_, of.name, runtime_) : "";
         if (named)
             list_.labels.push_back({.at = at(i),
                                     .clearance = px(12.0f),
-                                    .text = of.name,
+                                    .text = of.name + (speed.empty() ? "" : ", " + speed),
                                     .colour = view_.palette.text,
                                     .rank = lit ? 1 : 0});
     }
@@ -251,6 +251,20 @@ class LinkageDrawing {
 };
 
 }  // namespace
+
+PathSpeed path_speed(const std::vector<PathPoint>& path) {
+    double highest = 0.0, length = 0.0, seconds = 0.0;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        if (!(path[i].speed > 0.0)) continue;
+        const double far = glm::distance(path[i].at, path[i - 1].at);
+        highest = std::max(highest, path[i].speed);
+        length += far;
+        seconds += far / path[i].speed;
+    }
+    if (!(seconds > 0.0)) return {};
+    const double most = 3.0 * length / seconds;
+    return {std::min(highest, most), highest > most};
+}
 
 glm::vec3 speed_colour(const Palette& palette, double share) {
     return glm::mix(palette.head, palette.target, static_cast<float>(std::clamp(share, 0.0, 1.0)));
@@ -358,9 +372,12 @@ std::vector<LegendRow> LinkageLab::legend(const Workspace& workspace) const {
     const Palette& colours = palette(workspace.settings.theme);
     std::vector<LegendRow> rows{{"pinned", colours.target}, {"motor", colours.head, true}};
     const LinkagePart& part = linkage_part(workspace);
-    if (!workspace.runtimes.of<LinkageRuntime>(linkage_lab).path(part).empty()) {
+    const PathSpeed speed = path_speed(workspace.runtimes.of<LinkageRuntime>(linkage_lab).path(part));
+    if (speed.fast > 0.0) {
         rows.push_back({"path, slow", speed_colour(colours, 0.0)});
-        rows.push_back({"path, fast", speed_colour(colours, 1.0)});
+        rows.push_back(
+            {"path, " + std::string(speed.exceeded ? "over " : "") + length_text(speed.fast) + "/s",
+             speed_colour(colours, 1.0)});
     }
     add_ghost_legend(workspace, linkage_past(), rows);
     return rows;

@@ -112,13 +112,19 @@ void pair_motor_rows(const LinkageShape& shape, std::size_t at, Emit& emit) {
     end_row();
 }
 
-void joint_rows(const LinkagePart& part, Emit& emit) {
+void joint_rows(const LinkagePart& part, LinkageRuntime& runtime, Emit& emit) {
     const PanelSection ids("Joint");
     const auto at = part.linkage().find_point(part.selected);
     if (!at) return note("Click a joint to select it: its path is drawn.");
     const glm::dvec3 place = part.at(*at);
-    reading("name", "%s", part.selected.c_str());
-    explain("As in files and commands.");
+    const std::string speed = point_speed_text(part, part.selected, runtime);
+    if (speed.empty()) {
+        reading("name", "%s", part.selected.c_str());
+        explain("As in files and commands.");
+    } else {
+        reading(("speed of " + part.selected).c_str(), "%s", speed.c_str());
+        explain("At the motor's speed; of one that is stopped, at 90 degrees a second. Show plots it.");
+    }
     reading("at", "%.3f  %.3f  %.3f m", place.x, place.y, place.z);
     explain("Where it is: X, Y and Z.");
     const double angle = angle_at(part, part.selected);
@@ -151,15 +157,16 @@ void joint_rows(const LinkagePart& part, Emit& emit) {
 void LinkageLab::inspector(const Workspace& workspace, Emit& emit) const {
     const LinkagePart& part = linkage_part(workspace);
     const Palette& colours = palette(workspace.settings.theme);
-    show_verdict(linkage_verdict(part, workspace.runtimes.of<LinkageRuntime>(linkage_lab)), colours, emit,
+    auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
+    show_verdict(linkage_verdict(part, runtime, workspace.clock.playing), colours, emit,
                  {.notes = 4, .paragraphs = 2}, [&] {
-                     const std::vector<Cure> ways = ways_on(part);
+                     const std::vector<Cure> ways = ways_on(part, runtime);
                      for (const Cure& each : ways) cure_line(each.text, each, emit);
                      if (!ways.empty()) note("Or drag a joint.");
                  });
     freedom_rows(part);
     motor_rows(workspace);
-    joint_rows(part, emit);
+    joint_rows(part, runtime, emit);
     incident_rows(workspace, colours, emit);
 }
 

@@ -96,8 +96,7 @@ void motor(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     if (given.has("deg_per_s") && !angular)
         throw Refused("joint \"" + joint + "\" is a slider: give per_s, in metres a second");
     if (given.has("per_s") && angular) throw Refused("joint \"" + joint + "\" is a hinge: give deg_per_s");
-    double rate = angular ? glm::radians(usual_motor_rate)
-                          : std::min(0.1 * runtime.solver(part.shape).size(), max_motor_rate);
+    double rate = usual_motor_rate(part, joint, runtime);
     if (given.has("deg_per_s")) rate = glm::radians(given.real("deg_per_s"));
     if (given.has("per_s")) rate = given.real("per_s");
     drive.rate = rate;
@@ -173,7 +172,7 @@ bool switch_near_dead_point(const LinkagePart& part, ik::LinkageSolver& solver, 
         ik::LinkageState moved = state;
         stopped->value = at + by;
         if (solver.solve(moved, {drivers, {}}).status != ik::LinkageStatus::Reached ||
-            !solver.other_mode(moved, drivers))
+            !solver.other_mode(moved, drivers, ik::OtherMode::Nearest))
             continue;
         state = moved;
         return true;
@@ -181,12 +180,15 @@ bool switch_near_dead_point(const LinkagePart& part, ik::LinkageSolver& solver, 
     return false;
 }
 
-void other_mode(LinkagePart& part, const Arguments&, LinkageRuntime& runtime) {
+void other_mode(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     std::vector<ik::LinkDriver> drivers;
     for (const LinkageDrive& each : part.drives)
         drivers.push_back({*part.linkage().find_link(each.joint), part.value_of(each.joint)});
     ik::LinkageSolver& solver = runtime.solver(part.shape);
-    if (!solver.other_mode(part.state, drivers) && !switch_near_dead_point(part, solver, part.state, drivers))
+    const auto which =
+        given.has("nearest") && given.boolean("nearest") ? ik::OtherMode::Nearest : ik::OtherMode::Next;
+    if (!solver.other_mode(part.state, drivers, which) &&
+        !switch_near_dead_point(part, solver, part.state, drivers))
         throw Refused("no other assembly mode is found with the drivers where they are");
     for (LinkageDrive& each : part.drives)
         if (is_running(each)) each.value = part.value_of(each.joint);
@@ -391,8 +393,9 @@ void add_linkage_commands(CommandTable& table) {
                               "Moves a point as the mouse does: drivers follow until it is let go", drag));
     table.add(linkage_command("linkage.let_go", "Let go of the linkage", {}, "Ends a drag", let_go));
     table.add(and_then(
-        linkage_command("linkage.other_mode", "Switch to the other assembly mode", {},
-                        "Assembles the same bars the other way, with the drivers where they are", other_mode),
+        linkage_command("linkage.other_mode", "Switch to another assembly mode",
+                        {switch_argument("nearest", "the one most like this; omitted: each in turn")},
+                        "Assembles the same bars another way, with the drivers where they are", other_mode),
         keep_linkage_in_view));
     table.add(
         opening_command("linkage.clear", "Remove all bars and joints", {}, "Removes everything", clear));

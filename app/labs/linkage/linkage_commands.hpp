@@ -21,9 +21,6 @@ void add_sketch_commands(CommandTable& table);
 /// prints its points.
 std::string linkage_code(const LinkagePart& part);
 
-/// Default motor speed, degrees per second; a slider moves a tenth of the linkage's size per second.
-inline constexpr double usual_motor_rate = 90.0;
-
 inline bool is_on_bar(const ik::SketchBar& bar, std::size_t point) {
     return std::ranges::count(bar.points, point) > 0;
 }
@@ -37,6 +34,9 @@ std::span<const Field> guide_fields();
 std::vector<std::size_t> bars_at(const ik::LinkageSketch& sketch, std::size_t point);
 /// Whether the inspector offers a motor for each pair of bars at the point: it is free, and they are few.
 bool chooses_pair(const ik::LinkageSketch& sketch, std::size_t point);
+/// Grows or shrinks a bar of two joints; the others keep their lengths, motors and held joints stay if they
+/// can. Throws Refused with the length that it gets to.
+void set_bar_length(ik::LinkageSketch& sketch, std::size_t bar, double metres);
 /// Whether a bar, a motor or a sliding joint has this name: each of them becomes a link.
 bool is_link_name(const ik::LinkageSketch& sketch, const std::string& name);
 /// Reads lengths by name from an object; omitted ones stay the same. Throws std::runtime_error with the JSON

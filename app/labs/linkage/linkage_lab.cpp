@@ -84,6 +84,13 @@ CameraPose LinkageLab::first_view() const {
     return {.target = {1.4f, 0.8f, 0.0f}, .distance = 7.5f, .orthographic = true};
 }
 
+std::string LinkageLab::invitation(const Workspace& workspace) const {
+    const LinkagePart& part = linkage_part(workspace);
+    if (part.shape->in_plane() && part.shape->sketch.bars.empty())
+        return "Drag from one place to another: a bar.";
+    return part.drives.empty() ? "Drag any joint." : "Drag any joint, or run the motor.";
+}
+
 void LinkageLab::add_commands(CommandTable& table) const {
     add_linkage_commands(table);
     add_sketch_commands(table);
@@ -171,11 +178,14 @@ std::string LinkageLab::hint(const Workspace& workspace, PickId pick) const {
     if (const LinkageTarget* const target = picked_linkage_target(part, pick))
         return "Where " + target->point + " is pulled to: drag moves it.";
     const ik::LinkPoint* const point = picked_point(part, pick);
-    const std::string name = point != nullptr ? point->name : "";
+    std::string name = point != nullptr ? point->name : "";
     const bool stays = point != nullptr && point->link == ik::ground_link;
     if (part.tool != LinkageTool::Move)
         return (point != nullptr ? name + ". " : name) + linkage_tools.help(part.tool);
     if (point == nullptr) return {};
+    const std::string speed =
+        point_speed_text(part, name, workspace.runtimes.of<LinkageRuntime>(linkage_lab));
+    if (!speed.empty()) name += ", " + speed;
     const bool named = kind_of(part.shape->mechanism) != nullptr;
     return name + (stays && named ? ": pinned where the mechanism's lengths put it. Click selects it."
                    : stays        ? ": drag moves it, and its bars change their lengths. Click selects it."
@@ -206,7 +216,7 @@ std::vector<CommandCall> LinkageLab::calm() const {
 }
 
 std::vector<TestScene> LinkageLab::test_scenes() const {
-    const std::vector<std::string> words{"crank", "motor", "A", "B", "C", "P", "S", "platform", "bar 1"};
+    const std::vector<std::string> words{"crank", "motor", "A", "B", "C", "P", "S", "platform", "AB"};
     std::vector<TestScene> scenes{
         {"motor", {{"linkage.motor", {{"joint", "crank"}}}}, words},
         {"drawn",

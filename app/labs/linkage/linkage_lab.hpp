@@ -9,10 +9,12 @@ namespace tendril::app {
 
 /// The linkage's state for --state and `tendril solve`: hinges in degrees, everything else in metres.
 Json linkage_state(const LinkagePart& part);
-/// The state of the linkage, or the next thing to do: the first text of the inspector.
-Verdict linkage_verdict(const LinkagePart& part, LinkageRuntime& runtime);
-/// The label of the motor button: "Run", "Stop", "Stopped at 43.0 degrees: turn back".
-std::string motor_button(const LinkagePart& part);
+/// The state of the linkage, or the next thing to do: the first text of the inspector. `playing`: the
+/// simulation runs.
+Verdict linkage_verdict(const LinkagePart& part, LinkageRuntime& runtime, bool playing = true);
+/// The label of the motor button: "Run", "Stop", "Continue" if the simulation is paused, "Stopped at 43.0
+/// degrees: turn back".
+std::string motor_button(const LinkagePart& part, bool playing = true);
 /// Rows for the ends of a joint's range, or a button that adds a range around its present value.
 void linkage_range_rows(const LinkagePart& part, const std::string& joint, Emit& emit);
 
@@ -24,7 +26,7 @@ class LinkageLab final : public Lab {
     std::string title() const override { return "Linkage"; }
     std::shared_ptr<Part> blank() const override;
     CameraPose first_view() const override;
-    const char* invitation() const override { return "Drag any joint, or run the motor."; }
+    std::string invitation(const Workspace& workspace) const override;
     void add_commands(CommandTable& table) const override;
 
     bool moving(const Workspace& workspace) const override;

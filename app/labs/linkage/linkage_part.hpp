@@ -153,15 +153,22 @@ struct LinkageTurn {
     };
     std::size_t joint = ik::ground_link;  ///< the leading joint, as a link index
     bool whole = false;                   ///< it turns all the way round: the first pose follows the last
-    std::vector<Pose> poses{};            ///< in order of `value`
+    std::vector<Pose> poses{};            ///< in order of `value`; closer where the linkage is fast
 };
-/// A point of a path: its position, and its speed per radian or metre of the leading joint.
+/// A point of a path: its position, and its speed in metres per second, at the leading motor's speed or, if
+/// that is stopped, the usual one.
 struct PathPoint {
     glm::dvec3 at{0.0};
     double speed = 0.0;
 };
 
-/// The solver of the lab's linkage, created once for each shape, and a cache of its turn.
+/// A length of a motor's crank, metres, with which it turns all the way round.
+struct RoundCrank {
+    double length = 0.0;
+    double longest = 0.0;  ///< the linkage folds just beyond it
+};
+
+/// The solver of the lab's linkage, created once for each shape, and caches of what follows from it.
 class LinkageRuntime final : public Runtime {
   public:
     ik::LinkageSolver& solver(const std::shared_ptr<const LinkageShape>& shape);
@@ -169,9 +176,15 @@ class LinkageRuntime final : public Runtime {
     const LinkageTurn& turn(const LinkagePart& part);
     /// The selected point's path through the turn; empty if there is none.
     std::vector<PathPoint> path(const LinkagePart& part);
+    /// The nearest shorter crank of this motor, in this pose. None if there is none, if the crank has other
+    /// bars or joints on it, or if the linkage has other degrees of freedom.
+    std::optional<RoundCrank> round_crank(const LinkagePart& part, std::size_t motor);
 
   private:
-    std::shared_ptr<const LinkageShape> of_, turn_of_;
+    std::shared_ptr<const LinkageShape> of_, turn_of_, crank_of_;
+    ik::LinkageState crank_at_;
+    std::size_t crank_motor_ = 0;
+    std::optional<RoundCrank> crank_;
     std::optional<ik::LinkageSolver> solver_;
     LinkageTurn turn_;
 };

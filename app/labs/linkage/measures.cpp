@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include "app/document/text.hpp"
 #include "app/document/units.hpp"
@@ -16,7 +17,6 @@
 namespace tendril::app {
 namespace {
 
-constexpr double length_step = 0.01;  ///< metres: suggested lengths are whole centimetres
 constexpr double no_angle = std::numeric_limits<double>::quiet_NaN();
 
 glm::dvec2 way(const LinkagePart& part, std::size_t from, std::size_t to) {
@@ -35,21 +35,16 @@ double transmission_in(const LinkagePart& part, const DrivenLoop& loop) {
     return 90.0 - fold(between(coupler, guide_direction(part.shape->sketch.points[loop.end])));
 }
 
-/// The driven loop if it is the linkage's only loop; otherwise null.
-const DrivenLoop* only_loop(const LinkagePart& part) {
-    const LinkageShape& shape = *part.shape;
-    return shape.loops == 1 && shape.driven.size() == 1 ? &shape.driven.front() : nullptr;
-}
-
 /// The four lengths if the linkage is a four-bar.
 std::optional<ik::FourBar> four_bar_lengths(const LinkagePart& part) {
-    const DrivenLoop* const loop = only_loop(part);
-    if (loop == nullptr || !loop->has_rocker()) return std::nullopt;
-    const std::size_t motor = part.shape->sketch.motors[loop->motor].point;
-    return ik::FourBar{.ground = glm::length(way(part, motor, loop->pin)),
-                       .crank = glm::length(way(part, motor, loop->tip)),
-                       .coupler = glm::length(way(part, loop->tip, loop->end)),
-                       .rocker = glm::length(way(part, loop->end, loop->pin))};
+    const LinkageShape& shape = *part.shape;
+    if (shape.loops != 1 || shape.driven.size() != 1 || !shape.driven[0].has_rocker()) return std::nullopt;
+    const DrivenLoop& loop = shape.driven[0];
+    const std::size_t motor = shape.sketch.motors[loop.motor].point;
+    return ik::FourBar{.ground = glm::length(way(part, motor, loop.pin)),
+                       .crank = glm::length(way(part, motor, loop.tip)),
+                       .coupler = glm::length(way(part, loop.tip, loop.end)),
+                       .rocker = glm::length(way(part, loop.end, loop.pin))};
 }
 
 /// Whether the joint is a hinge in the plane without a range, so that all its turns look alike.
@@ -127,14 +122,66 @@ std::optional<WorstTransmission> worst_transmission(const LinkagePart& part, con
     WorstTransmission worst{angles[at], poses[at].value};
     if (count < 3 || (!turn.whole && (at == 0 || at + 1 == count))) return worst;
     // Refine between poses: the minimum of the parabola through three of them.
-    const double before = angles[(at + count - 1) % count], after = angles[(at + 1) % count];
-    const double bend = before - 2.0 * worst.degrees + after;
+    const std::size_t before = (at + count - 1) % count, after = (at + 1) % count;
+    const auto far = [&](std::size_t from, std::size_t to) {
+        const double by = std::abs(poses[to].value - poses[from].value);
+        return from < to ? by : 2.0 * std::numbers::pi - by;
+    };
+    const double down = (angles[before] - worst.degrees) / far(before, at),
+                 up = (angles[after] - worst.degrees) / far(at, after);
+    const double bend = (down + up) / (far(before, at) + far(at, after));
     if (!(bend > 1e-9)) return worst;
-    const double by = 0.5 * (before - after) / bend;
-    const double step = std::abs(poses[at == 0 ? 1 : at].value - poses[at == 0 ? 0 : at - 1].value);
-    worst.degrees = std::max(worst.degrees - 0.25 * (before - after) * by, 0.0);
-    worst.value += by * step;
+    const double slope = up - bend * far(at, after);
+    const double most = std::max(angles[before], angles[after]) - worst.degrees;  // beside a cusp
+    worst.degrees = std::max(worst.degrees - std::min(0.25 * slope * slope / bend, most), 0.0);
+    worst.value -= 0.5 * slope / bend;
     return worst;
+}
+
+double usual_motor_rate(const LinkagePart& part, std::string_view joint, LinkageRuntime& runtime) {
+    if (turns(part, joint)) return glm::radians(90.0);
+    return std::min(0.1 * runtime.solver(part.shape).size(), max_motor_rate);
+}
+
+double point_speed(const LinkagePart& part, std::string_view point, LinkageRuntime& runtime) {
+    const auto at = part.linkage().find_point(point);
+    if (!at || part.linkage().points[*at].link == ik::ground_link || part.drives.empty()) return no_angle;
+    const bool stopped = std::ranges::none_of(part.drives, is_running);
+    ik::LinkageSolver& solver = runtime.solver(part.shape);
+    std::vector<LinkageDrive> drives;
+    double quickest = 0.0;  // radians or sizes of the linkage per second
+    for (const LinkageDrive& each : part.drives) {
+        const bool leads = stopped && drives.empty() && &each == &part.drives.front();
+        if (!each.held && !leads) continue;
+        drives.push_back(each);
+        if (leads) drives.back().rate = usual_motor_rate(part, each.joint, runtime);
+        const double unit = turns(part, each.joint) ? 1.0 : solver.size();
+        quickest = std::max(quickest, std::abs(drives.back().rate) / unit);
+    }
+    if (!(quickest > 0.0)) return no_angle;
+    constexpr double small_turn = 1e-3;  // radians; a motor reaches its value within 1e-6
+    const double seconds = small_turn / quickest;
+    std::vector<glm::dvec3> ends;  // one of them at the end of a range
+    for (const double by : {-seconds, seconds}) {
+        std::vector<ik::LinkDriver> drivers;
+        for (const LinkageDrive& each : drives)
+            drivers.push_back(
+                {*part.linkage().find_link(each.joint), part.value_of(each.joint) + by * each.rate});
+        ik::LinkageState state = part.state;
+        const ik::LinkageStatus status = solver.solve(state, {drivers, {}}).status;
+        if (status == ik::LinkageStatus::Reached)
+            ends.push_back(solver.point(*at));
+        else if (status != ik::LinkageStatus::Limited)
+            return no_angle;
+    }
+    if (ends.empty()) return no_angle;
+    if (ends.size() == 1) return glm::distance(ends[0], part.at(*at)) / seconds;
+    return glm::distance(ends[0], ends[1]) / (2.0 * seconds);
+}
+
+std::string point_speed_text(const LinkagePart& part, std::string_view point, LinkageRuntime& runtime) {
+    const double speed = point_speed(part, point, runtime);
+    return std::isfinite(speed) ? length_text(speed) + "/s" : std::string();
 }
 
 ik::LinkageFreedom freedom_of(const LinkagePart& part) {
@@ -323,28 +370,7 @@ std::string four_bar_kind(const LinkagePart& part) {
                                       : "double rocker";
 }
 
-std::optional<RoundCranks> shorter_round_cranks(const LinkagePart& part) {
-    double shortest = 0.0, longest = 0.0;
-    if (const auto bars = four_bar_lengths(part)) {
-        // Coupler and rocker span the distance from the crank's tip to the rocker's pin, both at its maximum,
-        // ground + crank, and at its minimum, their difference. In a drag link the crank is longer than the
-        // ground, by at least `gap`.
-        const double reach = bars->coupler + bars->rocker - bars->ground;
-        const double gap = std::abs(bars->coupler - bars->rocker);
-        const bool drag_link = reach > bars->ground + gap && bars->crank > reach;
-        shortest = drag_link ? bars->ground + gap : 0.0;
-        longest = drag_link ? reach : std::min(reach, bars->ground - gap);
-    } else if (const DrivenLoop* const loop = only_loop(part)) {
-        // The coupler must reach the slider's line from every point of the crank's circle.
-        const glm::dvec2 line = guide_direction(part.shape->sketch.points[loop->end]);
-        const glm::dvec2 to_line = way(part, part.shape->sketch.motors[loop->motor].point, loop->end);
-        longest =
-            glm::length(way(part, loop->tip, loop->end)) - std::abs(to_line.x * line.y - to_line.y * line.x);
-    }
-    return longest > length_step ? std::optional(RoundCranks{shortest, longest}) : std::nullopt;
-}
-
-std::vector<Cure> ways_on(const LinkagePart& part) {
+std::vector<Cure> ways_on(const LinkagePart& part, LinkageRuntime& runtime) {
     std::vector<Cure> ways;
     const ik::LinkageReport& report = part.result.report;
     if (report.status != ik::LinkageStatus::DeadPoint || !report.stopped) return ways;
@@ -361,29 +387,22 @@ std::vector<Cure> ways_on(const LinkagePart& part) {
             {"Other mode",
              "Runs the motor the other way with the bars assembled the other way: the linkage goes "
              "on through the dead point",
-             {{"linkage.other_mode", {}}, back},
+             {{"linkage.other_mode", {{"nearest", true}}}, back},
              "On, past the dead point"});
     }
-    if (const auto round = shorter_round_cranks(part)) {
-        const ik::LinkageSketch& sketch = part.shape->sketch;
-        const std::size_t bar = sketch.motors[only_loop(part)->motor].bar;
-        const ik::SketchBar& crank = sketch.bars[bar];
-        // Stays 5 % below the length at which the linkage folds.
-        double shorter = length_step * std::floor(0.95 * round->longest / length_step);
-        if (shorter <= round->shortest) shorter = 0.5 * (round->shortest + round->longest);
-        const std::string from =
-            round->shortest > 0.0 ? "from " + fixed_text(round->shortest, 2) + " m " : "";
-        const bool alone = std::ranges::count(part.shape->bodies, part.shape->bodies[bar]) == 1;
-        if (alone && crank.points.size() == 2 && shorter > 0.0)
-            ways.push_back({"Shorten",
-                            "Makes the crank " + fixed_text(shorter, 2) + " m long: it turns all round " +
-                                from + (from.empty() ? "up " : "") + "to " + fixed_text(round->longest, 2) +
-                                " m",
-                            {kind_of(part.shape->mechanism) != nullptr
-                                 ? CommandCall{"linkage.set", {{"crank", shorter}}}
-                                 : CommandCall{"linkage.length", {{"bar", crank.name}, {"length", shorter}}}},
-                            capitalised(crank.name) + " of " + fixed_text(shorter, 2) + " m"});
-    }
+    const std::vector<ik::SketchMotor>& motors = part.shape->sketch.motors;
+    const auto motor = std::ranges::find(motors, joint, &ik::SketchMotor::name);
+    if (motor == motors.end()) return ways;
+    const auto round = runtime.round_crank(part, static_cast<std::size_t>(motor - motors.begin()));
+    if (!round) return ways;
+    const std::string& crank = part.shape->sketch.bars[motor->bar].name;
+    ways.push_back({"Shorten",
+                    "Makes the crank " + fixed_text(round->length, 2) + " m long: it turns all round up to " +
+                        fixed_text(round->longest, 2) + " m",
+                    {kind_of(part.shape->mechanism) != nullptr
+                         ? CommandCall{"linkage.set", {{crank, round->length}}}
+                         : CommandCall{"linkage.length", {{"bar", crank}, {"length", round->length}}}},
+                    capitalised(crank) + " of " + fixed_text(round->length, 2) + " m"});
     return ways;
 }
 

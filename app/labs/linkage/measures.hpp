@@ -45,18 +45,28 @@ struct WorstTransmission {
     double value = 0.0;
 };
 std::optional<WorstTransmission> worst_transmission(const LinkagePart& part, const LinkageTurn& turn);
-/// Poses the part along its turn, to measure it from the positions of its links.
+/// Poses the part along its turn, to measure it there. Balls keep their rotations.
 class PartInTurn {
   public:
     explicit PartInTurn(const LinkagePart& part) : part_(std::make_shared<LinkagePart>(part)) {}
     const std::shared_ptr<LinkagePart>& at(const LinkageTurn::Pose& pose) {
         part_->links = pose.links;
+        for (std::size_t i = 0; i < pose.joints.size(); ++i) part_->state.joints[i].value = pose.joints[i];
         return part_;
     }
 
   private:
     std::shared_ptr<LinkagePart> part_;
 };
+
+/// The speed of a motor that is given none, radians or metres per second.
+double usual_motor_rate(const LinkagePart& part, std::string_view joint, LinkageRuntime& runtime);
+/// Metres per second of a point in this pose, at the speed of the motors that run; if none does, at the usual
+/// one of the first. NaN for a point of the ground, without a motor, at a dead point, and where the motors
+/// contradict.
+double point_speed(const LinkagePart& part, std::string_view point, LinkageRuntime& runtime);
+/// "0.52 m/s"; empty if there is no speed.
+std::string point_speed_text(const LinkagePart& part, std::string_view point, LinkageRuntime& runtime);
 
 /// Degrees of freedom, including those of floating bars: three for each free piece, plus its internal ones.
 ik::LinkageFreedom freedom_of(const LinkagePart& part);
@@ -78,15 +88,7 @@ std::string stop_text(const LinkagePart& part);
 /// The type of a four-bar with a motor by Grashof's rule: "crank-rocker", "drag link", "double rocker"...
 /// Empty for other linkages.
 std::string four_bar_kind(const LinkagePart& part);
-/// The crank lengths, in metres, with which a motor turns all the way round.
-struct RoundCranks {
-    double shortest = 0.0;  ///< 0, except for a drag link, whose crank is longer than its ground
-    double longest = 0.0;
-};
-/// The nearest shorter cranks of a four-bar (by Grashof's rule) or slider-crank whose crank stops at a dead
-/// point. None if the other bars allow none, or for other linkages.
-std::optional<RoundCranks> shorter_round_cranks(const LinkagePart& part);
 /// Ways to move a motor on that is stopped at a dead point; empty: none.
-std::vector<Cure> ways_on(const LinkagePart& part);
+std::vector<Cure> ways_on(const LinkagePart& part, LinkageRuntime& runtime);
 
 }  // namespace tendril::app

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/labs/kit/past.hpp"
+#include "app/labs/linkage/draw.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
 #include "app/labs/linkage/measures.hpp"
@@ -41,7 +43,9 @@ Verdict drawing_verdict(const LinkagePart& part) {
     const LinkageShape& shape = *part.shape;
     if (shape.sketch.bars.empty())
         return {"Draw a bar", Verdict::Kind::Open,
-                "Choose Draw, and drag from one place to another in the view."};
+                part.tool == LinkageTool::Draw
+                    ? "Drag from one place to another in the view."
+                    : "Choose Draw, and drag from one place to another in the view."};
     const auto loose = std::ranges::count(shape.floating, true);
     if (loose == static_cast<std::ptrdiff_t>(shape.floating.size()))
         return {"Nothing holds it", Verdict::Kind::Open,
@@ -56,7 +60,7 @@ Verdict drawing_verdict(const LinkagePart& part) {
 
 }  // namespace
 
-Verdict linkage_verdict(const LinkagePart& part, LinkageRuntime& runtime) {
+Verdict linkage_verdict(const LinkagePart& part, LinkageRuntime& runtime, bool playing) {
     using enum ik::LinkageStatus;
     const ik::LinkageReport& report = part.result.report;
     if (part.shape->in_plane())
@@ -92,12 +96,15 @@ Verdict linkage_verdict(const LinkagePart& part, LinkageRuntime& runtime) {
         return {text, Verdict::Kind::Good, "Drag a joint. Or choose Motor, and click a joint."};
     const auto runs = std::ranges::find_if(part.drives, is_running);
     if (runs == part.drives.end()) return {text, Verdict::Kind::Good, "Drag a joint, or run the motor."};
-    const int whole = shown_value(part, runs->joint, part.value_of(runs->joint)).turns;
-    const auto count = static_cast<std::size_t>(std::abs(whole));
-    return {text, Verdict::Kind::Good,
-            count == 0
-                ? "The motor runs."
-                : "The motor runs: " + count_text(count, "whole turn") + (whole < 0 ? " backwards." : ".")};
+    std::string runs_on = playing ? "The motor runs" : "Paused";
+    if (turns(part, runs->joint)) {
+        const std::size_t link = *part.linkage().find_link(runs->joint);
+        const double made =
+            (part.value_of(runs->joint) - part.linkage().links[link].rest) / (2.0 * std::numbers::pi);
+        const auto whole = static_cast<std::size_t>(std::min(std::abs(made) + 1e-9, 1e9));
+        if (whole > 0) runs_on += ": " + count_text(whole, "whole turn") + (made < 0.0 ? " backwards" : "");
+    }
+    return {text, Verdict::Kind::Good, runs_on + (playing ? "." : ". Space continues.")};
 }
 
 namespace {
@@ -110,10 +117,11 @@ const LinkageDrive* stalled_motor(const LinkagePart& part) {
 
 }  // namespace
 
-std::string motor_button(const LinkagePart& part) {
+std::string motor_button(const LinkagePart& part, bool playing) {
     if (const LinkageDrive* const drive = stalled_motor(part))
         return "Stopped at " + value_text(part, drive->joint, part.value_of(drive->joint)) + ": turn back";
-    return std::ranges::any_of(part.drives, is_running) ? "Stop" : "Run";
+    if (std::ranges::none_of(part.drives, is_running)) return "Run";
+    return playing ? "Stop" : "Continue";
 }
 
 namespace {
@@ -200,27 +208,28 @@ namespace {
 /// Runs, stops and frees all motors.
 void motor_buttons(const Workspace& workspace, Emit& emit) {
     const LinkagePart& part = linkage_part(workspace);
-    const bool runs = std::ranges::any_of(part.drives, is_running), stands = stalled_motor(part) != nullptr;
-    const std::string title = motor_button(part);
+    const bool runs = std::ranges::any_of(part.drives, is_running), stands = stalled_motor(part) != nullptr,
+               playing = workspace.clock.playing;
+    const std::string title = motor_button(part, playing);
     if (row_button(
             title.c_str(), 1, !part.drives.empty(),
             "Runs the motor while time passes, or stops it there. Where it cannot go on it turns back")) {
         for (const LinkageDrive& each : part.drives)
             if (stands && is_running(each))
                 run_at(part, each.joint, in_degrees(part, each.joint, -each.rate), emit);
-            else if (runs && !stands)
+            else if (runs && !stands && playing)
                 emit.continuously("linkage.drive",
                                   {{"joint", each.joint}, {"value", part.value_of(each.joint)}});
             else if (!runs)
                 emit.continuously("linkage.motor", {{"joint", each.joint}});
-        if ((stands || !runs) && !workspace.clock.playing) emit("time.play");
+        if (!playing) emit("time.play");
     }
     if (row_button("Free", 2, std::ranges::any_of(part.drives, &LinkageDrive::held),
                    "Stops the motor, and lets the joint follow the others"))
         for (const LinkageDrive& each : part.drives)
             emit.continuously("linkage.release", {{"joint", each.joint}});
     if (row_button("Other mode", 2, !part.linkage().closures.empty(),
-                   "Assembles the same bars the other way, with the drivers where they are"))
+                   "Assembles the same bars another way, with the drivers where they are: each in turn"))
         emit("linkage.other_mode");
     end_row();
 }
@@ -281,21 +290,24 @@ float lines_left() {
 }
 
 /// Plots the number over the joint that leads the turn, beside the plot over time.
-void turn_plot(const Workspace& workspace, std::vector<Curve> curves) {
+void turn_plot(const Workspace& workspace, std::vector<Curve> curves, const std::string& unit) {
     const LinkagePart& part = linkage_part(workspace);
-    const LinkageTurn& turn = workspace.runtimes.of<LinkageRuntime>(linkage_lab).turn(part);
+    auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
+    const LinkageTurn& turn = runtime.turn(part);
     const std::string& joint = part.linkage().links[turn.joint].name;
     const auto now = static_cast<float>(shown_value(part, joint, part.value_of(joint)).value);
     const Curve line = curves.front();
     const bool transmission = line.name == transmission_name, split = curves.size() > 1 || turn.whole;
     const float from = line.points.front().x, to = line.points.back().x;
-    float high = 1.0f, value = std::numeric_limits<float>::quiet_NaN();
+    float high = 0.01f, value = std::numeric_limits<float>::quiet_NaN();
     for (const Curve& each : curves) {
         for (const glm::vec2& point : each.points) high = std::max(high, point.y);
         if (const float here = value_at(each, now); std::isfinite(here)) value = here;
     }
     if (std::isfinite(value))
         curves.push_back({.name = "now", .colour = line.colour, .points = {{now, value}}, .width = 1.7f});
+    const PathSpeed fast = path_speed(runtime.path(part));
+    const bool cut = unit == "m/s" && fast.exceeded;  // a speed has no limit at a dead point
     std::string title = transmission ? line.name + " (poor below 40)" : line.name;
     const float room = ImGui::GetContentRegionAvail().x - 4.0f * ImGui::GetFontSize();
     if (ImGui::CalcTextSize(title.c_str()).x > room) title = line.name;
@@ -303,12 +315,15 @@ void turn_plot(const Workspace& workspace, std::vector<Curve> curves) {
          {.x = joint.c_str(),
           .x_unit = turns(part, joint) ? "deg" : "m",
           .y = title.c_str(),
-          .y_unit = "deg",
+          .y_unit = unit.c_str(),
           .min_y = 0.0f,
           .from_x = split ? 0.0f : from,
           .min_x = split ? 360.0f : to,
           .low_y = 0.0f,
-          .high_y = transmission ? 90.0f : 1.1f * high,
+          .high_y = transmission ? 90.0f
+                    : cut        ? static_cast<float>(fast.fast)
+                                 : 1.1f * high,
+          .fixed_y = cut,
           .level = transmission ? static_cast<float>(poor_transmission) : 0.0f,
           .at_x = now},
          lines_left());
@@ -331,7 +346,7 @@ void LinkageLab::timeline(const Workspace& workspace, Emit& emit) const {
     ImGui::EndChild();
     ImGui::SameLine();
     ImGui::BeginChild("over a turn");
-    turn_plot(workspace, std::move(over_turn));
+    turn_plot(workspace, std::move(over_turn), curve->unit);
     ImGui::EndChild();
 }
 

@@ -41,6 +41,18 @@ PastCurve angle_curve(const Workspace& workspace) {
             .value = [point](const SharedPart& then) { return angle_at(part_as<LinkagePart>(then), point); }};
 }
 
+PastCurve speed_curve(const Workspace& workspace) {
+    const std::string point = linkage_part(workspace).selected;
+    auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
+    return {.name = point.empty() ? "speed of a joint" : "speed of " + point,
+            .unit = "m/s",
+            .lowest_range = 0.1f,
+            .missing = "Select a joint that a motor moves.",
+            .value = [point, &runtime](const SharedPart& then) {
+                return point_speed(part_as<LinkagePart>(then), point, runtime);
+            }};
+}
+
 PastCurve transmission_curve(const Workspace&) {
     return {.name = transmission_name,
             .missing = "A motor has to drive a coupler.",
@@ -159,7 +171,7 @@ std::vector<Incident> incidents_of(const Workspace& workspace, const Part& first
                                       "the linkage switched to its other assembly mode",
                              .buttons = {{"Other mode",
                                           "Runs linkage.other_mode: back to the mode before",
-                                          {{"linkage.other_mode", {}}}}}});
+                                          {{"linkage.other_mode", {{"nearest", true}}}}}}});
     }
     if (is.stopped && is.stopped != was.stopped) {
         const std::string& joint = after.linkage().links[*is.stopped].name;
@@ -173,7 +185,7 @@ std::vector<Incident> incidents_of(const Workspace& workspace, const Part& first
              .cause = joint + (dead ? " is at a dead point: " : " is stopped by a range: ") +
                       "it cannot go on beyond " + value_text(after, joint, is.stopped_at) +
                       (reason.empty() ? "" : ", for " + reason),
-             .buttons = ways_on(after)});
+             .buttons = ways_on(after, runtime)});
     } else if (is.status == Open && was.status != Open) {
         incidents.push_back({.kind = Incident::Kind::Status,
                              .joint = 0,
@@ -189,11 +201,12 @@ const Past& linkage_past() {
     static const Past past{.lab = linkage_lab,
                            .what = "linkage",
                            .probes = {{"angle", "angle at a joint", angle_curve},
+                                      {"speed", "speed of a joint", speed_curve},
                                       {"transmission", transmission_name, transmission_curve},
                                       {"motor", "first motor", motor_curve}},
                            .plot_help =
                                "Plotted below the scene for the last ten seconds: the angle at the selected "
-                               "joint, how well the coupler pushes, or the motor",
+                               "joint, its speed, how well the coupler pushes, or the motor",
                            .ghosts_help = "Where the bars were, every half second",
                            .pose = lines_of,
                            .same_joints = same_joints,

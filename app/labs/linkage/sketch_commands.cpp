@@ -37,12 +37,19 @@ std::string free_point_name(const LinkageSketch& sketch) {
     }
 }
 
-/// The first unused name: "bar 1", "motor 2".
+/// The first unused name: "motor 2".
 std::string free_link_name(const LinkageSketch& sketch, const std::string& what) {
     for (std::size_t i = 1;; ++i) {
         std::string name = what + " " + std::to_string(i);
         if (!is_link_name(sketch, name)) return name;
     }
+}
+
+/// "BC", or "B-foot", after the joints at its ends.
+std::string free_bar_name(const LinkageSketch& sketch, std::size_t from, std::size_t to) {
+    const auto [a, b] = std::minmax(sketch.points[from].name, sketch.points[to].name);
+    const std::string name = a + (a.size() + b.size() == 2 ? "" : "-") + b;
+    return is_link_name(sketch, name) ? free_link_name(sketch, name) : name;
 }
 
 glm::dvec2 place_in_plane(const Json& json, const std::string& where) {
@@ -76,10 +83,10 @@ std::size_t end_of_bar(LinkageSketch& sketch, const Arguments& given, const char
 void add_bar(LinkageSketch& sketch, const Arguments& given) {
     if (sketch.bars.size() >= max_linkage_bars)
         throw Refused("a linkage has at most " + std::to_string(max_linkage_bars) + " bars");
-    const std::string name = given.has("name") ? given.text("name") : free_link_name(sketch, "bar");
+    const std::size_t from = end_of_bar(sketch, given, "from"), to = end_of_bar(sketch, given, "to");
+    const std::string name = given.has("name") ? given.text("name") : free_bar_name(sketch, from, to);
     if (name.empty()) throw Refused("name: a bar needs one");
     if (is_link_name(sketch, name)) throw Refused("name: \"" + name + "\" is taken");
-    const std::size_t from = end_of_bar(sketch, given, "from"), to = end_of_bar(sketch, given, "to");
     if (from == to || sketch.points[from].at == sketch.points[to].at)
         throw Refused("a bar needs two different joints");
     for (const ik::SketchBar& each : sketch.bars)
@@ -140,28 +147,8 @@ ik::Linkage with_telescope(ik::Linkage linkage, std::size_t link, const glm::dve
     return linkage;
 }
 
-/// Grows or shrinks the bar to the given length; motors and held joints stay if they can.
 void set_length(LinkageSketch& sketch, const Arguments& given) {
-    const std::size_t index = require_bar(sketch, given.text("bar"));
-    const ik::SketchBar& bar = sketch.bars[index];
-    if (bar.points.size() != 2)
-        throw Refused("bar \"" + bar.name + "\" has more than two joints: move those");
-    LinkageSketch held = sketch;
-    if (floating_bars(held)[index]) held.points[bar.points[0]].hold = SketchHold::Pinned;
-    const ik::Linkage linkage = shape_of(held).linkage;
-    const std::size_t link = link_of_bar(linkage, held, index).value();
-    glm::dvec3 near(sketch.points[bar.points[0]].at, 0.0), far(sketch.points[bar.points[1]].at, 0.0);
-    if (glm::distance(linkage.links[link].at, far) < glm::distance(linkage.links[link].at, near))
-        std::swap(near, far);
-    auto solver = require_value(ik::LinkageSolver::make(with_telescope(linkage, link, far)));
-    ik::LinkageState state = solver.initial_state();
-    const double wanted = given.real("length"), now = glm::distance(near, far);
-    const ik::LinkDriver grow{link + 1, wanted - now};
-    if (solver.solve(state, {{&grow, 1}, {}}).status != ik::LinkageStatus::Reached)
-        throw Refused("bar \"" + bar.name + "\" gets to " +
-                      app::length_text(now + state.joints[link + 1].value) +
-                      " with the others as they are, not " + app::length_text(wanted));
-    for (std::size_t i = 0; i < sketch.points.size(); ++i) sketch.points[i].at = glm::dvec2(solver.point(i));
+    set_bar_length(sketch, require_bar(sketch, given.text("bar")), given.real("length"));
 }
 
 bool has_motor(const LinkageSketch& sketch, std::size_t point, std::size_t bar, std::size_t against) {
@@ -258,6 +245,7 @@ Command sketch_command(const char* name, const char* title, std::vector<Argument
                     LinkageSketch sketch = before;
                     edit(sketch, given);
                     if (!(sketch == before)) take_shape(part, shape_of(std::move(sketch)), runtime);
+                    if (part.tool == LinkageTool::Motor) part.tool = LinkageTool::Move;
                 };
                 edit_by_hand(workspace, change);
             }};
@@ -299,6 +287,28 @@ std::span<const FieldText> field_texts<ik::SketchPoint>() {
                                            .step = 0.5f,
                                            .decimals = 1}};
     return texts;
+}
+
+void set_bar_length(LinkageSketch& sketch, std::size_t index, double wanted) {
+    const ik::SketchBar& bar = sketch.bars[index];
+    if (bar.points.size() != 2)
+        throw Refused("bar \"" + bar.name + "\" has more than two joints: move those");
+    LinkageSketch held = sketch;
+    if (floating_bars(held)[index]) held.points[bar.points[0]].hold = SketchHold::Pinned;
+    const ik::Linkage linkage = shape_of(held).linkage;
+    const std::size_t link = link_of_bar(linkage, held, index).value();
+    glm::dvec3 near(sketch.points[bar.points[0]].at, 0.0), far(sketch.points[bar.points[1]].at, 0.0);
+    if (glm::distance(linkage.links[link].at, far) < glm::distance(linkage.links[link].at, near))
+        std::swap(near, far);
+    auto solver = require_value(ik::LinkageSolver::make(with_telescope(linkage, link, far)));
+    ik::LinkageState state = solver.initial_state();
+    const double now = glm::distance(near, far);
+    const ik::LinkDriver grow{link + 1, wanted - now};
+    if (solver.solve(state, {{&grow, 1}, {}}).status != ik::LinkageStatus::Reached)
+        throw Refused("bar \"" + bar.name + "\" gets to " +
+                      app::length_text(now + state.joints[link + 1].value) +
+                      " with the others as they are, not " + app::length_text(wanted));
+    for (std::size_t i = 0; i < sketch.points.size(); ++i) sketch.points[i].at = glm::dvec2(solver.point(i));
 }
 
 std::vector<std::size_t> bars_at(const LinkageSketch& sketch, std::size_t point) {

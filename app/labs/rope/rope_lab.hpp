@@ -51,7 +51,7 @@ class RopeLab final : public Lab {
     std::string title() const override { return "Rope"; }
     std::shared_ptr<Part> blank() const override;
     CameraPose first_view() const override;
-    const char* invitation() const override { return "Drag a rope, or what it lies on."; }
+    std::string invitation(const Workspace&) const override { return "Drag a rope, or what it lies on."; }
     void add_commands(CommandTable& table) const override;
 
     bool moving(const Workspace& workspace) const override;

@@ -13,7 +13,7 @@ class SignalLab final : public Lab {
     std::string title() const override { return "Signal"; }
     std::shared_ptr<Part> blank() const override;
     CameraPose first_view() const override;
-    const char* invitation() const override { return "Drag the orange ball."; }
+    std::string invitation(const Workspace&) const override { return "Drag the orange ball."; }
     void add_commands(CommandTable& table) const override;
 
     bool moving(const Workspace& workspace) const override;

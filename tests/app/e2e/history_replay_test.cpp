@@ -187,6 +187,9 @@ TEST_P(HistoryReplaySeeds, UndoingAndRedoingEverythingLosesNothing) {
     EXPECT_EQ(state.value("events", Json()), back.value("events", Json()));
     const auto ticks_back = [](const Json& of) { return of.at("time").value("ticks_back", 0); };
     EXPECT_EQ(ticks_back(state), ticks_back(back));
+    tap(app, "ctrl+y");
+    EXPECT_EQ(app.workspace().ui.toasts.back().text, "Nothing to redo.");
+    EXPECT_EQ(app.workspace().ui.toasts.back().kind, ToastKind::Info) << "no fault";
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, HistoryReplaySeeds, testing::Range(1u, 9u));

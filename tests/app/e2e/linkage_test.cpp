@@ -21,6 +21,7 @@ TEST(LinkageInTheWindow, AFourBarIsDrawnByMouseAndRun) {
     state = state_after(script);
     EXPECT_EQ(state.at("freedom"), 1);
     ASSERT_EQ(state.at("drivers").size(), 1u);
+    EXPECT_EQ(state.at("tool"), "move") << "a motor is placed once";
     const double before = state.at("drivers").at("motor 1").get<double>();
     script.command("linkage.motor", {{"joint", "motor 1"}}).wait(20);
     state = state_after(script);

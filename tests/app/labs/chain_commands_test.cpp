@@ -25,6 +25,8 @@ TEST_F(ChainCommands, TargetAppliesTheModeOnceAndModeAloneMovesNothing) {
     run("chain.mode", {{"mode", "with_index"}, {"index", 3}});
     run("chain.target", {{"to", {2, 2, 2}}});
     EXPECT_EQ(part().chain.position(3), glm::vec3(2, 2, 2));
+    run("chain.mode", {{"mode", "with_index"}, {"index", 5}});
+    EXPECT_EQ(part().chain.position(5), glm::vec3(2, 2, 2)) << "at once";
 }
 
 TEST_F(ChainCommands, EachModeKeepsItsOwnIterations) {
@@ -59,7 +61,13 @@ TEST_F(ChainCommands, EditsAreAppliedAndTheSelectionStaysWithItsSegment) {
 }
 
 TEST_F(ChainCommands, ClearTakesADirectionForBonesWithoutOne) {
+    run("chain.mode", {{"mode", "reach"}, {"tolerance", 0.5}});
+    run("chain.pole", {{"to", {0, 0, 9}}});
+    run("chain.motion", {{"path", "circle"}});
     run("chain.clear", {{"default_direction", {0, 1, 0}}});
+    EXPECT_EQ(part().reach, ReachSettings()) << "the settings go too";
+    EXPECT_EQ(part().motion, Motion());
+    EXPECT_EQ(part().mode, ChainMode::Reach);
     EXPECT_TRUE(part().chain.empty());
     for (int i = 0; i < 5; ++i) run("chain.add", {{"length", 1}, {"position", {1, 1, 1}}});
     EXPECT_EQ(part().chain.position(4), glm::vec3(1, 5, 1));

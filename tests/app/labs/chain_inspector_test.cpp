@@ -77,7 +77,7 @@ TEST_F(ChainInspector, BeginsWithTheOutcomeForTheTarget) {
     run("chain.mode", {{"mode", "with_index"}, {"index", 3}});
     says("Joint 3 on the target");
     run("chain.mode", {{"mode", "with_index"}, {"index", 5}});
-    says("Joint 5: 2.00 m to go");
+    says("Joint 5 on the target");
     run("chain.mode", {{"mode", "fixed"}, {"iterations", 100}});
     run("chain.target", {{"to", {3, 2, 0}}});
     says("Head on the target");

@@ -256,8 +256,7 @@ TEST_F(ChainRace, TheLegendSaysWhoStoppedShortAndKeepsItsWidths) {
         const ik::Status status = race()->racers[i].report.status;
         if (status == ik::Status::Converged) continue;
         ++short_of_it;
-        EXPECT_TRUE(
-            says(rows[i].numbers[0], status == ik::Status::Stalled ? "stalled after" : "stopped after"));
+        EXPECT_TRUE(says(rows[i].numbers[0], std::string("stopped after ") + outcome_name(status)));
     }
     EXPECT_GT(short_of_it, 0u);
     for (std::size_t step = 0; step <= race()->iterations(); ++step) {

@@ -91,11 +91,6 @@ TEST_F(ChainReach, ASceneFromBeforeModeReachOpens) {
     EXPECT_EQ(part().reach, ReachSettings());
 }
 
-TEST_F(ChainReach, a_scene_with_a_limit_that_commands_refuse_is_refused) {
-    elbow();
-    expect_scene_refused("/reach/limits/1/axis", {1, 0, 0}, "limits.1");
-}
-
 /// State must not refer to bones that were just added or removed.
 TEST_F(ChainReach, AJointIsDraggedRightAfterAnotherWasRemoved) {
     reach_with(5);

@@ -298,19 +298,5 @@ TEST_F(ChainStudy, ChainsThatCannotBeStudiedAreRefused) {
     expect_refused("race.open", Json::object(), {"no bone"});
 }
 
-TEST_F(ChainStudy, HostileScenesAreRefusedWithTheirPath) {
-    run("microscope.open", {{"start", "straight"}});
-    const auto says = [&](const std::string& key, const Json& value) {
-        expect_scene_refused("/study/" + key, value, "study." + key);
-    };
-    says("kind", "telescope");
-    says("start", Json::array());
-    says("step", -1);
-    says("step", "last");
-    says("solvers", Json::array({"newton"}));
-    says("side_by_side", 1);
-    says("state", {{"rotations", Json::array({1, 2})}});
-}
-
 }  // namespace
 }  // namespace tendril::app

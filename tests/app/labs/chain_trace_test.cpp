@@ -45,6 +45,7 @@ TEST_F(ChainTrace, EachFrameIsAMomentAndAFlipIsMarkedWithItsCauseAndCure) {
     EXPECT_EQ(workspace.lab, chain_lab);
     ASSERT_EQ(workspace.rewind.size(), made.frames.size());
     EXPECT_EQ(workspace.moment, made.frame) << "it opens where it goes wrong";
+    EXPECT_TRUE(test::says(labs.find(chain_lab)->invitation(workspace), "Drag strip frame"));
     EXPECT_TRUE(workspace.ui.incident);
     for (std::size_t i = 0; i < made.frames.size(); ++i) {
         const auto& then = dynamic_cast<const ChainPart&>(*workspace.rewind.moments()[i].part);

@@ -270,7 +270,7 @@ TEST_F(CureButton, BendsAStraightChain) {
     run("chain.solver", {{"name", "jacobian_transpose"}, {"iterations", 1}});
     run("chain.target", {{"to", {0.5, 2.5, 1}}});
     const std::string before = verdict();
-    EXPECT_EQ(before.find("Not there yet"), 0u) << before;
+    EXPECT_EQ(before.find("Did not converge"), 0u) << before;
     click("More iterations");
     EXPECT_NE(verdict(), before);
     run("undo");

@@ -156,7 +156,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
             if (text.window != nullptr) continue;
             const bool row = std::any_of(legend.begin(), legend.end(),
                                          [&](const LegendRow& each) { return each.name == text.text; });
-            const std::string invitation = lab().invitation();
+            const std::string invitation = lab().invitation(workspace());
             // A label on the scene may have the same text.
             const bool in_column = std::abs(text.box.min.x - layout().view.min.x - 30.0f * scale_) < 1.0f;
             if (row && in_column) add("legend", {{layout().view.min.x, text.box.min.y}, text.box.max});

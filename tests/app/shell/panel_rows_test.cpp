@@ -207,7 +207,7 @@ TEST_F(RowsUnderMore, UnfoldForACommandOfThePalette) {
     EXPECT_FALSE(shows("soft zone"));
     type("chain.solver soft_zone=0.1");
     EXPECT_TRUE(shows("soft zone"));
-    EXPECT_FALSE(shows("moves")) << "the section Target stays folded";
+    EXPECT_FALSE(shows("motion")) << "the section Target stays folded";
 }
 
 /// Rows of field tables and rows that a panel adds itself, in every lab.

@@ -216,6 +216,12 @@ struct LinkPlace {
     glm::dvec3 point(const glm::dvec3& drawn) const noexcept;
 };
 
+/// Which of the assembly modes other_mode() takes.
+enum class OtherMode : std::uint8_t {
+    Next,    ///< the next in a fixed order: repeated calls take each in turn, and return to the first
+    Nearest  ///< the one whose joints differ least: next to a dead point, the mode that meets this one there
+};
+
 /// Solves one linkage. Holds its constants and scratch memory; everything that persists is in LinkageState.
 class LinkageSolver {
   public:
@@ -245,8 +251,9 @@ class LinkageSolver {
 
     /// Switches to another assembly mode: another closed pose with the drivers' joints where they are. False,
     /// changing nothing, if none is found, or if the drivers leave freedom: a linkage that moves freely has
-    /// no modes. Deterministic; a second call returns to the first mode or finds a third.
-    bool other_mode(LinkageState& state, std::span<const LinkDriver> drivers) noexcept;
+    /// no modes. Deterministic. Costs some hundred solves.
+    bool other_mode(LinkageState& state, std::span<const LinkDriver> drivers,
+                    OtherMode which = OtherMode::Next) noexcept;
 
     /// The degrees of freedom in this pose, without drivers.
     LinkageFreedom freedom(const LinkageState& state) noexcept;

@@ -116,9 +116,10 @@ LinkageReport LinkageSolver::solve(LinkageState& state, const LinkageGoals& goal
     return report;
 }
 
-bool LinkageSolver::other_mode(LinkageState& state, std::span<const LinkDriver> drivers) noexcept {
+bool LinkageSolver::other_mode(LinkageState& state, std::span<const LinkDriver> drivers,
+                               OtherMode which) noexcept {
     if (!parts_ || !fits(state, *parts_) || !mark_drivers(drivers, *parts_)) return false;
-    return parts_->columns > 0 && detail::find_other_mode(*parts_, state, drivers);
+    return parts_->columns > 0 && detail::find_other_mode(*parts_, state, drivers, which);
 }
 
 LinkageFreedom LinkageSolver::freedom(const LinkageState& state) noexcept {
