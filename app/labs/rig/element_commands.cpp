@@ -136,6 +136,25 @@ void set_values(RigPart& part, std::vector<ControlValue> values) {
     for (const ControlValue& each : values) key_control(part, each.element);
 }
 
+/// An end that is null is removed; one that is omitted stays. Values stay, within the new limits.
+void set_limits(RigPart& part, const Arguments& given) {
+    rig::Definition definition = part.rig.definition();
+    std::vector<ControlValue> values;
+    for (const std::size_t at : elements_given(part, given)) {
+        control_at(part, at);
+        values.push_back({at, part.state->controls[at]});
+        Json element = save_fields(definition.elements[at]);
+        for (const char* end : {"minimum", "maximum"}) {
+            if (given.has(end)) element[end] = given.json(end);
+            if (element.value(end, Json()).is_null()) element.erase(end);
+        }
+        definition.elements[at] = read_element(JsonPlace(element, ""));
+    }
+    if (definition == part.rig.definition()) return;
+    redefine(part, std::move(definition));
+    set_values(part, std::move(values));
+}
+
 /// A single value can only be set on controls of one kind.
 void check_one_kind(const RigPart& part, const std::vector<WantedValue>& controls) {
     const rig::Element& first = control_at(part, controls.front().element);
@@ -241,6 +260,11 @@ void add_element_commands(CommandTable& table) {
          each_argument("values", "names")},
         "Sets controls, within their limits: one value for controls of one kind, or one for each",
         set_controls));
+    table.add(
+        rig_command("rig.control.limits", "Set the limits of controls",
+                    {control, names, json_argument("minimum", false, "as in rig.element.add; null: none"),
+                     json_argument("maximum", false, "likewise")},
+                    "Sets the limits of controls of one kind", set_limits));
     table.add(rig_command("rig.control.reset", "Reset controls", {control, names},
                           "Sets controls to their initial values", reset_controls));
     table.add(rig_command(

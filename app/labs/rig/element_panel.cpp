@@ -335,8 +335,44 @@ class ControlFields {
         reading("limits", "%s", limits_text(control_).c_str());
         explain("A drag stops at them.");
     }
+    /// A switch for each end, and the end itself. Without one, it starts where the control is.
+    void edit_limits() const {
+        edit_limit("minimum", control_.minimum, low());
+        edit_limit("maximum", control_.maximum, high());
+    }
+    bool is_limited() const {
+        return control_.kind != rig::ControlKind::Rotation && control_.kind != rig::ControlKind::Bool;
+    }
 
   private:
+    void edit_limit(const char* name, const std::optional<glm::dvec3>& limit, const glm::vec3& end) const {
+        bool on = limit.has_value();
+        const auto set_end = [&](Json value) {
+            panel_.edit("rig.control.limits",
+                        {which(panel_.part, alike_), {name, SharedJson(std::move(value))}});
+        };
+        const auto in_kind = [&](const glm::dvec3& at) {
+            if (control_.kind == rig::ControlKind::Float) return Json(at.x);
+            return control_.kind == rig::ControlKind::Vector2d ? Json{at.x, at.y} : dpoint(at);
+        };
+        if (ImGui::Checkbox(name, &on)) set_end(on ? in_kind(here()) : Json(nullptr));
+        explain("How far the control goes at this end.");
+        if (!limit) return;
+        glm::vec3 edited = end;
+        const std::string field = std::string(name) + " at";
+        const bool changed =
+            control_.kind == rig::ControlKind::Float
+                ? number_field(field.c_str(), edited.x, 0.005f, -max_control, max_control, "%.3f")
+                : vector_field(field.c_str(), edited, 0.01f, glm::vec3(-max_control), glm::vec3(max_control),
+                               "%.3f");
+        if (changed) set_end(in_kind(edited_vector(*limit, end, edited)));
+        explain("Where a drag stops.");
+    }
+    glm::dvec3 here() const {
+        if (const auto* number = std::get_if<double>(&value_)) return glm::dvec3(*number, 0.0, 0.0);
+        if (const auto* whole = std::get_if<rig::Transform>(&value_)) return whole->translation;
+        return std::get<glm::dvec3>(value_);
+    }
     glm::vec3 low() const { return end_of(control_.minimum, -max_control); }
     glm::vec3 high() const { return end_of(control_.maximum, max_control); }
     void set(Json value) const {
@@ -414,6 +450,11 @@ void control_rows(const RigPanel& panel) {
         const ControlFields fields(panel, active, alike);
         fields.rows();
         fields.limits();
+        MoreRows more;
+        if (fields.is_limited())
+            more.add("limits", {"rig.control.limits", {"minimum", "maximum"}}, false,
+                     [&fields] { fields.edit_limits(); });
+        more_rows(panel.workspace, "Element", more, panel.emit);
         scope_note(panel.part, alike.size(), std::string(control_title(control->kind)) + "s");
     }
     reset_button(panel);

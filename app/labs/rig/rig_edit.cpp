@@ -1,6 +1,8 @@
 #include "app/labs/rig/rig_edit.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -486,6 +488,36 @@ UnitOffer with_item(const RigPart& part, Json unit) {
     return {SharedJson(std::move(unit))};
 }
 
+/// The item's own axis that points most nearly at the other element. Unless that is y, its length, also the
+/// axis that points up, which stays up: a head keeps upright.
+void aim_at(const RigPart& part, const rig::Element& item, const rig::Element& other, Json& unit) {
+    constexpr int length = 1;
+    rig::Hierarchy now = part.state->elements;
+    const auto pose = [&](const rig::Element& each) {
+        return now.get(part.rig.id(*part.rig.element(each.name)), rig::Space::Global);
+    };
+    const rig::Transform from = pose(item);
+    const glm::dquat to_own = glm::inverse(from.rotation);
+    const auto nearest = [](const glm::dvec3& way, int besides) {
+        int at = besides == length ? 2 : length;
+        for (const int i : {0, 2})
+            if (i != besides && std::abs(way[i]) > std::abs(way[at])) at = i;
+        return at;
+    };
+    const auto axis = [](const glm::dvec3& way, int at) {
+        glm::dvec3 unit_vector(0.0);
+        unit_vector[at] = way[at] < 0.0 ? -1.0 : 1.0;
+        return dpoint(unit_vector);
+    };
+    const glm::dvec3 ahead = to_own * (pose(other).translation - from.translation);
+    const glm::dvec3 up = to_own * glm::dvec3(0, 1, 0);
+    const int first = nearest(ahead, -1);
+    unit["primary"] = {{"axis", axis(ahead, first)}, {"target", other.name}};
+    if (first != length)
+        unit["secondary"] = {
+            {"axis", axis(up, nearest(up, first))}, {"target", {0, 1, 0}}, {"kind", "direction"}};
+}
+
 UnitOffer follower(const RigPart& part, Json unit) {
     const rig::Element* item = item_of(part);
     const rig::Element* other = item != nullptr ? other_than(part, *item) : nullptr;
@@ -502,7 +534,7 @@ UnitOffer follower(const RigPart& part, Json unit) {
         for (const std::string& each : parents) unit["parents"].push_back({{"item", each}});
     } else if (unit["unit"] == "aim") {
         unit["item"] = item->name;
-        unit["primary"] = {{"axis", {0, 1, 0}}, {"target", other->name}};
+        aim_at(part, *item, *other, unit);
     } else {
         unit["child"] = item->name;
         unit["old_parent"] = item->parent.empty() ? other->name : item->parent;

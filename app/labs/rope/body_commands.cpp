@@ -124,6 +124,13 @@ void pin(RopeEdit& edit, const Arguments& given) {
         edit.world().pin(named.particle, edit.seen().position(named.particle));
 }
 
+void weigh(RopeEdit& edit, const Arguments& given) {
+    rope::State state = edit.seen().state();
+    for (const NamedParticle& named : named_particles(edit.seen(), given))
+        state.mass[named.particle] = given.real("mass");
+    edit.world().put(std::move(state));
+}
+
 void unpin(RopeEdit& edit, const Arguments& given) {
     std::vector<NamedParticle> all = named_particles(edit.seen(), given);
     // Unpins the last one first: removing from the end of a list moves nothing.
@@ -279,6 +286,12 @@ void add_body_commands(CommandTable& table) {
         rope_command("rope.unpin", "Unpin particles",
                      {rope_argument(true, "which"), particle_argument(false, "which"), particles_argument()},
                      "Unpins particles", unpin));
+    table.add(rope_command("rope.weight", "Hang a weight on particles",
+                           {rope_argument(true, "which"),
+                            particle_argument(false, "which"),
+                            particles_argument(),
+                            {.name = "mass", .help = "kg, of each", .low = 1e-9, .high = 1e6}},
+                           "Sets the mass of particles; the rest of the body keeps its own", weigh));
     table.add(rope_command("rope.cut", "Cut a rope",
                            {rope_argument(true, "which"),
                             {.name = "segment",
@@ -364,7 +377,8 @@ void adding_rows(const Workspace& workspace, Emit& emit) {
         emit("rope.select",
              body ? ArgumentList{{"rope", name}, {"particle", 0}} : ArgumentList{{"collider", name}});
     };
-    if (row_button("Rope", 3, true, "A rope that hangs between two pins")) {
+    if (row_button("Rope", 3, true,
+                   "A rope that hangs between two pins; how long it is stands in the inspector")) {
         const glm::vec3 at = free_place(workspace, {{-0.6f, -0.1f, -0.1f}, {0.6f, 0.6f, 0.1f}});
         add(true, "rope.add", "rope",
             {{"from", at + glm::vec3(-0.6f, 0.6f, 0.0f)},

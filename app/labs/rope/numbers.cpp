@@ -47,7 +47,7 @@ RopeSample sample_of(const NamedWorld& world) {
 
 RopeSample sample_of(const RopePart& part, const RopeReport& report) {
     RopeSample sample = sample_of(*part.world);
-    const double frame = part.jitter.dial > 0.0f ? part.jitter.frame : tick_seconds;
+    const double frame = part.jitter.frame > 0.0 ? part.jitter.frame : tick_seconds;
     sample.frame = static_cast<float>(1e3 * frame);
     sample.report = report;
     return sample;

@@ -9,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 #include <string>
 #include <string_view>
+#include <tendril/signal/measure.hpp>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/pace.hpp"
@@ -123,8 +124,19 @@ void time_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
     if (number_field("speed", percent, 0.5f, 5.0f, 200.0f, "%.0f %%"))
         emit.continuously("time.speed", {{"factor", percent / 100.0f}});
     explain("How fast time passes in the lab. Under 100 % is slow motion.");
+    constexpr float uneven = 0.5f;  // of the dial: 4 to 65 ms
+    const auto rates = signal::usual_rates();
+    for (const signal::FrameRate& rate : rates) {
+        const auto hz = static_cast<float>(rate.hz);
+        const float dial = rate.jittered ? uneven : 0.0f;
+        const std::string title = rate.jittered ? "uneven" : fixed_text(rate.hz, 0) + " Hz";
+        if (row_option(title.c_str(), static_cast<int>(rates.size()),
+                       part.jitter.rate == hz && part.jitter.dial == dial, "The length of a frame"))
+            emit("rope.jitter", {{"rate", hz}, {"dial", dial}});
+    }
+    end_row();
     settings_rows(part, emit).under(more).row("longest_frame");
-    FieldRows(part.jitter, "rope.jitter", emit).under(more).row("dial");
+    FieldRows(part.jitter, "rope.jitter", emit).under(more).rows("rate", "dial");
 }
 
 }  // namespace
@@ -186,8 +198,7 @@ void body_rows(const NamedWorld& world, const rope::Body& body, const Palette& c
         if (name == "length" && !(settings.length > 0.0f))
             options.why_not = "All its particles are in one place: there is no length to scale.";
         if (name == "bending" && world.settings().solver != rope::Solver::Direct)
-            options.why_not =
-                "The solver is " + std::string(rope_solvers.title(world.settings().solver)) + ".";
+            options.why_not = "Direct solver only.";
         if (name == "colour")
             for (const BodyColour each : body_colours.values())
                 options.swatches.push_back(body_colour(each, body.kind, colours));
@@ -211,8 +222,14 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     const std::size_t particle = body.first + index;
     const bool held = is_held(part, particle), pinned = world.pinned(particle) && !held;
     const ArgumentList which{{"rope", world.name(body)}, {"particle", index}};
-    reading("body", "%s", world.name(body).c_str());
     reading("particle", "%zu of %zu%s", index, body.count, pinned ? ", pinned" : held ? ", held" : "");
+    float mass = static_cast<float>(world.state().mass[particle]);
+    if (number_field("mass", mass, 0.002f, 1e-9f, 1e6f, "%.3f kg")) {
+        ArgumentList arguments = which;
+        arguments.push_back({"mass", mass});
+        emit.continuously("rope.weight", arguments);
+    }
+    explain("What hangs here: a particle much heavier than its neighbours is drawn as a ball of stone.");
     glm::vec3 at = world.position(particle);
     if (pinned) {
         if (point_field("at", at, 0.01f)) {

@@ -271,7 +271,13 @@ void RopeLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     const RopePart& part = rope_part(workspace);
     const NamedWorld& world = picked_world(part, pick);
     if (const auto* collider = picked_collider(world, pick)) {
-        emit("rope.select", {{"collider", world.name(*collider)}});
+        if (part.tool == RopeTool::Tie && part.selection && part.selection->of_particles())
+            emit("rope.tie", {{"a", part.selection->body},  // which says why not
+                              {"a_particle", part.selection->particle()},
+                              {"b", world.name(*collider)},
+                              {"b_particle", 0}});
+        else
+            emit("rope.select", {{"collider", world.name(*collider)}});
         return;
     }
     if (const auto* tie = picked_tie(world, pick)) {

@@ -118,8 +118,7 @@ std::span<const FieldText> field_texts<BodySettings>() {
         {.name = "bending",
          .label = "bending",
          .help = "How hard a rope is to bend: Young's modulus times the second moment of its cross-section. "
-                 "A shoelace has 1e-5, a garden hose 0.1, a steel wire of 3 mm 0.8. Only the direct solver "
-                 "bends.",
+                 "A shoelace has 1e-5, a garden hose 0.1, a steel wire of 3 mm 0.8. Direct solver only.",
          .step = 0.001f,
          .decimals = 4,
          .at_zero = "limp"},
@@ -241,6 +240,12 @@ std::span<const FieldText> field_texts<Swing>() {
 template <>
 std::span<const FieldText> field_texts<Jitter>() {
     static constexpr FieldText texts[] = {
+        {.name = "rate",
+         .label = "frame rate",
+         .help = "How many frames a second has. At any rate the simulation stays the same.",
+         .step = 1.0f,
+         .decimals = 0,
+         .more = true},
         {.name = "dial",
          .label = "frame-time jitter",
          .help =

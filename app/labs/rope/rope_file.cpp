@@ -65,6 +65,7 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::Jitter>() noexcept {
     using app::Jitter;
     static constexpr Field rows[] = {
+        field<&Jitter::rate>("rate", {1.0 / app::max_jitter_frame, 1.0 / app::min_jitter_frame}, "Hz"),
         field<&Jitter::dial>("dial").needed(), field<&Jitter::frames>("frames", {0.0, 4294967295.0}).needed(),
         field<&Jitter::owed>("owed", {0.0, 10.0}, "s").needed(),
         field<&Jitter::frame>("frame", {0.0, app::max_jitter_frame}, "s").needed()};
@@ -362,6 +363,7 @@ Json RopeLab::state(const Workspace& workspace) const {
                 {"selected", selection_state(part.selection)},
                 {"held", std::move(held)},
                 {"jitter", number(part.jitter.dial)},
+                {"frame_rate", number(part.jitter.rate)},
                 {"frame_ms", part.samples.empty() ? Json(nullptr) : number(part.samples.back().frame)},
                 {"race", std::move(race)},
                 {"moving", moving(workspace)},

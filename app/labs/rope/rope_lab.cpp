@@ -215,11 +215,15 @@ const std::string& worst_body(const NamedWorld& world) {
     return world.name(*std::ranges::max_element(world.state().bodies, {}, error));
 }
 
-/// Halves the substep; none at the minimum.
+constexpr const char* halve_substep = "Halve the substep";
+
+/// None at the minimum, where a tick already drops substeps, and for work that it would drop.
 std::optional<Cure> shorter_substeps(const RopePart& part) {
+    const bool drops = last_second(part.samples).dropped > 0;
     const double now = part.world->settings().substep, half = std::max(0.5 * now, rope::min_substep);
-    if (!(half < now)) return std::nullopt;
-    return Cure{"Halve the substep",
+    const auto work = 2.0 * tick_seconds / now * static_cast<double>(work_of_substep(*part.world));
+    if (!(half < now) || drops || work > static_cast<double>(max_lab_work)) return std::nullopt;
+    return Cure{halve_substep,
                 "Runs rope.settings: " + fixed_text(1.0 / half, 0) +
                     " substeps a second, for twice the time to compute",
                 {{"rope.settings", {{"substep", half}}}}};
@@ -286,9 +290,8 @@ Verdict rope_verdict(const RopePart& part) {
                 "solver "
                 "holds it."};
     if (report.unconverged > 0)
-        return {"Some steps cut short", Verdict::Kind::Open,
-                count_text(report.unconverged, "step") +
-                    " of the last second did not converge: shorter substeps help.",
+        return {"Did not converge", Verdict::Kind::Open,
+                count_text(report.unconverged, "step") + " of the last second: shorter substeps help.",
                 shorter_substeps(part)};
     const bool passes = std::ranges::any_of(part.world->state().bodies, [&](const rope::Body& body) {
         const std::string& name = part.world->name(body);
@@ -296,6 +299,9 @@ Verdict rope_verdict(const RopePart& part) {
     });
     if (const double all = static_cast<double>(report.substeps + report.dropped); report.dropped > 0) {
         const double kept = static_cast<double>(report.substeps) / all;
+        if (kept < slow_share && holds(part))
+            return {"Lengths hold" + at_pace(kept), Verdict::Kind::Open,
+                    "While you drag, so large a scene takes fewer substeps, to keep up with the mouse."};
         if (kept < slow_share)
             return {"Lengths hold" + at_pace(kept), Verdict::Kind::Open,
                     "Frames are longer than the longest frame, " +
@@ -311,6 +317,7 @@ Verdict paced_verdict(Verdict said, const Workspace& workspace) {
     const double kept = pace_of(workspace.runtimes).kept;
     if (!workspace.clock.playing || kept >= slow_share || said.text.ends_with(real_time)) return said;
     said.text += at_pace(kept);
+    if (said.cure && said.cure->title == halve_substep) said.cure.reset();  // slower still
     if (said.kind != Verdict::Kind::Good) return said;
     said.kind = Verdict::Kind::Open;
     said.why = "A tick takes longer than its 16.7 ms: fewer particles or substeps are faster.";

@@ -34,6 +34,7 @@ std::shared_ptr<const Part> RopePart::at_moment(std::shared_ptr<const Part> then
     part->tool = tool;
     part->view = view;
     part->selection = selection;
+    part->jitter.rate = jitter.rate;
     part->jitter.dial = jitter.dial;
     take_settings(*part, world->settings());
     if (rivals.empty())

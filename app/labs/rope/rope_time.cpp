@@ -39,14 +39,16 @@ void aim(const RopePart& part, NamedWorld& world, double time) {
 /// The remaining work of a tick, and the solver's reports so far.
 struct Tick {
     std::uint64_t work_left = max_lab_work;
+    bool begun = false;
     RopeReport report;
 };
 
 void advance(NamedWorld& world, double seconds, rope::Workspace& workspace, Tick& tick) {
     const std::uint64_t each = std::max(work_of_substep(world), std::uint64_t{1});
     // Always allow one substep: otherwise a world that is too large would silently stop.
-    const std::uint64_t most = std::max(tick.work_left / each, std::uint64_t{tick.work_left == max_lab_work});
+    const std::uint64_t most = std::max(tick.work_left / each, std::uint64_t{!tick.begun});
     const rope::Advance done = world.advance(seconds, workspace, most);
+    tick.begun = tick.begun || done.substeps > 0;
     tick.work_left -= std::min(tick.work_left, each * static_cast<std::uint64_t>(done.substeps));
     RopeReport& report = tick.report;
     report.inside =
@@ -88,20 +90,23 @@ RopeRuntime::RopeRuntime() {
 }
 
 RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace) {
+    constexpr double rounding = 1e-9;  // seconds: four ticks are a frame of 15 Hz
     auto world = std::make_shared<NamedWorld>(*part.world);
+    const auto moved = [](const rope::Pin& pin) { return pin.seconds > 0.0; };
     Tick tick;
+    if (holds(part) || std::ranges::any_of(world->state().pins, moved)) tick.work_left = max_dragged_work;
     Jitter& jitter = part.jitter;
-    if (jitter.dial == 0.0f) {
+    if (jitter.dial == 0.0f && jitter.rate == 60.0f) {
         if (jitter.owed > 0.0) pass_frame(part, *world, std::exchange(jitter.owed, 0.0), workspace, tick);
         jitter.frame = 0.0;
         pass_frame(part, *world, seconds, workspace, tick);
     } else {
         jitter.owed += seconds;
-        if (jitter.frame == 0.0) jitter.frame = jitter_frame(jitter.dial, jitter.frames);
-        while (jitter.owed >= jitter.frame) {
-            jitter.owed -= jitter.frame;
+        if (jitter.frame == 0.0) jitter.frame = jitter_frame(jitter, jitter.frames);
+        while (jitter.owed + rounding >= jitter.frame) {
+            jitter.owed = std::max(jitter.owed - jitter.frame, 0.0);
             pass_frame(part, *world, jitter.frame, workspace, tick);
-            jitter.frame = jitter_frame(jitter.dial, ++jitter.frames);
+            jitter.frame = jitter_frame(jitter, ++jitter.frames);
         }
     }
     const bool torn = world->state().ties.size() != part.world->state().ties.size();
@@ -140,11 +145,11 @@ std::uint64_t work_of_substep(const NamedWorld& world) {
            state.position.size() + (1 + attached) * state.colliders.size() + work_of_tied_cloth(state);
 }
 
-double jitter_frame(float dial, std::uint32_t number) {
+double jitter_frame(const Jitter& jitter, std::uint32_t number) {
+    const double even = jitter.rate == 60.0f ? tick_seconds : 1.0 / static_cast<double>(jitter.rate);
     const double where = 2.0 * shuffled(number) - 1.0;
     const double end = where < 0.0 ? min_jitter_frame : max_jitter_frame;
-    const double frame =
-        tick_seconds * std::pow(end / tick_seconds, std::abs(where) * static_cast<double>(dial));
+    const double frame = even * std::pow(end / even, std::abs(where) * static_cast<double>(jitter.dial));
     return std::clamp(frame, min_jitter_frame, max_jitter_frame);
 }
 

@@ -23,8 +23,8 @@ RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace)
 /// The work of a substep, for max_lab_work. Not timed, so that every machine drops the same substeps.
 std::uint64_t work_of_substep(const NamedWorld& world);
 
-/// Length in seconds of the jittered frame of that number: a tick at dial 0, anything from 1 to 250 ms at 1.
-double jitter_frame(float dial, std::uint32_t number);
+/// Length in seconds of the frame of that number: even at dial 0, anything from 1 to 250 ms at 1.
+double jitter_frame(const Jitter& jitter, std::uint32_t number);
 
 /// Centre of a swinging collider at a simulated time.
 glm::vec3 swing_point(const Swing& swing, double time);

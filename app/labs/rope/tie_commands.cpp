@@ -20,6 +20,9 @@ void add_tie(RopeEdit& edit, const Arguments& given) {
         throw Refused("there are " + std::to_string(max_lab_ties) + " ties already, the maximum");
     rope::TieShape shape;
     set_fields(given, shape);
+    if (const std::string other = given.text("b"); world.find_collider(other) != nullptr)
+        throw Refused("\"" + other +
+                      "\" is a collider, which nothing carries: give the particle a mass instead");
     const std::size_t a = named_particle(world, given, "a", "a_particle").particle;
     const std::size_t b = named_particle(world, given, "b", "b_particle").particle;
     if (a == b) throw Refused("a particle cannot be tied to itself");

@@ -39,6 +39,7 @@ void take_scene(Workspace& workspace, const Arguments& given) {
     static_cast<Part&>(part) = before;
     part.tool = before.tool;
     part.view = before.view;
+    part.jitter.rate = before.jitter.rate;
     part.jitter.dial = before.jitter.dial;
     if (!before.rivals.empty()) begin_race(part);
     (workspace.lab == rope_lab ? workspace.camera : workspace.cameras[rope_lab]) = entry.view;
@@ -98,10 +99,9 @@ void add_world_commands(CommandTable& table) {
     wind.front().name = "velocity", wind.front().required = true;
     table.add(rope_command("rope.wind", "Set the wind", std::move(wind),
                            "Sets the wind that cloth, ropes and hair are in", blow));
-    std::vector<Argument> dial = field_arguments<Jitter>();
-    dial.front().required = true;
-    table.add(rope_command("rope.jitter", "Make frame times uneven", std::move(dial),
-                           "Makes frames uneven, as in a program that stutters", set_jitter));
+    table.add(rope_command("rope.jitter", "Set the frame rate", field_arguments<Jitter>(),
+                           "Sets the frame rate, and makes frames uneven, as in a program that stutters",
+                           set_jitter));
 }
 
 // Commands on colliders.

@@ -37,32 +37,12 @@ std::vector<double> inputs_of(const InputRows& rows) {
     return inputs;
 }
 
-InputRows with_inputs(InputRows rows, const std::vector<double>& inputs) {
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].input = inputs[i];
-    return rows;
-}
-
-StageMeasures measure(const std::vector<double>& time, const std::vector<double>& input,
-                      const std::vector<double>& output, std::span<const signal::Filter> filters) {
+signal::Measures measure(const std::vector<double>& time, const std::vector<double>& input,
+                         const std::vector<double>& output, std::span<const signal::Filter> filters) {
     std::vector<double> wanted;
     wanted.reserve(input.size());
     for (const double each : input) wanted.push_back(signal::immediate(filters, each));
     return signal::measure({time, wanted, output}, input);
-}
-
-/// The output of every stage; a disabled stage passes its input through.
-std::vector<std::vector<double>> run_chain(const SignalPart& part, const InputRows& rows) {
-    std::vector<std::vector<double>> outputs;
-    std::vector<double> value = inputs_of(rows);
-    for (const SignalStage& stage : part.stages) {
-        if (stage.enabled) {
-            signal::FilterState state;
-            for (std::size_t i = 0; i < rows.size(); ++i)
-                value[i] = signal::step(stage.filter, state, value[i], rows[i].dt);
-        }
-        outputs.push_back(value);
-    }
-    return outputs;
 }
 
 ChainAnalysis analyse(const SignalPart& part) {
@@ -70,46 +50,43 @@ ChainAnalysis analyse(const SignalPart& part) {
     const InputRows rows = measured_rows(part);
     analysis.time = signal::times_of(rows);
     analysis.input = inputs_of(rows);
-    analysis.outputs = run_chain(part, rows);
-    const std::vector<signal::Filter> filters = enabled_filters(part);
-    const std::vector<double>* before = &analysis.input;
+    analysis.outputs = outputs_for(part, rows);
     for (std::size_t i = 0; i < part.stages.size(); ++i) {
-        const SignalStage& stage = part.stages[i];
-        const std::span<const signal::Filter> own(&stage.filter, stage.enabled ? 1 : 0);
-        StageMeasures measures = measure(analysis.time, *before, analysis.outputs[i], own);
-        if (stage.enabled)
-            measures.rate_difference = signal::compare_rates(own, with_inputs(rows, *before)).difference;
+        const auto filters = enabled_filters(part, {lane_of(part, i).first, i + 1});
+        signal::Measures measures = measure(analysis.time, analysis.input, analysis.outputs[i], filters);
+        if (part.stages[i].enabled)
+            measures.rate_difference = signal::compare_rates(filters, rows).difference;
         analysis.stages.push_back(measures);
-        before = &analysis.outputs[i];
     }
-    analysis.whole = measure(analysis.time, analysis.input, *before, filters);
+    const Lane lane = shown_lane(part);
+    const std::vector<signal::Filter> filters = enabled_filters(part, lane);
+    analysis.whole = measure(analysis.time, analysis.input,
+                             lane.end > 0 ? analysis.outputs[lane.end - 1] : analysis.input, filters);
     analysis.rates = signal::compare_rates(filters, rows);
     analysis.whole.rate_difference = analysis.rates.difference;
     return analysis;
 }
 
-std::vector<ShelfPoint> measure_shelf(const SignalPart& part) {
-    const InputRows rows = measured_rows(part);
-    const std::vector<double> time = signal::times_of(rows), input = inputs_of(rows);
+std::vector<ShelfPoint> measure_shelf(const SignalPart& part, const ChainAnalysis& chain) {
     std::vector<ShelfPoint> points;
+    const auto add = [&](const signal::Filter& filter, std::optional<std::size_t> stage,
+                         const signal::Measures& measures) {
+        if (measures.lag && measures.jitter)
+            points.push_back({filter, stage, *measures.lag, *measures.jitter});
+    };
+    const auto on = [](const SignalStage& stage) { return stage.enabled; };
+    for (std::size_t i = 0; i < part.stages.size(); ++i)
+        if (on(part.stages[i])) add(part.stages[i].filter, i, chain.stages[i]);
+    const InputRows rows = measured_rows(part);
     for (const signal::Kind& kind : signal::kinds()) {
-        ShelfPoint point{kind.blank(), std::nullopt};
-        for (std::size_t i = 0; i < part.stages.size() && !point.stage; ++i) {
-            if (&signal::kind_of(part.stages[i].filter) != &kind) continue;
-            point.filter = part.stages[i].filter;
-            point.stage = i;
-        }
-        const std::span<const signal::Filter> filters(&point.filter, 1);
-        const StageMeasures measures = measure(time, input, signal::run(filters, rows), filters);
-        if (!measures.lag || !measures.jitter) continue;
-        point.lag = *measures.lag;
-        point.jitter = *measures.jitter;
-        points.push_back(std::move(point));
+        if (std::ranges::any_of(part.stages, [&](const SignalStage& stage) {
+                return on(stage) && &signal::kind_of(stage.filter) == &kind;
+            }))
+            continue;
+        const signal::Filter filter = kind.blank();
+        const std::span<const signal::Filter> filters(&filter, 1);
+        add(filter, std::nullopt, measure(chain.time, chain.input, signal::run(filters, rows), filters));
     }
-    // Filters of the chain come first, so that their labels keep their positions.
-    std::stable_sort(points.begin(), points.end(), [](const ShelfPoint& a, const ShelfPoint& b) {
-        return a.stage.has_value() && !b.stage.has_value();
-    });
     return points;
 }
 
@@ -117,7 +94,9 @@ std::vector<ShelfPoint> measure_shelf(const SignalPart& part) {
 
 SignalRuntime::Source SignalRuntime::source_of(const SignalPart& part, InputRows rows) {
     Source source;
-    for (const SignalStage& stage : part.stages) source.filters.emplace_back(stage.filter, stage.enabled);
+    source.stages = part.stages;
+    for (SignalStage& stage : source.stages) stage.state = {};
+    source.lane = shown_lane(part).first;
     source.input = part.input;
     if (part.input.kind == InputKind::Hand) source.input.hand = 0.0;  // the next tick adds it to `past`
     source.rows = std::move(rows);
@@ -139,7 +118,7 @@ const ChainAnalysis& SignalRuntime::chain(const SignalPart& part) {
 
 const std::vector<ShelfPoint>& SignalRuntime::shelf(const SignalPart& part) {
     if (Source source = measured(part); shelf_source_ != source) {
-        shelf_ = measure_shelf(part);
+        shelf_ = measure_shelf(part, chain(part));
         shelf_source_ = std::move(source);
     }
     return shelf_;
@@ -147,7 +126,7 @@ const std::vector<ShelfPoint>& SignalRuntime::shelf(const SignalPart& part) {
 
 const std::vector<std::vector<double>>& SignalRuntime::recent(const SignalPart& part) {
     if (Source source = source_of(part, part.past); recent_source_ != source) {
-        recent_ = run_chain(part, part.past);
+        recent_ = outputs_for(part, part.past);
         recent_source_ = std::move(source);
     }
     return recent_;

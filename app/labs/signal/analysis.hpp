@@ -14,31 +14,28 @@
 
 namespace tendril::app {
 
-/// Measures of one filter, fed with the input that reaches it at the measuring rate.
-using StageMeasures = signal::Measures;
-
 /// The chain over its measuring rows: the input from 0 on or, for the hand, the input up to the last quarter
 /// of a second. Cost: 1.5 ms for eight filters; for the hand, at most four times a second.
 struct ChainAnalysis {
     std::vector<double> time, input;
     std::vector<std::vector<double>> outputs;  ///< each stage's output
-    std::vector<StageMeasures> stages;         ///< a disabled stage is measured as passing its input through
-    StageMeasures whole;
-    signal::RateComparison rates;  ///< the whole chain's
+    std::vector<signal::Measures> stages;      ///< of each stage's output against the input, as plotted
+    signal::Measures whole;                    ///< of the shown lane
+    signal::RateComparison rates;              ///< the shown lane's
 };
 
-/// A kind of filter, measured on the lab's input.
+/// A stage, with its measures; or a kind that no enabled stage has, alone on the input with its defaults.
 struct ShelfPoint {
     signal::Filter filter;
-    std::optional<std::size_t> stage;  ///< the stage that has these parameters; empty: the kind's defaults
-    double lag = 0.0;                  ///< seconds
-    double jitter = 0.0;               ///< fraction of the input's
+    std::optional<std::size_t> stage;
+    double lag = 0.0;     ///< seconds
+    double jitter = 0.0;  ///< fraction of the input's
 };
 
 class SignalRuntime final : public Runtime {
   public:
     const ChainAnalysis& chain(const SignalPart& part);
-    /// The kinds that have both a lag and a jitter.
+    /// Stages, then kinds: those that have both a lag and a jitter.
     const std::vector<ShelfPoint>& shelf(const SignalPart& part);
     /// The output of each stage for the input of the last ticks.
     const std::vector<std::vector<double>>& recent(const SignalPart& part);
@@ -48,7 +45,8 @@ class SignalRuntime final : public Runtime {
   private:
     /// All inputs to the measurements.
     struct Source {
-        std::vector<std::pair<signal::Filter, bool>> filters;
+        std::vector<SignalStage> stages;  ///< without their states
+        std::size_t lane = 0;
         SignalInput input;
         InputRows rows;  ///< empty if they follow from `input`
         bool operator==(const Source&) const = default;

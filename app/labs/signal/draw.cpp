@@ -50,57 +50,55 @@ glm::vec3 input_colour(const Palette& palette) {
     return palette.target;
 }
 
-glm::vec3 output_colour(const Palette& palette) {
-    return palette.head;
+glm::vec3 output_colour(const Palette& palette, const SignalPart& part) {
+    const std::optional<std::size_t> last = shown_stage(part);
+    return last && !part.recording ? stage_colour(palette, part.stages[*last]) : palette.head;
 }
 
-glm::vec3 stage_colour(const Palette& palette, const SignalPart& part, std::size_t stage) {
-    std::size_t last = part.stages.size();
-    for (std::size_t i = 0; i < part.stages.size(); ++i)
-        if (part.stages[i].enabled) last = i;
-    if (stage == last) return output_colour(palette);
-    // The remaining colours of Okabe and Ito, repeated.
+glm::vec3 stage_colour(const Palette& palette, const SignalStage& stage) {
+    // Colours of Okabe and Ito, repeated.
     const bool dark = palette.theme == Theme::Dark;
-    const std::array<glm::vec3, 4> others{rgb(0xCC79A7), palette.tail, dark ? rgb(0x8C96FF) : rgb(0x0072B2),
-                                          dark ? rgb(0xC9B24A) : rgb(0x8A7400)};
-    return others[stage % others.size()];
+    const std::array<glm::vec3, 5> colours{palette.head, rgb(0xCC79A7), palette.tail,
+                                           dark ? rgb(0x8C96FF) : rgb(0x0072B2),
+                                           dark ? rgb(0xC9B24A) : rgb(0x8A7400)};
+    return colours[static_cast<std::size_t>(stage.colour) % colours.size()];
 }
 
 void SignalLab::draw(const View& view, DrawList& list) const {
     const SignalPart& part = signal_part(view.workspace);
     const BallPlaces places = ball_places(part);
     axis(view, list, std::abs(part.input.amplitude));
-    const auto ball = [&](glm::vec3 at, glm::vec3 colour, PickId pick) {
+    const auto ball = [&](glm::vec3 at, glm::vec3 of, PickId pick) {
         const bool lit = view.hovered == pick || view.dragged == pick;
         if (std::abs(at.y - ball_level) < max_ball_distance) {
-            Stroke& sphere = list.sphere(at, ball_radius, Unit::Metres, glm::vec4(colour, 1.0f));
+            Stroke& sphere = list.sphere(at, ball_radius, Unit::Metres, glm::vec4(of, 1.0f));
             sphere.pick = pick;
             sphere.shadow = true;
             sphere.rank = pick == 0 ? 2 : 1;
         }
-        if (lit) list.ring(at, 22.0f * view.scale, 1.5f * view.scale, glm::vec4(colour, 1.0f));
+        if (lit) list.ring(at, 22.0f * view.scale, 1.5f * view.scale, glm::vec4(of, 1.0f));
     };
     // Earlier outputs at equal intervals show its speed.
     const auto& recent = signal_runtime(view.workspace).recent(part);
-    if (!recent.empty() && !part.recording) {
-        const std::vector<double>& output = recent.back();
+    const glm::vec3 colour = output_colour(view.palette, part);
+    if (const std::size_t end = shown_lane(part).end; end > 0 && !part.recording) {
+        const std::vector<double>& output = recent[end - 1];
         for (std::size_t back = 3; back <= 12 && back < output.size(); back += 3) {
             const double value = output[output.size() - 1 - back];
-            list.sphere(
-                place(beside, value), 0.55f * ball_radius, Unit::Metres,
-                faded(view.palette, output_colour(view.palette), 0.55f - 0.03f * static_cast<float>(back)));
+            list.sphere(place(beside, value), 0.55f * ball_radius, Unit::Metres,
+                        faded(view.palette, colour, 0.55f - 0.03f * static_cast<float>(back)));
         }
     }
     const glm::vec4 stem = faded(view.palette, view.palette.neutral, 0.6f);
     list.line({0, places.input.y, 0}, places.input, 1.0f * view.scale, stem);
     list.line({0, places.output.y, 0}, places.output, 1.0f * view.scale, stem);
     ball(places.input, input_colour(view.palette), 0);
-    ball(places.output, output_colour(view.palette), 1);
+    ball(places.output, colour, 1);
 }
 
 std::vector<LegendRow> SignalLab::legend(const Workspace& workspace) const {
     const Palette& colours = palette(workspace.settings.theme);
-    return {{"input", input_colour(colours)}, {"output", output_colour(colours)}};
+    return {{"input", input_colour(colours)}, {"output", output_colour(colours, signal_part(workspace))}};
 }
 
 Bounds SignalLab::bounds(const Workspace& workspace, bool) const {
@@ -138,11 +136,11 @@ void scrolling_plot(const Workspace& workspace, const Palette& palette, float he
     const auto& stages = signal_runtime(workspace).recent(part);
     for (std::size_t i = 0; i < part.stages.size(); ++i) {
         if (!part.stages[i].enabled) continue;
-        curves.push_back(curve_of(kind_title(part.stages[i].filter), stage_colour(palette, part, i), time,
-                                  stages[i], from));
+        curves.push_back(
+            curve_of(stage_title(part, i), stage_colour(palette, part.stages[i]), time, stages[i], from));
+        if (shown_stage(part) == i) curves.back().width = 1.35f;
         outputs.push_back(shown(time, stages[i], from));
     }
-    curves.back().width = 1.35f;
     const Span span = widened(span_of(part.input, shown(time, input, from)), outputs);
     plot("signal", curves, time_axes(span, from, to), height);
 }
@@ -201,14 +199,14 @@ void shelf_plot(const Workspace& workspace, const Palette& palette, float height
         points.push_back(std::move(curve));
     };
     for (const ShelfPoint& point : signal_runtime(workspace).shelf(part))
-        add(kind_title(point.filter), point.lag, point.jitter,
-            point.stage ? std::optional(stage_colour(palette, part, *point.stage)) : std::nullopt);
-    const StageMeasures& whole = signal_runtime(workspace).chain(part).whole;
-    if (enabled_filters(part).size() > 1 && whole.lag && whole.jitter)
-        add("the whole chain", *whole.lag, *whole.jitter, palette.text);
+        if (point.stage)
+            add(stage_title(part, *point.stage), point.lag, point.jitter,
+                stage_colour(palette, part.stages[*point.stage]));
+        else
+            add(kind_title(point.filter), point.lag, point.jitter, std::nullopt);
     plot("shelf", points,
          {.x = "lag, ms",
-          .y = "jitter left, alone",
+          .y = "jitter left",
           .y_unit = "%",
           .min_y = 1.0f,
           .from_x = -0.05f * most_lag,
@@ -268,7 +266,7 @@ void SignalLab::canvas(const Workspace& workspace, Emit& emit) const {
     std::vector<std::pair<std::string, glm::vec3>> key{{"input", input_colour(colours)}};
     for (std::size_t i = 0; i < part.stages.size(); ++i)
         if (part.stages[i].enabled)
-            key.emplace_back(kind_title(part.stages[i].filter), stage_colour(colours, part, i));
+            key.emplace_back(stage_title(part, i), stage_colour(colours, part.stages[i]));
     colour_key(key);
     ImGui::PushFont(small_font());
     const float line = ImGui::GetFontSize();

@@ -16,9 +16,10 @@ struct BallPlaces {
 /// Limited to 1 km: a signal that grows without bound leaves the picture.
 BallPlaces ball_places(const SignalPart& part);
 
-/// The colour of a filter's output in every plot; the last enabled filter has the output ball's colour.
-glm::vec3 stage_colour(const Palette& palette, const SignalPart& part, std::size_t stage);
+/// The colour of a filter's output in every plot.
+glm::vec3 stage_colour(const Palette& palette, const SignalStage& stage);
 glm::vec3 input_colour(const Palette& palette);
-glm::vec3 output_colour(const Palette& palette);
+/// The ball's: blue while a response is recorded, else the shown output's.
+glm::vec3 output_colour(const Palette& palette, const SignalPart& part);
 
 }  // namespace tendril::app

@@ -191,15 +191,10 @@ std::string csv_of(const SignalPart& part) {
     for (std::size_t i = 0; i < part.stages.size(); ++i)
         text.append(",").append(std::to_string(i)).append("_").append(signal::kind(part.stages[i].filter));
     text += '\n';
-    std::vector<signal::FilterState> states(part.stages.size());
+    const std::vector<std::vector<double>> outputs = outputs_for(part, part.past);
     for (std::size_t row = 0; row < part.past.size(); ++row) {
-        double value = part.past[row].input;
-        text.append(decimal(times[row])).append(",").append(decimal(value));
-        for (std::size_t i = 0; i < part.stages.size(); ++i) {
-            if (part.stages[i].enabled)
-                value = signal::step(part.stages[i].filter, states[i], value, part.past[row].dt);
-            text.append(",").append(decimal(value));
-        }
+        text.append(decimal(times[row])).append(",").append(decimal(part.past[row].input));
+        for (const std::vector<double>& output : outputs) text.append(",").append(decimal(output[row]));
         text += '\n';
     }
     return text;

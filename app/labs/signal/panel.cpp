@@ -83,11 +83,12 @@ void export_section(Emit& emit) {
 
 /// One button with a list: fourteen buttons would be too many.
 void add_button(Emit& emit) {
-    const bool pressed = row_button("Add a filter", 1, true,
-                                    "Choose a kind; the new filter works on the output of the last one");
+    const bool pressed = row_button("Add a filter", 2, true,
+                                    "Choose a kind; the new filter is beside the others, on the same input");
     if (!begin_list_of_button("add filter", pressed)) return;
     for (const signal::Kind& kind : signal::kinds())
-        if (list_row(kind_title(kind), false)) emit("signal.filter.add", {{"kind", kind.name}});
+        if (list_row(kind_title(kind), false))
+            emit("signal.filter.add", {{"kind", kind.name}, {"beside", true}});
     end_list();
 }
 
@@ -108,11 +109,40 @@ std::string kind_title(const signal::Filter& filter) {
     return kind_title(signal::kind_of(filter));
 }
 
+std::string rows_text(const InputRows& rows) {
+    constexpr double even = 1.15;  // times of 60 Hz in whole milliseconds are 16 and 17 apart
+    double shortest = rows.back().dt, longest = shortest;
+    for (std::size_t i = 1; i < rows.size(); ++i)  // the first row's is a copy of the second's
+        shortest = std::min(shortest, rows[i].dt), longest = std::max(longest, rows[i].dt);
+    const std::string spread =
+        longest <= even * shortest
+            ? si_text(length_of(&rows) / static_cast<double>(rows.size()), "s") + " apart"
+            : "uneven: " + si_text(shortest, "s") + " to " + si_text(longest, "s") + " apart";
+    return std::to_string(rows.size()) + " rows in " + si_text(length_of(&rows), "s") + ", " + spread + '.';
+}
+
+std::string stage_title(const SignalPart& part, std::size_t stage) {
+    const auto same = [&](std::size_t before) {
+        return std::count_if(part.stages.begin(), part.stages.begin() + static_cast<std::ptrdiff_t>(before),
+                             [&](const SignalStage& each) {
+                                 return each.filter.index() == part.stages[stage].filter.index();
+                             });
+    };
+    const std::string title = kind_title(part.stages[stage].filter);
+    return same(part.stages.size()) > 1 ? title + " " + std::to_string(same(stage) + 1) : title;
+}
+
 void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
     // Put these above the list, whose length they change.
     add_button(emit);
     const bool chosen = part.selected.has_value();
     const std::size_t at = part.selected.value_or(0);
+    const bool after = chosen && at > 0 && !part.stages[at].beside;
+    if (row_button(after ? "Beside" : "After", 2, chosen && at > 0,
+                   after ? "The selected filter works on the input, beside those above it"
+                         : "The selected filter works on the output of the one above it"))
+        emit("signal.filter.beside", {{"at", at}, {"on", after}});
+    end_row();
     if (row_button("Up", 3, chosen && at > 0, "The selected filter is applied earlier"))
         emit("signal.filter.move", {{"at", at}, {"to", at - 1}});
     if (row_button("Down", 3, chosen && at + 1 < part.stages.size(), "The selected filter is applied later"))
@@ -123,7 +153,9 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
     for (std::size_t i = 0; i < part.stages.size(); ++i) {
         const SignalStage& stage = part.stages[i];
         ImGui::PushID(static_cast<int>(i));
-        colour_mark(stage_colour(palette, part, i));
+        if (i > 0 && !stage.beside)
+            ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 0.8f * ImGui::GetFontSize());
+        colour_mark(stage_colour(palette, stage));
         bool on = stage.enabled;
         if (ImGui::Checkbox("##on", &on)) emit("signal.filter.enable", {{"at", i}, {"on", on}});
         if (ImGui::IsItemHovered()) tooltip("Off, its input passes unchanged");
@@ -131,7 +163,7 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
         const float width = std::max(20.0f, ImGui::GetContentRegionAvail().x);
         const bool selected = part.selected == i;
         const std::string title =
-            elided(kind_title(stage.filter), width - 2.0f * ImGui::GetStyle().FramePadding.x);
+            elided(stage_title(part, i), width - 2.0f * ImGui::GetStyle().FramePadding.x);
         ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, ImVec2(0.0f, 0.5f));
         ImGui::PushStyleColor(ImGuiCol_Button,
                               ImGui::GetStyleColorVec4(selected ? ImGuiCol_Header : ImGuiCol_ChildBg));
@@ -142,7 +174,7 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
         ImGui::PopID();
     }
     if (part.stages.empty()) note("No filters: the output is the input.");
-    if (part.stages.size() > 1) note("Each works on the output of the one above it.");
+    if (part.stages.size() > 1) note("Each works on the input; one that is set in, on the filter above it.");
 }
 
 void SignalLab::panel(const Workspace& workspace, Emit& emit) const {
@@ -211,10 +243,10 @@ void parameter_rows(const Workspace& workspace, const Palette& palette, Emit& em
                  [spring, at, &emit] { spring_rows(*spring, at, emit); });
     if (const auto* curve = std::get_if<signal::Curve>(&filter)) {
         signal::Curve edited = *curve;
-        const double before = at > 0 ? output_of(part, at - 1) : input_of(part);
+        const double before = output_of(part, {lane_of(part, at).first, at});
         const double range = curve->source_max - curve->source_min;
         const double input = range != 0.0 ? (before - curve->source_min) / range : 0.0;
-        if (curve_editor("curve", edited, stage_colour(palette, part, at), 11.0f, input))
+        if (curve_editor("curve", edited, stage_colour(palette, part.stages[at]), 11.0f, input))
             emit.continuously("signal.filter.set",
                               {{"at", at}, {"keys", SharedJson(save_fields(edited).at("keys"))}});
         note("Drag a key. Double-click adds one, right-click removes it.");
@@ -238,23 +270,23 @@ std::string difference_text(double value) {
     return fixed_text(value, value < 10.0 ? 3 : 0);
 }
 
-void response_rows(const StageMeasures& measures) {
+void response_rows(const signal::Measures& measures) {
     if (measures.following == signal::Following::DoesNotFollow) {
         reading("lag", "does not follow");
         explain("Shifted in time by any amount, the input matches less than a tenth of the output.");
     } else {
         reading("lag", "%s", or_dash(measures.lag, 1e3, 1, "ms").c_str());
-        explain("How long the output trails its input: the shift in time that makes them match best.");
+        explain("How long the output trails the input: the shift in time that makes them match best.");
     }
     reading("overshoot", "%s", or_dash(measures.overshoot, 1e2, 1, "%").c_str());
     explain("How far it goes beyond a jump of the input, relative to the jump. Needs jumps: a square wave.");
     reading("settling", "%s", or_dash(measures.settling_time, 1e3, 0, "ms").c_str());
     explain("From a jump until it stays within 2 % of it. Needs jumps: a square wave.");
     reading("jitter left", "%s", or_dash(measures.jitter, 1e2, 1, "%").c_str());
-    explain("How much remains of the jitter of what comes in: second differences, output over input.");
+    explain("How much remains of the jitter of the input: second differences, output over input.");
 }
 
-void measure_rows(const StageMeasures& measures) {
+void measure_rows(const signal::Measures& measures) {
     if (measures.following == signal::Following::Unstable) {
         reading("response", "unstable");
         explain(
@@ -333,6 +365,7 @@ void SignalLab::inspector(const Workspace& workspace, Emit& emit) const {
     show_verdict(signal_verdict(part, analysis.whole), colours, emit);
     const PanelSection now("Now");
     reading("input", "%.3f", input_of(part));
+    if (part.input.kind == InputKind::Csv) note(rows_text(*part.input.file));
     const double output = output_of(part);
     if (std::abs(output) < 1e6)
         reading("output", "%.3f", output);
@@ -341,25 +374,17 @@ void SignalLab::inspector(const Workspace& workspace, Emit& emit) const {
     fit_rows(part, emit);
     if (part.stages.empty()) return;
     const PanelSection each("Read-outs");
-    const bool several = enabled_filters(part).size() > 1;
-    std::string before = "the input";
     for (std::size_t i = 0; i < part.stages.size(); ++i) {
         const SignalStage& stage = part.stages[i];
-        colour_mark(stage_colour(colours, part, i));
+        colour_mark(stage_colour(colours, stage));
         ImGui::AlignTextToFramePadding();
         if (!stage.enabled) {
-            ImGui::TextDisabled("%s (off)", kind_title(stage.filter).c_str());
+            ImGui::TextDisabled("%s (off)", stage_title(part, i).c_str());
             continue;
         }
-        ImGui::TextUnformatted(kind_title(stage.filter).c_str());
-        if (several) note("on " + before);
+        ImGui::TextUnformatted(stage_title(part, i).c_str());
+        if (i > 0 && !stage.beside) note("with those above it, from the input on");
         measure_rows(analysis.stages[i]);
-        before = "the output of " + kind_title(stage.filter);
-    }
-    if (several) {
-        const PanelSection whole("The whole chain");
-        note("on the input");
-        measure_rows(analysis.whole);
     }
 }
 

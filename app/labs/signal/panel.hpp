@@ -12,9 +12,14 @@ namespace tendril::app {
 std::string kind_title(const signal::Filter& filter);
 std::string kind_title(const signal::Kind& kind);
 
+/// The same of a stage, numbered if there are several of its kind.
+std::string stage_title(const SignalPart& part, std::size_t stage);
+/// "600 rows in 10 s, 16.7 ms apart", or "uneven: 4 ms to 31 ms apart".
+std::string rows_text(const InputRows& rows);
+
 /// The chain: one row for each filter, and a button that adds one.
 void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit);
-/// The verdict on how the whole chain follows its input.
+/// The verdict on how the shown lane follows the input.
 Verdict signal_verdict(const SignalPart& part, const signal::Measures& whole);
 /// The parameters of the selected filter.
 void parameter_rows(const Workspace& workspace, const Palette& palette, Emit& emit);

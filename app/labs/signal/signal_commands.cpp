@@ -66,8 +66,8 @@ std::size_t stage_index(const SignalPart& part, const Arguments& given, const ch
 /// Keeps those that are not given.
 void set_parameters(signal::Filter& filter, const Arguments& given) {
     const JsonPlace place(given.json(), "");
-    load_known_fields(place, {signal::kind_of(filter).table(), signal::fields_in(filter)}, {"kind", "at"},
-                      MissingField::Kept);
+    load_known_fields(place, {signal::kind_of(filter).table(), signal::fields_in(filter)},
+                      {"kind", "at", "beside"}, MissingField::Kept);
     check_filter(place, filter);
 }
 
@@ -75,6 +75,8 @@ void add(SignalPart& part, const Arguments& given) {
     if (part.stages.size() >= max_stages)
         throw Refused("there are " + std::to_string(max_stages) + " filters, which is the maximum");
     SignalStage stage{signal::find_kind(given.text("kind"))->blank()};
+    stage.beside = given.has("beside") && given.boolean("beside");
+    stage.colour = unused_colour(part);
     set_parameters(stage.filter, given);
     const std::size_t at = given.has("at") ? stage_index(part, given, "at", true) : part.stages.size();
     part.stages.insert(part.stages.begin() + static_cast<std::ptrdiff_t>(at), std::move(stage));
@@ -87,6 +89,7 @@ void set(SignalPart& part, const Arguments& given) {
 
 void remove(SignalPart& part, const Arguments& given) {
     const std::size_t at = stage_index(part, given, "at");
+    if (at + 1 < part.stages.size() && part.stages[at].beside) part.stages[at + 1].beside = true;
     part.stages.erase(part.stages.begin() + static_cast<std::ptrdiff_t>(at));
     if (part.selected && *part.selected > at) --*part.selected;
     if (part.selected && *part.selected >= part.stages.size())
@@ -95,20 +98,23 @@ void remove(SignalPart& part, const Arguments& given) {
 
 void move(SignalPart& part, const Arguments& given) {
     const std::size_t at = stage_index(part, given, "at"), to = stage_index(part, given, "to");
+    const std::vector<SignalStage> before = part.stages;
     const auto begin = part.stages.begin();
     const auto from = begin + static_cast<std::ptrdiff_t>(at), goal = begin + static_cast<std::ptrdiff_t>(to);
     if (from < goal)
         std::rotate(from, from + 1, goal + 1);
     else
         std::rotate(goal, from, from + 1);
+    for (std::size_t i = 0; i < before.size(); ++i) part.stages[i].beside = before[i].beside;
     part.selected = to;
 }
 
-void enable(SignalPart& part, const Arguments& given) {
+template <bool SignalStage::*which>
+void turn(SignalPart& part, const Arguments& given) {
     SignalStage& stage = part.stages[stage_index(part, given, "at")];
-    const bool on = given.has("on") ? given.boolean("on") : !stage.enabled;
-    if (on == stage.enabled) return;
-    stage.enabled = on;
+    const bool on = given.has("on") ? given.boolean("on") : !(stage.*which);
+    if (on == stage.*which) return;
+    stage.*which = on;
     stage.state = {};  // its memory is out of date
 }
 
@@ -135,6 +141,7 @@ void add_filter_commands(CommandTable& table) {
     }
     adding.push_back(
         index_argument("at", false, "position in the chain, from 0; at the end if omitted", max_stages + 1));
+    adding.push_back(switch_argument("beside", "works on the input; if omitted, on the filter above"));
     table.add(part_command<SignalPart>(signal_lab, "signal.filter.add", "Add a filter", adding,
                                        "Adds a filter to the chain; omitted parameters have their defaults",
                                        add));
@@ -148,7 +155,12 @@ void add_filter_commands(CommandTable& table) {
     table.add(part_command<SignalPart>(signal_lab, "signal.filter.enable", "Switch a filter on or off",
                                        {at, switch_argument("on", "toggles if omitted")},
                                        "Switches a filter on or off; when off, the input passes unchanged",
-                                       enable));
+                                       turn<&SignalStage::enabled>));
+    table.add(part_command<SignalPart>(signal_lab, "signal.filter.beside", "Put a filter beside or after",
+                                       {at, switch_argument("on", "toggles if omitted")},
+                                       "Lets a filter work on the input, beside those above it, or on the "
+                                       "output of the one above",
+                                       turn<&SignalStage::beside>));
     table.add(part_command<SignalPart>(signal_lab, "signal.filter.remove_selected", "Delete selection", {},
                                        "Removes the filter that is selected", remove_selected));
     table.add(part_command<SignalPart>(

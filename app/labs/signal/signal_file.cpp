@@ -25,7 +25,9 @@ template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::SignalStage>() noexcept {
     using app::SignalStage;
     static constexpr Field rows[] = {kinds<&SignalStage::filter>("kind", signal::kind_names),
-                                     field<&SignalStage::enabled>("enabled")};
+                                     field<&SignalStage::enabled>("enabled"),
+                                     field<&SignalStage::beside>("beside"),
+                                     field<&SignalStage::colour>("colour", {0, app::max_stages - 1})};
     return rows;
 }
 
@@ -72,11 +74,12 @@ SignalInput load_input(const JsonPlace& place) {
     return input;
 }
 
-/// A stage of a preset has no state.
-SignalStage load_stage(const JsonPlace& place, bool preset = false) {
+/// A stage of a preset has no state; without a colour it has that of its place.
+SignalStage load_stage(const JsonPlace& place, std::size_t at, bool preset = false) {
     SignalStage stage;
     load_known_fields(place, stage, {"state"});
     check_filter(place, stage.filter);
+    if (!place.has("colour")) stage.colour = static_cast<int>(at);
     if (!preset) stage.state = filter_state_from_json(place["state"]);
     return stage;
 }
@@ -147,8 +150,9 @@ std::shared_ptr<Part> SignalPart::load(const Json& json, const std::string& wher
     const JsonPlace place(json, where);
     check_members(place, {"filters", "input", "time", "past", "selected", "plot", "fit"});
     auto part = std::make_shared<SignalPart>();
-    place["filters"].for_each("filters", max_stages,
-                              [&](const JsonPlace& each) { part->stages.push_back(load_stage(each)); });
+    place["filters"].for_each("filters", max_stages, [&](const JsonPlace& each) {
+        part->stages.push_back(load_stage(each, part->stages.size()));
+    });
     part->input = load_input(place["input"]);
     part->time = place["time"].real(0.0, 1e9);
     part->past = load_rows(place["past"], "rows", max_past);
@@ -165,8 +169,9 @@ namespace {
 
 SignalPart load_preset(const JsonPlace& place) {
     SignalPart part;
-    place["filters"].for_each("filters", max_stages,
-                              [&](const JsonPlace& each) { part.stages.push_back(load_stage(each, true)); });
+    place["filters"].for_each("filters", max_stages, [&](const JsonPlace& each) {
+        part.stages.push_back(load_stage(each, part.stages.size(), true));
+    });
     if (place.has("input")) part.input = load_input(place["input"]);
     if (place.has("plot")) part.plot = place["plot"].choice(signal_plots);
     part.selected = 0;

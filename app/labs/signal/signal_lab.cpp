@@ -145,9 +145,9 @@ Json SignalLab::state(const Workspace& workspace) const {
     Json filters = Json::array(), fits = Json::array();
     for (std::size_t i = 0; i < part.stages.size(); ++i) {
         const SignalStage& stage = part.stages[i];
-        const StageMeasures& measures = analysis.stages[i];
+        const signal::Measures& measures = analysis.stages[i];
         Json json = save_fields(stage);
-        json["output"] = output_of(part, i);
+        json["output"] = output_of(part, {lane_of(part, i).first, i + 1});
         json["following"] = following_name(measures.following);
         json["lag_ms"] = number_or_null(measures.lag, 1e3);
         json["overshoot_percent"] = number_or_null(measures.overshoot, 1e2);
@@ -160,6 +160,7 @@ Json SignalLab::state(const Workspace& workspace) const {
         fits.push_back({{"filter", filter_json(fit.filter)}, {"residual", fit.residual}});
     Json input = save_fields(part.input);
     input["value"] = input_of(part);
+    if (part.input.file) input["rows"] = rows_text(*part.input.file);
     return Json{{"lab", signal_lab},
                 {"input", std::move(input)},
                 {"output", output_of(part)},

@@ -9,49 +9,88 @@
 
 namespace tendril::app {
 
-std::vector<signal::Filter> enabled_filters(const SignalPart& part) {
+Lane lane_of(const SignalPart& part, std::size_t stage) {
+    if (stage >= part.stages.size()) return {};
+    Lane lane{stage, stage + 1};
+    while (lane.first > 0 && !part.stages[lane.first].beside) --lane.first;
+    while (lane.end < part.stages.size() && !part.stages[lane.end].beside) ++lane.end;
+    return lane;
+}
+
+std::optional<std::size_t> shown_stage(const SignalPart& part) {
+    const Lane lane = shown_lane(part);
+    for (std::size_t i = lane.end; i-- > lane.first;)
+        if (part.stages[i].enabled) return i;
+    return std::nullopt;
+}
+
+int unused_colour(const SignalPart& part) {
+    int colour = 0;
+    while (std::ranges::find(part.stages, colour, &SignalStage::colour) != part.stages.end()) ++colour;
+    return colour;
+}
+
+std::vector<signal::Filter> enabled_filters(const SignalPart& part, Lane lane) {
     std::vector<signal::Filter> filters;
-    for (const SignalStage& stage : part.stages)
-        if (stage.enabled) filters.push_back(stage.filter);
+    for (std::size_t i = lane.first; i < lane.end; ++i)
+        if (part.stages[i].enabled) filters.push_back(part.stages[i].filter);
     return filters;
+}
+
+namespace {
+
+template <typename Output>
+void step_stages(std::vector<SignalStage>& stages, const signal::Sample& row, const Output& output) {
+    double value = row.input;
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+        if (stages[i].beside) value = row.input;
+        if (stages[i].enabled) value = signal::step(stages[i].filter, stages[i].state, value, row.dt);
+        output(i, value);
+    }
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> outputs_for(const SignalPart& part, const InputRows& rows) {
+    std::vector<std::vector<double>> outputs(part.stages.size());
+    std::vector<SignalStage> stages = part.stages;
+    for (SignalStage& stage : stages) stage.state = {};
+    for (const signal::Sample& row : rows)
+        step_stages(stages, row, [&](std::size_t i, double value) { outputs[i].push_back(value); });
+    return outputs;
 }
 
 double input_of(const SignalPart& part) {
     return part.past.empty() ? input_at(part.input, part.time) : part.past.back().input;
 }
 
-double output_of(const SignalPart& part, std::size_t stage) {
-    for (std::size_t i = std::min(stage + 1, part.stages.size()); i-- > 0;) {
+double output_of(const SignalPart& part, Lane lane) {
+    for (std::size_t i = lane.end; i-- > lane.first;) {
         const SignalStage& each = part.stages[i];
         if (each.enabled && signal::started(each.state)) return signal::value(each.state);
     }
     return input_of(part);
 }
 
-double output_of(const SignalPart& part) {
-    return output_of(part, part.stages.size());
-}
-
 void pass_signal_time(SignalPart& part, double dt) {
     if (part.recording && !part.recording->begun) return;
     part.time += dt;
-    const double input = input_at(part.input, part.time);
-    double value = input;
-    for (SignalStage& stage : part.stages)
-        if (stage.enabled) value = signal::step(stage.filter, stage.state, value, dt);
+    const signal::Sample row{dt, input_at(part.input, part.time)};
+    step_stages(part.stages, row, [](std::size_t, double) {});
     if (part.past.size() >= max_past) part.past.erase(part.past.begin());
-    part.past.push_back({dt, input});
+    part.past.push_back(row);
     record(part);
 }
 
 /// If the chain had other filters at that moment, restores it completely.
 std::shared_ptr<const Part> SignalPart::at_moment(std::shared_ptr<const Part> then) const {
     auto part = std::make_shared<SignalPart>(dynamic_cast<const SignalPart&>(*then));
-    const bool same_chain =
-        std::equal(stages.begin(), stages.end(), part->stages.begin(), part->stages.end(),
-                   [](const SignalStage& now, const SignalStage& before) {
-                       return now.filter.index() == before.filter.index() && now.enabled == before.enabled;
-                   });
+    const bool same_chain = std::equal(stages.begin(), stages.end(), part->stages.begin(), part->stages.end(),
+                                       [](const SignalStage& now, const SignalStage& before) {
+                                           return now.filter.index() == before.filter.index() &&
+                                                  now.enabled == before.enabled &&
+                                                  now.beside == before.beside;
+                                       });
     if (same_chain) {
         for (std::size_t i = 0; i < stages.size(); ++i) part->stages[i].filter = stages[i].filter;
         part->selected = selected;

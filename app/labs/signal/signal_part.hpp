@@ -71,6 +71,8 @@ inline constexpr std::size_t max_wanted = 300;  ///< rows of a response to fit: 
 struct SignalStage {
     signal::Filter filter;
     bool enabled = true;  ///< if not, the input passes through
+    bool beside = false;  ///< works on the lab's input, beside those above; the first always does
+    int colour = 0;       ///< of its curves; it keeps it wherever it moves
     signal::FilterState state{};
     bool operator==(const SignalStage&) const = default;
 };
@@ -79,10 +81,9 @@ struct SignalStage {
 enum class SignalPlot : std::uint8_t { Rates, Shelf, Fit };
 inline constexpr EnumNames<SignalPlot, 3> signal_plots{
     "plot",
-    {{"rates", "Frame rates", "The whole chain at several frame rates, on the same input."},
+    {{"rates", "Frame rates", "The selected series at several frame rates, on the same input."},
      {"shelf", "Lag against jitter",
-      "Every kind of filter alone on this input, those in the list with their settings, and all of the "
-      "list in a row."},
+      "Every series with its numbers, and every other kind of filter with its defaults."},
      {"fit", "Fit", "The desired response, and the filters that come closest to it."}}};
 
 /// A response that the user performs: the input plays from its start, and the output ball follows the mouse.
@@ -125,14 +126,36 @@ struct SignalPart final : Part {
     bool operator==(const SignalPart& other) const;
 };
 
-/// The enabled filters, in order.
-std::vector<signal::Filter> enabled_filters(const SignalPart& part);
+/// The stages from a filter that works on the input up to the next such: each works on the output of the one
+/// before it.
+struct Lane {
+    std::size_t first = 0, end = 0;
+};
+Lane lane_of(const SignalPart& part, std::size_t stage);
+/// The lane of the selected filter; else the first. The output is this one's, and what is exported and
+/// fitted.
+inline Lane shown_lane(const SignalPart& part) {
+    return lane_of(part, part.selected.value_or(0));
+}
+/// Its last stage that is on: the one whose output is shown.
+std::optional<std::size_t> shown_stage(const SignalPart& part);
+/// The lowest colour that no stage has.
+int unused_colour(const SignalPart& part);
+
+/// The enabled filters of a lane, in order.
+std::vector<signal::Filter> enabled_filters(const SignalPart& part, Lane lane);
+inline std::vector<signal::Filter> enabled_filters(const SignalPart& part) {
+    return enabled_filters(part, shown_lane(part));
+}
+/// The output of every stage for these rows, from fresh states; a disabled stage passes its input through.
+std::vector<std::vector<double>> outputs_for(const SignalPart& part, const InputRows& rows);
 /// The last input; before the first tick, the next one.
 double input_of(const SignalPart& part);
-/// The last output; the last input if no filter has run yet.
-double output_of(const SignalPart& part);
-/// The output of one stage.
-double output_of(const SignalPart& part, std::size_t stage);
+/// The last output of the first stages of a lane; the last input if none of them has run yet.
+double output_of(const SignalPart& part, Lane lane);
+inline double output_of(const SignalPart& part) {
+    return output_of(part, shown_lane(part));
+}
 
 /// Advances by `dt` seconds.
 void pass_signal_time(SignalPart& part, double dt);

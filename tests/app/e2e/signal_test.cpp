@@ -236,7 +236,7 @@ TEST_F(CurveInTheWindow, ATangentIsDraggedByItsEnd) {
     EXPECT_EQ(key.at("time"), 0.5);
 }
 
-/// The second filter's input is the first one's output, so its jitter alone is a different number.
+/// A filter's numbers are of its curve in the plot, so of those above it too where it follows them.
 TEST(SignalInTheWindow, EachNumberNamesItsFilter) {
     const auto window = app::open_offscreen({1440, 1400});
     app::App app(*window);
@@ -250,11 +250,11 @@ TEST(SignalInTheWindow, EachNumberNamesItsFilter) {
     app.run({"signal.preset", Json{{"name", "spring"}}});
     app.run({"signal.input", Json{{"kind", "noise"}}});
     app.run({"signal.plot", Json{{"name", "shelf"}}});
-    EXPECT_FALSE(says("on the input") || says("the whole chain"));
-    app.run({"signal.filter.add", Json{{"kind", "one_euro"}}});
-    for (const char* text : {"on the input", "on the output of Spring", "the whole chain",
-                             "jitter left, alone", "Each works on the output of the one above it."})
-        EXPECT_TRUE(says(text)) << text;
+    const char* const follows = "with those above it, from the input on";
+    app.run({"signal.filter.add", Json{{"kind", "one_euro"}, {"beside", true}}});
+    EXPECT_FALSE(says(follows));
+    app.run({"signal.filter.beside", Json{{"at", 1}}});
+    EXPECT_TRUE(says(follows));
 }
 
 TEST(SignalInTheWindow, AFileIsTypedIntoThePanel) {

@@ -9,18 +9,6 @@ class RopeRefusals : public RopeTest {};
 
 const Json origin = Json::array({0, 0, 0}), right = Json::array({1, 0, 0});
 
-TEST_F(RopeRefusals, SayWhyInOneLine) {
-    single_rope(8);
-    refuses("rope.add", {{"from", origin}}, "rope.add to missing point");
-    refuses("rope.pin", {{"rope", "rope"}, {"particle", 9}}, "rope.pin 9 range rope 9");
-    refuses("rope.pin", {{"rope", "line"}, {"particle", 0}}, "rope.pin no rope line");
-    refuses("rope.cut", {{"rope", "rope"}, {"segment", 8}}, "rope.cut segment 8 range rope 8");
-    refuses("rope.remove", {{"name", "x"}}, "rope.remove no rope x");
-    refuses("rope.collider.move", {{"name", "x"}, {"to", origin}}, "rope.collider.move no collider x");
-    refuses("rope.collider.remove", {{"name", "x"}}, "rope.collider.remove no collider x");
-    refuses("rope.collider.swing", {{"name", "x"}, {"by", right}}, "rope.collider.swing no collider x");
-}
-
 TEST_F(RopeRefusals, AColliderTakesTheArgumentsOfItsKindAndNeedsThem) {
     run("rope.clear");
     const Field& shape = fields<rope::Collider>().front();

@@ -51,6 +51,26 @@ TEST_F(RopeTieTest, HasATensionOnceItIsClosed) {
     EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "tension without limit"));
 }
 
+TEST_F(RopeTieTest, AColliderIsRefusedAndAWeightHangsInstead) {
+    two_ropes();
+    run("rope.collider.add", {{"name", "lamp"}, {"kind", "sphere"}, {"centre", {0, 1, 0}}, {"radius", 0.1}});
+    run("rope.tool", {{"name", "tie"}});
+    click("above", 4);
+    Emit emit;
+    lab().click(workspace, collider_pick(0), emit);
+    const std::vector<Emitted> tie = emit.take();
+    ASSERT_EQ(tie.size(), 1u);
+    refuses(tie[0].name.c_str(), *tie[0].arguments, "lamp collider mass");
+    const double rest = world().state().mass[3];
+    run("rope.weight", {{"rope", "above"}, {"particle", 4}, {"mass", 2}});
+    EXPECT_EQ(world().state().mass[4], 2.0);
+    EXPECT_EQ(world().state().mass[3], rest);
+    wait(120);
+    EXPECT_NEAR(world().state().links[3].tension, 2.0 * 9.81, 0.5) << "what carries it";
+    refuses("rope.weight", {{"rope", "above"}, {"particle", 4}, {"mass", 0}}, "mass");
+    refuses("rope.weight", {{"rope", "above"}, {"particle", 5}, {"mass", 1}}, "particle");
+}
+
 TEST_F(RopeTieTest, TwoClicksTieAndSelectTheTie) {
     two_ropes();
     run("rope.tool", {{"name", "tie"}});
@@ -87,15 +107,6 @@ TEST_F(RopeTieTest, AClickThatMissesKeepsTheFirstEndAndShowsNoGizmo) {
     EXPECT_TRUE(test::says(lab().hint(workspace, no_pick), "above particle 4 click what to tie Escape"));
     click("below", 0);
     EXPECT_EQ(world().state().ties.size(), 1u);
-}
-
-TEST_F(RopeTieTest, WithoutStrengthItNeverTears) {
-    two_ropes();
-    tie_them();
-    run("rope.select", {{"tie", "tie"}});
-    EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "tears at never"));
-    run("rope.tie.set", {{"name", "tie"}, {"strength", 40}});
-    EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "tears at 40.0 N"));
 }
 
 TEST_F(RopeTieTest, TearsAndDisappears) {

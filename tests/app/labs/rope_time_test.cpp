@@ -17,7 +17,7 @@ class RopeTime : public RopeTest {
     }
 };
 
-TEST_F(RopeTime, UnevenFramesLeadToTheSameWorld) {
+TEST_F(RopeTime, FramesOfAnyRateLeadToTheSameWorld) {
     for (const char* scene : {"drape", "hair", "pendulum"}) {
         run("rope.preset", {{"name", scene}});
         std::vector<std::shared_ptr<const NamedWorld>> even{part().world};
@@ -25,19 +25,26 @@ TEST_F(RopeTime, UnevenFramesLeadToTheSameWorld) {
             wait(1);
             even.push_back(part().world);
         }
-        run("rope.preset", {{"name", scene}});
-        run("rope.jitter", {{"dial", 1}});
-        int compared = 0;
-        for (int i = 0; i < 200; ++i) {
-            wait(1);
-            for (const auto& world_then : even) {
-                if (world_then->state().substeps != world().state().substeps) continue;
-                EXPECT_LT(farthest(*world_then, world()), 1e-6) << scene << ", tick " << i;
-                ++compared;
+        for (const auto& [rate, dial, most] : {std::tuple{60, 1, 200}, {15, 0, 50}, {144, 0, 200}}) {
+            SCOPED_TRACE(std::string(scene) + " at " + std::to_string(rate) + " Hz");
+            run("rope.preset", {{"name", scene}});
+            run("rope.jitter", {{"rate", rate}, {"dial", dial}});
+            int compared = 0, frames = 0;
+            for (int i = 0; i < 200; ++i) {
+                const auto before = world().state().substeps;
+                wait(1);
+                frames += world().state().substeps != before;
+                for (const auto& world_then : even) {
+                    if (world_then->state().substeps != world().state().substeps) continue;
+                    EXPECT_LT(farthest(*world_then, world()), 1e-6) << "tick " << i;
+                    ++compared;
+                }
             }
+            EXPECT_GT(compared, 30);
+            EXPECT_LE(frames, most);
+            EXPECT_EQ(world().state().dropped, 0u);
         }
-        EXPECT_GT(compared, 30) << scene;
-        EXPECT_EQ(world().state().dropped, 0u);
+        run("rope.jitter", {{"rate", 60}, {"dial", 0}});
     }
 }
 
@@ -50,13 +57,33 @@ TEST_F(RopeTime, ATicksWorkIsBounded) {
     EXPECT_NEAR(static_cast<double>(world().state().substeps + world().state().dropped), 1e5 / 60.0, 1.0);
 }
 
+/// So that a large cloth follows the mouse; a small one takes all of its substeps.
+TEST_F(RopeTime, ADraggedClothOfTenThousandTakesFewerSubstepsAndSaysSo) {
+    for (const int side : {10, 100}) {
+        run("rope.clear");
+        add_cloth("cloth", {0, 2, 0}, {1, 0, 0}, {0, -1, 0}, side, side, "corners");
+        for (const bool held : {true, false}) {
+            const auto before = world().state().substeps;
+            const Json at = point(world().position(static_cast<std::size_t>(side + 3)));
+            if (held) run("rope.hold", {{"rope", "cloth"}, {"particle", side + 3}, {"at", at}});
+            if (!held) run("rope.let_go");
+            wait(1);
+            EXPECT_EQ(world().state().substeps - before, held && side == 100 ? 1u : 4u) << side;
+            if (held && side == 100) {
+                EXPECT_TRUE(test::says(state().at("verdict"), "25 % of real time"));
+                EXPECT_TRUE(test::says(state().at("why"), "drag fewer substeps"));
+            }
+        }
+    }
+}
+
 TEST_F(RopeTime, FramesAreFrom1To250Milliseconds) {
     double shortest = 1.0, longest = 0.0;
     for (std::uint32_t i = 0; i < 1000; ++i) {
-        EXPECT_EQ(jitter_frame(0.0f, i), tick_seconds);
-        EXPECT_NEAR(jitter_frame(0.5f, i), tick_seconds, 0.06);
-        shortest = std::min(shortest, jitter_frame(1.0f, i));
-        longest = std::max(longest, jitter_frame(1.0f, i));
+        EXPECT_EQ(jitter_frame({.dial = 0.0f}, i), tick_seconds);
+        EXPECT_NEAR(jitter_frame({.dial = 0.5f}, i), tick_seconds, 0.06);
+        shortest = std::min(shortest, jitter_frame({.dial = 1.0f}, i));
+        longest = std::max(longest, jitter_frame({.dial = 1.0f}, i));
     }
     EXPECT_GE(shortest, 0.001);
     EXPECT_LT(shortest, 0.0012);
@@ -87,7 +114,7 @@ TEST_F(RopeTime, ThePlotShowsTheActualFrames) {
     for (int i = 0; i < 300; ++i) {
         wait(1);
         const float frame = part().samples.back().frame;
-        EXPECT_NEAR(frame, 1e3 * jitter_frame(1.0f, part().jitter.frames), 1e-3);
+        EXPECT_NEAR(frame, 1e3 * jitter_frame(part().jitter, part().jitter.frames), 1e-3);
         EXPECT_NEAR(state().at("frame_ms").get<float>(), frame, 1e-3f);
         shortest = std::min(shortest, frame), longest = std::max(longest, frame);
     }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "app/document/json_complete.hpp"
+#include "app/labs/signal/panel.hpp"
 #include "app/labs/signal/presets.hpp"
 #include "app/labs/signal/signal_part.hpp"
 #include "tests/app/labs/lab_support.hpp"
@@ -13,36 +14,7 @@ class SignalCommands : public LabTest {
   protected:
     SignalCommands() : LabTest(signal_lab) {}
     const SignalPart& part() const { return signal_part(workspace); }
-    std::string kinds() const {
-        std::string text;
-        for (const SignalStage& stage : part().stages) text += std::string(signal::kind(stage.filter)) + " ";
-        return text;
-    }
 };
-
-TEST_F(SignalCommands, FiltersAreAddedSetMovedSwitchedAndRemoved) {
-    run("signal.clear");
-    EXPECT_EQ(state().at("filters"), Json::array());
-    run("signal.filter.add", {{"kind", "exponential_decay"}, {"halflife", 0.25}});
-    run("signal.filter.add", {{"kind", "dead_zone"}});
-    run("signal.filter.add", {{"kind", "spring"}, {"at", 0}, {"strength", 3}});
-    EXPECT_EQ(kinds(), "spring exponential_decay dead_zone ");
-    EXPECT_EQ(state().at("filters")[1].at("halflife"), 0.25);
-    run("signal.filter.set", {{"at", 1}, {"halflife", 0.1}});
-    EXPECT_EQ(state().at("filters")[1].at("halflife"), 0.1) << "a double, as it was given";
-    run("signal.filter.move", {{"at", 0}, {"to", 2}});
-    EXPECT_EQ(kinds(), "exponential_decay dead_zone spring ");
-    run("signal.filter.move", {{"at", 2}, {"to", 1}});
-    EXPECT_EQ(kinds(), "exponential_decay spring dead_zone ");
-    run("signal.filter.enable", {{"at", 1}, {"on", false}});
-    EXPECT_EQ(state().at("filters")[1].at("enabled"), false);
-    run("signal.filter.remove", {{"at", 0}});
-    EXPECT_EQ(kinds(), "spring dead_zone ");
-    for (int i = 0; i < 8; ++i) run("undo");
-    EXPECT_EQ(kinds(), "");
-    run("redo");
-    EXPECT_EQ(kinds(), "exponential_decay ");
-}
 
 TEST_F(SignalCommands, TheOutputIsTheLibrarys) {
     run("signal.clear");
@@ -59,6 +31,40 @@ TEST_F(SignalCommands, TheOutputIsTheLibrarys) {
         ASSERT_EQ(state().at("filters")[0].at("output").get<double>(), first);
         ASSERT_EQ(state().at("filters")[1].at("output").get<double>(), second);
     }
+}
+
+/// Moved, switched and saved: a filter's colour goes with it; whether it works on the input goes with its
+/// place.
+TEST_F(SignalCommands, SeriesAreSideBySideAndKeepTheirColours) {
+    const auto colours = [&] {
+        std::string text;
+        for (const SignalStage& stage : part().stages)
+            text += (stage.beside ? "|" : " ") + std::to_string(stage.colour);
+        return text;
+    };
+    run("signal.clear");
+    for (const bool beside : {true, false, true, false})
+        run("signal.filter.add", {{"kind", "spring"}, {"beside", beside}});
+    EXPECT_EQ(colours(), "|0 1|2 3");
+    run("signal.filter.move", {{"at", 3}, {"to", 0}});
+    EXPECT_EQ(colours(), "|3 0|1 2");
+    run("signal.filter.remove", {{"at", 2}});
+    EXPECT_EQ(colours(), "|3 0|2") << "what followed it works on the input in its place";
+    run("signal.filter.add", {{"kind", "dead_zone"}, {"width", 5}});
+    EXPECT_EQ(colours(), "|3 0|2 1");
+    run("signal.filter.beside", {{"at", 1}, {"on", true}});
+    EXPECT_EQ(colours(), "|3|0|2 1");
+    EXPECT_EQ(stage_title(part(), 2), "Spring 3");
+    wait(20);
+    const Json now = state();
+    for (const std::size_t at : {1, 2}) {
+        run("signal.select", {{"at", at}});
+        EXPECT_EQ(state().at("output"), now.at("filters")[at == 1 ? 1 : 3].at("output")) << "of its series";
+    }
+    EXPECT_NE(now.at("filters")[1].at("output"), 0.0);
+    EXPECT_EQ(now.at("filters")[3].at("output"), 0.0);
+    const auto loaded = std::dynamic_pointer_cast<SignalPart>(part().load(part().save(), "labs.signal"));
+    EXPECT_EQ(loaded->stages, part().stages);
 }
 
 TEST_F(SignalCommands, DisabledFiltersPassTheInputThrough) {
@@ -208,8 +214,6 @@ TEST_F(SignalCommands, ADivergingFilterIsReportedAsUnstable) {
     EXPECT_EQ(filter.at("following"), "unstable");
     for (const char* key : {"lag_ms", "overshoot_percent", "settling_ms", "jitter_percent"})
         EXPECT_TRUE(filter.at(key).is_null()) << key;
-    run("signal.filter.enable", {{"at", 0}, {"on", false}});
-    run("signal.filter.enable", {{"at", 1}, {"on", true}});
     filter = state().at("filters")[1];
     EXPECT_EQ(filter.at("following"), "follows");
     EXPECT_TRUE(filter.at("lag_ms").is_number());
@@ -223,8 +227,6 @@ TEST_F(SignalCommands, EveryPresetMakesItsPoint) {
     }
     run("signal.preset", {{"name", "engine_against_exact"}});
     const double engine = state().at("filters")[0].at("rate_difference").get<double>();
-    run("signal.filter.enable", {{"at", 0}, {"on", false}});
-    run("signal.filter.enable", {{"at", 1}, {"on", true}});
     const double exact = state().at("filters")[1].at("rate_difference").get<double>();
     EXPECT_GT(engine, 0.1);
     EXPECT_LT(exact, 0.2 * engine);

@@ -2,7 +2,9 @@
 #include "app/io/samples.hpp"
 #include "app/labs/signal/signal_part.hpp"
 #include "tests/app/labs/lab_support.hpp"
+#include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -64,6 +66,17 @@ TEST_F(SignalCsv, AnExactNameWinsOverOneThatDiffersInCaseOrUnit) {
         EXPECT_EQ(values(), wanted) << name;
     }
     refuses("signal.input", file(text, {{"value", "x (m)"}}), "3 columns called x");
+}
+
+TEST_F(SignalCsv, RowsAreCountedAndUnevenTimesSaid) {
+    const auto said = [&](const std::string& text) {
+        run("signal.input", file(text));
+        return state().at("input").at("rows").get<std::string>();
+    };
+    EXPECT_EQ(said("t,x\n0,1\n0.25,2\n0.5,3\n"), "3 rows in 750 ms, 250 ms apart.");
+    EXPECT_EQ(said("t (ms),x\n0,1\n17,2\n33,3\n50,4\n"), "4 rows in 67.0 ms, 16.8 ms apart.");
+    EXPECT_EQ(said("t,x\n0,1\n0.25,2\n2.25,3\n"), "3 rows in 2.50 s, uneven: 250 ms to 2.00 s apart.");
+    EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "3 rows uneven"));
 }
 
 TEST_F(SignalCsv, TimeIsInTheUnitOfItsColumnsName) {

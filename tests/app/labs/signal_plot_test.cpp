@@ -108,61 +108,39 @@ TEST_F(SignalNumbers, OfAHandUseItsLastRows) {
     EXPECT_GE(signal_runtime(workspace).chain(part()).time.back(), 0.74);
 }
 
-TEST_F(SignalNumbers, RateDifferencesAreEachFiltersOwn) {
+TEST_F(SignalNumbers, OfEachSeriesAreItsCurvesAgainstTheInput) {
     run("signal.clear");
+    run("signal.input", {{"kind", "noise"}});
+    run("signal.filter.add", {{"kind", "exponential_decay"}, {"halflife", 0.1}});
     run("signal.filter.add", {{"kind", "interp_to"}});
-    run("signal.filter.add", {{"kind", "interp_to"}});
-    run("signal.filter.add", {{"kind", "scale_bias_clamp"}});
-    run("signal.filter.enable", {{"at", 1}, {"on", false}});
-    const ChainAnalysis& analysis = signal_runtime(workspace).chain(part());
-    const signal::Filter first = part().stages[0].filter;
-    const signal::Filter both[] = {first, part().stages[2].filter};
+    run("signal.filter.add", {{"kind", "moving_average"}, {"beside", true}});
+    run("signal.filter.add", {{"kind", "spring"}});
+    run("signal.filter.enable", {{"at", 3}, {"on", false}});
+    const auto filter = [&](std::size_t i) { return part().stages[i].filter; };
+    const std::vector<signal::Filter> series[] = {{filter(0)}, {filter(0), filter(1)}, {filter(2)}};
     const InputRows rows = measuring_rows(part().input, 60.0);
-    EXPECT_GT(analysis.stages[0].rate_difference, 0.01);
-    EXPECT_EQ(analysis.stages[0].rate_difference, signal::compare_rates({&first, 1}, rows).difference);
-    EXPECT_EQ(analysis.stages[1].rate_difference, 0.0) << "it is off";
-    EXPECT_EQ(analysis.stages[2].rate_difference, 0.0)
-        << "what reaches it depends on the rate, not what it does";
-    EXPECT_EQ(analysis.rates.difference, signal::compare_rates(both, rows).difference);
-    EXPECT_EQ(analysis.whole.rate_difference, analysis.rates.difference);
-    EXPECT_EQ(analysis.rates.runs[0].output, signal::compare_rates(both, rows).runs[0].output);
-    run("signal.filter.enable", {{"at", 0}, {"on", false}});
-    run("signal.filter.enable", {{"at", 2}, {"on", false}});
+    const std::vector<ShelfPoint> shelf = signal_runtime(workspace).shelf(part());
+    for (const std::size_t selected : {0, 2}) {
+        run("signal.select", {{"at", selected}});
+        const ChainAnalysis& analysis = signal_runtime(workspace).chain(part());
+        for (std::size_t i = 0; i < 3; ++i) {
+            const signal::Measures& own = analysis.stages[i];
+            EXPECT_EQ(analysis.outputs[i], signal::run(series[i], rows)) << i;
+            EXPECT_EQ(own.rate_difference, signal::compare_rates(series[i], rows).difference) << i;
+            EXPECT_EQ(shelf[i].stage, i);
+            EXPECT_EQ(shelf[i].lag, *own.lag) << "as in the plot";
+            EXPECT_EQ(shelf[i].jitter, *own.jitter);
+        }
+        EXPECT_EQ(analysis.whole.lag, analysis.stages[selected == 0 ? 1 : 2].lag) << "of the selected";
+        EXPECT_EQ(analysis.whole.rate_difference, analysis.rates.difference);
+        EXPECT_EQ(analysis.rates.difference, analysis.stages[selected == 0 ? 1 : 2].rate_difference);
+    }
+    EXPECT_EQ(std::ranges::count(shelf, 7u, [](const ShelfPoint& each) { return each.filter.index(); }), 1)
+        << "the spring is off, so its kind is shown alone";
+    for (std::size_t i = 0; i < 3; ++i) run("signal.filter.enable", {{"at", i}, {"on", false}});
     const ChainAnalysis& off = signal_runtime(workspace).chain(part());
     EXPECT_EQ(off.stages[2].rate_difference, 0.0);
     EXPECT_EQ(off.rates.runs.size(), signal::usual_rates().size()) << "the input alone";
-}
-
-TEST_F(SignalNumbers, OfAFilterUseItsOwnInputAndOfTheChainTheSignal) {
-    run("signal.clear");
-    run("signal.filter.add", {{"kind", "exponential_decay"}, {"halflife", 0.1}});
-    run("signal.filter.add", {{"kind", "dead_zone"}, {"width", 0}});
-    const ChainAnalysis& analysis = signal_runtime(workspace).chain(part());
-    EXPECT_GT(*analysis.stages[0].lag, 0.05);
-    EXPECT_NEAR(*analysis.stages[1].lag, 0.0, 1e-6) << "it passes what comes in";
-    EXPECT_NEAR(*analysis.stages[1].jitter, 1.0, 1e-9);
-    EXPECT_EQ(analysis.whole.lag, analysis.stages[0].lag);
-    EXPECT_EQ(analysis.whole.overshoot, analysis.stages[0].overshoot);
-    EXPECT_EQ(analysis.whole.settling_time, analysis.stages[0].settling_time);
-    EXPECT_EQ(analysis.whole.jitter, analysis.stages[0].jitter);
-}
-
-TEST_F(SignalNumbers, OfTheShelfEqualTheChainsForTheSameKind) {
-    run("signal.clear");
-    run("signal.input", {{"kind", "noise"}});
-    run("signal.filter.add", {{"kind", "moving_average"}, {"window", 0.3}});
-    run("signal.filter.add", {{"kind", "moving_average"}, {"window", 0.1}});
-    const ChainAnalysis& analysis = signal_runtime(workspace).chain(part());
-    const std::vector<ShelfPoint>& shelf = signal_runtime(workspace).shelf(part());
-    ASSERT_GT(shelf.size(), 5u);
-    EXPECT_EQ(shelf[0].stage, std::optional<std::size_t>(0)) << "those of the chain come first";
-    EXPECT_EQ(shelf[0].filter, part().stages[0].filter);
-    EXPECT_EQ(shelf[0].lag, *analysis.stages[0].lag);
-    EXPECT_EQ(shelf[0].jitter, *analysis.stages[0].jitter);
-    for (std::size_t i = 1; i < shelf.size(); ++i) {
-        EXPECT_FALSE(shelf[i].stage);
-        EXPECT_EQ(shelf[i].filter, signal::kind_of(shelf[i].filter).blank()) << "as the kind has it";
-    }
 }
 
 TEST_F(SignalNumbers, GoBackInTimeWithTheFiltersAsTheyAreSetNow) {

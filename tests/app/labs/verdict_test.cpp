@@ -1,4 +1,5 @@
 // Each lab's verdict, in the inspector and in --state.
+#include "app/document/pace.hpp"
 #include "app/labs/rope/panel.hpp"
 #include "tests/app/labs/rope_support.hpp"
 #include "tests/app/support/panel_text.hpp"
@@ -140,8 +141,17 @@ TEST_F(RopeVerdict, ReportsFloatingInsideOrUnsolvedBodies) {
     part.samples.insert(part.samples.end(), 59, {.report = {.unconverged = 2}});
     part.samples.push_back({});
     const Verdict said_of_second = rope_verdict(part);
-    EXPECT_TRUE(test::says(said_of_second.text, "Some steps cut short"));
+    EXPECT_TRUE(test::says(said_of_second.text, "Did not converge"));
     EXPECT_NE(said_of_second.why.find("118 steps"), std::string::npos) << said_of_second.why;
+    EXPECT_TRUE(said_of_second.cure);
+    Pace& pace = pace_of(workspace.runtimes);
+    pace.kept = 0.5;
+    workspace.clock.playing = true;
+    EXPECT_FALSE(paced_verdict(said_of_second, workspace).cure) << "half the substep would be slower still";
+    pace.kept = 1.0;
+    EXPECT_TRUE(paced_verdict(said_of_second, workspace).cure);
+    part.samples.back().report.dropped = 1;
+    EXPECT_FALSE(rope_verdict(part).cure) << "a tick drops substeps already";
     part.samples.insert(part.samples.end(), 60, {});
     EXPECT_EQ(rope_verdict(part).text, "Lengths hold") << "that was more than a second ago";
     run("rope.clear");

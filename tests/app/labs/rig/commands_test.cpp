@@ -25,17 +25,6 @@ class RigCommands : public RigTest {
     }
 };
 
-TEST_F(RigCommands, ClearLeavesNothing) {
-    build_arm();
-    run("rig.curve.add", {{"name", "smile"}});
-    run("rig.clear");
-    const Json now = state();
-    for (const char* each : {"elements", "units", "curves"}) EXPECT_TRUE(now.at(each).empty()) << each;
-    EXPECT_TRUE(now.at("backward").is_null());
-    run("undo");
-    EXPECT_EQ(state().at("elements").size(), 3u);
-}
-
 TEST_F(RigCommands, TheControlsOfACurveAreRenamedAndRemovedInItsUnit) {
     element("1");
     element("2", "1", transform(0.5, 0, 0));

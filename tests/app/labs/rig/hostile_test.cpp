@@ -223,14 +223,6 @@ TEST_F(RigHostile, InputsOfTheWrongTypeOrWithoutSource) {
                         {"when takes a bool, got a number"});
 }
 
-/// This is well-defined: a warning, and the item stays unchanged.
-TEST_F(RigHostile, AnAxisWithoutLengthIsAWarning) {
-    unit({{"unit", "aim"}, {"item", "hand"}, {"primary", {{"axis", {0, 0, 0}}, {"target", {0, 1, 0}}}}});
-    solve();
-    EXPECT_TRUE(test::says(named("units", "aim").at("warning"), "axis length"));
-    EXPECT_EQ(rotation("hand"), glm::dquat(1, 0, 0, 0));
-}
-
 TEST_F(RigHostile, ReferencedElementsCannotBeRemoved) {
     unit({{"unit", "from_two_vectors"}, {"name", "arc"}});
     unit({{"unit", "set_rotation"}, {"name", "turn"}, {"item", "hand"}, {"rotation", {{"unit", "arc"}}}});

@@ -176,6 +176,54 @@ TEST_F(SeveralSelected, UnitsAreOfferedForAll) {
     tick(2);
 }
 
+/// Of an aim the axis that points at the target, and up stays up; an arm points with its length.
+TEST_F(SeveralSelected, AnAimKeepsAHeadUpright) {
+    control("look", "position");
+    element("head", "", transform(0, 1, 0));
+    for (const auto& [at, axis, upright] : {std::tuple<Json, Json, bool>{{0, 1.2, 2}, {0, 0, 1}, true},
+                                            {{-3, 1, 1}, {-1, 0, 0}, true},
+                                            {{1, 3, 0}, {0, 1, 0}, false},
+                                            {{0, 1, 0}, {0, 1, 0}, false}}) {
+        set("look", at);
+        solve();
+        select({"look", "head"});
+        const Json aim = **offered_unit(part(), 0).unit;
+        ASSERT_EQ(aim.at("unit"), "aim");
+        for (int i = 0; i < 3; ++i)
+            EXPECT_EQ(aim.at("primary").at("axis")[static_cast<std::size_t>(i)],
+                      axis[static_cast<std::size_t>(i)])
+                << at;
+        EXPECT_EQ(aim.contains("secondary"), upright) << at;
+        run("rig.unit.add", aim);
+        tick();
+        solve();
+        EXPECT_GT((rotation("head") * glm::dvec3(0, 1, 0)).y, upright ? 0.9 : 0.5) << at;
+        run("undo");
+    }
+}
+
+TEST_F(SeveralSelected, LimitsAreSetForAllOfAKindAndRemoved) {
+    controls_and_bones();
+    set("knob", 3);
+    const auto limits = [&](const char* name) {
+        const rig::Control& it = *part().rig.definition().elements[*part().rig.element(name)].control;
+        return std::pair(it.minimum, it.maximum);
+    };
+    run("rig.control.limits", {{"names", {"dial", "knob"}}, {"maximum", 2}});
+    EXPECT_EQ(limits("dial").first->x, 0.0) << "what is omitted stays";
+    EXPECT_EQ(limits("dial").second->x, 2.0);
+    EXPECT_FALSE(limits("knob").first);
+    EXPECT_EQ(value("knob"), 2) << "within its limit";
+    run("rig.control.limits", {{"name", "left"}, {"minimum", nullptr}, {"maximum", {2, 1, 1}}});
+    EXPECT_FALSE(limits("left").first);
+    EXPECT_EQ(limits("left").second->x, 2.0);
+    const Json before = state();
+    refuses("rig.control.limits", {{"name", "dial"}, {"minimum", 3}}, "minimum");
+    refuses("rig.control.limits", {{"name", "dial"}, {"minimum", {0, 1}}}, "minimum");
+    refuses("rig.control.limits", {{"name", "a"}, {"minimum", 1}}, "control");
+    EXPECT_EQ(state(), before);
+}
+
 TEST_F(SeveralSelected, AControlIsFollowedButDoesNotFollow) {
     controls_and_bones();
     const auto constrained = [&](const Names& names) {
