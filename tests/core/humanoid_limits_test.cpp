@@ -185,15 +185,17 @@ TEST_F(HumanoidLimits, AnElbowBentAtRestBendsAboutThatAxis) {
 
 TEST_F(HumanoidLimits, LearnedLimitsHoldTheClipAndLittleMore) {
     Clip clip{"swing", 2.0, {}};
-    Channel arm{node(Bone::LeftUpperArm)}, elbow{node(Bone::LeftLowerArm)};
+    Channel arm{node(Bone::LeftUpperArm)}, elbow{node(Bone::LeftLowerArm)}, other{node(Bone::RightUpperArm)};
     for (int i = 0; i <= 8; ++i) {
         const double time = 0.25 * i, phase = 2.0 * 3.14159265358979323846 * i / 8.0;
         const glm::dvec3 turn{0.0, 0.3 * std::cos(phase), 0.5 * std::sin(phase)};
         arm.rotation.times.push_back(time), elbow.rotation.times.push_back(time);
         arm.rotation.values.push_back(glm::angleAxis(glm::length(turn), glm::normalize(turn)));
         elbow.rotation.values.push_back(glm::angleAxis(0.4 + 0.3 * std::sin(phase), glm::dvec3(0, -1, 0)));
+        other.rotation.times.push_back(time);
+        other.rotation.values.push_back(glm::angleAxis(0.4 + 0.1 * std::sin(phase), glm::dvec3(1, 0, 0)));
     }
-    clip.channels = {arm, elbow};
+    clip.channels = {arm, elbow, other};
     ASSERT_TRUE(check(clip, skeleton)) << check(clip, skeleton).message();
     const std::vector<Clip> clips{clip};
     const BodyLimits learned = learned_limits(skeleton, map, clips, limits);
@@ -212,6 +214,8 @@ TEST_F(HumanoidLimits, LearnedLimitsHoldTheClipAndLittleMore) {
     EXPECT_NEAR(of_arm.up, 0.5, 0.06);
     EXPECT_NEAR(of_arm.left, 0.3, 0.05);
     EXPECT_LT(of_arm.twist_max - of_arm.twist_min, 0.1);
+    const ik::Limit& of_other = learned[static_cast<std::size_t>(Bone::RightUpperArm)];
+    EXPECT_GT(std::min(std::abs(of_other.twist_min), std::abs(of_other.twist_max)), 0.25);
     // A joint that no clip turns keeps its default limit.
     EXPECT_EQ(learned[static_cast<std::size_t>(Bone::Neck)], limits[static_cast<std::size_t>(Bone::Neck)]);
 }

@@ -114,6 +114,18 @@ TEST_F(HeadLook, ATargetThatCirclesNeverMakesTheHeadJump) {
     }
 }
 
+TEST_F(HeadLook, OutOfViewTheGazeIsTheClipsAgain) {
+    LookAtState state;
+    double weight = 1.0;
+    for (int frame = 0; frame < 300; ++frame) {
+        std::vector<rig::Transform> made = rest_pose(skeleton);
+        const double z = frame < 60 ? 1.0 : -9.0;  // in view, then behind the back
+        weight = look.step(made, {.target = {3.0, 1.6, z}}, 1.0 / 60, state).weight;
+    }
+    EXPECT_EQ(weight, 0.0);
+    EXPECT_GT(state.gaze.z, 0.99);
+}
+
 TEST_F(HeadLook, RefusesInvalidTargetsAndAllocatesNothing) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<rig::Transform> made = rest_pose(skeleton);

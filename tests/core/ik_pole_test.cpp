@@ -167,6 +167,21 @@ TEST(IkPole, APoleCrossingTheLineTurnsTheChainAtALimitedRate) {
     }
 }
 
+TEST(IkPole, AConstantTwistTurnsNoFaster) {
+    const Lengths lengths(2, 0.5f);
+    Joints joints = straight_joints(lengths);
+    KeptSolver solver(lengths);
+    double worst = 0.0;
+    for (int k = -1; k <= 2000; ++k) {
+        const glm::vec3 before = joints[1];
+        Options options = facing({0.3f, 1e-5f * static_cast<float>(1000 - k), 0.0003f});
+        options.twist = 1.0f;
+        solver.solve(Method::TwoBone, joints, {0.7f, 0, 0}, options);
+        if (k >= 0) worst = std::max(worst, distance(joints[1], before));
+    }
+    EXPECT_LT(worst, 1e-3);
+}
+
 TEST(IkPole, ANewOrJumpedPoleIsFacedAtOnce) {
     Random random(5);
     const Lengths lengths(6, 1.0f / 6.0f);

@@ -184,18 +184,12 @@ TEST(RigAim, InvalidOptionsAreRefused) {
         change(options);
         return std::string(check(options).message());
     };
-    const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(message([](AimOptions&) {}), "");
     EXPECT_TRUE(test::says(message([](AimOptions& o) {
                                o.primary.axis = {0, 0, 0};
                            }),
                            "aim primary.axis longer 1e-9 0"));
-    EXPECT_TRUE(test::says(message([&](AimOptions& o) { o.secondary.target.z = nan; }),
-                           "aim secondary.target.z 1e9 nan"));
     EXPECT_TRUE(test::says(message([](AimOptions& o) { o.weight = 1.5; }), "aim weight 0 1 1.5"));
-    EXPECT_TRUE(
-        test::says(message([&](AimOptions& o) { o.primary.weight = nan; }), "aim primary.weight 0 1 nan"));
-    EXPECT_TRUE(test::says(message([](AimOptions& o) { o.max_speed = -1; }), "aim max_speed 0 -1"));
 }
 
 // The parent constraint, and the elements of a for-each.

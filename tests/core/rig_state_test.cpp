@@ -141,6 +141,7 @@ TEST(RigState, ChangingATypeClearsItsMemory) {
     Workspace workspace(edited);
     edited.solve(state, 0.1, workspace);
     EXPECT_EQ(state.units[0].outputs[0], Value(glm::dvec3(1, 2, 3)));
+    EXPECT_EQ(state.curves[0], 0.75) << "the next solve starts from it, too";
 }
 
 TEST(RigState, AGlobalPoseIsKeptBelowAMovedControl) {

@@ -71,6 +71,8 @@ TEST(RopeCut, APieceIsAClothOfItsOwn) {
     const rope::TieId tie =
         allowed(world.tie(allowed(world.particle(cloth, 76)), allowed(world.particle(line, 0))));
     for (int i = 0; i < 30; ++i) world.advance(1.0 / 60.0, workspace);
+    const BodyId far = allowed(world.add_rope({.from = {90, 1, 0}, .to = {90, 0.5f, 0}, .segments = 4}));
+    ASSERT_TRUE(world.set_collides(cloth, far, true));
     const rope::World before = world;
     const rope::ClothLine across[] = {{{-0.5f, 2.5f}, {4, 5.5f}, {8.5f, 2.5f}}};
     const std::vector<BodyId> pieces = cut(world, cloth, across);
@@ -86,6 +88,7 @@ TEST(RopeCut, APieceIsAClothOfItsOwn) {
     for (const rope::Pin& pin : world.state().pins) EXPECT_LT(pin.particle, top.count);
     EXPECT_EQ(world.position(world.find(tie)->a), before.position(76));
     EXPECT_GE(world.find(tie)->a, bottom.first);
+    for (const BodyId each : pieces) EXPECT_TRUE(world.collides(each, far));
     EXPECT_NEAR(world.density(bottom), before.density(*before.find(cloth)), 0.04);
     expect_parted(world.state());
     for (int i = 0; i < 60; ++i) world.advance(1.0 / 60.0, workspace);

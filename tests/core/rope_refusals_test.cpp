@@ -70,7 +70,6 @@ TEST(RopeRefusals, AllOtherInvalidInput) {
     refused([&] { world.pin(14, {0, 0, 0}); }, {"pin", "14"});
     refused([&] { world.pin(1, {nan, 0, 0}); }, {"pin", "nan"});
     refused([&] { world.pin(1, {0, 0, 0}, -1.0); }, {"pin", "seconds", "-1"});
-    refused([&] { world.pin(1, {0, 0, 0}, double{nan}); }, {"pin", "seconds", "nan"});
     refused([&] { world.attach(99, "ball"); }, {"attach", "99"});
     refused([&] { world.attach(1, "nobody"); }, {"attach", "collider"});
     refused([&] { world.unpin(1); }, {"unpin", "1"});

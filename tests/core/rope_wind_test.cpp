@@ -120,6 +120,21 @@ TEST(RopeWind, ASlightChangeKeepsTheGusts) {
     }
 }
 
+TEST(RopeWind, GustsTravelWithTheWind) {
+    World world = world_with({.wind = {5, 0, 1}, .gusts = 1.0f});
+    raise_flag(world, 1.0f, 10);
+    run(world, 3.0);
+    rope::State carried = world.state();
+    const glm::dvec3 by(1.5, 0.0, 0.3);
+    for (glm::dvec3& each : carried.position) each += by;
+    for (rope::Pin& each : carried.pins) each.goal += by;
+    carried.drift += by;
+    World other(std::move(carried));
+    for (World* each : {&world, &other}) run_substeps(*each, 1, [] {});
+    for (std::size_t i = 0; i < world.state().displacement.size(); ++i)
+        EXPECT_LT(glm::distance(world.state().displacement[i], other.state().displacement[i]), 1e-9) << i;
+}
+
 /// A flag without wind hangs still.
 TEST(RopeWind, AFlagHangsWithoutWind) {
     World world = world_with({.damping = 2.0f});

@@ -220,6 +220,10 @@ TEST(SignalCurve, IsFiniteForAnyKeys) {
 }
 
 TEST(SignalCurve, SmoothTangentsStayBetweenKeys) {
+    Curve uneven{
+        .keys = {{.time = 0.0, .value = 0.0}, {.time = 0.2, .value = 1.0}, {.time = 1.0, .value = 2.0}}};
+    signal::set_smooth_tangents(uneven);
+    EXPECT_DOUBLE_EQ(uneven.keys[1].leave, 2.0) << "from neighbour to neighbour";
     Random random(2);
     for (int i = 0; i < 200; ++i) {
         Curve curve;

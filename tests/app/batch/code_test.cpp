@@ -1,7 +1,7 @@
 // A chain as a C++ program: its text. tests/package/code.cmake compiles and runs it.
 #include "app/labs/chain/code.hpp"
-#include "app/labs/kit/code_text.hpp"
 #include "app/labs/chain/chain_runtime.hpp"
+#include "app/labs/kit/code_text.hpp"
 
 #include <cmath>
 #include <glm/trigonometric.hpp>
@@ -26,7 +26,7 @@ ChainPart reaching() {
     return part;
 }
 
-TEST(Code, every_float_has_its_own_literal) {
+TEST(Code, EveryFloatHasItsOwnLiteral) {
     EXPECT_EQ(literal(1.0f), "1.0f");
     EXPECT_EQ(literal(0.1f), "0.1f");
     EXPECT_EQ(literal(-2.5f), "-2.5f");
@@ -40,7 +40,7 @@ TEST(Code, every_float_has_its_own_literal) {
     }
 }
 
-TEST(Code, each_mode_makes_its_own_call) {
+TEST(Code, EachModeMakesItsOwnCall) {
     const std::pair<ChainMode, const char*> calls[] = {
         {ChainMode::Forward, "= chain.forward(target);"},
         {ChainMode::Backward, "= chain.backward(target);"},
@@ -113,7 +113,7 @@ TEST(Code, IncludesTheSolversState) {
     EXPECT_TRUE(has(code, "state.limits.target = {-2.0f, 2.0f, 0.0f};"));
 }
 
-TEST(Code, chains_too_short_for_their_mode_are_left_alone) {
+TEST(Code, ChainsTooShortForTheirModeAreLeftAlone) {
     ChainPart part = reaching();
     part.chain = Chain();
     EXPECT_TRUE(lacks(chain_code(part), "solve("));
@@ -144,7 +144,7 @@ TEST(Code, BuildsAStudiedChainAtTheStudysStart) {
     EXPECT_EQ(chain_code(part), before);
 }
 
-TEST(Code, the_program_prints_the_open_labs_code_and_refuses_what_is_no_scene) {
+TEST(Code, TheProgramPrintsTheOpenLabsCodeAndRefusesWhatIsNoScene) {
     const TempFolder folder;
     const std::string scene = (folder / "scene.json").string();
     const Labs labs;

@@ -56,7 +56,7 @@ class MotionProgram : public testing::Test {
     }
 };
 
-TEST_F(MotionProgram, lint_prints_what_it_finds_and_exits_with_1) {
+TEST_F(MotionProgram, LintPrintsWhatItFindsAndExitsWith1) {
     const std::string file = figure("flipped.glb", true);
     const Outcome lines = run({"lint", file});
     EXPECT_EQ(lines.exit_code, 1);
@@ -122,7 +122,7 @@ TEST_F(MotionProgram, BakeTakesAClipNameAndAFrameRateAndWritesBesideTheFile) {
     EXPECT_TRUE(test::says(unknown.err, "walk.bvh run motion"));
 }
 
-TEST_F(MotionProgram, bake_says_which_of_many_clips_it_wrote_and_writes_them_all) {
+TEST_F(MotionProgram, BakeSaysWhichOfManyClipsItWroteAndWritesThemAll) {
     // The built-in figure's walk and punch, in one file.
     const app::Character character = app::stick_figure();
     humanoid::Clip walk = character.clips[0];
@@ -241,7 +241,7 @@ TEST_F(MotionProgram, UnreadableOrUnwritableFilesExitWith2) {
     EXPECT_EQ(run({"bake", file, "--out", path("other.bvh"), "--force"}).exit_code, 0);
 }
 
-TEST_F(MotionProgram, a_signal_ends_a_bake_at_once_and_leaves_nothing) {
+TEST_F(MotionProgram, ASignalEndsABakeAtOnceAndLeavesNothing) {
     const app::Character character = app::stick_figure();
     humanoid::Clip clip = character.clips[0];
     const double times = 900.0 / clip.duration;
@@ -266,7 +266,7 @@ TEST_F(MotionProgram, a_signal_ends_a_bake_at_once_and_leaves_nothing) {
     EXPECT_EQ(folder_.names(), Strings{"long.glb"});
 }
 
-TEST_F(MotionProgram, a_skeleton_without_legs_is_linted_but_gets_no_ground) {
+TEST_F(MotionProgram, ASkeletonWithoutLegsIsLintedButGetsNoGround) {
     write(folder_ / "snake.bvh",
           "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nJOINT b\n{\nOFFSET "
           "0 1 0\n"

@@ -35,7 +35,7 @@ TEST(Paper, TargetsAreWithinTheirRangesAndReproducible) {
     }
 }
 
-TEST(Paper, a_row_counts_what_the_solver_reports) {
+TEST(Paper, ARowCountsWhatTheSolverReports) {
     const app::PaperTargets targets = app::reachable_targets();
     int call = 0;
     const auto solve = [&](std::span<glm::vec3> joints, glm::vec3) {
@@ -77,7 +77,7 @@ Strings lines_of(const std::string& text) {
     return lines;
 }
 
-TEST(Paper, prints_a_row_for_each_solver_and_kind_of_target) {
+TEST(Paper, PrintsARowForEachSolverAndKindOfTarget) {
     const Outcome outcome = run_program({"paper", "--csv"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const Strings lines = lines_of(outcome.out);
@@ -98,7 +98,7 @@ TEST(Paper, prints_a_row_for_each_solver_and_kind_of_target) {
     EXPECT_TRUE(has(run_program({"paper", "--help"}).out, "Aristidou"));
 }
 
-TEST(Paper, a_signal_leaves_whole_rows) {
+TEST(Paper, ASignalLeavesWholeRows) {
     Process process(program_command({"paper", "--csv"}));
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
     process.signal(SIGINT);

@@ -50,7 +50,7 @@ std::string step_samples(int rows, int before = 1) {
     return text;
 }
 
-TEST_F(SignalProgram, prints_time_input_and_output) {
+TEST_F(SignalProgram, PrintsTimeInputAndOutput) {
     const Outcome outcome =
         run(R"({"kind": "rate_limit", "rise": 6, "fall": 3})", "0.5,0\n0.1,1\n0.1,1\n0.1,-1\r\n\n");
     ASSERT_TRUE(succeeded(outcome));
@@ -65,7 +65,7 @@ TEST_F(SignalProgram, prints_time_input_and_output) {
     EXPECT_EQ(table[4][1], "-1");
 }
 
-TEST_F(SignalProgram, applies_a_list_in_its_order) {
+TEST_F(SignalProgram, AppliesAListInItsOrder) {
     const std::string samples = "0.1,1\n0.1,2\n";
     const auto last = [&](const std::string& filters) {
         return number(table_of(run(filters, samples).out).back()[2]);
@@ -77,7 +77,7 @@ TEST_F(SignalProgram, applies_a_list_in_its_order) {
     EXPECT_NEAR(last("[]"), 2.0, 1e-12);
 }
 
-TEST_F(SignalProgram, finds_columns_by_their_names) {
+TEST_F(SignalProgram, FindsColumnsByTheirNames) {
     const Outcome by_dt = run(R"({"kind": "interp_to"})", "input,note,dt\n1,7,0.5\n2,8,0.25\n");
     ASSERT_TRUE(succeeded(by_dt));
     EXPECT_EQ(table_of(by_dt.out)[2], (Strings{"0.75", "2", "2"}));
@@ -86,7 +86,7 @@ TEST_F(SignalProgram, finds_columns_by_their_names) {
     EXPECT_EQ(by_time.out, by_dt.out);
 }
 
-TEST_F(SignalProgram, the_first_time_is_where_filters_start) {
+TEST_F(SignalProgram, TheFirstTimeIsWhereFiltersStart) {
     for (const char* filter : {R"({"kind": "interp_to_exact", "speed": 12.56})",
                                R"({"kind": "moving_average", "window": 0.15})"}) {
         const Table by_dt = table_of(run(filter, "0.1,0\n0.1,1\n0.1,1\n").out);
@@ -108,7 +108,7 @@ TEST_F(SignalProgram, the_first_time_is_where_filters_start) {
     EXPECT_EQ(table_of(one.out)[1], (Strings{"0", "3", "3"}));
 }
 
-TEST_F(SignalProgram, reads_names_and_numbers_between_quotes) {
+TEST_F(SignalProgram, ReadsNamesAndNumbersBetweenQuotes) {
     const Outcome outcome =
         run(R"({"kind": "dead_zone"})", "\"note, of mine\",\"dt\",\"input\"\n\"a,b\",0.5,\"2\"\n");
     ASSERT_TRUE(succeeded(outcome));
@@ -125,7 +125,7 @@ TEST_F(SignalProgram, ItsOutputCanBeReadAgain) {
     for (std::size_t i = 1; i < one.size(); ++i) EXPECT_NEAR(number(one[i][2]), number(two[i][2]), 1e-12);
 }
 
-TEST_F(SignalProgram, a_row_without_time_changes_nothing) {
+TEST_F(SignalProgram, ARowWithoutTimeChangesNothing) {
     const Outcome outcome =
         run(R"({"kind": "exponential_decay", "halflife": 0.1})", "0.1,0\n0.1,1\n0,5\n-1,5\n0.1,1\n");
     ASSERT_TRUE(succeeded(outcome));
@@ -156,7 +156,7 @@ TEST_F(SignalProgram, RatesShowThatAFilterDependsOnThem) {
 }
 
 /// A filter can be copied from a scene or from --state with its additional members.
-TEST_F(SignalProgram, ignores_keys_that_it_does_not_know) {
+TEST_F(SignalProgram, IgnoresKeysThatItDoesNotKnow) {
     const std::string samples = "0.1,0\n0.1,1\n0.1,1\n";
     const Outcome plain = run(R"({"kind": "spring", "strength": 3})", samples);
     const Outcome more =
@@ -191,7 +191,7 @@ TEST_F(SignalProgram, FitRanksTheKindsAndItsFiltersRun) {
     EXPECT_EQ(run(R"({"kind": "interp_to"})", samples, {"--fit", path("response.csv")}).out, fitted.out);
 }
 
-TEST_F(SignalProgram, says_what_is_wrong_with_a_filter_and_where) {
+TEST_F(SignalProgram, SaysWhatIsWrongWithAFilterAndWhere) {
     struct Bad {
         const char* filter;
         Strings parts;
@@ -220,7 +220,7 @@ TEST_F(SignalProgram, says_what_is_wrong_with_a_filter_and_where) {
     }
 }
 
-TEST_F(SignalProgram, finds_columns_by_name_and_unit_as_the_lab_does) {
+TEST_F(SignalProgram, FindsColumnsByNameAndUnitAsTheLabDoes) {
     const std::string filter = R"({"kind": "interp_to"})";
     const Outcome plain = run(filter, "time,input\n0,0\n0.5,1\n");
     ASSERT_TRUE(succeeded(plain));
@@ -228,7 +228,7 @@ TEST_F(SignalProgram, finds_columns_by_name_and_unit_as_the_lab_does) {
         EXPECT_EQ(run(filter, samples).out, plain.out) << samples;
 }
 
-TEST_F(SignalProgram, says_what_is_wrong_with_samples_by_row_and_column) {
+TEST_F(SignalProgram, SaysWhatIsWrongWithSamplesByRowAndColumn) {
     struct Bad {
         const char* samples;
         Strings parts;
@@ -261,7 +261,7 @@ TEST_F(SignalProgram, says_what_is_wrong_with_samples_by_row_and_column) {
     EXPECT_TRUE(complained(run_program({"signal", path("filter.json"), path("none.csv")}), 2, {"none.csv"}));
 }
 
-TEST_F(SignalProgram, a_response_has_a_row_for_each_sample) {
+TEST_F(SignalProgram, AResponseHasARowForEachSample) {
     write(folder_ / "response.csv", "0\n1\n");
     const Strings fit{"--fit", path("response.csv")};
     EXPECT_TRUE(complained(run(R"({"kind": "interp_to"})", "0.1,0\n", fit), 2,

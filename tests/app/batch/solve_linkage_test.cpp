@@ -49,7 +49,7 @@ Json case_of(const char* preset, Json lengths, const Json& reference, const char
     return {{"linkage", preset}, {"lengths", lengths}, {"drivers", {{driver, values}}}};
 }
 
-TEST_F(SolveLinkage, agrees_with_an_independent_implementation) {
+TEST_F(SolveLinkage, AgreesWithAnIndependentImplementation) {
     const std::filesystem::path file = reference_path("linkage.json");
     if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing";
     const Json reference = app::read_json_file(file);
@@ -91,7 +91,7 @@ TEST_F(SolveLinkage, agrees_with_an_independent_implementation) {
     EXPECT_EQ(at, found.size());
 }
 
-TEST_F(SolveLinkage, a_sweep_is_a_table_of_drivers_and_points) {
+TEST_F(SolveLinkage, ASweepIsATableOfDriversAndPoints) {
     const std::string one = R"({"name": "turn", "linkage": "four_bar"})";
     const Outcome outcome = run(one, {"--csv", "--drive", "crank=0:90:30"});
     ASSERT_TRUE(succeeded(outcome)) << outcome.err;
@@ -132,7 +132,7 @@ TEST_F(SolveLinkage, ReportsWhyItStops) {
         "IterationLimit");
 }
 
-TEST_F(SolveLinkage, takes_a_scene_of_the_lab_with_its_ranges_and_targets) {
+TEST_F(SolveLinkage, TakesASceneOfTheLabWithItsRangesAndTargets) {
     const std::string scene = (folder_ / "scene.json").string();
     const std::string script = (folder_ / "scene.jsonl").string();
     write(script, std::string(R"({"command": "linkage.clear"}

@@ -43,10 +43,10 @@ int lines_without(const std::string& text, const std::string& part) {
     return found;
 }
 
-LABEL(slow, "Solve.a_million_cases_take_little_more_memory_than_their_text");
-LABEL(slow, "All/SolveSignals.end_with_what_is_done_whole/*");
+LABEL(slow, "Solve.AMillionCasesTakeLittleMoreMemoryThanTheirText");
+LABEL(slow, "All/SolveSignals.EndWithWhatIsDoneWhole/*");
 
-TEST_F(Solve, prints_one_array_with_positions) {
+TEST_F(Solve, PrintsOneArrayWithPositions) {
     const Outcome outcome = run(two_cases, {"--json"});
     ASSERT_TRUE(succeeded(outcome));
     const Json rows = app::parse_json(outcome.out);
@@ -72,7 +72,7 @@ TEST_F(Solve, prints_one_array_with_positions) {
     EXPECT_NEAR(rows[1]["residual"].get<double>(), 6.0, 1e-3);
 }
 
-TEST_F(Solve, a_chain_along_a_curve_has_one_row_for_all_solvers) {
+TEST_F(Solve, AChainAlongACurveHasOneRowForAllSolvers) {
     const char* const text =
         R"([{"name": "tail", "lengths": [1, 1, 1], "curve": [[0, 0, 0], [1, 0, 0], [2, 0, 0]]}])";
     const Outcome outcome = run(text, {"--json", "--solver", "all"});
@@ -86,7 +86,7 @@ TEST_F(Solve, a_chain_along_a_curve_has_one_row_for_all_solvers) {
     EXPECT_TRUE(has(run(text, {"--csv"}).out, "tail,curve,Stretched,0,1.0,"));
 }
 
-TEST_F(Solve, solves_in_a_plane) {
+TEST_F(Solve, SolvesInAPlane) {
     const char* const planar = R"([{"lengths": [1, 1, 1], "target": [1, 1.5, 0.5], "plane": [0, 0, 1],
         "bend": "right", "angle_limits": [null, {"min_deg": -90, "max_deg": 90, "from": "bone"}, null]}])";
     const Outcome outcome = run(planar, {"--json"});
@@ -100,7 +100,7 @@ TEST_F(Solve, solves_in_a_plane) {
     EXPECT_TRUE(says(refused.err, "bend plane"));
 }
 
-TEST_F(Solve, prints_the_same_as_quoted_csv) {
+TEST_F(Solve, PrintsTheSameAsQuotedCsv) {
     const Outcome outcome = run(two_cases, {"--csv", "--solver", "fabrik_plain"});
     ASSERT_TRUE(succeeded(outcome));
     EXPECT_TRUE(
@@ -132,7 +132,7 @@ TEST_F(Solve, PrintsATableByDefault) {
     EXPECT_TRUE(has(outcome.out, "..."));
 }
 
-TEST_F(Solve, all_solvers_answer_in_their_order_and_a_refusal_is_a_row) {
+TEST_F(Solve, AllSolversAnswerInTheirOrderAndARefusalIsARow) {
     const Outcome outcome = run(two_cases, {"--json", "--solver", "all"});
     ASSERT_TRUE(succeeded(outcome));
     const Json rows = app::parse_json(outcome.out);
@@ -189,7 +189,7 @@ std::string after_a_sound_one(const std::string& members) {
         .append("}]");
 }
 
-TEST_P(BadCases, are_refused_whole_with_line_and_place) {
+TEST_P(BadCases, AreRefusedWholeWithLineAndPlace) {
     const TempFolder folder;
     write(folder / "cases.json", GetParam().cases);
     const Outcome outcome = run_program({"solve", (folder / "cases.json").string(), "--json"});
@@ -264,7 +264,7 @@ TEST_F(Solve, InvalidArgumentsExitWith2) {
     EXPECT_TRUE(has(run_program({"solve", "--help"}).out, "min_deg"));
 }
 
-TEST_F(Solve, a_scene_of_that_name_opens_by_its_path) {
+TEST_F(Solve, ASceneOfThatNameOpensByItsPath) {
     write(folder_ / "solve", "{}");
     Process process(program_command({"--headless", "./solve"}), {}, folder_.path());
     EXPECT_TRUE(complained(process.wait(), 2, {"./solve", "does not read this kind of file"}));
@@ -281,7 +281,7 @@ std::string many_cases(int count) {
     return text + "]";
 }
 
-TEST_F(Solve, a_million_cases_take_little_more_memory_than_their_text) {
+TEST_F(Solve, AMillionCasesTakeLittleMoreMemoryThanTheirText) {
     const Outcome outcome = run(many_cases(1'000'000), {"--csv"});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_EQ(lines_without(outcome.err, "tendril: "), 0) << outcome.err;  // progress and nothing else
@@ -293,7 +293,7 @@ TEST_F(Solve, a_million_cases_take_little_more_memory_than_their_text) {
 
 class SolveSignals : public testing::TestWithParam<std::pair<int, const char*>> {};
 
-TEST_P(SolveSignals, end_with_what_is_done_whole) {
+TEST_P(SolveSignals, EndWithWhatIsDoneWhole) {
     const auto& [number, format] = GetParam();
     const TempFolder folder;
     // Slow enough to be interrupted: targets out of reach use all their iterations.

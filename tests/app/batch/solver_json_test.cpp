@@ -29,7 +29,7 @@ std::string refusal(const Json& json) {
     return message_of([&] { read(json); });
 }
 
-TEST(SolverJson, a_hinge_and_a_ball_as_people_write_them) {
+TEST(SolverJson, AHingeAndABallAsPeopleWriteThem) {
     const ik::Limit hinge = read(Json::parse(R"({"kind":"hinge","axis":[0,1,0],"min_deg":0,"max_deg":145})"));
     EXPECT_EQ(hinge.kind, ik::JointKind::Hinge);
     EXPECT_EQ(hinge.axis, glm::vec3(0, 1, 0));
@@ -76,7 +76,7 @@ TEST(SolverJson, AnglesAreSavedBitForBitAnyNumberOfTimes) {
     }
 }
 
-TEST(SolverJson, refusals_name_the_place_and_the_value) {
+TEST(SolverJson, RefusalsNameThePlaceAndTheValue) {
     EXPECT_TRUE(test::says(refusal({{"kind", "hinge"}, {"max_deg", "far"}}), "limits.2.max_deg number far"));
     EXPECT_TRUE(test::says(refusal({{"kind", "hinge"}, {"min_deg", 20}, {"max_deg", 10}}),
                            "limits.2 hinge min over max 20.0 10.0"));

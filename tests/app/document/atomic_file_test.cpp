@@ -29,9 +29,9 @@ std::string check_message(const fs::path& path) {
     return message_of([&] { check_writable(path); });
 }
 
-LABEL(slow, "AtomicFile.is_whole_whenever_its_writer_is_killed");
+LABEL(slow, "AtomicFile.IsWholeWheneverItsWriterIsKilled");
 
-TEST(AtomicFile, makes_and_replaces_a_file_and_leaves_nothing_beside_it) {
+TEST(AtomicFile, MakesAndReplacesAFileAndLeavesNothingBesideIt) {
     const TempFolder folder;
     for (const std::string& bytes :
          {std::string("first"), std::string(), std::string("a\0b\n", 4), std::string(1 << 20, 'x')}) {
@@ -67,7 +67,7 @@ TEST(AtomicFile, KeepsThePermissionsOfTheReplacedFile) {
     EXPECT_EQ(static_cast<int>(fs::status(folder / "fresh").permissions()), 0640);
 }
 
-TEST(AtomicFile, writes_through_symbolic_links) {
+TEST(AtomicFile, WritesThroughSymbolicLinks) {
     const TempFolder folder;
     fs::create_directory(folder / "deep");
     test::write(folder / "deep" / "target", "old");
@@ -138,7 +138,7 @@ fs::path device(const TempFolder& folder, const char* name, unsigned minor_numbe
     return made && std::ofstream(path) ? path : fs::path();
 }
 
-TEST(AtomicFile, writes_into_devices_and_leaves_them_there) {
+TEST(AtomicFile, WritesIntoDevicesAndLeavesThemThere) {
     const TempFolder folder;
     const fs::path null = device(folder, "null", 3), full = device(folder, "full", 7);
     if (null.empty() || full.empty()) GTEST_SKIP() << "no devices can be made in " << folder.path();
@@ -149,7 +149,7 @@ TEST(AtomicFile, writes_into_devices_and_leaves_them_there) {
     EXPECT_EQ(check_message(null), "");
 }
 
-TEST(AtomicFile, writes_into_pipes_and_leaves_them_there) {
+TEST(AtomicFile, WritesIntoPipesAndLeavesThemThere) {
     const TempFolder folder;
     const auto pipe = folder / "pipe";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -167,7 +167,7 @@ TEST(AtomicFile, DoesNotWaitForeverForAPipeWithoutReader) {
     EXPECT_TRUE(has(write_message(folder / "pipe"), "nobody reads from this pipe"));
 }
 
-TEST(AtomicFile, checking_leaves_no_trace) {
+TEST(AtomicFile, CheckingLeavesNoTrace) {
     const TempFolder folder;
     test::write(folder / "file", "old");
     const auto time = fs::last_write_time(folder / "file");
@@ -213,7 +213,7 @@ std::string version_of(int i) {
     return std::string(50'000 + 17'000 * step, static_cast<char>('a' + i % 26));
 }
 
-TEST(AtomicFile, is_whole_whenever_its_writer_is_killed) {
+TEST(AtomicFile, IsWholeWheneverItsWriterIsKilled) {
     const TempFolder folder;
     const auto path = folder / "file";
     write_file_atomically(path, version_of(0));

@@ -46,7 +46,7 @@ std::string dead_pid() {
     return std::to_string(pid);
 }
 
-TEST(Autosave, writes_30_seconds_after_the_first_change) {
+TEST(Autosave, Writes30SecondsAfterTheFirstChange) {
     const TempFolder folder;
     Workspace workspace = test::make_workspace();
     Autosave autosave(folder.path());
@@ -67,7 +67,7 @@ TEST(Autosave, writes_30_seconds_after_the_first_change) {
     EXPECT_EQ(saved_title(autosave.file()), "three");
 }
 
-TEST(Autosave, writes_nothing_while_nothing_changes) {
+TEST(Autosave, WritesNothingWhileNothingChanges) {
     const TempFolder folder;
     Workspace workspace = test::make_workspace();
     Autosave autosave(folder.path());
@@ -198,7 +198,7 @@ TEST(Autosave, TwoProgramsWithTheSameIdWriteTwoFiles) {
     EXPECT_EQ(Autosave::left_behind(folder.path()).size(), 1u) << "the second one's, which has ended";
 }
 
-TEST(Autosave, removes_files_left_by_killed_programs) {
+TEST(Autosave, RemovesFilesLeftByKilledPrograms) {
     const TempFolder folder;
     const AtomicFile being_written(folder / "picture.png");
     const auto held = FileLock::take(folder / "autosave-2.lock");

@@ -22,7 +22,7 @@ std::string read_message(const std::filesystem::path& path) {
     return message_of([&] { read_text_file(path); });
 }
 
-TEST(JsonFile, is_read_with_its_path_and_line_in_errors) {
+TEST(JsonFile, IsReadWithItsPathAndLineInErrors) {
     const TempFolder folder;
     test::write(folder / "good.json", "{\"a\": 1}\n");
     EXPECT_EQ(read_json_file(folder / "good.json")["a"], 1);
@@ -41,7 +41,7 @@ TEST(JsonFile, RefusesPathsThatAreNotFiles) {
     EXPECT_EQ(read_text_file("/dev/null"), "");
 }
 
-TEST(JsonFile, of_64_megabytes_is_read_and_one_byte_more_refused) {
+TEST(JsonFile, Of64MegabytesIsReadAndOneByteMoreRefused) {
     const TempFolder folder;
     const auto path = folder / "large";
     test::write(path, "");
@@ -51,11 +51,11 @@ TEST(JsonFile, of_64_megabytes_is_read_and_one_byte_more_refused) {
     EXPECT_TRUE(has(read_message(path), "large: larger than 64 MB"));
 }
 
-TEST(JsonFile, without_an_end_is_refused) {
+TEST(JsonFile, WithoutAnEndIsRefused) {
     EXPECT_TRUE(test::says(read_message("/dev/zero"), "/dev/zero larger 64 MB"));
 }
 
-TEST(JsonFile, may_be_a_pipe) {
+TEST(JsonFile, MayBeAPipe) {
     const TempFolder folder;
     const auto pipe = folder / "pipe";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -72,7 +72,7 @@ TEST(JsonFile, DoesNotWaitForeverForAPipeWithoutWriter) {
     EXPECT_TRUE(test::says(read_message(pipe), "pipe nothing came through this pipe for 5 s"));
 }
 
-TEST(JsonFile, of_100_megabytes_of_brackets_is_refused_in_no_memory) {
+TEST(JsonFile, Of100MegabytesOfBracketsIsRefusedInNoMemory) {
     const TempFolder folder;
     const auto path = folder / "brackets.json";
     const std::string block(1 << 20, '[');
@@ -87,7 +87,7 @@ TEST(JsonFile, of_100_megabytes_of_brackets_is_refused_in_no_memory) {
     EXPECT_GE(result, 0);
 }
 
-TEST(JsonFile, of_60_megabytes_of_brackets_is_refused_in_the_memory_of_its_text) {
+TEST(JsonFile, Of60MegabytesOfBracketsIsRefusedInTheMemoryOfItsText) {
     const std::string brackets(60 << 20, '[');
     const int result = test::in_child([&] {
         const long before = test::peak_megabytes();

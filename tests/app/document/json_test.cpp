@@ -20,7 +20,7 @@ std::string parse_message(std::string_view text) {
     return message_of([&] { parse_json(text); });
 }
 
-TEST(Json, a_number_has_the_fewest_decimals_that_read_back) {
+TEST(Json, ANumberHasTheFewestDecimalsThatReadBack) {
     EXPECT_EQ(number(0.1f).dump(), "0.1");
     EXPECT_EQ(number(1.0f).dump(), "1.0");
     EXPECT_EQ(number(-0.0f).dump(), "-0.0");
@@ -28,7 +28,7 @@ TEST(Json, a_number_has_the_fewest_decimals_that_read_back) {
     EXPECT_EQ(point({0.1f, 0.0f, -2.5f}).dump(), "[0.1,0.0,-2.5]");
 }
 
-TEST(Json, every_float_comes_back_bit_for_bit_through_text) {
+TEST(Json, EveryFloatComesBackBitForBitThroughText) {
     // The one float whose shortest decimals round to another float if read as a double first.
     EXPECT_EQ(parse_json(number(0x1.5c87fap-84f).dump()).get<float>(), 0x1.5c87fap-84f);
     std::mt19937 random(1);
@@ -41,7 +41,7 @@ TEST(Json, every_float_comes_back_bit_for_bit_through_text) {
     }
 }
 
-TEST(Json, an_angle_is_in_degrees_and_comes_back_bit_for_bit) {
+TEST(Json, AnAngleIsInDegreesAndComesBackBitForBit) {
     EXPECT_EQ(degrees(static_cast<float>(std::numbers::pi / 2)).dump(), "90.0");
     EXPECT_EQ(json_degrees(Json(180), ""), static_cast<float>(std::numbers::pi));
     std::mt19937 random(2);
@@ -52,7 +52,7 @@ TEST(Json, an_angle_is_in_degrees_and_comes_back_bit_for_bit) {
     }
 }
 
-TEST(Json, errors_name_the_line_and_a_short_reason) {
+TEST(Json, ErrorsNameTheLineAndAShortReason) {
     EXPECT_TRUE(has(parse_message(""), "line 1: unexpected end of input"));
     EXPECT_TRUE(has(parse_message("{\n \"a\": 1,\n \"b\" 2}"), "line 3: unexpected number"));
     EXPECT_TRUE(has(parse_message("[1,\n2,\n"), "line 3: unexpected end of input"));
@@ -84,13 +84,13 @@ TEST(Json, ErrorsDescribeAnyDamage) {
     }
 }
 
-TEST(Json, an_error_in_a_long_or_strange_token_is_one_short_printable_line) {
+TEST(Json, AnErrorInALongOrStrangeTokenIsOneShortPrintableLine) {
     const std::string message = parse_message('"' + std::string(1 << 20, 'a') + "\xff\n\x1b[31m\"");
     EXPECT_LT(message.size(), 160u);
     for (const char c : message) EXPECT_TRUE(c >= ' ' && c <= '~');
 }
 
-TEST(Json, nesting_of_64_is_read_and_of_65_refused) {
+TEST(Json, NestingOf64IsReadAndOf65Refused) {
     const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
     EXPECT_EQ(parse_message(nested(64)), "");
     EXPECT_TRUE(test::says(parse_message(nested(65)), "line 1 nested 64"));
@@ -99,7 +99,7 @@ TEST(Json, nesting_of_64_is_read_and_of_65_refused) {
     EXPECT_TRUE(test::says(parse_message(objects), "line 65 nested 64"));
 }
 
-TEST(Json, brackets_in_strings_are_not_nesting) {
+TEST(Json, BracketsInStringsAreNotNesting) {
     const std::string brackets(100, '[');
     EXPECT_EQ(parse_json("\"" + brackets + "\"").get<std::string>(), brackets);
     EXPECT_EQ(parse_json("\"\\\"" + brackets + "\"").get<std::string>(), '"' + brackets);
@@ -130,7 +130,7 @@ TEST(Json, FormattedTextReadsBackTheSame) {
     EXPECT_EQ(json_to_text(Json("\xff")), "\"\xEF\xBF\xBD\"\n");
 }
 
-TEST(Json, a_line_is_found_by_its_path) {
+TEST(Json, ALineIsFoundByItsPath) {
     const std::string_view text =
         "{\n"
         " \"a\": {\"x\": 1,\n"

@@ -26,7 +26,7 @@ Json read_all(const std::string& text) {
     return all;
 }
 
-TEST(ListReader, reads_what_the_parser_reads) {
+TEST(ListReader, ReadsWhatTheParserReads) {
     for (const char* text :
          {"[]", " [ ] ", "[1]", "[1,2]", "\xef\xbb\xbf[1]", "[\"a]\",\"b\\\"]\",[],{}]",
           "[ {\"a\":[1,{\"b\":\"}\"}]} ,\n\t[[[]]], null,true , -1.5e3 ]\n", "[\"\\\\\", 1]"}) {

@@ -13,7 +13,7 @@ struct Counter final : Runtime {
 };
 struct Other final : Runtime {};
 
-TEST(Runtimes, are_made_when_first_asked_for_and_kept) {
+TEST(Runtimes, AreMadeWhenFirstAskedForAndKept) {
     const Runtimes runtimes;
     EXPECT_EQ(runtimes.of<Counter>("chain").count, 0);
     ++runtimes.of<Counter>("chain").count;
@@ -24,7 +24,7 @@ TEST(Runtimes, are_made_when_first_asked_for_and_kept) {
     EXPECT_EQ(runtimes.of<Counter>("chain").count, 0);
 }
 
-TEST(Runtimes, are_not_shared_with_a_copy) {
+TEST(Runtimes, AreNotSharedWithACopy) {
     Runtimes runtimes;
     runtimes.of<Counter>("chain").count = 3;
     const Runtimes copy = runtimes;

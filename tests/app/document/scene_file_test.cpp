@@ -54,7 +54,7 @@ std::string refusal(const Json& scene) {
     return message;
 }
 
-TEST(SceneFile, comes_back_as_it_was_saved) {
+TEST(SceneFile, ComesBackAsItWasSaved) {
     const Workspace saved = make_busy_workspace();
     Workspace loaded = make_busy_workspace();
     loaded.document = loaded.blank;
@@ -68,7 +68,7 @@ TEST(SceneFile, comes_back_as_it_was_saved) {
     EXPECT_EQ(loaded.clock.tick, 0u);
 }
 
-TEST(SceneFile, keeps_a_camera_bit_for_bit) {
+TEST(SceneFile, KeepsACameraBitForBit) {
     std::mt19937 random(7);
     const auto in = [&](float low, float high) {
         return std::uniform_real_distribution<float>(low, high)(random);
@@ -464,7 +464,7 @@ TEST_F(SceneWithAFile, StartsBlankOnlyIfItsFileIsInvalid) {
     EXPECT_TRUE(test::says(opened(7), "blank: file: is a folder"));
 }
 
-TEST(SceneFile, cut_off_anywhere_is_refused) {
+TEST(SceneFile, CutOffAnywhereIsRefused) {
     const TempFolder folder;
     Workspace workspace = make_busy_workspace();
     const std::string text = json_to_text(save_scene(workspace));
@@ -478,7 +478,7 @@ TEST(SceneFile, cut_off_anywhere_is_refused) {
     }
 }
 
-TEST(SceneFile, with_any_byte_changed_is_refused_or_read_whole) {
+TEST(SceneFile, WithAnyByteChangedIsRefusedOrReadWhole) {
     const std::string text = json_to_text(save_scene(make_busy_workspace()));
     std::mt19937 random(8);
     int refused = 0, accepted = 0;
@@ -504,7 +504,7 @@ TEST(SceneFile, with_any_byte_changed_is_refused_or_read_whole) {
 }
 
 /// Replaces each value of a scene in turn by one of every type.
-TEST(SceneFile, with_any_value_of_another_kind_is_refused_or_read_whole) {
+TEST(SceneFile, WithAnyValueOfAnotherKindIsRefusedOrReadWhole) {
     const Json scene = save_scene(make_busy_workspace()).flatten();
     const std::vector<Json> others{
         nullptr, true, -1, 1e8, 3e9, 1e300, "text", Json::array(), Json::object(), Json::array({1, 2, 3})};

@@ -17,7 +17,7 @@ Settings load(const std::string& text, std::vector<std::string>& complaints) {
     return load_settings(parse_json(text), complaints);
 }
 
-TEST(Settings, come_back_as_they_were_saved) {
+TEST(Settings, ComeBackAsTheyWereSaved) {
     std::mt19937 random(6);
     const auto coin = [&] { return random() % 2 == 0; };
     std::uniform_real_distribution<float> scale(0.5f, 3.0f), width(180.0f, 520.0f);
@@ -38,7 +38,7 @@ TEST(Settings, come_back_as_they_were_saved) {
     }
 }
 
-TEST(Settings, are_saved_by_name) {
+TEST(Settings, AreSavedByName) {
     const Json json = save_settings(Settings{.theme = Theme::Light, .choices = {{"segments", "bones"}}});
     EXPECT_EQ(json["theme"], "light");
     EXPECT_EQ(json["segments"], "bones");
@@ -101,7 +101,7 @@ class Environment {
     bool had_ = false;
 };
 
-TEST(Settings, live_in_the_config_folder) {
+TEST(Settings, LiveInTheConfigFolder) {
     const Environment xdg("XDG_CONFIG_HOME"), home("HOME");
     ::setenv("XDG_CONFIG_HOME", "/config", 1);
     ::setenv("HOME", "/home/somebody", 1);

@@ -14,7 +14,7 @@ TEST(Units, LengthsOfAMetreAndMoreAreInMetres) {
     EXPECT_EQ(length_text(-0.0), "0.0 mm");
 }
 
-TEST(Units, three_digits_and_a_prefix) {
+TEST(Units, ThreeDigitsAndAPrefix) {
     EXPECT_EQ(si_text(2.3, "m"), "2.30 m");
     EXPECT_EQ(si_text(0.231, "m"), "231 mm");
     EXPECT_EQ(si_text(4.1e-6, "s"), "4.10 \xc2\xb5s");
@@ -24,14 +24,14 @@ TEST(Units, three_digits_and_a_prefix) {
     EXPECT_EQ(si_text(1e9, "m"), "1.00 Gm");
 }
 
-TEST(Units, a_number_that_rounds_up_takes_the_next_prefix) {
+TEST(Units, ANumberThatRoundsUpTakesTheNextPrefix) {
     EXPECT_EQ(si_text(0.99949, "m"), "999 mm");
     EXPECT_EQ(si_text(0.9996, "m"), "1.00 m");
     EXPECT_EQ(si_text(999.6, "m"), "1.00 km");
     EXPECT_EQ(si_text(9.996, "m"), "10.0 m");
 }
 
-TEST(Units, nothing_is_written_with_an_exponent_or_a_negative_zero) {
+TEST(Units, NothingIsWrittenWithAnExponentOrANegativeZero) {
     EXPECT_EQ(si_text(0.0, "m"), "0 m");
     EXPECT_EQ(si_text(-0.0, "m"), "0 m");
     EXPECT_EQ(si_text(-1e-30, "m"), "0 m");
@@ -41,7 +41,7 @@ TEST(Units, nothing_is_written_with_an_exponent_or_a_negative_zero) {
         EXPECT_EQ(si_text(value, "m").find('e'), std::string::npos) << value;
 }
 
-TEST(Units, a_fixed_number_has_its_decimals_and_no_signed_zero) {
+TEST(Units, AFixedNumberHasItsDecimalsAndNoSignedZero) {
     EXPECT_EQ(fixed_text(1.005, 1), "1.0");
     EXPECT_EQ(fixed_text(-0.04, 1), "0.0");
     EXPECT_EQ(fixed_text(-0.06, 1), "-0.1");
@@ -66,7 +66,7 @@ TEST(Units, AxisMarksAreShortWithoutExponent) {
             EXPECT_EQ(short_text(value, unit).find("e"), std::string::npos) << value;
 }
 
-TEST(Units, plurals_agree) {
+TEST(Units, PluralsAgree) {
     EXPECT_EQ(count_text(0, "joint"), "0 joints");
     EXPECT_EQ(count_text(1, "command"), "1 command");
     EXPECT_EQ(count_text(7, "bone"), "7 bones");

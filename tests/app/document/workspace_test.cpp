@@ -24,7 +24,7 @@ TEST(Workspace, AnEditDoesNotChangeDocumentsThatShareThePart) {
     EXPECT_EQ(before.document.parts().at("rope"), after.document.parts().at("rope"));
 }
 
-TEST(Workspace, shows_the_last_few_toasts_and_refusals_longer) {
+TEST(Workspace, ShowsTheLastFewToastsAndRefusalsLonger) {
     Workspace workspace;
     workspace.toast("saved");
     workspace.toast("no", ToastKind::Refusal);
@@ -48,7 +48,7 @@ TEST(Workspace, ARepeatedToastRestartsAndIsShownOnce) {
     EXPECT_EQ(workspace.ui.toasts[1].ticks_left, 7 * 60);
 }
 
-TEST(Workspace, the_pasts_of_closed_labs_keep_within_one_bound) {
+TEST(Workspace, ThePastsOfClosedLabsKeepWithinOneBound) {
     constexpr std::size_t bound = 64u << 20;
     Workspace workspace = test::make_workspace();
     for (int i = 0; i < 6; ++i) {

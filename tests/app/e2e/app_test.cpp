@@ -32,7 +32,7 @@ class AppTest : public testing::Test {
     App app_{*window_};
 };
 
-TEST_F(AppTest, draw_calls_do_not_grow_with_segments) {
+TEST_F(AppTest, DrawCallsDoNotGrowWithSegments) {
     std::vector<int> calls;
     for (int count : {10, 1000, 10'000}) {
         run("chain.preset", {{"name", "coil"}, {"count", count}});
@@ -60,7 +60,7 @@ TEST_F(AppTest, ShowsTheEndOfAMotionBeforeItIdles) {
     EXPECT_GE(after, 2) << "the panels of a tick show what the tick before it ended with";
 }
 
-TEST_F(AppTest, losing_the_focus_in_mid_drag_ends_the_drag) {
+TEST_F(AppTest, LosingTheFocusInMidDragEndsTheDrag) {
     begin_drag();
     take(Focus{false});
     EXPECT_FALSE(app_.busy());
@@ -86,7 +86,7 @@ TEST_F(AppTest, AKeyHeldWhenTheFocusLeavesIsNotHeldAfterwards) {
     EXPECT_GT(part().target.y, 0.1f) << "X still binds the drag";
 }
 
-TEST_F(AppTest, a_resize_in_mid_drag_does_no_harm) {
+TEST_F(AppTest, AResizeInMidDragDoesNoHarm) {
     begin_drag();
     take(Resize{{1600, 900}});
     EXPECT_EQ(window_->size(), glm::ivec2(1600, 900));
@@ -103,7 +103,7 @@ TEST_F(AppTest, a_resize_in_mid_drag_does_no_harm) {
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(std::isfinite(part().target[i]));
 }
 
-TEST_F(AppTest, a_second_button_in_mid_drag_changes_nothing) {
+TEST_F(AppTest, ASecondButtonInMidDragChangesNothing) {
     begin_drag();
     const CameraPose camera = app_.workspace().camera;
     take(MousePress{MouseButton::Right, true});
@@ -115,14 +115,14 @@ TEST_F(AppTest, a_second_button_in_mid_drag_changes_nothing) {
     EXPECT_FALSE(app_.busy());
 }
 
-TEST_F(AppTest, a_drop_of_nothing_changes_nothing) {
+TEST_F(AppTest, ADropOfNothingChangesNothing) {
     const Json before = app_.state();
     take(Drop{{}});
     EXPECT_EQ(app_.state()["segments"], before["segments"]);
     EXPECT_TRUE(app_.workspace().ui.toasts.empty());
 }
 
-TEST_F(AppTest, the_first_hint_stays_until_the_first_drag) {
+TEST_F(AppTest, TheFirstHintStaysUntilTheFirstDrag) {
     EXPECT_FALSE(app_.workspace().settings.hint_seen);
     run("chain.target", {{"to", {1, 2, 3}}});
     EXPECT_FALSE(app_.workspace().settings.hint_seen);
@@ -130,7 +130,7 @@ TEST_F(AppTest, the_first_hint_stays_until_the_first_drag) {
     EXPECT_TRUE(app_.workspace().settings.hint_seen);
 }
 
-TEST_F(AppTest, closing_the_window_quits) {
+TEST_F(AppTest, ClosingTheWindowQuits) {
     EXPECT_FALSE(app_.quit());
     take(CloseRequest{});
     EXPECT_TRUE(app_.quit());

@@ -16,7 +16,7 @@ class BadFiles : public testing::Test {
     TempFolder folder_;
 };
 
-TEST_F(BadFiles, scripts_name_the_line_and_run_nothing) {
+TEST_F(BadFiles, ScriptsNameTheLineAndRunNothing) {
     const std::string ran = ScriptText().line({{"state", path("ran.json")}}).text();
     for (const char* line :
          {"no JSON at all", "{}", "{\"command\": \"chain.explode\"}", "{\"recording\": 1}", "\x01\x02\xFF"}) {
@@ -27,7 +27,7 @@ TEST_F(BadFiles, scripts_name_the_line_and_run_nothing) {
     }
 }
 
-TEST_F(BadFiles, recordings_that_are_broken_newer_or_half) {
+TEST_F(BadFiles, RecordingsThatAreBrokenNewerOrHalf) {
     const std::string good = [&] {
         write(folder_ / "script.jsonl", "{\"wait\": 1}\n");
         EXPECT_TRUE(succeeded(
@@ -55,7 +55,7 @@ TEST_F(BadFiles, recordings_that_are_broken_newer_or_half) {
     EXPECT_TRUE(complained(run_script(half.dump() + "\n"), 2, {"scene"}));
 }
 
-TEST_F(BadFiles, opened_while_the_program_runs_are_refused_and_the_scene_is_kept) {
+TEST_F(BadFiles, OpenedWhileTheProgramRunsAreRefusedAndTheSceneIsKept) {
     write(folder_ / "broken.json", "{\"tendril_scene\": 1, \"lab\"");
     write(folder_ / "large.json", "");
     std::filesystem::resize_file(folder_ / "large.json", 70u << 20);
@@ -72,7 +72,7 @@ TEST_F(BadFiles, opened_while_the_program_runs_are_refused_and_the_scene_is_kept
     EXPECT_EQ(run_script(script.text()).exit_code, 0) << "the history is kept too";
 }
 
-TEST_F(BadFiles, a_scene_that_is_opened_is_what_was_saved) {
+TEST_F(BadFiles, ASceneThatIsOpenedIsWhatWasSaved) {
     ScriptText script;
     script.command("chain.preset", {{"name", "random"}, {"count", 31}, {"seed", 5}})
         .command("chain.mode", {{"mode", "with_index"}, {"index", 11}})

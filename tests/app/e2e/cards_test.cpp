@@ -145,7 +145,7 @@ TEST_P(LabCard, AStepAloneCompletesNoOther) {
     }
 }
 
-TEST_P(LabCard, every_step_waits_for_a_command_that_exists) {
+TEST_P(LabCard, EveryStepWaitsForACommandThatExists) {
     CardOnScene scene(GetParam());
     for (const CardStep& step : scene.card().steps) {
         for (const CardLine& line : step.by) {
@@ -275,10 +275,10 @@ TEST_P(LabCard, LeavesRoomForTheInspector) {
     }
 }
 
-LABEL(slow, "CardsTest.the_chevron_shows_the_next_card_on_its_scene");
+LABEL(slow, "CardsTest.TheChevronShowsTheNextCardOnItsScene");
 
 /// The chevron is left of the button that hides the card, near the right edge.
-TEST(CardsTest, the_chevron_shows_the_next_card_on_its_scene) {
+TEST(CardsTest, TheChevronShowsTheNextCardOnItsScene) {
     CardOnScene scene({"rope", 1});
     const std::vector<Card> cards = read_cards(cards_source("rope"));
     const auto title = [&] { return scene.app().state().at("card").at("title").get<std::string>(); };
@@ -388,7 +388,7 @@ TEST(CardsTest, TheArmFlipsAndItsCureWorksIfTheMouseFollowsTheCard) {
         }
 }
 
-TEST(CardsTest, a_step_asks_for_its_own_handle) {
+TEST(CardsTest, AStepAsksForItsOwnHandle) {
     CardOnScene scene({"humanoid", 1});
     for (const char* hand : {"right_hand", "left_hand"})
         scene.run("humanoid.target", {{"effector", hand}, {"to", {0.3, 3.0, 0.5}}});
@@ -396,7 +396,7 @@ TEST(CardsTest, a_step_asks_for_its_own_handle) {
     EXPECT_EQ(scene.done(), (std::vector<bool>{true, false, false, false, false}));
 }
 
-TEST(CardsTest, a_typed_command_counts_and_a_refused_one_does_not) {
+TEST(CardsTest, ATypedCommandCountsAndARefusedOneDoesNot) {
     CardOnScene scene({"rig", 1});
     EXPECT_THROW(scene.run("rig.control.set", {{"name", "look"}, {"value", "up"}}), Refused);
     scene.wait(2);
@@ -434,7 +434,7 @@ TEST(CardsTest, ANumberInAPanelIsNotADrag) {
     EXPECT_TRUE(scene.done()[0]) << "a drag ticks it";
 }
 
-TEST(HelpSheet, shows_all_of_it_at_1280x720) {
+TEST(HelpSheet, ShowsAllOfItAt1280x720) {
     const auto window = open_offscreen({1280, 720});
     App app(*window);
     for (const auto& lab : app.labs().all()) {

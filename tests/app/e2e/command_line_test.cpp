@@ -26,7 +26,7 @@ TEST_F(CommandLine, PrintsTheRequestedLists) {
     EXPECT_TRUE(run_program({"--version"}).out.starts_with("tendril "));
 }
 
-TEST_F(CommandLine, help_names_every_flag) {
+TEST_F(CommandLine, HelpNamesEveryFlag) {
     const std::string help = run_program({"--help"}).out;
     for (const char* flag :
          {"SCENE", "--lab", "--size", "--headless", "--backend", "--script", "--frames", "--screenshot",
@@ -35,7 +35,7 @@ TEST_F(CommandLine, help_names_every_flag) {
     }
 }
 
-TEST_F(CommandLine, lists_the_chain_commands_with_exactly_these_arguments) {
+TEST_F(CommandLine, ListsTheChainCommandsWithExactlyTheseArguments) {
     const std::string list = run_program({"--list-commands"}).out;
     for (const char* usage :
          {"chain.clear [default_direction]", "chain.mode mode [index] [iterations] [tolerance]",
@@ -44,7 +44,7 @@ TEST_F(CommandLine, lists_the_chain_commands_with_exactly_these_arguments) {
 }
 
 // The README's tables and the program's shortcuts must be the same text.
-TEST_F(CommandLine, the_readme_has_the_shortcuts) {
+TEST_F(CommandLine, TheReadmeHasTheShortcuts) {
     const fs::path readme = source_path("app/README.md");
     ASSERT_TRUE(fs::exists(readme));
     const std::string text = read(readme), begin = "<!-- shortcuts -->\n", end = "<!-- /shortcuts -->";
@@ -70,7 +70,7 @@ struct Mistake {
 
 class Mistakes : public testing::TestWithParam<Mistake> {};
 
-TEST_P(Mistakes, are_one_line_and_exit_code_2) {
+TEST_P(Mistakes, AreOneLineAndExitCode2) {
     const TempFolder folder;
     const std::pair<const char*, const char*> olds[]{{"state.json", R"({"layout": {"strip": {}}})"},
                                                      {"picture.png", "\x89PNG\r\n\x1a\nold"},
@@ -119,7 +119,7 @@ TEST_F(CommandLine, WithoutADisplayTheMessageSaysWhatHelps) {
     EXPECT_TRUE(complained(run_program({}, {{"DISPLAY", ":9731"}, {"WAYLAND_DISPLAY", {}}}), 2, {"display"}));
 }
 
-TEST_F(CommandLine, a_path_that_cannot_be_written_is_refused_before_anything_runs) {
+TEST_F(CommandLine, APathThatCannotBeWrittenIsRefusedBeforeAnythingRuns) {
     fs::create_directory(folder_ / "folder");
     write(folder_ / "file", "a file is no folder");
     write(folder_ / "script.jsonl", ScriptText().line({{"state", path("ran.json")}}).text());
@@ -185,7 +185,7 @@ TEST_F(CommandLine, NothingIsOverwrittenThatWouldBeLost) {
 }
 
 /// Commands in scripts, too.
-TEST_F(CommandLine, commands_of_scripts_ask_for_force) {
+TEST_F(CommandLine, CommandsOfScriptsAskForForce) {
     write(folder_ / "b.json", R"({"tendril_scene": 2, "labs": {}})");
     write(folder_ / "walk.glb", "glTF");
     for (const char* name : {"b.json", "walk.glb"}) {
@@ -227,7 +227,7 @@ TEST_F(CommandLine, AFullDiskIsReportedByEverythingThatPrints) {
     }
 }
 
-TEST_F(CommandLine, frames_are_ticks) {
+TEST_F(CommandLine, FramesAreTicks) {
     write(folder_ / "script.jsonl", ScriptText().command("chain.motion", {{"path", "circle"}}).text());
     const Outcome outcome = run_program(
         {"--headless", "--script", path("script.jsonl"), "--frames", "25", "--state", path("state.json")});
@@ -235,7 +235,7 @@ TEST_F(CommandLine, frames_are_ticks) {
     EXPECT_EQ(app::parse_json(read(folder_ / "state.json"))["time"]["tick"], 25);
 }
 
-TEST_F(CommandLine, headless_neither_reads_nor_writes_settings) {
+TEST_F(CommandLine, HeadlessNeitherReadsNorWritesSettings) {
     fs::create_directory(folder_ / "tendril");
     write(folder_ / "tendril/settings.json", R"({"theme": "light", "left_open": false})");
     const Environment config{{"XDG_CONFIG_HOME", folder_.path().string()}};

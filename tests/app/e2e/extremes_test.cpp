@@ -17,7 +17,7 @@ testing::AssertionResult survives(const ScriptText& script) {
            << "exit code " << outcome.exit_code << ": " << outcome.err.substr(0, 400);
 }
 
-TEST(Extremes, windows_of_every_shape_with_every_sheet_open) {
+TEST(Extremes, WindowsOfEveryShapeWithEverySheetOpen) {
     for (const char* open : {"f9", "?", "ctrl+k", "ctrl+,", "ctrl+o"}) {
         ScriptText script = ScriptText().key(open);
         for (const int width : {1, 40, 200, 640, 2000}) {
@@ -28,7 +28,7 @@ TEST(Extremes, windows_of_every_shape_with_every_sheet_open) {
     }
 }
 
-TEST(Extremes, texts_of_every_size) {
+TEST(Extremes, TextsOfEverySize) {
     for (const double scale : {0.5, 3.0}) {
         ScriptText script;
         script.command("view.text_scale", {{"scale", scale}}).key("?").line({{"resize", {300, 200}}}).wait(2);
@@ -36,7 +36,7 @@ TEST(Extremes, texts_of_every_size) {
     }
 }
 
-TEST(Extremes, a_wheel_that_turns_a_million_times) {
+TEST(Extremes, AWheelThatTurnsAMillionTimes) {
     for (const float by : {-1e9f, -1e8f, 1e9f}) {
         for (const glm::vec2 at : {glm::vec2(140, 400), glm::vec2(640, 400), glm::vec2(1150, 450)}) {
             EXPECT_TRUE(survives(ScriptText().line({{"resize", {1100, 336}}}).move(at).wheel(by).wait(2)))
@@ -47,7 +47,7 @@ TEST(Extremes, a_wheel_that_turns_a_million_times) {
     EXPECT_TRUE(survives(ScriptText().line({{"resize", {689, 336}}}).move({524, 174}).wheel(-3e8f).wait(2)));
 }
 
-TEST(Extremes, a_mouse_that_is_kilometres_away) {
+TEST(Extremes, AMouseThatIsKilometresAway) {
     ScriptText script = ScriptText().move({1e9f, -1e9f}).down().move({-1e9f, 1e9f}).up();
     script.drag({{640, 400}, {1e9f, 1e9f}, {0, 0}}, "right")
         .drag({{640, 400}, {1e9f, 1e9f}, {0, 0}}, "middle");
@@ -56,7 +56,7 @@ TEST(Extremes, a_mouse_that_is_kilometres_away) {
     EXPECT_TRUE(survives(ScriptText().drag({handle(state, "target"), {1e9f, 1e9f}, {-1e9f, 0}})));
 }
 
-TEST(Extremes, a_novel_typed_into_the_palette) {
+TEST(Extremes, ANovelTypedIntoThePalette) {
     EXPECT_TRUE(
         survives(ScriptText().key("ctrl+k").text(std::string(300'000, 'x').c_str()).key("enter").wait(3)));
     EXPECT_TRUE(survives(
@@ -71,13 +71,13 @@ TEST(Extremes, AVeryLongRefusalIsPrintedInOneLine) {
     EXPECT_TRUE(complained(run_script(three_lines), 1, {"line 1"}));
 }
 
-TEST(Extremes, five_hundred_refusals_at_once) {
+TEST(Extremes, FiveHundredRefusalsAtOnce) {
     ScriptText script;
     for (int i = 0; i < 500; ++i) script.command("chain.remove", {{"index", 1000 + i}}, true);
     EXPECT_TRUE(survives(script.wait(1)));
 }
 
-TEST(Extremes, chains_near_the_limits_of_their_numbers) {
+TEST(Extremes, ChainsNearTheLimitsOfTheirNumbers) {
     const std::vector<ScriptText> scripts{
         ScriptText().command("chain.target", {{"to", {1e9, 1e9, 1e9}}}),
         ScriptText().command("chain.set_length", {{"index", 2}, {"length", 1e9}}),

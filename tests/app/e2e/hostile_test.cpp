@@ -36,7 +36,7 @@ std::string document_text(App& app) {
 
 class Hostile : public testing::TestWithParam<unsigned> {};
 
-TEST_P(Hostile, events_and_commands_break_nothing) {
+TEST_P(Hostile, EventsAndCommandsBreakNothing) {
     const auto window = open_offscreen({1280, 720});
     App app(*window);
     app.start_recording();

@@ -30,7 +30,7 @@ class LiveLoopTest : public testing::Test {
     Player player_{Script{}};
 };
 
-TEST_F(LiveLoopTest, an_idle_window_draws_nothing) {
+TEST_F(LiveLoopTest, AnIdleWindowDrawsNothing) {
     settle();
     EXPECT_GE(loop_.frames_drawn(), 1);
     const int drawn = loop_.frames_drawn();
@@ -61,7 +61,7 @@ TEST_F(LiveLoopTest, AMovingSceneIsDrawnContinuously) {
     EXPECT_NEAR(static_cast<double>(app_.workspace().clock.tick - tick), 60.0, 2.0);
 }
 
-TEST_F(LiveLoopTest, time_keeps_pace_with_slow_frames_but_does_not_race_after_a_stall) {
+TEST_F(LiveLoopTest, TimeKeepsPaceWithSlowFramesButDoesNotRaceAfterAStall) {
     app_.run({"chain.motion", Json{{"path", "circle"}}});
     settle();
     auto tick = app_.workspace().clock.tick;
@@ -136,7 +136,7 @@ TEST_F(LiveLoopTest, PastedTextIsRecordedAsText) {
     EXPECT_TRUE(has(app_.recording(), "{\"text\":\"chain.add length=0.25\"}"));
 }
 
-TEST_F(LiveLoopTest, a_script_plays_in_the_window_at_its_own_pace) {
+TEST_F(LiveLoopTest, AScriptPlaysInTheWindowAtItsOwnPace) {
     ScriptText script;
     script.command("chain.motion", {{"path", "circle"}}).wait(30).command("time.pause");
     Player player(parse_script(script.text(), app_.commands()));

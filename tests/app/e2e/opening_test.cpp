@@ -30,7 +30,7 @@ class OpenScene : public testing::Test {
     Workspace& workspace() { return app_.workspace(); }
 };
 
-TEST_F(OpenScene, is_an_arm_with_its_hand_on_the_target) {
+TEST_F(OpenScene, IsAnArmWithItsHandOnTheTarget) {
     open_alive(app_);
     app_.settle();
     const Json state = app_.state();
@@ -49,7 +49,7 @@ TEST_F(OpenScene, KeepsSettingsThatTheUserChose) {
     EXPECT_EQ(workspace().settings.choices["reach sphere"], "on") << "that was not chosen yet";
 }
 
-TEST_F(OpenScene, cards_are_offered_once) {
+TEST_F(OpenScene, CardsAreOfferedOnce) {
     offer_cards(app_);
     EXPECT_TRUE(card_shown(workspace().settings, chain_lab));
     app_.run({"view.card", Json{{"open", false}}});

@@ -46,7 +46,7 @@ class Openings : public testing::TestWithParam<std::string> {
     }
 };
 
-TEST_P(Openings, move_for_ten_seconds_and_leave_nothing_to_save_or_undo) {
+TEST_P(Openings, MoveForTenSecondsAndLeaveNothingToSaveOrUndo) {
     const std::vector<bool> before = {workspace().modified(), workspace().history.can_undo()};
     EXPECT_EQ(before, std::vector<bool>(2, false));
     for (int second = 0; second < 10; ++second) {
@@ -166,7 +166,7 @@ TEST_P(Openings, ContinueWhenACommandIsRefused) {
 }
 
 /// Starts from the opening, not only from the card's own scene.
-TEST_P(Openings, every_step_of_the_card_plays) {
+TEST_P(Openings, EveryStepOfTheCardPlays) {
     app_.run({"view.card", Json{{"open", true}}});
     wait(100);
     const Card card = read_cards(cards_source(GetParam())).front();
@@ -190,7 +190,7 @@ class RigOpening : public Openings {};
 INSTANTIATE_TEST_SUITE_P(Labs, RigOpening, testing::Values("rig"));
 
 /// The face blinks and speaks by curves that the rig's units set.
-TEST_P(RigOpening, moves_the_lids_and_the_mouth) {
+TEST_P(RigOpening, MovesTheLidsAndTheMouth) {
     const auto curve = [&](const char* name) { return app_.state().at("curves").at(name).get<double>(); };
     int blinks = 0, syllables = 0, closed = 0;
     bool shut = false, open = false;
@@ -239,7 +239,7 @@ class ChainOpening : public Openings {};
 INSTANTIATE_TEST_SUITE_P(Labs, ChainOpening, testing::Values("chain"));
 
 /// The target stops under the mouse, not where the drag began to move it.
-TEST_P(ChainOpening, a_press_on_the_target_stops_it) {
+TEST_P(ChainOpening, APressOnTheTargetStopsIt) {
     wait(45);
     app_.settle();
     const glm::vec2 target = handle(app_.state(), "target");

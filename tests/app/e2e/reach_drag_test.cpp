@@ -34,7 +34,7 @@ void expect_bones_kept(const Json& state) {
     }
 }
 
-TEST(ReachDrag, a_joint_follows_the_mouse_while_root_target_and_tip_stay) {
+TEST(ReachDrag, AJointFollowsTheMouseWhileRootTargetAndTipStay) {
     const Json before = state_after(reaching());
     for (const std::size_t index : {2u, 3u, 5u}) {
         // With only two bones left to the tip, the tip soon cannot stay.
@@ -73,7 +73,7 @@ TEST(ReachDrag, TheRootTakesTheChainAlongAndItReachesAgain) {
     expect_bones_kept(after);
 }
 
-TEST(ReachDrag, the_tip_leaves_the_target_where_it_is) {
+TEST(ReachDrag, TheTipLeavesTheTargetWhereItIs) {
     ScriptText script;
     script.command("chain.mode", {{"mode", "reach"}}).command("chain.target", {{"to", {3, 9, 0}}});
     script.key("home");
@@ -86,7 +86,7 @@ TEST(ReachDrag, the_tip_leaves_the_target_where_it_is) {
     expect_bones_kept(after);
 }
 
-TEST(DeleteInMidDrag, does_nothing_in_the_chain_lab) {
+TEST(DeleteInMidDrag, DoesNothingInTheChainLab) {
     for (const char* mode : {"backward", "reach"}) {
         ScriptText script;
         script.command("chain.mode", {{"mode", mode}}).command("chain.target", {{"to", {3, 3, 1}}});
@@ -100,7 +100,7 @@ TEST(DeleteInMidDrag, does_nothing_in_the_chain_lab) {
     }
 }
 
-TEST(DeleteInMidDrag, does_nothing_in_the_rope_lab) {
+TEST(DeleteInMidDrag, DoesNothingInTheRopeLab) {
     ScriptText script;
     script.command("lab.open", {{"name", "rope"}}).command("rope.preset", {{"name", "drape"}});
     script.command("rope.select", {{"collider", "ball"}}).command("time.pause");

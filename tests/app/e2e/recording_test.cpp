@@ -51,7 +51,7 @@ const Json& start_state() {
 }
 
 // Everything in the window that is not the scene: panels, palette, help, keys, wheel over a list, resizing.
-TEST_F(Recording, holds_the_use_of_panels) {
+TEST_F(Recording, HoldsTheUseOfPanels) {
     const glm::vec2 forward_radio = chain_panel::forward, target = handle(start_state(), "target");
     ScriptText script = ScriptText().click(forward_radio).wait(2);
     script.key("ctrl+k").text("chain.add length=0.75").key("enter").wait(2);
@@ -77,7 +77,7 @@ TEST_F(Recording, holds_the_use_of_panels) {
     EXPECT_EQ(state["segments"][8]["length"], 0.75);
 }
 
-TEST_F(Recording, holds_text_typed_into_a_field) {
+TEST_F(Recording, HoldsTextTypedIntoAField) {
     // A double click on the target's height opens the field.
     const glm::vec2 field = chain_panel::target_y;
     ScriptText script = ScriptText().command("view.fold", chain_panel::unfolded()).wait(2);
@@ -87,7 +87,7 @@ TEST_F(Recording, holds_text_typed_into_a_field) {
         << "the target's y field has moved in the panel";
 }
 
-TEST_F(Recording, holds_time) {
+TEST_F(Recording, HoldsTime) {
     ScriptText script;
     script.command("chain.motion", {{"path", "figure_eight"}, {"radius", 1.7}, {"period", 2.3}}).wait(41);
     script.key("space").wait(10).key(".").key(".").key("space").wait(7);
@@ -116,7 +116,7 @@ TEST_F(Recording, StartsWithItsSceneSizeAndLab) {
     EXPECT_EQ(start_line["size"], Json::array({900, 600}));
 }
 
-TEST_F(Recording, expectations_screenshots_and_states_within_a_script) {
+TEST_F(Recording, ExpectationsScreenshotsAndStatesWithinAScript) {
     const auto path = [&](const char* name) { return (folder_ / name).string(); };
     ScriptText script;
     script.command("chain.target", {{"to", {3, 2, 0}}})

@@ -41,9 +41,9 @@ class Refused : public testing::Test {
     TempFolder folder_;
 };
 
-LABEL(slow, "Refused.changes_nothing_and_ends_the_script_with_1");
+LABEL(slow, "Refused.ChangesNothingAndEndsTheScriptWith1");
 
-TEST_F(Refused, changes_nothing_and_ends_the_script_with_1) {
+TEST_F(Refused, ChangesNothingAndEndsTheScriptWith1) {
     EXPECT_TRUE(succeeded(run("{\"wait\": 1}\n")));
     const std::string before = state();
     for (const Refusal& refusal : refusals()) {
@@ -53,7 +53,7 @@ TEST_F(Refused, changes_nothing_and_ends_the_script_with_1) {
     }
 }
 
-TEST_F(Refused, as_expected_lets_the_script_go_on) {
+TEST_F(Refused, AsExpectedLetsTheScriptGoOn) {
     std::string script;
     for (const Refusal& refusal : refusals()) script += refusal.line + ", \"refused\": true}\n";
     script += "{\"command\": \"undo\", \"refused\": true}\n";  // they leave no step to undo

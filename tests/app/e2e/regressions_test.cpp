@@ -81,7 +81,7 @@ TEST(OnceWrong, AChainReplacedAfterADragIsSavedAndOpened) {
     }
 }
 
-TEST(OnceWrong, a_step_of_time_is_taken_at_once) {
+TEST(OnceWrong, AStepOfTimeIsTakenAtOnce) {
     ScriptText script = ScriptText().command("time.step").line({{"expect", "time.tick"}, {"equals", 1}});
     script.command("time.step").command("time.step").line({{"expect", "time.tick"}, {"equals", 3}});
     state_after(script);
@@ -95,21 +95,21 @@ TEST(OnceWrong, AHeldKeyDoesNotToggleRepeatedly) {
     state_after(script);
 }
 
-TEST(OnceWrong, equal_taps_each_count) {
+TEST(OnceWrong, EqualTapsEachCount) {
     ScriptText script = ScriptText().key("ctrl+k").text("chain.add length=12345");
     for (int i = 0; i < 4; ++i) script.key("backspace");
     script.key("enter").wait(1).line({{"expect", "segments.8.length"}, {"equals", 1}});
     state_after(script);
 }
 
-TEST(OnceWrong, a_left_drag_over_nothing_leaves_the_selection) {
+TEST(OnceWrong, ALeftDragOverNothingLeavesTheSelection) {
     ScriptText script = ScriptText().command("chain.select", {{"index", 2}}).drag({{640, 150}, {420, 200}});
     script.line({{"expect", "selected"}, {"equals", 2}});
     script.click({640, 150}).line({{"expect", "selected"}, {"equals", nullptr}});
     state_after(script);
 }
 
-TEST(OnceWrong, the_script_in_the_readme_runs) {
+TEST(OnceWrong, TheScriptInTheReadmeRuns) {
     const TempFolder folder;
     std::istringstream readme(read(source_path("app/README.md")));
     std::string script;

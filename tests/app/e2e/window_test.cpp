@@ -147,7 +147,7 @@ const Json& first_state() {
 
 LABEL(window, "RealWindow.*");
 
-TEST_F(RealWindow, the_target_is_dragged_and_another_mode_is_clicked) {
+TEST_F(RealWindow, TheTargetIsDraggedAndAnotherModeIsClicked) {
     start({"--no-config"});
     const glm::vec2 target = handle(first_state(), "target"), to(600, 250);
     move(target);
@@ -168,7 +168,7 @@ TEST_F(RealWindow, the_target_is_dragged_and_another_mode_is_clicked) {
     EXPECT_LT(glm::distance(head, now), 1.5f) << "the target waits at the joint that the mode leads";
 }
 
-TEST_F(RealWindow, what_it_recorded_gives_the_same_off_screen) {
+TEST_F(RealWindow, WhatItRecordedGivesTheSameOffScreen) {
     start({"--no-config", "--record", (folder_ / "record.jsonl").string()});
     const glm::vec2 target = handle(first_state(), "target");
     move(target);
@@ -194,7 +194,7 @@ TEST_F(RealWindow, what_it_recorded_gives_the_same_off_screen) {
     EXPECT_EQ(app::parse_json(read(folder_ / "replay.json")), state);
 }
 
-TEST_F(RealWindow, the_picture_follows_its_size) {
+TEST_F(RealWindow, ThePictureFollowsItsSize) {
     start({"--no-config", "--screenshot", (folder_ / "window.png").string()});
     xdotool({"windowsize", "--sync", window_, "1000", "640"});
     sleep(400);
@@ -205,14 +205,14 @@ TEST_F(RealWindow, the_picture_follows_its_size) {
     EXPECT_EQ(app::read_png(folder_ / "window.png").size, glm::ivec2(1000, 640));
 }
 
-TEST_F(SmallScreen, the_window_fits_it) {
+TEST_F(SmallScreen, TheWindowFitsIt) {
     start({"--no-config", "--screenshot", (folder_ / "window.png").string()});
     key("ctrl+q");
     ended();
     EXPECT_EQ(app::read_png(folder_ / "window.png").size, glm::ivec2(1024, 640));
 }
 
-TEST_F(RealWindow, opens_on_an_arm_that_reaches_and_has_nothing_to_save) {
+TEST_F(RealWindow, OpensOnAnArmThatReachesAndHasNothingToSave) {
     start_as_it_comes({"--no-config"});
     key("ctrl+q");
     const Json state = ended();  // it did not ask
@@ -221,7 +221,7 @@ TEST_F(RealWindow, opens_on_an_arm_that_reaches_and_has_nothing_to_save) {
     EXPECT_EQ(state["card"]["done"], Json(std::vector<bool>(5, false)));
 }
 
-TEST_F(RealWindow, keeps_a_card_that_was_put_away) {
+TEST_F(RealWindow, KeepsACardThatWasPutAway) {
     start_as_it_comes({});
     key("F2");
     sleep(300);
@@ -233,13 +233,13 @@ TEST_F(RealWindow, keeps_a_card_that_was_put_away) {
     EXPECT_FALSE(ended().contains("card"));
 }
 
-TEST_F(RealWindow, its_close_button_ends_it_cleanly) {
+TEST_F(RealWindow, ItsCloseButtonEndsItCleanly) {
     start({"--no-config"});
     if (xdotool({"windowquit", window_}).exit_code != 0) GTEST_SKIP() << "this xdotool has no windowquit";
     EXPECT_EQ(ended()["segments"].size(), 8u);
 }
 
-TEST_F(RealWindow, idle_it_takes_no_processor_time) {
+TEST_F(RealWindow, IdleItTakesNoProcessorTime) {
     start({"--no-config"});
     sleep(1500);
     const double before = program_->cpu_seconds();
@@ -249,7 +249,7 @@ TEST_F(RealWindow, idle_it_takes_no_processor_time) {
     ended();
 }
 
-TEST_F(RealWindow, settings_are_kept_by_name) {
+TEST_F(RealWindow, SettingsAreKeptByName) {
     start();
     key("t");
     sleep(500);
@@ -269,7 +269,7 @@ TEST_F(RealWindow, settings_are_kept_by_name) {
         << "a clean end leaves no autosave";
 }
 
-TEST_F(RealWindow, without_config_settings_are_neither_read_nor_written) {
+TEST_F(RealWindow, WithoutConfigSettingsAreNeitherReadNorWritten) {
     fs::create_directories(settings_path().parent_path());
     write(settings_path(), R"({"theme": "light"})");
     start({"--no-config", "--screenshot", (folder_ / "dark.png").string()});
@@ -281,7 +281,7 @@ TEST_F(RealWindow, without_config_settings_are_neither_read_nor_written) {
     EXPECT_EQ(read(settings_path()), R"({"theme": "light"})");
 }
 
-TEST_F(RealWindow, broken_settings_stop_nothing) {
+TEST_F(RealWindow, BrokenSettingsStopNothing) {
     fs::create_directories(settings_path().parent_path());
     write(settings_path(), "{\"theme\": \"li");
     start();
@@ -290,7 +290,7 @@ TEST_F(RealWindow, broken_settings_stop_nothing) {
 }
 
 /// The terminal or session is closed, or the display goes away: no question, and nothing is lost.
-TEST_F(RealWindow, keeps_unsaved_work_whatever_ends_it) {
+TEST_F(RealWindow, KeepsUnsavedWorkWhateverEndsIt) {
     const fs::path config = settings_path().parent_path();
     for (const char* way : {"SIGTERM", "SIGHUP", "the display"}) {
         fs::remove_all(config);
@@ -313,7 +313,7 @@ TEST_F(RealWindow, keeps_unsaved_work_whatever_ends_it) {
     }
 }
 
-TEST_F(RealWindow, offers_what_a_crash_left) {
+TEST_F(RealWindow, OffersWhatACrashLeft) {
     // Autosaves take half a minute: make one by hand, as if left by a program that has ended.
     ScriptText script;
     script.command("chain.preset", {{"name", "arm"}})

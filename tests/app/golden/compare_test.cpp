@@ -112,7 +112,7 @@ Labelled labelled() {
     return {play(script, {.picture = true}).picture, without};
 }
 
-TEST(Compare, noise_passes) {
+TEST(Compare, NoisePasses) {
     const Image picture = Studio().draw();
     const Image panels = app::read_png(golden_folder() / "light.png");
     for (unsigned seed = 1; seed <= 3; ++seed) {
@@ -146,7 +146,7 @@ TEST(Compare, ASingleFlippedPixelPasses) {
     EXPECT_FALSE(compare(before, picture).same);
 }
 
-TEST(Compare, another_colour_of_one_joint_fails) {
+TEST(Compare, AnotherColourOfOneJointFails) {
     for (int channel = 0; channel < 3; ++channel) {
         for (float by : {-10.0f, 10.0f}) {
             Studio studio;
@@ -162,7 +162,7 @@ TEST(Compare, another_colour_of_one_joint_fails) {
     }
 }
 
-TEST(Compare, a_missing_segment_fails) {
+TEST(Compare, AMissingSegmentFails) {
     for (std::size_t segment = 0; segment < 8; ++segment) {
         for (bool ball : {false, true}) {
             Studio studio;
@@ -180,7 +180,7 @@ TEST(Compare, a_missing_segment_fails) {
     }
 }
 
-TEST(Compare, a_missing_segment_of_a_fine_coil_fails) {
+TEST(Compare, AMissingSegmentOfAFineCoilFails) {
     const auto picture = [](bool gap) {
         ScriptText script;
         script.command("chain.preset", {{"name", "coil"}, {"count", 120}})
@@ -191,7 +191,7 @@ TEST(Compare, a_missing_segment_of_a_fine_coil_fails) {
     EXPECT_FALSE(compare(picture(false), picture(true)).same);
 }
 
-TEST(Compare, a_label_moved_by_three_pixels_fails) {
+TEST(Compare, ALabelMovedByThreePixelsFails) {
     const Labelled pictures = labelled();
     ASSERT_FALSE(compare(pictures.without, pictures.with).same);
     ASSERT_TRUE(compare(pictures.with, moved(pictures.with, pictures.without, {0, 0})).same);
@@ -201,7 +201,7 @@ TEST(Compare, a_label_moved_by_three_pixels_fails) {
     }
 }
 
-TEST(Compare, another_size_fails) {
+TEST(Compare, AnotherSizeFails) {
     const Image picture = Studio().draw();
     Image shorter = picture;
     shorter.size.y -= 1;
@@ -210,7 +210,7 @@ TEST(Compare, another_size_fails) {
     EXPECT_FALSE(compare(picture, Image{}).same);
 }
 
-TEST(Golden_check, is_not_blind_and_leaves_the_pictures) {
+TEST(GoldenCheck, IsNotBlindAndLeavesThePictures) {
     const TempFolder folder;
     const char* const before = std::getenv("TENDRIL_TEST_OUTPUT");
     const std::string kept = before != nullptr ? before : "";

@@ -1,4 +1,4 @@
-// Compares the program's pictures with the golden ones, with both backends that need no display.
+// Compares the pictures with the golden ones, by the backends that need no display (EGL in .ci/nightly).
 #include "tests/app/golden/golden.hpp"
 
 #include <map>
@@ -49,8 +49,9 @@ class Golden : public testing::TestWithParam<fs::path> {
 };
 
 LABEL(pictures, "*/Golden.*");
+LABEL(nightly, "*/Golden.EglDraws/*");
 
-TEST_P(Golden, osmesa_draws) {
+TEST_P(Golden, OsmesaDraws) {
     if (const std::string why = missing("osmesa"); !why.empty()) GTEST_SKIP() << why;
     const Drawn actual = draw(GetParam(), "osmesa");
     ASSERT_FALSE(actual.picture.rgba.empty()) << GetParam() << " did not lead where it should";
@@ -64,7 +65,7 @@ TEST_P(Golden, osmesa_draws) {
     EXPECT_EQ(read(texts), actual.panels) << "the panels' texts; tests/app/golden/renew";
 }
 
-TEST_P(Golden, egl_draws) {
+TEST_P(Golden, EglDraws) {
     if (const std::string why = missing("egl"); !why.empty()) GTEST_SKIP() << why;
     if (wanted_renewal() != Renewal::None) GTEST_SKIP() << "OSMesa draws the golden pictures";
     EXPECT_TRUE(looks_like(draw(GetParam(), "egl").picture, picture(), name() + ".egl"));
@@ -73,7 +74,7 @@ TEST_P(Golden, egl_draws) {
 INSTANTIATE_TEST_SUITE_P(Pictures, Golden, testing::ValuesIn(golden_scripts()),
                          [](const auto& script) { return script.param.stem().string(); });
 
-TEST(GoldenPictures, one_of_the_backends_draws) {
+TEST(GoldenPictures, OneOfTheBackendsDraws) {
     EXPECT_TRUE(missing("osmesa").empty() || missing("egl").empty());
 }
 

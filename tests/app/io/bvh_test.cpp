@@ -33,7 +33,7 @@ std::string refusal(const std::string& text) {
     return {};
 }
 
-TEST(Bvh, spellings_of_real_exporters_are_read_as_declared_with_a_note) {
+TEST(Bvh, SpellingsOfRealExportersAreReadAsDeclaredWithANote) {
     const struct {
         const char* kind;
         std::string text;
@@ -93,7 +93,7 @@ TEST(Bvh, DamageIsRefusedWithTheLine) {
     EXPECT_TRUE(test::says(refusal(wide.substr(2)), "line 1 UTF-16"));
 }
 
-TEST(Bvh, a_long_name_is_not_copied_to_thousands_of_end_sites) {
+TEST(Bvh, ALongNameIsNotCopiedToThousandsOfEndSites) {
     std::string text = "HIERARCHY\nROOT " + std::string(100'000, 'a') + "\n{\nOFFSET 0 0 0\n";
     for (int i = 0; i < 4000; ++i) text += "End Site\n{\n}\n";
     EXPECT_TRUE(test::says(refusal(text + "}\nMOTION\nFrames: 0\nFrame Time: 1\n"), "line 2 name"));

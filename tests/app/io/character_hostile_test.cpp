@@ -58,7 +58,7 @@ std::string raw(T value) {
 
 // ------------------------------------------------------------------------------------------------ any kind
 
-TEST_F(HostileCharacter, empty_and_other_files_are_refused_by_every_reader) {
+TEST_F(HostileCharacter, EmptyAndOtherFilesAreRefusedByEveryReader) {
     for (const char* ending : {".glb", ".gltf", ".fbx", ".bvh"}) {
         const std::string name = std::string("it") + ending;
         refuses(name, "", "is empty");
@@ -104,7 +104,7 @@ std::string clip_of(std::vector<float> times, float place) {
     return keys(base64(times), three_times, three_places);
 }
 
-TEST_F(HostileCharacter, another_version_of_gltf_is_named) {
+TEST_F(HostileCharacter, AnotherVersionOfGltfIsNamed) {
     refuses("one.gltf", R"({"asset":{"version":"1.0"},"buffers":{"a":{"byteLength":0}}})",
             "is glTF 1.0; only glTF 2.0");
     refuses("one.glb", "glTF" + raw(1u) + raw(4u) + raw(0u) + raw(0u) + "{}  ",
@@ -307,7 +307,7 @@ TEST_F(HostileCharacter, EndlesslyNestedGltfJsonIsRefused) {
     EXPECT_EQ(refusal("quoted.gltf", two_joints(R"(,"name":")" + repeated("[{", 1000) + "\"", "")), "");
 }
 
-TEST_F(HostileCharacter, a_glb_cut_off_anywhere_is_refused) {
+TEST_F(HostileCharacter, AGlbCutOffAnywhereIsRefused) {
     std::string json = two_joints("", "", clip_of({0.0f, 0.5f, 1.0f}, 2.0f));
     json += repeated(" ", (4 - json.size() % 4) % 4);
     const std::string binary(16, '\1');

@@ -312,7 +312,7 @@ TEST_F(LooseFeet, FeetBelowAShearedOrVanishingLegStayWithANote) {
     }
 }
 
-TEST(Attached, keeps_what_it_cannot_move_and_comes_back) {
+TEST(Attached, KeepsWhatItCannotMoveAndComesBack) {
     const Skeleton rig = ik_rig(both_feet).skeleton;
     const std::size_t foot = rig.find("LeftFoot").value(), leg = rig.find("LeftLowerLeg").value();
     const auto moved = humanoid::attached(rig, foot, leg);

@@ -51,7 +51,7 @@ Character one_track(const std::vector<float>& times, const std::vector<float>& v
 
 // ------------------------------------------------------------------------------------------------- chunks
 
-TEST(MendedCharacter, an_empty_or_unknown_chunk_at_the_end_of_a_glb_is_valid) {
+TEST(MendedCharacter, AnEmptyOrUnknownChunkAtTheEndOfAGlbIsValid) {
     const std::string json =
         R"({"asset":{"version":"2.0"},"nodes":[{"children":[1]},{}],"skins":[{"joints":[0,1]}]})";
     EXPECT_EQ(parse_gltf(GltfText::glb_of(json, ""), "own.glb", {}).skeleton.size(), 2u);
@@ -123,7 +123,7 @@ TEST(MendedCharacter, TheLastOfTwoKeysAtOneTimeIsKept) {
         << "no order can be guessed";
 }
 
-TEST(MendedCharacter, rotations_of_length_0_are_dropped) {
+TEST(MendedCharacter, RotationsOfLength0AreDropped) {
     const Character some = one_track({0, 1, 2}, {0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0}, "rotation");
     EXPECT_TRUE(test::says(mend_notes(some), "dropped 1 rotation length 0"));
     EXPECT_NEAR(mended_pose(some, 1.0)[0].rotation.x, std::sqrt(0.5), 1e-6);
@@ -187,7 +187,7 @@ TEST(MendedCharacter, AScaleOf0IsAcceptedWithANote) {
 
 // ----------------------------------------------------------------------------------------------- pictures
 
-TEST(MendedCharacter, a_picture_beside_the_file_is_read) {
+TEST(MendedCharacter, APictureBesideTheFileIsRead) {
     const test::TempFolder folder;
     test::write(folder / "a b+c.png", white_png);
     std::filesystem::create_directory(folder / "below");
@@ -201,7 +201,7 @@ TEST(MendedCharacter, a_picture_beside_the_file_is_read) {
     }
 }
 
-TEST(MendedCharacter, a_picture_that_cannot_be_read_is_gray_and_named) {
+TEST(MendedCharacter, APictureThatCannotBeReadIsGrayAndNamed) {
     const test::TempFolder folder;
     test::write(folder / "skin.ktx2", "\xabKTX 20\xbb\r\n\x1a\n and so on");
     test::write(folder / "skin.webp", "RIFF1234WEBPVP8 ");
@@ -298,7 +298,7 @@ TEST(MendedCharacter, APictureThatClaimsMorePixelsThanItsBytesCanHoldIsBroken) {
     EXPECT_LT(counted.peak(), 100'000u);
 }
 
-TEST(MendedCharacter, texture_transforms_are_applied) {
+TEST(MendedCharacter, TextureTransformsAreApplied) {
     const auto uvs = [](const std::string& transform) {
         const std::string info = R"(,"extensions":{"KHR_texture_transform":{)" + transform + "}}";
         const std::string image = R"("uri":"data:image/png;base64,)" + to_base64(white_png) + '"';

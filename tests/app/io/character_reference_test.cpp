@@ -123,7 +123,7 @@ void check_all(const fs::path& of, double tolerance, bool with_fbx) {
         << "see the lines that begin with FAR";
 }
 
-TEST(CharacterReference, joints_of_random_files_are_where_another_reader_puts_them) {
+TEST(CharacterReference, JointsOfRandomFilesAreWhereAnotherReaderPutsThem) {
     if (!has_python()) GTEST_SKIP() << "python3 is not there";
     for (const int seed : {1, 2, 3}) {
         const test::TempFolder folder;

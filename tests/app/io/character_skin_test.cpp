@@ -124,7 +124,7 @@ TEST(CharacterSkin, AMeshWithoutSkinFollowsItsNodeOrIsOmitted) {
     EXPECT_NEAR(corner(character, rest_pose(character.skeleton), 0).z, 5.0f, 1e-6f);
 }
 
-TEST(CharacterSkin, the_plain_copy_of_a_compressed_mesh_is_read) {
+TEST(CharacterSkin, ThePlainCopyOfACompressedMeshIsRead) {
     OwnGltf own;
     own.after_primitive = R"(,"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{}}})";
     const Character character = own.read();

@@ -28,7 +28,7 @@ TEST(StickFigure, HasEveryBoneOfABodyForCertain) {
     EXPECT_EQ(map.rest, humanoid::RestPose::T);
 }
 
-TEST(StickFigure, walks_and_punches) {
+TEST(StickFigure, WalksAndPunches) {
     const Character figure = stick_figure();
     ASSERT_EQ(figure.clips.size(), 2u);
     EXPECT_EQ(figure.clips[0].name, "walk");
@@ -41,7 +41,7 @@ TEST(StickFigure, walks_and_punches) {
     EXPECT_NEAR(pose[*figure.skeleton.find("Hips")].translation.z, 1.1, 1e-9);
 }
 
-TEST(CharacterFiles, broken_ones_are_refused_and_named) {
+TEST(CharacterFiles, BrokenOnesAreRefusedAndNamed) {
     const fs::path broken = fs::path(tendril::test::characters_folder()) / "broken";
     if (!fs::is_directory(broken)) GTEST_SKIP() << broken << " is not there";
     for (const auto& entry : fs::directory_iterator(broken)) {

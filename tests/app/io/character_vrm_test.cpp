@@ -91,7 +91,7 @@ std::vector<double> vrm_swing(const VrmSpring& spring, double length, double ang
     return swing;
 }
 
-TEST(VrmCharacter, springs_swing_and_decay_as_in_vrm) {
+TEST(VrmCharacter, SpringsSwingAndDecayAsInVrm) {
     for (const double stiffness : {0.2, 1.0, 4.0}) {
         for (const double drag : {0.05, 0.45, 0.8}) {
             for (const double length : {0.05, 0.2}) {

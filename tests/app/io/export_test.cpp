@@ -48,7 +48,7 @@ class Exports : public ::testing::Test {
     const Character figure_ = stick_figure();
 };
 
-LABEL(slow, "Exports.files_of_others_keep_what_they_have_and_move_as_they_did");
+LABEL(slow, "Exports.FilesOfOthersKeepWhatTheyHaveAndMoveAsTheyDid");
 
 TEST_F(Exports, TheFigureIsReadBackUnchanged) {
     for (const Clip& clip : figure_.clips) {
@@ -208,7 +208,7 @@ void expect_kept(const nlohmann::json& before, const nlohmann::json& after) {
                   after["images"][i].value("name", std::string()));
 }
 
-TEST_F(Exports, files_of_others_keep_what_they_have_and_move_as_they_did) {
+TEST_F(Exports, FilesOfOthersKeepWhatTheyHaveAndMoveAsTheyDid) {
     const fs::path folder = tendril::test::characters_folder();
     if (!fs::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
     for (const auto& entry : fs::directory_iterator(folder)) {

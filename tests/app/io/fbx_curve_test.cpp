@@ -376,7 +376,7 @@ Takes:  {
 }
 )";
 
-TEST(FbxCurve, version_6_is_read_with_its_takes_and_its_skin) {
+TEST(FbxCurve, Version6IsReadWithItsTakesAndItsSkin) {
     const Character character = parse_fbx(old_text, "it");
     EXPECT_EQ(character.notes, std::vector<std::string>());
     ASSERT_EQ(character.skeleton.size(), 2u);
@@ -417,7 +417,7 @@ TEST(FbxCurve, UnknownVersion6KeysAreReported) {
     EXPECT_EQ(parse_fbx(text, "it").notes.size(), 1u);
 }
 
-TEST(FbxCurve, versions_before_6_are_refused_by_number) {
+TEST(FbxCurve, VersionsBefore6AreRefusedByNumber) {
     std::string text = old_text;
     text.replace(text.find("6100"), 4, "5800");
     EXPECT_THROW(parse_fbx(text, "it"), std::runtime_error);

@@ -140,9 +140,9 @@ std::string bytes_of(const FbxScene& scene, int way) {
     return way == 0 ? scene.text() : way == 1 ? scene.binary(7400, true) : scene.binary(7700);
 }
 
-LABEL(slow, "FbxNodes.ten_thousand_random_nodes_*");
+LABEL(slow, "FbxNodes.TenThousandRandomNodes*");
 
-TEST(FbxNodes, ten_thousand_random_nodes_are_where_a_naive_evaluator_puts_them) {
+TEST(FbxNodes, TenThousandRandomNodesAreWhereANaiveEvaluatorPutsThem) {
     std::mt19937 random(11);
     std::size_t count = 0;
     double worst = 0.0;
@@ -235,7 +235,7 @@ struct NaiveMotion {
     }
 };
 
-TEST(FbxNodes, ten_thousand_random_nodes_move_as_a_naive_evaluator_moves_them) {
+TEST(FbxNodes, TenThousandRandomNodesMoveAsANaiveEvaluatorMovesThem) {
     std::mt19937 random(23);
     std::size_t count = 0;
     double worst = 0.0;

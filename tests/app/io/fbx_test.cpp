@@ -85,9 +85,9 @@ void compare(const Positions& mine, const Json& known, double size, const std::s
     EXPECT_LT(worst, 1e-4 * size / 1.8) << what << ", " << where;
 }
 
-LABEL(slow, "Fbx.every_node_is_where_an_independent_reader_puts_it");
+LABEL(slow, "Fbx.EveryNodeIsWhereAnIndependentReaderPutsIt");
 
-TEST(Fbx, every_node_is_where_an_independent_reader_puts_it) {
+TEST(Fbx, EveryNodeIsWhereAnIndependentReaderPutsIt) {
     const fs::path list = shared / "reference/fbx.json";
     if (!fs::exists(list)) GTEST_SKIP() << list << " is not there";
     const Json reference = Json::parse(tendril::test::read(list));

@@ -209,7 +209,7 @@ TEST(FoundFiles, EachIsReadCorrectlyOrRefusedHelpfully) {
     }
 }
 
-TEST(FoundFiles, every_file_of_the_folder_has_a_row) {
+TEST(FoundFiles, EveryFileOfTheFolderHasARow) {
     const fs::path folder = test::found_path("");
     if (!fs::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {

@@ -79,7 +79,7 @@ TEST(MapFile, OtherTextIsRefusedWithItsPlace) {
               "");
 }
 
-TEST(MapFile, random_bytes_and_cut_texts_are_refused_with_words) {
+TEST(MapFile, RandomBytesAndCutTextsAreRefusedWithWords) {
     const std::string text = map_text(saved_map(humanoid::match_bones(skeleton()), skeleton()));
     tendril::test::Random random(8);
     for (int i = 0; i < 2000; ++i) {

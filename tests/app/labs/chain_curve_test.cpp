@@ -30,7 +30,7 @@ class ChainCurve : public ChainTest {
     }
 };
 
-TEST_F(ChainCurve, agrees_with_an_independent_implementation) {
+TEST_F(ChainCurve, AgreesWithAnIndependentImplementation) {
     std::ifstream file(test::reference_path("spline.json"));
     if (!file) GTEST_SKIP() << "spline.json is not here";
     const Json cases = Json::parse(file).at("cases");
@@ -96,7 +96,7 @@ TEST_F(ChainCurve, WeightAndFalloffBlendWithThePreviousPose) {
     EXPECT_LT(glm::distance(joints()[1], all[1]), 1e-5f);
 }
 
-TEST_F(ChainCurve, a_roll_turns_the_last_bone_about_itself) {
+TEST_F(ChainCurve, ARollTurnsTheLastBoneAboutItself) {
     bow();
     const glm::quat before = part().reach.state.rotations.back();
     run("chain.curve", {{"roll_end_deg", 90}});
@@ -104,7 +104,7 @@ TEST_F(ChainCurve, a_roll_turns_the_last_bone_about_itself) {
     EXPECT_NEAR(2.0f * std::acos(std::abs(turn.w)), glm::radians(90.0f), 1e-3f);
 }
 
-TEST_F(ChainCurve, the_target_is_the_last_control_point) {
+TEST_F(ChainCurve, TheTargetIsTheLastControlPoint) {
     bow();
     EXPECT_EQ(part().target, glm::vec3(5, 0, 0));
     run("chain.target", {{"to", {4, 2, 1}}});
@@ -134,7 +134,7 @@ TEST_F(ChainCurve, EditsChangeTheGivenChainAndItsNewPoseFollows) {
     EXPECT_TRUE(part().chain.empty());
 }
 
-TEST_F(ChainCurve, control_points_are_selected_and_removed_like_joints) {
+TEST_F(ChainCurve, ControlPointsAreSelectedAndRemovedLikeJoints) {
     bow();
     run("chain.select", {{"index", 1}});
     run("chain.select", {{"controls", {1, 2}}});
@@ -152,7 +152,7 @@ TEST_F(ChainCurve, control_points_are_selected_and_removed_like_joints) {
 }
 
 // A loop that shrinks until it is narrower than a bone.
-TEST_F(ChainCurve, a_jump_is_an_incident_with_its_cause) {
+TEST_F(ChainCurve, AJumpIsAnIncidentWithItsCause) {
     const auto loop = [](double high) { return Json{{0, 0, 0}, {1, high, 0}, {1, -0.3, 0}, {5, 0, 0}}; };
     along(loop(2), {0.9f, 0.9f, 0.9f, 0.9f});
     std::vector<Incident> all;
@@ -198,7 +198,7 @@ test::ScriptText straight_in_view() {
     return script;
 }
 
-TEST(ChainCurveMouse, adds_drags_and_removes_control_points) {
+TEST(ChainCurveMouse, AddsDragsAndRemovesControlPoints) {
     using test::handle, test::state_after;
     test::ScriptText script = straight_in_view();
     const Json start = state_after(script);
@@ -216,7 +216,7 @@ TEST(ChainCurveMouse, adds_drags_and_removes_control_points) {
     EXPECT_EQ(state.at("curve").at("points"), start.at("curve").at("points")) << "three steps to undo";
 }
 
-TEST(ChainCurveMouse, drags_several_control_points_of_a_box) {
+TEST(ChainCurveMouse, DragsSeveralControlPointsOfABox) {
     using test::handle, test::state_after;
     test::ScriptText script = straight_in_view();
     const Json start = state_after(script);

@@ -65,7 +65,7 @@ class ChainPole : public ChainTest {
     }
 };
 
-TEST_F(ChainPole, a_target_that_crosses_its_line_moves_no_joint_over_50_times_as_far) {
+TEST_F(ChainPole, ATargetThatCrossesItsLineMovesNoJointOver50TimesAsFar) {
     for (const int bones : {5, 6}) {
         for (const float step : {0.025f, 0.005f, 0.0005f}) {
             start(bones);
@@ -138,7 +138,7 @@ void play_session(const CommandTable& table, Workspace& workspace, const Labs& l
     run("chain.target", {{"to", {2, 1, -1}}});
 }
 
-TEST_F(ChainPole, no_bit_depends_on_the_runtime) {
+TEST_F(ChainPole, NoBitDependsOnTheRuntime) {
     std::vector<Json> kept, thrown_away;
     play_session(table, workspace, labs, [&] { kept.push_back(save_scene(workspace)); });
     Workspace other = make_blank_workspace(labs);
@@ -150,7 +150,7 @@ TEST_F(ChainPole, no_bit_depends_on_the_runtime) {
     for (std::size_t i = 0; i < kept.size(); ++i) ASSERT_EQ(kept[i], thrown_away[i]) << "after command " << i;
 }
 
-TEST_F(ChainPole, solvers_are_made_once_per_chain) {
+TEST_F(ChainPole, SolversAreMadeOncePerChain) {
     start(6);
     ChainRuntime& runtime = workspace.runtimes.of<ChainRuntime>(chain_lab);
     const std::size_t made = runtime.made();

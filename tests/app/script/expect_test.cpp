@@ -20,7 +20,7 @@ std::string found(const std::string& line) {
     return check_expectation(std::get<Expect>(script.lines.at(0).action), state);
 }
 
-TEST(Expect, finds_values_by_their_path) {
+TEST(Expect, FindsValuesByTheirPath) {
     EXPECT_EQ(*find_in_state(state, "lab"), "chain");
     EXPECT_EQ(*find_in_state(state, "segments.1.length"), 0.25);
     EXPECT_EQ(*find_in_state(state, "segments.0.position.2"), 0);

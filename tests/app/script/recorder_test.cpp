@@ -53,7 +53,7 @@ TEST(Recorder, RecordsTheInitialFileAndScaleIfAny) {
     EXPECT_TRUE(script.start->live);
 }
 
-TEST(Recorder, writes_events_commands_and_the_ticks_between) {
+TEST(Recorder, WritesEventsCommandsAndTheTicksBetween) {
     Recorder recorder(start);
     recorder.idle_tick();
     recorder.idle_tick();
@@ -89,7 +89,7 @@ TEST(Recorder, KeepsTheTickOfAnUnrecordedEvent) {
     EXPECT_EQ(recorder.text(), first_line + std::string("{\"wait\":2}\n{\"focus\":true}\n{\"wait\":1}\n"));
 }
 
-TEST(Recorder, splits_a_wait_too_long_for_a_line) {
+TEST(Recorder, SplitsAWaitTooLongForALine) {
     Recorder recorder(start);
     for (int i = 0; i < 2'500'000; ++i) recorder.idle_tick();
     const Script script = parse(recorder.text());

@@ -30,7 +30,7 @@ std::string refusal(std::string_view text) {
     return message_of([&] { parse(text); });
 }
 
-TEST(Script, has_lines_for_commands) {
+TEST(Script, HasLinesForCommands) {
     const auto run = only<RunCommand>(R"({"command": "chain.mode", "mode": "with_index", "index": 3})");
     EXPECT_EQ(run.name, "chain.mode");
     EXPECT_EQ(run.arguments->dump(), R"({"mode":"with_index","index":3})");
@@ -46,7 +46,7 @@ TEST(Script, has_lines_for_commands) {
         3u);
 }
 
-TEST(Script, has_lines_for_the_mouse) {
+TEST(Script, HasLinesForTheMouse) {
     EXPECT_EQ(only_event<MouseMove>(R"({"mouse": "move", "at": [640, 360.25]})").at,
               glm::vec2(640.0f, 360.25f));
     const auto down = only_event<MousePress>(R"({"mouse": "down", "button": "left"})");
@@ -59,7 +59,7 @@ TEST(Script, has_lines_for_the_mouse) {
     EXPECT_EQ(only_event<MouseWheel>(R"({"mouse": "wheel", "by": 0, "sideways": 1.5})").sideways, 1.5f);
 }
 
-TEST(Script, has_lines_for_keys_and_text) {
+TEST(Script, HasLinesForKeysAndText) {
     EXPECT_TRUE(only_event<KeyTap>(R"({"key": "ctrl+z"})").chord == (Chord{.key = Key::Z, .ctrl = true}));
     EXPECT_TRUE(only_event<KeyTap>(R"({"key": "Shift+Ctrl+Z"})").chord ==
                 (Chord{.key = Key::Z, .ctrl = true, .shift = true}));
@@ -70,7 +70,7 @@ TEST(Script, has_lines_for_keys_and_text) {
     EXPECT_EQ(only_event<TextInput>(R"({"text": "0.5"})").utf8, "0.5");
 }
 
-TEST(Script, has_lines_for_the_window) {
+TEST(Script, HasLinesForTheWindow) {
     EXPECT_EQ(only_event<Resize>(R"({"resize": [800, 600]})").size, glm::ivec2(800, 600));
     EXPECT_EQ(only_event<Resize>(R"({"resize": [1, 16384]})").size, glm::ivec2(1, 16384));
     EXPECT_EQ(only_event<Drop>(R"({"drop": ["a.json", "b"]})").paths,
@@ -78,14 +78,14 @@ TEST(Script, has_lines_for_the_window) {
     EXPECT_FALSE(only_event<Focus>(R"({"focus": false})").focused);
 }
 
-TEST(Script, has_lines_for_time_pictures_and_states) {
+TEST(Script, HasLinesForTimePicturesAndStates) {
     EXPECT_EQ(only<Wait>(R"({"wait": 30})").ticks, 30);
     EXPECT_EQ(only<Wait>(R"({"wait": 0})").ticks, 0);
     EXPECT_EQ(only<TakeScreenshot>(R"({"screenshot": "after.png"})").path, "after.png");
     EXPECT_EQ(only<WriteState>(R"({"state": "after.json"})").path, "after.json");
 }
 
-TEST(Script, has_lines_for_expectations) {
+TEST(Script, HasLinesForExpectations) {
     using Measure = Expect::Measure;
     const auto near = only<Expect>(R"({"expect": "tail", "near": [1, 2, 0], "within": 0.001})");
     EXPECT_TRUE(near.measure == Measure::Near && near.path == "tail" && near.within == 0.001);
@@ -247,13 +247,13 @@ TEST(Script, AnUnknownMemberIsRefused) {
 }
 
 /// It is refused before any line runs.
-TEST(Script, cut_off_anywhere_within_a_line_is_refused) {
+TEST(Script, CutOffAnywhereWithinALineIsRefused) {
     const std::string line = R"({"expect": "tail", "near": [1, 2, 0], "within": 0.001})";
     for (std::size_t size = 1; size < line.size(); ++size)
         EXPECT_TRUE(refusal("{\"wait\": 1}\n" + line.substr(0, size)).starts_with("line 2: ")) << size;
 }
 
-TEST(Script, with_any_byte_changed_is_refused_or_read) {
+TEST(Script, WithAnyByteChangedIsRefusedOrRead) {
     const std::string text =
         std::string(recording) +
         "\n{\"command\": \"chain.add\", \"length\": 1}\n{\"mouse\": \"move\", \"at\": [1, 2.5]}\n"

@@ -35,7 +35,7 @@ std::string refusal(const Json& card) {
     return "";
 }
 
-TEST(CardFile, is_read) {
+TEST(CardFile, IsRead) {
     const Card card = only(good_card());
     ASSERT_EQ(card.steps.size(), 1u);
     EXPECT_EQ(card.steps[0].text, "Do it.");
@@ -107,7 +107,7 @@ class CardWatch : public testing::Test {
     int asked_ = 0;
 };
 
-TEST_F(CardWatch, a_command_must_have_the_arguments_that_matter) {
+TEST_F(CardWatch, ACommandMustHaveTheArgumentsThatMatter) {
     use_conditions(Json::array());
     run("move", {{"what", "cube"}, {"to", {0, 1, 0}}});
     run("move", {{"what", "ball"}, {"speed", 1}});
@@ -119,7 +119,7 @@ TEST_F(CardWatch, a_command_must_have_the_arguments_that_matter) {
     EXPECT_TRUE(done()) << "what has happened has happened";
 }
 
-TEST_F(CardWatch, a_state_without_the_command_is_not_enough) {
+TEST_F(CardWatch, AStateWithoutTheCommandIsNotEnough) {
     watch({{"x", 1}});
     change({{"x", 1}});
     EXPECT_FALSE(done());
@@ -131,7 +131,7 @@ TEST_F(CardWatch, a_state_without_the_command_is_not_enough) {
     EXPECT_TRUE(done()) << "the result may come later";
 }
 
-TEST_F(CardWatch, the_result_must_be_the_commands_own) {
+TEST_F(CardWatch, TheResultMustBeTheCommandsOwn) {
     move_ball();
     change({{"y", 1}});
     run("look", Json::object(), false);
@@ -144,7 +144,7 @@ TEST_F(CardWatch, the_result_must_be_the_commands_own) {
     EXPECT_TRUE(done());
 }
 
-TEST_F(CardWatch, a_command_that_changes_nothing_is_checked_too) {
+TEST_F(CardWatch, ACommandThatChangesNothingIsCheckedToo) {
     move_ball();
     change({{"y", 1}});
     move_ball();
@@ -161,7 +161,7 @@ TEST_F(CardWatch, AnExpectationIsAsInAScript) {
     EXPECT_TRUE(done());
 }
 
-TEST_F(CardWatch, an_event_must_be_of_that_kind_and_come_with_the_command) {
+TEST_F(CardWatch, AnEventMustBeOfThatKindAndComeWithTheCommand) {
     use_conditions(Json::array({{{"event", "flip"}}}));
     const auto event = [](const char* kind, int tick) { return Json{{"kind", kind}, {"tick", tick}}; };
     move_ball();
@@ -175,7 +175,7 @@ TEST_F(CardWatch, an_event_must_be_of_that_kind_and_come_with_the_command) {
     EXPECT_TRUE(done()) << "of the same drag";
 }
 
-TEST_F(CardWatch, a_drag_repeated_after_a_cure_must_lead_past_the_place_and_cause_nothing) {
+TEST_F(CardWatch, ADragRepeatedAfterACureMustLeadPastThePlaceAndCauseNothing) {
     use_conditions(Json::array({{{"avoided", "flip"}, {"after", "cure"}, {"within", 0.5}}}));
     Json state{{"events", Json::array()}};
     const auto drag = [&](double from, double to, double aside, double flips_at = -9.0) {
@@ -211,7 +211,7 @@ TEST_F(CardWatch, a_drag_repeated_after_a_cure_must_lead_past_the_place_and_caus
     EXPECT_TRUE(done());
 }
 
-TEST_F(CardWatch, another_flip_after_the_cure_only_asks_for_another_pass) {
+TEST_F(CardWatch, AnotherFlipAfterTheCureOnlyAsksForAnotherPass) {
     use_conditions(Json::array({{{"avoided", "flip"}, {"after", "cure"}, {"within", 0.5}}}));
     struct Flip {
         double at;

@@ -69,7 +69,7 @@ TEST_F(HumanoidLoading, TheCharacterArrivesAtALaterTickAndUndoRestoresTheOldOne)
     EXPECT_TRUE(before->get<HumanoidPart>(humanoid_lab).loaded->file.empty());
 }
 
-TEST_F(HumanoidLoading, undo_goes_back_to_the_lab_that_was_open) {
+TEST_F(HumanoidLoading, UndoGoesBackToTheLabThatWasOpen) {
     const Labs labs;
     const CommandTable table = make_command_table(labs);
     workspace_ = make_blank_workspace(labs);

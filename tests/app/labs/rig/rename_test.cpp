@@ -87,7 +87,7 @@ TEST_F(RigRename, RenamingEverythingInEveryPresetKeepsEveryBit) {
     }
 }
 
-TEST_F(RigRename, selection_walk_and_clip_follow) {
+TEST_F(RigRename, SelectionWalkAndClipFollow) {
     control("guide", "position");
     element("arm");
     unit({{"unit", "set_transform"}, {"name", "follow"}, {"item", "arm"}});
@@ -109,7 +109,7 @@ TEST_F(RigRename, selection_walk_and_clip_follow) {
     EXPECT_NE(translation("leader"), there) << "it walks on";
 }
 
-TEST_F(RigRename, gives_no_clip_the_same_bone_twice) {
+TEST_F(RigRename, GivesNoClipTheSameBoneTwice) {
     element("a");
     element("b");
     tick(3);
@@ -124,7 +124,7 @@ TEST_F(RigRename, gives_no_clip_the_same_bone_twice) {
     EXPECT_EQ(part().clip->bones, std::vector<std::string>{"a"});
 }
 
-TEST_F(RigRename, refuses_names_that_are_empty_taken_or_unprintable) {
+TEST_F(RigRename, RefusesNamesThatAreEmptyTakenOrUnprintable) {
     element("a");
     element("b", "a");
     run("rig.curve.add", {{"name", "c"}});
