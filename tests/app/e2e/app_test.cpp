@@ -115,25 +115,12 @@ TEST_F(AppTest, a_second_button_in_mid_drag_changes_nothing) {
     EXPECT_FALSE(app_.busy());
 }
 
-TEST_F(AppTest, a_drop_of_nothing_changes_nothing) {
-    const Json before = app_.state();
-    take(Drop{{}});
-    EXPECT_EQ(app_.state()["segments"], before["segments"]);
-    EXPECT_TRUE(app_.workspace().ui.toasts.empty());
-}
-
 TEST_F(AppTest, the_first_hint_stays_until_the_first_drag) {
     EXPECT_FALSE(app_.workspace().settings.hint_seen);
     run("chain.target", {{"to", {1, 2, 3}}});
     EXPECT_FALSE(app_.workspace().settings.hint_seen);
     begin_drag();
     EXPECT_TRUE(app_.workspace().settings.hint_seen);
-}
-
-TEST_F(AppTest, closing_the_window_quits) {
-    EXPECT_FALSE(app_.quit());
-    take(CloseRequest{});
-    EXPECT_TRUE(app_.quit());
 }
 
 TEST_F(AppTest, ShortcutsAreIgnoredWhileTyping) {

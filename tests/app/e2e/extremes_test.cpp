@@ -28,14 +28,6 @@ TEST(Extremes, windows_of_every_shape_with_every_sheet_open) {
     }
 }
 
-TEST(Extremes, texts_of_every_size) {
-    for (const double scale : {0.5, 3.0}) {
-        ScriptText script;
-        script.command("view.text_scale", {{"scale", scale}}).key("?").line({{"resize", {300, 200}}}).wait(2);
-        EXPECT_TRUE(survives(script)) << scale;
-    }
-}
-
 TEST(Extremes, a_wheel_that_turns_a_million_times) {
     for (const float by : {-1e9f, -1e8f, 1e9f}) {
         for (const glm::vec2 at : {glm::vec2(140, 400), glm::vec2(640, 400), glm::vec2(1150, 450)}) {
@@ -56,25 +48,12 @@ TEST(Extremes, a_mouse_that_is_kilometres_away) {
     EXPECT_TRUE(survives(ScriptText().drag({handle(state, "target"), {1e9f, 1e9f}, {-1e9f, 0}})));
 }
 
-TEST(Extremes, a_novel_typed_into_the_palette) {
-    EXPECT_TRUE(
-        survives(ScriptText().key("ctrl+k").text(std::string(300'000, 'x').c_str()).key("enter").wait(3)));
-    EXPECT_TRUE(survives(
-        ScriptText().key("ctrl+k").text("\xF0\x9F\x8E\xA8\xC3\xA4\xE4\xB8\xAD\x01\n\t").key("enter")));
-}
-
 TEST(Extremes, AVeryLongRefusalIsPrintedInOneLine) {
     ScriptText script;
     script.command("scene.open", {{"path", "/" + std::string(100'000, 'y')}}, true).wait(1);
     EXPECT_TRUE(survives(script));
     const ScriptText three_lines = ScriptText().command("scene.open", {{"path", "/no\nsuch\nfile"}});
     EXPECT_TRUE(complained(run_script(three_lines), 1, {"line 1"}));
-}
-
-TEST(Extremes, five_hundred_refusals_at_once) {
-    ScriptText script;
-    for (int i = 0; i < 500; ++i) script.command("chain.remove", {{"index", 1000 + i}}, true);
-    EXPECT_TRUE(survives(script.wait(1)));
 }
 
 TEST(Extremes, chains_near_the_limits_of_their_numbers) {

@@ -77,16 +77,6 @@ TEST_F(Recording, holds_the_use_of_panels) {
     EXPECT_EQ(state["segments"][8]["length"], 0.75);
 }
 
-TEST_F(Recording, holds_text_typed_into_a_field) {
-    // A double click on the target's height opens the field.
-    const glm::vec2 field = chain_panel::target_y;
-    ScriptText script = ScriptText().command("view.fold", chain_panel::unfolded()).wait(2);
-    script.click(field).click(field).wait(1).key("ctrl+a").text("1.25").key("enter").wait(3);
-    const Json state = state_of(record_and_replay(script));
-    EXPECT_EQ(state["target"], Json::array({7.0, 1.25, 0.0}))
-        << "the target's y field has moved in the panel";
-}
-
 TEST_F(Recording, holds_time) {
     ScriptText script;
     script.command("chain.motion", {{"path", "figure_eight"}, {"radius", 1.7}, {"period", 2.3}}).wait(41);
