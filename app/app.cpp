@@ -26,6 +26,12 @@ constexpr int settling_ticks = 3;  ///< Dear ImGui sizes some windows by their c
 /// Ticks must continue after a click until a second one is no longer a double click.
 constexpr int double_click_ticks = 20;
 
+/// Whether the key types or deletes a character of a number.
+bool in_number(Key key) {
+    return (key >= Key::Num0 && key <= Key::Num9) || key == Key::Period || key == Key::Comma ||
+           key == Key::Minus || key == Key::Delete || key == Key::Backspace;
+}
+
 Cursor wanted_cursor(const Ui& ui, const Pointer& pointer) {
     if (!ui.wants_mouse()) return pointer.cursor();
     switch (ImGui::GetMouseCursor()) {
@@ -122,6 +128,7 @@ void App::tick(const Event* event) {
     input_.take(event);
     const bool active = lab().working(workspace_) || moves();
     compose(event, Pass::Tick);
+    note_typing(event);
     input_.end_tap();
     // A window that the event opened gets the keyboard only in a second pass; run it before the next event.
     if (event != nullptr && !std::holds_alternative<MouseMove>(*event)) compose(nullptr, Pass::Settle);
@@ -129,6 +136,21 @@ void App::tick(const Event* event) {
     settling_ = pressed ? double_click_ticks : std::max(event != nullptr ? settling_ticks : 0, settling_ - 1);
     if (active) settling_ = std::max(settling_, 1);  // the panels must still show the end of work or motion
     update_window();
+}
+
+/// Typing is astray after a click on nothing in a side panel, and when a field went away under it; until the
+/// next press, or a key that ends typing.
+void App::note_typing(const Event* event) {
+    const auto* press = event != nullptr ? std::get_if<MousePress>(event) : nullptr;
+    const bool types = ui_.wants_text(), typed = std::exchange(was_typing_, types);
+    const Key key = input_.pressed().key;
+    const bool panel = layout_.left.contains(input_.mouse()) || layout_.right.contains(input_.mouse());
+    if (press != nullptr && press->down)
+        typing_astray_ = panel && !workspace_.ui.covered() && !ImGui::IsAnyItemActive();
+    else if (types || (key != Key::Unknown && !in_number(key)))
+        typing_astray_ = false;
+    else if (typed && press == nullptr)
+        typing_astray_ = true;
 }
 
 void App::compose(const Event* event, Pass pass) {
@@ -188,7 +210,10 @@ void App::take_event(const Event& event, Emit& emit) {
         const HeldKeys held{.shift = input_.shift(), .ctrl = input_.ctrl(), .alt = input_.alt()};
         const bool takes = press->down && press->button == MouseButton::Left &&
                            !mouse_action(mouse_preset(workspace_.settings), press->button, held);
-        if (takes && pointer_.hovered() != no_pick && !ui_.wants_mouse()) end_opening();
+        if (takes && pointer_.hovered() != no_pick && !ui_.wants_mouse()) {
+            end_opening();
+            workspace_.ui.hidden_gizmo.clear();
+        }
     } else if (const auto* resize = std::get_if<Resize>(&event)) {
         size_ = resize->size;
         if (window_.size() != size_) window_.resize(size_);
@@ -241,6 +266,8 @@ void App::take_shortcut(Emit& emit) {
     if (chord.key == Key::Escape && video_ && !taken) return emit("view.end_video");
     // In a field, a menu or a drag Esc only ends that and keeps the selection.
     if (chord.key == Key::Escape && !workspace_.ui.covered() && (taken || busy())) return;
+    // Nor do numbers typed beside a field, or into one that is no longer there.
+    if (typing_astray_ && !chord.ctrl && !chord.alt && in_number(chord.key)) return;
     const Shortcut* shortcut = shortcuts_.find(chord, workspace_.lab);
     // An open popup handles its own keys.
     if (!chord.ctrl && ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup)) return;
@@ -296,6 +323,11 @@ void App::run_command(const std::string& name, const Json& arguments, Gesture ge
     const Effect effect = commands_->find(name)->effect;
     if (same_scene && workspace_.document.parts().at(open) != before) drop_incidents(*before);
     if (same_scene && effect == Effect::Edit) review(before, workspace_.moment);
+    if (name == open + ".select") workspace_.ui.hidden_gizmo.clear();
+    // A new selection is shown from its top, unless it was chosen in the inspector itself.
+    if (name == open + ".select" && !arguments.empty() && workspace_.document.parts().at(open) != before &&
+        !layout_.right.contains(input_.mouse()))
+        shell_.show_top(open);
     if (const Card* const card = shown_card(); card != nullptr && workspace_.lab == open)
         note_command(workspace_.ui.cards[open], *card, name, arguments, effect != Effect::Look, moment,
                      from == From::Panel);

@@ -88,6 +88,7 @@ class App final : public Stage {
     /// Text that Ctrl+V pasted over the view goes to the open lab.
     void take_paste(const std::string& text, Emit& emit);
     void take_shortcut(Emit& emit);
+    void note_typing(const Event* event);
     void refuse(const std::string& why);
     /// The source of a command. Panel: the panels and the palette. View: handles, keys, scripts and the rest.
     enum class From { View, Panel };
@@ -155,6 +156,7 @@ class App final : public Stage {
     Gesture gesture_ = 1;
     int settling_ = 0;  ///< remaining ticks in which the panels may change after the last event
     std::string title_;
+    bool was_typing_ = false, typing_astray_ = false;
 };
 
 }  // namespace tendril::app

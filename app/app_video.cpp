@@ -1,5 +1,6 @@
 // Writes pictures and videos of the view.
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <utility>
 
@@ -16,39 +17,48 @@ PictureView App::picture_view(glm::ivec2 wanted) const {
         static_cast<float>(window_.framebuffer_size().x) / static_cast<float>(std::max(1, window_.size().x));
     const glm::vec2 own =
         glm::clamp(glm::round(layout_.view.size() * ratio), glm::vec2(min_picture), glm::vec2(max_picture));
-    const glm::vec2 size(wanted.x > 0 ? static_cast<float>(wanted.x) : own.x,
-                         wanted.y > 0 ? static_cast<float>(wanted.y) : own.y);
+    const auto side = [&](int i) {  // a missing one keeps the view's proportions
+        const float other = static_cast<float>(wanted[1 - i]);
+        if (wanted[i] > 0) return static_cast<float>(wanted[i]);
+        return other > 0.0f ? std::clamp(std::round(own[i] * other / own[1 - i]),
+                                         static_cast<float>(min_picture), static_cast<float>(max_picture))
+                            : own[i];
+    };
+    const glm::vec2 size(side(0), side(1));
     const Camera camera(workspace_.camera, tiled({{0.0f, 0.0f}, size}, panes_.size(), pane_gap).front()),
         seen = panes_.front().camera(workspace_.camera);
     const glm::vec3 target = workspace_.camera.target;
-    return {workspace_.camera, glm::ivec2(size),
+    return {glm::ivec2(size),
             layout_.scale * seen.metres_per_pixel(target) / camera.metres_per_pixel(target)};
 }
 
 void App::take_picture(const PictureRequest& wanted) {
     const bool copies = wanted.path.empty();
     const std::string command = copies ? "view.copy_picture" : "view.picture";
-    if (lab().canvas_share(workspace_) > 0.0f)
-        throw Refused(command, "this lab's picture is more than a view of a scene; use --screenshot");
+    const Theme theme = workspace_.settings.theme;
+    if (wanted.paper) workspace_.settings.theme = Theme::Light;
     try {
         const PictureView view = picture_view(wanted.size);
         const auto text = picture_text(workspace_, lab(), view, wanted);
-        const Image image = picture_of(workspace_, lab(), renderer_, view, wanted.transparent, text.get());
+        const Image image = picture_of(workspace_, lab(), renderer_, view, wanted, text.get());
         if (copies)
             copy_picture(image);
         else  // a script draws it again
             workspace_.writes().write(wanted.path, OutputKind::Picture, encode_png(image),
                                       !workspace_.outputs.in_window);
     } catch (const std::exception& error) {
+        workspace_.settings.theme = theme;
         throw Refused(command, error.what());
     }
+    workspace_.settings.theme = theme;
+    workspace_.close_file_dialog();
     workspace_.toast(copies ? "Copied the picture" : written_text(wanted.path));
 }
 
 void App::begin_video(const VideoRequest& wanted) {
     PictureView view = picture_view(wanted.size);
     // MP4 stores colour at half resolution: round the size down to even numbers.
-    if (const glm::ivec2 size = view.size; wanted.path.extension() == ".mp4" && size % 2 != glm::ivec2(0))
+    if (const glm::ivec2 size = view.size; video_kind(wanted.path)->even && size % 2 != glm::ivec2(0))
         view = picture_view(size - size % 2);
     try {
         // Use the view's size in window coordinates, which a recording reproduces, so that frames are drawn

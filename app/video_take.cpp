@@ -23,30 +23,42 @@ std::unique_ptr<PictureText> picture_text(const Workspace& workspace, const Lab&
 namespace {
 
 std::vector<Pane> drawn_panes(const Workspace& workspace, const Lab& lab, const PictureView& view,
-                              const Palette& colours) {
+                              bool handles, const Palette& colours) {
     std::vector<Pane> panes;
     const std::size_t count = lab.panes(workspace).size();
     for (const Rect& rect : tiled({{0.0f, 0.0f}, glm::vec2(view.size)}, count, pane_gap)) {
         panes.push_back({rect});
-        const Camera camera(view.pose, rect);
-        lab.draw({workspace, camera, colours, no_pick, no_pick, view.scale, panes.size() - 1},
+        const Camera camera(workspace.camera, rect);
+        lab.draw({workspace, camera, colours, no_pick, no_pick, view.scale, panes.size() - 1, handles},
                  panes.back().drawn);
     }
     return panes;
 }
 
+std::vector<LegendRow> drawn_legend(const Workspace& workspace, const Lab& lab, bool handles) {
+    std::vector<LegendRow> rows = lab.legend(workspace);
+    std::erase_if(rows, [&](const LegendRow& row) { return row.handle && !handles; });
+    return rows;
+}
+
 }  // namespace
 
 Image picture_of(const Workspace& workspace, const Lab& lab, Renderer& renderer, const PictureView& view,
-                 bool transparent, PictureText* text) {
-    const auto draw = [&](const Palette& colours) { return drawn_panes(workspace, lab, view, colours); };
+                 const PictureLook& look, PictureText* text) {
+    const auto draw = [&](const Palette& colours) {
+        return drawn_panes(workspace, lab, view, look.handles, colours);
+    };
     DrawOver over;
     if (text != nullptr)
         over = [&](const std::vector<Pane>& panes, const Palette& colours) {
-            text->draw(panes, view.pose, lab.panes(workspace), lab.legend(workspace), colours);
+            text->draw(panes, workspace.camera, lab.panes(workspace),
+                       drawn_legend(workspace, lab, look.handles), colours);
         };
-    return draw_picture(renderer, draw, view.pose, view.size, palette(workspace.settings.theme), transparent,
-                        over);
+    const Background background = look.transparent ? Background::Transparent
+                                  : look.paper     ? Background::White
+                                                   : Background::Scene;
+    return draw_picture(renderer, draw, workspace.camera, view.size, palette(workspace.settings.theme),
+                        background, over);
 }
 
 VideoTake::VideoTake(const VideoRequest& wanted, const Workspace& workspace, const Lab& lab,
@@ -64,6 +76,7 @@ VideoTake::VideoTake(const VideoRequest& wanted, const Workspace& workspace, con
                                      .transparent = wanted.transparent})),
       frames_a_tick_(frames_a_tick) {
     workspace_.history.clear();  // unused here
+    if (wanted.paper) workspace_.settings.theme = Theme::Light;
     workspace_.ui.incident.reset();
     workspace_.clock.replaying = false;
     workspace_.pass_change();
@@ -83,7 +96,8 @@ void VideoTake::find_room() {
             show(ahead, frame);
         else
             ahead.go_to_moment(static_cast<std::uint64_t>(wanted_.from - frame * wanted_.every));
-        text_->look_at(drawn_panes(ahead, lab_, view_, colours), view_.pose, lab_.legend(ahead));
+        text_->look_at(drawn_panes(ahead, lab_, view_, wanted_.handles, colours), ahead.camera,
+                       drawn_legend(ahead, lab_, wanted_.handles));
     }
 }
 
@@ -95,7 +109,7 @@ void VideoTake::work() {
         else
             workspace_.go_to_moment(static_cast<std::uint64_t>(wanted_.from - written_ * wanted_.every));
         if (changes || written_ == 0)
-            frame_ = picture_of(workspace_, lab_, renderer_, view_, wanted_.transparent, text_.get());
+            frame_ = picture_of(workspace_, lab_, renderer_, view_, wanted_, text_.get());
         file_->add(frame_);
         ++written_;
     }

@@ -13,10 +13,8 @@
 
 namespace tendril::app {
 
-/// The camera, size and scale of a picture. The scale keeps lines as thick relative to the scene as in the
-/// window.
+/// The size and scale of a picture. The scale keeps lines as thick relative to the scene as in the window.
 struct PictureView {
-    CameraPose pose;
     glm::ivec2 size{0};  ///< pixels
     float scale = 1.0f;
 };
@@ -25,10 +23,10 @@ struct PictureView {
 std::unique_ptr<PictureText> picture_text(const Workspace& workspace, const Lab& lab, const PictureView& view,
                                           const PictureLook& look);
 
-/// Draws the view without hover highlights and panels, and with labels if `text` is not null. Throws
-/// std::runtime_error.
+/// Draws the view without hover highlights and panels, in the colours of the workspace's theme, and with
+/// labels if `text` is not null. Throws std::runtime_error.
 Image picture_of(const Workspace& workspace, const Lab& lab, Renderer& renderer, const PictureView& view,
-                 bool transparent, PictureText* text);
+                 const PictureLook& look, PictureText* text);
 
 /// The number of frames of that size, in pixels, drawn per tick. A count instead of a measured time, so that
 /// recordings replay identically.

@@ -65,7 +65,7 @@ void check_arguments(const Command& command, const Json& given);
 /// "chain.add length [position]", for lists and help.
 std::string usage(const Command& command);
 
-/// scene.*, view.picture, quit.
+/// scene.*, quit.
 void add_scene_commands(CommandTable& table);
 /// All commands that need no lab: add_scene_commands(), undo, redo, camera.set, time.*, view.*.
 void add_workspace_commands(CommandTable& table);

@@ -78,6 +78,12 @@ void History::go(Place& target, Place& origin, Place* place) {
     *place = target;
 }
 
+std::string History::next_lab(bool back) const {
+    const Entries& entries = back ? past_ : future_;
+    if (entries.empty() || entries.back().document.parts().size() != 1) return {};
+    return entries.back().document.parts().begin()->first;
+}
+
 void History::clear() {
     drop(past_);
     drop(future_);

@@ -55,6 +55,8 @@ class History {
     bool leads_to(const Document& parts) const { return !past_.empty() && past_.back().document == parts; }
     bool can_undo() const { return !past_.empty(); }
     bool can_redo() const { return !future_.empty(); }
+    /// The only lab whose part the next undo (or redo) replaces; empty if there are several, or at the end.
+    std::string next_lab(bool back) const;
     /// Label of the next undo (redo); empty at the end.
     std::string undo_label() const { return past_.empty() ? std::string() : past_.back().label; }
     std::string redo_label() const { return future_.empty() ? std::string() : future_.back().label; }

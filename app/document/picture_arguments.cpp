@@ -12,8 +12,11 @@ namespace tendril::app {
 
 std::vector<Argument> picture_arguments(std::vector<Argument> first) {
     for (const char* side : {"width", "height"})
-        first.push_back(integer_argument(side, "pixels; default: the view's", min_picture, max_picture));
+        first.push_back(integer_argument(side, "pixels; default: the view's, or in its proportions",
+                                         min_picture, max_picture));
     first.push_back(switch_argument("transparent", "with a transparent background"));
+    first.push_back(switch_argument("paper", "dark on white, for print, or dark on nothing if transparent"));
+    first.push_back(switch_argument("handles", "shows handles and marks the selection"));
     first.push_back(
         switch_argument("labels", "draws labels, titles and the legend; default: only while a race is open"));
     return first;
@@ -22,7 +25,9 @@ std::vector<Argument> picture_arguments(std::vector<Argument> first) {
 void set_look(const Arguments& given, PictureLook& look) {
     if (given.has("width")) look.size.x = given.integer("width");
     if (given.has("height")) look.size.y = given.integer("height");
-    look.transparent = given.has("transparent") && given.boolean("transparent");
+    for (const auto& [name, on] :
+         {std::pair("transparent", &look.transparent), {"paper", &look.paper}, {"handles", &look.handles}})
+        *on = given.has(name) && given.boolean(name);
     if (given.has("labels")) look.labels = given.boolean("labels");
 }
 

@@ -10,7 +10,7 @@
 
 namespace tendril::app {
 
-/// `first`, then width, height, transparent and labels.
+/// `first`, then the members of PictureLook.
 std::vector<Argument> picture_arguments(std::vector<Argument> first = {});
 void set_look(const Arguments& given, PictureLook& look);
 

@@ -1,10 +1,9 @@
-// Scene commands: new, open, save, recover, picture and quit.
+// Scene commands: new, open, save, recover and quit.
 #include <algorithm>
 
 #include "app/document/atomic_file.hpp"
 #include "app/document/autosave.hpp"
 #include "app/document/command.hpp"
-#include "app/document/picture_arguments.hpp"
 #include "app/document/refused.hpp"
 #include "app/document/scene_file.hpp"
 
@@ -100,21 +99,6 @@ void add_dialog_commands(CommandTable& table) {
               });
 }
 
-void add_picture_command(CommandTable& table) {
-    table.add("view.picture", "Save a picture of the view",
-              picture_arguments({text_argument(
-                  "path", false, "a PNG file; default, in a window: a new one beside the scene")}),
-              "Writes a picture of the scene in the view without panels, with or without its labels",
-              Effect::Look, [](Workspace& w, const Arguments& a) {
-                  PictureRequest wanted;
-                  wanted.path = a.has("path") ? std::filesystem::path(a.text("path")) : new_file(w);
-                  if (wanted.path.extension() != ".png")
-                      throw Refused("path must end in .png, got " + wanted.path.string());
-                  set_look(a, wanted);
-                  w.ui.picture = std::move(wanted);
-              });
-}
-
 void quit(Workspace& w, const Arguments& given) {
     const std::string unsaved = given.has("unsaved") && w.modified() ? given.text("unsaved") : "discard";
     const bool asks = given.has("unsaved") && given.text("unsaved") == "ask";
@@ -140,7 +124,6 @@ void add_scene_commands(CommandTable& table) {
     add_file_commands(table);
     add_recovery_commands(table);
     add_dialog_commands(table);
-    add_picture_command(table);
     add_quit_command(table);
 }
 

@@ -15,6 +15,8 @@ struct Workspace;
 struct PictureLook {
     glm::ivec2 size{0};  ///< pixels; 0: as large as the view
     bool transparent = false;
+    bool paper = false;          ///< in the light theme's colours, on white unless transparent
+    bool handles = false;        ///< with the handles, and the selection marked
     std::optional<bool> labels;  ///< with its labels, titles and legend; empty: if the lab wants them
 };
 

@@ -70,7 +70,7 @@ struct UiState {
     bool help = false;
     bool palette = false;
     bool settings = false;
-    enum class FileDialog { None, Open, SaveAs, SaveAndQuit, Video } file_dialog = FileDialog::None;
+    enum class FileDialog { None, Open, SaveAs, SaveAndQuit, Picture, Video } file_dialog = FileDialog::None;
     bool plays_after_dialog = false;  ///< the simulation resumes when the dialog closes
     std::string browses_for;          ///< the command that the file to open is for; empty: that of its kind
     struct FileQuestion {
@@ -90,6 +90,7 @@ struct UiState {
     std::optional<Incident> incident;           ///< the pose before it is shown over the pose after it
     bool incident_chosen = false;               ///< by the user: the inspector scrolls to it
     std::map<std::string, CardProgress> cards;  ///< things to try, by lab
+    std::string hidden_gizmo;                   ///< its handle; by Esc, until one is pressed or selected
     bool asks_to_quit = false;                  ///< the question about unsaved work is open
     bool quit = false;
 

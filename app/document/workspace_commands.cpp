@@ -10,7 +10,24 @@
 namespace tendril::app {
 namespace {
 
-void step_through(Workspace& workspace, bool back) {
+/// Whether to stop before a step: at the end, or because it would change a lab that is not in view. Shows
+/// that lab, and says so.
+bool waits(Workspace& workspace, bool back) {
+    const History& history = workspace.history;
+    const std::string word = back ? "undo" : "redo", lab = history.next_lab(back);
+    if (!(back ? history.can_undo() : history.can_redo())) {
+        workspace.toast("Nothing to " + word);
+        return true;
+    }
+    if (lab.empty() || lab == workspace.lab) return false;
+    workspace.open_lab(lab);
+    workspace.toast("The change to " + word + " is in the " + capitalised(lab) + " lab, now open. " +
+                    capitalised(word) + " again to " + word + " it.");
+    return true;
+}
+
+void step_through(Workspace& workspace, bool back, const Arguments& given) {
+    if (given.has("ask") && given.boolean("ask") && waits(workspace, back)) return;
     Place place = workspace.place();
     place.moment = workspace.moment_id();
     auto document = back ? workspace.history.undo(workspace.document, &place)
@@ -55,14 +72,15 @@ void step_through(Workspace& workspace, bool back) {
 }
 
 void add_history_commands(CommandTable& table) {
-    table.add("undo", "Undo", {},
+    const Argument ask = switch_argument("ask", "true: only opens the lab of a change that is not in view");
+    table.add("undo", "Undo", {ask},
               "Undoes the last change; a whole drag is one change. Keeps 1000 of them, in up to 256 MB",
-              Effect::Replace, [](Workspace& w, const Arguments&) { step_through(w, true); });
+              Effect::Replace, [](Workspace& w, const Arguments& a) { step_through(w, true, a); });
     table.add("paste", "Paste", {},
               "Pastes the clipboard's text into the lab. In a script, hold Ctrl and send the text instead",
               Effect::Look, [](Workspace& w, const Arguments&) { w.ui.pastes = true; });
-    table.add("redo", "Redo", {}, "Redoes what was undone", Effect::Replace,
-              [](Workspace& w, const Arguments&) { step_through(w, false); });
+    table.add("redo", "Redo", {ask}, "Redoes what was undone", Effect::Replace,
+              [](Workspace& w, const Arguments& a) { step_through(w, false, a); });
 }
 
 void seek(Workspace& w, const Arguments& given) {

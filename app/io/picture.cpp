@@ -46,11 +46,12 @@ Image matted(const Image& black, const Image& white) {
 }  // namespace
 
 Image draw_picture(Renderer& renderer, const DrawScene& draw, const CameraPose& pose, glm::ivec2 size,
-                   const Palette& palette, bool transparent, const DrawOver& over) {
-    if (!transparent) return drawn(renderer, draw, pose, size, palette, true, over);
-    // Colours that fade into the background fade into black and white here.
-    return matted(drawn(renderer, draw, pose, size, before(palette, 0.0f), false, over),
-                  drawn(renderer, draw, pose, size, before(palette, 1.0f), false, over));
+                   const Palette& palette, Background background, const DrawOver& over) {
+    if (background == Background::Scene) return drawn(renderer, draw, pose, size, palette, true, over);
+    // Colours that fade into the background fade into white and black here.
+    const Image white = drawn(renderer, draw, pose, size, before(palette, 1.0f), false, over);
+    if (background == Background::White) return white;
+    return matted(drawn(renderer, draw, pose, size, before(palette, 0.0f), false, over), white);
 }
 
 }  // namespace tendril::app

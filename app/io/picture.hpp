@@ -15,10 +15,13 @@ using DrawScene = std::function<std::vector<Pane>(const Palette&)>;
 /// Draws over the panes, into the bound framebuffer, in the same colours.
 using DrawOver = std::function<void(const std::vector<Pane>&, const Palette&)>;
 
-/// Draws the scene in a picture of `size` pixels. With `transparent` it has no background, and transparent
-/// surfaces and shadows have partial alpha. `over` may be empty. Needs a current context; throws
+/// The background. Scene: as in the window, with its grid. On Transparent, transparent surfaces and shadows
+/// have partial alpha.
+enum class Background { Scene, White, Transparent };
+
+/// Draws the scene in a picture of `size` pixels. `over` may be empty. Needs a current context; throws
 /// std::runtime_error if the driver runs out of memory.
 Image draw_picture(Renderer& renderer, const DrawScene& draw, const CameraPose& pose, glm::ivec2 size,
-                   const Palette& palette, bool transparent, const DrawOver& over);
+                   const Palette& palette, Background background, const DrawOver& over);
 
 }  // namespace tendril::app

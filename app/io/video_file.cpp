@@ -1,10 +1,12 @@
 #include "app/io/video_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "app/io/apng.hpp"
-#include "app/io/mp4.hpp"
+#include "app/io/child_process.hpp"
+#include "app/io/ffmpeg_video.hpp"
 
 namespace tendril::app {
 
@@ -15,16 +17,24 @@ FrameTime frame_time(const VideoFormat& format) {
     return {100 * every, static_cast<unsigned>(std::lround(6000.0 * format.speed))};
 }
 
+const VideoKind* video_kind(const std::filesystem::path& path) {
+    const auto found = std::ranges::find(video_kinds, path.extension(), &VideoKind::ending);
+    return found == video_kinds.end() ? nullptr : &*found;
+}
+
+std::string why_no_video(const VideoKind& kind) {
+    const bool can = !kind.needs_ffmpeg || !find_program("ffmpeg").empty();
+    return can ? "" : std::string("to write ") + kind.title + ", install ffmpeg";
+}
+
 std::string why_no_video(const std::filesystem::path& path) {
-    const std::filesystem::path ending = path.extension();
-    if (ending == ".png") return {};
-    if (ending == ".mp4") return why_no_mp4();
-    return "path must end in .png or .mp4, got " + path.string();
+    const VideoKind* const kind = video_kind(path);
+    return kind ? why_no_video(*kind) : "path must end in .png, .gif or .mp4, got " + path.string();
 }
 
 std::unique_ptr<VideoFile> open_video(const std::filesystem::path& path, const VideoFormat& format) {
     if (const std::string why = why_no_video(path); !why.empty()) throw std::runtime_error(why);
-    if (path.extension() == ".mp4") return std::make_unique<Mp4File>(path, format);
+    if (video_kind(path)->needs_ffmpeg) return std::make_unique<FfmpegVideo>(path, format);
     return std::make_unique<ApngFile>(path, format);
 }
 

@@ -1,6 +1,7 @@
 // Writes a video to a file, frame by frame. Each format (apng.hpp, mp4.hpp) derives from this.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <memory>
@@ -45,8 +46,24 @@ class VideoFile {
     AtomicFile file_;
 };
 
-/// Why a video of this name cannot be written; empty if it can. The extension decides: .png, or .mp4 if
-/// ffmpeg is installed.
+/// A format, which the ending of the file's name chooses.
+struct VideoKind {
+    const char* ending;  ///< ".gif"
+    const char* title;   ///< "GIF"
+    double max_rate;     ///< frames a second; viewers slow down above it
+    bool needs_ffmpeg = true;
+    bool transparent = false;  ///< has an alpha channel
+    bool even = false;         ///< width and height must be even
+};
+inline constexpr std::array<VideoKind, 3> video_kinds{{{".png", "animated PNG", 60.0, false, true, false},
+                                                       {".gif", "GIF", 50.0},
+                                                       {".mp4", "MP4", 120.0, true, false, true}}};
+/// Null if the name has none of the endings.
+const VideoKind* video_kind(const std::filesystem::path& path);
+
+/// "to write GIF, install ffmpeg"; empty if such videos can be written.
+std::string why_no_video(const VideoKind& kind);
+/// Why a video of this name cannot be written; empty if it can.
 std::string why_no_video(const std::filesystem::path& path);
 
 /// Throws if the file cannot be created, or for the reason of why_no_video().

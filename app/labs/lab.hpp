@@ -37,6 +37,7 @@ struct View {
     PickId dragged = no_pick;
     float scale = 1.0f;    ///< multiplies every size in pixels
     std::size_t pane = 0;  ///< index into Lab::panes()
+    bool handles = true;   ///< whether to show handles and the selection; pictures leave them out
 };
 
 /// A frame that can be grabbed. Dragging it moves it in the view plane or along a held axis, if `drag` allows
@@ -83,6 +84,7 @@ struct LegendRow {
     std::vector<std::string> numbers{};  ///< shown beside it in columns, if there is room
     /// The widest text of each number: its column keeps that width while the numbers change.
     std::vector<std::string> widest{};
+    bool handle = false;  ///< of handles or the selection, which pictures leave out
 };
 
 /// A starting scene for tests that run over every lab: they send it random events and commands, and a replay
@@ -171,6 +173,11 @@ class Lab {
     /// The handle whose gizmo is shown; --state names its parts "head.move_x". Its drags go to drag() with
     /// the handle's pick.
     virtual std::optional<Handle> gizmo(const Workspace&) const { return std::nullopt; }
+    /// gizmo(), unless Escape hid it.
+    std::optional<Handle> shown_gizmo(const Workspace& workspace) const {
+        auto handle = gizmo(workspace);
+        return handle && handle->name == workspace.ui.hidden_gizmo ? std::nullopt : handle;
+    }
     /// Drags a handle to a frame; called each time the pointer moves.
     virtual void drag(const Workspace&, PickId, const Handle::Frame&, Emit&) const {}
     /// The handles that an arrow (Drag::Position) or a ring (Drag::Rotation) of the gizmo drags when several

@@ -108,9 +108,14 @@ void select_nothing(Workspace& workspace, const Lab& lab) {
 
 void add_closing_command(CommandTable& table, const Labs& labs) {
     table.add("view.close", "Close, cancel or select nothing", {},
-              "Closes the palette, help, settings or dialog; where none is open, selects nothing",
+              "Closes the palette, help, settings or dialog; where none is open, selects nothing and hides "
+              "the gizmo",
               Effect::Look, [&labs](Workspace& w, const Arguments&) {
-                  if (!w.ui.covered()) select_nothing(w, *labs.find(w.lab));
+                  if (!w.ui.covered()) {
+                      const Lab& lab = *labs.find(w.lab);
+                      select_nothing(w, lab);
+                      if (const auto gizmo = lab.gizmo(w)) w.ui.hidden_gizmo = gizmo->name;
+                  }
                   w.ui.help = w.ui.palette = w.ui.settings = false;
                   w.close_file_dialog();
                   w.ui.asks_to_quit = false;
@@ -123,6 +128,7 @@ void add_closing_command(CommandTable& table, const Labs& labs) {
 
 namespace {
 
+constexpr int turn_frames = 120, max_turn_frames = 3600;
 constexpr double longest = static_cast<double>(Rewind::max_ticks) * tick_seconds;
 
 Argument seconds_back(const char* name, const char* help) {
@@ -159,21 +165,46 @@ void set_range(VideoRequest& wanted, const Workspace& w, const Arguments& given)
 
 VideoRequest video_request(Workspace& w, const Arguments& given) {
     VideoRequest wanted = film_request(w, given);
-    if (given.has("every")) wanted.every = given.integer("every");
-    if (given.has("speed")) wanted.speed = given.real("speed");
-    const bool mp4 = wanted.path.extension() == ".mp4";
-    constexpr double max_per_second = 60.0;
-    if (!mp4 && wanted.speed * max_per_second > max_per_second * wanted.every + 1e-6)
-        throw Refused("speed of an animated PNG with every " + std::to_string(wanted.every) +
-                      " must be at most " + std::to_string(wanted.every) + ", got " +
-                      fixed_text(wanted.speed, 2) + ": viewers slow down above 60 frames a second");
     set_range(wanted, w, given);
+    return wanted;
+}
+
+/// A full turn of the camera about its target with the simulation paused.
+VideoRequest turn_request(Workspace& w, const Arguments& given) {
+    VideoRequest wanted = film_request(w, given, "turn");
+    wanted.command = "view.turntable";
+    wanted.shown_frames = given.has("frames") ? given.integer("frames") : turn_frames;
+    wanted.show = [yaw = w.camera.yaw, count = wanted.shown_frames](Workspace& shown, int frame) {
+        shown.camera.yaw = yaw + glm::two_pi<float>() * static_cast<float>(frame) / static_cast<float>(count);
+        return true;
+    };
     return wanted;
 }
 
 void require_view(const Workspace& w, const Labs& labs) {
     if (labs.find(w.lab)->canvas_share(w) > 0.0f)
-        throw Refused("this lab's picture is more than a view of a scene");
+        throw Refused("this lab's picture is more than a view of a scene; use --screenshot");
+}
+
+Argument every_argument() {
+    return integer_argument(
+        "every", "ticks of 1/60 s from frame to frame; default: 2, which is 30 frames a second", 1, 60);
+}
+
+/// A command that opens a dialog for a picture or a video. It pauses, so that the moment seen is not lost.
+Command dialog(const char* name, const char* title, const char* help, UiState::FileDialog which,
+               const Labs& labs) {
+    return {.name = name,
+            .title = title,
+            .arguments = {},
+            .help = help,
+            .effect = Effect::Look,
+            .apply = [&labs, which](Workspace& w, const Arguments&) {
+                require_view(w, labs);
+                w.ui.plays_after_dialog = w.ui.plays_after_dialog || w.clock.playing;
+                w.clock.playing = w.clock.replaying = false;
+                w.ui.file_dialog = which;
+            }};
 }
 
 void add_recording(CommandTable& table, const Labs& labs) {
@@ -181,10 +212,7 @@ void add_recording(CommandTable& table, const Labs& labs) {
         "view.video", "Write a video of the past",
         film_arguments(
             {seconds_back("from", "seconds back from the latest moment; default: all that is remembered"),
-             seconds_back("to", "seconds back from the latest moment; default: 0"),
-             integer_argument("every",
-                              "ticks of 1/60 s from frame to frame; default: 2, which is 30 frames a second",
-                              1, 60),
+             seconds_back("to", "seconds back from the latest moment; default: 0"), every_argument(),
              number_argument("speed", "1 is real time, the default; below 1 is slow motion", slowest,
                              fastest)}),
         "Writes a video of the last ten seconds as the view shows them now, without panels; "
@@ -193,46 +221,65 @@ void add_recording(CommandTable& table, const Labs& labs) {
             require_view(w, labs);
             w.ui.video = video_request(w, a);
         });
+    table.add(
+        "view.turntable", "Write a video of a full turn",
+        film_arguments({integer_argument("frames", "of the whole turn; default: 120", 2, max_turn_frames),
+                        every_argument()},
+                       true),
+        "Writes a video of the view as the camera turns once about its target, with the simulation paused",
+        Effect::Look, [&labs](Workspace& w, const Arguments& a) {
+            require_view(w, labs);
+            w.ui.video = turn_request(w, a);
+        });
     table.add("view.end_video", "Stop recording the video", {},
               "Cancels the video that is being written; no file is left", Effect::Look,
               [](Workspace& w, const Arguments&) {
                   if (!w.ui.filming) throw Refused("no video is being written");
                   w.ui.ends_filming = true;
               });
+    table.add(dialog(
+        "view.picture_dialog", "Save a picture",
+        "Shows a dialog to save or copy a picture of the view; the simulation pauses until it is closed",
+        UiState::FileDialog::Picture, labs));
     table.add(
-        {.name = "view.video_dialog",
-         .title = "Record a video",
-         .arguments = {},
-         .help =
-             "Shows a dialog to record the last seconds as a video; the simulation pauses until it is closed",
-         .effect = Effect::Look,
-         .apply = [&labs](Workspace& w, const Arguments&) {
-             require_view(w, labs);
-             if (remembered_ticks(w) == 0)
-                 throw Refused("nothing has moved yet, so there is nothing to record");
-             // Pause, so that the moments just seen do not drop out of the last ten seconds.
-             w.ui.plays_after_dialog = w.ui.plays_after_dialog || w.clock.playing;
-             w.clock.playing = w.clock.replaying = false;
-             w.ui.file_dialog = UiState::FileDialog::Video;
-         }});
+        dialog("view.video_dialog", "Record a video",
+               "Shows a dialog to record the last seconds or a turn of the camera; the simulation pauses "
+               "until it is closed",
+               UiState::FileDialog::Video, labs));
 }
 
-void add_copying(CommandTable& table, const Labs& labs) {
-    table.add("view.copy_picture", "Copy the picture", picture_arguments(),
-              "Puts a picture of the scene in the view on the clipboard; needs xclip or wl-copy",
-              Effect::Look, [&labs](Workspace& w, const Arguments& a) {
-                  require_view(w, labs);
-                  PictureRequest wanted;
-                  set_look(a, wanted);
-                  w.ui.picture = std::move(wanted);
-              });
+/// A picture to a file or, if `copies`, to the clipboard.
+Command picturing(const char* name, const char* title, const char* help, std::vector<Argument> arguments,
+                  bool copies, const Labs& labs) {
+    return {.name = name,
+            .title = title,
+            .arguments = picture_arguments(std::move(arguments)),
+            .help = help,
+            .effect = Effect::Look,
+            .apply = [&labs, copies](Workspace& w, const Arguments& a) {
+                require_view(w, labs);
+                PictureRequest wanted;
+                if (!copies)
+                    wanted.path = a.has("path") ? std::filesystem::path(a.text("path")) : new_file(w);
+                if (!copies && wanted.path.extension() != ".png")
+                    throw Refused("path must end in .png, got " + wanted.path.string());
+                set_look(a, wanted);
+                w.ui.picture = std::move(wanted);
+            }};
 }
 
 }  // namespace
 
 void add_video_commands(CommandTable& table, const Labs& labs) {
     add_recording(table, labs);
-    add_copying(table, labs);
+    table.add(picturing(
+        "view.picture", "Write a picture of the view",
+        "Writes a picture of the scene in the view without panels, with or without its labels",
+        {text_argument("path", false, "a PNG file; default, in a window: a new one beside the scene")}, false,
+        labs));
+    table.add(picturing("view.copy_picture", "Copy the picture",
+                        "Puts a picture of the scene in the view on the clipboard; needs xclip or wl-copy",
+                        {}, true, labs));
 }
 
 }  // namespace tendril::app

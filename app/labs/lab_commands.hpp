@@ -17,7 +17,7 @@ void add_camera_commands(CommandTable& table, const Labs& labs);
 /// table.
 void add_closing_command(CommandTable& table, const Labs& labs);
 
-/// view.video, view.video_dialog, view.end_video and view.copy_picture. `labs` must outlive the table.
+/// Pictures and videos of the view, and their dialogs. `labs` must outlive the table.
 void add_video_commands(CommandTable& table, const Labs& labs);
 
 }  // namespace tendril::app

@@ -46,10 +46,16 @@ void begin_palette(const std::vector<PaletteRow>& rows, bool headed, glm::vec2 s
     ImGui::PopStyleVar(2);
 }
 
+/// The lab that a command acts on, if that is not the open one.
+const Lab* other_lab(const ShellFrame& frame, const Command& command) {
+    return command.lab == frame.workspace.lab ? nullptr : frame.labs.find(command.lab);
+}
+
 /// Shows the command whose arguments are being typed.
-void header(const Command& command) {
+void header(const ShellFrame& frame, const Command& command) {
     const float room = ImGui::GetContentRegionAvail().x;
-    ImGui::TextUnformatted(command.title.c_str());
+    const Lab* const lab = other_lab(frame, command);
+    ImGui::TextUnformatted((command.title + (lab ? ", in the " + lab->title() + " lab" : "")).c_str());
     const float left = room - ImGui::GetItemRectSize().x - ImGui::GetStyle().ItemSpacing.x;
     ImGui::SameLine();
     ImGui::TextDisabled("%s", elided_at_word(command.help, left).c_str());
@@ -163,9 +169,10 @@ void CommandPalette::move_choice(int count) {
 std::vector<PaletteRow> CommandPalette::rows(const ShellFrame& frame, const Offer& offer) const {
     std::vector<PaletteRow> list;
     for (const Command* command : offer.found) {
-        const Lab* lab = command->lab == frame.workspace.lab ? nullptr : frame.labs.find(command->lab);
-        list.push_back({command->title, lab == nullptr ? "" : lab->title(), usage(*command),
-                        frame.shortcuts.keys_for(command->name), command->help});
+        const Lab* const lab = other_lab(frame, *command);
+        list.push_back({command->title, lab ? lab->title() : "", usage(*command),
+                        frame.shortcuts.keys_for(command->name),
+                        (lab ? "Opens the " + lab->title() + " lab. " : "") + command->help});
     }
     for (const CompletionRow& completion : offer.completions) {
         const std::string help = completion.help.empty() ? completion.detail : completion.help;
@@ -195,13 +202,14 @@ void CommandPalette::status(const Offer& offer) const {
     ImGui::TextDisabled("%s", elided_at_word(fits || !search ? text : keys, room).c_str());
 }
 
-void CommandPalette::run(const std::string& name, SharedJson arguments, Emit& emit) {
-    std::erase(recent_, name);
-    recent_.insert(recent_.begin(), name);
+void CommandPalette::run(const ShellFrame& frame, const Command& command, SharedJson arguments, Emit& emit) {
+    std::erase(recent_, command.name);
+    recent_.insert(recent_.begin(), command.name);
     if (recent_.size() > max_recent) recent_.pop_back();
     emit("view.palette", {{"open", false}});
-    ran_ = Emitted{name, arguments, false};
-    emit.typed(name, std::move(arguments));
+    if (other_lab(frame, command) != nullptr) emit("lab.open", {{"name", command.lab}});
+    ran_ = Emitted{command.name, arguments, false};
+    emit.typed(command.name, std::move(arguments));
 }
 
 void CommandPalette::choose(const ShellFrame& frame, const Offer& offer, std::size_t row, Emit& emit) {
@@ -215,7 +223,7 @@ void CommandPalette::choose(const ShellFrame& frame, const Offer& offer, std::si
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const Shortcut& each) {
         return each.command == command.name && frame.works_here(each);
     });
-    run(command.name, key == keys.end() ? Json::object() : to_json(key->arguments), emit);
+    run(frame, command, key == keys.end() ? Json::object() : to_json(key->arguments), emit);
 }
 
 void CommandPalette::run(const ShellFrame& frame, Emit& emit) {
@@ -225,7 +233,7 @@ void CommandPalette::run(const ShellFrame& frame, Emit& emit) {
         const Command* command = frame.commands.find(typed.name);
         if (command == nullptr) throw std::runtime_error("there is no command \"" + typed.name + "\"");
         check_arguments(*command, *typed.arguments);
-        run(typed.name, std::move(typed.arguments), emit);
+        run(frame, *command, std::move(typed.arguments), emit);
     } catch (const std::runtime_error& error) {
         error_ = error.what();
     }
@@ -259,7 +267,7 @@ void CommandPalette::frame(const ShellFrame& frame, Emit& emit) {
     begin_palette(rows(frame, before), before.typed.command != nullptr, frame.screen(), frame.layout.scale);
     const bool entered = line_field(frame, appearing);
     const Offer now = offer(frame);
-    if (now.typed.command != nullptr) header(*now.typed.command);
+    if (now.typed.command != nullptr) header(frame, *now.typed.command);
     move_choice(static_cast<int>(now.size()));
     const bool moved = std::exchange(listed_choice_, chosen_) != chosen_;
     const std::vector<PaletteRow> list = rows(frame, now);

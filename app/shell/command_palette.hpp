@@ -52,7 +52,8 @@ class CommandPalette {
     void choose(const ShellFrame& frame, const Offer& offer, std::size_t row, Emit& emit);
     /// Runs the line; if it is invalid, shows why and keeps it for editing.
     void run(const ShellFrame& frame, Emit& emit);
-    void run(const std::string& name, SharedJson arguments, Emit& emit);
+    /// Opens the command's lab first, if that is another one.
+    void run(const ShellFrame& frame, const Command& command, SharedJson arguments, Emit& emit);
     void set_line(const std::string& line);
 
     std::array<char, 512> line_{};

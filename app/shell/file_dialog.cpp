@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 
 bool FileDialog::is_listed(const fs::path& file) const {
     const fs::path ending = file.extension();
-    if (filming()) return ending == ".png" || ending == ".mp4";
+    if (filming()) return video_kind(file) != nullptr;
+    if (picturing()) return ending == ".png";
     if (saving()) return ending == ".json";
     if (filter_ > 0) return has_ending(kinds_[static_cast<std::size_t>(filter_ - 1)], file);
     return std::any_of(kinds_.begin(), kinds_.end(),
@@ -50,7 +51,7 @@ void FileDialog::open_folder(const fs::path& folder) {
 
 /// The command closes the dialog if it succeeds: a refused name stays for editing.
 void FileDialog::send(const fs::path& path, Emit& emit) {
-    if (filming()) return emit("view.video", video_.arguments(path));
+    if (picturing()) return emit(picture_.command(), picture_.arguments(path));
     if (saving()) return emit("scene.save", {{"path", path.string()}});
     if (by_.empty()) return emit("file.open", {{"path", path.string()}, {"ask", true}});
     emit("file.open", {{"path", path.string()}, {"by", by_}});
@@ -65,8 +66,8 @@ void FileDialog::take(Emit& emit) {
         name_.fill('\0');
         return;
     }
-    if (filming())
-        path = video_.with_ending(path);
+    if (picturing())
+        path = picture_.with_ending(path);
     else if (saving() && path.extension().empty())
         path += ".json";
     send(path, emit);
@@ -82,10 +83,11 @@ void FileDialog::start(const Workspace& workspace, const Labs& labs) {
     std::error_code error;
     open_folder(workspace.path.empty() ? fs::current_path(error)
                                        : fs::absolute(workspace.path).parent_path());
-    if (filming()) video_.start(workspace, labs.find(workspace.lab)->labels_pictures(workspace));
-    const std::string name = filming()  ? video_name(workspace, folder_)
-                             : saving() ? workspace.path.filename().string()
-                                        : std::string();
+    if (picturing())
+        picture_.start(workspace, labs.find(workspace.lab)->labels_pictures(workspace), filming());
+    const std::string name = picturing() ? picture_name(workspace, folder_)
+                             : saving()  ? workspace.path.filename().string()
+                                         : std::string();
     std::snprintf(name_.data(), name_.size(), "%s", name.c_str());
 }
 
@@ -100,7 +102,7 @@ void FileDialog::show_filter() {
 
 std::string FileDialog::empty_message() const {
     if (std::ranges::any_of(entries_, [](const Entry& each) { return !each.folder; })) return {};
-    if (filming()) return "No videos here yet.";
+    if (picturing()) return filming() ? "No videos here yet." : "No pictures here yet.";
     if (saving()) return "No scenes here yet.";
     std::string kinds;
     for (std::size_t i = 0; i < kinds_.size(); ++i)
@@ -140,7 +142,8 @@ void FileDialog::frame(const Workspace& workspace, const Labs& labs, glm::vec2 s
     if (!open) return;
     if (appearing) start(workspace, labs);
     const glm::vec2 size =
-        glm::max(glm::vec2(520.0f, filming() ? 540.0f : 420.0f) * scale, glm::vec2(0.5f, 0.6f) * screen);
+        glm::max(glm::vec2(520.0f, picturing() ? 200.0f + 31.0f * picture_.rows() : 420.0f) * scale,
+                 glm::vec2(0.5f, 0.6f) * screen);
     if (!begin_sheet(title(), screen, size)) emit("view.close");
     if (ImGui::Button("Up")) open_folder(folder_.parent_path());
     explain("Shows the folder above this one");
@@ -149,11 +152,11 @@ void FileDialog::frame(const Workspace& workspace, const Labs& labs, glm::vec2 s
     const float wrap = ImGui::GetContentRegionAvail().x;
     const float complaint =
         error_.empty() ? 0.0f : ImGui::CalcTextSize(error_.c_str(), nullptr, false, wrap).y;
-    const float rows = filming() ? 2.0f + VideoOptions::rows : saving() ? 2.0f : 3.0f;
+    const float rows = picturing() ? 2.0f + picture_.rows() : saving() ? 2.0f : 3.0f;
     ImGui::BeginChild("entries", {0.0f, -rows * ImGui::GetFrameHeightWithSpacing() - complaint}, true);
     bool done = list();
     ImGui::EndChild();
-    if (filming()) video_.frame();
+    if (picturing()) picture_.frame();
     if (!saving()) show_filter();
     ImGui::SetNextItemWidth(-1.0f);
     const bool cut = !appearing && shows_cut_text("##name", name_.data());
@@ -165,9 +168,15 @@ void FileDialog::frame(const Workspace& workspace, const Labs& labs, glm::vec2 s
     }
     explain("The name of the file. Enter confirms it.");
     done |= ImGui::Button(action());
-    explain(filming()  ? "Writes the video and shows its progress"
-            : saving() ? "Saves the scene to this file"
-                       : "Opens this file in its lab");
+    explain(filming()     ? "Writes the video and shows its progress"
+            : picturing() ? "Writes the picture to this file"
+            : saving()    ? "Saves the scene to this file"
+                          : "Opens this file in its lab");
+    if (picturing() && !filming()) {
+        ImGui::SameLine();
+        if (ImGui::Button("Copy")) emit("view.copy_picture", picture_.arguments({}));
+        explain("Puts the picture on the clipboard");
+    }
     ImGui::SameLine();
     if (ImGui::Button("Cancel")) emit("view.close");
     explain("Esc: closes this and changes nothing");

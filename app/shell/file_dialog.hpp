@@ -1,5 +1,5 @@
-// Asks for the path of a file to open, or of a scene or a video to write, with a list of folders and files
-// and a text field.
+// Asks for the path of a file to open, or of a scene, a picture or a video to write, with a list of folders
+// and files and a text field.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 #include "app/document/workspace.hpp"
 #include "app/labs/labs.hpp"
-#include "app/shell/video_options.hpp"
+#include "app/shell/picture_options.hpp"
 #include "app/widgets/emit.hpp"
 
 namespace tendril::app {
@@ -38,9 +38,13 @@ class FileDialog {
 
     bool saving() const { return shown_ != UiState::FileDialog::Open; }
     bool filming() const { return shown_ == UiState::FileDialog::Video; }
+    bool picturing() const { return filming() || shown_ == UiState::FileDialog::Picture; }
     const char* action() const { return filming() ? "Record" : saving() ? "Save" : "Open"; }
     const char* title() const {
-        return filming() ? "Record a video" : saving() ? "Save scene as" : "Open a file";
+        return filming()     ? "Record a video"
+               : picturing() ? "Save a picture"
+               : saving()    ? "Save scene as"
+                             : "Open a file";
     }
 
     std::filesystem::path folder_;
@@ -50,7 +54,7 @@ class FileDialog {
     int filter_ = 0;               ///< 0: all kinds; else the index of one, plus 1
     std::array<char, 1024> name_{};
     std::string error_;
-    VideoOptions video_;
+    PictureOptions picture_;
     UiState::FileDialog shown_ = UiState::FileDialog::None;
 };
 

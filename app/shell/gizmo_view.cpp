@@ -12,7 +12,7 @@ namespace {
 
 /// The dragged handle in its current state: the gizmo's, or one drawn by the lab.
 std::optional<Handle> dragged_handle(const Lab& lab, const Workspace& workspace, const Pointer& pointer) {
-    return pointer.drags_gizmo() ? lab.gizmo(workspace) : lab.handle(workspace, pointer.dragged());
+    return pointer.drags_gizmo() ? lab.shown_gizmo(workspace) : lab.handle(workspace, pointer.dragged());
 }
 
 /// Whether to report the drag: labs report moves of their own handles, but not their rotation.
@@ -33,7 +33,7 @@ std::string together_hint(const Together& together, Drag what) {
 }  // namespace
 
 void show_gizmo(DrawList& list, const Lab& lab, const View& view, const Pointer& pointer) {
-    const auto handle = lab.gizmo(view.workspace);
+    const auto handle = lab.shown_gizmo(view.workspace);
     const bool dragging = pointer.dragged() != no_pick;
     if (handle && (!dragging || pointer.drags_gizmo())) {
         draw_gizmo(list, {handle->frame, handle->drag, view.scale, handle->pick}, view.camera, view.palette,
@@ -67,7 +67,7 @@ std::string gizmo_hint(const Lab& lab, const Workspace& workspace, const Pointer
 std::vector<NamedGrip> gizmo_grips(const DrawList& drawn, const Lab& lab, const Workspace& workspace,
                                    const Camera& camera, float scale) {
     std::vector<NamedGrip> grips;
-    const auto handle = lab.gizmo(workspace);
+    const auto handle = lab.shown_gizmo(workspace);
     if (!handle) return grips;
     const Gizmo gizmo{handle->frame, handle->drag, scale};
     for (const GizmoPart part : gizmo.parts(camera)) {

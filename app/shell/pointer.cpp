@@ -105,7 +105,7 @@ void Pointer::take(const Event* event, const Input& input, const Scene& scene, E
 void Pointer::forget_missing(const Workspace& workspace, const Lab& lab) {
     const auto is_there = [&](PickId pick) {
         if (pick == no_pick || lab.handle(workspace, pick)) return true;
-        const auto gizmo = lab.gizmo(workspace);
+        const auto gizmo = lab.shown_gizmo(workspace);
         return gizmo && (gizmo->pick == pick || picked_part(pick));
     };
     if (!is_there(hovered_)) hovered_ = no_pick;
@@ -145,7 +145,7 @@ void Pointer::press(const MousePress& press, const Input& input, const Scene& sc
     boxing_ = caught_ == no_pick && input.ctrl() && scene.lab.selects_by_box();
     const auto part = picked_part(caught_);
     stroking_ = !part && !input.ctrl() && scene.lab.takes_strokes(scene.workspace);
-    const auto handle = part ? scene.lab.gizmo(scene.workspace) : scene.lab.handle(scene.workspace, caught_);
+    const auto handle = part ? scene.lab.shown_gizmo(scene.workspace) : scene.lab.handle(scene.workspace, caught_);
     if (handle) begin_drag(*handle, part ? part : handle->part, scene);
 }
 
@@ -254,7 +254,7 @@ void Pointer::drag(const Input& input, const Scene& scene, Emit& emit) {
     constrained_ = constraint(input);
     const bool bound = !constrained_.empty();
     const auto handle =
-        picked_part(caught_) ? scene.lab.gizmo(scene.workspace) : scene.lab.handle(scene.workspace, caught_);
+        picked_part(caught_) ? scene.lab.shown_gizmo(scene.workspace) : scene.lab.handle(scene.workspace, caught_);
     // The handle's parent may have moved since the start: only the dragged property follows the pointer.
     HandleFrame frame = handle && together_.empty() ? handle->frame : caught_frame_;
     if (by_ && !(bound && changed_by(by_->part()) == Drag::Position)) {

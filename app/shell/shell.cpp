@@ -217,7 +217,7 @@ void tools(const ShellFrame& frame, float from, Emit& emit) {
     const History& history = workspace.history;
     const auto tool = [&](const char* command, Icon icon, const std::string& tip, bool enabled, bool active) {
         if (icon_button(command, icon, with_keys(frame, tip.c_str(), command).c_str(), enabled, active))
-            emit(command);
+            emit(command, std::ranges::find(frame.shortcuts.all(), command, &Shortcut::command)->arguments);
     };
     ImGui::SameLine(from);
     tool("undo", Icon::Undo, undo_title(frame.commands, history), history.can_undo(), false);
@@ -288,6 +288,10 @@ void begin_region(const char* name, const Rect& rect, glm::vec3 colour, ImVec2 p
 /// position is restored, unless the user has scrolled since.
 void Shell::keep_scroll(Scrolled& scrolled) {
     constexpr float same = 1.0f;  // pixels
+    if (std::exchange(scrolled.to_top, false)) {
+        scrolled.wanted = scrolled.shown = 0.0f;
+        return ImGui::SetScrollY(0.0f);
+    }
     const float now = ImGui::GetScrollY(), most = ImGui::GetScrollMaxY();
     const bool moved = std::abs(now - scrolled.shown) > same;
     if (moved && !(now < scrolled.shown && now > most - same && most < scrolled.most)) scrolled.wanted = now;
@@ -379,9 +383,9 @@ void Shell::frame(const ShellFrame& frame, Emit& emit) {
     card_ring_ = show_card_halo(frame, highlighted_);
     if (workspace.ui.help) show_help(frame, emit);
     if (workspace.ui.settings) show_settings(frame, emit);
+    if (const auto ran = palette_.take_run()) unfolding_.for_command(frame, *ran, emit);  // in its lab
     palette_.frame(frame, emit);
     unfolding_.for_step(frame, step_to_do(frame), emit);
-    if (const auto ran = palette_.take_run()) unfolding_.for_command(frame, *ran, emit);
     file_dialog_.frame(workspace, frame.labs, frame.screen(), frame.layout.scale, emit);
     show_filming(frame, emit);
     show_recovery(frame, emit);

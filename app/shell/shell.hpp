@@ -45,6 +45,8 @@ class Shell {
     void frame(const ShellFrame& frame, Emit& emit);
     /// Rectangles that the last frame drew over the scene: hint, legend and axis gizmo.
     const std::vector<Rect>& overlays() const { return overlays_; }
+    /// Scrolls a lab's inspector to its top.
+    void show_top(const std::string& lab) { scrolled_[{lab, false}].to_top = true; }
     /// The position of the ring of the card's current step in the last frame, if it was drawn.
     const std::optional<glm::vec2>& card_ring() const { return card_ring_; }
 
@@ -55,6 +57,7 @@ class Shell {
     /// A panel's scroll position: the wanted one, and the present one while its content is too short.
     struct Scrolled {
         float wanted = 0.0f, shown = 0.0f, most = 0.0f;
+        bool to_top = false;
     };
     void keep_scroll(Scrolled& scrolled);
     std::map<std::pair<std::string, bool>, Scrolled> scrolled_;  ///< by lab, and whether it is the left panel

@@ -140,7 +140,7 @@ class Drawing {
         ball.shadow = true;
         ball.pick = pick;
         ball.rank = 1;
-        if (part_.selection.has(i)) {
+        if (view_.handles && part_.selection.has(i)) {
             list_
                 .ring(at(i), grown + px(4.0f), px(part_.selection.active() == i ? 2.5f : 1.5f),
                       glm::vec4(view_.palette.selection, 1.0f))
@@ -149,7 +149,7 @@ class Drawing {
             list_.ring(at(i), grown + px(3.0f), px(1.5f), glm::vec4(view_.palette.text, 0.55f)).layer =
                 Layer::Overlay;
         }
-        if (part_.mode == ChainMode::WithIndex && part_.index == i) {
+        if (view_.handles && part_.mode == ChainMode::WithIndex && part_.index == i) {
             list_.ring(at(i), grown + px(8.0f), px(1.5f), glm::vec4(view_.palette.target, 0.8f)).layer =
                 Layer::Overlay;
         }
@@ -168,6 +168,7 @@ class Drawing {
         ball.layer = Layer::Overlay;
         ball.pick = target_pick;
         ball.rank = 2;
+        if (!view_.handles) return;
         list_
             .ring(at, px(hovered ? 18.0f : 16.5f), px(1.5f),
                   glm::vec4(view_.palette.target, hovered ? 1.0f : 0.6f))
@@ -217,7 +218,7 @@ class Drawing {
                 label(picked_segment(pick), 3);
             }
             const auto selected = part_.selection.active();
-            if (selected && segment_pick(*selected) != pick) label(*selected, 2);
+            if (view_.handles && selected && segment_pick(*selected) != pick) label(*selected, 2);
         }
     }
 
@@ -383,7 +384,7 @@ void draw_reach_sphere(const View& view, const ShownChain& shown, DrawList& list
 }
 
 void draw_pole(const View& view, const ChainPart& part, DrawList& list) {
-    if (!part.reach.options.pole) return;
+    if (!part.reach.options.pole || !view.handles) return;
     const glm::vec3 at = *part.reach.options.pole;
     const bool hovered = view.hovered == pole_pick || view.dragged == pole_pick;
     if (!part.chain.empty()) {

@@ -59,7 +59,7 @@ class LimitDrawing {
             const float angle = max ? shape.limit().max : shape.limit().min;
             const PickId pick = limit_pick({i, max});
             const bool hovered = view_.hovered == pick || view_.dragged == pick;
-            if (!part_.study.open()) {
+            if (view_.handles && !part_.study.open()) {
                 Stroke& knob = list_.sphere(look.centre + look.radius * shape.direction(angle, 0.0f),
                                             px(hovered ? 6.5f : 5.0f), Unit::Pixels,
                                             glm::vec4(hovered ? view_.palette.selection : look.colour, 1.0f));
@@ -86,7 +86,7 @@ class LimitDrawing {
         const glm::quat parent = i == 0 || from_base ? glm::quat(1, 0, 0, 0) : turns_[i - 1];
         const float bone = part_.chain.segments()[i + 1].length;
         const float pixels = 90.0f * view_.scale * view_.camera.metres_per_pixel(joints_[i]);
-        const bool active = is_active(i), lit = active || part_.selection.has(i);
+        const bool active = is_active(i), lit = active || (view_.handles && part_.selection.has(i));
         const LimitShape shape(limit, rest, parent);
         const LimitLook look{.centre = joints_[i],
                              .radius = std::min(0.75f * bone, pixels),

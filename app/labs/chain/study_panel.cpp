@@ -130,6 +130,7 @@ void export_rows(Emit& emit) {
                    "Writes the last ten seconds beside the scene, for tendril trace and other programs"))
         emit("chain.save_trace");
     end_row();
+    picture_rows(emit);
 }
 
 void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
@@ -196,15 +197,14 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
     end_row();
     if (row_button("Copy numbers as CSV", 1, true, "Every solver's residual at each iteration"))
         emit("race.copy");
-    const std::string film =
-        "Writes the race from its start to its end as an animated PNG of " +
-        fixed_text(race_film_seconds(shown.last()), 0) +
-        " s beside the scene, with names, iterations and errors. The command race.record also writes MP4, at "
-        "any size and pace.";
+    const std::string film = "Writes the race from its start to its end as an animated PNG of " +
+                             fixed_text(race_film_seconds(shown.last()), 0) +
+                             " s beside the scene, with names, iterations and errors. The command "
+                             "race.record also writes GIF and MP4, at "
+                             "any size and pace.";
     if (row_button("Record the race", 2, true, film.c_str())) emit("race.record");
-    if (row_button("Save a picture", 2, true,
-                   "Writes the race as it is shown as a PNG beside the scene, as Ctrl+P does"))
-        emit("view.picture");
+    if (row_button("Save a picture", 2, true, "Saves or copies the race as it is shown, as Ctrl+P does"))
+        emit("view.picture_dialog");
     end_row();
 }
 

@@ -49,10 +49,10 @@ class Drawing {
             bones_from(i);
             node(i);
         }
-        if (humanoid_runtime(view_.workspace).solvers.body(part_) != nullptr)
+        if (view_.handles && humanoid_runtime(view_.workspace).solvers.body(part_) != nullptr)
             for (const humanoid::Effector each : all_effectors)
                 if (!holds(part_, each)) effector(each);
-        if (shown_.look) gaze();
+        if (view_.handles && shown_.look) gaze();
         draw_limits(view_, list_, part_, shown_);
         draw_attachments(view_, list_, part_.attachments);
         draw_bone_curves(view_, list_, part_, humanoid_runtime(view_.workspace).solvers, shown_);
@@ -65,7 +65,7 @@ class Drawing {
     bool lit(std::size_t i) const {
         return (view_.dragged != no_pick ? view_.dragged : view_.hovered) == node_pick(i);
     }
-    bool selected(std::size_t i) const { return part_.selection.has(i); }
+    bool selected(std::size_t i) const { return view_.handles && part_.selection.has(i); }
     bool active(std::size_t i) const { return part_.selection.active() == i; }
     glm::vec3 marked(glm::vec3 colour, std::size_t i) const {
         if (selected(i)) return glm::mix(colour, view_.palette.selection, active(i) ? 0.75f : 0.45f);
@@ -387,7 +387,8 @@ std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {
     const HumanoidPart& part = humanoid_part(workspace);
     const ShownPose& shown = shown_pose(workspace);
     std::vector<LegendRow> rows{{"bone", colours.joint}};
-    if (humanoid_runtime(workspace).solvers.body(part) != nullptr) rows.push_back({"target", colours.target});
+    if (humanoid_runtime(workspace).solvers.body(part) != nullptr)
+        rows.push_back({.name = "target", .colour = colours.target, .handle = true});
     if (shown.body && std::ranges::find(shown.body->at_limit, true) != shown.body->at_limit.end())
         rows.push_back({"at its limit", colours.limit});
     if (shows_lint_marks(workspace)) rows.push_back({"lint finding", colours.limit});

@@ -142,6 +142,7 @@ void CurvePen::line() const {
 }
 
 void CurvePen::control(std::size_t index, PickId pick, bool selected, bool active) const {
+    if (!view_.handles) return;
     const bool hovered = view_.hovered == pick || view_.dragged == pick;
     const bool last = index + 1 == points_.size();
     const glm::vec3 colour = last ? end_ : curve_colour(view_.palette);

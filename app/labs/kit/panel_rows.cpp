@@ -82,6 +82,14 @@ bool preset_rows(const std::string& lab, const std::vector<PresetButton>& preset
     return opened;
 }
 
+void picture_rows(Emit& emit) {
+    if (row_button("Save a picture", 2, true, "Saves or copies the view: size, background, labels (Ctrl+P)"))
+        emit("view.picture_dialog");
+    if (row_button("Record a video", 2, true, "The last ten seconds, or a full turn of the camera"))
+        emit("view.video_dialog");
+    end_row();
+}
+
 void cure_line(const std::string& text, const std::optional<Cure>& cure, Emit& emit) {
     const ImGuiStyle& style = ImGui::GetStyle();
     const float room = ImGui::GetContentRegionAvail().x, left = ImGui::GetCursorPosX();

@@ -49,6 +49,9 @@ struct PresetButton {
 bool preset_rows(const std::string& lab, const std::vector<PresetButton>& presets, const char* clears,
                  Emit& emit, int of = 3);
 
+/// Buttons for the dialogs that write pictures and videos, in an Export section.
+void picture_rows(Emit& emit);
+
 // The outcome of a request in a few words: the first and largest text of an inspector.
 
 struct Verdict {

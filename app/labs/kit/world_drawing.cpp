@@ -28,8 +28,17 @@ glm::vec3 body_colour(BodyColour colour, rope::Body::Kind kind, const Palette& p
                                             : palette.joint;
 }
 
-glm::vec3 body_colour(const NamedWorld& world, const rope::Body& body, const Palette& palette) {
-    return body_colour(world.colour(body), body.kind, palette);
+BodyColour colour_of(const NamedWorld& world, const rope::Body& body, const KindColours& kinds) {
+    const BodyColour own = world.colour(body);
+    if (own != BodyColour::ByKind) return own;
+    return body.kind == rope::Body::Kind::Cloth  ? kinds.cloth
+           : body.kind == rope::Body::Kind::Hair ? kinds.hair
+                                                 : kinds.rope;
+}
+
+glm::vec3 body_colour(const NamedWorld& world, const rope::Body& body, const Palette& palette,
+                      const KindColours& kinds) {
+    return body_colour(colour_of(world, body, kinds), body.kind, palette);
 }
 
 glm::vec3 strain_colour(float strain, const Palette& palette) {
@@ -41,13 +50,14 @@ glm::vec3 strain_colour(float strain, const Palette& palette) {
     return glm::mix(none, strain > 0.0f ? palette.limit : palette.head, std::min(share, 1.0f));
 }
 
-std::vector<glm::vec3> particle_colours(const NamedWorld& world, const Palette& palette, bool by_strain) {
+std::vector<glm::vec3> particle_colours(const NamedWorld& world, const Palette& palette, bool by_strain,
+                                        const KindColours& kinds) {
     const rope::State& state = world.state();
     if (!by_strain) {
         std::vector<glm::vec3> colours(world.size());
         for (const rope::Body& body : state.bodies)
             std::fill_n(colours.begin() + static_cast<std::ptrdiff_t>(body.first), body.count,
-                        body_colour(world, body, palette));
+                        body_colour(world, body, palette, kinds));
         return colours;
     }
     // The worst strain of the links at each particle.
@@ -103,9 +113,9 @@ void draw_strands(DrawList& list, const Camera& camera, const rope::Body& body,
 
 void draw_cloth(DrawList& list, const Camera& camera, const NamedWorld& world, const rope::Body& body,
                 std::span<const glm::vec3> positions, std::span<const glm::vec3> colours,
-                const Palette& palette) {
+                const Palette& palette, const KindColours& kinds) {
     const bool plain = colours.empty();
-    const glm::vec3 front = body_colour(world, body, palette);
+    const glm::vec3 front = body_colour(world, body, palette, kinds);
     // A single thread has no surface.
     if (body.count > 1 && (body.row == 1 || body.rows() == 1)) {
         const std::vector<glm::vec3> thread(body.count, front);
@@ -121,7 +131,7 @@ void draw_cloth(DrawList& list, const Camera& camera, const NamedWorld& world, c
     }
     const std::vector<std::uint8_t> cells = whole_cells(world, body);
     const ClothGrid grid{static_cast<int>(body.row), static_cast<int>(body.rows()), points, cells};
-    const bool by_kind = world.colour(body) == BodyColour::ByKind;
+    const bool by_kind = colour_of(world, body, kinds) == BodyColour::ByKind;
     const glm::vec3 back = by_kind ? palette.neutral : glm::mix(front, palette.neutral, 0.5f);
     cloth_surface(list, camera, grid, plain ? front : palette.head, back, own);
 }

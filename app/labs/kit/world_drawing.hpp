@@ -17,11 +17,18 @@ glm::vec3 strain_colour(float strain, const Palette& palette);
 
 /// The colour of a cloth's front, unless the body has its own.
 glm::vec3 cloth_front(const Palette& palette);
+/// Of bodies without a colour of their own, by kind; ByKind: the palette's.
+struct KindColours {
+    BodyColour rope = BodyColour::ByKind, hair = BodyColour::ByKind, cloth = BodyColour::ByKind;
+};
+BodyColour colour_of(const NamedWorld& world, const rope::Body& body, const KindColours& kinds);
 /// The body's colour; for a cloth, its front's.
 glm::vec3 body_colour(BodyColour colour, rope::Body::Kind kind, const Palette& palette);
-glm::vec3 body_colour(const NamedWorld& world, const rope::Body& body, const Palette& palette);
+glm::vec3 body_colour(const NamedWorld& world, const rope::Body& body, const Palette& palette,
+                      const KindColours& kinds = {});
 /// One for each particle: its body's, or by the worst strain of its links.
-std::vector<glm::vec3> particle_colours(const NamedWorld& world, const Palette& palette, bool by_strain);
+std::vector<glm::vec3> particle_colours(const NamedWorld& world, const Palette& palette, bool by_strain,
+                                        const KindColours& kinds = {});
 
 /// Whether each cell of a cloth's grid still has its link to the next in its row (`along`) and column
 /// (`down`).
@@ -40,6 +47,6 @@ void draw_strands(DrawList& list, const Camera& camera, const rope::Body& body,
 /// Without colours, in the body's colour; its back is paler than its front.
 void draw_cloth(DrawList& list, const Camera& camera, const NamedWorld& world, const rope::Body& body,
                 std::span<const glm::vec3> positions, std::span<const glm::vec3> colours,
-                const Palette& palette);
+                const Palette& palette, const KindColours& kinds = {});
 
 }  // namespace tendril::app

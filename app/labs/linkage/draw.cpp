@@ -171,7 +171,8 @@ class LinkageDrawing {
     void point(std::size_t i) {
         const ik::LinkPoint& of = part_.linkage().points[i];
         const PickId pick = linkage_pick(i);
-        const bool lit = view_.hovered == pick || view_.dragged == pick, selected = part_.selected == of.name;
+        const bool lit = view_.hovered == pick || view_.dragged == pick,
+                   selected = view_.handles && part_.selected == of.name;
         const bool plane = part_.shape->in_plane();  // floating points are on the ground link, unpinned
         const bool held =
             plane ? part_.shape->sketch.points[i].hold == ik::SketchHold::Pinned : of.link == ik::ground_link;

@@ -276,6 +276,7 @@ void LinkageLab::panel(const Workspace& workspace, Emit& emit) const {
         if (row_button("Copy as C++", 1, true, "Copies the linkage as a C++ program that uses the library"))
             emit("linkage.copy");
         end_row();
+        picture_rows(emit);
     });
 }
 

@@ -60,13 +60,14 @@ class Drawing {
                     null(i);
                     break;
                 case rig::ElementKind::Control:
-                    draw_control(p_, i);
+                    if (p_.view.handles) draw_control(p_, i);
                     break;
             }
             if (pending_) pending(i);
         }
         curves();
-        if (const auto element = p_.part.selected.only_element()) input_pose(*element);
+        if (const auto element = p_.part.selected.only_element(); element && p_.view.handles)
+            input_pose(*element);
         labels();
     }
 
@@ -112,6 +113,7 @@ class Drawing {
                       p_.is_selected(i) ? p_.view.palette.selection : glm::vec3(1.0f), tinted,
                       element_pick(i));
         }
+        if (!p_.view.handles) return;
         const float size = p_.at_least(0.09f, 9.0f, at);
         p_.axes(pose, 1.5f * size, 2.0f, Layer::Overlay);
         for (int axis = 0; axis < 3; ++axis) {
@@ -260,15 +262,16 @@ void RigLab::draw(const View& view, DrawList& list) const {
 
 std::vector<LegendRow> RigLab::legend(const Workspace& workspace) const {
     const Palette& colours = palette(workspace.settings.theme);
-    std::vector<LegendRow> rows{{"bone", colours.joint},
-                                {"control", colours.target},
-                                {"at its limit", colours.limit},
-                                {"selection", colours.selection, true}};
+    std::vector<LegendRow> rows{
+        {"bone", colours.joint},
+        {.name = "control", .colour = colours.target, .handle = true},
+        {"at its limit", colours.limit},
+        {.name = "selection", .colour = colours.selection, .ring = true, .handle = true}};
     const auto selected = rig_part(workspace).selected.only_element();
     if (selected &&
         starts_elsewhere(rig_part(workspace), workspace.runtimes.of<RigRuntime>(rig_lab).resolved(workspace),
                          *selected))
-        rows.push_back({before_units, colours.ghost});
+        rows.push_back({.name = before_units, .colour = colours.ghost, .handle = true});
     if (workspace.ui.incident) rows.push_back({"before it happened", colours.ghost});
     add_ghost_legend(workspace, rig_past(), rows);
     if (rig_pending_setting().chosen(workspace.settings) == 1) {

@@ -72,8 +72,8 @@ struct RigPicture {
     rig::Transform pose(std::size_t i) const { return *elements.known(part.rig.id(i), rig::Space::Global); }
     glm::vec3 point(std::size_t i) const { return glm::vec3(pose(i).translation); }
 
-    bool is_selected(std::size_t i) const { return selected.has(i); }
-    bool is_active(std::size_t i) const { return selected.active() == i; }
+    bool is_selected(std::size_t i) const { return view.handles && selected.has(i); }
+    bool is_active(std::size_t i) const { return view.handles && selected.active() == i; }
     /// Names and arrowheads keep clear of the gizmo, which only an element selected alone has.
     bool has_gizmo(std::size_t i) const { return part.selected.only_element() == i; }
     bool is_lit(std::size_t i) const {

@@ -132,6 +132,8 @@ void RigLab::panel(const Workspace& workspace, Emit& emit) const {
     if (!open) return;
     if (row_button("Copy as C++", 1, true, "This rig, as it is now, as a program that uses the library"))
         emit("rig.copy");
+    end_row();
+    picture_rows(emit);
 }
 
 // Sections of the right panel: the selected element with its poses, the selected unit with its inputs.

@@ -36,7 +36,7 @@ class Drawing {
         const std::size_t before = list_.strokes.size();
         for (std::size_t i = 0; i < world_.state().colliders.size(); ++i) collider(i);
         positions_ = world_.positions();
-        colours_ = particle_colours(world_, view_.palette, part_.view.strain);
+        colours_ = particle_colours(world_, view_.palette, part_.view.strain, part_.view.colours());
         if (!part_.view.strain) mark_selection();
         for (const rope::Body& body : world_.state().bodies) {
             const bool coloured = part_.view.strain || marked(body);
@@ -45,7 +45,7 @@ class Drawing {
             else
                 draw_cloth(list_, view_.camera, world_, body, positions_,
                            coloured ? std::span<const glm::vec3>(colours_) : std::span<const glm::vec3>(),
-                           view_.palette);
+                           view_.palette, part_.view.colours());
         }
         weights();
         catchable_links();
@@ -67,7 +67,7 @@ class Drawing {
     }
     bool lit(PickId pick) const { return hovered_ == pick || dragged_ == pick; }
     bool chosen(const rope::Body& body) const {
-        return part_.selection && part_.selection->of_particles() &&
+        return view_.handles && part_.selection && part_.selection->of_particles() &&
                part_.selection->body == world_.name(body);
     }
     bool chosen(const rope::Body& body, std::size_t i) const {
@@ -80,12 +80,13 @@ class Drawing {
     }
     /// A body with its own colour keeps it if its particles show the selection.
     bool marked(const rope::Body& body) const {
-        return chosen(body) && (world_.colour(body) == BodyColour::ByKind || !shows_selected(body));
+        return chosen(body) &&
+               (colour_of(world_, body, part_.view.colours()) == BodyColour::ByKind || !shows_selected(body));
     }
 
     glm::vec3 collider_colour(std::size_t i) const {
-        const bool selected =
-            part_.selection && part_.selection->collider == world_.name(world_.state().colliders[i]);
+        const bool selected = view_.handles && part_.selection &&
+                              part_.selection->collider == world_.name(world_.state().colliders[i]);
         if (selected) return glm::mix(view_.palette.ghost, view_.palette.selection, 0.5f);
         return lit(collider_pick(i)) ? view_.palette.accent : view_.palette.ghost;
     }
@@ -106,7 +107,8 @@ class Drawing {
         } else if (const auto* plane = std::get_if<rope::Plane>(&shape)) {
             plane_patch(list_, view_.camera, plane->point, plane->normal, plane_radius, colour);
             // A grip in the centre of the plane; on the ground it would only be a nuisance.
-            if (plane->point.y == 0.0f && glm::normalize(plane->normal).y > 0.999f) return;
+            if (!view_.handles || (plane->point.y == 0.0f && glm::normalize(plane->normal).y > 0.999f))
+                return;
             solid(list_.sphere(plane->point, px(5.0f), Unit::Pixels, glm::vec4(colour, 1.0f)), pick);
         }
     }
@@ -185,7 +187,7 @@ class Drawing {
     void tie(std::size_t i) {
         const rope::Tie& tie = world_.state().ties[i];
         const PickId pick = tie_pick(i);
-        const bool selected = part_.selection && part_.selection->tie == world_.name(tie);
+        const bool selected = view_.handles && part_.selection && part_.selection->tie == world_.name(tie);
         const glm::vec4 colour(selected    ? view_.palette.selection
                                : lit(pick) ? view_.palette.accent
                                            : glm::mix(view_.palette.joint, view_.palette.text, 0.35f),
@@ -204,7 +206,8 @@ class Drawing {
 
     void particles() {
         std::vector<bool> pinned(world_.size());
-        for (const rope::Pin& pin : world_.state().pins) pinned[pin.particle] = !pin.collider;
+        for (const rope::Pin& pin : world_.state().pins)
+            pinned[pin.particle] = view_.handles && !pin.collider;
         const bool cuts = part_.tool == RopeTool::Cut;
         for (const rope::Body& body : world_.state().bodies) {
             const bool some = shows_selected(body);
@@ -277,18 +280,20 @@ void RopeLab::draw(const View& view, DrawList& list) const {
 
 std::vector<LegendRow> RopeLab::legend(const Workspace& workspace) const {
     const Palette& colours = palette(workspace.settings.theme);
-    std::vector<LegendRow> rows{{"pinned", colours.target}, {"selection", colours.selection}};
+    std::vector<LegendRow> rows{{.name = "pinned", .colour = colours.target, .handle = true},
+                                {.name = "selection", .colour = colours.selection, .handle = true}};
     add_ghost_legend(workspace, rope_past(), rows);
     const RopePart& part = rope_part(workspace);
     if (!part.view.strain) {
+        const KindColours kinds = part.view.colours();
         for (const BodyColour colour : body_colours.values()) {
             std::vector<const rope::Body*> bodies;
             for (const rope::Body& body : part.world->state().bodies)
-                if (part.world->colour(body) == colour) bodies.push_back(&body);
+                if (colour_of(*part.world, body, kinds) == colour) bodies.push_back(&body);
             if (colour == BodyColour::ByKind || bodies.empty()) continue;
             std::string name = part.world->name(*bodies.front());
             if (bodies.size() > 1) name += " and " + std::to_string(bodies.size() - 1) + " more";
-            rows.push_back({name, body_colour(*part.world, *bodies.front(), colours)});
+            rows.push_back({name, body_colour(*part.world, *bodies.front(), colours, kinds)});
         }
     } else {
         rows.push_back({"its length", strain_colour(0.0f, colours)});

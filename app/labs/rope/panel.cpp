@@ -170,6 +170,7 @@ void RopeLab::panel(const Workspace& workspace, Emit& emit) const {
                        "Copies ropes and colliders as a C++ program that uses the library"))
             emit("rope.copy");
         end_row();
+        picture_rows(emit);
     });
 }
 

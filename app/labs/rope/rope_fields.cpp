@@ -35,10 +35,14 @@ std::span<const tendril::Field> tendril::fields<tendril::app::BodySettings>() no
 template <>
 std::span<const tendril::Field> tendril::fields<tendril::app::RopeView>() noexcept {
     using app::RopeView;
+    static constexpr auto colours = app::body_colours.name_array();
     static constexpr Field rows[] = {field<&RopeView::strain>("strain"),
                                      field<&RopeView::particles>("particles"),
                                      field<&RopeView::sides>("sides", {app::min_sides, app::max_sides}),
-                                     field<&RopeView::thickness>("thickness", {0.1, 20.0})};
+                                     field<&RopeView::thickness>("thickness", {0.1, 20.0}),
+                                     field<&RopeView::ropes>("ropes", colours),
+                                     field<&RopeView::hair>("hair", colours),
+                                     field<&RopeView::cloths>("cloths", colours)};
     return rows;
 }
 
@@ -60,6 +64,14 @@ constexpr FieldText compliance_row(const char* name, int decimals, const char* h
             .decimals = decimals,
             .scale = 1000.0,
             .unit = "mm/N"};
+}
+constexpr FieldText kind_colour(const char* name, const char* help) {
+    return {.name = name,
+            .label = name,
+            .help = help,
+            .more = true,
+            .listed = true,
+            .choices = body_colours.rows};
 }
 /// `percent`: shown as a fraction of a length, instead of in the field's unit.
 constexpr FieldText tears_row(const char* name, bool percent, const char* help) {
@@ -166,7 +178,10 @@ std::span<const FieldText> field_texts<RopeView>() {
          .step = 0.02f,
          .decimals = 1,
          .unit = "times",
-         .more = true}};
+         .more = true},
+        kind_colour("ropes", "The colour of ropes that have none of their own."),
+        kind_colour("hair", "The colour of hair that has none of its own."),
+        kind_colour("cloths", "The colour of the fronts of cloths that have none of their own.")};
     return texts;
 }
 

@@ -14,6 +14,7 @@
 #include "app/labs/kit/motion.hpp"
 #include "app/labs/kit/named_world.hpp"
 #include "app/labs/kit/selection.hpp"
+#include "app/labs/kit/world_drawing.hpp"
 #include "app/labs/rope/walker.hpp"
 
 namespace tendril::app {
@@ -70,6 +71,9 @@ struct RopeView {
     bool strain = false;     ///< colour links by their strain
     int sides = 16;          ///< sides of the tube, 3 to 64
     float thickness = 1.0f;  ///< times as thick as they are: ropes and hair
+    /// Of bodies without a colour of their own.
+    BodyColour ropes = BodyColour::ByKind, hair = BodyColour::ByKind, cloths = BodyColour::ByKind;
+    KindColours colours() const { return {ropes, hair, cloths}; }
     bool operator==(const RopeView&) const = default;
 };
 

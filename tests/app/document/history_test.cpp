@@ -131,18 +131,6 @@ TEST(History, AnUndoDuringAGestureEndsItsEntry) {
     EXPECT_EQ(history.size(), 3u);
 }
 
-TEST(History, keeps_the_newest_of_too_many_entries) {
-    History history(10);
-    for (int i = 0; i < 100; ++i) history.push(document_of(std::to_string(i)), "edit", 0);
-    EXPECT_EQ(history.size(), 10u);
-    Document now = document_of("100");
-    for (int i = 99; i >= 90; --i) {
-        now = *history.undo(now);
-        EXPECT_EQ(title_of(now), std::to_string(i));
-    }
-    EXPECT_FALSE(history.undo(now));
-}
-
 TEST(History, CountsSharedDataOnceEvenWithoutTheOldestEntries) {
     for (const std::size_t max_entries : {std::size_t{10}, std::size_t{1000}}) {
         History history(max_entries);

@@ -1,11 +1,13 @@
 // The dialog that asks for a file: its messages about folders and long names.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "app/app.hpp"
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/shell/ui.hpp"
+#include "tests/app/support/apng.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"
 #include "tests/app/support/temp_folder.hpp"
@@ -57,6 +59,36 @@ class FileDialogTest : public testing::Test {
     App app_{*window_};
     FrameRecorder recorder_;
 };
+
+/// Ctrl+P, a width, a white background, Save: the picture lies beside the scene.
+TEST_F(FileDialogTest, APictureHasTheSizeAndBackgroundThatAreChosen) {
+    app_.run({"scene.save", Json{{"path", (folder_ / "arm.json").string()}}});
+    const glm::ivec2 view = app_.workspace().ui.picture_size;
+    key("ctrl+p");
+    click({700.0f, at("width, pixels").y});
+    key("ctrl+a");
+    type("300");
+    key("enter");
+    click({700.0f, at("background").y});
+    click(at("white"));
+    click(at("Save"));
+    EXPECT_FALSE(app_.workspace().ui.covered());
+    const Image image = read_png(folder_ / "arm-1.png");
+    EXPECT_EQ(image.size, glm::ivec2(300, std::lround(300.0 * view.y / view.x)));
+    EXPECT_EQ(image.rgba[0], 255);
+    key("ctrl+shift+p");
+    click({700.0f, at("shows").y});
+    click(at("a full turn of the camera"));
+    click({700.0f, at("frames of the turn").y});
+    key("ctrl+a");
+    type("3");
+    key("enter");
+    click(at("Record"));
+    for (int i = 0; i < 8; ++i) app_.tick(nullptr);
+    const Apng turn = read_apng(read(folder_ / "arm-2.png"));
+    EXPECT_EQ(turn.frames.size(), 3u);
+    EXPECT_EQ(turn.size, image.size) << "as chosen before";
+}
 
 TEST_F(FileDialogTest, AFolderWithoutSuchFilesSaysWhatCanBeOpened) {
     app_.run({"scene.save", Json{{"path", (folder_ / "arm.json").string()}}});

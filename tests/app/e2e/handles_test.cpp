@@ -78,16 +78,6 @@ TEST(HandlesOutOfView, HaveAPixelOutsideOrNone) {
     for (const auto& each : state.at("handles")) EXPECT_TRUE(each.at("pixel").is_null()) << each.dump();
 }
 
-TEST(HandlesOfALargeWindow, follow_its_size) {
-    ScriptText script = ScriptText().line({{"resize", {1920, 1080}}});
-    const Played played = play(script, {.picture = true});
-    EXPECT_EQ(played.picture.size, glm::ivec2(1920, 1080));
-    const auto blob = find_blob(played.picture, {.colour = app::palette(app::Theme::Dark).target}, {300, 110},
-                                {1600, 1000});
-    ASSERT_TRUE(blob);
-    EXPECT_LE(glm::distance(blob->centre, handle(played.state, "target")), 1.0f);
-}
-
 // The largest usual screen. No golden picture: it would be larger than all others together.
 TEST(HandlesOfALargeWindow, are_drawn_at_3840x2160) {
     const Played played = play(ScriptText().command("view.text_scale", {{"scale", 2}}),

@@ -1,6 +1,7 @@
 // The command palette in the running program: typing, Tab, Enter and the mouse, and the commands that ran.
 #include <imgui.h>
 
+#include <algorithm>
 #include <random>
 
 #include "app/app.hpp"
@@ -8,6 +9,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/shell/ui.hpp"
+#include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"
 #include "tests/app/support/program.hpp"
 #include "tests/labels.hpp"
@@ -51,6 +53,47 @@ TEST_F(PaletteTest, PlainWordsFindACommandAndEnterAsksForItsArguments) {
     EXPECT_FALSE(is_open());
     ASSERT_EQ(chain().chain.size(), before + 1);
     EXPECT_FLOAT_EQ(chain().chain.segments().back().length, 1.5f);
+}
+
+TEST_F(PaletteTest, ACommandOfAnotherLabOpensThatLab) {
+    app_.run({"lab.open", Json{{"name", "rope"}}});
+    open().type("chain.clear");
+    const FrameRecorder recorder;
+    app_.tick(nullptr);
+    EXPECT_TRUE(std::ranges::any_of(recorder.frame().texts, [](const DrawnText& each) {
+        return each.text.starts_with("Opens the Chain lab.");
+    })) << "before it runs";
+    key("enter");
+    EXPECT_EQ(app_.workspace().lab, "chain");
+    EXPECT_TRUE(chain().chain.empty());
+    open().type("rope.preset name=flag").key("enter");
+    EXPECT_EQ(app_.workspace().lab, "rope");
+    open().type("undo").key("enter");
+    EXPECT_EQ(app_.workspace().lab, "rope") << "the program's own commands stay";
+}
+
+/// Ctrl+Z never changes what is not in view.
+TEST_F(PaletteTest, UndoOfAnotherLabFirstShowsIt) {
+    const auto told = [&] {
+        return app_.workspace().ui.toasts.empty() ? "" : app_.workspace().ui.toasts.back().text;
+    };
+    const auto kind = [&] { return app_.workspace().ui.toasts.back().kind; };
+    key("ctrl+z");
+    EXPECT_EQ(told(), "Nothing to undo");
+    EXPECT_EQ(kind(), ToastKind::Info);
+    const std::size_t before = chain().chain.size();
+    app_.run({"chain.clear"});
+    app_.run({"lab.open", Json{{"name", "rope"}}});
+    for (const auto& [chord, after] : {std::pair("ctrl+z", before), {"ctrl+y", std::size_t{0}}}) {
+        app_.run({"lab.open", Json{{"name", "rope"}}});
+        const std::size_t now = chain().chain.size();
+        key(chord);
+        EXPECT_EQ(app_.workspace().lab, "chain");
+        EXPECT_TRUE(has(told(), "is in the Chain lab, now open")) << told();
+        EXPECT_EQ(chain().chain.size(), now) << chord;
+        key(chord);
+        EXPECT_EQ(chain().chain.size(), after) << chord;
+    }
 }
 
 TEST_F(PaletteTest, TabCompletesNameArgumentAndValueWithTheCaretBehind) {

@@ -1,4 +1,5 @@
 // The view as a picture: of the requested size, and without the background.
+#include <cmath>
 #include <cstdlib>
 
 #include "tests/app/support/play.hpp"
@@ -52,6 +53,54 @@ TEST(Picture, IsTransparentWhereNothingIsDrawn) {
         EXPECT_GT(empty, 100'000) << lab;
         EXPECT_LT(off, 10) << lab;
     }
+}
+
+/// Each lab with something selected that is marked in the view.
+TEST(Picture, LeavesOutHandlesAndTheSelectionUnlessWanted) {
+    const std::pair<const char*, app::Json> selections[]{{"chain", {{"index", 2}}},
+                                                         {"rope", {{"rope", "rope"}, {"particle", 3}}},
+                                                         {"rig", {{"element", "head"}}},
+                                                         {"humanoid", {{"node", "Head"}}}};
+    for (const auto& [lab, selection] : selections) {
+        const TempFolder folder;
+        ScriptText script;
+        script.command("lab.open", {{"name", lab}}).command("time.pause");
+        const auto shot = [&](const std::string& name, bool handles) {
+            script.command(
+                "view.picture",
+                {{"path", (folder / (name + ".png")).string()}, {"labels", true}, {"handles", handles}});
+        };
+        shot("a", false), shot("a_handles", true);
+        script.command(lab + std::string(".select"), selection);
+        shot("b", false), shot("b_handles", true);
+        play(script);
+        EXPECT_EQ(read(folder / "a.png"), read(folder / "b.png")) << lab;
+        EXPECT_NE(read(folder / "a.png"), read(folder / "b_handles.png")) << lab;
+        EXPECT_NE(read(folder / "a_handles.png"), read(folder / "b_handles.png")) << lab;
+    }
+}
+
+TEST(Picture, IsDarkOnWhiteForPaper) {
+    const app::Json size{{"width", 600}, {"height", 400}, {"paper", true}, {"labels", true}};
+    const app::Image white = picture(size, "rope");
+    app::Json clear = size;
+    clear["transparent"] = true;
+    const app::Image over = picture(clear, "rope");
+    std::size_t plain = 0;
+    for (std::size_t i = 0; i < white.rgba.size(); i += 4) {
+        plain += white.rgba[i] == 255 && white.rgba[i + 1] == 255 && white.rgba[i + 2] == 255;
+        for (std::size_t c = 0; c < 3; ++c) {  // the same colours, laid over white
+            const int laid = 255 + (over.rgba[i + c] - 255) * over.rgba[i + 3] / 255;
+            ASSERT_NEAR(white.rgba[i + c], laid, 2);
+        }
+    }
+    EXPECT_GT(plain, 100'000u);
+}
+
+TEST(Picture, KeepsTheProportionsOfTheView) {
+    const glm::ivec2 view = picture({}).size, wide = picture({{"width", 300}}).size;
+    EXPECT_EQ(wide, glm::ivec2(300, std::lround(300.0 * view.y / view.x)));
+    EXPECT_EQ(picture({{"height", 300}}).size, glm::ivec2(std::lround(300.0 * view.x / view.y), 300));
 }
 
 TEST(Picture, ChangesNothingElse) {

@@ -134,15 +134,6 @@ TEST(RacePicture, IsLabelledInAVideoOfThePast) {
     EXPECT_NE(first("tendril-1.png"), first("without.png"));
 }
 
-/// A picture with text does not change the window's own text.
-TEST(RacePicture, ChangesNothingInTheWindow) {
-    const TempFolder folder;
-    ScriptText plain = opened_race(), pictured = opened_race();
-    plain.wait(400);
-    pictured.command("view.picture", sized(folder / "a.png")).wait(400);
-    EXPECT_EQ(play(plain, {.picture = true}).picture.rgba, play(pictured, {.picture = true}).picture.rgba);
-}
-
 TEST(RaceFilm, ShowsTheRaceFromItsStartToItsEnd) {
     const TempFolder folder;
     ScriptText script = opened_race();

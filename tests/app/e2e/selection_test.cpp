@@ -28,6 +28,23 @@ ScriptText& box(ScriptText& script, glm::vec2 from, glm::vec2 to, bool add = fal
     return script.release("ctrl");
 }
 
+std::size_t grips(const Json& state) {
+    std::size_t count = 0;
+    for (const Json& each : state.at("handles"))
+        count += each.at("name").get<std::string>().find(".move_") != std::string::npos;
+    return count;
+}
+
+/// A held object has a gizmo although nothing is selected.
+TEST(Gizmo, IsHiddenByEscapeUntilItsHandleIsClicked) {
+    ScriptText script = ScriptText().command("lab.open", {{"name", "humanoid"}}).command("time.pause");
+    script.command("humanoid.hold", {{"kind", "wheel"}}).wait(3);
+    const Json shown = state_after(script);
+    EXPECT_GT(grips(shown), 3u);
+    EXPECT_EQ(grips(state_after(script.key("escape").wait(3))), 0u);
+    EXPECT_GT(grips(state_after(script.click(handle(shown, "object")).wait(3))), 3u);
+}
+
 TEST(SelectByMouse, ShiftClickAddsAJointAndTakesItOut) {
     const Json start = state_after(front());
     ScriptText script = front();

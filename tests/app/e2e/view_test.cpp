@@ -137,6 +137,28 @@ TEST(View, TwoFingersPanIfChosenAndZoomWithCtrl) {
     EXPECT_EQ(panel.target, before.target);
 }
 
+const PlayOptions low{.picture = true, .more = {"--size", "1280x520"}};
+
+std::vector<std::uint8_t> panel(const app::Image& picture, int left = 0) {
+    std::vector<std::uint8_t> pixels;
+    for (int y = 60; y < 480; ++y)
+        for (int x = 4 * left; x < 4 * (left + 240); ++x)
+            pixels.push_back(picture.rgba[static_cast<std::size_t>(4 * picture.size.x * y + x)]);
+    return pixels;
+}
+
+TEST(Panels, ANewSelectionIsShownFromItsTop) {
+    ScriptText script = ScriptText().command("chain.select", {{"index", 2}}).wait(3);
+    const glm::vec2 joint = handle(play(script, low).state, "segment.5"), empty(640, 90),
+                    inspector(1150, 300);
+    const auto seen = [&](ScriptText then) {
+        return panel(play(then.move(empty).wait(4), low).picture, 1030);
+    };
+    const ScriptText scrolled = ScriptText(script).move(inspector).wheel(-30).wait(2);
+    EXPECT_NE(seen(scrolled), seen(script));
+    EXPECT_EQ(seen(ScriptText(scrolled).click(joint)), seen(ScriptText(script).click(joint)));
+}
+
 /// Undo restores what a fix removed from a panel, and the panel's scroll position.
 TEST(Panels, UndoRestoresTheirScrollPosition) {
     const ScriptText scrolled =
@@ -152,14 +174,6 @@ TEST(Panels, UndoRestoresTheirScrollPosition) {
             .wait(2)
             .move({620, 300})
             .wait(3);
-    const PlayOptions low{.picture = true, .more = {"--size", "1280x520"}};
-    const auto panel = [](const app::Image& picture) {
-        std::vector<std::uint8_t> pixels;
-        for (int y = 60; y < 480; ++y)
-            for (int x = 0; x < 4 * 240; ++x)
-                pixels.push_back(picture.rgba[static_cast<std::size_t>(4 * picture.size.x * y + x)]);
-        return pixels;
-    };
     const app::Image before = play(scrolled, low).picture;
     const ScriptText fixed = ScriptText(scrolled).command("humanoid.cure").wait(4);
     EXPECT_NE(panel(play(fixed, low).picture), panel(before));

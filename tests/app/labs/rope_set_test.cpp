@@ -183,6 +183,11 @@ TEST_F(RopeSet, ABodyHasAColour) {
     EXPECT_EQ(colour("cloth"), pink);
     EXPECT_EQ(particle_colours(world(), colours, false)[world().find("cloth")->first], pink);
     EXPECT_EQ(colour("rope"), colours.joint);
+    run("rope.view", {{"cloths", "blue"}, {"ropes", "pink"}});
+    const KindColours kinds = rope_part(workspace).view.colours();
+    EXPECT_EQ(body_colour(world(), *world().find("cloth"), colours, kinds), pink) << "its own";
+    EXPECT_EQ(body_colour(world(), *world().find("rope"), colours, kinds), pink) << "its kind's";
+    run("rope.view", {{"cloths", "by_kind"}, {"ropes", "by_kind"}});
     ASSERT_EQ(legend().size(), rows + 1);
     EXPECT_EQ(legend().back().name, "cloth");
     EXPECT_EQ(legend().back().colour, pink);

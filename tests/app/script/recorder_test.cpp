@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 
 #include "tests/app/script/script_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
@@ -106,47 +105,7 @@ TEST(Recorder, WritesANameThatIsNotUtf8AsWellAsPossible) {
     EXPECT_EQ(parse(recorder.text()).lines.size(), 1u);
 }
 
-bool same(const MouseMove& a, const MouseMove& b) {
-    return std::bit_cast<std::array<std::uint32_t, 2>>(a.at) ==
-           std::bit_cast<std::array<std::uint32_t, 2>>(b.at);
-}
-bool same(const MousePress& a, const MousePress& b) {
-    return a.button == b.button && a.down == b.down;
-}
-bool same(const MouseWheel& a, const MouseWheel& b) {
-    return std::bit_cast<std::uint32_t>(a.by) == std::bit_cast<std::uint32_t>(b.by) &&
-           std::bit_cast<std::uint32_t>(a.sideways) == std::bit_cast<std::uint32_t>(b.sideways);
-}
-bool same(const KeyChange& a, const KeyChange& b) {
-    return a.key == b.key && a.down == b.down;
-}
-bool same(const KeyTap& a, const KeyTap& b) {
-    return a.chord == b.chord;
-}
-bool same(const TextInput& a, const TextInput& b) {
-    return a.utf8 == b.utf8;
-}
-bool same(const Resize& a, const Resize& b) {
-    return a.size == b.size;
-}
-bool same(const Drop& a, const Drop& b) {
-    return a.paths == b.paths;
-}
-bool same(const Focus& a, const Focus& b) {
-    return a.focused == b.focused;
-}
-bool same(const CloseRequest&, const CloseRequest&) {
-    return true;
-}
-bool same(const VideoEnd&, const VideoEnd&) {
-    return true;
-}
-
-bool same_event(const Event& a, const Event& b) {
-    return a.index() == b.index() &&
-           std::visit([&](const auto& x) { return same(x, std::get<std::decay_t<decltype(x)>>(b)); }, a);
-}
-
+/// Numbers are written with as many digits as their bits need, so that equal lines are equal events.
 TEST(Recorder, ReadsBackAsTheSameEventsAtTheSameTicks) {
     std::mt19937 random(10);
     for (int round = 0; round < 200; ++round) {
@@ -171,8 +130,7 @@ TEST(Recorder, ReadsBackAsTheSameEventsAtTheSameTicks) {
             }
             ASSERT_LT(next, made.size());
             ASSERT_EQ(tick, made[next].first);
-            ASSERT_TRUE(same_event(std::get<Event>(line.action), made[next].second))
-                << event_line(made[next].second);
+            ASSERT_EQ(event_line(std::get<Event>(line.action)), event_line(made[next].second));
             ++next, ++tick;
         }
         ASSERT_EQ(next, made.size());

@@ -113,17 +113,6 @@ TEST(Script, NumbersItsLinesAsInTheFile) {
 constexpr const char* recording =
     R"({"recording": 1, "version": "0.1.0", "size": [640, 480], "lab": "chain", "scene": {"a": 1}, "settings": {"b": 2}})";
 
-TEST(Script, ARecordingHasItsInitialState) {
-    const Script script = parse(std::string("\n") + recording + "\n{\"wait\": 1}\n");
-    ASSERT_TRUE(script.start);
-    EXPECT_EQ(script.start->version, "0.1.0");
-    EXPECT_EQ(script.start->size, glm::ivec2(640, 480));
-    EXPECT_EQ(script.start->lab, "chain");
-    EXPECT_EQ(script.start->scene->dump(), R"({"a":1})");
-    EXPECT_EQ(script.start->settings->dump(), R"({"b":2})");
-    EXPECT_EQ(script.lines.size(), 1u);
-}
-
 TEST(Script, OtherRecordingsAreRefused) {
     EXPECT_TRUE(test::says(refusal(R"({"recording": 2, "news": 1})"), "line 1 recording version 2 1"));
     EXPECT_TRUE(has(refusal(std::string(recording) + '\n' + recording),

@@ -119,28 +119,6 @@ TEST_F(Completion, RanksAddingBeforeChangingBeforeRemoving) {
     }
 }
 
-/// Among commands with the same word in their titles.
-TEST_F(Completion, RanksRemovingLast) {
-    const auto removes = [](const Command& command) {
-        const std::string verb = command.title.substr(0, command.title.find(' '));
-        return has({"Remove", "Delete", "Reset", "Forget", "Detach"}, verb);
-    };
-    for (const auto& lab : labs_.all()) {
-        for (const char* noun : {"joint", "rope", "filter", "unit", "element", "control", "clip", "collider",
-                                 "response", "lab", "selection"}) {
-            bool removing = false;
-            for (const Command* command : search_commands(table_, noun, lab->name())) {
-                const bool same =
-                    command->lab == lab->name() &&
-                    (" " + lower_case(command->title)).find(std::string(" ") + noun) != std::string::npos;
-                if (!same) continue;
-                EXPECT_TRUE(removes(*command) || !removing) << noun << ": " << command->title;
-                removing = removing || removes(*command);
-            }
-        }
-    }
-}
-
 TEST_F(Completion, RanksMatchesInTheHelpAloneAfterOtherLabs) {
     const Strings pins = names("pin", "chain");  // "pinch" is in the help of view.scroll
     EXPECT_LT(std::ranges::find(pins, "rope.pin"), std::ranges::find(pins, "view.scroll"));

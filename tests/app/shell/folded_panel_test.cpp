@@ -21,15 +21,6 @@
 namespace tendril::app {
 namespace {
 
-TEST(FoldedPanel, LeavesAStripToUnfoldIt) {
-    Settings settings;
-    settings.left_open = settings.right_open = false;
-    const Layout layout = lay_out({1280, 720}, 2.0f, settings, 0.0f);
-    EXPECT_EQ(layout.left.size().x, 24.0f);
-    EXPECT_EQ(layout.right.size().x, 24.0f);
-    EXPECT_EQ(layout.view.size().x, 1280.0f - 48.0f);
-}
-
 TEST(FoldedPanel, OneFoldsAutomaticallyIfTwoDoNotFit) {
     Settings settings;
     EXPECT_TRUE(lay_out({900, 640}, 1.0f, settings, 0.0f).right_open);

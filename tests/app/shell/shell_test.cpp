@@ -150,16 +150,5 @@ TEST(InputState, HeldKeysAreModifiersAndATapReleasesThem) {
     EXPECT_FALSE(input.held(Key::X)) << "what is let go elsewhere is never told";
 }
 
-TEST(CommandPaletteLine, IsReadAsInAScript) {
-    const TypedCommand typed =
-        read_typed_command("chain.add length=1.5 position=[0, 1, 0] note=\"a b\" name=coil");
-    EXPECT_EQ(typed.name, "chain.add");
-    EXPECT_EQ(typed.arguments,
-              (Json{{"length", 1.5}, {"position", {0, 1, 0}}, {"note", "a b"}, {"name", "coil"}}));
-    EXPECT_THROW(read_typed_command("chain.add 1.5"), std::runtime_error);
-    EXPECT_THROW(read_typed_command("   "), std::runtime_error);
-    EXPECT_THROW(read_typed_command("chain.add =3"), std::runtime_error);
-}
-
 }  // namespace
 }  // namespace tendril::app

@@ -122,15 +122,6 @@ TEST(Keys, EveryKeyHasItsOwnNameAndIsFoundByIt) {
     EXPECT_EQ(key_name(Key::Count), "");
 }
 
-TEST(Keys, NamesAreReadInAnyCase) {
-    EXPECT_EQ(key_from_name("Page_Up"), Key::PageUp);
-    EXPECT_EQ(key_from_name("ESCAPE"), Key::Escape);
-    EXPECT_EQ(key_from_name("."), Key::Period);
-    EXPECT_EQ(key_from_name("7"), Key::Num7);
-    EXPECT_FALSE(key_from_name("hyper"));
-    EXPECT_FALSE(key_from_name(""));
-}
-
 TEST(Keys, EveryChordSurvivesItsName) {
     for (int i = 1; i < static_cast<int>(Key::Count); ++i) {
         for (int modifiers = 0; modifiers < 8; ++modifiers) {
@@ -153,12 +144,6 @@ TEST(Keys, ChordsAreWrittenOneWayAndReadAnyWay) {
 }
 
 // A divided view: the rectangles of the panes.
-
-TEST(Panes, ASingleOneFillsTheView) {
-    const Rect view{{271.5f, 44.0f}, {1009.25f, 646.0f}};
-    EXPECT_EQ(tiled(view, 0, 2.0f), std::vector{view});
-    EXPECT_EQ(tiled(view, 1, 2.0f), std::vector{view});
-}
 
 TEST(Panes, FourInALandscapeAreTwoByTwoAndTwoAreSideBySide) {
     const Rect view{{0.0f, 0.0f}, {802.0f, 602.0f}};

@@ -317,19 +317,6 @@ TEST_P(Offscreen, RefusesImpossibleSizes) {
     expect_clears(*window, {64, 48});
 }
 
-TEST_P(Offscreen, HasNoEvents) {
-    const auto window = open_window(GetParam(), {64, 48});
-    std::vector<Event> events;
-    window->poll(events, 10.0);
-    EXPECT_TRUE(events.empty());
-    window->set_clipboard("one\ntwo");
-    EXPECT_EQ(window->clipboard(), "one\ntwo");
-}
-
-TEST_P(Offscreen, CanBeOpenedAgain) {
-    for (int i = 0; i < 3; ++i) expect_clears(*open_window(GetParam(), {32, 32}), {32, 32});
-}
-
 LABEL(nightly, "Backends/Offscreen.*/Egl");
 INSTANTIATE_TEST_SUITE_P(Backends, Offscreen, testing::ValuesIn(test::backends_here()),
                          [](const auto& test) { return test.param == Backend::Egl ? "Egl" : "OsMesa"; });

@@ -354,6 +354,7 @@ void export_rows(const HumanoidPanel& panel) {
                    "Copies the character and its IK as a C++ program that uses the library"))
         panel.emit("humanoid.copy");
     end_row();
+    picture_rows(panel.emit);
     if (panel.part.loaded->clips().empty()) return note("The character has no clips.");
     std::string& path = panel.runtime.panel.export_to;
     text_field("write to", path, "walk.glb");

@@ -57,6 +57,7 @@ void draw_hold(const View& view, DrawList& list, const HumanoidPart& part, const
                   glm::vec4(view.palette.limit, 1.0f))
             .layer = Layer::Overlay;
     }
+    if (!view.handles) return;
     for (std::size_t hand = 0; hand < 2; ++hand) {
         const humanoid::GripReport& grip = report.grips[hand];
         if (!grip.holds) continue;

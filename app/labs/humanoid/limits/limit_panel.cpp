@@ -344,12 +344,13 @@ void draw_limits(const View& view, DrawList& list, const HumanoidPart& part, con
     const SelectedJoints chosen = selected_joints(part, humanoid_runtime(view.workspace).solvers);
     for (std::size_t i = 0; i < humanoid::bone_count; ++i) {
         const auto bone = static_cast<Bone>(i);
-        if (!part.node_of(bone) || chosen.has(bone)) continue;
+        if (!part.node_of(bone) || (view.handles && chosen.has(bone))) continue;
         if (held(shown, bone))
             drawing.held_back(bone);
         else if (part.view.limits == LimitsShown::All)
             drawing.discreet(bone);
     }
+    if (!view.handles) return;
     for (const Bone bone : chosen.all)
         if (bone != chosen.shown) drawing.selected(bone, false);
     if (chosen.shown) drawing.selected(*chosen.shown, true);
@@ -369,8 +370,11 @@ std::vector<LegendRow> limits_legend(const Workspace& workspace) {
     }
     const Palette& colours = palette(workspace.settings.theme);
     std::vector<LegendRow> rows;
-    if (adult) rows.push_back({"an adult's range", adult_colour(colours)});
-    if (clips) rows.push_back({"the clips' range", clips_colour(colours)});
+    const bool handle = part.view.limits != LimitsShown::All;  // only of the selection
+    if (adult)
+        rows.push_back({.name = "an adult's range", .colour = adult_colour(colours), .handle = handle});
+    if (clips)
+        rows.push_back({.name = "the clips' range", .colour = clips_colour(colours), .handle = handle});
     return rows;
 }
 

@@ -1,6 +1,7 @@
-// MP4 with H.264 video, which everything plays, written through a pipe by ffmpeg if that is installed. ffmpeg
-// may exit successfully after a failed write, so it then reads the whole file back; only then is the old file
-// replaced. Colour has half the resolution (4:2:0), and there is no alpha channel.
+// Videos that ffmpeg writes through a pipe, if it is installed: MP4 with H.264, which everything plays, and
+// GIF. ffmpeg may exit successfully after a failed write, so it then reads the whole file back; only then is
+// the old file replaced. MP4 has colour at half the resolution (4:2:0); a frame of a GIF has 256 colours of
+// its own. Neither has partial transparency.
 #pragma once
 
 #include <chrono>
@@ -11,13 +12,10 @@
 
 namespace tendril::app {
 
-/// "to write MP4, install ffmpeg", or empty if it is installed.
-std::string why_no_mp4();
-
-/// Width and height must be even.
-class Mp4File final : public VideoFile {
+class FfmpegVideo final : public VideoFile {
   public:
-    Mp4File(const std::filesystem::path& path, const VideoFormat& format);
+    /// Width and height of an MP4 must be even.
+    FfmpegVideo(const std::filesystem::path& path, const VideoFormat& format);
     void add(const Image& frame) override;
     bool by_another_program() const override { return true; }
     bool waits() override;
@@ -25,6 +23,7 @@ class Mp4File final : public VideoFile {
 
   private:
     VideoFormat format_;
+    bool gif_;
     ChildProcess ffmpeg_;                 ///< destroyed before the file that it writes
     std::optional<ChildProcess> reader_;  ///< set once ffmpeg_ has succeeded
     int frames_ = 0;
