@@ -32,7 +32,7 @@ Result missing(const std::string& message) {
 
 class Builder {
   public:
-    explicit Builder(Definition definition) : definition_(std::move(definition)) { definition_.units.pack(); }
+    explicit Builder(Definition definition) : definition_(std::move(definition)) {}
 
     Expected<const Plan*> build() {
         if (const Result bad = index_names(); !bad) return bad;

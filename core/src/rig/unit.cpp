@@ -7,65 +7,41 @@
 namespace tendril::rig {
 
 struct Units::Held : Unit {
-    Block* block;
-};
-/// Units side by side in memory, in the order in which a solve reads them. Freed when no list refers to any.
-struct Units::Block {
-    std::vector<Held> units;
-    std::atomic<std::uint32_t> owners{0};  ///< references from lists, over all units
+    std::atomic<std::uint32_t> owners{1};
 
-    explicit Block(std::size_t count) { units.reserve(count); }
-    void add(Unit&& unit) { units.push_back({std::move(unit), this}); }
-    static Block& of(const Unit* unit) noexcept { return *static_cast<const Held*>(unit)->block; }
-    static void release(const Unit* unit) noexcept {
-        Block& block = of(unit);
-        if (block.owners.fetch_sub(1, std::memory_order_acq_rel) == 1) delete &block;
+    explicit Held(Unit&& unit) : Unit(std::move(unit)) {}
+    static Held* of(Unit* unit) noexcept { return static_cast<Held*>(unit); }
+    static void release(Unit* unit) noexcept {
+        if (of(unit)->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) delete of(unit);
     }
 };
 
 Units::Units() noexcept = default;
 Units::Units(Units&&) noexcept = default;
+// Delegates to Units(), so that the destructor frees the units already added if adding another throws.
 Units::Units(std::initializer_list<Unit> units) : Units() {
-    append(units);
+    for (const Unit& each : units) push_back(each);
 }
 Units::Units(const Units& other) : Units() {
-    append(other);
+    held_.reserve(other.size());
+    for (const Unit& each : other) push_back(each);
 }
 Units& Units::operator=(Units other) noexcept {
     return std::swap(held_, other.held_), *this;
 }
 Units::~Units() {
-    for (Unit* const each : held_) Block::release(each);
-}
-template <class List>
-void Units::append(const List& units) {
-    auto block = std::make_unique<Block>(units.size());
-    for (const Unit& each : units) block->add(Unit(each));
-    refer_to(std::move(block), size());
-}
-void Units::pack() {
-    Units packed;
-    auto block = std::make_unique<Block>(size());
-    for (Unit& each : *this) block->add(std::move(each));
-    packed.refer_to(std::move(block), 0);
-    *this = std::move(packed);
-}
-void Units::refer_to(std::unique_ptr<Block> block, std::size_t index) {
-    held_.insert(held_.begin() + static_cast<std::ptrdiff_t>(index), block->units.size(), nullptr);
-    for (Held& each : block->units) held_[index++] = &each;
-    block->owners = static_cast<std::uint32_t>(block->units.size());
-    if (block->owners > 0) static_cast<void>(block.release());
+    for (Unit* const each : held_) Held::release(each);
 }
 void Units::push_back(Unit unit) {
     insert(size(), std::move(unit));
 }
 void Units::insert(std::size_t index, Unit unit) {
-    auto block = std::make_unique<Block>(1);
-    block->add(std::move(unit));
-    refer_to(std::move(block), index);
+    auto held = std::make_unique<Held>(std::move(unit));
+    held_.insert(held_.begin() + static_cast<std::ptrdiff_t>(index), held.get());
+    static_cast<void>(held.release());
 }
 void Units::erase(std::size_t index) noexcept {
-    Block::release(held_[index]);
+    Held::release(held_[index]);
     held_.erase(held_.begin() + static_cast<std::ptrdiff_t>(index));
 }
 void Units::resize(std::size_t count) {
@@ -79,11 +55,9 @@ bool Units::operator==(const Units& other) const noexcept {
 Units Units::with(std::size_t index, Unit unit) const {
     Units changed;
     changed.held_.reserve(size());
-    changed.insert(0, std::move(unit));
-    Unit* const own = changed.held_[0];
-    changed.held_.clear();
+    Unit* const own = new Held(std::move(unit));
     for (std::size_t i = 0; i < size(); ++i) {  // nothing here throws
-        if (i != index) Block::of(held_[i]).owners.fetch_add(1, std::memory_order_relaxed);
+        if (i != index) Held::of(held_[i])->owners.fetch_add(1, std::memory_order_relaxed);
         changed.held_.push_back(i == index ? own : held_[i]);
     }
     return changed;

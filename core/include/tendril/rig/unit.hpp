@@ -30,7 +30,6 @@
 #include <array>
 #include <cstddef>
 #include <initializer_list>
-#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -155,17 +154,11 @@ class Units {
     void insert(std::size_t index, Unit unit);
     void erase(std::size_t index) noexcept;
     void resize(std::size_t count);
-    /// Moves the units together in memory, where a solve reads them fastest. Rig::make() does so.
-    void pack();
     bool operator==(const Units& other) const noexcept;
 
   private:
     friend class Rig;
     struct Held;
-    struct Block;
-    template <class List>
-    void append(const List& units);
-    void refer_to(std::unique_ptr<Block> block, std::size_t index);
     /// A copy with one unit replaced. The others are shared: neither list may change any more.
     Units with(std::size_t index, Unit unit) const;
 
