@@ -146,7 +146,7 @@ void App::note_typing(const Event* event) {
     const Key key = input_.pressed().key;
     const bool panel = layout_.left.contains(input_.mouse()) || layout_.right.contains(input_.mouse());
     if (press != nullptr && press->down)
-        typing_astray_ = panel && !workspace_.ui.covered() && !ImGui::IsAnyItemActive();
+        typing_astray_ = panel && !workspace_.ui.covered() && !ImGui::IsAnyItemHovered();
     else if (types || (key != Key::Unknown && !in_number(key)))
         typing_astray_ = false;
     else if (typed && press == nullptr)

@@ -10,15 +10,10 @@
 namespace tendril::app {
 namespace {
 
-/// Whether to stop before a step: at the end, or because it would change a lab that is not in view. Shows
-/// that lab, and says so.
+/// Whether to stop before a step because it would change a lab that is not in view. Shows that lab, and says
+/// so.
 bool waits(Workspace& workspace, bool back) {
-    const History& history = workspace.history;
-    const std::string word = back ? "undo" : "redo", lab = history.next_lab(back);
-    if (!(back ? history.can_undo() : history.can_redo())) {
-        workspace.toast("Nothing to " + word);
-        return true;
-    }
+    const std::string word = back ? "undo" : "redo", lab = workspace.history.next_lab(back);
     if (lab.empty() || lab == workspace.lab) return false;
     workspace.open_lab(lab);
     workspace.toast("The change to " + word + " is in the " + capitalised(lab) + " lab, now open. " +

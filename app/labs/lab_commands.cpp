@@ -222,7 +222,7 @@ void add_recording(CommandTable& table, const Labs& labs) {
             w.ui.video = video_request(w, a);
         });
     table.add(
-        "view.turntable", "Write a video of a full turn",
+        "view.turntable", "Write a turntable video",
         film_arguments({integer_argument("frames", "of the whole turn; default: 120", 2, max_turn_frames),
                         every_argument()},
                        true),

@@ -161,6 +161,9 @@ TEST_F(MotionProgram, LintAndBakeTakeAnotherCharactersMotionAndPrintTheirGuesses
     const app::Character written = app::read_character(path("out.glb"));
     ASSERT_EQ(written.clips.size(), 1u);
     EXPECT_EQ(written.clips[0].name, "motion");
+    for (const std::string& input : {body, walk})
+        EXPECT_TRUE(complained(run({"bake", body, "--motion", walk, "--force", "--out", input}), 2,
+                               {"in use as input"}));
     const Outcome unknown = run({"bake", body, "--motion", walk, "--clip", "run"});
     EXPECT_EQ(unknown.exit_code, 2);
     EXPECT_TRUE(test::says(unknown.err, "walk.bvh no clip run motion")) << unknown.err;

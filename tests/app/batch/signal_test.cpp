@@ -135,6 +135,7 @@ TEST_F(SignalProgram, ARowWithoutTimeChangesNothing) {
     EXPECT_EQ(table[4][2], table[2][2]);
     EXPECT_EQ(table[4][0], table[2][0]);
     EXPECT_NEAR(number(table[5][2]), 0.75, 1e-12);
+    EXPECT_TRUE(succeeded(run(R"({"kind": "interp_to"})", "time,input\n0,0\n0.1,1\n0.1,5\n0.2,1\n")));
 }
 
 TEST_F(SignalProgram, RatesShowThatAFilterDependsOnThem) {
@@ -204,9 +205,6 @@ TEST_F(SignalProgram, SaysWhatIsWrongWithAFilterAndWhere) {
         {R"({"kind": "hysteresis", "low": 2, "high": 1})", {"filter", "low", "2", "high is 1"}},
         {R"({"kind": "scale_bias_clamp", "clamp_min": 2, "clamp_max": 0.5})",
          {"filter", "clamp_min", "2", "clamp_max is 0.5"}},
-        {R"({"kind": "curve", "keys": []})", {"filter.keys"}},
-        {R"({"kind": "curve", "keys": [{"time": 0, "value": 0}, {"time": 0, "value": 1}]})",
-         {"keys", "time"}},
         {R"({"kind": "curve", "keys": [{"time": 0}]})", {"filter.keys.0", "value"}},
         {R"({"kind": "curve", "keys": [{"time": 0, "value": 0, "piece": "round"}]})",
          {"filter.keys.0.piece", "round"}},
@@ -243,11 +241,8 @@ TEST_F(SignalProgram, SaysWhatIsWrongWithSamplesByRowAndColumn) {
         {"0.1,0\n0.1,high\n", {"row 2", "column 2 (input)", "a number", "\"high\""}},
         {"0.1,0\nsoon,1\n", {"row 2", "column 1 (dt)", "\"soon\""}},
         {"0.1,nan\n", {"row 1", "column 2 (input)", "nan"}},
-        {"0.1,inf\n", {"row 1", "column 2"}},
         {"0.1,1e300\n", {"row 1", "column 2", "-1e9 to 1e9"}},
-        {"0.1,1e999\n", {"row 1", "column 2"}},
         {"0.1;0\n", {"row 1", "columns are separated by commas", "semicolon"}},
-        {"dt;input\n0,1;0\n", {"row 1", "columns are separated by commas", "semicolon"}},
         {"dt\tinput\n0.1\t0\n", {"row 1", "columns are separated by commas", "tab"}},
         {"time,input\n0,0\n0.2,1\n0.1,1\n", {"row 4", "column 1 (time)", "at least 0.2", "found 0.1"}},
         {"time,input\n-1e9,0\n1e9,1\n", {"row 3", "column 1 (time)", "1e9 s after"}},

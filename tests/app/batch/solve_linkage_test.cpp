@@ -105,8 +105,9 @@ TEST_F(SolveLinkage, ASweepIsATableOfDriversAndPoints) {
         EXPECT_NEAR(four[i]["points"]["B"][1].get<double>(), std::sin(angle), 1e-9);
         EXPECT_EQ(four[i]["freedom"], 1);
     }
-    // Backwards; rounding must not lead beyond the end.
+    // Backwards; rounding leads neither beyond the end nor short of it.
     EXPECT_EQ(rows(app::parse_json(one), {"--drive", "crank=90:0:-0.1"}).size(), 901u);
+    EXPECT_EQ(rows(app::parse_json(one), {"--drive", "crank=0:0.3:0.1"}).size(), 4u);
     // With cases of several kinds, only the usual columns are printed.
     const Outcome mixed =
         run(R"([{"linkage": "four_bar"}, {"lengths": [1], "target": [1, 0, 0]}, {"linkage": "delta"}])",

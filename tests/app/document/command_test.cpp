@@ -61,6 +61,15 @@ TEST_F(CommandArguments, ANumberOrAPoint) {
     EXPECT_TRUE(test::says(refused("test.pull", Json::object()), "test.pull by missing number point"));
 }
 
+TEST_F(CommandArguments, ARefusedCommandLeavesNothingOfItsChange) {
+    table.add({.name = "test.half", .arguments = {}, .help = {}, .apply = [](Workspace& w, const Arguments&) {
+                   w.document.edit<test::TestPart>("arm").title = "half";
+                   throw std::invalid_argument("no more");
+               }});
+    EXPECT_EQ(refused("test.half", Json::object()), "test.half: no more");
+    EXPECT_EQ(workspace.document, workspace.blank);
+}
+
 /// Text that a scene file could not store is refused; a path may hold any bytes.
 TEST_F(CommandArguments, ATextIsUtf8) {
     std::string taken;

@@ -110,7 +110,6 @@ TEST(SceneFile, OtherValuesAreRefusedWithPathAndReason) {
         {"[]", "not a Tendril scene"},
         {R"({"tendril_scene": 3, "labs": {}})",
          "tendril_scene: version 3 is newer than this program, which reads 2"},
-        {R"({"tendril_scene": 99999999999999999999, "labs": {}})", "tendril_scene: "},
         {R"({"tendril_scene": 18446744073709551615, "labs": {}})", "is newer than"},
         {R"({"tendril_scene": 0, "labs": {}})",
          "tendril_scene: expected a whole number from 1 to 2, found 0"},
@@ -129,7 +128,6 @@ TEST(SceneFile, OtherValuesAreRefusedWithPathAndReason) {
         {with_camera(R"({"pitch_deg": 91})"), "camera.pitch_deg: expected -90.0 to 90.0 degrees, found 91"},
         {with_camera(R"({"distance": 0})"), "camera.distance: expected a number from "},
         {with_camera(R"({"field_of_view_deg": 180})"), "camera.field_of_view_deg: expected "},
-        {with_camera(R"({"field_of_view_deg": 0})"), "camera.field_of_view_deg: expected "},
     };
     for (const auto& [text, reason] : bad) EXPECT_TRUE(has(refusal(parse_json(text)), reason)) << text;
     EXPECT_EQ(message_of([&] {

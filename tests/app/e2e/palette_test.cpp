@@ -79,7 +79,7 @@ TEST_F(PaletteTest, UndoOfAnotherLabFirstShowsIt) {
     };
     const auto kind = [&] { return app_.workspace().ui.toasts.back().kind; };
     key("ctrl+z");
-    EXPECT_EQ(told(), "Nothing to undo");
+    EXPECT_EQ(told(), "Nothing to undo.");
     EXPECT_EQ(kind(), ToastKind::Info);
     const std::size_t before = chain().chain.size();
     app_.run({"chain.clear"});

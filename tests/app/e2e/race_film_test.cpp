@@ -198,7 +198,7 @@ TEST(RaceFilm, IsRefusedInWords) {
     };
     refused(ScriptText(), sized(folder / "a.png"), "no race is open");
     refused(opened_race(), Json::object(), "path is missing");
-    refused(opened_race(), sized(folder / "a.gif"), "path must end in .png or .mp4 got a.gif");
+    refused(opened_race(), sized(folder / "a.tiff"), "path must end in .png .gif or .mp4 got a.tiff");
     refused(opened_race(), sized("/nowhere/a.png"), "cannot write /nowhere/a.png No such file");
     ScriptText elsewhere = opened_race();
     elsewhere.command("lab.open", {{"name", "rope"}});

@@ -26,6 +26,15 @@ ScriptText& slowly(ScriptText& script, glm::vec2 from, glm::vec2 to, int steps =
     return script;
 }
 
+TEST(RopeInTheWindow, AThirdQuickClickIsASingleClickAgain) {
+    ScriptText script = rope_lab().command("time.pause").wait(2);
+    const glm::vec2 at = handle(state_after(script), "rope.8");
+    const auto selected = [&] { return state_after(script.click(at))["selected"]["particles"].size(); };
+    EXPECT_EQ(selected(), 1u);
+    EXPECT_GT(selected(), 1u) << "all of the rope";
+    EXPECT_EQ(selected(), 1u);
+}
+
 TEST(RopeInTheWindow, ABallDraggedThroughARopeCarriesIt) {
     const ScriptText before = rope_lab().wait(90);
     const Json start = state_after(before);

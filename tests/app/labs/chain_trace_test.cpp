@@ -187,6 +187,9 @@ TEST_F(ChainTrace, TheStripIsSavedAsATraceThatIsReadBack) {
     ASSERT_EQ(findings.chains[0].incidents.size(), 1u);
     EXPECT_EQ(findings.chains[0].incidents[0].frame, made.frame);
     EXPECT_EQ(findings.chains[0].incidents[0].flip, ik::FlipCause::PassedPole);
+    run("time.seek", {{"ticks_back", 0}});
+    run("chain.save_trace", {{"path", (folder_ / "newest.jsonl").string()}});
+    EXPECT_EQ(tendril::test::read(folder_ / "newest.jsonl"), tendril::test::read(folder_ / "saved.jsonl"));
     run("chain.clear", {});
     EXPECT_NE(refused("chain.save_trace", {{"path", saved}}).find("no bone"), std::string::npos);
 }

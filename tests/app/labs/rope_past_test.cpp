@@ -70,6 +70,16 @@ TEST_F(RopePast, ValuesEqualEachTicksInEveryScene) {
     }
 }
 
+TEST_F(RopePast, NothingIsHeldThere) {
+    single_rope(12);
+    run("rope.hold", {{"rope", "rope"}, {"particle", 4}, {"at", {0.5, 2.2, 0}}});
+    pass(5);
+    run("rope.let_go");
+    pass(5);
+    run("time.seek", {{"ticks_back", 8}});
+    EXPECT_FALSE(part().hold || world().pinned(4));
+}
+
 TEST_F(RopePast, OfTheSelectionEqualsInspectorAndState) {
     single_rope(12);
     run("rope.add", {{"name", "other"}, {"from", {0, 3, 0}}, {"to", {2, 3, 0}}, {"segments", 20}});

@@ -29,7 +29,6 @@ TEST_F(SignalFile, ABrokenFileIsRefusedWithItsPlace) {
     run("signal.fit.hand", {{"value", 0.5}});
     wait(5);
     const std::tuple<const char*, Json, const char*> all[] = {
-        {"/filters/4/halflife", -1, "labs.signal.filters.4.halflife"},
         {"/filters/4/kind", "sponge", "labs.signal.filters.4.kind"},
         {"/filters/4/state", 7, "labs.signal.filters.4.state"},
         {"/filters/4/state/output/value", "x", "labs.signal.filters.4.state.output.value"},

@@ -14,6 +14,7 @@ inline app::Json unfolded() {
 }
 
 inline constexpr glm::vec2 forward{60.0f, 274.0f};
+inline constexpr glm::vec2 target_y{173.0f, 668.0f};  ///< in the four trailing modes
 // In mode Reach:
 inline constexpr glm::vec2 iterations{173.0f, 523.0f};
 inline constexpr glm::vec2 soft_zone{173.0f, 651.0f};

@@ -5,6 +5,7 @@
 #include "app/widgets/axis.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/lists.hpp"
+#include "app/widgets/plot.hpp"
 #include "tests/app/support/tooltips.hpp"
 
 namespace tendril::app {
@@ -94,6 +95,14 @@ TEST_F(Explained, ARowWithoutANumberHasNoRange) {
 }
 
 // The marks of axes: round steps, one unit.
+
+TEST(Plot, ValuesOfACurveAreThoseOfItsPointsAndBetweenThem) {
+    const Curve curve{.name = "", .points = {{0, 1}, {1, 3}}};
+    EXPECT_EQ(value_at(curve, 0.0f), 1.0f);
+    EXPECT_EQ(value_at(curve, 0.5f), 2.0f);
+    EXPECT_EQ(value_at(curve, 1.0f), 3.0f);
+    for (const float outside : {-0.1f, 1.1f}) EXPECT_TRUE(std::isnan(value_at(curve, outside)));
+}
 
 TEST(Axis, StepsAreRound) {
     EXPECT_DOUBLE_EQ(axis_step(0.3), 0.5);

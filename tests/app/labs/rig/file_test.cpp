@@ -149,6 +149,9 @@ TEST_F(RigFile, InputsAreReadAsIntended) {
     EXPECT_EQ(aim.primary.weight,
               rig::Input<double>(FromElement{.element = "float", .of = Of::ControlValue}));
     EXPECT_EQ(aim.secondary->kind, AimTarget::Direction);
+    EXPECT_EQ(
+        operation.operator()<AimMath>(1).transform,
+        rig::Input<Transform>(FromElement{.element = "tip", .of = Of::Transform, .pose = Pose::Initial}));
     const auto constraint = operation.operator()<ParentConstraint>(2);
     EXPECT_EQ(constraint.filter.translation, (std::array<bool, 3>{true, false, true}));
     EXPECT_EQ(constraint.filter.rotation, (std::array<bool, 3>{true, true, true}));

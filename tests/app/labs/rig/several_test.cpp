@@ -401,9 +401,7 @@ TEST_F(SeveralSet, OtherNamesAreRefusedAndChangeNothing) {
     expect("rig.control.reset", {{"names", {"left", "a"}}}, "\"a\" is not a control");
     expect("rig.control.set", {{"names", {"dial", "left"}}, {"value", 1}},
            "\"left\" is a position control, \"dial\" a float control");
-    expect("rig.control.set", {{"names", {"left", "right"}}, {"value", {1, 2}}}, "value");
     expect("rig.control.set", {{"names", {"left", "right"}}, {"value", {1, nullptr, "x"}}}, "value");
-    expect("rig.control.set", {{"names", {"dial", "knob"}}, {"value", nullptr}}, "value");
     expect("rig.element.set", {{"names", {"a", "b"}}, {"transform", {{"rotation", {0, nullptr, 0, 1}}}}},
            "rotation");
     expect("rig.element.set", {{"names", {"a", "b"}}, {"transform", {{"scale", {0, 1, 1}}}}}, "scale");
