@@ -340,5 +340,21 @@ TEST(RopeCut, RandomCutsKeepParticlesMassAndMomentum) {
     }
 }
 
+/// Links at the same strain: the rope tears at one after the other, and only while the rest still carries too
+/// much.
+TEST(RopeCut, AnOverloadedRopeTearsAtOneLinkAtATime) {
+    World world = world_with({.gravity = {0, 0, 0}, .compliance = 1e-4f});
+    world.add_rope("rope", {.segments = 20, .pin_start = true, .pin_end = true});
+    allow(world.set_tear(world.id("rope"), 0.1f));
+    world.pin(20, {2, 0, 0}, 0.5);
+    std::size_t links = 20;
+    run_substeps(world, 120, [&] {
+        EXPECT_GE(world.state().links.size() + 1, links);
+        links = world.state().links.size();
+    });
+    EXPECT_LT(links, 20u);
+    EXPECT_GT(links, 10u);
+}
+
 }  // namespace
 }  // namespace tendril::test

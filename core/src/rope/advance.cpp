@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <glm/common.hpp>
+#include <vector>
 
 #include "math/fork_join.hpp"
 #include "math/rotation.hpp"
@@ -17,20 +18,35 @@ namespace {
 
 using glm::dvec3;
 
-/// Removes the links over their body's tear strain; returns whether there were any.
+/// Removes the links over their body's tear strain; returns whether there were any. A rope tears at one link,
+/// the most strained: that relieves the others.
 bool tear_links(State& state) {
     std::size_t b = 0;  // links of a body are nearly always contiguous
-    const auto torn = [&](const Link& link) {
+    const auto excess = [&](const Link& link) {
         while (link.a < state.bodies[b].first) --b;
         while (link.a - state.bodies[b].first >= state.bodies[b].count) ++b;
         const float limit = state.bodies[b].tear;
-        if (limit <= 0.0f) return false;
+        if (limit <= 0.0f) return 0.0;
         // Shear lengthens a cell's diagonals without overstretching its threads.
         const double longest = static_cast<double>(limit) + (link.kind == Link::Kind::Stretch ? 0.0 : 0.5);
         const double length = detail::length(state.position[link.b] - state.position[link.a]);
-        return length > link.rest * (1.0 + longest);
+        return std::max(0.0, length - link.rest * (1.0 + longest));
     };
-    return std::erase_if(state.links, torn) > 0;
+    if (std::none_of(state.links.begin(), state.links.end(),
+                     [&](const Link& each) { return excess(each) > 0.0; }))
+        return false;
+    std::vector<double> most(state.bodies.size());
+    for (const Link& link : state.links) {
+        const double over = excess(link);
+        most[b] = std::max(most[b], over);
+    }
+    std::erase_if(state.links, [&](const Link& link) {
+        const double over = excess(link), worst = most[b];
+        const bool tears = over > 0.0 && (state.bodies[b].kind != Body::Kind::Rope || over == worst);
+        if (tears && state.bodies[b].kind == Body::Kind::Rope) most[b] = -1.0;
+        return tears;
+    });
+    return true;
 }
 
 /// Removes the ties that pull harder than their strength, except those still drawing their particles

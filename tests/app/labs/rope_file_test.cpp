@@ -21,15 +21,6 @@ TEST_F(RopeFile, ADraggedParticleIsStillHeldAfterLoading) {
     expect_scene_refused("/held/particles/0", 3, "labs.rope.held.particles.0: it is not pinned");
 }
 
-TEST_F(RopeFile, GustsGoOnAfterLoading) {
-    single_rope();
-    run("rope.settings", {{"wind", {5, 0, 1}}});
-    wait(3);
-    const auto loaded = std::dynamic_pointer_cast<RopePart>(part().load(part().save(), ""));
-    EXPECT_NE(world().state().drift, glm::dvec3(0.0));
-    EXPECT_EQ(loaded->world->state(), world().state());
-}
-
 TEST_F(RopeFile, ParticlesAreCompactRows) {
     single_rope(2);
     EXPECT_EQ(part().save()["world"]["particles"][1].size(), 4u) << "what never moved is short";
