@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <random>
 #include <tendril/humanoid/balance.hpp>
 #include <tendril/humanoid/body.hpp>

@@ -16,26 +16,6 @@ namespace {
 constexpr Effector five[]{Effector::LeftHand, Effector::RightHand, Effector::Head, Effector::LeftFoot,
                           Effector::RightFoot};
 
-class RandomPoses {
-  public:
-    explicit RandomPoses(unsigned seed) : engine_(seed) {}
-    double from(double low, double high) {
-        return std::uniform_real_distribution<double>(low, high)(engine_);
-    }
-    glm::dvec3 vector(double size) {
-        const double x = from(-size, size), y = from(-size, size), z = from(-size, size);
-        return {x, y, z};
-    }
-    glm::dquat rotation() {
-        const glm::dvec3 axis = vector(1.0);
-        const double w = from(-1.0, 1.0);
-        return glm::normalize(glm::dquat(w, axis.x, axis.y, axis.z));
-    }
-
-  private:
-    std::mt19937 engine_;
-};
-
 class HumanoidBody : public testing::TestWithParam<bool> {
   protected:
     HumanoidBody() { place(skeleton, rest, placements); }
@@ -95,12 +75,6 @@ class HumanoidBody : public testing::TestWithParam<bool> {
     std::vector<rig::Transform> rest = rest_pose(skeleton);
     std::vector<Placement> placements = std::vector<Placement>(skeleton.size());
 };
-
-double farthest(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
-    double most = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, glm::distance(a[i], b[i]));
-    return most;
-}
 
 LABEL(slow, "Limits/HumanoidBody.TargetsWhereTheClipHasTheEffectorsChangeNothing/*");
 LABEL(slow, "Limits/HumanoidBody.FollowsTargetsInAndOutOfReachWithoutALeap/*");

@@ -34,11 +34,6 @@ class HumanoidContact : public testing::TestWithParam<bool> {
         }
         return deepest;
     }
-    static double farthest(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
-        double most = 0.0;
-        for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, glm::distance(a[i], b[i]));
-        return most;
-    }
 
     Skeleton skeleton = make_figure({});
     BoneMap map = match_bones(skeleton);

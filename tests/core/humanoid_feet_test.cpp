@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <string>
 
 #include "humanoid_feet_support.hpp"
 #include "memory.hpp"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <random>
 #include <string>
 #include <tendril/humanoid/bone_map.hpp>
 #include <vector>
@@ -67,6 +68,33 @@ inline Skeleton make_figure(const std::map<std::string, std::string>& named, dou
         nodes.push_back(node);
     }
     return *Skeleton::make(std::move(nodes));
+}
+
+/// Random numbers, vectors and rotations.
+class RandomPoses {
+  public:
+    explicit RandomPoses(unsigned seed) : engine_(seed) {}
+    double from(double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(engine_);
+    }
+    glm::dvec3 vector(double size) {
+        const double x = from(-size, size), y = from(-size, size), z = from(-size, size);
+        return {x, y, z};
+    }
+    glm::dquat rotation() {
+        const glm::dvec3 axis = vector(1.0);
+        const double w = from(-1.0, 1.0);
+        return glm::normalize(glm::dquat(w, axis.x, axis.y, axis.z));
+    }
+
+  private:
+    std::mt19937 engine_;
+};
+
+inline double farthest(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, glm::distance(a[i], b[i]));
+    return most;
 }
 
 /// Positions of all nodes, metres.

@@ -71,23 +71,14 @@ struct Holder {
     std::vector<Placement> placed;
 };
 
-class Randoms {
+class Randoms : public RandomPoses {
   public:
-    double from(double low, double high) {
-        return std::uniform_real_distribution<double>(low, high)(engine_);
-    }
-    glm::dvec3 within(double size) {
-        const double x = from(-size, size), y = from(-size, size), z = from(-size, size);
-        return {x, y, z};
-    }
+    Randoms() : RandomPoses(7) {}
     /// A random rotation by up to `most` radians.
     glm::dquat turn(double most) {
         const double angle = from(0.0, most);
-        return glm::angleAxis(angle, glm::normalize(within(1.0) + glm::dvec3(0.0, 1e-3, 0.0)));
+        return glm::angleAxis(angle, glm::normalize(vector(1.0) + glm::dvec3(0.0, 1e-3, 0.0)));
     }
-
-  private:
-    std::mt19937 engine_{7};
 };
 
 /// Both hands on a rim, palms inward, free to turn about it.
@@ -105,7 +96,7 @@ TEST(HumanoidHold, ClosesTheGripsWithinTheLimits) {
         for (int i = 0; i < 14; ++i) {
             const double far = i % 2 == 0 ? 0.15 : 0.6;
             const HeldObject wheel{grips,
-                                   {glm::dvec3(0.0, 1.25, 0.4) + random.within(far), random.turn(2.0 * far)}};
+                                   {glm::dvec3(0.0, 1.25, 0.4) + random.vector(far), random.turn(2.0 * far)}};
             const HoldReport report = holder.settle(wheel);
             EXPECT_TRUE(report.closed()) << i;
             for (const Grip& grip : grips) {
@@ -141,7 +132,7 @@ TEST(HumanoidHold, ReachesAPoseThatIsPossible) {
                 turned(1, -side * random.from(0.3, 1.2), {0, 1, 0});
             }
             place(holder.skeleton, made, holder.placed = std::vector<Placement>(made.size()));
-            const ObjectPose asked{random.within(1.0), random.turn(3.0)};
+            const ObjectPose asked{random.vector(1.0), random.turn(3.0)};
             std::vector<Grip> grips;
             for (const Effector hand : {Effector::LeftHand, Effector::RightHand})
                 grips.push_back({.hand = hand,
@@ -193,7 +184,7 @@ TEST(HumanoidHold, TheObjectYieldsAsLittleAsPossible) {
         for (int k = 0; k < 8'000; ++k, size = std::max(size * 0.999, 1e-3)) {
             const glm::dvec3 to_asked = bar.asked.position - best.position;
             ObjectPose tried = best;
-            tried.position += size * (random.within(0.3) + random.from(0.0, 0.3) * to_asked);
+            tried.position += size * (random.vector(0.3) + random.from(0.0, 0.3) * to_asked);
             tried.rotation = glm::normalize(random.turn(size) * tried.rotation);
             const double now = distance_from(bar.asked, tried);
             if (now < least && holds(tried)) best = tried, least = now;
@@ -249,7 +240,7 @@ TEST(HumanoidHold, OnlyReportedJumpsOccur) {
     for (int way = 0; way < 4; ++way) {
         ObjectPose asked{{0.0, 1.25, 0.35}};
         holder.settle({grips, asked});
-        const glm::dvec3 along = 0.001 * glm::normalize(random.within(1.0));
+        const glm::dvec3 along = 0.001 * glm::normalize(random.vector(1.0));
         for (int i = 0; i < 150; ++i, ++steps) {
             asked.position += along;
             const std::array before{holder.at(Bone::LeftLowerArm).position,
@@ -412,11 +403,11 @@ TEST(HumanoidHold, StaysFinite) {
     Holder holder;
     for (int i = 0; i < 60; ++i) {
         const double size = std::pow(10.0, random.from(-9.0, 9.0));
-        std::vector<Grip> grips{{.hand = Effector::LeftHand, .position = random.within(size)},
-                                {.hand = Effector::RightHand, .position = random.within(i % 3 ? size : 0.0)}};
-        if (i % 2) grips[0].rotation = random.turn(3.0), grips[0].axis = random.within(1.0);
+        std::vector<Grip> grips{{.hand = Effector::LeftHand, .position = random.vector(size)},
+                                {.hand = Effector::RightHand, .position = random.vector(i % 3 ? size : 0.0)}};
+        if (i % 2) grips[0].rotation = random.turn(3.0), grips[0].axis = random.vector(1.0);
         if (i % 5 == 0) grips.pop_back();
-        const HoldReport report = holder.hold({grips, {random.within(i % 7 ? 2.0 : size), random.turn(3.1)}});
+        const HoldReport report = holder.hold({grips, {random.vector(i % 7 ? 2.0 : size), random.turn(3.1)}});
         for (const rig::Transform& each : holder.pose) ASSERT_TRUE(rig::checked(each, "pose", "node")) << i;
         ASSERT_TRUE(std::isfinite(report.moved + report.turned + report.grips[0].gap + report.grips[1].off));
         EXPECT_LT(holder.worst_excess(), 2e-3) << i;

@@ -7,31 +7,13 @@ namespace {
 using ik::Method;
 using Wide = std::vector<glm::dvec3>;
 
-double size(glm::dvec3 v) {
-    return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
-}
-
-glm::dvec3 cross(glm::dvec3 a, glm::dvec3 b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-double dot(glm::dvec3 a, glm::dvec3 b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-/// Rodrigues' formula.
-glm::dvec3 turned(glm::dvec3 v, glm::dvec3 axis, double angle) {
-    return v * std::cos(angle) + cross(axis, v) * std::sin(angle) +
-           axis * (dot(axis, v) * (1.0 - std::cos(angle)));
-}
-
 void textbook_iteration(Wide& joints, glm::dvec3 target) {
     for (std::size_t i = joints.size() - 1; i-- > 0;) {
         const glm::dvec3 a = joints.back() - joints[i], b = target - joints[i], axis = cross(a, b);
-        if (size(axis) < 1e-12) continue;
-        const double angle = std::atan2(size(axis), dot(a, b));
+        if (glm::length(axis) < 1e-12) continue;
+        const double angle = std::atan2(glm::length(axis), dot(a, b));
         for (std::size_t k = i + 1; k < joints.size(); ++k) {
-            joints[k] = joints[i] + turned(joints[k] - joints[i], axis / size(axis), angle);
+            joints[k] = joints[i] + turned(joints[k] - joints[i], axis / glm::length(axis), angle);
         }
     }
 }
@@ -55,10 +37,11 @@ TEST(IkCcd, MatchesTheTextbook) {
         const double before = distance(joints.back(), target);
         textbook_iteration(wide, target);
         // A solve returns its best pose; here that must be the one after the iteration.
-        if (size(wide.back() - glm::dvec3(target)) > 0.99 * before) continue;
+        if (glm::length(wide.back() - glm::dvec3(target)) > 0.99 * before) continue;
         KeptSolver(lengths).solve(Method::Ccd, joints, target, iterations(1));
         for (std::size_t i = 0; i < joints.size(); ++i) {
-            worst = std::max(worst, size(glm::dvec3(joints[i]) - wide[i]) / static_cast<double>(reach));
+            worst =
+                std::max(worst, glm::length(glm::dvec3(joints[i]) - wide[i]) / static_cast<double>(reach));
         }
     }
     std::printf("worst deviation %.2g of the reach\n", worst);

@@ -1,8 +1,6 @@
 // Input that every method must withstand: any chain, any pose, any target.
 #pragma once
 
-#include <cstdint>
-
 #include "ik_support.hpp"
 #include "tests/labels.hpp"
 

@@ -4,7 +4,6 @@
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
-#include <string>
 
 #include "ik_poses.hpp"
 #include "tendril/ik/limit.hpp"
@@ -57,12 +56,6 @@ inline glm::dmat3 matrix_of(glm::quat q) {
 
 inline double signed_angle(glm::dvec3 from, glm::dvec3 to, glm::dvec3 about) {
     return std::atan2(glm::dot(about, glm::cross(from, to)), glm::dot(from, to));
-}
-
-/// Rodrigues' formula.
-inline glm::dvec3 turned(glm::dvec3 v, glm::dvec3 axis, double angle) {
-    return v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
-           axis * (glm::dot(axis, v) * (1.0 - std::cos(angle)));
 }
 
 /// Amount by which an angle is outside a range, modulo a full turn.

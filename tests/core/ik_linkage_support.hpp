@@ -1,7 +1,6 @@
 // Linkages driven and inspected by name, and random ones.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <string>

@@ -12,7 +12,6 @@ using ik::Method;
 using ik::Options;
 using ik::Phase;
 using ik::Report;
-using ik::Status;
 
 /// Solves with and without an observer, expects the same result, and returns the recording.
 Recorder expect_faithful(Method method, const Lengths& lengths, const Joints& start, glm::vec3 target,

@@ -1,6 +1,5 @@
 // The methods in the rows of fields<Options>(): an option that a method honours changes the result in some
 // case; one that it does not honour never changes anything.
-#include <cstring>
 
 #include "ik_limited_support.hpp"
 #include "tests/says.hpp"

@@ -16,11 +16,6 @@ struct Sweep {
     bool forgets = false;    ///< reset the state before every solve
 };
 
-glm::dvec3 turned_about(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
-    return v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
-           axis * (glm::dot(axis, v) * (1.0 - std::cos(angle)));
-}
-
 /// The chain follows a target on an arc of radius 3 m, from one radian before the pole's direction to one
 /// after. Returns the maximum ratio of any joint's motion to the target's in a tick.
 double worst_ratio(Method method, const Lengths& lengths, const Sweep& sweep) {
@@ -30,7 +25,7 @@ double worst_ratio(Method method, const Lengths& lengths, const Sweep& sweep) {
     KeptSolver solver(lengths);
     Joints joints = straight_joints(lengths);
     const ik::Options options{.tolerance = 1e-4f, .pole = pole, .pole_turn = sweep.turn};
-    const auto at = [&](double angle) { return glm::vec3(turned_about(middle, sweep.normal, angle)); };
+    const auto at = [&](double angle) { return glm::vec3(turned(middle, sweep.normal, angle)); };
     glm::vec3 target = at(-1.0);
     for (int i = 0; i < 100; ++i) solver.solve(method, joints, target, options);  // settle first
     double worst = 0.0;

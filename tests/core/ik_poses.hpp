@@ -14,6 +14,12 @@
 
 namespace tendril::test {
 
+/// Rodrigues' formula.
+inline glm::dvec3 turned(glm::dvec3 v, glm::dvec3 axis, double angle) {
+    return v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
+           axis * (glm::dot(axis, v) * (1.0 - std::cos(angle)));
+}
+
 using Joints = std::vector<glm::vec3>;
 using Lengths = std::vector<float>;
 

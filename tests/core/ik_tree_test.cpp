@@ -1,5 +1,4 @@
 // A tree of chains and its effectors in cases with a known answer.
-#include <stdexcept>
 
 #include "ik_tree_support.hpp"
 #include "kept_solver.hpp"

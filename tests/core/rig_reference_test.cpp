@@ -1,6 +1,5 @@
 // Numeric cases of aim() from an independent implementation in double precision; skipped if the file is
 // missing. Tests of the Rig lab run the cases that are commands.
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,6 @@
 // Small rigs for the tests.
 #pragma once
 
-#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <string>
 

@@ -6,9 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
-#include <string>
-#include <vector>
 
 #include "random.hpp"
 #include "tendril/rig/hierarchy.hpp"

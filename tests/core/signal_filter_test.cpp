@@ -1,5 +1,4 @@
 // Properties shared by every kind of filter.
-#include <set>
 
 #include "signal_support.hpp"
 #include "tendril/signal/curve.hpp"

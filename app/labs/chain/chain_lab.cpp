@@ -1,7 +1,6 @@
 #include "app/labs/chain/chain_lab.hpp"
 
 #include <algorithm>
-#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"

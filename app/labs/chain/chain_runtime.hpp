@@ -8,7 +8,6 @@
 #include <memory>
 #include <span>
 #include <tendril/chain/chain.hpp>
-#include <vector>
 
 #include "app/document/workspace.hpp"
 #include "app/labs/chain/study.hpp"

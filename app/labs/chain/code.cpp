@@ -1,9 +1,6 @@
 #include "app/labs/chain/code.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <glm/trigonometric.hpp>
 #include <string_view>
 #include <tendril/ik/solver.hpp>
 #include <utility>

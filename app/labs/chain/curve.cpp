@@ -1,8 +1,6 @@
 #include "app/labs/chain/curve.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <stdexcept>
 #include <utility>
 

@@ -10,7 +10,6 @@
 #include <optional>
 #include <string>
 #include <tendril/chain/chain.hpp>
-#include <vector>
 
 #include "app/document/json_place.hpp"
 #include "app/labs/kit/curve.hpp"

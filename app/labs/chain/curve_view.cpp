@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 
 #include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <glm/vec3.hpp>
-#include <memory>
 #include <tendril/ik/method.hpp>
 #include <vector>
 

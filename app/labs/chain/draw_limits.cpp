@@ -7,7 +7,6 @@
 #include <glm/gtc/quaternion.hpp>
 #include <vector>
 
-#include "app/document/units.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/kit/limit_shape.hpp"
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <span>
 
 #include "app/labs/chain/draw.hpp"

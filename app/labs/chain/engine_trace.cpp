@@ -10,7 +10,6 @@
 #include <memory>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -265,10 +264,6 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
         framed(workspace.camera, {{0.0f, 0.0f}, workspace.ui.view_size}, bounds.centre, bounds.radius);
     workspace.toast(shown_text(*trace, shown));
     for (const std::string& note : trace->notes) workspace.toast(note, ToastKind::Refusal);
-}
-
-std::string text_or_none(const Arguments& given, const char* name) {
-    return given.has(name) ? given.text(name) : std::string();
 }
 
 /// Takes the given arguments on how the trace is read; returns whether there are any.

@@ -3,9 +3,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <memory>
 #include <string>
-#include <string_view>
 #include <tendril/ik/method.hpp>
 #include <vector>
 

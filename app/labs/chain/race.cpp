@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <tendril/ik/observer.hpp>
 #include <tendril/ik/solver.hpp>
-#include <utility>
 
 #include "app/document/text.hpp"
 #include "app/document/units.hpp"

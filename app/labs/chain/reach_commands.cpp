@@ -1,7 +1,6 @@
 // Commands of mode Reach: the solver, the limits and the pole target.
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <stdexcept>
 
 #include "app/document/json_complete.hpp"
 #include "app/fields/field_in.hpp"

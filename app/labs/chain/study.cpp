@@ -9,7 +9,6 @@
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"
-#include "app/document/units.hpp"
 #include "app/io/solver_json.hpp"
 #include "app/labs/chain/chain_part.hpp"
 #include "app/labs/chain/chain_runtime.hpp"

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>

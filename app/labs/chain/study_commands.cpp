@@ -50,9 +50,6 @@ void close(ChainPart& part, const Arguments&) {
     check(part);
     part.study.close();
 }
-void check_study(const ChainPart& part) {
-    if (!part.study.open()) throw Refused("neither the microscope nor a race is open");
-}
 
 /// Shows a step of the solve or an iteration of the race, and pauses. Throws Refused if it does not exist.
 void seek(ChainPart& part, const Arguments& given, const char* name, ChainRuntime& runtime) {
@@ -85,7 +82,7 @@ long end_of_iteration(const Trace& trace, std::size_t step, int by) {
 
 /// In a race, steps are iterations.
 void step(ChainPart& part, const Arguments& given, ChainRuntime& runtime) {
-    check_study(part);
+    if (!part.study.open()) throw Refused("neither the microscope nor a race is open");
     const Studied shown = runtime.studied(part);
     const auto last = static_cast<long>(shown.last());
     const std::size_t now = std::min(part.study.step, shown.last());

@@ -1,7 +1,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <string_view>
 
 #include "app/document/units.hpp"

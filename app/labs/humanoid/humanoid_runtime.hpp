@@ -1,7 +1,6 @@
 // Caches of the Humanoid lab: the displayed pose of its part, solvers, and the state of its panels.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <tendril/rope/workspace.hpp>
 

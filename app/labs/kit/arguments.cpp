@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
@@ -15,6 +14,10 @@ Argument index_list_argument(const char* name, const char* instead_of) {
             .required = false,
             .help = std::string("several, counted from 0, instead of ") + instead_of,
             .list_of = instead_of};
+}
+
+std::string text_or_none(const Arguments& given, const char* name) {
+    return given.has(name) ? given.text(name) : std::string();
 }
 
 bool gives_one(const Arguments& given, const char* index, const char* list) {

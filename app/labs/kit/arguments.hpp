@@ -35,6 +35,8 @@ T require_value(Expected<T> expected) {
 
 /// Optional. `instead_of` names the single-item argument that it replaces.
 Argument index_list_argument(const char* name, const char* instead_of);
+/// The text; empty if it is not given.
+std::string text_or_none(const Arguments& given, const char* name);
 /// True if the index is given, false if the list is. Throws Refused if both or neither are.
 bool gives_one(const Arguments& given, const char* index, const char* list);
 /// The indices. Throws Refused, naming argument and value, for anything but an integer in [0, `count`).

@@ -3,10 +3,8 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <glm/trigonometric.hpp>
-#include <utility>
 
 namespace tendril::app {
 

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <glm/vec3.hpp>
-#include <string>
 #include <tendril/fields.hpp>
 #include <tendril/ik/state.hpp>
 #include <tendril/signal/input.hpp>

@@ -75,10 +75,6 @@ glm::vec3 motion_point(const Motion& motion, std::uint32_t ticks) {
     return motion.centre;
 }
 
-Json save_motion(const Motion& motion) {
-    return save_fields(motion);
-}
-
 Motion load_motion(const JsonPlace& place) {
     Motion motion;
     load_all_fields(place, motion);

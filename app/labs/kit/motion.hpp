@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <string>
 
 #include "app/document/json.hpp"
 #include "app/document/names.hpp"
@@ -43,7 +42,6 @@ void check_path(glm::vec3 centre, glm::vec3 span, const char* what);
 glm::vec3 motion_point(const Motion& motion, std::uint32_t ticks);
 std::uint32_t ticks_per_round(const Motion& motion);
 
-Json save_motion(const Motion& motion);
 Motion load_motion(const JsonPlace& place);
 
 }  // namespace tendril::app

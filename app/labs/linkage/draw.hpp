@@ -1,7 +1,6 @@
 // Drawing of the Linkage lab, and the meaning of its pick ids.
 #pragma once
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "app/labs/lab.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"

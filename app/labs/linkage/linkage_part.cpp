@@ -2,8 +2,6 @@
 #include "app/labs/linkage/linkage_part.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/trigonometric.hpp>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/json_place.hpp"

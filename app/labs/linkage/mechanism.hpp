@@ -1,12 +1,10 @@
 // The Linkage lab's presets: the library's mechanisms, with their lengths as tables of fields.
 #pragma once
 
-#include <string>
 #include <tendril/ik/mechanisms.hpp>
 #include <variant>
 #include <vector>
 
-#include "app/document/camera_pose.hpp"
 #include "app/fields/fields.hpp"
 
 namespace tendril::app {

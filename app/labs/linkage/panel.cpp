@@ -2,7 +2,6 @@
 #include <imgui.h>
 #include <algorithm>
 #include <cmath>
-#include <glm/trigonometric.hpp>
 #include <limits>
 #include <numbers>
 #include <utility>

@@ -1,7 +1,6 @@
 // Poses of the lab's linkage, and its shape from a sketch or a mechanism.
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <map>
 #include <numbers>

@@ -1,6 +1,5 @@
 // Commands that draw a linkage by hand: joints, bars, pins and motors.
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <utility>

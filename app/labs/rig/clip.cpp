@@ -37,9 +37,6 @@ std::vector<ClipBone> clip_bones(const rig::Rig& rig, const rig::Hierarchy& tree
     return bones;
 }
 
-ClipPose narrowed(const rig::Transform& pose) {
-    return {glm::vec3(pose.translation), glm::quat(pose.rotation), glm::vec3(pose.scale)};
-}
 rig::Transform widened(const ClipPose& pose) {
     return {glm::dvec3(pose.translation), rig::normalised(glm::dquat(pose.rotation)), glm::dvec3(pose.scale)};
 }
@@ -54,7 +51,7 @@ void append_frame(std::vector<ClipPose>& poses, const std::vector<ClipBone>& bon
                   std::abs(within.scale[axis]) <= max_stored))
                 throw std::invalid_argument(
                     "a bone is more than 1e9 m away, or scaled by more than that: a clip cannot hold it");
-        poses.push_back(narrowed(within));
+        poses.push_back({glm::vec3(within.translation), glm::quat(within.rotation), glm::vec3(within.scale)});
     }
 }
 

@@ -1,7 +1,6 @@
 #include "app/labs/rig/controls.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <glm/common.hpp>

@@ -2,7 +2,6 @@
 // vector2d, the box of a control with a position. Poses here are double; drawing converts them to float.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>

@@ -14,7 +14,6 @@
 #include <tendril/rig/definition.hpp>
 #include <vector>
 
-#include "app/document/json.hpp"
 #include "app/document/json_place.hpp"
 
 namespace tendril::app {

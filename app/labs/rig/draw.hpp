@@ -1,9 +1,7 @@
 // Shared by the drawing code of the Rig lab: the rig, selection and hover state, and strokes in its colours.
 #pragma once
 
-#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <optional>
 #include <string>
 #include <tendril/rig/hierarchy.hpp>
 #include <vector>

@@ -1,7 +1,6 @@
 // Mouse input in the Rig lab: handles, drags, clicks, selection and the gizmo.
 #include <algorithm>
 #include <glm/common.hpp>
-#include <glm/gtc/quaternion.hpp>
 
 #include "app/document/json_complete.hpp"
 #include "app/labs/kit/arguments.hpp"

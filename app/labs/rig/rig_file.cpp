@@ -233,7 +233,7 @@ RateDifference read_rates(const JsonPlace& place, const RigPart& part) {
 Json walks_json(const RigPart& part) {
     Json walks = Json::object();
     for (const RigWalk& walk : part.walks) {
-        walks[walk.control] = save_motion(walk.motion);
+        walks[walk.control] = save_fields(walk.motion);
         walks[walk.control]["turn"] = walk.turn;
     }
     return walks;

@@ -1,7 +1,5 @@
 #include "app/labs/rig/rig_lab.hpp"
 
-#include <utility>
-
 #include "app/document/json_complete.hpp"
 #include "app/labs/rig/code.hpp"
 #include "app/labs/rig/panel.hpp"

@@ -100,4 +100,8 @@ class RigRuntime final : public Runtime {
     Why why_;
 };
 
+inline RigRuntime& rig_runtime(const Workspace& workspace) {
+    return workspace.runtimes.of<RigRuntime>(rig_lab);
+}
+
 }  // namespace tendril::app

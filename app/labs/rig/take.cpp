@@ -318,14 +318,6 @@ rig::Value walk_value(const RigWalk& walk, const rig::Value& now, double ticks) 
 
 // Ticks and background work of the Rig lab.
 
-namespace {
-
-RigRuntime& rig_runtime(const Workspace& workspace) {
-    return workspace.runtimes.of<RigRuntime>(rig_lab);
-}
-
-}  // namespace
-
 bool RigLab::moving(const Workspace& workspace) const {
     return time_moves(rig_part(workspace));
 }

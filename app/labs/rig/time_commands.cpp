@@ -1,7 +1,6 @@
 // Commands on the rig as a whole and on time: presets, selection, solving, walks, takes, clips, frame rates.
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <stdexcept>
 #include <tendril/rig/backward.hpp>
 
@@ -197,10 +196,6 @@ namespace {
 
 constexpr double max_clip = static_cast<double>(max_clip_frames) * tick_seconds;
 
-RigRuntime& runtime_of(const Workspace& workspace) {
-    return workspace.runtimes.of<RigRuntime>(rig_lab);
-}
-
 glm::vec3 place_of(const rig::Value& value) {
     const auto* pose = std::get_if<rig::Transform>(&value);
     return glm::vec3(pose ? pose->translation : std::get<glm::dvec3>(value));
@@ -271,7 +266,7 @@ void go(Workspace& workspace, const Arguments& given) {
                                     " ticks long, so it ends before tick " + said(wanted));
     const bool modified = workspace.modified();
     RigPart& part = workspace.document.edit<RigPart>(rig_lab);
-    go_to(part, static_cast<std::uint32_t>(tick), runtime_of(workspace));
+    go_to(part, static_cast<std::uint32_t>(tick), rig_runtime(workspace));
     workspace.clock.playing = workspace.clock.replaying = false;
     workspace.ui.incident.reset();
     if (!modified) workspace.saved = workspace.document;  // playing does not modify the scene
@@ -289,7 +284,7 @@ void record(Workspace& workspace, const Arguments& given) {
         const std::size_t frames =
             given.has("seconds") ? static_cast<std::size_t>(std::lround(given.real("seconds") / tick_seconds))
                                  : std::min<std::size_t>(ticks_worth_looking_at(part), max_clip_frames);
-        RigClip clip = record_clip(part, frames, runtime_of(workspace).workspace(part.rig));
+        RigClip clip = record_clip(part, frames, rig_runtime(workspace).workspace(part.rig));
         part.clip = std::make_shared<const RigClip>(std::move(clip));
         part.clip_left.reset();
     });

@@ -1,7 +1,6 @@
 // The units in execution order, each with its switch, time and warning, and the inspector of one unit.
 #include <imgui.h>
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "app/document/json_complete.hpp"

@@ -1,6 +1,5 @@
 #include "app/labs/rig/values.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <tendril/rig/euler.hpp>

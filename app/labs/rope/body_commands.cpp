@@ -26,10 +26,6 @@ namespace {
 
 constexpr double max_particles = static_cast<double>(max_lab_particles);
 
-std::string name_of(const Arguments& given) {
-    return given.has("name") ? given.text("name") : std::string();
-}
-
 std::size_t count_of(int particles) {
     return static_cast<std::size_t>(particles);
 }
@@ -38,7 +34,7 @@ void add_rope(RopeEdit& edit, const Arguments& given) {
     rope::RopeShape shape;
     set_fields(given, shape);
     check_particle_count(edit.seen(), count_of(shape.segments) + 1);
-    edit.world().add_rope(name_of(given), shape);
+    edit.world().add_rope(text_or_none(given, "name"), shape);
 }
 
 void add_cloth(RopeEdit& edit, const Arguments& given) {
@@ -52,7 +48,7 @@ void add_cloth(RopeEdit& edit, const Arguments& given) {
     }
     set_fields(given, shape);
     check_particle_count(edit.seen(), count_of(shape.columns) * count_of(shape.rows));
-    edit.world().add_cloth(name_of(given), shape);
+    edit.world().add_cloth(text_or_none(given, "name"), shape);
 }
 
 void add_hair(RopeEdit& edit, const Arguments& given) {
@@ -73,7 +69,7 @@ void add_hair(RopeEdit& edit, const Arguments& given) {
             throw Refused("centre is missing; or give attach, a collider to attach the hair to");
         shape.roots = require_value(rope::roots_around(patch));
     }
-    edit.world().add_hair(name_of(given), std::move(shape), attach);
+    edit.world().add_hair(text_or_none(given, "name"), std::move(shape), attach);
 }
 
 /// `hold` keeps a body without pins from falling until rope.let_go, as a drag does.

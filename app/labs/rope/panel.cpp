@@ -3,10 +3,7 @@
 #include <imgui.h>
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/trigonometric.hpp>
 #include <string>
 #include <string_view>
 #include <tendril/signal/measure.hpp>

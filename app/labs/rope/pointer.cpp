@@ -36,11 +36,6 @@ const rope::Body* picked_body(const NamedWorld& world, PickId pick) {
     return picked_of(world.state().bodies, body_pick(0), pick);
 }
 
-/// Every n-th particle has a handle. Rope ends and pinned particles always have one.
-std::size_t handle_stride(const NamedWorld& world) {
-    return world.size() / max_handles + 1;
-}
-
 ArgumentList of_particle(const NamedWorld& world, const ParticlePlace& place) {
     return {{"rope", world.name(*place.body)}, {"particle", place.index}};
 }
@@ -148,7 +143,8 @@ std::optional<ParticlePlace> picked_particle(const NamedWorld& world, PickId pic
 
 std::vector<Handle> RopeLab::handles(const Workspace& workspace) const {
     const NamedWorld& world = *rope_part(workspace).world;
-    const std::size_t stride = handle_stride(world);
+    // Every n-th particle has a handle. Rope ends and pinned particles always have one.
+    const std::size_t stride = world.size() / max_handles + 1;
     std::vector<bool> shown(world.size());
     for (const rope::Pin& pin : world.state().pins)
         shown[pin.particle] = world.state().pins.size() <= max_handles;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "app/labs/rope/rope_part.hpp"
-#include "app/view/draw_list.hpp"
 #include "app/view/palette.hpp"
 #include "app/view/panes.hpp"
 

@@ -6,7 +6,6 @@
 #include "app/document/argument.hpp"
 #include "app/document/refused.hpp"
 #include "app/fields/field_in.hpp"
-#include "app/labs/kit/world_file.hpp"
 #include "app/labs/rope/rope_edit.hpp"
 
 template <>

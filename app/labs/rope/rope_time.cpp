@@ -4,9 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <glm/vector_relational.hpp>
-#include <stdexcept>
 #include <tendril/chain/segment.hpp>
 #include <thread>
 #include <utility>

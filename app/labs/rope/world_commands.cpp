@@ -1,7 +1,6 @@
 // Commands on the whole world, on colliders, and on selection, drags and view.
 #include <algorithm>
 #include <functional>
-#include <string_view>
 #include <utility>
 
 #include "app/labs/kit/arguments.hpp"
@@ -306,10 +305,6 @@ void hold(RopeEdit& edit, const Arguments& given) {
     edit.part.hold = wanted;
 }
 
-void set_view(RopeEdit& edit, const Arguments& given) {
-    set_fields(given, edit.part.view);
-}
-
 }  // namespace
 
 void add_look_commands(CommandTable& table) {
@@ -337,8 +332,10 @@ void add_look_commands(CommandTable& table) {
             if (edit.part.tool == RopeTool::Tie) edit.part.selection.reset();
         },
         Effect::Look));
-    table.add(rope_command("rope.view", "Set how ropes are shown", field_arguments<RopeView>(),
-                           "Sets how ropes are shown; omitted settings are kept", set_view, Effect::Look));
+    table.add(rope_command(
+        "rope.view", "Set how ropes are shown", field_arguments<RopeView>(),
+        "Sets how ropes are shown; omitted settings are kept",
+        [](RopeEdit& edit, const Arguments& given) { set_fields(given, edit.part.view); }, Effect::Look));
 }
 
 }  // namespace tendril::app

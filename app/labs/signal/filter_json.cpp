@@ -1,10 +1,7 @@
 #include "app/labs/signal/filter_json.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <iterator>
-#include <stdexcept>
 #include <string_view>
 
 #include "app/document/json_complete.hpp"

@@ -1,9 +1,7 @@
 #include "app/labs/signal/fit.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <string_view>
 
 #include "app/labs/signal/fit_space.hpp"
 #include "app/labs/signal/search.hpp"

@@ -2,7 +2,6 @@
 // the rows: signals in degrees or at 1000 Hz fit as well as signals from 0 to 1 at 60 Hz.
 #pragma once
 
-#include <optional>
 #include <tendril/signal/filter.hpp>
 #include <vector>
 

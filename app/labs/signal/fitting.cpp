@@ -1,7 +1,6 @@
 #include "app/labs/signal/fitting.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"

@@ -17,7 +17,6 @@
 #include "app/labs/signal/signal_part.hpp"
 #include "app/widgets/curve_editor.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/fonts.hpp"
 #include "app/widgets/lists.hpp"
 #include "app/widgets/plot.hpp"
 #include "app/widgets/text.hpp"

@@ -209,8 +209,7 @@ void set_input(SignalPart& part, const Arguments& given) {
     if (given.has("path")) {
         if (wanted.kind != InputKind::Csv) throw Refused("path is only for csv");
         wanted.path = given.text("path");
-        wanted.file = read_rows(wanted.path, {given.has("time") ? given.text("time") : "",
-                                              given.has("value") ? given.text("value") : ""});
+        wanted.file = read_rows(wanted.path, {text_or_none(given, "time"), text_or_none(given, "value")});
     } else if (given.has("time") || given.has("value")) {
         throw Refused("time and value are columns of the file in path");
     }
@@ -231,10 +230,6 @@ void move_hand(SignalPart& part, const Arguments& given) {
     end_recording(part);
     part.input.kind = InputKind::Hand;
     part.input.hand = given.real("value");
-}
-
-void choose_plot(SignalPart& part, const Arguments& given) {
-    part.plot = signal_plots.value(given.text("name"));
 }
 
 }  // namespace
@@ -262,9 +257,11 @@ void add_input_commands(CommandTable& table) {
         signal_lab, "signal.hand", "Move the hand",
         {{.name = "value", .help = "where the hand is", .low = -max_amplitude, .high = max_amplitude}},
         "Moves the hand, which becomes the input", move_hand));
-    table.add(part_command<SignalPart>(signal_lab, "signal.plot", "Choose the lower plot",
-                                       {choice_argument("name", true, "which", signal_plots.names())},
-                                       "Chooses the lower plot", choose_plot, Effect::Look));
+    table.add(part_command<SignalPart>(
+        signal_lab, "signal.plot", "Choose the lower plot",
+        {choice_argument("name", true, "which", signal_plots.names())}, "Chooses the lower plot",
+        [](SignalPart& part, const Arguments& given) { part.plot = signal_plots.value(given.text("name")); },
+        Effect::Look));
 }
 
 }  // namespace tendril::app

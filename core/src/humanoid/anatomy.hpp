@@ -20,54 +20,22 @@ inline bool is_left(Bone bone) noexcept {
 
 /// The bone that follows an upper or lower arm or leg in its limb; none for all others.
 inline std::optional<Bone> limb_child(Bone bone) noexcept {
-    switch (bone) {
-        case Bone::LeftUpperArm:
-            return Bone::LeftLowerArm;
-        case Bone::LeftLowerArm:
-            return Bone::LeftHand;
-        case Bone::RightUpperArm:
-            return Bone::RightLowerArm;
-        case Bone::RightLowerArm:
-            return Bone::RightHand;
-        case Bone::LeftUpperLeg:
-            return Bone::LeftLowerLeg;
-        case Bone::LeftLowerLeg:
-            return Bone::LeftFoot;
-        case Bone::RightUpperLeg:
-            return Bone::RightLowerLeg;
-        case Bone::RightLowerLeg:
-            return Bone::RightFoot;
-        default:
-            return std::nullopt;
+    for (const Bone upper :
+         {Bone::LeftUpperArm, Bone::RightUpperArm, Bone::LeftUpperLeg, Bone::RightUpperLeg}) {
+        const int along = static_cast<int>(bone) - static_cast<int>(upper);
+        if (along == 0 || along == 1) return static_cast<Bone>(static_cast<int>(bone) + 1);
     }
+    return std::nullopt;
 }
 
 /// Where a bone points in a T-pose.
 inline glm::dvec3 t_direction(Bone bone, const Facing& facing) noexcept {
-    switch (bone) {
-        case Bone::LeftShoulder:
-        case Bone::LeftUpperArm:
-        case Bone::LeftLowerArm:
-        case Bone::LeftHand:
-            return facing.left;
-        case Bone::RightShoulder:
-        case Bone::RightUpperArm:
-        case Bone::RightLowerArm:
-        case Bone::RightHand:
-            return -facing.left;
-        case Bone::LeftUpperLeg:
-        case Bone::LeftLowerLeg:
-        case Bone::RightUpperLeg:
-        case Bone::RightLowerLeg:
-            return -facing.up;
-        case Bone::LeftFoot:
-        case Bone::RightFoot:
-        case Bone::LeftToes:
-        case Bone::RightToes:
-            return facing.forward;
-        default:
-            return facing.up;
-    }
+    if (bone < Bone::LeftShoulder || bone > Bone::RightToes) return facing.up;
+    if (bone <= Bone::LeftHand) return facing.left;
+    if (bone <= Bone::RightHand) return -facing.left;
+    for (const Bone below : {Bone::LeftFoot, Bone::LeftToes, Bone::RightFoot, Bone::RightToes})
+        if (bone == below) return facing.forward;
+    return -facing.up;
 }
 
 /// Whether a body keeps the first bone out of the second: hands and lower arms out of everything but their

@@ -1,7 +1,6 @@
 #include "tendril/humanoid/balance.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "humanoid/anatomy.hpp"
 #include "humanoid/balance.hpp"

@@ -24,10 +24,6 @@ Placement seen_from_points(const Placement& above) noexcept {
            Placement{above.axes, glm::dvec3(0.0)};
 }
 
-float weight_of(const ik::CurveOptions& options, std::size_t bone) noexcept {
-    return options.weight * (options.weights.empty() ? 1.0f : options.weights[bone]);
-}
-
 }  // namespace
 
 struct BentChain::Plan {
@@ -194,7 +190,8 @@ void BentChain::Plan::pose_nodes(std::span<rig::Transform> pose, Placement at, c
     for (std::size_t i = 0; i < bones(); ++i) {
         rig::Transform& local = pose[nodes[i]];
         glm::dvec3& end = pose[nodes[i + 1]].translation;
-        const double weight = static_cast<double>(weight_of(options, i));
+        const double weight =
+            static_cast<double>(options.weight * (options.weights.empty() ? 1.0f : options.weights[i]));
         moved = moved || weight > 0.0;
         if (moved) {
             const glm::dquat turned =

@@ -1,7 +1,5 @@
 #include "tendril/humanoid/feet.hpp"
 
-#include <initializer_list>
-
 #include "humanoid/feet.hpp"
 #include "humanoid/input.hpp"
 #include "rig/checks.hpp"
@@ -53,19 +51,11 @@ Result check(const FeetOptions& options) noexcept {
 }
 
 const char* name(FootAlone why) noexcept {
-    switch (why) {
-        case FootAlone::No:
-            return "";
-        case FootAlone::NoHit:
-            return "there is no ground below the foot";
-        case FootAlone::TooSteep:
-            return "the ground is too steep";
-        case FootAlone::TooFar:
-            return "the ground is too far above or below";
-        case FootAlone::CannotReach:
-            return "the leg cannot reach the ground";
-    }
-    return "";
+    constexpr const char* texts[] = {"", "there is no ground below the foot", "the ground is too steep",
+                                     "the ground is too far above or below",
+                                     "the leg cannot reach the ground"};
+    const auto index = static_cast<std::size_t>(why);
+    return index < std::size(texts) ? texts[index] : "";
 }
 
 Feet::Feet(std::unique_ptr<Plan> plan) noexcept : plan_(std::move(plan)) {}

@@ -1,7 +1,6 @@
 #include "tendril/humanoid/hold.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "humanoid/hold_solve.hpp"
 #include "humanoid/input.hpp"

@@ -1,7 +1,5 @@
 #include "tendril/humanoid/look_at.hpp"
 
-#include <cmath>
-
 #include "humanoid/input.hpp"
 #include "humanoid/view.hpp"
 #include "rig/checks.hpp"

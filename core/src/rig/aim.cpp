@@ -1,7 +1,5 @@
 #include "tendril/rig/aim.hpp"
 
-#include <cmath>
-
 #include "rig/checks.hpp"
 #include "rig/math.hpp"
 
@@ -104,19 +102,11 @@ AimResult aim(const Transform& item, const AimOptions& options, double dt) noexc
 }
 
 const char* name(AimWarning warning) noexcept {
-    switch (warning) {
-        case AimWarning::None:
-            return "";
-        case AimWarning::ZeroAxis:
-            return "the axis is zero";
-        case AimWarning::TargetAtItem:
-            return "the target is at the item itself";
-        case AimWarning::TargetOnAxis:
-            return "the second target is on the primary axis";
-        case AimWarning::AxesParallel:
-            return "the secondary axis is the primary one";
-    }
-    return "";
+    constexpr const char* texts[] = {"", "the axis is zero", "the target is at the item itself",
+                                     "the second target is on the primary axis",
+                                     "the secondary axis is the primary one"};
+    const auto index = static_cast<std::size_t>(warning);
+    return index < std::size(texts) ? texts[index] : "";
 }
 
 }  // namespace tendril::rig

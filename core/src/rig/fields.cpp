@@ -1,8 +1,6 @@
 // The tables of definitions, elements, units and their operations.
 #include "tendril/fields.hpp"
 
-#include <cmath>
-
 #include "tendril/magnitude.hpp"
 #include "tendril/rig/definition.hpp"
 #include "tendril/signal/spring.hpp"

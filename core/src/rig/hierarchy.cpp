@@ -7,21 +7,14 @@
 
 namespace tendril::rig {
 
-using tendril::detail::Argument;
 using tendril::detail::no_value;
 using tendril::detail::refused;
 using tendril::detail::Shown;
 
 const char* name(Pending pending) noexcept {
-    switch (pending) {
-        case Pending::None:
-            return "none";
-        case Pending::Local:
-            return "local";
-        case Pending::Global:
-            return "global";
-    }
-    return "";
+    constexpr const char* texts[] = {"none", "local", "global"};
+    const auto index = static_cast<std::size_t>(pending);
+    return index < std::size(texts) ? texts[index] : "";
 }
 
 // Handles.

@@ -1,13 +1,11 @@
 #include "rig/resolve.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "rig/checks.hpp"
 #include "rig/plan.hpp"
 #include "rig/value.hpp"
-#include "tendril/magnitude.hpp"
 #include "tendril/signal/spring.hpp"
 
 namespace tendril::rig {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "rig/plan.hpp"
 #include "rig/value.hpp"

@@ -10,7 +10,6 @@
 namespace tendril::signal {
 namespace {
 
-using tendril::detail::Argument;
 using tendril::detail::check_count;
 
 struct List {

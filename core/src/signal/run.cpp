@@ -1,7 +1,5 @@
 #include "tendril/signal/run.hpp"
 
-#include <algorithm>
-
 #include "signal/stepped.hpp"
 
 namespace tendril::signal {

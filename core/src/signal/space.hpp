@@ -3,7 +3,6 @@
 // reason in math/point.hpp. Not installed.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "math/elementary.hpp"

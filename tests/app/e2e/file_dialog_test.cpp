@@ -1,5 +1,4 @@
 // The dialog that asks for a file: its messages about folders and long names.
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 

@@ -1,5 +1,4 @@
 // Lists that open: typing in them, and the click that closes them.
-#include <algorithm>
 
 #include "app/app.hpp"
 #include "app/document/command.hpp"

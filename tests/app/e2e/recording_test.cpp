@@ -45,14 +45,9 @@ Json state_of(const Left& left) {
     return app::parse_json(left.state);
 }
 
-const Json& start_state() {
-    static const Json state = state_after(ScriptText().wait(1));
-    return state;
-}
-
 // Everything in the window that is not the scene: panels, palette, help, keys, wheel over a list, resizing.
 TEST_F(Recording, HoldsTheUseOfPanels) {
-    const glm::vec2 forward_radio = chain_panel::forward, target = handle(start_state(), "target");
+    const glm::vec2 forward_radio = chain_panel::forward, target = handle(first_state(), "target");
     ScriptText script = ScriptText().click(forward_radio).wait(2);
     script.key("ctrl+k").text("chain.add length=0.75").key("enter").wait(2);
     script.drag({target, {700, 250}, {650, 300}});

@@ -139,12 +139,6 @@ class SmallScreen : public RealWindow {
     SmallScreen() { screen_ = "1024x640x24", size_.clear(); }
 };
 
-/// The initial state: the same offscreen as in a window of that size.
-const Json& first_state() {
-    static const Json state = state_after(ScriptText().wait(1));
-    return state;
-}
-
 LABEL(window, "RealWindow.*");
 
 TEST_F(RealWindow, TheTargetIsDraggedAndAnotherModeIsClicked) {

@@ -1,5 +1,4 @@
 // The causes of flips: gestures with a planted cause, and smooth ones.
-#include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <random>
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <glm/geometric.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,6 +42,10 @@ class LabTest : public testing::Test {
     /// Runs ticks, whether or not anything moves.
     void wait(int ticks) {
         for (int i = 0; i < ticks; ++i) lab().step(workspace);
+    }
+    void remember() {
+        workspace.remember_moment();
+        ++workspace.moment;
     }
     /// Runs what a click, a drag or a panel emits.
     void emit(const std::function<void(Emit&)>& act, Gesture gesture = 0);

@@ -1,5 +1,4 @@
 // Drivers, motors, ranges and drags of a linkage: its goals, through edits, undo and files.
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "tests/app/labs/linkage_support.hpp"

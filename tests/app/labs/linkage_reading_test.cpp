@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <map>
-#include <random>
 
 #include "app/labs/linkage/draw.hpp"
 #include "app/labs/linkage/measures.hpp"

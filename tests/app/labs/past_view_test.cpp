@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "app/document/command.hpp"

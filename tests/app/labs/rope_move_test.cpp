@@ -1,5 +1,4 @@
 // Moving a rope, cloth or hair as a whole, and the placement of new ones.
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "app/labs/rope/panel.hpp"

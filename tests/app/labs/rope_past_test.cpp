@@ -2,7 +2,6 @@
 #include "app/labs/kit/past.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/labs/rope/numbers.hpp"
 #include "tests/app/labs/rope_support.hpp"
@@ -16,10 +15,6 @@ class RopePast : public RopeTest, protected test::RandomNumbers {
   protected:
     RopePast() : RandomNumbers(31) {}
 
-    void remember() {
-        workspace.remember_moment();
-        ++workspace.moment;
-    }
     void pass(int ticks) {
         for (int i = 0; i < ticks; ++i) {
             wait(1);

@@ -1,7 +1,6 @@
 // Editing the material of ropes, cloth and hair while they hang.
 #include "app/labs/kit/race.hpp"
 #include "app/labs/kit/world_drawing.hpp"
-#include "app/labs/rope/code.hpp"
 #include "app/labs/rope/rope_fields.hpp"
 #include "app/labs/rope/rope_lab.hpp"
 #include "tests/app/labs/rope_support.hpp"

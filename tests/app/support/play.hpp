@@ -55,6 +55,11 @@ inline glm::vec3 point_of(const app::Json& json) {
 inline app::Json state_after(const ScriptText& script) {
     return play(script).state;
 }
+/// The state before the first event, offscreen or in a window.
+inline const app::Json& first_state() {
+    static const app::Json state = state_after(ScriptText().wait(1));
+    return state;
+}
 
 /// The scene after a script, as it is saved.
 inline app::Json scene_after(ScriptText script) {

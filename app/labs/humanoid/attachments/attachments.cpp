@@ -246,10 +246,6 @@ double way_off(const Wearer& wearer, const dvec3& from, const dvec3& way, double
     return far;
 }
 
-bool on_trunk(std::optional<Bone> bone) {
-    return bone && *bone >= Bone::Hips && *bone <= Bone::Head;
-}
-
 std::optional<Bone> bone_of(const Wearer& wearer, std::size_t node) {
     for (std::size_t i = 0; i < humanoid::bone_count; ++i)
         if (wearer.map.bones[i].node == static_cast<std::int32_t>(node)) return static_cast<Bone>(i);
@@ -329,7 +325,7 @@ AttachmentShape fitting_shape(const Wearer& wearer, AttachmentKind kind, std::si
     const std::optional<Bone> bone = bone_of(wearer, node);
     const dvec3* const left = joint(wearer, Bone::LeftUpperArm);
     const dvec3* const right = joint(wearer, Bone::RightUpperArm);
-    const bool trunk = on_trunk(bone);
+    const bool trunk = bone && *bone >= Bone::Hips && *bone <= Bone::Head;
     AttachmentShape shape;
     shape.direction = -facing.up;
     if (kind == AttachmentKind::Cloth) {

@@ -233,7 +233,7 @@ void show(Workspace& workspace, SharedCharacter character, bool plays) {
 }
 
 void load(Workspace& workspace, const Arguments& given, bool plays) {
-    const std::string file = given.has("path") ? given.text("path") : std::string();
+    const std::string file = text_or_none(given, "path");
     if (given.has("path") && file.empty()) throw std::invalid_argument("path is empty");
     Loading& loading = humanoid_runtime(workspace).loading;
     if (loads_beside(workspace, file))
@@ -311,10 +311,6 @@ void read_again(Workspace& workspace, double metres, const FileSpace& space) {
     show_all(workspace);
 }
 
-void rescale(Workspace& workspace, const Arguments& given) {
-    read_again(workspace, given.real("metres"), humanoid_part(workspace).loaded->character.space);
-}
-
 void set_space(Workspace& workspace, const Arguments& given) {
     const Character& character = humanoid_part(workspace).loaded->character;
     FileSpace space = character.space;
@@ -338,7 +334,6 @@ Command space_command(const char* name, const char* title, std::size_t field, co
 
 /// Whether the T-pose correction would turn anything: it needs a limb of two bones.
 bool has_limbs(const HumanoidPart& part) {
-    using humanoid::Bone;
     for (const Bone upper :
          {Bone::LeftUpperArm, Bone::RightUpperArm, Bone::LeftUpperLeg, Bone::RightUpperLeg})
         if (part.node_of(upper) && part.node_of(static_cast<Bone>(static_cast<int>(upper) + 1))) return true;
@@ -458,7 +453,10 @@ void add_character_commands(CommandTable& table) {
         "Sets which node of the character a bone is", map)));
     table.add("humanoid.scale", "Correct the character's scale",
               {{.name = "metres", .help = "per unit of the file", .low = min_unit, .high = max_unit}},
-              "Corrects the unit of the character's file", Effect::Edit, rescale);
+              "Corrects the unit of the character's file", Effect::Edit,
+              [](Workspace& w, const Arguments& given) {
+                  read_again(w, given.real("metres"), humanoid_part(w).loaded->character.space);
+              });
     table.add(space_command("humanoid.up", "Correct the character's up axis", 0,
                             "Sets which axis of the character's file points up"));
     table.add(space_command("humanoid.root", "Correct the character's root positions", 1,
@@ -476,10 +474,6 @@ namespace {
 using humanoid::Clip;
 using humanoid::Fault;
 
-std::string given_text(const Arguments& given, const char* name) {
-    return given.has(name) ? given.text(name) : std::string();
-}
-
 void save_map(Workspace& workspace, const Arguments& given) {
     const HumanoidPart& part = humanoid_part(workspace);
     workspace.writes().write(given.text("path"), OutputKind::BoneMap,
@@ -495,7 +489,7 @@ void load_map(HumanoidPart& part, const Arguments& given) {
 std::size_t clip_for(const HumanoidPart& part, const Arguments& given) {
     const std::vector<Clip>& clips = part.loaded->clips();
     if (clips.empty()) throw std::invalid_argument("the character has no clips");
-    const std::string name = given_text(given, "clip");
+    const std::string name = text_or_none(given, "clip");
     if (name.empty()) return part.playback.clip.value_or(0);
     const auto found = std::ranges::find(clips, name, &Clip::name);
     if (found == clips.end()) throw std::invalid_argument("the character has no clip \"" + name + "\"");
@@ -549,7 +543,7 @@ void cure_clip(Workspace& workspace, const Arguments& given) {
     const HumanoidPart& part = humanoid_part(workspace);
     ClipCure cure{.clip = part.loaded->clips()[clip_for(part, given)].name};
     if (given.has("kind")) cure.fault = fault_named(given.text("kind"));
-    cure.node = given_text(given, "node");
+    cure.node = text_or_none(given, "node");
     if (!cure.node.empty()) node_named(part, cure.node);
     if (given.has("frame")) cure.frame = static_cast<std::size_t>(given.integer("frame"));
     HumanoidRuntime& runtime = humanoid_runtime(workspace);

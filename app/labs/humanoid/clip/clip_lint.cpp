@@ -155,15 +155,11 @@ const LintReport* ClipLint::judge(const HumanoidPart& part, Solvers& solvers) {
 
 namespace {
 
-std::string faults_text(std::size_t count) {
-    return std::to_string(count) + (count == 1 ? " fault" : " faults");
-}
-
 /// `left`: all that are left. Those that were to be fixed are named, with the reason.
 std::string cured_text(const HumanoidPart& part, JudgedClip judged, const std::string& clip, std::size_t done,
                        std::size_t left, const std::vector<Finding>& meant) {
     const std::size_t told = std::min<std::size_t>(meant.size(), 3);
-    std::string text = clip + ": " + faults_text(done) + " fixed, " +
+    std::string text = clip + ": " + count_text(done, "fault") + " fixed, " +
                        (left == 0 ? std::string("none") : std::to_string(left)) + " left";
     for (std::size_t i = 0; i < told; ++i) {
         const std::string why = why_no_fix(part, meant[i], judged);

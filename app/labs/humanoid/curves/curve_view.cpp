@@ -1,6 +1,4 @@
 // Curves of the Humanoid lab under the mouse and in the picture.
-#include <algorithm>
-#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "app/document/json_complete.hpp"

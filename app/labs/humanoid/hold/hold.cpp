@@ -33,10 +33,6 @@ namespace {
 /// Smaller amounts are not reported, metres and radians.
 constexpr double told_way = 5e-4, told_turn = 9e-3;
 
-const char* side_name(std::size_t hand) {
-    return hand == 0 ? "left" : "right";
-}
-
 /// "left upper arm"
 std::string bone_words(Bone bone) {
     std::string words;

@@ -1,10 +1,7 @@
 // The held object in the picture, under the mouse and in the panel.
 #include <imgui.h>
-#include <algorithm>
-#include <glm/geometric.hpp>
 
 #include "app/document/json_complete.hpp"
-#include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/kit/panel_rows.hpp"

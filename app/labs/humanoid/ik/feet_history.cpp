@@ -41,17 +41,13 @@ class FeetWalk {
     Playback playback_;
 };
 
-bool less_deep(const FeetHistory::Deepest& a, const FeetHistory::Deepest& b) {
-    return a.depth < b.depth;
-}
-
 }  // namespace
 
 FeetHistory::Deepest FeetHistory::deepest_of(const humanoid::FeetReport& report) {
     const auto of = [&](std::size_t side) {
         return Deepest{side, report.feet[side].depth, report.feet[side].late};
     };
-    return std::max(of(0), of(1), less_deep);
+    return std::ranges::max(of(0), of(1), {}, &Deepest::depth);
 }
 
 FeetHistory::Before FeetHistory::before(const HumanoidPart& part, Solvers& solvers) {
@@ -73,7 +69,8 @@ FeetHistory::Before FeetHistory::before(const HumanoidPart& part, Solvers& solve
                  .dt = seconds - static_cast<double>(tick) * tick_seconds};
     const std::vector<Deepest>& deepest = pasts_[begin].deepest;
     for (std::int64_t i = std::max<std::int64_t>(tick - begin - lately, 0); i <= tick - begin; ++i)
-        found.deepest = std::max(found.deepest, deepest[static_cast<std::size_t>(i)], less_deep);
+        found.deepest =
+            std::ranges::max(found.deepest, deepest[static_cast<std::size_t>(i)], {}, &Deepest::depth);
     // While the clip plays, the past of the next block is computed along, so that no frame has to catch up.
     if (block > 0) {
         const std::int64_t next = block * block_ticks, known = pasts_.contains(next) ? pasts_[next].tick : -1;

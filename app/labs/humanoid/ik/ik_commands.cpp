@@ -2,7 +2,6 @@
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <stdexcept>

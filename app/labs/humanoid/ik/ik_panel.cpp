@@ -1,6 +1,5 @@
 // The panel's rows about IK: targets, hands, gaze, ground and feet.
 #include <imgui.h>
-#include <array>
 
 #include "app/document/json_complete.hpp"
 #include "app/fields/field_rows.hpp"
@@ -87,16 +86,12 @@ void target_rows(const HumanoidPanel& panel) {
 
 namespace {
 
-const char* hand_name(std::size_t hand) {
-    return hand == 0 ? "left" : "right";
-}
-
 void hand_row(const HumanoidPanel& panel, std::size_t hand) {
     const humanoid::BodyTarget* const target = panel.part.ik.hand_target(hand);
     if (target == nullptr) return;
     const std::optional<HandCurve>& curve = panel.part.ik.hand_ik.curves[hand];
     bool timed = curve.has_value();
-    const std::string side = hand_name(hand), title = "Weight over the clip, " + side;
+    const std::string side = side_name(hand), title = "Weight over the clip, " + side;
     if (ImGui::Checkbox(title.c_str(), &timed))
         panel.emit("humanoid.hand_ik", {{"hand", side}, {"curve", timed}});
     explain("The hand goes to its target and back as the clip plays.");

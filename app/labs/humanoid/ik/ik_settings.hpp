@@ -114,6 +114,9 @@ struct IkState {
 inline constexpr std::array<humanoid::Effector, humanoid::effector_count> all_effectors{
     humanoid::Effector::Hips,      humanoid::Effector::Head,     humanoid::Effector::LeftHand,
     humanoid::Effector::RightHand, humanoid::Effector::LeftFoot, humanoid::Effector::RightFoot};
+inline const char* side_name(std::size_t hand) {
+    return hand == 0 ? "left" : "right";
+}
 inline constexpr std::array<humanoid::Effector, 2> both_hands{humanoid::Effector::LeftHand,
                                                               humanoid::Effector::RightHand};
 /// "left hand", as in panels.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
-#include <glm/trigonometric.hpp>
 #include <stdexcept>
 
 #include "app/document/units.hpp"

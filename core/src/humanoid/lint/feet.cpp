@@ -2,7 +2,6 @@
 #include "humanoid/lint/feet.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace tendril::humanoid::lint_detail {
 namespace {

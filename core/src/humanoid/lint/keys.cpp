@@ -75,11 +75,6 @@ void check_height(Check& check) {
     check.add(Fault::Scale, -1, 0, 0, check.report.frames - 1, height, "m", text);
 }
 
-template <class T>
-void negate(std::vector<T>& values, std::size_t first, std::size_t count) {
-    for (std::size_t i = first; i < first + count; ++i) values[i] = -values[i];
-}
-
 }  // namespace
 
 std::optional<double> size_of_clip(const Skeleton& skeleton, const Clip& clip) {

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <optional>
 #include <span>
 #include <vector>
 

@@ -1,8 +1,6 @@
 // The part of work.cpp for chains in a plane. Like plane.cpp, solves them in the plane's coordinates, where
 // the iterations for chains in space keep them flat. Coordinates and sides, found once per solve, are scalar
 // and in double; the iterations are not. With limits of angles the scalar solver takes every chain.
-#include <algorithm>
-#include <cmath>
 
 #include "ik/batch/work.hpp"
 #include "ik/math.hpp"

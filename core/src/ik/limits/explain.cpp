@@ -3,7 +3,6 @@
 // range that it needs.
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "ik/limits/loop.hpp"
 #include "ik/limits/pose.hpp"

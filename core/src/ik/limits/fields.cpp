@@ -1,5 +1,4 @@
 // The field table of ik::Limit.
-#include <algorithm>
 
 #include "ik/limits/joint.hpp"
 #include "tendril/ik/plane.hpp"

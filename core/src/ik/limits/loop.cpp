@@ -10,6 +10,7 @@
 #include "ik/limits/pose.hpp"
 #include "ik/limits/starts.hpp"
 #include "ik/limits/stopped.hpp"
+#include "ik/pole/pole.hpp"
 #include "ik/solve/convergence.hpp"
 #include "ik/solve/prepare.hpp"
 #include "ik/solve/reachability.hpp"
@@ -123,7 +124,7 @@ void detect_drag(Method method, const Problem& problem, bool unchanged, Attempt&
 template <class Watch>
 Attempt prepare_attempt(Method method, Problem& problem, Watch watch) noexcept {
     LimitedScratch& scratch = problem.scratch.limited;
-    set_pole_allowance(problem);
+    if (problem.options.pole) problem.scratch.pole.allowance = pole_allowance(problem);
     const bool unchanged = load_pose(problem, watch);
     Attempt attempt{reachable(problem), error_of(problem, scratch.pose)};
     scratch.best = scratch.pose;

@@ -77,10 +77,6 @@ void mirror_within_limits(Problem& problem, Watch watch) noexcept {
 
 }  // namespace
 
-void set_pole_allowance(Problem& problem) noexcept {
-    if (problem.options.pole) problem.scratch.pole.allowance = pole_allowance(problem);
-}
-
 template <class Watch>
 void face_pole_within_limits(Problem& problem, Watch watch) noexcept {
     if (problem.options.plane) return mirror_within_limits(problem, watch);

@@ -7,9 +7,6 @@
 
 namespace tendril::ik::detail {
 
-/// Before the first iteration: sets how far the chain may turn in this solve.
-void set_pole_allowance(Problem& problem) noexcept;
-
 /// After the last iteration: turns the chain. The tip stays, to rounding.
 template <class Watch>
 void face_pole_within_limits(Problem& problem, Watch watch) noexcept;

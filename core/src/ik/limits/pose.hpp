@@ -2,9 +2,7 @@
 // installed.
 #pragma once
 
-#include <algorithm>
 #include <optional>
-#include <utility>
 
 #include "ik/limits/clamp.hpp"
 #include "ik/limits/workspace.hpp"

@@ -1,7 +1,6 @@
 // The closures: the rows of their equations, Newton's steps back to them, and how a linkage is assembled.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 
 #include "ik/linkage/solve.hpp"

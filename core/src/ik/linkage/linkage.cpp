@@ -1,9 +1,7 @@
 // Linkages as data: names, positions, and checks.
 #include "tendril/ik/linkage.hpp"
 
-#include <cmath>
 #include <limits>
-#include <utility>
 
 #include "ik/math.hpp"
 #include "math/checks.hpp"
@@ -11,7 +9,6 @@
 
 namespace tendril::ik {
 
-using tendril::detail::Argument;
 using tendril::detail::index_of_name;
 using tendril::detail::refused;
 

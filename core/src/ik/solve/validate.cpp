@@ -2,7 +2,6 @@
 #include "ik/solve/validate.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "math/checks.hpp"
 #include "math/ranges.hpp"

@@ -6,7 +6,6 @@
 // bone's direction. A whole branch's contribution to that sum depends on the parent's move only through s =
 // along . (d of the parent), and is a parabola in it: stiffness/2 * s^2 - wish * s. So one pass from the
 // leaves inward collects the parabolas, and one from the root outward computes the moves.
-#include <cmath>
 
 #include "ik/tree/workspace.hpp"
 

@@ -2,7 +2,6 @@
 #include "tendril/ik/tree.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "ik/math.hpp"
 #include "ik/solve/validate.hpp"

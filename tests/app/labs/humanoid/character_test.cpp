@@ -12,8 +12,6 @@
 namespace tendril::app {
 namespace {
 
-using humanoid::Bone;
-
 class HumanoidCharacter : public HumanoidTest {
   protected:
     std::string write(const char* name, const std::string& text) {

@@ -1,5 +1,4 @@
 // A moment of a clip with foot IK looks the same whether it is played, scrubbed to or exported.
-#include <cmath>
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"

@@ -1,5 +1,4 @@
 // Feet that pass through the ground: planted soles stand on treads, and steps that are too fast are reported.
-#include "app/io/character/read.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/panel.hpp"

@@ -1,5 +1,4 @@
 // Hand IK, look-at and self-collision, by the lab's commands and --state.
-#include <algorithm>
 #include <array>
 #include <glm/gtc/quaternion.hpp>
 

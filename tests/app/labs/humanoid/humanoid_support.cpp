@@ -1,6 +1,5 @@
 #include "humanoid_support.hpp"
 
-#include <map>
 #include <utility>
 
 #include "app/io/character/character.hpp"

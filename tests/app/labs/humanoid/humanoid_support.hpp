@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/view/palette.hpp"

@@ -2,7 +2,6 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <random>
 #include <set>
 
 #include "app/labs/humanoid/humanoid_part.hpp"

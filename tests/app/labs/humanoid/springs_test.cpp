@@ -1,6 +1,5 @@
 // Springs on a character's nodes: they trail its motion, and are values of the document like everything else.
 #include <cmath>
-#include <random>
 
 #include "app/io/character/read.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"

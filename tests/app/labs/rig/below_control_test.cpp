@@ -37,10 +37,6 @@ class RigBelowControl : public RigTest {
         lab().drag(workspace, handle.pick, to, emit);
         for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
     }
-    static void expect_near(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-9) {
-        EXPECT_LE(glm::length(a - b), within)
-            << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
-    }
 };
 
 TEST_F(RigBelowControl, OmittedPartsOfAGlobalPoseStayWhereTheControlPutsThem) {

@@ -9,9 +9,6 @@ namespace {
 
 class RigClips : public RigTest {
   protected:
-    void play(int ticks) {
-        for (int i = 0; i < ticks; ++i) lab().step(workspace);
-    }
     /// Runs the whole solve tick by tick.
     int solve_clip() {
         run("rig.clip.solve");
@@ -28,10 +25,10 @@ class RigClips : public RigTest {
 
 TEST_F(RigClips, ADialThatTurnsIsExpressedInEveryFrame) {
     run("rig.preset", {{"name", "fk"}});
-    play(1);
+    wait(1);
     for (int i = 0; i < 60; ++i) {
         set("dial", 0.5 - 0.5 * std::cos(0.1 * i));
-        play(1);
+        wait(1);
     }
     run("rig.clip.record");
     EXPECT_EQ(part().clip->frames(), 62u);
@@ -99,7 +96,7 @@ TEST_F(RigClips, AScaleThatTheRigLacksIsNotExpressed) {
     run("rig.preset", {{"name", "loop"}});
     const auto scale = [&](double by) {
         run("rig.element.set", {{"name", "arm 2 joint 6"}, {"transform", {{"scale", {1, by, 1}}}}});
-        play(2);
+        wait(2);
     };
     scale(1.25);
     run("rig.clip.record");
@@ -145,13 +142,13 @@ TEST_F(RigClips, TooLongClipsAreRefused) {
 
 TEST_F(RigClips, OtherFilesAreRefused) {
     walking_head();
-    play(20);
+    wait(20);
     set("head", {{"translation", {0.1, 1, 0}}});
-    play(20);
+    wait(20);
     set("head", {{"translation", {0.2, 1, 0}}});
-    play(5);
+    wait(5);
     run("rig.motion", {{"name", "head"}, {"path", "circle"}});
-    play(5);
+    wait(5);
     run("rig.clip.record");
     run("rig.clip.solve");
     lab().work(workspace);

@@ -5,11 +5,6 @@
 namespace tendril::app {
 namespace {
 
-void expect_near(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-9) {
-    EXPECT_LE(glm::length(a - b), within)
-        << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
-}
-
 class RigCommands : public RigTest {
   protected:
     /// A bone that a dial turns, and a child.

@@ -1,6 +1,4 @@
 // Every kind of control under the mouse, in the running program: real events, with picking.
-#include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "app/document/refused.hpp"

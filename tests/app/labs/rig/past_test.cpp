@@ -39,10 +39,6 @@ class RigPast : public RigTest, protected test::RandomNumbers {
         }
         return definition;
     }
-    void remember() {
-        workspace.remember_moment();
-        ++workspace.moment;
-    }
     void plot(const std::string& what, const std::string& element) {
         run("view.rig_plot", {{"of", what}});
         run("rig.select", {{"element", element}});

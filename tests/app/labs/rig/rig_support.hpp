@@ -21,6 +21,10 @@ class RigTest : public LabTest {
     RigTest() : LabTest(rig_lab) { run("rig.clear"); }
 
     const RigPart& part() const { return rig_part(workspace); }
+    static void expect_near(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-9) {
+        EXPECT_LE(glm::length(a - b), within)
+            << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
+    }
     void element(const char* name, const char* parent = "", const Json& local = Json::object()) {
         Json arguments{{"name", name}, {"kind", "bone"}, {"local", local}};
         if (*parent != '\0') arguments["parent"] = parent;
