@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/view/palette.hpp"
-#include "app/widgets/icons.hpp"
 
 namespace tendril::app {
 

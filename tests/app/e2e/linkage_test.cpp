@@ -1,5 +1,4 @@
 // The Linkage lab in the running program: a four-bar drawn with the mouse, and run.
-#include <cmath>
 
 #include "tests/app/support/play.hpp"
 

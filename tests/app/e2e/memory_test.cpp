@@ -1,8 +1,6 @@
 // Memory in a long session is bounded: undo and the last ten seconds account for all of it.
 #include <malloc.h>
 
-#include <map>
-
 #include "app/document/command.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "tests/app/e2e/monkey.hpp"

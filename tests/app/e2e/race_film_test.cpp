@@ -1,9 +1,7 @@
 // A race as a picture with its labels, and as a film.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <memory>
 #include <string>
 #include <vector>

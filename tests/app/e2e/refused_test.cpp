@@ -5,8 +5,6 @@
 namespace tendril::test {
 namespace {
 
-using app::Json;
-
 struct Refusal {
     std::string line;  ///< the script line, without the closing brace
     std::string told;  ///< part of the reason

@@ -1,5 +1,4 @@
 // The Rope lab in the running program: dragging, replaying, and seeking in the past.
-#include <glm/geometric.hpp>
 
 #include "tests/app/support/play.hpp"
 

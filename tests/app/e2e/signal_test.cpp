@@ -1,6 +1,5 @@
 // The Signal lab in the running program: dragging the ball, drawing a response, small windows.
 #include <algorithm>
-#include <cmath>
 
 #include "app/app.hpp"
 #include "tests/app/support/frame_record.hpp"
