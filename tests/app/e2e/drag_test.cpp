@@ -9,13 +9,8 @@ namespace {
 using app::Json;
 const glm::vec2 elsewhere(640, 600);  ///< in the view, with nothing under it
 
-/// The state before the first event.
-const Json& start() {
-    static const Json state = state_after(ScriptText().wait(1));
-    return state;
-}
 glm::vec2 target_pixel() {
-    return handle(start(), "target");
+    return handle(start_state(), "target");
 }
 glm::vec3 target_of(const Json& state) {
     return point_of(state.at("target"));
@@ -94,7 +89,7 @@ TEST(Drag, shift_keeps_the_height) {
 TEST(Drag, ASegmentTakesTheTargetAlongAndKeepsTheMode) {
     for (const char* mode : {"forward", "backward", "fixed", "with_index"}) {
         ScriptText script = ScriptText().command("chain.mode", {{"mode", mode}, {"index", 1}});
-        const glm::vec2 caught = handle(start(), "segment.3"), to = caught + glm::vec2(-30, -140);
+        const glm::vec2 caught = handle(start_state(), "segment.3"), to = caught + glm::vec2(-30, -140);
         const Json state = state_after(script.drag({caught, caught + glm::vec2(-10, -60), to}));
         EXPECT_LT(glm::distance(handle(state, "segment.3"), to), 0.02f) << mode;
         EXPECT_EQ(state["segments"][3]["position"], state["target"]) << mode;
@@ -105,18 +100,19 @@ TEST(Drag, ASegmentTakesTheTargetAlongAndKeepsTheMode) {
 }
 
 TEST(Drag, begins_only_beyond_a_few_pixels) {
-    const glm::vec2 caught = handle(start(), "segment.3");
+    const glm::vec2 caught = handle(start_state(), "segment.3");
     const Json trembled =
         state_after(ScriptText().drag({caught, caught + glm::vec2(2, 1), caught + glm::vec2(-1, 2)}));
-    EXPECT_EQ(trembled["segments"], start()["segments"]);
+    EXPECT_EQ(trembled["segments"], start_state()["segments"]);
     EXPECT_EQ(trembled["selected"], 3);
     const Json moved = state_after(ScriptText().drag({caught, caught + glm::vec2(0, 6)}));
-    EXPECT_NE(moved["segments"], start()["segments"]);
+    EXPECT_NE(moved["segments"], start_state()["segments"]);
 }
 
 TEST(Click, sets_the_index_in_the_mode_that_has_one) {
     ScriptText script;
-    script.command("chain.mode", {{"mode", "with_index"}, {"index", 1}}).click(handle(start(), "segment.5"));
+    script.command("chain.mode", {{"mode", "with_index"}, {"index", 1}})
+        .click(handle(start_state(), "segment.5"));
     const Json state = state_after(script);
     EXPECT_EQ(state["index"], 5);
     EXPECT_EQ(state["mode"], "with_index");
@@ -128,14 +124,14 @@ TEST(Undo, takes_back_a_whole_drag_at_once) {
     for (int i = 1; i < 30; ++i) path.push_back(path.front() + glm::vec2(-6 * i, -4 * i));
     const Json dragged = state_after(script.drag(path));
     const Json undone = state_after(script.key("ctrl+z"));
-    EXPECT_NE(dragged["segments"], start()["segments"]);
-    EXPECT_EQ(undone["segments"], start()["segments"]);
-    EXPECT_EQ(undone["target"], start()["target"]);
+    EXPECT_NE(dragged["segments"], start_state()["segments"]);
+    EXPECT_EQ(undone["segments"], start_state()["segments"]);
+    EXPECT_EQ(undone["target"], start_state()["target"]);
     EXPECT_EQ(state_after(script.key("ctrl+shift+z"))["segments"], dragged["segments"]);
     script.key("ctrl+z").key("ctrl+y");
     EXPECT_EQ(state_after(script)["segments"], dragged["segments"]);
     script.key("ctrl+z").command("undo", Json::object(), true);
-    EXPECT_EQ(state_after(script)["segments"], start()["segments"]);
+    EXPECT_EQ(state_after(script)["segments"], start_state()["segments"]);
 }
 
 /// Ctrl, then Z, as users press them: Z is also an axis key, but not in a chord.
@@ -143,17 +139,17 @@ TEST(Undo, in_mid_drag_stays_undone_until_the_mouse_moves) {
     const glm::vec2 at = target_pixel();
     const auto dragging = [&] { return ScriptText().move(at).down().move(at + glm::vec2(-50, -60)).wait(2); };
     const Json dragged = state_after(dragging());
-    ASSERT_NE(dragged["target"], start()["target"]);
+    ASSERT_NE(dragged["target"], start_state()["target"]);
     const auto pressed = [&] { return dragging().hold("ctrl").wait(2).hold("z").wait(2); };
-    EXPECT_EQ(state_after(pressed())["target"], start()["target"]);
+    EXPECT_EQ(state_after(pressed())["target"], start_state()["target"]);
     for (const bool ctrl_first : {false, true}) {
         ScriptText script = pressed();
         script.release(ctrl_first ? "ctrl" : "z").wait(2).release(ctrl_first ? "z" : "ctrl").wait(2);
-        EXPECT_EQ(state_after(script)["target"], start()["target"]) << ctrl_first;
+        EXPECT_EQ(state_after(script)["target"], start_state()["target"]) << ctrl_first;
         const Json along = state_after(script.hold("z").wait(2));
-        EXPECT_NE(along["target"], start()["target"]) << "alone it holds the axis";
-        EXPECT_EQ(along["target"][0], start()["target"][0]);
-        EXPECT_EQ(along["target"][1], start()["target"][1]);
+        EXPECT_NE(along["target"], start_state()["target"]) << "alone it holds the axis";
+        EXPECT_EQ(along["target"][0], start_state()["target"][0]);
+        EXPECT_EQ(along["target"][1], start_state()["target"][1]);
     }
 }
 
@@ -161,8 +157,8 @@ TEST(Undo, escape_in_mid_drag_puts_everything_back) {
     ScriptText script;
     script.move(target_pixel()).down().move({700, 250}).move({650, 200}).key("escape").move({500, 300}).up();
     const Json state = state_after(script);
-    EXPECT_EQ(state["segments"], start()["segments"]);
-    EXPECT_EQ(state["target"], start()["target"]);
+    EXPECT_EQ(state["segments"], start_state()["segments"]);
+    EXPECT_EQ(state["target"], start_state()["target"]);
 }
 
 TEST(Camera, OrbitsPansAndZoomsWithoutUndoSteps) {
@@ -182,15 +178,16 @@ TEST(Camera, OrbitsPansAndZoomsWithoutUndoSteps) {
     for (ScriptText script : moves) {
         script.command("undo", Json::object(), true);
         const Json state = state_after(script);
-        EXPECT_NE(state["camera"], start()["camera"]) << script.text();
-        EXPECT_EQ(state["segments"], start()["segments"]) << script.text();
+        EXPECT_NE(state["camera"], start_state()["camera"]) << script.text();
+        EXPECT_EQ(state["segments"], start_state()["segments"]) << script.text();
     }
 }
 
 TEST(Camera, ThePointUnderTheCursorStaysInPlaceWhileZooming) {
-    const glm::vec2 cursor = handle(start(), "segment.1");
+    const glm::vec2 cursor = handle(start_state(), "segment.1");
     const Json state = state_after(ScriptText().move(cursor).wheel(4));
-    EXPECT_LT(state["camera"]["distance"].get<float>(), 0.7f * start()["camera"]["distance"].get<float>());
+    EXPECT_LT(state["camera"]["distance"].get<float>(),
+              0.7f * start_state()["camera"]["distance"].get<float>());
     // The plane of the camera's target stays in place; the segment is near that plane, not in it.
     EXPECT_LT(glm::distance(handle(state, "segment.1"), cursor), 25.0f);
     const Json flat = state_after(ScriptText().key("1").key("5"));

@@ -45,11 +45,6 @@ Json state_of(const Left& left) {
     return app::parse_json(left.state);
 }
 
-const Json& start_state() {
-    static const Json state = state_after(ScriptText().wait(1));
-    return state;
-}
-
 // Everything in the window that is not the scene: panels, palette, help, keys, wheel over a list, resizing.
 TEST_F(Recording, HoldsTheUseOfPanels) {
     const glm::vec2 forward_radio = chain_panel::forward, target = handle(start_state(), "target");

@@ -139,17 +139,11 @@ class SmallScreen : public RealWindow {
     SmallScreen() { screen_ = "1024x640x24", size_.clear(); }
 };
 
-/// The initial state: the same offscreen as in a window of that size.
-const Json& first_state() {
-    static const Json state = state_after(ScriptText().wait(1));
-    return state;
-}
-
 LABEL(window, "RealWindow.*");
 
 TEST_F(RealWindow, TheTargetIsDraggedAndAnotherModeIsClicked) {
     start({"--no-config"});
-    const glm::vec2 target = handle(first_state(), "target"), to(600, 250);
+    const glm::vec2 target = handle(start_state(), "target"), to(600, 250);
     move(target);
     xdotool({"mousedown", "1"});
     sleep(50);
@@ -170,7 +164,7 @@ TEST_F(RealWindow, TheTargetIsDraggedAndAnotherModeIsClicked) {
 
 TEST_F(RealWindow, WhatItRecordedGivesTheSameOffScreen) {
     start({"--no-config", "--record", (folder_ / "record.jsonl").string()});
-    const glm::vec2 target = handle(first_state(), "target");
+    const glm::vec2 target = handle(start_state(), "target");
     move(target);
     xdotool({"mousedown", "1"});
     for (const glm::vec2 at : {glm::vec2(750, 300), glm::vec2(700, 260), glm::vec2(640, 280)}) move(at);
@@ -295,9 +289,9 @@ TEST_F(RealWindow, KeepsUnsavedWorkWhateverEndsIt) {
     for (const char* way : {"SIGTERM", "SIGHUP", "the display"}) {
         fs::remove_all(config);
         start();
-        move(handle(first_state(), "target"));
+        move(handle(start_state(), "target"));
         xdotool({"mousedown", "1"});
-        move(handle(first_state(), "target") + glm::vec2(-60, -40));
+        move(handle(start_state(), "target") + glm::vec2(-60, -40));
         xdotool({"mouseup", "1"});
         sleep(300);
         const std::string ends = way;

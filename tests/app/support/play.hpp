@@ -56,6 +56,12 @@ inline app::Json state_after(const ScriptText& script) {
     return play(script).state;
 }
 
+/// The state of the scene that the program starts with.
+inline const app::Json& start_state() {
+    static const app::Json state = state_after(ScriptText().wait(1));
+    return state;
+}
+
 /// The scene after a script, as it is saved.
 inline app::Json scene_after(ScriptText script) {
     const TempFolder folder;
