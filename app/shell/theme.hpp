@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/view/palette.hpp"
+#include "app/widgets/icons.hpp"
 
 namespace tendril::app {
 
