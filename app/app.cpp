@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <glm/common.hpp>
 #include <tendril/version.hpp>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #include "app/live_loop.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <utility>
 

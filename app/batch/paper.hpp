@@ -11,7 +11,6 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
-#include <string>
 #include <tendril/ik/method.hpp>
 #include <tendril/ik/report.hpp>
 #include <vector>

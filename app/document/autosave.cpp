@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <ctime>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>

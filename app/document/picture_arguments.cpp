@@ -1,7 +1,6 @@
 #include "app/document/picture_arguments.hpp"
 
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include "app/document/atomic_file.hpp"

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "app/shell/card_watch.hpp"
-#include "app/shell/theme.hpp"
 #include "app/view/camera.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"

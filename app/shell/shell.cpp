@@ -12,7 +12,6 @@
 #include "app/shell/axis_gizmo.hpp"
 #include "app/shell/card_view.hpp"
 #include "app/shell/labels_view.hpp"
-#include "app/shell/theme.hpp"
 #include "app/widgets/fields.hpp"
 #include "app/widgets/fonts.hpp"
 #include "app/widgets/icons.hpp"

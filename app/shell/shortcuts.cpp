@@ -1,7 +1,6 @@
 #include "app/shell/shortcuts.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "app/document/command.hpp"

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
-#include <string_view>
 
 #include "app/view/gizmo_drag.hpp"
 #include "app/view/surfaces.hpp"

@@ -1,7 +1,6 @@
 // RAII wrappers of GL objects. Used inside the renderer only.
 #pragma once
 
-#include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

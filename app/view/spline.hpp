@@ -9,7 +9,6 @@
 
 #include <glm/vec3.hpp>
 #include <span>
-#include <vector>
 
 namespace tendril::app {
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/vec2.hpp>
 
 #include "app/widgets/icons.hpp"
 #include "app/widgets/tooltip.hpp"

@@ -4,13 +4,10 @@
 #include <imgui_internal.h>  // which item is active
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <limits>
-#include <utility>
 
 #include "app/document/units.hpp"
 #include "app/widgets/emit.hpp"

@@ -1,7 +1,6 @@
 #include "app/io/character/export.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>

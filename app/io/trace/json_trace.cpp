@@ -1,5 +1,4 @@
 // Traces as JSON objects with a list of joints.
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>

@@ -1,7 +1,6 @@
 #include "app/io/trace/log_vectors.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

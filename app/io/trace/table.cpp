@@ -1,12 +1,9 @@
 // Traces as tables: CSV, or what a spreadsheet copies.
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <map>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
 #include "app/document/text.hpp"

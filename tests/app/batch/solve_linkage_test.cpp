@@ -1,6 +1,5 @@
 // `tendril solve` with linkages: reference cases, sweeps, scenes, and what is refused.
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "app/document/json_complete.hpp"
 #include "tests/app/support/program.hpp"

@@ -1,7 +1,6 @@
 // `tendril trace` as a terminal runs it, and the writers that engines copy.
 #include <fstream>
 #include <regex>
-#include <sstream>
 
 #include "app/document/json_complete.hpp"
 #include "app/io/child_process.hpp"

@@ -6,7 +6,6 @@
 
 #include "app/document/atomic_file.hpp"
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "tests/app/support/child.hpp"
 #include "tests/app/support/temp_folder.hpp"

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "app/document/json_complete.hpp"
 #include "tests/app/support/test_part.hpp"
 #include "tests/says.hpp"
 

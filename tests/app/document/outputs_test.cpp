@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/says.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <typeinfo>
 #include <utility>
 
 namespace tendril::app {

@@ -1,21 +1,20 @@
 // App itself, run in the test process on an offscreen window.
-#include "app/app.hpp"
 #include "app/document/refused.hpp"
 
 #include <glm/geometric.hpp>
 
 #include "app/labs/chain/chain_lab.hpp"
-#include "tests/app/support/play.hpp"
+#include "tests/app/support/driven_app.hpp"
 
 namespace tendril::test {
 namespace {
 
 using namespace app;
 
-class AppTest : public testing::Test {
+class AppTest : public testing::Test, protected DrivenApp {
   protected:
-    void take(const Event& event) { app_.tick(&event); }
-    void run(const std::string& name, const Json& arguments) { app_.run({name, arguments}); }
+    AppTest() : DrivenApp({1280, 720}) {}
+
     glm::vec2 pixel(const std::string& name) { return handle(app_.state(), name); }
     const ChainPart& part() { return chain_part(app_.workspace()); }
     /// Grabs the target and moves it a little.
@@ -27,9 +26,6 @@ class AppTest : public testing::Test {
         ASSERT_TRUE(app_.busy());
         ASSERT_GT(part().target.y, 0.1f);
     }
-
-    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
-    App app_{*window_};
 };
 
 TEST_F(AppTest, DrawCallsDoNotGrowWithSegments) {

@@ -8,7 +8,6 @@
 #include "app/app.hpp"
 #include "app/document/argument_check.hpp"
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/labs/card.hpp"
 #include "app/labs/labs.hpp"
 #include "app/shell/layout.hpp"

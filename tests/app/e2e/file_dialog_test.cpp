@@ -2,14 +2,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/app.hpp"
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/shell/ui.hpp"
 #include "tests/app/support/apng.hpp"
-#include "tests/app/support/frame_record.hpp"
-#include "tests/app/support/play.hpp"
-#include "tests/app/support/temp_folder.hpp"
+#include "tests/app/support/driven_app.hpp"
 #include "tests/places.hpp"
 #include "tests/says.hpp"
 
@@ -18,26 +14,13 @@ namespace {
 
 using namespace app;
 
-class FileDialogTest : public testing::Test {
-  public:
+class FileDialogTest : public testing::Test, protected DrivenApp {
+  protected:
+    FileDialogTest() : DrivenApp({1024, 640}) {}
     /// Opens the dialog in the folder of the scene.
     void open() {
-        app_.run({"scene.open_dialog", Json::object()});
-        for (int i = 0; i < 4; ++i) app_.tick(nullptr);
-    }
-    void key(const char* name) {
-        const Event event = KeyTap{*chord_from_name(name)};
-        app_.tick(&event);
-    }
-    void type(const char* text) {
-        const Event event = TextInput{text};
-        app_.tick(&event);
-    }
-    void click(glm::vec2 at) {
-        for (const Event& event : {Event(MouseMove{at}), Event(MousePress{MouseButton::Left, true}),
-                                   Event(MousePress{MouseButton::Left, false})})
-            app_.tick(&event);
-        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+        run("scene.open_dialog");
+        wait(4);
     }
     std::string text() {
         app_.tick(nullptr);
@@ -45,23 +28,13 @@ class FileDialogTest : public testing::Test {
         for (const DrawnText& each : recorder_.frame().texts) all += each.text + '\n';
         return all;
     }
-    glm::vec2 at(const std::string& text) {
-        app_.tick(nullptr);
-        for (const DrawnText& each : recorder_.frame().texts)
-            if (each.text == text) return each.box.centre();
-        ADD_FAILURE() << "nothing says " << text;
-        return {};
-    }
 
     TempFolder folder_;
-    std::unique_ptr<Window> window_ = open_offscreen({1024, 640});
-    App app_{*window_};
-    FrameRecorder recorder_;
 };
 
 /// Ctrl+P, a width, a white background, Save: the picture lies beside the scene.
 TEST_F(FileDialogTest, APictureHasTheSizeAndBackgroundThatAreChosen) {
-    app_.run({"scene.save", Json{{"path", (folder_ / "arm.json").string()}}});
+    run("scene.save", {{"path", (folder_ / "arm.json").string()}});
     const glm::ivec2 view = app_.workspace().ui.picture_size;
     key("ctrl+p");
     click({700.0f, at("width, pixels").y});
@@ -83,14 +56,14 @@ TEST_F(FileDialogTest, APictureHasTheSizeAndBackgroundThatAreChosen) {
     type("3");
     key("enter");
     click(at("Record"));
-    for (int i = 0; i < 8; ++i) app_.tick(nullptr);
+    wait(8);
     const Apng turn = read_apng(read(folder_ / "arm-2.png"));
     EXPECT_EQ(turn.frames.size(), 3u);
     EXPECT_EQ(turn.size, image.size) << "as chosen before";
 }
 
 TEST_F(FileDialogTest, AFolderWithoutSuchFilesSaysWhatCanBeOpened) {
-    app_.run({"scene.save", Json{{"path", (folder_ / "arm.json").string()}}});
+    run("scene.save", {{"path", (folder_ / "arm.json").string()}});
     open();
     EXPECT_EQ(text().find("No files that can be opened here"), std::string::npos);
     std::filesystem::remove(folder_ / "arm.json");
@@ -105,12 +78,12 @@ TEST_F(FileDialogTest, AFolderWithoutSuchFilesSaysWhatCanBeOpened) {
 TEST_F(FileDialogTest, AsksBeforeItReplacesAScene) {
     app_.workspace().outputs.in_window = true;
     const std::string old = R"({"tendril_scene": 2, "labs": {}})";
-    app_.run({"scene.save", Json{{"path", (folder_ / "arm.json").string()}}});
+    run("scene.save", {{"path", (folder_ / "arm.json").string()}});
     write(folder_ / "old.json", old);
     write(folder_ / "walk.json", "{\"asset\": {}}");
     const auto save_as = [&](const char* name) {
-        app_.run({"scene.save_dialog", Json{{"ask", true}}});
-        for (int i = 0; i < 4; ++i) app_.tick(nullptr);
+        run("scene.save_dialog", {{"ask", true}});
+        wait(4);
         key("ctrl+a");
         type(name);
         key("enter");
@@ -130,7 +103,7 @@ TEST_F(FileDialogTest, AsksBeforeItReplacesAScene) {
 }
 
 TEST_F(FileDialogTest, StartsFreshEachTime) {
-    app_.run({"scene.save", Json{{"path", (folder_ / "arm.json").string()}}});
+    run("scene.save", {{"path", (folder_ / "arm.json").string()}});
     open();
     type("helper");
     EXPECT_NE(text().find("helper"), std::string::npos);
@@ -143,7 +116,7 @@ TEST_F(FileDialogTest, StartsFreshEachTime) {
 
 TEST_F(FileDialogTest, ShowsTheEndOfALongNameUntilItIsTypedInto) {
     const std::string name = "a_character_with_a_name_" + std::string(80, 'x') + "_that_goes_on_take_12.json";
-    app_.run({"scene.save", Json{{"path", (folder_ / name).string()}}});
+    run("scene.save", {{"path", (folder_ / name).string()}});
     open();
     click(at(name));  // its row
     const std::string shown = text();
@@ -164,13 +137,12 @@ TEST_F(FileDialogTest, ShowsTheEndOfALongNameUntilItIsTypedInto) {
 /// A BVH dropped on a character: the choice is made by a click, and Escape opens nothing.
 TEST_F(FileDialogTest, AsksHowToOpenAMotionOnACharacter) {
     const std::string motion = source_path("tests/app/golden/faulty_walk.bvh");
-    app_.run({"file.open", Json{{"path", source_path("tests/app/golden/body.glb")}}});
+    run("file.open", {{"path", source_path("tests/app/golden/body.glb")}});
     const auto character = [&] { return app_.state().at("character").at("file").get<std::string>(); };
     const std::string before = character();
     const auto drop = [&] {
-        const Event event = Drop{{motion}};
-        app_.tick(&event);
-        for (int i = 0; i < 4; ++i) app_.tick(nullptr);
+        take(Drop{{motion}});
+        wait(4);
     };
     drop();
     EXPECT_TRUE(says(text(), "Open a file faulty_walk.bvh Play it on the figure Open it alone Cancel"));
@@ -188,15 +160,15 @@ TEST_F(FileDialogTest, AsksHowToOpenAMotionOnACharacter) {
 }
 
 TEST_F(FileDialogTest, BrowsesForTheFileOfARow) {
-    app_.run({"lab.open", Json{{"name", "humanoid"}}});
+    run("lab.open", {{"name", "humanoid"}});
     std::filesystem::copy(source_path("tests/app/golden/body.glb"), folder_ / "body.glb");
-    app_.run({"scene.save", Json{{"path", (folder_ / "arm.json").string()}}});
+    run("scene.save", {{"path", (folder_ / "arm.json").string()}});
     click(at("Browse"));
     click(at("body.glb"));
     click(at("Open"));
     EXPECT_EQ(app_.state().at("character").at("file"), (folder_ / "body.glb").string());
-    app_.run({"scene.open_dialog", Json{{"by", "humanoid.motion.load"}}});
-    for (int i = 0; i < 4; ++i) app_.tick(nullptr);
+    run("scene.open_dialog", {{"by", "humanoid.motion.load"}});
+    wait(4);
     type("body.glb");
     key("enter");
     app_.tick(nullptr);

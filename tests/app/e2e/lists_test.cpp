@@ -1,38 +1,29 @@
 // Lists that open: typing in them, and the click that closes them.
 
-#include "app/app.hpp"
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/signal/signal_part.hpp"
-#include "tests/app/support/frame_record.hpp"
-#include "tests/app/support/play.hpp"
+#include "tests/app/support/driven_app.hpp"
 
 namespace tendril::test {
 namespace {
 
 using namespace app;
 
-class ListsTest : public testing::Test {
-  public:
-    ListsTest() { open("humanoid"); }
+class ListsTest : public testing::Test, protected DrivenApp {
+  protected:
+    ListsTest() : DrivenApp({1280, 1600}) { open("humanoid"); }
 
-    void take(const Event& event) { app_.tick(&event); }
     void open(const char* lab) {
-        app_.run({"lab.open", Json{{"name", lab}}});
-        app_.run({"time.pause", Json::object()});
-        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+        run("lab.open", {{"name", lab}});
+        run("time.pause");
+        wait(3);
     }
-    void click(glm::vec2 at) {
-        take(MouseMove{at});
-        take(MousePress{MouseButton::Left, true});
-        take(MousePress{MouseButton::Left, false});
-        app_.tick(nullptr);
-    }
+    using DrivenApp::click;
     void click(const DrawnItem& item) { click(item.box.centre()); }
     void type(const char* text) {
-        take(TextInput{text});
-        take(KeyTap{*chord_from_name("enter")});
+        DrivenApp::type(text);
+        key("enter");
         app_.tick(nullptr);
     }
     /// The item with this text, or with this text to its left.
@@ -53,11 +44,7 @@ class ListsTest : public testing::Test {
     }
     DrawnItem ground() { return item(DrawnItem::Kind::Combo, "ground"); }
     bool is_open() const { return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup); }
-    const HumanoidPart& part() { return humanoid_part(app_.workspace()); }
-
-    std::unique_ptr<Window> window_ = open_offscreen({1280, 1600});
-    App app_{*window_};
-    FrameRecorder recorder_;
+    const HumanoidPart& part() { return humanoid_part(workspace()); }
 };
 
 TEST_F(ListsTest, TypingFindsAChoiceAndEnterTakesIt) {

@@ -2,7 +2,7 @@
 #include "app/opening.hpp"
 
 #include "app/labs/chain/chain_lab.hpp"
-#include "tests/app/support/play.hpp"
+#include "tests/app/support/driven_app.hpp"
 
 namespace tendril::test {
 namespace {
@@ -23,11 +23,9 @@ TEST(Opening, IsOnlyForAWindowWithoutOtherInstructions) {
     EXPECT_FALSE(opens([](SessionOptions& o) { o.script = "s.jsonl"; }));
 }
 
-class OpenScene : public testing::Test {
+class OpenScene : public testing::Test, protected DrivenApp {
   protected:
-    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
-    App app_{*window_};
-    Workspace& workspace() { return app_.workspace(); }
+    OpenScene() : DrivenApp({1280, 720}) {}
 };
 
 TEST_F(OpenScene, IsAnArmWithItsHandOnTheTarget) {

@@ -2,34 +2,25 @@
 #include <glm/vec2.hpp>
 #include <map>
 
-#include "app/app.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/document/refused.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/labs/card.hpp"
 #include "app/opening.hpp"
 #include "app/view/assets.hpp"
 #include "tests/app/e2e/monkey.hpp"
-#include "tests/app/support/play.hpp"
-#include "tests/app/support/temp_folder.hpp"
+#include "tests/app/support/driven_app.hpp"
 
 namespace tendril::test {
 namespace {
 
 using namespace app;
 
-class Openings : public testing::TestWithParam<std::string> {
+class Openings : public testing::TestWithParam<std::string>, protected DrivenApp {
   protected:
-    Openings() {
+    Openings() : DrivenApp({1280, 720}) {
         open_alive(app_);
         app_.run({"lab.open", Json{{"name", GetParam()}}});
         app_.settle();
-    }
-    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
-    App app_{*window_};
-    Workspace& workspace() { return app_.workspace(); }
-    void wait(int ticks) {
-        for (int i = 0; i < ticks; ++i) app_.tick(nullptr);
     }
     Json part() { return workspace().document.parts().at(GetParam())->save(); }
     bool opens() { return workspace().openings.contains(GetParam()); }

@@ -4,13 +4,10 @@
 #include <algorithm>
 #include <random>
 
-#include "app/app.hpp"
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/shell/ui.hpp"
-#include "tests/app/support/frame_record.hpp"
-#include "tests/app/support/play.hpp"
+#include "tests/app/support/driven_app.hpp"
 #include "tests/app/support/program.hpp"
 #include "tests/labels.hpp"
 
@@ -19,15 +16,16 @@ namespace {
 
 using namespace app;
 
-class PaletteTest : public testing::Test {
+class PaletteTest : public testing::Test, protected DrivenApp {
   public:
-    void take(const Event& event) { app_.tick(&event); }
+    PaletteTest() : DrivenApp({1280, 720}) {}
+
     PaletteTest& key(const char* name) {
-        take(KeyTap{*chord_from_name(name)});
+        DrivenApp::key(name);
         return *this;
     }
     PaletteTest& type(const std::string& text) {
-        take(TextInput{text});
+        DrivenApp::type(text);
         return *this;
     }
     PaletteTest& open() {
@@ -35,11 +33,8 @@ class PaletteTest : public testing::Test {
         app_.tick(nullptr);
         return *this;
     }
-    bool is_open() { return app_.workspace().ui.palette; }
-    const ChainPart& chain() { return chain_part(app_.workspace()); }
-
-    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
-    App app_{*window_};
+    bool is_open() { return workspace().ui.palette; }
+    const ChainPart& chain() { return chain_part(workspace()); }
 };
 
 LABEL(slow, "PaletteTest.[!H]*");
@@ -56,39 +51,36 @@ TEST_F(PaletteTest, PlainWordsFindACommandAndEnterAsksForItsArguments) {
 }
 
 TEST_F(PaletteTest, ACommandOfAnotherLabOpensThatLab) {
-    app_.run({"lab.open", Json{{"name", "rope"}}});
+    run("lab.open", {{"name", "rope"}});
     open().type("chain.clear");
-    const FrameRecorder recorder;
     app_.tick(nullptr);
-    EXPECT_TRUE(std::ranges::any_of(recorder.frame().texts, [](const DrawnText& each) {
+    EXPECT_TRUE(std::ranges::any_of(recorder_.frame().texts, [](const DrawnText& each) {
         return each.text.starts_with("Opens the Chain lab.");
     })) << "before it runs";
     key("enter");
-    EXPECT_EQ(app_.workspace().lab, "chain");
+    EXPECT_EQ(workspace().lab, "chain");
     EXPECT_TRUE(chain().chain.empty());
     open().type("rope.preset name=flag").key("enter");
-    EXPECT_EQ(app_.workspace().lab, "rope");
+    EXPECT_EQ(workspace().lab, "rope");
     open().type("undo").key("enter");
-    EXPECT_EQ(app_.workspace().lab, "rope") << "the program's own commands stay";
+    EXPECT_EQ(workspace().lab, "rope") << "the program's own commands stay";
 }
 
 /// Ctrl+Z never changes what is not in view.
 TEST_F(PaletteTest, UndoOfAnotherLabFirstShowsIt) {
-    const auto told = [&] {
-        return app_.workspace().ui.toasts.empty() ? "" : app_.workspace().ui.toasts.back().text;
-    };
-    const auto kind = [&] { return app_.workspace().ui.toasts.back().kind; };
+    const auto told = [&] { return workspace().ui.toasts.empty() ? "" : workspace().ui.toasts.back().text; };
+    const auto kind = [&] { return workspace().ui.toasts.back().kind; };
     key("ctrl+z");
     EXPECT_EQ(told(), "Nothing to undo.");
     EXPECT_EQ(kind(), ToastKind::Info);
     const std::size_t before = chain().chain.size();
     app_.run({"chain.clear"});
-    app_.run({"lab.open", Json{{"name", "rope"}}});
+    run("lab.open", {{"name", "rope"}});
     for (const auto& [chord, after] : {std::pair("ctrl+z", before), {"ctrl+y", std::size_t{0}}}) {
-        app_.run({"lab.open", Json{{"name", "rope"}}});
+        run("lab.open", {{"name", "rope"}});
         const std::size_t now = chain().chain.size();
         key(chord);
-        EXPECT_EQ(app_.workspace().lab, "chain");
+        EXPECT_EQ(workspace().lab, "chain");
         EXPECT_TRUE(has(told(), "is in the Chain lab, now open")) << told();
         EXPECT_EQ(chain().chain.size(), now) << chord;
         key(chord);
@@ -129,7 +121,7 @@ TEST_F(PaletteTest, AMistakeRunsNothingAndCanBeFixed) {
                              "chain.add 1", "nothing like=that", "chain.add position=[0,1,0]"}) {
         open().type(line).key("enter");
         EXPECT_TRUE(is_open()) << line;
-        EXPECT_TRUE(app_.workspace().ui.toasts.empty()) << "told in the palette, not by a refusal";
+        EXPECT_TRUE(workspace().ui.toasts.empty()) << "told in the palette, not by a refusal";
         key("escape");
         ASSERT_EQ(chain().chain.size(), before) << line;
     }
@@ -142,63 +134,60 @@ TEST_F(PaletteTest, AMistakeRunsNothingAndCanBeFixed) {
 }
 
 TEST_F(PaletteTest, OpensOnTheLastCommandAndRunsNothingUnasked) {
-    const Settings fresh = app_.workspace().settings;
-    const auto undone = app_.workspace().history.can_undo();
+    const Settings fresh = workspace().settings;
+    const auto undone = workspace().history.can_undo();
     open().key("enter");
     EXPECT_TRUE(is_open());
-    EXPECT_EQ(app_.workspace().history.can_undo(), undone);
+    EXPECT_EQ(workspace().history.can_undo(), undone);
     key("escape");
     open().type("light and dark").key("enter");
-    EXPECT_NE(app_.workspace().settings.theme, fresh.theme);
+    EXPECT_NE(workspace().settings.theme, fresh.theme);
     open().key("enter");
     EXPECT_FALSE(is_open());
-    EXPECT_EQ(app_.workspace().settings.theme, fresh.theme) << "once more, by Enter alone";
+    EXPECT_EQ(workspace().settings.theme, fresh.theme) << "once more, by Enter alone";
 }
 
 TEST_F(PaletteTest, AClickOnARowChoosesIt) {
-    const Theme theme = app_.workspace().settings.theme;
+    const Theme theme = workspace().settings.theme;
     open().type("theme");
     const glm::vec2 first(420, 127);
-    take(MouseMove{first});
-    take(MousePress{MouseButton::Left, true});
-    take(MousePress{MouseButton::Left, false});
-    app_.tick(nullptr);
+    click(first);
     EXPECT_FALSE(is_open());
-    EXPECT_NE(app_.workspace().settings.theme, theme);
+    EXPECT_NE(workspace().settings.theme, theme);
     // A command that needs an argument continues in the line, which keeps the keyboard.
     open().type("simulation's speed");
     take(MousePress{MouseButton::Left, true});
     take(MousePress{MouseButton::Left, false});
     EXPECT_TRUE(is_open());
-    for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+    wait(3);
     type("0.25").key("enter");
     EXPECT_FALSE(is_open());
-    EXPECT_FLOAT_EQ(app_.workspace().clock.speed, 0.25f);
+    EXPECT_FLOAT_EQ(workspace().clock.speed, 0.25f);
 }
 
 TEST_F(PaletteTest, NamesOfTheSceneComplete) {
-    app_.run({"rope.add", Json{{"from", {0, 1, 0}}, {"to", {1, 1, 0}}, {"name", "blue line"}}});
+    run("rope.add", {{"from", {0, 1, 0}}, {"to", {1, 1, 0}}, {"name", "blue line"}});
     open().type("rope.remove name=blu").key("tab").key("enter");
     EXPECT_FALSE(is_open());
-    EXPECT_TRUE(app_.workspace().ui.toasts.empty()) << app_.workspace().ui.toasts.front().text;
+    EXPECT_TRUE(workspace().ui.toasts.empty()) << workspace().ui.toasts.front().text;
     const auto& known = app_.commands().find("rope.remove")->arguments.front().known;
-    const auto left = known(app_.workspace());
+    const auto left = known(workspace());
     EXPECT_EQ(std::count(left.begin(), left.end(), "blue line"), 0);
 }
 
 /// It shows Ctrl+Q beside it, and does the same.
 TEST_F(PaletteTest, QuitAsksAboutUnsavedWorkAsItsKeyDoes) {
-    app_.run({"chain.add", Json{{"length", 1}}});
+    run("chain.add", {{"length", 1}});
     open().type("quit").key("enter");
     EXPECT_FALSE(app_.quit());
-    EXPECT_TRUE(app_.workspace().ui.asks_to_quit);
+    EXPECT_TRUE(workspace().ui.asks_to_quit);
 }
 
 TEST_F(PaletteTest, OpensInWindowsOfAnySize) {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), {90, 60}, {320, 240}, {1024, 640}, {3000, 200}}) {
         for (const double scale : {0.5, 1.0, 3.0}) {
             take(Resize{size});
-            app_.run({"view.text_scale", Json{{"scale", scale}}});
+            run("view.text_scale", {{"scale", scale}});
             for (const char* line :
                  {"", "add", "chain.solver ", "chain.mode mode=", "xyzzy", "rope.add x=1"}) {
                 open().type(line).key("down").key("up");

@@ -2,11 +2,9 @@
 #include <atomic>
 #include <optional>
 
-#include "app/app.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/live_loop.hpp"
-#include "tests/app/support/frame_record.hpp"
-#include "tests/app/support/play.hpp"
+#include "tests/app/support/driven_app.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {
@@ -14,9 +12,10 @@ namespace {
 
 using namespace app;
 
-class Paste : public testing::Test {
+class Paste : public testing::Test, protected DrivenApp {
   protected:
-    void take(const Event& event) { app_.tick(&event); }
+    Paste() : DrivenApp({1280, 720}) {}
+
     /// Pastes as the window's loop does.
     void paste(const std::string& text) {
         take(KeyChange{Key::Ctrl, true});
@@ -26,9 +25,6 @@ class Paste : public testing::Test {
     std::string told() { return toasts().empty() ? "" : toasts().back().text; }
     std::vector<Toast>& toasts() { return app_.workspace().ui.toasts; }
     const ChainPart& part() { return chain_part(app_.workspace()); }
-
-    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
-    App app_{*window_};
 };
 
 TEST_F(Paste, ASmallArmIsFramedAndOneInViewIsNot) {
@@ -72,6 +68,12 @@ TEST_F(Paste, JunkIsRefusedAndTypedTextIsNoPaste) {
     EXPECT_TRUE(toasts().empty());
     EXPECT_EQ(app_.state()["segments"], before["segments"]);
     EXPECT_EQ(app_.state()["target"], before["target"]);
+    paste("");
+    EXPECT_TRUE(says(told(), "clipboard no text"));
+    run("chain.preset", {{"name", "reaching_arm"}});
+    paste("Remember the milk");
+    EXPECT_TRUE(says(told(), "clipboard no points line 1"));
+    EXPECT_TRUE(app_.state()["events"].empty()) << "no incident of the lab";
 }
 
 TEST_F(Paste, IntoATextFieldOrUnderADialogMovesNothing) {
@@ -98,26 +100,8 @@ TEST_F(Paste, InAnotherLabSaysWherePointsGo) {
     }
 }
 
-TEST_F(Paste, InTheWindowReadsTheClipboardAndIsReplayed) {
-    app_.start_recording();
-    const std::atomic<bool> ending{false};
-    LiveLoop loop(app_, *window_, {.config = false, .ending = ending});
-    Player none{Script{}};
-    window_->set_clipboard("[[0, 0, 0], [0, 1, 0], [0, 2, 0]]");
-    loop.turn({KeyChange{Key::Ctrl, true}, KeyChange{Key::V, true}, KeyChange{Key::V, false},
-               KeyChange{Key::Ctrl, false}},
-              0.0, none);
-    for (int i = 0; i < 10; ++i) loop.turn({}, 1.0 / 60.0, none);
-    ASSERT_EQ(part().chain.size(), 3u);
-    const TempFolder folder;
-    write(folder / "recording.jsonl", app_.recording());
-    EXPECT_TRUE(succeeded(run_program({"--headless", "--script", (folder / "recording.jsonl").string(),
-                                       "--state", (folder / "state.json").string()})));
-    EXPECT_EQ(parse_json(read(folder / "state.json"))["segments"], app_.state()["segments"]);
-}
-
 /// Neither the menu's row nor the palette's command requests the text itself.
-TEST_F(Paste, FromTheMenuAndThePaletteReadsTheClipboardAndIsReplayed) {
+TEST_F(Paste, ByKeyMenuOrPaletteReadsTheClipboardAndIsReplayed) {
     const std::atomic<bool> ending{false};
     LiveLoop loop(app_, *window_, {.config = false, .ending = ending});
     Player none{Script{}};
@@ -132,19 +116,22 @@ TEST_F(Paste, FromTheMenuAndThePaletteReadsTheClipboardAndIsReplayed) {
         turn({KeyChange{Key::Enter, true}, KeyChange{Key::Enter, false}});
     };
     app_.start_recording();
+    window_->set_clipboard("0 0 0\n0 1 0");
+    turn({KeyChange{Key::Ctrl, true}, KeyChange{Key::V, true}, KeyChange{Key::V, false},
+          KeyChange{Key::Ctrl, false}});
+    EXPECT_EQ(part().chain.size(), 2u);
     window_->set_clipboard("[[0, 0, 0], [0, 1, 0], [0, 2, 0]]");
     palette("Paste points");
     EXPECT_EQ(part().chain.size(), 3u);
     EXPECT_FALSE(app_.workspace().ui.palette);
 
     window_->set_clipboard("0 0 0\n0 0 1\n0 0 2\n0 0 3");
-    FrameRecorder recorder;
     const auto click = [&](glm::vec2 at) {
         turn({MouseMove{at}, MousePress{MouseButton::Left, true}, MousePress{MouseButton::Left, false}});
     };
     click({23.0f, 20.0f});
     std::optional<glm::vec2> row, key;
-    for (const DrawnText& each : recorder.frame().texts) {
+    for (const DrawnText& each : recorder_.frame().texts) {
         if (each.text == "Paste") row = 0.5f * (each.box.min + each.box.max);
         if (each.text == "Ctrl+V") key = 0.5f * (each.box.min + each.box.max);
     }
@@ -158,19 +145,6 @@ TEST_F(Paste, FromTheMenuAndThePaletteReadsTheClipboardAndIsReplayed) {
     EXPECT_TRUE(succeeded(run_program({"--headless", "--script", (folder / "recording.jsonl").string(),
                                        "--state", (folder / "state.json").string()})));
     EXPECT_EQ(parse_json(read(folder / "state.json"))["segments"], app_.state()["segments"]);
-}
-
-TEST_F(Paste, AnEmptyPasteIsReported) {
-    paste("");
-    EXPECT_TRUE(says(told(), "clipboard no text"));
-}
-
-/// Junk in the clipboard is not an incident of the lab.
-TEST_F(Paste, OfJunkIsNotAnIncident) {
-    app_.run({"chain.preset", Json{{"name", "reaching_arm"}}});
-    paste("Remember the milk");
-    EXPECT_TRUE(says(told(), "clipboard no points line 1"));
-    EXPECT_TRUE(app_.state()["events"].empty());
 }
 
 }  // namespace

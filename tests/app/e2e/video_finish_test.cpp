@@ -5,7 +5,6 @@
 #include <cstdlib>
 
 #include "app/app.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/live_loop.hpp"
 #include "app/window/offscreen_window.hpp"
 #include "tests/app/support/program.hpp"

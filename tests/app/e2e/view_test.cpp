@@ -1,7 +1,6 @@
 // Looking around with the mouse, in the running program.
 #include <glm/geometric.hpp>
 
-#include "tests/app/support/panel_places.hpp"
 #include "tests/app/support/play.hpp"
 #include "tests/places.hpp"
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <tendril/humanoid/retarget.hpp>
 #include <tendril/humanoid/t_pose.hpp>

@@ -17,7 +17,6 @@
 namespace tendril::app {
 namespace {
 
-using humanoid::Clip;
 using test_gltf::GltfText;
 using test_gltf::textured;
 using test_gltf::white_png;

@@ -1,7 +1,6 @@
 // FBX files, compared with an independent reader of them.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 #include <map>
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <string>
 #include <tendril/humanoid/lint.hpp>

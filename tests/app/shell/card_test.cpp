@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "app/document/json_complete.hpp"
 #include "app/shell/card_watch.hpp"
 #include "tests/app/support/test_part.hpp"
 

@@ -1,21 +1,16 @@
 // A folded side panel and the strip that remains of it.
-#include <gtest/gtest.h>
 #include <imgui_internal.h>  // the item under the mouse, and the windows
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <glm/vec2.hpp>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "app/app.hpp"
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/shell/layout.hpp"
-#include "tests/app/support/frame_record.hpp"
-#include "tests/app/support/play.hpp"
+#include "tests/app/support/driven_app.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::app {
@@ -54,16 +49,17 @@ namespace {
 
 using namespace app;
 
-class HeldAxis : public testing::Test {
+class HeldAxis : public testing::Test, protected DrivenApp {
   protected:
-    void send(const Event& event) { app_.tick(&event); }
+    HeldAxis() : DrivenApp({1280, 800}) {}
+
     void catch_handle(const char* name) {
-        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+        wait(3);
         at_ = handle(app_.state(), name);
-        send(MouseMove{at_});
-        send(MousePress{MouseButton::Left, true});
+        take(MouseMove{at_});
+        take(MousePress{MouseButton::Left, true});
     }
-    void move(glm::vec2 by) { send(MouseMove{at_ += by}); }
+    void move(glm::vec2 by) { take(MouseMove{at_ += by}); }
     std::vector<std::string> texts_with(const std::string& what) {
         app_.tick(nullptr);
         std::vector<std::string> found;
@@ -72,21 +68,17 @@ class HeldAxis : public testing::Test {
         return found;
     }
 
-    std::unique_ptr<Window> window_ = open_offscreen({1280, 800});
-    App app_{*window_};
-    FrameRecorder recorder_;
     glm::vec2 at_{0.0f};
 };
 
 TEST_F(HeldAxis, ShowsTheDistanceAndHowMuchNearer) {
-    app_.run({"chain.preset", Json{{"name", "reaching_arm"}}});
-    app_.run({"camera.set",
-              Json{{"target", {0.85, 1.05, 0.2}}, {"yaw_deg", -8}, {"pitch_deg", 15}, {"distance", 7}}});
-    app_.run({"time.pause", Json::object()});
+    run("chain.preset", {{"name", "reaching_arm"}});
+    run("camera.set", {{"target", {0.85, 1.05, 0.2}}, {"yaw_deg", -8}, {"pitch_deg", 15}, {"distance", 7}});
+    run("time.pause");
     const auto z = [&] { return app_.state().at("solve").at("pole").at(2).get<double>(); };
     const double before = z();
     catch_handle("pole");
-    send(KeyChange{.key = Key::Z, .down = true});
+    take(KeyChange{.key = Key::Z, .down = true});
     move({-6, 16});
     move({-6, 16});
     const double by = z() - before;
@@ -97,15 +89,15 @@ TEST_F(HeldAxis, ShowsTheDistanceAndHowMuchNearer) {
     ASSERT_EQ(texts.size(), 2u) << "at the ball and in the status line: " << said;
     for (const std::string& text : texts) EXPECT_TRUE(says(text, by > 0 ? "m nearer" : "m farther")) << text;
     // Once released, the drag continues in the plane of the view.
-    send(KeyChange{.key = Key::Z, .down = false});
+    take(KeyChange{.key = Key::Z, .down = false});
     EXPECT_TRUE(texts_with("along Z").empty());
 }
 
 TEST_F(HeldAxis, AcrossTheViewShowsOnlyTheDistance) {
-    app_.run({"chain.preset", Json{{"name", "start"}}});
-    app_.run({"camera.set", Json{{"yaw_deg", 0}, {"pitch_deg", 10}}});
+    run("chain.preset", {{"name", "start"}});
+    run("camera.set", {{"yaw_deg", 0}, {"pitch_deg", 10}});
     catch_handle("target");
-    send(KeyChange{.key = Key::X, .down = true});
+    take(KeyChange{.key = Key::X, .down = true});
     move({-40, 0});
     move({-40, 0});
     const auto texts = texts_with("m along X");
@@ -216,42 +208,17 @@ INSTANTIATE_TEST_SUITE_P(Labs, TooltipPlaces,
 
 // The button beside an explanation that names a cure runs it, as one step to undo.
 
-class CureButton : public testing::Test {
+class CureButton : public testing::Test, protected DrivenApp {
   protected:
-    void run(const std::string& command, Json arguments = Json::object()) {
-        app_.run({command, std::move(arguments)});
-    }
-    void wait(int ticks) {
-        for (int i = 0; i < ticks; ++i) app_.tick(nullptr);
-    }
-    /// The middle of a text that is on the screen, not scrolled out of view.
-    std::optional<glm::vec2> seen(const std::string& text) {
-        wait(4);
-        for (const DrawnText& each : recorder_.frame().texts) {
-            const glm::vec2 middle = 0.5f * (each.box.min + each.box.max);
-            if (each.text == text && each.clip.contains(middle)) return middle;
-        }
-        return std::nullopt;
-    }
-    void click(const std::string& text) {
-        const auto at = seen(text);
-        ASSERT_TRUE(at) << text;
-        const Event events[] = {MouseMove{*at}, MousePress{MouseButton::Left, true},
-                                MousePress{MouseButton::Left, false}};
-        for (const Event& event : events) app_.tick(&event);
-        wait(3);
-    }
-    std::string verdict() { return app_.state().at("verdict"); }
+    CureButton() : DrivenApp({1280, 720}) {}
 
-    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
-    App app_{*window_};
-    FrameRecorder recorder_;
+    std::string verdict() { return app_.state().at("verdict"); }
 };
 
 TEST_F(CureButton, BendsAStraightChain) {
     run("chain.preset", {{"name", "straight"}});
     EXPECT_EQ(verdict(), "Stalled: 0.75 m short");
-    click("Add a pole target");
+    click(at("Add a pole target"));
     EXPECT_EQ(verdict(), "Reached");
     EXPECT_FALSE(seen("Add a pole target"));
     run("undo");
@@ -262,7 +229,7 @@ TEST_F(CureButton, BendsAStraightChain) {
     run("chain.target", {{"to", {0.5, 2.5, 1}}});
     const std::string before = verdict();
     EXPECT_EQ(before.find("Did not converge"), 0u) << before;
-    click("More iterations");
+    click(at("More iterations"));
     EXPECT_NE(verdict(), before);
     run("undo");
     EXPECT_EQ(verdict(), before);
@@ -282,7 +249,7 @@ TEST_F(CureButton, HalvesTheSubstepOfARopeThatStretches) {
     EXPECT_EQ(heading->y, still->y) << "the rows below keep still";
     const auto substep = [&] { return app_.state().at("settings").at("substep").get<double>(); };
     const double before = substep();
-    click("Halve the substep");
+    click(at("Halve the substep"));
     EXPECT_NEAR(substep(), 0.5 * before, 1e-12);
 }
 
@@ -303,10 +270,10 @@ TEST_F(CureButton, OfAFlipIsVisibleOnceItsMarkIsClicked) {
     EXPECT_FALSE(seen("Move the pole"));
     run("time.incident", {{"number", flip}});
     EXPECT_TRUE(seen("Move the pole"));
-    click("Move the pole");
+    click(at("Move the pole"));
     EXPECT_NE(app_.state().at("solve").at("pole").at(2).get<double>(), -0.5);
     run("undo");
-    EXPECT_GT(app_.workspace().later_ticks(), 20u) << "what came after is back";
+    EXPECT_GT(workspace().later_ticks(), 20u) << "what came after is back";
 }
 
 }  // namespace

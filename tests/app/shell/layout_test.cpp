@@ -1,6 +1,5 @@
 // Every lab, at three window sizes and three text sizes: no text is cut off, nothing overlaps, and everything
 // that can be clicked can be reached.
-#include <gtest/gtest.h>
 #include <imgui_internal.h>  // scrolling windows from outside, and listing them
 
 #include <algorithm>
@@ -8,10 +7,9 @@
 #include <map>
 #include <set>
 
-#include "app/app.hpp"
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/widgets/fonts.hpp"
+#include "tests/app/support/driven_app.hpp"
 #include "tests/app/support/full_scenes.hpp"
 #include "tests/app/support/layout_faults.hpp"
 #include "tests/labels.hpp"
@@ -37,32 +35,30 @@ bool means_dots(const std::string& text) {
            text.ends_with(" ...");
 }
 
-class LayoutTest : public testing::TestWithParam<std::string> {
+class LayoutTest : public testing::TestWithParam<std::string>, protected DrivenApp {
   protected:
+    LayoutTest() : DrivenApp(sizes[0]) {}
+
     const Lab& lab() const { return *app_.labs().find(GetParam()); }
-    Workspace& workspace() { return app_.workspace(); }
-    void run(const char* command, Json arguments = Json::object()) {
-        app_.run({command, std::move(arguments)});
-    }
 
     void set_up(const Shown& scene) {
         run("scene.new");
         run("lab.open", {{"name", GetParam()}});
-        for (const CommandCall& command : scene.commands)
-            run(command.name.c_str(), to_json(command.arguments));
+        for (const CommandCall& command : scene.commands) run(command.name, to_json(command.arguments));
         run("view.fold", {{"section", GetParam()}, {"folded", false}});  // all of its sections
         run("time.play");
-        for (int i = 0; i < scene.ticks; ++i) app_.tick(nullptr);
+        wait(scene.ticks);
         run("time.pause");
         workspace().ui.toasts.clear();
         scene_ = scene.name;
     }
     void resize(glm::ivec2 size) {
-        const Event resized = Resize{size}, away = MouseMove{{2.0f, static_cast<float>(size.y) - 2.0f}};
-        app_.tick(&resized);
-        app_.tick(&away);
+        take(Resize{size});
         size_ = size;
+        leave();
     }
+    /// Moves the mouse to the corner, where nothing is.
+    void leave() { take(MouseMove{{2.0f, static_cast<float>(size_.y) - 2.0f}}); }
     void set_scale(float scale) {
         run("view.text_scale", {{"scale", scale}});
         scale_ = scale;
@@ -174,9 +170,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
         const std::string kept = text.text.substr(0, text.text.size() - 3);
         if (!asked_.insert(window_name(text.window) + kept).second) return;
         const Rect seen{glm::max(text.box.min, text.clip.min), glm::min(text.box.max, text.clip.max)};
-        const Event there = MouseMove{seen.centre()},
-                    away = MouseMove{{2.0f, static_cast<float>(size_.y) - 2.0f}};
-        app_.tick(&there);
+        take(MouseMove{seen.centre()});
         app_.settle();
         bool told = false;
         for (const DrawnText& each : recorder_.frame().texts)
@@ -184,7 +178,7 @@ class LayoutTest : public testing::TestWithParam<std::string> {
                     each.text.find(kept) != each.text.npos;
         if (!told)
             note({{"is cut short, and no tooltip has all of it", window_name(text.window), text.text}});
-        app_.tick(&away);
+        leave();
     }
 
     void look_at_panels() {
@@ -228,9 +222,8 @@ class LayoutTest : public testing::TestWithParam<std::string> {
             run(command, {{"open", false}});
         }
         run("view.palette", {{"open", true}});
-        const Event text = TextInput{"chain.add length=nothing"}, enter = KeyTap{{Key::Enter}};
-        app_.tick(&text);
-        app_.tick(&enter);
+        type("chain.add length=nothing");
+        key("enter");
         look();
         run("view.palette", {{"open", false}});
         for (const char* command : {"scene.open_dialog", "scene.save_dialog"}) {
@@ -268,16 +261,12 @@ class LayoutTest : public testing::TestWithParam<std::string> {
     }
     /// Checks what a click there opens.
     void look_behind(glm::vec2 at) {
-        const Event there = MouseMove{at}, press = MousePress{MouseButton::Left, true},
-                    release = MousePress{MouseButton::Left, false};
-        for (const Event* event : {&there, &press, &release}) app_.tick(event);
+        click(at);
         app_.settle();
         ++popups_;
         look();
-        const Event escape = KeyTap{{Key::Escape}};
-        app_.tick(&escape);
-        const Event away = MouseMove{{2.0f, static_cast<float>(size_.y) - 2.0f}};
-        app_.tick(&away);
+        key("escape");
+        leave();
     }
 
     void report() const {
@@ -296,9 +285,6 @@ class LayoutTest : public testing::TestWithParam<std::string> {
         std::string first;
         std::set<std::pair<int, float>> where;
     };
-    std::unique_ptr<Window> window_ = open_offscreen(sizes[0]);
-    App app_{*window_};
-    FrameRecorder recorder_;
     glm::ivec2 size_{0};
     int popups_ = 0;  ///< popups that were checked
     float scale_ = 1.0f;

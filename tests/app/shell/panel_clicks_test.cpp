@@ -1,12 +1,10 @@
 // Every widget of every panel has its own id and a tooltip, works when clicked, and stays under the mouse
 // that clicks it. The widgets are taken from the frames themselves, so that new ones are included. Not
 // clicked: plots, curves and other areas to draw in, which have their own tests.
-#include <gtest/gtest.h>
 #include <imgui_internal.h>  // the item under the mouse, open lists, scrolling
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <functional>
 #include <glm/common.hpp>
 #include <iterator>
@@ -15,17 +13,13 @@
 #include <string_view>
 #include <variant>
 
-#include "app/app.hpp"
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/unit_inputs.hpp"
-#include "tests/app/support/frame_record.hpp"
+#include "tests/app/support/driven_app.hpp"
 #include "tests/app/support/full_scenes.hpp"
 #include "tests/app/support/layout_faults.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/labels.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::test {
@@ -44,11 +38,10 @@ bool same_place(const DrawnItem& a, const DrawnItem& b) {
     return std::abs(a.box.min.x - b.box.min.x) < 3.0f && std::abs(a.box.min.y - b.box.min.y) < 3.0f;
 }
 
-class Panels : public testing::TestWithParam<const char*> {
+class Panels : public testing::TestWithParam<const char*>, protected DrivenApp {
   protected:
-    void run(const std::string& command, Json arguments = Json::object()) {
-        app_.run({command, std::move(arguments)});
-    }
+    Panels() : DrivenApp(panel_window) {}
+
     void ticks(int count) {
         for (int i = 0; i < count; ++i) tick(nullptr);
     }
@@ -75,11 +68,9 @@ class Panels : public testing::TestWithParam<const char*> {
     }
     /// The scene, paused.
     void set_up(const std::vector<CommandCall>& commands, int run_for = 0, bool unfolded = false) {
-        const Event escape = KeyTap{{Key::Escape}};
-        for (int i = 0; i < 2; ++i) app_.tick(&escape);  // leaves a field and closes a list
-        Workspace& workspace = app_.workspace();
-        workspace.settings = settings_;
-        workspace.ui.ends_filming = workspace.ui.filming.has_value();
+        for (int i = 0; i < 2; ++i) key("escape");  // leaves a field and closes a list
+        workspace().settings = settings_;
+        workspace().ui.ends_filming = workspace().ui.filming.has_value();
         run("view.close");
         run("scene.new");
         run("lab.open", {{"name", GetParam()}});
@@ -88,16 +79,13 @@ class Panels : public testing::TestWithParam<const char*> {
         run("time.play");
         ticks(run_for);
         run("time.pause");
-        workspace.ui.toasts.clear();
+        workspace().ui.toasts.clear();
         move(in_the_scene);
         ticks(2);
     }
     const FrameRecord& frame() const { return recorder_.frame(); }
 
-    std::unique_ptr<Window> window_ = open_offscreen(panel_window);
-    App app_{*window_};
-    FrameRecorder recorder_;
-    const Settings settings_ = app_.workspace().settings;
+    const Settings settings_ = workspace().settings;
     std::string scene_;
     std::set<std::string> told_;
 };

@@ -1,9 +1,6 @@
 // The size of a lab's panel when the lab is opened; no row is lost under "More".
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,10 +8,8 @@
 #include <imgui.h>
 #include <imgui_internal.h>  // windows
 
-#include "app/app.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/labs/card.hpp"
-#include "tests/app/support/frame_record.hpp"
+#include "tests/app/support/driven_app.hpp"
 #include "tests/app/support/layout_faults.hpp"
 #include "tests/places.hpp"
 
@@ -25,6 +20,7 @@ using namespace app;
 
 constexpr glm::ivec2 usual_window{1440, 900};
 constexpr glm::ivec2 high_window{1440, 3000};  ///< shows every row without scrolling
+constexpr glm::ivec2 unscrolled{1440, 2400};   ///< nothing is out of view when a lab opens
 constexpr std::size_t max_rows = 18;
 
 std::vector<std::string> names_of_labs() {
@@ -34,17 +30,13 @@ std::vector<std::string> names_of_labs() {
     return names;
 }
 
-class PanelRows : public testing::TestWithParam<std::string> {
+class PanelRows : public testing::TestWithParam<std::string>, protected DrivenApp {
   protected:
-    PanelRows() {
-        const Event resized = Resize{usual_window};
-        app_.tick(&resized);
+    PanelRows() : DrivenApp(unscrolled) {
+        take(Resize{usual_window});
         open();
     }
     void open() { run("lab.open", {{"name", GetParam()}}); }
-    void run(const std::string& command, Json arguments = Json::object()) {
-        app_.run({command, std::move(arguments)});
-    }
     /// The text of each row, from the top; a wrapped text is one row.
     std::vector<std::string> rows() {
         app_.settle();
@@ -69,11 +61,6 @@ class PanelRows : public testing::TestWithParam<std::string> {
         for (const std::string& row : rows) all += row + "\n";
         return all;
     }
-    Workspace& workspace() { return app_.workspace(); }
-
-    std::unique_ptr<Window> window_ = open_offscreen({1440, 2400});  // nothing is scrolled out of view
-    App app_{*window_};
-    FrameRecorder recorder_;
 };
 
 TEST_P(PanelRows, AreFewWhenTheLabOpens) {
@@ -110,8 +97,7 @@ TEST_P(PanelRows, AreFewInTheSceneOfItsCard) {
 }
 
 TEST_P(PanelRows, AreAllReachableByOneCommand) {
-    const Event resized = Resize{high_window};
-    app_.tick(&resized);
+    take(Resize{high_window});
     const std::size_t before = rows().size();
     run("view.fold", {{"section", GetParam()}, {"folded", false}});
     const std::vector<std::string> all = rows();
@@ -124,32 +110,25 @@ INSTANTIATE_TEST_SUITE_P(Labs, PanelRows, testing::ValuesIn(names_of_labs()),
                          [](const auto& lab) { return lab.param; });
 
 /// One lab at a time, by name.
-class RowsUnderMore : public testing::Test {
+class RowsUnderMore : public testing::Test, protected DrivenApp {
   protected:
-    RowsUnderMore() {
-        const Event resized = Resize{high_window};
-        app_.tick(&resized);
-    }
-    void run(const std::string& command, Json arguments = Json::object()) {
-        app_.run({command, std::move(arguments)});
-    }
+    RowsUnderMore() : DrivenApp(unscrolled) { take(Resize{high_window}); }
     void open(const char* lab) { run("lab.open", {{"name", lab}}); }
     void unfold_all(const char* lab) { run("view.fold", {{"section", lab}, {"folded", false}}); }
     void type(const char* line) {
         run("view.palette", {{"open", true}});
-        const Event text = TextInput{line}, enter = KeyTap{{Key::Enter}};
-        app_.tick(&text);
-        app_.tick(&enter);
-        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+        DrivenApp::type(line);
+        key("enter");
+        wait(3);
     }
     /// Shows the card with its first steps done.
     void show_card(const char* lab, std::size_t number, std::size_t done) {
         run("view.card", {{"open", true}, {"number", number}});
-        CardProgress& progress = app_.workspace().ui.cards[lab];
+        CardProgress& progress = workspace().ui.cards[lab];
         progress.done.assign(5, false);
         progress.tried.resize(5);
         for (std::size_t i = 0; i < done; ++i) progress.done[i] = true;
-        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+        wait(3);
     }
     bool shows(const std::string& label) {
         app_.settle();
@@ -158,9 +137,6 @@ class RowsUnderMore : public testing::Test {
                    each.text == label;
         });
     }
-    std::unique_ptr<Window> window_ = open_offscreen({1440, 2400});  // nothing is scrolled out of view
-    App app_{*window_};
-    FrameRecorder recorder_;
 };
 
 TEST_F(RowsUnderMore, AreShownByOpeningIt) {
@@ -265,35 +241,15 @@ TEST_F(RowsUnderMore, UnfoldForAStepOfACard) {
     EXPECT_FALSE(shows("substeps")) << "it can be folded again";
 }
 
-class Buttons : public RowsUnderMore {
-  protected:
-    void click(const std::string& button) {
-        app_.settle();
-        for (const DrawnText& each : recorder_.frame().texts) {
-            if (each.text != button) continue;
-            const Event events[] = {MouseMove{0.5f * (each.box.min + each.box.max)},
-                                    MousePress{MouseButton::Left, true},
-                                    MousePress{MouseButton::Left, false}};
-            for (const Event& event : events) app_.tick(&event);
-            return app_.settle();
-        }
-        ADD_FAILURE() << "there is no " << button;
-    }
-};
-
 /// A character that its file's unit makes a giant.
-class UnitButton : public Buttons {
-  protected:
-    double scale() { return app_.state().at("character").at("scale").get<double>(); }
-};
-
-TEST_F(UnitButton, CorrectsAGiantsUnitByOneClick) {
+TEST_F(RowsUnderMore, AButtonCorrectsAGiantsUnit) {
+    const auto scale = [&] { return app_.state().at("character").at("scale").get<double>(); };
     open("humanoid");
     run("humanoid.load", {{"path", source_path("tests/app/golden/faulty_walk.bvh")}});
     EXPECT_FALSE(shows("Use metres"));
     run("humanoid.scale", {{"metres", 100.0}});
     EXPECT_EQ(scale(), 100.0);
-    click("Use metres");
+    click(at("Use metres"));
     EXPECT_EQ(scale(), 1.0);
     EXPECT_FALSE(shows("Use metres"));
     run("undo");
@@ -309,17 +265,17 @@ TEST_F(RowsUnderMore, ShowGustsWhileTheWindBlows) {
     EXPECT_TRUE(shows("still air resists"));
 }
 
-TEST_F(Buttons, AddAndRemoveACharacterInTheRopeLab) {
+TEST_F(RowsUnderMore, ButtonsAddAndRemoveACharacterInTheRopeLab) {
     const auto character = [&] { return app_.state().at("character"); };
     open("rope");
     run("view.fold", {{"section", "rope: Add"}, {"folded", false}});
     EXPECT_FALSE(shows("clip"));
-    click("Stick figure");
+    click(at("Stick figure"));
     EXPECT_EQ(character().at("clip"), "walk");
     EXPECT_TRUE(shows("clip"));
     run("rope.character", {{"clip", ""}, {"at", {0.5, 0, 0}}});
     EXPECT_TRUE(shows("none (rest pose)"));
-    click("Remove");
+    click(at("Remove"));
     EXPECT_EQ(character(), nullptr);
     run("undo");
     EXPECT_EQ(character().at("at").at(0), 0.5);

@@ -2,8 +2,6 @@
 // with every backend.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "app/io/image.hpp"
 #include "app/view/renderer.hpp"
 #include "app/window/gl.hpp"

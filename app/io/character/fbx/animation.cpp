@@ -1,7 +1,6 @@
 #include "app/io/character/fbx/animation.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <stdexcept>
 #include <unordered_map>

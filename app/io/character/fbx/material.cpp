@@ -1,7 +1,6 @@
 #include "app/io/character/fbx/surface.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/io/character/base64.hpp"
 

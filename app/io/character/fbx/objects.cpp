@@ -1,7 +1,6 @@
 #include "app/io/character/fbx/objects.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tendril::app::fbx {
 

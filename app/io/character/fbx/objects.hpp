@@ -3,7 +3,6 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>

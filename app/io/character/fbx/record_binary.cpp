@@ -1,5 +1,4 @@
 #include <cstring>
-#include <stdexcept>
 
 #include "app/io/character/fbx/record.hpp"
 

@@ -1,4 +1,3 @@
-#include <stdexcept>
 
 #include "app/io/character/fbx/record.hpp"
 
