@@ -121,9 +121,10 @@ bool Substep::Ledger::gains_over(double part) const {
     return gained() > 0.0 && gained() > part * mass_ * length_ * detail::length(step_->acceleration_);
 }
 
-/// Removes the gain from motion relative to the mean first, so that a free body keeps falling freely. A pin
-/// takes momentum, so with one all motion is scaled alike. Any remaining gain is stretch caused by a collider
-/// that appeared inside the body: tensions are scaled down, so that the links cannot return it as motion.
+/// Removes the gain from motion relative to the mean, and only near a collider from the mean too: a free body
+/// keeps falling freely. A pin takes momentum, so with one all motion is scaled alike. Any remaining gain is
+/// stretch, such as that of a body in which a collider appeared: tensions are scaled down, so that the links
+/// cannot return it as motion.
 Substep::Slowdown Substep::Ledger::slowdown() const {
     Slowdown slowdown;
     if (!gains_over(rounding)) return slowdown;
