@@ -35,7 +35,7 @@ class ChainRace : public ChainTest {
     std::vector<glm::vec3> solved(ik::Method method, int most, ik::Report& report) const {
         ik::Solver solver(part().chain);
         ReachSettings settings = part().reach;
-        settings.state = part().study.first_state;
+        settings.state = part().study.start_state;
         ik::Options options = solver_options(settings, solver.reach());
         options.max_iterations = most;
         ik::State state = state_for(settings, solver.bones());

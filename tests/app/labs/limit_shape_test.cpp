@@ -231,7 +231,7 @@ TEST_F(SceneVersion1, OpensWithItsRotationsUnchanged) {
     load_scene_file(workspace, version_1);
     ASSERT_EQ(part().reach.state.bones(), 4u);
     expect_rotations_of(part().reach.state.rotations, positions(part().chain));
-    expect_rotations_of(part().study.first_state.rotations, part().study.start);
+    expect_rotations_of(part().study.start_state.rotations, part().study.start);
     EXPECT_EQ(part().study.step, 3u);
     run("chain.target", {{"to", {1, 2, 0.5}}});
     EXPECT_EQ(state()["solve"]["report"]["status"], "Converged");
