@@ -23,7 +23,7 @@ std::string title_of(const Document& document) {
     return document.get<TestPart>("arm").title;
 }
 
-TEST(History, goes_back_and_forward_with_the_labels_of_the_commands) {
+TEST(History, GoesBackAndForwardWithTheLabelsOfTheCommands) {
     History history;
     EXPECT_FALSE(history.can_undo() || history.can_redo());
     EXPECT_EQ(history.undo_label() + history.redo_label(), "");
@@ -100,7 +100,7 @@ TEST(History, AChangeOfSceneIncludesItsFile) {
     EXPECT_EQ(place.path, "renamed.json") << "as it was saved meanwhile";
 }
 
-TEST(History, holds_one_entry_for_a_gesture) {
+TEST(History, HoldsOneEntryForAGesture) {
     History history;
     history.push(document_of("0"), "chain.target", 7);
     history.push(document_of("1"), "chain.target", 7);

@@ -26,7 +26,7 @@ void expect_lengths_kept(const Json& state) {
     }
 }
 
-TEST(Drag, the_target_follows_the_mouse_and_keeps_the_offset) {
+TEST(Drag, TheTargetFollowsTheMouseAndKeepsTheOffset) {
     for (const glm::vec2 offset : {glm::vec2(0, 0), glm::vec2(6, -4), glm::vec2(-5, 5)}) {
         const glm::vec2 caught = target_pixel() + offset;
         const glm::vec2 to(560.5f, 213.25f);
@@ -38,7 +38,7 @@ TEST(Drag, the_target_follows_the_mouse_and_keeps_the_offset) {
     }
 }
 
-TEST(Drag, moves_in_the_plane_of_the_view) {
+TEST(Drag, MovesInThePlaneOfTheView) {
     ScriptText script = ScriptText().command("camera.set", {{"yaw_deg", 0}, {"pitch_deg", 0}});
     const glm::vec2 caught = handle(state_after(script), "target");
     const Json state = state_after(script.drag({caught, {600, 250}, {500, 200}}));
@@ -46,7 +46,7 @@ TEST(Drag, moves_in_the_plane_of_the_view) {
     EXPECT_GT(target_of(state).y, 1.0f);
 }
 
-TEST(Drag, an_axis_key_keeps_the_other_coordinates) {
+TEST(Drag, AnAxisKeyKeepsTheOtherCoordinates) {
     const char* keys[] = {"x", "y", "z"};
     for (int axis = 0; axis < 3; ++axis) {
         ScriptText script = ScriptText().command("chain.target", {{"to", {4.0, 1.5, 0.5}}});
@@ -75,7 +75,7 @@ TEST(Drag, AnAxisKeyMayBePressedAndReleasedDuringADrag) {
     EXPECT_LT(glm::distance(handle(free, "target"), to), 0.02f);
 }
 
-TEST(Drag, shift_keeps_the_height) {
+TEST(Drag, ShiftKeepsTheHeight) {
     ScriptText script = ScriptText().command("chain.target", {{"to", {4.0, 1.5, 0.5}}});
     const glm::vec2 caught = handle(state_after(script), "target");
     script.hold("shift")
@@ -99,7 +99,7 @@ TEST(Drag, ASegmentTakesTheTargetAlongAndKeepsTheMode) {
     }
 }
 
-TEST(Drag, begins_only_beyond_a_few_pixels) {
+TEST(Drag, BeginsOnlyBeyondAFewPixels) {
     const glm::vec2 caught = handle(first_state(), "segment.3");
     const Json trembled =
         state_after(ScriptText().drag({caught, caught + glm::vec2(2, 1), caught + glm::vec2(-1, 2)}));
@@ -109,7 +109,7 @@ TEST(Drag, begins_only_beyond_a_few_pixels) {
     EXPECT_NE(moved["segments"], first_state()["segments"]);
 }
 
-TEST(Click, sets_the_index_in_the_mode_that_has_one) {
+TEST(Click, SetsTheIndexInTheModeThatHasOne) {
     ScriptText script;
     script.command("chain.mode", {{"mode", "with_index"}, {"index", 1}})
         .click(handle(first_state(), "segment.5"));
@@ -118,7 +118,7 @@ TEST(Click, sets_the_index_in_the_mode_that_has_one) {
     EXPECT_EQ(state["mode"], "with_index");
 }
 
-TEST(Undo, takes_back_a_whole_drag_at_once) {
+TEST(Undo, TakesBackAWholeDragAtOnce) {
     ScriptText script;
     std::vector<glm::vec2> path{target_pixel()};
     for (int i = 1; i < 30; ++i) path.push_back(path.front() + glm::vec2(-6 * i, -4 * i));
@@ -135,7 +135,7 @@ TEST(Undo, takes_back_a_whole_drag_at_once) {
 }
 
 /// Ctrl, then Z, as users press them: Z is also an axis key, but not in a chord.
-TEST(Undo, in_mid_drag_stays_undone_until_the_mouse_moves) {
+TEST(Undo, InMidDragStaysUndoneUntilTheMouseMoves) {
     const glm::vec2 at = target_pixel();
     const auto dragging = [&] { return ScriptText().move(at).down().move(at + glm::vec2(-50, -60)).wait(2); };
     const Json dragged = state_after(dragging());
@@ -153,7 +153,7 @@ TEST(Undo, in_mid_drag_stays_undone_until_the_mouse_moves) {
     }
 }
 
-TEST(Undo, escape_in_mid_drag_puts_everything_back) {
+TEST(Undo, EscapeInMidDragPutsEverythingBack) {
     ScriptText script;
     script.move(target_pixel()).down().move({700, 250}).move({650, 200}).key("escape").move({500, 300}).up();
     const Json state = state_after(script);

@@ -79,7 +79,7 @@ TEST(HandlesOutOfView, HaveAPixelOutsideOrNone) {
 }
 
 // The largest usual screen. No golden picture: it would be larger than all others together.
-TEST(HandlesOfALargeWindow, are_drawn_at_3840x2160) {
+TEST(HandlesOfALargeWindow, AreDrawnAt3840x2160) {
     const Played played = play(ScriptText().command("view.text_scale", {{"scale", 2}}),
                                {.picture = true, .more = {"--size", "3840x2160"}});
     ASSERT_EQ(played.picture.size, glm::ivec2(3840, 2160));

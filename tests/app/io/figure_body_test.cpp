@@ -73,7 +73,7 @@ class FigureBodyTest : public ::testing::Test {
     }
 };
 
-TEST_F(FigureBodyTest, is_a_closed_surface_of_a_few_thousand_vertices) {
+TEST_F(FigureBodyTest, IsAClosedSurfaceOfAFewThousandVertices) {
     ASSERT_TRUE(figure_.skin.mesh);
     EXPECT_GT(mesh().positions.size(), 3000u);
     EXPECT_LT(mesh().positions.size(), 9000u);
@@ -97,7 +97,7 @@ TEST_F(FigureBodyTest, is_a_closed_surface_of_a_few_thousand_vertices) {
     EXPECT_GT(smallest, 1e-7) << "no triangle is degenerate";
 }
 
-TEST_F(FigureBodyTest, stands_on_the_ground_at_its_height) {
+TEST_F(FigureBodyTest, StandsOnTheGroundAtItsHeight) {
     const auto at = posed(figure_, {});
     double low = 1.0, high = 0.0;
     std::size_t on_ground = 0;
@@ -133,7 +133,7 @@ TEST_F(FigureBodyTest, FollowsNearbyBones) {
     }
 }
 
-TEST_F(FigureBodyTest, keeps_its_volume_when_it_bends) {
+TEST_F(FigureBodyTest, KeepsItsVolumeWhenItBends) {
     const double rest = volume(posed(figure_, {}));
     const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
     const std::vector<std::pair<const char*, std::vector<Turned>>> bends{
@@ -146,7 +146,7 @@ TEST_F(FigureBodyTest, keeps_its_volume_when_it_bends) {
         EXPECT_NEAR(volume(posed(figure_, turns)), rest, 0.03 * rest) << what;
 }
 
-TEST_F(FigureBodyTest, suits_other_proportions_and_needs_every_bone) {
+TEST_F(FigureBodyTest, SuitsOtherProportionsAndNeedsEveryBone) {
     for (const double legs : {0.6, 1.5}) {
         std::vector<humanoid::Node> nodes = figure_.skeleton.nodes();
         for (humanoid::Node& each : nodes) {
@@ -169,7 +169,7 @@ TEST_F(FigureBodyTest, suits_other_proportions_and_needs_every_bone) {
     EXPECT_FALSE(figure_body(figure_.skeleton, map).mesh);
 }
 
-TEST_F(FigureBodyTest, is_exported_and_read_back) {
+TEST_F(FigureBodyTest, IsExportedAndReadBack) {
     const tendril::test::TempFolder folder;
     for (const char* name : {"figure.glb", "figure.gltf"}) {
         export_clip({figure_, {}, figure_.clips[0], figure_.clips[0], 30.0}, folder / name);

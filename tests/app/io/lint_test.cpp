@@ -46,7 +46,7 @@ double ramp(std::size_t frame, std::size_t first, std::size_t last) {
     return static_cast<double>(frame - first) / static_cast<double>(last - first);
 }
 
-TEST_F(LintTest, finds_nothing_in_its_own_clips) {
+TEST_F(LintTest, FindsNothingInItsOwnClips) {
     for (const Clip& clip : figure.clips) {
         const LintReport report = run(clip);
         EXPECT_TRUE(report.findings.empty()) << clip.name << ": " << texts(report);
@@ -55,7 +55,7 @@ TEST_F(LintTest, finds_nothing_in_its_own_clips) {
     }
 }
 
-TEST_F(LintTest, finds_nothing_in_variations_of_them) {
+TEST_F(LintTest, FindsNothingInVariationsOfThem) {
     Random random(10);
     constexpr double rates[]{24.0, 25.0, 30.0, 50.0, 60.0, 90.0, 120.0};
     for (int i = 0; i < 150; ++i) {

@@ -128,7 +128,7 @@ TEST_F(ChainInspector, ExplainsAStalledSolve) {
     EXPECT_TRUE(test::says(status_text(bent), "closer another solver restarts"));
 }
 
-TEST_F(ChainInspector, shows_the_table_of_the_step) {
+TEST_F(ChainInspector, ShowsTheTableOfTheStep) {
     reach_with(2);
     run("view.fold", {{"section", "chain: Joints, in metres"}, {"folded", false}});
     run("chain.solver", {{"name", "fabrik_plain"}});
@@ -147,7 +147,7 @@ TEST_F(ChainInspector, shows_the_table_of_the_step) {
     }
 }
 
-TEST_F(ChainInspector, names_the_ends_root_and_tip_where_the_chain_reaches) {
+TEST_F(ChainInspector, NamesTheEndsRootAndTipWhereTheChainReaches) {
     run("chain.select", {{"index", 7}});
     expect_says("7 (tail)");
     expect_says("tail to target");
@@ -157,7 +157,7 @@ TEST_F(ChainInspector, names_the_ends_root_and_tip_where_the_chain_reaches) {
     expect_silent_about("tail to target");
 }
 
-TEST_F(ChainInspector, counts_joints_and_bones) {
+TEST_F(ChainInspector, CountsJointsAndBones) {
     expect_says("8 joints, 7 bones");
     run("chain.preset", {{"name", "start"}, {"count", 2}});
     expect_says("2 joints, 1 bone\n");
@@ -179,7 +179,7 @@ TEST_F(ChainInspector, CountsTimeFromTheLatestMoment) {
     expect_silent_about("discards");
 }
 
-TEST_F(ChainInspector, a_moving_target_waits_while_the_microscope_is_open) {
+TEST_F(ChainInspector, AMovingTargetWaitsWhileTheMicroscopeIsOpen) {
     const Lab& lab = *labs.find(chain_lab);
     reach_with(4);
     run("chain.target", {{"to", {2, 2, 0}}});

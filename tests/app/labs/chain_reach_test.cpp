@@ -27,7 +27,7 @@ TEST_F(ChainReach, ASolveThatMovesNothingIsReportedToo) {
     EXPECT_EQ(state()["solve"]["report"]["status"], "Converged");
 }
 
-TEST_F(ChainReach, a_default_tolerance_follows_the_reach_and_each_mode_has_its_own_iterations) {
+TEST_F(ChainReach, ADefaultToleranceFollowsTheReachAndEachModeHasItsOwnIterations) {
     run("chain.solver", {{"tolerance", 0.25}});
     run("chain.solver", {{"default_tolerance", true}});
     run("chain.mode", {{"mode", "reach"}});
@@ -55,7 +55,7 @@ TEST_F(ChainReach, AnElbowJustOutOfRangeIsNamedWithItsLimitAndTheAngleNeeded) {
     EXPECT_EQ(state()["solve"]["explanation"], nullptr);
 }
 
-TEST_F(ChainReach, a_limit_bends_the_chain_as_soon_as_it_is_set) {
+TEST_F(ChainReach, ALimitBendsTheChainAsSoonAsItIsSet) {
     elbow();
     run("chain.limit", {{"index", 1}, {"min_deg", 30}});
     EXPECT_EQ(state()["solve"]["limits"][1]["min_deg"], 30.0);
@@ -67,7 +67,7 @@ TEST_F(ChainReach, a_limit_bends_the_chain_as_soon_as_it_is_set) {
     EXPECT_TRUE(part().reach.limits.empty());
 }
 
-TEST_F(ChainReach, limits_stay_with_their_segments) {
+TEST_F(ChainReach, LimitsStayWithTheirSegments) {
     reach_with(5);
     run("chain.limit", {{"index", 2}, {"kind", "hinge"}, {"max_deg", 90}});
     run("chain.insert", {{"index", 1}, {"length", 0.5}});
@@ -105,7 +105,7 @@ TEST_F(ChainReach, LimitsAreRefusedIfTheSceneWouldBeTooLarge) {
     expect_refused("chain.limit", {{"index", 0}, {"kind", "pivot"}}, {"100000"});
 }
 
-TEST_F(ChainReach, a_new_tolerance_gives_a_new_report) {
+TEST_F(ChainReach, ANewToleranceGivesANewReport) {
     elbow();
     run("chain.target", {{"to", {distance_at(162.0f), 0, 0}}});
     EXPECT_EQ(state()["solve"]["report"]["status"], "Limited");
@@ -162,7 +162,7 @@ TEST_F(ChainReach, AHingeBendsInTheJointsPresentDirection) {
     EXPECT_EQ(bend() > 0.0f, up);
 }
 
-TEST_F(ChainReach, a_mode_begins_with_its_joint_on_the_target) {
+TEST_F(ChainReach, AModeBeginsWithItsJointOnTheTarget) {
     for (const char* mode : {"forward", "backward", "fixed", "with_index"}) {
         reach_with(5);
         run("chain.target", {{"to", {3, 2, 0}}});
@@ -176,7 +176,7 @@ TEST_F(ChainReach, a_mode_begins_with_its_joint_on_the_target) {
     EXPECT_EQ(part().index, 2u) << "with index takes the selected joint";
 }
 
-TEST_F(ChainReach, keeps_its_target_while_another_mode_is_on) {
+TEST_F(ChainReach, KeepsItsTargetWhileAnotherModeIsOn) {
     reach_with(4);
     run("chain.target", {{"to", {2, 1, 0}}});
     run("chain.mode", {{"mode", "forward"}});
@@ -189,7 +189,7 @@ TEST_F(ChainReach, keeps_its_target_while_another_mode_is_on) {
     EXPECT_EQ(part().target, glm::vec3(2, 1, 0)) << "the microscope looks at a reach";
 }
 
-TEST_F(ChainReach, saves_its_target_while_another_mode_is_on) {
+TEST_F(ChainReach, SavesItsTargetWhileAnotherModeIsOn) {
     reach_with(4);
     run("chain.target", {{"to", {2, 1, 0}}});
     run("chain.mode", {{"mode", "forward"}});
@@ -217,7 +217,7 @@ TEST_F(ChainReach, saves_its_target_while_another_mode_is_on) {
     EXPECT_EQ(part().load(part().save(), "chain")->save(), part().save()) << "of a moving target, too";
 }
 
-TEST_F(ChainReach, a_preset_begins_without_a_pole) {
+TEST_F(ChainReach, APresetBeginsWithoutAPole) {
     reach_with(4);
     run("chain.pole", {{"to", {0, 3, 0}}});
     run("chain.preset", {{"name", "snake"}});

@@ -20,7 +20,7 @@ class ChainStudy : public ChainTest {
     std::shared_ptr<const Race> race() const { return shown_chain(workspace).race; }
 };
 
-TEST_F(ChainStudy, its_start_is_brought_into_view) {
+TEST_F(ChainStudy, ItsStartIsBroughtIntoView) {
     reach_with(4);
     run("chain.target", {{"to", {0, -3, 0}}});
     for (const char* const command : {"microscope.open", "race.open"}) {
@@ -39,7 +39,7 @@ TEST_F(ChainStudy, its_start_is_brought_into_view) {
     }
 }
 
-TEST_F(ChainStudy, the_microscope_shows_the_eight_pulls_of_an_iteration_of_four_bones) {
+TEST_F(ChainStudy, TheMicroscopeShowsTheEightPullsOfAnIterationOfFourBones) {
     reach_with(4);
     run("chain.solver", {{"name", "fabrik_plain"}});
     run("chain.target", {{"to", {1, 2, 1}}});
@@ -85,7 +85,7 @@ TEST_F(ChainStudy, TheLastStepOfEverySolverIsTheChainsPose) {
     }
 }
 
-TEST_F(ChainStudy, every_solve_begins_at_the_same_start) {
+TEST_F(ChainStudy, EverySolveBeginsAtTheSameStart) {
     run("chain.mode", {{"mode", "reach"}});
     run("microscope.open", {{"start", "here"}});
     run("chain.target", {{"to", {2, 3, 0}}});
@@ -121,7 +121,7 @@ TEST_F(ChainStudy, StepsGoForwardsAndBackAndStayInRange) {
     expect_refused("microscope.seek", {{"step", 5000}}, {"5000"});
 }
 
-TEST_F(ChainStudy, every_step_has_its_sentence) {
+TEST_F(ChainStudy, EveryStepHasItsSentence) {
     for (const ik::Method method : ik::all_methods) {
         reach_with(method == ik::Method::TwoBone ? 2 : 5);
         run("chain.solver", {{"name", ik::name(method)}});
@@ -195,7 +195,7 @@ TEST_F(ChainStudy, ARaceRowShowsItsCurvesEndAndTheSolversThatRan) {
     EXPECT_GT(restored, 0) << "the test wants a solve that ends worse than it was";
 }
 
-TEST_F(ChainStudy, the_race_is_written_as_csv) {
+TEST_F(ChainStudy, TheRaceIsWrittenAsCsv) {
     run("race.open", {{"start", "straight"}});
     run("chain.target", {{"to", {3, 3, 1}}});
     const test::TempFolder folder;
@@ -220,7 +220,7 @@ TEST_F(ChainStudy, the_race_is_written_as_csv) {
     expect_refused("race.save", {{"path", "/nowhere/at/all.csv"}}, {"/nowhere"});
 }
 
-TEST_F(ChainStudy, the_chain_is_copied_as_code_and_as_a_scene) {
+TEST_F(ChainStudy, TheChainIsCopiedAsCodeAndAsAScene) {
     run("chain.copy", {{"as", "cpp"}});
     EXPECT_NE(workspace.ui.copied.value().find("#include <tendril/"), std::string::npos);
     run("chain.copy", {{"as", "json"}});
