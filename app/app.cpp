@@ -137,19 +137,19 @@ void App::tick(const Event* event) {
     update_window();
 }
 
-/// Typing is astray after a click on nothing in a side panel, and when a field went away under it; until the
-/// next press, or a key that ends typing.
+/// Numbers are typed nowhere after a click beside a field, and after a field went away under the keyboard;
+/// until the next press or a key that is in no number.
 void App::note_typing(const Event* event) {
     const auto* press = event != nullptr ? std::get_if<MousePress>(event) : nullptr;
     const bool types = ui_.wants_text(), typed = std::exchange(was_typing_, types);
     const Key key = input_.pressed().key;
     const bool panel = layout_.left.contains(input_.mouse()) || layout_.right.contains(input_.mouse());
     if (press != nullptr && press->down)
-        typing_astray_ = panel && !workspace_.ui.covered() && !ImGui::IsAnyItemHovered();
+        types_nowhere_ = panel && !workspace_.ui.covered() && !ImGui::IsAnyItemHovered();
     else if (types || (key != Key::Unknown && !in_number(key)))
-        typing_astray_ = false;
+        types_nowhere_ = false;
     else if (typed && press == nullptr)
-        typing_astray_ = true;
+        types_nowhere_ = true;
 }
 
 void App::compose(const Event* event, Pass pass) {
@@ -266,7 +266,8 @@ void App::take_shortcut(Emit& emit) {
     // In a field, a menu or a drag Esc only ends that and keeps the selection.
     if (chord.key == Key::Escape && !workspace_.ui.covered() && (taken || busy())) return;
     // Nor do numbers typed beside a field, or into one that is no longer there.
-    if (typing_astray_ && !chord.ctrl && !chord.alt && in_number(chord.key)) return;
+    if (types_nowhere_ && !chord.ctrl && !chord.alt && in_number(chord.key))
+        return workspace_.toast("No field has the keyboard. Click one, or click the view to use shortcuts.");
     const Shortcut* shortcut = shortcuts_.find(chord, workspace_.lab);
     // An open popup handles its own keys.
     if (!chord.ctrl && ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup)) return;

@@ -156,7 +156,7 @@ class App final : public Stage {
     Gesture gesture_ = 1;
     int settling_ = 0;  ///< remaining ticks in which the panels may change after the last event
     std::string title_;
-    bool was_typing_ = false, typing_astray_ = false;
+    bool was_typing_ = false, types_nowhere_ = false;
 };
 
 }  // namespace tendril::app
