@@ -41,7 +41,8 @@ struct OverPulled {
 std::vector<OverPulled> over_pulled(const NamedWorld& world);
 
 /// The tension of a tie, or at the selected particles: "5.50 N". Text without a number while a tie still
-/// draws its ends together, and where pins pull inextensible links: that force has no limit.
+/// draws its ends together, and where pins pull inextensible links: that force has no limit. Also says at
+/// which force a rope tears.
 std::string tension_text(const NamedWorld& world, const rope::Tie& tie);
 std::string tension_text(const NamedWorld& world, const RopeSelection& selection);
 /// The tension of a tie, if it is a number of newtons.

@@ -233,8 +233,13 @@ std::string tension_text(const NamedWorld& world, const rope::Tie& tie) {
 std::string tension_text(const NamedWorld& world, const RopeSelection& selection) {
     const rope::Body* const body = world.find(selection.body);
     if (body != nullptr && is_pulled(over_pulled(world), *body)) return unbounded;
-    const float tension = strongest_tension(world, measured_particles(world, selection));
-    return force_text(tension);
+    const std::string now = force_text(strongest_tension(world, measured_particles(world, selection)));
+    if (body == nullptr || body->kind != rope::Body::Kind::Rope || !(body->tear > 0.0f)) return now;
+    const rope::Settings& settings = world.settings();
+    double soft = world.world().compliance(*body, rope::Link::Kind::Stretch);
+    if (settings.solver != rope::Solver::Relaxation) soft += static_cast<double>(settings.compliance);
+    if (soft > 0.0) return now + ", tears at " + force_text(static_cast<float>(body->tear / soft));
+    return settings.solver == rope::Solver::Direct ? now + ", too stiff to tear" : now;
 }
 
 }  // namespace tendril::app

@@ -227,7 +227,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
         arguments.push_back({"mass", mass});
         emit.continuously("rope.weight", arguments);
     }
-    explain("What hangs here: a particle much heavier than its neighbours is drawn as a ball of stone.");
+    explain("Its mass. A particle much heavier than its neighbours is drawn as a ball: a lantern, an anchor.");
     glm::vec3 at = world.position(particle);
     if (pinned) {
         if (point_field("at", at, 0.01f)) {
