@@ -71,6 +71,7 @@ RopeReport last_second(const std::vector<RopeSample>& samples) {
         sum.suspended += tick.suspended;
         sum.substeps += tick.substeps;
         sum.dropped += tick.dropped;
+        sum.torn += tick.torn;
         sum.contact_loss += tick.contact_loss;
     }
     return sum;

@@ -274,6 +274,11 @@ Verdict rope_verdict(const RopePart& part) {
                     (one ? "between them it is " : "tied, the two reach ") +
                     fixed_text(worst.length, decimals) + (one ? " m long." : " m.")};
     }
+    std::uint64_t torn = 0;
+    for (const RopeSample& each : part.samples) torn += each.report.torn;
+    if (torn > 0)
+        return {"Torn", Verdict::Kind::Open,
+                count_text(torn, "link") + " tore in the last ten seconds. Drag the timeline back to see it."};
     if (error >= seen) {
         if (before < 0.5 * error)
             return {off, Verdict::Kind::Bad, "Contact displaced links after the solve."};

@@ -107,10 +107,14 @@ RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace)
             jitter.frame = jitter_frame(jitter, ++jitter.frames);
         }
     }
-    const bool torn = world->state().ties.size() != part.world->state().ties.size();
+    const auto whole = [](const rope::State& of) {
+        const auto links = std::ranges::count(of.links, rope::Link::Kind::Stretch, &rope::Link::kind);
+        return of.ties.size() + static_cast<std::uint64_t>(links);
+    };
+    tick.report.torn = whole(part.world->state()) - whole(world->state());
     part_torn(part, *world, *part.world);
     part.world = std::move(world);
-    if (torn) forget_missing(part);
+    if (tick.report.torn > 0) forget_missing(part);
     return tick.report;
 }
 
