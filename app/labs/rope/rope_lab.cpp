@@ -277,8 +277,9 @@ Verdict rope_verdict(const RopePart& part) {
     std::uint64_t torn = 0;
     for (const RopeSample& each : part.samples) torn += each.report.torn;
     if (torn > 0)
-        return {"Torn", Verdict::Kind::Open,
-                count_text(torn, "link") + " tore in the last ten seconds. Drag the timeline back to see it."};
+        return {
+            "Torn", Verdict::Kind::Open,
+            count_text(torn, "link") + " tore in the last ten seconds. Drag the timeline back to see it."};
     if (error >= seen) {
         if (before < 0.5 * error)
             return {off, Verdict::Kind::Bad, "Contact displaced links after the solve."};
@@ -296,7 +297,8 @@ Verdict rope_verdict(const RopePart& part) {
                 "holds it."};
     if (report.unconverged > 0)
         return {"Did not converge", Verdict::Kind::Open,
-                count_text(report.unconverged, "step") + " of the last second: shorter substeps help.",
+                count_text(report.unconverged, "step") +
+                    " of the last second: shorter substeps help, and cost more.",
                 shorter_substeps(part)};
     const bool passes = std::ranges::any_of(part.world->state().bodies, [&](const rope::Body& body) {
         const std::string& name = part.world->name(body);
@@ -325,7 +327,13 @@ Verdict paced_verdict(Verdict said, const Workspace& workspace) {
     if (said.cure && said.cure->title == halve_substep) said.cure.reset();  // slower still
     if (said.kind != Verdict::Kind::Good) return said;
     said.kind = Verdict::Kind::Open;
-    said.why = "A tick takes longer than its 16.7 ms: fewer particles or substeps are faster.";
+    // Ropes that need less than half of a tick are not what is slow.
+    const double cost = cost_of_tick(rope_part(workspace).samples);
+    said.why = cost > 0.5 * tick_seconds
+                   ? "A tick takes " + si_text(cost, "s") +
+                         " of its 16.7 ms: fewer particles or substeps are faster."
+                   : "The ropes take only " + si_text(cost, "s") +
+                         " of a tick's 16.7 ms: the picture or another program is slow.";
     return said;
 }
 
