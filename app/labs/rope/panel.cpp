@@ -222,12 +222,13 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     const ArgumentList which{{"rope", world.name(body)}, {"particle", index}};
     reading("particle", "%zu of %zu%s", index, body.count, pinned ? ", pinned" : held ? ", held" : "");
     float mass = static_cast<float>(world.state().mass[particle]);
-    if (number_field("mass", mass, 0.002f, 1e-9f, 1e6f, "%.3f kg")) {
+    const char* const format = mass < 0.01f ? "%.6f kg" : "%.3f kg";  // a cloth's particles weigh under a gram
+    if (number_field("mass", mass, 0.002f, 1e-9f, 1e6f, format)) {
         ArgumentList arguments = which;
         arguments.push_back({"mass", mass});
         emit.continuously("rope.weight", arguments);
     }
-    explain("Its mass. A particle much heavier than its neighbours is drawn as a ball: a lantern, an anchor.");
+    explain("Its mass. A particle much heavier than its neighbours is drawn as a ball: a lantern or anchor.");
     glm::vec3 at = world.position(particle);
     if (pinned) {
         if (point_field("at", at, 0.01f)) {
@@ -237,8 +238,8 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
         }
         explain("Where the particle is pinned.");
     } else {
-        reading("at", "%.3f  %.3f  %.3f", static_cast<double>(at.x), static_cast<double>(at.y),
-                static_cast<double>(at.z));
+        const auto text = [](float value) { return fixed_text(static_cast<double>(value), 3); };
+        reading("at", "%s  %s  %s", text(at.x).c_str(), text(at.y).c_str(), text(at.z).c_str());
     }
     reading("speed", "%.3f m/s", static_cast<double>(glm::length(world.velocity(particle))));
     reading("tension", "%s", tension_text(world, *part.selection).c_str());
@@ -338,7 +339,7 @@ void frame_times(const std::vector<RopeSample>& samples, const Palette& palette)
           .y = "frame time",
           .y_unit = "ms",
           .min_y = 0.0f,
-          .high_y = 2.0f * even,
+          .high_y = 2.5f * even,  // 33 ms, the frames of 30 Hz, with some room
           .level = even},
          7.0f);
     explain("How long each frame is. The dashed line is an even frame, 16.7 ms.");
@@ -438,12 +439,13 @@ void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit)
     if (!cost.empty())
         more.add("time per tick, real time", {}, false, [&] {
             reading("time per tick", "%s", cost.c_str());
+            explain("How long the ropes take to simulate a tick, 1/60 s: the mean of the last second.");
             reading("real time", "%.0f %%", 100.0 * pace_of(workspace.runtimes).kept);
-            explain("How much of the time on the wall passes here, over the last second.");
+            explain("How fast simulated time passes, of real time, over the last second.");
         });
     more_rows(workspace, "Numbers", more, emit);
     if (!part.rivals.empty()) return race_rows(part, workspace.clock.measured, palette, emit);
-    if (part.samples.size() < 2) return;
+    if (part.samples.size() < 2 || state.bodies.empty()) return;
     const PanelSection past("Last ten seconds");
     MoreRows plots;
     const auto shows = [](const RopeSample& each) { return std::max(each.error, each.stretch) >= 1e-4f; };
