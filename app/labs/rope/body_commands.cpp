@@ -192,11 +192,10 @@ void cut_cloth(RopeEdit& edit, const Arguments& given) {
     if (became.pieces.empty()) return;
     const std::size_t off = became.pieces.size(), shown = std::min(named, off);
     edit.said = "\"" + name + "\" is now in " + std::to_string(off + 1) + " pieces; ";
-    for (std::size_t i = 0; i < shown; ++i)
-        edit.said += std::string(i == 0         ? ""
-                                 : i + 1 == off ? " and "
-                                                : ", ") +
-                     "\"" + became.pieces[i] + "\"";
+    for (std::size_t i = 0; i < shown; ++i) {
+        if (i > 0) edit.said += i + 1 == off ? " and " : ", ";
+        edit.said += "\"" + became.pieces[i] + "\"";
+    }
     edit.said += off > named ? " and " + std::to_string(off - named) + " more came off" : " came off";
 }
 

@@ -220,22 +220,20 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     const std::size_t particle = body.first + index;
     const bool held = is_held(part, particle), pinned = world.pinned(particle) && !held;
     const ArgumentList which{{"rope", world.name(body)}, {"particle", index}};
+    const auto change = [&](const char* command, const char* name, auto value) {
+        emit.continuously(command, {which[0], which[1], {name, value}});
+    };
     reading("particle", "%zu of %zu%s", index, body.count, pinned ? ", pinned" : held ? ", held" : "");
     float mass = static_cast<float>(world.state().mass[particle]);
-    const char* const format = mass < 0.01f ? "%.6f kg" : "%.3f kg";  // a cloth's particles weigh under a gram
+    const char* const format =
+        mass < 0.01f ? "%.6f kg" : "%.3f kg";  // a cloth's particles weigh under a gram
     if (number_field("mass", mass, 0.002f, 1e-9f, 1e6f, format)) {
-        ArgumentList arguments = which;
-        arguments.push_back({"mass", mass});
-        emit.continuously("rope.weight", arguments);
+        change("rope.weight", "mass", mass);
     }
     explain("Its mass. A particle much heavier than its neighbours is drawn as a ball: a lantern or anchor.");
     glm::vec3 at = world.position(particle);
     if (pinned) {
-        if (point_field("at", at, 0.01f)) {
-            ArgumentList arguments = which;
-            arguments.push_back({"at", at});
-            emit.continuously("rope.pin", arguments);
-        }
+        if (point_field("at", at, 0.01f)) change("rope.pin", "at", at);
         explain("Where the particle is pinned.");
     } else {
         const auto text = [](float value) { return fixed_text(static_cast<double>(value), 3); };
@@ -346,13 +344,14 @@ void frame_times(const std::vector<RopeSample>& samples, const Palette& palette)
 }
 
 void length_plot(const std::vector<RopeSample>& samples, const Palette& palette) {
-    colour_mark(palette.ghost);
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled("length error");
+    const auto key = [](glm::vec3 colour, const char* name) {
+        colour_mark(colour);
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextDisabled("%s", name);
+    };
+    key(palette.ghost, "length error");
     ImGui::SameLine(0.0f, ImGui::GetFontSize());
-    colour_mark(palette.limit);
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled("as solved");
+    key(palette.limit, "as solved");
     const Curve errors[] = {curve("length error", palette.ghost, samples, &RopeSample::error, 100.0f),
                             curve("as solved", palette.limit, samples, &RopeSample::stretch, 100.0f)};
     plot("length error", errors, {.x = "time", .x_unit = "s", .y = "", .y_unit = "%", .min_y = 1e-4f}, 9.0f);

@@ -306,14 +306,14 @@ Verdict rope_verdict(const RopePart& part) {
     });
     if (const double all = static_cast<double>(report.substeps + report.dropped); report.dropped > 0) {
         const double kept = static_cast<double>(report.substeps) / all;
-        if (kept < slow_share && holds(part))
-            return {"Lengths hold" + at_pace(kept), Verdict::Kind::Open,
-                    "While you drag, so large a scene takes fewer substeps, to keep up with the mouse."};
+        const auto longest = 1e3 * static_cast<double>(part.world->settings().longest_frame);
         if (kept < slow_share)
-            return {"Lengths hold" + at_pace(kept), Verdict::Kind::Open,
-                    "Frames are longer than the longest frame, " +
-                        fixed_text(1e3 * static_cast<double>(part.world->settings().longest_frame), 1) +
-                        " ms, or need more work than a tick allows: the rest of their time is dropped."};
+            return {
+                "Lengths hold" + at_pace(kept), Verdict::Kind::Open,
+                holds(part)
+                    ? "While you drag, so large a scene takes fewer substeps, to keep up with the mouse."
+                    : "Frames are longer than the longest frame, " + fixed_text(longest, 1) +
+                          " ms, or need more work than a tick allows: the rest of their time is dropped."};
     }
     return {
         "Lengths hold", Verdict::Kind::Good,

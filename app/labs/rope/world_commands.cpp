@@ -44,19 +44,13 @@ void take_scene(Workspace& workspace, const Arguments& given) {
     (workspace.lab == rope_lab ? workspace.camera : workspace.cameras[rope_lab]) = entry.view;
 }
 
+/// Of rope.settings, and of rope.wind, a name that is easy to find: velocity, gusts and still_air.
 void settings(RopeEdit& edit, const Arguments& given) {
     rope::Settings wanted = edit.seen().settings();
+    if (given.has("velocity")) wanted.wind = given.point("velocity");
     const bool downwards = given.has("gravity") && !given.is_point("gravity");
     if (downwards) wanted.gravity = glm::vec3(0, -given.number("gravity"), 0);
     set_fields(given, wanted, downwards ? "gravity" : "");
-    if (wanted != edit.seen().settings()) edit.world().set_settings(wanted);
-}
-
-/// The wind settings of rope.settings, under a name that is easy to find.
-void blow(RopeEdit& edit, const Arguments& given) {
-    rope::Settings wanted = edit.seen().settings();
-    wanted.wind = given.point("velocity");
-    set_fields(given, wanted);  // gusts and still_air
     if (wanted != edit.seen().settings()) edit.world().set_settings(wanted);
 }
 
@@ -97,7 +91,7 @@ void add_world_commands(CommandTable& table) {
     std::vector<Argument> wind = field_arguments(wind_fields(), wind_texts());
     wind.front().name = "velocity", wind.front().required = true;
     table.add(rope_command("rope.wind", "Set the wind", std::move(wind),
-                           "Sets the wind that cloth, ropes and hair are in", blow));
+                           "Sets the wind that cloth, ropes and hair are in", settings));
     table.add(rope_command("rope.jitter", "Set the frame rate", field_arguments<Jitter>(),
                            "Sets the frame rate, and makes frames uneven, as in a program that stutters",
                            set_jitter));
