@@ -225,11 +225,8 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     };
     reading("particle", "%zu of %zu%s", index, body.count, pinned ? ", pinned" : held ? ", held" : "");
     float mass = static_cast<float>(world.state().mass[particle]);
-    const char* const format =
-        mass < 0.01f ? "%.6f kg" : "%.3f kg";  // a cloth's particles weigh under a gram
-    if (number_field("mass", mass, 0.002f, 1e-9f, 1e6f, format)) {
-        change("rope.weight", "mass", mass);
-    }
+    const char* const format = mass < 0.001f ? "%.6f kg" : "%.3f kg";  // cloths have the small ones
+    if (number_field("mass", mass, 0.002f, 1e-9f, 1e6f, format)) change("rope.weight", "mass", mass);
     explain("Its mass. A particle much heavier than its neighbours is drawn as a ball: a lantern or anchor.");
     glm::vec3 at = world.position(particle);
     if (pinned) {
@@ -241,6 +238,7 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     }
     reading("speed", "%.3f m/s", static_cast<double>(glm::length(world.velocity(particle))));
     reading("tension", "%s", tension_text(world, *part.selection).c_str());
+    explain("The pull of the links at this particle. Without limit: pins are too far apart for them.");
     if (row_button(pinned ? "Unpin" : "Pin", 3, true,
                    pinned ? "Lets the particle move again" : "Holds the particle where it is now"))
         emit(pinned ? "rope.unpin" : "rope.pin", which);
@@ -344,14 +342,13 @@ void frame_times(const std::vector<RopeSample>& samples, const Palette& palette)
 }
 
 void length_plot(const std::vector<RopeSample>& samples, const Palette& palette) {
-    const auto key = [](glm::vec3 colour, const char* name) {
-        colour_mark(colour);
-        ImGui::AlignTextToFramePadding();
-        ImGui::TextDisabled("%s", name);
-    };
-    key(palette.ghost, "length error");
+    colour_mark(palette.ghost);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("length error");
     ImGui::SameLine(0.0f, ImGui::GetFontSize());
-    key(palette.limit, "as solved");
+    colour_mark(palette.limit);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("as solved");
     const Curve errors[] = {curve("length error", palette.ghost, samples, &RopeSample::error, 100.0f),
                             curve("as solved", palette.limit, samples, &RopeSample::stretch, 100.0f)};
     plot("length error", errors, {.x = "time", .x_unit = "s", .y = "", .y_unit = "%", .min_y = 1e-4f}, 9.0f);
