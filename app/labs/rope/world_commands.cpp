@@ -61,11 +61,9 @@ void set_jitter(RopeEdit& edit, const Arguments& given) {
 
 std::vector<Argument> settings_arguments() {
     std::vector<Argument> arguments = field_arguments<rope::Settings>();
-    for (Argument& argument : arguments)
-        if (argument.name == "gravity") {
-            argument.type = ArgumentType::NumberOrPoint;
-            argument.help = "m/s^2: downwards, or [x, y, z]";
-        }
+    Argument& gravity = *std::ranges::find(arguments, std::string("gravity"), &Argument::name);
+    gravity.type = ArgumentType::NumberOrPoint;
+    gravity.help = "m/s^2: downwards, or [x, y, z]";
     return arguments;
 }
 
@@ -170,12 +168,6 @@ void move(RopeEdit& edit, const Arguments& given) {
     edit.move_collider(name, to);
 }
 
-void remove_collider(RopeEdit& edit, const Arguments& given) {
-    collider_of(edit.seen(), given.text("name"));
-    edit.world().change(given.text("name"), &rope::World::remove_collider);
-    forget_missing(edit.part);
-}
-
 /// A swing continues from where it is, so that changing its amplitude or period does not make it jump.
 void set_swing(RopeEdit& edit, const Arguments& given) {
     const rope::Collider& collider = collider_of(edit.seen(), given.text("name"));
@@ -229,7 +221,7 @@ void add_collider_commands(CommandTable& table) {
                            {name_argument(), point_argument("to", true, "where its centre goes, metres")},
                            "Moves a collider; it pushes what it meets", move));
     table.add(rope_command("rope.collider.remove", "Remove a collider", {name_argument()},
-                           "Removes a collider", remove_collider));
+                           "Removes a collider", remove_named<collider_of, &rope::World::remove_collider>));
     std::vector<Argument> drive = field_arguments<rope::Drive>();
     drive.insert(drive.begin(), name_argument());
     table.add(rope_command("rope.collider.drive", "Move a collider steadily", std::move(drive),
