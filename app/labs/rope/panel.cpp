@@ -228,14 +228,6 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     const char* const format = mass < 0.001f ? "%.6f kg" : "%.3f kg";  // cloths have the small ones
     if (number_field("mass", mass, 0.002f, 1e-9f, 1e6f, format)) change("rope.weight", "mass", mass);
     explain("Its mass. A particle much heavier than its neighbours is drawn as a ball: a lantern or anchor.");
-    glm::vec3 at = world.position(particle);
-    if (pinned) {
-        if (point_field("at", at, 0.01f)) change("rope.pin", "at", at);
-        explain("Where the particle is pinned.");
-    } else {
-        const auto text = [](float value) { return fixed_text(static_cast<double>(value), 3); };
-        reading("at", "%s  %s  %s", text(at.x).c_str(), text(at.y).c_str(), text(at.z).c_str());
-    }
     reading("speed", "%.3f m/s", static_cast<double>(glm::length(world.velocity(particle))));
     reading("tension", "%s", tension_text(world, *part.selection).c_str());
     explain("The pull of the links at this particle. Without limit: pins are too far apart for them.");
@@ -251,6 +243,15 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     if (row_button("Select all", 3, body.count > 1, "Selects all of it: its arrows then move it"))
         emit("rope.select", {{"rope", world.name(body)}});
     end_row();
+    // Below the buttons: pinned, it has three rows, and Pin must stay under the mouse.
+    glm::vec3 at = world.position(particle);
+    if (pinned) {
+        if (point_field("at", at, 0.01f)) change("rope.pin", "at", at);
+        explain("Where the particle is pinned.");
+    } else {
+        const auto text = [](float value) { return fixed_text(static_cast<double>(value), 3); };
+        reading("at", "%s  %s  %s", text(at.x).c_str(), text(at.y).c_str(), text(at.z).c_str());
+    }
     body_rows(world, body, colours, emit);
 }
 

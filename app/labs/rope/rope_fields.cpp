@@ -124,8 +124,10 @@ std::span<const FieldText> field_texts<BodySettings>() {
          .help =
              "The fraction of its length that a rope or strand stretches per newton, or a strip of cloth a "
              "metre wide, in addition to the world's compliance. Relaxation uses only this.",
+         .decimals = 4,
          .scale = 100.0,
-         .unit = "%/N"},
+         .unit = "%/N",
+         .at_zero = "none"},
         {.name = "bending",
          .label = "bending",
          .help = "How hard a rope is to bend: Young's modulus times the second moment of its cross-section. "
