@@ -336,7 +336,7 @@ void frame_times(const std::vector<RopeSample>& samples, const Palette& palette)
           .y = "frame time",
           .y_unit = "ms",
           .min_y = 0.0f,
-          .high_y = 2.5f * even,  // 33 ms, the frames of 30 Hz, with some room
+          .high_y = 2.5f * even,  // 33 ms, the frames of 30 Hz, with some space
           .level = even},
          7.0f);
     explain("How long each frame is. The dashed line is an even frame, 16.7 ms.");
