@@ -328,11 +328,10 @@ Verdict paced_verdict(Verdict said, const Workspace& workspace) {
     said.kind = Verdict::Kind::Open;
     // Ropes that need less than half of a tick are not what is slow.
     const double cost = cost_of_tick(rope_part(workspace).samples);
-    said.why = cost > 0.5 * tick_seconds
-                   ? "A tick takes " + si_text(cost, "s") +
-                         " of its 16.7 ms: fewer particles or substeps are faster."
-                   : "The ropes take only " + si_text(cost, "s") +
-                         " of a tick's 16.7 ms: the picture or another program is slow.";
+    said.why = cost > 0.5 * tick_seconds ? "A tick takes " + si_text(cost, "s") +
+                                               " of its 16.7 ms: fewer particles or substeps are faster."
+                                         : "Ropes take " + si_text(cost, "s") +
+                                               " of a tick's 16.7 ms: the picture, or a program, is slow.";
     return said;
 }
 
