@@ -91,12 +91,6 @@ void move_body(RopeEdit& edit, const Arguments& given) {
     edit.part.hold = std::move(held);
 }
 
-void remove_body(RopeEdit& edit, const Arguments& given) {
-    body_of(edit.seen(), given.text("name"));
-    edit.world().change(given.text("name"), &rope::World::remove);
-    forget_missing(edit.part);
-}
-
 void remove_selected(RopeEdit& edit, const Arguments&) {
     const std::optional<RopeSelection> selection = edit.part.selection;
     if (!selection) throw Refused("nothing is selected");
@@ -157,14 +151,9 @@ void merge(RopeEdit& edit, const Arguments& given) {
 }
 
 void cut(RopeEdit& edit, const Arguments& given) {
-    const rope::Body& body = body_of(edit.seen(), given.text("rope"));
     const std::string name = given.text("rope");
-    const auto segment = static_cast<std::size_t>(given.integer("segment"));
-    if (body.kind == rope::Body::Kind::Rope && segment + 1 >= body.count) {
-        throw Refused("segment " + std::to_string(segment) + " is out of range, \"" + name + "\" has " +
-                      std::to_string(body.count == 0 ? 0 : body.count - 1));
-    }
-    const Became became = edit.world().cut(name, segment);
+    body_of(edit.seen(), name);
+    const Became became = edit.world().cut(name, static_cast<std::size_t>(given.integer("segment")));
     follow_particles(edit.part, edit.world(), name, became);
     forget_missing(edit.part);
 }
@@ -192,11 +181,10 @@ void cut_cloth(RopeEdit& edit, const Arguments& given) {
     if (became.pieces.empty()) return;
     const std::size_t off = became.pieces.size(), shown = std::min(named, off);
     edit.said = "\"" + name + "\" is now in " + std::to_string(off + 1) + " pieces; ";
-    for (std::size_t i = 0; i < shown; ++i)
-        edit.said += std::string(i == 0         ? ""
-                                 : i + 1 == off ? " and "
-                                                : ", ") +
-                     "\"" + became.pieces[i] + "\"";
+    for (std::size_t i = 0; i < shown; ++i) {
+        if (i > 0) edit.said += i + 1 == off ? " and " : ", ";
+        edit.said += "\"" + became.pieces[i] + "\"";
+    }
     edit.said += off > named ? " and " + std::to_string(off - named) + " more came off" : " came off";
 }
 
@@ -270,7 +258,7 @@ void add_body_commands(CommandTable& table) {
         "Moves a rope, cloth or hair as it is, with its pins and its motion", move_body));
     table.add(rope_command("rope.remove", "Remove a rope, cloth or hair",
                            {body_argument("name", true, "of a rope, cloth or hair")},
-                           "Removes a rope, cloth or hair", remove_body));
+                           "Removes a rope, cloth or hair", remove_named<body_of, &rope::World::remove>));
     table.add(rope_command("rope.remove_selected", "Delete selection", {}, "Deletes the selection",
                            remove_selected));
     table.add(rope_command(

@@ -13,6 +13,14 @@ namespace tendril::app {
 Command rope_command(const char* name, const char* title, std::vector<Argument> arguments, const char* help,
                      void (*change)(RopeEdit&, const Arguments&), Effect effect = Effect::Edit);
 
+/// The change of a command that removes what `of` finds by its name, and what refers to it.
+template <auto of, auto removal>
+void remove_named(RopeEdit& edit, const Arguments& given) {
+    of(edit.seen(), given.text("name"));
+    edit.world().change(given.text("name"), removal);
+    forget_missing(edit.part);
+}
+
 /// Arguments completed with the names of bodies, colliders or ties.
 Argument body_argument(const char* name, bool required, const char* help);
 Argument collider_argument(const char* name, bool required, const char* help);

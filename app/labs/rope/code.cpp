@@ -205,8 +205,7 @@ class RopeProgram {
         say("    const double angle = 6.283185307179586 * (rounds - std::floor(rounds));");
         say("    const glm::vec3 to = middle + static_cast<float>(std::sin(angle)) * by;");
         say("    const rope::ColliderId id = world.state().colliders[collider].id;");
-        say("    if (const Result moved = world.move_collider(id, to, world.pending() + dt); "
-            "!moved)");
+        say("    if (const Result moved = world.move_collider(id, to, world.pending() + dt); !moved)");
         say("        std::puts(moved.message());");
         say("};");
     }

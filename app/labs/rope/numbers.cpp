@@ -71,19 +71,25 @@ RopeReport last_second(const std::vector<RopeSample>& samples) {
         sum.suspended += tick.suspended;
         sum.substeps += tick.substeps;
         sum.dropped += tick.dropped;
+        sum.torn += tick.torn;
         sum.contact_loss += tick.contact_loss;
     }
     return sum;
 }
 
-std::string cost_text(const std::vector<RopeSample>& samples) {
+double cost_of_tick(const std::vector<RopeSample>& samples) {
     double sum = 0.0, measured = 0.0;
     for (const RopeSample& each : of_last_second(samples)) {
         if (each.cost <= 0.0f) continue;
         sum += static_cast<double>(each.cost);
         ++measured;
     }
-    return measured > 0.0 ? fixed_text(sum / measured, 0) + " \xc2\xb5s" : "";
+    return 1e-6 * sum / std::max(measured, 1.0);
+}
+
+std::string cost_text(const std::vector<RopeSample>& samples) {
+    const double cost = cost_of_tick(samples);
+    return cost > 0.0 ? si_text(cost, "s") : "";
 }
 
 std::string share_text(float share) {

@@ -26,7 +26,9 @@ RopeSample sample_of(const RopePart& part, const RopeReport& report);
 /// Sums over the last second, except for `inside`, which is the last tick's.
 RopeReport last_second(const std::vector<RopeSample>& samples);
 
-/// The cost over the last second: "310 µs"; "" if nothing was measured.
+/// Seconds to simulate a tick, the mean of the last second; 0 if nothing was measured.
+double cost_of_tick(const std::vector<RopeSample>& samples);
+/// The same: "310 µs", "16.6 ms"; or "".
 std::string cost_text(const std::vector<RopeSample>& samples);
 /// "< 0.01 %", "1.25 %"
 std::string share_text(float share);
@@ -41,7 +43,8 @@ struct OverPulled {
 std::vector<OverPulled> over_pulled(const NamedWorld& world);
 
 /// The tension of a tie, or at the selected particles: "5.50 N". Text without a number while a tie still
-/// draws its ends together, and where pins pull inextensible links: that force has no limit.
+/// draws its ends together, and where pins pull inextensible links: that force has no limit. Also says at
+/// which force a rope tears.
 std::string tension_text(const NamedWorld& world, const rope::Tie& tie);
 std::string tension_text(const NamedWorld& world, const RopeSelection& selection);
 /// The tension of a tie, if it is a number of newtons.

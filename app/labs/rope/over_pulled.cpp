@@ -8,10 +8,12 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <queue>
+#include <set>
 #include <utility>
 
 #include "app/document/units.hpp"
 #include "app/labs/rope/numbers.hpp"
+#include "app/labs/rope/rope_lab.hpp"
 
 namespace tendril::app {
 namespace {
@@ -68,10 +70,8 @@ class PinGraph {
     explicit PinGraph(const NamedWorld& world) : world_(world), state_(world.state()) {
         if (state_.pins.size() < 2) return;
         const Threads threads(state_);
-        std::vector<std::uint32_t> ends;
-        for (const rope::Tie& tie : state_.ties) ends.insert(ends.end(), {tie.a, tie.b});
-        std::sort(ends.begin(), ends.end());
-        ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+        std::set<std::uint32_t> ends;
+        for (const rope::Tie& tie : state_.ties) ends.insert({tie.a, tie.b});
         auto pin = state_.pins.begin();
         auto end = ends.begin();
         for (const rope::Body& body : state_.bodies) {
@@ -99,9 +99,8 @@ class PinGraph {
         before_.assign(node_.size(), 0);
         for (std::size_t i = 0; i < node_.size(); ++i)
             if (node_[i].pinned) search(i, found);
-        std::stable_sort(found.begin(), found.end(), [](const OverPulled& a, const OverPulled& b) {
-            return a.apart - a.length > b.apart - b.length;
-        });
+        std::ranges::stable_sort(found, std::greater(),
+                                 [](const OverPulled& each) { return each.apart - each.length; });
         return found;
     }
 
@@ -175,11 +174,8 @@ class PinGraph {
     double apart(std::size_t a, std::size_t b) const {
         return glm::distance(state_.position[node_[a].particle], state_.position[node_[b].particle]);
     }
-    std::string body_name(std::size_t node) const {
-        const std::size_t particle = node_[node].particle;
-        for (const rope::Body& body : state_.bodies)
-            if (particle - body.first < body.count) return world_.name(body);
-        return {};
+    const std::string& body_name(std::size_t node) const {
+        return world_.name(*picked_particle(world_, particle_pick(node_[node].particle))->body);
     }
 
     const NamedWorld& world_;
@@ -190,17 +186,14 @@ class PinGraph {
     std::vector<std::size_t> before_;
 };
 
-/// Whether the path between pins that are too far apart leads through the tie, or through the body.
-bool is_pulled(const std::vector<OverPulled>& all, const rope::Tie& tie) {
-    return std::ranges::any_of(all, [&](const OverPulled& each) {
-        return std::ranges::count(each.way, tie.a) != 0 && std::ranges::count(each.way, tie.b) != 0;
-    });
+/// Whether the path between pins that are too far apart leads through two of these particles.
+template <class Inside>
+bool is_pulled(const std::vector<OverPulled>& all, Inside inside) {
+    return std::ranges::any_of(
+        all, [&](const OverPulled& each) { return std::ranges::count_if(each.way, inside) > 1; });
 }
-bool is_pulled(const std::vector<OverPulled>& all, const rope::Body& body) {
-    return std::ranges::any_of(all, [&](const OverPulled& each) {
-        return std::ranges::count_if(each.way, [&](std::size_t i) { return i - body.first < body.count; }) >
-               1;
-    });
+auto ends_of(const rope::Tie& tie) {
+    return [&tie](std::size_t i) { return i == tie.a || i == tie.b; };
 }
 
 constexpr const char* unbounded = "without limit";
@@ -218,12 +211,12 @@ std::vector<OverPulled> over_pulled(const NamedWorld& world) {
 }
 
 std::optional<float> measured_tension(const rope::Tie& tie, const std::vector<OverPulled>& pulled) {
-    if (tie.now != tie.length || is_pulled(pulled, tie)) return std::nullopt;
+    if (tie.now != tie.length || is_pulled(pulled, ends_of(tie))) return std::nullopt;
     return tie.tension;
 }
 
 std::string tension_text(const NamedWorld& world, const rope::Tie& tie) {
-    if (is_pulled(over_pulled(world), tie)) return unbounded;
+    if (is_pulled(over_pulled(world), ends_of(tie))) return unbounded;
     const double left = static_cast<double>(tie.now) - static_cast<double>(tie.length);
     if (left != 0.0)
         return std::string(left > 0.0 ? "closing, " : "opening, ") + length_text(std::abs(left)) + " to go";
@@ -232,9 +225,15 @@ std::string tension_text(const NamedWorld& world, const rope::Tie& tie) {
 
 std::string tension_text(const NamedWorld& world, const RopeSelection& selection) {
     const rope::Body* const body = world.find(selection.body);
-    if (body != nullptr && is_pulled(over_pulled(world), *body)) return unbounded;
-    const float tension = strongest_tension(world, measured_particles(world, selection));
-    return force_text(tension);
+    const auto in_body = [&](std::size_t i) { return i - body->first < body->count; };
+    if (body != nullptr && is_pulled(over_pulled(world), in_body)) return unbounded;
+    const std::string now = force_text(strongest_tension(world, measured_particles(world, selection)));
+    if (body == nullptr || body->kind != rope::Body::Kind::Rope || !(body->tear > 0.0f)) return now;
+    const rope::Settings& settings = world.settings();
+    double soft = world.world().compliance(*body, rope::Link::Kind::Stretch);
+    if (settings.solver != rope::Solver::Relaxation) soft += static_cast<double>(settings.compliance);
+    if (soft > 0.0) return now + ", tears at " + force_text(static_cast<float>(body->tear / soft));
+    return settings.solver == rope::Solver::Direct ? now + ", too stiff to tear" : now;
 }
 
 }  // namespace tendril::app

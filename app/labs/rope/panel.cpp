@@ -220,28 +220,17 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     const std::size_t particle = body.first + index;
     const bool held = is_held(part, particle), pinned = world.pinned(particle) && !held;
     const ArgumentList which{{"rope", world.name(body)}, {"particle", index}};
+    const auto change = [&](const char* command, const char* name, auto value) {
+        emit.continuously(command, {which[0], which[1], {name, value}});
+    };
     reading("particle", "%zu of %zu%s", index, body.count, pinned ? ", pinned" : held ? ", held" : "");
     float mass = static_cast<float>(world.state().mass[particle]);
-    if (number_field("mass", mass, 0.002f, 1e-9f, 1e6f, "%.3f kg")) {
-        ArgumentList arguments = which;
-        arguments.push_back({"mass", mass});
-        emit.continuously("rope.weight", arguments);
-    }
-    explain("What hangs here: a particle much heavier than its neighbours is drawn as a ball of stone.");
-    glm::vec3 at = world.position(particle);
-    if (pinned) {
-        if (point_field("at", at, 0.01f)) {
-            ArgumentList arguments = which;
-            arguments.push_back({"at", at});
-            emit.continuously("rope.pin", arguments);
-        }
-        explain("Where the particle is pinned.");
-    } else {
-        reading("at", "%.3f  %.3f  %.3f", static_cast<double>(at.x), static_cast<double>(at.y),
-                static_cast<double>(at.z));
-    }
+    const char* const format = mass < 0.001f ? "%.6f kg" : "%.3f kg";  // cloths have the small ones
+    if (number_field("mass", mass, 0.002f, 1e-9f, 1e6f, format)) change("rope.weight", "mass", mass);
+    explain("Its mass. A particle much heavier than its neighbours is drawn as a ball: a lantern or anchor.");
     reading("speed", "%.3f m/s", static_cast<double>(glm::length(world.velocity(particle))));
     reading("tension", "%s", tension_text(world, *part.selection).c_str());
+    explain("The pull of the links at this particle. Without limit: pins are too far apart for them.");
     if (row_button(pinned ? "Unpin" : "Pin", 3, true,
                    pinned ? "Lets the particle move again" : "Holds the particle where it is now"))
         emit(pinned ? "rope.unpin" : "rope.pin", which);
@@ -254,6 +243,15 @@ void particle_rows(const RopePart& part, const rope::Body& body, std::size_t ind
     if (row_button("Select all", 3, body.count > 1, "Selects all of it: its arrows then move it"))
         emit("rope.select", {{"rope", world.name(body)}});
     end_row();
+    // Below the buttons: pinned, it has three rows, and Pin must stay under the mouse.
+    glm::vec3 at = world.position(particle);
+    if (pinned) {
+        if (point_field("at", at, 0.01f)) change("rope.pin", "at", at);
+        explain("Where the particle is pinned.");
+    } else {
+        const auto text = [](float value) { return fixed_text(static_cast<double>(value), 3); };
+        reading("at", "%s  %s  %s", text(at.x).c_str(), text(at.y).c_str(), text(at.z).c_str());
+    }
     body_rows(world, body, colours, emit);
 }
 
@@ -338,7 +336,7 @@ void frame_times(const std::vector<RopeSample>& samples, const Palette& palette)
           .y = "frame time",
           .y_unit = "ms",
           .min_y = 0.0f,
-          .high_y = 2.0f * even,
+          .high_y = 2.5f * even,  // 33 ms, the frames of 30 Hz, with some space
           .level = even},
          7.0f);
     explain("How long each frame is. The dashed line is an even frame, 16.7 ms.");
@@ -438,12 +436,13 @@ void number_rows(const Workspace& workspace, const Palette& palette, Emit& emit)
     if (!cost.empty())
         more.add("time per tick, real time", {}, false, [&] {
             reading("time per tick", "%s", cost.c_str());
+            explain("How long the ropes take to simulate a tick, 1/60 s: the mean of the last second.");
             reading("real time", "%.0f %%", 100.0 * pace_of(workspace.runtimes).kept);
-            explain("How much of the time on the wall passes here, over the last second.");
+            explain("How fast simulated time passes, of real time, over the last second.");
         });
     more_rows(workspace, "Numbers", more, emit);
     if (!part.rivals.empty()) return race_rows(part, workspace.clock.measured, palette, emit);
-    if (part.samples.size() < 2) return;
+    if (part.samples.size() < 2 || state.bodies.empty()) return;
     const PanelSection past("Last ten seconds");
     MoreRows plots;
     const auto shows = [](const RopeSample& each) { return std::max(each.error, each.stretch) >= 1e-4f; };

@@ -217,29 +217,26 @@ void RopeLab::drop(const Workspace& workspace, PickId, Emit& emit) const {
 
 namespace {
 
-/// The selection belongs to the part's own world: in a rival's world the body may lack the particle.
-bool in_body(const ParticlePlace& place) {
-    return place.body != nullptr && place.index < place.body->count;
+/// With this action, a click on a second particle continues from the selected one.
+std::optional<ParticlePlace> from_selected(RopeTool tool, const RopePart& part, const NamedWorld& world,
+                                           const ParticlePlace& to) {
+    if (part.tool != tool || !part.selection || !part.selection->of_particles()) return std::nullopt;
+    const ParticlePlace from{world.find(part.selection->body), part.selection->particle()};
+    // The selection belongs to the part's own world: in a rival's world the body may lack the particle.
+    if (from.body == nullptr || from.index >= from.body->count) return std::nullopt;
+    if (from.body == to.body && from.index == to.index) return std::nullopt;
+    return from;
 }
-
-/// With the Tie action, a click on a second particle ties it to the selected one.
 std::optional<ParticlePlace> tied_from(const RopePart& part, const NamedWorld& world,
                                        const ParticlePlace& to) {
-    if (part.tool != RopeTool::Tie || !part.selection || !part.selection->of_particles()) return std::nullopt;
-    const ParticlePlace from{world.find(part.selection->body), part.selection->particle()};
-    if (!in_body(from) || (from.body == to.body && from.index == to.index)) return std::nullopt;
-    return from;
+    return from_selected(RopeTool::Tie, part, world, to);
 }
-
-/// With the Cut action, a click on a second particle of a cloth cuts it from the selected one to there.
+/// Of a cloth.
 std::optional<ParticlePlace> cut_from(const RopePart& part, const NamedWorld& world,
                                       const ParticlePlace& to) {
-    if (part.tool != RopeTool::Cut || to.body->kind != rope::Body::Kind::Cloth) return std::nullopt;
-    if (!part.selection || !part.selection->of_particles() || part.selection->particles.several())
-        return std::nullopt;
-    const ParticlePlace from{world.find(part.selection->body), part.selection->particle()};
-    if (from.body != to.body || !in_body(from) || from.index == to.index) return std::nullopt;
-    return from;
+    const auto from = from_selected(RopeTool::Cut, part, world, to);
+    const bool cuts = from && from->body == to.body && to.body->kind == rope::Body::Kind::Cloth;
+    return cuts && !part.selection->particles.several() ? from : std::nullopt;
 }
 
 void cut_between(const NamedWorld& world, const ParticlePlace& from, const ParticlePlace& to, Emit& emit) {

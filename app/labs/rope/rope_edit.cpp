@@ -84,20 +84,14 @@ bool operator==(const RopePart& a, const RopePart& b) {
            std::ranges::equal(a.rivals, b.rivals, {}, &RopeRacer::world, &RopeRacer::world);
 }
 
-void check_particle_count(const NamedWorld& world, std::size_t more) {
-    const std::size_t all = world.size() + more;
-    if (all > max_lab_particles) {
-        throw Refused("that would make " + std::to_string(all) + " particles; the maximum is " +
-                      std::to_string(max_lab_particles));
-    }
+static void check_count(std::size_t all, std::size_t most, const char* what) {
+    if (all > most) throw Refused("that would make " + std::to_string(all) + what + std::to_string(most));
 }
-
+void check_particle_count(const NamedWorld& world, std::size_t more) {
+    check_count(world.size() + more, max_lab_particles, " particles; the maximum is ");
+}
 void check_collider_count(const NamedWorld& world) {
-    const std::size_t all = world.state().colliders.size() + 1;
-    if (all > max_lab_colliders) {
-        throw Refused("that would make " + std::to_string(all) + " colliders; the maximum is " +
-                      std::to_string(max_lab_colliders));
-    }
+    check_count(world.state().colliders.size() + 1, max_lab_colliders, " colliders; the maximum is ");
 }
 
 void check_work(const NamedWorld& world) {
@@ -158,10 +152,8 @@ std::vector<rope::PinPlace> pin_places(const Arguments& given, const std::vector
     const JsonPlace points = each_list(given, each, "particles", named.size());
     for (const NamedParticle& at : named)
         places.push_back({at.particle, glm::dvec3(points.element(places.size()).point())});
-    std::sort(places.begin(), places.end(),
-              [](const auto& a, const auto& b) { return a.particle < b.particle; });
-    const auto twice = std::adjacent_find(
-        places.begin(), places.end(), [](const auto& a, const auto& b) { return a.particle == b.particle; });
+    std::ranges::sort(places, {}, &rope::PinPlace::particle);
+    const auto twice = std::ranges::adjacent_find(places, {}, &rope::PinPlace::particle);
     if (twice != places.end())
         throw Refused(
             "particles: " + std::to_string(twice->particle - named.front().particle + named.front().index) +

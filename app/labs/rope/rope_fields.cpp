@@ -95,8 +95,8 @@ std::span<const FieldText> field_texts<BodySettings>() {
         {.name = "along", .help = "From the corner to the other end of the first row."},
         {.name = "down", .help = "From the corner to the last row."},
         fine_row("length",
-                 "Of a rope, a row of a cloth or a strand of hair: all of its segments change in proportion, "
-                 "and its mass with them. A new rope is by default as long as its ends are apart."),
+                 "How long a rope, a row of a cloth or a strand of hair is. All its segments change in "
+                 "proportion, and its mass with them. A rope by default just joins its two ends."),
         fine_row("width", "Of a cloth, across its rows."),
         {.name = "segments",
          .label = "segments",
@@ -124,8 +124,10 @@ std::span<const FieldText> field_texts<BodySettings>() {
          .help =
              "The fraction of its length that a rope or strand stretches per newton, or a strip of cloth a "
              "metre wide, in addition to the world's compliance. Relaxation uses only this.",
+         .decimals = 4,
          .scale = 100.0,
-         .unit = "%/N"},
+         .unit = "%/N",
+         .at_zero = "none"},
         {.name = "bending",
          .label = "bending",
          .help = "How hard a rope is to bend: Young's modulus times the second moment of its cross-section. "
@@ -139,8 +141,8 @@ std::span<const FieldText> field_texts<BodySettings>() {
                        "How easily a cloth or a hair bends. Higher values are limper: a limp cloth crumples "
                        "at its free edge unless it collides with itself."),
         tears_row("tear", true,
-                  "The strain at which a cloth or rope tears: at 10 %, in commands 0.1, it is a tenth "
-                  "longer. 0: never."),
+                  "The strain at which a cloth or rope tears: 10 % is a tenth longer. A rope with a stretch "
+                  "of 0.1 %/N then tears at 100 N, one without never under a load. At 0, never."),
         {.name = "colour",
          .label = "colour",
          .help =

@@ -36,6 +36,7 @@ std::span<const tendril::Field> tendril::fields<tendril::app::RopeReport>() noex
         field<&RopeReport::suspended>("suspended", {0, max_count}),
         field<&RopeReport::substeps>("substeps", {0, max_count}),
         field<&RopeReport::dropped>("dropped", {0, max_count}),
+        field<&RopeReport::torn>("torn", {0, max_count}),
         field<&RopeReport::contact_loss>("contact_loss", {-max_value, max_value}, "J")};
     return rows;
 }
@@ -180,7 +181,8 @@ std::vector<RopeSample> load_samples(const JsonPlace& place) {
         for (const auto& [name, column] : place.json().items()) row[name] = column[i];
         const JsonPlace at(row, place.where() + "." + std::to_string(i));
         load_all_fields(at, samples[i]);
-        load_all_fields(at, samples[i].report);
+        static constexpr std::string_view newer[] = {"torn"};
+        load_all_fields(at, samples[i].report, newer);
     }
     return samples;
 }

@@ -274,6 +274,12 @@ Verdict rope_verdict(const RopePart& part) {
                     (one ? "between them it is " : "tied, the two reach ") +
                     fixed_text(worst.length, decimals) + (one ? " m long." : " m.")};
     }
+    std::uint64_t torn = 0;
+    for (const RopeSample& each : part.samples) torn += each.report.torn;
+    if (torn > 0)
+        return {
+            "Torn", Verdict::Kind::Open,
+            count_text(torn, "link") + " tore in the last ten seconds. Drag the timeline back to see it."};
     if (error >= seen) {
         if (before < 0.5 * error)
             return {off, Verdict::Kind::Bad, "Contact displaced links after the solve."};
@@ -287,11 +293,11 @@ Verdict rope_verdict(const RopePart& part) {
     if (last.report.suspended > 0)
         return {"Neither held nor falling", Verdict::Kind::Bad,
                 "Nothing holds or touches it, and it does not fall: it is at the edge of the world, or the "
-                "solver "
-                "holds it."};
+                "solver holds it."};
     if (report.unconverged > 0)
         return {"Did not converge", Verdict::Kind::Open,
-                count_text(report.unconverged, "step") + " of the last second: shorter substeps help.",
+                count_text(report.unconverged, "step") +
+                    " of the last second: shorter substeps help, and cost more.",
                 shorter_substeps(part)};
     const bool passes = std::ranges::any_of(part.world->state().bodies, [&](const rope::Body& body) {
         const std::string& name = part.world->name(body);
@@ -299,14 +305,14 @@ Verdict rope_verdict(const RopePart& part) {
     });
     if (const double all = static_cast<double>(report.substeps + report.dropped); report.dropped > 0) {
         const double kept = static_cast<double>(report.substeps) / all;
-        if (kept < slow_share && holds(part))
-            return {"Lengths hold" + at_pace(kept), Verdict::Kind::Open,
-                    "While you drag, so large a scene takes fewer substeps, to keep up with the mouse."};
+        const auto longest = 1e3 * static_cast<double>(part.world->settings().longest_frame);
         if (kept < slow_share)
-            return {"Lengths hold" + at_pace(kept), Verdict::Kind::Open,
-                    "Frames are longer than the longest frame, " +
-                        fixed_text(1e3 * static_cast<double>(part.world->settings().longest_frame), 1) +
-                        " ms, or need more work than a tick allows: the rest of their time is dropped."};
+            return {
+                "Lengths hold" + at_pace(kept), Verdict::Kind::Open,
+                holds(part)
+                    ? "While you drag, so large a scene takes fewer substeps, to keep up with the mouse."
+                    : "Frames are longer than the longest frame, " + fixed_text(longest, 1) +
+                          " ms, or need more work than a tick allows: the rest of their time is dropped."};
     }
     return {
         "Lengths hold", Verdict::Kind::Good,
@@ -320,7 +326,12 @@ Verdict paced_verdict(Verdict said, const Workspace& workspace) {
     if (said.cure && said.cure->title == halve_substep) said.cure.reset();  // slower still
     if (said.kind != Verdict::Kind::Good) return said;
     said.kind = Verdict::Kind::Open;
-    said.why = "A tick takes longer than its 16.7 ms: fewer particles or substeps are faster.";
+    // Ropes that need less than half of a tick are not what is slow.
+    const double cost = cost_of_tick(rope_part(workspace).samples);
+    said.why = cost > 0.5 * tick_seconds ? "A tick takes " + si_text(cost, "s") +
+                                               " of its 16.7 ms: fewer particles or substeps are faster."
+                                         : "Ropes take " + si_text(cost, "s") +
+                                               " of a tick's 16.7 ms: the picture, or a program, is slow.";
     return said;
 }
 

@@ -84,6 +84,7 @@ struct RopeReport {
     std::uint64_t suspended = 0;    ///< unsupported bodies that nevertheless do not fall
     std::uint64_t substeps = 0;     ///< simulated
     std::uint64_t dropped = 0;      ///< substeps that were not simulated: the frame was too long for them
+    std::uint64_t torn = 0;         ///< stretch links and ties
     float contact_loss = 0.0f;      ///< energy lost to contact, joules
     bool operator==(const RopeReport&) const = default;
 };

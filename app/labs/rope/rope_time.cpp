@@ -107,10 +107,14 @@ RopeReport pass_time(RopePart& part, double seconds, rope::Workspace& workspace)
             jitter.frame = jitter_frame(jitter, ++jitter.frames);
         }
     }
-    const bool torn = world->state().ties.size() != part.world->state().ties.size();
+    const auto whole = [](const rope::State& of) {
+        const auto links = std::ranges::count(of.links, rope::Link::Kind::Stretch, &rope::Link::kind);
+        return of.ties.size() + static_cast<std::uint64_t>(links);
+    };
+    tick.report.torn = whole(part.world->state()) - whole(world->state());
     part_torn(part, *world, *part.world);
     part.world = std::move(world);
-    if (torn) forget_missing(part);
+    if (tick.report.torn > 0) forget_missing(part);
     return tick.report;
 }
 
@@ -161,14 +165,12 @@ void require(const Swing& swing) {
 
 bool at_rest(const RopePart& part) {
     const rope::State& state = part.world->state();
-    const auto on_its_way = [](const auto& each) { return each.seconds > 0.0; };
+    const auto on_its_way = [](const rope::Pin& pin) { return pin.seconds > 0.0; };
     if (part.walker.figure && !part.walker.clip.empty()) return false;
-    const auto driven = [](const rope::Collider& each) { return each.drive.any(); };
+    const auto driven = [](const rope::Collider& each) { return each.drive.any() || each.seconds > 0.0; };
+    const auto draws = [](const rope::Tie& tie) { return tie.now != tie.length; };
     if (!part.swings.empty() || std::ranges::any_of(state.colliders, driven) ||
-        std::any_of(state.colliders.begin(), state.colliders.end(), on_its_way) ||
-        std::any_of(state.pins.begin(), state.pins.end(), on_its_way) ||
-        std::any_of(state.ties.begin(), state.ties.end(),
-                    [](const rope::Tie& tie) { return tie.now != tie.length; }))
+        std::ranges::any_of(state.pins, on_its_way) || std::ranges::any_of(state.ties, draws))
         return false;
     for (std::size_t i = 0; i < part.world->size(); ++i)
         if (glm::length(part.world->velocity(i)) > still_speed) return false;

@@ -1,5 +1,4 @@
 // Ties: their commands, and the inspector's rows for one.
-#include <algorithm>
 #include <string>
 
 #include "app/fields/field_rows.hpp"
@@ -9,6 +8,7 @@
 #include "app/labs/rope/numbers.hpp"
 #include "app/labs/rope/panel.hpp"
 #include "app/labs/rope/rope_fields.hpp"
+#include "app/labs/rope/rope_lab.hpp"
 #include "app/widgets/fields.hpp"
 
 namespace tendril::app {
@@ -37,12 +37,6 @@ void set_tie(RopeEdit& edit, const Arguments& given) {
         edit.world().change(given.text("name"), &rope::World::set_tie, shape);
 }
 
-void untie(RopeEdit& edit, const Arguments& given) {
-    tie_of(edit.seen(), given.text("name"));
-    edit.world().change(given.text("name"), &rope::World::untie);
-    forget_missing(edit.part);
-}
-
 }  // namespace
 
 void add_tie_commands(CommandTable& table) {
@@ -60,18 +54,15 @@ void add_tie_commands(CommandTable& table) {
     table.add(rope_command("rope.tie.set", "Change a tie", std::move(changed),
                            "Changes the length or strength of a tie", set_tie));
     table.add(rope_command("rope.untie", "Remove a tie", {tie_argument("name", true, "which")},
-                           "Removes a tie", untie));
+                           "Removes a tie", remove_named<tie_of, &rope::World::untie>));
 }
 
 void tie_rows(const RopePart& part, const rope::Tie& tie, Emit& emit) {
     const NamedWorld& world = *part.world;
     const std::string& name = world.name(tie);
     const auto end = [&](const char* label, std::size_t particle) {
-        const auto& bodies = world.state().bodies;
-        const auto of = std::find_if(bodies.begin(), bodies.end(), [&](const rope::Body& body) {
-            return particle - body.first < body.count;
-        });
-        reading(label, "%s, particle %zu", world.name(*of).c_str(), particle - of->first);
+        const ParticlePlace place = *picked_particle(world, particle_pick(particle));
+        reading(label, "%s, particle %zu", world.name(*place.body).c_str(), place.index);
     };
     reading("tie", "%s", name.c_str());
     end("from", tie.a);

@@ -44,19 +44,13 @@ void take_scene(Workspace& workspace, const Arguments& given) {
     (workspace.lab == rope_lab ? workspace.camera : workspace.cameras[rope_lab]) = entry.view;
 }
 
+/// Of rope.settings, and of rope.wind, a name that is easy to find: velocity, gusts and still_air.
 void settings(RopeEdit& edit, const Arguments& given) {
     rope::Settings wanted = edit.seen().settings();
+    if (given.has("velocity")) wanted.wind = given.point("velocity");
     const bool downwards = given.has("gravity") && !given.is_point("gravity");
     if (downwards) wanted.gravity = glm::vec3(0, -given.number("gravity"), 0);
     set_fields(given, wanted, downwards ? "gravity" : "");
-    if (wanted != edit.seen().settings()) edit.world().set_settings(wanted);
-}
-
-/// The wind settings of rope.settings, under a name that is easy to find.
-void blow(RopeEdit& edit, const Arguments& given) {
-    rope::Settings wanted = edit.seen().settings();
-    wanted.wind = given.point("velocity");
-    set_fields(given, wanted);  // gusts and still_air
     if (wanted != edit.seen().settings()) edit.world().set_settings(wanted);
 }
 
@@ -67,11 +61,9 @@ void set_jitter(RopeEdit& edit, const Arguments& given) {
 
 std::vector<Argument> settings_arguments() {
     std::vector<Argument> arguments = field_arguments<rope::Settings>();
-    for (Argument& argument : arguments)
-        if (argument.name == "gravity") {
-            argument.type = ArgumentType::NumberOrPoint;
-            argument.help = "m/s^2: downwards, or [x, y, z]";
-        }
+    Argument& gravity = *std::ranges::find(arguments, std::string("gravity"), &Argument::name);
+    gravity.type = ArgumentType::NumberOrPoint;
+    gravity.help = "m/s^2: downwards, or [x, y, z]";
     return arguments;
 }
 
@@ -97,7 +89,7 @@ void add_world_commands(CommandTable& table) {
     std::vector<Argument> wind = field_arguments(wind_fields(), wind_texts());
     wind.front().name = "velocity", wind.front().required = true;
     table.add(rope_command("rope.wind", "Set the wind", std::move(wind),
-                           "Sets the wind that cloth, ropes and hair are in", blow));
+                           "Sets the wind that cloth, ropes and hair are in", settings));
     table.add(rope_command("rope.jitter", "Set the frame rate", field_arguments<Jitter>(),
                            "Sets the frame rate, and makes frames uneven, as in a program that stutters",
                            set_jitter));
@@ -176,12 +168,6 @@ void move(RopeEdit& edit, const Arguments& given) {
     edit.move_collider(name, to);
 }
 
-void remove_collider(RopeEdit& edit, const Arguments& given) {
-    collider_of(edit.seen(), given.text("name"));
-    edit.world().change(given.text("name"), &rope::World::remove_collider);
-    forget_missing(edit.part);
-}
-
 /// A swing continues from where it is, so that changing its amplitude or period does not make it jump.
 void set_swing(RopeEdit& edit, const Arguments& given) {
     const rope::Collider& collider = collider_of(edit.seen(), given.text("name"));
@@ -235,7 +221,7 @@ void add_collider_commands(CommandTable& table) {
                            {name_argument(), point_argument("to", true, "where its centre goes, metres")},
                            "Moves a collider; it pushes what it meets", move));
     table.add(rope_command("rope.collider.remove", "Remove a collider", {name_argument()},
-                           "Removes a collider", remove_collider));
+                           "Removes a collider", remove_named<collider_of, &rope::World::remove_collider>));
     std::vector<Argument> drive = field_arguments<rope::Drive>();
     drive.insert(drive.begin(), name_argument());
     table.add(rope_command("rope.collider.drive", "Move a collider steadily", std::move(drive),

@@ -227,6 +227,7 @@ TEST_F(RopeCutCloth, ARopeTears) {
     }
     EXPECT_EQ(particles, 9u);
     EXPECT_LT(world().length_error(), 0.01);
+    EXPECT_EQ(state()["verdict"], "Torn");
 }
 
 TEST_F(RopeCutCloth, RefusalsGiveReasonAndPlace) {

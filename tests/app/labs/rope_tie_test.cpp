@@ -1,5 +1,6 @@
 // Ties in the Rope lab: commands, clicks, files, time.
 #include "app/labs/rope/code.hpp"
+#include "app/labs/rope/numbers.hpp"
 #include "tests/app/labs/rope_support.hpp"
 #include "tests/app/support/panel_text.hpp"
 #include "tests/labels.hpp"
@@ -67,6 +68,12 @@ TEST_F(RopeTieTest, AColliderIsRefusedAndAWeightHangsInstead) {
     EXPECT_EQ(world().state().mass[3], rest);
     wait(120);
     EXPECT_NEAR(world().state().links[3].tension, 2.0 * 9.81, 0.5) << "what carries it";
+    run("rope.select", {{"rope", "above"}, {"particle", 3}});
+    run("rope.set", {{"rope", "above"}, {"tear", 0.01}});
+    const auto shown = [&] { return tension_text(world(), *rope_part(workspace).selection); };
+    EXPECT_TRUE(shown().ends_with(" N, too stiff to tear")) << shown();
+    run("rope.set", {{"rope", "above"}, {"stretch", 1e-4}});
+    EXPECT_TRUE(shown().ends_with(" N, tears at 100.00 N")) << shown();
     refuses("rope.weight", {{"rope", "above"}, {"particle", 4}, {"mass", 0}}, "mass");
     refuses("rope.weight", {{"rope", "above"}, {"particle", 5}, {"mass", 1}}, "particle");
 }

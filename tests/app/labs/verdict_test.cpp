@@ -148,6 +148,12 @@ TEST_F(RopeVerdict, ReportsFloatingInsideOrUnsolvedBodies) {
     pace.kept = 0.5;
     workspace.clock.playing = true;
     EXPECT_FALSE(paced_verdict(said_of_second, workspace).cure) << "half the substep would be slower still";
+    const auto slow = [&](float cost) {
+        workspace.document.edit<RopePart>(rope_lab).samples = {RopeSample{.cost = cost, .report = {}}};
+        return paced_verdict({"Lengths hold", Verdict::Kind::Good}, workspace).why;
+    };
+    EXPECT_TRUE(test::says(slow(2e4f), "20.0 ms fewer particles"));
+    EXPECT_TRUE(test::says(slow(163.0f), "163 picture"));
     pace.kept = 1.0;
     EXPECT_TRUE(paced_verdict(said_of_second, workspace).cure);
     part.samples.back().report.dropped = 1;
