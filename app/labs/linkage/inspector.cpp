@@ -160,9 +160,7 @@ void LinkageLab::inspector(const Workspace& workspace, Emit& emit) const {
     auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
     show_verdict(linkage_verdict(part, runtime, workspace.clock.playing), colours, emit,
                  {.notes = 4, .paragraphs = 2}, [&] {
-                     const std::vector<Cure> ways = ways_on(part, runtime);
-                     for (const Cure& each : ways) cure_line(each.text, each, emit);
-                     if (!ways.empty()) note("Or drag a joint.");
+                     for (const Cure& each : ways_on(part, runtime)) cure_line(each.text, each, emit);
                  });
     freedom_rows(part);
     motor_rows(workspace);

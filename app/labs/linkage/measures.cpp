@@ -395,14 +395,20 @@ std::vector<Cure> ways_on(const LinkagePart& part, LinkageRuntime& runtime) {
     if (motor == motors.end()) return ways;
     const auto round = runtime.round_crank(part, static_cast<std::size_t>(motor - motors.begin()));
     if (!round) return ways;
-    const std::string& crank = part.shape->sketch.bars[motor->bar].name;
+    const std::string &crank = part.shape->sketch.bars[motor->bar].name,
+                      length = fixed_text(round->length, 2) + " m";
+    std::vector<CommandCall> calls{
+        kind_of(part.shape->mechanism) != nullptr
+            ? CommandCall{"linkage.set", {{crank, round->length}}}
+            : CommandCall{"linkage.length", {{"bar", crank}, {"length", round->length}}}};
+    if (round->from) {
+        calls.insert(calls.begin(), {"linkage.drive", {{"joint", joint}, {"value", *round->from}}});
+        calls.push_back(motor_call(part, joint, in_degrees(part, joint, drive->rate)));
+    }
     ways.push_back({"Shorten",
-                    "Makes the crank " + fixed_text(round->length, 2) + " m long: it turns all round up to " +
-                        fixed_text(round->longest, 2) + " m",
-                    {kind_of(part.shape->mechanism) != nullptr
-                         ? CommandCall{"linkage.set", {{crank, round->length}}}
-                         : CommandCall{"linkage.length", {{"bar", crank}, {"length", round->length}}}},
-                    capitalised(crank) + " of " + fixed_text(round->length, 2) + " m"});
+                    "Makes the crank " + length + " long: up to " + fixed_text(round->longest, 2) +
+                        " m it turns all round",
+                    std::move(calls), "All round: " + crank + " " + length});
     return ways;
 }
 

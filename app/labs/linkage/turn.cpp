@@ -209,7 +209,17 @@ std::optional<RoundCrank> LinkageRuntime::round_crank(const LinkagePart& part, s
     crank_of_ = part.shape;
     crank_at_ = part.state;
     crank_motor_ = motor;
-    return crank_ = shorter_round_crank(part, part.shape->sketch.motors[motor]);
+    const ik::SketchMotor& of = part.shape->sketch.motors[motor];
+    crank_ = shorter_round_crank(part, of);
+    const std::vector<LinkageTurn::Pose>& poses = turn(part).poses;
+    if (crank_ || poses.empty() || part.linkage().find_link(of.name) != turn_.joint) return crank_;
+    const double middle = std::midpoint(poses.front().value, poses.back().value);
+    LinkagePart driven = part;
+    for (LinkageDrive& each : driven.drives)
+        if (each.joint == of.name) each.value = middle;
+    solve_linkage(driven, *this);
+    if ((crank_ = shorter_round_crank(driven, of))) crank_->from = middle;
+    return crank_;
 }
 
 }  // namespace tendril::app
