@@ -72,6 +72,7 @@ struct LinkageDrive {
     double value = 0.0;  ///< radians or metres: the wanted value if held, else the joint's present one
     double rate = 0.0;   ///< motor speed, radians or metres per second; 0: stopped
     bool held = false;   ///< keeps this value; otherwise the joint follows the others
+    double last_rate = 0.0;  ///< the speed it last ran at; 0: none yet
     bool operator==(const LinkageDrive&) const = default;
 };
 

@@ -139,6 +139,8 @@ std::optional<WorstTransmission> worst_transmission(const LinkagePart& part, con
 }
 
 double usual_motor_rate(const LinkagePart& part, std::string_view joint, LinkageRuntime& runtime) {
+    const LinkageDrive* const drive = part.find_drive(joint);
+    if (drive != nullptr && drive->last_rate != 0.0) return drive->last_rate;
     if (turns(part, joint)) return glm::radians(90.0);
     return std::min(0.1 * runtime.solver(part.shape).size(), max_motor_rate);
 }

@@ -59,7 +59,8 @@ class PartInTurn {
     std::shared_ptr<LinkagePart> part_;
 };
 
-/// The speed of a motor that is given none, radians or metres per second.
+/// The speed of a motor that is given none, radians or metres per second: the one it last ran at, or else 90
+/// degrees or a tenth of the linkage a second.
 double usual_motor_rate(const LinkagePart& part, std::string_view joint, LinkageRuntime& runtime);
 /// Metres per second of a point in this pose, at the speed of the motors that run; if none does, at the usual
 /// one of the first. NaN for a point of the ground, without a motor, at a dead point, and where the motors

@@ -132,8 +132,8 @@ std::vector<PathPoint> LinkageRuntime::path(const LinkagePart& part) {
     for (const LinkageTurn::Pose& each : poses) path.push_back({each.links[drawn.link].point(drawn.at)});
     const std::string& joint = part.linkage().links[turn_.joint].name;
     const LinkageDrive* const drive = part.find_drive(joint);
-    const double rate =
-        drive != nullptr && is_running(*drive) ? std::abs(drive->rate) : usual_motor_rate(part, joint, *this);
+    const double rate = std::abs(
+        drive != nullptr && is_running(*drive) ? drive->rate : usual_motor_rate(part, joint, *this));
     for (std::size_t i = 1; i < path.size(); ++i)
         path[i].speed =
             rate * glm::distance(path[i].at, path[i - 1].at) / std::abs(poses[i].value - poses[i - 1].value);

@@ -162,6 +162,11 @@ TEST_F(LinkageReading, APointsSpeedIsItsCranksTimesItsLength) {
     EXPECT_NEAR(point_speed(part(), "B", runtime()), glm::radians(30.0), 1e-5);
     EXPECT_TRUE(std::isnan(point_speed(part(), "A", runtime()))) << "of the ground";
     EXPECT_TRUE(test::says(lab().hint(workspace, linkage_pick(1)), "B 523.6 mm/s drag"));
+    run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 0}});
+    EXPECT_NEAR(point_speed(part(), "B", runtime()), glm::radians(30.0), 1e-5) << "as it last ran";
+    EXPECT_EQ(part().load(part().save(), "labs.linkage")->save(), part().save());
+    run("linkage.motor", {{"joint", "crank"}});
+    EXPECT_NEAR(part().drives[0].rate, glm::radians(-30.0), 1e-12) << "and runs again";
     run("linkage.select", {{"point", "P"}});
     const std::vector<PathPoint> path = runtime().path(part());
     const LinkageTurn& poses = turn();
