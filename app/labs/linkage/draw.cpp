@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "app/document/units.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
 #include "app/labs/linkage/measures.hpp"
@@ -373,11 +372,12 @@ std::vector<LegendRow> LinkageLab::legend(const Workspace& workspace) const {
     const Palette& colours = palette(workspace.settings.theme);
     std::vector<LegendRow> rows{{"pinned", colours.target}, {"motor", colours.head, true}};
     const LinkagePart& part = linkage_part(workspace);
-    const PathSpeed speed = path_speed(workspace.runtimes.of<LinkageRuntime>(linkage_lab).path(part));
+    auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
+    const PathSpeed speed = path_speed(runtime.path(part));
     if (speed.fast > 0.0) {
         rows.push_back({"path, slow", speed_colour(colours, 0.0)});
         rows.push_back(
-            {"path, " + std::string(speed.exceeded ? "over " : "") + length_text(speed.fast) + "/s",
+            {(speed.exceeded ? "path, over " : "path, ") + speed_text(part, speed.fast, runtime),
              speed_colour(colours, 1.0)});
     }
     add_ghost_legend(workspace, linkage_past(), rows);

@@ -181,9 +181,19 @@ double point_speed(const LinkagePart& part, std::string_view point, LinkageRunti
     return glm::distance(ends[0], ends[1]) / (2.0 * seconds);
 }
 
+std::string speed_text(const LinkagePart& part, double speed, LinkageRuntime& runtime) {
+    return runtime.solver(part.shape).size() < 1.0 ? fixed_text(1000.0 * speed, 1) + " mm/s"
+                                                   : fixed_text(speed, 2) + " m/s";
+}
+
 std::string point_speed_text(const LinkagePart& part, std::string_view point, LinkageRuntime& runtime) {
     const double speed = point_speed(part, point, runtime);
-    return std::isfinite(speed) ? length_text(speed) + "/s" : std::string();
+    if (!std::isfinite(speed)) return {};
+    const std::string text = speed_text(part, speed, runtime);
+    if (std::ranges::any_of(part.drives, is_running)) return text;
+    const std::string& joint = part.drives.front().joint;
+    const double rate = std::abs(in_degrees(part, joint, usual_motor_rate(part, joint, runtime)));
+    return text + " at " + (turns(part, joint) ? fixed_text(rate, 0) + " deg/s" : fixed_text(rate, 2) + " m/s");
 }
 
 ik::LinkageFreedom freedom_of(const LinkagePart& part) {

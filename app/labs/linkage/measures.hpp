@@ -66,7 +66,9 @@ double usual_motor_rate(const LinkagePart& part, std::string_view joint, Linkage
 /// one of the first. NaN for a point of the ground, without a motor, at a dead point, and where the motors
 /// contradict.
 double point_speed(const LinkagePart& part, std::string_view point, LinkageRuntime& runtime);
-/// "0.52 m/s"; empty if there is no speed.
+/// "0.52 m/s", or "523.6 mm/s" of a linkage smaller than a metre.
+std::string speed_text(const LinkagePart& part, double speed, LinkageRuntime& runtime);
+/// "0.52 m/s", or of a motor at rest "1.85 m/s at 90 deg/s"; empty if there is no speed.
 std::string point_speed_text(const LinkagePart& part, std::string_view point, LinkageRuntime& runtime);
 
 /// Degrees of freedom, including those of floating bars: three for each free piece, plus its internal ones.

@@ -161,9 +161,10 @@ TEST_F(LinkageReading, APointsSpeedIsItsCranksTimesItsLength) {
     run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", -30}});
     EXPECT_NEAR(point_speed(part(), "B", runtime()), glm::radians(30.0), 1e-5);
     EXPECT_TRUE(std::isnan(point_speed(part(), "A", runtime()))) << "of the ground";
-    EXPECT_TRUE(test::says(lab().hint(workspace, linkage_pick(1)), "B 523.6 mm/s drag"));
+    EXPECT_TRUE(test::says(lab().hint(workspace, linkage_pick(1)), "B, 0.52 m/s: drag"));
     run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 0}});
     EXPECT_NEAR(point_speed(part(), "B", runtime()), glm::radians(30.0), 1e-5) << "as it last ran";
+    EXPECT_TRUE(test::says(lab().hint(workspace, linkage_pick(1)), "B, 0.52 m/s at 30 deg/s: drag"));
     EXPECT_EQ(part().load(part().save(), "labs.linkage")->save(), part().save());
     run("linkage.motor", {{"joint", "crank"}});
     EXPECT_NEAR(part().drives[0].rate, glm::radians(-30.0), 1e-12) << "and runs again";
