@@ -3,6 +3,7 @@
 
 #include "app/labs/kit/code_text.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
+#include "app/labs/linkage/measures.hpp"
 
 namespace tendril::app {
 namespace {
@@ -71,7 +72,9 @@ std::string linkage_code(const LinkagePart& part) {
         "\n"
         "    for (int frame = 0; frame <= 60; ++frame) {\n"
         "        std::vector<ik::LinkDriver> drivers;\n";
-    for (const LinkageDrive& each : part.drives) {
+    LinkageRuntime runtime;
+    const bool moves = part.targets.empty() && part.result.freedom.actual == 1;  // so does a motor at rest
+    for (const LinkageDrive& each : moves ? moving_drives(part, runtime) : part.drives) {
         if (!each.held) continue;
         text += "        drivers.push_back({*linkage->find_link(" + string_text(each.joint) + "), " +
                 double_text(each.value);

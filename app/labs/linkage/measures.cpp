@@ -145,21 +145,24 @@ double usual_motor_rate(const LinkagePart& part, std::string_view joint, Linkage
     return std::min(0.1 * runtime.solver(part.shape).size(), max_motor_rate);
 }
 
+std::vector<LinkageDrive> moving_drives(const LinkagePart& part, LinkageRuntime& runtime) {
+    std::vector<LinkageDrive> drives = part.drives;
+    if (!drives.empty() && std::ranges::none_of(drives, is_running)) {
+        drives.front().rate = usual_motor_rate(part, drives.front().joint, runtime);
+        drives.front().held = true;
+    }
+    std::erase_if(drives, [](const LinkageDrive& each) { return !each.held; });
+    return drives;
+}
+
 double point_speed(const LinkagePart& part, std::string_view point, LinkageRuntime& runtime) {
     const auto at = part.linkage().find_point(point);
     if (!at || part.linkage().points[*at].link == ik::ground_link || part.drives.empty()) return no_angle;
-    const bool stopped = std::ranges::none_of(part.drives, is_running);
     ik::LinkageSolver& solver = runtime.solver(part.shape);
-    std::vector<LinkageDrive> drives;
+    const std::vector<LinkageDrive> drives = moving_drives(part, runtime);
     double quickest = 0.0;  // radians or sizes of the linkage per second
-    for (const LinkageDrive& each : part.drives) {
-        const bool leads = stopped && drives.empty() && &each == &part.drives.front();
-        if (!each.held && !leads) continue;
-        drives.push_back(each);
-        if (leads) drives.back().rate = usual_motor_rate(part, each.joint, runtime);
-        const double unit = turns(part, each.joint) ? 1.0 : solver.size();
-        quickest = std::max(quickest, std::abs(drives.back().rate) / unit);
-    }
+    for (const LinkageDrive& each : drives)
+        quickest = std::max(quickest, std::abs(each.rate) / (turns(part, each.joint) ? 1.0 : solver.size()));
     if (!(quickest > 0.0)) return no_angle;
     constexpr double small_turn = 1e-3;  // radians; a motor reaches its value within 1e-6
     const double seconds = small_turn / quickest;

@@ -274,6 +274,7 @@ TEST_F(LinkageTest, CodeHasPoseModeAndLegs) {
     run("linkage.range", {{"joint", "crank"}, {"max", 90}});
     const std::string code = lab().code(workspace);
     EXPECT_TRUE(test::says(code, "links[0] maximum initial_state state joints value"));
+    EXPECT_TRUE(test::says(code, "crank frame 60.0 *")) << "a motor at rest runs";
     run("linkage.preset", {{"name", "walker"}});
     EXPECT_TRUE(test::says(lab().code(workspace), "One of the twelve legs"));
 }
