@@ -85,8 +85,9 @@ CameraPose LinkageLab::first_view() const {
 
 std::string LinkageLab::invitation(const Workspace& workspace) const {
     const LinkagePart& part = linkage_part(workspace);
-    if (part.shape->in_plane() && part.shape->sketch.bars.empty())
-        return "Drag from one place to another: a bar.";
+    const bool empty = part.shape->in_plane() && part.shape->sketch.bars.empty();
+    if (empty || part.tool != LinkageTool::Move)
+        return linkage_tools.help(empty ? LinkageTool::Draw : part.tool);
     return part.drives.empty() ? "Drag any joint." : "Drag any joint, or run the motor.";
 }
 

@@ -310,9 +310,9 @@ TEST_F(LinkageTest, BarsWithoutSupportWaitForPins) {
     EXPECT_EQ(state().at("verdict"), "Draw a bar");
     EXPECT_EQ(state().at("tool"), "draw") << "an empty lab is there to be drawn in";
     EXPECT_EQ(linkage_verdict(part(), runtime()).why, "Drag from one place to another in the view.");
-    EXPECT_TRUE(test::says(lab().invitation(workspace), "Drag a bar"));
     run("linkage.bar", {{"from", {0, 0, 0}}, {"to", {0, 1, 0}}});
     EXPECT_EQ(state().at("verdict"), "Nothing holds it");
+    EXPECT_TRUE(test::says(lab().invitation(workspace), "Drag a bar")) << "a drag draws, with Draw chosen";
     run("linkage.pin", {{"point", "A"}});
     EXPECT_EQ(state().at("verdict"), "1 degree of freedom");
     run("linkage.bar", {{"from", {2, 0, 0}}, {"to", {3, 0, 0}}});
