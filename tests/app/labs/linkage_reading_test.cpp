@@ -56,17 +56,6 @@ class LinkageReading : public LinkageTest {
             if (!seen(*in_turn.at(each))) return false;
         return seen(part());
     }
-    /// Draws joints and the bars between them, with a motor at the pin A.
-    void draw_leg(const std::map<std::string, glm::dvec2>& joints, std::initializer_list<std::string> bars,
-                  std::initializer_list<const char*> pins) {
-        run("linkage.clear");
-        for (const auto& [name, at] : joints)
-            run("linkage.joint", {{"at", {at.x, at.y, 0}}, {"name", name}});
-        for (const std::string& bar : bars)
-            run("linkage.bar", {{"from", bar.substr(0, 1)}, {"to", bar.substr(1)}});
-        for (const char* pin : pins) run("linkage.pin", {{"point", pin}});
-        run("linkage.motor.add", {{"point", "A"}});
-    }
     /// Two bars in a row from the pin A: a robot arm.
     void draw_arm() {
         run("linkage.clear");
@@ -114,38 +103,30 @@ TEST_F(LinkageReading, ASliderCrankIsShortenedToo) {
     EXPECT_EQ(state().at("status"), "Reached");
 }
 
-/// Klann's leg, drawn by hand: two loops, and a foot on a rigid triangle.
-TEST_F(LinkageReading, ADrawnLegIsShortenedTooAndItsPathIsSmooth) {
-    draw_leg({{"A", {1.53, -0.38}}, {"B", {0.76, -0.16}}, {"C", {-1.75, -0.49}}, {"E", {-0.22, -1.47}},
-              {"F", {-1.42, 0.82}}, {"G", {0.0, 1.47}}, {"H", {-2.40, -2.78}}},
-             {"AB", "BC", "CF", "FG", "CH", "FH"}, {"A", "E", "G"});
-    run("linkage.joint", {{"at", {-0.44, -0.32, 0}}, {"bar", "BC"}});
-    run("linkage.bar", {{"from", "D"}, {"to", "E"}});
-    ASSERT_EQ(state().at("freedom"), 1);
-    run("linkage.select", {{"point", "H"}});
-    const std::vector<PathPoint> path = runtime().path(part());
-    for (std::size_t i = 1; i < path.size(); ++i)
-        ASSERT_LT(glm::distance(path[i].at, path[i - 1].at), 0.021 * runtime().solver(part().shape).size())
-            << i << " of " << path.size();
-    run("linkage.motor", {{"joint", "motor 1"}});
-    run_to_dead_point();
-    EXPECT_EQ(ways_on(part(), runtime()).size(), 3u);
-    take("Shorten");
-    wait(300);
-    EXPECT_EQ(state().at("status"), "Reached");
-    EXPECT_TRUE(turn().whole);
-}
-
-/// Jansen's leg folds at one end of its travel: a crank shortened there would not come round.
-TEST_F(LinkageReading, ALegIsShortenedAtEitherEndOfItsTravel) {
+/// Jansen's leg, drawn by hand. It folds at one end of its travel: a crank shortened there would not come round.
+TEST_F(LinkageReading, ADrawnLegIsShortenedAtEitherEndOfItsTravelAndItsPathIsSmooth) {
     for (const double speed : {90.0, -90.0}) {
-        draw_leg({{"A", {0, 0}}, {"B", {0.62, 0}}, {"C", {-0.99, 1.29}}, {"D", {-1.57, -0.32}},
-                  {"E", {-3.08, 0.34}}, {"F", {-1.11, -1.88}}, {"G", {-2.44, -1.16}}},
-                 {"AB", "BC", "CD", "CE", "DE", "BF", "DF", "EG", "FG"}, {"A", "D"});
+        run("linkage.clear");
+        const std::pair<const char*, glm::dvec2> joints[] = {
+            {"A", {0, 0}},        {"B", {0.62, 0}},      {"C", {-0.99, 1.29}},  {"D", {-1.57, -0.32}},
+            {"E", {-3.08, 0.34}}, {"F", {-1.11, -1.88}}, {"G", {-2.44, -1.16}}, {"H", {-1.78, -3.78}}};
+        for (const auto& [name, at] : joints)
+            run("linkage.joint", {{"at", {at.x, at.y, 0}}, {"name", name}});
+        for (const std::string bar : {"AB", "BC", "CD", "CE", "DE", "BF", "DF", "EG", "FG", "FH", "GH"})
+            run("linkage.bar", {{"from", bar.substr(0, 1)}, {"to", bar.substr(1)}});
+        for (const char* pin : {"A", "D"}) run("linkage.pin", {{"point", pin}});
+        run("linkage.motor.add", {{"point", "A"}});
         run("linkage.drive", {{"joint", "motor 1"}, {"angle_deg", 45}});
         run("linkage.length", {{"bar", "AB"}, {"length", 0.95}});
+        run("linkage.select", {{"point", "H"}});
+        const std::vector<PathPoint> path = runtime().path(part());
+        for (std::size_t i = 1; i < path.size(); ++i)
+            ASSERT_LT(glm::distance(path[i].at, path[i - 1].at),
+                      0.021 * runtime().solver(part().shape).size())
+                << i << " of " << path.size();
         run("linkage.motor", {{"joint", "motor 1"}, {"deg_per_s", speed}});
         run_to_dead_point();
+        EXPECT_EQ(ways_on(part(), runtime()).size(), 3u) << speed;
         take("Shorten");
         wait(300);
         EXPECT_EQ(state().at("status"), "Reached") << speed;
@@ -193,26 +174,20 @@ TEST_F(LinkageReading, AShortenedCrankTurnsAllRound) {
         const double g = random.uniform(0.5, 2.0), b = random.uniform(1.0, 4.0), c = random.uniform(1.0, 4.0);
         const double crank = random.uniform(0.5, 1.3) * (b + c - g);
         LinkageRuntime runtime;
-        LinkagePart drawn;
-        try {
-            open_mechanism(drawn, ik::FourBar{.ground = g, .crank = crank, .coupler = b, .rocker = c},
-                           runtime);
-        } catch (const std::invalid_argument&) {
-            continue;  // it does not close
-        }
-        const std::string kind = four_bar_kind(drawn);
+        auto drawn = opened({.ground = g, .crank = crank, .coupler = b, .rocker = c}, runtime);
+        if (!drawn) continue;
+        const std::string kind = four_bar_kind(*drawn);
         if (kind == "crank-rocker" || kind == "drag link") continue;
-        drawn.result.report.status = ik::LinkageStatus::DeadPoint;
-        drawn.result.report.stopped = drawn.linkage().find_link("crank");
-        for (const Cure& each : ways_on(drawn, runtime)) {
+        drawn->result.report.status = ik::LinkageStatus::DeadPoint;
+        drawn->result.report.stopped = drawn->linkage().find_link("crank");
+        for (const Cure& each : ways_on(*drawn, runtime)) {
             if (each.title != "Shorten") continue;
             const auto set = std::ranges::find(each.calls, "linkage.set", &CommandCall::name);
             const double shorter = to_json(set->arguments).at("crank").get<double>();
             EXPECT_LT(shorter, crank);
             LinkageRuntime fresh;
-            LinkagePart round;
-            open_mechanism(round, ik::FourBar{.ground = g, .crank = shorter, .coupler = b, .rocker = c},
-                           fresh);
+            const auto round =
+                opened({.ground = g, .crank = shorter, .coupler = b, .rocker = c}, fresh).value();
             EXPECT_TRUE(fresh.turn(round).whole)
                 << g << " " << crank << " " << b << " " << c << ": " << shorter;
             if (four_bar_kind(round) == "drag link") ++drag_links;
@@ -220,8 +195,8 @@ TEST_F(LinkageReading, AShortenedCrankTurnsAllRound) {
     }
     EXPECT_GT(drag_links, 3);
     LinkageRuntime runtime;
-    LinkagePart finding;
-    open_mechanism(finding, ik::FourBar{.ground = 1.0, .crank = 5.5, .coupler = 3.0, .rocker = 3.0}, runtime);
+    const auto finding =
+        opened({.ground = 1.0, .crank = 5.5, .coupler = 3.0, .rocker = 3.0}, runtime).value();
     ASSERT_TRUE(runtime.round_crank(finding, 0));
     EXPECT_NEAR(runtime.round_crank(finding, 0)->longest, 5.0, 0.01);
 }
@@ -288,9 +263,8 @@ TEST_F(LinkageReading, TheTransmissionAngleIsTheFourBarsUnderAnyTriangles) {
         const auto apart = [&](const char* a, const char* b) { return glm::distance(joints[a], joints[b]); };
         const double g = apart("A", "D"), a = apart("A", "B"), b = apart("B", "C"), c = apart("C", "D");
         LinkageRuntime runtime;
-        LinkagePart plain;
-        open_mechanism(plain, ik::FourBar{.ground = g, .crank = a, .coupler = b, .rocker = c}, runtime);
-        EXPECT_EQ(four_bar_kind(part()), four_bar_kind(plain)) << i;
+        const auto plain = opened({.ground = g, .crank = a, .coupler = b, .rocker = c}, runtime);
+        EXPECT_EQ(four_bar_kind(part()), four_bar_kind(plain.value())) << i;
         const auto find = [&](const char* name) { return *part().linkage().find_point(name); };
         const auto status = [&] { return part().result.report.status; };
         const auto expect_law_of_cosines = [&] {
@@ -320,17 +294,11 @@ TEST_F(LinkageReading, AFourBarsTypeSaysWhetherItsCrankTurnsAllRound) {
         const double longest = std::max({a, b, c, g});
         if (a + b + c + g < 2.05 * longest) continue;
         LinkageRuntime fresh;
-        const ik::FourBar lengths{.ground = g, .crank = a, .coupler = b, .rocker = c};
-        LinkagePart drawn;
-        try {
-            open_mechanism(drawn, lengths, fresh);
-        } catch (const std::invalid_argument&) {
-            continue;  // it does not close as drawn
-        }
-        if (drawn.result.report.status != ik::LinkageStatus::Reached) continue;
-        const std::string kind = four_bar_kind(drawn);
+        const auto drawn = opened({.ground = g, .crank = a, .coupler = b, .rocker = c}, fresh);
+        if (!drawn || drawn->result.report.status != ik::LinkageStatus::Reached) continue;
+        const std::string kind = four_bar_kind(*drawn);
         const bool goes_round = kind == "crank-rocker" || kind == "drag link";
-        EXPECT_EQ(fresh.turn(drawn).whole, goes_round)
+        EXPECT_EQ(fresh.turn(*drawn).whole, goes_round)
             << kind << ": " << g << " " << a << " " << b << " " << c;
         ++(goes_round ? rounds : swings);
     }

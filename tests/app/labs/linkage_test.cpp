@@ -235,18 +235,13 @@ TEST_F(LinkageTest, EachModeOfARockerHasItsOwnPath) {
     int swings = 0;
     for (int i = 0; i < 120; ++i) {
         const auto length = [&] { return random.uniform(1.0, 3.0); };
-        const ik::FourBar lengths{
-            .ground = length(), .crank = length(), .coupler = length(), .rocker = length()};
-        LinkagePart drawn;
         LinkageRuntime kept;
-        try {
-            open_mechanism(drawn, lengths, kept);
-        } catch (const std::invalid_argument&) {
-            continue;  // it does not close
-        }
-        const LinkageTurn& turn = kept.turn(drawn);
+        const auto drawn = opened(
+            {.ground = length(), .crank = length(), .coupler = length(), .rocker = length()}, kept);
+        if (!drawn) continue;
+        const LinkageTurn& turn = kept.turn(*drawn);
         if (turn.poses.size() < 10 || turn.whole) continue;
-        workspace.document.set(linkage_lab, drawn.clone());
+        workspace.document.set(linkage_lab, drawn->clone());
         for (const double share : {0.2, 0.5, 0.8}) {
             const double at = std::lerp(turn.poses.front().value, turn.poses.back().value, share);
             run("linkage.drive", {{"joint", "crank"}, {"angle_deg", glm::degrees(at)}});
