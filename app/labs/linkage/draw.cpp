@@ -376,9 +376,8 @@ std::vector<LegendRow> LinkageLab::legend(const Workspace& workspace) const {
     const PathSpeed speed = path_speed(runtime.path(part));
     if (speed.fast > 0.0) {
         rows.push_back({"path, slow", speed_colour(colours, 0.0)});
-        rows.push_back(
-            {(speed.exceeded ? "path, over " : "path, ") + speed_text(part, speed.fast, runtime),
-             speed_colour(colours, 1.0)});
+        rows.push_back({(speed.exceeded ? "path, over " : "path, ") + speed_text(part, speed.fast, runtime),
+                        speed_colour(colours, 1.0)});
     }
     add_ghost_legend(workspace, linkage_past(), rows);
     return rows;

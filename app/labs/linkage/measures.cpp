@@ -196,7 +196,8 @@ std::string point_speed_text(const LinkagePart& part, std::string_view point, Li
     if (std::ranges::any_of(part.drives, is_running)) return text;
     const std::string& joint = part.drives.front().joint;
     const double rate = std::abs(in_degrees(part, joint, usual_motor_rate(part, joint, runtime)));
-    return text + " at " + (turns(part, joint) ? fixed_text(rate, 0) + " deg/s" : fixed_text(rate, 2) + " m/s");
+    return text + " at " + fixed_text(rate, turns(part, joint) ? 0 : 2) +
+           (turns(part, joint) ? " deg/s" : " m/s");
 }
 
 ik::LinkageFreedom freedom_of(const LinkagePart& part) {

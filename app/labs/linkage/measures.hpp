@@ -64,8 +64,8 @@ class PartInTurn {
 double usual_motor_rate(const LinkagePart& part, std::string_view joint, LinkageRuntime& runtime);
 /// The drivers that are held; if none runs, the first one as a motor at its usual speed.
 std::vector<LinkageDrive> moving_drives(const LinkagePart& part, LinkageRuntime& runtime);
-/// Metres per second of a point in this pose, at the speed of moving_drives(). NaN for a point of the ground, without a motor, at a dead point, and where the motors
-/// contradict.
+/// Metres per second of a point in this pose, at the speed of moving_drives(). NaN for a point of the ground,
+/// without a motor, at a dead point, and where the motors contradict.
 double point_speed(const LinkagePart& part, std::string_view point, LinkageRuntime& runtime);
 /// "0.52 m/s", or "523.6 mm/s" of a linkage smaller than a metre.
 std::string speed_text(const LinkagePart& part, double speed, LinkageRuntime& runtime);

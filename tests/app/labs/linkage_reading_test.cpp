@@ -103,15 +103,15 @@ TEST_F(LinkageReading, ASliderCrankIsShortenedToo) {
     EXPECT_EQ(state().at("status"), "Reached");
 }
 
-/// Jansen's leg, drawn by hand. It folds at one end of its travel: a crank shortened there would not come round.
+/// Jansen's leg, drawn by hand. It folds at one end of its travel: a crank shortened there would not come
+/// round.
 TEST_F(LinkageReading, ADrawnLegIsShortenedAtEitherEndOfItsTravelAndItsPathIsSmooth) {
     for (const double speed : {90.0, -90.0}) {
         run("linkage.clear");
         const std::pair<const char*, glm::dvec2> joints[] = {
             {"A", {0, 0}},        {"B", {0.62, 0}},      {"C", {-0.99, 1.29}},  {"D", {-1.57, -0.32}},
             {"E", {-3.08, 0.34}}, {"F", {-1.11, -1.88}}, {"G", {-2.44, -1.16}}, {"H", {-1.78, -3.78}}};
-        for (const auto& [name, at] : joints)
-            run("linkage.joint", {{"at", {at.x, at.y, 0}}, {"name", name}});
+        for (const auto& [name, at] : joints) run("linkage.joint", {{"at", {at.x, at.y, 0}}, {"name", name}});
         for (const std::string bar : {"AB", "BC", "CD", "CE", "DE", "BF", "DF", "EG", "FG", "FH", "GH"})
             run("linkage.bar", {{"from", bar.substr(0, 1)}, {"to", bar.substr(1)}});
         for (const char* pin : {"A", "D"}) run("linkage.pin", {{"point", pin}});

@@ -236,8 +236,8 @@ TEST_F(LinkageTest, EachModeOfARockerHasItsOwnPath) {
     for (int i = 0; i < 120; ++i) {
         const auto length = [&] { return random.uniform(1.0, 3.0); };
         LinkageRuntime kept;
-        const auto drawn = opened(
-            {.ground = length(), .crank = length(), .coupler = length(), .rocker = length()}, kept);
+        const auto drawn =
+            opened({.ground = length(), .crank = length(), .coupler = length(), .rocker = length()}, kept);
         if (!drawn) continue;
         const LinkageTurn& turn = kept.turn(*drawn);
         if (turn.poses.size() < 10 || turn.whole) continue;
