@@ -21,7 +21,11 @@ class LinkageDrawing {
           list_(list),
           part_(linkage_part(view.workspace)),
           runtime_(view.workspace.runtimes.of<LinkageRuntime>(linkage_lab)),
-          size_(static_cast<float>(runtime_.solver(part_.shape).size())) {}
+          size_(static_cast<float>(runtime_.solver(part_.shape).size())) {
+        if (part_.linkage().links.empty())  // all floats
+            for (std::size_t i = 0; i < part_.linkage().points.size(); ++i)
+                size_ = std::max(size_, glm::distance(at(0), at(i)));
+    }
 
     void run() {
         path();
