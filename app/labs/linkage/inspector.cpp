@@ -40,7 +40,7 @@ void motor_rows(const Workspace& workspace) {
         reading("travel", "all round");
     else
         reading("travel", "%s to %s %s", end(turn.poses.front()).c_str(), end(turn.poses.back()).c_str(),
-                turns(part, joint) ? "deg" : "m");
+                turns(part, joint) ? "degrees" : "m");
     explain("How far it goes in this assembly mode, between dead points or the ends of its range.");
     const double now = transmission_angle(part);
     const auto worst = worst_transmission(part, turn);
