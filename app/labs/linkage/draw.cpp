@@ -58,16 +58,16 @@ class LinkageDrawing {
         }
     }
 
-    bool stalled(const std::string& link) const {
-        const LinkageDrive* const drive = part_.find_drive(link);
-        return drive != nullptr && is_stalled(part_, *drive);
+    glm::vec3 motor_colour(const std::string& joint) const {
+        const LinkageDrive* const drive = part_.find_drive(joint);
+        return drive != nullptr && is_stalled(part_, *drive) ? view_.palette.limit : view_.palette.head;
     }
     /// A bar that a motor turns has the motor's colour.
     glm::vec3 bar_colour(std::size_t bar) const {
         const LinkageShape& shape = *part_.shape;
         if (shape.floating[bar]) return view_.palette.ghost;
         for (const ik::SketchMotor& motor : shape.sketch.motors)
-            if (motor.bar == bar) return stalled(motor.name) ? view_.palette.limit : view_.palette.head;
+            if (motor.bar == bar) return motor_colour(motor.name);
         return view_.palette.neutral;
     }
 
@@ -142,10 +142,8 @@ class LinkageDrawing {
     void links() {
         for (std::size_t i = 0; i < part_.linkage().links.size(); ++i) {
             const std::string& name = part_.linkage().links[i].name;
-            const bool driven = part_.find_drive(name) != nullptr;
-            body(places_on(part_, i), stalled(name) ? view_.palette.limit
-                                      : driven      ? view_.palette.head
-                                                    : view_.palette.neutral);
+            body(places_on(part_, i),
+                 part_.find_drive(name) != nullptr ? motor_colour(name) : view_.palette.neutral);
         }
         body(places_on(part_, ik::ground_link), view_.palette.target);
     }
@@ -204,12 +202,12 @@ class LinkageDrawing {
             const ik::Link& of = part_.linkage().links[link];
             const glm::dvec3 drawn =
                 of.parent == ik::ground_link ? of.at : part_.links[of.parent].point(of.at);
-            const glm::vec3 colour = is_stalled(part_, each) ? view_.palette.limit : view_.palette.head;
-            list_.ring(in_scene(part_, drawn), px(13.0f), px(each.rate != 0.0 ? 3.5f : 2.0f), opaque(colour));
+            list_.ring(in_scene(part_, drawn), px(13.0f), px(each.rate != 0.0 ? 3.5f : 2.0f),
+                       opaque(motor_colour(each.joint)));
         }
         for (const ik::SketchMotor& each : part_.shape->sketch.motors)
             if (each.against != ik::ground_link && part_.find_drive(each.name) != nullptr)
-                driven_angle(each, opaque(stalled(each.name) ? view_.palette.limit : view_.palette.head));
+                driven_angle(each, opaque(motor_colour(each.name)));
     }
 
     /// The arc between a motor's two bars.
