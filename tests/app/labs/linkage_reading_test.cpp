@@ -427,6 +427,10 @@ TEST_F(LinkageReading, FloatingBarsHaveThreeMoreDegreesOfFreedom) {
     run("linkage.bar", {{"from", "C"}, {"to", {3, 0, 0}}});
     run("linkage.bar", {{"from", "D"}, {"to", "A"}});
     EXPECT_EQ(state().at("freedom"), 4) << "a closed four-bar that floats";
+    const Camera camera(workspace.camera, {{0, 0}, workspace.ui.view_size});
+    DrawList list;
+    lab().draw({workspace, camera, palette(Theme::Dark)}, list);
+    EXPECT_NEAR(list.strokes.front().radius_a, 0.036f, 1e-6f) << "as thick as if it were held";
     EXPECT_EQ(state().at("gruebler"), 4);
     run("linkage.pin", {{"point", "A"}});
     EXPECT_EQ(state().at("freedom"), 2);
