@@ -15,10 +15,6 @@
 namespace tendril::app {
 namespace {
 
-std::string angle_text(double degrees) {
-    return fixed_text(degrees, 1) + " degrees";
-}
-
 /// The motor's range, and how well it pushes there.
 void motor_rows(const Workspace& workspace) {
     const LinkagePart& part = linkage_part(workspace);
@@ -45,14 +41,14 @@ void motor_rows(const Workspace& workspace) {
     const double now = transmission_angle(part);
     const auto worst = worst_transmission(part, turn);
     if (!std::isfinite(now) || !worst) return;
-    reading("transmission angle", "%s", angle_text(now).c_str());
+    reading("transmission angle", "%.1f degrees", now);
     explain(
         "Between the coupler and what it moves: near 90 degrees it pushes well, below 40 poorly, at 0 it is "
         "at a dead point.");
     const char* const judged = worst->degrees < 0.5                 ? ", dead point"
                                : worst->degrees < poor_transmission ? ", poor"
                                                                     : "";
-    reading("minimum", "%s%s", angle_text(worst->degrees).c_str(), judged);
+    reading("minimum", "%.1f degrees%s", worst->degrees, judged);
     explain(
         "The smallest on all its travel. Below 40 degrees most of the coupler's force goes into the pins. "
         "The plot of the transmission angle, under Show, draws it over the motor's angle.");
@@ -129,7 +125,7 @@ void joint_rows(const LinkagePart& part, LinkageRuntime& runtime, Emit& emit) {
     explain("Where it is: X, Y and Z.");
     const double angle = angle_at(part, part.selected);
     if (std::isfinite(angle)) {
-        reading("angle", "%s", angle_text(angle).c_str());
+        reading("angle", "%.1f degrees", angle);
         explain("Between its two bars; of a single one on a pin, from +X.");
     }
     if (!part.shape->in_plane()) return;

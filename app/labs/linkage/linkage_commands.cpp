@@ -96,11 +96,10 @@ void motor(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     if (given.has("deg_per_s") && !angular)
         throw Refused("joint \"" + joint + "\" is a slider: give per_s, in metres a second");
     if (given.has("per_s") && angular) throw Refused("joint \"" + joint + "\" is a hinge: give deg_per_s");
-    double rate = usual_motor_rate(part, joint, runtime);
-    if (given.has("deg_per_s")) rate = glm::radians(given.real("deg_per_s"));
-    if (given.has("per_s")) rate = given.real("per_s");
-    drive.rate = rate;
-    if (rate != 0.0) drive.last_rate = rate;
+    drive.rate = usual_motor_rate(part, joint, runtime);
+    if (given.has("deg_per_s")) drive.rate = glm::radians(given.real("deg_per_s"));
+    if (given.has("per_s")) drive.rate = given.real("per_s");
+    if (drive.rate != 0.0) drive.last_rate = drive.rate;
     drive.held = true;
     solve_linkage(part, runtime);
 }
