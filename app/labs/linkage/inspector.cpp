@@ -78,7 +78,10 @@ void bar_rows(const LinkagePart& part, std::size_t at, Emit& emit) {
         auto length = static_cast<float>(glm::distance(part.at(bar.points[0]), part.at(bar.points[1])));
         if (number_field(bar.name.c_str(), length, 0.01f, 1e-6f, 1e6f, "%.3f m"))
             emit.continuously("linkage.length", {{"bar", bar.name}, {"length", length}});
-        explain("The bar's length; the others keep theirs. Setting it makes the linkage one drawn by hand.");
+        explain(kind_of(part.shape->mechanism) == nullptr
+                    ? "The bar's length; the others keep theirs."
+                    : "The bar's length; the others keep theirs. Setting it makes the linkage one drawn by "
+                      "hand.");
     }
 }
 

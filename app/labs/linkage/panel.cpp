@@ -251,7 +251,7 @@ void driver_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
 void length_rows(const LinkagePart& part, MoreRows& more, Emit& emit) {
     const Mechanism& mechanism = part.shape->mechanism;
     const MechanismKind* const kind = kind_of(mechanism);
-    if (kind == nullptr) return note("Drawn by hand: select a joint, and set its bars beside it.");
+    if (kind == nullptr) return note("Drawn by hand: click a joint, and set its bars on the right.");
     FieldRows rows(mechanism_fields(mechanism), kind->texts, "linkage.set", emit);
     for (const FieldText& text : kind->texts) rows.under(more).row(text.name);
 }
