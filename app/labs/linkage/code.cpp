@@ -3,6 +3,7 @@
 
 #include "app/labs/kit/code_text.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
+#include "app/labs/linkage/measures.hpp"
 
 namespace tendril::app {
 namespace {
@@ -37,16 +38,13 @@ std::string expected_text(const std::string& type, const std::string& what, cons
 
 std::string linkage_code(const LinkagePart& part) {
     std::string text =
-        "// A linkage, exported from Tendril.\n"
-        "//\n"
+        "// A linkage, exported from Tendril.\n//\n"
         "// CMake: find_package(tendril REQUIRED)\n"
         "//        target_link_libraries(your_program PRIVATE tendril::core)\n"
         "#include <cstdio>\n"
         "#include <tendril/ik/linkage.hpp>\n"
         "#include <tendril/ik/mechanisms.hpp>\n"
-        "#include <vector>\n\n"
-        "using namespace tendril;\n\n"
-        "int main() {\n";
+        "#include <vector>\n\nusing namespace tendril;\n\nint main() {\n";
     const Mechanism& mechanism = part.shape->mechanism;
     const bool drawn = kind_of(mechanism) == nullptr, plane = part.shape->in_plane();
     if (drawn)
@@ -68,10 +66,11 @@ std::string linkage_code(const LinkagePart& part) {
             "its\n"
             "    // motor a sixth of a turn further from pair to pair; half of them are mirrored.\n";
     text +=
-        "\n"
-        "    for (int frame = 0; frame <= 60; ++frame) {\n"
+        "\n    for (int frame = 0; frame <= 60; ++frame) {\n"
         "        std::vector<ik::LinkDriver> drivers;\n";
-    for (const LinkageDrive& each : part.drives) {
+    LinkageRuntime runtime;
+    const bool moves = part.targets.empty() && part.result.freedom.actual == 1;  // so does a motor at rest
+    for (const LinkageDrive& each : moves ? moving_drives(part, runtime) : part.drives) {
         if (!each.held) continue;
         text += "        drivers.push_back({*linkage->find_link(" + string_text(each.joint) + "), " +
                 double_text(each.value);
@@ -89,10 +88,7 @@ std::string linkage_code(const LinkagePart& part) {
         "            const glm::dvec3 at = solver.point(i);\n"
         "            std::printf(\" %s %.6f %.6f %.6f\", linkage->points[i].name.c_str(), at.x, at.y, "
         "at.z);\n"
-        "        }\n"
-        "        std::puts(\"\");\n"
-        "    }\n"
-        "}\n";
+        "        }\n        std::puts(\"\");\n    }\n}\n";
     return text;
 }
 

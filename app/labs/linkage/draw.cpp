@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "app/document/units.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
 #include "app/labs/linkage/measures.hpp"
@@ -22,7 +21,11 @@ class LinkageDrawing {
           list_(list),
           part_(linkage_part(view.workspace)),
           runtime_(view.workspace.runtimes.of<LinkageRuntime>(linkage_lab)),
-          size_(static_cast<float>(runtime_.solver(part_.shape).size())) {}
+          size_(static_cast<float>(runtime_.solver(part_.shape).size())) {
+        if (part_.linkage().links.empty())  // all floats
+            for (std::size_t i = 0; i < part_.linkage().points.size(); ++i)
+                size_ = std::max(size_, glm::distance(at(0), at(i)));
+    }
 
     void run() {
         path();
@@ -55,16 +58,16 @@ class LinkageDrawing {
         }
     }
 
-    bool stalled(const std::string& link) const {
-        const LinkageDrive* const drive = part_.find_drive(link);
-        return drive != nullptr && is_stalled(part_, *drive);
+    glm::vec3 motor_colour(const std::string& joint) const {
+        const LinkageDrive* const drive = part_.find_drive(joint);
+        return drive != nullptr && is_stalled(part_, *drive) ? view_.palette.limit : view_.palette.head;
     }
     /// A bar that a motor turns has the motor's colour.
     glm::vec3 bar_colour(std::size_t bar) const {
         const LinkageShape& shape = *part_.shape;
         if (shape.floating[bar]) return view_.palette.ghost;
         for (const ik::SketchMotor& motor : shape.sketch.motors)
-            if (motor.bar == bar) return stalled(motor.name) ? view_.palette.limit : view_.palette.head;
+            if (motor.bar == bar) return motor_colour(motor.name);
         return view_.palette.neutral;
     }
 
@@ -139,10 +142,8 @@ class LinkageDrawing {
     void links() {
         for (std::size_t i = 0; i < part_.linkage().links.size(); ++i) {
             const std::string& name = part_.linkage().links[i].name;
-            const bool driven = part_.find_drive(name) != nullptr;
-            body(places_on(part_, i), stalled(name) ? view_.palette.limit
-                                      : driven      ? view_.palette.head
-                                                    : view_.palette.neutral);
+            body(places_on(part_, i),
+                 part_.find_drive(name) != nullptr ? motor_colour(name) : view_.palette.neutral);
         }
         body(places_on(part_, ik::ground_link), view_.palette.target);
     }
@@ -201,12 +202,12 @@ class LinkageDrawing {
             const ik::Link& of = part_.linkage().links[link];
             const glm::dvec3 drawn =
                 of.parent == ik::ground_link ? of.at : part_.links[of.parent].point(of.at);
-            const glm::vec3 colour = is_stalled(part_, each) ? view_.palette.limit : view_.palette.head;
-            list_.ring(in_scene(part_, drawn), px(13.0f), px(each.rate != 0.0 ? 3.5f : 2.0f), opaque(colour));
+            list_.ring(in_scene(part_, drawn), px(13.0f), px(each.rate != 0.0 ? 3.5f : 2.0f),
+                       opaque(motor_colour(each.joint)));
         }
         for (const ik::SketchMotor& each : part_.shape->sketch.motors)
             if (each.against != ik::ground_link && part_.find_drive(each.name) != nullptr)
-                driven_angle(each, opaque(stalled(each.name) ? view_.palette.limit : view_.palette.head));
+                driven_angle(each, opaque(motor_colour(each.name)));
     }
 
     /// The arc between a motor's two bars.
@@ -373,12 +374,12 @@ std::vector<LegendRow> LinkageLab::legend(const Workspace& workspace) const {
     const Palette& colours = palette(workspace.settings.theme);
     std::vector<LegendRow> rows{{"pinned", colours.target}, {"motor", colours.head, true}};
     const LinkagePart& part = linkage_part(workspace);
-    const PathSpeed speed = path_speed(workspace.runtimes.of<LinkageRuntime>(linkage_lab).path(part));
+    auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
+    const PathSpeed speed = path_speed(runtime.path(part));
     if (speed.fast > 0.0) {
         rows.push_back({"path, slow", speed_colour(colours, 0.0)});
-        rows.push_back(
-            {"path, " + std::string(speed.exceeded ? "over " : "") + length_text(speed.fast) + "/s",
-             speed_colour(colours, 1.0)});
+        rows.push_back({(speed.exceeded ? "path, over " : "path, ") + speed_text(part, speed.fast, runtime),
+                        speed_colour(colours, 1.0)});
     }
     add_ghost_legend(workspace, linkage_past(), rows);
     return rows;

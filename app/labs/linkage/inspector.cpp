@@ -15,10 +15,6 @@
 namespace tendril::app {
 namespace {
 
-std::string angle_text(double degrees) {
-    return fixed_text(degrees, 1) + " degrees";
-}
-
 /// The motor's range, and how well it pushes there.
 void motor_rows(const Workspace& workspace) {
     const LinkagePart& part = linkage_part(workspace);
@@ -40,19 +36,19 @@ void motor_rows(const Workspace& workspace) {
         reading("travel", "all round");
     else
         reading("travel", "%s to %s %s", end(turn.poses.front()).c_str(), end(turn.poses.back()).c_str(),
-                turns(part, joint) ? "deg" : "m");
+                turns(part, joint) ? "degrees" : "m");
     explain("How far it goes in this assembly mode, between dead points or the ends of its range.");
     const double now = transmission_angle(part);
     const auto worst = worst_transmission(part, turn);
     if (!std::isfinite(now) || !worst) return;
-    reading("transmission angle", "%s", angle_text(now).c_str());
+    reading("transmission angle", "%.1f degrees", now);
     explain(
         "Between the coupler and what it moves: near 90 degrees it pushes well, below 40 poorly, at 0 it is "
         "at a dead point.");
     const char* const judged = worst->degrees < 0.5                 ? ", dead point"
                                : worst->degrees < poor_transmission ? ", poor"
                                                                     : "";
-    reading("minimum", "%s%s", angle_text(worst->degrees).c_str(), judged);
+    reading("minimum", "%.1f degrees%s", worst->degrees, judged);
     explain(
         "The smallest on all its travel. Below 40 degrees most of the coupler's force goes into the pins. "
         "The plot of the transmission angle, under Show, draws it over the motor's angle.");
@@ -82,7 +78,10 @@ void bar_rows(const LinkagePart& part, std::size_t at, Emit& emit) {
         auto length = static_cast<float>(glm::distance(part.at(bar.points[0]), part.at(bar.points[1])));
         if (number_field(bar.name.c_str(), length, 0.01f, 1e-6f, 1e6f, "%.3f m"))
             emit.continuously("linkage.length", {{"bar", bar.name}, {"length", length}});
-        explain("The bar's length; the others keep theirs. Setting it makes the linkage one drawn by hand.");
+        explain(kind_of(part.shape->mechanism) == nullptr
+                    ? "The bar's length; the others keep theirs."
+                    : "The bar's length; the others keep theirs. Setting it makes the linkage one drawn by "
+                      "hand.");
     }
 }
 
@@ -123,13 +122,13 @@ void joint_rows(const LinkagePart& part, LinkageRuntime& runtime, Emit& emit) {
         explain("As in files and commands.");
     } else {
         reading(("speed of " + part.selected).c_str(), "%s", speed.c_str());
-        explain("At the motor's speed; of one that is stopped, at 90 degrees a second. Show plots it.");
+        explain("At the motor's speed; if it is stopped, at the one it would run at. Show plots it.");
     }
     reading("at", "%.3f  %.3f  %.3f m", place.x, place.y, place.z);
     explain("Where it is: X, Y and Z.");
     const double angle = angle_at(part, part.selected);
     if (std::isfinite(angle)) {
-        reading("angle", "%s", angle_text(angle).c_str());
+        reading("angle", "%.1f degrees", angle);
         explain("Between its two bars; of a single one on a pin, from +X.");
     }
     if (!part.shape->in_plane()) return;
@@ -160,9 +159,7 @@ void LinkageLab::inspector(const Workspace& workspace, Emit& emit) const {
     auto& runtime = workspace.runtimes.of<LinkageRuntime>(linkage_lab);
     show_verdict(linkage_verdict(part, runtime, workspace.clock.playing), colours, emit,
                  {.notes = 4, .paragraphs = 2}, [&] {
-                     const std::vector<Cure> ways = ways_on(part, runtime);
-                     for (const Cure& each : ways) cure_line(each.text, each, emit);
-                     if (!ways.empty()) note("Or drag a joint.");
+                     for (const Cure& each : ways_on(part, runtime)) cure_line(each.text, each, emit);
                  });
     freedom_rows(part);
     motor_rows(workspace);

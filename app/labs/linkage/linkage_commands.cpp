@@ -96,10 +96,10 @@ void motor(LinkagePart& part, const Arguments& given, LinkageRuntime& runtime) {
     if (given.has("deg_per_s") && !angular)
         throw Refused("joint \"" + joint + "\" is a slider: give per_s, in metres a second");
     if (given.has("per_s") && angular) throw Refused("joint \"" + joint + "\" is a hinge: give deg_per_s");
-    double rate = usual_motor_rate(part, joint, runtime);
-    if (given.has("deg_per_s")) rate = glm::radians(given.real("deg_per_s"));
-    if (given.has("per_s")) rate = given.real("per_s");
-    drive.rate = rate;
+    drive.rate = usual_motor_rate(part, joint, runtime);
+    if (given.has("deg_per_s")) drive.rate = glm::radians(given.real("deg_per_s"));
+    if (given.has("per_s")) drive.rate = given.real("per_s");
+    if (drive.rate != 0.0) drive.last_rate = drive.rate;
     drive.held = true;
     solve_linkage(part, runtime);
 }
@@ -379,7 +379,7 @@ void add_linkage_commands(CommandTable& table) {
         {joint_argument(),
          number_argument("deg_per_s", "of a hinge; 0 stops it", -max_motor_rate, max_motor_rate),
          number_argument("per_s", "of a slider, metres a second", -max_motor_rate, max_motor_rate)},
-        "Runs a joint at this speed while time passes; at the usual one if none is given", motor));
+        "Runs a joint at this speed while time passes; if none is given, at the one it last ran at", motor));
     table.add(linkage_command("linkage.target", "Pull a point to a position",
                               {linkage_point_argument("point", true, "which point"), to,
                                number_argument("weight", "relative to other targets", 1e-6, 1e6),

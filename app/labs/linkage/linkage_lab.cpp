@@ -14,16 +14,11 @@
 namespace tendril::app {
 namespace {
 
-/// The picked point or target; null if the pick is neither, or the other one.
-const ik::LinkPoint* picked_point(const LinkagePart& part, PickId pick) {
-    const auto& points = part.linkage().points;
-    const bool is_one = pick >= 0 && static_cast<std::size_t>(pick) < points.size();
-    return is_one ? &points[static_cast<std::size_t>(pick)] : nullptr;
-}
-const LinkageTarget* picked_linkage_target(const LinkagePart& part, PickId pick) {
-    const PickId first = linkage_target_pick(0);
-    const bool is_one = pick >= first && static_cast<std::size_t>(pick - first) < part.targets.size();
-    return is_one ? &part.targets[static_cast<std::size_t>(pick - first)] : nullptr;
+/// The picked one of those whose picks begin at `first`; null if it is none of them.
+template <class T>
+const T* picked(const std::vector<T>& all, PickId pick, PickId first) {
+    const bool is_one = pick >= first && static_cast<std::size_t>(pick - first) < all.size();
+    return is_one ? &all[static_cast<std::size_t>(pick - first)] : nullptr;
 }
 
 constexpr float catch_pixels = 14.0f;  ///< maximum distance from a joint or bar at which a stroke takes it
@@ -85,8 +80,9 @@ CameraPose LinkageLab::first_view() const {
 
 std::string LinkageLab::invitation(const Workspace& workspace) const {
     const LinkagePart& part = linkage_part(workspace);
-    if (part.shape->in_plane() && part.shape->sketch.bars.empty())
-        return "Drag from one place to another: a bar.";
+    const bool empty = part.shape->in_plane() && part.shape->sketch.bars.empty();
+    if (empty || part.tool != LinkageTool::Move)
+        return linkage_tools.help(empty ? LinkageTool::Draw : part.tool);
     return part.drives.empty() ? "Drag any joint." : "Drag any joint, or run the motor.";
 }
 
@@ -124,10 +120,10 @@ std::vector<Handle> LinkageLab::handles(const Workspace& workspace) const {
 
 void LinkageLab::drag(const Workspace& workspace, PickId pick, const Handle::Frame& frame, Emit& emit) const {
     const LinkagePart& part = linkage_part(workspace);
-    if (const LinkageTarget* const target = picked_linkage_target(part, pick))
+    if (const LinkageTarget* const target = picked(part.targets, pick, linkage_target_pick(0)))
         return emit.continuously("linkage.target",
                                  {{"point", target->point}, {"to", from_scene(part, frame.position)}});
-    const ik::LinkPoint* const point = picked_point(part, pick);
+    const ik::LinkPoint* const point = picked(part.linkage().points, pick, linkage_pick(0));
     if (point == nullptr) return;
     const bool stays = point->link == ik::ground_link;
     if (stays && kind_of(part.shape->mechanism) != nullptr) return;  // the lengths determine it
@@ -141,7 +137,7 @@ void LinkageLab::drop(const Workspace& workspace, PickId, Emit& emit) const {
 
 void LinkageLab::click(const Workspace& workspace, PickId pick, Emit& emit) const {
     const LinkagePart& part = linkage_part(workspace);
-    const ik::LinkPoint* const point = picked_point(part, pick);
+    const ik::LinkPoint* const point = picked(part.linkage().points, pick, linkage_pick(0));
     if (point == nullptr) {
         if (!part.selected.empty() && part.tool == LinkageTool::Move) emit("linkage.select");
         return;
@@ -174,9 +170,9 @@ void LinkageLab::stroke(const Workspace& workspace, std::size_t, const Camera& c
 
 std::string LinkageLab::hint(const Workspace& workspace, PickId pick) const {
     const LinkagePart& part = linkage_part(workspace);
-    if (const LinkageTarget* const target = picked_linkage_target(part, pick))
+    if (const LinkageTarget* const target = picked(part.targets, pick, linkage_target_pick(0)))
         return "Where " + target->point + " is pulled to: drag moves it.";
-    const ik::LinkPoint* const point = picked_point(part, pick);
+    const ik::LinkPoint* const point = picked(part.linkage().points, pick, linkage_pick(0));
     std::string name = point != nullptr ? point->name : "";
     const bool stays = point != nullptr && point->link == ik::ground_link;
     if (part.tool != LinkageTool::Move)

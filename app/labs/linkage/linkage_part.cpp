@@ -32,7 +32,8 @@ std::span<const tendril::Field> tendril::fields<tendril::app::LinkageDrive>() no
     static constexpr Field rows[] = {
         field<&LinkageDrive::joint>("joint"), field<&LinkageDrive::value>("value", {-1e9, 1e9}),
         field<&LinkageDrive::rate>("rate", {-app::max_motor_rate, app::max_motor_rate}),
-        field<&LinkageDrive::held>("held")};
+        field<&LinkageDrive::held>("held"),
+        field<&LinkageDrive::last_rate>("last_rate", {-app::max_motor_rate, app::max_motor_rate})};
     return rows;
 }
 
@@ -203,7 +204,8 @@ void check_loaded(const JsonPlace& place, LinkagePart& part) {
         const JsonPlace driver = place["drivers"].element(i);
         const std::size_t link = link_at(driver["joint"], linkage);
         const double fastest = from_degrees(part, part.drives[i].joint, max_motor_rate);
-        static_cast<void>(driver["rate"].real(-fastest, fastest));
+        for (const char* const name : {"rate", "last_rate"})
+            if (driver.has(name)) static_cast<void>(driver[name].real(-fastest, fastest));
         if (!driver.has("value")) part.drives[i].value = part.state.joints[link].value;  // in older files
     }
     for (std::size_t i = 0; i < part.targets.size(); ++i)
@@ -255,7 +257,7 @@ std::shared_ptr<Part> LinkagePart::load(const Json& json, const std::string& whe
             part->copies[i].state = load_state(place["legs"].element(i), part->linkage());
         part->walked = place["walked"].real();
     }
-    static constexpr std::string_view newer[] = {"drag", "result", "value", "selected"};
+    static constexpr std::string_view newer[] = {"drag", "result", "value", "selected", "last_rate"};
     load_all_fields(place, *part, newer);
     check_loaded(place, *part);
     if (const auto& motors = part->shape->sketch.motors;

@@ -69,9 +69,10 @@ struct LinkageShape {
 /// A driven joint, identified by the name of its link.
 struct LinkageDrive {
     std::string joint;
-    double value = 0.0;  ///< radians or metres: the wanted value if held, else the joint's present one
-    double rate = 0.0;   ///< motor speed, radians or metres per second; 0: stopped
-    bool held = false;   ///< keeps this value; otherwise the joint follows the others
+    double value = 0.0;      ///< radians or metres: the wanted value if held, else the joint's present one
+    double rate = 0.0;       ///< motor speed, radians or metres per second; 0: stopped
+    bool held = false;       ///< keeps this value; otherwise the joint follows the others
+    double last_rate = 0.0;  ///< the speed it last ran at; 0: none yet
     bool operator==(const LinkageDrive&) const = default;
 };
 
@@ -165,7 +166,8 @@ struct PathPoint {
 /// A length of a motor's crank, metres, with which it turns all the way round.
 struct RoundCrank {
     double length = 0.0;
-    double longest = 0.0;  ///< the linkage folds just beyond it
+    double longest = 0.0;          ///< the linkage folds just beyond it
+    std::optional<double> from{};  ///< the motor's value to set it at; none: where it is
 };
 
 /// The solver of the lab's linkage, created once for each shape, and caches of what follows from it.
@@ -176,8 +178,9 @@ class LinkageRuntime final : public Runtime {
     const LinkageTurn& turn(const LinkagePart& part);
     /// The selected point's path through the turn; empty if there is none.
     std::vector<PathPoint> path(const LinkagePart& part);
-    /// The nearest shorter crank of this motor, in this pose. None if there is none, if the crank has other
-    /// bars or joints on it, or if the linkage has other degrees of freedom.
+    /// The nearest shorter crank of the leading motor, in this pose or, if it is folded there, in the middle
+    /// of its travel. None if there is none, if the crank has other bars or joints on it, or if the linkage
+    /// has other degrees of freedom.
     std::optional<RoundCrank> round_crank(const LinkagePart& part, std::size_t motor);
 
   private:

@@ -139,25 +139,30 @@ std::optional<WorstTransmission> worst_transmission(const LinkagePart& part, con
 }
 
 double usual_motor_rate(const LinkagePart& part, std::string_view joint, LinkageRuntime& runtime) {
+    const LinkageDrive* const drive = part.find_drive(joint);
+    if (drive != nullptr && drive->last_rate != 0.0) return drive->last_rate;
     if (turns(part, joint)) return glm::radians(90.0);
     return std::min(0.1 * runtime.solver(part.shape).size(), max_motor_rate);
+}
+
+std::vector<LinkageDrive> moving_drives(const LinkagePart& part, LinkageRuntime& runtime) {
+    std::vector<LinkageDrive> drives = part.drives;
+    if (!drives.empty() && std::ranges::none_of(drives, is_running)) {
+        drives.front().rate = usual_motor_rate(part, drives.front().joint, runtime);
+        drives.front().held = true;
+    }
+    std::erase_if(drives, [](const LinkageDrive& each) { return !each.held; });
+    return drives;
 }
 
 double point_speed(const LinkagePart& part, std::string_view point, LinkageRuntime& runtime) {
     const auto at = part.linkage().find_point(point);
     if (!at || part.linkage().points[*at].link == ik::ground_link || part.drives.empty()) return no_angle;
-    const bool stopped = std::ranges::none_of(part.drives, is_running);
     ik::LinkageSolver& solver = runtime.solver(part.shape);
-    std::vector<LinkageDrive> drives;
+    const std::vector<LinkageDrive> drives = moving_drives(part, runtime);
     double quickest = 0.0;  // radians or sizes of the linkage per second
-    for (const LinkageDrive& each : part.drives) {
-        const bool leads = stopped && drives.empty() && &each == &part.drives.front();
-        if (!each.held && !leads) continue;
-        drives.push_back(each);
-        if (leads) drives.back().rate = usual_motor_rate(part, each.joint, runtime);
-        const double unit = turns(part, each.joint) ? 1.0 : solver.size();
-        quickest = std::max(quickest, std::abs(drives.back().rate) / unit);
-    }
+    for (const LinkageDrive& each : drives)
+        quickest = std::max(quickest, std::abs(each.rate) / (turns(part, each.joint) ? 1.0 : solver.size()));
     if (!(quickest > 0.0)) return no_angle;
     constexpr double small_turn = 1e-3;  // radians; a motor reaches its value within 1e-6
     const double seconds = small_turn / quickest;
@@ -179,9 +184,20 @@ double point_speed(const LinkagePart& part, std::string_view point, LinkageRunti
     return glm::distance(ends[0], ends[1]) / (2.0 * seconds);
 }
 
+std::string speed_text(const LinkagePart& part, double speed, LinkageRuntime& runtime) {
+    return runtime.solver(part.shape).size() < 1.0 ? fixed_text(1000.0 * speed, 1) + " mm/s"
+                                                   : fixed_text(speed, 2) + " m/s";
+}
+
 std::string point_speed_text(const LinkagePart& part, std::string_view point, LinkageRuntime& runtime) {
     const double speed = point_speed(part, point, runtime);
-    return std::isfinite(speed) ? length_text(speed) + "/s" : std::string();
+    if (!std::isfinite(speed)) return {};
+    const std::string text = speed_text(part, speed, runtime);
+    if (std::ranges::any_of(part.drives, is_running)) return text;
+    const std::string& joint = part.drives.front().joint;
+    const double rate = std::abs(in_degrees(part, joint, usual_motor_rate(part, joint, runtime)));
+    return text + " at " + fixed_text(rate, turns(part, joint) ? 0 : 2) +
+           (turns(part, joint) ? " deg/s" : " m/s");
 }
 
 ik::LinkageFreedom freedom_of(const LinkagePart& part) {
@@ -395,14 +411,20 @@ std::vector<Cure> ways_on(const LinkagePart& part, LinkageRuntime& runtime) {
     if (motor == motors.end()) return ways;
     const auto round = runtime.round_crank(part, static_cast<std::size_t>(motor - motors.begin()));
     if (!round) return ways;
-    const std::string& crank = part.shape->sketch.bars[motor->bar].name;
+    const std::string &crank = part.shape->sketch.bars[motor->bar].name,
+                      length = fixed_text(round->length, 2) + " m";
+    std::vector<CommandCall> calls{
+        kind_of(part.shape->mechanism) != nullptr
+            ? CommandCall{"linkage.set", {{crank, round->length}}}
+            : CommandCall{"linkage.length", {{"bar", crank}, {"length", round->length}}}};
+    if (round->from) {
+        calls.insert(calls.begin(), {"linkage.drive", {{"joint", joint}, {"value", *round->from}}});
+        calls.push_back(motor_call(part, joint, in_degrees(part, joint, drive->rate)));
+    }
     ways.push_back({"Shorten",
-                    "Makes the crank " + fixed_text(round->length, 2) + " m long: it turns all round up to " +
-                        fixed_text(round->longest, 2) + " m",
-                    {kind_of(part.shape->mechanism) != nullptr
-                         ? CommandCall{"linkage.set", {{crank, round->length}}}
-                         : CommandCall{"linkage.length", {{"bar", crank}, {"length", round->length}}}},
-                    capitalised(crank) + " of " + fixed_text(round->length, 2) + " m"});
+                    "Makes the crank " + length + " long: up to " + fixed_text(round->longest, 2) +
+                        " m it turns all round",
+                    std::move(calls), "All round: " + crank + " " + length});
     return ways;
 }
 

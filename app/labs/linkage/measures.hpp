@@ -59,13 +59,17 @@ class PartInTurn {
     std::shared_ptr<LinkagePart> part_;
 };
 
-/// The speed of a motor that is given none, radians or metres per second.
+/// The speed of a motor that is given none, radians or metres per second: the one it last ran at, or else 90
+/// degrees or a tenth of the linkage a second.
 double usual_motor_rate(const LinkagePart& part, std::string_view joint, LinkageRuntime& runtime);
-/// Metres per second of a point in this pose, at the speed of the motors that run; if none does, at the usual
-/// one of the first. NaN for a point of the ground, without a motor, at a dead point, and where the motors
-/// contradict.
+/// The drivers that are held; if none runs, the first one as a motor at its usual speed.
+std::vector<LinkageDrive> moving_drives(const LinkagePart& part, LinkageRuntime& runtime);
+/// Metres per second of a point in this pose, at the speed of moving_drives(). NaN for a point of the ground,
+/// without a motor, at a dead point, and where the motors contradict.
 double point_speed(const LinkagePart& part, std::string_view point, LinkageRuntime& runtime);
-/// "0.52 m/s"; empty if there is no speed.
+/// "0.52 m/s", or "523.6 mm/s" of a linkage smaller than a metre.
+std::string speed_text(const LinkagePart& part, double speed, LinkageRuntime& runtime);
+/// "0.52 m/s", or of a motor at rest "1.85 m/s at 90 deg/s"; empty if there is no speed.
 std::string point_speed_text(const LinkagePart& part, std::string_view point, LinkageRuntime& runtime);
 
 /// Degrees of freedom, including those of floating bars: three for each free piece, plus its internal ones.

@@ -9,6 +9,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/document/units.hpp"
 #include "app/fields/field_rows.hpp"
+#include "app/labs/kit/code_text.hpp"
 #include "app/labs/kit/past.hpp"
 #include "app/labs/linkage/draw.hpp"
 #include "app/labs/linkage/linkage_commands.hpp"
@@ -24,12 +25,8 @@ namespace tendril::app {
 namespace {
 
 std::string closure_names(const LinkagePart& part) {
-    std::string text;
-    for (const std::size_t each : part.result.open_closures) {
-        if (!text.empty()) text += ", ";
-        text += part.linkage().closures[each].name;
-    }
-    return text;
+    return joined(names(part.result.open_closures,
+                        [&](std::size_t each) { return part.linkage().closures[each].name; }));
 }
 
 /// "3 degrees of freedom in the plane."
@@ -254,7 +251,7 @@ void driver_rows(const Workspace& workspace, MoreRows& more, Emit& emit) {
 void length_rows(const LinkagePart& part, MoreRows& more, Emit& emit) {
     const Mechanism& mechanism = part.shape->mechanism;
     const MechanismKind* const kind = kind_of(mechanism);
-    if (kind == nullptr) return note("Drawn by hand: select a joint, and set its bars beside it.");
+    if (kind == nullptr) return note("Drawn by hand: click a joint, and set its bars on the right.");
     FieldRows rows(mechanism_fields(mechanism), kind->texts, "linkage.set", emit);
     for (const FieldText& text : kind->texts) rows.under(more).row(text.name);
 }

@@ -274,10 +274,8 @@ std::vector<LinkageCopy> copies_of(const LinkageShape& shape, const ik::LinkageS
     constexpr int pairs = 6;
     constexpr double turn = 2.0 * std::numbers::pi;
     const std::size_t motor = *shape.linkage.find_link(driven_joints(shape).front());
-    for (int i = 0; i < 2 * pairs; ++i) {
+    for (int i = 1; i < 2 * pairs; ++i) {  // the first leg is the linkage itself
         const int pair = i / 2;
-        // The first leg is the linkage itself.
-        if (i == 0) continue;
         LinkageCopy& copy = copies.emplace_back(LinkageCopy{.phase = pair * turn / pairs,
                                                             .mirrored = i % 2 == 1,
                                                             .depth = -walker->m * pair,

@@ -133,7 +133,7 @@ std::vector<PathPoint> LinkageRuntime::path(const LinkagePart& part) {
     const std::string& joint = part.linkage().links[turn_.joint].name;
     const LinkageDrive* const drive = part.find_drive(joint);
     const double rate =
-        drive != nullptr && is_running(*drive) ? std::abs(drive->rate) : usual_motor_rate(part, joint, *this);
+        std::abs(drive != nullptr && is_running(*drive) ? drive->rate : usual_motor_rate(part, joint, *this));
     for (std::size_t i = 1; i < path.size(); ++i)
         path[i].speed =
             rate * glm::distance(path[i].at, path[i - 1].at) / std::abs(poses[i].value - poses[i - 1].value);
@@ -166,15 +166,7 @@ bool goes_round(LinkagePart part, const ik::SketchMotor& motor, double crank) {
     } catch (const std::exception&) {  // the other bars do not allow it
         return false;
     }
-    constexpr int steps = 60;
-    ik::LinkageState state = part.state;
-    ik::LinkDriver driver{*part.linkage().find_link(motor.name), part.value_of(motor.name)};
-    for (int i = 0; i < steps; ++i) {
-        driver.value += 2.0 * std::numbers::pi / steps;
-        if (runtime.solver(part.shape).solve(state, {{&driver, 1}, {}}).status != ik::LinkageStatus::Reached)
-            return false;
-    }
-    return true;
+    return runtime.turn(part).whole;
 }
 
 std::optional<RoundCrank> shorter_round_crank(const LinkagePart& part, const ik::SketchMotor& motor) {
@@ -182,7 +174,8 @@ std::optional<RoundCrank> shorter_round_crank(const LinkagePart& part, const ik:
     const bool alone = std::ranges::count(part.shape->bodies, part.shape->bodies[motor.bar]) == 1;
     const bool preset = kind_of(part.shape->mechanism) != nullptr;
     if (!alone || bar.points.size() != 2 || motor.against != ik::ground_link ||
-        part.result.freedom.actual != 1 || (preset && crank_field(part, motor) == nullptr))
+        part.linkage().find_link(motor.name) != leading_joint(part) || part.result.freedom.actual != 1 ||
+        (preset && crank_field(part, motor) == nullptr))
         return std::nullopt;
     const double now = glm::distance(part.at(bar.points[0]), part.at(bar.points[1]));
     constexpr int parts = 20;  // the lengths that are tried: coarse, then halved to a thousandth
@@ -209,7 +202,17 @@ std::optional<RoundCrank> LinkageRuntime::round_crank(const LinkagePart& part, s
     crank_of_ = part.shape;
     crank_at_ = part.state;
     crank_motor_ = motor;
-    return crank_ = shorter_round_crank(part, part.shape->sketch.motors[motor]);
+    const ik::SketchMotor& of = part.shape->sketch.motors[motor];
+    crank_ = shorter_round_crank(part, of);
+    const std::vector<LinkageTurn::Pose>& poses = turn(part).poses;
+    if (crank_ || poses.empty()) return crank_;
+    const double middle = std::midpoint(poses.front().value, poses.back().value);
+    LinkagePart driven = part;
+    for (LinkageDrive& each : driven.drives)
+        if (each.joint == of.name) each.value = middle;
+    solve_linkage(driven, *this);
+    if ((crank_ = shorter_round_crank(driven, of))) crank_->from = middle;
+    return crank_;
 }
 
 }  // namespace tendril::app

@@ -10,6 +10,17 @@
 
 namespace tendril::app {
 
+/// None if it does not close as drawn.
+inline std::optional<LinkagePart> opened(const ik::FourBar& lengths, LinkageRuntime& runtime) {
+    std::optional<LinkagePart> part(std::in_place);
+    try {
+        open_mechanism(*part, lengths, runtime);
+    } catch (const std::invalid_argument&) {
+        part.reset();
+    }
+    return part;
+}
+
 class LinkageTest : public LabTest {
   protected:
     LinkageTest() : LabTest(linkage_lab) { workspace.lab = linkage_lab; }

@@ -235,18 +235,13 @@ TEST_F(LinkageTest, EachModeOfARockerHasItsOwnPath) {
     int swings = 0;
     for (int i = 0; i < 120; ++i) {
         const auto length = [&] { return random.uniform(1.0, 3.0); };
-        const ik::FourBar lengths{
-            .ground = length(), .crank = length(), .coupler = length(), .rocker = length()};
-        LinkagePart drawn;
         LinkageRuntime kept;
-        try {
-            open_mechanism(drawn, lengths, kept);
-        } catch (const std::invalid_argument&) {
-            continue;  // it does not close
-        }
-        const LinkageTurn& turn = kept.turn(drawn);
+        const auto drawn =
+            opened({.ground = length(), .crank = length(), .coupler = length(), .rocker = length()}, kept);
+        if (!drawn) continue;
+        const LinkageTurn& turn = kept.turn(*drawn);
         if (turn.poses.size() < 10 || turn.whole) continue;
-        workspace.document.set(linkage_lab, drawn.clone());
+        workspace.document.set(linkage_lab, drawn->clone());
         for (const double share : {0.2, 0.5, 0.8}) {
             const double at = std::lerp(turn.poses.front().value, turn.poses.back().value, share);
             run("linkage.drive", {{"joint", "crank"}, {"angle_deg", glm::degrees(at)}});
@@ -274,6 +269,7 @@ TEST_F(LinkageTest, CodeHasPoseModeAndLegs) {
     run("linkage.range", {{"joint", "crank"}, {"max", 90}});
     const std::string code = lab().code(workspace);
     EXPECT_TRUE(test::says(code, "links[0] maximum initial_state state joints value"));
+    EXPECT_TRUE(test::says(code, "crank frame 60.0 *")) << "a motor at rest runs";
     run("linkage.preset", {{"name", "walker"}});
     EXPECT_TRUE(test::says(lab().code(workspace), "One of the twelve legs"));
 }
@@ -309,9 +305,9 @@ TEST_F(LinkageTest, BarsWithoutSupportWaitForPins) {
     EXPECT_EQ(state().at("verdict"), "Draw a bar");
     EXPECT_EQ(state().at("tool"), "draw") << "an empty lab is there to be drawn in";
     EXPECT_EQ(linkage_verdict(part(), runtime()).why, "Drag from one place to another in the view.");
-    EXPECT_TRUE(test::says(lab().invitation(workspace), "Drag a bar"));
     run("linkage.bar", {{"from", {0, 0, 0}}, {"to", {0, 1, 0}}});
     EXPECT_EQ(state().at("verdict"), "Nothing holds it");
+    EXPECT_TRUE(test::says(lab().invitation(workspace), "Drag a bar")) << "a drag draws, with Draw chosen";
     run("linkage.pin", {{"point", "A"}});
     EXPECT_EQ(state().at("verdict"), "1 degree of freedom");
     run("linkage.bar", {{"from", {2, 0, 0}}, {"to", {3, 0, 0}}});
