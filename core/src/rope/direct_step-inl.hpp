@@ -154,15 +154,22 @@ class BlockSolver {
             upper = hn::Neg(hn::Mul(up, inverse));
             store(upper, k, Upper);
             store3(right, k, X);
-            // From here on only the applied tension counts.
-            if (!last) store(hn::Mul(hn::Mul(set(2.0), stiff), length), k, Multiplier);
+            if (!last) {
+                store(hn::Mul(ahead, stiff), k, Right);
+                store(hn::Mul(hn::Mul(behind, stiff), length), k, Multiplier);
+            }
             stiff_before = stiff;
             old_before = old;
         }
         V3 next_x = right;
         for (std::size_t k = block_.links; k-- > 0;) {
-            next_x = minus(load3(k, X), times(load(k, Upper), next_x));
+            const V3 to = next_x;
+            next_x = minus(load3(k, X), times(load(k, Upper), to));
             store3(next_x, k, X);
+            // From here on only the applied tension counts.
+            const V3 by = minus(to, next_x);
+            const V along_new = hn::Mul(load(k, Right), hn::Sqrt(dot(by, by)));
+            store(hn::Add(load(k, Multiplier), along_new), k, Multiplier);
         }
     }
 
