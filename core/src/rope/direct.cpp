@@ -48,7 +48,7 @@ constexpr double shared_damping = 2e-2;
 /// The part of tension that acts along the new direction rather than the mean. It damps the jitter of single
 /// particles within a second, and takes a few percent of the energy of a pendulum with a period of one second
 /// in a minute.
-constexpr double min_backward = 0.01;
+constexpr double min_backward = 0.001;
 
 }  // namespace
 
@@ -391,8 +391,8 @@ void Substep::solve_again(std::uint32_t chain) {
         SolveJob job;
         gather(block, {chain, 1, true});
         job.implicit = true;
-        job.backward[0] = 1.0;
-        job.passes[0] = i + 1 < restarts ? 2.0 : 8.0;
+        job.backward[0] = i + 1 < restarts ? min_backward : 1.0;
+        job.passes[0] = 8.0;
         job.tolerance = length_tolerance;
         scratch_.unit.single(block, job);
         scratch_.chain_error[chain] = job.worst[0];

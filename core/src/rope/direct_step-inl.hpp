@@ -166,10 +166,10 @@ class BlockSolver {
             const V3 to = next_x;
             next_x = minus(load3(k, X), times(load(k, Upper), to));
             store3(next_x, k, X);
-            // From here on only the applied tension counts.
-            const V3 by = minus(to, next_x);
-            const V along_new = hn::Mul(load(k, Right), hn::Sqrt(dot(by, by)));
-            store(hn::Add(load(k, Multiplier), along_new), k, Multiplier);
+            // From here on only the applied tension counts: large old and new pulls may cancel.
+            const V3 pull = plus(times(load(k, Multiplier), load3(k, OldX)),
+                                 times(load(k, Right), minus(to, next_x)));
+            store(hn::Sqrt(dot(pull, pull)), k, Multiplier);
         }
     }
 
