@@ -2,9 +2,6 @@
 // second.
 #include <benchmark/benchmark.h>
 
-#include <filesystem>
-#include <string>
-
 #include "app/io/character/bvh.hpp"
 #include "app/io/character/read.hpp"
 

@@ -4,7 +4,6 @@
 #include <glad/gl.h>
 
 #include <cmath>
-#include <vector>
 
 #include "app/view/renderer.hpp"
 #include "app/window/window.hpp"

@@ -4,8 +4,6 @@
 #include <glad/gl.h>
 
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
-#include <vector>
 
 #include "app/view/renderer.hpp"
 #include "app/view/surfaces.hpp"

@@ -8,13 +8,7 @@
 // options work too.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
-#include <map>
-#include <string>
-#include <vector>
 
 #include "measure.hpp"
 #include "tendril/chain/chain.hpp"

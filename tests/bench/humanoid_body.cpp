@@ -15,15 +15,6 @@
 //
 // A wheel in both hands (hold.hpp), alternately with its grips as plain targets: moved about within reach it
 // costs under 4 times as much, and under 6 times where it yields in every frame.
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <memory>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "../core/humanoid_figure.hpp"
 #include "measure.hpp"
 #include "tendril/humanoid/hold.hpp"

@@ -5,10 +5,6 @@
 //
 // Claims, for the worst row: the feet of a character take at most 9 loops (measure.hpp) per frame; a mesh of
 // 200 000 triangles costs at most three times as much as flat ground.
-#include <cmath>
-#include <random>
-#include <string>
-
 #include "../core/humanoid_walk.hpp"
 #include "measure.hpp"
 #include "tendril/humanoid/feet_many.hpp"

@@ -6,8 +6,6 @@
 // Claims, for the worst row:
 //  - checking takes at most one loop (measure.hpp) per frame and node, at any length;
 //  - fixing one foot takes less than checking the clip three times.
-#include <string>
-
 #include "../core/humanoid_walk.hpp"
 #include "measure.hpp"
 #include "tendril/humanoid/lint.hpp"

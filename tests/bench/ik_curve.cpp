@@ -8,7 +8,6 @@
 // is missed. Its cost grows with the number of pieces, the exact method's with the number of bones.
 //
 // Claim: 30 bones take at most 7 loops (measure.hpp) along 2 to 8 points, without fit.
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "measure.hpp"

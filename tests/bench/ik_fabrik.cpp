@@ -11,18 +11,10 @@
 // Google Benchmark's options work too.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <ctime>
-#include <map>
 #include <random>
-#include <string>
-#include <vector>
 
 #include "../core/kept_solver.hpp"
 #include "measure.hpp"
-#include "tendril/ik/solver.hpp"
 
 namespace {
 

@@ -6,15 +6,10 @@
 // iterations, or 200 with limits and for trees), end as Limited or otherwise, mean iterations and residual
 // (in reaches), mean time, and a hash of all joints, which shows whether anything changed at all.
 #include <chrono>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
 #include <random>
-#include <string>
-#include <vector>
 
 #include "tendril/ik/solver.hpp"
 #include "tendril/ik/tree.hpp"

@@ -10,7 +10,6 @@
 // Both are called as users call them, with everything that they compute: for KDL the Jacobian's singular
 // values in double, for Tendril the input checks. Whether a target was reached is measured here, from the
 // joints that each solver left.
-#include <cmath>
 #include <kdl/chain.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainiksolverpos_lma.hpp>
@@ -18,7 +17,6 @@
 
 #include "../core/kept_solver.hpp"
 #include "measure.hpp"
-#include "tendril/ik/solver.hpp"
 
 namespace {
 

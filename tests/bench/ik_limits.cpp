@@ -5,14 +5,10 @@
 //
 //     tendril_bench_ik_limits            the tables
 //     tendril_bench_ik_limits --check    the same, and exit code 1 if a claim does not hold
-#include <array>
-#include <cmath>
-#include <optional>
 #include <random>
 
 #include "../core/kept_solver.hpp"
 #include "measure.hpp"
-#include "tendril/ik/solver.hpp"
 
 namespace {
 

@@ -10,19 +10,13 @@
 // how many rows reach it. Two things keep it below 15: on the processor of these claims, the divider splits a
 // register of 16 lanes in two, which bounds the accelerated step; and a quarter of the time is transfers,
 // which no width accelerates. Times are processor time, except for threads, whose gain needs an idle machine.
-#include <algorithm>
-#include <cmath>
 #include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
-#include <optional>
 #include <random>
-#include <string>
 #include <thread>
 
 #include "../core/kept_solver.hpp"
 #include "measure.hpp"
 #include "tendril/ik/many.hpp"
-#include "tendril/ik/solver.hpp"
 
 namespace {
 

@@ -6,12 +6,6 @@
 //
 // Claims of the paper: FABRIK solves every target, in and out of reach, in fewer iterations and less time
 // than CCD, the Jacobian transpose and damped least squares with and without SVD.
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <string>
-#include <vector>
-
 #include "app/batch/paper.hpp"
 #include "measure.hpp"
 

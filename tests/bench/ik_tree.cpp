@@ -7,12 +7,6 @@
 // Claims, for the worst size: an iteration is O(joints), however many effectors there are; the two passes
 // alone cost at most 1.6 times those of a chain's solver; an iteration with the Newton step at most 2.5 times
 // as much. Times are medians; only ratios within one run are meaningful.
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdio>
-#include <vector>
-
 #include "../core/kept_solver.hpp"
 #include "measure.hpp"
 #include "tendril/ik/tree.hpp"

@@ -14,12 +14,8 @@
 // Claims: a frame of 1 degree takes at most 1.1 loops (measure.hpp) for a four-bar, 5 for Jansen's leg, 18
 // for a Stewart platform; closures are closed to 1e-6 of the size. Of targets out of reach, 19 frames in 20
 // take at most 15 iterations.
-#include <cmath>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <string>
-#include <utility>
 
 #include "measure.hpp"
 #include "tendril/ik/mechanisms.hpp"

@@ -11,9 +11,6 @@
 //  - setting and reading a leaf costs the same among 100 000 elements as among 1 000;
 //  - a set without propagation, followed by reading the children's locals, is linear in the number of
 //    children, and does not depend on what is below them.
-#include <algorithm>
-#include <string>
-
 #include "measure.hpp"
 #include "tendril/rig/hierarchy.hpp"
 

@@ -11,9 +11,6 @@
 //    cache of 1 MB;
 //  - a changed value (a slider's drag) costs at most a seventh of making the rig anew, among 100 units or
 //  more.
-#include <algorithm>
-#include <string>
-
 #include "measure.hpp"
 #include "tendril/rig/workspace.hpp"
 

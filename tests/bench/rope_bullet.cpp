@@ -15,11 +15,6 @@
 // as a lower bound. Distributions compile it with -O2.
 #include <BulletSoftBody/btSoftBody.h>
 
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <string>
-
 #include "measure.hpp"
 #include "tendril/rope/world.hpp"
 

@@ -6,9 +6,6 @@
 // Claims: ropes that collide but are apart take at most 1.6 times as long, with 256 and 4 096 particles.
 // Ropes in contact take longer, for without collisions they would fall freely or hang alone, solved several
 // at once in vector registers; the table says how much. Times are processor time.
-#include <algorithm>
-#include <vector>
-
 #include "measure.hpp"
 #include "tendril/rope/world.hpp"
 

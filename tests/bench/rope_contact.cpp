@@ -17,11 +17,7 @@
 // ms on two threads (nearly twice that).
 //
 // Times are processor time; wall time if threads share a cloth.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <thread>
-#include <vector>
 
 #include "measure.hpp"
 #include "tendril/rope/world.hpp"

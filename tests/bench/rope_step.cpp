@@ -8,9 +8,6 @@
 // 256 distant colliders it takes at most 1.5 times as long as with none; one that resists bending takes at
 // most 6 times as long as one that does not; vector units pay off for 200 ropes of 32 segments. Times are
 // processor time, except for threads, whose gain needs an idle machine.
-#include <cmath>
-#include <string>
-
 #include "measure.hpp"
 #include "tendril/ik/many.hpp"
 #include "tendril/rope/world.hpp"

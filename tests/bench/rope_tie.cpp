@@ -5,9 +5,6 @@
 //
 // Claims: tied, two ropes of 32 to 2048 segments take at most 2.3 times as long as untied, and a cloth of
 // 16 x 16 to 64 x 64 on a rope, by every other particle of a side, twice. Times are processor time.
-#include <algorithm>
-#include <vector>
-
 #include "measure.hpp"
 #include "tendril/rope/world.hpp"
 

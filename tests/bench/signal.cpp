@@ -7,9 +7,7 @@
 // Claims: the minimum gain in any row, over all kinds of damping, with and without force and target velocity,
 // for 1e3, 1e5 and 1e6 values. The plain loop uses an array of parameters and one of states, as a game would.
 // Times are processor time.
-#include <cmath>
 #include <random>
-#include <string>
 
 #include "measure.hpp"
 #include "tendril/ik/many.hpp"

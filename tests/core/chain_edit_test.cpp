@@ -1,5 +1,4 @@
 // Editing: each row of the table on the chain's page, with cases computed by hand.
-#include <cstdint>
 #include <stdexcept>
 
 #include "chain_support.hpp"

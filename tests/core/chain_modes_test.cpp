@@ -1,8 +1,5 @@
 // The four modes: moving and fixed joints, and degenerate directions.
-#include <cmath>
-#include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 

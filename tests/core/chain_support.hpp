@@ -6,11 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
-#include <limits>
-#include <string>
-#include <vector>
 
 #include "tendril/chain/chain.hpp"
 

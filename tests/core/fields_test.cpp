@@ -1,12 +1,4 @@
 // Every row of every table of the library.
-#include "tendril/fields.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cctype>
-#include <functional>
-#include <memory>
-#include <set>
 #include <tendril/chain/chain.hpp>
 #include <tendril/humanoid/feet.hpp>
 #include <tendril/humanoid/footsteps.hpp>

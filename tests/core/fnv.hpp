@@ -2,7 +2,6 @@
 #pragma once
 
 #include <bit>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <glm/vec3.hpp>

@@ -1,9 +1,6 @@
 // Centre of mass, support, and a body that keeps its balance while it reaches.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <random>
 #include <tendril/humanoid/balance.hpp>
 #include <tendril/humanoid/body.hpp>
 

@@ -1,8 +1,4 @@
 // A body whose targets are released or reweighted while its state continues.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
 #include <tendril/humanoid/body.hpp>
 
 #include "humanoid_figure.hpp"

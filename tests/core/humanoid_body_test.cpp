@@ -1,9 +1,4 @@
 // Whole-body reaching, on the figure of 1.8 m.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
 #include <tendril/humanoid/body.hpp>
 
 #include "humanoid_figure.hpp"

@@ -1,7 +1,6 @@
 // Matching nodes to bones: by common names, by shape alone, and incomplete where bones are missing.
 #include <gtest/gtest.h>
 
-#include <random>
 #include <sstream>
 
 #include "humanoid_figure.hpp"

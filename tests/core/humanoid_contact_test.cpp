@@ -1,10 +1,5 @@
 // Hands must not pass through their own body.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <glm/trigonometric.hpp>
-#include <random>
 #include <tendril/humanoid/body.hpp>
 
 #include "humanoid_figure.hpp"

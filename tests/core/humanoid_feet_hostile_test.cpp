@@ -1,10 +1,4 @@
 // Feet with hostile input: output is finite, bones keep their lengths, equal states give equal bits.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-
 #include "humanoid_feet_support.hpp"
 #include "memory.hpp"
 #include "tests/says.hpp"

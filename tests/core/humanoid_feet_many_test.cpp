@@ -1,6 +1,4 @@
 // Many characters at once give the same results as each alone, on any number of threads.
-#include <gtest/gtest.h>
-
 #include <tendril/humanoid/feet_many.hpp>
 
 #include "humanoid_feet_support.hpp"

@@ -1,6 +1,4 @@
 // Where feet come down on stairs, before they are planted.
-#include <gtest/gtest.h>
-
 #include "humanoid_feet_support.hpp"
 
 namespace tendril::test {

@@ -1,8 +1,8 @@
 // Plays a walk over a ground, and measures how far feet sink, float and skate and legs stretch.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <gtest/gtest.h>
+
 #include <glm/geometric.hpp>
 #include <tendril/humanoid/feet.hpp>
 

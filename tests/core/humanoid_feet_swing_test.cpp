@@ -1,6 +1,4 @@
 // The depth to which a foot passes through the ground while it is in the air.
-#include <gtest/gtest.h>
-
 #include <tendril/humanoid/lint.hpp>
 
 #include "humanoid_feet_support.hpp"

@@ -1,8 +1,4 @@
 // Feet on the ground: bounds for whole walks, and each rule of planting alone.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "humanoid_feet_support.hpp"
 #include "memory.hpp"
 #include "tests/labels.hpp"

@@ -1,11 +1,11 @@
 // A figure of 1.8 m in T-pose, arms along X, facing +Z, with configurable node names.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
-#include <string>
 #include <tendril/humanoid/bone_map.hpp>
-#include <vector>
 
 namespace tendril::test {
 

@@ -1,10 +1,6 @@
 // Fitting capsules to a mesh: a body with known radii, and outliers.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
 #include <tendril/humanoid/body.hpp>
 
 #include "humanoid_figure.hpp"

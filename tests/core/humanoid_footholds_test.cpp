@@ -1,6 +1,4 @@
 // Footholds on stairs: the whole sole on a tread, reached smoothly.
-#include <gtest/gtest.h>
-
 #include <tendril/humanoid/lint.hpp>
 
 #include "humanoid_feet_support.hpp"

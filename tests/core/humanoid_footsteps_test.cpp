@@ -1,9 +1,4 @@
 // Steps of a body that reaches farther than its feet allow.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <random>
 #include <tendril/humanoid/balance.hpp>
 #include <tendril/humanoid/footsteps.hpp>
 

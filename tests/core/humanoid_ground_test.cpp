@@ -1,6 +1,4 @@
 // Grounds have the heights of their definitions, and meshes the heights of their triangles, of any number.
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>

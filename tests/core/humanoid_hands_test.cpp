@@ -1,10 +1,5 @@
 // Hands on their targets: within a millimetre if the arm reaches; at weight 0 bitwise unchanged; only the
 // arm's bones change.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
 #include <tendril/humanoid/hands.hpp>
 
 #include "humanoid_figure.hpp"

@@ -1,11 +1,7 @@
 // Every library function that takes a skeleton, map or pose, with unsuitable input: another character's map,
 // duplicate nodes, a bone above its parent; non-finite or enormous poses. Either it is refused and nothing
 // changes, or the output is finite and passes the input checks.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <cstring>
-#include <limits>
 #include <tendril/humanoid/balance.hpp>
 #include <tendril/humanoid/body.hpp>
 #include <tendril/humanoid/feet_many.hpp>

@@ -1,8 +1,6 @@
 // Joint limits of a body: the T-pose they refer to, the defaults, and limits learned from clips.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <random>
 #include <tendril/humanoid/limits.hpp>
 
 #include "humanoid_figure.hpp"

@@ -1,11 +1,6 @@
 // Lint checks that need no feet: keys, jumps and scales, on skeletons of any kind.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <tendril/humanoid/attach.hpp>
 #include <tendril/humanoid/lint.hpp>
-#include <utility>
 
 #include "humanoid_figure.hpp"
 #include "random.hpp"

@@ -1,9 +1,4 @@
 // The head looks at its target within the limits of its bones, and returns to the clip if it cannot.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
 #include <tendril/humanoid/look_at.hpp>
 
 #include "humanoid_figure.hpp"

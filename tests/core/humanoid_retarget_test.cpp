@@ -1,17 +1,10 @@
 // A clip played on another skeleton: limbs point where the source's do, hips move in proportion.
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <glm/gtc/quaternion.hpp>
-#include <random>
 #include <tendril/humanoid/attach.hpp>
 #include <tendril/humanoid/lint.hpp>
 #include <tendril/humanoid/retarget.hpp>
 #include <tendril/humanoid/soles.hpp>
 #include <tendril/humanoid/t_pose.hpp>
 
-#include "tests/core/humanoid_figure.hpp"
 #include "tests/core/humanoid_walk.hpp"
 #include "tests/says.hpp"
 

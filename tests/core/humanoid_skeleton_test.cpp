@@ -1,6 +1,4 @@
 // Skeletons in any node order, positions of nodes, and clips as glTF defines them.
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat4x4.hpp>

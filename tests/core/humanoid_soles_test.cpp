@@ -1,6 +1,4 @@
 // Heels and toes from skeleton and map, for any bone axes and origin.
-#include <gtest/gtest.h>
-
 #include <tendril/humanoid/soles.hpp>
 #include <tendril/humanoid/t_pose.hpp>
 

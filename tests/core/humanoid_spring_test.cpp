@@ -1,13 +1,6 @@
 // Spring bones follow the analytic solution at any frame rate, keep lengths and cone, and survive any input.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <glm/gtc/constants.hpp>
-#include <glm/gtc/quaternion.hpp>
-#include <limits>
-#include <random>
 #include <tendril/humanoid/spring_chain.hpp>
 
 #include "humanoid_figure.hpp"

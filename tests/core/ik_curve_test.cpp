@@ -2,15 +2,9 @@
 // frames, fit, weights, jumps, and hostile input.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include <cmath>
 #include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <optional>
-#include <vector>
 
 #include "memory.hpp"
 #include "random.hpp"

@@ -1,8 +1,5 @@
 // FABRIK and the loop around every method: the two passes by hand, reachability, collinear singularities,
 // snap-back, the soft zone, and the pose kept if nothing helps.
-#include <algorithm>
-#include <array>
-
 #include "ik_support.hpp"
 
 namespace tendril::test::ik_fabrik_test {

@@ -1,5 +1,4 @@
 // The Jacobian solvers against the explicit 3 x 3n Jacobian and elimination in double, unused by the library.
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,6 @@
 // rotations that a solve leaves. Tests that solve include ik_limited_support.hpp.
 #pragma once
 
-#include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
 #include "ik_poses.hpp"

@@ -1,13 +1,9 @@
 // Random linkages: closed for any drive and drag, from any state, there and back; and hostile ones.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "ik_linkage_support.hpp"
-#include "random.hpp"
-#include "tendril/ik/mechanisms.hpp"
 
 namespace tendril::test::ik_linkage_random_test {
 namespace {

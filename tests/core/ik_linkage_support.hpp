@@ -1,10 +1,7 @@
 // Linkages driven and inspected by name, and random ones.
 #pragma once
 
-#include <cstddef>
 #include <numbers>
-#include <string>
-#include <utility>
 
 #include "random.hpp"
 #include "tendril/ik/mechanisms.hpp"

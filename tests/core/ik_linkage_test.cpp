@@ -1,20 +1,11 @@
 // Linkages: cases of an independent implementation over whole turns, closed forms, targets out of reach
 // against brute force, modes and dead points, ranges, priorities, freedom, sketches, and hostile input.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "ik_linkage_support.hpp"
 #include "memory.hpp"
-#include "random.hpp"
-#include "tendril/ik/mechanisms.hpp"
 #include "tests/places.hpp"
 #include "tests/says.hpp"
 

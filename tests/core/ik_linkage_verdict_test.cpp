@@ -1,16 +1,8 @@
 // Linkages: a report's claims are true for any drive, and every step continues along its branch.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <string>
-#include <vector>
 
 #include "ik_linkage_support.hpp"
 #include "memory.hpp"
-#include "random.hpp"
-#include "tendril/ik/mechanisms.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test::ik_linkage_verdict_test {

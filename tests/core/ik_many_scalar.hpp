@@ -1,8 +1,6 @@
 // Solves a crowd one by one with the scalar solver, for comparison.
 #pragma once
 
-#include <utility>
-
 #include "ik_many_support.hpp"
 #include "ik_support.hpp"
 

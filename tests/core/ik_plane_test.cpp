@@ -1,10 +1,4 @@
 // Chains in a plane: they stay in it, keep their side, arrive like chains in space, and respect angle limits.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "ik_support.hpp"
 #include "tendril/ik/many.hpp"
 

@@ -1,6 +1,4 @@
 // A target that crosses the line to the pole: the chain must not flip to the other side in one step.
-#include <algorithm>
-
 #include "ik_support.hpp"
 
 namespace tendril::test::ik_pole_sweep_test {

@@ -1,13 +1,8 @@
 // Shared by solver tests, without a solver: lengths, poses, and the invariants of every solve.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <glm/gtc/quaternion.hpp>
 #include <numeric>
-#include <span>
-#include <vector>
 
 #include "chain_support.hpp"
 #include "random.hpp"

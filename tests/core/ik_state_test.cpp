@@ -1,6 +1,4 @@
 // A solver's state is a value: restored from a copy, the same solves give the same bits.
-#include <cstring>
-
 #include "ik_limited_support.hpp"
 #include "tests/says.hpp"
 

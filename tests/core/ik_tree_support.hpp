@@ -1,13 +1,6 @@
 // Trees for tests: a body, a spider, random ones; poses for them; and their invariant.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <span>
-#include <vector>
-
 #include "chain_support.hpp"
 #include "random.hpp"
 #include "tendril/ik/tree.hpp"

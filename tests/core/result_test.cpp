@@ -1,14 +1,6 @@
 // Result and Expected: refusals and their messages.
-#include <gtest/gtest.h>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <string>
-
 #include "ik_many_support.hpp"
 #include "jobs.hpp"
-#include "tendril/result.hpp"
-#include "tendril/tasks.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {

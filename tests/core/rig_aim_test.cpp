@@ -1,12 +1,8 @@
 // Guarantees of aim(), also for degenerate targets.
-#include <gtest/gtest.h>
-
 #include "rig_rigs.hpp"
 #include "rig_support.hpp"
-#include "tendril/rig/aim.hpp"
 #include "tendril/rig/collect.hpp"
 #include "tendril/rig/euler.hpp"
-#include "tendril/rig/parent_constraint.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {

@@ -1,8 +1,6 @@
 // Backward solves, and explanations of an element's pose.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "random.hpp"
 #include "rig_rigs.hpp"
 #include "tendril/rig/backward.hpp"

@@ -1,7 +1,6 @@
 // Poses that each write leaves pending, the cost of reading, and the values read.
 #include "memory.hpp"
 #include "rig_line.hpp"
-#include "rig_support.hpp"
 #include "tendril/rig/euler.hpp"
 #include "tendril/rig/transform_units.hpp"
 

@@ -1,12 +1,6 @@
 // Refusals of Rig::make, and their messages.
-#include <gtest/gtest.h>
-#include <limits>
-#include <string>
-
 #include "rig_line.hpp"
 #include "rig_maker.hpp"
-#include "rig_rigs.hpp"
-#include "tendril/rig/workspace.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::rig {

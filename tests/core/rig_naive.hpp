@@ -10,7 +10,6 @@
 #include "rig_rigs.hpp"
 #include "tendril/rig/collect.hpp"
 #include "tendril/rig/transform_units.hpp"
-#include "tendril/signal/curve.hpp"
 
 namespace tendril::rig {
 

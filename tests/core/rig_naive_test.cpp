@@ -1,6 +1,4 @@
 // Random rigs, solved by the library and by the literal implementation.
-#include <gtest/gtest.h>
-
 #include "rig_maker.hpp"
 #include "rig_naive.hpp"
 #include "rig_support.hpp"

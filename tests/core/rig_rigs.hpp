@@ -1,9 +1,6 @@
 // Small rigs for the tests.
 #pragma once
 
-#include <glm/gtc/quaternion.hpp>
-#include <string>
-
 #include "tendril/rig/rig.hpp"
 #include "tendril/rig/workspace.hpp"
 

@@ -1,8 +1,4 @@
 // Forward solves: each unit on a small rig, and properties of all units.
-#include <gtest/gtest.h>
-
-#include <vector>
-
 #include "rig_rigs.hpp"
 #include "tendril/ik/curve.hpp"
 #include "tests/says.hpp"

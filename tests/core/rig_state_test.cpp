@@ -1,8 +1,6 @@
 // Values set by the user, a rig's memory, and how both survive edits and rollbacks.
 #include <gtest/gtest.h>
 
-#include <vector>
-
 #include "memory.hpp"
 #include "rig_rigs.hpp"
 

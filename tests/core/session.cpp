@@ -1,8 +1,5 @@
 #include "session.hpp"
 
-#include <utility>
-#include <vector>
-
 #include "fnv.hpp"
 #include "random.hpp"
 #include "rope_named.hpp"

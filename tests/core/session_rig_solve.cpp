@@ -1,7 +1,4 @@
 // One rig with every unit, solved with moving controls.
-#include <cstddef>
-#include <variant>
-
 #include "fnv.hpp"
 #include "random.hpp"
 #include "session.hpp"

@@ -1,8 +1,6 @@
 // Properties shared by every kind of filter.
 
 #include "signal_support.hpp"
-#include "tendril/signal/curve.hpp"
-#include "tendril/signal/filter.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {

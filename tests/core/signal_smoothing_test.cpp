@@ -2,14 +2,9 @@
 #include <cstdlib>
 #include <deque>
 #include <fstream>
-#include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
 #include "signal_support.hpp"
-#include "tendril/signal/inertialize.hpp"
-#include "tendril/signal/interpolate.hpp"
-#include "tendril/signal/shaping.hpp"
-#include "tendril/signal/smoothing.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::test::signal_smoothing_test {

@@ -1,7 +1,5 @@
-#include "tendril/signal/spring.hpp"
 
 #include <complex>
-#include <glm/gtc/quaternion.hpp>
 
 #include "signal_support.hpp"
 #include "tests/says.hpp"

@@ -4,9 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <initializer_list>
-#include <limits>
-#include <utility>
-#include <vector>
 
 #include "random.hpp"
 #include "tendril/signal/filter.hpp"

@@ -1,9 +1,6 @@
 // Properties that hold for the bytes of a character, whatever they are.
 #pragma once
 
-#include <stdexcept>
-#include <string_view>
-
 #include "tests/app/io/sound_character.hpp"
 #include "tests/fuzz/check.hpp"
 

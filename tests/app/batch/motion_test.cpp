@@ -1,9 +1,6 @@
 // `tendril lint` and `tendril bake`: the built program with valid and invalid files.
 #include <signal.h>
 
-#include <chrono>
-#include <thread>
-
 #include "app/document/json_complete.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/read.hpp"

@@ -3,10 +3,7 @@
 
 #include <signal.h>
 
-#include <chrono>
 #include <cmath>
-#include <sstream>
-#include <thread>
 
 #include "tests/app/support/program.hpp"
 

@@ -1,5 +1,4 @@
 // `tendril trace` as a terminal runs it, and the writers that engines copy.
-#include <fstream>
 #include <regex>
 
 #include "app/document/json_complete.hpp"

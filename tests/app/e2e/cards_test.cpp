@@ -1,10 +1,6 @@
 // The cards of things to try: plays every step of every card, and expects it to be ticked off.
 #include <imgui_internal.h>
 
-#include <algorithm>
-#include <glm/geometric.hpp>
-#include <optional>
-
 #include "app/app.hpp"
 #include "app/document/argument_check.hpp"
 #include "app/document/command.hpp"
@@ -16,8 +12,6 @@
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/play.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {

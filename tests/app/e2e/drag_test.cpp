@@ -1,6 +1,4 @@
 // The mouse in the 3D view, in pixels, with the built program.
-#include <glm/geometric.hpp>
-
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {

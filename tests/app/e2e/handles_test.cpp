@@ -1,6 +1,4 @@
 // The pixel positions in --state must be where the picture shows the objects.
-#include <glm/geometric.hpp>
-
 #include "app/view/palette.hpp"
 #include "tests/app/support/blobs.hpp"
 #include "tests/app/support/play.hpp"

@@ -2,7 +2,6 @@
 #include "app/document/refused.hpp"
 #include "app/document/scene_file.hpp"
 #include "tests/app/e2e/monkey.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {

@@ -5,7 +5,6 @@
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "tests/app/e2e/monkey.hpp"
 #include "tests/app/labs/lab_support.hpp"
-#include "tests/app/support/temp_folder.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::test {

@@ -1,13 +1,9 @@
 // A monkey test: random events and commands, many of them hostile, in a running program.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 #include <random>
-#include <string>
-#include <vector>
 
 #include "app/app.hpp"
 #include "app/document/argument.hpp"

@@ -1,10 +1,6 @@
 // The openings: each lab moves by itself in a new window until the user takes over.
-#include <glm/vec2.hpp>
-#include <map>
-
 #include "app/document/refused.hpp"
 #include "app/document/scene_file.hpp"
-#include "app/labs/card.hpp"
 #include "app/opening.hpp"
 #include "app/view/assets.hpp"
 #include "tests/app/e2e/monkey.hpp"

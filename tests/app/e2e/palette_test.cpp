@@ -1,15 +1,11 @@
 // The command palette in the running program: typing, Tab, Enter and the mouse, and the commands that ran.
 #include <imgui.h>
 
-#include <algorithm>
 #include <random>
 
 #include "app/document/command.hpp"
 #include "app/labs/chain/chain_lab.hpp"
-#include "app/shell/ui.hpp"
 #include "tests/app/support/driven_app.hpp"
-#include "tests/app/support/program.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {

@@ -1,7 +1,4 @@
 // The plot and the past poses of the last ten seconds in the running program, in every lab that has joints.
-#include <array>
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"

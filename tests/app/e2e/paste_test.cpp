@@ -1,7 +1,4 @@
 // Ctrl+V over the view: a lab that takes points gets them, the others say which lab does.
-#include <atomic>
-#include <optional>
-
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/live_loop.hpp"
 #include "tests/app/support/driven_app.hpp"

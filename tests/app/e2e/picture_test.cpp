@@ -1,5 +1,4 @@
 // The view as a picture: of the requested size, and without the background.
-#include <cmath>
 #include <cstdlib>
 
 #include "tests/app/support/play.hpp"

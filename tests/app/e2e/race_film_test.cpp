@@ -1,11 +1,4 @@
 // A race as a picture with its labels, and as a film.
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "app/app.hpp"
 #include "app/labs/chain/study.hpp"
 #include "tests/app/support/apng.hpp"

@@ -1,5 +1,4 @@
 // The race side by side: one pane for each solver, a common camera, and the mouse in each.
-#include <glm/geometric.hpp>
 #include <set>
 
 #include "tests/app/support/play.hpp"

@@ -1,7 +1,4 @@
 // Dragging a joint in mode Reach: the joint is an effector, while root and target stay.
-#include <algorithm>
-#include <glm/geometric.hpp>
-
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {

@@ -1,6 +1,5 @@
 // Commands with hostile arguments in scripts: refused with a reason and an exit code, the document unchanged.
 #include "tests/app/support/play.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {

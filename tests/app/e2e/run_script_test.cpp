@@ -1,6 +1,4 @@
 // app/run with mock tools: its output while it installs and builds.
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 
 #include "tests/app/support/program.hpp"

@@ -1,9 +1,6 @@
 // Termination by signals: a clean end with everything written.
 #include <signal.h>
 
-#include <chrono>
-#include <thread>
-
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {

@@ -1,7 +1,4 @@
 // ffmpeg's work after the last frame does not block the window: it can be cancelled, and is reported.
-#include <gtest/gtest.h>
-
-#include <chrono>
 #include <cstdlib>
 
 #include "app/app.hpp"
@@ -9,8 +6,6 @@
 #include "app/window/offscreen_window.hpp"
 #include "tests/app/support/program.hpp"
 #include "tests/app/support/script_text.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/labels.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::test {

@@ -1,7 +1,4 @@
 // Differences that the comparison of pictures must detect, and others that it must accept.
-#include "tests/app/golden/compare.hpp"
-
-#include <algorithm>
 #include <cstdlib>
 #include <random>
 

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "app/document/text.hpp"
-#include "tests/app/golden/compare.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::test {

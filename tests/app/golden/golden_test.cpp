@@ -4,7 +4,6 @@
 #include <map>
 
 #include "tests/app/support/program.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {

@@ -1,4 +1,3 @@
-#include <gtest/gtest.h>
 
 #include "app/document/json_complete.hpp"
 #include "tests/app/script/script_support.hpp"

@@ -1,7 +1,4 @@
-#include "app/script/script.hpp"
 #include "app/document/json_complete.hpp"
-
-#include <gtest/gtest.h>
 
 #include "tests/app/script/script_support.hpp"
 #include "tests/app/support/temp_folder.hpp"

@@ -1,7 +1,6 @@
 // The palette's results, offers and messages while a line is typed, without a window.
 #include "app/shell/command_completion.hpp"
 
-#include <algorithm>
 #include <random>
 
 #include "app/document/argument_check.hpp"

@@ -1,9 +1,5 @@
 // Titles of commands: each has one, in words that a user would search for.
-#include <algorithm>
 #include <cctype>
-#include <map>
-#include <set>
-#include <sstream>
 
 #include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"

@@ -3,8 +3,6 @@
 
 #include <exception>
 #include <map>
-#include <string>
-#include <vector>
 
 #include "app/window/window.hpp"
 

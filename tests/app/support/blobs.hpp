@@ -1,7 +1,6 @@
 // Finds objects in a picture by colour alone, as a viewer would, without knowing where they should be.
 #pragma once
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 

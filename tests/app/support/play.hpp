@@ -1,6 +1,9 @@
 // Plays a script offscreen in this process, and returns its results.
 #pragma once
 
+#include <cmath>
+#include <glm/geometric.hpp>
+
 #include "app/io/image.hpp"
 #include "tests/app/support/program.hpp"
 #include "tests/app/support/script_text.hpp"

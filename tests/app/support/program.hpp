@@ -3,11 +3,11 @@
 
 #include <sys/types.h>
 
-#include <filesystem>
+#include <chrono>
 #include <optional>
-#include <string>
+#include <sstream>
+#include <thread>
 #include <utility>
-#include <vector>
 
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/labels.hpp"

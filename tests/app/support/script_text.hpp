@@ -1,8 +1,6 @@
 // Writes scripts line by line.
 #pragma once
 
-#include <glm/vec2.hpp>
-#include <string>
 #include <vector>
 
 #include "app/document/json_complete.hpp"

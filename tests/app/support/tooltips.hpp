@@ -1,10 +1,6 @@
 // The text of a part of the interface in a panel, and its tooltips, without the window around it.
 #pragma once
 
-#include <glm/vec2.hpp>
-#include <memory>
-#include <string>
-
 #include "app/shell/input.hpp"
 #include "app/shell/ui.hpp"
 #include "app/window/window.hpp"

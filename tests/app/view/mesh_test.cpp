@@ -14,7 +14,6 @@
 #include "app/view/renderer.hpp"
 #include "app/view/surfaces.hpp"
 #include "app/window/gl.hpp"
-#include "app/window/window.hpp"
 #include "tests/app/support/backends.hpp"
 #include "tests/labels.hpp"
 

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <random>
 #include <set>
-#include <string>
 
 #include "app/view/labels.hpp"
 #include "app/view/panes.hpp"

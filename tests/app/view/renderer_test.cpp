@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <stdexcept>
-#include <string>
 
 #include "app/io/image.hpp"
 #include "app/view/picking.hpp"
 #include "app/view/renderer.hpp"
 #include "app/window/gl.hpp"
-#include "app/window/window.hpp"
 #include "tests/app/support/backends.hpp"
 #include "tests/labels.hpp"
 

@@ -5,7 +5,6 @@
 #include "app/io/image.hpp"
 #include "app/view/renderer.hpp"
 #include "app/window/gl.hpp"
-#include "app/window/window.hpp"
 #include "tests/app/support/backends.hpp"
 #include "tests/labels.hpp"
 

@@ -4,7 +4,6 @@
 
 #include "app/widgets/axis.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/lists.hpp"
 #include "app/widgets/plot.hpp"
 #include "tests/app/support/tooltips.hpp"
 
