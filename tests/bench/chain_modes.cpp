@@ -181,15 +181,12 @@ int main(int count, char** arguments) {
     const bool check = take_flag(count, arguments, "--check");
     benchmark::Initialize(&count, arguments);
     if (benchmark::ReportUnrecognizedArguments(count, arguments)) return 2;
-    for (const std::size_t size : sizes) {
-        for (const std::string mode : modes) {
+    for (const std::size_t size : sizes)
+        for (const std::string mode : modes)
             for (auto* each :
                  {benchmark::RegisterBenchmark(plain_name_of(mode, size).c_str(), run_plain, mode, size),
-                  benchmark::RegisterBenchmark(name_of(mode, size).c_str(), run_chain, mode, size)}) {
+                  benchmark::RegisterBenchmark(name_of(mode, size).c_str(), run_chain, mode, size)})
                 each->Repetitions(repetitions)->ReportAggregatesOnly()->MinTime(0.05);
-            }
-        }
-    }
     Medians medians;
     benchmark::RunSpecifiedBenchmarks(&medians);
     return report(medians.seconds) || !check ? 0 : 1;

@@ -181,7 +181,7 @@ std::pair<double, double> hold_microseconds(const glm::dvec3& centre) {
 int main(int count, char** arguments) {
     double worst[3]{}, anywhere = 0.0;
     std::printf("us a frame%36s%12s%16s\n", "free", "limits", "and capsules");
-    for (const Figure figure : {Figure::Fifteen, Figure::All, Figure::Sixty}) {
+    for (const Figure figure : {Figure::Fifteen, Figure::All, Figure::Sixty})
         for (const Play play : {Play::Still, Play::Drag, Play::Activated, Play::Anywhere}) {
             std::printf("%-16s%-20s", figure_names[static_cast<int>(figure)],
                         play_names[static_cast<int>(play)]);
@@ -193,7 +193,6 @@ int main(int count, char** arguments) {
             }
             std::printf("\n");
         }
-    }
     const auto [plain, balanced] = balance_microseconds();
     std::printf("%-16s%-20s%10.1f without, %.1f with balance\n", "22 bones", "a hand far ahead", plain,
                 balanced);

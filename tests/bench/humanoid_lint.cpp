@@ -64,7 +64,7 @@ int main(int count, char** arguments) {
     std::printf("%-12s%10s%20s%20s%12s\n", "nodes", "frames", "judged, us a frame", "foot mended, part",
                 "findings");
     double slowest = 0.0, dearest = 0.0;
-    for (const std::size_t nodes : {std::size_t{22}, std::size_t{60}, std::size_t{120}}) {
+    for (const std::size_t nodes : {std::size_t{22}, std::size_t{60}, std::size_t{120}})
         for (const std::size_t frames : {std::size_t{120}, std::size_t{1200}, std::size_t{12000}}) {
             const Skeleton skeleton = figure_of(nodes);
             const BoneMap map = match_bones(skeleton);
@@ -90,7 +90,6 @@ int main(int count, char** arguments) {
             slowest = std::max(slowest, a_frame / static_cast<double>(skeleton.size()));
             dearest = std::max(dearest, part);
         }
-    }
     bool all = claim_loops("a frame and node", 1e-6 * slowest, 1);
     all &= claim("three judgements over the cure of a foot", 3.0 / dearest, 1.0);
     return all || !has_flag(count, arguments, "--check") ? 0 : 1;

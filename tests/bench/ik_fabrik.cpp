@@ -210,11 +210,9 @@ Tally solve_all(Method method, const std::vector<Problem>& problems) {
     }
     tally.seconds = cpu_seconds() - begin;
     record({tally.seconds}, std::source_location::current());
-    for (std::size_t i = 0; i < problems.size(); ++i) {
-        for (std::size_t j = 0; j < ends[i].size(); ++j) {
+    for (std::size_t i = 0; i < problems.size(); ++i)
+        for (std::size_t j = 0; j < ends[i].size(); ++j)
             tally.travel += size(ends[i][j] - problems[i].start[j]);
-        }
-    }
     return tally;
 }
 
@@ -225,15 +223,14 @@ bool report_reaching() {
     std::printf("\niterations to 1e-3 of the reach, p50 / p99 / p99.9 of %zu random starts and targets\n",
                 count);
     std::printf("joints  distance/R    fabrik_plain      fabrik          travel   time\n");
-    for (const std::size_t bones : {std::size_t{3}, std::size_t{10}, std::size_t{30}}) {
+    for (const std::size_t bones : {std::size_t{3}, std::size_t{10}, std::size_t{30}})
         for (const auto& band : bands) {
             Targets targets;
             std::vector<Problem> problems(count);
             for (Problem& each : problems) {
                 each.start = {{0, 0, 0}};
-                for (std::size_t i = 0; i < bones; ++i) {
+                for (std::size_t i = 0; i < bones; ++i)
                     each.start.push_back(each.start.back() + targets.direction());
-                }
                 each.target =
                     targets.direction() * (static_cast<float>(bones) * targets.between(band[0], band[1]));
             }
@@ -246,23 +243,20 @@ bool report_reaching() {
                         fast.seconds / plain.seconds);
             all &= fast.percentile(0.999) <= (bones == 3 ? 20 : 12) && travel <= 1.05;
         }
-    }
     std::printf("%s  iterations and travel of the accelerated one\n", all ? "PASS" : "FAIL");
     return all;
 }
 
 void register_all() {
-    for (const std::size_t bones : sizes) {
+    for (const std::size_t bones : sizes)
         for (auto* each : {benchmark::RegisterBenchmark(name_of("bare", bones).c_str(), run_bare, bones),
                            benchmark::RegisterBenchmark(name_of("fabrik_plain", bones).c_str(), run_solver,
                                                         Method::FabrikPlain, bones, false),
                            benchmark::RegisterBenchmark(name_of("fabrik", bones).c_str(), run_solver,
                                                         Method::Fabrik, bones, false),
                            benchmark::RegisterBenchmark(name_of("plane", bones).c_str(), run_solver,
-                                                        Method::Fabrik, bones, true)}) {
+                                                        Method::Fabrik, bones, true)})
             each->Repetitions(repetitions)->ReportAggregatesOnly()->MinTime(0.02);
-        }
-    }
 }
 
 }  // namespace

@@ -133,12 +133,11 @@ bool contest(const char* title, Cases& cases_of, const KDL::Chain& chain, const 
         repetitions);
     std::printf("\n%s\n%-14s%12s%14s%10s%24s\n", title, "", "us a solve", "iterations", "reached",
                 "time, over fabrik's");
-    for (std::size_t i = 0; i < results.size(); ++i) {
+    for (std::size_t i = 0; i < results.size(); ++i)
         std::printf("%-14s%12.3f%14.1f%9.1f%%%23.1fx\n", results[i].name,
                     seconds[i] * 1e6 / static_cast<double>(all.size()), results[i].iterations,
                     100.0 * static_cast<double>(results[i].reached) / static_cast<double>(all.size()),
                     seconds[i] / seconds[1]);
-    }
     return claim("time of KDL's LMA over that of fabrik", seconds[0] / seconds[1], 30.0) &
            claim("targets that fabrik reaches over those of KDL",
                  static_cast<double>(results[1].reached) / static_cast<double>(results[0].reached), 1.0);

@@ -174,11 +174,10 @@ Limit cone(float swing, float twist) {
 
 Arm arm_of(std::size_t bones, Kind kind) {
     Arm arm = arm_of(bones, false);
-    for (std::size_t i = 0; i < bones && kind != Kind::Mixed; ++i) {
+    for (std::size_t i = 0; i < bones && kind != Kind::Mixed; ++i)
         arm.limits[i] = kind == Kind::Cones ? cone(60, 40)
                                             : Limit::hinge(i % 2 ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0),
                                                            -60 * degree, 100 * degree);
-    }
     return arm;
 }
 
@@ -261,7 +260,7 @@ Ratios met_limits_table() {
     std::printf("\nLimits that end well, ns a bone and iteration and us a solve, and times that without\n");
     std::printf("%-10s %-8s %6s %9s %6s %9s %6s\n", "joints", "limits", "bones", "ns", "ratio", "us",
                 "ratio");
-    for (const Kind kind : {Kind::Hinges, Kind::Cones, Kind::Mixed}) {
+    for (const Kind kind : {Kind::Hinges, Kind::Cones, Kind::Mixed})
         for (const std::size_t bones : sizes) {
             const Arm arm = arm_of(bones, kind);
             const std::vector<glm::vec3> targets = reachable(arm, 40);
@@ -281,7 +280,6 @@ Ratios met_limits_table() {
                 most = std::max(most, dragged ? with.solve / without.solve : ratio);
             }
         }
-    }
     return worst;
 }
 
@@ -312,15 +310,14 @@ Worst forbidden_table() {
     std::printf(
         "\nA forbidden target dragged by 2 mm a frame, us a frame: as it is, and with 8 restarts in each\n");
     std::printf("%-10s %6s %9s %9s %8s %11s\n", "joints", "bones", "us", "searching", "times", "residual");
-    for (const Kind kind : {Kind::Hinges, Kind::Cones, Kind::Mixed}) {
+    for (const Kind kind : {Kind::Hinges, Kind::Cones, Kind::Mixed})
         for (const std::size_t bones : sizes) {
             const Arm arm = arm_of(bones, kind);
             const std::optional<glm::vec3> start = forbidden_target(arm);
             if (!start) continue;
             std::vector<glm::vec3> targets;
-            for (int i = 0; i < 50; ++i) {
+            for (int i = 0; i < 50; ++i)
                 targets.push_back(*start + glm::vec3(0, 0.002f, 0.001f) * static_cast<float>(i));
-            }
             const Options follows{.limits = arm.limits}, searches{.limits = arm.limits, .restarts = 8};
             KeptSolver solvers[] = {arm.solver(), arm.solver()};
             Joints joints[] = {arm.at_rest(), arm.at_rest()};
@@ -346,7 +343,6 @@ Worst forbidden_table() {
                 worst.residual, static_cast<double>((residuals[0] - residuals[1]) / solvers[0].reach()));
             worst.gain = std::min(worst.gain, gain);
         }
-    }
     return worst;
 }
 

@@ -73,10 +73,9 @@ class ChainRun {
     explicit ChainRun(std::size_t bones)
         : places_(bow(chain(bones))), solver_(std::vector<float>(bones, 1.0f / static_cast<float>(bones))) {}
     void operator()() {
-        for (std::size_t i = solves_for(solver_.bones()); i > 0; --i) {
+        for (std::size_t i = solves_for(solver_.bones()); i > 0; --i)
             solver_.solve(tendril::ik::Method::FabrikPlain, places_, target(turn_++),
                           {.max_iterations = iterations, .every_iteration = true});
-        }
     }
 
   private:

@@ -100,7 +100,7 @@ Outcome run_bullet(const rope::State& state, int substeps, int iterations, doubl
 /// The minimum number of sufficient substeps, to a seventh, per number of iterations; the cheapest of all.
 Outcome cheapest_bullet(int size, const rope::State& state) {
     Outcome best{longest};
-    for (const int iterations : {4, 2, 8, 1, 16}) {
+    for (const int iterations : {4, 2, 8, 1, 16})
         for (double substeps = std::max(1, size / 16); substeps < 20000.0;
              substeps = std::ceil(substeps * 1.15)) {
             const Outcome tried = run_bullet(state, static_cast<int>(substeps), iterations, best.seconds);
@@ -110,7 +110,6 @@ Outcome cheapest_bullet(int size, const rope::State& state) {
                 break;
             }
         }
-    }
     // Short runs are repeated, like ours.
     if (best.seconds > 0.5) return best;
     std::vector<double> times;

@@ -136,15 +136,13 @@ constexpr Regime regimes[] = {
     {"over critical damping", 1.5f, 10.0f}, {"all mixed", 0.0f, 2.0f}};
 
 void springs_table(Gains& gains) {
-    for (const std::size_t count : sizes) {
-        for (const bool pushed : {false, true}) {
+    for (const std::size_t count : sizes)
+        for (const bool pushed : {false, true})
             for (const Regime& regime : regimes) {
                 Values values(count, regime.low, regime.high, pushed);
                 const std::string name = std::string(regime.name) + (pushed ? ", force, velocity" : "");
                 print_row(name, count, compete(values, count, &Values::one_by_one, &Values::at_once), gains);
             }
-        }
-    }
 }
 
 void interp_table(Gains& gains, Gains& exact) {

@@ -229,9 +229,8 @@ TEST(ChainEdit, SetPositionsReLaysFromTheFirstWrongLength) {
 TEST(ChainEdit, ARefusedSetPositionsChangesNothing) {
     Chain chain = straight(2);
     const Chain before = chain;
-    for (const std::size_t count : {3u, 1u, 0u}) {
+    for (const std::size_t count : {3u, 1u, 0u})
         EXPECT_EQ(chain.set_positions(std::vector<glm::vec3>(count)).code(), ErrorCode::InvalidArgument);
-    }
     for (const float bad : {nan, infinity, 1.1e9f}) {
         const std::vector<glm::vec3> pose{{0, 0, 0}, {0, bad, 0}};
         const std::string message = chain.set_positions(pose).message();
@@ -273,9 +272,8 @@ TEST(ChainLoad, SegmentsAtOnePointMakeAStraightChain) {
     const std::vector<Segment> heap(100'000, Segment{{3, 3, 3}, 0.125f});
     const Chain chain = *Chain::from_segments(heap, {0, 0, 1});
     EXPECT_TRUE(same_bits(chain.position(0), {3, 3, 3}));
-    for (std::size_t i = 0; i < chain.size(); i += 999) {
+    for (std::size_t i = 0; i < chain.size(); i += 999)
         EXPECT_EQ(chain.position(i), glm::vec3(3, 3, 3.0f + 0.125f * static_cast<float>(i)));
-    }
 }
 
 TEST(ChainLoad, CoincidingPointsAtTheEndGoStraightOn) {
@@ -328,7 +326,7 @@ TEST(ChainRefusals, BadLengths) {
 
 TEST(ChainRefusals, BadCoordinates) {
     Chain chain = straight(4);
-    for (const float bad : bad_coordinates) {
+    for (const float bad : bad_coordinates)
         for (int axis = 0; axis < 3; ++axis) {
             glm::vec3 point(0.5f);
             point[axis] = bad;
@@ -344,7 +342,6 @@ TEST(ChainRefusals, BadCoordinates) {
                            [&] { return chain.set_default_direction(point); });
             EXPECT_EQ(Chain::from_segments({{}, {point, 1}}).code(), ErrorCode::InvalidArgument);
         }
-    }
     Chain empty;  // a call on an empty chain does nothing, but still refuses invalid input
     EXPECT_EQ(empty.forward(glm::vec3(nan)).code(), ErrorCode::InvalidArgument);
     EXPECT_EQ(empty.with_index(0, glm::vec3(nan)).code(), ErrorCode::InvalidArgument);
@@ -377,9 +374,8 @@ TEST(ChainRefusals, AnEmptyChainAcceptsAddOnly) {
 TEST(ChainRefusals, BadDirections) {
     Chain chain = straight(2);
     for (const glm::vec3 bad : {glm::vec3(0), glm::vec3(1), glm::vec3(2, 0, 0), glm::vec3(0.99f, 0, 0),
-                                glm::vec3(1e9f, 0, 0), glm::vec3(1e-20f)}) {
+                                glm::vec3(1e9f, 0, 0), glm::vec3(1e-20f)})
         expect_refused(ErrorCode::InvalidArgument, chain, [&] { return chain.set_default_direction(bad); });
-    }
 }
 
 TEST(ChainRefusals, LimitValuesAreAccepted) {

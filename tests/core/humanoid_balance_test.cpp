@@ -116,12 +116,11 @@ TEST_F(HumanoidBalance, ARotationOfZeroWeightHasNoEffect) {
         const auto node = static_cast<std::size_t>(map[Bone::LeftFoot].node);
         return placed(reach({target}, balance).pose)[node].rotation();
     };
-    for (const bool balance : {false, true}) {
+    for (const bool balance : {false, true})
         for (const double weight : {0.0, 1e-3}) {
             const glm::dquat off = foot(balance, weight, true) * glm::conjugate(foot(balance, weight, false));
             EXPECT_LT(glm::length(glm::dvec3(off.x, off.y, off.z)), 1e-3) << balance << ' ' << weight;
         }
-    }
 }
 
 TEST_F(HumanoidBalance, ARisingFootLeavesTheSupportWithoutAJump) {
@@ -290,10 +289,9 @@ TEST_F(HumanoidBalance, AnUnbalancedClipMayStaySo) {
     BodyState state;
     const std::vector<BodyTarget> targets{{Effector::RightHand, at(Bone::RightHand, pose)}};
     ASSERT_TRUE(body.solve(pose, targets, state, {.balance = true}));
-    for (std::size_t i = 0; i < pose.size(); ++i) {
+    for (std::size_t i = 0; i < pose.size(); ++i)
         EXPECT_LT(glm::distance(placed(pose)[i].position, placed(clip)[i].position), 1e-3)
             << skeleton[i].name;
-    }
 }
 
 TEST_F(HumanoidBalance, SmallMovesOfTheTargetGiveSmallMovesOfThePose) {

@@ -145,7 +145,7 @@ TEST_P(HumanoidBody, KeepsLengthsAndLimitsForAnyTargets) {
 
 TEST_P(HumanoidBody, ASlowTargetGivesASlowPoseAndAStillOneAStillPose) {
     RandomPoses random(3);
-    for (const double step : {5e-3, 1e-3, 2e-4}) {
+    for (const double step : {5e-3, 1e-3, 2e-4})
         for (int i = 0; i < (step < 1e-3 ? 4 : 12); ++i) {
             const auto from = targets_of(rest), to = targets_of(random_pose(random, 0.5));
             double way = 0.0;
@@ -173,7 +173,6 @@ TEST_P(HumanoidBody, ASlowTargetGivesASlowPoseAndAStillOneAStillPose) {
                 before = now;
             }
         }
-    }
 }
 
 TEST_P(HumanoidBody, FollowsTargetsInAndOutOfReachWithoutALeap) {

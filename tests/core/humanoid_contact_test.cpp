@@ -72,7 +72,7 @@ TEST_P(HumanoidContact, AHandDraggedThroughTheBodySlidesAroundIt) {
         {{0.3, 1.3, 0.4}, {-0.2, 1.0, -0.1}},
         {{0.1, 0.7, 0.5}, {0.1, 0.7, -0.3}},     // a thigh
         {{0.3, 1.7, 0.3}, {-0.2, 1.65, -0.1}}};  // the head
-    for (const auto& [from, to] : ways) {
+    for (const auto& [from, to] : ways)
         for (const double step : {2e-2, 5e-3, 1e-3}) {
             BodyState state;
             std::vector<glm::dvec3> before;
@@ -96,7 +96,6 @@ TEST_P(HumanoidContact, AHandDraggedThroughTheBodySlidesAroundIt) {
                 before = now;
             }
         }
-    }
 }
 
 TEST_P(HumanoidContact, AClipWithAFistThroughTheWaistIsCorrected) {

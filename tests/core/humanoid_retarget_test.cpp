@@ -269,10 +269,9 @@ TEST(HumanoidRetarget, TheRootTravelsAndHelpersFollowTheirBones) {
             EXPECT_EQ(now[camera].position, rest[camera].position);
             const bool is_key = time != 0.6;
             for (const auto& [helper, bone] :
-                 {std::pair{foot, node_of(Bone::LeftFoot)}, {hand, node_of(Bone::RightHand)}}) {
+                 {std::pair{foot, node_of(Bone::LeftFoot)}, {hand, node_of(Bone::RightHand)}})
                 EXPECT_LT(glm::distance(seen(now, helper, bone), seen(rest, helper, bone)),
                           is_key ? 1e-6 : 1e-3 * to.leg());
-            }
         }
     }
 }

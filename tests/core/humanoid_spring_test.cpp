@@ -114,7 +114,7 @@ std::vector<glm::dvec3> tip_positions(double dt, std::mt19937* jitter) {
     Antenna antenna(6);
     std::vector<glm::dvec3> tips;
     double t = 0.0;
-    for (int mark = 1; mark <= 8; ++mark) {
+    for (int mark = 1; mark <= 8; ++mark)
         while (t < 0.5 * mark - 1e-9) {
             double step = dt;
             if (jitter != nullptr) step *= std::uniform_real_distribution<double>(0.5, 1.5)(*jitter);
@@ -125,7 +125,6 @@ std::vector<glm::dvec3> tip_positions(double dt, std::mt19937* jitter) {
             tips.resize(static_cast<std::size_t>(mark), glm::dvec3(0.0));
             tips.back() = antenna.tip(antenna.step(at, turn, {}, step));
         }
-    }
     return tips;
 }
 

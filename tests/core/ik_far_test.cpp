@@ -19,8 +19,8 @@ void expect_length(const glm::vec3& a, const glm::vec3& b, float length, float t
 }
 
 TEST(IkFar, ATreeKeepsItsLengths) {
-    for (const Figure& given : {body(), spider()}) {
-        for (const float far : far_away) {
+    for (const Figure& given : {body(), spider()})
+        for (const float far : far_away)
             for (const glm::vec3& direction : directions()) {
                 Figure figure = given;
                 Tree tree = tree_of(figure.joints);
@@ -37,15 +37,13 @@ TEST(IkFar, ATreeKeepsItsLengths) {
                 for (std::size_t k = 1; k < places.size(); ++k)
                     expect_length(places[figure.joints[k].parent], places[k], figure.joints[k].length, far);
             }
-        }
-    }
 }
 
 TEST(IkFar, ATreeWithOneEffectorLiesStraightTowardsIt) {
     TreeJointList joints = only_root();
     const std::size_t tip = grow(joints, 0, {1.0f, 0.3f, 2.0f, 0.01f, 0.7f});
     Tree tree = tree_of(joints);
-    for (const float far : far_away) {
+    for (const float far : far_away)
         for (const glm::vec3& direction : directions()) {
             Places places{{0, 0, 0}, {0, 1, 0}, {0, 1.3f, 0}, {0, 3.3f, 0}, {0, 3.31f, 0}, {0, 4.01f, 0}};
             const std::vector<Effector> effectors{{tip, direction * far}};
@@ -54,13 +52,12 @@ TEST(IkFar, ATreeWithOneEffectorLiesStraightTowardsIt) {
                 expect_length(places[k - 1], places[k], joints[k].length, far);
             EXPECT_LE(glm::distance(places[tip], direction * 4.01f), 1e-4f) << far;
         }
-    }
 }
 
 TEST(IkFar, TwoBonesKeepTheirLengths) {
     const ik::TwoBone limb{{0, 0, 0}, {0, 0.4f, 0.1f}, {0, 0.7f, 0.4f}, 0.41231056f, 0.42426407f};
-    for (const float far : far_away) {
-        for (const glm::vec3& direction : directions()) {
+    for (const float far : far_away)
+        for (const glm::vec3& direction : directions())
             for (const bool pole : {false, true}) {
                 ik::TwoBoneOptions options;
                 if (pole) options.pole = glm::vec3(0.3f, -1, 2);
@@ -70,8 +67,6 @@ TEST(IkFar, TwoBonesKeepTheirLengths) {
                 expect_length(result.mid, result.tip, limb.lower, far);
                 EXPECT_LE(glm::distance(result.tip, direction * (limb.upper + limb.lower)), 1e-4f) << far;
             }
-        }
-    }
 }
 
 }  // namespace

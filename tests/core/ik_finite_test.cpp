@@ -97,7 +97,7 @@ TEST(IkFinite, AlmostNoDampingWithinLimits) {
 /// Lengths are kept for a target at the end of the range. Beyond it nothing moves.
 TEST(IkFinite, FarTargetsKeepLengths) {
     Random random(78);
-    for (int number = 0; number < 500; ++number) {
+    for (int number = 0; number < 500; ++number)
         for (const Method method : ik::all_methods) {
             const Arm arm = some_arm(random, method == Method::TwoBone ? 2 : 2 + random.below(6));
             KeptSolver solver = arm.solver();
@@ -120,7 +120,6 @@ TEST(IkFinite, FarTargetsKeepLengths) {
                 EXPECT_EQ(solver.state, state);
             }
         }
-    }
 }
 
 }  // namespace

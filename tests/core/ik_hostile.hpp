@@ -40,9 +40,8 @@ inline Joints hostile_pose(std::span<const float> lengths, Random& random) {
     if (random.chance(4)) return straight_joints(lengths, along, root);
     if (!random.chance(4)) return some_pose(lengths, random, root);
     Joints joints{root};
-    for (const float length : lengths) {
+    for (const float length : lengths)
         joints.push_back(joints.back() + along * (random.chance(2) ? length : -length));
-    }
     return joints;
 }
 

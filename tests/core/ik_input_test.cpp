@@ -33,7 +33,7 @@ void expect_refused(const std::string& why, const Options& options, glm::vec3 ta
 }
 
 TEST(IkInput, NonFiniteAndTooLargeNumbersAreRefused) {
-    for (const float bad : {nan, infinity, -infinity, 1.1e9f, -2e9f}) {
+    for (const float bad : {nan, infinity, -infinity, 1.1e9f, -2e9f})
         for (int axis = 0; axis < 3; ++axis) {
             glm::vec3 point(0.5f);
             point[axis] = bad;
@@ -46,7 +46,6 @@ TEST(IkInput, NonFiniteAndTooLargeNumbersAreRefused) {
                 expect_refused("joints[" + std::to_string(joint) + "]" + at, {}, {1, 1, 0}, start);
             }
         }
-    }
 }
 
 TEST(IkInput, AnyOptionOutOfRangeIsRefused) {
@@ -143,10 +142,9 @@ TEST(IkInput, HostileButValidInputNeverGivesNaN) {
         EXPECT_EQ(report.status == Status::InvalidInput, method == Method::TwoBone && some.size() != 2);
         EXPECT_TRUE(std::isfinite(report.residual)) << name(method) << ", case " << i;
         EXPECT_TRUE(same_bits(joints.front(), root)) << name(method) << ", case " << i;
-        for (const glm::vec3& joint : joints) {
+        for (const glm::vec3& joint : joints)
             EXPECT_TRUE(std::isfinite(joint.x) && std::isfinite(joint.y) && std::isfinite(joint.z))
                 << name(method) << ", case " << i;
-        }
     }
 }
 

@@ -39,27 +39,24 @@ Matrix jacobian(const Joints& joints) {
     for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
         const glm::dvec3 r = glm::dvec3(joints.back()) - glm::dvec3(joints[i]);
         const double columns[3][3] = {{0, -r.z, r.y}, {r.z, 0, -r.x}, {-r.y, r.x, 0}};
-        for (const auto& column : columns) {
+        for (const auto& column : columns)
             for (std::size_t row = 0; row < 3; ++row) j[row].push_back(column[row]);
-        }
     }
     return j;
 }
 
 Vector transposed_times(const Matrix& j, const Vector& e) {
     Vector result(j[0].size(), 0.0);
-    for (std::size_t c = 0; c < result.size(); ++c) {
+    for (std::size_t c = 0; c < result.size(); ++c)
         for (std::size_t r = 0; r < 3; ++r) result[c] += j[r][c] * e[r];
-    }
     return result;
 }
 
 Matrix squared(const Matrix& j, double damping) {
     Matrix result(3, Vector(3, 0.0));
     for (std::size_t r = 0; r < 3; ++r) {
-        for (std::size_t s = 0; s < 3; ++s) {
+        for (std::size_t s = 0; s < 3; ++s)
             for (std::size_t c = 0; c < j[0].size(); ++c) result[r][s] += j[r][c] * j[s][c];
-        }
         result[r][r] += damping;
     }
     return result;
@@ -227,8 +224,8 @@ TEST(IkJacobian, DampedMethodsReachUpToTheRimInAHundredIterations) {
 
 TEST(IkJacobian, EveryDampingConverges) {
     Random random(14);
-    for (const float damping : {1e-6f, 1e-3f, 0.1f, 0.5f}) {
-        for (const Method method : {Method::Dls, Method::SvdDls}) {
+    for (const float damping : {1e-6f, 1e-3f, 0.1f, 0.5f})
+        for (const Method method : {Method::Dls, Method::SvdDls})
             for (int k = 0; k < 100; ++k) {
                 const Lengths lengths = some_lengths(4 + random.below(6), random);
                 Joints joints = some_pose(lengths, random);
@@ -238,8 +235,6 @@ TEST(IkJacobian, EveryDampingConverges) {
                 const ik::Report report = KeptSolver(lengths).solve(method, joints, target, options);
                 EXPECT_EQ(report.status, Status::Converged) << name(method) << ", damping " << damping;
             }
-        }
-    }
 }
 
 TEST(IkJacobian, SurvivesAnyInput) {

@@ -116,18 +116,16 @@ inline ::testing::AssertionResult WithinLimits(const Arm& arm, std::span<const g
                                                std::span<const glm::quat> rotations) {
     for (std::size_t i = 0; i < arm.lengths.size(); ++i) {
         const double over = degrees(over_limit(arm.limits[i], arm.rest[i], local_turn(rotations, i)));
-        if (!(over <= 0.1)) {
+        if (!(over <= 0.1))
             return ::testing::AssertionFailure() << "joint " << i << " (" << ik::name(arm.limits[i].kind)
                                                  << ") is over by " << over << " degrees";
-        }
         const double length = arm.lengths[i];
         const glm::dvec3 from(joints[i]), bone = glm::dvec3(joints[i + 1]) - from;
         const glm::dvec3 said = matrix_of(rotations[i]) * glm::normalize(glm::dvec3(arm.rest[i])) * length;
         // The resolution of float directions at that distance.
         const double rounding = 1e-6 * (glm::length(from) + static_cast<double>(arm.reach()));
-        if (!(glm::length(bone - said) <= 1e-3 * length + rounding)) {
+        if (!(glm::length(bone - said) <= 1e-3 * length + rounding))
             return ::testing::AssertionFailure() << "bone " << i << " does not lie as its rotation says";
-        }
     }
     return ::testing::AssertionSuccess();
 }

@@ -229,9 +229,8 @@ TEST(IkLimited, AnArmThatFollowsRarelyJumps) {
             solver.solve(Method::Fabrik, joints, from + (to - from) * (static_cast<float>(i) / 300.0f),
                          options);
             double furthest = 0;
-            for (std::size_t j = 0; j < joints.size(); ++j) {
+            for (std::size_t j = 0; j < joints.size(); ++j)
                 furthest = std::max(furthest, distance(joints[j], before[j]));
-            }
             jumps += furthest > 0.05 * static_cast<double>(arm.reach());
         }
     }

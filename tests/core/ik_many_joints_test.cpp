@@ -36,7 +36,7 @@ TEST(SolveManyJoints, SolvesTheCallersJointsBitForBitLikeItsOwn) {
         const Crowd crowd = some_crowd(501, bones, random, 0.0f, 1.05f);
         for (const int threads : {1, 3}) {
             Batch batch = batch_of_lengths(crowd, threads);
-            for (const std::string_view unit : ik::vector_units()) {
+            for (const std::string_view unit : ik::vector_units())
                 for (const ManyOptions& options :
                      {ManyOptions{.vector_unit = unit},
                       ManyOptions{.max_iterations = 7, .every_iteration = true, .vector_unit = unit},
@@ -44,7 +44,6 @@ TEST(SolveManyJoints, SolvesTheCallersJointsBitForBitLikeItsOwn) {
                     SCOPED_TRACE(std::string(unit) + ", " + std::to_string(bones) + " bones");
                     ASSERT_EQ(difference(solve_kept(batch, crowd, options), solve_many(crowd, options)), "");
                 }
-            }
         }
     }
 }

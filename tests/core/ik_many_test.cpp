@@ -96,11 +96,9 @@ TEST(SolveMany, EveryNumberOfThreadsGivesTheSameBits) {
     const ManyOptions options{.max_iterations = 1000};
     const Answer one = solve_many(crowd, options);
     expect_same(crowd, one, solve_each(crowd, options), 1e-4);
-    for (const int threads : {2, 3, 4, 256}) {
-        for (int again = 0; again < 3; ++again) {
+    for (const int threads : {2, 3, 4, 256})
+        for (int again = 0; again < 3; ++again)
             EXPECT_EQ(difference(solve_many(crowd, options, threads), one), "") << threads;
-        }
-    }
 }
 
 /// Degenerate chains: bones of no length, one dominant bone, coincident joints, poses straight or folded
@@ -178,9 +176,8 @@ TEST(SolveMany, ATargetMovingBackAndForthOnALineIsFollowed) {
         const float far = 6.5f + 3.0f * std::sin(0.37f * static_cast<float>(frame));
         const std::vector<glm::vec3> targets(batch.size(), glm::vec3(0, far, 0));
         ik::solve_many(batch, targets, reports);
-        for (const ManyReport& report : reports) {
+        for (const ManyReport& report : reports)
             ASSERT_EQ(report.status, far > 6.0f ? Status::Stretched : Status::Converged) << "at " << far;
-        }
     }
 }
 

@@ -27,7 +27,7 @@ TEST(IkMemory, SolvingAllocatesNothing) {
                                    {.limits = limits, .tip_orientation = glm::quat(1, 0, 0, 0)},
                                    {.snap_back = 0.4f, .tip_orientation = glm::quat(1, 0, 0, 0)},
                                    {.soft_zone = 0.2f, .residuals = residuals}};
-        for (const Options& each : options) {
+        for (const Options& each : options)
             for (const float far : {0.0f, 0.3f, 0.7f, 0.995f, 1.5f}) {
                 Joints joints = random.chance(3) ? straight_joints(lengths) : some_pose(lengths, random);
                 const glm::vec3 target = some_direction(random) * (far * reach);
@@ -38,7 +38,6 @@ TEST(IkMemory, SolvingAllocatesNothing) {
                 });
                 EXPECT_NE(status, Status::InvalidInput) << name(method);
             }
-        }
     }
 }
 

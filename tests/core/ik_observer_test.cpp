@@ -24,9 +24,8 @@ Recorder expect_faithful(Method method, const Lengths& lengths, const Joints& st
     EXPECT_TRUE(same_bits(joints, unwatched));
     EXPECT_TRUE(same_bits(recorder.replay(start), joints));
     EXPECT_FALSE(recorder.iterations.empty());
-    for (std::size_t i = 0; i < recorder.iterations.size(); ++i) {
+    for (std::size_t i = 0; i < recorder.iterations.size(); ++i)
         EXPECT_EQ(recorder.iterations[i], static_cast<int>(i));
-    }
     int order = 0;
     for (const ik::Step& step : recorder.steps) {
         EXPECT_GE(step.order, order);  // steps that move nothing leave gaps
@@ -69,9 +68,8 @@ TEST(IkObserver, ReplayedStepsGiveTheResult) {
     }
     for (const Phase phase :
          {Phase::Prepare, Phase::ForwardReaching, Phase::BackwardReaching, Phase::Accelerate, Phase::Rotate,
-          Phase::Gradient, Phase::Pole, Phase::Analytic, Phase::RestoreBest}) {
+          Phase::Gradient, Phase::Pole, Phase::Analytic, Phase::RestoreBest})
         EXPECT_GT(phases[phase], 0) << name(phase);
-    }
 }
 
 TEST(IkObserver, OneIterationOfFourBonesIsEightPulls) {

@@ -107,8 +107,8 @@ int changed_cases(Method method, const Field& option, bool limited) {
 }
 
 TEST(IkOptions, TheTableListsTheOptionsOfEachMethod) {
-    for (const Method method : ik::all_methods) {
-        for (const Field& option : fields<ik::Options>()) {
+    for (const Method method : ik::all_methods)
+        for (const Field& option : fields<ik::Options>())
             for (const bool limited : {false, true}) {
                 if (option.name == std::string("limits") && limited) continue;
                 const int changed = changed_cases(method, option, limited);
@@ -116,8 +116,6 @@ TEST(IkOptions, TheTableListsTheOptionsOfEachMethod) {
                     << name(method) << ", " << option.name << (limited ? " within limits" : " without limits")
                     << ": " << changed << " of 40 changed";
             }
-        }
-    }
 }
 
 TEST(IkOptions, TwoBoneNeedsTwoBones) {

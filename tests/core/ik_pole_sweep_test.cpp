@@ -45,7 +45,7 @@ double worst_ratio(Method method, const Lengths& lengths, const Sweep& sweep) {
 TEST(IkPoleSweep, NoJointJumpsAsTheTargetCrossesThePole) {
     for (const std::size_t bones : {5u, 6u}) {  // five and six bones
         const Lengths lengths(bones, 1.0f);
-        for (const double step : {0.025, 0.005, 0.0005}) {
+        for (const double step : {0.025, 0.005, 0.0005})
             for (const PoleTurn turn : {PoleTurn::WholeChain, PoleTurn::EachJoint}) {
                 const glm::dvec3 along = glm::normalize(glm::dvec3(2, 1, 0));
                 const glm::dvec3 up(0, 0, 1), across = glm::cross(up, along);
@@ -57,7 +57,6 @@ TEST(IkPoleSweep, NoJointJumpsAsTheTargetCrossesThePole) {
                         << (turn == PoleTurn::EachJoint ? "each joint" : "whole chain") << ", tilt " << tilt;
                 }
             }
-        }
     }
 }
 
@@ -69,12 +68,10 @@ TEST(IkPoleSweep, WithoutStateJointsJump) {
 
 TEST(IkPoleSweep, OtherMethodsDoNotJump) {
     const Lengths lengths(5, 1.0f);
-    for (const Method method : iterating_methods) {
-        for (const PoleTurn turn : {PoleTurn::WholeChain, PoleTurn::EachJoint}) {
+    for (const Method method : iterating_methods)
+        for (const PoleTurn turn : {PoleTurn::WholeChain, PoleTurn::EachJoint})
             EXPECT_LE(worst_ratio(method, lengths, {0.005, turn, {0, 0, 1}}), 50.0)
                 << name(method) << (turn == PoleTurn::EachJoint ? ", each joint" : ", whole chain");
-        }
-    }
     EXPECT_LE(worst_ratio(Method::TwoBone, Lengths{2, 2}, {0.005, PoleTurn::WholeChain, {0, 0, 1}}), 50.0);
 }
 

@@ -27,9 +27,8 @@ double angle_between(glm::dvec3 a, glm::dvec3 b) {
 double pole_error(const Joints& joints, std::span<const float> lengths, glm::vec3 pole) {
     const glm::dvec3 root(joints.front()), line = glm::dvec3(joints.back()) - root;
     glm::dvec3 bend(0.0);
-    for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
+    for (std::size_t i = 1; i + 1 < joints.size(); ++i)
         bend += off(glm::dvec3(joints[i]) - root, line) * static_cast<double>(lengths[i - 1] + lengths[i]);
-    }
     const double reach = reach_of(lengths);
     if (size(bend) < 1e-3 * reach * reach) return 0.0;
     return angle_between(bend, off(glm::dvec3(pole) - root, line));
@@ -118,14 +117,12 @@ TEST(IkPole, RepeatedSolvesComeToRest) {
         Joints settled = joints;
         // The tip was within tolerance of the target; it now moves onto the line to it.
         for (int again = 0; again < 10; ++again) solver.solve(Method::Fabrik, joints, target, facing(pole));
-        for (std::size_t i = 0; i < joints.size(); ++i) {
+        for (std::size_t i = 0; i < joints.size(); ++i)
             EXPECT_LT(distance(joints[i], settled[i]), 0.02 * reach);
-        }
         settled = joints;
         solver.solve(Method::Fabrik, joints, target, facing(pole));
-        for (std::size_t i = 0; i < joints.size(); ++i) {
+        for (std::size_t i = 0; i < joints.size(); ++i)
             EXPECT_LT(distance(joints[i], settled[i]), 1e-5 * reach);
-        }
     }
 }
 
@@ -152,9 +149,8 @@ TEST(IkPole, APoleCrossingTheLineTurnsTheChainAtALimitedRate) {
             const Joints before = joints;
             solver.solve(Method::Fabrik, joints, {0.7f, 0, 0}, facing({0.3f, y, 0.0003f}, turn));
             EXPECT_TRUE(Holds(joints, lengths));
-            for (std::size_t i = 0; i < joints.size(); ++i) {
+            for (std::size_t i = 0; i < joints.size(); ++i)
                 worst = std::max(worst, distance(joints[i], before[i]));
-            }
         };
         solve(0.01f);
         worst = 0.0;
@@ -256,9 +252,8 @@ Jumps walk(Method method, PoleTurn turn, std::size_t bones, int paths, int steps
             if (!walk.is_clear()) continue;
             ++jumps.steps;
             jumps.unfaced += pole_error(joints, lengths, pole) > 0.02;
-            for (std::size_t i = 0; i < joints.size(); ++i) {
+            for (std::size_t i = 0; i < joints.size(); ++i)
                 jumps.worst = std::max(jumps.worst, distance(joints[i], before[i]));
-            }
         }
     }
     return jumps;

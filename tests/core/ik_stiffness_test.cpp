@@ -68,7 +68,7 @@ Outcome outcome(Method method, bool cones, float stiffness) {
 
 TEST(IkStiffness, StiffJointsTurnLessOthersMoreAndTheTipArrives) {
     for (const Method method : {Method::Fabrik, Method::FabrikPlain, Method::Ccd, Method::JacobianTranspose,
-                                Method::Dls, Method::SvdDls}) {
+                                Method::Dls, Method::SvdDls})
         for (const bool cones : {false, true}) {
             SCOPED_TRACE(std::string(ik::name(method)) + (cones ? ", cones" : ", free"));
             std::vector<Outcome> all;
@@ -80,7 +80,6 @@ TEST(IkStiffness, StiffJointsTurnLessOthersMoreAndTheTipArrives) {
             EXPECT_LT(all.back().stiff, 0.1 * all.front().stiff);
             EXPECT_GT(all.back().others, all.front().others);
         }
-    }
 }
 
 /// Stiff joints still turn if they must: every reachable target is reached.

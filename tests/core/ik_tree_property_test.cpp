@@ -54,7 +54,7 @@ TEST(IkTreeProperty, ConvergesOnReachableTargets) {
     } cases[] = {{Which::Body, "body", 500, 99.0, 10},
                  {Which::Spider, "spider", 500, 99.0, 10},
                  {Which::Random, "random", 300, 97.0, 8}};
-    for (const auto& each : cases) {
+    for (const auto& each : cases)
         for (const float straight : {0.0f, 0.5f, 0.8f}) {
             Tally tally = converge(each.which, straight, each.solves);
             const int p50 = tally.percentile(50);
@@ -63,7 +63,6 @@ TEST(IkTreeProperty, ConvergesOnReachableTargets) {
             EXPECT_GE(tally.rate(), each.least) << each.name << ", " << straight;
             EXPECT_LE(p50, each.median) << each.name << ", " << straight;
         }
-    }
 }
 
 TEST(IkTreeProperty, MovesTheJointsNoFurtherThanPlainPulls) {
@@ -107,9 +106,8 @@ TEST(IkTreeProperty, TheOrderOfTheEffectorsDoesNotMatter) {
         ASSERT_TRUE(same_places(a, b)) << i;
         std::map<std::size_t, float> by_joint;
         for (std::size_t k = 0; k < shuffled.size(); ++k) by_joint[shuffled[k].joint] = shuffled_residuals[k];
-        for (std::size_t k = 0; k < residuals.size(); ++k) {
+        for (std::size_t k = 0; k < residuals.size(); ++k)
             ASSERT_EQ(residuals[k], by_joint[figure.effectors[k].joint]);
-        }
     }
 }
 
@@ -134,9 +132,8 @@ TEST(IkTreeProperty, NeverEndsWorseThanItBegan) {
         const bool reachable =
             std::all_of(figure.effectors.begin(), figure.effectors.end(), [&](auto& effector) {
                 double way = 0.0;
-                for (std::size_t k = effector.joint; k != 0; k = figure.joints[k].parent) {
+                for (std::size_t k = effector.joint; k != 0; k = figure.joints[k].parent)
                     way += static_cast<double>(figure.joints[k].length);
-                }
                 return distance(effector.target, glm::vec3(0.0f)) <= way;
             });
         if (!reachable) continue;  // solved for the nearest reachable targets: another loss

@@ -183,14 +183,13 @@ TEST(IkTree, WeightsDoNotMatterIfAllTargetsAreReachable) {
     Figure figure = body();
     Tree tree = tree_of(figure.joints);
     Random random(9);
-    for (const float weight : {1e-4f, 1.0f, 1e4f, 1e9f}) {
+    for (const float weight : {1e-4f, 1.0f, 1e4f, 1e9f})
         for (int i = 0; i < 50; ++i) {
             aim(figure.effectors, random_pose(figure.joints, random, 0.4f));
             figure.effectors[1].weight = weight;
             Places places = random_pose(figure.joints, random, 0.4f);
             EXPECT_EQ(tree.solve(places, figure.effectors).status, Status::Converged) << weight << ", " << i;
         }
-    }
 }
 
 TEST(IkTree, AnEffectorOnAnInnerJointMovesTheRestRigidly) {
@@ -205,11 +204,9 @@ TEST(IkTree, AnEffectorOnAnInnerJointMovesTheRestRigidly) {
         EXPECT_EQ(report.status, Status::Converged);
         EXPECT_TRUE(Holds(joints, places));
         // Joints 2 to 6 are rigid: all distances among them are unchanged.
-        for (std::size_t a = 2; a <= 6; ++a) {
-            for (std::size_t b = a + 1; b <= 6; ++b) {
+        for (std::size_t a = 2; a <= 6; ++a)
+            for (std::size_t b = a + 1; b <= 6; ++b)
                 ASSERT_NEAR(distance(places[a], places[b]), distance(before[a], before[b]), 1e-5);
-            }
-        }
     }
 }
 
@@ -306,7 +303,7 @@ TEST(IkTree, StraightChainsLeaveTheirLine) {
         const TreeJointList joints = chain_of(bones, 0.5f);
         const float reach = 0.5f * static_cast<float>(bones);
         Tree tree = tree_of(joints);
-        for (const glm::vec3 along : {glm::vec3(1, 0, 0), glm::vec3(0, -1, 0), glm::vec3(0.6f, 0, 0.8f)}) {
+        for (const glm::vec3 along : {glm::vec3(1, 0, 0), glm::vec3(0, -1, 0), glm::vec3(0.6f, 0, 0.8f)})
             for (const float part : {0.95f, 0.7f, 0.5f, 0.1f, 0.0f, -0.1f, -0.5f, -0.9f, -0.99f}) {
                 Places places = straight_pose(joints, along);
                 const std::vector<Effector> effectors{{bones, along * (reach * part)}};
@@ -315,7 +312,6 @@ TEST(IkTree, StraightChainsLeaveTheirLine) {
                 EXPECT_LE(report.iterations, 14) << bones << ", " << part;
                 EXPECT_TRUE(Holds(joints, places));
             }
-        }
     }
 }
 

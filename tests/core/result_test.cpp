@@ -97,7 +97,7 @@ TEST(Tasks, SolveManyUsesTheProgramsWorkersAndGivesTheSameBits) {
     Random random(41);
     const Crowd crowd = some_crowd(5000, 10, random, 0.05f, 1.1f);
     const Answer expected = solve_many(crowd, {});
-    for (const bool backwards : {false, true}) {
+    for (const bool backwards : {false, true})
         for (const bool threaded : {false, true}) {
             Jobs jobs{.backwards = backwards, .threaded = threaded};
             const Answer answer = solve_many(crowd, {.tasks = {run_on_jobs, &jobs}}, 4);
@@ -105,7 +105,6 @@ TEST(Tasks, SolveManyUsesTheProgramsWorkersAndGivesTheSameBits) {
             EXPECT_EQ(jobs.pieces, 4u);
             EXPECT_EQ(difference(answer, expected), "");
         }
-    }
 }
 
 TEST(Tasks, ASingleThreadNeedsNoCallback) {

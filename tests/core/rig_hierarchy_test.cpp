@@ -112,8 +112,8 @@ TEST(RigHierarchy, AReferenceStaysValidAcrossReadsAndWrites) {
     RigLine line;
     for (const ElementId each : {line.root, line.middle, line.tip, line.other})
         line.expect_set(each, Local, some_transform(random), Propagate::Yes);
-    for (const Space space : {Local, Global}) {
-        for (const Propagate propagate : {Propagate::Yes, Propagate::No}) {
+    for (const Space space : {Local, Global})
+        for (const Propagate propagate : {Propagate::Yes, Propagate::No})
             for (const ElementId from : {line.root, line.middle, line.tip}) {
                 RigLine again = line;
                 const Transform& source = again.tree.get(from, space);
@@ -126,8 +126,6 @@ TEST(RigHierarchy, AReferenceStaysValidAcrossReadsAndWrites) {
                 plain.tree.put(line.middle, Global, copy, propagate);
                 EXPECT_TRUE(again.tree == plain.tree);
             }
-        }
-    }
 }
 
 TEST(RigHierarchy, ALineOf100000DoesNotOverflowTheStack) {
@@ -516,7 +514,7 @@ TEST(RigEuler, AnglesAndRotationAgreeBothWays) {
 
 TEST(RigEuler, ThePolesAreClean) {
     Random random(7);
-    for (const double side : {-1.0, 1.0}) {
+    for (const double side : {-1.0, 1.0})
         for (const double from_pole : {0.0, 1e-12, 1e-9, 1e-8, 1e-6, 1e-3}) {
             const double x = some_double(random, 3.0), z = some_double(random, 3.0);
             const glm::dquat rotation = from_euler({x, side * (pi / 2 - from_pole), z});
@@ -528,7 +526,6 @@ TEST(RigEuler, ThePolesAreClean) {
             else
                 EXPECT_LE(std::abs(angles.z - z), 1e-6);
         }
-    }
 }
 
 TEST(RigUnits, AWeightOfZeroLeavesTheItemBitForBit) {

@@ -84,12 +84,11 @@ inline Definition fk_rig(int count = 4, bool maintain_offset = true) {
                                 .parent = i > 0 ? numbered("b", i - 1) : std::string(),
                                 .initial = place});
     }
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count; ++i)
         rig.units.push_back({.name = numbered("follow", i),
                              .operation = ParentConstraint{.item = numbered("b", i),
                                                            .parents = {{.item = numbered("c", i)}},
                                                            .maintain_offset = maintain_offset}});
-    }
     return rig;
 }
 

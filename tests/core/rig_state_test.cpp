@@ -343,14 +343,13 @@ TEST(RigState, WithoutPropagationChildrenStayAfterTheSolve) {
     for (const char* parent : {"parent", "transform"}) {
         ASSERT_TRUE(rig.rig.set_element(rig.state, rig.element(parent), Space::Global, to, Propagate::No));
         before[rig.element(parent)] = to;
-        for (int solves = 0; solves < 2; ++solves, rig.solve()) {
+        for (int solves = 0; solves < 2; ++solves, rig.solve())
             for (std::size_t i = 0; i < before.size(); ++i) {
                 SCOPED_TRACE(definition.elements[i].name);
                 const Transform now = rig.global(definition.elements[i].name);
                 expect_near(now.translation, before[i].translation);
                 EXPECT_NEAR(std::abs(glm::dot(now.rotation, before[i].rotation)), 1.0, 1e-12);
             }
-        }
     }
 }
 

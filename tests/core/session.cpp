@@ -121,13 +121,12 @@ test::World some_world(int number, Random& random) {
                         .pin_start = random.chance(2),
                         .pin_end = random.chance(4)});
     }
-    if (random.chance(2)) {
+    if (random.chance(2))
         world.add_cloth({.corner = random.point(1.0f),
                          .columns = 5,
                          .rows = 4,
                          .tear = random.chance(2) ? 0.0625f : 0.0f,
                          .pins = rope::ClothShape::Pins::Corners});
-    }
     const glm::vec3 root = centre(world.find_collider("ball")->shape) + glm::vec3(0, 0.25f, 0);
     world.add_hair({.roots = {{root, {0, 1, 0}}, {root, {1, 1, 0}}}, .segments = 5}, "ball");
     return world;
@@ -163,9 +162,7 @@ std::uint64_t session_hash() {
             require(chain.set_default_direction(i % 2000 == 0 ? glm::vec3(1, 0, 0) : glm::vec3(0, -1, 0)));
         }
         require(random.chance(2) ? edit(chain, random) : reach(chain, random));
-        for (const Segment& segment : chain.segments()) {
-            hash.add(segment.position);
-        }
+        for (const Segment& segment : chain.segments()) hash.add(segment.position);
     }
     return hash.value();
 }

@@ -224,9 +224,8 @@ double angle_between(const glm::dquat& a, const glm::dquat& b) {
 
 TEST(SignalInterpolate, TheExactFormDoesNotDependOnFrameRate) {
     const signal::Filter filter = filter_of("interp_to_exact", {{"speed", 10.0}});
-    for (const double hz : {30.0, 60.0, 144.0}) {
+    for (const double hz : {30.0, 60.0, 144.0})
         EXPECT_NEAR(1.0 - reached(filter, hz, 0.5), std::exp(-5.0), 1e-6) << hz << " Hz";
-    }
     Random random(1);
     for (int i = 0; i < 1000; ++i) {
         const double from = around(random, 100.0), to = around(random, 100.0);

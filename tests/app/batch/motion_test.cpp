@@ -92,7 +92,7 @@ TEST_F(MotionProgram, PrintsWhatItGuessedAboutAFile) {
 
 TEST_F(MotionProgram, BakeWritesTheClipAndPrintsTheDifference) {
     const std::string file = figure("walk.glb");
-    for (const char* ground : {"none", "flat", "slope", "stairs", "terrain"}) {
+    for (const char* ground : {"none", "flat", "slope", "stairs", "terrain"})
         for (const char* name : {"out.glb", "out.gltf", "out.bvh"}) {
             const Outcome outcome = run({"bake", file, "--ground", ground, "--out", path(name), "--force"});
             EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -102,7 +102,6 @@ TEST_F(MotionProgram, BakeWritesTheClipAndPrintsTheDifference) {
             const app::Character read = app::read_character(folder_ / name);
             EXPECT_NEAR(read.clips.at(0).duration, 1.1, 1e-6);
         }
-    }
     // On stairs, the figure climbs.
     run({"bake", file, "--ground", "stairs", "--out", path("up.bvh")});
     const app::Character up = app::read_character(folder_ / "up.bvh");
@@ -250,7 +249,7 @@ TEST_F(MotionProgram, ASignalEndsABakeAtOnceAndLeavesNothing) {
         for (auto* list : {&channel.translation.times, &channel.rotation.times, &channel.scale.times})
             for (double& time : *list) time *= times;
     app::export_clip({character, {}, clip, clip, 1.0}, folder_ / "long.glb");
-    for (const int number : {SIGINT, SIGTERM}) {
+    for (const int number : {SIGINT, SIGTERM})
         for (const Strings& arguments :
              {Strings{"bake", path("long.glb"), "--ground", "stairs", "--fps", "1000"},
               Strings{"lint", path("long.glb")}}) {
@@ -262,7 +261,6 @@ TEST_F(MotionProgram, ASignalEndsABakeAtOnceAndLeavesNothing) {
             EXPECT_TRUE(outcome.exit_code == 128 + number || arguments[0] == "lint")
                 << arguments[0] << ' ' << outcome.exit_code << outcome.err;
         }
-    }
     EXPECT_EQ(folder_.names(), Strings{"long.glb"});
 }
 

@@ -140,14 +140,13 @@ TEST_P(LabCard, AStepAloneCompletesNoOther) {
 
 TEST_P(LabCard, EveryStepWaitsForACommandThatExists) {
     CardOnScene scene(GetParam());
-    for (const CardStep& step : scene.card().steps) {
+    for (const CardStep& step : scene.card().steps)
         for (const CardLine& line : step.by) {
             const Command* const command = scene.app().commands().find(line.command);
             ASSERT_NE(command, nullptr) << line.command;
             for (const auto& [key, value] : line.arguments->items())
                 EXPECT_NE(find_argument(*command, key), nullptr) << line.command << " " << key;
         }
-    }
 }
 
 /// Undo, redo and the scenes that they restore complete no step either.

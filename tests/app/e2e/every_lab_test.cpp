@@ -176,7 +176,7 @@ std::vector<LabScene> some_others(const LabScene& scene) {
 TEST_P(EveryScene, MayGoAwayUnderTheMouse) {
     const auto window = open_offscreen({1000, 700});
     App app(*window, false, all_labs());
-    for (const LabScene& other : some_others(GetParam())) {
+    for (const LabScene& other : some_others(GetParam()))
         for (const bool held : {false, true}) {
             app.run({"scene.new"});
             app.run({"lab.open", Json{{"name", other.lab}}});
@@ -203,7 +203,6 @@ TEST_P(EveryScene, MayGoAwayUnderTheMouse) {
                 try_to_set_up(app, GetParam());
             }
         }
-    }
 }
 
 TEST_P(EveryScene, LooksAndMovesTheSameEachTimeAndAfterItWasSaved) {

@@ -180,7 +180,7 @@ TEST_F(PaletteTest, QuitAsksAboutUnsavedWorkAsItsKeyDoes) {
 }
 
 TEST_F(PaletteTest, OpensInWindowsOfAnySize) {
-    for (const glm::ivec2 size : {glm::ivec2(1, 1), {90, 60}, {320, 240}, {1024, 640}, {3000, 200}}) {
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), {90, 60}, {320, 240}, {1024, 640}, {3000, 200}})
         for (const double scale : {0.5, 1.0, 3.0}) {
             take(Resize{size});
             run("view.text_scale", {{"scale", scale}});
@@ -192,7 +192,6 @@ TEST_F(PaletteTest, OpensInWindowsOfAnySize) {
                 key("escape");
             }
         }
-    }
 }
 
 TEST_F(PaletteTest, HostileLinesCrashNothing) {

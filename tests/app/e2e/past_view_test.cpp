@@ -135,7 +135,7 @@ TEST(PastViews, GhostsShowOnlyMomentsWithTheSameJoints) {
           true},
          {ScriptText().command("humanoid.clip", {{"name", "punch"}, {"play", true}}), false}}};
     const auto labs = plotted_labs();
-    for (std::size_t lab = 0; lab < labs.size(); ++lab) {
+    for (std::size_t lab = 0; lab < labs.size(); ++lab)
         for (const Change& change : changes[lab]) {
             const ScriptText script =
                 shown(labs[lab]).wait(100).command("time.pause").wait(1).lines(change.to).wait(2);
@@ -144,7 +144,6 @@ TEST(PastViews, GhostsShowOnlyMomentsWithTheSameJoints) {
             const Json back = state_after(ScriptText(script).command("undo").wait(1))["past"]["ghosts"];
             EXPECT_GE(back.size(), 3u) << labs[lab].lab << " as it was before\n" << change.to.text();
         }
-    }
 }
 
 /// Each lab with its strip of the last ten seconds above the plot, paused.

@@ -106,14 +106,13 @@ TEST(RacePanes, APictureHasThemAll) {
     const auto orange = [&](glm::ivec2 from, glm::ivec2 to) {
         glm::dvec2 sum(0.0);
         int count = 0;
-        for (int y = from.y; y < to.y; ++y) {
+        for (int y = from.y; y < to.y; ++y)
             for (int x = from.x; x < to.x; ++x) {
                 const auto* p = &picture.rgba[static_cast<std::size_t>(4 * (y * picture.size.x + x))];
                 if (p[0] < 190 || p[1] < 110 || p[1] > 190 || p[2] > 60) continue;
                 sum += glm::dvec2(x - from.x, y - from.y);
                 ++count;
             }
-        }
         EXPECT_GT(count, 50);
         return sum / std::max(1.0, static_cast<double>(count));
     };

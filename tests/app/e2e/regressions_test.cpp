@@ -60,7 +60,7 @@ TEST(OnceWrong, AChainReplacedAfterADragIsSavedAndOpened) {
                                                         {"chain.preset", {{"name", "coil"}, {"count", 3}}},
                                                         {"chain.clear", app::Json::object()},
                                                         {"chain.reset", app::Json::object()},
-                                                        {"chain.add", {{"length", 1}}}}) {
+                                                        {"chain.add", {{"length", 1}}}})
         for (const char* undo : {"", "undo"}) {
             ScriptText script;
             script.command("chain.pole", {{"to", pole}})
@@ -76,7 +76,6 @@ TEST(OnceWrong, AChainReplacedAfterADragIsSavedAndOpened) {
             EXPECT_EQ(read(path), saved) << command << ' ' << undo;
             std::filesystem::remove(path);
         }
-    }
 }
 
 TEST(OnceWrong, AStepOfTimeIsTakenAtOnce) {

@@ -125,7 +125,7 @@ TEST_F(Completion, RanksMatchesInTheHelpAloneAfterOtherLabs) {
 }
 
 TEST_F(Completion, FindsByArgumentsAfterTitleAndHelp) {
-    for (const auto& lab : labs_.all()) {
+    for (const auto& lab : labs_.all())
         for (const char* word : {"radius", "weight", "length", "speed"}) {
             bool by_argument = false;
             for (const Command* command : search_commands(table_, word, lab->name())) {
@@ -141,7 +141,6 @@ TEST_F(Completion, FindsByArgumentsAfterTitleAndHelp) {
                 EXPECT_TRUE(has(all, command.name)) << command.name;
             }
         }
-    }
     EXPECT_TRUE(has(names("add radius", "rope"), "rope.cloth.add"));
 }
 

@@ -138,7 +138,7 @@ TEST_F(CommandTitles, TheirArgumentsAcceptEveryOffer) {
 TEST_F(CommandTitles, TheirArgumentsAcceptTheirPresentValue) {
     Workspace workspace = make_blank_workspace(labs_);
     int count = 0;
-    for (const Command& command : table_.all()) {
+    for (const Command& command : table_.all())
         for (const Argument& argument : command.arguments) {
             if (!argument.present) continue;
             ++count;
@@ -150,7 +150,6 @@ TEST_F(CommandTitles, TheirArgumentsAcceptTheirPresentValue) {
             EXPECT_NO_THROW(table_.run(workspace, command.name, given)) << command.name << " " << now;
             EXPECT_EQ(argument.present(workspace), now) << command.name;
         }
-    }
     EXPECT_GT(count, 10);
 }
 

@@ -24,15 +24,13 @@ class Mask {
     /// Removes one pixel all round.
     Mask eroded() const {
         Mask result(low(), high());
-        for (int y = low().y; y < high().y; ++y) {
+        for (int y = low().y; y < high().y; ++y)
             for (int x = low().x; x < high().x; ++x) {
                 bool all = true;
-                for (int dy = -1; dy <= 1; ++dy) {
+                for (int dy = -1; dy <= 1; ++dy)
                     for (int dx = -1; dx <= 1; ++dx) all = all && at(x + dx, y + dy);
-                }
                 result.set(x, y, all);
             }
-        }
         return result;
     }
 
@@ -53,7 +51,7 @@ Mask mask_of(const app::Image& image, const Wanted& wanted, glm::ivec2 low, glm:
     const glm::vec2 hue = hue_of(wanted.colour);
     const float strength = glm::length(hue);
     Mask mask(low, high);
-    for (int y = low.y; y < high.y; ++y) {
+    for (int y = low.y; y < high.y; ++y)
         for (int x = low.x; x < high.x; ++x) {
             const std::size_t i = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.size.x) +
                                        static_cast<std::size_t>(x));
@@ -63,7 +61,6 @@ Mask mask_of(const app::Image& image, const Wanted& wanted, glm::ivec2 low, glm:
             const bool strong = length >= wanted.least_strength * strength;
             mask.set(x, y, strong && glm::dot(found, hue) >= std::cos(wanted.hue_off) * length * strength);
         }
-    }
     return mask;
 }
 
@@ -79,13 +76,12 @@ Blob take_region(Mask& mask, int x, int y) {
         ++blob.pixels;
         least = glm::min(least, at);
         most = glm::max(most, at);
-        for (int dy = -1; dy <= 1; ++dy) {
+        for (int dy = -1; dy <= 1; ++dy)
             for (int dx = -1; dx <= 1; ++dx) {
                 if (!mask.at(at.x + dx, at.y + dy)) continue;
                 mask.set(at.x + dx, at.y + dy, false);
                 open.push_back(at + glm::ivec2(dx, dy));
             }
-        }
     }
     blob.centre = 0.5f * (glm::vec2(least) + glm::vec2(most + 1));
     return blob;
@@ -98,13 +94,12 @@ std::optional<Blob> find_blob(const app::Image& image, const Wanted& wanted, glm
     Mask mask = mask_of(image, wanted, low, high);
     if (wanted.solid) mask = mask.eroded().eroded();
     std::optional<Blob> largest;
-    for (int y = low.y; y < high.y; ++y) {
+    for (int y = low.y; y < high.y; ++y)
         for (int x = low.x; x < high.x; ++x) {
             if (!mask.at(x, y)) continue;
             const Blob blob = take_region(mask, x, y);
             if (!largest || blob.pixels > largest->pixels) largest = blob;
         }
-    }
     return largest;
 }
 

@@ -42,9 +42,8 @@ inline Played play(const ScriptText& script, const PlayOptions& options = {}) {
 /// The pixel position of a handle in --state; fails the test if no such handle is in view.
 inline glm::vec2 handle(const app::Json& state, const std::string& name) {
     for (const auto& each : state.at("handles")) {
-        if (each.at("name") == name && each.at("pixel").is_array()) {
+        if (each.at("name") == name && each.at("pixel").is_array())
             return {each["pixel"][0].get<float>(), each["pixel"][1].get<float>()};
-        }
     }
     ADD_FAILURE() << "the state has no pixel for " << name;
     return {};

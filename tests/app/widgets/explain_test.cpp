@@ -60,9 +60,8 @@ TEST_F(Explained, IsShownAtTheNameToo) {
 
 TEST_F(Explained, CoversAllThreeFieldsOfAPoint) {
     glm::vec3 point(0.0f);
-    for (const float y : {20.0f, 50.0f, 80.0f}) {
+    for (const float y : {20.0f, 50.0f, 80.0f})
         EXPECT_EQ(at({200.0f, y}, [&] { point_field("at", point, 0.1f, 5.0f); }), "What it does. -5 to 5 m.");
-    }
     const auto vector = [&] {
         vector_field("by", point, 0.1f, glm::vec3(0.0f), glm::vec3(1.0f, 2.0f, 3.0f), "%.3f");
     };
