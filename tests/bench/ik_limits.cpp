@@ -52,10 +52,7 @@ double microseconds_an_iteration(const Arm& arm, Method method, bool limited, do
     const Joints rest = arm.at_rest();
     const auto bones = static_cast<float>(arm.limits.size());
     const glm::vec3 target = glm::vec3(0.5f, 0.3f, 0.2f) * bones;
-    Options options;
-    options.max_iterations = forced;
-    options.every_iteration = true;
-    options.tolerance = 0.0f;
+    Options options{.tolerance = 0.0f, .max_iterations = forced, .every_iteration = true};
     Options limits = options;
     limits.limits = arm.limits;
     const auto run = [&](KeptSolver& solver, const Options& what) {
@@ -96,9 +93,7 @@ std::vector<glm::vec3> reachable(const Arm& arm, int count) {
     for (int i = 0; i < count; ++i) {
         Joints joints = arm.at_rest();
         solver.state.reset();
-        Options options;
-        options.limits = arm.limits;
-        options.max_iterations = 20;
+        Options options{.max_iterations = 20, .limits = arm.limits};
         solver.solve(Method::Ccd, joints, glm::vec3(around(), around(), around()) * reach, options);
         targets.push_back(joints.back());
     }
@@ -117,9 +112,7 @@ double arrivals_table() {
         for (const Method method : all_methods) {
             if (method == Method::TwoBone) continue;
             KeptSolver solver = arm.solver();
-            Options options;
-            options.limits = arm.limits;
-            options.max_iterations = 200;
+            Options options{.max_iterations = 200, .limits = arm.limits};
             int there = 0;
             double iterations = 0.0;
             const double start = bench::cpu_seconds();
@@ -147,8 +140,7 @@ void held_table() {
     arm.limits[1] = Limit::hinge({0, 0, 1}, 0, 145 * degree);
     KeptSolver solver = arm.solver();
     const glm::vec3 target{-4.5f, -0.5f, 1.0f};
-    Options options;
-    options.limits = arm.limits;
+    Options options{.limits = arm.limits};
     Joints joints = arm.at_rest();
     const Report report = solver.solve(Method::Fabrik, joints, target, options);
     const auto seconds = bench::race({[&] { solver.solve(Method::Fabrik, joints, target, options); },

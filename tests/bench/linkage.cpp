@@ -147,8 +147,7 @@ struct Circle {
 };
 
 Linkage open_chain(std::size_t bars) {
-    LinkageSketch chain;
-    chain.points = {{"P0", {0.0, 0.0}, SketchHold::Pinned}};
+    LinkageSketch chain{.points = {{"P0", {0.0, 0.0}, SketchHold::Pinned}}};
     for (std::size_t i = 1; i <= bars; ++i) {
         const std::string name = i == bars ? "tip" : "P" + std::to_string(i);
         chain.points.push_back({name, {static_cast<double>(i), i % 2 == 1 ? 0.3 : 0.0}});

@@ -93,8 +93,7 @@ struct Subject {
 
     void frame() {
         time += 1.0 / 60;
-        Transform place;
-        place.translation = {5.0 + time, 3.0, 1.0};
+        Transform place{.translation = {5.0 + time, 3.0, 1.0}};
         static_cast<void>(rig.set_control(state, target, place));
         rig.solve(state, 1.0 / 60, workspace);
     }

@@ -162,8 +162,7 @@ double pressed(int segments) {
 /// Over a bar that rises below it until it is nearly straight on both sides.
 double taut(int segments, float friction) {
     Stage stage;
-    rope::Settings settings;
-    settings.friction = friction;
+    rope::Settings settings{.friction = friction};
     require(stage.world.set_settings(settings));
     require(stage.world
                 .add_rope({.from = {-0.5f, 0.0f, 0.01f},
@@ -216,8 +215,7 @@ Cloth cloth(int side, bool held, int threads = 1) {
 /// The swing of a pendulum after 28 s, metres, beside a beam or alone.
 double swing(bool beam) {
     Stage stage;
-    rope::Settings settings;
-    settings.damping = 0.0f;
+    rope::Settings settings{.damping = 0.0f};
     require(stage.world.set_settings(settings));
     require(
         stage.world.add_rope({.to = {0.2f, -0.98f, 0}, .segments = 16, .radius = 0.01f, .pin_start = true})

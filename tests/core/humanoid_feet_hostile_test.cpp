@@ -108,8 +108,7 @@ TEST_F(FeetHostile, RefusedInputChangesNothing) {
     }
     EXPECT_TRUE(refuses({}, {}));
     EXPECT_TRUE(refuses(std::vector<rig::Transform>(3), {}));
-    FeetOptions options;
-    options.low = nan;
+    FeetOptions options{.low = nan};
     EXPECT_TRUE(refuses(rest_pose(skeleton), options));
     options = {.leave_speed = 0.1};
     EXPECT_TRUE(test::says(check(options).message(), "feet leave_speed enter_speed 0.1"));

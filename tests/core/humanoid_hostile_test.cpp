@@ -168,8 +168,7 @@ TEST_F(HostileHumanoid, AnInvalidPoseIsRefusedAndTheStateStaysValid) {
                         targets.push_back(
                             {static_cast<Effector>(i), point(2.0, 50), std::nullopt, number(0.0, 2.0)});
                 if (!targets.empty() && random.chance(2)) targets[0].rotation = rotation();
-                BodyOptions options;
-                options.max_iterations = 1 + static_cast<int>(random.below(8));
+                BodyOptions options{.max_iterations = 1 + static_cast<int>(random.below(8))};
                 if (random.chance(10)) options.settle = any();
                 const BodyState before = body_state;
                 const Expected<BodyReport> report = solver->solve(pose, targets, body_state, options);

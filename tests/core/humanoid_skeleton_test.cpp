@@ -100,8 +100,7 @@ TEST(Placement, RotationEqualsATransformsAtAnyScale) {
     }
     for (const glm::dvec3 flat :
          {glm::dvec3(0, 1, 1), glm::dvec3(1, 0, 1), glm::dvec3(1, 1, 0), glm::dvec3(0, 0, 0)}) {
-        rig::Transform t;
-        t.scale = flat;
+        rig::Transform t{.scale = flat};
         const glm::dquat rotation = placement(t).rotation();
         EXPECT_NEAR(glm::length(rotation), 1.0, 1e-12) << "a scale of 0 leaves a rotation";
     }

@@ -86,9 +86,9 @@ TEST(Soles, AreInTheirBonesSpaces) {
     place(plain, rest_pose(plain), placements);
     std::vector<Node> nodes = plain.nodes();
     const auto axes_of = [](std::size_t i) {
-        rig::Transform t;
-        t.rotation = glm::angleAxis(0.9 * static_cast<double>(i), glm::normalize(glm::dvec3(1, 2, 3)));
-        t.scale = glm::dvec3(0.5 + 0.1 * static_cast<double>(i));
+        rig::Transform t{
+            .rotation = glm::angleAxis(0.9 * static_cast<double>(i), glm::normalize(glm::dvec3(1, 2, 3))),
+            .scale = glm::dvec3(0.5 + 0.1 * static_cast<double>(i))};
         return t;
     };
     for (std::size_t i = 0; i < nodes.size(); ++i) {

@@ -18,9 +18,7 @@ void textbook_iteration(Wide& joints, glm::dvec3 target) {
 }
 
 ik::Options iterations(int count) {
-    ik::Options options;
-    options.max_iterations = count;
-    options.every_iteration = true;
+    ik::Options options{.max_iterations = count, .every_iteration = true};
     return options;
 }
 

@@ -15,9 +15,8 @@ float one_of(Random& random, T... values) {
 
 /// Half of the options keep their defaults; the others are at or near an end of their range.
 ik::Options extreme_options(const Arm& arm, Random& random) {
-    ik::Options options;
-    options.max_iterations = 1 + static_cast<int>(random.below(40));
-    options.every_iteration = random.chance(3);
+    ik::Options options{.max_iterations = 1 + static_cast<int>(random.below(40)),
+                        .every_iteration = random.chance(3)};
     if (random.chance(2)) options.tolerance = one_of(random, 0, 1e-30, 1e-9, 1e9);
     if (random.chance(2)) options.limits = arm.limits;
     if (random.chance(2)) options.pole = random.chance(2) ? random.point(1e9f) : random.point(arm.reach());

@@ -120,10 +120,7 @@ void expect_first_order(Method method, float damping, bool damped) {
         const double lambda_squared = damped ? std::pow(static_cast<double>(damping), 2.0) * 0.002 : 0.0;
         const glm::dvec3 expected = moved_tip(start, j, expected_turns(method, j, e, lambda_squared));
         Joints joints = start;
-        ik::Options options;
-        options.max_iterations = 1;
-        options.tolerance = 0.0f;
-        options.damping = damping;
+        ik::Options options{.tolerance = 0.0f, .max_iterations = 1, .damping = damping};
         KeptSolver(lengths).solve(method, joints, target, options);
         EXPECT_LT(distance(joints.back(), glm::vec3(expected)), 2e-5) << "a hundredth of the way";
     }
@@ -147,10 +144,7 @@ TEST(IkJacobian, TheSvdDampsTheNearlySingularDirection) {
     // Nearly straight along x: y and z are free, x is nearly lost.
     const Lengths lengths(4, 0.25f);
     const Joints start{{0, 0, 0}, {0.25f, 0, 0}, {0.4999f, 0.005f, 0}, {0.7499f, 0.005f, 0}, {0.9999f, 0, 0}};
-    ik::Options options;
-    options.max_iterations = 1;
-    options.tolerance = 0.0f;
-    options.damping = 1.0f;
+    ik::Options options{.tolerance = 0.0f, .max_iterations = 1, .damping = 1.0f};
     Joints across = start, along = start;
     KeptSolver solver(lengths);
     const glm::vec3 tip = start.back();
@@ -166,9 +160,7 @@ TEST(IkJacobian, AllJointsTurnAtOnce) {
     for (const Method method : {Method::JacobianTranspose, Method::Dls, Method::SvdDls}) {
         Joints joints = some_pose(lengths, random);
         Recorder recorder;
-        ik::Options options;
-        options.max_iterations = 3;
-        options.every_iteration = true;
+        ik::Options options{.max_iterations = 3, .every_iteration = true};
         KeptSolver(lengths).solve(method, joints, {1, 1, 1}, options, &recorder);
         std::size_t turns = 0;
         for (const ik::Step& step : recorder.steps) turns += step.phase == ik::Phase::Gradient;
@@ -230,8 +222,7 @@ TEST(IkJacobian, EveryDampingConverges) {
                 const Lengths lengths = some_lengths(4 + random.below(6), random);
                 Joints joints = some_pose(lengths, random);
                 const glm::vec3 target = some_direction(random) * some_span(lengths, 0.3f, 0.98f, random);
-                ik::Options options;
-                options.damping = damping;
+                ik::Options options{.damping = damping};
                 const ik::Report report = KeptSolver(lengths).solve(method, joints, target, options);
                 EXPECT_EQ(report.status, Status::Converged) << name(method) << ", damping " << damping;
             }

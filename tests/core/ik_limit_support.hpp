@@ -140,9 +140,7 @@ inline glm::vec3 some_axis(Random& random, glm::vec3 bone) {
 }
 
 inline ik::Limit some_cone(Random& random, glm::vec3 axis) {
-    ik::Limit limit;
-    limit.kind = ik::JointKind::BallAndSocket;
-    limit.axis = axis;
+    ik::Limit limit{.kind = ik::JointKind::BallAndSocket, .axis = axis};
     limit.up = radians(150) * part(random), limit.down = radians(150) * part(random);
     limit.left = radians(150) * part(random), limit.right = radians(150) * part(random);
     limit.twist_min = -radians(90) * part(random), limit.twist_max = radians(90) * part(random);

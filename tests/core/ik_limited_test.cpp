@@ -74,9 +74,7 @@ double arrived(Method method, ArmKind kind, std::size_t bones, int count, std::u
         const glm::vec3 target = some_tip(arm, random);
         KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
-        ik::Options options;
-        options.limits = arm.limits;
-        options.max_iterations = 200;
+        ik::Options options{.max_iterations = 200, .limits = arm.limits};
         const ik::Report report = solver.solve(method, joints, target, options);
         EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations()));
         there += report.residual <= 1e-2f * arm.reach();
@@ -168,9 +166,7 @@ TEST(IkLimited, ASolveNeverEndsFartherFromTheTarget) {
         const Arm arm = hostile_arm(random);
         KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
-        ik::Options options;
-        options.limits = arm.limits;
-        options.max_iterations = 30;
+        ik::Options options{.max_iterations = 30, .limits = arm.limits};
         solver.solve(Method::Fabrik, joints, some_direction(random) * arm.reach(), options);
         for (const Method method : iterating_methods) {
             const glm::vec3 target = hostile_target(joints, arm.lengths, random);

@@ -167,11 +167,10 @@ TEST(Linkage, ADeadPointMatchesTheClosedFormAndNamesItsDriver) {
 
 TEST(Linkage, ContradictingClosuresAreNamedAndLeastFarApart) {
     // Two arms that are too short to meet over the ground.
-    Linkage linkage;
-    linkage.links = {{"left", ground_link, LinkJoint::Hinge, {0, 0, 0}},
-                     {"right", ground_link, LinkJoint::Hinge, {5, 0, 0}}};
-    linkage.points = {{"L", 0, {1, 0.5, 0}}, {"R", 1, {4, 1, 0}}};
-    linkage.closures = {{"top", ClosureKind::Point, 0, 1, {1, 0.5, 0}, {4, 1, 0}}};
+    Linkage linkage{.links = {{"left", ground_link, LinkJoint::Hinge, {0, 0, 0}},
+                              {"right", ground_link, LinkJoint::Hinge, {5, 0, 0}}},
+                    .points = {{"L", 0, {1, 0.5, 0}}, {"R", 1, {4, 1, 0}}},
+                    .closures = {{"top", ClosureKind::Point, 0, 1, {1, 0.5, 0}, {4, 1, 0}}}};
     Machine machine{Expected<Linkage>(linkage)};
     const LinkageReport report = machine.solver.solve(machine.state);
     EXPECT_EQ(report.status, LinkageStatus::Open);
@@ -185,12 +184,11 @@ TEST(Linkage, ContradictingClosuresComeAsCloseAsBruteForce) {
     Random random(17);
     for (int trial = 0; trial < 8; ++trial) {
         const glm::dvec3 place = glm::dvec3(1.5, 0.5, 0.0) + random_place(random, 3.0f);
-        Linkage linkage;
-        linkage.links = {{"crank", ground_link, LinkJoint::Hinge, {0, 0, 0}},
-                         {"coupler", 0, LinkJoint::Hinge, {1, 0, 0}},
-                         {"rocker", ground_link, LinkJoint::Hinge, {3, 0, 0}}};
-        linkage.closures = {{"C", ClosureKind::Point, 1, 2, {3, 0, 0}, {5, 0, 0}},
-                            {"P", ClosureKind::Point, 1, ground_link, {2, 1, 0}, place}};
+        Linkage linkage{.links = {{"crank", ground_link, LinkJoint::Hinge, {0, 0, 0}},
+                                  {"coupler", 0, LinkJoint::Hinge, {1, 0, 0}},
+                                  {"rocker", ground_link, LinkJoint::Hinge, {3, 0, 0}}},
+                        .closures = {{"C", ClosureKind::Point, 1, 2, {3, 0, 0}, {5, 0, 0}},
+                                     {"P", ClosureKind::Point, 1, ground_link, {2, 1, 0}, place}}};
         const auto squares = [&](const glm::dvec3& angles) {
             const auto turned = [](double angle, double x, double y) {
                 const double c = std::cos(angle), s = std::sin(angle);
@@ -230,9 +228,8 @@ TEST(Linkage, ContradictingClosuresComeAsCloseAsBruteForce) {
 }
 
 TEST(Linkage, AStraightArmBendsToAPointOnItsLine) {
-    LinkageSketch sketch;
-    sketch.points = {{"O", {0, 0}, SketchHold::Pinned}, {"A", {1, 0}}, {"B", {2, 0}}};
-    sketch.bars = {{"upper", {0, 1}}, {"lower", {1, 2}}};
+    LinkageSketch sketch{.points = {{"O", {0, 0}, SketchHold::Pinned}, {"A", {1, 0}}, {"B", {2, 0}}},
+                         .bars = {{"upper", {0, 1}}, {"lower", {1, 2}}}};
     Machine machine{Expected<LinkageSketch>(sketch)};
     EXPECT_EQ(machine.reach("B", {1.2, 0.0, 0.0}).status, LinkageStatus::Reached);
     // Stretched towards a target out of reach, it keeps its pose in the next frame.
@@ -396,9 +393,9 @@ TEST(Linkage, ARangeStopsADriverAndIsNamed) {
 
 TEST(Linkage, ATargetRespectsRangesOfHingesSlidersAndBalls) {
     // A slider along X, a ball joint on it, and an arm of 1 m along X.
-    Linkage linkage;
-    linkage.links = {{"carriage", ground_link, LinkJoint::Slider, {0, 0, 0}, {1, 0, 0}, 0.0, -0.5, 0.5},
-                     {"arm", 0, LinkJoint::Ball, {0, 0, 0}}};
+    Linkage linkage{
+        .links = {{"carriage", ground_link, LinkJoint::Slider, {0, 0, 0}, {1, 0, 0}, 0.0, -0.5, 0.5},
+                  {"arm", 0, LinkJoint::Ball, {0, 0, 0}}}};
     linkage.links[1].maximum = deg(60);
     linkage.points = {{"hand", 1, {1, 0, 0}}};
     Machine machine{Expected<Linkage>(linkage)};
@@ -441,9 +438,9 @@ TEST(Linkage, InATiltedPlaneOnlyTheInPlanePartCounts) {
 }
 
 TEST(Linkage, ExactTargetsPrecedeWeightedOnesAndDriversPrecedeBoth) {
-    LinkageSketch sketch;
-    sketch.points = {{"O", {0, 0}, SketchHold::Pinned}, {"A", {1, 0}}, {"B", {2, 0.2}}, {"C", {3, 0}}};
-    sketch.bars = {{"one", {0, 1}}, {"two", {1, 2}}, {"three", {2, 3}}};
+    LinkageSketch sketch{
+        .points = {{"O", {0, 0}, SketchHold::Pinned}, {"A", {1, 0}}, {"B", {2, 0.2}}, {"C", {3, 0}}},
+        .bars = {{"one", {0, 1}}, {"two", {1, 2}}, {"three", {2, 3}}}};
     Machine machine{Expected<LinkageSketch>(sketch)};
     const LinkTarget targets[] = {{3, {1.5, 1.5, 0.0}, 1.0, true}, {1, {-2.0, 2.0, 0.0}, 1000.0, false}};
     LinkageReport report = machine.solver.solve(machine.state, {{}, targets});
@@ -525,9 +522,8 @@ TEST(Linkage, ASketchGivesItsLinkageAfterEdits) {
     EXPECT_FALSE(remove_point(sketch, 99));
     EXPECT_FALSE(remove_bar(sketch, 99));
     // A motor between two bars: its angle is between them, whichever of them is the parent.
-    LinkageSketch elbow;
-    elbow.points = {{"O", {0, 0}, SketchHold::Pinned}, {"A", {1, 0}}, {"B", {1, 1}}};
-    elbow.bars = {{"upper", {0, 1}}, {"lower", {1, 2}}};
+    LinkageSketch elbow{.points = {{"O", {0, 0}, SketchHold::Pinned}, {"A", {1, 0}}, {"B", {1, 1}}},
+                        .bars = {{"upper", {0, 1}}, {"lower", {1, 2}}}};
     elbow.motors = {{"elbow", 1, 1, 0}};
     Machine arm{Expected<LinkageSketch>(elbow)};
     EXPECT_EQ(arm.drive("elbow", 0.0).status, LinkageStatus::Reached);

@@ -64,10 +64,9 @@ struct ScalarAnswer {
 
 ScalarAnswer solve_alone(const LimitedCrowd& all, std::size_t chain, const ManyOptions& many = {}) {
     KeptSolver solver = all.arm.solver();
-    ik::Options options;
-    options.max_iterations = many.max_iterations;
-    options.every_iteration = many.every_iteration;
-    options.limits = all.arm.limits;
+    ik::Options options{.max_iterations = many.max_iterations,
+                        .every_iteration = many.every_iteration,
+                        .limits = all.arm.limits};
     ScalarAnswer alone{{}, all.crowd.joints[chain], {}};
     alone.report = solver.solve(ik::Method::Fabrik, alone.joints, all.crowd.targets[chain], options);
     alone.rotations.assign(solver.rotations().begin(), solver.rotations().end());

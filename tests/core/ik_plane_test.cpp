@@ -77,9 +77,7 @@ double excess(const Joints& joints, std::span<const AngleLimit> limits, const Fr
 }
 
 ik::Options in_plane(const Frame& frame, std::span<const AngleLimit> limits = {}) {
-    ik::Options options;
-    options.max_iterations = 200;
-    options.plane = ik::Plane{frame.normal * 3.0f, Side::Free, limits};
+    ik::Options options{.max_iterations = 200, .plane = ik::Plane{frame.normal * 3.0f, Side::Free, limits}};
     return options;
 }
 

@@ -35,9 +35,7 @@ double pole_error(const Joints& joints, std::span<const float> lengths, glm::vec
 }
 
 Options facing(glm::vec3 pole, PoleTurn turn = PoleTurn::WholeChain) {
-    Options options;
-    options.pole = pole;
-    options.pole_turn = turn;
+    Options options{.pole = pole, .pole_turn = turn};
     return options;
 }
 

@@ -17,9 +17,7 @@ Posture play(Tree& tree, const Figure& figure, Posture posture) {
     for (int i = 0; i < 100; ++i) {
         for (Effector& effector : effectors)
             effector.target = posture.places[effector.joint] + random.point(random.chance(10) ? 2.0f : 0.1f);
-        TreeOptions options;
-        options.max_iterations = 10;
-        options.rotations = posture.rotations;
+        TreeOptions options{.max_iterations = 10, .rotations = posture.rotations};
         EXPECT_NE(tree.solve(posture.places, effectors, options).status, Status::InvalidInput);
     }
     return posture;

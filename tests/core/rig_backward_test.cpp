@@ -93,11 +93,11 @@ TEST(RigBackward, RespectsTheLimitsOfControls) {
 
 /// Two bones on one control, with targets that cannot both be satisfied.
 TEST(RigBackward, SharesTheResidualByLeastSquares) {
-    Definition definition;
-    definition.elements = {
-        {.name = "a"},
-        {.name = "b"},
-        {.name = "place", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Position}}};
+    Definition definition{.elements = {{.name = "a"},
+                                       {.name = "b"},
+                                       {.name = "place",
+                                        .kind = ElementKind::Control,
+                                        .control = Control{.kind = ControlKind::Position}}}};
     for (const char* bone : {"a", "b"})
         definition.units.push_back(
             {.name = std::string("move ") += bone,
@@ -123,15 +123,15 @@ TEST(RigBackward, SharesTheResidualByLeastSquares) {
 /// A bone 1 m from the control that rotates it, with a position target at rest and a rotation target at a
 /// right angle: at the minimum of d^2 + r^2 a^2 the derivative is zero.
 TEST(RigBackward, MetresPerRadianWeightsRotations) {
-    Definition definition;
-    definition.elements = {
-        {.name = "root"},
-        {.name = "bone", .parent = "root", .initial = at(1, 0, 0)},
-        {.name = "dial", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Rotation}}};
-    definition.units = {
-        {.name = "turn",
-         .operation =
-             SetRotation{.item = "root", .rotation = FromElement{.element = "dial", .of = Of::Rotation}}}};
+    Definition definition{
+        .elements = {{.name = "root"},
+                     {.name = "bone", .parent = "root", .initial = at(1, 0, 0)},
+                     {.name = "dial",
+                      .kind = ElementKind::Control,
+                      .control = Control{.kind = ControlKind::Rotation}}},
+        .units = {{.name = "turn",
+                   .operation = SetRotation{
+                       .item = "root", .rotation = FromElement{.element = "dial", .of = Of::Rotation}}}}};
     const double right = std::acos(0.0);
     for (const double radius : {0.0, 0.1, 0.7, 5.0}) {
         Held rig(definition);

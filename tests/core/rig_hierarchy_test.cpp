@@ -163,8 +163,7 @@ TEST(RigHierarchy, RotationsStayUnitAndNumbersFinite) {
     EXPECT_LE(std::abs(norm(tree.get(at, Local).rotation) - 1.0), 1e-15);
 
     RigLine line;
-    Transform turn;
-    turn.rotation = some_rotation(random);
+    Transform turn{.rotation = some_rotation(random)};
     for (int i = 0; i < 100'000; ++i) {
         const Transform now = line.tree.get(line.middle, Global);
         line.tree.put(line.middle, Global, compose(now, turn), i % 2 ? Propagate::Yes : Propagate::No);
@@ -447,8 +446,7 @@ TEST(RigTransform, RelativeUndoesComposing) {
 }
 
 TEST(RigTransform, TheInverseOfZeroScaleIsZero) {
-    Transform flat;
-    flat.scale = {0, 1e-300, 2};
+    Transform flat{.scale = {0, 1e-300, 2}};
     const Transform local = relative(flat, {{1, 2, 3}, {1, 0, 0, 0}, {4, 5, 6}});
     EXPECT_EQ(local.translation, glm::dvec3(0, 0, 1.5));
     EXPECT_EQ(local.scale, glm::dvec3(0, 0, 3));

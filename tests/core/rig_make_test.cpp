@@ -13,13 +13,13 @@ std::string refusal(const Definition& definition) {
 
 /// Two bones, a float and a transform control, and one unit.
 Definition with(Operation operation) {
-    Definition rig;
-    rig.elements = {
-        {.name = "root"},
-        {.name = "hand", .parent = "root", .initial = at(1, 0, 0)},
-        {.name = "dial", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Float}}};
-    rig.curves = {{.name = "smile"}};
-    rig.units = {{.name = "first", .operation = std::move(operation)}};
+    Definition rig{.elements = {{.name = "root"},
+                                {.name = "hand", .parent = "root", .initial = at(1, 0, 0)},
+                                {.name = "dial",
+                                 .kind = ElementKind::Control,
+                                 .control = Control{.kind = ControlKind::Float}}},
+                   .curves = {{.name = "smile"}},
+                   .units = {{.name = "first", .operation = std::move(operation)}}};
     return rig;
 }
 

@@ -30,13 +30,12 @@ TEST(RigSolve, SolvingTwiceEqualsSolvingOnce) {
 }
 
 TEST(RigSolve, EachElementHasItsRatioWithinItsRoot) {
-    Definition definition;
-    definition.elements = {{.name = "a"},
-                           {.name = "a1", .parent = "a"},
-                           {.name = "a2", .parent = "a1"},
-                           {.name = "b"},
-                           {.name = "b1", .parent = "b"}};
-    definition.curves = {{.name = "sum"}};
+    Definition definition{.elements = {{.name = "a"},
+                                       {.name = "a1", .parent = "a"},
+                                       {.name = "a2", .parent = "a1"},
+                                       {.name = "b"},
+                                       {.name = "b1", .parent = "b"}},
+                          .curves = {{.name = "sum"}}};
     // Each moves by its own ratio.
     const auto along = [](const char* name, Each each, glm::dvec3 axis) {
         return Unit{.name = name,
@@ -138,11 +137,10 @@ TEST(RigSolve, ChainsReachTheirTargets) {
 
 // Three bones along +Y, and a curve with three control points.
 Definition spline_rig() {
-    Definition definition;
-    definition.elements = {{.name = "a", .initial = at(0, 0, 0)},
-                           {.name = "b", .parent = "a", .initial = turned(30, {0, 1, 0})},
-                           {.name = "c", .parent = "b", .initial = at(0, 1, 0)},
-                           {.name = "d", .parent = "c", .initial = at(0, 1, 0)}};
+    Definition definition{.elements = {{.name = "a", .initial = at(0, 0, 0)},
+                                       {.name = "b", .parent = "a", .initial = turned(30, {0, 1, 0})},
+                                       {.name = "c", .parent = "b", .initial = at(0, 1, 0)},
+                                       {.name = "d", .parent = "c", .initial = at(0, 1, 0)}}};
     definition.elements[1].initial.translation = {0, 1, 0};
     for (const auto& [name, place] :
          {std::pair("p", at(2, 0, 0)), std::pair("q", at(3, 1, 0.5)), std::pair("r", at(5, 1, 0))})
@@ -262,10 +260,9 @@ TEST(RigSolve, ASplineNeedsTwoExistingPoints) {
 }
 
 TEST(RigSolve, AChainOfHalfWeightTurnsHalfWay) {
-    Definition definition;
-    definition.elements = {{.name = "a"},
-                           {.name = "b", .parent = "a", .initial = at(0, 1, 0)},
-                           {.name = "c", .parent = "b", .initial = at(0.1, 1, 0)}};
+    Definition definition{.elements = {{.name = "a"},
+                                       {.name = "b", .parent = "a", .initial = at(0, 1, 0)},
+                                       {.name = "c", .parent = "b", .initial = at(0.1, 1, 0)}}};
     const glm::dvec3 target(1, -0.5, 0.3);
     for (const Operation& operation : {Operation(TwoBone{.root = "a", .tip = "c", .target = target}),
                                        Operation(Fabrik{.root = "a", .tip = "c", .target = target})}) {
@@ -341,11 +338,11 @@ TEST(RigSolve, SkippedUnitsWarnAndKeepThePose) {
 
 /// With a single element, the first iteration is also the last.
 TEST(RigSolve, AWarningInABodyLastsAsLongAsItsReason) {
-    Definition definition;
-    definition.elements = {
-        {.name = "bone"},
-        {.name = "dial", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Float}},
-        {.name = "on", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Bool}}};
+    Definition definition{
+        .elements = {
+            {.name = "bone"},
+            {.name = "dial", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Float}},
+            {.name = "on", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Bool}}}};
     definition.units = {
         {.name = "all",
          .operation = ForEach{.roots = {"bone"},

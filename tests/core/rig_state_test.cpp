@@ -13,13 +13,14 @@ void expect_near(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-9)
 }
 
 TEST(RigState, SpringsLagAndComeToRest) {
-    Definition definition;
-    definition.elements = {
-        {.name = "head", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Position}},
-        {.name = "tip", .initial = at(0, 1, 0)}};
-    definition.units = {
-        {.name = "trail", .operation = SpringInterpolate{.target = FromElement{"head"}, .strength = 2.0}},
-        {.name = "follow", .operation = SetTransform{.item = "tip", .transform = Transform()}}};
+    Definition definition{
+        .elements = {{.name = "head",
+                      .kind = ElementKind::Control,
+                      .control = Control{.kind = ControlKind::Position}},
+                     {.name = "tip", .initial = at(0, 1, 0)}},
+        .units = {
+            {.name = "trail", .operation = SpringInterpolate{.target = FromElement{"head"}, .strength = 2.0}},
+            {.name = "follow", .operation = SetTransform{.item = "tip", .transform = Transform()}}}};
     definition.units[1].operation = TransformLocation{.location = FromUnit{"trail"}};
     Held rig(definition);
     EXPECT_FALSE(rig.solve(1.0 / 60)) << "at rest on its target";
@@ -117,10 +118,10 @@ TEST(RigState, LimitsThatAKindDoesNotUseAreIgnored) {
 }
 
 TEST(RigState, ChangingATypeClearsItsMemory) {
-    Definition definition;
-    definition.elements = {{.name = "bone", .initial = at(1, 0, 0)}, {.name = "other"}};
-    definition.curves = {{.name = "smile", .value = 0.25}};
-    definition.units = {{.name = "spring", .operation = SpringInterpolate{.target = Value(1.0)}}};
+    Definition definition{
+        .elements = {{.name = "bone", .initial = at(1, 0, 0)}, {.name = "other"}},
+        .curves = {{.name = "smile", .value = 0.25}},
+        .units = {{.name = "spring", .operation = SpringInterpolate{.target = Value(1.0)}}}};
     Held rig(definition);
     rig.solve(0.1);
     ASSERT_TRUE(rig.rig.set_curve(rig.state, 0, 0.75));
@@ -143,10 +144,9 @@ TEST(RigState, ChangingATypeClearsItsMemory) {
 }
 
 TEST(RigState, AGlobalPoseIsKeptBelowAMovedControl) {
-    Definition definition;
-    definition.elements = {{.name = "control", .kind = ElementKind::Control},
-                           {.name = "a", .parent = "control", .initial = at(1, 0, 0)},
-                           {.name = "b", .parent = "a", .initial = at(0, 1, 0)}};
+    Definition definition{.elements = {{.name = "control", .kind = ElementKind::Control},
+                                       {.name = "a", .parent = "control", .initial = at(1, 0, 0)},
+                                       {.name = "b", .parent = "a", .initial = at(0, 1, 0)}}};
     for (const Propagate propagate : {Propagate::Yes, Propagate::No}) {
         Held rig(definition);
         Transform moved = turned(90, {0, 0, 1});
@@ -264,9 +264,9 @@ TEST(RigState, AllocatesNothing) {
 
 /// A unit that inverts a switch needs no time; easing waits for time.
 TEST(RigState, UnitsWithoutEasingFollowWithoutTime) {
-    Definition definition;
-    definition.elements = {
-        {.name = "dial", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Float}}};
+    Definition definition{
+        .elements = {
+            {.name = "dial", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Float}}}};
     const FromElement dial{.element = "dial", .of = Of::ControlValue};
     definition.units = {
         {.name = "not", .operation = AlphaInterpolate{.value = dial, .scale = -1.0, .bias = 1.0}},

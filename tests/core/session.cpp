@@ -205,11 +205,10 @@ std::uint64_t curve_hash() {
             joints[bone + 1] = joints[bone] + glm::vec3(lengths[bone], 0.0f, 0.0f);
         ik::State state(lengths.size());
         ik::CurveMemory memory(lengths.size());
-        ik::CurveOptions options;
-        options.kind = random.chance(2) ? ik::CurveKind::BSpline : ik::CurveKind::Hermite;
-        options.fit = random.chance(3);
-        options.roll_end = random.around(4.0f);
-        options.weight = random.chance(3) ? 0.5f : 1.0f;
+        ik::CurveOptions options{.kind = random.chance(2) ? ik::CurveKind::BSpline : ik::CurveKind::Hermite,
+                                 .fit = random.chance(3),
+                                 .roll_end = random.around(4.0f),
+                                 .weight = random.chance(3) ? 0.5f : 1.0f};
         for (int turn = 0; turn < 4; ++turn) {
             points[random.below(points.size())] = random.point(4.0f);
             const ik::CurveReport report =

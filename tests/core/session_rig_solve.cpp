@@ -10,8 +10,7 @@ namespace {
 using namespace tendril::rig;
 
 Transform at(double x, double y, double z) {
-    Transform made;
-    made.translation = {x, y, z};
+    Transform made{.translation = {x, y, z}};
     return made;
 }
 

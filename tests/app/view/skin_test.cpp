@@ -25,8 +25,7 @@ AffineRows moved(const glm::vec3& by) {
 
 /// A box of 1 m, its left half on joint 0 and its right half on joint 1, normals outwards.
 SkinnedMesh box() {
-    SkinnedMesh mesh;
-    mesh.joints = 2;
+    SkinnedMesh mesh{.joints = 2};
     for (int axis = 0; axis < 3; ++axis)
         for (const float side : {-0.5f, 0.5f}) {
             glm::vec3 normal(0.0f), u(0.0f), v(0.0f);
