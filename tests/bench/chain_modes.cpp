@@ -1,8 +1,5 @@
 // Cost of the four modes per segment, from ten segments to a million, against a plain loop for each pull.
 //
-//     tendril_bench_chain            the table and one line per claim
-//     tendril_bench_chain --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims: Forward, Backward and WithIndex take at most 1.3 times as long as their plain loop at every size,
 // and their cost grows with an exponent of at most 1.05 from a hundred segments on. Google Benchmark's
 // options work too.

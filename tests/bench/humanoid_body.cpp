@@ -1,8 +1,5 @@
 // Cost of whole-body reaching per frame, by bones, limits and the motion of its five targets.
 //
-//     tendril_bench_humanoid_body            the table and one line per claim
-//     tendril_bench_humanoid_body --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims, for the worst row with reachable targets:
 //  - a frame takes at most 40 loops (measure.hpp) without limits, 55 within them, and 72 with self-collision
 //    of the body's capsules as well.

@@ -1,8 +1,5 @@
 // Cost of motion lint per frame of a clip, by nodes and length, and of fixing a foot.
 //
-//     tendril_bench_humanoid_lint            the table and one line per claim
-//     tendril_bench_humanoid_lint --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims, for the worst row:
 //  - checking takes at most one loop (measure.hpp) per frame and node, at any length;
 //  - fixing one foot takes less than checking the clip three times.

@@ -1,9 +1,6 @@
 // Cost of FABRIK: FABRIK (2011) and accelerated, against the same passes as a bare loop, and the iterations
 // and time that each needs to reach.
 //
-//     tendril_bench_ik_fabrik            the tables and one line per claim
-//     tendril_bench_ik_fabrik --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims: 20 forced iterations of 10 bones take at most 0.012 loops (measure.hpp) per bone and pass, at
 // most 1.5 times a bare loop measured in the same run; the cost grows linearly; an accelerated iteration
 // costs at most twice a plain one, and in a plane as much as a solid one; it needs at most 12 iterations (20

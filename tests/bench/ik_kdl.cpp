@@ -2,9 +2,6 @@
 // with ball joints, the same initial poses, targets and tolerance, in one run. KDL has no ball joints: each
 // is three revolute ones. Only the tip's position counts; KDL's weights of its rotation are 0.
 //
-//     tendril_bench_ik_kdl            the table and one line per claim
-//     tendril_bench_ik_kdl --check    the same, and exit code 1 if a claim does not hold
-//
 // Claim: KDL takes at least 30 times as long as Method::Fabrik, which reaches at least as many targets.
 //
 // Both are called as users call them, with everything that they compute: for KDL the Jacobian's singular

@@ -2,9 +2,6 @@
 // often each method arrives from rest at targets from poses within the limits; a solve and an explanation of
 // an active limit. Then whole solves by the default method over sizes and kinds of joints: limits far off,
 // reached, and dragged along; and a target that the limits forbid.
-//
-//     tendril_bench_ik_limits            the tables
-//     tendril_bench_ik_limits --check    the same, and exit code 1 if a claim does not hold
 #include <random>
 
 #include "../core/kept_solver.hpp"

@@ -1,9 +1,6 @@
 // Gain of solve_many over a plain loop over one Solver with Method::Fabrik: to tolerance, from the same
 // initial poses, with all joints read from and written to the caller's memory.
 //
-//     tendril_bench_ik_many            the tables and one line per claim
-//     tendril_bench_ik_many --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims: the minimum gain over the scalar solver in any band of distance, for 4, 11 and 31 joints and 1 000
 // chains, free, in a plane and within limits; and the gain of two threads over one, if there are two cores.
 // The goal is 15 times with 16 lanes (AVX3) and 7 times with 8 (AVX2), and half of that within limits; prints

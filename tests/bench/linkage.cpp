@@ -1,8 +1,5 @@
 // Cost of a linkage's frame while its drivers glide, and of targets out of reach; against closed-chain-ik-js.
 //
-//     tendril_bench_linkage            the table and one line per claim
-//     tendril_bench_linkage --check    the same, and exit code 1 if a claim does not hold
-//
 // The other solver is run by node, if both are there: set TENDRIL_CLOSED_CHAIN_IK to the folder of the
 // package (npm install closed-chain-ik; node_modules/closed-chain-ik). It gets the same trees, closures and
 // drivers, scaled to a size of 1,

@@ -1,4 +1,5 @@
-// Shared by benchmarks with a main of their own: interleaved timing, and claims.
+// Shared by benchmarks with a main of their own: interleaved timing, and claims. Each prints its tables and a
+// line per claim; with --check it exits with 1 if a claim does not hold.
 #pragma once
 
 #include <benchmark/benchmark.h>

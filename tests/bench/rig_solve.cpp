@@ -1,8 +1,5 @@
 // Cost of a forward solve, by number and kind of units.
 //
-//     tendril_bench_rig_solve            the table and one line per claim
-//     tendril_bench_rig_solve --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims, for the worst row:
 //  - a unit of any kind except those that solve chains of bones takes at most 0.4 loops (measure.hpp) per
 //    frame, among 1 000;

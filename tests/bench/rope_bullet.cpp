@@ -2,9 +2,6 @@
 // 64 particles, with the same initial shape, masses and gravity, one simulated second, one thread. Compares
 // the times of the cheapest settings with which no stretch link ever deviates by more than 1 %.
 //
-//     tendril_bench_rope_bullet            the table and one line per claim
-//     tendril_bench_rope_bullet --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims, for the least favourable size: Bullet takes at least 3 times as long for a rope of 16 segments, 12
 // times for one of 64 or more, 3 times for a cloth.
 //

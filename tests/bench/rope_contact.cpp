@@ -1,9 +1,6 @@
 // Cost of ropes and cloth in contact, and how well they keep their length, over sizes and states: falling, at
 // rest, taut, pressed, freed.
 //
-//     tendril_bench_rope_contact            the tables and one line per claim
-//     tendril_bench_rope_contact --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims: a rope of 4 m over 4 balls keeps each link within 1 % of its length with 64 to 4096 segments, a
 // segment of 4096 costs at most twice one of 1024, and all are back within 0.1 % a second after the balls are
 // removed; one that falls on 15 balls and a floor keeps each within 1 %; taut over a thin bar, with any

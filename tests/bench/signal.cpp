@@ -1,9 +1,6 @@
 // Gain of batch.hpp over a plain loop of `step` and `interp_to`, one thread, each value with its own
 // parameters.
 //
-//     tendril_bench_signal            the table and one line per claim
-//     tendril_bench_signal --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims: the minimum gain in any row, over all kinds of damping, with and without force and target velocity,
 // for 1e3, 1e5 and 1e6 values. The plain loop uses an array of parameters and one of states, as a game would.
 // Times are processor time.
