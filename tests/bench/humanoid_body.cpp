@@ -30,19 +30,12 @@ enum class Figure { Fifteen, All, Sixty };
 constexpr const char* figure_names[]{"15 bones", "22 bones", "22 of 60 nodes"};
 
 Skeleton make(Figure figure) {
-    if (figure == Figure::Fifteen)
-        return test::make_figure({{"Chest", ""},
-                                  {"UpperChest", ""},
-                                  {"Neck", ""},
-                                  {"LeftShoulder", ""},
-                                  {"RightShoulder", ""},
-                                  {"LeftToes", ""},
-                                  {"RightToes", ""},
-                                  {"Head end", ""},
-                                  {"LeftHand end", ""},
-                                  {"RightHand end", ""},
-                                  {"LeftToes end", ""},
-                                  {"RightToes end", ""}});
+    std::map<std::string, std::string> left_out;
+    for (const char* bone :
+         {"Chest", "UpperChest", "Neck", "LeftShoulder", "RightShoulder", "LeftToes", "RightToes", "Head end",
+          "LeftHand end", "RightHand end", "LeftToes end", "RightToes end"})
+        left_out[bone];
+    if (figure == Figure::Fifteen) return test::make_figure(left_out);
     Skeleton all = test::make_figure({});
     if (figure == Figure::All) return all;
     std::vector<Node> nodes = all.nodes();

@@ -44,22 +44,10 @@ class HostileHumanoid : public testing::Test {
     double between(double from, double to) { return from + (to - from) * unit(); }
     /// Any double: non-finite values too.
     double any() {
-        constexpr double numbers[]{0.0,
-                                   -0.0,
-                                   1e-300,
-                                   -1e-12,
-                                   1e-6,
-                                   1.0,
-                                   -3.0,
-                                   1e4,
-                                   1e8,
-                                   -1e9,
-                                   1.1e9,
-                                   1e18,
-                                   1e154,
-                                   1e300,
-                                   std::numeric_limits<double>::infinity(),
-                                   std::numeric_limits<double>::quiet_NaN()};
+        constexpr double endless = std::numeric_limits<double>::infinity(),
+                         none = std::numeric_limits<double>::quiet_NaN();
+        constexpr double numbers[]{0.0, -0.0, 1e-300, -1e-12, 1e-6,  1.0,   -3.0,    1e4,
+                                   1e8, -1e9, 1.1e9,  1e18,   1e154, 1e300, endless, none};
         return numbers[random.below(std::size(numbers))];
     }
     /// Usually a plausible value, sometimes any double.

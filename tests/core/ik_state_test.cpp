@@ -224,8 +224,8 @@ Recorder expect_faithful(Method method, const Lengths& lengths, const Joints& st
     Recorder recorder;
     const Report report = watched.solve(method, joints, target, options, &recorder);
     EXPECT_EQ(alone.solve(method, unwatched, target, options), report);
-    EXPECT_TRUE(same_bits(joints, unwatched));
-    EXPECT_TRUE(same_bits(recorder.replay(start), joints));
+    EXPECT_TRUE(test::same_bits(joints, unwatched));
+    EXPECT_TRUE(test::same_bits(recorder.replay(start), joints));
     EXPECT_FALSE(recorder.iterations.empty());
     for (std::size_t i = 0; i < recorder.iterations.size(); ++i)
         EXPECT_EQ(recorder.iterations[i], static_cast<int>(i));

@@ -408,17 +408,11 @@ namespace {
 /// Parameters driven by controls may have any value.
 TEST(RigSpring, ASpringsParametersAreClampedWithAWarning) {
     Definition definition{
-        .elements = {
-            {.name = "dial", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Float}},
-            {.name = "turn",
-             .kind = ElementKind::Control,
-             .control = Control{.kind = ControlKind::Rotation}}}};
+        .elements = {control("dial", ControlKind::Float), control("turn", ControlKind::Rotation)}};
     const FromElement dial{.element = "dial", .of = Of::ControlValue};
-    definition.units = {
-        {.name = "spring",
-         .operation = SpringInterpolate{.target = FromElement{.element = "turn", .of = Of::ControlValue},
-                                        .strength = 2.0,
-                                        .critical_damping = dial}}};
+    definition.units = {{.name = "spring",
+                         .operation = SpringInterpolate{
+                             .target = value_of("turn"), .strength = 2.0, .critical_damping = dial}}};
     Held rig(definition);
     ASSERT_TRUE(rig.control("dial", -0.5));
     const glm::dquat turned = glm::angleAxis(1.0, glm::dvec3(0, 1, 0));
@@ -448,14 +442,11 @@ TEST(RigSpring, AForceWithoutASpringMovesWithTime) {
 }
 
 TEST(RigSpring, ASpringAtATurningPointStillMoves) {
-    Definition definition{.elements = {{.name = "dial",
-                                        .kind = ElementKind::Control,
-                                        .control = Control{.kind = ControlKind::Float}}},
-                          .units = {{.name = "swing",
-                                     .operation = SpringInterpolate{
-                                         .target = FromElement{.element = "dial", .of = Of::ControlValue},
-                                         .strength = 1.0,
-                                         .critical_damping = 0.0}}}};
+    Definition definition{
+        .elements = {control("dial", ControlKind::Float)},
+        .units = {{.name = "swing",
+                   .operation = SpringInterpolate{
+                       .target = value_of("dial"), .strength = 1.0, .critical_damping = 0.0}}}};
     Held rig(definition);
     rig.solve(0.25);
     ASSERT_TRUE(rig.control("dial", 1.0));

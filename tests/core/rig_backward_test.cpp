@@ -93,11 +93,8 @@ TEST(RigBackward, RespectsTheLimitsOfControls) {
 
 /// Two bones on one control, with targets that cannot both be satisfied.
 TEST(RigBackward, SharesTheResidualByLeastSquares) {
-    Definition definition{.elements = {{.name = "a"},
-                                       {.name = "b"},
-                                       {.name = "place",
-                                        .kind = ElementKind::Control,
-                                        .control = Control{.kind = ControlKind::Position}}}};
+    Definition definition{
+        .elements = {{.name = "a"}, {.name = "b"}, control("place", ControlKind::Position)}};
     for (const char* bone : {"a", "b"})
         definition.units.push_back(
             {.name = std::string("move ") += bone,
@@ -126,9 +123,7 @@ TEST(RigBackward, MetresPerRadianWeightsRotations) {
     Definition definition{
         .elements = {{.name = "root"},
                      {.name = "bone", .parent = "root", .initial = at(1, 0, 0)},
-                     {.name = "dial",
-                      .kind = ElementKind::Control,
-                      .control = Control{.kind = ControlKind::Rotation}}},
+                     control("dial", ControlKind::Rotation)},
         .units = {{.name = "turn",
                    .operation = SetRotation{
                        .item = "root", .rotation = FromElement{.element = "dial", .of = Of::Rotation}}}}};
@@ -159,11 +154,10 @@ TEST(RigBackward, ResidualsIncludeScale) {
 
 TEST(RigBackward, TriesSwitchesBothWays) {
     Definition definition = fk_rig(2);
-    definition.elements.push_back(
-        {.name = "on", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Bool}});
+    definition.elements.push_back(control("on", ControlKind::Bool));
     definition.units.push_back({.name = "bend",
                                 .operation = OffsetTransform{.item = "b0", .offset = at(0, 0, 2)},
-                                .when = FromElement{.element = "on", .of = Of::ControlValue}});
+                                .when = value_of("on")});
     Held rig(definition);
     ASSERT_TRUE(rig.control("on", true));
     rig.solve();

@@ -15,9 +15,7 @@ std::string refusal(const Definition& definition) {
 Definition with(Operation operation) {
     Definition rig{.elements = {{.name = "root"},
                                 {.name = "hand", .parent = "root", .initial = at(1, 0, 0)},
-                                {.name = "dial",
-                                 .kind = ElementKind::Control,
-                                 .control = Control{.kind = ControlKind::Float}}},
+                                control("dial", ControlKind::Float)},
                    .curves = {{.name = "smile"}},
                    .units = {{.name = "first", .operation = std::move(operation)}}};
     return rig;
@@ -70,9 +68,8 @@ TEST(RigMake, RefusesInputsWithUnknownNames) {
         test::says(refusal(with(EvaluateCurve{.value = FromUnit{"first"}})), "unit first value unit first"));
     EXPECT_TRUE(test::says(refusal(with(SetCurve{.curve = "frown"})), "unit first curve frown"));
     EXPECT_TRUE(test::says(refusal(with(ForEach{.roots = {"root", "nobody"}})), "unit first roots nobody"));
-    EXPECT_TRUE(test::says(
-        refusal(with(EvaluateCurve{.value = FromElement{.element = "hand", .of = Of::ControlValue}})),
-        "unit first value hand not control"));
+    EXPECT_TRUE(test::says(refusal(with(EvaluateCurve{.value = value_of("hand")})),
+                           "unit first value hand not control"));
     EXPECT_TRUE(test::says(refusal(with(ParentConstraint{.item = "hand"})), "unit first parents at least 1"));
     EXPECT_TRUE(test::says(refusal(with(ForEach{})), "unit first roots at least 1"));
 }

@@ -14,10 +14,7 @@ void expect_near(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-9)
 
 TEST(RigState, SpringsLagAndComeToRest) {
     Definition definition{
-        .elements = {{.name = "head",
-                      .kind = ElementKind::Control,
-                      .control = Control{.kind = ControlKind::Position}},
-                     {.name = "tip", .initial = at(0, 1, 0)}},
+        .elements = {control("head", ControlKind::Position), {.name = "tip", .initial = at(0, 1, 0)}},
         .units = {
             {.name = "trail", .operation = SpringInterpolate{.target = FromElement{"head"}, .strength = 2.0}},
             {.name = "follow", .operation = SetTransform{.item = "tip", .transform = Transform()}}}};
@@ -176,8 +173,7 @@ TEST(RigState, AChainWithNewEndsIsSolved) {
                                        .initial = at(i > 0 ? 1 : 0, 0, 0)});
     definition.units = {
         {.name = "reach", .operation = Fabrik{.root = "b0", .tip = "b4", .target = glm::dvec3(1, 1.2, 0.5)}}};
-    Held rig(definition);
-    rig.solve();
+    Held rig(definition, 0.0);
     for (const auto& [root, tip] : {std::pair{"b0", "b3"}, std::pair{"b1", "b4"}, std::pair{"b1", "b3"}}) {
         auto& reach = std::get<Fabrik>(definition.units[0].operation);
         reach.root = root;
@@ -264,9 +260,7 @@ TEST(RigState, AllocatesNothing) {
 
 /// A unit that inverts a switch needs no time; easing waits for time.
 TEST(RigState, UnitsWithoutEasingFollowWithoutTime) {
-    Definition definition{
-        .elements = {
-            {.name = "dial", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Float}}}};
+    Definition definition{.elements = {control("dial", ControlKind::Float)}};
     const FromElement dial{.element = "dial", .of = Of::ControlValue};
     definition.units = {
         {.name = "not", .operation = AlphaInterpolate{.value = dial, .scale = -1.0, .bias = 1.0}},
@@ -286,10 +280,7 @@ TEST(RigState, UnitsWithoutEasingFollowWithoutTime) {
 TEST(RigState, WorkspacesCanBeReplacedWhileBonesGrow) {
     Definition definition;
     definition.elements = {{.name = "size", .kind = ElementKind::Control, .control = Control{}},
-                           {.name = "goal",
-                            .kind = ElementKind::Control,
-                            .initial = at(1, 1, 0),
-                            .control = Control{.kind = ControlKind::Position}},
+                           control("goal", ControlKind::Position, at(1, 1, 0)),
                            {.name = "a", .parent = "size"},
                            {.name = "b", .parent = "a", .initial = at(0.7, 0.1, 0)},
                            {.name = "c", .parent = "b", .initial = at(0.5, 0, 0.2)},

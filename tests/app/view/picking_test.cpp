@@ -1,5 +1,6 @@
 // Picks one of several objects under a pixel.
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>

@@ -1,5 +1,6 @@
 // Everything is drawn where the camera says, more strokes need no more draw calls, and output is repeatable.
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -1,5 +1,6 @@
 // The unit and the range of a field, appended to its explanation.
 #include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "app/widgets/axis.hpp"
