@@ -4,7 +4,6 @@
 #include "chain_support.hpp"
 #include "random.hpp"
 #include "tests/labels.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

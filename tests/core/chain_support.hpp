@@ -1,14 +1,13 @@
 // Shared by the chain's tests: the invariant as chain.hpp states it, and bitwise equality.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 
 #include "tendril/chain/chain.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 

@@ -1,7 +1,5 @@
 // Feet with hostile input: output is finite, bones keep their lengths, equal states give equal bits.
 #include "humanoid_feet_support.hpp"
-#include "memory.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

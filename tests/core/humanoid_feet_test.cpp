@@ -1,8 +1,6 @@
 // Feet on the ground: bounds for whole walks, and each rule of planting alone.
 #include "humanoid_feet_support.hpp"
-#include "memory.hpp"
 #include "tests/labels.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

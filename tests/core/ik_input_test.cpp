@@ -2,7 +2,6 @@
 
 #include "field_values.hpp"
 #include "ik_support.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test::ik_input_test {
 namespace {

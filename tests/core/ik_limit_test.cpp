@@ -1,6 +1,5 @@
 // A single limit: presets, validation, angles, excess.
 #include "ik_limit_support.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test::ik_limit_test {
 namespace {

@@ -1,8 +1,4 @@
 // Random linkages: closed for any drive and drag, from any state, there and back; and hostile ones.
-#include <gtest/gtest.h>
-
-#include <glm/geometric.hpp>
-
 #include "ik_linkage_support.hpp"
 
 namespace tendril::test::ik_linkage_random_test {

@@ -1,10 +1,13 @@
 // Linkages driven and inspected by name, and random ones.
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <numbers>
 
+#include "memory.hpp"
 #include "random.hpp"
 #include "tendril/ik/mechanisms.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test::linkage {
 

@@ -1,13 +1,10 @@
 // Linkages: cases of an independent implementation over whole turns, closed forms, targets out of reach
 // against brute force, modes and dead points, ranges, priorities, freedom, sketches, and hostile input.
 #include <fstream>
-#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "ik_linkage_support.hpp"
-#include "memory.hpp"
 #include "tests/places.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test::ik_linkage_test {
 namespace {

@@ -1,9 +1,5 @@
 // Linkages: a report's claims are true for any drive, and every step continues along its branch.
-#include <glm/geometric.hpp>
-
 #include "ik_linkage_support.hpp"
-#include "memory.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test::ik_linkage_verdict_test {
 namespace {

@@ -1,6 +1,5 @@
 // solve_many with torn, moving, hostile and out-of-range input; and the class Batch.
 #include "ik_many_scalar.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test::ik_many_hostile_test {
 namespace {

@@ -1,7 +1,6 @@
 // solve_many against the scalar solver: the same bits for any vector unit, threads and neighbours.
 #include "ik_limit_support.hpp"
 #include "ik_many_scalar.hpp"
-#include "ik_many_support.hpp"
 
 namespace tendril::test::ik_many_test {
 namespace {

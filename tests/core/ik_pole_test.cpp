@@ -1,6 +1,5 @@
 // The bend faces its pole, root and tip do not move, and nothing jumps.
 #include "ik_hostile.hpp"
-#include "ik_support.hpp"
 
 namespace tendril::test::ik_pole_test {
 namespace {

@@ -2,9 +2,6 @@
 #include <map>
 
 #include "ik_limited_support.hpp"
-#include "ik_support.hpp"
-#include "memory.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test::ik_state_test {
 namespace {

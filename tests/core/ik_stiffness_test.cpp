@@ -1,6 +1,5 @@
 // Stiff joints: they rotate less, the other joints compensate, and the tip still arrives.
 #include "ik_limited_support.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test::ik_stiffness_test {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "ik_poses.hpp"
 #include "kept_solver.hpp"
+#include "memory.hpp"
 
 namespace tendril::test {
 

@@ -2,7 +2,6 @@
 
 #include "ik_tree_support.hpp"
 #include "kept_solver.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test::ik_tree_test {
 namespace {

@@ -1,7 +1,6 @@
 // Result and Expected: refusals and their messages.
 #include "ik_many_support.hpp"
 #include "jobs.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

@@ -1,13 +1,10 @@
 // Random rigs, solved by the library and by the literal implementation.
-#include <gtest/gtest.h>
-
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "rig_maker.hpp"
 #include "rig_naive.hpp"
 #include "rig_support.hpp"
-#include "tendril/rig/aim.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::rig {

@@ -6,7 +6,6 @@
 
 #include "signal_support.hpp"
 #include "tendril/ik/many.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

@@ -1,7 +1,6 @@
 // Properties shared by every kind of filter.
 
 #include "signal_support.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

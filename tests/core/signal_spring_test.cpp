@@ -2,7 +2,6 @@
 #include <complex>
 
 #include "signal_support.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

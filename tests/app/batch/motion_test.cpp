@@ -1,12 +1,8 @@
 // `tendril lint` and `tendril bake`: the built program with valid and invalid files.
-#include <signal.h>
-
-#include "app/document/json_complete.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/read.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "tests/app/support/program.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

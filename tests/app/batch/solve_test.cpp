@@ -1,11 +1,5 @@
 // `tendril solve`: the built program with valid and invalid files.
-#include <signal.h>
-
-#include <cmath>
-
-#include "app/document/json_complete.hpp"
 #include "tests/app/support/program.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

@@ -1,6 +1,4 @@
 // App itself, run in the test process on an offscreen window.
-#include "app/document/refused.hpp"
-
 #include "app/labs/chain/chain_lab.hpp"
 #include "tests/app/support/driven_app.hpp"
 

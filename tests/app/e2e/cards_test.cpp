@@ -1,12 +1,7 @@
 // The cards of things to try: plays every step of every card, and expects it to be ticked off.
 #include <imgui_internal.h>
 
-#include "app/app.hpp"
 #include "app/document/argument_check.hpp"
-#include "app/document/command.hpp"
-#include "app/labs/card.hpp"
-#include "app/labs/labs.hpp"
-#include "app/shell/layout.hpp"
 #include "app/view/assets.hpp"
 #include "app/widgets/section_light.hpp"
 #include "tests/app/support/frame_record.hpp"

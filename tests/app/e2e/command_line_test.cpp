@@ -1,8 +1,5 @@
 // The command line: --help and lists; errors are one line with exit code 2, and nothing is overwritten.
-#include <map>
-
 #include "tests/app/support/play.hpp"
-#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {

@@ -1,11 +1,9 @@
 // Properties of every lab, and of one that exists only in the tests: random events and commands on each of
 // its scenes break nothing, and replaying them gives the same result.
-#include "app/document/command.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "tests/app/e2e/monkey.hpp"
 #include "tests/app/labs/spring/spring_lab.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

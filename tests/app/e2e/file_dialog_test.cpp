@@ -1,9 +1,6 @@
 // The dialog that asks for a file: its messages about folders and long names.
-#include "app/document/command.hpp"
 #include "tests/app/support/apng.hpp"
 #include "tests/app/support/driven_app.hpp"
-#include "tests/places.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

@@ -3,13 +3,6 @@
 
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"
-#include "tests/places.hpp"
-#include "tests/says.hpp"
-
-#include "app/app.hpp"
-#include "app/document/atomic_file.hpp"
-#include "app/document/expectation.hpp"
-#include "app/labs/labs.hpp"
 
 namespace tendril::test {
 namespace {

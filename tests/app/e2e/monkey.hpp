@@ -5,8 +5,6 @@
 #include <limits>
 #include <random>
 
-#include "app/app.hpp"
-#include "app/document/argument.hpp"
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {

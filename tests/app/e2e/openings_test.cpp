@@ -1,5 +1,4 @@
 // The openings: each lab moves by itself in a new window until the user takes over.
-#include "app/document/refused.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/opening.hpp"

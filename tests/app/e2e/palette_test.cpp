@@ -3,7 +3,6 @@
 
 #include <random>
 
-#include "app/document/command.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "tests/app/support/driven_app.hpp"
 

@@ -5,8 +5,6 @@
 #include "app/live_loop.hpp"
 #include "tests/app/support/panel_places.hpp"
 #include "tests/app/support/play.hpp"
-#include "tests/places.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

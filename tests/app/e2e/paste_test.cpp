@@ -2,7 +2,6 @@
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/live_loop.hpp"
 #include "tests/app/support/driven_app.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

@@ -1,7 +1,4 @@
 // The view as a picture: of the requested size, and without the background.
-#include <cstdlib>
-
-#include "app/view/palette.hpp"
 #include "tests/app/support/blobs.hpp"
 #include "tests/app/support/play.hpp"
 

@@ -1,12 +1,8 @@
 // A race as a picture with its labels, and as a film.
-#include <set>
-
-#include "app/app.hpp"
 #include "app/labs/chain/study.hpp"
 #include "tests/app/support/apng.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

@@ -1,6 +1,4 @@
 // Regressions, seen from outside: the user's or script's actions, and the correct result.
-#include "tests/places.hpp"
-
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {

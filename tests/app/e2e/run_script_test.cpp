@@ -1,9 +1,5 @@
 // app/run with mock tools: its output while it installs and builds.
-#include <cstdlib>
-
 #include "tests/app/support/program.hpp"
-#include "tests/places.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

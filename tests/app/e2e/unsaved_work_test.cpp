@@ -1,6 +1,4 @@
 // Quitting with unsaved work asks first, and does what the user then chooses.
-#include <signal.h>
-
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {

@@ -1,12 +1,9 @@
 // ffmpeg's work after the last frame does not block the window: it can be cancelled, and is reported.
-#include <cstdlib>
-
 #include "app/app.hpp"
 #include "app/live_loop.hpp"
 #include "app/window/offscreen_window.hpp"
 #include "tests/app/support/program.hpp"
 #include "tests/app/support/script_text.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

@@ -1,6 +1,5 @@
 // Looking around with the mouse, in the running program.
 #include "tests/app/support/play.hpp"
-#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {

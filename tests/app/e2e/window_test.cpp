@@ -1,7 +1,4 @@
 // The real window: the built program on a display of its own, with that display's mouse and keys.
-#include <signal.h>
-
-#include <cstdlib>
 #include <glm/common.hpp>
 
 #include "tests/app/support/panel_places.hpp"

@@ -1,12 +1,7 @@
 // Differences that the comparison of pictures must detect, and others that it must accept.
-#include <cstdlib>
 #include <random>
 
-#include "app/document/command.hpp"
 #include "app/labs/chain/chain_lab.hpp"
-#include "app/labs/labs.hpp"
-#include "app/view/renderer.hpp"
-#include "app/window/window.hpp"
 #include "tests/app/golden/golden.hpp"
 #include "tests/app/support/play.hpp"
 

@@ -5,7 +5,6 @@
 
 #include "app/document/argument_check.hpp"
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
 #include "app/labs/labs.hpp"
 #include "app/shell/command_search.hpp"

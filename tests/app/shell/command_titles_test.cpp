@@ -1,8 +1,5 @@
 // Titles of commands: each has one, in words that a user would search for.
-#include <cctype>
-
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/labs/labs.hpp"
 #include "app/shell/shell.hpp"
 #include "app/shell/shortcuts.hpp"

@@ -2,9 +2,7 @@
 #include <imgui_internal.h>  // the item under the mouse, and the windows
 #include <cstdio>
 
-#include "app/document/command.hpp"
 #include "tests/app/support/driven_app.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {

@@ -2,8 +2,6 @@
 // that can be clicked can be reached.
 #include <imgui_internal.h>  // scrolling windows from outside, and listing them
 
-#include <cctype>
-
 #include "app/widgets/fonts.hpp"
 #include "tests/app/support/driven_app.hpp"
 #include "tests/app/support/full_scenes.hpp"

@@ -4,7 +4,6 @@
 
 #include "tests/app/support/driven_app.hpp"
 #include "tests/app/support/layout_faults.hpp"
-#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {

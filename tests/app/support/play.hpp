@@ -1,9 +1,10 @@
 // Plays a script offscreen in this process, and returns its results.
 #pragma once
 
-#include <cmath>
 #include <glm/geometric.hpp>
 
+#include "app/app.hpp"
+#include "app/document/command.hpp"
 #include "app/io/image.hpp"
 #include "tests/app/support/program.hpp"
 #include "tests/app/support/script_text.hpp"

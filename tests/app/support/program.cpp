@@ -1,12 +1,9 @@
 #include "tests/app/support/program.hpp"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <cstdlib>
 
 #include "app/command_line.hpp"
 

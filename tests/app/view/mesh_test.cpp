@@ -1,21 +1,11 @@
 // Triangles as drawn: where the camera says, lit like strokes, in front of and behind strokes, with smooth
 // edges, in one call.
-#include "app/view/mesh.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <glm/geometric.hpp>
 
-#include "app/io/image.hpp"
 #include "app/view/picking.hpp"
-#include "app/view/renderer.hpp"
 #include "app/view/surfaces.hpp"
 #include "app/window/gl.hpp"
 #include "tests/app/support/backends.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::app::mesh_test {
 namespace {

@@ -1,16 +1,9 @@
 // Everything is drawn where the camera says, more strokes need no more draw calls, and output is repeatable.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 
-#include "app/io/image.hpp"
 #include "app/view/picking.hpp"
-#include "app/view/renderer.hpp"
 #include "app/window/gl.hpp"
 #include "tests/app/support/backends.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::app::renderer_test {
 namespace {

@@ -1,15 +1,9 @@
 // Skins are drawn where their joints are, in the colours of their parts, solid or translucent, and the same
 // with every backend.
-#include <gtest/gtest.h>
-
 #include <fstream>
-#include <stdexcept>
 
-#include "app/io/image.hpp"
-#include "app/view/renderer.hpp"
 #include "app/window/gl.hpp"
 #include "tests/app/support/backends.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::app::skin_test {
 namespace {
