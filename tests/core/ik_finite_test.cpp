@@ -1,6 +1,6 @@
 // All output is finite, also with options at the ends of their documented ranges.
 #include "ik_hostile.hpp"
-#include "ik_limited_support.hpp"
+#include "ik_limit_support.hpp"
 #include "ik_tree_support.hpp"
 #include "tendril/ik/two_bone.hpp"
 

@@ -1,15 +1,13 @@
 // An independent measurement of limits: in double, with matrices instead of quaternions, from the joints and
-// rotations that a solve leaves. Tests that solve include ik_limited_support.hpp.
+// rotations that a solve leaves.
 #pragma once
 
 #include <glm/mat3x3.hpp>
 
-#include "ik_poses.hpp"
+#include "ik_support.hpp"
 #include "tendril/ik/limit.hpp"
 
 namespace tendril::test {
-
-class KeptSolver;
 
 inline constexpr double degree = 3.14159265358979323846 / 180.0;
 
@@ -33,7 +31,7 @@ struct Arm {
             joints.push_back(joints.back() + rest[i] * lengths[i]);
         return joints;
     }
-    KeptSolver solver() const;
+    KeptSolver solver() const { return KeptSolver(lengths, rest); }
 };
 
 struct Frame {

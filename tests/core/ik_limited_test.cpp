@@ -1,6 +1,6 @@
 // Solves with limits: limits hold, targets are reached from rest, the better pose is kept, steps replay.
 #include "ik_hostile.hpp"
-#include "ik_limited_support.hpp"
+#include "ik_limit_support.hpp"
 
 namespace tendril::test::ik_limited_test {
 namespace {

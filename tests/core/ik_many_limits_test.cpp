@@ -1,6 +1,6 @@
 // solve_many within limits: joints stay within their limits, every target that the scalar solver reaches is
 // reached, and cases beyond the vector units are bitwise the scalar solver's answer.
-#include "ik_limited_support.hpp"
+#include "ik_limit_support.hpp"
 #include "ik_many_scalar.hpp"
 
 namespace tendril::test::ik_many_limits_test {

@@ -1,6 +1,6 @@
 // The methods in the rows of fields<Options>(): an option that a method honours changes the result in some
 // case; one that it does not honour never changes anything.
-#include "ik_limited_support.hpp"
+#include "ik_limit_support.hpp"
 
 namespace tendril::test::ik_options_test {
 namespace {

@@ -1,7 +1,7 @@
 // Chains on a line with their target, within limits: every descent method leaves the line if the limits allow
 // it, and a limit is blamed only if it keeps the tip from the target.
 #include "ik_hostile.hpp"
-#include "ik_limited_support.hpp"
+#include "ik_limit_support.hpp"
 
 namespace tendril::test::ik_singular_test {
 namespace {

@@ -1,7 +1,7 @@
 // A solver's state is a value: restored from a copy, the same solves give the same bits.
 #include <map>
 
-#include "ik_limited_support.hpp"
+#include "ik_limit_support.hpp"
 
 namespace tendril::test::ik_state_test {
 namespace {

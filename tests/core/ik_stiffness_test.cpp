@@ -1,5 +1,5 @@
 // Stiff joints: they rotate less, the other joints compensate, and the tip still arrives.
-#include "ik_limited_support.hpp"
+#include "ik_limit_support.hpp"
 
 namespace tendril::test::ik_stiffness_test {
 namespace {

@@ -1,6 +1,6 @@
 // The tip's orientation as requested, with and without limits.
 #include "ik_hostile.hpp"
-#include "ik_limited_support.hpp"
+#include "ik_limit_support.hpp"
 
 namespace tendril::test::ik_tip_test {
 namespace {

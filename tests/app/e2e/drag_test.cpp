@@ -214,13 +214,6 @@ ScriptText& drag_joint(ScriptText& script, glm::vec2 from, glm::vec2 by) {
     return script.up();
 }
 
-void expect_bones_kept(const Json& state) {
-    for (std::size_t i = 1; i < state.at("segments").size(); ++i) {
-        const float length = state["segments"][i]["length"].get<float>();
-        EXPECT_NEAR(glm::distance(joint(state, i), joint(state, i - 1)), length, 1e-4f) << i;
-    }
-}
-
 TEST(ReachDrag, AJointFollowsTheMouseWhileRootTargetAndTipStay) {
     const Json before = state_after(reaching());
     for (const std::size_t index : {2u, 3u, 5u}) {
@@ -242,7 +235,7 @@ TEST(ReachDrag, AJointFollowsTheMouseWhileRootTargetAndTipStay) {
         if (index < 5) {
             EXPECT_EQ(missing, 0.0f) << index;
         }
-        expect_bones_kept(after);
+        expect_lengths_kept(after);
         EXPECT_EQ(state_after(script.key("ctrl+z"))["segments"], before["segments"]) << "one step to undo";
         script.key("ctrl+y").command("undo").command("undo").command("undo").command("undo", {}, true);
         EXPECT_EQ(state_after(script)["mode"], "backward") << "the drag was one step";
@@ -257,7 +250,7 @@ TEST(ReachDrag, TheRootTakesTheChainAlongAndItReachesAgain) {
     EXPECT_LT(glm::distance(handle(after, "segment.0"), at + by), 0.02f);
     EXPECT_EQ(after["target"], before["target"]);
     EXPECT_LT(glm::distance(point_of(after["tail"]), point_of(after["target"])), 7e-3f);
-    expect_bones_kept(after);
+    expect_lengths_kept(after);
 }
 
 TEST(ReachDrag, TheTipLeavesTheTargetWhereItIs) {
@@ -270,7 +263,7 @@ TEST(ReachDrag, TheTipLeavesTheTargetWhereItIs) {
     EXPECT_EQ(after["head"], before["head"]);
     EXPECT_EQ(after["target"], before["target"]);
     EXPECT_LT(glm::distance(handle(after, "segment.7"), at + by), 0.5f);
-    expect_bones_kept(after);
+    expect_lengths_kept(after);
 }
 
 TEST(DeleteInMidDrag, DoesNothingInTheChainLab) {

@@ -2,8 +2,7 @@
 #include "app/app.hpp"
 #include "app/live_loop.hpp"
 #include "app/window/offscreen_window.hpp"
-#include "tests/app/support/program.hpp"
-#include "tests/app/support/script_text.hpp"
+#include "tests/app/support/play.hpp"
 
 namespace tendril::test {
 namespace {
@@ -47,6 +46,10 @@ class VideoFinish : public testing::Test {
     void write_frames() {
         for (int i = 0; i < 200 && filming() && filming()->done < filming()->frames; ++i) tick();
     }
+    void finish() {
+        for (int i = 0; i < 3000 && filming(); ++i) tick();
+        EXPECT_FALSE(filming());
+    }
     const std::optional<VideoProgress>& filming() { return app_.workspace().ui.filming; }
     std::string toast() {
         const auto& all = app_.workspace().ui.toasts;
@@ -69,8 +72,7 @@ TEST_F(VideoFinish, DoesNotBlockTheWindow) {
     ASSERT_TRUE(filming());
     EXPECT_EQ(filming()->done, filming()->frames);
     EXPECT_FALSE(std::filesystem::exists(folder_ / "a.mp4"));
-    for (int i = 0; i < 3000 && filming(); ++i) tick();
-    EXPECT_FALSE(filming());
+    finish();
     EXPECT_LT(longest_, 1.0) << "no tick waits for it";
     EXPECT_NE(toast().find("Written: "), std::string::npos) << toast();
     EXPECT_EQ(folder_.names(), std::vector<std::string>{"a.mp4"});
@@ -81,7 +83,7 @@ TEST_F(VideoFinish, TakesAnotherNameIfAnotherProgramHasWrittenItsFileMeanwhile) 
     film_with("sleep 0.3\n");
     write_frames();
     write(folder_ / "a.mp4", "another program's");
-    for (int i = 0; i < 3000 && filming(); ++i) tick();
+    finish();
     EXPECT_TRUE(test::says(toast(), "a.mp4 is not replaced The video is a-1.mp4"));
     EXPECT_EQ(folder_.names(), (std::vector<std::string>{"a-1.mp4", "a.mp4"}));
     EXPECT_EQ(read(folder_ / "a.mp4"), "another program's");
@@ -149,8 +151,7 @@ TEST_F(VideoReplay, IsCancelledAgainEvenIfFfmpegIsDoneAtOnce) {
 
 TEST_F(VideoReplay, IsWrittenAgainEvenIfFfmpegTakesLonger) {
     begin("");
-    for (int i = 0; i < 3000 && filming(); ++i) tick();
-    EXPECT_FALSE(filming());
+    finish();
     for (int i = 0; i < 3; ++i) tick();
     press("escape");
     EXPECT_TRUE(app_.state()["selected"].is_null()) << "there is no video that Esc could be for";
@@ -194,8 +195,7 @@ TEST_F(VideoFinish, ReportsTheFailureAndLeavesTheOldFile) {
           {"echo 'disk full' >&2\n", true, "ffmpeg disk full"},
           {": > \"${last#file:}\"\n", false, "ffmpeg exit code 1"}}) {
         film_with(end, reads_back);
-        for (int i = 0; i < 3000 && filming(); ++i) tick();
-        EXPECT_FALSE(filming());
+        finish();
         EXPECT_TRUE(test::says(toast(), told)) << end;
         EXPECT_EQ(folder_.names(), std::vector<std::string>{"a.mp4"});
         EXPECT_EQ(read(folder_ / "a.mp4"), old);
