@@ -11,10 +11,9 @@ namespace {
 constexpr Effector five[]{Effector::LeftHand, Effector::RightHand, Effector::Head, Effector::LeftFoot,
                           Effector::RightFoot};
 
-class HumanoidBody : public testing::TestWithParam<bool> {
+class HumanoidBody : public testing::TestWithParam<bool>, protected Figured {
   protected:
     HumanoidBody() { place(skeleton, rest, placements); }
-    std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
     /// A pose within the default limits; limbs turn by about `amount` radians.
     std::vector<rig::Transform> random_pose(RandomPoses& random, double amount) {
         std::vector<rig::Transform> pose;
@@ -62,12 +61,9 @@ class HumanoidBody : public testing::TestWithParam<bool> {
         return worst;
     }
 
-    Skeleton skeleton = make_figure({});
-    BoneMap map = match_bones(skeleton);
     BodyLimits limits = default_limits(skeleton, map);
     BodyJoints joints = *BodyJoints::make(skeleton, map, limits);
     Body body = *Body::make(skeleton, map, GetParam() ? limits : no_limits());
-    std::vector<rig::Transform> rest = rest_pose(skeleton);
     std::vector<Placement> placements = std::vector<Placement>(skeleton.size());
 };
 

@@ -8,9 +8,8 @@
 namespace tendril::test {
 namespace {
 
-class HumanoidContact : public testing::TestWithParam<bool> {
+class HumanoidContact : public testing::TestWithParam<bool>, protected Figured {
   protected:
-    std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
     /// Penetration of hands and lower arms into trunk, head and legs, recomputed from the pose, metres.
     double penetration(const std::vector<rig::Transform>& pose) {
         place(skeleton, pose, placements);
@@ -30,12 +29,9 @@ class HumanoidContact : public testing::TestWithParam<bool> {
         return deepest;
     }
 
-    Skeleton skeleton = make_figure({});
-    BoneMap map = match_bones(skeleton);
     std::vector<BodyCapsule> capsules = default_capsules(skeleton, map);
     Body body =
         *Body::make(skeleton, map, GetParam() ? default_limits(skeleton, map) : no_limits(), capsules);
-    std::vector<rig::Transform> rest = rest_pose(skeleton);
     std::vector<Placement> placements = std::vector<Placement>(skeleton.size());
 };
 

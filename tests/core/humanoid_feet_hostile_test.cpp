@@ -7,9 +7,8 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-class FeetHostile : public ::testing::Test {
+class FeetHostile : public ::testing::Test, protected Figured {
   protected:
-    double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); }
     glm::dquat rotation() {
         glm::dquat q;
         for (int i = 0; i < 4; ++i) q[i] = number(-1.0, 1.0);
@@ -45,9 +44,7 @@ class FeetHostile : public ::testing::Test {
         return times[static_cast<std::size_t>(number(0.0, 9.99))];
     }
 
-    std::mt19937 random{7};
-    const Skeleton skeleton = make_figure({});
-    const BoneMap map = match_bones(skeleton);
+    RandomPoses number{7};
     const Feet feet = *Feet::make(skeleton, map);
 };
 

@@ -8,26 +8,20 @@
 namespace tendril::test {
 namespace {
 
-class HeadLook : public ::testing::Test {
+class HeadLook : public ::testing::Test, protected Figured {
   protected:
-    double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); }
-    std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
     /// The rotation of a bone from its rest pose, radians.
     double turned(const std::vector<rig::Transform>& made, Bone bone) const {
         return 2.0 * std::acos(std::min(1.0, std::abs(made[node(bone)].rotation.w)));
     }
     /// Angle between the gaze and the target, radians.
     double left(const std::vector<rig::Transform>& made, const glm::dvec3& target) const {
-        std::vector<Placement> placements(skeleton.size());
-        place(skeleton, made, placements);
-        const Placement& head = placements[node(Bone::Head)];
+        const Placement head = placed(made)[node(Bone::Head)];
         const glm::dvec3 gaze = head.rotation() * glm::dvec3(0, 0, 1);
         return std::acos(std::min(1.0, glm::dot(gaze, glm::normalize(target - head.position))));
     }
 
-    std::mt19937 random{13};
-    const Skeleton skeleton = make_figure({});
-    const BoneMap map = match_bones(skeleton);
+    RandomPoses number{13};
     const LookAt look = *LookAt::make(skeleton, map);
 };
 

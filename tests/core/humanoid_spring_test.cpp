@@ -148,10 +148,7 @@ TEST(SpringChain, FrameRatesMakeLittleDifference) {
 }
 
 TEST(SpringChain, KeepsLengthsConeAndAllOtherNodes) {
-    std::mt19937 random(5);
-    const auto number = [&](double from, double to) {
-        return std::uniform_real_distribution<double>(from, to)(random);
-    };
+    RandomPoses number(5);
     Antenna antenna(5);
     double farthest = 0.0;
     for (int frame = 0; frame < 3000; ++frame) {
@@ -266,10 +263,7 @@ TEST(SpringChain, SizeMakesNoDifference) {
 
 /// Tips stay outside of one sphere or capsule that passes through the antenna, and bones keep their lengths.
 TEST(SpringChain, StaysOutsideAColliderWithLengthsKept) {
-    std::mt19937 random(7);
-    const auto number = [&](double from, double to) {
-        return std::uniform_real_distribution<double>(from, to)(random);
-    };
+    RandomPoses number(7);
     int held = 0;
     for (int run = 0; run < 200; ++run) {
         Antenna antenna(5);
@@ -371,10 +365,7 @@ TEST(SpringChain, AcceptsBranchesAndASingleNode) {
 }
 
 TEST(SpringChain, SurvivesAnyInputWithoutAllocating) {
-    std::mt19937 random(11);
-    const auto number = [&](double from, double to) {
-        return std::uniform_real_distribution<double>(from, to)(random);
-    };
+    RandomPoses number(11);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     Antenna antenna(5);
     antenna.step({0, 1, 0}, {}, 0.1);
