@@ -62,7 +62,8 @@ class Cases {
         return frame.p;
     }
     Case with_target(const KDL::Vector& target) {
-        Case each{.start = pose()};
+        Case each;
+        each.start = pose();
         for (int i = 0; i <= links; ++i) each.joints.push_back(to_glm(end(each.start, i)));
         each.target = target;
         return each;

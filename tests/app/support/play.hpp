@@ -72,7 +72,8 @@ inline Played play(const ScriptText& script, const PlayOptions& options = {}) {
         arguments.insert(arguments.end(), {"--screenshot", (folder / "picture.png").string()});
     arguments.insert(arguments.end(), options.more.begin(), options.more.end());
 
-    Played played{.outcome = run_here(arguments)};
+    Played played;
+    played.outcome = run_here(arguments);
     EXPECT_TRUE(succeeded(played.outcome)) << script.text();
     played.state = app::parse_json(read(folder / "state.json"));
     if (options.picture) played.picture = app::read_png(folder / "picture.png");
@@ -123,7 +124,8 @@ inline Played play_refused(const ScriptText& script) {
     const TempFolder folder;
     const std::string path = (folder / "script.jsonl").string(), state = (folder / "state.json").string();
     write(path, script.text());
-    Played played{.outcome = run_program({"--headless", "--script", path, "--state", state})};
+    Played played;
+    played.outcome = run_program({"--headless", "--script", path, "--state", state});
     EXPECT_EQ(played.outcome.exit_code, 0) << played.outcome.err;
     played.state = app::parse_json(read(state));
     return played;

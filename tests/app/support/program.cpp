@@ -58,8 +58,9 @@ bool Process::reap(bool block) {
     int status = 0;
     struct rusage usage {};
     if (::wait4(id_, &status, block ? 0 : WNOHANG, &usage) != id_) return false;
-    Outcome outcome{.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-                    .peak_megabytes = usage.ru_maxrss / 1024};
+    Outcome outcome;
+    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    outcome.peak_megabytes = usage.ru_maxrss / 1024;
     for (const timeval& part : {usage.ru_utime, usage.ru_stime})
         outcome.cpu_seconds += static_cast<double>(part.tv_sec) + 1e-6 * static_cast<double>(part.tv_usec);
     outcome.out = out();
