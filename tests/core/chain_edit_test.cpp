@@ -390,23 +390,22 @@ TEST(ChainRefusals, LimitValuesAreAccepted) {
 
 TEST(ChainRefusals, MessagesNameTheOperationTheArgumentAndTheValue) {
     Chain chain = straight(8);
-    EXPECT_TRUE(test::says(message_of(chain.set_length(2, -1.0f)), "set_length length finite 0 1e9 -1"));
-    EXPECT_TRUE(test::says(message_of(chain.add(-0.25f)), "add length finite 0 1e9 -0.25"));
-    EXPECT_TRUE(test::says(message_of(chain.add(Segment{{0, 0, -infinity}, 1})),
-                           "add segment.position.z finite 1e9 -inf"));
-    EXPECT_TRUE(test::says(message_of(chain.insert(0, Segment{{9, 9, 9}, 1e10f})),
-                           "insert segment.length finite 0 1e9 1e+10"));
-    EXPECT_TRUE(test::says(message_of(chain.forward({0, -nan, 0})), "forward target.y finite 1e9 nan"));
+    EXPECT_TRUE(says(message_of(chain.set_length(2, -1.0f)), "set_length length finite 0 1e9 -1"));
+    EXPECT_TRUE(says(message_of(chain.add(-0.25f)), "add length finite 0 1e9 -0.25"));
     EXPECT_TRUE(
-        test::says(message_of(chain.fixed({}, {.iterations = 0})), "fixed options.iterations 1 1e5 0"));
-    EXPECT_TRUE(test::says(message_of(chain.fixed({}, {.tolerance = infinity})),
-                           "fixed options.tolerance 0 1e9 inf"));
-    EXPECT_TRUE(test::says(message_of(chain.set_default_direction({0, 3, 0})),
-                           "set_default_direction direction unit vector length 3"));
-    EXPECT_TRUE(test::says(message_of(Chain::from_segments({{}, {{0, 0, 0}, nan}})),
-                           "from_segments segments[1].length finite 0 1e9 nan"));
-    EXPECT_TRUE(test::says(message_of(chain.insert(9, 1.0f)), "insert index 9 8"));
-    EXPECT_TRUE(test::says(message_of(straight(1).remove(1)), "remove index 1 1"));
+        says(message_of(chain.add(Segment{{0, 0, -infinity}, 1})), "add segment.position.z finite 1e9 -inf"));
+    EXPECT_TRUE(says(message_of(chain.insert(0, Segment{{9, 9, 9}, 1e10f})),
+                     "insert segment.length finite 0 1e9 1e+10"));
+    EXPECT_TRUE(says(message_of(chain.forward({0, -nan, 0})), "forward target.y finite 1e9 nan"));
+    EXPECT_TRUE(says(message_of(chain.fixed({}, {.iterations = 0})), "fixed options.iterations 1 1e5 0"));
+    EXPECT_TRUE(
+        says(message_of(chain.fixed({}, {.tolerance = infinity})), "fixed options.tolerance 0 1e9 inf"));
+    EXPECT_TRUE(says(message_of(chain.set_default_direction({0, 3, 0})),
+                     "set_default_direction direction unit vector length 3"));
+    EXPECT_TRUE(says(message_of(Chain::from_segments({{}, {{0, 0, 0}, nan}})),
+                     "from_segments segments[1].length finite 0 1e9 nan"));
+    EXPECT_TRUE(says(message_of(chain.insert(9, 1.0f)), "insert index 9 8"));
+    EXPECT_TRUE(says(message_of(straight(1).remove(1)), "remove index 1 1"));
 }
 
 }  // namespace

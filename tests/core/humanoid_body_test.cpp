@@ -336,24 +336,24 @@ TEST_P(HumanoidBody, BadInputIsRefusedAndNothingMoves) {
         return std::string(report.message());
     };
     const double nan = std::nan("");
-    EXPECT_TRUE(test::says(refused({{Effector::Head, {0.0, nan, 0.0}}}),
-                           "Body::solve targets[0].position.y 1e9 nan"));
-    EXPECT_TRUE(test::says(refused({{Effector::Head, {}}, {Effector::Head, {}}}),
-                           "Body::solve targets[1].effector once head"));
-    EXPECT_TRUE(test::says(refused({{Effector::Head, {}, glm::dquat(0.0, 0.0, 0.0, 0.0)}}),
-                           "targets[0].rotation quaternion of length 1e-6 to 1e9"));
-    EXPECT_TRUE(test::says(refused({{Effector::Head, {}}}, {.tolerance = 0.0}),
-                           "Body::solve options.tolerance over 0 to 1 0"));
+    EXPECT_TRUE(
+        says(refused({{Effector::Head, {0.0, nan, 0.0}}}), "Body::solve targets[0].position.y 1e9 nan"));
+    EXPECT_TRUE(says(refused({{Effector::Head, {}}, {Effector::Head, {}}}),
+                     "Body::solve targets[1].effector once head"));
+    EXPECT_TRUE(says(refused({{Effector::Head, {}, glm::dquat(0.0, 0.0, 0.0, 0.0)}}),
+                     "targets[0].rotation quaternion of length 1e-6 to 1e9"));
+    EXPECT_TRUE(says(refused({{Effector::Head, {}}}, {.tolerance = 0.0}),
+                     "Body::solve options.tolerance over 0 to 1 0"));
     state.turns.resize(body.bones().size(), glm::dquat(1.0, 0.0, 0.0, 0.0));
     state.clip[2].z = nan;
-    EXPECT_TRUE(test::says(refused({{Effector::Head, {}}}), "Body::solve state.clip[2].z nan"));
+    EXPECT_TRUE(says(refused({{Effector::Head, {}}}), "Body::solve state.clip[2].z nan"));
     state.clip[2].z = 0.0;
     state.turns.resize(3);
     EXPECT_FALSE(refused({{Effector::Head, {}}}).empty());
     BoneMap gap = map;
     gap[Bone::LeftHand] = {};
     review(gap, skeleton);
-    EXPECT_TRUE(test::says(std::string(Body::make(skeleton, gap).message()), "Body LeftHand mapped none"));
+    EXPECT_TRUE(says(std::string(Body::make(skeleton, gap).message()), "Body LeftHand mapped none"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Limits, HumanoidBody, testing::Bool(),

@@ -154,8 +154,8 @@ TEST_P(HumanoidContact, AnyTargetsGiveFinitePosesAndRarelyContact) {
 TEST_P(HumanoidContact, AnInvalidCapsuleIsRefused) {
     auto bad = capsules;
     bad[2].radius = -1.0;
-    EXPECT_TRUE(test::says(std::string(Body::make(skeleton, map, no_limits(), bad).message()),
-                           "Body capsules[2].radius 0 1e9 -1"));
+    EXPECT_TRUE(says(std::string(Body::make(skeleton, map, no_limits(), bad).message()),
+                     "Body capsules[2].radius 0 1e9 -1"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Limits, HumanoidContact, testing::Bool(),

@@ -106,7 +106,7 @@ TEST_F(FeetHostile, RefusedInputChangesNothing) {
     FeetOptions options{.low = nan};
     EXPECT_TRUE(refuses(rest_pose(skeleton), options));
     options = {.leave_speed = 0.1};
-    EXPECT_TRUE(test::says(check(options).message(), "feet leave_speed enter_speed 0.1"));
+    EXPECT_TRUE(says(check(options).message(), "feet leave_speed enter_speed 0.1"));
     options = {};
     options.root.scale.x = 0.0;
     EXPECT_FALSE(check(options));
@@ -157,7 +157,7 @@ TEST_F(FeetHostile, LegsNotBelowTheHipsAreRefused) {
     nodes[leg].rest.translation += glm::dvec3(0, 1, 0);
     nodes[leg].parent = static_cast<std::int32_t>(nodes.size()) - 1;
     const Skeleton apart = *Skeleton::make(nodes);
-    EXPECT_TRUE(test::says(Feet::make(apart, map).message(), "LeftUpperLeg is not below the hips"));
+    EXPECT_TRUE(says(Feet::make(apart, map).message(), "LeftUpperLeg is not below the hips"));
     EXPECT_FALSE(Feet::make(skeleton, BoneMap()));
 }
 

@@ -138,7 +138,7 @@ TEST_F(FeetWalk, WithoutSuitableGroundTheClipIsLeftAlone) {
     expect_alone(deep, FootAlone::TooFar, -9.0);
     expect_alone(steep, FootAlone::TooSteep, 0.8);
     expect_alone(high, FootAlone::TooFar, 0.8);
-    EXPECT_TRUE(test::says(name(FootAlone::TooSteep), "too steep"));
+    EXPECT_TRUE(says(name(FootAlone::TooSteep), "too steep"));
 }
 
 TEST_F(FeetWalk, ATargetOutOfTheLegsReachIsReported) {

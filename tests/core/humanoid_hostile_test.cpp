@@ -282,14 +282,14 @@ TEST(HumanoidMap, IsRefusedByItsBonesName) {
         EXPECT_FALSE(Body::make(body, map));
         return std::string(check(map, body).message());
     };
-    EXPECT_TRUE(test::says(said(Bone::LeftHand, 77), "bone map LeftHand skeleton 77"));
-    EXPECT_TRUE(test::says(said(Bone::LeftHand, -2), "bone map LeftHand skeleton -2"));
+    EXPECT_TRUE(says(said(Bone::LeftHand, 77), "bone map LeftHand skeleton 77"));
+    EXPECT_TRUE(says(said(Bone::LeftHand, -2), "bone map LeftHand skeleton -2"));
     EXPECT_TRUE(
-        test::says(said(Bone::RightHand, good[Bone::LeftHand].node), "bone map RightHand another LeftHand"));
+        says(said(Bone::RightHand, good[Bone::LeftHand].node), "bone map RightHand another LeftHand"));
     BoneMap swapped = good;
     std::swap(swapped[Bone::LeftUpperArm].node, swapped[Bone::LeftLowerArm].node);
     EXPECT_TRUE(
-        test::says(std::string(check(swapped, body).message()), "bone map LeftLowerArm above LeftUpperArm"));
+        says(std::string(check(swapped, body).message()), "bone map LeftLowerArm above LeftUpperArm"));
     EXPECT_TRUE(check(BoneMap{}, Skeleton{}));
 }
 

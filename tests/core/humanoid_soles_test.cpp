@@ -155,7 +155,7 @@ TEST(Soles, RefuseAnUnusableMap) {
     BoneMap map = match_bones(skeleton);
     map[Bone::LeftFoot].node = -1;
     review(map, skeleton);
-    EXPECT_TRUE(test::says(find_soles(skeleton, map).message(), "find_soles map LeftFoot"));
+    EXPECT_TRUE(says(find_soles(skeleton, map).message(), "find_soles map LeftFoot"));
     map = match_bones(skeleton);
     map[Bone::Head].node = 1000;
     EXPECT_FALSE(find_soles(skeleton, map));

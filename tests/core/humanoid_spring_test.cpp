@@ -358,9 +358,9 @@ TEST(SpringChain, AcceptsBranchesAndASingleNode) {
     const auto refusal = [&](const char* name) {
         return std::string(SpringChain::make(skeleton, map, *skeleton.find(name)).error().message());
     };
-    EXPECT_TRUE(test::says(refusal("mark"), "SpringChain root length mark"));
-    EXPECT_TRUE(test::says(refusal("Neck"), "SpringChain root bone body Neck"));
-    EXPECT_TRUE(test::says(refusal("Hips"), "SpringChain root parent Hips"));
+    EXPECT_TRUE(says(refusal("mark"), "SpringChain root length mark"));
+    EXPECT_TRUE(says(refusal("Neck"), "SpringChain root bone body Neck"));
+    EXPECT_TRUE(says(refusal("Hips"), "SpringChain root parent Hips"));
     EXPECT_FALSE(SpringChain::make(skeleton, map, skeleton.size()));
 }
 

@@ -15,7 +15,7 @@ using ik::Status;
 const Lengths lengths{1.0f, 0.5f};  // two, accepted by every method
 constexpr Report refused{Status::InvalidInput, 0, 0.0f};
 
-/// `why`: the message of check_input(), in the form of test::says().
+/// `why`: the message of check_input(), in the form of says().
 void expect_refused(const std::string& why, const Options& options, glm::vec3 target = {0.5f, 0.5f, 0.5f},
                     Joints start = {{0, 0, 0}, {1, 0, 0}, {1, 0.5f, 0}}) {
     for (const Method method : ik::all_methods) {
@@ -24,7 +24,7 @@ void expect_refused(const std::string& why, const Options& options, glm::vec3 ta
         Joints joints = start;
         Recorder recorder;
         const Result reason = checker.check_input(method, joints, solver.state, target, options);
-        EXPECT_TRUE(test::says(reason.message(), "solve " + why)) << name(method);
+        EXPECT_TRUE(says(reason.message(), "solve " + why)) << name(method);
         EXPECT_EQ(solver.solve(method, joints, target, options, &recorder), refused) << name(method);
         EXPECT_TRUE(same_bits(joints, start)) << name(method);
         EXPECT_TRUE(recorder.steps.empty() && recorder.iterations.empty()) << name(method);
@@ -103,8 +103,7 @@ TEST(IkInput, ASolverRefusesBadLengthsAndDirections) {
     EXPECT_TRUE(Solver::make(lengths, two));
     EXPECT_FALSE(Solver::make(Lengths{1.0f}, two));
     EXPECT_FALSE(Solver::make(lengths, not_unit));
-    EXPECT_TRUE(
-        test::says(Solver::make(Lengths{1.0f, -1.0f}).message(), "Solver lengths[1] finite 0 1e9 -1"));
+    EXPECT_TRUE(says(Solver::make(Lengths{1.0f, -1.0f}).message(), "Solver lengths[1] finite 0 1e9 -1"));
     EXPECT_EQ(Solver(Chain()).bones(), 0u);
     EXPECT_EQ(Solver(straight(1)).bones(), 0u);
 }

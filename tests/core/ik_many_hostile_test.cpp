@@ -245,8 +245,8 @@ TEST(Batch, RefusesInputOutOfRangeAndStaysUnchanged) {
     EXPECT_TRUE(invalid(batch.copy_joints(0, small)));
     EXPECT_TRUE(invalid(batch.copy_joints(small)));
     EXPECT_TRUE(
-        test::says(batch.set_lengths(0, Lengths{1, -2}).message(), "set_lengths lengths[1] finite 0 1e9 -2"));
-    EXPECT_TRUE(test::says(batch.set_root(5, {}).message(), "set_root index 5 range 2"));
+        says(batch.set_lengths(0, Lengths{1, -2}).message(), "set_lengths lengths[1] finite 0 1e9 -2"));
+    EXPECT_TRUE(says(batch.set_root(5, {}).message(), "set_root index 5 range 2"));
     EXPECT_EQ(joints_of(batch), before);
     EXPECT_EQ(batch.length(0, 0), 1.0f);
 }

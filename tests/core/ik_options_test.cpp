@@ -118,7 +118,7 @@ TEST(IkOptions, TheTableListsTheOptionsOfEachMethod) {
 
 TEST(IkOptions, TwoBoneNeedsTwoBones) {
     EXPECT_TRUE(check_takes(Method::TwoBone, 2));
-    EXPECT_TRUE(test::says(check_takes(Method::TwoBone, 5).message(), "Two-bone two bones"));
+    EXPECT_TRUE(says(check_takes(Method::TwoBone, 5).message(), "Two-bone two bones"));
     EXPECT_TRUE(check_takes(Method::Ccd, 5));
     EXPECT_FALSE(check_takes(static_cast<Method>(99), 5));
 }

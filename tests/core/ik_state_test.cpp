@@ -124,7 +124,7 @@ TEST(IkState, AnInvalidStateIsRefused) {
     const Lengths lengths(2, 1.0f);
     const State good(2);
     EXPECT_TRUE(check(good, 2));
-    EXPECT_TRUE(test::says(check(good, 3).message(), "ik::State rotations 3 2"));
+    EXPECT_TRUE(says(check(good, 3).message(), "ik::State rotations 3 2"));
     const auto expect_refused = [&](auto spoil, const char* message) {
         State bad = good;
         bad.pole.valid = true;

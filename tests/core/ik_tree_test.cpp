@@ -11,12 +11,12 @@ std::string refusal(const TreeJointList& joints) {
 }
 
 TEST(IkTree, RefusesInvalidTrees) {
-    EXPECT_TRUE(test::says(refusal({}), "Tree joints none"));
-    EXPECT_TRUE(test::says(refusal({{0, 0.0f}}), "Tree joints[0].parent no_joint root 0"));
-    EXPECT_TRUE(test::says(refusal({{no_joint, 0}, {1, 1}}), "Tree joints[1].parent before 1"));
-    EXPECT_TRUE(test::says(refusal({{no_joint, 0}, {0, 1}, {7, 1}}), "Tree joints[2].parent before 7"));
-    EXPECT_TRUE(test::says(refusal({{no_joint, 0}, {no_joint, 1}}), "Tree joints[1].parent before no_joint"));
-    EXPECT_TRUE(test::says(refusal({{no_joint, 0}, {0, -1}}), "Tree joints[1].length finite 0 1e9 -1"));
+    EXPECT_TRUE(says(refusal({}), "Tree joints none"));
+    EXPECT_TRUE(says(refusal({{0, 0.0f}}), "Tree joints[0].parent no_joint root 0"));
+    EXPECT_TRUE(says(refusal({{no_joint, 0}, {1, 1}}), "Tree joints[1].parent before 1"));
+    EXPECT_TRUE(says(refusal({{no_joint, 0}, {0, 1}, {7, 1}}), "Tree joints[2].parent before 7"));
+    EXPECT_TRUE(says(refusal({{no_joint, 0}, {no_joint, 1}}), "Tree joints[1].parent before no_joint"));
+    EXPECT_TRUE(says(refusal({{no_joint, 0}, {0, -1}}), "Tree joints[1].length finite 0 1e9 -1"));
 }
 
 TEST(IkTree, ReportsItsSizeAndReach) {

@@ -213,7 +213,7 @@ TEST(SignalSpring, AllParametrisationsGiveTheSameSpring) {
         ASSERT_TRUE(by_half_life) << by_half_life.message();
         EXPECT_NEAR(by_half_life->strength, strength, 1e-12 * strength);
     }
-    EXPECT_TRUE(test::says(signal::of_duration(0.3, 1.5).message(), "of_duration bounce -0.999 1 1.5"));
+    EXPECT_TRUE(says(signal::of_duration(0.3, 1.5).message(), "of_duration bounce -0.999 1 1.5"));
     for (const double bad : {0.0, -1.0, not_a_number, infinity, 1e-9}) {
         EXPECT_FALSE(signal::of_duration(bad, 0.0)) << bad;
         EXPECT_FALSE(signal::of_half_life(bad, 1.0)) << bad;

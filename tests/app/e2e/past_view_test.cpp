@@ -279,7 +279,7 @@ TEST(ChainsPast, AFlipIsMarkedAtItsTickWithItsCause) {
     const Json state = state_after(through_the_root());
     const std::vector<Json> flips = flips_of(state);
     ASSERT_GE(flips.size(), 1u) << state["events"].dump(2);
-    for (const Json& flip : flips) EXPECT_TRUE(test::says(flip["cause"], "target root"));
+    for (const Json& flip : flips) EXPECT_TRUE(says(flip["cause"], "target root"));
     EXPECT_EQ(state["events"][0]["cause"], straight);
     EXPECT_GT(flips[0]["degrees"].get<double>(), 30.0);
     // The poses before and after it differ that much.
@@ -357,7 +357,7 @@ TEST(ChainsPast, ARefusedNumberIsAMarkAndNoFlip) {
             .state;
     ASSERT_EQ(typed["events"].size(), 1u);
     EXPECT_EQ(typed["events"][0]["kind"], "status");
-    EXPECT_TRUE(test::says(typed["events"][0]["cause"].get<std::string>(), "iterations 1"));
+    EXPECT_TRUE(says(typed["events"][0]["cause"].get<std::string>(), "iterations 1"));
     const Json told =
         state_after(ScriptText(reach).command("chain.target", {{"to", {1e30, 0, 0}}}, true).wait(1));
     EXPECT_TRUE(told["events"].empty());
@@ -457,7 +457,7 @@ TEST(RigsPast, AFlipIsMarkedAtItsTickWithBoneUnitAndCause) {
     for (const Json& flip : flips) {
         EXPECT_EQ(flip["name"], "head");
         EXPECT_EQ(state["elements"].at(flip["joint"].get<std::size_t>())["name"], "head");
-        EXPECT_TRUE(test::says(flip["cause"].get<std::string>(), "unit aim second target"));
+        EXPECT_TRUE(says(flip["cause"].get<std::string>(), "unit aim second target"));
         turned += flip["degrees"].get<double>();
     }
     EXPECT_GT(turned, 60.0);

@@ -91,7 +91,7 @@ TEST_F(RunScript, ShowsWhyItCouldNotConfigureOrInstall) {
     tool("bin/apt-get", "case $* in *install*) echo 'E: Unable to locate package' >&2; exit 100; esac");
     outcome = run();
     EXPECT_NE(outcome.exit_code, 0);
-    EXPECT_TRUE(test::says(outcome.err, "E: Unable to locate package"));
+    EXPECT_TRUE(says(outcome.err, "E: Unable to locate package"));
     EXPECT_EQ(outcome.out, "");
 }
 

@@ -84,7 +84,7 @@ TEST_F(VideoFinish, TakesAnotherNameIfAnotherProgramHasWrittenItsFileMeanwhile) 
     write_frames();
     write(folder_ / "a.mp4", "another program's");
     finish();
-    EXPECT_TRUE(test::says(toast(), "a.mp4 is not replaced The video is a-1.mp4"));
+    EXPECT_TRUE(says(toast(), "a.mp4 is not replaced The video is a-1.mp4"));
     EXPECT_EQ(folder_.names(), (std::vector<std::string>{"a-1.mp4", "a.mp4"}));
     EXPECT_EQ(read(folder_ / "a.mp4"), "another program's");
     EXPECT_EQ(read(folder_ / "a-1.mp4").size(), 11u * 64 * 64 * 4);
@@ -98,7 +98,7 @@ TEST_F(VideoFinish, IsCancelledByEscapeAndLeavesNoFile) {
     EXPECT_FALSE(folder_.names().empty()) << "a part of it is there";
     tick(KeyTap{*chord_from_name("escape")});
     EXPECT_FALSE(filming());
-    EXPECT_TRUE(test::says(toast(), "Cancelled a.mp4"));
+    EXPECT_TRUE(says(toast(), "Cancelled a.mp4"));
     EXPECT_EQ(folder_.names(), std::vector<std::string>{});
     EXPECT_LT(longest_, 1.0);
 }
@@ -196,7 +196,7 @@ TEST_F(VideoFinish, ReportsTheFailureAndLeavesTheOldFile) {
           {": > \"${last#file:}\"\n", false, "ffmpeg exit code 1"}}) {
         film_with(end, reads_back);
         finish();
-        EXPECT_TRUE(test::says(toast(), told)) << end;
+        EXPECT_TRUE(says(toast(), told)) << end;
         EXPECT_EQ(folder_.names(), std::vector<std::string>{"a.mp4"});
         EXPECT_EQ(read(folder_ / "a.mp4"), old);
     }
