@@ -276,8 +276,6 @@ TEST(HumanoidRetarget, TheRootTravelsAndHelpersFollowTheirBones) {
     }
 }
 
-// ------------------------------------------------------------------------------------------------- walks
-
 /// The figure with other proportions, arms hanging at rest, toes turned out, and hands rotated.
 RetargetFigure other_figure(double legs, double feet, double hips) {
     RetargetFigure body{make_figure({}), {}};

@@ -72,8 +72,6 @@ TEST(Linkage, AgreesWithAnIndependentImplementationOverWholeTurns) {
     }
 }
 
-// ------------------------------------------------------------------------------------------- closed forms
-
 TEST(Linkage, PeaucellierDrawsAStraightLine) {
     Machine machine{peaucellier()};
     for (int degrees = -50; degrees <= 50; ++degrees) {
@@ -140,8 +138,6 @@ TEST(Linkage, ADeltaRobotMatchesItsClosedFormAndStaysLevel) {
     }
     EXPECT_GE(checked, 150);
 }
-
-// --------------------------------------------------------------------------------------- out of reach
 
 TEST(Linkage, ADeadPointMatchesTheClosedFormAndNamesItsDriver) {
     Machine machine{four_bar({.ground = 3.0, .crank = 2.0, .coupler = 1.5, .rocker = 1.2})};
@@ -289,8 +285,6 @@ TEST(Linkage, ContradictingDriversComeAsCloseAsPossible) {
     }
 }
 
-// ------------------------------------------------------------------------------------------------- modes
-
 // Each of its three dyads may cross on either side.
 TEST(Linkage, JansensLegTakesAllItsModesInTurn) {
     const Jansen lengths;
@@ -358,8 +352,6 @@ TEST(Linkage, ATargetThatPullsItPastADeadPointIsReported) {
     EXPECT_EQ(rocker_passed, 2);
     EXPECT_EQ(crank_passed, 0);
 }
-
-// ------------------------------------------------------------------------------------ ranges, priorities
 
 TEST(Linkage, ARangeStopsADriverAndIsNamed) {
     LinkageSketch sketch = *four_bar();
@@ -465,8 +457,6 @@ TEST(Linkage, ExactTargetsPrecedeWeightedOnesAndDriversPrecedeBoth) {
     }
 }
 
-// ------------------------------------------------------------------------------------------------ freedom
-
 TEST(Linkage, CountsFreedomByGrueblerAndActually) {
     const auto freedom = [](Machine machine) { return machine.solver.freedom(machine.state); };
     EXPECT_EQ(freedom(Machine(four_bar())), (LinkageFreedom{1, 1}));
@@ -499,8 +489,6 @@ TEST(Linkage, CountsFreedomByGrueblerAndActually) {
     EXPECT_LE(glm::length(truss.point("P") - glm::dvec3(0.5, 1, 0)), 1e-6);
     EXPECT_EQ(truss.drive("a", 0.1).status, LinkageStatus::DeadPoint);
 }
-
-// ------------------------------------------------------------------------------------------------ sketches
 
 TEST(Linkage, ASketchGivesItsLinkageAfterEdits) {
     LinkageSketch sketch = *jansen();

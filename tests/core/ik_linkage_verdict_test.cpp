@@ -7,8 +7,6 @@ namespace {
 using namespace linkage;
 constexpr SketchHold pinned = SketchHold::Pinned;
 
-// -------------------------------------------------------------------------------------- drivers that stop
-
 // 20000 solves were run once.
 TEST(Linkage, AtADeadPointADriverIsOffItsValue) {
     Machine machine{Expected<LinkageSketch>(five_bar())};
@@ -64,8 +62,6 @@ TEST(Linkage, ARangeThatStopsDriversIsNamedInAnyPose) {
     }
     EXPECT_GE(limited, 100);
 }
-
-// ------------------------------------------------------------------------------------------------ targets
 
 struct Drag {
     int jumps = 0;
@@ -155,8 +151,6 @@ TEST(Linkage, AnUnreachableTargetTakesFewIterationsPerFrame) {
             << bars;
     }
 }
-
-// ----------------------------------------------------------------------------------------- change points
 
 /// Drives two turns from the starting angle, and two back.
 void stays_a_parallelogram(const FourBar& lengths, double step) {
@@ -362,8 +356,6 @@ TEST(Linkage, AHeldBallBalancesLikeOneLinkWithItsParent) {
     EXPECT_NEAR(std::abs(force.y), 0.5, 1e-12);
 }
 
-// ------------------------------------------------------------------------------------------- other modes
-
 TEST(Linkage, AFreeMechanismHasNoOtherMode) {
     Machine loose{four_bar()};
     const LinkageState before = loose.state;
@@ -415,8 +407,6 @@ TEST(Linkage, AnUnknownNameIsNotFound) {
     EXPECT_EQ(linkage.find_point("P"), 4u);
     EXPECT_EQ(sketch.find_bar("coupler"), 1u);
 }
-
-// ------------------------------------------------------------------------------------- ranges, size, freedom
 
 TEST(Linkage, AMotorsRangeMayIncludeAnyTurnOfItsAngle) {
     LinkageSketch sketch{.points = {{"O", {0, 0}, pinned},
