@@ -9,9 +9,6 @@
 #include <benchmark/benchmark.h>
 #include <glad/gl.h>
 
-#include <chrono>
-#include <memory>
-
 #include "app/app.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/opening.hpp"

@@ -4,7 +4,6 @@
 #include <glad/gl.h>
 
 #include <cmath>
-#include <vector>
 
 #include "app/view/renderer.hpp"
 #include "app/window/window.hpp"
@@ -19,8 +18,7 @@ const Camera camera({.target = {0.0f, 0.9f, 0.0f}, .yaw = 0.3f, .pitch = 0.3f, .
 
 /// A vertical tube; each ring is between two of the joints along it.
 SkinnedMesh tube() {
-    SkinnedMesh mesh;
-    mesh.joints = joints;
+    SkinnedMesh mesh{.joints = joints};
     for (std::uint32_t r = 0; r < rings; ++r) {
         const float up = static_cast<float>(r) / (rings - 1), along = up * (joints - 1.001f);
         const auto below = static_cast<std::uint16_t>(along);

@@ -4,8 +4,6 @@
 #include <glad/gl.h>
 
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
-#include <vector>
 
 #include "app/view/renderer.hpp"
 #include "app/view/surfaces.hpp"
@@ -35,12 +33,11 @@ void ropes(DrawList& list, int count) {
 /// A wavy cloth of `side` points along each side.
 void cloth(DrawList& list, int side) {
     std::vector<glm::vec3> positions;
-    for (int row = 0; row < side; ++row) {
+    for (int row = 0; row < side; ++row)
         for (int column = 0; column < side; ++column) {
             const glm::vec2 at = glm::vec2(column, row) / static_cast<float>(side - 1);
             positions.emplace_back(3.0f * at.x - 1.5f, 2.0f - 1.8f * at.y, 0.2f * std::sin(12.0f * at.x));
         }
-    }
     cloth_surface(list, camera, {side, side, positions}, glm::vec3(0.3f, 0.6f, 0.8f),
                   glm::vec3(0.6f, 0.3f, 0.5f));
 }

@@ -1,20 +1,11 @@
 // Cost of the four modes per segment, from ten segments to a million, against a plain loop for each pull.
 //
-//     tendril_bench_chain            the table and one line per claim
-//     tendril_bench_chain --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims: Forward, Backward and WithIndex take at most 1.3 times as long as their plain loop at every size,
 // and their cost grows with an exponent of at most 1.05 from a hundred segments on. Google Benchmark's
 // options work too.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
-#include <map>
-#include <string>
-#include <vector>
 
 #include "measure.hpp"
 #include "tendril/chain/chain.hpp"
@@ -187,15 +178,12 @@ int main(int count, char** arguments) {
     const bool check = take_flag(count, arguments, "--check");
     benchmark::Initialize(&count, arguments);
     if (benchmark::ReportUnrecognizedArguments(count, arguments)) return 2;
-    for (const std::size_t size : sizes) {
-        for (const std::string mode : modes) {
+    for (const std::size_t size : sizes)
+        for (const std::string mode : modes)
             for (auto* each :
                  {benchmark::RegisterBenchmark(plain_name_of(mode, size).c_str(), run_plain, mode, size),
-                  benchmark::RegisterBenchmark(name_of(mode, size).c_str(), run_chain, mode, size)}) {
+                  benchmark::RegisterBenchmark(name_of(mode, size).c_str(), run_chain, mode, size)})
                 each->Repetitions(repetitions)->ReportAggregatesOnly()->MinTime(0.05);
-            }
-        }
-    }
     Medians medians;
     benchmark::RunSpecifiedBenchmarks(&medians);
     return report(medians.seconds) || !check ? 0 : 1;

@@ -1,14 +1,7 @@
 // Cost of foot IK per character and frame, by ground, and of 1 000 characters on two cores.
 //
-//     tendril_bench_humanoid_feet            the table and one line per claim
-//     tendril_bench_humanoid_feet --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims, for the worst row: the feet of a character take at most 9 loops (measure.hpp) per frame; a mesh of
 // 200 000 triangles costs at most three times as much as flat ground.
-#include <cmath>
-#include <random>
-#include <string>
-
 #include "../core/humanoid_walk.hpp"
 #include "measure.hpp"
 #include "tendril/humanoid/feet_many.hpp"

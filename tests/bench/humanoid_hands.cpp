@@ -1,8 +1,5 @@
 // Cost of hand IK and look-at per character and frame.
 //
-//     tendril_bench_humanoid_hands            the table and one line per claim
-//     tendril_bench_humanoid_hands --check    the same, and exit code 1 if a claim does not hold
-//
 // Claim: both hands and the gaze of a character take at most 10 loops (measure.hpp) per frame.
 #include "../core/humanoid_figure.hpp"
 #include "measure.hpp"

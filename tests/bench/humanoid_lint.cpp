@@ -1,13 +1,8 @@
 // Cost of motion lint per frame of a clip, by nodes and length, and of fixing a foot.
 //
-//     tendril_bench_humanoid_lint            the table and one line per claim
-//     tendril_bench_humanoid_lint --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims, for the worst row:
 //  - checking takes at most one loop (measure.hpp) per frame and node, at any length;
 //  - fixing one foot takes less than checking the clip three times.
-#include <string>
-
 #include "../core/humanoid_walk.hpp"
 #include "measure.hpp"
 #include "tendril/humanoid/lint.hpp"
@@ -66,7 +61,7 @@ int main(int count, char** arguments) {
     std::printf("%-12s%10s%20s%20s%12s\n", "nodes", "frames", "judged, us a frame", "foot mended, part",
                 "findings");
     double slowest = 0.0, dearest = 0.0;
-    for (const std::size_t nodes : {std::size_t{22}, std::size_t{60}, std::size_t{120}}) {
+    for (const std::size_t nodes : {std::size_t{22}, std::size_t{60}, std::size_t{120}})
         for (const std::size_t frames : {std::size_t{120}, std::size_t{1200}, std::size_t{12000}}) {
             const Skeleton skeleton = figure_of(nodes);
             const BoneMap map = match_bones(skeleton);
@@ -92,7 +87,6 @@ int main(int count, char** arguments) {
             slowest = std::max(slowest, a_frame / static_cast<double>(skeleton.size()));
             dearest = std::max(dearest, part);
         }
-    }
     bool all = claim_loops("a frame and node", 1e-6 * slowest, 1);
     all &= claim("three judgements over the cure of a foot", 3.0 / dearest, 1.0);
     return all || !has_flag(count, arguments, "--check") ? 0 : 1;

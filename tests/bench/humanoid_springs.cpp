@@ -1,9 +1,6 @@
 // Cost of spring bones per bone and frame, in chains from one bone to many, swinging, at rest and held at the
 // edge of their cone, against VRM's method.
 //
-//     tendril_bench_humanoid_springs            the table and one line per claim
-//     tendril_bench_humanoid_springs --check    the same, and exit code 1 if a claim does not hold
-//
 // The baseline is VRM's method as specified (VRM Consortium, "VRMC_springBone-1.0"): bone after bone, Verlet
 // integration with inertia, stiffness and drag, restoring the length, without colliders; here on the same
 // skeleton code. It has a fixed frame rate, no damping ratio and no cone.

@@ -1,14 +1,10 @@
 // Cost of placing a chain along a curve, against marching along samples of it, the usual way.
 //
-//     tendril_bench_ik_curve            the table and one line per claim
-//     tendril_bench_ik_curve --check    the same, and exit code 1 if a claim does not hold
-//
 // The baseline takes 100 samples a piece and the first beyond a bone's length, interpolated with the one
 // before: joints are up to a hundredth of a piece off, there are no rotations, and a fold between two samples
 // is missed. Its cost grows with the number of pieces, the exact method's with the number of bones.
 //
 // Claim: 30 bones take at most 7 loops (measure.hpp) along 2 to 8 points, without fit.
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "measure.hpp"

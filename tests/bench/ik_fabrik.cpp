@@ -1,9 +1,6 @@
 // Cost of FABRIK: FABRIK (2011) and accelerated, against the same passes as a bare loop, and the iterations
 // and time that each needs to reach.
 //
-//     tendril_bench_ik_fabrik            the tables and one line per claim
-//     tendril_bench_ik_fabrik --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims: 20 forced iterations of 10 bones take at most 0.012 loops (measure.hpp) per bone and pass, at
 // most 1.5 times a bare loop measured in the same run; the cost grows linearly; an accelerated iteration
 // costs at most twice a plain one, and in a plane as much as a solid one; it needs at most 12 iterations (20
@@ -11,18 +8,10 @@
 // Google Benchmark's options work too.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <ctime>
-#include <map>
 #include <random>
-#include <string>
-#include <vector>
 
 #include "../core/kept_solver.hpp"
 #include "measure.hpp"
-#include "tendril/ik/solver.hpp"
 
 namespace {
 
@@ -218,11 +207,9 @@ Tally solve_all(Method method, const std::vector<Problem>& problems) {
     }
     tally.seconds = cpu_seconds() - begin;
     record({tally.seconds}, std::source_location::current());
-    for (std::size_t i = 0; i < problems.size(); ++i) {
-        for (std::size_t j = 0; j < ends[i].size(); ++j) {
+    for (std::size_t i = 0; i < problems.size(); ++i)
+        for (std::size_t j = 0; j < ends[i].size(); ++j)
             tally.travel += size(ends[i][j] - problems[i].start[j]);
-        }
-    }
     return tally;
 }
 
@@ -233,15 +220,14 @@ bool report_reaching() {
     std::printf("\niterations to 1e-3 of the reach, p50 / p99 / p99.9 of %zu random starts and targets\n",
                 count);
     std::printf("joints  distance/R    fabrik_plain      fabrik          travel   time\n");
-    for (const std::size_t bones : {std::size_t{3}, std::size_t{10}, std::size_t{30}}) {
+    for (const std::size_t bones : {std::size_t{3}, std::size_t{10}, std::size_t{30}})
         for (const auto& band : bands) {
             Targets targets;
             std::vector<Problem> problems(count);
             for (Problem& each : problems) {
                 each.start = {{0, 0, 0}};
-                for (std::size_t i = 0; i < bones; ++i) {
+                for (std::size_t i = 0; i < bones; ++i)
                     each.start.push_back(each.start.back() + targets.direction());
-                }
                 each.target =
                     targets.direction() * (static_cast<float>(bones) * targets.between(band[0], band[1]));
             }
@@ -254,23 +240,20 @@ bool report_reaching() {
                         fast.seconds / plain.seconds);
             all &= fast.percentile(0.999) <= (bones == 3 ? 20 : 12) && travel <= 1.05;
         }
-    }
     std::printf("%s  iterations and travel of the accelerated one\n", all ? "PASS" : "FAIL");
     return all;
 }
 
 void register_all() {
-    for (const std::size_t bones : sizes) {
+    for (const std::size_t bones : sizes)
         for (auto* each : {benchmark::RegisterBenchmark(name_of("bare", bones).c_str(), run_bare, bones),
                            benchmark::RegisterBenchmark(name_of("fabrik_plain", bones).c_str(), run_solver,
                                                         Method::FabrikPlain, bones, false),
                            benchmark::RegisterBenchmark(name_of("fabrik", bones).c_str(), run_solver,
                                                         Method::Fabrik, bones, false),
                            benchmark::RegisterBenchmark(name_of("plane", bones).c_str(), run_solver,
-                                                        Method::Fabrik, bones, true)}) {
+                                                        Method::Fabrik, bones, true)})
             each->Repetitions(repetitions)->ReportAggregatesOnly()->MinTime(0.02);
-        }
-    }
 }
 
 }  // namespace

@@ -6,15 +6,10 @@
 // iterations, or 200 with limits and for trees), end as Limited or otherwise, mean iterations and residual
 // (in reaches), mean time, and a hash of all joints, which shows whether anything changed at all.
 #include <chrono>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
 #include <random>
-#include <string>
-#include <vector>
 
 #include "tendril/ik/solver.hpp"
 #include "tendril/ik/tree.hpp"
@@ -64,13 +59,12 @@ class Row {
         limited_ += status == Status::Limited;
         iterations_ += iterations;
         residual_ += static_cast<double>(residual / reach);
-        for (const glm::vec3& joint : joints) {
+        for (const glm::vec3& joint : joints)
             for (const float coordinate : {joint.x, joint.y, joint.z}) {
                 std::uint32_t bits = 0;
                 std::memcpy(&bits, &coordinate, sizeof bits);
                 hash_ = (hash_ ^ bits) * 1099511628211u;
             }
-        }
     }
     void add_time(double time) { time_ += time; }
     void print() const {
@@ -245,13 +239,12 @@ int main(int count_of_arguments, char** arguments) {
     if (wanted("folded 6")) free_rows("folded 6", 6, Start::Folded, count);
     constexpr const char* kinds[] = {"limits all", "limits hinges", "limits axis", "limits cones"};
     constexpr const char* targets[] = {"", " any", " ahead"};
-    for (int kind = 0; kind < 4; ++kind) {
+    for (int kind = 0; kind < 4; ++kind)
         for (int target = 0; target < 3; ++target) {
             const std::string name = std::string(kinds[kind]) + targets[target];
             if (wanted(name))
                 limited_rows(name.c_str(), static_cast<Kind>(kind), static_cast<Target>(target), count);
         }
-    }
     if (wanted("tree reached")) tree_row("tree reached", Goals::Reached, count);
     if (wanted("tree ahead")) tree_row("tree ahead", Goals::Ahead, count);
     if (wanted("tree conflict")) tree_row("tree conflict", Goals::Conflict, count);

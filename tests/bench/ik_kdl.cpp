@@ -2,15 +2,11 @@
 // with ball joints, the same initial poses, targets and tolerance, in one run. KDL has no ball joints: each
 // is three revolute ones. Only the tip's position counts; KDL's weights of its rotation are 0.
 //
-//     tendril_bench_ik_kdl            the table and one line per claim
-//     tendril_bench_ik_kdl --check    the same, and exit code 1 if a claim does not hold
-//
 // Claim: KDL takes at least 30 times as long as Method::Fabrik, which reaches at least as many targets.
 //
 // Both are called as users call them, with everything that they compute: for KDL the Jacobian's singular
 // values in double, for Tendril the input checks. Whether a target was reached is measured here, from the
 // joints that each solver left.
-#include <cmath>
 #include <kdl/chain.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainiksolverpos_lma.hpp>
@@ -18,7 +14,6 @@
 
 #include "../core/kept_solver.hpp"
 #include "measure.hpp"
-#include "tendril/ik/solver.hpp"
 
 namespace {
 
@@ -135,12 +130,11 @@ bool contest(const char* title, Cases& cases_of, const KDL::Chain& chain, const 
         repetitions);
     std::printf("\n%s\n%-14s%12s%14s%10s%24s\n", title, "", "us a solve", "iterations", "reached",
                 "time, over fabrik's");
-    for (std::size_t i = 0; i < results.size(); ++i) {
+    for (std::size_t i = 0; i < results.size(); ++i)
         std::printf("%-14s%12.3f%14.1f%9.1f%%%23.1fx\n", results[i].name,
                     seconds[i] * 1e6 / static_cast<double>(all.size()), results[i].iterations,
                     100.0 * static_cast<double>(results[i].reached) / static_cast<double>(all.size()),
                     seconds[i] / seconds[1]);
-    }
     return claim("time of KDL's LMA over that of fabrik", seconds[0] / seconds[1], 30.0) &
            claim("targets that fabrik reaches over those of KDL",
                  static_cast<double>(results[1].reached) / static_cast<double>(results[0].reached), 1.0);

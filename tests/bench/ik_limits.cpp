@@ -2,17 +2,10 @@
 // often each method arrives from rest at targets from poses within the limits; a solve and an explanation of
 // an active limit. Then whole solves by the default method over sizes and kinds of joints: limits far off,
 // reached, and dragged along; and a target that the limits forbid.
-//
-//     tendril_bench_ik_limits            the tables
-//     tendril_bench_ik_limits --check    the same, and exit code 1 if a claim does not hold
-#include <array>
-#include <cmath>
-#include <optional>
 #include <random>
 
 #include "../core/kept_solver.hpp"
 #include "measure.hpp"
-#include "tendril/ik/solver.hpp"
 
 namespace {
 
@@ -56,10 +49,7 @@ double microseconds_an_iteration(const Arm& arm, Method method, bool limited, do
     const Joints rest = arm.at_rest();
     const auto bones = static_cast<float>(arm.limits.size());
     const glm::vec3 target = glm::vec3(0.5f, 0.3f, 0.2f) * bones;
-    Options options;
-    options.max_iterations = forced;
-    options.every_iteration = true;
-    options.tolerance = 0.0f;
+    Options options{.tolerance = 0.0f, .max_iterations = forced, .every_iteration = true};
     Options limits = options;
     limits.limits = arm.limits;
     const auto run = [&](KeptSolver& solver, const Options& what) {
@@ -100,9 +90,7 @@ std::vector<glm::vec3> reachable(const Arm& arm, int count) {
     for (int i = 0; i < count; ++i) {
         Joints joints = arm.at_rest();
         solver.state.reset();
-        Options options;
-        options.limits = arm.limits;
-        options.max_iterations = 20;
+        Options options{.max_iterations = 20, .limits = arm.limits};
         solver.solve(Method::Ccd, joints, glm::vec3(around(), around(), around()) * reach, options);
         targets.push_back(joints.back());
     }
@@ -121,9 +109,7 @@ double arrivals_table() {
         for (const Method method : all_methods) {
             if (method == Method::TwoBone) continue;
             KeptSolver solver = arm.solver();
-            Options options;
-            options.limits = arm.limits;
-            options.max_iterations = 200;
+            Options options{.max_iterations = 200, .limits = arm.limits};
             int there = 0;
             double iterations = 0.0;
             const double start = bench::cpu_seconds();
@@ -151,8 +137,7 @@ void held_table() {
     arm.limits[1] = Limit::hinge({0, 0, 1}, 0, 145 * degree);
     KeptSolver solver = arm.solver();
     const glm::vec3 target{-4.5f, -0.5f, 1.0f};
-    Options options;
-    options.limits = arm.limits;
+    Options options{.limits = arm.limits};
     Joints joints = arm.at_rest();
     const Report report = solver.solve(Method::Fabrik, joints, target, options);
     const auto seconds = bench::race({[&] { solver.solve(Method::Fabrik, joints, target, options); },
@@ -178,11 +163,10 @@ Limit cone(float swing, float twist) {
 
 Arm arm_of(std::size_t bones, Kind kind) {
     Arm arm = arm_of(bones, false);
-    for (std::size_t i = 0; i < bones && kind != Kind::Mixed; ++i) {
+    for (std::size_t i = 0; i < bones && kind != Kind::Mixed; ++i)
         arm.limits[i] = kind == Kind::Cones ? cone(60, 40)
                                             : Limit::hinge(i % 2 ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0),
                                                            -60 * degree, 100 * degree);
-    }
     return arm;
 }
 
@@ -265,7 +249,7 @@ Ratios met_limits_table() {
     std::printf("\nLimits that end well, ns a bone and iteration and us a solve, and times that without\n");
     std::printf("%-10s %-8s %6s %9s %6s %9s %6s\n", "joints", "limits", "bones", "ns", "ratio", "us",
                 "ratio");
-    for (const Kind kind : {Kind::Hinges, Kind::Cones, Kind::Mixed}) {
+    for (const Kind kind : {Kind::Hinges, Kind::Cones, Kind::Mixed})
         for (const std::size_t bones : sizes) {
             const Arm arm = arm_of(bones, kind);
             const std::vector<glm::vec3> targets = reachable(arm, 40);
@@ -285,7 +269,6 @@ Ratios met_limits_table() {
                 most = std::max(most, dragged ? with.solve / without.solve : ratio);
             }
         }
-    }
     return worst;
 }
 
@@ -316,15 +299,14 @@ Worst forbidden_table() {
     std::printf(
         "\nA forbidden target dragged by 2 mm a frame, us a frame: as it is, and with 8 restarts in each\n");
     std::printf("%-10s %6s %9s %9s %8s %11s\n", "joints", "bones", "us", "searching", "times", "residual");
-    for (const Kind kind : {Kind::Hinges, Kind::Cones, Kind::Mixed}) {
+    for (const Kind kind : {Kind::Hinges, Kind::Cones, Kind::Mixed})
         for (const std::size_t bones : sizes) {
             const Arm arm = arm_of(bones, kind);
             const std::optional<glm::vec3> start = forbidden_target(arm);
             if (!start) continue;
             std::vector<glm::vec3> targets;
-            for (int i = 0; i < 50; ++i) {
+            for (int i = 0; i < 50; ++i)
                 targets.push_back(*start + glm::vec3(0, 0.002f, 0.001f) * static_cast<float>(i));
-            }
             const Options follows{.limits = arm.limits}, searches{.limits = arm.limits, .restarts = 8};
             KeptSolver solvers[] = {arm.solver(), arm.solver()};
             Joints joints[] = {arm.at_rest(), arm.at_rest()};
@@ -350,7 +332,6 @@ Worst forbidden_table() {
                 worst.residual, static_cast<double>((residuals[0] - residuals[1]) / solvers[0].reach()));
             worst.gain = std::min(worst.gain, gain);
         }
-    }
     return worst;
 }
 

@@ -1,28 +1,19 @@
 // Gain of solve_many over a plain loop over one Solver with Method::Fabrik: to tolerance, from the same
 // initial poses, with all joints read from and written to the caller's memory.
 //
-//     tendril_bench_ik_many            the tables and one line per claim
-//     tendril_bench_ik_many --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims: the minimum gain over the scalar solver in any band of distance, for 4, 11 and 31 joints and 1 000
 // chains, free, in a plane and within limits; and the gain of two threads over one, if there are two cores.
 // The goal is 15 times with 16 lanes (AVX3) and 7 times with 8 (AVX2), and half of that within limits; prints
 // how many rows reach it. Two things keep it below 15: on the processor of these claims, the divider splits a
 // register of 16 lanes in two, which bounds the accelerated step; and a quarter of the time is transfers,
 // which no width accelerates. Times are processor time, except for threads, whose gain needs an idle machine.
-#include <algorithm>
-#include <cmath>
 #include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
-#include <optional>
 #include <random>
-#include <string>
 #include <thread>
 
 #include "../core/kept_solver.hpp"
 #include "measure.hpp"
 #include "tendril/ik/many.hpp"
-#include "tendril/ik/solver.hpp"
 
 namespace {
 
@@ -99,9 +90,8 @@ float draw(std::mt19937& random, float least, float most) {
 /// A random rotation within the limit of a joint that rests along +X, up to `part` of the way to its bounds.
 glm::quat some_turn(const Limit& limit, float part, std::mt19937& random) {
     const glm::vec3 bone(1, 0, 0), side = glm::cross(limit.axis, bone);
-    if (limit.kind == JointKind::Hinge) {
+    if (limit.kind == JointKind::Hinge)
         return glm::angleAxis(part * draw(random, limit.min, limit.max), limit.axis);
-    }
     for (;;) {
         const float up = draw(random, -limit.down, limit.up), left = draw(random, -limit.right, limit.left);
         if (excess(limit, {up, left, 0.0f}) > 0.0f) continue;
@@ -115,9 +105,8 @@ Crowd::Crowd(std::size_t chain_count, const std::vector<Limit>& within, float le
     : Crowd(chain_count, within.size(), least, most) {
     limits = within;
     std::mt19937 random(2);
-    for (std::size_t i = 0; i < joints.size(); ++i) {
+    for (std::size_t i = 0; i < joints.size(); ++i)
         joints[i] = {static_cast<float>(i % (bones + 1)), 0.0f, 0.0f};
-    }
     for (glm::vec3& target : targets) {
         float distance = 0.0f;
         do {
@@ -175,9 +164,8 @@ class Contest {
     /// Seconds of the scalar solver, then of each vector unit.
     std::vector<double> race(int times = repetitions) {
         std::vector<std::function<void()>> runs{[this] { scalar(); }};
-        for (const std::string_view unit : tendril::ik::vector_units()) {
+        for (const std::string_view unit : tendril::ik::vector_units())
             runs.push_back([this, unit] { many(unit); });
-        }
         return tendril::bench::race(runs, times, cpu_seconds, [this] { reset(); });
     }
 
@@ -194,18 +182,16 @@ class Contest {
 
 void print_units(const char* first) {
     std::printf("%-40s%10s", first, "scalar");
-    for (const std::string_view unit : tendril::ik::vector_units()) {
+    for (const std::string_view unit : tendril::ik::vector_units())
         std::printf("%16s", std::string(unit).c_str());
-    }
     std::printf("\n");
 }
 
 void print_row(const std::string& name, const std::vector<double>& seconds, std::size_t chains) {
     const double unit_of_work = static_cast<double>(chains) * 1e-9;
     std::printf("%-40s%10.0f", name.c_str(), seconds[0] / unit_of_work);
-    for (std::size_t i = 1; i < seconds.size(); ++i) {
+    for (std::size_t i = 1; i < seconds.size(); ++i)
         std::printf("%8.1f %6.1fx", seconds[i] / unit_of_work, seconds[0] / seconds[i]);
-    }
     std::printf("\n");
 }
 
@@ -247,7 +233,7 @@ Gains bands_table(bool flat) {
                 repetitions);
     print_units("");
     Gains gains;
-    for (const std::size_t bones : {3u, 10u, 30u}) {
+    for (const std::size_t bones : {3u, 10u, 30u})
         for (const Band& band : bands) {
             Crowd crowd(1000, bones, band.least, band.most);
             if (flat) crowd.flatten();
@@ -256,7 +242,6 @@ Gains bands_table(bool flat) {
             print_row(row_name(bones + 1, band.name, contest), seconds, crowd.chains);
             note(gains, seconds);
         }
-    }
     return gains;
 }
 
@@ -336,9 +321,8 @@ double thread_table() {
             if (!batch.set_joints(crowd.joints)) std::abort();
         }
     });
-    for (std::size_t i = 0; i < seconds.size(); ++i) {
+    for (std::size_t i = 0; i < seconds.size(); ++i)
         std::printf("%zu: %.2f (%.2fx)   ", i + 1, seconds[i] * 1e3, seconds[0] / seconds[i]);
-    }
     std::printf("\n\n");
     return seconds[0] / seconds[1];
 }

@@ -1,17 +1,8 @@
 // The table of Aristidou and Lasenby 2011, measured as in `tendril paper`, with a row for the
 // Levenberg-Marquardt solver of Orocos KDL if that is installed.
 //
-//     tendril_bench_ik_paper            the tables and one line per claim
-//     tendril_bench_ik_paper --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims of the paper: FABRIK solves every target, in and out of reach, in fewer iterations and less time
 // than CCD, the Jacobian transpose and damped least squares with and without SVD.
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <string>
-#include <vector>
-
 #include "app/batch/paper.hpp"
 #include "measure.hpp"
 

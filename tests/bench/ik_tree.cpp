@@ -1,18 +1,9 @@
 // Trees of chains: cost of an iteration per joint, by the number of joints and effectors, beside a single
 // chain's solver. The tolerance is 0, so that the Newton step always runs.
 //
-//     tendril_bench_ik_tree            the tables and one line per claim
-//     tendril_bench_ik_tree --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims, for the worst size: an iteration is O(joints), however many effectors there are; the two passes
 // alone cost at most 1.6 times those of a chain's solver; an iteration with the Newton step at most 2.5 times
 // as much. Times are medians; only ratios within one run are meaningful.
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdio>
-#include <vector>
-
 #include "../core/kept_solver.hpp"
 #include "measure.hpp"
 #include "tendril/ik/tree.hpp"
@@ -79,10 +70,9 @@ class ChainRun {
     explicit ChainRun(std::size_t bones)
         : places_(bow(chain(bones))), solver_(std::vector<float>(bones, 1.0f / static_cast<float>(bones))) {}
     void operator()() {
-        for (std::size_t i = solves_for(solver_.bones()); i > 0; --i) {
+        for (std::size_t i = solves_for(solver_.bones()); i > 0; --i)
             solver_.solve(tendril::ik::Method::FabrikPlain, places_, target(turn_++),
                           {.max_iterations = iterations, .every_iteration = true});
-        }
     }
 
   private:

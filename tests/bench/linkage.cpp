@@ -1,8 +1,5 @@
 // Cost of a linkage's frame while its drivers glide, and of targets out of reach; against closed-chain-ik-js.
 //
-//     tendril_bench_linkage            the table and one line per claim
-//     tendril_bench_linkage --check    the same, and exit code 1 if a claim does not hold
-//
 // The other solver is run by node, if both are there: set TENDRIL_CLOSED_CHAIN_IK to the folder of the
 // package (npm install closed-chain-ik; node_modules/closed-chain-ik). It gets the same trees, closures and
 // drivers, scaled to a size of 1,
@@ -14,12 +11,8 @@
 // Claims: a frame of 1 degree takes at most 1.1 loops (measure.hpp) for a four-bar, 5 for Jansen's leg, 18
 // for a Stewart platform; closures are closed to 1e-6 of the size. Of targets out of reach, 19 frames in 20
 // take at most 15 iterations.
-#include <cmath>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <string>
-#include <utility>
 
 #include "measure.hpp"
 #include "tendril/ik/mechanisms.hpp"
@@ -151,8 +144,7 @@ struct Circle {
 };
 
 Linkage open_chain(std::size_t bars) {
-    LinkageSketch chain;
-    chain.points = {{"P0", {0.0, 0.0}, SketchHold::Pinned}};
+    LinkageSketch chain{.points = {{"P0", {0.0, 0.0}, SketchHold::Pinned}}};
     for (std::size_t i = 1; i <= bars; ++i) {
         const std::string name = i == bars ? "tip" : "P" + std::to_string(i);
         chain.points.push_back({name, {static_cast<double>(i), i % 2 == 1 ? 0.3 : 0.0}});

@@ -1,4 +1,5 @@
-// Shared by benchmarks with a main of their own: interleaved timing, and claims.
+// Shared by benchmarks with a main of their own: interleaved timing, and claims. Each prints its tables and a
+// line per claim; with --check it exits with 1 if a claim does not hold.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -65,14 +66,13 @@ inline std::vector<double> race(
     const std::function<void()>& prepare = [] {},
     const std::source_location& where = std::source_location::current()) {
     std::vector<std::vector<double>> times(runs.size());
-    for (int i = 0; i < repetitions; ++i) {
+    for (int i = 0; i < repetitions; ++i)
         for (std::size_t j = 0; j < runs.size(); ++j) {
             prepare();
             const double start = now();
             runs[j]();
             times[j].push_back(now() - start);
         }
-    }
     std::vector<double> medians;
     for (std::vector<double>& each : times) medians.push_back(median(std::move(each)));
     record(medians, where);

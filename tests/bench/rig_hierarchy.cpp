@@ -1,8 +1,5 @@
 // Cost of a rig's hierarchy by the size, depth and breadth of its tree.
 //
-//     tendril_bench_rig_hierarchy            the tables and one line per claim
-//     tendril_bench_rig_hierarchy --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims, for the worst row of each table:
 //  - reading an element of a tree that was not written since takes the same time among 100 elements and
 //    among a million;
@@ -11,9 +8,6 @@
 //  - setting and reading a leaf costs the same among 100 000 elements as among 1 000;
 //  - a set without propagation, followed by reading the children's locals, is linear in the number of
 //    children, and does not depend on what is below them.
-#include <algorithm>
-#include <string>
-
 #include "measure.hpp"
 #include "tendril/rig/hierarchy.hpp"
 

@@ -1,8 +1,5 @@
 // Cost of a forward solve, by number and kind of units.
 //
-//     tendril_bench_rig_solve            the table and one line per claim
-//     tendril_bench_rig_solve --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims, for the worst row:
 //  - a unit of any kind except those that solve chains of bones takes at most 0.4 loops (measure.hpp) per
 //    frame, among 1 000;
@@ -11,9 +8,6 @@
 //    cache of 1 MB;
 //  - a changed value (a slider's drag) costs at most a seventh of making the rig anew, among 100 units or
 //  more.
-#include <algorithm>
-#include <string>
-
 #include "measure.hpp"
 #include "tendril/rig/workspace.hpp"
 
@@ -96,8 +90,7 @@ struct Subject {
 
     void frame() {
         time += 1.0 / 60;
-        Transform place;
-        place.translation = {5.0 + time, 3.0, 1.0};
+        Transform place{.translation = {5.0 + time, 3.0, 1.0}};
         static_cast<void>(rig.set_control(state, target, place));
         rig.solve(state, 1.0 / 60, workspace);
     }

@@ -2,9 +2,6 @@
 // 64 particles, with the same initial shape, masses and gravity, one simulated second, one thread. Compares
 // the times of the cheapest settings with which no stretch link ever deviates by more than 1 %.
 //
-//     tendril_bench_rope_bullet            the table and one line per claim
-//     tendril_bench_rope_bullet --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims, for the least favourable size: Bullet takes at least 3 times as long for a rope of 16 segments, 12
 // times for one of 64 or more, 3 times for a cloth.
 //
@@ -14,11 +11,6 @@
 // benchmark searches for the cheapest combination. If all take over `longest` seconds, the table shows that
 // as a lower bound. Distributions compile it with -O2.
 #include <BulletSoftBody/btSoftBody.h>
-
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <string>
 
 #include "measure.hpp"
 #include "tendril/rope/world.hpp"
@@ -105,7 +97,7 @@ Outcome run_bullet(const rope::State& state, int substeps, int iterations, doubl
 /// The minimum number of sufficient substeps, to a seventh, per number of iterations; the cheapest of all.
 Outcome cheapest_bullet(int size, const rope::State& state) {
     Outcome best{longest};
-    for (const int iterations : {4, 2, 8, 1, 16}) {
+    for (const int iterations : {4, 2, 8, 1, 16})
         for (double substeps = std::max(1, size / 16); substeps < 20000.0;
              substeps = std::ceil(substeps * 1.15)) {
             const Outcome tried = run_bullet(state, static_cast<int>(substeps), iterations, best.seconds);
@@ -115,7 +107,6 @@ Outcome cheapest_bullet(int size, const rope::State& state) {
                 break;
             }
         }
-    }
     // Short runs are repeated, like ours.
     if (best.seconds > 0.5) return best;
     std::vector<double> times;

@@ -1,16 +1,9 @@
 // Cost of collisions between ropes: the same ropes with collisions switched on and off.
 //
-//     tendril_bench_rope_collision            the table and one line per claim
-//     tendril_bench_rope_collision --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims: ropes that collide but are apart take at most 1.6 times as long, with 256 and 4 096 particles.
 // Ropes in contact take longer, for without collisions they would fall freely or hang alone, solved several
 // at once in vector registers; the table says how much. Times are processor time.
-#include <algorithm>
-#include <vector>
-
-#include "measure.hpp"
-#include "tendril/rope/world.hpp"
+#include "rope_stage.hpp"
 
 namespace {
 
@@ -19,20 +12,12 @@ namespace rope = tendril::rope;
 
 constexpr int repetitions = 5, segments = 63;
 
-struct Stage {
-    rope::World world;
-    rope::Workspace workspace;
-
-    void advance(int substeps) {
-        for (int i = 0; i < substeps; ++i) world.advance(world.settings().substep, workspace);
-    }
-    void collide(bool on) {
-        const std::vector<rope::Body> bodies = world.state().bodies;
-        for (const rope::Body& a : bodies)
-            for (const rope::Body& b : bodies)
-                if (a.id.index <= b.id.index) static_cast<void>(world.set_collides(a.id, b.id, on));
-    }
-};
+void collide(Stage& stage, bool on) {
+    const std::vector<rope::Body> bodies = stage.world.state().bodies;
+    for (const rope::Body& a : bodies)
+        for (const rope::Body& b : bodies)
+            if (a.id.index <= b.id.index) static_cast<void>(stage.world.set_collides(a.id, b.id, on));
+}
 
 /// A rope that hangs between two pins a metre apart.
 void hang(Stage& stage, float z) {
@@ -64,24 +49,15 @@ Stage crossed(int particles) {
     return stage;
 }
 
-/// Microseconds a substep, without collisions and with them, from the same moment on.
+/// Without collisions and with them, from the same moment on.
 std::vector<double> cost(Stage (*make)(int), int particles, int substeps) {
     Stage on = make(particles);
-    on.collide(true);
+    collide(on, true);
     on.advance(120);
     Stage off;
     off.world = on.world;
-    off.collide(false);
-    std::vector<double> micros;
-    for (const double seconds :
-         race({[&] { off.advance(substeps); }, [&] { on.advance(substeps); }}, repetitions))
-        micros.push_back(seconds * 1e6 / substeps);
-    return micros;
-}
-
-void row(const char* what, int particles, const std::vector<double>& micros) {
-    std::printf("%-24s%10d%12.2f%12.2f%10.2f\n", what, particles, micros[0], micros[1],
-                micros[1] / micros[0]);
+    collide(off, false);
+    return cost(std::move(off), std::move(on), substeps, repetitions);
 }
 
 }  // namespace
@@ -92,11 +68,11 @@ int main(int count, char** arguments) {
     double ratio = 1.0;
     for (const int particles : {256, 4096}) {
         const std::vector<double> micros = cost(apart, particles, 400000 / particles);
-        row("apart", particles, micros);
+        print_row("apart", particles, micros);
         ratio = std::min(ratio, micros[0] / micros[1]);
     }
     for (const int particles : {256, 4096})
-        row("crossed, in contact", particles, cost(crossed, particles, 60000 / particles));
+        print_row("crossed, in contact", particles, cost(crossed, particles, 60000 / particles));
     std::printf("\n");
     const bool all = claim("ropes apart, off over on", ratio, 1.0 / 1.6);
     return all || !has_flag(count, arguments, "--check") ? 0 : 1;

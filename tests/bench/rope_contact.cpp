@@ -1,9 +1,6 @@
 // Cost of ropes and cloth in contact, and how well they keep their length, over sizes and states: falling, at
 // rest, taut, pressed, freed.
 //
-//     tendril_bench_rope_contact            the tables and one line per claim
-//     tendril_bench_rope_contact --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims: a rope of 4 m over 4 balls keeps each link within 1 % of its length with 64 to 4096 segments, a
 // segment of 4096 costs at most twice one of 1024, and all are back within 0.1 % a second after the balls are
 // removed; one that falls on 15 balls and a floor keeps each within 1 %; taut over a thin bar, with any
@@ -17,11 +14,7 @@
 // ms on two threads (nearly twice that).
 //
 // Times are processor time; wall time if threads share a cloth.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <thread>
-#include <vector>
 
 #include "measure.hpp"
 #include "tendril/rope/world.hpp"
@@ -166,8 +159,7 @@ double pressed(int segments) {
 /// Over a bar that rises below it until it is nearly straight on both sides.
 double taut(int segments, float friction) {
     Stage stage;
-    rope::Settings settings;
-    settings.friction = friction;
+    rope::Settings settings{.friction = friction};
     require(stage.world.set_settings(settings));
     require(stage.world
                 .add_rope({.from = {-0.5f, 0.0f, 0.01f},
@@ -220,8 +212,7 @@ Cloth cloth(int side, bool held, int threads = 1) {
 /// The swing of a pendulum after 28 s, metres, beside a beam or alone.
 double swing(bool beam) {
     Stage stage;
-    rope::Settings settings;
-    settings.damping = 0.0f;
+    rope::Settings settings{.damping = 0.0f};
     require(stage.world.set_settings(settings));
     require(
         stage.world.add_rope({.to = {0.2f, -0.98f, 0}, .segments = 16, .radius = 0.01f, .pin_start = true})

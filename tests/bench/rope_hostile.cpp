@@ -9,9 +9,6 @@
 //
 // Claims: no substep takes more than twice the work that max_pass_work allows its passes, and no call more
 // than 80 000 loops of measure.hpp (worst of 1500 worlds: 44 000, 0.56 of the work).
-#include <cmath>
-#include <cstdlib>
-
 #include "../core/rope_hostile.hpp"
 #include "measure.hpp"
 

@@ -1,16 +1,10 @@
 // Cost of a rope substep: by particles, by colliders far and near, for many ropes with and without vector
 // units, and with two threads.
 //
-//     tendril_bench_rope_step            the tables and one line per claim
-//     tendril_bench_rope_step --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims: a rope of 1024 segments among 16 colliders takes at most 450 loops (measure.hpp) per frame; with
 // 256 distant colliders it takes at most 1.5 times as long as with none; one that resists bending takes at
 // most 6 times as long as one that does not; vector units pay off for 200 ropes of 32 segments. Times are
 // processor time, except for threads, whose gain needs an idle machine.
-#include <cmath>
-#include <string>
-
 #include "measure.hpp"
 #include "tendril/ik/many.hpp"
 #include "tendril/rope/world.hpp"

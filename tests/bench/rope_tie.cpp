@@ -1,15 +1,8 @@
 // Cost of ties: the same bodies tied and untied.
 //
-//     tendril_bench_rope_tie            the table and one line per claim
-//     tendril_bench_rope_tie --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims: tied, two ropes of 32 to 2048 segments take at most 2.3 times as long as untied, and a cloth of
 // 16 x 16 to 64 x 64 on a rope, by every other particle of a side, twice. Times are processor time.
-#include <algorithm>
-#include <vector>
-
-#include "measure.hpp"
-#include "tendril/rope/world.hpp"
+#include "rope_stage.hpp"
 
 namespace {
 
@@ -17,15 +10,6 @@ using namespace tendril::bench;
 namespace rope = tendril::rope;
 
 constexpr int repetitions = 5;
-
-struct Stage {
-    rope::World world;
-    rope::Workspace workspace;
-
-    void advance(int substeps) {
-        for (int i = 0; i < substeps; ++i) world.advance(world.settings().substep, workspace);
-    }
-};
 
 /// Two ropes one above the other, with a tie every eighth particle: a bridge with hangers.
 Stage bridge(int segments, bool tied) {
@@ -74,34 +58,25 @@ Stage line(int side, bool tied) {
     return stage;
 }
 
-/// Microseconds a substep, untied and tied.
+/// Untied and tied.
 std::vector<double> cost(Stage (*make)(int, bool), int size, int substeps) {
-    Stage untied = make(size, false), tied = make(size, true);
-    std::vector<double> micros;
-    for (const double seconds :
-         race({[&] { untied.advance(substeps); }, [&] { tied.advance(substeps); }}, repetitions))
-        micros.push_back(seconds * 1e6 / substeps);
-    return micros;
-}
-
-void row(const char* what, int size, const std::vector<double>& micros) {
-    std::printf("%-24s%8d%12.2f%12.2f%10.2f\n", what, size, micros[0], micros[1], micros[1] / micros[0]);
+    return cost(make(size, false), make(size, true), substeps, repetitions);
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
-    std::printf("us a substep of 1/240 s; medians of %d\n%-24s%8s%12s%12s%10s\n", repetitions, "", "size",
+    std::printf("us a substep of 1/240 s; medians of %d\n%-24s%10s%12s%12s%10s\n", repetitions, "", "size",
                 "untied", "tied", "ratio");
     double ropes = 1.0, cloths = 1.0;
     for (const int segments : {32, 128, 512, 2048}) {
         const std::vector<double> micros = cost(bridge, segments, 20000 / segments);
-        row("two ropes", segments, micros);
+        print_row("two ropes", segments, micros);
         ropes = std::min(ropes, micros[0] / micros[1]);
     }
     for (const int side : {8, 16, 24, 32, 48, 64}) {
         const std::vector<double> micros = cost(line, side, 6000 / (side * side) + 4);
-        row("cloth on a rope", side, micros);
+        print_row("cloth on a rope", side, micros);
         if (side >= 16) cloths = std::min(cloths, micros[0] / micros[1]);
     }
     std::printf("\n");

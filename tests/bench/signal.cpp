@@ -1,15 +1,10 @@
 // Gain of batch.hpp over a plain loop of `step` and `interp_to`, one thread, each value with its own
 // parameters.
 //
-//     tendril_bench_signal            the table and one line per claim
-//     tendril_bench_signal --check    the same, and exit code 1 if a claim does not hold
-//
 // Claims: the minimum gain in any row, over all kinds of damping, with and without force and target velocity,
 // for 1e3, 1e5 and 1e6 values. The plain loop uses an array of parameters and one of states, as a game would.
 // Times are processor time.
-#include <cmath>
 #include <random>
-#include <string>
 
 #include "measure.hpp"
 #include "tendril/ik/many.hpp"
@@ -138,15 +133,13 @@ constexpr Regime regimes[] = {
     {"over critical damping", 1.5f, 10.0f}, {"all mixed", 0.0f, 2.0f}};
 
 void springs_table(Gains& gains) {
-    for (const std::size_t count : sizes) {
-        for (const bool pushed : {false, true}) {
+    for (const std::size_t count : sizes)
+        for (const bool pushed : {false, true})
             for (const Regime& regime : regimes) {
                 Values values(count, regime.low, regime.high, pushed);
                 const std::string name = std::string(regime.name) + (pushed ? ", force, velocity" : "");
                 print_row(name, count, compete(values, count, &Values::one_by_one, &Values::at_once), gains);
             }
-        }
-    }
 }
 
 void interp_table(Gains& gains, Gains& exact) {

@@ -1,11 +1,9 @@
 // Editing: each row of the table on the chain's page, with cases computed by hand.
-#include <cstdint>
 #include <stdexcept>
 
 #include "chain_support.hpp"
 #include "random.hpp"
 #include "tests/labels.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -230,9 +228,8 @@ TEST(ChainEdit, SetPositionsReLaysFromTheFirstWrongLength) {
 TEST(ChainEdit, ARefusedSetPositionsChangesNothing) {
     Chain chain = straight(2);
     const Chain before = chain;
-    for (const std::size_t count : {3u, 1u, 0u}) {
+    for (const std::size_t count : {3u, 1u, 0u})
         EXPECT_EQ(chain.set_positions(std::vector<glm::vec3>(count)).code(), ErrorCode::InvalidArgument);
-    }
     for (const float bad : {nan, infinity, 1.1e9f}) {
         const std::vector<glm::vec3> pose{{0, 0, 0}, {0, bad, 0}};
         const std::string message = chain.set_positions(pose).message();
@@ -274,9 +271,8 @@ TEST(ChainLoad, SegmentsAtOnePointMakeAStraightChain) {
     const std::vector<Segment> heap(100'000, Segment{{3, 3, 3}, 0.125f});
     const Chain chain = *Chain::from_segments(heap, {0, 0, 1});
     EXPECT_TRUE(same_bits(chain.position(0), {3, 3, 3}));
-    for (std::size_t i = 0; i < chain.size(); i += 999) {
+    for (std::size_t i = 0; i < chain.size(); i += 999)
         EXPECT_EQ(chain.position(i), glm::vec3(3, 3, 3.0f + 0.125f * static_cast<float>(i)));
-    }
 }
 
 TEST(ChainLoad, CoincidingPointsAtTheEndGoStraightOn) {
@@ -329,7 +325,7 @@ TEST(ChainRefusals, BadLengths) {
 
 TEST(ChainRefusals, BadCoordinates) {
     Chain chain = straight(4);
-    for (const float bad : bad_coordinates) {
+    for (const float bad : bad_coordinates)
         for (int axis = 0; axis < 3; ++axis) {
             glm::vec3 point(0.5f);
             point[axis] = bad;
@@ -345,7 +341,6 @@ TEST(ChainRefusals, BadCoordinates) {
                            [&] { return chain.set_default_direction(point); });
             EXPECT_EQ(Chain::from_segments({{}, {point, 1}}).code(), ErrorCode::InvalidArgument);
         }
-    }
     Chain empty;  // a call on an empty chain does nothing, but still refuses invalid input
     EXPECT_EQ(empty.forward(glm::vec3(nan)).code(), ErrorCode::InvalidArgument);
     EXPECT_EQ(empty.with_index(0, glm::vec3(nan)).code(), ErrorCode::InvalidArgument);
@@ -378,9 +373,8 @@ TEST(ChainRefusals, AnEmptyChainAcceptsAddOnly) {
 TEST(ChainRefusals, BadDirections) {
     Chain chain = straight(2);
     for (const glm::vec3 bad : {glm::vec3(0), glm::vec3(1), glm::vec3(2, 0, 0), glm::vec3(0.99f, 0, 0),
-                                glm::vec3(1e9f, 0, 0), glm::vec3(1e-20f)}) {
+                                glm::vec3(1e9f, 0, 0), glm::vec3(1e-20f)})
         expect_refused(ErrorCode::InvalidArgument, chain, [&] { return chain.set_default_direction(bad); });
-    }
 }
 
 TEST(ChainRefusals, LimitValuesAreAccepted) {
@@ -396,23 +390,22 @@ TEST(ChainRefusals, LimitValuesAreAccepted) {
 
 TEST(ChainRefusals, MessagesNameTheOperationTheArgumentAndTheValue) {
     Chain chain = straight(8);
-    EXPECT_TRUE(test::says(message_of(chain.set_length(2, -1.0f)), "set_length length finite 0 1e9 -1"));
-    EXPECT_TRUE(test::says(message_of(chain.add(-0.25f)), "add length finite 0 1e9 -0.25"));
-    EXPECT_TRUE(test::says(message_of(chain.add(Segment{{0, 0, -infinity}, 1})),
-                           "add segment.position.z finite 1e9 -inf"));
-    EXPECT_TRUE(test::says(message_of(chain.insert(0, Segment{{9, 9, 9}, 1e10f})),
-                           "insert segment.length finite 0 1e9 1e+10"));
-    EXPECT_TRUE(test::says(message_of(chain.forward({0, -nan, 0})), "forward target.y finite 1e9 nan"));
+    EXPECT_TRUE(says(message_of(chain.set_length(2, -1.0f)), "set_length length finite 0 1e9 -1"));
+    EXPECT_TRUE(says(message_of(chain.add(-0.25f)), "add length finite 0 1e9 -0.25"));
     EXPECT_TRUE(
-        test::says(message_of(chain.fixed({}, {.iterations = 0})), "fixed options.iterations 1 1e5 0"));
-    EXPECT_TRUE(test::says(message_of(chain.fixed({}, {.tolerance = infinity})),
-                           "fixed options.tolerance 0 1e9 inf"));
-    EXPECT_TRUE(test::says(message_of(chain.set_default_direction({0, 3, 0})),
-                           "set_default_direction direction unit vector length 3"));
-    EXPECT_TRUE(test::says(message_of(Chain::from_segments({{}, {{0, 0, 0}, nan}})),
-                           "from_segments segments[1].length finite 0 1e9 nan"));
-    EXPECT_TRUE(test::says(message_of(chain.insert(9, 1.0f)), "insert index 9 8"));
-    EXPECT_TRUE(test::says(message_of(straight(1).remove(1)), "remove index 1 1"));
+        says(message_of(chain.add(Segment{{0, 0, -infinity}, 1})), "add segment.position.z finite 1e9 -inf"));
+    EXPECT_TRUE(says(message_of(chain.insert(0, Segment{{9, 9, 9}, 1e10f})),
+                     "insert segment.length finite 0 1e9 1e+10"));
+    EXPECT_TRUE(says(message_of(chain.forward({0, -nan, 0})), "forward target.y finite 1e9 nan"));
+    EXPECT_TRUE(says(message_of(chain.fixed({}, {.iterations = 0})), "fixed options.iterations 1 1e5 0"));
+    EXPECT_TRUE(
+        says(message_of(chain.fixed({}, {.tolerance = infinity})), "fixed options.tolerance 0 1e9 inf"));
+    EXPECT_TRUE(says(message_of(chain.set_default_direction({0, 3, 0})),
+                     "set_default_direction direction unit vector length 3"));
+    EXPECT_TRUE(says(message_of(Chain::from_segments({{}, {{0, 0, 0}, nan}})),
+                     "from_segments segments[1].length finite 0 1e9 nan"));
+    EXPECT_TRUE(says(message_of(chain.insert(9, 1.0f)), "insert index 9 8"));
+    EXPECT_TRUE(says(message_of(straight(1).remove(1)), "remove index 1 1"));
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // An edit that runs out of memory leaves the chain unchanged; a pull needs no memory.
 #include <cstdlib>
-#include <new>
 
 #include "chain_support.hpp"
 #include "memory.hpp"

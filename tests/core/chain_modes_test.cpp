@@ -1,8 +1,5 @@
 // The four modes: moving and fixed joints, and degenerate directions.
-#include <cmath>
-#include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -236,11 +233,10 @@ Pin operate(Chain& chain, Random& random) {
 /// Whether saving and loading keeps every bit; true if the chain is outside the range that can be loaded.
 bool round_trips(const Chain& chain) {
     const auto segments = chain.segments();
-    for (const Segment& segment : segments) {
+    for (const Segment& segment : segments)
         for (int axis = 0; axis < 3; ++axis) {
             if (std::abs(segment.position[axis]) > max_magnitude) return true;
         }
-    }
     return same_bits(*Chain::from_segments({segments.begin(), segments.end()}, chain.default_direction()),
                      chain);
 }
@@ -291,9 +287,8 @@ Result apply(Chain& chain, const Json& op) {
     const auto target = [&] { return point(op.at("target")); };
     if (name == "add" && op.contains("position")) return chain.add(Segment{point(op["position"]), length()});
     if (name == "add") return chain.add(length());
-    if (name == "insert" && op.contains("position")) {
+    if (name == "insert" && op.contains("position"))
         return chain.insert(index(), Segment{point(op["position"]), length()});
-    }
     if (name == "insert") return chain.insert(index(), length());
     if (name == "remove") return chain.remove(index());
     if (name == "set_length") return chain.set_length(index(), length());

@@ -1,18 +1,13 @@
 // Shared by the chain's tests: the invariant as chain.hpp states it, and bitwise equality.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
-#include <limits>
-#include <string>
-#include <vector>
 
 #include "tendril/chain/chain.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 
@@ -59,9 +54,8 @@ inline std::string broken(const Chain& chain) {
     const bool near = lies_within(chain, 1e3);
     for (std::size_t i = 0; i < segments.size(); ++i) {
         const glm::vec3 p = segments[i].position;
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
             return "position " + std::to_string(i) + " is not finite";
-        }
         if (i == 0) continue;
         const glm::vec3 q = segments[i - 1].position;
         const double length = segments[i].length;
@@ -72,10 +66,9 @@ inline std::string broken(const Chain& chain) {
             allowed += static_cast<double>(std::nextafter(far, infinity) - far);
         }
         const double error = std::abs(distance(p, q) - length);
-        if (!(error <= allowed)) {
+        if (!(error <= allowed))
             return "link " + std::to_string(i) + " of length " + std::to_string(length) + " is off by " +
                    std::to_string(error);
-        }
     }
     return {};
 }

@@ -3,8 +3,6 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <string>
 #include <tendril/fields.hpp>
 #include <vector>
 

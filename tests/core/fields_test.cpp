@@ -1,12 +1,4 @@
 // Every row of every table of the library.
-#include "tendril/fields.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cctype>
-#include <functional>
-#include <memory>
-#include <set>
 #include <tendril/chain/chain.hpp>
 #include <tendril/humanoid/feet.hpp>
 #include <tendril/humanoid/footsteps.hpp>
@@ -43,93 +35,44 @@ namespace tendril::test {
 namespace {
 
 struct Table {
-    const char* name;
+    std::string name;
     std::span<const Field> rows;
     std::function<std::shared_ptr<void>()> make;
 
     friend std::ostream& operator<<(std::ostream& out, const Table& table) { return out << table.name; }
 };
 
+/// Named as the compiler names the type, without its namespaces.
 template <class Struct>
-Table table(const char* name) {
-    return {name, fields<Struct>(), [] { return std::shared_ptr<void>(std::make_shared<Struct>()); }};
+Table table() {
+    const std::string text = __PRETTY_FUNCTION__;
+    const std::size_t end = text.find_first_of(";]", text.find("Struct = "));
+    const std::size_t begin = text.find_last_of(": ", end) + 1;
+    return {text.substr(begin, end - begin), fields<Struct>(),
+            [] { return std::shared_ptr<void>(std::make_shared<Struct>()); }};
+}
+template <class... Structs>
+std::vector<Table> tables_of() {
+    return {table<Structs>()...};
 }
 
 std::vector<Table> tables() {
     using namespace humanoid;
-    std::vector<Table> all{table<FixedOptions>("FixedOptions"),
-                           table<BodyOptions>("BodyOptions"),
-                           table<BodyTarget>("BodyTarget"),
-                           table<BodyState>("BodyState"),
-                           table<FeetOptions>("FeetOptions"),
-                           table<FeetState>("FeetState"),
-                           table<FootstepOptions>("FootstepOptions"),
-                           table<FootstepsState>("FootstepsState"),
-                           table<HandsOptions>("HandsOptions"),
-                           table<HandsState>("HandsState"),
-                           table<HoldOptions>("HoldOptions"),
-                           table<HoldState>("HoldState"),
-                           table<LookAtOptions>("LookAtOptions"),
-                           table<LookAtState>("LookAtState"),
-                           table<LintSettings>("LintSettings"),
-                           table<SpringOptions>("SpringOptions"),
-                           table<SpringChainState>("SpringChainState"),
-                           table<ik::AngleLimit>("AngleLimit"),
-                           table<ik::CurveOptions>("CurveOptions"),
-                           table<ik::Limit>("Limit"),
-                           table<ik::Options>("Options"),
-                           table<ik::TwoBoneOptions>("TwoBoneOptions"),
-                           table<ik::ManyOptions>("ManyOptions"),
-                           table<ik::TreeOptions>("TreeOptions"),
-                           table<ik::TreeJoint>("TreeJoint"),
-                           table<ik::Effector>("TreeEffector"),
-                           table<ik::FlipRule>("FlipRule"),
-                           table<ik::IncidentOptions>("IncidentOptions"),
-                           table<ik::Report>("Report"),
-                           table<ik::ActiveLimit>("ActiveLimit"),
-                           table<ik::PoleMemory>("PoleMemory"),
-                           table<ik::LimitMemory>("LimitMemory"),
-                           table<ik::LinkageOptions>("LinkageOptions"),
-                           table<ik::Linkage>("Linkage"),
-                           table<ik::LinkageSketch>("LinkageSketch"),
-                           table<ik::LinkageState>("LinkageState"),
-                           table<ik::LinkageReport>("LinkageReport"),
-                           table<ik::LinkageFreedom>("LinkageFreedom"),
-                           table<ik::FourBar>("FourBar"),
-                           table<ik::SliderCrank>("SliderCrank"),
-                           table<ik::Peaucellier>("Peaucellier"),
-                           table<ik::Pantograph>("Pantograph"),
-                           table<ik::ScissorLift>("ScissorLift"),
-                           table<ik::Jansen>("Jansen"),
-                           table<ik::Delta>("Delta"),
-                           table<ik::Stewart>("Stewart"),
-                           table<rope::Settings>("Settings"),
-                           table<rope::TieShape>("TieShape"),
-                           table<rope::RopeShape>("RopeShape"),
-                           table<rope::ClothShape>("ClothShape"),
-                           table<rope::HairShape>("HairShape"),
-                           table<rope::HairPatch>("HairPatch"),
-                           table<rope::Sphere>("Sphere"),
-                           table<rope::Capsule>("Capsule"),
-                           table<rope::Plane>("Plane"),
-                           table<rope::Box>("Box"),
-                           table<rope::Drive>("Drive"),
-                           table<rope::Collider>("Collider"),
-                           table<rope::Body>("RopeBody"),
-                           table<rope::Pin>("Pin"),
-                           table<rope::Tie>("Tie"),
-                           table<signal::OutputState>("OutputState"),
-                           table<signal::MotionState>("MotionState"),
-                           table<signal::MovingAverageState>("MovingAverageState"),
-                           table<signal::InertializeState>("InertializeState"),
-                           table<rig::AimOptions>("AimOptions"),
-                           table<rig::BackwardOptions>("BackwardOptions"),
-                           table<rig::CollectOptions>("CollectOptions"),
-                           table<rig::ParentConstraintOptions>("ParentConstraintOptions"),
-                           table<rig::TransformFilter>("TransformFilter"),
-                           table<rig::Element>("Element"),
-                           table<rig::Definition>("Definition"),
-                           table<rig::Unit>("Unit")};
+    std::vector<Table> all =
+        tables_of<FixedOptions, BodyOptions, BodyTarget, BodyState, FeetOptions, FeetState, FootstepOptions,
+                  FootstepsState, HandsOptions, HandsState, HoldOptions, HoldState, LookAtOptions,
+                  LookAtState, LintSettings, SpringOptions, SpringChainState, ik::AngleLimit,
+                  ik::CurveOptions, ik::Limit, ik::Options, ik::TwoBoneOptions, ik::ManyOptions,
+                  ik::TreeOptions, ik::TreeJoint, ik::Effector, ik::FlipRule, ik::IncidentOptions, ik::Report,
+                  ik::ActiveLimit, ik::PoleMemory, ik::LimitMemory, ik::LinkageOptions, ik::Linkage,
+                  ik::LinkageSketch, ik::LinkageState, ik::LinkageReport, ik::LinkageFreedom, ik::FourBar,
+                  ik::SliderCrank, ik::Peaucellier, ik::Pantograph, ik::ScissorLift, ik::Jansen, ik::Delta,
+                  ik::Stewart, rope::Settings, rope::TieShape, rope::RopeShape, rope::ClothShape,
+                  rope::HairShape, rope::HairPatch, rope::Sphere, rope::Capsule, rope::Plane, rope::Box,
+                  rope::Drive, rope::Collider, rope::Body, rope::Pin, rope::Tie, signal::OutputState,
+                  signal::MotionState, signal::MovingAverageState, signal::InertializeState, rig::AimOptions,
+                  rig::BackwardOptions, rig::CollectOptions, rig::ParentConstraintOptions,
+                  rig::TransformFilter, rig::Element, rig::Definition, rig::Unit>();
     for (const signal::Kind& kind : signal::kinds())
         all.push_back({kind.name, kind.table(), [&kind] {
                            const auto filter = std::make_shared<signal::Filter>(kind.blank());
@@ -203,7 +146,7 @@ TEST_P(EveryTable, AValueThatIsSetCanBeRead) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Library, EveryTable, testing::ValuesIn(tables()),
-                         [](const auto& given) { return std::string(given.param.name); });
+                         [](const auto& given) { return given.param.name; });
 
 TEST(Fields, AListThatIsTooLongIsRefused) {
     humanoid::BodyState state;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <bit>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <glm/vec3.hpp>
@@ -29,9 +28,8 @@ class Fnv {
 
   private:
     void add_bytes(std::uint64_t bits, int count) {
-        for (int shift = 0; shift < count; shift += 8) {
+        for (int shift = 0; shift < count; shift += 8)
             hash_ = (hash_ ^ ((bits >> shift) & 0xffu)) * 0x100000001b3u;
-        }
     }
 
     std::uint64_t hash_ = 0xcbf29ce484222325u;

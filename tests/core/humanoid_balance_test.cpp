@@ -1,9 +1,6 @@
 // Centre of mass, support, and a body that keeps its balance while it reaches.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <random>
 #include <tendril/humanoid/balance.hpp>
 #include <tendril/humanoid/body.hpp>
 
@@ -18,15 +15,10 @@ Skeleton scaled_figure(double scale) {
     return *Skeleton::make(std::move(nodes));
 }
 
-class HumanoidBalance : public testing::Test {
+class HumanoidBalance : public testing::Test, protected Figured {
   protected:
-    explicit HumanoidBalance(double scale = 1.0) : scale_(scale), skeleton(scaled_figure(scale)) {}
+    explicit HumanoidBalance(double scale = 1.0) : Figured{scaled_figure(scale)}, scale_(scale) {}
 
-    std::vector<Placement> placed(const std::vector<rig::Transform>& pose) const {
-        std::vector<Placement> at(skeleton.size());
-        place(skeleton, pose, at);
-        return at;
-    }
     double margin(const std::vector<rig::Transform>& pose) const {
         const auto at = placed(pose);
         return find_support(soles, at).margin(masses.centre(at));
@@ -44,8 +36,7 @@ class HumanoidBalance : public testing::Test {
             std::vector<BodyTarget> now = targets;
             const double part = std::min(1.0, 1.5 * frame / frames);
             for (BodyTarget& each : now) {
-                const glm::dvec3 start =
-                    from[static_cast<std::size_t>(map[bone_of(each.effector)].node)].position;
+                const glm::dvec3 start = from[node(bone_of(each.effector))].position;
                 each.position = glm::mix(start, each.position, part);
             }
             reached.pose = rest;
@@ -56,14 +47,8 @@ class HumanoidBalance : public testing::Test {
         return reached;
     }
     static glm::dvec3 plus_z(const glm::dvec3& point, double by) { return point + glm::dvec3(0.0, 0.0, by); }
-    glm::dvec3 at(Bone bone, const std::vector<rig::Transform>& pose) const {
-        return placed(pose)[static_cast<std::size_t>(map[bone].node)].position;
-    }
 
     double scale_;
-    Skeleton skeleton;
-    BoneMap map = match_bones(skeleton);
-    std::vector<rig::Transform> rest = rest_pose(skeleton);
     Masses masses = *find_masses(skeleton, map);
     Soles soles = *find_soles(skeleton, map);
     Body body = *Body::make(skeleton, map, default_limits(skeleton, map));
@@ -97,7 +82,7 @@ TEST_F(HumanoidBalance, BothFeetSupportTheRestPose) {
 TEST_F(HumanoidBalance, ARotationIsBlendedInOnceForAnyDuration) {
     const auto turned = [&](bool balance, int frames) {
         BodyTarget foot{.effector = Effector::LeftFoot,
-                        .position = at(Bone::LeftFoot, rest),
+                        .position = at(rest, Bone::LeftFoot),
                         .rotation = glm::angleAxis(0.6, glm::dvec3(0.0, 1.0, 0.0)),
                         .weight = 0.3};
         const auto pose = reach({foot}, balance, frames).pose;
@@ -113,18 +98,17 @@ TEST_F(HumanoidBalance, ARotationIsBlendedInOnceForAnyDuration) {
 TEST_F(HumanoidBalance, ARotationOfZeroWeightHasNoEffect) {
     const auto foot = [&](bool balance, double weight, bool rotated) {
         BodyTarget target{.effector = Effector::LeftFoot,
-                          .position = at(Bone::LeftFoot, rest) + glm::dvec3(0.0, 0.3, 0.3),
+                          .position = at(rest, Bone::LeftFoot) + glm::dvec3(0.0, 0.3, 0.3),
                           .weight = weight};
         if (rotated) target.rotation = glm::angleAxis(0.6, glm::dvec3(0.0, 1.0, 0.0));
         const auto node = static_cast<std::size_t>(map[Bone::LeftFoot].node);
         return placed(reach({target}, balance).pose)[node].rotation();
     };
-    for (const bool balance : {false, true}) {
+    for (const bool balance : {false, true})
         for (const double weight : {0.0, 1e-3}) {
             const glm::dquat off = foot(balance, weight, true) * glm::conjugate(foot(balance, weight, false));
             EXPECT_LT(glm::length(glm::dvec3(off.x, off.y, off.z)), 1e-3) << balance << ' ' << weight;
         }
-    }
 }
 
 TEST_F(HumanoidBalance, ARisingFootLeavesTheSupportWithoutAJump) {
@@ -214,7 +198,7 @@ TEST_F(HumanoidBalance, HipsMoveBackWhenAHandReachesAhead) {
     EXPECT_LT(margin(off.pose), -0.04);  // leans without moving the hips
     EXPECT_GT(margin(on.pose), 0.02);
     EXPECT_LT(on.report.residual, 1e-3);
-    EXPECT_LT(at(Bone::Hips, on.pose).z, at(Bone::Hips, off.pose).z - 0.08);
+    EXPECT_LT(at(on.pose, Bone::Hips).z, at(off.pose, Bone::Hips).z - 0.08);
 }
 
 TEST_F(HumanoidBalance, BodySquatsOnTheBallsOfTheFeetToReachTheFloor) {
@@ -222,7 +206,7 @@ TEST_F(HumanoidBalance, BodySquatsOnTheBallsOfTheFeetToReachTheFloor) {
     const Reached on = reach(targets, true);
     EXPECT_GT(margin(on.pose), 0.005);
     EXPECT_LT(on.report.residual, 2e-3);
-    EXPECT_LT(at(Bone::Hips, on.pose).y, 0.7);
+    EXPECT_LT(at(on.pose, Bone::Hips).y, 0.7);
     // At the limits of the ankles the heels rise; the balls neither sink nor slide.
     for (const SolePoints& sole : sole_points(soles, placed(on.pose))) {
         EXPECT_GT(sole.heel.y, -0.005);
@@ -242,7 +226,7 @@ TEST_F(HumanoidBalance, HandStopsShortBeforeTheBodyFalls) {
 }
 
 TEST_F(HumanoidBalance, AFootSupportsWhereItIsNotAtItsTarget) {
-    const glm::dvec3 foot = at(Bone::LeftFoot, rest), hand = at(Bone::RightHand, rest);
+    const glm::dvec3 foot = at(rest, Bone::LeftFoot), hand = at(rest, Bone::RightHand);
     for (const double far : {0.3, 0.6, 1.0, 2.0, 3.0}) {
         BodyState state;
         std::vector<rig::Transform> pose = rest;
@@ -276,7 +260,7 @@ TEST_F(HumanoidBalance, RarelyLosesBalanceForAnyFootAndHandTargets) {
     for (int i = 0; i < 30; ++i) {
         const double fx = any(random), fz = any(random), hx = any(random), hy = any(random), hz = any(random);
         const std::vector<BodyTarget> targets{
-            {Effector::LeftFoot, at(Bone::LeftFoot, rest) + glm::dvec3(1.5 * fx, 0.0, 2.5 * fz)},
+            {Effector::LeftFoot, at(rest, Bone::LeftFoot) + glm::dvec3(1.5 * fx, 0.0, 2.5 * fz)},
             {Effector::RightHand, {-0.3 + 1.2 * hx, 1.1 + 0.7 * hy, 1.2 * hz}}};
         const double stands = margin(reach(targets, true, 300).pose);
         EXPECT_GT(stands, -0.25) << i;
@@ -291,12 +275,11 @@ TEST_F(HumanoidBalance, AnUnbalancedClipMayStaySo) {
     pose[hips].rotation = glm::angleAxis(0.3, glm::dvec3(1.0, 0.0, 0.0));  // leans, feet off the floor behind
     const std::vector<rig::Transform> clip = pose;
     BodyState state;
-    const std::vector<BodyTarget> targets{{Effector::RightHand, at(Bone::RightHand, pose)}};
+    const std::vector<BodyTarget> targets{{Effector::RightHand, at(pose, Bone::RightHand)}};
     ASSERT_TRUE(body.solve(pose, targets, state, {.balance = true}));
-    for (std::size_t i = 0; i < pose.size(); ++i) {
+    for (std::size_t i = 0; i < pose.size(); ++i)
         EXPECT_LT(glm::distance(placed(pose)[i].position, placed(clip)[i].position), 1e-3)
             << skeleton[i].name;
-    }
 }
 
 TEST_F(HumanoidBalance, SmallMovesOfTheTargetGiveSmallMovesOfThePose) {
@@ -306,7 +289,7 @@ TEST_F(HumanoidBalance, SmallMovesOfTheTargetGiveSmallMovesOfThePose) {
     for (int path = 0; path < 20; ++path) {
         BodyState state;
         std::vector<Placement> before;
-        const glm::dvec3 start = at(Bone::RightHand, rest);
+        const glm::dvec3 start = at(rest, Bone::RightHand);
         const glm::dvec3 end(-0.3 + 0.9 * any(random), 1.0 + 0.8 * any(random), 0.3 + 0.9 * any(random));
         const int frames = static_cast<int>(std::ceil(glm::distance(start, end) / 0.005));
         for (int frame = 0; frame <= frames; ++frame) {

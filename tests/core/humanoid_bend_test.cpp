@@ -1,13 +1,5 @@
 // Chains of a character along a curve: positions of the joints, followers, fixed nodes, and any input.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstring>
-#include <glm/gtc/quaternion.hpp>
-#include <limits>
-#include <random>
 #include <tendril/humanoid/bent_chain.hpp>
 #include <tendril/rig/transform_units.hpp>
 

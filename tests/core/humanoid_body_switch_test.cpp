@@ -1,8 +1,4 @@
 // A body whose targets are released or reweighted while its state continues.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
 #include <tendril/humanoid/body.hpp>
 
 #include "humanoid_figure.hpp"
@@ -11,9 +7,8 @@
 namespace tendril::test {
 namespace {
 
-class HumanoidBodySwitch : public testing::Test {
+class HumanoidBodySwitch : public testing::Test, protected Figured {
   protected:
-    std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
     double any(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
     glm::dvec3 near(const glm::dvec3& at, double size) {
         const double x = any(-size, size), y = any(-size, size), z = any(-size, size);
@@ -41,10 +36,7 @@ class HumanoidBodySwitch : public testing::Test {
     }
     double residual(Effector effector) const { return report.residuals[static_cast<std::size_t>(effector)]; }
 
-    Skeleton skeleton = make_figure({});
-    BoneMap map = match_bones(skeleton);
     Body body = *Body::make(skeleton, map, default_limits(skeleton, map));
-    std::vector<rig::Transform> rest = rest_pose(skeleton);
     BodyState state;
     BodyReport report;
     std::mt19937 engine{5};

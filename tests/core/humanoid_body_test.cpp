@@ -1,9 +1,4 @@
 // Whole-body reaching, on the figure of 1.8 m.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
 #include <tendril/humanoid/body.hpp>
 
 #include "humanoid_figure.hpp"
@@ -16,10 +11,9 @@ namespace {
 constexpr Effector five[]{Effector::LeftHand, Effector::RightHand, Effector::Head, Effector::LeftFoot,
                           Effector::RightFoot};
 
-class HumanoidBody : public testing::TestWithParam<bool> {
+class HumanoidBody : public testing::TestWithParam<bool>, protected Figured {
   protected:
     HumanoidBody() { place(skeleton, rest, placements); }
-    std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
     /// A pose within the default limits; limbs turn by about `amount` radians.
     std::vector<rig::Transform> random_pose(RandomPoses& random, double amount) {
         std::vector<rig::Transform> pose;
@@ -67,12 +61,9 @@ class HumanoidBody : public testing::TestWithParam<bool> {
         return worst;
     }
 
-    Skeleton skeleton = make_figure({});
-    BoneMap map = match_bones(skeleton);
     BodyLimits limits = default_limits(skeleton, map);
     BodyJoints joints = *BodyJoints::make(skeleton, map, limits);
     Body body = *Body::make(skeleton, map, GetParam() ? limits : no_limits());
-    std::vector<rig::Transform> rest = rest_pose(skeleton);
     std::vector<Placement> placements = std::vector<Placement>(skeleton.size());
 };
 
@@ -150,7 +141,7 @@ TEST_P(HumanoidBody, KeepsLengthsAndLimitsForAnyTargets) {
 
 TEST_P(HumanoidBody, ASlowTargetGivesASlowPoseAndAStillOneAStillPose) {
     RandomPoses random(3);
-    for (const double step : {5e-3, 1e-3, 2e-4}) {
+    for (const double step : {5e-3, 1e-3, 2e-4})
         for (int i = 0; i < (step < 1e-3 ? 4 : 12); ++i) {
             const auto from = targets_of(rest), to = targets_of(random_pose(random, 0.5));
             double way = 0.0;
@@ -178,7 +169,6 @@ TEST_P(HumanoidBody, ASlowTargetGivesASlowPoseAndAStillOneAStillPose) {
                 before = now;
             }
         }
-    }
 }
 
 TEST_P(HumanoidBody, FollowsTargetsInAndOutOfReachWithoutALeap) {
@@ -346,24 +336,24 @@ TEST_P(HumanoidBody, BadInputIsRefusedAndNothingMoves) {
         return std::string(report.message());
     };
     const double nan = std::nan("");
-    EXPECT_TRUE(test::says(refused({{Effector::Head, {0.0, nan, 0.0}}}),
-                           "Body::solve targets[0].position.y 1e9 nan"));
-    EXPECT_TRUE(test::says(refused({{Effector::Head, {}}, {Effector::Head, {}}}),
-                           "Body::solve targets[1].effector once head"));
-    EXPECT_TRUE(test::says(refused({{Effector::Head, {}, glm::dquat(0.0, 0.0, 0.0, 0.0)}}),
-                           "targets[0].rotation quaternion of length 1e-6 to 1e9"));
-    EXPECT_TRUE(test::says(refused({{Effector::Head, {}}}, {.tolerance = 0.0}),
-                           "Body::solve options.tolerance over 0 to 1 0"));
+    EXPECT_TRUE(
+        says(refused({{Effector::Head, {0.0, nan, 0.0}}}), "Body::solve targets[0].position.y 1e9 nan"));
+    EXPECT_TRUE(says(refused({{Effector::Head, {}}, {Effector::Head, {}}}),
+                     "Body::solve targets[1].effector once head"));
+    EXPECT_TRUE(says(refused({{Effector::Head, {}, glm::dquat(0.0, 0.0, 0.0, 0.0)}}),
+                     "targets[0].rotation quaternion of length 1e-6 to 1e9"));
+    EXPECT_TRUE(says(refused({{Effector::Head, {}}}, {.tolerance = 0.0}),
+                     "Body::solve options.tolerance over 0 to 1 0"));
     state.turns.resize(body.bones().size(), glm::dquat(1.0, 0.0, 0.0, 0.0));
     state.clip[2].z = nan;
-    EXPECT_TRUE(test::says(refused({{Effector::Head, {}}}), "Body::solve state.clip[2].z nan"));
+    EXPECT_TRUE(says(refused({{Effector::Head, {}}}), "Body::solve state.clip[2].z nan"));
     state.clip[2].z = 0.0;
     state.turns.resize(3);
     EXPECT_FALSE(refused({{Effector::Head, {}}}).empty());
     BoneMap gap = map;
     gap[Bone::LeftHand] = {};
     review(gap, skeleton);
-    EXPECT_TRUE(test::says(std::string(Body::make(skeleton, gap).message()), "Body LeftHand mapped none"));
+    EXPECT_TRUE(says(std::string(Body::make(skeleton, gap).message()), "Body LeftHand mapped none"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Limits, HumanoidBody, testing::Bool(),

@@ -1,7 +1,6 @@
 // Matching nodes to bones: by common names, by shape alone, and incomplete where bones are missing.
 #include <gtest/gtest.h>
 
-#include <random>
 #include <sstream>
 
 #include "humanoid_figure.hpp"
@@ -290,7 +289,7 @@ TEST(BoneMap, TheCommonParentOfSpineAndLegsIsTheHips) {
 
 TEST(BoneMap, AHandAloneIsNotABody) {
     std::vector<Node> nodes{{"hand_l", -1, {}}};
-    for (int finger = 0; finger < 5; ++finger) {
+    for (int finger = 0; finger < 5; ++finger)
         for (int bone = 0; bone < 3; ++bone) {
             Node node{"bone_" + std::to_string(3 * finger + bone),
                       bone == 0 ? 0 : static_cast<std::int32_t>(nodes.size() - 1),
@@ -298,7 +297,6 @@ TEST(BoneMap, AHandAloneIsNotABody) {
             node.rest.translation = {bone == 0 ? 0.02 * (finger - 2) : 0.0, 0.0, 0.04};
             nodes.push_back(node);
         }
-    }
     const BoneMap map = match_bones(*Skeleton::make(nodes));
     EXPECT_FALSE(map.is_usable());
     EXPECT_GE(map.missing.size(), 14u);

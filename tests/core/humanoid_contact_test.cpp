@@ -1,10 +1,5 @@
 // Hands must not pass through their own body.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <glm/trigonometric.hpp>
-#include <random>
 #include <tendril/humanoid/body.hpp>
 
 #include "humanoid_figure.hpp"
@@ -13,9 +8,8 @@
 namespace tendril::test {
 namespace {
 
-class HumanoidContact : public testing::TestWithParam<bool> {
+class HumanoidContact : public testing::TestWithParam<bool>, protected Figured {
   protected:
-    std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
     /// Penetration of hands and lower arms into trunk, head and legs, recomputed from the pose, metres.
     double penetration(const std::vector<rig::Transform>& pose) {
         place(skeleton, pose, placements);
@@ -35,12 +29,9 @@ class HumanoidContact : public testing::TestWithParam<bool> {
         return deepest;
     }
 
-    Skeleton skeleton = make_figure({});
-    BoneMap map = match_bones(skeleton);
     std::vector<BodyCapsule> capsules = default_capsules(skeleton, map);
     Body body =
         *Body::make(skeleton, map, GetParam() ? default_limits(skeleton, map) : no_limits(), capsules);
-    std::vector<rig::Transform> rest = rest_pose(skeleton);
     std::vector<Placement> placements = std::vector<Placement>(skeleton.size());
 };
 
@@ -77,7 +68,7 @@ TEST_P(HumanoidContact, AHandDraggedThroughTheBodySlidesAroundIt) {
         {{0.3, 1.3, 0.4}, {-0.2, 1.0, -0.1}},
         {{0.1, 0.7, 0.5}, {0.1, 0.7, -0.3}},     // a thigh
         {{0.3, 1.7, 0.3}, {-0.2, 1.65, -0.1}}};  // the head
-    for (const auto& [from, to] : ways) {
+    for (const auto& [from, to] : ways)
         for (const double step : {2e-2, 5e-3, 1e-3}) {
             BodyState state;
             std::vector<glm::dvec3> before;
@@ -101,7 +92,6 @@ TEST_P(HumanoidContact, AHandDraggedThroughTheBodySlidesAroundIt) {
                 before = now;
             }
         }
-    }
 }
 
 TEST_P(HumanoidContact, AClipWithAFistThroughTheWaistIsCorrected) {
@@ -164,8 +154,8 @@ TEST_P(HumanoidContact, AnyTargetsGiveFinitePosesAndRarelyContact) {
 TEST_P(HumanoidContact, AnInvalidCapsuleIsRefused) {
     auto bad = capsules;
     bad[2].radius = -1.0;
-    EXPECT_TRUE(test::says(std::string(Body::make(skeleton, map, no_limits(), bad).message()),
-                           "Body capsules[2].radius 0 1e9 -1"));
+    EXPECT_TRUE(says(std::string(Body::make(skeleton, map, no_limits(), bad).message()),
+                     "Body capsules[2].radius 0 1e9 -1"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Limits, HumanoidContact, testing::Bool(),

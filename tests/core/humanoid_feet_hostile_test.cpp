@@ -1,13 +1,5 @@
 // Feet with hostile input: output is finite, bones keep their lengths, equal states give equal bits.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-
 #include "humanoid_feet_support.hpp"
-#include "memory.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -15,9 +7,8 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-class FeetHostile : public ::testing::Test {
+class FeetHostile : public ::testing::Test, protected Figured {
   protected:
-    double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); }
     glm::dquat rotation() {
         glm::dquat q;
         for (int i = 0; i < 4; ++i) q[i] = number(-1.0, 1.0);
@@ -53,9 +44,7 @@ class FeetHostile : public ::testing::Test {
         return times[static_cast<std::size_t>(number(0.0, 9.99))];
     }
 
-    std::mt19937 random{7};
-    const Skeleton skeleton = make_figure({});
-    const BoneMap map = match_bones(skeleton);
+    RandomPoses number{7};
     const Feet feet = *Feet::make(skeleton, map);
 };
 
@@ -114,11 +103,10 @@ TEST_F(FeetHostile, RefusedInputChangesNothing) {
     }
     EXPECT_TRUE(refuses({}, {}));
     EXPECT_TRUE(refuses(std::vector<rig::Transform>(3), {}));
-    FeetOptions options;
-    options.low = nan;
+    FeetOptions options{.low = nan};
     EXPECT_TRUE(refuses(rest_pose(skeleton), options));
     options = {.leave_speed = 0.1};
-    EXPECT_TRUE(test::says(check(options).message(), "feet leave_speed enter_speed 0.1"));
+    EXPECT_TRUE(says(check(options).message(), "feet leave_speed enter_speed 0.1"));
     options = {};
     options.root.scale.x = 0.0;
     EXPECT_FALSE(check(options));
@@ -169,7 +157,7 @@ TEST_F(FeetHostile, LegsNotBelowTheHipsAreRefused) {
     nodes[leg].rest.translation += glm::dvec3(0, 1, 0);
     nodes[leg].parent = static_cast<std::int32_t>(nodes.size()) - 1;
     const Skeleton apart = *Skeleton::make(nodes);
-    EXPECT_TRUE(test::says(Feet::make(apart, map).message(), "LeftUpperLeg is not below the hips"));
+    EXPECT_TRUE(says(Feet::make(apart, map).message(), "LeftUpperLeg is not below the hips"));
     EXPECT_FALSE(Feet::make(skeleton, BoneMap()));
 }
 

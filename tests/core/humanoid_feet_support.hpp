@@ -1,12 +1,12 @@
 // Plays a walk over a ground, and measures how far feet sink, float and skate and legs stretch.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <tendril/humanoid/feet.hpp>
 
 #include "humanoid_walk.hpp"
+#include "memory.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 

@@ -1,12 +1,6 @@
 // Feet on the ground: bounds for whole walks, and each rule of planting alone.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "humanoid_feet_support.hpp"
-#include "memory.hpp"
 #include "tests/labels.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -144,7 +138,7 @@ TEST_F(FeetWalk, WithoutSuitableGroundTheClipIsLeftAlone) {
     expect_alone(deep, FootAlone::TooFar, -9.0);
     expect_alone(steep, FootAlone::TooSteep, 0.8);
     expect_alone(high, FootAlone::TooFar, 0.8);
-    EXPECT_TRUE(test::says(name(FootAlone::TooSteep), "too steep"));
+    EXPECT_TRUE(says(name(FootAlone::TooSteep), "too steep"));
 }
 
 TEST_F(FeetWalk, ATargetOutOfTheLegsReachIsReported) {

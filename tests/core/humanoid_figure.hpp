@@ -1,11 +1,11 @@
 // A figure of 1.8 m in T-pose, arms along X, facing +Z, with configurable node names.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
-#include <string>
 #include <tendril/humanoid/bone_map.hpp>
-#include <vector>
 
 namespace tendril::test {
 
@@ -70,6 +70,23 @@ inline Skeleton make_figure(const std::map<std::string, std::string>& named, dou
     return *Skeleton::make(std::move(nodes));
 }
 
+/// The figure with its map and its rest pose.
+struct Figured {
+    Skeleton skeleton = make_figure({});
+    BoneMap map = match_bones(skeleton);
+    std::vector<rig::Transform> rest = rest_pose(skeleton);
+
+    std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
+    std::vector<Placement> placed(const std::vector<rig::Transform>& pose) const {
+        std::vector<Placement> placements(skeleton.size());
+        place(skeleton, pose, placements);
+        return placements;
+    }
+    glm::dvec3 at(const std::vector<rig::Transform>& pose, Bone bone) const {
+        return placed(pose)[node(bone)].position;
+    }
+};
+
 /// Random numbers, vectors and rotations.
 class RandomPoses {
   public:
@@ -77,6 +94,7 @@ class RandomPoses {
     double from(double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(engine_);
     }
+    double operator()(double low, double high) { return from(low, high); }
     glm::dvec3 vector(double size) {
         const double x = from(-size, size), y = from(-size, size), z = from(-size, size);
         return {x, y, z};

@@ -1,10 +1,6 @@
 // Fitting capsules to a mesh: a body with known radii, and outliers.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
 #include <tendril/humanoid/body.hpp>
 
 #include "humanoid_figure.hpp"
@@ -13,7 +9,7 @@ namespace tendril::test {
 namespace {
 
 /// The figure as tubes around its bones, each with its own radius and offset from its bone.
-class FittedCapsules : public testing::Test {
+class FittedCapsules : public testing::Test, protected Figured {
   protected:
     struct Tube {
         glm::dvec3 from, to;
@@ -83,8 +79,6 @@ class FittedCapsules : public testing::Test {
     }
 
     std::mt19937 engine{11};
-    Skeleton skeleton = make_figure({});
-    BoneMap map = match_bones(skeleton);
     std::vector<BodyCapsule> usual = default_capsules(skeleton, map);
     std::vector<Tube> tubes;
 };
@@ -150,7 +144,6 @@ TEST_F(FittedCapsules, IgnorePointsThatAreNotFinite) {
 TEST_F(FittedCapsules, KeepHandsOutAndLeaveTheBodyAtRest) {
     const auto capsules = fitted_capsules(skeleton, map, points(0));
     Body body = *Body::make(skeleton, map, default_limits(skeleton, map), capsules);
-    const auto rest = rest_pose(skeleton);
     BodyState state;
     auto pose = rest;
     ASSERT_TRUE(body.solve(pose, std::vector<BodyTarget>{}, state));

@@ -1,9 +1,4 @@
 // Steps of a body that reaches farther than its feet allow.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <random>
 #include <tendril/humanoid/balance.hpp>
 #include <tendril/humanoid/footsteps.hpp>
 
@@ -15,7 +10,7 @@ namespace {
 
 constexpr double frame = 1.0 / 60.0;
 
-class HumanoidFootsteps : public testing::Test {
+class HumanoidFootsteps : public testing::Test, protected Figured {
   protected:
     /// One frame of a body that reaches from its rest pose.
     BodyReport solve(std::vector<BodyTarget> targets, double dt = frame) {
@@ -42,9 +37,7 @@ class HumanoidFootsteps : public testing::Test {
     }
     double margin() const { return find_support(soles, solved).margin(masses.centre(solved)); }
 
-    Skeleton skeleton = make_figure({});
-    BoneMap map = match_bones(skeleton);
-    std::vector<rig::Transform> rest = rest_pose(skeleton), pose = rest;
+    std::vector<rig::Transform> pose = rest;
     std::vector<Placement> clip{skeleton.size()}, solved{skeleton.size()};
     Masses masses = *find_masses(skeleton, map);
     Soles soles = *find_soles(skeleton, map);

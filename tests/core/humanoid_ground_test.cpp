@@ -1,6 +1,4 @@
 // Grounds have the heights of their definitions, and meshes the heights of their triangles, of any number.
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -40,8 +38,8 @@ TEST(Ground, HasTheHeightOfItsDefinition) {
 
 TEST(Ground, RefusesInvalidGroundsByName) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_TRUE(test::says(Ground::stairs(0.15, 0.0).message(), "stairs step_depth 0.01 1e3 0"));
-    EXPECT_TRUE(test::says(Ground::slope(nan).message(), "slope angle -1.5 1.5 nan"));
+    EXPECT_TRUE(says(Ground::stairs(0.15, 0.0).message(), "stairs step_depth 0.01 1e3 0"));
+    EXPECT_TRUE(says(Ground::slope(nan).message(), "slope angle -1.5 1.5 nan"));
     EXPECT_FALSE(Ground::flat(nan));
     EXPECT_FALSE(Ground::stairs(nan, 0.3));
     EXPECT_FALSE(Ground::terrain({}));
@@ -54,7 +52,7 @@ TEST(Ground, RefusesInvalidGroundsByName) {
     EXPECT_TRUE(Ground::mesh(points, good));
     EXPECT_FALSE(Ground::mesh(points, two));
     EXPECT_FALSE(Ground::mesh(points, {}));
-    EXPECT_TRUE(test::says(Ground::mesh(points, beyond).message(), "mesh triangles[2] vertex 3"));
+    EXPECT_TRUE(says(Ground::mesh(points, beyond).message(), "mesh triangles[2] vertex 3"));
     const std::vector<glm::dvec3> broken{{0, 0, 0}, {1, nan, 0}, {0, 0, 1}};
     EXPECT_FALSE(Ground::mesh(broken, good));
 }

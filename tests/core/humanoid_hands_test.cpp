@@ -1,10 +1,5 @@
 // Hands on their targets: within a millimetre if the arm reaches; at weight 0 bitwise unchanged; only the
 // arm's bones change.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
 #include <tendril/humanoid/hands.hpp>
 
 #include "humanoid_figure.hpp"
@@ -15,9 +10,8 @@
 namespace tendril::test {
 namespace {
 
-class HandIk : public ::testing::Test {
+class HandIk : public ::testing::Test, protected Figured {
   protected:
-    double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); }
     glm::dquat rotation() {
         glm::dquat q;
         for (int i = 0; i < 4; ++i) q[i] = number(-1.0, 1.0);
@@ -31,15 +25,6 @@ class HandIk : public ::testing::Test {
             made[node(bone)].rotation = glm::angleAxis(number(-0.8, 0.8), rotation() * glm::dvec3(0, 0, 1));
         return made;
     }
-    std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
-    std::vector<Placement> placed(const std::vector<rig::Transform>& of) const {
-        std::vector<Placement> placements(skeleton.size());
-        place(skeleton, of, placements);
-        return placements;
-    }
-    glm::dvec3 at(const std::vector<rig::Transform>& of, Bone bone) const {
-        return placed(of)[node(bone)].position;
-    }
     /// A random point in front of the left arm, within its reach.
     glm::dvec3 near_left() {
         for (;;) {
@@ -49,9 +34,7 @@ class HandIk : public ::testing::Test {
         }
     }
 
-    std::mt19937 random{11};
-    const Skeleton skeleton = make_figure({});
-    const BoneMap map = match_bones(skeleton);
+    RandomPoses number{11};
     const Hands hands = *Hands::make(skeleton, map);
 };
 

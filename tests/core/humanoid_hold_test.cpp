@@ -1,10 +1,4 @@
 // Hands that hold one object: the grips close within the limits, and the object yields as little as possible.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
 #include <tendril/humanoid/hold.hpp>
 
 #include "humanoid_figure.hpp"

@@ -1,11 +1,7 @@
 // Every library function that takes a skeleton, map or pose, with unsuitable input: another character's map,
 // duplicate nodes, a bone above its parent; non-finite or enormous poses. Either it is refused and nothing
 // changes, or the output is finite and passes the input checks.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <cstring>
-#include <limits>
 #include <tendril/humanoid/balance.hpp>
 #include <tendril/humanoid/body.hpp>
 #include <tendril/humanoid/feet_many.hpp>
@@ -48,22 +44,10 @@ class HostileHumanoid : public testing::Test {
     double between(double from, double to) { return from + (to - from) * unit(); }
     /// Any double: non-finite values too.
     double any() {
-        constexpr double numbers[]{0.0,
-                                   -0.0,
-                                   1e-300,
-                                   -1e-12,
-                                   1e-6,
-                                   1.0,
-                                   -3.0,
-                                   1e4,
-                                   1e8,
-                                   -1e9,
-                                   1.1e9,
-                                   1e18,
-                                   1e154,
-                                   1e300,
-                                   std::numeric_limits<double>::infinity(),
-                                   std::numeric_limits<double>::quiet_NaN()};
+        constexpr double endless = std::numeric_limits<double>::infinity(),
+                         none = std::numeric_limits<double>::quiet_NaN();
+        constexpr double numbers[]{0.0, -0.0, 1e-300, -1e-12, 1e-6,  1.0,   -3.0,    1e4,
+                                   1e8, -1e9, 1.1e9,  1e18,   1e154, 1e300, endless, none};
         return numbers[random.below(std::size(numbers))];
     }
     /// Usually a plausible value, sometimes any double.
@@ -172,8 +156,7 @@ TEST_F(HostileHumanoid, AnInvalidPoseIsRefusedAndTheStateStaysValid) {
                         targets.push_back(
                             {static_cast<Effector>(i), point(2.0, 50), std::nullopt, number(0.0, 2.0)});
                 if (!targets.empty() && random.chance(2)) targets[0].rotation = rotation();
-                BodyOptions options;
-                options.max_iterations = 1 + static_cast<int>(random.below(8));
+                BodyOptions options{.max_iterations = 1 + static_cast<int>(random.below(8))};
                 if (random.chance(10)) options.settle = any();
                 const BodyState before = body_state;
                 const Expected<BodyReport> report = solver->solve(pose, targets, body_state, options);
@@ -299,14 +282,14 @@ TEST(HumanoidMap, IsRefusedByItsBonesName) {
         EXPECT_FALSE(Body::make(body, map));
         return std::string(check(map, body).message());
     };
-    EXPECT_TRUE(test::says(said(Bone::LeftHand, 77), "bone map LeftHand skeleton 77"));
-    EXPECT_TRUE(test::says(said(Bone::LeftHand, -2), "bone map LeftHand skeleton -2"));
+    EXPECT_TRUE(says(said(Bone::LeftHand, 77), "bone map LeftHand skeleton 77"));
+    EXPECT_TRUE(says(said(Bone::LeftHand, -2), "bone map LeftHand skeleton -2"));
     EXPECT_TRUE(
-        test::says(said(Bone::RightHand, good[Bone::LeftHand].node), "bone map RightHand another LeftHand"));
+        says(said(Bone::RightHand, good[Bone::LeftHand].node), "bone map RightHand another LeftHand"));
     BoneMap swapped = good;
     std::swap(swapped[Bone::LeftUpperArm].node, swapped[Bone::LeftLowerArm].node);
     EXPECT_TRUE(
-        test::says(std::string(check(swapped, body).message()), "bone map LeftLowerArm above LeftUpperArm"));
+        says(std::string(check(swapped, body).message()), "bone map LeftLowerArm above LeftUpperArm"));
     EXPECT_TRUE(check(BoneMap{}, Skeleton{}));
 }
 

@@ -1,8 +1,6 @@
 // Joint limits of a body: the T-pose they refer to, the defaults, and limits learned from clips.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <random>
 #include <tendril/humanoid/limits.hpp>
 
 #include "humanoid_figure.hpp"
@@ -12,24 +10,19 @@ namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180.0;
 
-class HumanoidLimits : public testing::Test {
+class HumanoidLimits : public testing::Test, protected Figured {
   protected:
-    std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
     ik::JointAngles angles(Bone bone, const glm::dquat& turn) {
-        auto pose = rest_pose(skeleton);
+        auto pose = rest;
         pose[node(bone)].rotation = turn;
-        place(skeleton, pose, placements);
-        return joints.measure(bone, placements);
+        return joints.measure(bone, placed(pose));
     }
     float excess(Bone bone, double degrees, const glm::dvec3& axis) {
-        auto pose = rest_pose(skeleton);
+        auto pose = rest;
         pose[node(bone)].rotation = glm::angleAxis(degrees * degree, axis);
-        place(skeleton, pose, placements);
-        return joints.excess(bone, placements) / static_cast<float>(degree);
+        return joints.excess(bone, placed(pose)) / static_cast<float>(degree);
     }
 
-    Skeleton skeleton = make_figure({});
-    BoneMap map = match_bones(skeleton);
     BodyLimits limits = default_limits(skeleton, map);
     BodyJoints joints = *BodyJoints::make(skeleton, map, limits);
     std::vector<Placement> placements = std::vector<Placement>(skeleton.size());
@@ -115,8 +108,7 @@ TEST_F(HumanoidLimits, BothSidesTurnAlike) {
             const auto measured = [&](Bone each, const glm::dquat& by) {
                 auto pose = rest_pose(skeleton);
                 pose[node(each)].rotation = by;
-                place(skeleton, pose, placements);
-                return joints.excess(each, placements);
+                return joints.excess(each, placed(pose));
             };
             EXPECT_NEAR(measured(bone, turn), measured(mirrored(bone), other), 1e-5) << name(bone);
         }

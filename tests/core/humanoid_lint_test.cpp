@@ -1,11 +1,6 @@
 // Lint checks that need no feet: keys, jumps and scales, on skeletons of any kind.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <tendril/humanoid/attach.hpp>
 #include <tendril/humanoid/lint.hpp>
-#include <utility>
 
 #include "humanoid_figure.hpp"
 #include "random.hpp"
@@ -64,7 +59,7 @@ std::string texts(const LintReport& report) {
 }
 
 TEST(Lint, FindsNothingInACleanClip) {
-    for (const double rate : {24.0, 30.0, 60.0, 120.0}) {
+    for (const double rate : {24.0, 30.0, 60.0, 120.0})
         for (int i = 0; i < 20; ++i) {
             const LintReport report = lint_of(winding(rate, 50 + 7 * i, i));
             EXPECT_TRUE(report.findings.empty()) << rate << ": " << texts(report);
@@ -72,7 +67,6 @@ TEST(Lint, FindsNothingInACleanClip) {
             EXPECT_EQ(report.frames, static_cast<std::size_t>(50 + 7 * i));
             EXPECT_FALSE(report.has_floor);
         }
-    }
 }
 
 TEST(Lint, ReportsTheFrameRateOfTheKeys) {

@@ -1,17 +1,10 @@
 // A clip played on another skeleton: limbs point where the source's do, hips move in proportion.
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <glm/gtc/quaternion.hpp>
-#include <random>
 #include <tendril/humanoid/attach.hpp>
 #include <tendril/humanoid/lint.hpp>
 #include <tendril/humanoid/retarget.hpp>
 #include <tendril/humanoid/soles.hpp>
 #include <tendril/humanoid/t_pose.hpp>
 
-#include "tests/core/humanoid_figure.hpp"
 #include "tests/core/humanoid_walk.hpp"
 #include "tests/says.hpp"
 
@@ -276,15 +269,12 @@ TEST(HumanoidRetarget, TheRootTravelsAndHelpersFollowTheirBones) {
             EXPECT_EQ(now[camera].position, rest[camera].position);
             const bool is_key = time != 0.6;
             for (const auto& [helper, bone] :
-                 {std::pair{foot, node_of(Bone::LeftFoot)}, {hand, node_of(Bone::RightHand)}}) {
+                 {std::pair{foot, node_of(Bone::LeftFoot)}, {hand, node_of(Bone::RightHand)}})
                 EXPECT_LT(glm::distance(seen(now, helper, bone), seen(rest, helper, bone)),
                           is_key ? 1e-6 : 1e-3 * to.leg());
-            }
         }
     }
 }
-
-// ------------------------------------------------------------------------------------------------- walks
 
 /// The figure with other proportions, arms hanging at rest, toes turned out, and hands rotated.
 RetargetFigure other_figure(double legs, double feet, double hips) {

@@ -1,6 +1,4 @@
 // Skeletons in any node order, positions of nodes, and clips as glTF defines them.
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat4x4.hpp>
@@ -42,15 +40,15 @@ TEST(Skeleton, RefusesInvalidTreesAndSaysWhere) {
     const auto message = [](std::vector<Node> nodes) {
         return std::string(Skeleton::make(std::move(nodes)).message());
     };
-    EXPECT_TRUE(test::says(message({{"a", 1, {}}, {"b", 0, {}}}), "Skeleton nodes[0].parent below 1"));
-    EXPECT_TRUE(test::says(message({{"below", 1, {}}, {"a", 2, {}}, {"b", 1, {}}}),
-                           "Skeleton nodes[1].parent below 2"));
-    EXPECT_TRUE(test::says(message({{"a", -1, {}}, {"a", 0, {}}}), "Skeleton nodes[1].name nodes[0] a"));
-    EXPECT_TRUE(test::says(message({{"", -1, {}}}), "Skeleton nodes[0].name empty"));
-    EXPECT_TRUE(test::says(message({{"a", 1, {}}}), "Skeleton nodes[0].parent -1 1"));
+    EXPECT_TRUE(says(message({{"a", 1, {}}, {"b", 0, {}}}), "Skeleton nodes[0].parent below 1"));
+    EXPECT_TRUE(
+        says(message({{"below", 1, {}}, {"a", 2, {}}, {"b", 1, {}}}), "Skeleton nodes[1].parent below 2"));
+    EXPECT_TRUE(says(message({{"a", -1, {}}, {"a", 0, {}}}), "Skeleton nodes[1].name nodes[0] a"));
+    EXPECT_TRUE(says(message({{"", -1, {}}}), "Skeleton nodes[0].name empty"));
+    EXPECT_TRUE(says(message({{"a", 1, {}}}), "Skeleton nodes[0].parent -1 1"));
     std::vector<Node> nodes = line(3);
     nodes[1].rest.scale.y = 0.0;
-    EXPECT_TRUE(test::says(message(nodes), "Skeleton nodes[1].rest.scale.y non-zero 0"));
+    EXPECT_TRUE(says(message(nodes), "Skeleton nodes[1].rest.scale.y non-zero 0"));
     nodes[1].rest.scale.y = std::numeric_limits<double>::quiet_NaN();
     EXPECT_NE(message(nodes), "");
     EXPECT_NE(message(line(Skeleton::max_nodes + 1)), "");
@@ -102,8 +100,7 @@ TEST(Placement, RotationEqualsATransformsAtAnyScale) {
     }
     for (const glm::dvec3 flat :
          {glm::dvec3(0, 1, 1), glm::dvec3(1, 0, 1), glm::dvec3(1, 1, 0), glm::dvec3(0, 0, 0)}) {
-        rig::Transform t;
-        t.scale = flat;
+        rig::Transform t{.scale = flat};
         const glm::dquat rotation = placement(t).rotation();
         EXPECT_NEAR(glm::length(rotation), 1.0, 1e-12) << "a scale of 0 leaves a rotation";
     }
@@ -193,14 +190,12 @@ TEST(Clip, RefusesInvalidClipsAndSaysWhere) {
     };
     const Track<glm::dvec3> good{Interpolation::Linear, {0.0, 1.0}, {{0, 0, 0}, {1, 0, 0}}};
     EXPECT_EQ(message({.translation = good}), "");
-    EXPECT_TRUE(test::says(message({.node = 2, .translation = good}), "Clip c channels[0].node 2"));
+    EXPECT_TRUE(says(message({.node = 2, .translation = good}), "Clip c channels[0].node 2"));
     Track<glm::dvec3> bad = good;
     bad.times[1] = 0.0;
-    EXPECT_TRUE(
-        test::says(message({.translation = bad}), "Clip c channels[0].translation.times[1] before 0"));
+    EXPECT_TRUE(says(message({.translation = bad}), "Clip c channels[0].translation.times[1] before 0"));
     bad.times[1] = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_TRUE(
-        test::says(message({.translation = bad}), "Clip c channels[0].translation.times[1] duration nan"));
+    EXPECT_TRUE(says(message({.translation = bad}), "Clip c channels[0].translation.times[1] duration nan"));
     bad = good;
     bad.values[0].y = std::numeric_limits<double>::infinity();
     EXPECT_NE(message({.scale = bad}).find("channels[0].scale.values[0]"), std::string::npos);

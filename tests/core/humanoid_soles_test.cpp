@@ -1,6 +1,4 @@
 // Heels and toes from skeleton and map, for any bone axes and origin.
-#include <gtest/gtest.h>
-
 #include <tendril/humanoid/soles.hpp>
 #include <tendril/humanoid/t_pose.hpp>
 
@@ -88,9 +86,9 @@ TEST(Soles, AreInTheirBonesSpaces) {
     place(plain, rest_pose(plain), placements);
     std::vector<Node> nodes = plain.nodes();
     const auto axes_of = [](std::size_t i) {
-        rig::Transform t;
-        t.rotation = glm::angleAxis(0.9 * static_cast<double>(i), glm::normalize(glm::dvec3(1, 2, 3)));
-        t.scale = glm::dvec3(0.5 + 0.1 * static_cast<double>(i));
+        rig::Transform t{
+            .rotation = glm::angleAxis(0.9 * static_cast<double>(i), glm::normalize(glm::dvec3(1, 2, 3))),
+            .scale = glm::dvec3(0.5 + 0.1 * static_cast<double>(i))};
         return t;
     };
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -157,7 +155,7 @@ TEST(Soles, RefuseAnUnusableMap) {
     BoneMap map = match_bones(skeleton);
     map[Bone::LeftFoot].node = -1;
     review(map, skeleton);
-    EXPECT_TRUE(test::says(find_soles(skeleton, map).message(), "find_soles map LeftFoot"));
+    EXPECT_TRUE(says(find_soles(skeleton, map).message(), "find_soles map LeftFoot"));
     map = match_bones(skeleton);
     map[Bone::Head].node = 1000;
     EXPECT_FALSE(find_soles(skeleton, map));

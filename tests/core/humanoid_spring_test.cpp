@@ -1,13 +1,6 @@
 // Spring bones follow the analytic solution at any frame rate, keep lengths and cone, and survive any input.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <glm/gtc/constants.hpp>
-#include <glm/gtc/quaternion.hpp>
-#include <limits>
-#include <random>
 #include <tendril/humanoid/spring_chain.hpp>
 
 #include "humanoid_figure.hpp"
@@ -121,7 +114,7 @@ std::vector<glm::dvec3> tip_positions(double dt, std::mt19937* jitter) {
     Antenna antenna(6);
     std::vector<glm::dvec3> tips;
     double t = 0.0;
-    for (int mark = 1; mark <= 8; ++mark) {
+    for (int mark = 1; mark <= 8; ++mark)
         while (t < 0.5 * mark - 1e-9) {
             double step = dt;
             if (jitter != nullptr) step *= std::uniform_real_distribution<double>(0.5, 1.5)(*jitter);
@@ -132,7 +125,6 @@ std::vector<glm::dvec3> tip_positions(double dt, std::mt19937* jitter) {
             tips.resize(static_cast<std::size_t>(mark), glm::dvec3(0.0));
             tips.back() = antenna.tip(antenna.step(at, turn, {}, step));
         }
-    }
     return tips;
 }
 
@@ -156,10 +148,7 @@ TEST(SpringChain, FrameRatesMakeLittleDifference) {
 }
 
 TEST(SpringChain, KeepsLengthsConeAndAllOtherNodes) {
-    std::mt19937 random(5);
-    const auto number = [&](double from, double to) {
-        return std::uniform_real_distribution<double>(from, to)(random);
-    };
+    RandomPoses number(5);
     Antenna antenna(5);
     double farthest = 0.0;
     for (int frame = 0; frame < 3000; ++frame) {
@@ -274,10 +263,7 @@ TEST(SpringChain, SizeMakesNoDifference) {
 
 /// Tips stay outside of one sphere or capsule that passes through the antenna, and bones keep their lengths.
 TEST(SpringChain, StaysOutsideAColliderWithLengthsKept) {
-    std::mt19937 random(7);
-    const auto number = [&](double from, double to) {
-        return std::uniform_real_distribution<double>(from, to)(random);
-    };
+    RandomPoses number(7);
     int held = 0;
     for (int run = 0; run < 200; ++run) {
         Antenna antenna(5);
@@ -372,17 +358,14 @@ TEST(SpringChain, AcceptsBranchesAndASingleNode) {
     const auto refusal = [&](const char* name) {
         return std::string(SpringChain::make(skeleton, map, *skeleton.find(name)).error().message());
     };
-    EXPECT_TRUE(test::says(refusal("mark"), "SpringChain root length mark"));
-    EXPECT_TRUE(test::says(refusal("Neck"), "SpringChain root bone body Neck"));
-    EXPECT_TRUE(test::says(refusal("Hips"), "SpringChain root parent Hips"));
+    EXPECT_TRUE(says(refusal("mark"), "SpringChain root length mark"));
+    EXPECT_TRUE(says(refusal("Neck"), "SpringChain root bone body Neck"));
+    EXPECT_TRUE(says(refusal("Hips"), "SpringChain root parent Hips"));
     EXPECT_FALSE(SpringChain::make(skeleton, map, skeleton.size()));
 }
 
 TEST(SpringChain, SurvivesAnyInputWithoutAllocating) {
-    std::mt19937 random(11);
-    const auto number = [&](double from, double to) {
-        return std::uniform_real_distribution<double>(from, to)(random);
-    };
+    RandomPoses number(11);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     Antenna antenna(5);
     antenna.step({0, 1, 0}, {}, 0.1);

@@ -1,8 +1,6 @@
 // Twist distribution along the arms: the measure of twist, and the nodes that share it.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <random>
 #include <tendril/humanoid/body.hpp>
 #include <tendril/humanoid/hands.hpp>
 #include <tendril/humanoid/twist.hpp>

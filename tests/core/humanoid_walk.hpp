@@ -2,7 +2,6 @@
 // micrometre.
 #pragma once
 
-#include <cmath>
 #include <tendril/humanoid/clip.hpp>
 
 #include "humanoid_figure.hpp"

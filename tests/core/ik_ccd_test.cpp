@@ -12,16 +12,13 @@ void textbook_iteration(Wide& joints, glm::dvec3 target) {
         const glm::dvec3 a = joints.back() - joints[i], b = target - joints[i], axis = cross(a, b);
         if (glm::length(axis) < 1e-12) continue;
         const double angle = std::atan2(glm::length(axis), dot(a, b));
-        for (std::size_t k = i + 1; k < joints.size(); ++k) {
+        for (std::size_t k = i + 1; k < joints.size(); ++k)
             joints[k] = joints[i] + turned(joints[k] - joints[i], axis / glm::length(axis), angle);
-        }
     }
 }
 
 ik::Options iterations(int count) {
-    ik::Options options;
-    options.max_iterations = count;
-    options.every_iteration = true;
+    ik::Options options{.max_iterations = count, .every_iteration = true};
     return options;
 }
 
@@ -39,10 +36,9 @@ TEST(IkCcd, MatchesTheTextbook) {
         // A solve returns its best pose; here that must be the one after the iteration.
         if (glm::length(wide.back() - glm::dvec3(target)) > 0.99 * before) continue;
         KeptSolver(lengths).solve(Method::Ccd, joints, target, iterations(1));
-        for (std::size_t i = 0; i < joints.size(); ++i) {
+        for (std::size_t i = 0; i < joints.size(); ++i)
             worst =
                 std::max(worst, glm::length(glm::dvec3(joints[i]) - wide[i]) / static_cast<double>(reach));
-        }
     }
     std::printf("worst deviation %.2g of the reach\n", worst);
     EXPECT_LT(worst, 2e-5);
@@ -71,14 +67,11 @@ TEST(IkCcd, HandlesATipOrTargetOnAJointAndHalfATurn) {
     const Lengths three(3, 1.0f);
     const Joints folded{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 0, 0}};
     const Joints ring{{0, 0, 0}, {1, 0, 0}, {0.5f, 0.8660254f, 0}, {0, 0, 0}};
-    for (const Joints& start : {folded, ring}) {
+    for (const Joints& start : {folded, ring})
         for (const glm::vec3 target : {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 0, 0),
-                                       glm::vec3(0.5f, 0.8660254f, 0), glm::vec3(-0.3f, -0.4f, 0)}) {
-            for (const int count : {1, 2, 50}) {
+                                       glm::vec3(0.5f, 0.8660254f, 0), glm::vec3(-0.3f, -0.4f, 0)})
+            for (const int count : {1, 2, 50})
                 expect_invariants(Method::Ccd, three, start, target, iterations(count));
-            }
-        }
-    }
 }
 
 TEST(IkCcd, ReachesTargetsInTheMiddleOfItsRange) {

@@ -2,15 +2,9 @@
 // frames, fit, weights, jumps, and hostile input.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include <cmath>
 #include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <optional>
-#include <vector>
 
 #include "memory.hpp"
 #include "random.hpp"
@@ -138,8 +132,6 @@ TEST(IkCurve, BothKindsBeginAndEndOnTheControlPoints) {
     EXPECT_EQ(ik::curve_point(random_points(random, 6), CurveKind::Hermite, nan), glm::vec3(0.0f));
 }
 
-// ---------------------------------------------------------------------------------------------- rotations
-
 TEST(IkCurve, RotationsTakeTheRestDirectionsToTheBones) {
     Random random(9);
     for (int trial = 0; trial < 200; ++trial) {
@@ -206,8 +198,6 @@ TEST(IkCurve, FramesOnAHelixTurnAsItsGeometrySays) {
     EXPECT_NEAR(std::abs(found), two_pi * sine, 0.02f);
 }
 
-// ------------------------------------------------------------------------------------------- fit, weights
-
 TEST(IkCurve, AFittedChainEndsOnTheLastControlPoint) {
     Random random(13);
     int fitted = 0;
@@ -265,8 +255,6 @@ TEST(IkCurve, WeightsLeaveBonesInPlaceAndKeepLengths) {
     }
     EXPECT_LE(glm::distance(half.joints[0], 0.5f * points[0]), 1e-6f);
 }
-
-// ---------------------------------------------------------------------------------------- small movements
 
 TEST(IkCurve, ASmallChangeMovesJointsLittleUnlessAJumpIsReported) {
     Random random(23);
@@ -358,8 +346,6 @@ TEST(IkCurve, AJumpIsAnotherCrossingForAnyMotion) {
     }
     EXPECT_GE(jumps, 50);
 }
-
-// ------------------------------------------------------------------------------------------------ hostile
 
 TEST(IkCurve, DegenerateCurvesGiveFiniteChainsOfTheirLengths) {
     Random random(31);

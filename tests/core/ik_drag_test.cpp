@@ -1,6 +1,6 @@
 // Dragging a target against limits: the chain follows from its state, without jumps or restarts.
 #include "ik_hostile.hpp"
-#include "ik_limited_support.hpp"
+#include "ik_limit_support.hpp"
 
 namespace tendril::test::ik_drag_test {
 namespace {

@@ -1,6 +1,6 @@
 // Explanations: the limit that keeps the tip from the target, its value, and the angle that the target needs.
 #include "ik_hostile.hpp"
-#include "ik_limited_support.hpp"
+#include "ik_limit_support.hpp"
 
 namespace tendril::test::ik_explain_test {
 namespace {

@@ -1,8 +1,5 @@
 // FABRIK and the loop around every method: the two passes by hand, reachability, collinear singularities,
 // snap-back, the soft zone, and the pose kept if nothing helps.
-#include <algorithm>
-#include <array>
-
 #include "ik_support.hpp"
 
 namespace tendril::test::ik_fabrik_test {
@@ -15,10 +12,9 @@ using ik::Status;
 
 void expect_near(const Joints& joints, const Joints& expected, double tolerance = 1e-5) {
     ASSERT_EQ(joints.size(), expected.size());
-    for (std::size_t i = 0; i < joints.size(); ++i) {
+    for (std::size_t i = 0; i < joints.size(); ++i)
         EXPECT_LE(distance(joints[i], expected[i]), tolerance)
             << "joint " << i << " is at " << joints[i].x << ' ' << joints[i].y << ' ' << joints[i].z;
-    }
 }
 
 TEST(IkFabrik, OneIterationIsTwoPulls) {
@@ -123,9 +119,8 @@ TEST(IkFabrik, EveryStartOnTheLineConverges) {
         const glm::vec3 root = random.chance(2) ? glm::vec3(0) : random.point(8.0f);
         Joints joints{root};
         const bool folds = random.chance(2);
-        for (const float length : lengths) {
+        for (const float length : lengths)
             joints.push_back(joints.back() + along * (folds && random.chance(2) ? -length : length));
-        }
         const float off = random.chance(4) ? between(random, 0.0f, 0.01f) : part(random);
         const float far = (nearest + (reach - nearest) * off) * (random.chance(2) ? -1.0f : 1.0f);
         // Starts slightly off the line are as hard: by a thousandth of the reach, or a millionth.

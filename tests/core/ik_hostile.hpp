@@ -40,9 +40,8 @@ inline Joints hostile_pose(std::span<const float> lengths, Random& random) {
     if (random.chance(4)) return straight_joints(lengths, along, root);
     if (!random.chance(4)) return some_pose(lengths, random, root);
     Joints joints{root};
-    for (const float length : lengths) {
+    for (const float length : lengths)
         joints.push_back(joints.back() + along * (random.chance(2) ? length : -length));
-    }
     return joints;
 }
 
@@ -97,9 +96,8 @@ inline void expect_invariants_always(ik::Method method, int solves) {
         const Lengths lengths = hostile_lengths(random);
         const Joints start = hostile_pose(lengths, random);
         const glm::vec3 target = hostile_target(start, lengths, random);
-        ik::Options options;
-        options.max_iterations = 1 + static_cast<int>(random.below(40));
-        options.every_iteration = random.chance(5);
+        ik::Options options{.max_iterations = 1 + static_cast<int>(random.below(40)),
+                            .every_iteration = random.chance(5)};
         if (random.chance(4)) options.damping = 1e-6f;
         // Farther out, the spacing of floats exceeds the tolerance of bone lengths.
         const bool near = reach_of(lengths) < 500.0;

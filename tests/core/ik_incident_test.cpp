@@ -5,13 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <random>
-#include <string>
-#include <vector>
 
 namespace tendril::ik {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "field_values.hpp"
 #include "ik_support.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test::ik_input_test {
 namespace {
@@ -16,7 +15,7 @@ using ik::Status;
 const Lengths lengths{1.0f, 0.5f};  // two, accepted by every method
 constexpr Report refused{Status::InvalidInput, 0, 0.0f};
 
-/// `why`: the message of check_input(), in the form of test::says().
+/// `why`: the message of check_input(), in the form of says().
 void expect_refused(const std::string& why, const Options& options, glm::vec3 target = {0.5f, 0.5f, 0.5f},
                     Joints start = {{0, 0, 0}, {1, 0, 0}, {1, 0.5f, 0}}) {
     for (const Method method : ik::all_methods) {
@@ -25,7 +24,7 @@ void expect_refused(const std::string& why, const Options& options, glm::vec3 ta
         Joints joints = start;
         Recorder recorder;
         const Result reason = checker.check_input(method, joints, solver.state, target, options);
-        EXPECT_TRUE(test::says(reason.message(), "solve " + why)) << name(method);
+        EXPECT_TRUE(says(reason.message(), "solve " + why)) << name(method);
         EXPECT_EQ(solver.solve(method, joints, target, options, &recorder), refused) << name(method);
         EXPECT_TRUE(same_bits(joints, start)) << name(method);
         EXPECT_TRUE(recorder.steps.empty() && recorder.iterations.empty()) << name(method);
@@ -33,7 +32,7 @@ void expect_refused(const std::string& why, const Options& options, glm::vec3 ta
 }
 
 TEST(IkInput, NonFiniteAndTooLargeNumbersAreRefused) {
-    for (const float bad : {nan, infinity, -infinity, 1.1e9f, -2e9f}) {
+    for (const float bad : {nan, infinity, -infinity, 1.1e9f, -2e9f})
         for (int axis = 0; axis < 3; ++axis) {
             glm::vec3 point(0.5f);
             point[axis] = bad;
@@ -46,7 +45,6 @@ TEST(IkInput, NonFiniteAndTooLargeNumbersAreRefused) {
                 expect_refused("joints[" + std::to_string(joint) + "]" + at, {}, {1, 1, 0}, start);
             }
         }
-    }
 }
 
 TEST(IkInput, AnyOptionOutOfRangeIsRefused) {
@@ -105,8 +103,7 @@ TEST(IkInput, ASolverRefusesBadLengthsAndDirections) {
     EXPECT_TRUE(Solver::make(lengths, two));
     EXPECT_FALSE(Solver::make(Lengths{1.0f}, two));
     EXPECT_FALSE(Solver::make(lengths, not_unit));
-    EXPECT_TRUE(
-        test::says(Solver::make(Lengths{1.0f, -1.0f}).message(), "Solver lengths[1] finite 0 1e9 -1"));
+    EXPECT_TRUE(says(Solver::make(Lengths{1.0f, -1.0f}).message(), "Solver lengths[1] finite 0 1e9 -1"));
     EXPECT_EQ(Solver(Chain()).bones(), 0u);
     EXPECT_EQ(Solver(straight(1)).bones(), 0u);
 }
@@ -143,10 +140,9 @@ TEST(IkInput, HostileButValidInputNeverGivesNaN) {
         EXPECT_EQ(report.status == Status::InvalidInput, method == Method::TwoBone && some.size() != 2);
         EXPECT_TRUE(std::isfinite(report.residual)) << name(method) << ", case " << i;
         EXPECT_TRUE(same_bits(joints.front(), root)) << name(method) << ", case " << i;
-        for (const glm::vec3& joint : joints) {
+        for (const glm::vec3& joint : joints)
             EXPECT_TRUE(std::isfinite(joint.x) && std::isfinite(joint.y) && std::isfinite(joint.z))
                 << name(method) << ", case " << i;
-        }
     }
 }
 

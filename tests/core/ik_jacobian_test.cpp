@@ -1,5 +1,4 @@
 // The Jacobian solvers against the explicit 3 x 3n Jacobian and elimination in double, unused by the library.
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -40,27 +39,24 @@ Matrix jacobian(const Joints& joints) {
     for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
         const glm::dvec3 r = glm::dvec3(joints.back()) - glm::dvec3(joints[i]);
         const double columns[3][3] = {{0, -r.z, r.y}, {r.z, 0, -r.x}, {-r.y, r.x, 0}};
-        for (const auto& column : columns) {
+        for (const auto& column : columns)
             for (std::size_t row = 0; row < 3; ++row) j[row].push_back(column[row]);
-        }
     }
     return j;
 }
 
 Vector transposed_times(const Matrix& j, const Vector& e) {
     Vector result(j[0].size(), 0.0);
-    for (std::size_t c = 0; c < result.size(); ++c) {
+    for (std::size_t c = 0; c < result.size(); ++c)
         for (std::size_t r = 0; r < 3; ++r) result[c] += j[r][c] * e[r];
-    }
     return result;
 }
 
 Matrix squared(const Matrix& j, double damping) {
     Matrix result(3, Vector(3, 0.0));
     for (std::size_t r = 0; r < 3; ++r) {
-        for (std::size_t s = 0; s < 3; ++s) {
+        for (std::size_t s = 0; s < 3; ++s)
             for (std::size_t c = 0; c < j[0].size(); ++c) result[r][s] += j[r][c] * j[s][c];
-        }
         result[r][r] += damping;
     }
     return result;
@@ -124,10 +120,7 @@ void expect_first_order(Method method, float damping, bool damped) {
         const double lambda_squared = damped ? std::pow(static_cast<double>(damping), 2.0) * 0.002 : 0.0;
         const glm::dvec3 expected = moved_tip(start, j, expected_turns(method, j, e, lambda_squared));
         Joints joints = start;
-        ik::Options options;
-        options.max_iterations = 1;
-        options.tolerance = 0.0f;
-        options.damping = damping;
+        ik::Options options{.tolerance = 0.0f, .max_iterations = 1, .damping = damping};
         KeptSolver(lengths).solve(method, joints, target, options);
         EXPECT_LT(distance(joints.back(), glm::vec3(expected)), 2e-5) << "a hundredth of the way";
     }
@@ -151,10 +144,7 @@ TEST(IkJacobian, TheSvdDampsTheNearlySingularDirection) {
     // Nearly straight along x: y and z are free, x is nearly lost.
     const Lengths lengths(4, 0.25f);
     const Joints start{{0, 0, 0}, {0.25f, 0, 0}, {0.4999f, 0.005f, 0}, {0.7499f, 0.005f, 0}, {0.9999f, 0, 0}};
-    ik::Options options;
-    options.max_iterations = 1;
-    options.tolerance = 0.0f;
-    options.damping = 1.0f;
+    ik::Options options{.tolerance = 0.0f, .max_iterations = 1, .damping = 1.0f};
     Joints across = start, along = start;
     KeptSolver solver(lengths);
     const glm::vec3 tip = start.back();
@@ -170,9 +160,7 @@ TEST(IkJacobian, AllJointsTurnAtOnce) {
     for (const Method method : {Method::JacobianTranspose, Method::Dls, Method::SvdDls}) {
         Joints joints = some_pose(lengths, random);
         Recorder recorder;
-        ik::Options options;
-        options.max_iterations = 3;
-        options.every_iteration = true;
+        ik::Options options{.max_iterations = 3, .every_iteration = true};
         KeptSolver(lengths).solve(method, joints, {1, 1, 1}, options, &recorder);
         std::size_t turns = 0;
         for (const ik::Step& step : recorder.steps) turns += step.phase == ik::Phase::Gradient;
@@ -228,19 +216,16 @@ TEST(IkJacobian, DampedMethodsReachUpToTheRimInAHundredIterations) {
 
 TEST(IkJacobian, EveryDampingConverges) {
     Random random(14);
-    for (const float damping : {1e-6f, 1e-3f, 0.1f, 0.5f}) {
-        for (const Method method : {Method::Dls, Method::SvdDls}) {
+    for (const float damping : {1e-6f, 1e-3f, 0.1f, 0.5f})
+        for (const Method method : {Method::Dls, Method::SvdDls})
             for (int k = 0; k < 100; ++k) {
                 const Lengths lengths = some_lengths(4 + random.below(6), random);
                 Joints joints = some_pose(lengths, random);
                 const glm::vec3 target = some_direction(random) * some_span(lengths, 0.3f, 0.98f, random);
-                ik::Options options;
-                options.damping = damping;
+                ik::Options options{.damping = damping};
                 const ik::Report report = KeptSolver(lengths).solve(method, joints, target, options);
                 EXPECT_EQ(report.status, Status::Converged) << name(method) << ", damping " << damping;
             }
-        }
-    }
 }
 
 TEST(IkJacobian, SurvivesAnyInput) {

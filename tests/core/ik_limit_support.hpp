@@ -1,16 +1,13 @@
 // An independent measurement of limits: in double, with matrices instead of quaternions, from the joints and
-// rotations that a solve leaves. Tests that solve include ik_limited_support.hpp.
+// rotations that a solve leaves.
 #pragma once
 
-#include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "ik_poses.hpp"
+#include "ik_support.hpp"
 #include "tendril/ik/limit.hpp"
 
 namespace tendril::test {
-
-class KeptSolver;
 
 inline constexpr double degree = 3.14159265358979323846 / 180.0;
 
@@ -34,7 +31,7 @@ struct Arm {
             joints.push_back(joints.back() + rest[i] * lengths[i]);
         return joints;
     }
-    KeptSolver solver() const;
+    KeptSolver solver() const { return KeptSolver(lengths, rest); }
 };
 
 struct Frame {
@@ -117,18 +114,16 @@ inline ::testing::AssertionResult WithinLimits(const Arm& arm, std::span<const g
                                                std::span<const glm::quat> rotations) {
     for (std::size_t i = 0; i < arm.lengths.size(); ++i) {
         const double over = degrees(over_limit(arm.limits[i], arm.rest[i], local_turn(rotations, i)));
-        if (!(over <= 0.1)) {
+        if (!(over <= 0.1))
             return ::testing::AssertionFailure() << "joint " << i << " (" << ik::name(arm.limits[i].kind)
                                                  << ") is over by " << over << " degrees";
-        }
         const double length = arm.lengths[i];
         const glm::dvec3 from(joints[i]), bone = glm::dvec3(joints[i + 1]) - from;
         const glm::dvec3 said = matrix_of(rotations[i]) * glm::normalize(glm::dvec3(arm.rest[i])) * length;
         // The resolution of float directions at that distance.
         const double rounding = 1e-6 * (glm::length(from) + static_cast<double>(arm.reach()));
-        if (!(glm::length(bone - said) <= 1e-3 * length + rounding)) {
+        if (!(glm::length(bone - said) <= 1e-3 * length + rounding))
             return ::testing::AssertionFailure() << "bone " << i << " does not lie as its rotation says";
-        }
     }
     return ::testing::AssertionSuccess();
 }
@@ -143,9 +138,7 @@ inline glm::vec3 some_axis(Random& random, glm::vec3 bone) {
 }
 
 inline ik::Limit some_cone(Random& random, glm::vec3 axis) {
-    ik::Limit limit;
-    limit.kind = ik::JointKind::BallAndSocket;
-    limit.axis = axis;
+    ik::Limit limit{.kind = ik::JointKind::BallAndSocket, .axis = axis};
     limit.up = radians(150) * part(random), limit.down = radians(150) * part(random);
     limit.left = radians(150) * part(random), limit.right = radians(150) * part(random);
     limit.twist_min = -radians(90) * part(random), limit.twist_max = radians(90) * part(random);

@@ -1,6 +1,5 @@
 // A single limit: presets, validation, angles, excess.
 #include "ik_limit_support.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test::ik_limit_test {
 namespace {
@@ -44,11 +43,11 @@ TEST(IkLimit, FaultNamesTheError) {
         return std::string(text ? text : "nothing");
     };
     const Limit hinge = Limit::hinge(z, 0, 1), ball = Limit::of(JointKind::BallAndSocket);
-    EXPECT_TRUE(test::says(said([](Limit& l) { l.axis = {0, 0, 0}; }, hinge), "hinge axis length"));
-    EXPECT_TRUE(test::says(said([](Limit& l) { l.axis = {0, 0, 0}; }, ball), "limit axis length"));
-    EXPECT_TRUE(test::says(said([](Limit& l) { l.axis.y = nan; }, hinge), "hinge axis finite"));
-    EXPECT_TRUE(test::says(said([](Limit& l) { l.axis.y = infinity; }, ball), "limit axis finite"));
-    EXPECT_TRUE(test::says(said([](Limit& l) { l.min = 2; }, hinge), "hinge min max"));
+    EXPECT_TRUE(says(said([](Limit& l) { l.axis = {0, 0, 0}; }, hinge), "hinge axis length"));
+    EXPECT_TRUE(says(said([](Limit& l) { l.axis = {0, 0, 0}; }, ball), "limit axis length"));
+    EXPECT_TRUE(says(said([](Limit& l) { l.axis.y = nan; }, hinge), "hinge axis finite"));
+    EXPECT_TRUE(says(said([](Limit& l) { l.axis.y = infinity; }, ball), "limit axis finite"));
+    EXPECT_TRUE(says(said([](Limit& l) { l.min = 2; }, hinge), "hinge min max"));
     EXPECT_NE(said([](Limit& l) { l.min = nan; }, hinge), "nothing");
     EXPECT_NE(said([](Limit& l) { l.max = 4; }, hinge), "nothing");
     EXPECT_NE(said([](Limit& l) { l.min = -infinity; }, hinge), "nothing");
@@ -67,7 +66,7 @@ TEST(IkLimit, FaultNamesTheError) {
 TEST(IkLimit, AnAxisAlongTheBoneIsFoundOnlyGivenTheBone) {
     const Limit hinge = Limit::hinge(x * -3.0f, 0, 1);
     EXPECT_EQ(fault(hinge), nullptr);
-    EXPECT_TRUE(test::says(fault(hinge, x), "hinge axis along bone"));
+    EXPECT_TRUE(says(fault(hinge, x), "hinge axis along bone"));
     EXPECT_EQ(fault(hinge, y), nullptr);
     EXPECT_EQ(fault(Limit::hinge(x + y * 0.01f, 0, 1), x), nullptr);
     EXPECT_EQ(fault(Limit::hinge(z * 1e9f, 0, 1), x), nullptr);

@@ -1,7 +1,6 @@
 // Solves with limits: limits hold, targets are reached from rest, the better pose is kept, steps replay.
 #include "ik_hostile.hpp"
-#include "ik_limited_support.hpp"
-#include "tests/labels.hpp"
+#include "ik_limit_support.hpp"
 
 namespace tendril::test::ik_limited_test {
 namespace {
@@ -75,9 +74,7 @@ double arrived(Method method, ArmKind kind, std::size_t bones, int count, std::u
         const glm::vec3 target = some_tip(arm, random);
         KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
-        ik::Options options;
-        options.limits = arm.limits;
-        options.max_iterations = 200;
+        ik::Options options{.max_iterations = 200, .limits = arm.limits};
         const ik::Report report = solver.solve(method, joints, target, options);
         EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations()));
         there += report.residual <= 1e-2f * arm.reach();
@@ -169,9 +166,7 @@ TEST(IkLimited, ASolveNeverEndsFartherFromTheTarget) {
         const Arm arm = hostile_arm(random);
         KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
-        ik::Options options;
-        options.limits = arm.limits;
-        options.max_iterations = 30;
+        ik::Options options{.max_iterations = 30, .limits = arm.limits};
         solver.solve(Method::Fabrik, joints, some_direction(random) * arm.reach(), options);
         for (const Method method : iterating_methods) {
             const glm::vec3 target = hostile_target(joints, arm.lengths, random);
@@ -230,9 +225,8 @@ TEST(IkLimited, AnArmThatFollowsRarelyJumps) {
             solver.solve(Method::Fabrik, joints, from + (to - from) * (static_cast<float>(i) / 300.0f),
                          options);
             double furthest = 0;
-            for (std::size_t j = 0; j < joints.size(); ++j) {
+            for (std::size_t j = 0; j < joints.size(); ++j)
                 furthest = std::max(furthest, distance(joints[j], before[j]));
-            }
             jumps += furthest > 0.05 * static_cast<double>(arm.reach());
         }
     }

@@ -1,13 +1,5 @@
 // Random linkages: closed for any drive and drag, from any state, there and back; and hostile ones.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-
 #include "ik_linkage_support.hpp"
-#include "random.hpp"
-#include "tendril/ik/mechanisms.hpp"
 
 namespace tendril::test::ik_linkage_random_test {
 namespace {
@@ -108,11 +100,10 @@ Linkage random_linkage(Random& random) {
     Linkage linkage;
     const std::size_t count = 1 + random.below(8);
     for (std::size_t i = 0; i < count; ++i) {
-        Link link;
-        link.parent = i > 0 && !random.chance(3) ? random.below(i) : ground_link;
-        link.joint = static_cast<LinkJoint>(random.below(3));
-        link.at = random.chance(6) ? glm::dvec3(0.0) : place();
-        link.axis = glm::dvec3(random.point(1.0f)) + glm::dvec3(0.0, 0.0, 1e-3);
+        Link link{.parent = i > 0 && !random.chance(3) ? random.below(i) : ground_link,
+                  .joint = static_cast<LinkJoint>(random.below(3)),
+                  .at = random.chance(6) ? glm::dvec3(0.0) : place(),
+                  .axis = glm::dvec3(random.point(1.0f)) + glm::dvec3(0.0, 0.0, 1e-3)};
         if (random.chance(3)) {
             const double width = random.chance(4) ? 0.0 : static_cast<double>(random.part());
             link.minimum = -width;
@@ -123,10 +114,9 @@ Linkage random_linkage(Random& random) {
     }
     for (std::size_t i = random.below(4); i-- > 0 && count > 1;) {
         const std::size_t first = 1 + random.below(count - 1);
-        Closure closure;
-        closure.kind = random.chance(3) ? ClosureKind::Frame : ClosureKind::Point;
-        closure.first = first;
-        closure.second = random.chance(2) ? ground_link : random.below(first);
+        Closure closure{.kind = random.chance(3) ? ClosureKind::Frame : ClosureKind::Point,
+                        .first = first,
+                        .second = random.chance(2) ? ground_link : random.below(first)};
         closure.first_at = closure.second_at = place();
         if (random.chance(2)) closure.second_at = place();
         linkage.closures.push_back(closure);
@@ -184,10 +174,9 @@ TEST(Linkage, TwoHundredContradictingLinksEndWithAStatus) {
     for (const bool space : {false, true}) {
         Linkage linkage;
         for (std::size_t i = 0; i < 200; ++i) {
-            Link link;
-            link.parent = i % 10 == 0 ? ground_link : i - 1;
-            link.joint = space ? static_cast<LinkJoint>(random.below(3)) : LinkJoint::Hinge;
-            link.at = i % 7 == 3 ? linkage.links[i - 1].at : random_place(random, 2.0f);
+            Link link{.parent = i % 10 == 0 ? ground_link : i - 1,
+                      .joint = space ? static_cast<LinkJoint>(random.below(3)) : LinkJoint::Hinge,
+                      .at = i % 7 == 3 ? linkage.links[i - 1].at : random_place(random, 2.0f)};
             if (random.chance(4) && link.joint != LinkJoint::Ball) link.minimum = link.maximum = 0.0;
             if (random.chance(8)) link.maximum = 0.0;
             linkage.links.push_back(link);

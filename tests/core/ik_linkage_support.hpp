@@ -1,13 +1,13 @@
 // Linkages driven and inspected by name, and random ones.
 #pragma once
 
-#include <cstddef>
+#include <glm/geometric.hpp>
 #include <numbers>
-#include <string>
-#include <utility>
 
+#include "memory.hpp"
 #include "random.hpp"
 #include "tendril/ik/mechanisms.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test::linkage {
 
@@ -51,14 +51,13 @@ inline glm::dvec3 random_place(Random& random, float range) {
 
 /// Two cranks of 1 m, joined by an elbow.
 inline LinkageSketch five_bar() {
-    LinkageSketch sketch;
-    sketch.points = {{"A", {0, 0}, SketchHold::Pinned},
-                     {"B", {0, 1}},
-                     {"C", {1, 1.8}},
-                     {"D", {2, 1}},
-                     {"E", {2, 0}, SketchHold::Pinned}};
-    sketch.bars = {{"left", {0, 1}}, {"BC", {1, 2}}, {"CD", {2, 3}}, {"right", {4, 3}}};
-    sketch.motors = {{"left", 0, 0}, {"right", 4, 3}};
+    LinkageSketch sketch{.points = {{"A", {0, 0}, SketchHold::Pinned},
+                                    {"B", {0, 1}},
+                                    {"C", {1, 1.8}},
+                                    {"D", {2, 1}},
+                                    {"E", {2, 0}, SketchHold::Pinned}},
+                         .bars = {{"left", {0, 1}}, {"BC", {1, 2}}, {"CD", {2, 3}}, {"right", {4, 3}}},
+                         .motors = {{"left", 0, 0}, {"right", 4, 3}}};
     return sketch;
 }
 

@@ -1,25 +1,11 @@
 // Linkages: a report's claims are true for any drive, and every step continues along its branch.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <string>
-#include <vector>
-
 #include "ik_linkage_support.hpp"
-#include "memory.hpp"
-#include "random.hpp"
-#include "tendril/ik/mechanisms.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test::ik_linkage_verdict_test {
 namespace {
 
 using namespace linkage;
 constexpr SketchHold pinned = SketchHold::Pinned;
-
-// -------------------------------------------------------------------------------------- drivers that stop
 
 // 20000 solves were run once.
 TEST(Linkage, AtADeadPointADriverIsOffItsValue) {
@@ -76,8 +62,6 @@ TEST(Linkage, ARangeThatStopsDriversIsNamedInAnyPose) {
     }
     EXPECT_GE(limited, 100);
 }
-
-// ------------------------------------------------------------------------------------------------ targets
 
 struct Drag {
     int jumps = 0;
@@ -156,8 +140,7 @@ TEST(Linkage, AnUnreachableTargetTakesFewIterationsPerFrame) {
     EXPECT_LE(circles(Machine{slider_crank()}, "B", {0, 0, 0}, 4.0), 12);
     EXPECT_LE(circles(Machine{jansen()}, "crank", {0, 0, 0}, 60.0), 12);
     for (const int bars : {3, 10, 40}) {
-        LinkageSketch chain;
-        chain.points = {{"P0", {0, 0}, pinned}};
+        LinkageSketch chain{.points = {{"P0", {0, 0}, pinned}}};
         for (std::size_t i = 1; i <= static_cast<std::size_t>(bars); ++i) {
             chain.points.push_back(
                 {"P" + std::to_string(i), {static_cast<double>(i), i % 2 == 1 ? 0.3 : 0.0}});
@@ -168,8 +151,6 @@ TEST(Linkage, AnUnreachableTargetTakesFewIterationsPerFrame) {
             << bars;
     }
 }
-
-// ----------------------------------------------------------------------------------------- change points
 
 /// Drives two turns from the starting angle, and two back.
 void stays_a_parallelogram(const FourBar& lengths, double step) {
@@ -286,11 +267,11 @@ TEST(Linkage, ADriveInSpaceStaysOnItsBranchWhereTwoNearlyMeet) {
         if (std::abs(cosine) > 0.95) continue;
         const double angle = span.phase + std::acos(cosine);
         const glm::dvec3 end = pivot + rocker * (std::cos(angle) * x + std::sin(angle) * y);
-        Linkage linkage;
-        linkage.links = {{.name = "crank", .at = glm::dvec3(0.0), .rest = start},
-                         {.name = "rocker", .at = pivot, .axis = axis, .rest = angle},
-                         {.name = "coupler", .parent = 0, .joint = LinkJoint::Ball, .at = tip(start)}};
-        linkage.closures = {{"end", ClosureKind::Point, 2, 1, end, end}};
+        Linkage linkage{
+            .links = {{.name = "crank", .at = glm::dvec3(0.0), .rest = start},
+                      {.name = "rocker", .at = pivot, .axis = axis, .rest = angle},
+                      {.name = "coupler", .parent = 0, .joint = LinkJoint::Ball, .at = tip(start)}},
+            .closures = {{"end", ClosureKind::Point, 2, 1, end, end}}};
         Machine machine{Expected<Linkage>(linkage)};
         const double step = deg(0.2 + 30.0 * part() * part());
         double at = start;
@@ -355,20 +336,18 @@ TEST(Linkage, AFrameIsOneRigidBodyUntilABarIsRemoved) {
 }
 
 TEST(Linkage, ACrankDrawnAtItsDeadPointIsNotOneBodyWithTheGround) {
-    LinkageSketch sketch;
-    sketch.points = {{"A", {0, 0}, pinned}, {"B", {0, 2}}, {"C", {1.5, 1}}, {"D", {3, 0}, pinned}};
-    sketch.bars = {{"AB", {0, 1}}, {"BC", {1, 2}}, {"CD", {2, 3}}};
-    sketch.motors = {{"m", 0, 0}};
+    LinkageSketch sketch{
+        .points = {{"A", {0, 0}, pinned}, {"B", {0, 2}}, {"C", {1.5, 1}}, {"D", {3, 0}, pinned}},
+        .bars = {{"AB", {0, 1}}, {"BC", {1, 2}}, {"CD", {2, 3}}},
+        .motors = {{"m", 0, 0}}};
     EXPECT_TRUE(linkage_from(sketch));
     EXPECT_EQ(rigid_bodies(sketch), (std::vector<std::size_t>{0, 1, 2}));
 }
 
 TEST(Linkage, AHeldBallBalancesLikeOneLinkWithItsParent) {
-    Linkage linkage;
-    linkage.links = {{.name = "crank"},
-                     {.name = "rod", .parent = 0, .joint = LinkJoint::Ball, .at = {1, 0, 0}}};
-    linkage.closures = {
-        {"end", ClosureKind::Point, 1, ground_link, glm::dvec3(2, 0, 0), glm::dvec3(2, 0, 0)}};
+    Linkage linkage{
+        .links = {{.name = "crank"}, {.name = "rod", .parent = 0, .joint = LinkJoint::Ball, .at = {1, 0, 0}}},
+        .closures = {{"end", ClosureKind::Point, 1, ground_link, glm::dvec3(2, 0, 0), glm::dvec3(2, 0, 0)}}};
     LinkageSolver solver = *LinkageSolver::make(linkage);
     const std::size_t ball = 1;
     glm::dvec3 force(0.0);
@@ -377,16 +356,12 @@ TEST(Linkage, AHeldBallBalancesLikeOneLinkWithItsParent) {
     EXPECT_NEAR(std::abs(force.y), 0.5, 1e-12);
 }
 
-// ------------------------------------------------------------------------------------------- other modes
-
 TEST(Linkage, AFreeMechanismHasNoOtherMode) {
     Machine loose{four_bar()};
     const LinkageState before = loose.state;
     EXPECT_FALSE(loose.solver.other_mode(loose.state, {}));
     EXPECT_EQ(loose.state, before);
-    LinkageSketch sketch;
-    sketch.points = {{"O", {0, 0}, pinned}, {"A", {1, 0}}};
-    sketch.bars = {{"arm", {0, 1}}};
+    LinkageSketch sketch{.points = {{"O", {0, 0}, pinned}, {"A", {1, 0}}}, .bars = {{"arm", {0, 1}}}};
     Machine pendulum{Expected<LinkageSketch>(sketch)};
     EXPECT_FALSE(pendulum.solver.other_mode(pendulum.state, {}));
     const LinkDriver driver{0, 0.0};
@@ -433,14 +408,11 @@ TEST(Linkage, AnUnknownNameIsNotFound) {
     EXPECT_EQ(sketch.find_bar("coupler"), 1u);
 }
 
-// ------------------------------------------------------------------------------------- ranges, size, freedom
-
 TEST(Linkage, AMotorsRangeMayIncludeAnyTurnOfItsAngle) {
-    LinkageSketch sketch;
-    sketch.points = {{"O", {0, 0}, pinned},
-                     {"A", {-std::cos(deg(172)), -std::sin(deg(172))}},
-                     {"B", {0, -2 * std::sin(deg(172))}}};
-    sketch.bars = {{"upper", {0, 1}}, {"lower", {1, 2}}};
+    LinkageSketch sketch{.points = {{"O", {0, 0}, pinned},
+                                    {"A", {-std::cos(deg(172)), -std::sin(deg(172))}},
+                                    {"B", {0, -2 * std::sin(deg(172))}}},
+                         .bars = {{"upper", {0, 1}}, {"lower", {1, 2}}}};
     // From O (172 degrees) to B (-172).
     const double bend = deg(16);
     sketch.motors = {{"elbow", 1, 1, 0, -0.5, 0.5}};
@@ -494,10 +466,9 @@ TEST(Linkage, IsNotOpenAtTheIterationLimit) {
 }
 
 TEST(Linkage, AStageWithCoincidingJointsAndPointsMoves) {
-    Linkage linkage;
-    linkage.links = {{"x", ground_link, LinkJoint::Slider, {0, 0, 0}, {1, 0, 0}},
-                     {"y", 0, LinkJoint::Slider, {0, 0, 0}, {0, 1, 0}}};
-    linkage.points = {{"tool", 1, {0, 0, 0}}};
+    Linkage linkage{.links = {{"x", ground_link, LinkJoint::Slider, {0, 0, 0}, {1, 0, 0}},
+                              {"y", 0, LinkJoint::Slider, {0, 0, 0}, {0, 1, 0}}},
+                    .points = {{"tool", 1, {0, 0, 0}}}};
     for (const double far : {1e-3, 1.0, 1e4}) {
         Machine machine{Expected<Linkage>(linkage)};
         EXPECT_EQ(machine.reach("tool", {far, -2.0 * far, 0.0}).status, LinkageStatus::Reached) << far;
@@ -511,8 +482,7 @@ TEST(Linkage, AStageWithCoincidingJointsAndPointsMoves) {
 }
 
 TEST(Linkage, FreedomDependsOnThePoseNotOnTheLastSolve) {
-    Linkage linkage;
-    linkage.links = {{"arm", ground_link, LinkJoint::Ball, {0, 0, 0}}};
+    Linkage linkage{.links = {{"arm", ground_link, LinkJoint::Ball, {0, 0, 0}}}};
     linkage.links[0].maximum = deg(60);
     linkage.points = {{"hand", 0, {1, 0, 0}}};
     Machine machine{Expected<Linkage>(linkage)};

@@ -1,6 +1,5 @@
 // solve_many with torn, moving, hostile and out-of-range input; and the class Batch.
 #include "ik_many_scalar.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test::ik_many_hostile_test {
 namespace {
@@ -115,9 +114,8 @@ TEST(SolveMany, HostileNumbersNeverGiveNaN) {
             const bool invalid = each.reports[i].status == Status::InvalidInput;
             EXPECT_EQ(many.reports[i].status == Status::InvalidInput, invalid);
             EXPECT_TRUE(std::isfinite(many.reports[i].residual));
-            for (const glm::vec3& joint : many.joints[i]) {
+            for (const glm::vec3& joint : many.joints[i])
                 ASSERT_TRUE(std::isfinite(joint.x) && std::isfinite(joint.y) && std::isfinite(joint.z));
-            }
             EXPECT_TRUE(invalid || Holds(many.joints[i], crowd.lengths[i]));
         }
     }
@@ -206,7 +204,7 @@ TEST(Batch, StartsStraightAndKeepsWhatItIsGiven) {
 
 TEST(Batch, AllJointsAtOnceEqualEachChains) {
     Random random(20);
-    for (const std::size_t bones : {1u, 2u, 3u, 4u, 7u, 10u}) {
+    for (const std::size_t bones : {1u, 2u, 3u, 4u, 7u, 10u})
         for (const std::size_t chains : {0u, 1u, 3u, 4u, 5u, 63u, 64u, 65u, 200u}) {
             Batch batch = *Batch::make(chains, bones);
             Joints in(chains * (bones + 1)), out(in.size());
@@ -214,9 +212,8 @@ TEST(Batch, AllJointsAtOnceEqualEachChains) {
             ASSERT_TRUE(batch.set_joints(in));
             ASSERT_TRUE(batch.copy_joints(out));
             EXPECT_TRUE(same_bits(in, out));
-            for (std::size_t i = 0; i < in.size(); ++i) {
+            for (std::size_t i = 0; i < in.size(); ++i)
                 ASSERT_EQ(batch.joint(i / (bones + 1), i % (bones + 1)), in[i]);
-            }
             if (in.empty()) continue;
             in[random.below(in.size())].y = nan;
             EXPECT_EQ(batch.set_joints(in).code(), ErrorCode::InvalidArgument);
@@ -224,16 +221,14 @@ TEST(Batch, AllJointsAtOnceEqualEachChains) {
             ASSERT_TRUE(batch.copy_joints(kept));
             EXPECT_TRUE(same_bits(kept, out));
         }
-    }
 }
 
 TEST(Batch, RefusesInputOutOfRangeAndStaysUnchanged) {
     EXPECT_EQ(Batch::make(1, 0).code(), ErrorCode::InvalidArgument);
     EXPECT_EQ(Batch::make(1, 1'000'001).code(), ErrorCode::InvalidArgument);
     EXPECT_EQ(Batch::make((std::size_t{1} << 31) + 1, 1).code(), ErrorCode::InvalidArgument);
-    for (const int threads : {0, -1, 257}) {
+    for (const int threads : {0, -1, 257})
         EXPECT_EQ(Batch::make(1, 1, threads).code(), ErrorCode::InvalidArgument);
-    }
     Batch batch = *Batch::make(2, 2);
     const std::vector<Joints> before = joints_of(batch);
     Joints small(2);
@@ -250,8 +245,8 @@ TEST(Batch, RefusesInputOutOfRangeAndStaysUnchanged) {
     EXPECT_TRUE(invalid(batch.copy_joints(0, small)));
     EXPECT_TRUE(invalid(batch.copy_joints(small)));
     EXPECT_TRUE(
-        test::says(batch.set_lengths(0, Lengths{1, -2}).message(), "set_lengths lengths[1] finite 0 1e9 -2"));
-    EXPECT_TRUE(test::says(batch.set_root(5, {}).message(), "set_root index 5 range 2"));
+        says(batch.set_lengths(0, Lengths{1, -2}).message(), "set_lengths lengths[1] finite 0 1e9 -2"));
+    EXPECT_TRUE(says(batch.set_root(5, {}).message(), "set_root index 5 range 2"));
     EXPECT_EQ(joints_of(batch), before);
     EXPECT_EQ(batch.length(0, 0), 1.0f);
 }

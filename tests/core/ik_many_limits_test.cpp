@@ -1,6 +1,6 @@
 // solve_many within limits: joints stay within their limits, every target that the scalar solver reaches is
 // reached, and cases beyond the vector units are bitwise the scalar solver's answer.
-#include "ik_limited_support.hpp"
+#include "ik_limit_support.hpp"
 #include "ik_many_scalar.hpp"
 
 namespace tendril::test::ik_many_limits_test {
@@ -64,10 +64,9 @@ struct ScalarAnswer {
 
 ScalarAnswer solve_alone(const LimitedCrowd& all, std::size_t chain, const ManyOptions& many = {}) {
     KeptSolver solver = all.arm.solver();
-    ik::Options options;
-    options.max_iterations = many.max_iterations;
-    options.every_iteration = many.every_iteration;
-    options.limits = all.arm.limits;
+    ik::Options options{.max_iterations = many.max_iterations,
+                        .every_iteration = many.every_iteration,
+                        .limits = all.arm.limits};
     ScalarAnswer alone{{}, all.crowd.joints[chain], {}};
     alone.report = solver.solve(ik::Method::Fabrik, alone.joints, all.crowd.targets[chain], options);
     alone.rotations.assign(solver.rotations().begin(), solver.rotations().end());
@@ -90,7 +89,7 @@ std::string difference(const LimitedAnswer& a, const LimitedAnswer& b) {
 
 TEST(SolveManyWithinLimits, KeepsLimitsAndReachesWhatTheScalarSolverReaches) {
     Random random(51);
-    for (const ArmKind kind : arm_kinds) {
+    for (const ArmKind kind : arm_kinds)
         for (const std::size_t bones : {2u, 3u, 5u, 10u}) {
             SCOPED_TRACE(std::string(name(kind)) + ", " + std::to_string(bones) + " bones");
             const LimitedCrowd all = limited_crowd(150, bones, kind, random);
@@ -108,7 +107,6 @@ TEST(SolveManyWithinLimits, KeepsLimitsAndReachesWhatTheScalarSolverReaches) {
                 if (report.scalar_fallback && i % 10 == 0) expect_fallback_is_scalar(all, many, i);
             }
         }
-    }
 }
 
 TEST(SolveManyWithinLimits, HingesAndConesRarelyNeedTheScalarSolver) {
@@ -139,9 +137,8 @@ TEST(SolveManyWithinLimits, VectorUnitsThreadsAndNeighboursChangeNoBit) {
     for (const ArmKind kind : {ArmKind::Cones, ArmKind::Human}) {
         const LimitedCrowd all = limited_crowd(900, 9, kind, random);
         const LimitedAnswer widest = solve_limited(all);
-        for (const std::string_view unit : ik::vector_units()) {
+        for (const std::string_view unit : ik::vector_units())
             EXPECT_EQ(difference(solve_limited(all, {.vector_unit = unit}), widest), "") << unit;
-        }
         EXPECT_EQ(difference(solve_limited(all, {}, 3), widest), "");
         for (const std::size_t count : {1u, 7u, 81u, 200u}) {
             LimitedCrowd some = all;
@@ -178,10 +175,9 @@ TEST(SolveManyWithinLimits, AFallbackDoesNotDependOnTheChainBeforeIt) {
         LimitedCrowd all = limited_crowd(1, 4, ArmKind::Human, random);
         all.crowd.targets[0] =
             all.crowd.joints[0].front() - some_tip(all.arm, random);  // behind: mostly forbidden
-        for (int i = 0; i < 8; ++i) {
+        for (int i = 0; i < 8; ++i)
             all.crowd.add(all.crowd.lengths[0], all.crowd.joints[0],
                           all.crowd.targets[0] + random.point(0.01f));
-        }
         const LimitedAnswer many = solve_limited(all);
         for (std::size_t i = 0; i < all.crowd.size(); ++i) {
             if (many.answer.reports[i].scalar_fallback) expect_fallback_is_scalar(all, many, i);
@@ -235,11 +231,9 @@ TEST(SolveManyWithinLimits, ARestoredBatchContinuesWithTheSameBits) {
     const LimitedCrowd all = limited_crowd(200, 5, ArmKind::Cones, random);
     Batch batch = batch_of(all);
     std::vector<std::vector<glm::vec3>> path(30, all.crowd.targets);
-    for (std::size_t tick = 1; tick < path.size(); ++tick) {
-        for (std::size_t i = 0; i < all.crowd.size(); ++i) {
+    for (std::size_t tick = 1; tick < path.size(); ++tick)
+        for (std::size_t i = 0; i < all.crowd.size(); ++i)
             path[tick][i] = path[tick - 1][i] + random.point(0.02f);
-        }
-    }
     ik::solve_many(batch, path.front());
     Joints before(all.crowd.size() * 6), first(before.size()), second(before.size());
     Rotations turned(all.crowd.size() * 5), once(turned.size()), again(turned.size());

@@ -1,8 +1,6 @@
 // Solves a crowd one by one with the scalar solver, for comparison.
 #pragma once
 
-#include <utility>
-
 #include "ik_many_support.hpp"
 #include "ik_support.hpp"
 
@@ -14,10 +12,9 @@ inline ManyReport many_report(const ik::Report& report) {
 
 inline Answer solve_each(const Crowd& crowd, const ManyOptions& many,
                          ik::Method method = ik::Method::Fabrik) {
-    ik::Options options;
-    options.tolerance = many.tolerance;
-    options.max_iterations = many.max_iterations;
-    options.every_iteration = many.every_iteration;
+    ik::Options options{.tolerance = many.tolerance,
+                        .max_iterations = many.max_iterations,
+                        .every_iteration = many.every_iteration};
     Answer answer;
     for (std::size_t i = 0; i < crowd.size(); ++i) {
         Joints joints = crowd.joints[i];

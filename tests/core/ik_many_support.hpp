@@ -1,8 +1,6 @@
 // Shared by the tests of solve_many: a crowd of chains, solved together. One by one: ik_many_scalar.hpp.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include "ik_poses.hpp"
 #include "memory.hpp"
 #include "tendril/ik/many.hpp"

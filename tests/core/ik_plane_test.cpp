@@ -1,10 +1,4 @@
 // Chains in a plane: they stay in it, keep their side, arrive like chains in space, and respect angle limits.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "ik_support.hpp"
 #include "tendril/ik/many.hpp"
 
@@ -83,9 +77,7 @@ double excess(const Joints& joints, std::span<const AngleLimit> limits, const Fr
 }
 
 ik::Options in_plane(const Frame& frame, std::span<const AngleLimit> limits = {}) {
-    ik::Options options;
-    options.max_iterations = 200;
-    options.plane = ik::Plane{frame.normal * 3.0f, Side::Free, limits};
+    ik::Options options{.max_iterations = 200, .plane = ik::Plane{frame.normal * 3.0f, Side::Free, limits}};
     return options;
 }
 

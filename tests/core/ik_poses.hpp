@@ -1,13 +1,8 @@
 // Shared by solver tests, without a solver: lengths, poses, and the invariants of every solve.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <glm/gtc/quaternion.hpp>
 #include <numeric>
-#include <span>
-#include <vector>
 
 #include "chain_support.hpp"
 #include "random.hpp"
@@ -79,9 +74,8 @@ inline Lengths some_lengths(std::size_t bones, Random& random) {
 inline ::testing::AssertionResult Holds(std::span<const glm::vec3> joints, std::span<const float> lengths) {
     for (std::size_t i = 0; i < joints.size(); ++i) {
         const glm::vec3 p = joints[i];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
             return ::testing::AssertionFailure() << "joint " << i << " is not finite";
-        }
         if (i == 0) continue;
         const glm::vec3 q = joints[i - 1];
         const double length = lengths[i - 1], off = std::abs(distance(p, q) - length);
@@ -89,10 +83,9 @@ inline ::testing::AssertionResult Holds(std::span<const glm::vec3> joints, std::
             {std::abs(p.x), std::abs(p.y), std::abs(p.z), std::abs(q.x), std::abs(q.y), std::abs(q.z)});
         double allowed = 1e-4 * std::max(1.0, length);
         if (far > 1e3f / std::sqrt(3.0f)) allowed += static_cast<double>(std::nextafter(far, infinity) - far);
-        if (!(off <= allowed)) {
+        if (!(off <= allowed))
             return ::testing::AssertionFailure()
                    << "bone " << i - 1 << " of length " << length << " is off by " << off;
-        }
     }
     return ::testing::AssertionSuccess();
 }

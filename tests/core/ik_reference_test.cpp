@@ -1,7 +1,6 @@
 // Expected results from an independent source (skipped if missing), and a few built-in cases. Every chain
 // starts straight along +X.
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,4 @@
 // FABRIK near full reach, where FABRIK (2011) crawls: its iterations, and that it moves joints no further.
-#include <algorithm>
-#include <utility>
-
 #include "ik_support.hpp"
 
 namespace tendril::test::ik_rim_test {

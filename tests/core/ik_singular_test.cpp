@@ -1,7 +1,7 @@
 // Chains on a line with their target, within limits: every descent method leaves the line if the limits allow
 // it, and a limit is blamed only if it keeps the tip from the target.
 #include "ik_hostile.hpp"
-#include "ik_limited_support.hpp"
+#include "ik_limit_support.hpp"
 
 namespace tendril::test::ik_singular_test {
 namespace {
@@ -57,12 +57,10 @@ TEST(IkSingular, ReachesATargetBehindAOneSidedHinge) {
 TEST(IkSingular, ALockedJointLeavesTheMotionToTheOthers) {
     const Limit locked = Limit::hinge({0, 0, 1}, 0, 0), elbow = Limit::hinge({0, 1, 0}, 0, radians(145));
     const Arm arm = straight_arm({1, 0.5f, 1}, {Limit(), locked, elbow});
-    for (const Method method : numerical_methods) {
-        for (const float at : {-1.9f, -1.0f, 1.0f, 1.9f}) {
+    for (const Method method : numerical_methods)
+        for (const float at : {-1.9f, -1.0f, 1.0f, 1.9f})
             EXPECT_EQ(solved(arm, method, {at, 0, 0}, 200).report.status, Status::Converged)
                 << name(method) << " " << at;
-        }
-    }
 }
 
 TEST(IkSingular, AnOffPlaneTargetIsApproachedWithinTheHingesPlane) {
@@ -96,9 +94,8 @@ TEST(IkSingular, LimitsWithoutEffectAreNotBlamed) {
         const Lengths lengths = some_lengths(1 + random.below(6), random);
         const Arm arm = straight_arm(lengths, std::vector<Limit>(lengths.size()));
         const glm::vec3 target{arm.reach() * random.around(1.2f), 0, 0};
-        for (const Method method : iterating_methods) {
+        for (const Method method : iterating_methods)
             EXPECT_NE(solved(arm, method, target).report.status, Status::Limited) << name(method);
-        }
     }
 }
 
@@ -122,9 +119,8 @@ TEST(IkSingular, OutOfReachAStraightArmsLimitsAreNotBlamed) {
         const glm::vec3 target = some_offset(random, 1.01f * arm.reach(), 3.0f * arm.reach());
         if (solved(arm, Method::Fabrik, target).report.status != Status::Stretched) continue;
         ++stretched;
-        for (const Method method : iterating_methods) {
+        for (const Method method : iterating_methods)
             blaming += solved(arm, method, target).report.status == Status::Limited;
-        }
     }
     EXPECT_GE(stretched, 100);
     EXPECT_LE(blaming, stretched / 20);

@@ -1,6 +1,5 @@
 // Stiff joints: they rotate less, the other joints compensate, and the tip still arrives.
-#include "ik_limited_support.hpp"
-#include "tests/says.hpp"
+#include "ik_limit_support.hpp"
 
 namespace tendril::test::ik_stiffness_test {
 namespace {
@@ -52,9 +51,7 @@ Outcome outcome(Method method, bool cones, float stiffness) {
         // Well within reach, as a straight chain has only one pose.
         const glm::vec3 target = 0.75f * joints.back() + random.point(0.4f);
         KeptSolver solver = arm.solver();
-        ik::Options options;
-        options.limits = arm.limits;
-        options.max_iterations = 1000;
+        ik::Options options{.max_iterations = 1000, .limits = arm.limits};
         const ik::Report report = solver.solve(method, joints, target, options);
         result.arrived += report.status == Status::Converged;
         EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations())) << k;
@@ -68,7 +65,7 @@ Outcome outcome(Method method, bool cones, float stiffness) {
 
 TEST(IkStiffness, StiffJointsTurnLessOthersMoreAndTheTipArrives) {
     for (const Method method : {Method::Fabrik, Method::FabrikPlain, Method::Ccd, Method::JacobianTranspose,
-                                Method::Dls, Method::SvdDls}) {
+                                Method::Dls, Method::SvdDls})
         for (const bool cones : {false, true}) {
             SCOPED_TRACE(std::string(ik::name(method)) + (cones ? ", cones" : ", free"));
             std::vector<Outcome> all;
@@ -80,7 +77,6 @@ TEST(IkStiffness, StiffJointsTurnLessOthersMoreAndTheTipArrives) {
             EXPECT_LT(all.back().stiff, 0.1 * all.front().stiff);
             EXPECT_GT(all.back().others, all.front().others);
         }
-    }
 }
 
 /// Stiff joints still turn if they must: every reachable target is reached.
@@ -94,9 +90,7 @@ TEST(IkStiffness, NoStiffnessKeepsATargetOutOfReach) {
             for (Limit& each : arm.limits) each.stiffness = stiff ? between(random, 0.0f, 0.99f) : 0.0f;
             Joints joints = arm.at_rest();
             KeptSolver solver = arm.solver();
-            ik::Options options;
-            options.limits = arm.limits;
-            options.max_iterations = 1000;
+            ik::Options options{.max_iterations = 1000, .limits = arm.limits};
             const ik::Report report = solver.solve(Method::Fabrik, joints, target, options);
             (stiff ? reached_stiff : reached) += report.status == Status::Converged;
             EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations())) << k;
@@ -117,8 +111,7 @@ TEST(IkStiffness, EquallyStiffJointsAreSolvedLikeFreeOnes) {
         for (Joints* const joints : {&plain, &stiff}) {
             for (Limit& each : arm.limits) each.stiffness = joints == &stiff ? ik::max_stiffness : 0.0f;
             KeptSolver solver = arm.solver();
-            ik::Options options;
-            options.limits = arm.limits;
+            ik::Options options{.limits = arm.limits};
             solver.solve(method, *joints, target, options);
         }
         EXPECT_TRUE(same_bits(plain, stiff)) << ik::name(method);
@@ -132,9 +125,7 @@ TEST(IkStiffness, AStiffLimbIsNotMistakenForAStraightOne) {
     Joints joints{{0, 0, 0}, {0.5f, 0, 0}, {0.5f, 0.5f, 0}, {0.8f, 0.9f, 0}};
     const Joints before = joints;
     KeptSolver solver = arm.solver();
-    ik::Options options;
-    options.limits = arm.limits;
-    options.max_iterations = 1;
+    ik::Options options{.max_iterations = 1, .limits = arm.limits};
     solver.solve(Method::Dls, joints, before.back() + glm::vec3(0.01f, 0.01f, 0), options);
     for (std::size_t i = 0; i < joints.size(); ++i) EXPECT_LT(distance(joints[i], before[i]), 0.05) << i;
 }

@@ -1,12 +1,9 @@
 // Shared by solver tests: poses, a solver with its state, and an observer that can replay.
 #pragma once
 
-#include <array>
-#include <vector>
-
 #include "ik_poses.hpp"
 #include "kept_solver.hpp"
-#include "tendril/ik/solver.hpp"
+#include "memory.hpp"
 
 namespace tendril::test {
 

@@ -1,6 +1,6 @@
 // The tip's orientation as requested, with and without limits.
 #include "ik_hostile.hpp"
-#include "ik_limited_support.hpp"
+#include "ik_limit_support.hpp"
 
 namespace tendril::test::ik_tip_test {
 namespace {
@@ -98,10 +98,8 @@ TEST(IkTip, WithinLimitsMostTargetsAreReached) {
                     {.max_iterations = 200, .limits = arm.limits});
         KeptSolver solver = arm.solver();
         Joints joints = arm.at_rest();
-        ik::Options options;
-        options.max_iterations = 200;
-        options.limits = arm.limits;
-        options.tip_orientation = maker.rotations().back();
+        ik::Options options{
+            .max_iterations = 200, .limits = arm.limits, .tip_orientation = maker.rotations().back()};
         const ik::Report report = solver.solve(Method::Fabrik, joints, made.back(), options);
         EXPECT_TRUE(WithinLimits(arm, joints, solver.rotations()));
         there += report.status == Status::Converged;

@@ -54,7 +54,7 @@ TEST(IkTreeProperty, ConvergesOnReachableTargets) {
     } cases[] = {{Which::Body, "body", 500, 99.0, 10},
                  {Which::Spider, "spider", 500, 99.0, 10},
                  {Which::Random, "random", 300, 97.0, 8}};
-    for (const auto& each : cases) {
+    for (const auto& each : cases)
         for (const float straight : {0.0f, 0.5f, 0.8f}) {
             Tally tally = converge(each.which, straight, each.solves);
             const int p50 = tally.percentile(50);
@@ -63,7 +63,6 @@ TEST(IkTreeProperty, ConvergesOnReachableTargets) {
             EXPECT_GE(tally.rate(), each.least) << each.name << ", " << straight;
             EXPECT_LE(p50, each.median) << each.name << ", " << straight;
         }
-    }
 }
 
 TEST(IkTreeProperty, MovesTheJointsNoFurtherThanPlainPulls) {
@@ -107,9 +106,8 @@ TEST(IkTreeProperty, TheOrderOfTheEffectorsDoesNotMatter) {
         ASSERT_TRUE(same_places(a, b)) << i;
         std::map<std::size_t, float> by_joint;
         for (std::size_t k = 0; k < shuffled.size(); ++k) by_joint[shuffled[k].joint] = shuffled_residuals[k];
-        for (std::size_t k = 0; k < residuals.size(); ++k) {
+        for (std::size_t k = 0; k < residuals.size(); ++k)
             ASSERT_EQ(residuals[k], by_joint[figure.effectors[k].joint]);
-        }
     }
 }
 
@@ -134,9 +132,8 @@ TEST(IkTreeProperty, NeverEndsWorseThanItBegan) {
         const bool reachable =
             std::all_of(figure.effectors.begin(), figure.effectors.end(), [&](auto& effector) {
                 double way = 0.0;
-                for (std::size_t k = effector.joint; k != 0; k = figure.joints[k].parent) {
+                for (std::size_t k = effector.joint; k != 0; k = figure.joints[k].parent)
                     way += static_cast<double>(figure.joints[k].length);
-                }
                 return distance(effector.target, glm::vec3(0.0f)) <= way;
             });
         if (!reachable) continue;  // solved for the nearest reachable targets: another loss
@@ -259,6 +256,60 @@ TEST(IkTreeProperty, ThousandsOfEffectorsAndALongChain) {
     const TreeReport report = tree.solve(places, effectors, {.residuals = residuals});
     EXPECT_TRUE(Holds(joints, places));
     EXPECT_LT(report.residual, 0.1f * residuals[0]);  // on its way: too far for so few iterations
+}
+
+// A tree keeps nothing between solves: the state is in the caller's joints and rotations.
+
+struct Posture {
+    Places places;
+    std::vector<glm::quat> rotations;
+    bool operator==(const Posture&) const = default;
+};
+
+/// A hundred solves towards moving targets.
+Posture play(Tree& tree, const Figure& figure, Posture posture) {
+    Random random(7);
+    std::vector<Effector> effectors = figure.effectors;
+    for (int i = 0; i < 100; ++i) {
+        for (Effector& effector : effectors)
+            effector.target = posture.places[effector.joint] + random.point(random.chance(10) ? 2.0f : 0.1f);
+        TreeOptions options{.max_iterations = 10, .rotations = posture.rotations};
+        EXPECT_NE(tree.solve(posture.places, effectors, options).status, Status::InvalidInput);
+    }
+    return posture;
+}
+
+TEST(IkTreeState, RollbackGivesTheSameBits) {
+    Random random(72);
+    for (int number = 0; number < 20; ++number) {
+        const Figure figure = random_figure(random);
+        Tree tree = tree_of(figure.joints), other = tree_of(figure.joints);
+        const Posture start{random_pose(figure.joints, random, 0.5f),
+                            std::vector<glm::quat>(figure.joints.size(), glm::quat(1, 0, 0, 0))};
+        const Posture end = play(tree, figure, start);
+        EXPECT_EQ(play(tree, figure, start), end);
+        EXPECT_EQ(play(other, figure, start), end);
+        // The rotations turn each bone from its start direction to its present one.
+        for (std::size_t k = 1; k < figure.joints.size(); ++k) {
+            const std::size_t parent = figure.joints[k].parent;
+            const glm::vec3 rest = start.places[k] - start.places[parent];
+            const glm::vec3 said = end.places[parent] + end.rotations[k] * rest;
+            EXPECT_LE(distance(said, end.places[k]), 2e-4 * (1.0 + double(figure.joints[k].length))) << k;
+        }
+    }
+}
+
+TEST(IkTreeState, BadRotationsAreRefused) {
+    const Figure figure = body();
+    Tree tree = tree_of(figure.joints);
+    Places places = straight_pose(figure.joints);
+    const Places before = places;
+    std::vector<Effector> effectors = figure.effectors;
+    aim(effectors, places);
+    std::vector<glm::quat> few(2, glm::quat(1, 0, 0, 0)), bad(figure.joints.size(), glm::quat(2, 0, 0, 0));
+    EXPECT_EQ(tree.solve(places, effectors, {.rotations = few}).status, Status::InvalidInput);
+    EXPECT_EQ(tree.solve(places, effectors, {.rotations = bad}).status, Status::InvalidInput);
+    EXPECT_TRUE(same_places(places, before));
 }
 
 }  // namespace

@@ -1,13 +1,6 @@
 // Trees for tests: a body, a spider, random ones; poses for them; and their invariant.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <span>
-#include <vector>
-
 #include "chain_support.hpp"
 #include "random.hpp"
 #include "tendril/ik/tree.hpp"
@@ -65,9 +58,8 @@ inline Figure spider() {
     std::size_t back = 0;
     for (int i = 0; i < 4; ++i) {
         back = grow(figure.joints, back, {0.3f});
-        for (int side = 0; side < 2; ++side) {
+        for (int side = 0; side < 2; ++side)
             figure.effectors.push_back({grow(figure.joints, back, {0.15f, 0.4f, 0.4f, 0.3f})});
-        }
     }
     return figure;
 }
@@ -118,9 +110,8 @@ inline Places random_pose(const TreeJointList& joints, Random& random, float str
 /// All bones along one direction.
 inline Places straight_pose(const TreeJointList& joints, glm::vec3 direction = {1, 0, 0}) {
     Places places(joints.size(), glm::vec3(0.0f));
-    for (std::size_t k = 1; k < joints.size(); ++k) {
+    for (std::size_t k = 1; k < joints.size(); ++k)
         places[k] = places[joints[k].parent] + direction * joints[k].length;
-    }
     return places;
 }
 
@@ -137,15 +128,13 @@ inline testing::AssertionResult Holds(const TreeJointList& joints, const Places&
             furthest = std::max(furthest, std::abs(static_cast<double>(places[k][axis])));
         }
         if (k == 0) continue;
-        for (int axis = 0; axis < 3; ++axis) {
+        for (int axis = 0; axis < 3; ++axis)
             furthest = std::max(furthest, std::abs(static_cast<double>(places[joints[k].parent][axis])));
-        }
         const double length = static_cast<double>(joints[k].length);
         const double allowed = 1e-4 * std::max(1.0, length) + (furthest > 1e3 ? furthest * 2.4e-7 : 0.0);
         const double off = std::abs(distance(places[k], places[joints[k].parent]) - length);
-        if (off > allowed) {
+        if (off > allowed)
             return testing::AssertionFailure() << "bone " << k << " of " << length << " m is off by " << off;
-        }
     }
     return testing::AssertionSuccess();
 }

@@ -2,7 +2,6 @@
 
 #include "ik_tree_support.hpp"
 #include "kept_solver.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test::ik_tree_test {
 namespace {
@@ -12,12 +11,12 @@ std::string refusal(const TreeJointList& joints) {
 }
 
 TEST(IkTree, RefusesInvalidTrees) {
-    EXPECT_TRUE(test::says(refusal({}), "Tree joints none"));
-    EXPECT_TRUE(test::says(refusal({{0, 0.0f}}), "Tree joints[0].parent no_joint root 0"));
-    EXPECT_TRUE(test::says(refusal({{no_joint, 0}, {1, 1}}), "Tree joints[1].parent before 1"));
-    EXPECT_TRUE(test::says(refusal({{no_joint, 0}, {0, 1}, {7, 1}}), "Tree joints[2].parent before 7"));
-    EXPECT_TRUE(test::says(refusal({{no_joint, 0}, {no_joint, 1}}), "Tree joints[1].parent before no_joint"));
-    EXPECT_TRUE(test::says(refusal({{no_joint, 0}, {0, -1}}), "Tree joints[1].length finite 0 1e9 -1"));
+    EXPECT_TRUE(says(refusal({}), "Tree joints none"));
+    EXPECT_TRUE(says(refusal({{0, 0.0f}}), "Tree joints[0].parent no_joint root 0"));
+    EXPECT_TRUE(says(refusal({{no_joint, 0}, {1, 1}}), "Tree joints[1].parent before 1"));
+    EXPECT_TRUE(says(refusal({{no_joint, 0}, {0, 1}, {7, 1}}), "Tree joints[2].parent before 7"));
+    EXPECT_TRUE(says(refusal({{no_joint, 0}, {no_joint, 1}}), "Tree joints[1].parent before no_joint"));
+    EXPECT_TRUE(says(refusal({{no_joint, 0}, {0, -1}}), "Tree joints[1].length finite 0 1e9 -1"));
 }
 
 TEST(IkTree, ReportsItsSizeAndReach) {
@@ -183,14 +182,13 @@ TEST(IkTree, WeightsDoNotMatterIfAllTargetsAreReachable) {
     Figure figure = body();
     Tree tree = tree_of(figure.joints);
     Random random(9);
-    for (const float weight : {1e-4f, 1.0f, 1e4f, 1e9f}) {
+    for (const float weight : {1e-4f, 1.0f, 1e4f, 1e9f})
         for (int i = 0; i < 50; ++i) {
             aim(figure.effectors, random_pose(figure.joints, random, 0.4f));
             figure.effectors[1].weight = weight;
             Places places = random_pose(figure.joints, random, 0.4f);
             EXPECT_EQ(tree.solve(places, figure.effectors).status, Status::Converged) << weight << ", " << i;
         }
-    }
 }
 
 TEST(IkTree, AnEffectorOnAnInnerJointMovesTheRestRigidly) {
@@ -205,11 +203,9 @@ TEST(IkTree, AnEffectorOnAnInnerJointMovesTheRestRigidly) {
         EXPECT_EQ(report.status, Status::Converged);
         EXPECT_TRUE(Holds(joints, places));
         // Joints 2 to 6 are rigid: all distances among them are unchanged.
-        for (std::size_t a = 2; a <= 6; ++a) {
-            for (std::size_t b = a + 1; b <= 6; ++b) {
+        for (std::size_t a = 2; a <= 6; ++a)
+            for (std::size_t b = a + 1; b <= 6; ++b)
                 ASSERT_NEAR(distance(places[a], places[b]), distance(before[a], before[b]), 1e-5);
-            }
-        }
     }
 }
 
@@ -306,7 +302,7 @@ TEST(IkTree, StraightChainsLeaveTheirLine) {
         const TreeJointList joints = chain_of(bones, 0.5f);
         const float reach = 0.5f * static_cast<float>(bones);
         Tree tree = tree_of(joints);
-        for (const glm::vec3 along : {glm::vec3(1, 0, 0), glm::vec3(0, -1, 0), glm::vec3(0.6f, 0, 0.8f)}) {
+        for (const glm::vec3 along : {glm::vec3(1, 0, 0), glm::vec3(0, -1, 0), glm::vec3(0.6f, 0, 0.8f)})
             for (const float part : {0.95f, 0.7f, 0.5f, 0.1f, 0.0f, -0.1f, -0.5f, -0.9f, -0.99f}) {
                 Places places = straight_pose(joints, along);
                 const std::vector<Effector> effectors{{bones, along * (reach * part)}};
@@ -315,7 +311,6 @@ TEST(IkTree, StraightChainsLeaveTheirLine) {
                 EXPECT_LE(report.iterations, 14) << bones << ", " << part;
                 EXPECT_TRUE(Holds(joints, places));
             }
-        }
     }
 }
 

@@ -128,14 +128,13 @@ TEST(IkTwoBone, OutOfReachItIsStraightAndTooCloseFolded) {
 
 TEST(IkTwoBone, StretchingNeverMissesATargetWithinReach) {
     const TwoBone limb{{0, 0, 0}, {1, 0, 0}, {1.1f, 0, 0}, 1.0f, 0.1f};
-    for (const float start : {0.3f, 0.8f}) {
+    for (const float start : {0.3f, 0.8f})
         for (float far = 0.91f; far < 1.09f; far += 0.005f) {
             const TwoBoneResult result =
                 ik::two_bone(limb, {far, 0, 0}, {.start_stretch_ratio = start, .max_stretch_scale = 10.0f});
             EXPECT_EQ(result.status, Status::Converged) << start << ' ' << far;
             EXPECT_LT(result.residual, 1e-5f) << start << ' ' << far;
         }
-    }
 }
 
 TEST(IkTwoBone, StretchesByItsOptions) {
@@ -273,9 +272,8 @@ TEST(IkTwoBone, SurvivesAnyInput) {
         const glm::vec3 target = any_point();
         const TwoBoneResult r = ik::two_bone(limb, target, options);
         ASSERT_NE(r.status, Status::InvalidInput);
-        for (const glm::vec3 p : {r.mid, r.tip}) {
+        for (const glm::vec3 p : {r.mid, r.tip})
             ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) << "solve " << k;
-        }
         const double upper = 1.0 * limb.upper * r.scale, lower = 1.0 * limb.lower * r.scale;
         const double rounding = 1e-6 * (upper + lower + distance(limb.root, {}) + distance(r.tip, {}));
         EXPECT_NEAR(distance(limb.root, r.mid), upper, rounding) << "solve " << k;

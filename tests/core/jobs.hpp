@@ -1,7 +1,6 @@
 // A mock job system for tests of the task callback.
 #pragma once
 
-#include <cstdint>
 #include <thread>
 #include <vector>
 

@@ -2,9 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
-#include <span>
-#include <utility>
 
 #include "tendril/ik/solver.hpp"
 

@@ -1,6 +1,7 @@
 // Pseudo-random numbers that are the same on every platform, unlike the standard library's distributions.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

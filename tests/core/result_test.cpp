@@ -1,15 +1,6 @@
 // Result and Expected: refusals and their messages.
-#include <gtest/gtest.h>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <string>
-
 #include "ik_many_support.hpp"
 #include "jobs.hpp"
-#include "tendril/result.hpp"
-#include "tendril/tasks.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -105,7 +96,7 @@ TEST(Tasks, SolveManyUsesTheProgramsWorkersAndGivesTheSameBits) {
     Random random(41);
     const Crowd crowd = some_crowd(5000, 10, random, 0.05f, 1.1f);
     const Answer expected = solve_many(crowd, {});
-    for (const bool backwards : {false, true}) {
+    for (const bool backwards : {false, true})
         for (const bool threaded : {false, true}) {
             Jobs jobs{.backwards = backwards, .threaded = threaded};
             const Answer answer = solve_many(crowd, {.tasks = {run_on_jobs, &jobs}}, 4);
@@ -113,7 +104,6 @@ TEST(Tasks, SolveManyUsesTheProgramsWorkersAndGivesTheSameBits) {
             EXPECT_EQ(jobs.pieces, 4u);
             EXPECT_EQ(difference(answer, expected), "");
         }
-    }
 }
 
 TEST(Tasks, ASingleThreadNeedsNoCallback) {

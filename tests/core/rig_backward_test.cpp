@@ -1,8 +1,6 @@
 // Backward solves, and explanations of an element's pose.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "random.hpp"
 #include "rig_rigs.hpp"
 #include "tendril/rig/backward.hpp"
@@ -95,11 +93,8 @@ TEST(RigBackward, RespectsTheLimitsOfControls) {
 
 /// Two bones on one control, with targets that cannot both be satisfied.
 TEST(RigBackward, SharesTheResidualByLeastSquares) {
-    Definition definition;
-    definition.elements = {
-        {.name = "a"},
-        {.name = "b"},
-        {.name = "place", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Position}}};
+    Definition definition{
+        .elements = {{.name = "a"}, {.name = "b"}, control("place", ControlKind::Position)}};
     for (const char* bone : {"a", "b"})
         definition.units.push_back(
             {.name = std::string("move ") += bone,
@@ -125,15 +120,13 @@ TEST(RigBackward, SharesTheResidualByLeastSquares) {
 /// A bone 1 m from the control that rotates it, with a position target at rest and a rotation target at a
 /// right angle: at the minimum of d^2 + r^2 a^2 the derivative is zero.
 TEST(RigBackward, MetresPerRadianWeightsRotations) {
-    Definition definition;
-    definition.elements = {
-        {.name = "root"},
-        {.name = "bone", .parent = "root", .initial = at(1, 0, 0)},
-        {.name = "dial", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Rotation}}};
-    definition.units = {
-        {.name = "turn",
-         .operation =
-             SetRotation{.item = "root", .rotation = FromElement{.element = "dial", .of = Of::Rotation}}}};
+    Definition definition{
+        .elements = {{.name = "root"},
+                     {.name = "bone", .parent = "root", .initial = at(1, 0, 0)},
+                     control("dial", ControlKind::Rotation)},
+        .units = {{.name = "turn",
+                   .operation = SetRotation{
+                       .item = "root", .rotation = FromElement{.element = "dial", .of = Of::Rotation}}}}};
     const double right = std::acos(0.0);
     for (const double radius : {0.0, 0.1, 0.7, 5.0}) {
         Held rig(definition);
@@ -161,11 +154,10 @@ TEST(RigBackward, ResidualsIncludeScale) {
 
 TEST(RigBackward, TriesSwitchesBothWays) {
     Definition definition = fk_rig(2);
-    definition.elements.push_back(
-        {.name = "on", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Bool}});
+    definition.elements.push_back(control("on", ControlKind::Bool));
     definition.units.push_back({.name = "bend",
                                 .operation = OffsetTransform{.item = "b0", .offset = at(0, 0, 2)},
-                                .when = FromElement{.element = "on", .of = Of::ControlValue}});
+                                .when = value_of("on")});
     Held rig(definition);
     ASSERT_TRUE(rig.control("on", true));
     rig.solve();

@@ -1,12 +1,6 @@
 // Refusals of Rig::make, and their messages.
-#include <gtest/gtest.h>
-#include <limits>
-#include <string>
-
 #include "rig_line.hpp"
 #include "rig_maker.hpp"
-#include "rig_rigs.hpp"
-#include "tendril/rig/workspace.hpp"
 #include "tests/says.hpp"
 
 namespace tendril::rig {
@@ -19,13 +13,11 @@ std::string refusal(const Definition& definition) {
 
 /// Two bones, a float and a transform control, and one unit.
 Definition with(Operation operation) {
-    Definition rig;
-    rig.elements = {
-        {.name = "root"},
-        {.name = "hand", .parent = "root", .initial = at(1, 0, 0)},
-        {.name = "dial", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Float}}};
-    rig.curves = {{.name = "smile"}};
-    rig.units = {{.name = "first", .operation = std::move(operation)}};
+    Definition rig{.elements = {{.name = "root"},
+                                {.name = "hand", .parent = "root", .initial = at(1, 0, 0)},
+                                control("dial", ControlKind::Float)},
+                   .curves = {{.name = "smile"}},
+                   .units = {{.name = "first", .operation = std::move(operation)}}};
     return rig;
 }
 
@@ -76,9 +68,8 @@ TEST(RigMake, RefusesInputsWithUnknownNames) {
         test::says(refusal(with(EvaluateCurve{.value = FromUnit{"first"}})), "unit first value unit first"));
     EXPECT_TRUE(test::says(refusal(with(SetCurve{.curve = "frown"})), "unit first curve frown"));
     EXPECT_TRUE(test::says(refusal(with(ForEach{.roots = {"root", "nobody"}})), "unit first roots nobody"));
-    EXPECT_TRUE(test::says(
-        refusal(with(EvaluateCurve{.value = FromElement{.element = "hand", .of = Of::ControlValue}})),
-        "unit first value hand not control"));
+    EXPECT_TRUE(test::says(refusal(with(EvaluateCurve{.value = value_of("hand")})),
+                           "unit first value hand not control"));
     EXPECT_TRUE(test::says(refusal(with(ParentConstraint{.item = "hand"})), "unit first parents at least 1"));
     EXPECT_TRUE(test::says(refusal(with(ForEach{})), "unit first roots at least 1"));
 }

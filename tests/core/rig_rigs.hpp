@@ -1,9 +1,6 @@
 // Small rigs for the tests.
 #pragma once
 
-#include <glm/gtc/quaternion.hpp>
-#include <string>
-
 #include "tendril/rig/rig.hpp"
 #include "tendril/rig/workspace.hpp"
 
@@ -21,6 +18,13 @@ inline Transform turned(double degrees, const glm::dvec3& axis) {
     return {.rotation = glm::angleAxis(glm::radians(degrees), glm::normalize(axis))};
 }
 
+inline Element control(const std::string& name, ControlKind kind, const Transform& place = {}) {
+    return {.name = name, .kind = ElementKind::Control, .initial = place, .control = Control{.kind = kind}};
+}
+inline FromElement value_of(const std::string& control) {
+    return {.element = control, .of = Of::ControlValue};
+}
+
 /// A rig with its state and workspace, as a game holds them.
 struct Held {
     Rig rig;
@@ -29,6 +33,8 @@ struct Held {
 
     explicit Held(const Definition& definition)
         : rig(Rig::make(definition).value()), state(rig.initial_state()), workspace(rig) {}
+    /// Solved once.
+    Held(const Definition& definition, double dt) : Held(definition) { solve(dt); }
 
     std::size_t element(const std::string& name) const { return rig.element(name).value(); }
     Transform global(const std::string& name) {
@@ -87,12 +93,11 @@ inline Definition fk_rig(int count = 4, bool maintain_offset = true) {
                                 .parent = i > 0 ? numbered("b", i - 1) : std::string(),
                                 .initial = place});
     }
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count; ++i)
         rig.units.push_back({.name = numbered("follow", i),
                              .operation = ParentConstraint{.item = numbered("b", i),
                                                            .parents = {{.item = numbered("c", i)}},
                                                            .maintain_offset = maintain_offset}});
-    }
     return rig;
 }
 
@@ -108,14 +113,13 @@ inline Definition loop_rig(int count = 5, bool propagate = true) {
          .kind = ElementKind::Control,
          .control =
              Control{.kind = ControlKind::Float, .minimum = glm::dvec3(0.0), .maximum = glm::dvec3(1.0)}});
-    rig.units = {
-        {.name = "curl",
-         .operation = ForEach{.roots = {"b0"},
-                              .body = {{.name = "turn",
-                                        .operation = OffsetTransform{.item = ThisElement(),
-                                                                     .offset = turned(30, {0, 0, 1}),
-                                                                     .propagate = propagate},
-                                        .weight = FromElement{.element = "dial", .of = Of::ControlValue}}}}}};
+    rig.units = {{.name = "curl",
+                  .operation = ForEach{.roots = {"b0"},
+                                       .body = {{.name = "turn",
+                                                 .operation = OffsetTransform{.item = ThisElement(),
+                                                                              .offset = turned(30, {0, 0, 1}),
+                                                                              .propagate = propagate},
+                                                 .weight = value_of("dial")}}}}};
     return rig;
 }
 

@@ -1,8 +1,6 @@
 // Values set by the user, a rig's memory, and how both survive edits and rollbacks.
 #include <gtest/gtest.h>
 
-#include <vector>
-
 #include "memory.hpp"
 #include "rig_rigs.hpp"
 
@@ -15,13 +13,11 @@ void expect_near(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-9)
 }
 
 TEST(RigState, SpringsLagAndComeToRest) {
-    Definition definition;
-    definition.elements = {
-        {.name = "head", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Position}},
-        {.name = "tip", .initial = at(0, 1, 0)}};
-    definition.units = {
-        {.name = "trail", .operation = SpringInterpolate{.target = FromElement{"head"}, .strength = 2.0}},
-        {.name = "follow", .operation = SetTransform{.item = "tip", .transform = Transform()}}};
+    Definition definition{
+        .elements = {control("head", ControlKind::Position), {.name = "tip", .initial = at(0, 1, 0)}},
+        .units = {
+            {.name = "trail", .operation = SpringInterpolate{.target = FromElement{"head"}, .strength = 2.0}},
+            {.name = "follow", .operation = SetTransform{.item = "tip", .transform = Transform()}}}};
     definition.units[1].operation = TransformLocation{.location = FromUnit{"trail"}};
     Held rig(definition);
     EXPECT_FALSE(rig.solve(1.0 / 60)) << "at rest on its target";
@@ -119,10 +115,10 @@ TEST(RigState, LimitsThatAKindDoesNotUseAreIgnored) {
 }
 
 TEST(RigState, ChangingATypeClearsItsMemory) {
-    Definition definition;
-    definition.elements = {{.name = "bone", .initial = at(1, 0, 0)}, {.name = "other"}};
-    definition.curves = {{.name = "smile", .value = 0.25}};
-    definition.units = {{.name = "spring", .operation = SpringInterpolate{.target = Value(1.0)}}};
+    Definition definition{
+        .elements = {{.name = "bone", .initial = at(1, 0, 0)}, {.name = "other"}},
+        .curves = {{.name = "smile", .value = 0.25}},
+        .units = {{.name = "spring", .operation = SpringInterpolate{.target = Value(1.0)}}}};
     Held rig(definition);
     rig.solve(0.1);
     ASSERT_TRUE(rig.rig.set_curve(rig.state, 0, 0.75));
@@ -145,10 +141,9 @@ TEST(RigState, ChangingATypeClearsItsMemory) {
 }
 
 TEST(RigState, AGlobalPoseIsKeptBelowAMovedControl) {
-    Definition definition;
-    definition.elements = {{.name = "control", .kind = ElementKind::Control},
-                           {.name = "a", .parent = "control", .initial = at(1, 0, 0)},
-                           {.name = "b", .parent = "a", .initial = at(0, 1, 0)}};
+    Definition definition{.elements = {{.name = "control", .kind = ElementKind::Control},
+                                       {.name = "a", .parent = "control", .initial = at(1, 0, 0)},
+                                       {.name = "b", .parent = "a", .initial = at(0, 1, 0)}}};
     for (const Propagate propagate : {Propagate::Yes, Propagate::No}) {
         Held rig(definition);
         Transform moved = turned(90, {0, 0, 1});
@@ -178,8 +173,7 @@ TEST(RigState, AChainWithNewEndsIsSolved) {
                                        .initial = at(i > 0 ? 1 : 0, 0, 0)});
     definition.units = {
         {.name = "reach", .operation = Fabrik{.root = "b0", .tip = "b4", .target = glm::dvec3(1, 1.2, 0.5)}}};
-    Held rig(definition);
-    rig.solve();
+    Held rig(definition, 0.0);
     for (const auto& [root, tip] : {std::pair{"b0", "b3"}, std::pair{"b1", "b4"}, std::pair{"b1", "b3"}}) {
         auto& reach = std::get<Fabrik>(definition.units[0].operation);
         reach.root = root;
@@ -266,9 +260,7 @@ TEST(RigState, AllocatesNothing) {
 
 /// A unit that inverts a switch needs no time; easing waits for time.
 TEST(RigState, UnitsWithoutEasingFollowWithoutTime) {
-    Definition definition;
-    definition.elements = {
-        {.name = "dial", .kind = ElementKind::Control, .control = Control{.kind = ControlKind::Float}}};
+    Definition definition{.elements = {control("dial", ControlKind::Float)}};
     const FromElement dial{.element = "dial", .of = Of::ControlValue};
     definition.units = {
         {.name = "not", .operation = AlphaInterpolate{.value = dial, .scale = -1.0, .bias = 1.0}},
@@ -288,10 +280,7 @@ TEST(RigState, UnitsWithoutEasingFollowWithoutTime) {
 TEST(RigState, WorkspacesCanBeReplacedWhileBonesGrow) {
     Definition definition;
     definition.elements = {{.name = "size", .kind = ElementKind::Control, .control = Control{}},
-                           {.name = "goal",
-                            .kind = ElementKind::Control,
-                            .initial = at(1, 1, 0),
-                            .control = Control{.kind = ControlKind::Position}},
+                           control("goal", ControlKind::Position, at(1, 1, 0)),
                            {.name = "a", .parent = "size"},
                            {.name = "b", .parent = "a", .initial = at(0.7, 0.1, 0)},
                            {.name = "c", .parent = "b", .initial = at(0.5, 0, 0.2)},
@@ -345,14 +334,13 @@ TEST(RigState, WithoutPropagationChildrenStayAfterTheSolve) {
     for (const char* parent : {"parent", "transform"}) {
         ASSERT_TRUE(rig.rig.set_element(rig.state, rig.element(parent), Space::Global, to, Propagate::No));
         before[rig.element(parent)] = to;
-        for (int solves = 0; solves < 2; ++solves, rig.solve()) {
+        for (int solves = 0; solves < 2; ++solves, rig.solve())
             for (std::size_t i = 0; i < before.size(); ++i) {
                 SCOPED_TRACE(definition.elements[i].name);
                 const Transform now = rig.global(definition.elements[i].name);
                 expect_near(now.translation, before[i].translation);
                 EXPECT_NEAR(std::abs(glm::dot(now.rotation, before[i].rotation)), 1.0, 1e-12);
             }
-        }
     }
 }
 

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "random.hpp"
@@ -34,9 +32,7 @@ inline double some_factor(Random& random) {
 }
 /// Half of them scaled, some uniformly, some not.
 inline rig::Transform some_transform(Random& random, double range = 2.0) {
-    rig::Transform made;
-    made.translation = some_vector(random, range);
-    made.rotation = some_rotation(random);
+    rig::Transform made{.translation = some_vector(random, range), .rotation = some_rotation(random)};
     if (random.chance(4)) {
         const double x = some_factor(random), y = some_factor(random), z = some_factor(random);
         made.scale = {x, y, z};

@@ -1,8 +1,5 @@
 #include "session.hpp"
 
-#include <utility>
-#include <vector>
-
 #include "fnv.hpp"
 #include "random.hpp"
 #include "rope_named.hpp"
@@ -124,13 +121,12 @@ test::World some_world(int number, Random& random) {
                         .pin_start = random.chance(2),
                         .pin_end = random.chance(4)});
     }
-    if (random.chance(2)) {
+    if (random.chance(2))
         world.add_cloth({.corner = random.point(1.0f),
                          .columns = 5,
                          .rows = 4,
                          .tear = random.chance(2) ? 0.0625f : 0.0f,
                          .pins = rope::ClothShape::Pins::Corners});
-    }
     const glm::vec3 root = centre(world.find_collider("ball")->shape) + glm::vec3(0, 0.25f, 0);
     world.add_hair({.roots = {{root, {0, 1, 0}}, {root, {1, 1, 0}}}, .segments = 5}, "ball");
     return world;
@@ -166,9 +162,7 @@ std::uint64_t session_hash() {
             require(chain.set_default_direction(i % 2000 == 0 ? glm::vec3(1, 0, 0) : glm::vec3(0, -1, 0)));
         }
         require(random.chance(2) ? edit(chain, random) : reach(chain, random));
-        for (const Segment& segment : chain.segments()) {
-            hash.add(segment.position);
-        }
+        for (const Segment& segment : chain.segments()) hash.add(segment.position);
     }
     return hash.value();
 }
@@ -211,11 +205,10 @@ std::uint64_t curve_hash() {
             joints[bone + 1] = joints[bone] + glm::vec3(lengths[bone], 0.0f, 0.0f);
         ik::State state(lengths.size());
         ik::CurveMemory memory(lengths.size());
-        ik::CurveOptions options;
-        options.kind = random.chance(2) ? ik::CurveKind::BSpline : ik::CurveKind::Hermite;
-        options.fit = random.chance(3);
-        options.roll_end = random.around(4.0f);
-        options.weight = random.chance(3) ? 0.5f : 1.0f;
+        ik::CurveOptions options{.kind = random.chance(2) ? ik::CurveKind::BSpline : ik::CurveKind::Hermite,
+                                 .fit = random.chance(3),
+                                 .roll_end = random.around(4.0f),
+                                 .weight = random.chance(3) ? 0.5f : 1.0f};
         for (int turn = 0; turn < 4; ++turn) {
             points[random.below(points.size())] = random.point(4.0f);
             const ik::CurveReport report =

@@ -1,7 +1,4 @@
 // One rig with every unit, solved with moving controls.
-#include <cstddef>
-#include <variant>
-
 #include "fnv.hpp"
 #include "random.hpp"
 #include "session.hpp"
@@ -13,8 +10,7 @@ namespace {
 using namespace tendril::rig;
 
 Transform at(double x, double y, double z) {
-    Transform made;
-    made.translation = {x, y, z};
+    Transform made{.translation = {x, y, z}};
     return made;
 }
 

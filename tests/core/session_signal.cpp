@@ -1,7 +1,4 @@
 // The filters of the fixed session.
-#include <cmath>
-#include <vector>
-
 #include "fnv.hpp"
 #include "random.hpp"
 #include "session.hpp"

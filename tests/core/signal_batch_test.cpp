@@ -6,7 +6,6 @@
 
 #include "signal_support.hpp"
 #include "tendril/ik/many.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -268,8 +267,8 @@ TEST(SignalBatch, RefusesListsOfDifferentLengths) {
     Random random(8);
     Springs springs = some_springs(4, random);
     springs.damping.pop_back();
-    EXPECT_TRUE(test::says(signal::step_springs(springs.arrays(), 0.1).message(),
-                           "step_springs critical_damping 4 3"));
+    EXPECT_TRUE(
+        says(signal::step_springs(springs.arrays(), 0.1).message(), "step_springs critical_damping 4 3"));
     EXPECT_FALSE(signal::start_springs(springs.arrays()));
     springs.damping.push_back(1.0f);
     for (Floats* const list :

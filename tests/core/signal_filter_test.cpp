@@ -1,9 +1,6 @@
 // Properties shared by every kind of filter.
 
 #include "signal_support.hpp"
-#include "tendril/signal/curve.hpp"
-#include "tendril/signal/filter.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -26,11 +23,11 @@ TEST(SignalFilter, TheTableHasEveryKindAndField) {
 
 TEST(SignalFilter, RefusalsNameTheParameterAndItsValue) {
     const auto message = [](const Filter& filter) -> std::string { return signal::check(filter).message(); };
-    EXPECT_TRUE(test::says(message(signal::ScaleBiasClamp{.in_range = {0.0, infinity}}),
-                           "scale_bias_clamp in_range[1] -1e9 1e9 inf"));
-    EXPECT_TRUE(test::says(message(signal::ScaleBiasClamp{.clamp_min = 2.0, .clamp_max = 1.0}),
-                           "scale_bias_clamp clamp_min clamp_max 2"));
-    EXPECT_TRUE(test::says(message(signal::Hysteresis{.low = 1.0, .high = 0.5}), "hysteresis low high 1"));
+    EXPECT_TRUE(says(message(signal::ScaleBiasClamp{.in_range = {0.0, infinity}}),
+                     "scale_bias_clamp in_range[1] -1e9 1e9 inf"));
+    EXPECT_TRUE(says(message(signal::ScaleBiasClamp{.clamp_min = 2.0, .clamp_max = 1.0}),
+                     "scale_bias_clamp clamp_min clamp_max 2"));
+    EXPECT_TRUE(says(message(signal::Hysteresis{.low = 1.0, .high = 0.5}), "hysteresis low high 1"));
 }
 
 /// A filter that check() accepts; parameters are at the ends of their ranges as often as in between.
@@ -189,12 +186,12 @@ TEST(SignalCurve, RefusalsNameTheKey) {
     const auto message = [](std::vector<CurveKey> keys) -> std::string {
         return signal::check(Curve{.keys = std::move(keys)}).message();
     };
-    EXPECT_TRUE(test::says(message({}), "curve keys none"));
-    EXPECT_TRUE(test::says(message({{.time = 0.0}, {.time = 0.5}, {.time = 0.25}}),
-                           "curve keys[2].time before 0.25"));
-    EXPECT_TRUE(test::says(message({{.time = 0.0}, {.time = 0.0}}), "curve keys[1].time before 0"));
-    EXPECT_TRUE(test::says(message({{.time = 0.0}, {.time = 1.0, .value = not_a_number}}),
-                           "curve keys[1].value 1e9 nan"));
+    EXPECT_TRUE(says(message({}), "curve keys none"));
+    EXPECT_TRUE(
+        says(message({{.time = 0.0}, {.time = 0.5}, {.time = 0.25}}), "curve keys[2].time before 0.25"));
+    EXPECT_TRUE(says(message({{.time = 0.0}, {.time = 0.0}}), "curve keys[1].time before 0"));
+    EXPECT_TRUE(
+        says(message({{.time = 0.0}, {.time = 1.0, .value = not_a_number}}), "curve keys[1].value 1e9 nan"));
     EXPECT_EQ(signal::check(signal::Filter(Curve{.keys = {}})).code(), ErrorCode::InvalidArgument);
     EXPECT_EQ(message({{.time = -3.0}, {.time = 7.0}}), "");
 }

@@ -261,9 +261,8 @@ TEST(SignalRates, AtItsOwnRateItEqualsThePlainRun) {
     EXPECT_EQ(once.runs[4].time, again_all.runs[4].time);
     const std::vector<double> at[] = {{once.at}};
     double low = 10.0, high = -10.0;
-    for (const auto& each : signal::outputs_at(chain, samples, at[0])) {
+    for (const auto& each : signal::outputs_at(chain, samples, at[0]))
         low = std::min(low, each[0]), high = std::max(high, each[0]);
-    }
     EXPECT_NEAR(high - low, once.difference, 1e-12) << "outputs_at shows the same runs";
 }
 

@@ -2,14 +2,9 @@
 #include <cstdlib>
 #include <deque>
 #include <fstream>
-#include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
 #include "signal_support.hpp"
-#include "tendril/signal/inertialize.hpp"
-#include "tendril/signal/interpolate.hpp"
-#include "tendril/signal/shaping.hpp"
-#include "tendril/signal/smoothing.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::test::signal_smoothing_test {
@@ -229,9 +224,8 @@ double angle_between(const glm::dquat& a, const glm::dquat& b) {
 
 TEST(SignalInterpolate, TheExactFormDoesNotDependOnFrameRate) {
     const signal::Filter filter = filter_of("interp_to_exact", {{"speed", 10.0}});
-    for (const double hz : {30.0, 60.0, 144.0}) {
+    for (const double hz : {30.0, 60.0, 144.0})
         EXPECT_NEAR(1.0 - reached(filter, hz, 0.5), std::exp(-5.0), 1e-6) << hz << " Hz";
-    }
     Random random(1);
     for (int i = 0; i < 1000; ++i) {
         const double from = around(random, 100.0), to = around(random, 100.0);

@@ -1,10 +1,7 @@
-#include "tendril/signal/spring.hpp"
 
 #include <complex>
-#include <glm/gtc/quaternion.hpp>
 
 #include "signal_support.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -53,18 +50,17 @@ TEST(SignalSpring, IsContinuousAcrossCriticalDamping) {
             return state;
         };
         const SpringState<> critical = at(1.0);
-        for (const double near : {1e-4, 1e-7, 1e-10, 1e-13}) {
+        for (const double near : {1e-4, 1e-7, 1e-10, 1e-13})
             for (const double damping : {1.0 - near, 1.0 + near}) {
                 EXPECT_NEAR(at(damping).value, critical.value, 30.0 * near + 1e-12);
                 EXPECT_NEAR(at(damping).velocity, critical.velocity, 1000.0 * near + 1e-10);
             }
-        }
         EXPECT_NEAR(at(1.0 - 1e-4).value, at(1.0 + 1e-4).value, 1e-3);
     }
 }
 
 TEST(SignalSpring, DoesNotDependOnTheDivisionOfTime) {
-    for (const double damping : {0.0, 0.05, 0.4, 0.9999, 1.0, 1.0001, 1.3, 5.0, 100.0}) {
+    for (const double damping : {0.0, 0.05, 0.4, 0.9999, 1.0, 1.0001, 1.3, 5.0, 100.0})
         for (const double strength : {0.0, 0.2, 1.0, 8.0}) {
             const Spring<> spring{.strength = strength, .critical_damping = damping};
             SpringState<> whole = moving(3.0, -20.0), cut = whole;
@@ -76,11 +72,10 @@ TEST(SignalSpring, DoesNotDependOnTheDivisionOfTime) {
             signal::step(Spring<float>{.strength = strength, .critical_damping = damping}, coarse, 0.0f, 0.5);
             EXPECT_NEAR(static_cast<double>(coarse.value), whole.value, 1e-5);
         }
-    }
 }
 
 TEST(SignalSpring, LagsBehindSteadyMotionByTheFormula) {
-    for (const double damping : {0.3, 1.0, 2.0}) {
+    for (const double damping : {0.3, 1.0, 2.0})
         for (const double amount : {0.0, 0.5, 1.0}) {
             const Spring<> spring{
                 .strength = 2.0, .critical_damping = damping, .target_velocity_amount = amount};
@@ -97,7 +92,6 @@ TEST(SignalSpring, LagsBehindSteadyMotionByTheFormula) {
                     << damping << " " << amount << " at " << hz;
             }
         }
-    }
 }
 
 TEST(SignalSpring, StartsOnItsTargetAtRest) {
@@ -219,7 +213,7 @@ TEST(SignalSpring, AllParametrisationsGiveTheSameSpring) {
         ASSERT_TRUE(by_half_life) << by_half_life.message();
         EXPECT_NEAR(by_half_life->strength, strength, 1e-12 * strength);
     }
-    EXPECT_TRUE(test::says(signal::of_duration(0.3, 1.5).message(), "of_duration bounce -0.999 1 1.5"));
+    EXPECT_TRUE(says(signal::of_duration(0.3, 1.5).message(), "of_duration bounce -0.999 1 1.5"));
     for (const double bad : {0.0, -1.0, not_a_number, infinity, 1e-9}) {
         EXPECT_FALSE(signal::of_duration(bad, 0.0)) << bad;
         EXPECT_FALSE(signal::of_half_life(bad, 1.0)) << bad;

@@ -1,16 +1,12 @@
 // Shared by filter tests.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <initializer_list>
-#include <limits>
-#include <utility>
-#include <vector>
 
 #include "random.hpp"
 #include "tendril/signal/filter.hpp"
 #include "tendril/signal/run.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 

@@ -31,10 +31,7 @@ void solve(const app::Case& each) {
     for (const ik::Method method : ik::all_methods) {
         ik::Solver solver = ik::Solver::make(each.lengths, each.rest_directions).value();
         ik::State state = solver.initial_state();
-        ik::Options options;
-        options.max_iterations = 20;
-        options.pole = each.pole;
-        options.limits = each.limits;
+        ik::Options options{.max_iterations = 20, .limits = each.limits, .pole = each.pole};
         const std::vector<glm::vec3> start = start_of(each);
         std::vector<glm::vec3> joints = start;
         const ik::Report report = solver.solve(method, joints, state, each.target, options);

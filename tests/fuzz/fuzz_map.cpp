@@ -1,6 +1,4 @@
 // A bone map's file is refused with a std::runtime_error that names it, or reads back unchanged.
-#include <stdexcept>
-
 #include "app/io/character/map_file.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "tests/fuzz/check.hpp"

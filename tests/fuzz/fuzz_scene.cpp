@@ -2,7 +2,6 @@
 // loads unchanged, and its labs can show it and advance it.
 //
 // Starts with the labs' own scenes (Lab::test_scenes) that are small enough.
-#include <filesystem>
 #include <fstream>
 
 #include "app/document/command.hpp"

@@ -2,8 +2,6 @@
 // the frames that were read, and its amount is a number.
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
-#include <string>
 
 #include "app/io/trace/trace.hpp"
 #include "tests/fuzz/check.hpp"

@@ -133,8 +133,8 @@ inline constexpr float min_gain_part = 1e-3f;     ///< of the remaining distance
 
 }  // namespace explain
 
-/// tests/core/ik_pole_test.cpp and ik_pole_sweep_test.cpp check what these guarantee: targets that move by
-/// 0.1 mm never move a joint of a 1 m chain by more than 5 mm.
+/// tests/core/ik_pole_test.cpp checks what these guarantee: targets that move by 0.1 mm never move a joint of
+/// a 1 m chain by more than 5 mm.
 namespace pole {
 
 /// How far a joint may move to face its pole: `free_part` of the reach in each solve, plus `follow` times

@@ -3,7 +3,6 @@
 #include "app/labs/chain/chain_runtime.hpp"
 #include "app/labs/kit/code_text.hpp"
 
-#include <cmath>
 #include <glm/trigonometric.hpp>
 #include <random>
 

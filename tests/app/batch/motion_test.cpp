@@ -1,15 +1,8 @@
 // `tendril lint` and `tendril bake`: the built program with valid and invalid files.
-#include <signal.h>
-
-#include <chrono>
-#include <thread>
-
-#include "app/document/json_complete.hpp"
 #include "app/io/character/export.hpp"
 #include "app/io/character/read.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "tests/app/support/program.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -60,8 +53,8 @@ TEST_F(MotionProgram, LintPrintsWhatItFindsAndExitsWith1) {
     const std::string file = figure("flipped.glb", true);
     const Outcome lines = run({"lint", file});
     EXPECT_EQ(lines.exit_code, 1);
-    EXPECT_TRUE(test::says(lines.out, "walk sign_flip 12 67 60 0.200 RightLowerLeg")) << lines.out;
-    EXPECT_TRUE(test::says(lines.out, "1 finding 1 clip")) << lines.out;
+    EXPECT_TRUE(says(lines.out, "walk sign_flip 12 67 60 0.200 RightLowerLeg")) << lines.out;
+    EXPECT_TRUE(says(lines.out, "1 finding 1 clip")) << lines.out;
 
     const Outcome outcome = run({"lint", file, "--json"});
     EXPECT_EQ(outcome.exit_code, 1);
@@ -82,12 +75,12 @@ TEST_F(MotionProgram, LintPrintsWhatItFindsAndExitsWith1) {
 TEST_F(MotionProgram, PrintsWhatItGuessedAboutAFile) {
     // A BVH states no unit.
     const std::string file = figure("walk.bvh");
-    EXPECT_TRUE(test::says(run({"lint", file}).out, "Note unit 0 findings"));
+    EXPECT_TRUE(says(run({"lint", file}).out, "Note unit 0 findings"));
     const Outcome baked = run({"bake", file, "--out", path("out.glb")});
-    EXPECT_TRUE(test::says(baked.out, "Note unit out.glb 67 frames"));
+    EXPECT_TRUE(says(baked.out, "Note unit out.glb 67 frames"));
     const Json json = app::parse_json(run({"lint", file, "--json"}).out);
     ASSERT_EQ(json["notes"].size(), 1u);
-    EXPECT_TRUE(test::says(json["notes"][0].get<std::string>(), "unit"));
+    EXPECT_TRUE(says(json["notes"][0].get<std::string>(), "unit"));
     // A glTF file states both.
     EXPECT_EQ(run({"lint", figure("walk.glb")}).out, "0 findings in 1 clip\n");
     EXPECT_EQ(app::parse_json(run({"lint", path("walk.glb"), "--json"}).out)["notes"], Json::array());
@@ -95,7 +88,7 @@ TEST_F(MotionProgram, PrintsWhatItGuessedAboutAFile) {
 
 TEST_F(MotionProgram, BakeWritesTheClipAndPrintsTheDifference) {
     const std::string file = figure("walk.glb");
-    for (const char* ground : {"none", "flat", "slope", "stairs", "terrain"}) {
+    for (const char* ground : {"none", "flat", "slope", "stairs", "terrain"})
         for (const char* name : {"out.glb", "out.gltf", "out.bvh"}) {
             const Outcome outcome = run({"bake", file, "--ground", ground, "--out", path(name), "--force"});
             EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -105,7 +98,6 @@ TEST_F(MotionProgram, BakeWritesTheClipAndPrintsTheDifference) {
             const app::Character read = app::read_character(folder_ / name);
             EXPECT_NEAR(read.clips.at(0).duration, 1.1, 1e-6);
         }
-    }
     // On stairs, the figure climbs.
     run({"bake", file, "--ground", "stairs", "--out", path("up.bvh")});
     const app::Character up = app::read_character(folder_ / "up.bvh");
@@ -119,7 +111,7 @@ TEST_F(MotionProgram, BakeTakesAClipNameAndAFrameRateAndWritesBesideTheFile) {
     EXPECT_NE(read(folder_ / "walk_baked.bvh").find("Frames: 34\n"), std::string::npos);
     const Outcome unknown = run({"bake", file, "--clip", "run"});
     EXPECT_EQ(unknown.exit_code, 2);
-    EXPECT_TRUE(test::says(unknown.err, "walk.bvh run motion"));
+    EXPECT_TRUE(says(unknown.err, "walk.bvh run motion"));
 }
 
 TEST_F(MotionProgram, BakeSaysWhichOfManyClipsItWroteAndWritesThemAll) {
@@ -133,11 +125,10 @@ TEST_F(MotionProgram, BakeSaysWhichOfManyClipsItWroteAndWritesThemAll) {
     write(folder_ / "two.gltf", json.dump());
     const Outcome one = run({"bake", path("two.gltf"), "--out", path("one.glb")});
     EXPECT_EQ(one.exit_code, 0) << one.err;
-    EXPECT_TRUE(test::says(one.out, "one.glb 1 of 2 clips: walk 67 frames")) << one.out;
+    EXPECT_TRUE(says(one.out, "one.glb 1 of 2 clips: walk 67 frames")) << one.out;
     const Outcome all = run({"bake", path("two.gltf"), "--all", "--out", path("all.bvh")});
     EXPECT_EQ(all.exit_code, 0) << all.err;
-    EXPECT_TRUE(test::says(all.out, "all_walk.bvh walk 67 frames all_walk_2.bvh walk/2 67 frames"))
-        << all.out;
+    EXPECT_TRUE(says(all.out, "all_walk.bvh walk 67 frames all_walk_2.bvh walk/2 67 frames")) << all.out;
     EXPECT_NEAR(app::read_character(folder_ / "all_walk_2.bvh").clips.at(0).duration, 1.1, 1e-6);
     EXPECT_EQ(run({"bake", path("two.gltf"), "--all", "--clip", "walk"}).exit_code, 2);
 }
@@ -147,17 +138,16 @@ TEST_F(MotionProgram, LintAndBakeTakeAnotherCharactersMotionAndPrintTheirGuesses
     const std::string body = figure("body.glb"), walk = figure("walk.bvh");
     const Outcome judged = run({"lint", body, "--motion", walk});
     EXPECT_EQ(judged.exit_code, 0) << judged.out << judged.err;
-    EXPECT_TRUE(test::says(judged.out, "Note: walk.bvh hips scaled 1.00 unit 0 findings 1 clip"))
-        << judged.out;
+    EXPECT_TRUE(says(judged.out, "Note: walk.bvh hips scaled 1.00 unit 0 findings 1 clip")) << judged.out;
     const Json json = app::parse_json(run({"lint", body, "--motion", walk, "--json"}).out);
     EXPECT_EQ(json["clips"].at(0)["name"], "motion");
-    EXPECT_TRUE(test::says(json["notes"].dump(), "hips scaled unit"));
-    EXPECT_TRUE(test::says(run({"lint", walk}).out, "Note: unit 0 findings")) << "of a file alone, too";
+    EXPECT_TRUE(says(json["notes"].dump(), "hips scaled unit"));
+    EXPECT_TRUE(says(run({"lint", walk}).out, "Note: unit 0 findings")) << "of a file alone, too";
 
     const Outcome baked = run(
         {"bake", body, "--motion", walk, "--clip", "motion", "--ground", "flat", "--out", path("out.glb")});
     EXPECT_EQ(baked.exit_code, 0) << baked.err;
-    EXPECT_TRUE(test::says(baked.out, "Note: walk.bvh hips scaled unit out.glb: motion")) << baked.out;
+    EXPECT_TRUE(says(baked.out, "Note: walk.bvh hips scaled unit out.glb: motion")) << baked.out;
     const app::Character written = app::read_character(path("out.glb"));
     ASSERT_EQ(written.clips.size(), 1u);
     EXPECT_EQ(written.clips[0].name, "motion");
@@ -166,7 +156,7 @@ TEST_F(MotionProgram, LintAndBakeTakeAnotherCharactersMotionAndPrintTheirGuesses
                                {"in use as input"}));
     const Outcome unknown = run({"bake", body, "--motion", walk, "--clip", "run"});
     EXPECT_EQ(unknown.exit_code, 2);
-    EXPECT_TRUE(test::says(unknown.err, "walk.bvh no clip run motion")) << unknown.err;
+    EXPECT_TRUE(says(unknown.err, "walk.bvh no clip run motion")) << unknown.err;
 }
 
 TEST_F(MotionProgram, APoseIsAMotionToo) {
@@ -253,7 +243,7 @@ TEST_F(MotionProgram, ASignalEndsABakeAtOnceAndLeavesNothing) {
         for (auto* list : {&channel.translation.times, &channel.rotation.times, &channel.scale.times})
             for (double& time : *list) time *= times;
     app::export_clip({character, {}, clip, clip, 1.0}, folder_ / "long.glb");
-    for (const int number : {SIGINT, SIGTERM}) {
+    for (const int number : {SIGINT, SIGTERM})
         for (const Strings& arguments :
              {Strings{"bake", path("long.glb"), "--ground", "stairs", "--fps", "1000"},
               Strings{"lint", path("long.glb")}}) {
@@ -265,7 +255,6 @@ TEST_F(MotionProgram, ASignalEndsABakeAtOnceAndLeavesNothing) {
             EXPECT_TRUE(outcome.exit_code == 128 + number || arguments[0] == "lint")
                 << arguments[0] << ' ' << outcome.exit_code << outcome.err;
         }
-    }
     EXPECT_EQ(folder_.names(), Strings{"long.glb"});
 }
 

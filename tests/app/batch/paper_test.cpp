@@ -1,13 +1,6 @@
 // `tendril paper`: its measurements, and the built program's table. No test depends on timing.
 #include "app/batch/paper.hpp"
 
-#include <signal.h>
-
-#include <chrono>
-#include <cmath>
-#include <sstream>
-#include <thread>
-
 #include "tests/app/support/program.hpp"
 
 namespace tendril::test {

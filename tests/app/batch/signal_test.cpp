@@ -1,8 +1,4 @@
 // `tendril signal`: the built program with valid and invalid files.
-#include <cmath>
-#include <sstream>
-
-#include "app/document/json_complete.hpp"
 #include "app/io/samples.hpp"
 #include "tests/app/support/program.hpp"
 

@@ -1,10 +1,5 @@
 // `tendril solve` with linkages: reference cases, sweeps, scenes, and what is refused.
-#include <cmath>
-
-#include "app/document/json_complete.hpp"
 #include "tests/app/support/program.hpp"
-#include "tests/places.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

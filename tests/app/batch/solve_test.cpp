@@ -1,15 +1,5 @@
 // `tendril solve`: the built program with valid and invalid files.
-#include <signal.h>
-
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <thread>
-
-#include "app/document/json_complete.hpp"
 #include "tests/app/support/program.hpp"
-#include "tests/labels.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

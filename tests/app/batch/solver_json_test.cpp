@@ -3,8 +3,6 @@
 #include "app/document/json_complete.hpp"
 #include "app/fields/fields.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numbers>
 #include <random>

@@ -1,15 +1,11 @@
 // `tendril trace` as a terminal runs it, and the writers that engines copy.
-#include <fstream>
 #include <regex>
 
-#include "app/document/json_complete.hpp"
 #include "app/io/child_process.hpp"
 #include "app/io/trace/trace.hpp"
 #include "app/writers/tendril_trace.hpp"
 #include "tests/app/io/trace_support.hpp"
 #include "tests/app/support/program.hpp"
-#include "tests/places.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

@@ -1,23 +1,12 @@
 // The cards of things to try: plays every step of every card, and expects it to be ticked off.
 #include <imgui_internal.h>
 
-#include <algorithm>
-#include <glm/geometric.hpp>
-#include <optional>
-
-#include "app/app.hpp"
 #include "app/document/argument_check.hpp"
-#include "app/document/command.hpp"
-#include "app/labs/card.hpp"
-#include "app/labs/labs.hpp"
-#include "app/shell/layout.hpp"
 #include "app/view/assets.hpp"
 #include "app/widgets/section_light.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/panel_text.hpp"
 #include "tests/app/support/play.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -146,14 +135,13 @@ TEST_P(LabCard, AStepAloneCompletesNoOther) {
 
 TEST_P(LabCard, EveryStepWaitsForACommandThatExists) {
     CardOnScene scene(GetParam());
-    for (const CardStep& step : scene.card().steps) {
+    for (const CardStep& step : scene.card().steps)
         for (const CardLine& line : step.by) {
             const Command* const command = scene.app().commands().find(line.command);
             ASSERT_NE(command, nullptr) << line.command;
             for (const auto& [key, value] : line.arguments->items())
                 EXPECT_NE(find_argument(*command, key), nullptr) << line.command << " " << key;
         }
-    }
 }
 
 /// Undo, redo and the scenes that they restore complete no step either.

@@ -1,8 +1,5 @@
 // The command line: --help and lists; errors are one line with exit code 2, and nothing is overwritten.
-#include <map>
-
 #include "tests/app/support/play.hpp"
-#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {
@@ -30,9 +27,8 @@ TEST_F(CommandLine, HelpNamesEveryFlag) {
     const std::string help = run_program({"--help"}).out;
     for (const char* flag :
          {"SCENE", "--lab", "--size", "--headless", "--backend", "--script", "--frames", "--screenshot",
-          "--state", "--record", "--force", "--no-config", "--list-labs", "--list-commands", "--version"}) {
+          "--state", "--record", "--force", "--no-config", "--list-labs", "--list-commands", "--version"})
         EXPECT_TRUE(has(help, flag));
-    }
 }
 
 TEST_F(CommandLine, ListsTheChainCommandsWithExactlyTheseArguments) {
@@ -119,14 +115,13 @@ TEST_F(CommandLine, APathThatCannotBeWrittenIsRefusedBeforeAnythingRuns) {
     fs::create_directory(folder_ / "folder");
     write(folder_ / "file", "a file is no folder");
     write(folder_ / "script.jsonl", ScriptText().line({{"state", path("ran.json")}}).text());
-    for (const char* flag : {"--state", "--screenshot", "--record"}) {
+    for (const char* flag : {"--state", "--screenshot", "--record"})
         for (const std::string& target :
              {path("missing/out"), path("folder"), path("file/out"), std::string("/proc/out")}) {
             const Outcome outcome =
                 run_program({"--headless", "--script", path("script.jsonl"), flag, target});
             EXPECT_TRUE(complained(outcome, 2, {target})) << flag;
         }
-    }
     EXPECT_FALSE(fs::exists(folder_ / "ran.json"));
     EXPECT_EQ(read(folder_ / "file"), "a file is no folder");
 }
@@ -161,7 +156,7 @@ TEST_F(CommandLine, NothingIsOverwrittenThatWouldBeLost) {
                                   {{"--screenshot", path("new"), "--state", path("new")}, "two outputs"},
                                   {{"--record", path("r.jsonl")}, "already exists; --force", true},
                                   {{"--screenshot", png, "--state", path("state.json")}, nullptr, true}};
-    for (const Case& each : cases) {
+    for (const Case& each : cases)
         for (const bool force : {false, true}) {
             std::map<std::string, std::string> before;
             for (const std::string& name : folder_.names()) before[name] = read(folder_ / name);
@@ -177,7 +172,6 @@ TEST_F(CommandLine, NothingIsOverwrittenThatWouldBeLost) {
             for (const auto& [name, bytes] : before) EXPECT_EQ(read(folder_ / name), bytes) << name;
             EXPECT_EQ(folder_.names().size(), before.size());
         }
-    }
 }
 
 /// Commands in scripts, too.

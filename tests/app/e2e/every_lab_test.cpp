@@ -1,17 +1,9 @@
 // Properties of every lab, and of one that exists only in the tests: random events and commands on each of
 // its scenes break nothing, and replaying them gives the same result.
-#include <algorithm>
-#include <map>
-#include <random>
-
-#include "app/document/command.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/labs/rig/rig_lab.hpp"
 #include "tests/app/e2e/monkey.hpp"
 #include "tests/app/labs/spring/spring_lab.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/labels.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -182,7 +174,7 @@ std::vector<LabScene> some_others(const LabScene& scene) {
 TEST_P(EveryScene, MayGoAwayUnderTheMouse) {
     const auto window = open_offscreen({1000, 700});
     App app(*window, false, all_labs());
-    for (const LabScene& other : some_others(GetParam())) {
+    for (const LabScene& other : some_others(GetParam()))
         for (const bool held : {false, true}) {
             app.run({"scene.new"});
             app.run({"lab.open", Json{{"name", other.lab}}});
@@ -209,7 +201,6 @@ TEST_P(EveryScene, MayGoAwayUnderTheMouse) {
                 try_to_set_up(app, GetParam());
             }
         }
-    }
 }
 
 TEST_P(EveryScene, LooksAndMovesTheSameEachTimeAndAfterItWasSaved) {

@@ -1,13 +1,6 @@
 // The dialog that asks for a file: its messages about folders and long names.
-#include <cmath>
-#include <filesystem>
-
-#include "app/document/command.hpp"
-#include "app/shell/ui.hpp"
 #include "tests/app/support/apng.hpp"
 #include "tests/app/support/driven_app.hpp"
-#include "tests/places.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

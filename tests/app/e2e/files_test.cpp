@@ -1,19 +1,8 @@
 // A file of any kind opens in the lab that reads it, whichever lab is open and however it is opened.
 #include <sys/stat.h>
 
-#include <fstream>
-#include <thread>
-
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"
-#include "tests/places.hpp"
-#include "tests/says.hpp"
-
-#include "app/app.hpp"
-#include "app/document/atomic_file.hpp"
-#include "app/document/expectation.hpp"
-#include "app/labs/labs.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {

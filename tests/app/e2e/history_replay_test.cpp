@@ -1,8 +1,6 @@
 // New, opened and saved scenes among undo and redo: the recording replays identically.
-#include "app/document/refused.hpp"
 #include "app/document/scene_file.hpp"
 #include "tests/app/e2e/monkey.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {

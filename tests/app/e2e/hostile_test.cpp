@@ -1,8 +1,5 @@
 // Three thousand random events and commands, many of them hostile, in one running program: it does not crash,
 // nothing becomes infinite or NaN, the chain keeps its lengths, and undo leads all the way back.
-#include <cmath>
-#include <glm/geometric.hpp>
-
 #include "app/labs/chain/chain_lab.hpp"
 #include "tests/app/e2e/monkey.hpp"
 

@@ -1,6 +1,5 @@
 // Lists that open: typing in them, and the click that closes them.
 
-#include "app/document/command.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/signal/signal_part.hpp"
 #include "tests/app/support/driven_app.hpp"

@@ -1,8 +1,6 @@
 // The loop of a real window, stepped by hand: it draws if something may have changed, and only then.
 #include "app/live_loop.hpp"
 
-#include <algorithm>
-
 #include "app/document/pace.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "tests/app/support/frame_record.hpp"

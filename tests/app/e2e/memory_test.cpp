@@ -1,12 +1,9 @@
 // Memory in a long session is bounded: undo and the last ten seconds account for all of it.
 #include <malloc.h>
 
-#include "app/document/command.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "tests/app/e2e/monkey.hpp"
 #include "tests/app/labs/lab_support.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {

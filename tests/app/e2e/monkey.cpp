@@ -1,7 +1,5 @@
 #include "tests/app/e2e/monkey.hpp"
 
-#include "app/document/command.hpp"
-
 namespace tendril::test {
 
 std::vector<std::string> lab_commands(const App& app) {

@@ -1,16 +1,10 @@
 // A monkey test: random events and commands, many of them hostile, in a running program.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 #include <random>
-#include <string>
-#include <vector>
 
-#include "app/app.hpp"
-#include "app/document/argument.hpp"
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {

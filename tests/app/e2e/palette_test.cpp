@@ -1,15 +1,10 @@
 // The command palette in the running program: typing, Tab, Enter and the mouse, and the commands that ran.
 #include <imgui.h>
 
-#include <algorithm>
 #include <random>
 
-#include "app/document/command.hpp"
 #include "app/labs/chain/chain_lab.hpp"
-#include "app/shell/ui.hpp"
 #include "tests/app/support/driven_app.hpp"
-#include "tests/app/support/program.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -184,7 +179,7 @@ TEST_F(PaletteTest, QuitAsksAboutUnsavedWorkAsItsKeyDoes) {
 }
 
 TEST_F(PaletteTest, OpensInWindowsOfAnySize) {
-    for (const glm::ivec2 size : {glm::ivec2(1, 1), {90, 60}, {320, 240}, {1024, 640}, {3000, 200}}) {
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), {90, 60}, {320, 240}, {1024, 640}, {3000, 200}})
         for (const double scale : {0.5, 1.0, 3.0}) {
             take(Resize{size});
             run("view.text_scale", {{"scale", scale}});
@@ -196,7 +191,6 @@ TEST_F(PaletteTest, OpensInWindowsOfAnySize) {
                 key("escape");
             }
         }
-    }
 }
 
 TEST_F(PaletteTest, HostileLinesCrashNothing) {

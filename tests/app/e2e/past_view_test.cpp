@@ -1,15 +1,10 @@
 // The plot and the past poses of the last ten seconds in the running program, in every lab that has joints.
-#include <array>
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/live_loop.hpp"
 #include "tests/app/support/panel_places.hpp"
 #include "tests/app/support/play.hpp"
-#include "tests/places.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -138,7 +133,7 @@ TEST(PastViews, GhostsShowOnlyMomentsWithTheSameJoints) {
           true},
          {ScriptText().command("humanoid.clip", {{"name", "punch"}, {"play", true}}), false}}};
     const auto labs = plotted_labs();
-    for (std::size_t lab = 0; lab < labs.size(); ++lab) {
+    for (std::size_t lab = 0; lab < labs.size(); ++lab)
         for (const Change& change : changes[lab]) {
             const ScriptText script =
                 shown(labs[lab]).wait(100).command("time.pause").wait(1).lines(change.to).wait(2);
@@ -147,7 +142,6 @@ TEST(PastViews, GhostsShowOnlyMomentsWithTheSameJoints) {
             const Json back = state_after(ScriptText(script).command("undo").wait(1))["past"]["ghosts"];
             EXPECT_GE(back.size(), 3u) << labs[lab].lab << " as it was before\n" << change.to.text();
         }
-    }
 }
 
 /// Each lab with its strip of the last ten seconds above the plot, paused.
@@ -285,7 +279,7 @@ TEST(ChainsPast, AFlipIsMarkedAtItsTickWithItsCause) {
     const Json state = state_after(through_the_root());
     const std::vector<Json> flips = flips_of(state);
     ASSERT_GE(flips.size(), 1u) << state["events"].dump(2);
-    for (const Json& flip : flips) EXPECT_TRUE(test::says(flip["cause"], "target root"));
+    for (const Json& flip : flips) EXPECT_TRUE(says(flip["cause"], "target root"));
     EXPECT_EQ(state["events"][0]["cause"], straight);
     EXPECT_GT(flips[0]["degrees"].get<double>(), 30.0);
     // The poses before and after it differ that much.
@@ -363,7 +357,7 @@ TEST(ChainsPast, ARefusedNumberIsAMarkAndNoFlip) {
             .state;
     ASSERT_EQ(typed["events"].size(), 1u);
     EXPECT_EQ(typed["events"][0]["kind"], "status");
-    EXPECT_TRUE(test::says(typed["events"][0]["cause"].get<std::string>(), "iterations 1"));
+    EXPECT_TRUE(says(typed["events"][0]["cause"].get<std::string>(), "iterations 1"));
     const Json told =
         state_after(ScriptText(reach).command("chain.target", {{"to", {1e30, 0, 0}}}, true).wait(1));
     EXPECT_TRUE(told["events"].empty());
@@ -463,7 +457,7 @@ TEST(RigsPast, AFlipIsMarkedAtItsTickWithBoneUnitAndCause) {
     for (const Json& flip : flips) {
         EXPECT_EQ(flip["name"], "head");
         EXPECT_EQ(state["elements"].at(flip["joint"].get<std::size_t>())["name"], "head");
-        EXPECT_TRUE(test::says(flip["cause"].get<std::string>(), "unit aim second target"));
+        EXPECT_TRUE(says(flip["cause"].get<std::string>(), "unit aim second target"));
         turned += flip["degrees"].get<double>();
     }
     EXPECT_GT(turned, 60.0);

@@ -1,11 +1,7 @@
 // Ctrl+V over the view: a lab that takes points gets them, the others say which lab does.
-#include <atomic>
-#include <optional>
-
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/live_loop.hpp"
 #include "tests/app/support/driven_app.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {

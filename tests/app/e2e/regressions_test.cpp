@@ -1,8 +1,4 @@
 // Regressions, seen from outside: the user's or script's actions, and the correct result.
-#include <sstream>
-
-#include "tests/places.hpp"
-
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {
@@ -62,7 +58,7 @@ TEST(OnceWrong, AChainReplacedAfterADragIsSavedAndOpened) {
                                                         {"chain.preset", {{"name", "coil"}, {"count", 3}}},
                                                         {"chain.clear", app::Json::object()},
                                                         {"chain.reset", app::Json::object()},
-                                                        {"chain.add", {{"length", 1}}}}) {
+                                                        {"chain.add", {{"length", 1}}}})
         for (const char* undo : {"", "undo"}) {
             ScriptText script;
             script.command("chain.pole", {{"to", pole}})
@@ -78,7 +74,6 @@ TEST(OnceWrong, AChainReplacedAfterADragIsSavedAndOpened) {
             EXPECT_EQ(read(path), saved) << command << ' ' << undo;
             std::filesystem::remove(path);
         }
-    }
 }
 
 TEST(OnceWrong, AStepOfTimeIsTakenAtOnce) {

@@ -1,11 +1,5 @@
 // app/run with mock tools: its output while it installs and builds.
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-
 #include "tests/app/support/program.hpp"
-#include "tests/places.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -97,7 +91,7 @@ TEST_F(RunScript, ShowsWhyItCouldNotConfigureOrInstall) {
     tool("bin/apt-get", "case $* in *install*) echo 'E: Unable to locate package' >&2; exit 100; esac");
     outcome = run();
     EXPECT_NE(outcome.exit_code, 0);
-    EXPECT_TRUE(test::says(outcome.err, "E: Unable to locate package"));
+    EXPECT_TRUE(says(outcome.err, "E: Unable to locate package"));
     EXPECT_EQ(outcome.out, "");
 }
 

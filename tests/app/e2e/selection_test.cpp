@@ -1,8 +1,4 @@
 // Selecting with the mouse: Shift, a box, and the effect of the gizmo on the selection.
-#include <glm/geometric.hpp>
-
-#include "tests/places.hpp"
-
 #include "tests/app/support/play.hpp"
 
 namespace tendril::test {

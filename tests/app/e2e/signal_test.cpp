@@ -1,7 +1,4 @@
 // The Signal lab in the running program: dragging the ball, drawing a response, small windows.
-#include <algorithm>
-
-#include "app/app.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"
 

@@ -1,6 +1,4 @@
 // Numbers typed into a panel: those out of range are refused with their value and the range.
-#include <algorithm>
-
 #include "tests/app/support/panel_places.hpp"
 #include "tests/app/support/play.hpp"
 

@@ -1,17 +1,8 @@
 // ffmpeg's work after the last frame does not block the window: it can be cancelled, and is reported.
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <cstdlib>
-
 #include "app/app.hpp"
 #include "app/live_loop.hpp"
 #include "app/window/offscreen_window.hpp"
-#include "tests/app/support/program.hpp"
-#include "tests/app/support/script_text.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/labels.hpp"
-#include "tests/says.hpp"
+#include "tests/app/support/play.hpp"
 
 namespace tendril::test {
 namespace {
@@ -55,6 +46,10 @@ class VideoFinish : public testing::Test {
     void write_frames() {
         for (int i = 0; i < 200 && filming() && filming()->done < filming()->frames; ++i) tick();
     }
+    void finish() {
+        for (int i = 0; i < 3000 && filming(); ++i) tick();
+        EXPECT_FALSE(filming());
+    }
     const std::optional<VideoProgress>& filming() { return app_.workspace().ui.filming; }
     std::string toast() {
         const auto& all = app_.workspace().ui.toasts;
@@ -77,8 +72,7 @@ TEST_F(VideoFinish, DoesNotBlockTheWindow) {
     ASSERT_TRUE(filming());
     EXPECT_EQ(filming()->done, filming()->frames);
     EXPECT_FALSE(std::filesystem::exists(folder_ / "a.mp4"));
-    for (int i = 0; i < 3000 && filming(); ++i) tick();
-    EXPECT_FALSE(filming());
+    finish();
     EXPECT_LT(longest_, 1.0) << "no tick waits for it";
     EXPECT_NE(toast().find("Written: "), std::string::npos) << toast();
     EXPECT_EQ(folder_.names(), std::vector<std::string>{"a.mp4"});
@@ -89,8 +83,8 @@ TEST_F(VideoFinish, TakesAnotherNameIfAnotherProgramHasWrittenItsFileMeanwhile) 
     film_with("sleep 0.3\n");
     write_frames();
     write(folder_ / "a.mp4", "another program's");
-    for (int i = 0; i < 3000 && filming(); ++i) tick();
-    EXPECT_TRUE(test::says(toast(), "a.mp4 is not replaced The video is a-1.mp4"));
+    finish();
+    EXPECT_TRUE(says(toast(), "a.mp4 is not replaced The video is a-1.mp4"));
     EXPECT_EQ(folder_.names(), (std::vector<std::string>{"a-1.mp4", "a.mp4"}));
     EXPECT_EQ(read(folder_ / "a.mp4"), "another program's");
     EXPECT_EQ(read(folder_ / "a-1.mp4").size(), 11u * 64 * 64 * 4);
@@ -104,7 +98,7 @@ TEST_F(VideoFinish, IsCancelledByEscapeAndLeavesNoFile) {
     EXPECT_FALSE(folder_.names().empty()) << "a part of it is there";
     tick(KeyTap{*chord_from_name("escape")});
     EXPECT_FALSE(filming());
-    EXPECT_TRUE(test::says(toast(), "Cancelled a.mp4"));
+    EXPECT_TRUE(says(toast(), "Cancelled a.mp4"));
     EXPECT_EQ(folder_.names(), std::vector<std::string>{});
     EXPECT_LT(longest_, 1.0);
 }
@@ -157,8 +151,7 @@ TEST_F(VideoReplay, IsCancelledAgainEvenIfFfmpegIsDoneAtOnce) {
 
 TEST_F(VideoReplay, IsWrittenAgainEvenIfFfmpegTakesLonger) {
     begin("");
-    for (int i = 0; i < 3000 && filming(); ++i) tick();
-    EXPECT_FALSE(filming());
+    finish();
     for (int i = 0; i < 3; ++i) tick();
     press("escape");
     EXPECT_TRUE(app_.state()["selected"].is_null()) << "there is no video that Esc could be for";
@@ -202,9 +195,8 @@ TEST_F(VideoFinish, ReportsTheFailureAndLeavesTheOldFile) {
           {"echo 'disk full' >&2\n", true, "ffmpeg disk full"},
           {": > \"${last#file:}\"\n", false, "ffmpeg exit code 1"}}) {
         film_with(end, reads_back);
-        for (int i = 0; i < 3000 && filming(); ++i) tick();
-        EXPECT_FALSE(filming());
-        EXPECT_TRUE(test::says(toast(), told)) << end;
+        finish();
+        EXPECT_TRUE(says(toast(), told)) << end;
         EXPECT_EQ(folder_.names(), std::vector<std::string>{"a.mp4"});
         EXPECT_EQ(read(folder_ / "a.mp4"), old);
     }

@@ -1,8 +1,4 @@
 // The last seconds as a video: every frame is the picture of its moment, and nothing else changes.
-#include <cstdlib>
-
-#include "app/app.hpp"
-#include "app/document/command.hpp"
 #include "tests/app/support/apng.hpp"
 #include "tests/app/support/play.hpp"
 

@@ -1,8 +1,5 @@
 // Looking around with the mouse, in the running program.
-#include <glm/geometric.hpp>
-
 #include "tests/app/support/play.hpp"
-#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {

@@ -1,17 +1,8 @@
 // The real window: the built program on a display of its own, with that display's mouse and keys.
-#include <signal.h>
-
-#include <chrono>
-#include <cmath>
-#include <cstdlib>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <memory>
-#include <thread>
 
 #include "tests/app/support/panel_places.hpp"
 #include "tests/app/support/play.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {

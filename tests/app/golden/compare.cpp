@@ -7,7 +7,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <vector>
 
 namespace tendril::test {
 namespace {
@@ -45,13 +44,12 @@ const std::uint8_t* pixel_of(const Image& image, int x, int y) {
 Box changed_box(const Image& a, const Image& b) {
     constexpr int margin = 4;
     Box box{a.size, {0, 0}};
-    for (int y = 0; y < a.size.y; ++y) {
+    for (int y = 0; y < a.size.y; ++y)
         for (int x = 0; x < a.size.x; ++x) {
             if (std::equal(pixel_of(a, x, y), pixel_of(a, x, y) + 3, pixel_of(b, x, y))) continue;
             box.min = glm::min(box.min, glm::ivec2(x, y));
             box.max = glm::max(box.max, glm::ivec2(x + 1, y + 1));
         }
-    }
     if (box.max.x == 0) return {};
     return {glm::max(box.min - margin, glm::ivec2(0)), glm::min(box.max + margin, a.size)};
 }
@@ -85,42 +83,38 @@ glm::vec3 to_lab(const std::uint8_t* rgb) {
 
 LabPicture lab_of(const Image& image, const Box& box) {
     LabPicture lab(box.size());
-    for (int y = 0; y < lab.size.y; ++y) {
+    for (int y = 0; y < lab.size.y; ++y)
         for (int x = 0; x < lab.size.x; ++x)
             lab.at(x, y) = to_lab(pixel_of(image, box.min.x + x, box.min.y + y));
-    }
     return lab;
 }
 
 /// Distance of `value` from the range of values around (x, y).
 float excess(glm::vec3 value, const LabPicture& other, int x, int y) {
     glm::vec3 low = other.at(x, y), high = low;
-    for (int dy = -1; dy <= 1; ++dy) {
+    for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
             low = glm::min(low, other.at(x + dx, y + dy));
             high = glm::max(high, other.at(x + dx, y + dy));
         }
-    }
     return glm::length(glm::max(glm::max(low - value, value - high), 0.0f));
 }
 
 /// The colour measure before its mean.
 std::vector<float> excesses(const LabPicture& a, const LabPicture& b) {
     std::vector<float> result(a.values.size());
-    for (int y = 0; y < a.size.y; ++y) {
+    for (int y = 0; y < a.size.y; ++y)
         for (int x = 0; x < a.size.x; ++x) {
             if (a.at(x, y) == b.at(x, y)) continue;
             result[a.index(x, y)] = std::max(excess(a.at(x, y), b, x, y), excess(b.at(x, y), a, x, y));
         }
-    }
     return result;
 }
 
 float mean3(const std::vector<float>& values, const LabPicture& shape, int x, int y) {
     float sum = 0.0f;
-    for (int dy = -1; dy <= 1; ++dy) {
+    for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) sum += values[shape.index(x + dx, y + dy)];
-    }
     return sum / 9.0f;
 }
 
@@ -128,18 +122,14 @@ template <std::size_t Count>
 LabPicture blurred(const LabPicture& picture, const std::array<float, Count>& weights) {
     constexpr int half = static_cast<int>(Count) / 2;
     LabPicture rows(picture.size), result(picture.size);
-    for (int y = 0; y < picture.size.y; ++y) {
-        for (int x = 0; x < picture.size.x; ++x) {
+    for (int y = 0; y < picture.size.y; ++y)
+        for (int x = 0; x < picture.size.x; ++x)
             for (std::size_t i = 0; i < Count; ++i)
                 rows.at(x, y) += weights[i] * picture.at(x + static_cast<int>(i) - half, y);
-        }
-    }
-    for (int y = 0; y < picture.size.y; ++y) {
-        for (int x = 0; x < picture.size.x; ++x) {
+    for (int y = 0; y < picture.size.y; ++y)
+        for (int x = 0; x < picture.size.x; ++x)
             for (std::size_t i = 0; i < Count; ++i)
                 result.at(x, y) += weights[i] * rows.at(x, y + static_cast<int>(i) - half);
-        }
-    }
     return result;
 }
 
@@ -189,7 +179,7 @@ Difference compare(const Image& expected, const Image& actual, const Tolerance& 
     const LabPicture apart = blurred(minus(a, b), wide);
     result.picture = dimmed(expected);
     float worst = 0.0f;
-    for (int y = 0; y < a.size.y; ++y) {
+    for (int y = 0; y < a.size.y; ++y)
         for (int x = 0; x < a.size.x; ++x) {
             const float colour = mean3(outside, a, x, y), shape = glm::length(apart.at(x, y));
             result.colour = std::max(result.colour, colour);
@@ -200,7 +190,6 @@ Difference compare(const Image& expected, const Image& actual, const Tolerance& 
             ++result.pixels;
             mark(result.picture, box.min.x + x, box.min.y + y);
         }
-    }
     result.same = result.pixels <= tolerance.max_pixels;
     return result;
 }

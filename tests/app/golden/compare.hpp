@@ -13,8 +13,6 @@
 // each).
 #pragma once
 
-#include <string>
-
 #include "app/io/image.hpp"
 
 namespace tendril::test {

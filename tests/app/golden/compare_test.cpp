@@ -1,15 +1,7 @@
 // Differences that the comparison of pictures must detect, and others that it must accept.
-#include "tests/app/golden/compare.hpp"
-
-#include <algorithm>
-#include <cstdlib>
 #include <random>
 
-#include "app/document/command.hpp"
 #include "app/labs/chain/chain_lab.hpp"
-#include "app/labs/labs.hpp"
-#include "app/view/renderer.hpp"
-#include "app/window/window.hpp"
 #include "tests/app/golden/golden.hpp"
 #include "tests/app/support/play.hpp"
 
@@ -87,13 +79,12 @@ Image moved(const Image& with, const Image& without, glm::ivec2 by) {
         return 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(with.size.x) +
                     static_cast<std::size_t>(x));
     };
-    for (int y = 8; y < with.size.y - 8; ++y) {
+    for (int y = 8; y < with.size.y - 8; ++y)
         for (int x = 8; x < with.size.x - 8; ++x) {
             const std::size_t from = at(x, y), to = at(x + by.x, y + by.y);
             if (std::equal(&with.rgba[from], &with.rgba[from] + 4, &without.rgba[from])) continue;
             std::copy_n(&with.rgba[from], 4, &result.rgba[to]);
         }
-    }
     return result;
 }
 
@@ -115,14 +106,13 @@ Labelled labelled() {
 TEST(Compare, NoisePasses) {
     const Image picture = Studio().draw();
     const Image panels = app::read_png(golden_folder() / "light.png");
-    for (unsigned seed = 1; seed <= 3; ++seed) {
+    for (unsigned seed = 1; seed <= 3; ++seed)
         for (int most : {1, 2}) {
             const Difference scene = compare(picture, noisy(picture, most, seed));
             EXPECT_TRUE(scene.same) << most << ": " << scene.text();
             const Difference whole = compare(panels, noisy(panels, most, seed));
             EXPECT_TRUE(whole.same) << most << ": " << whole.text();
         }
-    }
     for (int by : {-2, 2}) EXPECT_TRUE(compare(picture, brighter(picture, by)).same) << by;
 }
 
@@ -147,7 +137,7 @@ TEST(Compare, ASingleFlippedPixelPasses) {
 }
 
 TEST(Compare, AnotherColourOfOneJointFails) {
-    for (int channel = 0; channel < 3; ++channel) {
+    for (int channel = 0; channel < 3; ++channel)
         for (float by : {-10.0f, 10.0f}) {
             Studio studio;
             const Image before = studio.draw();
@@ -159,7 +149,6 @@ TEST(Compare, AnotherColourOfOneJointFails) {
             EXPECT_FALSE(difference.same)
                 << "channel " << channel << " by " << by << ": " << difference.text();
         }
-    }
 }
 
 TEST(Compare, AMissingSegmentFails) {

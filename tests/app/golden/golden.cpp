@@ -7,7 +7,6 @@
 #include <set>
 
 #include "app/document/text.hpp"
-#include "tests/app/golden/compare.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::test {
@@ -53,7 +52,7 @@ const std::set<std::string> whole_windows{"opening",      "opening_rope",      "
 app::Image half_size(const app::Image& image, glm::ivec2 min, glm::ivec2 max) {
     app::Image half{(max - min) / 2, {}};
     const auto row = 4 * static_cast<std::size_t>(image.size.x);
-    for (int y = 0; y < half.size.y; ++y) {
+    for (int y = 0; y < half.size.y; ++y)
         for (int x = 0; x < half.size.x; ++x) {
             const std::uint8_t* const first = image.rgba.data() +
                                               static_cast<std::size_t>(min.y + 2 * y) * row +
@@ -64,7 +63,6 @@ app::Image half_size(const app::Image& image, glm::ivec2 min, glm::ivec2 max) {
                 half.rgba.push_back(static_cast<std::uint8_t>((sum + 2) / 4));
             }
         }
-    }
     return half;
 }
 
@@ -103,9 +101,8 @@ Difference compare_with_golden(const app::Image& golden, const app::Image& actua
 
 testing::AssertionResult looks_like(const app::Image& actual, const fs::path& golden,
                                     const std::string& name) {
-    if (!fs::exists(golden)) {
+    if (!fs::exists(golden))
         return testing::AssertionFailure() << golden << " is missing; tests/app/golden/renew draws it";
-    }
     const app::Image expected = app::read_png(golden);
     const Difference difference = compare_with_golden(expected, actual);
     if (difference.same) return testing::AssertionSuccess();

@@ -3,12 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "app/document/json_complete.hpp"
-#include "app/io/image.hpp"
 #include "tests/app/golden/compare.hpp"
 #include "tests/app/support/frame_record.hpp"
 

@@ -4,7 +4,6 @@
 #include <map>
 
 #include "tests/app/support/program.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {
@@ -91,9 +90,8 @@ TEST(GoldenPictures, ShowDifferentThings) {
     ASSERT_GE(scripts.size(), 16u);
     for (const fs::path& script : scripts) {
         app::Image picture = app::read_png(fs::path(script).replace_extension(".png"));
-        for (std::size_t i = 0; i < pictures.size(); ++i) {
+        for (std::size_t i = 0; i < pictures.size(); ++i)
             EXPECT_FALSE(picture.rgba == pictures[i].rgba) << script.stem() << " and " << scripts[i].stem();
-        }
         pictures.push_back(std::move(picture));
     }
 }

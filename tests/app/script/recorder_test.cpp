@@ -1,9 +1,6 @@
 #include "app/script/recorder.hpp"
 #include "app/document/json_complete.hpp"
 
-#include <gtest/gtest.h>
-
-
 #include "tests/app/script/script_support.hpp"
 #include "tests/app/support/temp_folder.hpp"
 

@@ -1,7 +1,5 @@
 #include "tests/app/script/script_support.hpp"
 
-#include <utility>
-
 #include "app/document/command.hpp"
 
 namespace tendril::test {

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <random>
-#include <string>
-#include <string_view>
 
 #include "app/script/script.hpp"
 

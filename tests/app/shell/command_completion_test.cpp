@@ -1,12 +1,10 @@
 // The palette's results, offers and messages while a line is typed, without a window.
 #include "app/shell/command_completion.hpp"
 
-#include <algorithm>
 #include <random>
 
 #include "app/document/argument_check.hpp"
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/document/text.hpp"
 #include "app/labs/labs.hpp"
 #include "app/shell/command_search.hpp"
@@ -126,7 +124,7 @@ TEST_F(Completion, RanksMatchesInTheHelpAloneAfterOtherLabs) {
 }
 
 TEST_F(Completion, FindsByArgumentsAfterTitleAndHelp) {
-    for (const auto& lab : labs_.all()) {
+    for (const auto& lab : labs_.all())
         for (const char* word : {"radius", "weight", "length", "speed"}) {
             bool by_argument = false;
             for (const Command* command : search_commands(table_, word, lab->name())) {
@@ -142,7 +140,6 @@ TEST_F(Completion, FindsByArgumentsAfterTitleAndHelp) {
                 EXPECT_TRUE(has(all, command.name)) << command.name;
             }
         }
-    }
     EXPECT_TRUE(has(names("add radius", "rope"), "rope.cloth.add"));
 }
 
@@ -297,36 +294,12 @@ TEST_F(Completion, FindsEveryMistakeThatTheTableWouldRefuse) {
 TEST_F(Completion, TenThousandHostileLinesAreAnswered) {
     std::mt19937 random(11);
     const auto below = [&](std::size_t end) { return random() % end; };
-    const Strings bits{" ",
-                       "=",
-                       "\"",
-                       "[",
-                       "]",
-                       "{",
-                       "}",
-                       "\\",
-                       ",",
-                       ":",
-                       "1e999",
-                       "-",
-                       "nan",
-                       "true",
-                       "null",
-                       "\t",
-                       "\n",
-                       "\x01",
-                       "\xC3\xA4",
-                       "\xFF",
-                       "\xF0\x9F\x8E\xA8",
-                       "..",
-                       "name",
-                       "mode=",
-                       "to=",
-                       "index=",
-                       "length=",
-                       "position=[",
-                       "999999999999999999999",
-                       "%s%n"};
+    Strings bits{" ", "\t", "\n"};
+    std::istringstream words(
+        "= \" [ ] { } \\ , : 1e999 - nan true null \x01 \xC3\xA4 \xFF \xF0\x9F\x8E\xA8 .. name mode= to= "
+        "index= "
+        "length= position=[ 999999999999999999999 %s%n");
+    for (std::string word; words >> word;) bits.push_back(word);
     for (int i = 0; i < rounds(10'000); ++i) {
         std::string line = below(3) == 0 ? "" : table_.all()[below(table_.all().size())].name;
         for (std::size_t n = below(12); n > 0; --n) {

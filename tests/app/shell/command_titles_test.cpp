@@ -1,12 +1,5 @@
 // Titles of commands: each has one, in words that a user would search for.
-#include <algorithm>
-#include <cctype>
-#include <map>
-#include <set>
-#include <sstream>
-
 #include "app/document/command.hpp"
-#include "app/document/json_complete.hpp"
 #include "app/labs/labs.hpp"
 #include "app/shell/shell.hpp"
 #include "app/shell/shortcuts.hpp"
@@ -142,7 +135,7 @@ TEST_F(CommandTitles, TheirArgumentsAcceptEveryOffer) {
 TEST_F(CommandTitles, TheirArgumentsAcceptTheirPresentValue) {
     Workspace workspace = make_blank_workspace(labs_);
     int count = 0;
-    for (const Command& command : table_.all()) {
+    for (const Command& command : table_.all())
         for (const Argument& argument : command.arguments) {
             if (!argument.present) continue;
             ++count;
@@ -154,7 +147,6 @@ TEST_F(CommandTitles, TheirArgumentsAcceptTheirPresentValue) {
             EXPECT_NO_THROW(table_.run(workspace, command.name, given)) << command.name << " " << now;
             EXPECT_EQ(argument.present(workspace), now) << command.name;
         }
-    }
     EXPECT_GT(count, 10);
 }
 

@@ -1,17 +1,8 @@
 // A folded side panel and the strip that remains of it.
 #include <imgui_internal.h>  // the item under the mouse, and the windows
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <glm/vec2.hpp>
-#include <memory>
-#include <string>
-#include <vector>
 
-#include "app/document/command.hpp"
-#include "app/shell/layout.hpp"
 #include "tests/app/support/driven_app.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {

@@ -2,17 +2,10 @@
 // that can be clicked can be reached.
 #include <imgui_internal.h>  // scrolling windows from outside, and listing them
 
-#include <algorithm>
-#include <cctype>
-#include <map>
-#include <set>
-
-#include "app/document/command.hpp"
 #include "app/widgets/fonts.hpp"
 #include "tests/app/support/driven_app.hpp"
 #include "tests/app/support/full_scenes.hpp"
 #include "tests/app/support/layout_faults.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::test {
 namespace {

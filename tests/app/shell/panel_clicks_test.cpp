@@ -3,24 +3,14 @@
 // clicked: plots, curves and other areas to draw in, which have their own tests.
 #include <imgui_internal.h>  // the item under the mouse, open lists, scrolling
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <glm/common.hpp>
-#include <iterator>
-#include <map>
-#include <set>
-#include <string_view>
-#include <variant>
 
-#include "app/document/command.hpp"
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "app/labs/rig/unit_inputs.hpp"
 #include "tests/app/support/driven_app.hpp"
 #include "tests/app/support/full_scenes.hpp"
 #include "tests/app/support/layout_faults.hpp"
-#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {

@@ -1,17 +1,9 @@
 // The size of a lab's panel when the lab is opened; no row is lost under "More".
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include <imgui.h>
 #include <imgui_internal.h>  // windows
 
-#include "app/labs/card.hpp"
 #include "tests/app/support/driven_app.hpp"
 #include "tests/app/support/layout_faults.hpp"
-#include "tests/places.hpp"
 
 namespace tendril::test {
 namespace {

@@ -101,11 +101,10 @@ TEST(LayoutOfTheWindow, PartsTileItWithoutOverlapAtEverySize) {
     const auto pick = [&](int low, int high) { return std::uniform_int_distribution(low, high)(random); };
     for (int i = 0; i < 2000; ++i) {
         const glm::vec2 window(pick(1, 5000), pick(1, 3000));
-        Settings settings;
-        settings.left_open = pick(0, 1) == 1;
-        settings.right_open = pick(0, 1) == 1;
-        settings.left_width = static_cast<float>(pick(180, 520));
-        settings.right_width = static_cast<float>(pick(180, 520));
+        Settings settings{.left_open = pick(0, 1) == 1,
+                          .right_open = pick(0, 1) == 1,
+                          .left_width = static_cast<float>(pick(180, 520)),
+                          .right_width = static_cast<float>(pick(180, 520))};
         const float scale = static_cast<float>(pick(5, 30)) / 10.0f;
         const float canvas = static_cast<float>(pick(0, 9)) / 10.0f;
         const Layout layout = lay_out(window, scale, settings, static_cast<float>(pick(0, 300)), canvas);

@@ -2,10 +2,8 @@
 
 #include <zlib.h>
 
-#include <cstdint>
 #include <cstring>
 #include <stdexcept>
-#include <string>
 
 namespace tendril::test {
 namespace {

@@ -1,9 +1,6 @@
 // A strict reader of animated PNG: throws at any deviation from the specification.
 #pragma once
 
-#include <string_view>
-#include <vector>
-
 #include "app/io/image.hpp"
 
 namespace tendril::test {

@@ -1,12 +1,17 @@
 // The backends without a display that are available on this machine.
 #pragma once
 
-#include <exception>
-#include <map>
-#include <string>
-#include <vector>
+#include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <glm/geometric.hpp>
+
+#include "app/io/image.hpp"
+#include "app/view/renderer.hpp"
 #include "app/window/window.hpp"
+#include "tests/labels.hpp"
 
 namespace tendril::test {
 

@@ -1,13 +1,6 @@
 // The program in an offscreen window, driven as a user drives it: the base of fixtures.
 #pragma once
 
-#include <glm/vec2.hpp>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-
-#include "app/app.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/play.hpp"
 

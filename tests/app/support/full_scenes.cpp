@@ -1,8 +1,6 @@
 #include "tests/app/support/full_scenes.hpp"
 
-#include <set>
 #include <tendril/signal/filter.hpp>
-#include <utility>
 
 #include "app/document/json_complete.hpp"
 #include "tests/places.hpp"

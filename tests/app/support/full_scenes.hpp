@@ -2,9 +2,6 @@
 // that check everything a panel can show.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "app/document/command.hpp"
 #include "app/labs/lab.hpp"
 

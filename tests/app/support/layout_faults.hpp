@@ -2,8 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <string>
-#include <vector>
 
 #include "app/shell/layout.hpp"
 #include "tests/app/support/frame_record.hpp"

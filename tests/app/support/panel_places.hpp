@@ -2,8 +2,6 @@
 // section unfolded.
 #pragma once
 
-#include <glm/vec2.hpp>
-
 #include "app/document/json_complete.hpp"
 
 namespace tendril::test::chain_panel {

@@ -3,9 +3,6 @@
 
 #include <imgui.h>
 
-#include <memory>
-#include <string>
-
 #include "app/labs/lab.hpp"
 #include "app/shell/input.hpp"
 #include "app/shell/ui.hpp"

@@ -1,11 +1,55 @@
 // Plays a script offscreen in this process, and returns its results.
 #pragma once
 
+#include <glm/geometric.hpp>
+
+#include "app/app.hpp"
+#include "app/document/command.hpp"
 #include "app/io/image.hpp"
 #include "tests/app/support/program.hpp"
-#include "tests/app/support/script_text.hpp"
 
 namespace tendril::test {
+
+/// Writes scripts line by line.
+class ScriptText {
+  public:
+    using Json = app::Json;
+
+    ScriptText& line(const Json& json) {
+        text_ += json.dump() + "\n";
+        return *this;
+    }
+    ScriptText& lines(const ScriptText& other) {
+        text_ += other.text_;
+        return *this;
+    }
+    ScriptText& command(const std::string& name, Json arguments = Json::object(), bool refused = false) {
+        arguments["command"] = name;
+        if (refused) arguments["refused"] = true;
+        return line(arguments);
+    }
+    ScriptText& move(glm::vec2 at) { return line({{"mouse", "move"}, {"at", app::pixel(at)}}); }
+    ScriptText& down(const char* button = "left") { return line({{"mouse", "down"}, {"button", button}}); }
+    ScriptText& up(const char* button = "left") { return line({{"mouse", "up"}, {"button", button}}); }
+    ScriptText& wheel(float by) { return line({{"mouse", "wheel"}, {"by", app::number(by)}}); }
+    ScriptText& key(const char* name) { return line({{"key", name}}); }
+    ScriptText& hold(const char* name) { return line({{"key", name}, {"action", "down"}}); }
+    ScriptText& release(const char* name) { return line({{"key", name}, {"action", "up"}}); }
+    ScriptText& text(const char* utf8) { return line({{"text", utf8}}); }
+    ScriptText& wait(int ticks) { return line({{"wait", ticks}}); }
+    ScriptText& click(glm::vec2 at) { return move(at).down().up(); }
+    /// Button down at the first point, moved through the others, and up at the last.
+    ScriptText& drag(const std::vector<glm::vec2>& points, const char* button = "left") {
+        move(points.front()).down(button);
+        for (std::size_t i = 1; i < points.size(); ++i) move(points[i]);
+        return up(button);
+    }
+
+    const std::string& text() const { return text_; }
+
+  private:
+    std::string text_;
+};
 
 struct Played {
     Outcome outcome;
@@ -39,9 +83,8 @@ inline Played play(const ScriptText& script, const PlayOptions& options = {}) {
 /// The pixel position of a handle in --state; fails the test if no such handle is in view.
 inline glm::vec2 handle(const app::Json& state, const std::string& name) {
     for (const auto& each : state.at("handles")) {
-        if (each.at("name") == name && each.at("pixel").is_array()) {
+        if (each.at("name") == name && each.at("pixel").is_array())
             return {each["pixel"][0].get<float>(), each["pixel"][1].get<float>()};
-        }
     }
     ADD_FAILURE() << "the state has no pixel for " << name;
     return {};

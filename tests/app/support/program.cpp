@@ -1,16 +1,9 @@
 #include "tests/app/support/program.hpp"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <algorithm>
-#include <chrono>
-#include <cstdlib>
-#include <sstream>
-#include <thread>
 
 #include "app/command_line.hpp"
 
@@ -34,9 +27,8 @@ void redirect(const std::filesystem::path& path, int descriptor, int flags) {
     redirect("/dev/null", 0, O_RDONLY);
     redirect(texts / "out", 1, O_WRONLY | O_CREAT | O_TRUNC);
     redirect(texts / "err", 2, O_WRONLY | O_CREAT | O_TRUNC);
-    for (const auto& [name, value] : changes) {
+    for (const auto& [name, value] : changes)
         value ? ::setenv(name.c_str(), value->c_str(), 1) : ::unsetenv(name.c_str());
-    }
     if (!folder.empty() && ::chdir(folder.c_str()) != 0) ::_exit(126);
     std::vector<char*> words;
     for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));

@@ -1,16 +1,21 @@
 // Starts programs as a shell would, above all the built one, and reports how they ended.
 #pragma once
 
+#include <signal.h>
 #include <sys/types.h>
+#include <cmath>
+#include <cstdlib>
 
-#include <filesystem>
+#include <chrono>
 #include <optional>
-#include <string>
+#include <thread>
 #include <utility>
-#include <vector>
 
+#include "app/document/json_complete.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/labels.hpp"
+#include "tests/places.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 

@@ -1,11 +1,6 @@
 // A part that belongs to no real lab, for tests of properties of every part.
 #pragma once
 
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "app/document/json_complete.hpp"
 #include "app/document/workspace.hpp"
 

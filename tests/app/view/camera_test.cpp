@@ -16,17 +16,14 @@ const Rect wide{{272.0f, 40.0f}, {1008.0f, 640.0f}};
 
 std::vector<CameraPose> poses() {
     std::vector<CameraPose> result;
-    for (const bool orthographic : {false, true}) {
-        for (const float pitch : {-1.5707964f, -0.4f, 0.0f, 0.7f, 1.5707964f}) {
-            for (const float yaw : {-3.0f, 0.0f, 0.5f, 2.2f}) {
+    for (const bool orthographic : {false, true})
+        for (const float pitch : {-1.5707964f, -0.4f, 0.0f, 0.7f, 1.5707964f})
+            for (const float yaw : {-3.0f, 0.0f, 0.5f, 2.2f})
                 result.push_back({.target = {1.0f, 2.0f, -3.0f},
                                   .yaw = yaw,
                                   .pitch = pitch,
                                   .distance = 7.0f,
                                   .orthographic = orthographic});
-            }
-        }
-    }
     return result;
 }
 
@@ -181,7 +178,7 @@ TEST(Camera, FixedViewsLookAlongTheAxes) {
 
 TEST(Camera, HostilePosesStayFinite) {
     const float infinite = std::numeric_limits<float>::infinity(), nan = std::nanf("");
-    for (const float bad : {nan, infinite, -infinite, 0.0f, -1.0f, 1e38f, -1e38f, 1e-38f}) {
+    for (const float bad : {nan, infinite, -infinite, 0.0f, -1.0f, 1e38f, -1e38f, 1e-38f})
         for (const bool orthographic : {false, true}) {
             const CameraPose pose{.target = {bad, bad, bad},
                                   .yaw = bad,
@@ -206,7 +203,6 @@ TEST(Camera, HostilePosesStayFinite) {
                 }
             }
         }
-    }
 }
 
 }  // namespace

@@ -1,22 +1,11 @@
 // Triangles as drawn: where the camera says, lit like strokes, in front of and behind strokes, with smooth
 // edges, in one call.
-#include "app/view/mesh.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <glm/geometric.hpp>
 
-#include "app/io/image.hpp"
 #include "app/view/picking.hpp"
-#include "app/view/renderer.hpp"
 #include "app/view/surfaces.hpp"
 #include "app/window/gl.hpp"
-#include "app/window/window.hpp"
 #include "tests/app/support/backends.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::app::mesh_test {
 namespace {
@@ -94,7 +83,7 @@ TEST_P(Meshes, HideStrokesBehindThemAndAreHiddenByThoseInFront) {
 }
 
 TEST_P(Meshes, AreDrawnWhereTheCameraProjectsThem) {
-    for (const CameraPose& pose : both_projections()) {
+    for (const CameraPose& pose : both_projections())
         for (const glm::vec3 at :
              {glm::vec3(0.0f), glm::vec3(1.2f, 0.6f, -0.5f), glm::vec3(-1.2f, -0.7f, 1.0f)}) {
             DrawList list;
@@ -102,20 +91,18 @@ TEST_P(Meshes, AreDrawnWhereTheCameraProjectsThem) {
             const Image image = draw(list, pose);
             glm::vec2 sum(0.0f);
             float count = 0.0f;
-            for (int y = 0; y < size.y; ++y) {
+            for (int y = 0; y < size.y; ++y)
                 for (int x = 0; x < size.x; ++x) {
                     if (colour_at(image, {x, y}).r < 0.3f) continue;
                     sum += glm::vec2(x, y) + 0.5f;
                     count += 1.0f;
                 }
-            }
             const Camera camera(pose, viewport);
             ASSERT_GT(count, 100.0f);
             EXPECT_LT(glm::distance(sum / count, *camera.project(at)), 0.5f);
             const float side = 0.6f / camera.metres_per_pixel(at);
             EXPECT_NEAR(count, side * side, 0.06f * count);
         }
-    }
 }
 
 TEST_P(Meshes, AreLitAsStrokesAre) {
@@ -229,7 +216,7 @@ TEST_P(Meshes, ATubeLooksLikeAStroke) {
             // Threads have flat ends, which are invisible.
             const int ends = pixels < 1.0f ? -2 : 20;
             float worst = 0.0f, sum = 0.0f, total = 0.0f;
-            for (int y = top.y - ends; y < bottom.y + ends; ++y) {
+            for (int y = top.y - ends; y < bottom.y + ends; ++y)
                 for (int x = 41; x < size.x; ++x) {
                     const float red_there = colour_at(wanted, {x, y}).r;
                     const float off = colour_at(image, {x, y}).r - red_there;
@@ -237,7 +224,6 @@ TEST_P(Meshes, ATubeLooksLikeAStroke) {
                     sum += off;
                     total += red_there;
                 }
-            }
             EXPECT_LT(worst, 0.22f) << "radius " << pixels;
             EXPECT_LT(std::abs(sum), 0.09f * total) << "radius " << pixels;
         }

@@ -1,12 +1,12 @@
 // Picks one of several objects under a pixel.
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <random>
 #include <set>
-#include <string>
 
 #include "app/view/labels.hpp"
 #include "app/view/panes.hpp"
@@ -123,13 +123,12 @@ TEST(Keys, EveryKeyHasItsOwnNameAndIsFoundByIt) {
 }
 
 TEST(Keys, EveryChordSurvivesItsName) {
-    for (int i = 1; i < static_cast<int>(Key::Count); ++i) {
+    for (int i = 1; i < static_cast<int>(Key::Count); ++i)
         for (int modifiers = 0; modifiers < 8; ++modifiers) {
             const Chord chord{static_cast<Key>(i), (modifiers & 1) != 0, (modifiers & 2) != 0,
                               (modifiers & 4) != 0};
             EXPECT_EQ(chord_from_name(chord_name(chord)), chord) << chord_name(chord);
         }
-    }
 }
 
 TEST(Keys, ChordsAreWrittenOneWayAndReadAnyWay) {
@@ -138,9 +137,8 @@ TEST(Keys, ChordsAreWrittenOneWayAndReadAnyWay) {
     EXPECT_EQ(chord_label(redo), "Ctrl+Shift+Z");
     EXPECT_EQ(chord_from_name("Shift+CTRL+z"), redo);
     EXPECT_EQ(chord_from_name("ctrl"), (Chord{.key = Key::Ctrl}));
-    for (const char* bad : {"", "+", "ctrl+", "+z", "ctrl+ctrl+z", "z+ctrl", "ctrl + z", "super+z"}) {
+    for (const char* bad : {"", "+", "ctrl+", "+z", "ctrl+ctrl+z", "z+ctrl", "ctrl + z", "super+z"})
         EXPECT_FALSE(chord_from_name(bad)) << bad;
-    }
 }
 
 // A divided view: the rectangles of the panes.
@@ -175,11 +173,10 @@ TEST(Panes, AreApartOnWholePixelsAndOfEqualSize) {
             EXPECT_GE(pane.min.x, view.min.x);
             EXPECT_LE(pane.max.x, view.max.x);
             EXPECT_LE(pane.max.y, view.max.y);
-            for (std::size_t j = 0; j < i; ++j) {
+            for (std::size_t j = 0; j < i; ++j)
                 EXPECT_TRUE(panes[j].max.x < pane.min.x || pane.max.x < panes[j].min.x ||
                             panes[j].max.y < pane.min.y || pane.max.y < panes[j].min.y)
                     << i << " and " << j << " of " << count;
-            }
         }
     }
 }
@@ -199,10 +196,9 @@ std::vector<LabelRequest> random_requests(unsigned seed, int count) {
     std::uniform_real_distribution<float> x(0.0f, 1000.0f), y(0.0f, 700.0f), width(8.0f, 90.0f);
     std::uniform_int_distribution<int> rank(0, 3);
     std::vector<LabelRequest> requests;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count; ++i)
         requests.push_back(
             {.at = {x(random), y(random)}, .size = {width(random), 15.0f}, .rank = rank(random)});
-    }
     return requests;
 }
 

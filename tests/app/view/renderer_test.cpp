@@ -1,18 +1,9 @@
 // Everything is drawn where the camera says, more strokes need no more draw calls, and output is repeatable.
-#include <gtest/gtest.h>
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <stdexcept>
-#include <string>
 
-#include "app/io/image.hpp"
 #include "app/view/picking.hpp"
-#include "app/view/renderer.hpp"
 #include "app/window/gl.hpp"
-#include "app/window/window.hpp"
 #include "tests/app/support/backends.hpp"
-#include "tests/labels.hpp"
 
 namespace tendril::app::renderer_test {
 namespace {
@@ -59,12 +50,11 @@ DrawList many(int count) {
 
 /// Whether the pixels in a rectangle of window coordinates are the same in both pictures.
 bool same_within(const Image& a, const Image& b, const Rect& rect) {
-    for (int y = static_cast<int>(rect.min.y); y < static_cast<int>(rect.max.y); ++y) {
+    for (int y = static_cast<int>(rect.min.y); y < static_cast<int>(rect.max.y); ++y)
         for (int x = static_cast<int>(rect.min.x); x < static_cast<int>(rect.max.x); ++x) {
             const auto i = static_cast<std::size_t>(4 * (y * a.size.x + x));
             if (!std::equal(&a.rgba[i], &a.rgba[i] + 4, &b.rgba[i])) return false;
         }
-    }
     return true;
 }
 
@@ -98,7 +88,7 @@ TEST_P(Drawing, CallsDoNotGrowWithStrokes) {
 }
 
 TEST_P(Drawing, ABallIsDrawnWhereTheCameraProjectsIt) {
-    for (const bool orthographic : {false, true}) {
+    for (const bool orthographic : {false, true})
         for (const glm::vec3 at :
              {glm::vec3(0.0f), glm::vec3(1.3f, 0.7f, -0.5f), glm::vec3(-1.5f, -0.8f, 1.0f)}) {
             DrawList list;
@@ -107,31 +97,26 @@ TEST_P(Drawing, ABallIsDrawnWhereTheCameraProjectsIt) {
             const Image image = draw_plain(list, pose);
             glm::vec2 sum(0.0f);
             float weight = 0.0f;
-            for (int y = 0; y < size.y; ++y) {
+            for (int y = 0; y < size.y; ++y)
                 for (int x = 0; x < size.x; ++x) {
                     const float covered = red_at(image, x, y);
                     sum += covered * (glm::vec2(x, y) + 0.5f);
                     weight += covered;
                 }
-            }
             ASSERT_GT(weight, 50.0f);
             const Camera camera(pose, viewport);
             EXPECT_LT(glm::distance(sum / weight, *camera.project(at)), 0.1f);
             const float radius = 0.3f / camera.metres_per_pixel(at);
             EXPECT_NEAR(weight, 3.14159f * radius * radius, 0.03f * weight) << "and as large";
         }
-    }
 }
 
 TEST_P(Drawing, NothingIsDrawnOutsideTheViewport) {
     DrawList list;
     list.line({-100, 0, 0}, {100, 0, 0}, 8.0f, red);
     const Image image = draw_plain(list, {});
-    float outside = 0.0f;
-    for (int y = 0; y < size.y; ++y) {
-        for (int x = 0; x < 40; ++x) outside = std::max(outside, red_at(image, x, y));
-    }
-    EXPECT_LT(outside, 0.02f);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < 40; ++x) EXPECT_LT(red_at(image, x, y), 0.02f);
     EXPECT_GT(red_at(image, 41, 120), 0.9f);
 }
 
@@ -178,14 +163,13 @@ TEST_P(Drawing, PickingAgreesWithTheDrawnPixels) {
             const Camera camera(pose, viewport);
             const Image image = draw_plain(list, pose);
             int drawn = 0, wrong = 0;
-            for (int y = 20; y < 220; ++y) {
+            for (int y = 20; y < 220; ++y)
                 for (int x = 40; x < 320; ++x) {
                     const bool picked = pick(list, camera, glm::vec2(x, y) + 0.5f, 0.0f) == 1;
                     const float covered = red_at(image, x, y);
                     drawn += covered > 0.5f;
                     wrong += (picked && covered < 0.47f) || (!picked && covered > 0.53f);
                 }
-            }
             EXPECT_GT(drawn, 300);
             EXPECT_EQ(wrong, 0);
         }
@@ -301,9 +285,8 @@ TEST_P(Offscreen, ChangesItsSize) {
 
 TEST_P(Offscreen, RefusesImpossibleSizes) {
     for (const glm::ivec2 bad :
-         {glm::ivec2(0, 10), glm::ivec2(10, -1), glm::ivec2(16385, 10), glm::ivec2(10, 1 << 30)}) {
+         {glm::ivec2(0, 10), glm::ivec2(10, -1), glm::ivec2(16385, 10), glm::ivec2(10, 1 << 30)})
         EXPECT_THROW(open_window(GetParam(), bad), std::runtime_error);
-    }
     const auto window = open_window(GetParam(), {64, 48});
     EXPECT_THROW(window->resize({0, 0}), std::runtime_error);
     EXPECT_EQ(window->size(), glm::ivec2(64, 48));

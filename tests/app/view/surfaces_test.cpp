@@ -1,5 +1,6 @@
 // Surfaces before they are drawn: closed, smooth, and finite for any input.
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,15 +1,52 @@
 // The unit and the range of a field, appended to its explanation.
 #include <gtest/gtest.h>
+#include <imgui.h>
+
 #include <cmath>
 
+#include "app/shell/input.hpp"
+#include "app/shell/ui.hpp"
 #include "app/widgets/axis.hpp"
 #include "app/widgets/fields.hpp"
-#include "app/widgets/lists.hpp"
 #include "app/widgets/plot.hpp"
-#include "tests/app/support/tooltips.hpp"
+#include "app/window/window.hpp"
 
 namespace tendril::app {
 namespace {
+
+/// The text of a part of the interface in a panel, and its tooltips, without the window around it.
+class TooltipFinder {
+  public:
+    /// The text that `draw` writes into a panel, and the tooltip under the mouse.
+    template <class Draw>
+    std::string read(const Draw& draw, glm::vec2 mouse = glm::vec2(-100.0f)) {
+        std::string text;
+        for (int i = 0; i < 2; ++i) {  // the item under the mouse is known one frame later
+            const Event moved = MouseMove{mouse};
+            input_.take(&moved);
+            ui_.begin({window_->size(), window_->size(), 1.0f}, Theme::Dark, input_, &moved, true);
+            ImGui::SetNextWindowPos({0.0f, 0.0f});
+            ImGui::SetNextWindowSize({300.0f, 300.0f});
+            ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
+            ImGui::LogToClipboard();
+            draw();
+            ImGui::LogFinish();
+            text = ImGui::GetClipboardText();
+            ImGui::End();
+            ui_.end();
+        }
+        return text;
+    }
+    void press(bool down) {
+        const Event event = MousePress{MouseButton::Left, down};
+        input_.take(&event);
+    }
+
+  private:
+    std::unique_ptr<Window> window_ = open_offscreen({1280, 800});
+    Ui ui_;
+    Input input_;
+};
 
 class Explained : public testing::Test {
   protected:
@@ -32,7 +69,7 @@ class Explained : public testing::Test {
     }
 
     static constexpr glm::vec2 name{20.0f, 20.0f}, field{200.0f, 20.0f}, below{200.0f, 200.0f};
-    test::TooltipFinder finder_;
+    TooltipFinder finder_;
 };
 
 TEST_F(Explained, EndsWithTheRangeAndTheUnitOfTheField) {
@@ -61,9 +98,8 @@ TEST_F(Explained, IsShownAtTheNameToo) {
 
 TEST_F(Explained, CoversAllThreeFieldsOfAPoint) {
     glm::vec3 point(0.0f);
-    for (const float y : {20.0f, 50.0f, 80.0f}) {
+    for (const float y : {20.0f, 50.0f, 80.0f})
         EXPECT_EQ(at({200.0f, y}, [&] { point_field("at", point, 0.1f, 5.0f); }), "What it does. -5 to 5 m.");
-    }
     const auto vector = [&] {
         vector_field("by", point, 0.1f, glm::vec3(0.0f), glm::vec3(1.0f, 2.0f, 3.0f), "%.3f");
     };

@@ -2,8 +2,6 @@
 #include "app/widgets/expression.hpp"
 #include "tests/says.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <random>
 
