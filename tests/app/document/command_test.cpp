@@ -40,6 +40,10 @@ struct CommandArguments : testing::Test {
         ADD_FAILURE() << arguments << " was accepted";
         return {};
     }
+    void turned(const Json& to, glm::vec3 from, glm::vec3 wanted) {
+        table.run(workspace, "test.turn", {{"to", to}});
+        EXPECT_LT(glm::length(turn * from - wanted), 1e-6f) << to;
+    }
 };
 
 TEST_F(CommandArguments, ANumberOrAPoint) {
@@ -90,12 +94,9 @@ TEST_F(CommandArguments, ATextIsUtf8) {
 
 TEST_F(CommandArguments, ARotation) {
     const float half = std::sqrt(0.5f);
-    table.run(workspace, "test.turn", {{"to", {0, 0, 90}}});
-    EXPECT_LT(glm::length(turn * glm::vec3(1, 0, 0) - glm::vec3(0, 1, 0)), 1e-6f);
-    table.run(workspace, "test.turn", {{"to", {90, 0, 90}}});  // about X first, then about Z
-    EXPECT_LT(glm::length(turn * glm::vec3(0, 1, 0) - glm::vec3(0, 0, 1)), 1e-6f);
-    table.run(workspace, "test.turn", {{"to", {half, 0, 0, half}}});
-    EXPECT_LT(glm::length(turn * glm::vec3(0, 1, 0) - glm::vec3(0, 0, 1)), 1e-6f);
+    turned({0, 0, 90}, {1, 0, 0}, {0, 1, 0});
+    turned({90, 0, 90}, {0, 1, 0}, {0, 0, 1});  // about X first, then about Z
+    turned({half, 0, 0, half}, {0, 1, 0}, {0, 0, 1});
     table.run(workspace, "test.turn", {{"to", {0.7071, 0, 0, 0.7071}}});
     EXPECT_NEAR(glm::length(turn), 1.0f, 1e-6f)
         << "written with few digits, it is of unit length all the same";

@@ -18,12 +18,15 @@ using test::has;
 using test::message_of;
 using test::TempFolder;
 
+struct JsonFile : testing::Test {
+    const TempFolder folder;
+};
+
 std::string read_message(const std::filesystem::path& path) {
     return message_of([&] { read_text_file(path); });
 }
 
-TEST(JsonFile, IsReadWithItsPathAndLineInErrors) {
-    const TempFolder folder;
+TEST_F(JsonFile, IsReadWithItsPathAndLineInErrors) {
     test::write(folder / "good.json", "{\"a\": 1}\n");
     EXPECT_EQ(read_json_file(folder / "good.json")["a"], 1);
     test::write(folder / "bad.json", "{\n\"a\": ]}\n");
@@ -31,8 +34,7 @@ TEST(JsonFile, IsReadWithItsPathAndLineInErrors) {
         has(message_of([&] { read_json_file(folder / "bad.json"); }), "bad.json: line 2: unexpected ']'"));
 }
 
-TEST(JsonFile, RefusesPathsThatAreNotFiles) {
-    const TempFolder folder;
+TEST_F(JsonFile, RefusesPathsThatAreNotFiles) {
     EXPECT_TRUE(has(read_message(folder / "missing"), "missing: No such file or directory"));
     EXPECT_TRUE(has(read_message(folder.path()), ": is a folder"));
     EXPECT_TRUE(has(read_message(folder / "a" / "b"), ": No such file or directory"));
@@ -41,8 +43,7 @@ TEST(JsonFile, RefusesPathsThatAreNotFiles) {
     EXPECT_EQ(read_text_file("/dev/null"), "");
 }
 
-TEST(JsonFile, Of64MegabytesIsReadAndOneByteMoreRefused) {
-    const TempFolder folder;
+TEST_F(JsonFile, Of64MegabytesIsReadAndOneByteMoreRefused) {
     const auto path = folder / "large";
     test::write(path, "");
     std::filesystem::resize_file(path, max_file_bytes);
@@ -51,12 +52,11 @@ TEST(JsonFile, Of64MegabytesIsReadAndOneByteMoreRefused) {
     EXPECT_TRUE(has(read_message(path), "large: larger than 64 MB"));
 }
 
-TEST(JsonFile, WithoutAnEndIsRefused) {
+TEST_F(JsonFile, WithoutAnEndIsRefused) {
     EXPECT_TRUE(test::says(read_message("/dev/zero"), "/dev/zero larger 64 MB"));
 }
 
-TEST(JsonFile, MayBeAPipe) {
-    const TempFolder folder;
+TEST_F(JsonFile, MayBeAPipe) {
     const auto pipe = folder / "pipe";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     std::thread writer([&] { test::write(pipe, "{\"a\": [" + std::string(200'000, ' ') + "7]}"); });
@@ -65,15 +65,13 @@ TEST(JsonFile, MayBeAPipe) {
     EXPECT_EQ(json["a"][0], 7);
 }
 
-TEST(JsonFile, DoesNotWaitForeverForAPipeWithoutWriter) {
-    const TempFolder folder;
+TEST_F(JsonFile, DoesNotWaitForeverForAPipeWithoutWriter) {
     const auto pipe = folder / "pipe";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     EXPECT_TRUE(test::says(read_message(pipe), "pipe nothing came through this pipe for 5 s"));
 }
 
-TEST(JsonFile, Of100MegabytesOfBracketsIsRefusedInNoMemory) {
-    const TempFolder folder;
+TEST_F(JsonFile, Of100MegabytesOfBracketsIsRefusedInNoMemory) {
     const auto path = folder / "brackets.json";
     const std::string block(1 << 20, '[');
     for (int i = 0; i < 100; ++i) std::ofstream(path, std::ios::app | std::ios::binary) << block;
@@ -87,7 +85,7 @@ TEST(JsonFile, Of100MegabytesOfBracketsIsRefusedInNoMemory) {
     EXPECT_GE(result, 0);
 }
 
-TEST(JsonFile, Of60MegabytesOfBracketsIsRefusedInTheMemoryOfItsText) {
+TEST_F(JsonFile, Of60MegabytesOfBracketsIsRefusedInTheMemoryOfItsText) {
     const std::string brackets(60 << 20, '[');
     const int result = test::in_child([&] {
         const long before = test::peak_megabytes();

@@ -139,16 +139,12 @@ TEST(Json, ALineIsFoundByItsPath) {
         " },\n"
         " \"b\"\n:\n {}\n"
         "}\n";
-    EXPECT_EQ(json_line(text, "a"), 2);
-    EXPECT_EQ(json_line(text, "a.x"), 2);
-    EXPECT_EQ(json_line(text, "a.y"), 3);
-    EXPECT_EQ(json_line(text, "a.y.1"), 4);
-    EXPECT_EQ(json_line(text, "a.y.1.z"), 4);
-    EXPECT_EQ(json_line(text, "a.y.7"), 3) << "the last part that is there";
-    EXPECT_EQ(json_line(text, "a.x.nothing"), 2);
-    EXPECT_EQ(json_line(text, "b"), 8);
-    EXPECT_EQ(json_line(text, "c"), 0);
-    EXPECT_EQ(json_line(text, ""), 0);
+    using Path = std::pair<const char*, int>;
+    for (const auto& [path, line] :
+         {Path{"a", 2}, Path{"a.x", 2}, Path{"a.y", 3}, Path{"a.y.1", 4}, Path{"a.y.1.z", 4},
+          Path{"a.y.7", 3},  // the last part that is there
+          Path{"a.x.nothing", 2}, Path{"b", 8}, Path{"c", 0}, Path{"", 0}})
+        EXPECT_EQ(json_line(text, path), line) << path;
     EXPECT_EQ(json_line("", "a"), 0);
 }
 
@@ -163,29 +159,26 @@ TEST(Json, TypedReadsReportPathAndReason) {
     EXPECT_EQ(json_point(json["p"], "p"), glm::vec3(1, 2, 3));
 
     const auto message = [](auto action) { return message_of(action); };
+    const auto says = [](auto action, const char* words) { EXPECT_TRUE(test::says(message_of(action), words)); };
     EXPECT_EQ(message([&] { json_member(json, "x", "labs.a"); }), "labs.a: \"x\" is missing");
     EXPECT_EQ(message([&] { json_member(json, "x", ""); }), "\"x\" is missing");
-    EXPECT_TRUE(test::says(message([&] { json_member(json["n"], "x", "n"); }), "n object 1.5"));
-    EXPECT_TRUE(test::says(message([&] { json_number(json["t"], "t"); }), "t number text"));
-    EXPECT_TRUE(test::says(message([&] { json_number(json["big"], "big"); }), "big number 1e9 1100000000.0"));
-    EXPECT_TRUE(test::says(message([&] { json_number(json["n"], "n", 2.0f, 3.0f); }), "n number 2 3 1.5"));
+    says([&] { json_member(json["n"], "x", "n"); }, "n object 1.5");
+    says([&] { json_number(json["t"], "t"); }, "t number text");
+    says([&] { json_number(json["big"], "big"); }, "big number 1e9 1100000000.0");
+    says([&] { json_number(json["n"], "n", 2.0f, 3.0f); }, "n number 2 3 1.5");
     EXPECT_EQ(json_real(json["big"], "big", 0.0, 1e12), 1.1e9) << "its ends say how large it may be";
-    EXPECT_TRUE(test::says(message([&] { json_real(json["big"], "big"); }), "big number 1e9 1100000000.0"));
-    EXPECT_TRUE(test::says(message([&] { json_real(json["big"], "big", 0.0, 1e9); }),
-                           "big number 0 1000000000 1100000000.0"));
-    EXPECT_TRUE(test::says(message([&] { json_integer(json["n"], "n", 0, 9); }), "n whole number 0 9 1.5"));
-    EXPECT_TRUE(test::says(message([&] { json_integer(json["i"], "i", 0, 2); }), "i whole number 0 2 3"));
-    EXPECT_TRUE(
-        test::says(message([&] { json_integer(Json(1e300), "i", 0, 2); }), "i whole number 0 2 1e+300"));
-    EXPECT_TRUE(test::says(message([&] { json_bool(json["i"], "i"); }), "i true false 3"));
-    EXPECT_TRUE(test::says(message([&] { json_text(json["b"], "b"); }), "b text true"));
-    EXPECT_TRUE(test::says(message([&] { json_point(Json::array({1, 2}), "p"); }), "p point [1,2]"));
-    EXPECT_TRUE(test::says(message([&] { json_point(Json::array({1, 2, "3"}), "p"); }), "p number 3"));
-    EXPECT_TRUE(
-        test::says(message([&] { json_text(Json(std::vector<int>(1000)), "t"); }), "t text list 1000"));
-    EXPECT_TRUE(
-        test::says(message([&] { json_number(Json(std::string(1000, 'x')), "t"); }), "t number long string"));
-    EXPECT_TRUE(test::says(message([&] { json_number(Json(std::nan("")), "t"); }), "t number 1e9 null"));
+    says([&] { json_real(json["big"], "big"); }, "big number 1e9 1100000000.0");
+    says([&] { json_real(json["big"], "big", 0.0, 1e9); }, "big number 0 1000000000 1100000000.0");
+    says([&] { json_integer(json["n"], "n", 0, 9); }, "n whole number 0 9 1.5");
+    says([&] { json_integer(json["i"], "i", 0, 2); }, "i whole number 0 2 3");
+    says([&] { json_integer(Json(1e300), "i", 0, 2); }, "i whole number 0 2 1e+300");
+    says([&] { json_bool(json["i"], "i"); }, "i true false 3");
+    says([&] { json_text(json["b"], "b"); }, "b text true");
+    says([&] { json_point(Json::array({1, 2}), "p"); }, "p point [1,2]");
+    says([&] { json_point(Json::array({1, 2, "3"}), "p"); }, "p number 3");
+    says([&] { json_text(Json(std::vector<int>(1000)), "t"); }, "t text list 1000");
+    says([&] { json_number(Json(std::string(1000, 'x')), "t"); }, "t number long string");
+    says([&] { json_number(Json(std::nan("")), "t"); }, "t number 1e9 null");
 }
 
 }  // namespace

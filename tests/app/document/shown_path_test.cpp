@@ -13,15 +13,9 @@ namespace {
 class ShownPath : public testing::Test {
   protected:
     ShownPath() { ::setenv("HOME", "/home/ada", 1); }
-    ~ShownPath() override {
-        if (home_.empty())
-            ::unsetenv("HOME");
-        else
-            ::setenv("HOME", home_.c_str(), 1);
-    }
 
   private:
-    const std::string home_ = std::getenv("HOME") != nullptr ? std::getenv("HOME") : "";
+    const Environment home_{"HOME"};
 };
 
 TEST_F(ShownPath, IsWholeAndShortUnderHome) {

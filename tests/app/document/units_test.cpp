@@ -14,28 +14,21 @@ TEST(Units, LengthsOfAMetreAndMoreAreInMetres) {
     EXPECT_EQ(length_text(-0.0), "0.0 mm");
 }
 
-TEST(Units, ThreeDigitsAndAPrefix) {
-    EXPECT_EQ(si_text(2.3, "m"), "2.30 m");
-    EXPECT_EQ(si_text(0.231, "m"), "231 mm");
-    EXPECT_EQ(si_text(4.1e-6, "s"), "4.10 \xc2\xb5s");
-    EXPECT_EQ(si_text(1.2e-7, "m"), "120 nm");
-    EXPECT_EQ(si_text(-0.0123, "m"), "-12.3 mm");
-    EXPECT_EQ(si_text(1234.0, "m"), "1.23 km");
-    EXPECT_EQ(si_text(1e9, "m"), "1.00 Gm");
-}
+struct Shown {
+    double value;
+    const char *unit, *text;
+};
 
-TEST(Units, ANumberThatRoundsUpTakesTheNextPrefix) {
-    EXPECT_EQ(si_text(0.99949, "m"), "999 mm");
-    EXPECT_EQ(si_text(0.9996, "m"), "1.00 m");
-    EXPECT_EQ(si_text(999.6, "m"), "1.00 km");
-    EXPECT_EQ(si_text(9.996, "m"), "10.0 m");
-}
-
-TEST(Units, NothingIsWrittenWithAnExponentOrANegativeZero) {
-    EXPECT_EQ(si_text(0.0, "m"), "0 m");
-    EXPECT_EQ(si_text(-0.0, "m"), "0 m");
-    EXPECT_EQ(si_text(std::nan(""), "m"), "-");
-    EXPECT_EQ(si_text(std::numeric_limits<double>::infinity(), "m"), "-");
+TEST(Units, ThreeDigitsAndAPrefixWithoutExponentOrNegativeZero) {
+    for (const auto& [value, unit, text] :
+         {Shown{2.3, "m", "2.30 m"}, Shown{0.231, "m", "231 mm"}, Shown{4.1e-6, "s", "4.10 \xc2\xb5s"},
+          Shown{1.2e-7, "m", "120 nm"}, Shown{-0.0123, "m", "-12.3 mm"}, Shown{1234.0, "m", "1.23 km"},
+          Shown{1e9, "m", "1.00 Gm"},
+          // A number that rounds up takes the next prefix.
+          Shown{0.99949, "m", "999 mm"}, Shown{0.9996, "m", "1.00 m"}, Shown{999.6, "m", "1.00 km"},
+          Shown{9.996, "m", "10.0 m"}, Shown{0.0, "m", "0 m"}, Shown{-0.0, "m", "0 m"},
+          Shown{std::nan(""), "m", "-"}, Shown{std::numeric_limits<double>::infinity(), "m", "-"}})
+        EXPECT_EQ(si_text(value, unit), text);
     for (double value = 1e-12; value < 1e11; value *= 1.7)
         EXPECT_EQ(si_text(value, "m").find('e'), std::string::npos) << value;
 }
@@ -51,13 +44,10 @@ TEST(Units, AFixedNumberHasItsDecimalsAndNoSignedZero) {
 }
 
 TEST(Units, AxisMarksAreShortWithoutExponent) {
-    EXPECT_EQ(short_text(2.0, "s"), "2 s");
-    EXPECT_EQ(short_text(1e-3, "m"), "1 mm");
-    EXPECT_EQ(short_text(1.5e-7, "m"), "150 nm");
-    EXPECT_EQ(short_text(1e-4, "%"), "0.0001 %");
-    EXPECT_EQ(short_text(12.345, "%"), "12.3 %");
-    EXPECT_EQ(short_text(120.0, ""), "120");
-    EXPECT_EQ(short_text(-0.0, ""), "0");
+    for (const auto& [value, unit, text] :
+         {Shown{2.0, "s", "2 s"}, Shown{1e-3, "m", "1 mm"}, Shown{1.5e-7, "m", "150 nm"},
+          Shown{1e-4, "%", "0.0001 %"}, Shown{12.345, "%", "12.3 %"}, Shown{120.0, "", "120"}, Shown{-0.0, "", "0"}})
+        EXPECT_EQ(short_text(value, unit), text);
     for (const char* unit : {"m", "%", ""})
         for (double value = 1e-7; value < 1e9; value *= 1.7)
             EXPECT_EQ(short_text(value, unit).find("e"), std::string::npos) << value;

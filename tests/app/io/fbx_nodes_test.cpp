@@ -298,10 +298,7 @@ TEST(FbxNodes, ASkinFollowsItsBonesAndBlendShapes) {
         ASSERT_EQ(character.skin.mesh->morphs.size(), 1u);
         EXPECT_EQ(character.skin.mesh->morphs[0].name, "smile");
         ASSERT_EQ(character.clips.size(), 1u);
-        std::vector<rig::Transform> pose = rest_pose(character.skeleton);
-        sample(character.clips[0], character.skeleton, 1.0, pose);
-        std::vector<humanoid::Placement> placements(pose.size());
-        place(character.skeleton, pose, placements);
+        const std::vector<humanoid::Placement> placements = test_posed::placed(character, 0, 1.0);
         const SkinDraw draw{character.skin.mesh, skin_matrices(character.skin, placements)};
         // A quarter turn about Z at the hips: down becomes right.
         EXPECT_LT(glm::length(glm::dvec3(skinned(draw, 3)) - glm::dvec3(0.5, 1.0, 0.0)), 1e-6);
@@ -344,7 +341,7 @@ TEST(FbxNodes, AMaterialIsAColourOrAnEmbeddedPicture) {
     const Character without = parse_fbx(scene.text(), "it");
     EXPECT_EQ(without.skin.mesh->parts.at(0).picture, -1);
     ASSERT_EQ(without.notes.size(), 1u);
-    EXPECT_NE(without.notes[0].find("texture skin.png is not in the file"), std::string::npos);
+    EXPECT_TRUE(test::has(without.notes[0], "texture skin.png is not in the file"));
 
     // One red pixel as a PNG, in base64 as text files have it.
     const std::string png =

@@ -77,11 +77,8 @@ TEST_F(FigureBodyTest, IsAClosedSurfaceOfAFewThousandVertices) {
     ASSERT_TRUE(figure_.skin.mesh);
     EXPECT_GT(mesh().positions.size(), 3000u);
     EXPECT_LT(mesh().positions.size(), 9000u);
-    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-    for (std::size_t i = 0; i < mesh().indices.size(); ++i) {
-        const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
-        ++edges[{mesh().indices[i], mesh().indices[next]}];
-    }
+    for (std::size_t i = 0; i < mesh().indices.size(); ++i)
+        ++edges[{mesh().indices[i], mesh().indices[i % 3 == 2 ? i - 2 : i + 1]}];
     for (const auto& [edge, times] : edges) {
         EXPECT_EQ(times, 1) << "at " << mesh().positions[edge.first].x << " "
                             << mesh().positions[edge.first].y << " " << mesh().positions[edge.first].z;

@@ -1,6 +1,7 @@
 // Positions of a character's nodes, at rest and in a clip.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <tendril/humanoid/clip.hpp>
 #include <vector>
@@ -16,6 +17,18 @@ inline std::vector<humanoid::Placement> placed(const Character& character, int c
     std::vector<humanoid::Placement> placements(pose.size());
     place(character.skeleton, pose, placements);
     return placements;
+}
+
+/// The beginning of a clip.
+inline humanoid::Clip first_seconds(humanoid::Clip clip, double seconds) {
+    clip.duration = std::min(clip.duration, seconds);
+    const auto cut = [&](auto& track) {
+        const std::size_t width = track.interpolation == humanoid::Interpolation::Cubic ? 3 : 1;
+        while (!track.times.empty() && track.times.back() > seconds) track.times.pop_back();
+        track.values.resize(track.times.size() * width);
+    };
+    for (humanoid::Channel& each : clip.channels) cut(each.translation), cut(each.rotation), cut(each.scale);
+    return clip;
 }
 
 /// Metres. Throws std::bad_optional_access if there is no such node.

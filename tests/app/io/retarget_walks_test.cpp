@@ -13,6 +13,7 @@
 #include <tendril/humanoid/t_pose.hpp>
 
 #include "app/io/character/read.hpp"
+#include "tests/app/io/posed.hpp"
 #include "tests/places.hpp"
 #include "tests/says.hpp"
 
@@ -129,18 +130,6 @@ class Walker {
     Facing facing_;
     std::vector<Placement> placed_, rest_, t_;
 };
-
-Clip first_seconds(Clip clip, double seconds) {
-    if (clip.duration <= seconds) return clip;
-    clip.duration = seconds;
-    const auto cut = [&](auto& track) {
-        const std::size_t width = track.interpolation == Interpolation::Cubic ? 3 : 1;
-        while (!track.times.empty() && track.times.back() > seconds) track.times.pop_back();
-        track.values.resize(track.times.size() * width);
-    };
-    for (Channel& each : clip.channels) cut(each.translation), cut(each.rotation), cut(each.scale);
-    return clip;
-}
 
 struct Measured {
     double arms = 0.0, hands = 0.0, head = 0.0;  // degrees from the source's directions
@@ -339,7 +328,7 @@ TEST_P(RetargetedWalks, FeetStandAndHandsPointAsInTheSource) {
     const Clip* clip = &from.clips.front();
     for (const Clip& each : from.clips)
         if (each.name == source.clip) clip = &each;
-    const Clip walk = first_seconds(*clip, 4.0);
+    const Clip walk = test_posed::first_seconds(*clip, 4.0);
     for (const Target& target : retargeted_targets) {
         SCOPED_TRACE(target.file);
         const Character& to = character(target.file);

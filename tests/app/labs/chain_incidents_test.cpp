@@ -1,9 +1,8 @@
 // The causes of flips: gestures with a planted cause, and smooth ones.
 #include <glm/gtc/quaternion.hpp>
-#include <random>
 
-#include "app/document/command.hpp"
 #include "tests/app/labs/chain_support.hpp"
+#include "tests/app/support/random_numbers.hpp"
 
 namespace tendril::app {
 namespace {
@@ -29,30 +28,27 @@ Turn furthest_turn(const std::vector<glm::vec3>& was, const std::vector<glm::vec
     return furthest;
 }
 
-class ChainIncidents : public ChainTest {
+class ChainIncidents : public ChainTest, protected test::RandomNumbers {
   protected:
-    std::mt19937 random{7};
+    ChainIncidents() : RandomNumbers(7) {}
+
     std::string also_;  ///< another cause that is also correct
-    float uniform(float low, float high) {
-        return low + (high - low) * static_cast<float>(random() >> 8) / 16777216.0f;
-    }
-    glm::vec3 direction() {
-        for (;;) {
-            const float x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1);
-            const float length = glm::length(glm::vec3(x, y, z));
-            if (length > 0.1f && length < 1.0f) return glm::vec3(x, y, z) / length;
-        }
-    }
+    float uniform(float low, float high) { return static_cast<float>(RandomNumbers::uniform(low, high)); }
+    glm::vec3 direction() { return RandomNumbers::direction(); }
     glm::vec3 across(glm::vec3 line) { return glm::normalize(glm::cross(line, direction())); }
+    void hinge(int index, const Json& axis, float low, float high) {
+        run("chain.limit",
+            {{"index", index}, {"kind", "hinge"}, {"axis", axis}, {"min_deg", low}, {"max_deg", high}});
+    }
 
     /// A chain of bones from the origin, each at an angle to the one before, in mode Reach.
     void chain(const std::vector<float>& lengths, glm::vec3 first, glm::vec3 axis, float bend) {
         run("chain.clear");
         glm::vec3 at(0.0f);
-        run("chain.add", {{"length", 0}, {"position", Json::array({0, 0, 0})}});
+        run("chain.add", {{"length", 0}, {"position", point(at)}});
         for (std::size_t i = 0; i < lengths.size(); ++i) {
             at += lengths[i] * (glm::angleAxis(bend * static_cast<float>(i), axis) * first);
-            run("chain.add", {{"length", lengths[i]}, {"position", Json::array({at.x, at.y, at.z})}});
+            run("chain.add", {{"length", lengths[i]}, {"position", point(at)}});
         }
         run("chain.mode", {{"mode", "reach"}});
     }
@@ -149,7 +145,7 @@ TEST_F(ChainIncidents, TargetsLinePassedThePole) {
         chain({uniform(0.7f, 1.3f), uniform(0.7f, 1.3f), uniform(0.7f, 1.3f)}, line, axis, 0.6f);
         const float reach = part().chain.reach();
         const glm::vec3 pole = uniform(0.5f, 1.2f) * reach * line;
-        run("chain.pole", {{"to", Json::array({pole.x, pole.y, pole.z})}});
+        run("chain.pole", {{"to", point(pole)}});
         return arc(random() % 2 == 0 ? line : -line, axis, 0.7f * reach, -0.5f, 0.5f, 0.03f);
     });
 }
@@ -167,12 +163,10 @@ TEST_F(ChainIncidents, RestartFromAnotherPose) {
     expect_planted(40, "the solver restarted from another pose", [&] {
         chain({uniform(0.7f, 1.3f), uniform(0.7f, 1.3f), uniform(0.7f, 1.3f)}, {1, 0, 0}, {0, 0, 1}, 0.0f);
         run("chain.solver", {{"name", "fabrik"}, {"restarts", 8}});
-        for (int i = 0; i < 3; ++i)
-            run("chain.limit", {{"index", i},
-                                {"kind", "hinge"},
-                                {"axis", i % 2 == 0 ? Json::array({0, 1, 0}) : Json::array({0, 0, 1})},
-                                {"min_deg", -uniform(30, 70)},
-                                {"max_deg", uniform(30, 70)}});
+        for (int i = 0; i < 3; ++i) {
+            const float low = -uniform(30, 70);
+            hinge(i, i % 2 == 0 ? Json{0, 1, 0} : Json{0, 0, 1}, low, uniform(30, 70));
+        }
         const float reach = part().chain.reach();
         const glm::vec3 from = -0.5f * reach * direction(), along = across(from);
         Path path;
@@ -187,17 +181,9 @@ TEST_F(ChainIncidents, LimitThatSwitchedSides) {
         chain(two ? std::vector{uniform(0.7f, 1.3f), uniform(0.7f, 1.3f)} : std::vector{uniform(0.7f, 1.3f)},
               {1, 0, 0}, {0, 0, 1}, 0.0f);
         run("chain.solver", {{"name", "ccd"}});
-        run("chain.limit", {{"index", 0},
-                            {"kind", "hinge"},
-                            {"axis", Json::array({0, 0, 1})},
-                            {"min_deg", -uniform(115, 150)},
-                            {"max_deg", uniform(115, 150)}});
-        if (two)
-            run("chain.limit", {{"index", 1},
-                                {"kind", "hinge"},
-                                {"axis", Json::array({0, 0, 1})},
-                                {"min_deg", -17},
-                                {"max_deg", 17}});
+        const float low = -uniform(115, 150);
+        hinge(0, {0, 0, 1}, low, uniform(115, 150));
+        if (two) hinge(1, {0, 0, 1}, -17, 17);
         return arc({1, 0, 0}, {0, 0, 1}, 0.97f * part().chain.reach(), 1.5f, 4.8f, 0.04f);
     });
 }
@@ -227,9 +213,7 @@ TEST_F(ChainIncidents, TheRuleIsSettable) {
     chain({1, 1, 1}, {1, 0, 0}, {0, 0, 1}, 0.0f);
     const auto flips = [&](float to) {
         target({2.999f, 0, 0});
-        const auto all = target({to, 0, 0});
-        return std::count_if(all.begin(), all.end(),
-                             [](const Incident& each) { return each.kind == Incident::Kind::Flip; });
+        return std::ranges::count(target({to, 0, 0}), Incident::Kind::Flip, &Incident::kind);
     };
     EXPECT_EQ(flips(1.8f), 1);
     run("chain.flips", {{"degrees", 170}});

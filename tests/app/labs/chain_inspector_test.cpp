@@ -13,19 +13,18 @@ namespace {
 
 class ChainInspector : public ChainTest {
   protected:
-    std::string text() { return reader_.inspector(*labs.find(chain_lab), workspace); }
-    void expect_says(const std::string& what) {
-        const std::string said = text();
-        EXPECT_NE(said.find(what), std::string::npos) << what << " is not in:\n" << said;
-    }
-    void expect_silent_about(const std::string& what) {
-        const std::string said = text();
-        EXPECT_EQ(said.find(what), std::string::npos) << what << " is in:\n" << said;
-    }
+    std::string text() { return reader_.inspector(lab(), workspace); }
+    void expect_says(const std::string& words) { EXPECT_TRUE(test::has(text(), words)); }
+    void expect_silent_about(const std::string& words) { EXPECT_FALSE(test::has(text(), words)); }
     static std::string metres(float value, const char* format) {
         char text[32];
         std::snprintf(text, sizeof text, format, static_cast<double>(value));
         return text;
+    }
+    void plain_fabrik(int bones, const Json& target) {
+        reach_with(bones);
+        run("chain.solver", {{"name", "fabrik_plain"}});
+        run("chain.target", {{"to", target}});
     }
 
   private:
@@ -33,9 +32,7 @@ class ChainInspector : public ChainTest {
 };
 
 TEST_F(ChainInspector, ShowsTheStepUnderTheMicroscope) {
-    reach_with(4);
-    run("chain.solver", {{"name", "fabrik_plain"}});
-    run("chain.target", {{"to", {1.2, 2.1, 0.7}}});
+    plain_fabrik(4, {1.2, 2.1, 0.7});
     run("microscope.open", {{"start", "straight"}});
     run("chain.select", {{"index", 4}});
     const auto shown = shown_chain(workspace).trace;
@@ -71,7 +68,7 @@ TEST_F(ChainInspector, ShowsTheStepUnderTheMicroscope) {
 TEST_F(ChainInspector, BeginsWithTheOutcomeForTheTarget) {
     const auto says = [&](const char* verdict) {
         EXPECT_EQ(state().at("verdict"), verdict);
-        EXPECT_EQ(text().rfind(verdict, 0), 0u) << "it comes first, in:\n" << text();
+        EXPECT_TRUE(text().starts_with(verdict)) << "it comes first, in:\n" << text();
     };
     says("Tail on the target");
     run("chain.mode", {{"mode", "with_index"}, {"index", 3}});
@@ -94,20 +91,16 @@ TEST_F(ChainInspector, BeginsWithTheOutcomeForTheTarget) {
     run("chain.target", {{"to", {1.5, 1, 0}}});
     run("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"min_deg", 0}, {"max_deg", 90}});
     run("chain.target", {{"to", {0.5, 0, 0}}});
-    EXPECT_EQ(state().at("verdict").get<std::string>().rfind("Limited: 0.", 0), 0u) << state().at("verdict");
+    EXPECT_TRUE(state().at("verdict").get<std::string>().starts_with("Limited: 0.")) << state().at("verdict");
     EXPECT_TRUE(test::says(text(), "Joint 1 (hinge) stops at 90 degrees the target needs"));
 }
 
 TEST_F(ChainInspector, ExplainsAStalledSolve) {
     // Straight along +X, with the target on that line: the published FABRIK bends nothing.
-    reach_with(4);
-    run("chain.solver", {{"name", "fabrik_plain"}});
-    run("chain.target", {{"to", {2.5, 0, 0}}});
+    plain_fabrik(4, {2.5, 0, 0});
     ASSERT_EQ(part().result->report.status, ik::Status::Stalled);
     expect_says("Folded onto the line to the target");
-    reach_with(4);
-    run("chain.solver", {{"name", "fabrik_plain"}});
-    run("chain.target", {{"to", {3.5, 0, 0}}});
+    plain_fabrik(4, {3.5, 0, 0});
     ASSERT_EQ(part().result->report.status, ik::Status::Stalled);
     expect_says("Straight, and the target is on its line");
     expect_says("pole target");
@@ -116,10 +109,8 @@ TEST_F(ChainInspector, ExplainsAStalledSolve) {
     run("chain.pole", {{"to", {3, 3, 0}}});
     EXPECT_EQ(part().result->report.status, ik::Status::Converged);
 
-    ReachResult result{
-        .method = ik::Method::Ccd, .report = {.status = ik::Status::Stalled}, .active_limit = {}};
     ChainPart bent = part();
-    bent.result = result;
+    bent.result = {.method = ik::Method::Ccd, .report = {.status = ik::Status::Stalled}, .active_limit = {}};
     EXPECT_TRUE(test::says(status_text(bent), "closer another solver"));
     EXPECT_EQ(status_text(bent).find("restarts"), std::string::npos);
     bent.reach.method = ik::Method::Fabrik;
@@ -129,25 +120,22 @@ TEST_F(ChainInspector, ExplainsAStalledSolve) {
 }
 
 TEST_F(ChainInspector, ShowsTheTableOfTheStep) {
-    reach_with(2);
     run("view.fold", {{"section", "chain: Joints, in metres"}, {"folded", false}});
-    run("chain.solver", {{"name", "fabrik_plain"}});
-    run("chain.target", {{"to", {0.5, 1.25, 0}}});
+    plain_fabrik(2, {0.5, 1.25, 0});
     run("microscope.open", {{"start", "straight"}});
     const auto trace = shown_chain(workspace).trace;
     for (std::size_t step = 0; step <= trace->frames(); ++step) {
         run("microscope.seek", {{"step", step}});
-        const std::vector<glm::vec3> joints = trace->pose(step);
         const std::string said = text();
-        for (const glm::vec3& joint : joints) {
+        for (const glm::vec3& joint : trace->pose(step)) {
             const std::string y = metres(joint.y, "%.2f");
-            EXPECT_NE(said.find(y == "-0.00" ? "0.00" : y), std::string::npos) << "step " << step << "\n"
-                                                                               << said;
+            EXPECT_TRUE(test::has(said, y == "-0.00" ? "0.00" : y)) << "step " << step;
         }
     }
 }
 
-TEST_F(ChainInspector, NamesTheEndsRootAndTipWhereTheChainReaches) {
+TEST_F(ChainInspector, CountsJointsAndNamesTheEndsRootAndTipWhereTheChainReaches) {
+    expect_says("8 joints, 7 bones");
     run("chain.select", {{"index", 7}});
     expect_says("7 (tail)");
     expect_says("tail to target");
@@ -155,19 +143,12 @@ TEST_F(ChainInspector, NamesTheEndsRootAndTipWhereTheChainReaches) {
     expect_says("7 (tip)");
     expect_says("root to target");
     expect_silent_about("tail to target");
-}
-
-TEST_F(ChainInspector, CountsJointsAndBones) {
-    expect_says("8 joints, 7 bones");
     run("chain.preset", {{"name", "start"}, {"count", 2}});
     expect_says("2 joints, 1 bone\n");
 }
 
 TEST_F(ChainInspector, CountsTimeFromTheLatestMoment) {
-    for (int i = 0; i < 100; ++i) {
-        workspace.remember_moment();
-        ++workspace.moment;
-    }
+    for (int i = 0; i < 100; ++i) remember();
     workspace.rewind.note({.kind = Incident::Kind::Flip, .tick = 39, .joint = 1, .cause = "it was planted"});
     expect_says("Joint 1 flipped, 1.00 s ago");
     expect_silent_about("discards");
@@ -180,18 +161,17 @@ TEST_F(ChainInspector, CountsTimeFromTheLatestMoment) {
 }
 
 TEST_F(ChainInspector, AMovingTargetWaitsWhileTheMicroscopeIsOpen) {
-    const Lab& lab = *labs.find(chain_lab);
     reach_with(4);
     run("chain.target", {{"to", {2, 2, 0}}});
     run("chain.motion", {{"path", "circle"}});
-    EXPECT_TRUE(lab.moving(workspace));
+    EXPECT_TRUE(lab().moving(workspace));
     run("microscope.open");
-    EXPECT_FALSE(lab.moving(workspace));
+    EXPECT_FALSE(lab().moving(workspace));
     expect_says("The moving target waits while the microscope is open.");
     run("microscope.close");
-    EXPECT_TRUE(lab.moving(workspace)) << "and then goes on";
+    EXPECT_TRUE(lab().moving(workspace)) << "and then goes on";
     run("race.open");
-    EXPECT_TRUE(lab.moving(workspace)) << "a race is run anew each tick";
+    EXPECT_TRUE(lab().moving(workspace)) << "a race is run anew each tick";
 }
 
 }  // namespace

@@ -8,7 +8,6 @@ namespace {
 class ChainPaste : public ChainTest {
   protected:
     void paste(const std::string& text) { run("chain.paste", {{"text", text}}); }
-    std::string told() const { return workspace.ui.toasts.empty() ? "" : workspace.ui.toasts.back().text; }
 };
 
 TEST_F(ChainPaste, RowsBecomeAChainWithItsTargetOnItsTail) {
@@ -21,7 +20,7 @@ TEST_F(ChainPaste, RowsBecomeAChainWithItsTargetOnItsTail) {
     EXPECT_EQ(part().chain.length(2), 1.0f);
     EXPECT_EQ(part().target, glm::vec3(0, 2, 1));
     EXPECT_TRUE(part().selection.empty());
-    EXPECT_TRUE(test::says(told(), "chain 3 joints clipboard"));
+    tells("chain 3 joints clipboard");
     run("undo");
     EXPECT_EQ(state(), before);
 }
@@ -30,12 +29,12 @@ TEST_F(ChainPaste, OnePointMovesTheSelectionOrElseTheTarget) {
     paste("new Vector3(5f, 2f, 0f)");
     EXPECT_EQ(part().target, glm::vec3(5, 2, 0));
     EXPECT_EQ(part().chain.position(7), glm::vec3(5, 2, 0));
-    EXPECT_TRUE(test::says(told(), "target 5.000 2.000 0.000"));
+    tells("target 5.000 2.000 0.000");
 
     run("chain.select", {{"index", 3}});
     paste("(X=1,Y=2,Z=3)");
     EXPECT_EQ(part().chain.position(3), glm::vec3(1, 2, 3));
-    EXPECT_TRUE(test::says(told(), "joint 1.000 2.000 3.000"));
+    tells("joint 1.000 2.000 3.000");
 
     reach_with(4);
     run("chain.pole", {{"to", {0, 1, 0}}});
@@ -44,7 +43,7 @@ TEST_F(ChainPaste, OnePointMovesTheSelectionOrElseTheTarget) {
     paste("[0, 0, 4]");
     EXPECT_EQ(part().reach.options.pole, glm::vec3(0, 0, 4));
     EXPECT_EQ(part().target, target);
-    EXPECT_TRUE(test::says(told(), "pole 0.000 0.000 4.000"));
+    tells("pole 0.000 0.000 4.000");
     run("chain.select", {{"point", "target"}});
     paste("2 1 1");
     EXPECT_EQ(part().target, glm::vec3(2, 1, 1));

@@ -99,10 +99,11 @@ TEST_F(ChainPlaneTest, ErrorsAreReported) {
     expect_refused("chain.plane", {}, {"needs either normal or off"});
     expect_refused("chain.plane", {{"normal", {0, 0, 0}}}, {"longer than"});
     run("chain.plane", {{"normal", {0, 0, 1}}});
-    expect_refused("chain.angle_limit", {{"index", 1}, {"min_deg", 20}, {"max_deg", 10}},
-                   {"min is over max"});
+    expect_refused("chain.angle_limit", {{"index", 1}, {"min_deg", 20}, {"max_deg", 10}}, {"min is over max"});
     expect_refused("chain.angle_limit", {{"index", 3}, {"min_deg", -20}}, {"tail"});
     expect_refused("chain.limit", {{"index", 1}, {"kind", "hinge"}}, {"angle_limit"});
+    run("chain.preset", {{"name", "tail"}});
+    expect_refused("chain.plane", {{"normal", {0, 0, 1}}}, {"curve", "control points"});
 }
 
 TEST_F(ChainPlaneTest, LimitsReturnWhenThePlaneIsRemoved) {
@@ -111,33 +112,29 @@ TEST_F(ChainPlaneTest, LimitsReturnWhenThePlaneIsRemoved) {
     const ik::Limit hinge = limit_of(part().reach, 2);
     run("chain.plane", {{"normal", {0, 0, 1}}});
     EXPECT_TRUE(part().reach.limits.empty());
-    const auto loaded = part().load(part().save(), "chain");
-    EXPECT_EQ(dynamic_cast<const ChainPart&>(*loaded).reach, part().reach);
+    EXPECT_EQ(chain_part(reopened()).reach, part().reach);
     run("chain.plane", {{"normal", {1, 0, 1}}});
     run("chain.insert", {{"index", 1}, {"length", 0.5}});
     run("chain.plane", {{"off", true}});
     EXPECT_EQ(limit_of(part().reach, 3), hinge);
 }
 
-TEST_F(ChainPlaneTest, ACurveTakesNoPlane) {
-    run("chain.preset", {{"name", "tail"}});
-    expect_refused("chain.plane", {{"normal", {0, 0, 1}}}, {"curve", "control points"});
-}
-
 TEST_F(ChainPlaneTest, EveryModeAndDragStaysInThePlane) {
     run("chain.preset", {{"name", "tentacle"}, {"count", 8}});
+    const auto expect_flat = [&](const char* after) { EXPECT_LE(furthest_off(), 1e-5f) << after; };
     for (const char* const mode : {"forward", "backward", "fixed", "with_index", "reach"}) {
+        SCOPED_TRACE(mode);
         run("chain.mode", {{"mode", mode}});
         run("chain.plane", {{"normal", {0, 0, 1}}});
-        EXPECT_LE(furthest_off(), 1e-5f) << mode;
+        expect_flat("plane");
         target(1.0f, 3.0f, 0.8f);
-        EXPECT_LE(furthest_off(), 1e-5f) << mode;
+        expect_flat("target");
         run("chain.pull", {{"index", 4}, {"to", {0.5f, 2.0f, -0.4f}}});
-        EXPECT_LE(furthest_off(), 1e-5f) << mode;
+        expect_flat("pull");
         run("chain.pull", {{"joints", {2, 5}}, {"points", {{0.4f, 1.2f, 1}, {0.1f, 2.5f, -1}}}});
-        EXPECT_LE(furthest_off(), 1e-5f) << mode;
+        expect_flat("pull of two");
         run("chain.add", {{"length", 0.5f}, {"position", {0, 9, 3}}});
-        EXPECT_LE(furthest_off(), 1e-5f) << mode;
+        expect_flat("add");
         run("chain.plane", {{"off", true}});
     }
 }
@@ -150,7 +147,7 @@ TEST_F(ChainPlaneTest, ADraggedJointKeepsLimitsOnBothSides) {
         EXPECT_LE(std::abs(std::remainder(angle(bone) - angle(bone - 1), 360.0f)), 25.3f) << bone;
 }
 
-TEST_F(ChainPlaneTest, PresetsReachTheirTargets) {
+TEST_F(ChainPlaneTest, PresetsReachTheirTargetsOrNameTheActiveLimit) {
     for (const char* const name : {"flat_arm", "flat_tail", "flat_mixed"}) {
         run("chain.preset", {{"name", name}});
         ASSERT_TRUE(part().reach.plane) << name;
@@ -158,9 +155,6 @@ TEST_F(ChainPlaneTest, PresetsReachTheirTargets) {
     }
     run("chain.preset", {{"name", "arm"}});
     EXPECT_FALSE(part().reach.plane);
-}
-
-TEST_F(ChainPlaneTest, TheActiveLimitIsNamed) {
     run("chain.preset", {{"name", "flat_arm"}});
     target(0.2f, 2.6f);
     ASSERT_EQ(part().result->report.status, ik::Status::Limited);
@@ -171,11 +165,10 @@ TEST_F(ChainPlaneTest, CodeHasThePlane) {
     run("chain.preset", {{"name", "flat_mixed"}});
     run("chain.bend", {{"side", "left"}});
     const std::string code = chain_code(part());
-    EXPECT_NE(
-        code.find("options.plane = ik::Plane{glm::vec3{0.0f, 0.0f, 1.0f}, ik::Side::Left, angle_limits};"),
-        std::string::npos)
-        << code;
-    EXPECT_NE(code.find("ik::AngleFrom::Base}"), std::string::npos);
+    for (const char* const each :
+         {"options.plane = ik::Plane{glm::vec3{0.0f, 0.0f, 1.0f}, ik::Side::Left, angle_limits};",
+          "ik::AngleFrom::Base}"})
+        EXPECT_TRUE(test::has(code, each));
 }
 
 // The mouse: the ends of a limit's arc.

@@ -17,18 +17,19 @@ class RaceDrawingTest : public ChainTest {
 
     std::shared_ptr<const Race> race() const { return shown_chain(workspace).race; }
 
+    DrawList drawing(const Camera& camera, std::size_t pane = 0) const {
+        DrawList list;
+        lab().draw({workspace, camera, colours_, no_pick, no_pick, 1.0f, pane}, list);
+        return list;
+    }
     /// The lines in a solver's colour, in order: one for each of its bones.
     std::map<ik::Method, std::vector<Stroke>> bones(std::size_t pane = 0) const {
-        DrawList list;
-        labs.find(chain_lab)->draw({workspace, camera_, colours_, no_pick, no_pick, 1.0f, pane}, list);
         std::map<ik::Method, std::vector<Stroke>> found;
-        for (const Stroke& stroke : list.strokes) {
-            if (stroke.a == stroke.b || !stroke.shadow) continue;
-            for (const Racer& racer : race()->racers) {
-                if (glm::vec3(stroke.colour) == solver_colour(colours_, racer.method))
+        for (const Stroke& stroke : drawing(camera_, pane).strokes)
+            for (const Racer& racer : race()->racers)
+                if (stroke.a != stroke.b && stroke.shadow &&
+                    glm::vec3(stroke.colour) == solver_colour(colours_, racer.method))
                     found[racer.method].push_back(stroke);
-            }
-        }
         return found;
     }
     glm::vec2 seen(glm::vec3 at) const { return *camera_.project(at); }
@@ -45,9 +46,8 @@ TEST_F(RaceDrawingTest, EqualChainsRunAlongLikeStrands) {
     // Already on the target: every solver keeps its starting pose.
     run("chain.target", {{"to", Json::array({6, 0, 0})}});
     run("race.open", {{"start", "here"}});
-    for (const ik::Method method : ik::all_methods) {
+    for (const ik::Method method : ik::all_methods)
         if (method != ik::Method::TwoBone) run("race.solver", {{"name", ik::name(method)}, {"on", true}});
-    }
     const auto drawn = bones();
     ASSERT_EQ(drawn.size(), race()->racers.size());
     ASSERT_GE(drawn.size(), 4u);
@@ -57,10 +57,9 @@ TEST_F(RaceDrawingTest, EqualChainsRunAlongLikeStrands) {
             ASSERT_EQ(lines.size(), 6u) << ik::name(method);
             middles.push_back(seen(0.5f * (lines[bone].a + lines[bone].b)));
         }
-        for (std::size_t i = 0; i < middles.size(); ++i) {
+        for (std::size_t i = 0; i < middles.size(); ++i)
             for (std::size_t j = 0; j < i; ++j)
                 EXPECT_GT(glm::distance(middles[i], middles[j]), 3.0f) << bone;
-        }
     }
 }
 
@@ -71,8 +70,7 @@ TEST_F(RaceDrawingTest, EveryTipHasTheNameOfItsSolver) {
     run("chain.target", {{"to", Json::array({3, 3, 1})}});
     for (const std::size_t iteration : {0u, 2u}) {
         run("race.show", {{"iteration", iteration}});
-        DrawList list;
-        labs.find(chain_lab)->draw({workspace, camera_, colours_, no_pick, no_pick, 1.0f, 0}, list);
+        const DrawList list = drawing(camera_);
         std::size_t most = 0;
         for (const Racer& racer : race()->racers) {
             const std::string name = solver_title(racer.method);
@@ -156,7 +154,7 @@ TEST_F(RaceDrawingTest, SideBySideEachPaneHasOneChainInPlace) {
     run("chain.target", {{"to", {4, 0, 0}}});
     run("race.open", {{"start", "here"}});
     run("race.side_by_side", {{"on", true}});
-    ASSERT_EQ(labs.find(chain_lab)->panes(workspace).size(), race()->racers.size());
+    ASSERT_EQ(lab().panes(workspace).size(), race()->racers.size());
     for (std::size_t pane = 0; pane < race()->racers.size(); ++pane) {
         const auto drawn = bones(pane);
         ASSERT_EQ(drawn.size(), 1u);
@@ -173,13 +171,9 @@ TEST_F(RaceDrawingTest, ChainsSeenEndOnAreStillDrawn) {
     reach_with(3);
     run("chain.target", {{"to", {3, 0, 0}}});
     run("race.open", {{"start", "here"}});
-    DrawList list;
     const Camera along({.yaw = glm::radians(90.0f), .pitch = 0.0f, .distance = 12.0f}, {{0, 0}, {800, 600}});
-    labs.find(chain_lab)->draw({workspace, along, colours_, no_pick, no_pick, 1.0f}, list);
-    for (const Stroke& stroke : list.strokes) {
-        for (const float value : {stroke.a.x, stroke.a.y, stroke.a.z, stroke.b.x, stroke.b.y, stroke.b.z})
-            EXPECT_TRUE(std::isfinite(value));
-    }
+    for (const Stroke& stroke : drawing(along).strokes)
+        EXPECT_TRUE(is_finite_point(stroke.a) && is_finite_point(stroke.b));
 }
 
 }  // namespace

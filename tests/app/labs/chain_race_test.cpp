@@ -189,8 +189,7 @@ TEST_F(ChainRace, PlaysToItsEndAtALegiblePace) {
 TEST_F(ChainRace, StartsFromAPoseThatWasBentByHand) {
     run("chain.preset", {{"name", "straight"}});
     run("chain.pull", {{"index", 2}, {"to", {2, 0.7, 0}}});
-    std::vector<glm::vec3> bent;
-    for (std::size_t i = 0; i < part().chain.size(); ++i) bent.push_back(part().chain.position(i));
+    const std::vector<glm::vec3> bent = positions(part().chain);
     EXPECT_GT(bent[2].y, 0.3f);
     for (const char* study : {"race.open", "microscope.open"}) {
         run(study);
@@ -205,13 +204,12 @@ TEST_F(ChainRace, ItsFilmIsNotNamedLikeItsPicture) {
     run("race.record");
     ASSERT_TRUE(workspace.ui.video);
     // The numbers depend on what else is in the folder.
-    EXPECT_EQ(workspace.ui.video->path.filename().string().rfind("tendril-race-", 0), 0u);
+    EXPECT_TRUE(workspace.ui.video->path.filename().string().starts_with("tendril-race-"));
     run("view.picture");
     const std::string picture = workspace.ui.picture->path.filename().string();
-    EXPECT_EQ(picture.rfind("tendril-", 0), 0u) << picture;
-    EXPECT_EQ(picture.find("race"), std::string::npos) << picture;
-    const std::string text = test::PanelReader().inspector(lab(), workspace);
-    EXPECT_TRUE(says(text, "Record the race Save a picture"));
+    EXPECT_TRUE(picture.starts_with("tendril-")) << picture;
+    EXPECT_FALSE(test::has(picture, "race"));
+    EXPECT_TRUE(says(test::PanelReader().inspector(lab(), workspace), "Record the race Save a picture"));
 }
 
 /// As written by versions whose races could not be scrubbed.
@@ -232,9 +230,7 @@ TEST_F(ChainRace, TheLegendHasEachRacersIterationAndError) {
     run("race.show", {{"iteration", 2}});
     const auto rows = lab().legend(workspace);
     for (const Racer& racer : race()->racers) {
-        const auto row = std::find_if(rows.begin(), rows.end(), [&](const LegendRow& each) {
-            return each.name == solver_title(racer.method);
-        });
+        const auto row = std::ranges::find(rows, solver_title(racer.method), &LegendRow::name);
         ASSERT_NE(row, rows.end()) << ik::name(racer.method);
         ASSERT_EQ(row->numbers.size(), 2u);
         const bool finished = racer.iterations() <= 2;

@@ -73,23 +73,19 @@ TEST_F(ChainSelection, ThousandsAreSetAtOnce) {
 TEST_F(ChainSelection, RemovedTogetherOrOneByOneTheSameLimitsStay) {
     for (const std::vector<std::size_t>& gone :
          {std::vector<std::size_t>{1, 3}, {0, 2, 5}, {6, 7}, {0, 7}, {2, 3, 4}}) {
-        std::vector<std::vector<float>> left;
+        std::vector<Json> left;
         for (const bool together : {true, false}) {
             reach_with(7);
             for (int i = 0; i < 7; ++i)
                 run("chain.limit",
                     {{"index", i}, {"kind", "hinge"}, {"axis", {0, 0, 1}}, {"max_deg", 10 + i}});
             run("chain.mode", {{"mode", "with_index"}, {"index", 4}});
-            if (together) {
-                run("chain.select", {{"joints", gone}});
-                run("chain.remove_selected");
-            } else {
-                for (std::size_t i = gone.size(); i-- > 0;) run("chain.remove", {{"index", gone[i]}});
-            }
-            std::vector<float>& found = left.emplace_back();
+            if (together) run("chain.select", {{"joints", gone}});
+            if (together) run("chain.remove_selected");
+            for (std::size_t i = gone.size(); !together && i-- > 0;)
+                run("chain.remove", {{"index", gone[i]}});
+            Json& found = left.emplace_back(Json{part().index, part().chain.size()});
             for (const ik::Limit& limit : part().reach.limits) found.push_back(limit.max);
-            found.push_back(static_cast<float>(part().index));
-            found.push_back(static_cast<float>(part().chain.size()));
             run("chain.mode", {{"mode", "reach"}});
         }
         EXPECT_EQ(left[0], left[1]) << gone.front();
@@ -100,13 +96,12 @@ TEST_F(ChainSelection, OtherIndicesAreRefusedAndChangeNothing) {
     reach_with(4);
     run("chain.select", {{"joints", {1, 2}}});
     const Json joints_that_are_none = Json::array({{0, 9}, {-1}, {0.5}, {"tip"}, {nullptr}, {{0}}, {1e300}});
-    for (const Json& joints : joints_that_are_none) {
+    for (const Json& joints : joints_that_are_none)
         for (const char* command : {"chain.select", "chain.limit", "chain.set_length"}) {
             Json arguments{{"joints", joints}};
             if (std::string(command) == "chain.set_length") arguments["length"] = 1;
             EXPECT_FALSE(refused(command, arguments).empty()) << command << joints;
         }
-    }
     expect_refused("chain.limit", {{"joints", {1, 4}}, {"kind", "hinge"}}, {"tail"});
     refused("chain.limit", {{"joints", Json::array()}, {"kind", "hinge"}});
     refused("chain.set_length", {{"joints", Json::array()}, {"length", 1}});
@@ -119,24 +114,26 @@ TEST_F(ChainSelection, OtherIndicesAreRefusedAndChangeNothing) {
 TEST_F(ChainSelection, TheTargetOrThePoleInsteadOfJoints) {
     reach_with(3);
     run("chain.pole", {{"to", {0, 2, 0}}});
-    const Lab& lab = *labs.find(chain_lab);
-    EXPECT_FALSE(lab.gizmo(workspace));
+    EXPECT_FALSE(lab().gizmo(workspace));
     run("chain.select", {{"joints", {1, 2}}});
-    EXPECT_EQ(lab.gizmo(workspace)->name, "segment.2") << "of several, at the active one";
+    EXPECT_EQ(lab().gizmo(workspace)->name, "segment.2") << "of several, at the active one";
     run("chain.select", {{"index", 1}});
-    EXPECT_EQ(lab.gizmo(workspace)->name, "segment.1");
+    EXPECT_EQ(lab().gizmo(workspace)->name, "segment.1");
     run("chain.select", {{"point", "target"}});
     EXPECT_TRUE(selected().empty());
     EXPECT_EQ(state()["selected"], "target");
-    EXPECT_EQ(lab.gizmo(workspace)->name, "target");
+    EXPECT_EQ(lab().gizmo(workspace)->name, "target");
     run("chain.select", {{"point", "pole"}});
-    EXPECT_EQ(lab.gizmo(workspace)->name, "pole");
+    EXPECT_EQ(lab().gizmo(workspace)->name, "pole");
     run("chain.mode", {{"mode", "forward"}});
-    EXPECT_FALSE(lab.gizmo(workspace)) << "the pole is for mode reach";
+    EXPECT_FALSE(lab().gizmo(workspace)) << "the pole is for mode reach";
     run("chain.mode", {{"mode", "reach"}});
     run("chain.pole", {{"off", true}});
-    EXPECT_FALSE(lab.gizmo(workspace));
+    EXPECT_FALSE(lab().gizmo(workspace));
     EXPECT_TRUE(state()["selected"].is_null());
+    run("chain.pole", {{"to", {0, 3, 0}}});
+    run("chain.preset", {{"name", "snake"}});
+    EXPECT_FALSE(part().reach.options.pole) << "a preset begins without one";
 }
 
 TEST_F(ChainSelection, AMomentWithFewerJointsKeepsTheRestOfTheSelection) {

@@ -3,15 +3,25 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <functional>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/workspace.hpp"
 #include "app/labs/labs.hpp"
+#include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
+#include "tests/places.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 

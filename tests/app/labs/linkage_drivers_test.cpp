@@ -11,7 +11,7 @@ class LinkageDrivers : public LinkageTest {};
 TEST_F(LinkageDrivers, AFarValueIsReachedInTime) {
     four_bar();
     run("linkage.drive", {{"joint", "crank"}, {"angle_deg", 100000}});
-    for (int i = 0; i < 60 && lab().moving(workspace); ++i) wait(1);
+    wait_while_moving(60);
     EXPECT_FALSE(lab().moving(workspace));
     EXPECT_NEAR(driver("crank"), 100000.0, 1e-3);
     EXPECT_EQ(state().at("status"), "Reached");

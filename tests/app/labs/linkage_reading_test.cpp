@@ -22,23 +22,31 @@ class LinkageReading : public LinkageTest {
         four_bar();
         run("linkage.set", {{"crank", 2.2}});
         run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", 90}});
-        for (int i = 0; i < 240 && lab().moving(workspace); ++i) wait(1);
+        wait_while_moving(240);
         ASSERT_EQ(state().at("status"), "DeadPoint");
     }
     void take(const char* title) {
-        for (const Cure& each : ways_on(part(), runtime())) {
-            if (each.title != title) continue;
-            for (const CommandCall& call : each.calls) run(call.name.c_str(), to_json(call.arguments));
-            return;
-        }
-        ADD_FAILURE() << "there is no " << title;
+        const auto ways = ways_on(part(), runtime());
+        const auto way = std::ranges::find(ways, std::string(title), &Cure::title);
+        ASSERT_NE(way, ways.end()) << "there is no " << title;
+        for (const CommandCall& call : way->calls) run(call.name.c_str(), to_json(call.arguments));
+    }
+    static void open_four_bar(LinkagePart& part, double ground, double crank, double coupler, double rocker,
+                              LinkageRuntime& runtime) {
+        open_mechanism(part, ik::FourBar{.ground = ground, .crank = crank, .coupler = coupler, .rocker = rocker},
+                       runtime);
+    }
+    /// Bars by the names of their ends.
+    void add_bars(const std::vector<std::string>& names) {
+        for (const std::string& name : names)
+            run("linkage.bar", {{"from", name.substr(0, 1)}, {"to", name.substr(1)}, {"name", name}});
     }
     /// The side of the line from B to D on which coupler and rocker meet.
     bool meets_left() const {
         const glm::dvec3 d(3, 0, 0), line = d - at("B"), to = at("C") - at("B");
         return line.x * to.y - line.y * to.x > 0.0;
     }
-    const LinkageTurn& turn() { return workspace.runtimes.of<LinkageRuntime>(linkage_lab).turn(part()); }
+    const LinkageTurn& turn() { return runtime().turn(part()); }
     bool all_in_view() {
         const Camera camera(workspace.camera, {{0, 0}, workspace.ui.view_size});
         PartInTurn in_turn(part());
@@ -92,7 +100,7 @@ TEST_F(LinkageReading, ASliderCrankIsShortenedToo) {
     run("linkage.preset", {{"name", "slider_crank"}});
     run("linkage.set", {{"crank", 1.0}, {"rod", 0.8}, {"offset", 0.1}});
     run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", 90}});
-    for (int i = 0; i < 240 && lab().moving(workspace); ++i) wait(1);
+    wait_while_moving(240);
     ASSERT_EQ(state().at("status"), "DeadPoint");
     ASSERT_TRUE(runtime().round_crank(part(), 0));
     EXPECT_NEAR(runtime().round_crank(part(), 0)->longest, 0.7, 1e-3);
@@ -122,7 +130,7 @@ TEST_F(LinkageReading, ADrawnLegIsShortenedTooAndItsPathIsSmooth) {
         ASSERT_LT(glm::distance(path[i].at, path[i - 1].at), 0.021 * runtime().solver(part().shape).size())
             << i << " of " << path.size();
     run("linkage.motor", {{"joint", "motor 1"}});
-    for (int i = 0; i < 240 && lab().moving(workspace); ++i) wait(1);
+    wait_while_moving(240);
     ASSERT_EQ(state().at("status"), "DeadPoint");
     EXPECT_EQ(ways_on(part(), runtime()).size(), 3u);
     take("Shorten");
@@ -166,8 +174,7 @@ TEST_F(LinkageReading, AShortenedCrankTurnsAllRound) {
         LinkageRuntime runtime;
         LinkagePart drawn;
         try {
-            open_mechanism(drawn, ik::FourBar{.ground = g, .crank = crank, .coupler = b, .rocker = c},
-                           runtime);
+            open_four_bar(drawn, g, crank, b, c, runtime);
         } catch (const std::invalid_argument&) {
             continue;  // it does not close
         }
@@ -181,17 +188,16 @@ TEST_F(LinkageReading, AShortenedCrankTurnsAllRound) {
             EXPECT_LT(shorter, crank);
             LinkageRuntime fresh;
             LinkagePart round;
-            open_mechanism(round, ik::FourBar{.ground = g, .crank = shorter, .coupler = b, .rocker = c},
-                           fresh);
+            open_four_bar(round, g, shorter, b, c, fresh);
             EXPECT_TRUE(fresh.turn(round).whole)
                 << g << " " << crank << " " << b << " " << c << ": " << shorter;
-            if (four_bar_kind(round) == "drag link") ++drag_links;
+            drag_links += four_bar_kind(round) == "drag link";
         }
     }
     EXPECT_GT(drag_links, 3);
     LinkageRuntime runtime;
     LinkagePart finding;
-    open_mechanism(finding, ik::FourBar{.ground = 1.0, .crank = 5.5, .coupler = 3.0, .rocker = 3.0}, runtime);
+    open_four_bar(finding, 1.0, 5.5, 3.0, 3.0, runtime);
     ASSERT_TRUE(runtime.round_crank(finding, 0));
     EXPECT_NEAR(runtime.round_crank(finding, 0)->longest, 5.0, 0.01);
 }
@@ -251,15 +257,14 @@ TEST_F(LinkageReading, TheTransmissionAngleIsTheFourBarsUnderAnyTriangles) {
         for (const std::string& name : names)
             if (joints.contains(name))
                 run("linkage.joint", {{"at", {joints[name].x, joints[name].y, 0}}, {"name", name}});
-        for (const std::string& bar : bars)
-            run("linkage.bar", {{"from", bar.substr(0, 1)}, {"to", bar.substr(1)}, {"name", bar}});
+        add_bars(bars);
         for (const char* pin : {"A", "D"}) run("linkage.pin", {{"point", pin}});
         run("linkage.motor.add", {{"point", "A"}, {"bar", "AB"}, {"name", "m"}});
         const auto apart = [&](const char* a, const char* b) { return glm::distance(joints[a], joints[b]); };
         const double g = apart("A", "D"), a = apart("A", "B"), b = apart("B", "C"), c = apart("C", "D");
         LinkageRuntime runtime;
         LinkagePart plain;
-        open_mechanism(plain, ik::FourBar{.ground = g, .crank = a, .coupler = b, .rocker = c}, runtime);
+        open_four_bar(plain, g, a, b, c, runtime);
         EXPECT_EQ(four_bar_kind(part()), four_bar_kind(plain)) << i;
         const auto find = [&](const char* name) { return *part().linkage().find_point(name); };
         const auto status = [&] { return part().result.report.status; };
@@ -290,10 +295,9 @@ TEST_F(LinkageReading, AFourBarsTypeSaysWhetherItsCrankTurnsAllRound) {
         const double longest = std::max({a, b, c, g});
         if (a + b + c + g < 2.05 * longest) continue;
         LinkageRuntime fresh;
-        const ik::FourBar lengths{.ground = g, .crank = a, .coupler = b, .rocker = c};
         LinkagePart drawn;
         try {
-            open_mechanism(drawn, lengths, fresh);
+            open_four_bar(drawn, g, a, b, c, fresh);
         } catch (const std::invalid_argument&) {
             continue;  // it does not close as drawn
         }
@@ -323,19 +327,15 @@ TEST_F(LinkageReading, ADeadPointNamesTheCausingJointsBesideAnyTriangles) {
                 {{"at", {x + random.uniform(-spread, spread), y + random.uniform(-spread, spread), 0}},
                  {"name", name}});
         };
-        const auto bars = [&](std::initializer_list<const char*> names) {
-            for (const std::string name : names)
-                run("linkage.bar", {{"from", name.substr(0, 1)}, {"to", name.substr(1)}, {"name", name}});
-        };
         const bool driven_aside = i % 2 == 1;
         run("linkage.clear");
         joint("A", 0, 0), joint("B", 0, 2), joint("C", 3, 2), joint("D", 3, 0),
             joint("E", 1.5, i % 3 == 0 ? 2 : 3);
-        bars({"AB", "BC", "CD", "BE", "CE"});
+        add_bars({"AB", "BC", "CD", "BE", "CE"});
         if (driven_aside)
-            joint("F", 3, 5), joint("G", 5, 4), bars({"EF", "FG"});
+            joint("F", 3, 5), joint("G", 5, 4), add_bars({"EF", "FG"});
         else
-            joint("F", 4, 1, 0.4), bars({"CF", "DF"});
+            joint("F", 4, 1, 0.4), add_bars({"CF", "DF"});
         for (const char* pin : {"A", "D"}) run("linkage.pin", {{"point", pin}});
         if (driven_aside) run("linkage.pin", {{"point", "G"}});
         run("linkage.motor.add",

@@ -19,6 +19,10 @@ class LinkageTest : public LabTest {
         const Json place = state().at("points").at(point);
         return {place[0].get<double>(), place[1].get<double>(), place[2].get<double>()};
     }
+    /// At most so many ticks.
+    void wait_while_moving(int ticks) {
+        for (int i = 0; i < ticks && lab().moving(workspace); ++i) wait(1);
+    }
     double driver(const char* name) const { return state().at("drivers").at(name).get<double>(); }
     void four_bar() {
         run("linkage.preset", {{"name", "four_bar"}});
