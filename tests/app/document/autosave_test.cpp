@@ -204,7 +204,7 @@ TEST_F(Autosaves, RemovesFilesLeftByKilledPrograms) {
 TEST_F(Autosaves, FindsAndRecoversTheFileOfAKilledProgram) {
     const pid_t victim = ::fork();
     if (victim == 0) {
-            workspace.path = "/elsewhere/scene.json";
+        workspace.path = "/elsewhere/scene.json";
         change(workspace, "precious");
         Autosave autosave(folder.path(), 0s);
         autosave.update(workspace, start);

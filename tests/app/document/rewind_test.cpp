@@ -275,8 +275,7 @@ TEST_F(Seek, RedoGoesBackInTimeAgain) {
     play(50);
     EXPECT_EQ(seek(60), "40");
     const auto there = workspace.moment;
-    for (const char* command : {"undo", "undo", "redo", "redo"})
-        run(command);
+    for (const char* command : {"undo", "undo", "redo", "redo"}) run(command);
     EXPECT_EQ(title(), "40");
     EXPECT_EQ(workspace.moment, there);
     EXPECT_LT(workspace.moment, workspace.rewind.newest()) << "what came after it is still remembered";

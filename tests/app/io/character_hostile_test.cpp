@@ -36,7 +36,8 @@ class HostileCharacter : public testing::Test {
     }
     void refuses(const std::string& name, const std::string& bytes, const std::string& says) {
         const std::string words = refusal(name, bytes);
-        EXPECT_TRUE(!words.empty() && test::has(words, says)) << name << ": " << words << "\n  is not: " << says;
+        EXPECT_TRUE(!words.empty() && test::has(words, says))
+            << name << ": " << words << "\n  is not: " << says;
     }
 
     test::TempFolder folder_;

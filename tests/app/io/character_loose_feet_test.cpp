@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <tendril/humanoid/attach.hpp>
 #include <tendril/humanoid/body.hpp>
@@ -20,6 +21,7 @@
 #include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/core/humanoid_feet_support.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 #include "tests/says.hpp"
 
@@ -116,8 +118,8 @@ class LooseFeet : public ::testing::Test {
                 export_clip({character, from.string(), character.clips[0], clip, 60.0}, file(name));
             EXPECT_LT(report.worst, 5e-4) << report.text();
             if (std::string(name).ends_with("bvh")) continue;
-            EXPECT_TRUE(std::ranges::equal(as_in_file(file(name)).skeleton.nodes(), before.skeleton.nodes(), {},
-                                           &humanoid::Node::parent, &humanoid::Node::parent));
+            EXPECT_TRUE(std::ranges::equal(as_in_file(file(name)).skeleton.nodes(), before.skeleton.nodes(),
+                                           {}, &humanoid::Node::parent, &humanoid::Node::parent));
         }
     }
     static void expect_works(const Character& character) {
@@ -261,7 +263,6 @@ TEST_F(LooseFeet, FeetAwayFromTheLegsStayWithANote) {
     }
 }
 
-/// Two rigs in one file, in the same place: each foot goes to its own rig's leg.
 TEST_F(LooseFeet, FeetOfTwoRigsStayWithTheirOwn) {
     const Character one = ik_rig(both_feet);
     std::vector<humanoid::Node> nodes{{.name = "RigB"}, {.name = "RigA"}};
@@ -322,6 +323,66 @@ TEST(Attached, KeepsWhatItCannotMoveAndComesBack) {
     nodes[leg].keys.reset();
     nodes[foot].keys->parent = 9999;
     EXPECT_TRUE(test::says(Skeleton::make(nodes).message(), "keys.parent 9999"));
+}
+
+// The figure's walk, and third-party clips, with their feet on the ground.
+
+using test::WalkOptions;
+
+const double pi = std::acos(-1.0);
+
+std::vector<humanoid::Ground> grounds() {
+    return {*humanoid::Ground::flat(), *humanoid::Ground::slope(20.0 * pi / 180.0),
+            *humanoid::Ground::stairs(0.15, 0.3)};
+}
+
+void expect_stands(const test::Measured& all) {
+    EXPECT_LT(all.sink, 0.005);
+    EXPECT_LT(all.floating, 0.005);
+    EXPECT_LT(all.skate, 0.005);
+    EXPECT_LE(all.stretch, 0.995 + 1e-6);
+}
+
+LABEL(slow, "CharacterFeet.ClipsThatOthersMadeStandToo");
+
+TEST(CharacterFeet, TheFiguresSolesAreWhereItsBuilderPutsThem) {
+    const Character figure = stick_figure();
+    const auto soles = humanoid::find_soles(figure.skeleton, humanoid::match_bones(figure.skeleton));
+    ASSERT_TRUE(soles) << soles.message();
+    std::vector<humanoid::Placement> placements(figure.skeleton.size());
+    place(figure.skeleton, rest_pose(figure.skeleton), placements);
+    const auto points = sole_points(*soles, placements);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const glm::dvec3 ankle = placements[soles->feet[i].foot].position;
+        EXPECT_LT(glm::distance(points[i].heel, ankle + stick_heel), 1e-9);
+        EXPECT_LT(glm::distance(points[i].toe, ankle + stick_toe), 1e-9);
+    }
+}
+
+TEST(CharacterFeet, ClipsThatOthersMadeStandToo) {
+    if (!fs::is_directory(tendril::test::characters_folder()))
+        GTEST_SKIP() << tendril::test::characters_folder() << " is not there";
+    int walked = 0;
+    for (const auto& entry : fs::directory_iterator(tendril::test::characters_folder())) {
+        if (!entry.is_regular_file() || !ends_as_character(entry.path())) continue;
+        const Character character = read_character(entry.path());
+        const auto soles =
+            humanoid::find_soles(character.skeleton, humanoid::match_bones(character.skeleton));
+        if (!soles || soles->leg > 2.0) continue;  // no body, or one in other units
+        for (const humanoid::Clip& clip : character.clips) {
+            WalkOptions walk{.seconds = std::min(clip.duration, 10.0)};
+            walk.options.floor = clip_floor(character.skeleton, *soles, clip);
+            test::Walker walker(character.skeleton, clip);
+            for (const humanoid::Ground& ground : grounds()) {
+                SCOPED_TRACE(entry.path().filename().string() + ' ' + clip.name + ' ' + name(ground.kind()));
+                const test::Measured all = walker.walk(ground, walk);
+                expect_stands(all);
+                EXPECT_LT(all.beyond, 0.060 * std::max(1.0, soles->leg / 0.9));  // longer legs, faster knees
+                ++walked;
+            }
+        }
+    }
+    EXPECT_GT(walked, 0);
 }
 
 }  // namespace

@@ -42,8 +42,9 @@ Character one_track(const std::vector<float>& times, const std::vector<float>& v
     const std::string input = file.scalars(times), output = std::string(path) == "rotation"
                                                                 ? file.quaternions(values)
                                                                 : file.vectors(values);
-    file.members = R"("nodes":[{"name":"bone"}],)" +
-                   GltfText::clip(input, output, path, R"(,"interpolation":")" + std::string(interpolation) + '"');
+    file.members =
+        R"("nodes":[{"name":"bone"}],)" +
+        GltfText::clip(input, output, path, R"(,"interpolation":")" + std::string(interpolation) + '"');
     return parse_gltf(file.gltf(), "own.gltf", {});
 }
 
@@ -300,7 +301,8 @@ TEST(MendedCharacter, TextureTransformsAreApplied) {
         const Character read = parse_gltf(textured(image, R"("source":0)", info).gltf(), "own.gltf", {});
         const std::vector<glm::vec2>& uvs = read.skin.mesh->uvs;
         ASSERT_EQ(uvs.size(), 3u);
-        for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(glm::distance(uvs[i], wanted[i]), 1e-6f) << transform << i;
+        for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_LT(glm::distance(uvs[i], wanted[i]), 1e-6f) << transform << i;
     };
     expect("", {{0, 0}, {1, 0}, {0, 0.5f}});
     expect(R"("offset":[0.25,0.5],"scale":[2,4])", {{0.25f, 0.5f}, {2.25f, 0.5f}, {0.25f, 2.5f}});

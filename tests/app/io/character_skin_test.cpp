@@ -21,7 +21,8 @@ struct OwnGltf {
     std::string primitive = R"("POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2)";
     std::vector<unsigned short> indices{0, 1, 2};
     std::vector<unsigned char> joints{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
-    std::vector<float> weights{0.25f, 0.75f, 0, 0, 1, 0, 0, 0, 0, 3, 0, 0}, positions{1, 0, 0, 1, 1, 0, 1, 0, 1};
+    std::vector<float> weights{0.25f, 0.75f, 0, 0, 1, 0, 0, 0, 0, 3, 0, 0},
+        positions{1, 0, 0, 1, 1, 0, 1, 0, 1};
     std::string node = R"("mesh":0,"skin":0)";
     std::string more{}, after_primitive{};
 
@@ -35,14 +36,15 @@ struct OwnGltf {
                                      1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1});
         const std::string morph = file.vectors({0, 1, 0, 0, 1, 0, 0, 1, 0}), times = file.scalars({0, 1}),
                           amounts = file.scalars({0, 1});
-        file.members = R"("skins":[{"joints":[0,1],"inverseBindMatrices":4}],)"
-                       R"("materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]}}],)"
-                       R"("meshes":[{"weights":[0.5],"primitives":[{"indices":3,"material":0,"attributes":{)" +
-                       primitive + R"(},"targets":[{"POSITION":)" + morph + "}]" + after_primitive +
-                       R"(}]}],"animations":[{"name":"up","samplers":[{"input":)" + times + R"(,"output":)" +
-                       amounts + R"(}],"channels":[{"sampler":0,"target":{"node":2,"path":"weights"}}]}],)"
-                       R"("nodes":[{"children":[1]},{"translation":[0,1,0]},{)" +
-                       node + "}]" + more;
+        file.members =
+            R"("skins":[{"joints":[0,1],"inverseBindMatrices":4}],)"
+            R"("materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]}}],)"
+            R"("meshes":[{"weights":[0.5],"primitives":[{"indices":3,"material":0,"attributes":{)" +
+            primitive + R"(},"targets":[{"POSITION":)" + morph + "}]" + after_primitive +
+            R"(}]}],"animations":[{"name":"up","samplers":[{"input":)" + times + R"(,"output":)" + amounts +
+            R"(}],"channels":[{"sampler":0,"target":{"node":2,"path":"weights"}}]}],)"
+            R"("nodes":[{"children":[1]},{"translation":[0,1,0]},{)" +
+            node + "}]" + more;
         return parse_gltf(file.gltf(), "own.gltf", {});
     }
 };

@@ -128,7 +128,8 @@ TEST_F(Exports, ACorrectedUpAxisDoesNotChangeAGltfsNodes) {
 TEST_F(Exports, ABvhHasItsRateNamesAndARecognisableUnit) {
     write(figure_, figure_.clips[0], "walk.bvh", {}, 30.0);
     const std::string bvh = text("walk.bvh");
-    for (const char* const line : {"Frames: 34\n", "Frame Time: 0.03333333333333333\n", "JOINT HeadTop_End\n"})
+    for (const char* const line :
+         {"Frames: 34\n", "Frame Time: 0.03333333333333333\n", "JOINT HeadTop_End\n"})
         EXPECT_TRUE(tendril::test::has(bvh, line));
     // Giants and dwarfs keep their sizes, although a BVH has no unit.
     for (const double size : {0.01, 0.3, 2.0, 4.0, 90.0}) {

@@ -217,8 +217,9 @@ TEST(FbxCurve, AnEulerAngleOfSeveralTurnsIsFollowedAllTheWay) {
     const Character character = read(scene);
     for (int i = 0; i <= 100; ++i) {
         const double time = 0.01 * i, angle = 4.0 * std::acos(-1.0) * time;
-        EXPECT_LT(glm::distance(test_posed::at(character, "Tip", 0, time), {std::cos(angle), std::sin(angle), 0.0}),
-                  1e-4)
+        EXPECT_LT(
+            glm::distance(test_posed::at(character, "Tip", 0, time), {std::cos(angle), std::sin(angle), 0.0}),
+            1e-4)
             << time;
     }
 }

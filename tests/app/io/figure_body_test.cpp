@@ -77,6 +77,7 @@ TEST_F(FigureBodyTest, IsAClosedSurfaceOfAFewThousandVertices) {
     ASSERT_TRUE(figure_.skin.mesh);
     EXPECT_GT(mesh().positions.size(), 3000u);
     EXPECT_LT(mesh().positions.size(), 9000u);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     for (std::size_t i = 0; i < mesh().indices.size(); ++i)
         ++edges[{mesh().indices[i], mesh().indices[i % 3 == 2 ? i - 2 : i + 1]}];
     for (const auto& [edge, times] : edges) {

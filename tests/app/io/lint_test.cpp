@@ -146,7 +146,8 @@ TEST_F(LintTest, FindsAndFixesAPoppingKnee) {
         const Clip clip = frames.clip();
         const LintReport report = run(clip);
         const auto pop = std::ranges::find(report.findings, Fault::KneePop, &Finding::fault);
-        ASSERT_NE(pop, report.findings.end()) << i << ", frame " << frame << ", " << degrees << ": " << texts(report);
+        ASSERT_NE(pop, report.findings.end())
+            << i << ", frame " << frame << ", " << degrees << ": " << texts(report);
         EXPECT_EQ(pop->node, node(knee.c_str()));
         EXPECT_EQ(pop->frame, frame);
         EXPECT_NEAR(pop->amount, degrees, 0.3 * degrees);
@@ -168,7 +169,8 @@ TEST_F(LintTest, FindsAKneeThatSnapsStraight) {
     }
     const LintReport report = run(frames.clip());
     EXPECT_TRUE(std::ranges::any_of(report.findings, [&](const Finding& each) {
-        return each.fault == Fault::KneePop && each.node == node("RightLowerLeg") && each.frame > 45 && each.frame < 62;
+        return each.fault == Fault::KneePop && each.node == node("RightLowerLeg") && each.frame > 45 &&
+               each.frame < 62;
     })) << texts(report);
 }
 
@@ -333,17 +335,47 @@ const std::map<std::string, std::set<Fault>>& faults_of_files() {
             {"glb_texture_transform.glb",
              {Fault::Skating, Fault::Floating, Fault::Sinking, Fault::KneePop, Fault::SignFlip, Fault::Limit,
               Fault::Jump}}};
-        for (const char* const careful :
-             {"animation_with_skeleton.fbx", "cesium_man.gltf", "huesitos.fbx", "human_clip.glb", "human_male.glb",
-              "interleaved.glb", "pab_skeleton.fbx", "pab_walk.fbx", "rigify_names.glb", "rotation_first.bvh",
-              "zombie.glb", "fbx_auto_tangent_ends.fbx", "fbx_cubic_keys.fbx", "fbx_inherit_scale_human.fbx",
-              "fbx_inherit_scale_small.fbx", "fbx_key_next_line.fbx", "fbx_limit_only.fbx",
-              "fbx_motionbuilder_jog.fbx", "fbx_stepped_keys.fbx", "fbx_with_sound.fbx", "bvh_acclaim_names.bvh",
-              "bvh_ctrlz.bvh", "bvh_extra_frame.bvh", "bvh_left_right_differ.bvh", "bvh_nospace_frames.bvh",
-              "bvh_nospace_time.bvh", "bvh_nul.bvh", "bvh_root_offset.bvh", "bvh_rounded_frame_time.bvh",
-              "bvh_space_colon.bvh", "gltf_animation_pointer.gltf", "glb_draco.vrm", "glb_empty_bin.vrm",
-              "glb_no_skin.glb", "gltf_dup_times.gltf", "gltf_ktx.gltf", "gltf_missing_picture.gltf",
-              "gltf_neg_times.gltf", "gltf_singular_matrix.gltf", "gltf_zero_quat.gltf", "gltf_zero_rest.gltf"})
+        for (const char* const careful : {"animation_with_skeleton.fbx",
+                                          "cesium_man.gltf",
+                                          "huesitos.fbx",
+                                          "human_clip.glb",
+                                          "human_male.glb",
+                                          "interleaved.glb",
+                                          "pab_skeleton.fbx",
+                                          "pab_walk.fbx",
+                                          "rigify_names.glb",
+                                          "rotation_first.bvh",
+                                          "zombie.glb",
+                                          "fbx_auto_tangent_ends.fbx",
+                                          "fbx_cubic_keys.fbx",
+                                          "fbx_inherit_scale_human.fbx",
+                                          "fbx_inherit_scale_small.fbx",
+                                          "fbx_key_next_line.fbx",
+                                          "fbx_limit_only.fbx",
+                                          "fbx_motionbuilder_jog.fbx",
+                                          "fbx_stepped_keys.fbx",
+                                          "fbx_with_sound.fbx",
+                                          "bvh_acclaim_names.bvh",
+                                          "bvh_ctrlz.bvh",
+                                          "bvh_extra_frame.bvh",
+                                          "bvh_left_right_differ.bvh",
+                                          "bvh_nospace_frames.bvh",
+                                          "bvh_nospace_time.bvh",
+                                          "bvh_nul.bvh",
+                                          "bvh_root_offset.bvh",
+                                          "bvh_rounded_frame_time.bvh",
+                                          "bvh_space_colon.bvh",
+                                          "gltf_animation_pointer.gltf",
+                                          "glb_draco.vrm",
+                                          "glb_empty_bin.vrm",
+                                          "glb_no_skin.glb",
+                                          "gltf_dup_times.gltf",
+                                          "gltf_ktx.gltf",
+                                          "gltf_missing_picture.gltf",
+                                          "gltf_neg_times.gltf",
+                                          "gltf_singular_matrix.gltf",
+                                          "gltf_zero_quat.gltf",
+                                          "gltf_zero_rest.gltf"})
             all[careful];
         return all;
     }();

@@ -20,7 +20,8 @@ using test::made::Format, test::made::MadeTrace, test::made::Plant, test::made::
 const Space& space_for(Format format, unsigned seed) {
     constexpr Format engines[]{Format::Unreal, Format::Unity, Format::Godot, Format::Blender};
     const auto engine = std::ranges::find(engines, format) - std::begin(engines);
-    return test::made::spaces[engine < 4 ? static_cast<std::size_t>(engine) : seed % std::size(test::made::spaces)];
+    return test::made::spaces[engine < 4 ? static_cast<std::size_t>(engine)
+                                         : seed % std::size(test::made::spaces)];
 }
 
 bool says_its_space(Format format) {
@@ -360,9 +361,9 @@ TEST(Trace, WithoutATargetNoneIsReported) {
 TEST(Trace, TablesAndTheirTimesAreReadHoweverTheyAreWritten) {
     using Stamp = std::pair<const char*, double>;
     for (const auto& [time, unit] :
-         {Stamp{"timestamp", 1}, Stamp{"stamp", 1}, Stamp{"time_ms", 1e3}, Stamp{"time_us", 1e6}, Stamp{"t_ns", 1e9},
-          Stamp{"Time (s)", 1}, Stamp{"time [s]", 1}, Stamp{"elapsed", 1}, Stamp{"%time", 1},
-          Stamp{"field.header.stamp", 1e9}, Stamp{"time", 1e3}})
+         {Stamp{"timestamp", 1}, Stamp{"stamp", 1}, Stamp{"time_ms", 1e3}, Stamp{"time_us", 1e6},
+          Stamp{"t_ns", 1e9}, Stamp{"Time (s)", 1}, Stamp{"time [s]", 1}, Stamp{"elapsed", 1},
+          Stamp{"%time", 1}, Stamp{"field.header.stamp", 1e9}, Stamp{"time", 1e3}})
         for (const int style : {0, 1, 2, 3, 4}) {
             const char separator = ",; ,\t"[style];
             if (separator == ' ' && std::string(time).find(' ') != std::string::npos) continue;

@@ -1,12 +1,9 @@
 // Mode Curve: the chain along a curve, by the lab's own commands.
 #include <fstream>
-#include <glm/gtc/quaternion.hpp>
 
 #include "app/labs/chain/code.hpp"
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/play.hpp"
-#include "tests/places.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {

@@ -1,6 +1,4 @@
 // The causes of flips: gestures with a planted cause, and smooth ones.
-#include <glm/gtc/quaternion.hpp>
-
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/random_numbers.hpp"
 

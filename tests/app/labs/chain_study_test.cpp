@@ -1,5 +1,4 @@
 // The microscope and the race.
-#include <glm/geometric.hpp>
 #include <set>
 #include <sstream>
 
@@ -7,7 +6,6 @@
 #include "app/labs/chain/draw.hpp"
 #include "app/view/camera.hpp"
 #include "tests/app/labs/chain_support.hpp"
-#include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::app {
 namespace {
@@ -211,7 +209,6 @@ TEST_F(ChainStudy, TheRaceIsWrittenAsCsvAndTheChainAsCodeAndAsAScene) {
     expect_refused("race.save", {{"path", "/nowhere/at/all.csv"}}, {"/nowhere"});
 }
 
-/// The microscope's last step is the chain's pose, whatever happens in between.
 TEST_F(ChainStudy, ChainReportAndTraceAlwaysMatch) {
     const auto expect_one = [&](const char* after) {
         EXPECT_EQ(trace().pose(trace().frames()), positions(part().chain)) << after;
@@ -256,9 +253,9 @@ TEST_F(ChainStudy, ChangesWithoutEffectOnTheSolveKeepTheTrace) {
 
 TEST_F(ChainStudy, ChangesOfTheChainCloseItAndSoDoOtherModes) {
     for (const char* kind : {"microscope.open", "race.open"})
-        for (const CommandCall& change : {CommandCall{"chain.add", {{"length", 1}}},
-                                          CommandCall{"chain.mode", {{"mode", "forward"}}},
-                                          CommandCall{"chain.preset", {{"name", "arm"}}}}) {
+        for (const CommandCall& change :
+             {CommandCall{"chain.add", {{"length", 1}}}, CommandCall{"chain.mode", {{"mode", "forward"}}},
+              CommandCall{"chain.preset", {{"name", "arm"}}}}) {
             run(kind);
             run(change.name.c_str(), to_json(change.arguments));
             EXPECT_FALSE(study().open()) << kind << " " << change.name;

@@ -5,13 +5,10 @@
 #include <fstream>
 #include <limits>
 
-#include "app/document/json_complete.hpp"
 #include "app/labs/chain/code.hpp"
 #include "app/labs/chain/panel.hpp"
 #include "tests/app/io/trace_support.hpp"
 #include "tests/app/labs/chain_support.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {

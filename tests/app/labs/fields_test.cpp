@@ -10,7 +10,6 @@
 #include <tendril/rope/settings.hpp>
 
 #include "app/app.hpp"
-#include "app/document/command.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/engine_trace.hpp"
 #include "app/labs/chain/reach.hpp"
@@ -32,9 +31,6 @@
 #include "tests/app/labs/humanoid/humanoid_support.hpp"
 #include "tests/app/labs/lab_support.hpp"
 #include "tests/app/support/full_scenes.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/places.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -54,7 +50,14 @@ struct Table {
 template <class Struct>
 Table table_of(const char* lab, const char* command, const char* path, Json with = Json::object(),
                Json first = Json::object(), CommandCall made = {}) {
-    return {lab, command, path, fields<Struct>(), field_texts<Struct>(), std::move(with), std::move(first), std::move(made)};
+    return {lab,
+            command,
+            path,
+            fields<Struct>(),
+            field_texts<Struct>(),
+            std::move(with),
+            std::move(first),
+            std::move(made)};
 }
 
 /// A filter of that kind, alone in the lab. Fields that bound others are first set to their maximum.

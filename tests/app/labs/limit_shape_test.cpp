@@ -1,12 +1,7 @@
 // The outline of a limit compared with the library's own measure: the drawing shows the solvers' limits.
-#include <gtest/gtest.h>
-#include <algorithm>
 #include <cctype>
-#include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <stdexcept>
 
-#include "app/document/json_complete.hpp"
 #include "app/labs/humanoid/humanoid_commands.hpp"
 #include "app/labs/humanoid/humanoid_part.hpp"
 #include "app/labs/humanoid/ik/solvers.hpp"
@@ -14,10 +9,7 @@
 #include "app/labs/kit/library_json.hpp"
 #include "app/labs/kit/limit_shape.hpp"
 #include "tests/app/labs/chain_support.hpp"
-#include "tests/app/support/temp_folder.hpp"
 #include "tests/core/random.hpp"
-#include "tests/places.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {

@@ -1,7 +1,5 @@
 // The Linkage lab's messages about a linkage: ways out of a dead point, transmission angles, rotations,
 // floating links; motors between bars; and the view.
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <map>
 
@@ -33,7 +31,8 @@ class LinkageReading : public LinkageTest {
     }
     static void open_four_bar(LinkagePart& part, double ground, double crank, double coupler, double rocker,
                               LinkageRuntime& runtime) {
-        open_mechanism(part, ik::FourBar{.ground = ground, .crank = crank, .coupler = coupler, .rocker = rocker},
+        open_mechanism(part,
+                       ik::FourBar{.ground = ground, .crank = crank, .coupler = coupler, .rocker = rocker},
                        runtime);
     }
     /// Bars by the names of their ends.

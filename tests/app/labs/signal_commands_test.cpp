@@ -1,7 +1,4 @@
 // The Signal lab's commands: effects, --state, and refusals.
-#include <cmath>
-
-#include "app/document/json_complete.hpp"
 #include "app/labs/signal/panel.hpp"
 #include "app/labs/signal/presets.hpp"
 #include "app/labs/signal/signal_part.hpp"

@@ -1,9 +1,5 @@
 // Fitting filters to responses: responses of each kind of filter are matched, with the original parameters.
-#include <gtest/gtest.h>
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <string>
 
 #include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/fit.hpp"
@@ -12,9 +8,7 @@
 #include "tests/app/labs/fit_support.hpp"
 #include "tests/app/labs/lab_support.hpp"
 #include "tests/app/support/panel_text.hpp"
-#include "tests/app/support/temp_folder.hpp"
 #include "tests/core/random.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {

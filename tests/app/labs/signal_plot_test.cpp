@@ -1,6 +1,4 @@
 // The Signal lab's plots: the ranges of their axes, and measurements that stay readable.
-#include <cmath>
-
 #include "app/labs/signal/analysis.hpp"
 #include "tests/app/labs/lab_support.hpp"
 

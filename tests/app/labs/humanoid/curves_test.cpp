@@ -1,10 +1,6 @@
 // A tail or the spine of the character along a curve: the bending bones, the followers, and kept targets.
-#include <algorithm>
-#include <cmath>
-
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
-#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -189,7 +185,6 @@ TEST_F(HumanoidCurves, OfferTheChainsThatCanBend) {
         EXPECT_TRUE(humanoid::BentChain::make(part().skeleton(), each.first, each.last));
 }
 
-/// With the mouse: drag a point, add one on the curve, remove it.
 TEST_F(HumanoidCurves, AreBentByTheMouse) {
     run("humanoid.curve", {{"first", "tail_1"}});
     std::optional<PickId> on_curve;

@@ -1,14 +1,10 @@
 // The Humanoid lab's marks on its strip: flips, with bone and cause, and none for correct motion.
-#include <algorithm>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 #include <map>
 #include <random>
 
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "tests/app/labs/humanoid/humanoid_support.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {

@@ -4,10 +4,7 @@
 
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
-#include "app/labs/labs.hpp"
 #include "tests/app/labs/humanoid/humanoid_support.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {

@@ -1,7 +1,6 @@
 // Several selected nodes of a character: by command, and edits of all of them.
 #include <imgui_internal.h>
 
-#include <algorithm>
 #include <set>
 
 #include "app/labs/humanoid/humanoid_part.hpp"
@@ -9,8 +8,6 @@
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/panel_text.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {

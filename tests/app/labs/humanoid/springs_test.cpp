@@ -1,11 +1,7 @@
 // Springs on a character's nodes: they trail its motion, and are values of the document like everything else.
-#include <cmath>
-
 #include "app/io/character/read.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {

@@ -1,10 +1,8 @@
 // The lab's refusals and their messages. LabTest::refused checks that nothing changes.
-#include <cmath>
 #include <limits>
 
 #include "rig_support.hpp"
 #include "tests/app/support/panel_text.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -253,7 +251,6 @@ TEST_F(RigHostile, ARigThatWouldRunTooLongIsRefused) {
     EXPECT_TRUE(test::says(opened_with("", rig), "units maximum"));
 }
 
-/// Any invalid value of a state in a file is refused with its path.
 TEST_F(RigHostile, InvalidStates) {
     unit({{"unit", "spring_interpolate"}, {"target", "root"}});
     tick();

@@ -1,11 +1,8 @@
 // The causes of flips: gestures with a planted cause, and smooth ones; failing units, controls at limits.
-#include <glm/gtc/quaternion.hpp>
-
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/values.hpp"
 #include "tests/app/labs/rig/rig_support.hpp"
 #include "tests/app/support/random_numbers.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {

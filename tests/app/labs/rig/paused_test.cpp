@@ -100,7 +100,6 @@ TEST_F(RigPaused, ADragEndsAsIfAllHadBeenSetAtOnce) {
     EXPECT_EQ(part().moving, dragged.moving);
 }
 
-/// Playing, dragging, setting, solving and seeking, in any order.
 TEST_F(RigPaused, AnyTickIsAsItWasShown) {
     for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
         SCOPED_TRACE(seed);
