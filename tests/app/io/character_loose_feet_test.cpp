@@ -33,14 +33,7 @@ using humanoid::Bone;
 using humanoid::Clip;
 using humanoid::Placement;
 using humanoid::Skeleton;
-
-std::vector<Placement> placed_at(const Skeleton& skeleton, const Clip& clip, double time) {
-    std::vector<rig::Transform> pose(skeleton.size());
-    sample(clip, skeleton, time, pose);
-    std::vector<Placement> places(skeleton.size());
-    place(skeleton, pose, places);
-    return places;
-}
+using test_posed::placed_in;
 
 /// The figure's walk with these feet as roots that keep their positions, moved by `off`.
 Character ik_rig(const std::vector<std::string>& feet, const glm::dvec3& off = glm::dvec3(0.0),
@@ -49,8 +42,7 @@ Character ik_rig(const std::vector<std::string>& feet, const glm::dvec3& off = g
     rig.clips.resize(1);
     const Skeleton before = rig.skeleton;
     const Clip walk = rig.clips[0];
-    std::vector<Placement> rest(before.size());
-    place(before, rest_pose(before), rest);
+    const std::vector<Placement> rest = test_posed::placed(rig, -1);
     std::vector<humanoid::Node> nodes = before.nodes();
     for (const std::string& name : feet) {
         const std::size_t foot = before.find(name).value();
@@ -60,7 +52,7 @@ Character ik_rig(const std::vector<std::string>& feet, const glm::dvec3& off = g
         std::erase_if(rig.clips[0].channels, [&](const auto& each) { return each.node == foot; });
         humanoid::Channel channel{.node = foot};
         for (double time = 0.0; time <= walk.duration; time += 1.0 / rate) {
-            const rig::Transform at = humanoid::relative(Placement(), placed_at(before, walk, time)[foot]);
+            const rig::Transform at = humanoid::relative(Placement(), placed_in(before, walk, time)[foot]);
             channel.translation.times.push_back(time);
             channel.translation.values.push_back(at.translation + off);
             channel.rotation.values.push_back(at.rotation);
@@ -82,8 +74,8 @@ void expect_same_motion(const Character& before, const Character& after) {
     for (const Clip& clip : clips) {
         for (int i = 0; i <= 233; ++i) {
             const double time = clip.duration * i / 233.0;
-            const auto was = placed_at(before.skeleton, clip, time),
-                       is = placed_at(after.skeleton, clip, time);
+            const auto was = placed_in(before.skeleton, clip, time),
+                       is = placed_in(after.skeleton, clip, time);
             for (std::size_t node = 0; node < was.size(); ++node) {
                 const std::string where = clip.name + ' ' + before.skeleton[node].name;
                 ASSERT_LT(glm::distance(was[node].position, is[node].position), 1e-9) << where;
@@ -193,8 +185,8 @@ TEST_F(LooseFeet, StandOnTheGroundAndAreBakedAndExported) {
     const Character figure = stick_figure();
     const Clip same = with_feet_on(slope, figure.skeleton, bone_map(figure), figure.clips[0], 60.0);
     for (double time = 0.0; time < baked.duration; time += 0.1) {
-        const auto wanted = placed_at(figure.skeleton, same, time),
-                   found = placed_at(rig.skeleton, baked, time);
+        const auto wanted = placed_in(figure.skeleton, same, time),
+                   found = placed_in(rig.skeleton, baked, time);
         for (std::size_t node = 0; node < wanted.size(); ++node)
             EXPECT_LT(glm::distance(wanted[node].position,
                                     found[rig.skeleton.find(figure.skeleton[node].name).value()].position),
@@ -349,8 +341,7 @@ TEST(CharacterFeet, TheFiguresSolesAreWhereItsBuilderPutsThem) {
     const Character figure = stick_figure();
     const auto soles = humanoid::find_soles(figure.skeleton, humanoid::match_bones(figure.skeleton));
     ASSERT_TRUE(soles) << soles.message();
-    std::vector<humanoid::Placement> placements(figure.skeleton.size());
-    place(figure.skeleton, rest_pose(figure.skeleton), placements);
+    const std::vector<Placement> placements = test_posed::placed(figure, -1);
     const auto points = sole_points(*soles, placements);
     for (std::size_t i = 0; i < 2; ++i) {
         const glm::dvec3 ankle = placements[soles->feet[i].foot].position;

@@ -174,9 +174,7 @@ TEST(MendedCharacter, AScaleOf0IsAcceptedWithANote) {
          {R"("translation":[0,5,0],"scale":[1,0,1])", R"("matrix":[1,0,0,0, 0,0,0,0, 0,0,1,0, 0,5,0,1])"}) {
         const Character character = read(node);
         EXPECT_TRUE(test::says(mend_notes(character), "scale of 0 up"));
-        std::vector<humanoid::Placement> placed(2);
-        humanoid::place(character.skeleton, humanoid::rest_pose(character.skeleton), placed);
-        EXPECT_LT(glm::distance(placed[1].position, glm::dvec3(1.0, 5.0, 3.0)), 1e-5);
+        EXPECT_LT(glm::distance(test_posed::at(character, "tip", -1), glm::dvec3(1.0, 5.0, 3.0)), 1e-5);
     }
     EXPECT_THROW(read(R"("scale":[1,1e300,1])"), std::runtime_error);
 }

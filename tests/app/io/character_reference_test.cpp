@@ -14,6 +14,7 @@
 #include "app/document/json_complete.hpp"
 #include "app/io/character/read.hpp"
 #include "app/io/character/stick_figure.hpp"
+#include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/places.hpp"
 
@@ -55,8 +56,7 @@ void add_pose(const Character& character, const Json& clip, double time, Json& p
     std::vector<rig::Transform> pose = rest_pose(character.skeleton);
     if (!clip.is_null())
         sample(character.clips[clip.get<std::size_t>()], character.skeleton, std::max(time, 0.0), pose);
-    std::vector<humanoid::Placement> placements(pose.size());
-    place(character.skeleton, pose, placements);
+    const auto placements = test_posed::placed_as(character.skeleton, pose);
     Json at = Json::array();
     for (const humanoid::Placement& each : placements)
         at.push_back({each.position.x, each.position.y, each.position.z});
@@ -179,12 +179,8 @@ TEST(CharacterFiles, BrokenOnesAreRefusedAndNamed) {
     if (!fs::is_directory(broken)) GTEST_SKIP() << broken << " is not there";
     for (const auto& entry : fs::directory_iterator(broken)) {
         const std::string name = entry.path().filename().string();
-        try {
-            read_character(entry.path());
-            ADD_FAILURE() << name << " was read";
-        } catch (const std::runtime_error& error) {
-            EXPECT_TRUE(std::string_view(error.what()).starts_with(name)) << error.what();
-        }
+        const std::string why = test::message_of([&] { read_character(entry.path()); });
+        EXPECT_TRUE(why.starts_with(name)) << name << ": " << why;
     }
 }
 
@@ -208,8 +204,7 @@ std::vector<std::filesystem::path> character_files() {
 
 struct Worn {
     explicit Worn(const std::filesystem::path& path) : character(read_character(path.string())) {
-        placed.resize(character.skeleton.size());
-        place(character.skeleton, rest_pose(character.skeleton), placed);
+        placed = test_posed::placed(character, -1);
         points = skin_points(character.skin, placed);
         if (is_body()) capsules = fitted_capsules(character.skeleton, map, points);
     }

@@ -9,6 +9,7 @@
 #include "app/io/character/gltf.hpp"
 #include "app/io/character/read.hpp"
 #include "tests/app/io/gltf_text.hpp"
+#include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/places.hpp"
 
@@ -49,13 +50,10 @@ struct OwnGltf {
     }
 };
 
-std::vector<humanoid::Placement> placed(const Character& character, std::vector<rig::Transform> pose) {
-    std::vector<humanoid::Placement> placements(pose.size());
-    humanoid::place(character.skeleton, pose, placements);
-    return placements;
-}
 glm::vec3 corner(const Character& character, const std::vector<rig::Transform>& pose, std::size_t i) {
-    return skinned({character.skin.mesh, skin_matrices(character.skin, placed(character, pose))}, i);
+    return skinned(
+        {character.skin.mesh, skin_matrices(character.skin, test_posed::placed_as(character.skeleton, pose))},
+        i);
 }
 
 TEST(CharacterSkin, VerticesRestInPlaceAndFollowTheirJointsByWeight) {
@@ -170,7 +168,7 @@ TEST(CharacterSkin, ThirdPartySkinsStayAroundTheirBones) {
         const Character character = read_character(entry.path());
         if (!character.skin.mesh) continue;
         ++worn;
-        const auto placements = placed(character, rest_pose(character.skeleton));
+        const auto placements = test_posed::placed(character, -1);
         glm::vec3 low(1e9f), high(-1e9f);
         for (const humanoid::Placement& each : placements) {
             low = glm::min(low, glm::vec3(each.position));

@@ -28,10 +28,8 @@ constexpr double tenth_of_a_millimetre = 1e-4;
 
 /// 0.1 mm for a figure of 1.8 m, proportionally more for larger ones: files store floats.
 double allowed_error(const humanoid::Skeleton& skeleton) {
-    std::vector<humanoid::Placement> placements(skeleton.size());
-    humanoid::place(skeleton, humanoid::rest_pose(skeleton), placements);
     double largest = 1.8;
-    for (const humanoid::Placement& each : placements)
+    for (const humanoid::Placement& each : test_posed::placed_as(skeleton, rest_pose(skeleton)))
         for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(each.position[axis]));
     return tenth_of_a_millimetre * largest / 1.8;
 }

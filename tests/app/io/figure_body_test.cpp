@@ -13,6 +13,7 @@
 #include "app/io/character/read.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "app/io/character/twist_spread.hpp"
+#include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::app {
@@ -25,11 +26,6 @@ class FigureBodyTest : public ::testing::Test {
     const Character figure_ = stick_figure();
     const SkinnedMesh& mesh() const { return *figure_.skin.mesh; }
 
-    static std::vector<Placement> placed(const Character& figure, const std::vector<rig::Transform>& pose) {
-        std::vector<Placement> all(figure.skeleton.size());
-        humanoid::place(figure.skeleton, pose, all);
-        return all;
-    }
     /// The vertices with some nodes rotated about a world axis, degrees.
     struct Turned {
         const char* node;
@@ -41,7 +37,7 @@ class FigureBodyTest : public ::testing::Test {
         for (const Turned& each : turns)
             pose[*figure.skeleton.find(each.node)].rotation =
                 glm::angleAxis(glm::radians(each.degrees), each.about);
-        const std::vector<Placement> at = placed(figure, pose);
+        const std::vector<Placement> at = test_posed::placed_as(figure.skeleton, pose);
         const TwistSpread spread(figure.skin, figure.skeleton, bone_map(figure));
         const SkinDraw draw{.mesh = figure.skin.mesh,
                             .matrices = spread.matrices(figure.skin, at),
@@ -110,7 +106,7 @@ TEST_F(FigureBodyTest, StandsOnTheGroundAtItsHeight) {
 }
 
 TEST_F(FigureBodyTest, FollowsNearbyBones) {
-    const std::vector<Placement> rest = placed(figure_, rest_pose(figure_.skeleton));
+    const std::vector<Placement> rest = test_posed::placed(figure_, -1);
     const auto at = posed(figure_, {});
     for (std::size_t i = 0; i < at.size(); ++i) {
         const JointWeights& by = mesh().weights[i];

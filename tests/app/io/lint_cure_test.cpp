@@ -34,15 +34,8 @@ class LintCure : public LintFigure {
             clip = *next;
         }
     }
-    std::vector<Placement> placed_pose(const std::vector<rig::Transform>& pose) const {
-        std::vector<Placement> all(skeleton.size());
-        place(skeleton, pose, all);
-        return all;
-    }
     std::vector<Placement> placed(const Clip& clip, double time) const {
-        std::vector<rig::Transform> pose(skeleton.size());
-        sample(clip, skeleton, time, pose);
-        return placed_pose(pose);
+        return test_posed::placed_in(skeleton, clip, time);
     }
     /// The maximum distance of a node between two clips, metres.
     double apart(const Clip& a, const Clip& b, const char* node, double from, double to) const {
@@ -111,7 +104,8 @@ TEST_F(LintCure, AFootOutOfReachLowersTheHipsAndKeepsTheOtherFoot) {
         };
         bend("UpperLeg", -0.2), bend("LowerLeg", 0.4), bend("Foot", -0.2);
     }
-    bent[0].translation.y -= placed_pose(bent)[*skeleton.find("LeftFoot")].position.y - 0.09;
+    bent[0].translation.y -=
+        test_posed::placed_as(skeleton, bent)[*skeleton.find("LeftFoot")].position.y - 0.09;
     frames.poses.assign(121, bent);
     frames.edit([&](std::size_t k, double time) {
         frames.poses[k][0].translation.y += 0.05 * (ramp(time, 0.5, 0.8) - ramp(time, 1.3, 1.6));

@@ -10,6 +10,7 @@
 #include <tendril/humanoid/lint.hpp>
 
 #include "app/io/character/stick_figure.hpp"
+#include "tests/app/io/posed.hpp"
 
 namespace tendril::app {
 
@@ -39,9 +40,7 @@ class Frames {
         for (std::size_t k = 0; k < poses.size(); ++k) act(k, static_cast<double>(k) / rate_);
     }
     std::vector<Placement> placed(std::size_t frame) const {
-        std::vector<Placement> all(skeleton_.size());
-        place(skeleton_, poses[frame], all);
-        return all;
+        return test_posed::placed_as(skeleton_, poses[frame]);
     }
     /// Moves an ankle by rotating thigh and shin; the foot keeps its rotation.
     void move_foot(std::size_t frame, const std::string& side, const glm::dvec3& by) {

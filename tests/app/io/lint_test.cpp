@@ -439,9 +439,7 @@ class PlantedClip {
     PlantedClip(const Character& character, const Clip& clip)
         : character_(character), map_(bone_map(character)) {
         const Skeleton& skeleton = character.skeleton;
-        std::vector<Placement> rest(skeleton.size());
-        place(skeleton, rest_pose(skeleton), rest);
-        height = bounds_at_rest(character, rest).height();
+        height = bounds_at_rest(character, test_posed::placed(character, -1)).height();
         keys = {.name = clip.name, .duration = clip.duration, .channels = {}};
         for (std::size_t node = 0; node < skeleton.size(); ++node) keys.channels.push_back({.node = node});
         const humanoid::Frames frames = frames_at(clip, frame_rate(clip));
@@ -471,11 +469,8 @@ class PlantedClip {
     }
     std::size_t frames() const { return keys.channels.front().rotation.values.size(); }
     Placement placed(std::size_t frame, Bone bone) const {
-        std::vector<rig::Transform> pose(character_.skeleton.size());
-        sample(keys, character_.skeleton, keys.channels.front().rotation.times[frame], pose);
-        std::vector<Placement> all(pose.size());
-        place(character_.skeleton, pose, all);
-        return all[node(bone)];
+        const double time = keys.channels.front().rotation.times[frame];
+        return test_posed::placed_in(character_.skeleton, keys, time)[node(bone)];
     }
     LintReport report() const {
         EXPECT_TRUE(check(keys, character_.skeleton)) << check(keys, character_.skeleton).message();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <tendril/humanoid/clip.hpp>
 #include <vector>
@@ -10,13 +11,22 @@
 
 namespace tendril::app::test_posed {
 
-/// Placements in the clip of that index; `clip` < 0: at rest.
-inline std::vector<humanoid::Placement> placed(const Character& character, int clip, double time = 0.0) {
-    std::vector<rig::Transform> pose = rest_pose(character.skeleton);
-    if (clip >= 0) sample(character.clips.at(static_cast<std::size_t>(clip)), character.skeleton, time, pose);
-    std::vector<humanoid::Placement> placements(pose.size());
-    place(character.skeleton, pose, placements);
+inline std::vector<humanoid::Placement> placed_as(const humanoid::Skeleton& skeleton,
+                                                  std::span<const rig::Transform> pose) {
+    std::vector<humanoid::Placement> placements(skeleton.size());
+    place(skeleton, pose, placements);
     return placements;
+}
+inline std::vector<humanoid::Placement> placed_in(const humanoid::Skeleton& skeleton,
+                                                  const humanoid::Clip& clip, double time) {
+    std::vector<rig::Transform> pose(skeleton.size());
+    sample(clip, skeleton, time, pose);
+    return placed_as(skeleton, pose);
+}
+/// In the clip of that index; `clip` < 0: at rest.
+inline std::vector<humanoid::Placement> placed(const Character& character, int clip, double time = 0.0) {
+    if (clip < 0) return placed_as(character.skeleton, rest_pose(character.skeleton));
+    return placed_in(character.skeleton, character.clips.at(static_cast<std::size_t>(clip)), time);
 }
 
 /// The beginning of a clip.

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "app/io/character/read.hpp"
+#include "tests/app/io/posed.hpp"
 #include "tests/core/humanoid_figure.hpp"
 #include "tests/places.hpp"
 
@@ -29,8 +30,7 @@ class TwistedTube : public testing::Test {
 
     TwistedTube() {
         SkinBuilder builder;
-        std::vector<humanoid::Placement> rest(skeleton.size());
-        humanoid::place(skeleton, pose, rest);
+        const auto rest = test_posed::placed_as(skeleton, pose);
         constexpr Bone bones[]{Bone::LeftShoulder, Bone::LeftUpperArm, Bone::LeftLowerArm, Bone::LeftHand};
         for (const Bone bone : bones)
             builder.add_joint(node(bone), {glm::dmat3(1.0), -rest[node(bone)].position});
@@ -59,8 +59,7 @@ class TwistedTube : public testing::Test {
     std::size_t node(Bone bone) const { return static_cast<std::size_t>(map[bone].node); }
     glm::dquat& turn(Bone bone) { return pose[node(bone)].rotation; }
     std::vector<glm::vec3> corners(bool spreads) const {
-        std::vector<humanoid::Placement> placements(skeleton.size());
-        humanoid::place(skeleton, pose, placements);
+        const auto placements = test_posed::placed_as(skeleton, pose);
         SkinDraw draw{skin.mesh, skin_matrices(skin, placements)};
         if (spreads) draw.weights = spread.weights(), draw.matrices = spread.matrices(skin, placements);
         std::vector<glm::vec3> result;
@@ -197,8 +196,7 @@ TEST(TwistedCharacters, EqualLinearBlendingInTheirBindPose) {
         const Skin& skin = character.skin;
         if (!skin.mesh) continue;
         const TwistSpread spread(skin, character.skeleton, bone_map(character));
-        std::vector<humanoid::Placement> placements(character.skeleton.size());
-        humanoid::place(character.skeleton, humanoid::rest_pose(character.skeleton), placements);
+        const auto placements = test_posed::placed(character, -1);
         const SkinDraw linear{skin.mesh, skin_matrices(skin, placements)};
         SkinDraw even{skin.mesh, spread.matrices(skin, placements)};
         even.weights = spread.weights();

@@ -184,11 +184,10 @@ TEST_F(ChainStudy, ARaceRowShowsItsCurvesEndAndTheSolversThatRan) {
 TEST_F(ChainStudy, TheRaceIsWrittenAsCsvAndTheChainAsCodeAndAsAScene) {
     run("race.open", {{"start", "straight"}});
     run("chain.target", {{"to", {3, 3, 1}}});
-    const test::TempFolder folder;
-    run("race.save", {{"path", (folder / "race.csv").string()}});
-    EXPECT_EQ(workspace.ui.toasts.back().text, written_text(folder / "race.csv"));
+    run("race.save", {{"path", path("race.csv")}});
+    EXPECT_EQ(workspace.ui.toasts.back().text, written_text(path("race.csv")));
     run("race.copy");
-    const std::string csv = test::read(folder / "race.csv");
+    const std::string csv = test::read(path("race.csv"));
     std::istringstream lines(csv);
     std::string line;
     std::getline(lines, line);

@@ -18,8 +18,7 @@ using test::made::Format, test::made::MadeFrame, test::made::MadeTrace, test::ma
 class ChainTrace : public ChainTest {
   protected:
     std::string file(const char* name, const MadeTrace& made, Format format) {
-        tendril::test::write(folder_ / name, test::made::written(made, test::made::spaces[0], format));
-        return (folder_ / name).string();
+        return write(name, test::made::written(made, test::made::spaces[0], format));
     }
     std::string file(const char* name, Plant plant, Format format = Format::JsonLines) {
         return file(name, test::made::TraceMaker(5).make(plant), format);
@@ -36,7 +35,6 @@ class ChainTrace : public ChainTest {
         run("chain.trace", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
         return made;
     }
-    tendril::test::TempFolder folder_;
 };
 
 TEST_F(ChainTrace, EachFrameIsAMomentAndAFlipIsMarkedWithItsCauseAndCure) {

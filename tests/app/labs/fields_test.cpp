@@ -14,7 +14,6 @@
 #include "app/labs/chain/engine_trace.hpp"
 #include "app/labs/chain/reach.hpp"
 #include "app/labs/humanoid/attachments/attachments.hpp"
-#include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"
 #include "app/labs/kit/code_text.hpp"
@@ -29,7 +28,6 @@
 #include "app/labs/signal/signal_part.hpp"
 #include "app/widgets/row_search.hpp"
 #include "tests/app/labs/humanoid/humanoid_support.hpp"
-#include "tests/app/labs/lab_support.hpp"
 #include "tests/app/support/full_scenes.hpp"
 
 namespace tendril::app {

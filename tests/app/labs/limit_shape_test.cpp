@@ -226,10 +226,8 @@ TEST_F(SceneVersion1, OpensWithItsRotationsUnchanged) {
 
 TEST_F(SceneVersion1, IsSavedAsVersion2WithWLastEverywhere) {
     load_scene_file(workspace, version_1);
-    const test::TempFolder folder;
-    save_scene_file(workspace, folder / "scene.json");
-    const Json old = parse_json(read_text_file(version_1)),
-               now = parse_json(test::read(folder / "scene.json"));
+    save_scene_file(workspace, path("scene.json"));
+    const Json old = parse_json(read_text_file(version_1)), now = parse_json(test::read(path("scene.json")));
     EXPECT_EQ(old["tendril_scene"], 1);
     EXPECT_EQ(now["tendril_scene"], 2);
     const Json& was = old["labs"]["chain"];
@@ -259,7 +257,7 @@ TEST_F(SceneVersion1, IsSavedAsVersion2WithWLastEverywhere) {
     }
 
     Workspace again = make_blank_workspace(labs);
-    load_scene_file(again, folder / "scene.json");
+    load_scene_file(again, path("scene.json"));
     EXPECT_EQ(save_scene(again), now);
 }
 

@@ -20,7 +20,7 @@ class LinkageReading : public LinkageTest {
         four_bar();
         run("linkage.set", {{"crank", 2.2}});
         run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", 90}});
-        wait_while_moving(240);
+        tick(240);
         ASSERT_EQ(state().at("status"), "DeadPoint");
     }
     void take(const char* title) {
@@ -99,7 +99,7 @@ TEST_F(LinkageReading, ASliderCrankIsShortenedToo) {
     run("linkage.preset", {{"name", "slider_crank"}});
     run("linkage.set", {{"crank", 1.0}, {"rod", 0.8}, {"offset", 0.1}});
     run("linkage.motor", {{"joint", "crank"}, {"deg_per_s", 90}});
-    wait_while_moving(240);
+    tick(240);
     ASSERT_EQ(state().at("status"), "DeadPoint");
     ASSERT_TRUE(runtime().round_crank(part(), 0));
     EXPECT_NEAR(runtime().round_crank(part(), 0)->longest, 0.7, 1e-3);
@@ -129,7 +129,7 @@ TEST_F(LinkageReading, ADrawnLegIsShortenedTooAndItsPathIsSmooth) {
         ASSERT_LT(glm::distance(path[i].at, path[i - 1].at), 0.021 * runtime().solver(part().shape).size())
             << i << " of " << path.size();
     run("linkage.motor", {{"joint", "motor 1"}});
-    wait_while_moving(240);
+    tick(240);
     ASSERT_EQ(state().at("status"), "DeadPoint");
     EXPECT_EQ(ways_on(part(), runtime()).size(), 3u);
     take("Shorten");

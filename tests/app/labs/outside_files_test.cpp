@@ -27,7 +27,6 @@ class ReadsAFile : public LabTest, public testing::WithParamInterface<Reader> {
         saved_ = save_scene(workspace)["labs"][GetParam().lab];
     }
     std::string opened() const { return opened_with("", saved_); }
-    const test::TempFolder folder_;
     const std::filesystem::path file_ = folder_ / "walk.bvh";
     Json saved_;
 };

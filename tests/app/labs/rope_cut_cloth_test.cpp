@@ -115,16 +115,9 @@ TEST_F(RopeCutCloth, AStrokeCutsTheClothOfItsPane) {
 }
 
 TEST_F(RopeCutCloth, TheMessageCountsAllPieces) {
-    cut("cloth", {{-1, 0.5},
-                  {8, 0.5},
-                  {8, 1.5},
-                  {-1, 1.5},
-                  {-1, 2.5},
-                  {8, 2.5},
-                  {8, 3.5},
-                  {-1, 3.5},
-                  {-1, 4.5},
-                  {8, 4.5}});
+    cut("cloth",
+        Json::parse("[[-1, 0.5], [8, 0.5], [8, 1.5], [-1, 1.5], [-1, 2.5], [8, 2.5], [8, 3.5], [-1, 3.5], "
+                    "[-1, 4.5], [8, 4.5]]"));
     EXPECT_TRUE(test::says(workspace.ui.toasts.back().text,
                            "is now in 6 pieces; cloth 2 cloth 3 cloth 4 and 2 more came off"));
 }

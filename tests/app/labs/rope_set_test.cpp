@@ -2,7 +2,6 @@
 #include "app/labs/kit/race.hpp"
 #include "app/labs/kit/world_drawing.hpp"
 #include "app/labs/rope/rope_fields.hpp"
-#include "app/labs/rope/rope_lab.hpp"
 #include "tests/app/labs/rope_support.hpp"
 #include "tests/app/support/panel_text.hpp"
 

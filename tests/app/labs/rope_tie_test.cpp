@@ -5,7 +5,6 @@
 #include "app/labs/rope/code.hpp"
 #include "app/labs/rope/race.hpp"
 #include "app/labs/rope/rope_edit.hpp"
-#include "app/labs/rope/rope_lab.hpp"
 #include "app/widgets/emit.hpp"
 #include "tests/app/labs/rope_support.hpp"
 #include "tests/app/support/panel_text.hpp"
@@ -323,9 +322,8 @@ TEST_F(RopeRace, ItsSizeCountsTheCurvesOfAll) {
 TEST_F(RopeRace, ItsNumbersAreWrittenAsCsv) {
     wait(12);
     run("rope.race.copy");
-    const test::TempFolder folder;
-    run("rope.race.save", {{"path", (folder / "race.csv").string()}});
-    EXPECT_EQ(test::read(folder / "race.csv"), workspace.ui.copied.value());
+    run("rope.race.save", {{"path", path("race.csv")}});
+    EXPECT_EQ(test::read(path("race.csv")), workspace.ui.copied.value());
     std::istringstream lines(*workspace.ui.copied);
     std::string line;
     std::getline(lines, line);

@@ -157,9 +157,8 @@ class SignalCsv : public LabTest {
   protected:
     SignalCsv() : LabTest(signal_lab) {}
     Json file(const std::string& text, Json more = Json::object()) {
-        test::write(folder_ / "rows.csv", text);
         more["kind"] = "csv";
-        more["path"] = (folder_ / "rows.csv").string();
+        more["path"] = write("rows.csv", text);
         return more;
     }
     std::vector<double> values() const {
@@ -168,7 +167,6 @@ class SignalCsv : public LabTest {
             all.push_back(row.input);
         return all;
     }
-    test::TempFolder folder_;
 };
 
 TEST_F(SignalCsv, ColumnsAreFoundByNameOrAreTheOtherOfTwo) {

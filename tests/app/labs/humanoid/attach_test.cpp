@@ -10,9 +10,7 @@ namespace tendril::app {
 namespace {
 
 TEST_F(HumanoidAttach, OnAFigureOfAnySizeIsSavedAndOpened) {
-    const test::TempFolder folder;
-    const std::string path = (folder / "figure.bvh").string();
-    test::write(path, bvh_figure());
+    const std::string path = write("figure.bvh", bvh_figure());
     for (const double unit : {1e-6, 0.001, 0.1, 800'000.0}) {
         for (const char* kind : {"rope", "hair", "cloth"}) {
             workspace = make_blank_workspace(labs);
@@ -319,9 +317,7 @@ TEST_F(HumanoidAttach, IsCarriedAlongWhileTheSimulationIsPaused) {
 }
 
 TEST_F(HumanoidAttach, SurvivesAClipThatJumps) {
-    test::TempFolder folder;
-    std::string text = bvh_figure();
-    const std::string head = text.substr(0, text.find("MOTION"));
+    const std::string text = bvh_figure(), head = text.substr(0, text.find("MOTION"));
     std::string motion = "MOTION\nFrames: 12\nFrame Time: 0.1\n";
     const std::size_t channels = 3 + 3 * 17;
     for (int frame = 0; frame < 12; ++frame) {
@@ -330,8 +326,7 @@ TEST_F(HumanoidAttach, SurvivesAClipThatJumps) {
             motion += i < 6 && frame % 3 == 1 ? " 170" : frame % 2 == 1 ? " 40" : " 0";
         motion += "\n";
     }
-    std::ofstream(folder.path() / "jump.bvh") << head << motion;
-    run("humanoid.load", {{"path", (folder.path() / "jump.bvh").string()}});
+    run("humanoid.load", {{"path", write("jump.bvh", head + motion)}});
     run("humanoid.attach", {{"bone", "Chest"}, {"kind", "cloth"}, {"name", "cape"}});
     run("humanoid.attach", {{"bone", "Head"}, {"kind", "hair"}});
     run("humanoid.attach", {{"bone", "LeftHand"}, {"kind", "rope"}});

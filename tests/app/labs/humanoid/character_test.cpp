@@ -9,17 +9,7 @@
 namespace tendril::app {
 namespace {
 
-class HumanoidCharacter : public HumanoidTest {
-  protected:
-    std::string write(const char* name, const std::string& text) {
-        const std::string path = (folder_ / name).string();
-        std::ofstream(path) << text;
-        return path;
-    }
-
-  private:
-    test::TempFolder folder_;
-};
+class HumanoidCharacter : public HumanoidTest {};
 
 LABEL(slow, "HumanoidCharacter.ThatOthersMadeAreShownAsTheyStand");
 

@@ -129,8 +129,7 @@ TEST_F(HumanoidClips, PlayAndPauseAreNoUndoSteps) {
 }
 
 TEST_F(HumanoidClips, WalksInPlaceCanTravel) {
-    const test::TempFolder folder;
-    run("humanoid.load", {{"path", treadmill_figure(folder.path())}});
+    run("humanoid.load", {{"path", treadmill_figure(folder_.path())}});
     run("humanoid.clip", {{"index", 0}, {"play", true}});
     EXPECT_TRUE(
         test::says(test::PanelReader().panel(lab(), workspace), "recorded in place Travel at 1.0 m/s"));
@@ -155,8 +154,8 @@ TEST_F(HumanoidClips, WalksInPlaceCanTravel) {
     ASSERT_NE(result, nullptr);
     EXPECT_EQ(result->treadmill, glm::dvec3(0.0)) << "the ground stands still";
     EXPECT_TRUE(result->findings.empty()) << result->findings[0].text;
-    run("humanoid.export", {{"path", (folder / "out.glb").string()}});
-    run("humanoid.load", {{"path", (folder / "out.glb").string()}});
+    run("humanoid.export", {{"path", path("out.glb")}});
+    run("humanoid.load", {{"path", path("out.glb")}});
     run("humanoid.clip", {{"index", 0}, {"time", walk_seconds}});
     EXPECT_NEAR(bone("Hips").z, walk_metres, 0.06);
     // A clip that already travels is not accelerated.
@@ -193,13 +192,10 @@ TEST_F(HumanoidClips, TargetsTravelWithinARound) {
 
 TEST_F(HumanoidClips, TurningClipsContinueInTheirDirection) {
     // Half a metre ahead and a quarter turn to the left: after four rounds it is back.
-    const test::TempFolder folder;
-    const std::string path = (folder / "turn.bvh").string();
     std::string text = bvh_figure();
     const std::size_t last = text.rfind("0 0 50 0 0 0");
     text.replace(last, 12, "0 0 50 0 0 90");
-    std::ofstream(path) << text;
-    run("humanoid.load", {{"path", path}});
+    run("humanoid.load", {{"path", write("turn.bvh", text)}});
     run("humanoid.clip", {{"index", 0}});
     const glm::dvec3 begin = bone("Hips");
     run("humanoid.clip", {{"time", 0.5}});
@@ -233,15 +229,13 @@ TEST_F(HumanoidClips, TheCameraFollowsThem) {
 
 /// Captured figures rest at the origin and begin elsewhere.
 TEST_F(HumanoidClips, AreFramedWhereTheyBegin) {
-    const test::TempFolder folder;
     std::string text = bvh_figure();
     text.replace(text.find("\n0 0 0 "), 7, "\n400 0 0 ");
-    test::write(folder / "aside.bvh", text);
-    run("humanoid.load", {{"path", (folder / "aside.bvh").string()}});
+    run("humanoid.load", {{"path", write("aside.bvh", text)}});
     EXPECT_NEAR(workspace.camera.target.x, 4.0f, 0.5f);
     run("humanoid.load");
     const float before = workspace.camera.target.x;
-    run("humanoid.motion.load", {{"path", (folder / "aside.bvh").string()}});
+    run("humanoid.motion.load", {{"path", path("aside.bvh")}});
     EXPECT_NEAR(workspace.camera.target.x - before, bone("Hips").x, 0.01) << "the view goes along";
 }
 

@@ -5,6 +5,8 @@
 #include "app/labs/humanoid/ik/shown_pose.hpp"
 #include "app/labs/humanoid/panel.hpp"
 #include "humanoid_support.hpp"
+#include "tests/app/io/gltf_text.hpp"
+#include "tests/app/io/posed.hpp"
 #include "tests/app/support/panel_text.hpp"
 
 namespace tendril::app {
@@ -108,34 +110,17 @@ TEST_F(HumanoidFeet, WalkUpStairs) {
 
 /// Two triangles, 40 m wide, rising by 0.2 m from z = -20 to z = 20, as a text glTF.
 std::string ramp() {
-    const float corners[]{-20, 0, -20, 20, 0, -20, -20, 0.2f, 20, 20, 0.2f, 20};
-    const std::uint16_t indices[]{0, 2, 1, 1, 2, 3};
-    std::string bytes(reinterpret_cast<const char*>(corners), sizeof corners);
-    bytes.append(reinterpret_cast<const char*>(indices), sizeof indices);
-    static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {  // 60 bytes: no remainder
-        std::uint32_t bits = 0;
-        for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | static_cast<unsigned char>(bytes[i + k]);
-        for (int k = 18; k >= 0; k -= 6) text += digits[bits >> k & 63];
-    }
-    return Json{{"asset", {{"version", "2.0"}}},
-                {"nodes", {{{"mesh", 0}, {"translation", {0, 0.1, 0}}}}},
-                {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}},
-                {"accessors",
-                 {{{"bufferView", 0}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}},
-                  {{"bufferView", 1}, {"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}}}},
-                {"bufferViews",
-                 {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 48}},
-                  {{"buffer", 0}, {"byteOffset", 48}, {"byteLength", 12}}}},
-                {"buffers", {{{"byteLength", 60}, {"uri", "data:application/octet-stream;base64," + text}}}}}
-        .dump();
+    test_gltf::GltfText file;
+    const std::string corners = file.vectors({-20, 0, -20, 20, 0, -20, -20, 0.2f, 20, 20, 0.2f, 20}),
+                      triangles = file.add<unsigned short>("SCALAR", 1, {0, 2, 1, 1, 2, 3});
+    file.members = R"("nodes":[{"mesh":0,"translation":[0,0.1,0]}],"meshes":[{"primitives":[{"attributes":)"
+                   R"({"POSITION":)" +
+                   corners + R"(},"indices":)" + triangles + "}]}]";
+    return file.gltf();
 }
 
 TEST_F(HumanoidFeet, WalkOnAMeshFromAFile) {
-    const test::TempFolder folder;
-    const std::string path = (folder / "ramp.gltf").string();
-    std::ofstream(path) << ramp();
+    const std::string path = write("ramp.gltf", ramp());
     run("humanoid.ground", {{"kind", "mesh"}, {"path", path}});
     EXPECT_EQ(state().at("ground").at("path"), path);
     expect_walks_on([](double z) { return 0.1 + 0.2 * (z + 20.0) / 40.0; });
@@ -173,8 +158,7 @@ TEST_F(HumanoidFeet, InPlaceMoveBackwardsWithTheGround) {
 
 /// A walk in place whose feet slide under still hips: none is ever slow enough to be planted.
 TEST_F(HumanoidFeet, ExplainWhyTheyNeverStand) {
-    const test::TempFolder folder;
-    run("humanoid.load", {{"path", treadmill_figure(folder.path())}});
+    run("humanoid.load", {{"path", treadmill_figure(folder_.path())}});
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
     run("humanoid.ground", {{"kind", "flat"}});
     run("humanoid.foot_ik", {{"on", true}});
@@ -340,8 +324,7 @@ TEST_F(HumanoidFeetHistory, LooksTheSameInPlace) {
 }
 
 TEST_F(HumanoidFeetHistory, IsExportedAsItIsShown) {
-    const test::TempFolder folder;
-    const std::string file = (folder / "out.glb").string();
+    const std::string file = path("out.glb");
     for (const Json& ground : grounds)
         for (const char* clip : {"walk", "punch"})
             for (const double fps : {60.0, 24.0}) {
@@ -352,10 +335,7 @@ TEST_F(HumanoidFeetHistory, IsExportedAsItIsShown) {
                 for (int i = 0; i / fps <= written.duration; i += 3) {
                     const double time = i / fps;
                     run("humanoid.clip", {{"time", time}, {"play", false}});
-                    std::vector<rig::Transform> pose(read->skeleton().size());
-                    humanoid::sample(written, read->skeleton(), time, pose);
-                    std::vector<humanoid::Placement> placed(pose.size());
-                    humanoid::place(read->skeleton(), pose, placed);
+                    const auto placed = test_posed::placed(read->character, 0, time);
                     for (std::size_t node = 0; node < part().skeleton().size(); ++node) {
                         const std::string& name = part().skeleton()[node].name;
                         EXPECT_LT(glm::distance(placed[*read->skeleton().find(name)].position,

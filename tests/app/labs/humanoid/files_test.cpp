@@ -17,7 +17,6 @@ using humanoid::Bone;
 
 class HumanoidFiles : public HumanoidTest {
   protected:
-    std::string path(const char* name) const { return (folder_ / name).string(); }
     const humanoid::LintReport& report() {
         const humanoid::LintReport* const found =
             humanoid_runtime(workspace).lint.report(part(), humanoid_runtime(workspace).solvers);
@@ -41,7 +40,6 @@ class HumanoidFiles : public HumanoidTest {
         export_clip({figure, {}, clip, clip, 60.0}, folder_ / "faulty.glb");
         return path("faulty.glb");
     }
-    test::TempFolder folder_;
 };
 
 TEST_F(HumanoidFiles, AMapIsSavedAndLoaded) {

@@ -147,10 +147,7 @@ TEST_F(HumanoidHold, LetsTheBodySettleAfterATargetWasReleased) {
 }
 
 TEST_F(HumanoidHold, KeepsItsPositionInAnotherUnitLikeTargets) {
-    const test::TempFolder folder;
-    const std::string path = (folder / "figure.bvh").string();
-    test::write(path, bvh_figure());
-    run("humanoid.load", {{"path", path}});
+    run("humanoid.load", {{"path", write("figure.bvh", bvh_figure())}});
     run("humanoid.hold", {{"kind", "box"}, {"hands", "left"}, {"with_body", false}});
     const glm::dvec3 hand = bone("RightHand");
     run("humanoid.target", {{"effector", "right_hand"}, {"to", {hand.x, hand.y + 0.1, hand.z}}});

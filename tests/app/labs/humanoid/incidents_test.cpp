@@ -174,8 +174,7 @@ TEST_F(HumanoidIncidents, AnEffectorThatFallsShortAndALimitAreReported) {
 
 /// In a file with meaningless node names, mapped nodes are called by their bones' names.
 TEST_F(HumanoidIncidents, BonesAreCalledByTheirOwnNames) {
-    const test::TempFolder folder;
-    run("humanoid.load", {{"path", numbered_figure(folder.path())}});
+    run("humanoid.load", {{"path", numbered_figure(folder_.path())}});
     run("humanoid.clip", {{"name", ""}});
     ASSERT_EQ(bones().at("LeftUpperArm").at("node").get<std::string>().find("Node_"), 0u);
     const glm::dvec3 shoulder = fold_left_arm();

@@ -155,9 +155,7 @@ TEST_F(HumanoidLimits, LearningIsRefusedWithoutData) {
                    {"the Hips joint has no limits"});
     run("humanoid.map", {{"bone", "LeftToes"}});
     expect_refused("humanoid.limits", {{"from", "none"}, {"bone", "LeftToes"}}, {"has no LeftToes"});
-    const test::TempFolder folder;
-    test::write(folder / "figure.bvh", bvh_figure());
-    run("humanoid.load", {{"path", (folder / "figure.bvh").string()}});
+    run("humanoid.load", {{"path", write("figure.bvh", bvh_figure())}});
     expect_refused("humanoid.limits", {{"from", "motion"}, {"bone", "Head"}},
                    {"no clip turns the Head joint"});
 }

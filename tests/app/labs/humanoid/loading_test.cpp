@@ -2,7 +2,6 @@
 #include <chrono>
 #include <thread>
 
-#include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "tests/app/labs/humanoid/humanoid_support.hpp"
 

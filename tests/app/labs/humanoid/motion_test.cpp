@@ -77,11 +77,9 @@ std::string vrma(const char* extension = "VRMC_vrm_animation", bool has_toes = t
 class HumanoidMotions : public HumanoidTest {
   protected:
     HumanoidMotions() {
-        test::write(folder_ / "wave.vrma", vrma());
-        test::write(folder_ / "body.vrm", vrma("VRMC_vrm"));
+        write("wave.vrma", vrma());
+        write("body.vrm", vrma("VRMC_vrm"));
     }
-    std::string path(const char* name) const { return (folder_ / name).string(); }
-    test::TempFolder folder_;
 };
 
 TEST_F(HumanoidMotions, AVrmaPlaysOnAnotherCharacter) {
@@ -112,7 +110,7 @@ TEST_F(HumanoidMotions, AVrmaPlaysOnAnotherCharacter) {
 TEST_F(HumanoidMotions, APoseOfOneKeyIsAMotionToo) {
     for (const char* to : {"", "body.vrm"}) {
         if (*to != '\0') run("humanoid.load", {{"path", path(to)}});
-        test::write(folder_ / "pose.vrma", vrma("VRMC_vrm_animation", true, false, false));
+        write("pose.vrma", vrma("VRMC_vrm_animation", true, false, false));
         run("humanoid.motion.load", {{"path", path("pose.vrma")}});
         run("humanoid.ground", {{"kind", "stairs"}});
         run("humanoid.foot_ik", {{"on", true}});
@@ -142,7 +140,7 @@ TEST_F(HumanoidMotions, ItIsAClipLikeOthers) {
 }
 
 TEST_F(HumanoidMotions, TheRootIsIncludedAndOnlyBonesAreDrawnAsBones) {
-    test::write(folder_ / "no_toes.vrm", vrma("VRMC_vrm", false));
+    write("no_toes.vrm", vrma("VRMC_vrm", false));
     run("humanoid.load", {{"path", path("no_toes.vrm")}});
     run("humanoid.motion.load", {{"path", path("wave.vrma")}});
     run("humanoid.clip", {{"time", 1.0}, {"play", false}, {"loop", false}});
@@ -177,8 +175,8 @@ TEST_F(HumanoidMotions, GuessesAboutItsFileAreReported) {
 }
 
 TEST_F(HumanoidMotions, UnretargetableMotionsAreRefusedOrReported) {
-    test::write(folder_ / "still.gltf",
-                R"({"asset":{"version":"2.0"},"nodes":[{"children":[1]},{}],"skins":[{"joints":[0,1]}]})");
+    write("still.gltf",
+          R"({"asset":{"version":"2.0"},"nodes":[{"children":[1]},{}],"skins":[{"joints":[0,1]}]})");
     refuses("humanoid.motion.load", {{"path", path("still.gltf")}}, "still.gltf no clips");
     refuses("humanoid.motion.load", {{"path", path("gone.vrma")}}, "gone.vrma no such file");
     refuses("humanoid.motion.load", {{"path", path("wave.vrma")}, {"clip", "run"}}, "wave.vrma no clip run");
@@ -190,7 +188,7 @@ TEST_F(HumanoidMotions, UnretargetableMotionsAreRefusedOrReported) {
     run("humanoid.motion.load", {{"path", path("wave.vrma")}});
     tells("wave_2 Every bone");
     // A root and a control beside the body.
-    test::write(folder_ / "rig.vrm", vrma("VRMC_vrm", true, true));
+    write("rig.vrm", vrma("VRMC_vrm", true, true));
     run("humanoid.load", {{"path", path("rig.vrm")}});
     run("humanoid.motion.load", {{"path", path("wave.vrma")}});
     tells("wave_2 Left as it is: pole.");
@@ -253,7 +251,7 @@ TEST_F(HumanoidMotions, FixesGoAlongToAnotherCharacter) {
 TEST_F(HumanoidMotions, OpenAsSavedForAnyOrderOfEdits) {
     const std::string faulty = tendril::test::source_path("tests/app/golden/faulty_walk.bvh");
     const std::string figure = treadmill_figure(folder_.path());
-    test::write(folder_ / "figure.bvh", bvh_figure());
+    write("figure.bvh", bvh_figure());
     const std::vector<std::pair<const char*, Json>> edits{
         {"humanoid.motion.load", {{"path", path("wave.vrma")}}},
         {"humanoid.motion.load", {{"path", faulty}}},

@@ -1,7 +1,6 @@
 // The mouse in the Humanoid lab, in the running program: real events, with picking.
 #include <fstream>
 
-#include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/labs/app_support.hpp"

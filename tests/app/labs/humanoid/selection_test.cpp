@@ -218,9 +218,7 @@ TEST_F(HumanoidSelection, IsRestoredFromAFile) {
 TEST_F(HumanoidSelection, OnAnotherCharacterExistingNodesStaySelected) {
     select({"HeadTop_End", "LeftHand", "Head"});
     const Selection before = part().selection;
-    const test::TempFolder folder;
-    test::write(folder / "figure.bvh", bvh_figure());
-    run("humanoid.load", {{"path", (folder / "figure.bvh").string()}});
+    run("humanoid.load", {{"path", write("figure.bvh", bvh_figure())}});
     for (const std::string& name : selected()) EXPECT_TRUE(name == "Head" || name == "LeftHand") << name;
     EXPECT_EQ(selected().size(), 2u);
     EXPECT_EQ(active(), "Head");

@@ -2,6 +2,7 @@
 #include "app/io/character/read.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
+#include "tests/app/io/posed.hpp"
 
 namespace tendril::app {
 namespace {
@@ -9,8 +10,6 @@ namespace {
 /// A dancer with two antennae of five joints and a tail of six.
 class HumanoidSprings : public HumanoidTest {
   protected:
-    test::TempFolder folder;
-
     HumanoidSprings() {
         run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/antennae.bvh")}});
         run("humanoid.clip", {{"name", ""}});
@@ -20,10 +19,7 @@ class HumanoidSprings : public HumanoidTest {
         for (const char* node : {"antenna_l_1", "antenna_r_1", "tail_1"})
             run("humanoid.spring", {{"node", node}});
     }
-    void load_hair() {
-        test::write(folder / "hair.vrm", vrm_with_hair);
-        run("humanoid.load", {{"path", (folder / "hair.vrm").string()}});
-    }
+    void load_hair() { run("humanoid.load", {{"path", write("hair.vrm", vrm_with_hair)}}); }
     void dance() { run("humanoid.clip", {{"index", 0}, {"play", true}}); }
     /// The distance of a node from its position in the clip, metres.
     double aside(const std::string& name) const {
@@ -179,7 +175,7 @@ TEST_F(HumanoidSprings, StayFiniteAfterADamagedFile) {
 TEST_F(HumanoidSprings, AreBakedIntoAClip) {
     put_on_springs();
     run("humanoid.clip", {{"index", 0}});
-    const std::string file = (folder / "dance.bvh").string();
+    const std::string file = path("dance.bvh");
     double swung = 0.0;
     for (const int fps : {60, 30}) {
         run("humanoid.export", {{"path", file}, {"fps", fps}});
@@ -187,19 +183,14 @@ TEST_F(HumanoidSprings, AreBakedIntoAClip) {
         HumanoidPart shown = part();
         shown.playback = {.clip = 0, .loop = false};
         IkState state;
-        std::vector<rig::Transform> pose(read.skeleton.size());
-        std::vector<humanoid::Placement> placed(read.skeleton.size());
         const std::size_t tip = *part().skeleton().find("antenna_r_5");
         for (int frame = 0; frame < 100; ++frame) {  // at a lower rate they swing alike
             shown.playback.time = frame / 60.0;
             const ShownPose seen =
                 solve_pose(shown, humanoid_runtime(workspace).solvers, frame == 0 ? 0.0 : 1.0 / 60.0, state);
             if (frame % (60 / fps) != 0) continue;
-            sample(read.clips.at(0), read.skeleton, shown.playback.time, pose);
-            place(read.skeleton, pose, placed);
-            const auto there = read.skeleton.find("antenna_r_5");
-            ASSERT_TRUE(there);
-            EXPECT_LT(glm::distance(placed[*there].position, seen.placed[tip].position), 1e-4) << frame;
+            const glm::dvec3 there = test_posed::at(read, "antenna_r_5", 0, shown.playback.time);
+            EXPECT_LT(glm::distance(there, seen.placed[tip].position), 1e-4) << frame;
             if (!seen.before.empty())
                 swung = std::max(swung, glm::distance(seen.before[tip].position, seen.placed[tip].position));
         }

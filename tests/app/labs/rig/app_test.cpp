@@ -1,9 +1,7 @@
 // The Rig lab in the running program: dragging controls, lists with filters, and the strip below the scene.
 #include <optional>
 
-#include "app/labs/rig/rig_lab.hpp"
 #include "rig_support.hpp"
-#include "tests/app/labs/app_support.hpp"
 #include "tests/app/support/frame_record.hpp"
 
 namespace tendril::test {

@@ -40,16 +40,12 @@ TEST_F(RigCommands, TheControlsOfACurveAreRenamedAndRemovedInItsUnit) {
 TEST_F(RigCommands, SetsMembersOfAPartAndKeepsTheOthers) {
     build_arm();
     control("look", "position");
-    unit({{"unit", "aim"},
-          {"name", "aim"},
-          {"item", "arm"},
-          {"primary", {{"axis", {0, 0, 1}}, {"target", "look"}, {"weight", 0.5}}},
-          {"secondary", {{"axis", {1, 0, 0}}, {"target", {0, 1, 0}}, {"kind", "direction"}}}});
-    unit({{"unit", "parent_constraint"},
-          {"name", "follow"},
-          {"item", "hand"},
-          {"parents", {{{"item", "arm"}}}},
-          {"filter", {{"translation", {true, false, true}}, {"rotation", {false, false, false}}}}});
+    unit(R"({"unit": "aim", "name": "aim", "item": "arm", "primary": {"axis": [0, 0, 1], )"
+         R"("target": "look", "weight": 0.5}, "secondary": {"axis": [1, 0, 0], "target": [0, 1, 0], )"
+         R"("kind": "direction"}})");
+    unit(R"({"unit": "parent_constraint", "name": "follow", "item": "hand", )"
+         R"("parents": [{"item": "arm"}], "filter": {"translation": [true, false, true], )"
+         R"("rotation": [false, false, false]}})");
     const auto now = [&](std::size_t at) { return saved().at("units").at(at); };
     const auto expect_set = [&](std::size_t at, const char* nested, const char* member, const Json& to) {
         Json wanted = now(at);

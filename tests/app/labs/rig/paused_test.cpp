@@ -54,24 +54,14 @@ class RigPaused : public RigTest {
         control("pole", "position", {{"local", transform(0, 1, 2)}});
         control("dial", "float");
         control("on", "bool");
-        unit({{"unit", "fabrik"},
-              {"name", "reach"},
-              {"root", "shoulder"},
-              {"tip", "tip"},
-              {"target", "target"},
-              {"pole_target", "pole"}});
+        unit(R"({"unit": "fabrik", "name": "reach", "root": "shoulder", "tip": "tip", )"
+             R"("target": "target", "pole_target": "pole"})");
         unit({{"unit", "spring_interpolate"}, {"name", "trail"}, {"target", "tip"}, {"strength", 1.5}});
-        unit({{"unit", "aim"},
-              {"item", "tail"},
-              {"primary", {{"axis", {0, 1, 0}}, {"target", {{"unit", "trail"}}}}},
-              {"max_speed", 90}});
+        unit(R"({"unit": "aim", "item": "tail", "primary": {"axis": [0, 1, 0], )"
+             R"("target": {"unit": "trail"}}, "max_speed": 90})");
         element("head");
-        unit({{"unit", "aim"},
-              {"name", "late"},
-              {"item", "head"},
-              {"primary", {{"target", "target"}}},
-              {"max_speed", 45},
-              {"when", "on"}});
+        unit(R"({"unit": "aim", "name": "late", "item": "head", "primary": {"target": "target"}, )"
+             R"("max_speed": 45, "when": "on"})");
     }
 
     std::map<std::uint64_t, rig::State> shown_;  ///< by tick

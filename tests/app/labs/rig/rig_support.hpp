@@ -34,11 +34,8 @@ class RigTest : public LabTest {
         run("rig.control.set", {{"name", name}, {"value", value}});
     }
     void unit(const Json& unit) { run("rig.unit.add", unit); }
+    void unit(const char* json) { unit(Json::parse(json)); }
     void solve(const char* direction = "forward") { run("rig.solve", {{"direction", direction}}); }
-    void tick(int count = 1) {
-        for (int i = 0; i < count; ++i)
-            if (lab().moving(workspace)) lab().step(workspace);
-    }
 
     Json list(const char* name) const { return state().at(name); }
     Json named(const char* in, const std::string& name) const {
@@ -48,12 +45,10 @@ class RigTest : public LabTest {
         return {};
     }
     glm::dvec3 translation(const std::string& name, const char* space = "global") const {
-        const Json at = named("elements", name).at(space).at("translation");
-        return {at[0].get<double>(), at[1].get<double>(), at[2].get<double>()};
+        return vector(named("elements", name).at(space).at("translation"));
     }
     glm::dquat rotation(const std::string& name, const char* space = "global") const {
-        const Json q = named("elements", name).at(space).at("rotation");
-        return {q[3].get<double>(), q[0].get<double>(), q[1].get<double>(), q[2].get<double>()};
+        return quaternion(named("elements", name).at(space).at("rotation"));
     }
     Json output(const std::string& unit, const char* output = "result") const {
         return named("units", unit).at("outputs").at(output);

@@ -268,17 +268,11 @@ TEST_F(RigTime, FrameRatesAreComparedAsOneNumber) {
 TEST_F(RigTime, FrameRatesDifferByScaleToo) {
     element("bone");
     control("dial", "float");
-    unit({{"unit", "spring_interpolate"},
-          {"name", "one"},
-          {"target", {{"element", "dial"}, {"of", "value"}}}});
-    unit({{"unit", "spring_interpolate"},
-          {"name", "two"},
-          {"target", {{"unit", "one"}}},
-          {"critical_damping", 1}});
-    unit({{"unit", "set_transform"},
-          {"item", "bone"},
-          {"transform", {{"scale", {3, 1, 1}}}},
-          {"weight", {{"unit", "two"}}}});
+    unit(R"({"unit": "spring_interpolate", "name": "one", "target": {"element": "dial", "of": "value"}})");
+    unit(R"({"unit": "spring_interpolate", "name": "two", "target": {"unit": "one"}, )"
+         R"("critical_damping": 1})");
+    unit(R"({"unit": "set_transform", "item": "bone", "transform": {"scale": [3, 1, 1]}, )"
+         R"("weight": {"unit": "two"}})");
     play(4);
     set("dial", 0.9);
     play(60);
@@ -296,13 +290,9 @@ TEST_F(RigTime, ASpringAloneIsTheSameAtAllRates) {
     control("place", "position", {{"local", {{"translation", {0, 0, 1}}}}});
     element("bone");
     element("tip", "bone", transform(0, 0, 1));
-    unit({{"unit", "spring_interpolate"},
-          {"name", "spring"},
-          {"target", {{"element", "place"}, {"of", "translation"}}},
-          {"strength", 2}});
-    unit({{"unit", "aim"},
-          {"item", "bone"},
-          {"primary", {{"axis", {0, 0, 1}}, {"target", {{"unit", "spring"}}}}}});
+    unit(R"({"unit": "spring_interpolate", "name": "spring", "target": {"element": "place", )"
+         R"("of": "translation"}, "strength": 2})");
+    unit(R"({"unit": "aim", "item": "bone", "primary": {"axis": [0, 0, 1], "target": {"unit": "spring"}}})");
     play(4);
     set("place", {1, 0, 1});
     play(120);
