@@ -136,6 +136,9 @@ TEST_F(ChainInspector, ShowsTheTableOfTheStep) {
 
 TEST_F(ChainInspector, CountsJointsAndNamesTheEndsRootAndTipWhereTheChainReaches) {
     expect_says("8 joints, 7 bones");
+    run("chain.preset", {{"name", "start"}, {"count", 2}});
+    expect_says("2 joints, 1 bone\n");
+    run("chain.preset", {{"name", "start"}, {"count", 8}});
     run("chain.select", {{"index", 7}});
     expect_says("7 (tail)");
     expect_says("tail to target");
@@ -143,8 +146,6 @@ TEST_F(ChainInspector, CountsJointsAndNamesTheEndsRootAndTipWhereTheChainReaches
     expect_says("7 (tip)");
     expect_says("root to target");
     expect_silent_about("tail to target");
-    run("chain.preset", {{"name", "start"}, {"count", 2}});
-    expect_says("2 joints, 1 bone\n");
 }
 
 TEST_F(ChainInspector, CountsTimeFromTheLatestMoment) {

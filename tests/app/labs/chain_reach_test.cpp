@@ -122,7 +122,7 @@ TEST_F(ChainReach, BadInputIsRefusedWithTheReason) {
     refuses("chain.pole", {{"to", {0, 1, 0}}, {"off", true}}, "combined");
     refuses("chain.limit", {{"index", 4}, {"kind", "hinge"}}, "tail");
     refuses("chain.limit", {{"index", 9}, {"kind", "hinge"}}, "9");
-    refuses("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"min_deg", 50}, {"max_deg", 20}}, "50");
+    refuses("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"min_deg", 50}, {"max_deg", 20}}, "50.0");
     refuses("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"axis", {0, 0, 0}}}, "axis");
     refuses("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"axis", {1, 0, 0}}}, "bone");
 }
@@ -172,7 +172,7 @@ TEST_F(ChainReach, AModeBeginsWithItsJointOnTheTarget) {
     EXPECT_EQ(part().index, 2u) << "with index takes the selected joint";
 }
 
-TEST_F(ChainReach, KeepsAndSavesItsTargetWhileAnotherModeIsOn) {
+TEST_F(ChainReach, KeepsItsTargetWhileAnotherModeIsOn) {
     reach_with(4);
     run("chain.target", {{"to", {2, 1, 0}}});
     run("chain.mode", {{"mode", "forward"}});
@@ -183,6 +183,11 @@ TEST_F(ChainReach, KeepsAndSavesItsTargetWhileAnotherModeIsOn) {
     run("chain.mode", {{"mode", "with_index"}, {"index", 1}});
     run("microscope.open");
     EXPECT_EQ(part().target, glm::vec3(2, 1, 0)) << "the microscope looks at a reach";
+}
+
+TEST_F(ChainReach, SavesItsTargetWhileAnotherModeIsOn) {
+    reach_with(4);
+    run("chain.target", {{"to", {2, 1, 0}}});
     run("chain.mode", {{"mode", "forward"}});
     const Json saved = part().save();
     const auto opened = part().load(saved, "chain");

@@ -67,7 +67,7 @@ TEST_F(ChainStudy, TheMicroscopeShowsTheEightPullsOfAnIterationOfFourBones) {
     EXPECT_EQ(pulls, expected);
 }
 
-TEST_F(ChainStudy, EveryStepHasItsSentenceAndTheLastOneIsTheChainsPose) {
+TEST_F(ChainStudy, TheLastStepOfEverySolverIsTheChainsPose) {
     for (const ik::Method method : ik::all_methods) {
         reach_with(method == ik::Method::TwoBone ? 2 : 6);
         run("chain.solver", {{"name", ik::name(method)}});
@@ -75,7 +75,6 @@ TEST_F(ChainStudy, EveryStepHasItsSentenceAndTheLastOneIsTheChainsPose) {
         run("microscope.open");
         run("chain.target", {{"to", {0.9, 1.1, 0.4}}});
         ASSERT_GT(trace().frames(), 0u) << ik::name(method);
-        for (std::size_t i = 0; i <= trace().frames(); ++i) EXPECT_FALSE(describe_frame(trace(), i).empty());
         EXPECT_EQ(trace().pose(trace().frames()), positions(part().chain)) << ik::name(method);
         EXPECT_EQ(trace().residuals.size(), static_cast<std::size_t>(trace().report.iterations) + 1);
         run("microscope.close");
@@ -116,6 +115,17 @@ TEST_F(ChainStudy, StepsGoForwardsAndBackAndStayInRange) {
     run("study.step", {{"by", -100000}});
     EXPECT_EQ(step(), 0u);
     expect_refused("microscope.seek", {{"step", 5000}}, {"5000"});
+}
+
+TEST_F(ChainStudy, EveryStepHasItsSentence) {
+    for (const ik::Method method : ik::all_methods) {
+        reach_with(method == ik::Method::TwoBone ? 2 : 5);
+        run("chain.solver", {{"name", ik::name(method)}});
+        run("microscope.open", {{"start", "straight"}});
+        run("chain.target", {{"to", {0.7, 0, 0}}});
+        for (std::size_t i = 0; i <= trace().frames(); ++i) EXPECT_FALSE(describe_frame(trace(), i).empty());
+        run("microscope.close");
+    }
 }
 
 TEST_F(ChainStudy, TheRaceRunsTheChosenSolversFromTheSameStart) {

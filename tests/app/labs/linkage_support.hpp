@@ -13,6 +13,18 @@ class LinkageTest : public LabTest {
     LinkageRuntime& runtime() const { return workspace.runtimes.of<LinkageRuntime>(linkage_lab); }
     glm::dvec3 at(const char* point) const { return vector(state().at("points").at(point)); }
     double driver(const char* name) const { return state().at("drivers").at(name).get<double>(); }
+    /// False if lengths do not close.
+    static bool open_four_bar(LinkagePart& part, double ground, double crank, double coupler, double rocker,
+                              LinkageRuntime& runtime) {
+        try {
+            open_mechanism(
+                part, ik::FourBar{.ground = ground, .crank = crank, .coupler = coupler, .rocker = rocker},
+                runtime);
+        } catch (const std::invalid_argument&) {
+            return false;
+        }
+        return true;
+    }
     void four_bar() {
         run("linkage.preset", {{"name", "four_bar"}});
         run("linkage.set", {{"lengths", {{"ground", 3}, {"crank", 1}, {"coupler", 2.5}, {"rocker", 2}}}});

@@ -234,15 +234,10 @@ TEST_F(LinkageTest, EachModeOfARockerHasItsOwnPath) {
     int swings = 0;
     for (int i = 0; i < 120; ++i) {
         const auto length = [&] { return random.uniform(1.0, 3.0); };
-        const ik::FourBar lengths{
-            .ground = length(), .crank = length(), .coupler = length(), .rocker = length()};
+        const double g = length(), a = length(), b = length(), c = length();
         LinkagePart drawn;
         LinkageRuntime kept;
-        try {
-            open_mechanism(drawn, lengths, kept);
-        } catch (const std::invalid_argument&) {
-            continue;  // it does not close
-        }
+        if (!open_four_bar(drawn, g, a, b, c, kept)) continue;
         const LinkageTurn& turn = kept.turn(drawn);
         if (turn.poses.size() < 10 || turn.whole) continue;
         workspace.document.set(linkage_lab, drawn.clone());
