@@ -21,6 +21,10 @@ using test::message_of;
 using test::TempFolder;
 using Names = std::vector<std::string>;
 
+struct AtomicFiles : testing::Test {
+    const TempFolder folder;
+};
+
 std::string write_message(const fs::path& path, std::string_view bytes = "new") {
     return message_of([&] { write_file_atomically(path, bytes); });
 }
@@ -29,10 +33,9 @@ std::string check_message(const fs::path& path) {
     return message_of([&] { check_writable(path); });
 }
 
-LABEL(slow, "AtomicFile.IsWholeWheneverItsWriterIsKilled");
+LABEL(slow, "AtomicFiles.IsWholeWheneverItsWriterIsKilled");
 
-TEST(AtomicFile, MakesAndReplacesAFileAndLeavesNothingBesideIt) {
-    const TempFolder folder;
+TEST_F(AtomicFiles, MakesAndReplacesAFileAndLeavesNothingBesideIt) {
     for (const std::string& bytes :
          {std::string("first"), std::string(), std::string("a\0b\n", 4), std::string(1 << 20, 'x')}) {
         EXPECT_EQ(write_message(folder / "file", bytes), "");
@@ -41,8 +44,7 @@ TEST(AtomicFile, MakesAndReplacesAFileAndLeavesNothingBesideIt) {
     EXPECT_EQ(folder.names(), Names{"file"});
 }
 
-TEST(AtomicFile, WorksInTheCurrentFolder) {
-    const TempFolder folder;
+TEST_F(AtomicFiles, WorksInTheCurrentFolder) {
     const auto result = test::in_child([&] {
         fs::current_path(folder.path());
         write_file_atomically("plain", "here");
@@ -54,8 +56,7 @@ TEST(AtomicFile, WorksInTheCurrentFolder) {
     EXPECT_EQ(folder.names(), Names{"plain"});
 }
 
-TEST(AtomicFile, KeepsThePermissionsOfTheReplacedFile) {
-    const TempFolder folder;
+TEST_F(AtomicFiles, KeepsThePermissionsOfTheReplacedFile) {
     test::write(folder / "secret", "old");
     fs::permissions(folder / "secret", fs::perms::owner_read | fs::perms::owner_write);
     ASSERT_EQ(write_message(folder / "secret"), "");
@@ -67,8 +68,7 @@ TEST(AtomicFile, KeepsThePermissionsOfTheReplacedFile) {
     EXPECT_EQ(static_cast<int>(fs::status(folder / "fresh").permissions()), 0640);
 }
 
-TEST(AtomicFile, WritesThroughSymbolicLinks) {
-    const TempFolder folder;
+TEST_F(AtomicFiles, WritesThroughSymbolicLinks) {
     fs::create_directory(folder / "deep");
     test::write(folder / "deep" / "target", "old");
     fs::create_symlink("deep/target", folder / "link");
@@ -84,8 +84,7 @@ TEST(AtomicFile, WritesThroughSymbolicLinks) {
     EXPECT_TRUE(has(write_message(folder / "round"), "round: "));
 }
 
-TEST(AtomicFile, RefusesPathsThatCannotBeFiles) {
-    const TempFolder folder;
+TEST_F(AtomicFiles, RefusesPathsThatCannotBeFiles) {
     fs::create_directory(folder / "dir");
     test::write(folder / "file", "old");
     const std::string too_long(300, 'x');
@@ -108,8 +107,7 @@ TEST(AtomicFile, RefusesPathsThatCannotBeFiles) {
     EXPECT_EQ(test::read(folder / "file"), "old");
 }
 
-TEST(AtomicFile, RefusesWithoutPermission) {
-    const TempFolder folder;
+TEST_F(AtomicFiles, RefusesWithoutPermission) {
     test::write(folder / "file", "old");
     fs::permissions(folder / "file", fs::perms::owner_read);
     const auto result = test::in_child([&] {
@@ -138,8 +136,7 @@ fs::path device(const TempFolder& folder, const char* name, unsigned minor_numbe
     return made && std::ofstream(path) ? path : fs::path();
 }
 
-TEST(AtomicFile, WritesIntoDevicesAndLeavesThemThere) {
-    const TempFolder folder;
+TEST_F(AtomicFiles, WritesIntoDevicesAndLeavesThemThere) {
     const fs::path null = device(folder, "null", 3), full = device(folder, "full", 7);
     if (null.empty() || full.empty()) GTEST_SKIP() << "no devices can be made in " << folder.path();
     EXPECT_EQ(write_message(null), "");
@@ -149,8 +146,7 @@ TEST(AtomicFile, WritesIntoDevicesAndLeavesThemThere) {
     EXPECT_EQ(check_message(null), "");
 }
 
-TEST(AtomicFile, WritesIntoPipesAndLeavesThemThere) {
-    const TempFolder folder;
+TEST_F(AtomicFiles, WritesIntoPipesAndLeavesThemThere) {
     const auto pipe = folder / "pipe";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     std::string received;
@@ -161,14 +157,12 @@ TEST(AtomicFile, WritesIntoPipesAndLeavesThemThere) {
     EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
-TEST(AtomicFile, DoesNotWaitForeverForAPipeWithoutReader) {
-    const TempFolder folder;
+TEST_F(AtomicFiles, DoesNotWaitForeverForAPipeWithoutReader) {
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
     EXPECT_TRUE(has(write_message(folder / "pipe"), "nobody reads from this pipe"));
 }
 
-TEST(AtomicFile, CheckingLeavesNoTrace) {
-    const TempFolder folder;
+TEST_F(AtomicFiles, CheckingLeavesNoTrace) {
     test::write(folder / "file", "old");
     const auto time = fs::last_write_time(folder / "file");
     EXPECT_EQ(check_message(folder / "file"), "");
@@ -178,8 +172,7 @@ TEST(AtomicFile, CheckingLeavesNoTrace) {
     EXPECT_EQ(fs::last_write_time(folder / "file"), time);
 }
 
-TEST(AtomicFile, AFullDiskLeavesTheOldFileAlone) {
-    const TempFolder folder;
+TEST_F(AtomicFiles, AFullDiskLeavesTheOldFileAlone) {
     test::write(folder / "file", "old");
     const auto result = test::in_child([&] {
         ::signal(SIGXFSZ, SIG_IGN);
@@ -193,8 +186,7 @@ TEST(AtomicFile, AFullDiskLeavesTheOldFileAlone) {
 }
 
 /// A temporary name may be taken by a dead program with the same process ID.
-TEST(AtomicFile, SkipsTheRemainsOfADeadWriter) {
-    const TempFolder folder;
+TEST_F(AtomicFiles, SkipsTheRemainsOfADeadWriter) {
     const auto result = test::in_child([&] {
         for (int i = 0; i < 500; ++i)
             test::write(
@@ -213,8 +205,7 @@ std::string version_of(int i) {
     return std::string(50'000 + 17'000 * step, static_cast<char>('a' + i % 26));
 }
 
-TEST(AtomicFile, IsWholeWheneverItsWriterIsKilled) {
-    const TempFolder folder;
+TEST_F(AtomicFiles, IsWholeWheneverItsWriterIsKilled) {
     const auto path = folder / "file";
     write_file_atomically(path, version_of(0));
     std::mt19937 random(3);

@@ -37,6 +37,11 @@ std::vector<std::string> files(const TempFolder& folder) {
     return names;
 }
 
+struct Autosaves : testing::Test {
+    const TempFolder folder;
+    Workspace workspace = test::make_workspace();
+};
+
 /// The ID of a process that has ended.
 std::string dead_pid() {
     const pid_t pid = ::fork();
@@ -45,9 +50,7 @@ std::string dead_pid() {
     return std::to_string(pid);
 }
 
-TEST(Autosave, Writes30SecondsAfterTheFirstChange) {
-    const TempFolder folder;
-    Workspace workspace = test::make_workspace();
+TEST_F(Autosaves, Writes30SecondsAfterTheFirstChange) {
     Autosave autosave(folder.path());
     autosave.update(workspace, start);
     change(workspace, "one");
@@ -66,9 +69,7 @@ TEST(Autosave, Writes30SecondsAfterTheFirstChange) {
     EXPECT_EQ(saved_title(autosave.file()), "three");
 }
 
-TEST(Autosave, WritesNothingWhileNothingChanges) {
-    const TempFolder folder;
-    Workspace workspace = test::make_workspace();
+TEST_F(Autosaves, WritesNothingWhileNothingChanges) {
     Autosave autosave(folder.path());
     for (int i = 0; i < 100; ++i) autosave.update(workspace, start + i * 10s);
     EXPECT_TRUE(files(folder).empty());
@@ -81,9 +82,7 @@ TEST(Autosave, WritesNothingWhileNothingChanges) {
     EXPECT_TRUE(files(folder).empty()) << "the same document once more";
 }
 
-TEST(Autosave, RemovesItsFileOnceTheWorkIsSavedAndAtTheEnd) {
-    const TempFolder folder;
-    Workspace workspace = test::make_workspace();
+TEST_F(Autosaves, RemovesItsFileOnceTheWorkIsSavedAndAtTheEnd) {
     {
         Autosave autosave(folder.path(), 0s);
         change(workspace, "one");
@@ -100,9 +99,7 @@ TEST(Autosave, RemovesItsFileOnceTheWorkIsSavedAndAtTheEnd) {
     EXPECT_EQ(files(folder), std::vector<std::string>{"scene.json"});
 }
 
-TEST(Autosave, KeepsUnsavedWorkIfTheProgramIsTerminated) {
-    const TempFolder folder;
-    Workspace workspace = test::make_workspace();
+TEST_F(Autosaves, KeepsUnsavedWorkIfTheProgramIsTerminated) {
     std::filesystem::path file;
     {
         Autosave autosave(folder.path());
@@ -119,9 +116,7 @@ TEST(Autosave, KeepsUnsavedWorkIfTheProgramIsTerminated) {
     EXPECT_FALSE(std::filesystem::exists(autosave.file())) << "there is nothing to keep";
 }
 
-TEST(Autosave, CreatesItsFolderAndReportsOnceIfItCannot) {
-    const TempFolder folder;
-    Workspace workspace = test::make_workspace();
+TEST_F(Autosaves, CreatesItsFolderAndReportsOnceIfItCannot) {
     change(workspace, "one");
     {
         Autosave autosave(folder / "a" / "b", 0s);
@@ -140,8 +135,7 @@ TEST(Autosave, CreatesItsFolderAndReportsOnceIfItCannot) {
     EXPECT_EQ(workspace.ui.toasts[0].kind, ToastKind::Refusal);
 }
 
-TEST(Autosave, OffersOnlyFilesOfEndedProgramsNewestFirst) {
-    const TempFolder folder;
+TEST_F(Autosaves, OffersOnlyFilesOfEndedProgramsNewestFirst) {
     const std::string old_file = "autosave-" + dead_pid() + ".json",
                       new_file = "autosave-" + dead_pid() + ".json";
     const std::string aside = "autosave-" + std::to_string(::getpid()) + ".1.json";
@@ -166,8 +160,7 @@ TEST(Autosave, OffersOnlyFilesOfEndedProgramsNewestFirst) {
     EXPECT_TRUE(Autosave::left_behind("").empty());
 }
 
-TEST(Autosave, AFileIsOfferedEvenIfItsProcessIdIsReused) {
-    const TempFolder folder;
+TEST_F(Autosaves, AFileIsOfferedEvenIfItsProcessIdIsReused) {
     const auto reused = folder / "autosave-1.json";  // process 1 runs everywhere
     test::write(reused, "{}");
     test::write(folder / "autosave-1.lock", "");  // left by a crash, held by nobody
@@ -175,9 +168,7 @@ TEST(Autosave, AFileIsOfferedEvenIfItsProcessIdIsReused) {
 }
 
 /// Two containers share a folder, and both programs have process ID 7.
-TEST(Autosave, TwoProgramsWithTheSameIdWriteTwoFiles) {
-    const TempFolder folder;
-    Workspace workspace = test::make_workspace();
+TEST_F(Autosaves, TwoProgramsWithTheSameIdWriteTwoFiles) {
     Autosave first(folder.path(), 0s);
     change(workspace, "first");
     first.update(workspace, start);
@@ -197,8 +188,7 @@ TEST(Autosave, TwoProgramsWithTheSameIdWriteTwoFiles) {
     EXPECT_EQ(Autosave::left_behind(folder.path()).size(), 1u) << "the second one's, which has ended";
 }
 
-TEST(Autosave, RemovesFilesLeftByKilledPrograms) {
-    const TempFolder folder;
+TEST_F(Autosaves, RemovesFilesLeftByKilledPrograms) {
     const AtomicFile being_written(folder / "picture.png");
     const auto held = FileLock::take(folder / "autosave-2.lock");
     for (const char* name : {".tendril-1-0.tmp", "mine.tmp", "autosave-1.lock", "autosave-1.json"})
@@ -211,11 +201,9 @@ TEST(Autosave, RemovesFilesLeftByKilledPrograms) {
         EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
 }
 
-TEST(Autosave, FindsAndRecoversTheFileOfAKilledProgram) {
-    const TempFolder folder;
+TEST_F(Autosaves, FindsAndRecoversTheFileOfAKilledProgram) {
     const pid_t victim = ::fork();
     if (victim == 0) {
-        Workspace workspace = test::make_workspace();
         workspace.path = "/elsewhere/scene.json";
         change(workspace, "precious");
         Autosave autosave(folder.path(), 0s);
@@ -228,7 +216,6 @@ TEST(Autosave, FindsAndRecoversTheFileOfAKilledProgram) {
     ASSERT_EQ(files.size(), 1u);
     EXPECT_TRUE(Autosave::title(files[0]).starts_with("scene.json, 20")) << Autosave::title(files[0]);
     EXPECT_TRUE(Autosave::title(folder / "none.json").starts_with("Unnamed scene"));
-    Workspace workspace = test::make_workspace();
     Autosave::recover(workspace, files[0]);
     EXPECT_EQ(workspace.document.get<TestPart>("arm").title, "precious");
     EXPECT_EQ(workspace.path, "/elsewhere/scene.json");
@@ -237,13 +224,11 @@ TEST(Autosave, FindsAndRecoversTheFileOfAKilledProgram) {
 }
 
 /// In a container, every start of the program may have the same process ID.
-TEST(Autosave, DoesNotOverwriteTheFileOfAProgramWithTheSameId) {
-    const TempFolder folder;
+TEST_F(Autosaves, DoesNotOverwriteTheFileOfAProgramWithTheSameId) {
     for (const char* title : {"first crash", "second crash"}) {
-        Workspace lost = test::make_workspace();
         Autosave autosave(folder.path(), 0s);
-        change(lost, title);
-        autosave.update(lost, start);
+        change(workspace, title);
+        autosave.update(workspace, start);
     }
     const auto files = Autosave::left_behind(folder.path());
     ASSERT_EQ(files.size(), 2u);
@@ -310,9 +295,7 @@ TEST_F(RecoveredTwo, AreBothOnDiskUntilEachIsSaved) {
 }
 
 /// The other labs' work is recovered, and the file keeps the part that could not be read.
-TEST(Autosave, RecoversTheOtherLabsIfOneCannotBeRead) {
-    const TempFolder folder;
-    Workspace workspace = test::make_workspace();
+TEST_F(Autosaves, RecoversTheOtherLabsIfOneCannotBeRead) {
     change(workspace, "precious");
     Json scene = save_scene(workspace);
     scene["labs"]["rope"]["target"] = "nowhere";
@@ -325,9 +308,7 @@ TEST(Autosave, RecoversTheOtherLabsIfOneCannotBeRead) {
     EXPECT_EQ(save_scene(again)["labs"], scene["labs"]);
 }
 
-TEST(Autosave, ABrokenFileIsRefusedAndChangesNothing) {
-    const TempFolder folder;
-    Workspace workspace = test::make_workspace();
+TEST_F(Autosaves, ABrokenFileIsRefusedAndChangesNothing) {
     for (const char* text :
          {"", "{", "[]", R"({"tendril_scene": 1, "labs": {}, "path": 3})", R"({"tendril_scene": 3})"}) {
         test::write(folder / "autosave-1.json", text);

@@ -95,8 +95,13 @@ struct Seek : testing::Test {
             workspace.document.edit<TestPart>("arm").title = std::to_string(workspace.clock.tick);
         }
     }
-    std::string seek(int ticks_back) {
-        table.run(workspace, "time.seek", {{"ticks_back", ticks_back}});
+    void run(const char* command, const Json& arguments = Json::object(), Gesture gesture = 0) {
+        table.run(workspace, command, arguments, gesture);
+    }
+    void edit(const char* title, Gesture gesture = 0) { run("arm.title", {{"title", title}}, gesture); }
+    void undo() { run("undo"); }
+    std::string seek(int ticks_back, Gesture gesture = 0) {
+        run("time.seek", {{"ticks_back", ticks_back}}, gesture);
         return title();
     }
     std::string title() { return workspace.document.get<TestPart>("arm").title; }
@@ -123,16 +128,16 @@ TEST_F(Seek, PausesOnlyTheLabWhosePastIsShown) {
     seek(30);
     EXPECT_TRUE(playing_in("rope"));
     EXPECT_FALSE(playing_in("arm"));
-    table.run(workspace, "time.play", {});
+    run("time.play");
     EXPECT_TRUE(playing_in("rope"));
-    table.run(workspace, "time.pause", {});
+    run("time.pause");
     EXPECT_FALSE(playing_in("arm")) << "paused by hand, everything is";
     EXPECT_FALSE(playing_in("rope"));
-    table.run(workspace, "time.play", {});
+    run("time.play");
     EXPECT_TRUE(playing_in("arm"));
     seek(20);
     EXPECT_TRUE(playing_in("rope"));
-    table.run(workspace, "time.pause", {});
+    run("time.pause");
     EXPECT_FALSE(playing_in("arm")) << "looking back";
     EXPECT_FALSE(playing_in("rope")) << "still paused by hand";
 }
@@ -149,7 +154,7 @@ TEST_F(Seek, PlayingOnDropsLaterMoments) {
 
 TEST_F(Seek, GoingBackOverAnEditCanBeUndone) {
     play(50);
-    table.run(workspace, "arm.title", {{"title", "edited"}});
+    edit("edited");
     play(50);
     EXPECT_EQ(seek(10), "90");
     EXPECT_EQ(workspace.history.size(), 1u) << "nothing was changed between 90 and 100";
@@ -159,20 +164,20 @@ TEST_F(Seek, GoingBackOverAnEditCanBeUndone) {
     EXPECT_EQ(seek(70), "30");
     EXPECT_EQ(workspace.history.size(), 2u) << "already before it";
     play(1);  // forgets everything later; undo does not
-    table.run(workspace, "undo", Json::object());
+    undo();
     EXPECT_EQ(title(), "100") << "where one came from";
-    table.run(workspace, "undo", Json::object());
+    undo();
     EXPECT_EQ(title(), "50") << "as it was before the edit";
 }
 
 TEST_F(Seek, ADragOverAnEditIsOneStep) {
     play(50);
-    table.run(workspace, "arm.title", {{"title", "edited"}});
+    edit("edited");
     play(50);
-    for (const int back : {40, 60, 45, 70}) table.run(workspace, "time.seek", {{"ticks_back", back}}, 7);
+    for (const int back : {40, 60, 45, 70}) seek(back, 7);
     EXPECT_EQ(workspace.history.size(), 2u);
     EXPECT_EQ(title(), "30");
-    table.run(workspace, "undo", Json::object());
+    undo();
     EXPECT_EQ(title(), "100");
     EXPECT_EQ(workspace.clock.tick, 100u);
     EXPECT_EQ(seek(40), "60") << "and all of it is still remembered";
@@ -181,18 +186,18 @@ TEST_F(Seek, ADragOverAnEditIsOneStep) {
 TEST_F(Seek, AnEditDropsLaterMoments) {
     play(100);
     seek(60);
-    table.run(workspace, "arm.title", {{"title", "edited"}});
+    edit("edited");
     EXPECT_EQ(seek(0), "edited");
     EXPECT_EQ(seek(5), "35");
     EXPECT_EQ(seek(0), "edited");
     EXPECT_EQ(workspace.history.size(), 1u) << "the edit; back over it and on again is nothing";
-    table.run(workspace, "undo", Json::object());
+    undo();
     EXPECT_EQ(title(), "40");
     play(3);
     for (const char* command : {"scene.new", "lab.open"}) {
         play(3);
         EXPECT_FALSE(workspace.rewind.empty());
-        table.run(workspace, command, command[0] == 'l' ? Json{{"name", "rope"}} : Json::object());
+        run(command, command[0] == 'l' ? Json{{"name", "rope"}} : Json::object());
         EXPECT_TRUE(workspace.rewind.empty()) << command;
     }
 }
@@ -201,39 +206,39 @@ TEST_F(Seek, UndoOfAnEditRestoresLaterMoments) {
     play(100);
     seek(60);
     EXPECT_EQ(workspace.later_ticks(), 60u);
-    table.run(workspace, "arm.title", {{"title", "edited"}}, 5);
-    table.run(workspace, "arm.title", {{"title", "edited more"}}, 5);  // the same drag
+    edit("edited", 5);
+    edit("edited more", 5);  // the same drag
     play(3);
     EXPECT_EQ(workspace.later_ticks(), 0u);
-    table.run(workspace, "undo", Json::object());
+    undo();
     EXPECT_EQ(title(), "40");
     EXPECT_EQ(workspace.later_ticks(), 60u);
     EXPECT_EQ(seek(20), "80");
     EXPECT_EQ(seek(60), "40");
-    table.run(workspace, "redo", Json::object());
+    run("redo", Json::object());
     EXPECT_EQ(title(), "43") << "with what followed it";
     EXPECT_EQ(workspace.later_ticks(), 0u);
-    table.run(workspace, "undo", Json::object());
+    undo();
     EXPECT_EQ(seek(0), "100") << "also after redo";
 }
 
 TEST_F(Seek, AnEditOfTheLatestMomentDiscardsNothing) {
     play(100);
-    table.run(workspace, "arm.title", {{"title", "edited"}});
+    edit("edited");
     EXPECT_FALSE(workspace.discarded);
     seek(60);
-    table.run(workspace, "arm.title", {{"title", "again"}});
+    edit("again");
     EXPECT_TRUE(workspace.discarded);
-    table.run(workspace, "lab.open", {{"name", "rope"}});
+    run("lab.open", {{"name", "rope"}});
     EXPECT_FALSE(workspace.discarded) << "of the open lab only";
 }
 
 TEST_F(Seek, EachLabKeepsItsOwnLastSeconds) {
     play(50);
     const std::string lab = workspace.lab;
-    table.run(workspace, "lab.open", {{"name", "rope"}});
+    run("lab.open", {{"name", "rope"}});
     EXPECT_TRUE(workspace.rewind.empty());
-    table.run(workspace, "lab.open", {{"name", lab}});
+    run("lab.open", {{"name", lab}});
     EXPECT_EQ(seek(10), "40");
     play(1);
     EXPECT_EQ(seek(1), "40") << "time goes on from there";
@@ -242,24 +247,23 @@ TEST_F(Seek, EachLabKeepsItsOwnLastSeconds) {
 TEST_F(Seek, ALabChangedWhileAnotherIsOpenHasNoPast) {
     play(50);
     const std::string lab = workspace.lab;
-    table.run(workspace, "lab.open", {{"name", "rope"}});
-    table.run(workspace, "arm.title", {{"title", "edited"}});
-    table.run(workspace, "lab.open", {{"name", lab}});
+    run("lab.open", {{"name", "rope"}});
+    edit("edited");
+    run("lab.open", {{"name", lab}});
     EXPECT_TRUE(workspace.rewind.empty());
     EXPECT_EQ(title(), "edited");
 }
 
 TEST_F(Seek, UndoFindsNoMomentOfAnotherTimeline) {
     play(50);
-    table.run(workspace, "arm.title", {{"title", "edited"}});
+    edit("edited");
     play(50);
     EXPECT_EQ(seek(60), "40");
-    table.run(workspace, "arm.title", {{"title", "again"}});
+    edit("again");
     play(100);
     seek(20);
-    table.run(workspace, "arm.title",
-              {{"title", "once more"}});  // undo brings back the moments that this drops
-    for (int i = 0; i < 3; ++i) table.run(workspace, "undo", Json::object());
+    edit("once more");  // undo brings back the moments that this drops
+    for (int i = 0; i < 3; ++i) undo();
     EXPECT_EQ(title(), "100");
     EXPECT_EQ(workspace.moment, workspace.rewind.newest() + 1)
         << "it is now, and not tick 100 of this course";
@@ -267,12 +271,11 @@ TEST_F(Seek, UndoFindsNoMomentOfAnotherTimeline) {
 
 TEST_F(Seek, RedoGoesBackInTimeAgain) {
     play(50);
-    table.run(workspace, "arm.title", {{"title", "edited"}});
+    edit("edited");
     play(50);
     EXPECT_EQ(seek(60), "40");
     const auto there = workspace.moment;
-    for (const char* command : {"undo", "undo", "redo", "redo"})
-        table.run(workspace, command, Json::object());
+    for (const char* command : {"undo", "undo", "redo", "redo"}) run(command);
     EXPECT_EQ(title(), "40");
     EXPECT_EQ(workspace.moment, there);
     EXPECT_LT(workspace.moment, workspace.rewind.newest()) << "what came after it is still remembered";

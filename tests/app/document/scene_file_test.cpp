@@ -136,7 +136,6 @@ TEST(SceneFile, OtherValuesAreRefusedWithPathAndReason) {
               "");
 }
 
-/// Whatever exception a lab throws, the file is refused.
 TEST(SceneFile, AnyExceptionOfAPartRefusesTheFile) {
     struct Choking : TestPart {
         std::shared_ptr<Part> load(const Json& json, const std::string&) const override {
@@ -500,7 +499,6 @@ TEST(SceneFile, WithAnyByteChangedIsRefusedOrReadWhole) {
     EXPECT_GT(accepted, test::rounds(700));
 }
 
-/// Replaces each value of a scene in turn by one of every type.
 TEST(SceneFile, WithAnyValueOfAnotherKindIsRefusedOrReadWhole) {
     const Json scene = save_scene(make_busy_workspace()).flatten();
     const std::vector<Json> others{

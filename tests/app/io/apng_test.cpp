@@ -1,10 +1,15 @@
 // Animated PNG: reading returns what was written, pixel for pixel, with a strict reader.
-#include "app/io/apng.hpp"
+#include <gtest/gtest.h>
 
 #include <random>
+#include <string>
 
+#include "app/io/apng.hpp"
+#include "app/io/child_process.hpp"
+#include "app/io/points.hpp"
 #include "tests/app/support/apng.hpp"
 #include "tests/app/support/temp_folder.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -153,6 +158,112 @@ TEST(AnimatedPng, ABrokenFileIsRefused) {
         std::string garbage = whole.substr(0, 8 + random() % 60);
         for (int j = 0; j < 200; ++j) garbage += static_cast<char>(random());
         EXPECT_TRUE(broken(garbage));
+    }
+}
+
+// Child processes: found on PATH, given bytes, and their failures reported with their own messages.
+
+using app::ChildProcess;
+using Words = std::vector<std::string>;
+
+Words shell(const std::string& script) {
+    return {"/bin/sh", "-c", script};
+}
+
+TEST(ChildProcesses, AreGivenAllBytes) {
+    const TempFolder folder;
+    std::string bytes;
+    for (unsigned i = 0; i < 1'000'000; ++i) bytes += static_cast<char>(i * i >> 3);
+    ChildProcess child(shell("sleep 0.1; cat > '" + (folder / "out").string() + "'; echo chatter"));
+    child.write(bytes);
+    child.write("end");
+    child.finish(20.0);
+    EXPECT_EQ(read(folder / "out"), bytes + "end");
+}
+
+TEST(ChildProcesses, FailWithTheirOwnMessages) {
+    const auto failure = [](const std::string& script) {
+        return message_of([&] { ChildProcess(shell(script)).finish(20.0); });
+    };
+    EXPECT_EQ(failure("true"), "");
+    EXPECT_TRUE(test::says(failure("echo first >&2; echo 'no such encoder' >&2; echo >&2; exit 3"),
+                           "sh no such encoder"));
+    EXPECT_TRUE(test::says(failure("exit 3"), "sh code 3"));
+    EXPECT_TRUE(test::says(failure("kill -9 $$"), "sh signal 9"));
+    EXPECT_EQ(failure("yes long | head -100000 >&2; echo last >&2; exit 1"), "sh failed: last");
+    EXPECT_TRUE(has(message_of([] { ChildProcess(Words{"/nowhere/tool"}); }), "cannot start tool"));
+}
+
+/// Writing to a pipe without a reader must not end this program.
+TEST(ChildProcesses, MayEndBeforeTheyReadEverything) {
+    const std::string many(10'000'000, 'x');
+    const auto failure = [&](const std::string& script) {
+        return message_of([&] { ChildProcess(shell(script)).write(many); });
+    };
+    EXPECT_EQ(failure("echo 'disk full' >&2; exit 1"), "sh failed: disk full");
+    EXPECT_TRUE(test::says(failure("head -c 100000 > /dev/null"), "sh too early"));
+}
+
+TEST(ChildProcesses, HangingOnesAreAbandoned) {
+    EXPECT_TRUE(
+        test::says(message_of([] { ChildProcess(shell("exec sleep 60")).finish(0.05); }), "sh not exit"));
+    EXPECT_TRUE(test::says(
+        message_of([] { ChildProcess(shell("exec sleep 60")).write(std::string(1'000'000, 'x'), 0.05); }),
+        "sh stopped reading"));
+}
+
+/// The child leaves a process in the background with the same files open, as xclip does.
+TEST(ChildProcesses, MayLeaveAProcessBehind) {
+    EXPECT_EQ(message_of([] { ChildProcess(shell("cat > /dev/null; sleep 5 & exit 0")).finish(2.0); }), "");
+}
+
+TEST(ChildProcesses, AreFoundOnPath) {
+    EXPECT_EQ(app::find_program("sh").filename(), "sh");
+    EXPECT_TRUE(app::find_program("tendril-no-such-program").empty());
+    EXPECT_TRUE(app::find_program("").empty()) << "a folder is none";
+}
+
+using app::read_points;
+using Points = std::vector<glm::vec3>;
+
+TEST(PointsFromText, AreReadAsTablesListsAndSourceCode) {
+    const Points one{{1, -2.5f, 3}}, two{{1, 2, 3}, {4, 5, 6}};
+    for (const char* text :
+         {"1 -2.5 3", "1,-2.5,3\n", "1;-2.5;3", "1\t-2.5\t3\r\n", "(1, -2.5, 3)", "[1, -2.5, 3]",
+          "{1,-2.5,3};", "Vector3(1, -2.5, 3)", "new Vector3(1f, -2.5f, 3f)", "FVector(X=1.0 Y=-2.5 Z=3.0)",
+          "(X=1,Y=-2.5,Z=3)", "(Z=3,X=1,Y=-2.5)", "vec3(1.0, -2.5, 3.0)", "glm::vec3{1, -2.5, 3}",
+          "{\"x\": 1, \"y\": -2.5, \"z\": 3}", "[\n  1,\n  -2.5,\n  3\n]", "+1 -25e-1 3.", "x,y,z\n1,-2.5,3"})
+        EXPECT_EQ(read_points(text, 10), one) << text;
+    for (const char* text :
+         {"1 2 3\n4 5 6", "1,2,3\n\n4,5,6\n", "[[1, 2, 3], [4, 5, 6]]", "{{1,2,3},{4,5,6}}",
+          "[[1. 2. 3.]\n [4. 5. 6.]]", "[[\n1,\n2,\n3\n],\n[4,5,6]\n]\n", "[1, 2, 3\n 4, 5, 6]",
+          "Vector3(1,2,3), Vector3(4,5,6)", "x y z\n1 2 3\n4 5 6", "(X=1,Y=2,Z=3)\n(X=4,Y=5,Z=6)",
+          "new Vector3(1f, 2f, 3f),\nnew Vector3(4f, 5f, 6f),",
+          "\xef\xbb\xbf"
+          "1 2 3\n4 5 6"})
+        EXPECT_EQ(read_points(text, 10), two) << text;
+}
+
+TEST(PointsFromText, InvalidTextIsRefusedWithLineAndContent) {
+    struct Bad {
+        std::string text, told;
+    };
+    std::string many;
+    for (int i = 0; i < 100'000; ++i) many += "1 2 3\n";
+    for (const Bad& bad :
+         {Bad{"", "line 1 nothing"}, Bad{"1 2 3\n4 5", "line 2 three two"},
+          Bad{"1 2 3\n4 5 6 7", "line 2 fourth 7"}, Bad{"[1,2,3,4,5,6]", "line 1 fourth 4"},
+          Bad{"1 2 nan", "line 1 nan"}, Bad{"1 2 1000000001", "line 1 1000000001"},
+          Bad{"1 2 3m", "line 1 3m"}, Bad{"hello world", "line 1 hello"},
+          Bad{"(1, 2, 3", "line 1 not closed"}, Bad{"1 2 3)", "line 1 too many"},
+          Bad{"(X=1,X=2,Z=3)", "line 1 x twice"}, Bad{"(X=1,2,Z=3)", "line 1 names none"},
+          Bad{"X=1 Y=", "line 1 three one"}, Bad{"sin(1,2,3)", "line 1 sin"},
+          Bad{std::string("1 2 \0", 5), "line 1"}, Bad{std::string(1 << 20, '['), "not closed"},
+          Bad{std::string(1 << 20, 'j'), "line 1 expected a number"},
+          Bad{std::string(1 << 20, '7'), "line 1 1e9"}, Bad{many, "line 10001 10000"}}) {
+        const std::string told = message_of([&] { read_points(bad.text, 10'000); });
+        EXPECT_TRUE(says(told, bad.told)) << bad.text.substr(0, 40);
+        EXPECT_LT(told.size(), 200u);
     }
 }
 

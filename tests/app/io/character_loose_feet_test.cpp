@@ -1,7 +1,9 @@
 // Feet of IK rigs that hang outside the legs: they are moved below them, and every joint moves as before.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <tendril/humanoid/attach.hpp>
 #include <tendril/humanoid/body.hpp>
@@ -16,8 +18,10 @@
 #include "app/io/character/gltf_write.hpp"
 #include "app/io/character/read.hpp"
 #include "app/io/character/stick_figure.hpp"
+#include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/core/humanoid_feet_support.hpp"
+#include "tests/labels.hpp"
 #include "tests/places.hpp"
 #include "tests/says.hpp"
 
@@ -29,14 +33,7 @@ using humanoid::Bone;
 using humanoid::Clip;
 using humanoid::Placement;
 using humanoid::Skeleton;
-
-std::vector<Placement> placed_at(const Skeleton& skeleton, const Clip& clip, double time) {
-    std::vector<rig::Transform> pose(skeleton.size());
-    sample(clip, skeleton, time, pose);
-    std::vector<Placement> places(skeleton.size());
-    place(skeleton, pose, places);
-    return places;
-}
+using test_posed::placed_in;
 
 /// The figure's walk with these feet as roots that keep their positions, moved by `off`.
 Character ik_rig(const std::vector<std::string>& feet, const glm::dvec3& off = glm::dvec3(0.0),
@@ -45,8 +42,7 @@ Character ik_rig(const std::vector<std::string>& feet, const glm::dvec3& off = g
     rig.clips.resize(1);
     const Skeleton before = rig.skeleton;
     const Clip walk = rig.clips[0];
-    std::vector<Placement> rest(before.size());
-    place(before, rest_pose(before), rest);
+    const std::vector<Placement> rest = test_posed::placed(rig, -1);
     std::vector<humanoid::Node> nodes = before.nodes();
     for (const std::string& name : feet) {
         const std::size_t foot = before.find(name).value();
@@ -56,7 +52,7 @@ Character ik_rig(const std::vector<std::string>& feet, const glm::dvec3& off = g
         std::erase_if(rig.clips[0].channels, [&](const auto& each) { return each.node == foot; });
         humanoid::Channel channel{.node = foot};
         for (double time = 0.0; time <= walk.duration; time += 1.0 / rate) {
-            const rig::Transform at = humanoid::relative(Placement(), placed_at(before, walk, time)[foot]);
+            const rig::Transform at = humanoid::relative(Placement(), placed_in(before, walk, time)[foot]);
             channel.translation.times.push_back(time);
             channel.translation.values.push_back(at.translation + off);
             channel.rotation.values.push_back(at.rotation);
@@ -78,8 +74,8 @@ void expect_same_motion(const Character& before, const Character& after) {
     for (const Clip& clip : clips) {
         for (int i = 0; i <= 233; ++i) {
             const double time = clip.duration * i / 233.0;
-            const auto was = placed_at(before.skeleton, clip, time),
-                       is = placed_at(after.skeleton, clip, time);
+            const auto was = placed_in(before.skeleton, clip, time),
+                       is = placed_in(after.skeleton, clip, time);
             for (std::size_t node = 0; node < was.size(); ++node) {
                 const std::string where = clip.name + ' ' + before.skeleton[node].name;
                 ASSERT_LT(glm::distance(was[node].position, is[node].position), 1e-9) << where;
@@ -90,16 +86,8 @@ void expect_same_motion(const Character& before, const Character& after) {
     }
 }
 
-std::vector<std::int32_t> parents(const Skeleton& skeleton) {
-    std::vector<std::int32_t> all;
-    for (const humanoid::Node& node : skeleton.nodes()) all.push_back(node.parent);
-    return all;
-}
-
 std::string all_notes(const Character& character) {
-    std::string text;
-    for (const std::string& each : character.notes) text += each + '\n';
-    return text;
+    return test_posed::lines(character.notes);
 }
 
 class LooseFeet : public ::testing::Test {
@@ -118,13 +106,12 @@ class LooseFeet : public ::testing::Test {
         const Character before = as_in_file(from);
         for (const char* name : {"out.glb", "out.bvh"}) {
             SCOPED_TRACE(name);
-            const bool is_bvh = std::string(name).ends_with("bvh");
             const ExportReport report =
                 export_clip({character, from.string(), character.clips[0], clip, 60.0}, file(name));
             EXPECT_LT(report.worst, 5e-4) << report.text();
-            if (is_bvh) continue;
-            const Character read = as_in_file(file(name));
-            EXPECT_EQ(parents(read.skeleton), parents(before.skeleton));
+            if (std::string(name).ends_with("bvh")) continue;
+            EXPECT_TRUE(std::ranges::equal(as_in_file(file(name)).skeleton.nodes(), before.skeleton.nodes(),
+                                           {}, &humanoid::Node::parent, &humanoid::Node::parent));
         }
     }
     static void expect_works(const Character& character) {
@@ -198,8 +185,8 @@ TEST_F(LooseFeet, StandOnTheGroundAndAreBakedAndExported) {
     const Character figure = stick_figure();
     const Clip same = with_feet_on(slope, figure.skeleton, bone_map(figure), figure.clips[0], 60.0);
     for (double time = 0.0; time < baked.duration; time += 0.1) {
-        const auto wanted = placed_at(figure.skeleton, same, time),
-                   found = placed_at(rig.skeleton, baked, time);
+        const auto wanted = placed_in(figure.skeleton, same, time),
+                   found = placed_in(rig.skeleton, baked, time);
         for (std::size_t node = 0; node < wanted.size(); ++node)
             EXPECT_LT(glm::distance(wanted[node].position,
                                     found[rig.skeleton.find(figure.skeleton[node].name).value()].position),
@@ -224,8 +211,9 @@ TEST_F(LooseFeet, SinkingFeetAreCured) {
         for (const humanoid::Finding& each : lint(rig.skeleton, map, clip).findings)
             if (each.has_cure &&
                 (each.fault == humanoid::Fault::Sinking || each.fault == humanoid::Fault::Skating ||
-                 each.fault == humanoid::Fault::Floating))
-                if (!found || each.amount > found->amount) found = each;
+                 each.fault == humanoid::Fault::Floating) &&
+                (!found || each.amount > found->amount))
+                found = each;
         return found;
     };
     Clip cured = sunk;
@@ -267,7 +255,6 @@ TEST_F(LooseFeet, FeetAwayFromTheLegsStayWithANote) {
     }
 }
 
-/// Two rigs in one file, in the same place: each foot goes to its own rig's leg.
 TEST_F(LooseFeet, FeetOfTwoRigsStayWithTheirOwn) {
     const Character one = ik_rig(both_feet);
     std::vector<humanoid::Node> nodes{{.name = "RigB"}, {.name = "RigA"}};
@@ -298,10 +285,8 @@ TEST_F(LooseFeet, FeetBelowAShearedOrVanishingLegStayWithANote) {
     for (const glm::dvec3& scale : {glm::dvec3(1.0, 3.0, 1.0), glm::dvec3(0.0)}) {
         Character rig = ik_rig(both_feet);
         const std::size_t leg = rig.skeleton.find("LeftLowerLeg").value();
-        humanoid::Channel* channel = nullptr;
-        for (humanoid::Channel& each : rig.clips[0].channels)
-            if (each.node == leg) channel = &each;
-        ASSERT_TRUE(channel);
+        const auto channel = std::ranges::find(rig.clips[0].channels, leg, &humanoid::Channel::node);
+        ASSERT_NE(channel, rig.clips[0].channels.end());
         channel->scale = {humanoid::Interpolation::Linear, {0.0, 0.2}, {glm::dvec3(1.0), scale}};
         const Skeleton before = rig.skeleton;
         attach_feet(rig);
@@ -330,6 +315,65 @@ TEST(Attached, KeepsWhatItCannotMoveAndComesBack) {
     nodes[leg].keys.reset();
     nodes[foot].keys->parent = 9999;
     EXPECT_TRUE(test::says(Skeleton::make(nodes).message(), "keys.parent 9999"));
+}
+
+// The figure's walk, and third-party clips, with their feet on the ground.
+
+using test::WalkOptions;
+
+const double pi = std::acos(-1.0);
+
+std::vector<humanoid::Ground> grounds() {
+    return {*humanoid::Ground::flat(), *humanoid::Ground::slope(20.0 * pi / 180.0),
+            *humanoid::Ground::stairs(0.15, 0.3)};
+}
+
+void expect_stands(const test::Measured& all) {
+    EXPECT_LT(all.sink, 0.005);
+    EXPECT_LT(all.floating, 0.005);
+    EXPECT_LT(all.skate, 0.005);
+    EXPECT_LE(all.stretch, 0.995 + 1e-6);
+}
+
+LABEL(slow, "CharacterFeet.ClipsThatOthersMadeStandToo");
+
+TEST(CharacterFeet, TheFiguresSolesAreWhereItsBuilderPutsThem) {
+    const Character figure = stick_figure();
+    const auto soles = humanoid::find_soles(figure.skeleton, humanoid::match_bones(figure.skeleton));
+    ASSERT_TRUE(soles) << soles.message();
+    const std::vector<Placement> placements = test_posed::placed(figure, -1);
+    const auto points = sole_points(*soles, placements);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const glm::dvec3 ankle = placements[soles->feet[i].foot].position;
+        EXPECT_LT(glm::distance(points[i].heel, ankle + stick_heel), 1e-9);
+        EXPECT_LT(glm::distance(points[i].toe, ankle + stick_toe), 1e-9);
+    }
+}
+
+TEST(CharacterFeet, ClipsThatOthersMadeStandToo) {
+    if (!fs::is_directory(tendril::test::characters_folder()))
+        GTEST_SKIP() << tendril::test::characters_folder() << " is not there";
+    int walked = 0;
+    for (const auto& entry : fs::directory_iterator(tendril::test::characters_folder())) {
+        if (!entry.is_regular_file() || !ends_as_character(entry.path())) continue;
+        const Character character = read_character(entry.path());
+        const auto soles =
+            humanoid::find_soles(character.skeleton, humanoid::match_bones(character.skeleton));
+        if (!soles || soles->leg > 2.0) continue;  // no body, or one in other units
+        for (const humanoid::Clip& clip : character.clips) {
+            WalkOptions walk{.seconds = std::min(clip.duration, 10.0)};
+            walk.options.floor = clip_floor(character.skeleton, *soles, clip);
+            test::Walker walker(character.skeleton, clip);
+            for (const humanoid::Ground& ground : grounds()) {
+                SCOPED_TRACE(entry.path().filename().string() + ' ' + clip.name + ' ' + name(ground.kind()));
+                const test::Measured all = walker.walk(ground, walk);
+                expect_stands(all);
+                EXPECT_LT(all.beyond, 0.060 * std::max(1.0, soles->leg / 0.9));  // longer legs, faster knees
+                ++walked;
+            }
+        }
+    }
+    EXPECT_GT(walked, 0);
 }
 
 }  // namespace

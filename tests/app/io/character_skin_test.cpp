@@ -8,88 +8,52 @@
 
 #include "app/io/character/gltf.hpp"
 #include "app/io/character/read.hpp"
+#include "tests/app/io/gltf_text.hpp"
+#include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
 
-template <class T>
-std::string raw(std::initializer_list<T> values) {
-    std::string bytes;
-    for (const T& value : values) bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-    return bytes;
-}
-
 /// A triangle at x = 1, skinned to nodes 0 and 1, the second 1 m above the first; with a morph that lifts it
-/// by 1 m, animated from 0 to 1 in a second. Each list of numbers has a buffer view of its own.
-class OwnGltf {
-  public:
+/// by 1 m, animated from 0 to 1 in a second.
+struct OwnGltf {
     std::string primitive = R"("POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2)";
-    std::string indices = raw<std::uint16_t>({0, 1, 2, 0});
-    std::string joints = raw<std::uint8_t>({0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});
-    std::string weights = raw<float>({0.25f, 0.75f, 0, 0, 1, 0, 0, 0, 0, 3, 0, 0});
-    std::string positions = raw<float>({1, 0, 0, 1, 1, 0, 1, 0, 1});
+    std::vector<unsigned short> indices{0, 1, 2};
+    std::vector<unsigned char> joints{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
+    std::vector<float> weights{0.25f, 0.75f, 0, 0, 1, 0, 0, 0, 0, 3, 0, 0},
+        positions{1, 0, 0, 1, 1, 0, 1, 0, 1};
     std::string node = R"("mesh":0,"skin":0)";
-    std::string more, after_primitive;
+    std::string more{}, after_primitive{};
 
     Character read() const {
-        const std::string numbers = positions + joints + weights + indices +
-                                    raw<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,  //
-                                                1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1,  //
-                                                0, 1, 0, 0, 1, 0, 0, 1, 0,                        // the morph
-                                                0, 1,                                             // its times
-                                                0, 1});  // and weights
-        return parse_gltf(json(), "own.gltf", folder_with(numbers));
+        test_gltf::GltfText file;
+        file.vectors(positions);
+        file.add("VEC4", 4, joints);
+        file.quaternions(weights);
+        file.add("SCALAR", 1, indices);
+        file.add<float>("MAT4", 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,  //
+                                     1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1});
+        const std::string morph = file.vectors({0, 1, 0, 0, 1, 0, 0, 1, 0}), times = file.scalars({0, 1}),
+                          amounts = file.scalars({0, 1});
+        file.members =
+            R"("skins":[{"joints":[0,1],"inverseBindMatrices":4}],)"
+            R"("materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]}}],)"
+            R"("meshes":[{"weights":[0.5],"primitives":[{"indices":3,"material":0,"attributes":{)" +
+            primitive + R"(},"targets":[{"POSITION":)" + morph + "}]" + after_primitive +
+            R"(}]}],"animations":[{"name":"up","samplers":[{"input":)" + times + R"(,"output":)" + amounts +
+            R"(}],"channels":[{"sampler":0,"target":{"node":2,"path":"weights"}}]}],)"
+            R"("nodes":[{"children":[1]},{"translation":[0,1,0]},{)" +
+            node + "}]" + more;
+        return parse_gltf(file.gltf(), "own.gltf", {});
     }
-
-  private:
-    std::string json() const {
-        std::string views,
-            text = R"({"asset":{"version":"2.0"},"buffers":[{"uri":"numbers.bin","byteLength":)";
-        std::size_t at = 0;
-        for (const std::size_t size : {positions.size(), joints.size(), weights.size(), indices.size(),
-                                       std::size_t{128}, std::size_t{36}, std::size_t{8}, std::size_t{8}}) {
-            views += (views.empty() ? "" : ",") + std::string(R"({"buffer":0,"byteOffset":)") +
-                     std::to_string(at) + R"(,"byteLength":)" + std::to_string(size) + "}";
-            at += size;
-        }
-        text += std::to_string(at) + R"(}],"bufferViews":[)" + views +
-                R"(],"accessors":[)"
-                R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
-                R"({"bufferView":1,"componentType":5121,"count":3,"type":"VEC4"},)"
-                R"({"bufferView":2,"componentType":5126,"count":3,"type":"VEC4"},)"
-                R"({"bufferView":3,"componentType":5123,"count":3,"type":"SCALAR"},)"
-                R"({"bufferView":4,"componentType":5126,"count":2,"type":"MAT4"},)"
-                R"({"bufferView":5,"componentType":5126,"count":3,"type":"VEC3"},)"
-                R"({"bufferView":6,"componentType":5126,"count":2,"type":"SCALAR"},)"
-                R"({"bufferView":7,"componentType":5126,"count":2,"type":"SCALAR"}],)"
-                R"("skins":[{"joints":[0,1],"inverseBindMatrices":4}],)"
-                R"("materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]}}],)"
-                R"("meshes":[{"weights":[0.5],"primitives":[{"indices":3,"material":0,"attributes":{)" +
-                primitive + R"(},"targets":[{"POSITION":5}])" + after_primitive +
-                R"(}]}],)"
-                R"("animations":[{"name":"up","samplers":[{"input":6,"output":7}],)"
-                R"("channels":[{"sampler":0,"target":{"node":2,"path":"weights"}}]}],)"
-                R"("nodes":[{"children":[1]},{"translation":[0,1,0]},{)" +
-                node + "}]" + more + "}";
-        return text;
-    }
-    std::filesystem::path folder_with(const std::string& numbers) const {
-        test::write(folder_ / "numbers.bin", numbers);
-        return folder_.path();
-    }
-
-    test::TempFolder folder_;
 };
 
-std::vector<humanoid::Placement> placed(const Character& character, std::vector<rig::Transform> pose) {
-    std::vector<humanoid::Placement> placements(pose.size());
-    humanoid::place(character.skeleton, pose, placements);
-    return placements;
-}
 glm::vec3 corner(const Character& character, const std::vector<rig::Transform>& pose, std::size_t i) {
-    return skinned({character.skin.mesh, skin_matrices(character.skin, placed(character, pose))}, i);
+    return skinned(
+        {character.skin.mesh, skin_matrices(character.skin, test_posed::placed_as(character.skeleton, pose))},
+        i);
 }
 
 TEST(CharacterSkin, VerticesRestInPlaceAndFollowTheirJointsByWeight) {
@@ -178,20 +142,12 @@ TEST(CharacterSkin, WrongNumbersAreRefusedWithTheirPath) {
         OwnGltf own;
         change(own);
         const std::string said = test::message_of([&] { own.read(); });
-        EXPECT_NE(said.find(words), said.npos) << "says \"" << said << "\", expected \"" << words << '"';
-        EXPECT_EQ(said.find("own.gltf"), 0u) << said;
+        EXPECT_TRUE(test::has(said, words));
+        EXPECT_TRUE(said.starts_with("own.gltf")) << said;
     };
-    says(
-        [](OwnGltf& own) {
-            own.indices = raw<std::uint16_t>({0, 1, 3, 0});
-        },
-        "meshes[0].primitives[0].indices");
-    says(
-        [](OwnGltf& own) {
-            own.joints = raw<std::uint8_t>({0, 9, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});
-        },
-        "no joint 9");
-    says([](OwnGltf& own) { own.positions = raw<float>({1, 0, 0, 1, NAN, 0, 1, 0, 1}); }, "vertex 1");
+    says([](OwnGltf& own) { own.indices[2] = 3; }, "meshes[0].primitives[0].indices");
+    says([](OwnGltf& own) { own.joints[1] = 9; }, "no joint 9");
+    says([](OwnGltf& own) { own.positions[4] = NAN; }, "vertex 1");
     says([](OwnGltf& own) { own.primitive = R"("POSITION":0,"JOINTS_0":1)"; }, "without WEIGHTS");
     says([](OwnGltf& own) { own.primitive = R"("POSITION":99)"; }, "POSITION: there is no 99");
     says([](OwnGltf& own) { own.primitive = R"("POSITION":0,"NORMAL":6)"; }, "NORMAL");
@@ -212,7 +168,7 @@ TEST(CharacterSkin, ThirdPartySkinsStayAroundTheirBones) {
         const Character character = read_character(entry.path());
         if (!character.skin.mesh) continue;
         ++worn;
-        const auto placements = placed(character, rest_pose(character.skeleton));
+        const auto placements = test_posed::placed(character, -1);
         glm::vec3 low(1e9f), high(-1e9f);
         for (const humanoid::Placement& each : placements) {
             low = glm::min(low, glm::vec3(each.position));

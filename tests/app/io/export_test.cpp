@@ -1,8 +1,6 @@
 // Characters written to glTF, GLB and BVH, and read back.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "app/document/json.hpp"
 #include "app/io/character/bake.hpp"
@@ -13,6 +11,7 @@
 #include "app/io/character/read.hpp"
 #include "app/io/character/stick_figure.hpp"
 #include "tests/app/io/gltf_structure.hpp"
+#include "tests/app/io/posed.hpp"
 #include "tests/app/support/temp_folder.hpp"
 #include "tests/labels.hpp"
 #include "tests/places.hpp"
@@ -29,10 +28,8 @@ constexpr double tenth_of_a_millimetre = 1e-4;
 
 /// 0.1 mm for a figure of 1.8 m, proportionally more for larger ones: files store floats.
 double allowed_error(const humanoid::Skeleton& skeleton) {
-    std::vector<humanoid::Placement> placements(skeleton.size());
-    humanoid::place(skeleton, humanoid::rest_pose(skeleton), placements);
     double largest = 1.8;
-    for (const humanoid::Placement& each : placements)
+    for (const humanoid::Placement& each : test_posed::placed_as(skeleton, rest_pose(skeleton)))
         for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(each.position[axis]));
     return tenth_of_a_millimetre * largest / 1.8;
 }
@@ -103,7 +100,7 @@ TEST_F(Exports, EveryFrameHasAKeyAndTheClipsOwnKeysStay) {
         const Clip read = read_character(folder_ / "walk.glb").clips.at(0);
         const auto& times = read.channels[0].rotation.times;
         for (int frame = 0; frame / rate <= 1.1; ++frame)
-            EXPECT_TRUE(std::any_of(times.begin(), times.end(), [&](double time) {
+            EXPECT_TRUE(std::ranges::any_of(times, [&](double time) {
                 return std::abs(time - frame / rate) < 1e-4;
             })) << frame;
         EXPECT_GE(times.size(), figure_.clips[0].channels[0].rotation.times.size());
@@ -129,9 +126,9 @@ TEST_F(Exports, ACorrectedUpAxisDoesNotChangeAGltfsNodes) {
 TEST_F(Exports, ABvhHasItsRateNamesAndARecognisableUnit) {
     write(figure_, figure_.clips[0], "walk.bvh", {}, 30.0);
     const std::string bvh = text("walk.bvh");
-    EXPECT_NE(bvh.find("Frames: 34\n"), std::string::npos);
-    EXPECT_NE(bvh.find("Frame Time: 0.03333333333333333\n"), std::string::npos);
-    EXPECT_NE(bvh.find("JOINT HeadTop_End\n"), std::string::npos);
+    for (const char* const line :
+         {"Frames: 34\n", "Frame Time: 0.03333333333333333\n", "JOINT HeadTop_End\n"})
+        EXPECT_TRUE(tendril::test::has(bvh, line));
     // Giants and dwarfs keep their sizes, although a BVH has no unit.
     for (const double size : {0.01, 0.3, 2.0, 4.0, 90.0}) {
         std::vector<humanoid::Node> nodes = figure_.skeleton.nodes();
@@ -218,16 +215,7 @@ TEST_F(Exports, FilesOfOthersKeepWhatTheyHaveAndMoveAsTheyDid) {
         const Character character = read_character(file);
         const std::size_t clips = std::min<std::size_t>(character.clips.size(), 3);
         for (std::size_t i = 0; i < clips; ++i) {
-            Clip clip = character.clips[i];
-            clip.duration = std::min(clip.duration, 4.0);
-            for (humanoid::Channel& channel : clip.channels) {
-                const auto cut = [&](auto& track) {
-                    const std::size_t width = track.interpolation == Interpolation::Cubic ? 3 : 1;
-                    while (!track.times.empty() && track.times.back() > clip.duration)
-                        track.times.pop_back(), track.values.resize(track.values.size() - width);
-                };
-                cut(channel.translation), cut(channel.rotation), cut(channel.scale);
-            }
+            const Clip clip = test_posed::first_seconds(character.clips[i], 4.0);
             for (const char* name : {"other.glb", "other.gltf", "other.bvh"}) {
                 const ExportReport report = write(character, clip, name, file);
                 EXPECT_LT(report.worst, allowed_error(character.skeleton)) << name << ": " << report.text();
@@ -235,11 +223,7 @@ TEST_F(Exports, FilesOfOthersKeepWhatTheyHaveAndMoveAsTheyDid) {
             const GltfStructure binary(text("other.glb")), written(text("other.gltf"));
             EXPECT_EQ(binary.json["nodes"], written.json["nodes"]);
             if (entry.path().extension() != ".glb" && entry.path().extension() != ".gltf") continue;
-            std::ifstream original(entry.path(), std::ios::binary);
-            std::stringstream bytes;
-            bytes << original.rdbuf();
-            const std::string all = bytes.str();
-            expect_kept(nlohmann::json::parse(gltf_json(all)), binary.json);
+            expect_kept(nlohmann::json::parse(gltf_json(tendril::test::read(entry.path()))), binary.json);
             EXPECT_EQ(read_character(folder_ / "other.glb").skeleton.size(), character.skeleton.size());
         }
     }

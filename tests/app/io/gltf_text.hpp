@@ -36,6 +36,13 @@ class GltfText {
     std::string vectors(const std::vector<float>& numbers) { return add("VEC3", 3, numbers); }
     std::string quaternions(const std::vector<float>& numbers) { return add("VEC4", 4, numbers); }
 
+    /// A clip that animates a property of node 0; `more` adds members to its sampler.
+    static std::string clip(const std::string& times, const std::string& values,
+                            const std::string& path = "translation", const std::string& more = "") {
+        return R"("animations":[{"name":"bend","samplers":[{"input":)" + times + R"(,"output":)" + values +
+               more + R"(}],"channels":[{"sampler":0,"target":{"node":0,"path":")" + path + R"("}}]}])";
+    }
+
     const std::string& bytes() const { return bytes_; }
     std::string gltf() const {
         return json(R"(,"uri":"data:application/octet-stream;base64,)" + to_base64(bytes_) + '"');

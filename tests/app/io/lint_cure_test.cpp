@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <glm/trigonometric.hpp>
 
@@ -33,15 +34,8 @@ class LintCure : public LintFigure {
             clip = *next;
         }
     }
-    std::vector<Placement> placed_pose(const std::vector<rig::Transform>& pose) const {
-        std::vector<Placement> all(skeleton.size());
-        place(skeleton, pose, all);
-        return all;
-    }
     std::vector<Placement> placed(const Clip& clip, double time) const {
-        std::vector<rig::Transform> pose(skeleton.size());
-        sample(clip, skeleton, time, pose);
-        return placed_pose(pose);
+        return test_posed::placed_in(skeleton, clip, time);
     }
     /// The maximum distance of a node between two clips, metres.
     double apart(const Clip& a, const Clip& b, const char* node, double from, double to) const {
@@ -57,6 +51,12 @@ double ramp(double time, double first, double last) {
     const double u = std::clamp((time - first) / (last - first), 0.0, 1.0);
     return u * u * (3.0 - 2.0 * u);
 }
+/// Moves a foot away from the first to the second of these times, and back from the third to the fourth.
+void slide(Frames& frames, const char* side, const glm::dvec3& way, const std::array<double, 4>& t) {
+    frames.edit([&](std::size_t k, double time) {
+        frames.move_foot(k, side, way * (ramp(time, t[0], t[1]) - ramp(time, t[2], t[3])));
+    });
+}
 
 TEST_F(LintCure, ASkatingFootIsMadeToStand) {
     // The left foot is flat on the ground from 1.21 s to 1.49 s.
@@ -64,10 +64,7 @@ TEST_F(LintCure, ASkatingFootIsMadeToStand) {
         for (const glm::dvec3& way :
              {glm::dvec3(0.06, 0, 0), glm::dvec3(0, 0, -0.1), glm::dvec3(0.04, 0, 0.04)}) {
             Frames frames = walk(rate);
-            for (std::size_t k = 0; k < frames.poses.size(); ++k) {
-                const double time = static_cast<double>(k) / rate;
-                frames.move_foot(k, "Left", way * (ramp(time, 1.25, 1.45) - ramp(time, 1.6, 1.9)));
-            }
+            slide(frames, "Left", way, {1.25, 1.45, 1.6, 1.9});
             const Clip clip = frames.clip(), whole = mended(clip, 2);
             const LintReport before = run(clip), after = run(whole);
             EXPECT_GT(before.skating, 0.05);
@@ -84,10 +81,9 @@ TEST_F(LintCure, FloatingFeetAreLoweredAndSinkingFeetRaised) {
     for (const double rate : {30.0, 60.0}) {
         for (const double by : {-0.06, -0.035, 0.04, 0.06}) {
             Frames frames = walk(rate);
-            for (std::size_t k = 0; k < frames.poses.size(); ++k) {
-                const double time = static_cast<double>(k) / rate;
+            frames.edit([&](std::size_t k, double time) {
                 frames.poses[k][0].translation.y += by * (ramp(time, 1.0, 1.25) - ramp(time, 1.75, 2.0));
-            }
+            });
             const Clip clip = frames.clip();
             ASSERT_FALSE(run(clip).findings.empty()) << by;
             const Clip whole = mended(clip, 8);
@@ -108,12 +104,12 @@ TEST_F(LintCure, AFootOutOfReachLowersTheHipsAndKeepsTheOtherFoot) {
         };
         bend("UpperLeg", -0.2), bend("LowerLeg", 0.4), bend("Foot", -0.2);
     }
-    bent[0].translation.y -= placed_pose(bent)[*skeleton.find("LeftFoot")].position.y - 0.09;
+    bent[0].translation.y -=
+        test_posed::placed_as(skeleton, bent)[*skeleton.find("LeftFoot")].position.y - 0.09;
     frames.poses.assign(121, bent);
-    for (std::size_t k = 0; k < frames.poses.size(); ++k) {
-        const double time = static_cast<double>(k) / rate;
+    frames.edit([&](std::size_t k, double time) {
         frames.poses[k][0].translation.y += 0.05 * (ramp(time, 0.5, 0.8) - ramp(time, 1.3, 1.6));
-    }
+    });
     const Clip clip = frames.clip(), whole = mended(clip, 4);
     const std::size_t left = *skeleton.find("LeftFoot"), right = *skeleton.find("RightFoot"),
                       hips = *skeleton.find("Hips");
@@ -126,11 +122,7 @@ TEST_F(LintCure, AFootOutOfReachLowersTheHipsAndKeepsTheOtherFoot) {
 TEST_F(LintCure, CubicAndSteppedTracksAndNodesWithoutKeysAreFixedToo) {
     for (const Interpolation kind : {Interpolation::Cubic, Interpolation::Step}) {
         Frames frames = walk(60.0, 2.2);
-        for (std::size_t k = 0; k < frames.poses.size(); ++k) {
-            const double time = static_cast<double>(k) / 60.0;
-            frames.move_foot(k, "Left",
-                             glm::dvec3(0.07, 0, 0) * (ramp(time, 1.25, 1.45) - ramp(time, 1.6, 1.9)));
-        }
+        slide(frames, "Left", {0.07, 0, 0}, {1.25, 1.45, 1.6, 1.9});
         Clip clip = frames.clip();
         for (Channel& channel : clip.channels) {
             Track<glm::dquat>& track = channel.rotation;
@@ -172,17 +164,12 @@ TEST_F(LintCure, AfterRandomFaultsNoFootIsLeftWrong) {
                      length = 0.1 + 0.01 * static_cast<double>(random.below(30));
         const glm::vec3 point = random.point(0.07f);
         const glm::dvec3 way(point.x, 0.6f * point.y, point.z);
-        for (std::size_t k = 0; k < frames.poses.size(); ++k) {
-            const double time = static_cast<double>(k) / rate;
-            frames.move_foot(k, side,
-                             way * (ramp(time, begin, begin + length) -
-                                    ramp(time, begin + length + 0.1, begin + 2.0 * length + 0.1)));
-        }
+        slide(frames, side, way, {begin, begin + length, begin + length + 0.1, begin + 2.0 * length + 0.1});
         Clip clip = frames.clip();
         for (int pass = 0; pass < 6; ++pass) {
             const LintReport report = run(clip);
-            const auto wrong = std::find_if(report.findings.begin(), report.findings.end(),
-                                            [](const Finding& each) { return each.fault <= Fault::Sinking; });
+            const auto wrong = std::ranges::find_if(
+                report.findings, [](const Finding& each) { return each.fault <= Fault::Sinking; });
             if (wrong == report.findings.end()) break;
             ASSERT_LT(pass, 5) << i << ": " << texts(report);
             const Expected<Clip> next = cure(skeleton, map, clip, *wrong);
@@ -197,8 +184,7 @@ TEST_F(LintCure, AFindingOfAnotherClipIsRefused) {
     Frames frames = walk(60.0);
     for (std::size_t k = 74; k < 92; ++k) frames.move_foot(k, "Left", {0, -0.04, 0});
     const LintReport report = run(frames.clip());
-    const auto sunk = std::find_if(report.findings.begin(), report.findings.end(),
-                                   [](const Finding& each) { return each.fault == Fault::Sinking; });
+    const auto sunk = std::ranges::find(report.findings, Fault::Sinking, &Finding::fault);
     ASSERT_NE(sunk, report.findings.end()) << texts(report);
     Finding finding = *sunk;
     const Clip brief = walk(60.0, 0.5).clip();
@@ -271,12 +257,11 @@ TEST_F(LintFixes, OfSkatingFeetOnNearlyStraightLegsCauseNoOtherFault) {
         // nearly straight.
         const double high = 0.01 * static_cast<double>(2 + random.below(5));
         const double a = 0.02 * random.point(1.0f).x + 0.05, b = 0.02 * random.point(1.0f).z + 0.05;
-        for (std::size_t k = 0; k < frames.poses.size(); ++k) {
-            const double time = static_cast<double>(k) / rate;
+        frames.edit([&](std::size_t k, double time) {
             frames.poses[k][0].translation.y += high;
             frames.move_foot(k, "Left", {a * (ramp(time, 1.2, 1.5) - ramp(time, 1.6, 1.9)), -high, 0.0});
             frames.move_foot(k, "Right", {0.0, -high, b * (ramp(time, 1.7, 2.0) - ramp(time, 2.1, 2.4))});
-        }
+        });
         const Clip clip = frames.clip();
         ASSERT_FALSE(run(clip).findings.empty()) << i;
         int fixes = 0;

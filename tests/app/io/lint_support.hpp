@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <string>
 #include <tendril/humanoid/lint.hpp>
 
 #include "app/io/character/stick_figure.hpp"
+#include "tests/app/io/posed.hpp"
 
 namespace tendril::app {
 
@@ -33,10 +35,12 @@ class Frames {
     std::vector<std::vector<rig::Transform>> poses{};
 
     rig::Transform& at(std::size_t frame, const char* node) { return poses[frame][*skeleton_.find(node)]; }
+    /// Calls `act` with each frame and its time.
+    void edit(const std::function<void(std::size_t, double)>& act) {
+        for (std::size_t k = 0; k < poses.size(); ++k) act(k, static_cast<double>(k) / rate_);
+    }
     std::vector<Placement> placed(std::size_t frame) const {
-        std::vector<Placement> all(skeleton_.size());
-        place(skeleton_, poses[frame], all);
-        return all;
+        return test_posed::placed_as(skeleton_, poses[frame]);
     }
     /// Moves an ankle by rotating thigh and shin; the foot keeps its rotation.
     void move_foot(std::size_t frame, const std::string& side, const glm::dvec3& by) {

@@ -23,6 +23,11 @@ using tendril::test::Random;
 class LintTest : public LintFigure {
   protected:
     std::int32_t node(const char* name) const { return static_cast<std::int32_t>(*skeleton.find(name)); }
+    Skeleton lying_figure() const {
+        std::vector<Node> nodes = skeleton.nodes();
+        nodes[0].rest.rotation = glm::angleAxis(glm::radians(90.0), glm::dvec3(1, 0, 0));
+        return *Skeleton::make(nodes);
+    }
     /// Expects findings, all of this kind and node.
     void expect_only(const Clip& clip, Fault fault, const char* name, std::size_t first, std::size_t last,
                      double amount, double tolerance) const {
@@ -140,10 +145,9 @@ TEST_F(LintTest, FindsAndFixesAPoppingKnee) {
         frames.at(frame, knee.c_str()).rotation *= glm::angleAxis(glm::radians(degrees), glm::dvec3(1, 0, 0));
         const Clip clip = frames.clip();
         const LintReport report = run(clip);
-        const Finding* pop = nullptr;
-        for (const Finding& each : report.findings)
-            if (each.fault == Fault::KneePop) pop = &each;
-        ASSERT_NE(pop, nullptr) << i << ", frame " << frame << ", " << degrees << ": " << texts(report);
+        const auto pop = std::ranges::find(report.findings, Fault::KneePop, &Finding::fault);
+        ASSERT_NE(pop, report.findings.end())
+            << i << ", frame " << frame << ", " << degrees << ": " << texts(report);
         EXPECT_EQ(pop->node, node(knee.c_str()));
         EXPECT_EQ(pop->frame, frame);
         EXPECT_NEAR(pop->amount, degrees, 0.3 * degrees);
@@ -164,11 +168,10 @@ TEST_F(LintTest, FindsAKneeThatSnapsStraight) {
         frames.move_foot(k, "Right", hip + glm::normalize(foot - hip) * far - foot);
     }
     const LintReport report = run(frames.clip());
-    const bool found = std::any_of(report.findings.begin(), report.findings.end(), [&](const Finding& each) {
+    EXPECT_TRUE(std::ranges::any_of(report.findings, [&](const Finding& each) {
         return each.fault == Fault::KneePop && each.node == node("RightLowerLeg") && each.frame > 45 &&
                each.frame < 62;
-    });
-    EXPECT_TRUE(found) << texts(report);
+    })) << texts(report);
 }
 
 TEST_F(LintTest, FindsKneesAndElbowsBentTheWrongWay) {
@@ -183,8 +186,7 @@ TEST_F(LintTest, FindsKneesAndElbowsBentTheWrongWay) {
                                    is_knee ? glm::dvec3(1, 0, 0) : glm::dvec3(0, -1, 0));
             }
             const LintReport report = run(frames.clip());
-            const auto fault = std::find_if(report.findings.begin(), report.findings.end(),
-                                            [](const Finding& each) { return each.fault == Fault::Limit; });
+            const auto fault = std::ranges::find(report.findings, Fault::Limit, &Finding::fault);
             ASSERT_NE(fault, report.findings.end()) << name << ' ' << most << ": " << texts(report);
             EXPECT_EQ(fault->node, node(name)) << fault->text;
             EXPECT_GE(fault->frame, 80u);
@@ -253,9 +255,7 @@ TEST_F(LintTest, FindsAWalkThatLiesOnItsSide) {
         for (glm::dvec3& value : clip.channels[0].translation.values) value = turn * value;
         for (glm::dquat& value : clip.channels[0].rotation.values) value = turn * value;
         const LintReport report = run(clip);
-        ASSERT_FALSE(report.findings.empty());
-        const auto fault = std::find_if(report.findings.begin(), report.findings.end(),
-                                        [](const Finding& each) { return each.fault == Fault::Axis; });
+        const auto fault = std::ranges::find(report.findings, Fault::Axis, &Finding::fault);
         ASSERT_NE(fault, report.findings.end()) << texts(report);
         EXPECT_NEAR(fault->amount, 90.0, 1e-6);
         const LintReport after = run(*cure(skeleton, map, clip, *fault));
@@ -264,15 +264,13 @@ TEST_F(LintTest, FindsAWalkThatLiesOnItsSide) {
 }
 
 TEST_F(LintTest, FindsAFigureThatRestsOnItsSideOrIsAGiant) {
-    std::vector<Node> nodes = skeleton.nodes();
-    nodes[0].rest.rotation = glm::angleAxis(glm::radians(90.0), glm::dvec3(1, 0, 0));
-    const Skeleton lying = *Skeleton::make(nodes);
+    const Skeleton lying = lying_figure();
     const LintReport report = lint(lying, match_bones(lying), Clip{.name = "none"});
     ASSERT_EQ(report.findings.size(), 1u) << texts(report);
     EXPECT_EQ(report.findings[0].fault, Fault::Axis);
     EXPECT_NEAR(report.findings[0].amount, 90.0, 6.0);
 
-    nodes = skeleton.nodes();
+    std::vector<Node> nodes = skeleton.nodes();
     for (Node& each : nodes) each.rest.translation *= 100.0;
     const Skeleton giant = *Skeleton::make(nodes);
     const LintReport tall = lint(giant, match_bones(giant), Clip{.name = "none"});
@@ -283,38 +281,28 @@ TEST_F(LintTest, FindsAFigureThatRestsOnItsSideOrIsAGiant) {
 
 /// Some files store motion relative to a rest pose that lies down, although the figure walks upright.
 TEST_F(LintTest, ALyingRestPoseIsNoFaultIfTheFigureWalksUpright) {
-    std::vector<Node> nodes = skeleton.nodes();
-    nodes[0].rest.rotation = glm::angleAxis(glm::radians(90.0), glm::dvec3(1, 0, 0));
-    const Skeleton lying = *Skeleton::make(nodes);
-    EXPECT_EQ(lint(lying, match_bones(lying), Clip{.name = "none"}).findings.size(), 1u);
-    for (const Clip& clip : figure.clips) {
-        const LintReport report = lint(lying, match_bones(lying), clip);
-        for (const Finding& each : report.findings) EXPECT_NE(each.fault, Fault::Axis) << each.text;
-    }
+    const Skeleton lying = lying_figure();
+    for (const Clip& clip : figure.clips)
+        for (const Finding& each : lint(lying, match_bones(lying), clip).findings)
+            EXPECT_NE(each.fault, Fault::Axis) << each.text;
 }
 
 /// A rig may put all of an arm's twist into the forearm, or into the collar bone: the arm looks the same.
 TEST_F(LintTest, AnArmIsJudgedByItsShapeHoweverItsTwistIsDivided) {
     const glm::dvec3 along(1, 0, 0);  // the left arm's
-    for (const double twist : {0.0, 70.0, -70.0, 85.0}) {
+    const auto twisted = [&](double degrees) {
         Frames frames = walk();
-        const glm::dquat by = glm::angleAxis(glm::radians(twist), along),
-                         bent = glm::angleAxis(glm::radians(-100.0), glm::dvec3(0, 1, 0));
         for (std::size_t k = 0; k < frames.poses.size(); ++k) {
             frames.at(k, "LeftUpperArm").rotation = glm::dquat(1, 0, 0, 0);
-            frames.at(k, "LeftLowerArm").rotation = by * bent;
+            frames.at(k, "LeftLowerArm").rotation = glm::angleAxis(glm::radians(degrees), along) *
+                                                    glm::angleAxis(glm::radians(-100.0), glm::dvec3(0, 1, 0));
         }
-        const LintReport report = run(frames.clip());
-        EXPECT_TRUE(report.findings.empty()) << twist << ": " << texts(report);
-    }
+        return run(frames.clip());
+    };
+    for (const double twist : {0.0, 70.0, -70.0, 85.0})
+        EXPECT_TRUE(twisted(twist).findings.empty()) << twist << ": " << texts(twisted(twist));
     // A fifth of a turn beyond the shoulder's range, it bends backwards.
-    Frames frames = walk();
-    for (std::size_t k = 0; k < frames.poses.size(); ++k) {
-        frames.at(k, "LeftUpperArm").rotation = glm::dquat(1, 0, 0, 0);
-        frames.at(k, "LeftLowerArm").rotation = glm::angleAxis(glm::radians(165.0), along) *
-                                                glm::angleAxis(glm::radians(-100.0), glm::dvec3(0, 1, 0));
-    }
-    const LintReport report = run(frames.clip());
+    const LintReport report = twisted(165.0);
     ASSERT_EQ(report.findings.size(), 1u) << texts(report);
     EXPECT_EQ(report.findings[0].fault, Fault::Limit);
     EXPECT_EQ(report.findings[0].node, node("LeftLowerArm"));
@@ -325,68 +313,72 @@ namespace fs = std::filesystem;
 /// The faults of each third-party file that can be read; empty: careful work, in which nothing may be
 /// found.
 const std::map<std::string, std::set<Fault>>& faults_of_files() {
-    static const std::map<std::string, std::set<Fault>> faults{
-        {"animation_with_skeleton.fbx", {}},
-        {"cesium_man.gltf", {}},
-        // Raw captures: toes that jump by 28 degrees within 1/120 s.
-        {"cmu_01_01.bvh", {Fault::Jump, Fault::Sinking, Fault::Skating}},
-        {"cmu_12_01_walk.bvh", {Fault::Jump, Fault::Sinking, Fault::Skating, Fault::KneePop}},
-        // A unit that makes a person 0.1 m tall.
-        {"cmu_91_48.fbx", {Fault::Scale}},
-        {"cmu_91_50.fbx", {Fault::Scale}},
-        {"fox.glb", {Fault::SignFlip, Fault::Jump, Fault::KneePop}},
-        {"huesitos.fbx", {}},
-        {"human_clip.glb", {}},
-        {"human_male.glb", {}},
-        {"interleaved.glb", {}},
-        {"mixed_orders.bvh", {Fault::Sinking}},
-        {"pab_skeleton.fbx", {}},
-        {"pab_walk.fbx", {}},
-        {"rigify_names.glb", {}},
-        // Exported without regard for quaternion signs; its head turns all the way round.
-        {"robot.glb", {Fault::SignFlip, Fault::KneePop, Fault::Limit, Fault::Jump}},
-        {"rotation_first.bvh", {}},
-        {"snake.glb", {Fault::SignFlip}},
-        {"zombie.glb", {}},
-        {"fbx_auto_tangent_ends.fbx", {}},
-        {"fbx_cubic_keys.fbx", {}},
-        {"fbx_inherit_scale_human.fbx", {}},
-        {"fbx_inherit_scale_small.fbx", {}},
-        {"fbx_key_next_line.fbx", {}},
-        {"fbx_limit_only.fbx", {}},
-        {"fbx_motionbuilder_jog.fbx", {}},
-        {"fbx_stepped_keys.fbx", {}},
-        {"fbx_with_sound.fbx", {}},
-        {"bvh_acclaim_names.bvh", {}},
-        {"bvh_ctrlz.bvh", {}},
-        {"bvh_extra_frame.bvh", {}},
-        {"bvh_left_right_differ.bvh", {}},
-        {"bvh_nospace_frames.bvh", {}},
-        {"bvh_nospace_time.bvh", {}},
-        {"bvh_nul.bvh", {}},
-        {"bvh_root_offset.bvh", {}},
-        {"bvh_rounded_frame_time.bvh", {}},
-        {"bvh_space_colon.bvh", {}},
-        {"bvh_walk_30hz_61.bvh", {Fault::Skating, Fault::Sinking}},
-        {"bvh_walk_60hz_300.bvh", {Fault::Sinking}},
-        {"bvh_walk_folded.bvh", {Fault::Skating, Fault::Sinking}},
-        {"bvh_walk_folded_yaw.bvh", {Fault::Skating, Fault::Sinking}},
-        {"bvh_z_up.bvh", {Fault::Skating}},
-        {"gltf_animation_pointer.gltf", {}},
-        {"glb_draco.vrm", {}},
-        {"glb_empty_bin.vrm", {}},
-        {"glb_no_skin.glb", {}},
-        // 76 clips of a game.
-        {"glb_texture_transform.glb",
-         {Fault::Skating, Fault::Floating, Fault::Sinking, Fault::KneePop, Fault::SignFlip, Fault::Limit,
-          Fault::Jump}},
-        {"gltf_dup_times.gltf", {}},
-        {"gltf_ktx.gltf", {}},
-        {"gltf_missing_picture.gltf", {}},
-        {"gltf_neg_times.gltf", {}},
-        {"gltf_singular_matrix.gltf", {}},
-        {"gltf_zero_quat.gltf", {}},
-        {"gltf_zero_rest.gltf", {}}};
+    static const std::map<std::string, std::set<Fault>> faults = [] {
+        std::map<std::string, std::set<Fault>> all{
+            // Raw captures: toes that jump by 28 degrees within 1/120 s.
+            {"cmu_01_01.bvh", {Fault::Jump, Fault::Sinking, Fault::Skating}},
+            {"cmu_12_01_walk.bvh", {Fault::Jump, Fault::Sinking, Fault::Skating, Fault::KneePop}},
+            // A unit that makes a person 0.1 m tall.
+            {"cmu_91_48.fbx", {Fault::Scale}},
+            {"cmu_91_50.fbx", {Fault::Scale}},
+            {"fox.glb", {Fault::SignFlip, Fault::Jump, Fault::KneePop}},
+            {"mixed_orders.bvh", {Fault::Sinking}},
+            // Exported without regard for quaternion signs; its head turns all the way round.
+            {"robot.glb", {Fault::SignFlip, Fault::KneePop, Fault::Limit, Fault::Jump}},
+            {"snake.glb", {Fault::SignFlip}},
+            {"bvh_walk_30hz_61.bvh", {Fault::Skating, Fault::Sinking}},
+            {"bvh_walk_60hz_300.bvh", {Fault::Sinking}},
+            {"bvh_walk_folded.bvh", {Fault::Skating, Fault::Sinking}},
+            {"bvh_walk_folded_yaw.bvh", {Fault::Skating, Fault::Sinking}},
+            {"bvh_z_up.bvh", {Fault::Skating}},
+            // 76 clips of a game.
+            {"glb_texture_transform.glb",
+             {Fault::Skating, Fault::Floating, Fault::Sinking, Fault::KneePop, Fault::SignFlip, Fault::Limit,
+              Fault::Jump}}};
+        for (const char* const careful : {"animation_with_skeleton.fbx",
+                                          "cesium_man.gltf",
+                                          "huesitos.fbx",
+                                          "human_clip.glb",
+                                          "human_male.glb",
+                                          "interleaved.glb",
+                                          "pab_skeleton.fbx",
+                                          "pab_walk.fbx",
+                                          "rigify_names.glb",
+                                          "rotation_first.bvh",
+                                          "zombie.glb",
+                                          "fbx_auto_tangent_ends.fbx",
+                                          "fbx_cubic_keys.fbx",
+                                          "fbx_inherit_scale_human.fbx",
+                                          "fbx_inherit_scale_small.fbx",
+                                          "fbx_key_next_line.fbx",
+                                          "fbx_limit_only.fbx",
+                                          "fbx_motionbuilder_jog.fbx",
+                                          "fbx_stepped_keys.fbx",
+                                          "fbx_with_sound.fbx",
+                                          "bvh_acclaim_names.bvh",
+                                          "bvh_ctrlz.bvh",
+                                          "bvh_extra_frame.bvh",
+                                          "bvh_left_right_differ.bvh",
+                                          "bvh_nospace_frames.bvh",
+                                          "bvh_nospace_time.bvh",
+                                          "bvh_nul.bvh",
+                                          "bvh_root_offset.bvh",
+                                          "bvh_rounded_frame_time.bvh",
+                                          "bvh_space_colon.bvh",
+                                          "gltf_animation_pointer.gltf",
+                                          "glb_draco.vrm",
+                                          "glb_empty_bin.vrm",
+                                          "glb_no_skin.glb",
+                                          "gltf_dup_times.gltf",
+                                          "gltf_ktx.gltf",
+                                          "gltf_missing_picture.gltf",
+                                          "gltf_neg_times.gltf",
+                                          "gltf_singular_matrix.gltf",
+                                          "gltf_zero_quat.gltf",
+                                          "gltf_zero_rest.gltf"})
+            all[careful];
+        return all;
+    }();
     return faults;
 }
 
@@ -447,9 +439,7 @@ class PlantedClip {
     PlantedClip(const Character& character, const Clip& clip)
         : character_(character), map_(bone_map(character)) {
         const Skeleton& skeleton = character.skeleton;
-        std::vector<Placement> rest(skeleton.size());
-        place(skeleton, rest_pose(skeleton), rest);
-        height = bounds_at_rest(character, rest).height();
+        height = bounds_at_rest(character, test_posed::placed(character, -1)).height();
         keys = {.name = clip.name, .duration = clip.duration, .channels = {}};
         for (std::size_t node = 0; node < skeleton.size(); ++node) keys.channels.push_back({.node = node});
         const humanoid::Frames frames = frames_at(clip, frame_rate(clip));
@@ -479,11 +469,8 @@ class PlantedClip {
     }
     std::size_t frames() const { return keys.channels.front().rotation.values.size(); }
     Placement placed(std::size_t frame, Bone bone) const {
-        std::vector<rig::Transform> pose(character_.skeleton.size());
-        sample(keys, character_.skeleton, keys.channels.front().rotation.times[frame], pose);
-        std::vector<Placement> all(pose.size());
-        place(character_.skeleton, pose, all);
-        return all[node(bone)];
+        const double time = keys.channels.front().rotation.times[frame];
+        return test_posed::placed_in(character_.skeleton, keys, time)[node(bone)];
     }
     LintReport report() const {
         EXPECT_TRUE(check(keys, character_.skeleton)) << check(keys, character_.skeleton).message();

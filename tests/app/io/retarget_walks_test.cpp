@@ -13,6 +13,7 @@
 #include <tendril/humanoid/t_pose.hpp>
 
 #include "app/io/character/read.hpp"
+#include "tests/app/io/posed.hpp"
 #include "tests/places.hpp"
 #include "tests/says.hpp"
 
@@ -29,17 +30,10 @@ class Walker {
     Walker(const Skeleton& skeleton, const BoneMap& map, const Clip& clip)
         : skeleton_(skeleton), map_(map), clip_(clip), facing_(facing(skeleton, map)) {
         place_at(0.0);
-        rest_.resize(skeleton.size());
-        place(skeleton, rest_pose(skeleton), rest_);
-        t_.resize(skeleton.size());
-        place(skeleton, t_pose(skeleton, map), t_);
+        rest_ = test_posed::placed_as(skeleton, rest_pose(skeleton));
+        t_ = test_posed::placed_as(skeleton, t_pose(skeleton, map));
     }
-    void place_at(double time) {
-        std::vector<rig::Transform> pose(skeleton_.size());
-        placed_.resize(skeleton_.size());
-        sample(clip_, skeleton_, time, pose);
-        place(skeleton_, pose, placed_);
-    }
+    void place_at(double time) { placed_ = test_posed::placed_in(skeleton_, clip_, time); }
     bool has(Bone bone) const { return map_[bone].node >= 0; }
     std::size_t node(Bone bone) const { return static_cast<std::size_t>(map_[bone].node); }
     const glm::dvec3& at(Bone bone) const { return placed_[node(bone)].position; }
@@ -129,18 +123,6 @@ class Walker {
     Facing facing_;
     std::vector<Placement> placed_, rest_, t_;
 };
-
-Clip first_seconds(Clip clip, double seconds) {
-    if (clip.duration <= seconds) return clip;
-    clip.duration = seconds;
-    const auto cut = [&](auto& track) {
-        const std::size_t width = track.interpolation == Interpolation::Cubic ? 3 : 1;
-        while (!track.times.empty() && track.times.back() > seconds) track.times.pop_back();
-        track.values.resize(track.times.size() * width);
-    };
-    for (Channel& each : clip.channels) cut(each.translation), cut(each.rotation), cut(each.scale);
-    return clip;
-}
 
 struct Measured {
     double arms = 0.0, hands = 0.0, head = 0.0;  // degrees from the source's directions
@@ -263,26 +245,18 @@ struct Source {
     double slide = 0.015;  ///< metres
 };
 const std::vector<Source>& retargeted_sources() {
-    static const std::vector<Source> sources{{"characters/cmu_01_01.bvh", ""},
-                                             {"characters/cmu_12_01_walk.bvh", ""},
-                                             {"characters/pab_walk.fbx", ""},
-                                             {"characters/cmu_91_48.fbx", ""},
-                                             {"characters/cmu_91_50.fbx", "", 0.0, 0.0, 0.02},
-                                             {"characters/human_clip.glb", ""},
-                                             {"characters/rigify_names.glb", ""},
-                                             {"characters/robot.glb", "Robot_Walking"},
-                                             {"characters/robot.glb", "Robot_Running"},
-                                             {"characters/robot.glb", "Robot_Dance"},
-                                             {"characters/robot.glb", "Robot_Jump"},
-                                             {"characters/robot.glb", "Robot_Sitting"},
-                                             // Walks on the spot, with feet that always slide.
-                                             {"characters/cesium_man.gltf", "", 64.0},
-                                             {"characters/mixed_orders.bvh", ""},
-                                             {"characters/pab_skeleton.fbx", ""},
-                                             {"found/fbx_motionbuilder_jog.fbx", ""},
-                                             // Two keys at one time hid a knee that snaps.
-                                             {"found/bvh_z_up.bvh", "", 0.0, 19.0},
-                                             {"found/fbx_inherit_scale_human.fbx", ""}};
+    static const std::vector<Source> sources{
+        Source{"characters/cmu_01_01.bvh", ""}, Source{"characters/cmu_12_01_walk.bvh", ""},
+        Source{"characters/pab_walk.fbx", ""}, Source{"characters/cmu_91_48.fbx", ""},
+        Source{"characters/cmu_91_50.fbx", "", 0.0, 0.0, 0.02}, Source{"characters/human_clip.glb", ""},
+        Source{"characters/rigify_names.glb", ""}, Source{"characters/robot.glb", "Robot_Walking"},
+        Source{"characters/robot.glb", "Robot_Running"}, Source{"characters/robot.glb", "Robot_Dance"},
+        Source{"characters/robot.glb", "Robot_Jump"}, Source{"characters/robot.glb", "Robot_Sitting"},
+        // Walks on the spot, with feet that always slide.
+        Source{"characters/cesium_man.gltf", "", 64.0}, Source{"characters/mixed_orders.bvh", ""},
+        Source{"characters/pab_skeleton.fbx", ""}, Source{"found/fbx_motionbuilder_jog.fbx", ""},
+        // Two keys at one time hid a knee that snaps.
+        Source{"found/bvh_z_up.bvh", "", 0.0, 19.0}, Source{"found/fbx_inherit_scale_human.fbx", ""}};
     return sources;
 }
 /// Metres for a person. More where the rest pose does not show the soles: the lint uses the lowest joints
@@ -323,8 +297,7 @@ class RetargetedWalks : public testing::TestWithParam<Source> {
         static std::map<std::string, Character> read;
         if (const auto found = read.find(file); found != read.end()) return found->second;
         Character& made = read[file] = read_character(test::characters_folder().parent_path() / file);
-        std::vector<Placement> rest(made.skeleton.size());
-        place(made.skeleton, rest_pose(made.skeleton), rest);
+        const std::vector<Placement> rest = test_posed::placed(made, -1);
         const auto doubt = doubted_unit(bounds_at_rest(made, rest).height(), made.scale, bone_map(made));
         if (doubt && doubt->height > 10.0) read_as(made, doubt->unit.metres, made.space);
         return made;
@@ -339,7 +312,7 @@ TEST_P(RetargetedWalks, FeetStandAndHandsPointAsInTheSource) {
     const Clip* clip = &from.clips.front();
     for (const Clip& each : from.clips)
         if (each.name == source.clip) clip = &each;
-    const Clip walk = first_seconds(*clip, 4.0);
+    const Clip walk = test_posed::first_seconds(*clip, 4.0);
     for (const Target& target : retargeted_targets) {
         SCOPED_TRACE(target.file);
         const Character& to = character(target.file);

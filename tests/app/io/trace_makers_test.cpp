@@ -8,10 +8,7 @@
 namespace tendril::app {
 namespace {
 
-using test::made::MadeTrace;
-using test::made::Plant;
-using test::made::Space;
-using test::made::TraceMaker;
+using test::made::MadeTrace, test::made::Plant, test::made::Space, test::made::TraceMaker;
 
 /// How a program prints a frame. # is its number, @ a joint's name, ~ its number and ^ its letter.
 struct Maker {

@@ -14,26 +14,14 @@
 namespace tendril::app {
 namespace {
 
-using test::made::Format;
-using test::made::MadeTrace;
-using test::made::Plant;
-using test::made::Space;
-using test::made::TraceMaker;
+using test::made::Format, test::made::MadeTrace, test::made::Plant, test::made::Space, test::made::TraceMaker;
 
 /// The conventions of a format's engine; for other formats chosen by the seed.
 const Space& space_for(Format format, unsigned seed) {
-    switch (format) {
-        case Format::Unreal:
-            return test::made::spaces[0];
-        case Format::Unity:
-            return test::made::spaces[1];
-        case Format::Godot:
-            return test::made::spaces[2];
-        case Format::Blender:
-            return test::made::spaces[3];
-        default:
-            return test::made::spaces[seed % std::size(test::made::spaces)];
-    }
+    constexpr Format engines[]{Format::Unreal, Format::Unity, Format::Godot, Format::Blender};
+    const auto engine = std::ranges::find(engines, format) - std::begin(engines);
+    return test::made::spaces[engine < 4 ? static_cast<std::size_t>(engine)
+                                         : seed % std::size(test::made::spaces)];
 }
 
 bool says_its_space(Format format) {
@@ -371,18 +359,11 @@ TEST(Trace, WithoutATargetNoneIsReported) {
 }
 
 TEST(Trace, TablesAndTheirTimesAreReadHoweverTheyAreWritten) {
+    using Stamp = std::pair<const char*, double>;
     for (const auto& [time, unit] :
-         std::initializer_list<std::pair<const char*, double>>{{"timestamp", 1},
-                                                               {"stamp", 1},
-                                                               {"time_ms", 1e3},
-                                                               {"time_us", 1e6},
-                                                               {"t_ns", 1e9},
-                                                               {"Time (s)", 1},
-                                                               {"time [s]", 1},
-                                                               {"elapsed", 1},
-                                                               {"%time", 1},
-                                                               {"field.header.stamp", 1e9},
-                                                               {"time", 1e3}})
+         {Stamp{"timestamp", 1}, Stamp{"stamp", 1}, Stamp{"time_ms", 1e3}, Stamp{"time_us", 1e6},
+          Stamp{"t_ns", 1e9}, Stamp{"Time (s)", 1}, Stamp{"time [s]", 1}, Stamp{"elapsed", 1},
+          Stamp{"%time", 1}, Stamp{"field.header.stamp", 1e9}, Stamp{"time", 1e3}})
         for (const int style : {0, 1, 2, 3, 4}) {
             const char separator = ",; ,\t"[style];
             if (separator == ' ' && std::string(time).find(' ') != std::string::npos) continue;

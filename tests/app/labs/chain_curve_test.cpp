@@ -1,12 +1,10 @@
-// Mode Curve: the chain along a curve, by the lab's own commands.
+// Mode Curve, by the lab's own commands and the mouse; and the causes of flips.
 #include <fstream>
-#include <glm/gtc/quaternion.hpp>
 
 #include "app/labs/chain/code.hpp"
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/play.hpp"
-#include "tests/places.hpp"
-#include "tests/says.hpp"
+#include "tests/app/support/random_numbers.hpp"
 
 namespace tendril::app {
 namespace {
@@ -111,7 +109,7 @@ TEST_F(ChainCurve, TheTargetIsTheLastControlPoint) {
     EXPECT_EQ(part().curve.points.back(), glm::vec3(4, 2, 1));
     const std::vector<glm::vec3> before = joints();
     run("chain.motion", {{"path", "circle"}});
-    for (int i = 0; i < 30; ++i) lab().step(workspace);
+    wait(30);
     EXPECT_EQ(part().curve.points.back(), part().target);
     EXPECT_NE(joints(), before);
     run("chain.mode", {{"mode", "reach"}});
@@ -184,8 +182,8 @@ TEST_F(ChainCurve, ItsCodePlacesTheGivenChain) {
     const std::string code = chain_code(part());
     for (const char* const said : {"tendril/ik/curve.hpp", "options.fit = true;",
                                    "options.roll_end = 0.6981317f;", "ik::place_along("})
-        EXPECT_NE(code.find(said), std::string::npos) << said;
-    EXPECT_EQ(code.find("glm::vec3 target"), std::string::npos);
+        EXPECT_TRUE(test::has(code, said));
+    EXPECT_FALSE(test::has(code, "glm::vec3 target"));
 }
 
 // The mouse.
@@ -231,6 +229,240 @@ TEST(ChainCurveMouse, DragsSeveralControlPointsOfABox) {
     EXPECT_EQ(at(state, 2).y, at(state, 3).y);
     EXPECT_EQ(at(state, 2).x, 4.0f);
     EXPECT_EQ(at(state, 1), at(start, 1));
+}
+
+// The causes of flips: gestures with a planted cause, and smooth ones.
+
+using Path = std::vector<glm::vec3>;
+
+/// The angle in degrees.
+float angle_between(glm::vec3 a, glm::vec3 b) {
+    return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+}
+
+/// The bone that turned the furthest between two poses, computed independently.
+struct Turn {
+    std::size_t joint = 0;
+    float degrees = 0.0f;
+};
+Turn furthest_turn(const std::vector<glm::vec3>& was, const std::vector<glm::vec3>& is) {
+    Turn furthest;
+    for (std::size_t i = 1; i < was.size(); ++i) {
+        const float degrees = angle_between(was[i] - was[i - 1], is[i] - is[i - 1]);
+        if (degrees > furthest.degrees) furthest = {i, degrees};
+    }
+    return furthest;
+}
+
+class ChainIncidents : public ChainTest, protected test::RandomNumbers {
+  protected:
+    ChainIncidents() : RandomNumbers(7) {}
+
+    std::string also_;  ///< another cause that is also correct
+    float uniform(float low, float high) { return static_cast<float>(RandomNumbers::uniform(low, high)); }
+    glm::vec3 direction() { return RandomNumbers::direction(); }
+    glm::vec3 across(glm::vec3 line) { return glm::normalize(glm::cross(line, direction())); }
+    void hinge(int index, const Json& axis, float low, float high) {
+        run("chain.limit",
+            {{"index", index}, {"kind", "hinge"}, {"axis", axis}, {"min_deg", low}, {"max_deg", high}});
+    }
+
+    /// A chain of bones from the origin, each at an angle to the one before, in mode Reach.
+    void chain(const std::vector<float>& lengths, glm::vec3 first, glm::vec3 axis, float bend) {
+        run("chain.clear");
+        glm::vec3 at(0.0f);
+        run("chain.add", {{"length", 0}, {"position", point(at)}});
+        for (std::size_t i = 0; i < lengths.size(); ++i) {
+            at += lengths[i] * (glm::angleAxis(bend * static_cast<float>(i), axis) * first);
+            run("chain.add", {{"length", lengths[i]}, {"position", point(at)}});
+        }
+        run("chain.mode", {{"mode", "reach"}});
+    }
+    std::vector<glm::vec3> pose() const { return positions(part().chain); }
+    std::vector<Incident> target(glm::vec3 to) { return incidents_of("chain.target", {{"to", point(to)}}); }
+
+    struct Gesture {
+        int flips = 0, marked = 0;
+        std::string problem;
+    };
+    /// Moves the target along a path. Every turn that counts by the rule must be marked in that step with its
+    /// joint and this cause, and nothing else may be.
+    Gesture drag(const Path& path, const std::string& cause) {
+        for (int settled = 0; settled < 3; ++settled) target(path.front());
+        Gesture gesture;
+        const float reach = part().chain.reach();
+        for (std::size_t i = 1; i < path.size(); ++i) {
+            const std::vector<glm::vec3> was = pose();
+            const std::vector<Incident> all = target(path[i]);
+            const Turn turn = furthest_turn(was, pose());
+            const bool still = angle_between(path[i - 1], path[i]) < 0.2f * turn.degrees ||
+                               glm::distance(path[i - 1], path[i]) < 0.02f * reach;
+            const bool flipped = turn.degrees > 30.0f && still;
+            gesture.flips += flipped;
+            const Incident* mark = nullptr;
+            for (const Incident& each : all)
+                if (each.kind == Incident::Kind::Flip) mark = &each;
+            gesture.marked += mark != nullptr;
+            const std::string where = "step " + std::to_string(i) + ": ";
+            if (flipped != (mark != nullptr)) {
+                gesture.problem = where + (mark ? "marked, but none" : "not marked");
+            } else if (mark &&
+                       (std::abs(mark->degrees - turn.degrees) > 0.1f || !jumped(was, mark->joint, turn))) {
+                gesture.problem = where + "joint " + std::to_string(mark->joint) + " instead of " +
+                                  std::to_string(turn.joint);
+            } else if (mark && mark->cure.empty()) {
+                gesture.problem = where + "no cure for \"" + mark->cause + "\"";
+            } else if (mark && mark->cause != cause && mark->cause != also_) {
+                gesture.problem = where + "\"" + mark->cause + "\" instead of \"" + cause + "\"";
+            }
+            if (!gesture.problem.empty()) break;
+        }
+        return gesture;
+    }
+    /// Whether the joint is an end of a bone that turned the furthest, and moved as far as the other end.
+    bool jumped(const std::vector<glm::vec3>& was, std::size_t joint, const Turn& turn) const {
+        const std::vector<glm::vec3> is = pose();
+        const auto moved = [&](std::size_t i) { return glm::distance(was[i], is[i]); };
+        for (std::size_t end : {joint, joint + 1}) {
+            if (end == 0 || end >= is.size()) continue;
+            const std::size_t other = end == joint ? joint - 1 : joint + 1;
+            const float degrees = angle_between(was[end] - was[end - 1], is[end] - is[end - 1]);
+            if (degrees > turn.degrees - 0.1f && moved(joint) > moved(other) - 1e-5f) return true;
+        }
+        return false;
+    }
+    /// Tries gestures until `count` of them have flipped.
+    template <class Make>
+    void expect_planted(int count, const std::string& cause, Make make) {
+        int flipped = 0, tried = 0;
+        for (; flipped < count && tried < 3 * count; ++tried) {
+            const Gesture gesture = drag(make(), cause);
+            ASSERT_EQ(gesture.problem, "") << cause << ", gesture " << tried;
+            flipped += gesture.flips > 0;
+        }
+        EXPECT_EQ(flipped, count) << cause << ": of " << tried;
+    }
+};
+
+/// An arc from angle `from` to `to` about an axis.
+Path arc(glm::vec3 centre, glm::vec3 axis, float radius, float from, float to, float step) {
+    Path path;
+    for (float angle = from; angle < to; angle += step)
+        path.push_back(radius * (glm::angleAxis(angle, axis) * centre));
+    return path;
+}
+
+TEST_F(ChainIncidents, TargetThroughTheRoot) {
+    expect_planted(40, "the target went through the root", [&] {
+        const glm::vec3 line = direction();
+        const float length = uniform(0.5f, 1.5f);
+        chain({length, length}, line, across(line), 0.8f);
+        const glm::vec3 off = uniform(0.0f, 0.01f) * length * direction();
+        Path path;
+        for (float x = 1.0f; x > -1.0f; x -= 0.02f) path.push_back(x * length * line + off);
+        return path;
+    });
+}
+
+TEST_F(ChainIncidents, TargetsLinePassedThePole) {
+    also_ = "the target's line came close to the pole";  // a tick before or after it passes
+    expect_planted(40, "the target's line passed the pole", [&] {
+        const glm::vec3 line = direction(), axis = across(line);
+        chain({uniform(0.7f, 1.3f), uniform(0.7f, 1.3f), uniform(0.7f, 1.3f)}, line, axis, 0.6f);
+        const float reach = part().chain.reach();
+        const glm::vec3 pole = uniform(0.5f, 1.2f) * reach * line;
+        run("chain.pole", {{"to", point(pole)}});
+        return arc(random() % 2 == 0 ? line : -line, axis, 0.7f * reach, -0.5f, 0.5f, 0.03f);
+    });
+}
+
+TEST_F(ChainIncidents, StraightChain) {
+    expect_planted(40, "the chain was straight (collinear)", [&] {
+        const glm::vec3 line = direction();
+        chain({uniform(0.7f, 1.3f), uniform(0.7f, 1.3f), uniform(0.7f, 1.3f)}, line, across(line), 0.0f);
+        const float reach = part().chain.reach();
+        return Path{0.9999f * reach * line, uniform(0.5f, 0.7f) * reach * line};
+    });
+}
+
+TEST_F(ChainIncidents, RestartFromAnotherPose) {
+    expect_planted(40, "the solver restarted from another pose", [&] {
+        chain({uniform(0.7f, 1.3f), uniform(0.7f, 1.3f), uniform(0.7f, 1.3f)}, {1, 0, 0}, {0, 0, 1}, 0.0f);
+        run("chain.solver", {{"name", "fabrik"}, {"restarts", 8}});
+        for (int i = 0; i < 3; ++i) {
+            const float low = -uniform(30, 70);
+            hinge(i, i % 2 == 0 ? Json{0, 1, 0} : Json{0, 0, 1}, low, uniform(30, 70));
+        }
+        const float reach = part().chain.reach();
+        const glm::vec3 from = -0.5f * reach * direction(), along = across(from);
+        Path path;
+        for (int i = 0; i < 60; ++i) path.push_back(from + 0.01f * static_cast<float>(i) * reach * along);
+        return path;
+    });
+}
+
+TEST_F(ChainIncidents, LimitThatSwitchedSides) {
+    expect_planted(40, "a limit switched sides", [&] {
+        const bool two = random() % 2 == 0;
+        chain(two ? std::vector{uniform(0.7f, 1.3f), uniform(0.7f, 1.3f)} : std::vector{uniform(0.7f, 1.3f)},
+              {1, 0, 0}, {0, 0, 1}, 0.0f);
+        run("chain.solver", {{"name", "ccd"}});
+        const float low = -uniform(115, 150);
+        hinge(0, {0, 0, 1}, low, uniform(115, 150));
+        if (two) hinge(1, {0, 0, 1}, -17, 17);
+        return arc({1, 0, 0}, {0, 0, 1}, 0.97f * part().chain.reach(), 1.5f, 4.8f, 0.04f);
+    });
+}
+
+TEST_F(ChainIncidents, SmoothGesturesHaveNone) {
+    for (int gesture = 0; gesture < 200; ++gesture) {
+        const glm::vec3 line = direction();
+        std::vector<float> lengths(2 + random() % 5);
+        for (float& length : lengths) length = uniform(0.5f, 1.5f);
+        chain(lengths, line, across(line), uniform(0.3f, 0.8f));
+        const float reach = part().chain.reach(), turned = uniform(0.4f, 2.6f);
+        const float near = uniform(0.55f, 0.85f), far = uniform(0.55f, 0.85f);
+        const glm::vec3 from = direction(), axis = across(from);
+        Path path;
+        for (int i = 0; i <= 100; ++i) {
+            const float t = static_cast<float>(i) / 100.0f;
+            path.push_back(reach * glm::mix(near, far, t) * (glm::angleAxis(turned * t, axis) * from));
+        }
+        const Gesture drawn = drag(path, "none");
+        ASSERT_EQ(drawn.problem, "") << gesture;
+        ASSERT_EQ(drawn.flips, 0) << gesture << ": the plan is not smooth";
+        ASSERT_EQ(drawn.marked, 0) << gesture;
+    }
+}
+
+TEST_F(ChainIncidents, TheRuleIsSettable) {
+    chain({1, 1, 1}, {1, 0, 0}, {0, 0, 1}, 0.0f);
+    const auto flips = [&](float to) {
+        target({2.999f, 0, 0});
+        return std::ranges::count(target({to, 0, 0}), Incident::Kind::Flip, &Incident::kind);
+    };
+    EXPECT_EQ(flips(1.8f), 1);
+    run("chain.flips", {{"degrees", 170}});
+    EXPECT_EQ(flips(1.8f), 0);
+    run("chain.flips", {{"degrees", 5}, {"reach_share", 0}, {"angle_share", 0}});
+    EXPECT_EQ(flips(1.8f), 0) << "the target has moved by more than nothing";
+    run("chain.flips", {{"angle_share", 0.4}});
+    EXPECT_EQ(flips(1.8f), 1);
+}
+
+TEST_F(ChainIncidents, OnlyMovesOfTheTargetAreMarked) {
+    chain({1, 1, 1}, {0, 1, 0}, {0, 0, 1}, 0.5f);
+    target({1.5f, 1.5f, 0});
+    const auto none = [&](const char* name, const Json& arguments) {
+        return incidents_of(name, arguments).empty();
+    };
+    EXPECT_TRUE(none("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"min_deg", -5}, {"max_deg", 5}}));
+    EXPECT_TRUE(none("chain.solver", {{"name", "ccd"}}));
+    EXPECT_TRUE(none("chain.pull", {{"index", 1}, {"to", {-1, 0, 0}}}));
+    EXPECT_TRUE(none("chain.set_length", {{"index", 2}, {"length", 0.2}}));
+    EXPECT_TRUE(none("chain.preset", {{"name", "coil"}}));
+    EXPECT_TRUE(none("chain.mode", {{"mode", "backward"}}));
+    EXPECT_TRUE(none("chain.target", {{"to", {-3, 0, 0}}}));
 }
 
 }  // namespace

@@ -1,31 +1,30 @@
 // The inspector's numbers match the picture: under the microscope, they belong to the step shown.
 #include <cstdio>
-#include <glm/geometric.hpp>
+#include <glm/common.hpp>
 
+#include "app/labs/chain/cures.hpp"
 #include "app/labs/chain/draw.hpp"
 #include "app/labs/chain/panel.hpp"
 #include "tests/app/labs/chain_support.hpp"
 #include "tests/app/support/panel_text.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
 
 class ChainInspector : public ChainTest {
   protected:
-    std::string text() { return reader_.inspector(*labs.find(chain_lab), workspace); }
-    void expect_says(const std::string& what) {
-        const std::string said = text();
-        EXPECT_NE(said.find(what), std::string::npos) << what << " is not in:\n" << said;
-    }
-    void expect_silent_about(const std::string& what) {
-        const std::string said = text();
-        EXPECT_EQ(said.find(what), std::string::npos) << what << " is in:\n" << said;
-    }
+    std::string text() { return reader_.inspector(lab(), workspace); }
+    void expect_says(const std::string& words) { EXPECT_TRUE(test::has(text(), words)); }
+    void expect_silent_about(const std::string& words) { EXPECT_FALSE(test::has(text(), words)); }
     static std::string metres(float value, const char* format) {
         char text[32];
         std::snprintf(text, sizeof text, format, static_cast<double>(value));
         return text;
+    }
+    void plain_fabrik(int bones, const Json& target) {
+        reach_with(bones);
+        run("chain.solver", {{"name", "fabrik_plain"}});
+        run("chain.target", {{"to", target}});
     }
 
   private:
@@ -33,9 +32,7 @@ class ChainInspector : public ChainTest {
 };
 
 TEST_F(ChainInspector, ShowsTheStepUnderTheMicroscope) {
-    reach_with(4);
-    run("chain.solver", {{"name", "fabrik_plain"}});
-    run("chain.target", {{"to", {1.2, 2.1, 0.7}}});
+    plain_fabrik(4, {1.2, 2.1, 0.7});
     run("microscope.open", {{"start", "straight"}});
     run("chain.select", {{"index", 4}});
     const auto shown = shown_chain(workspace).trace;
@@ -71,7 +68,7 @@ TEST_F(ChainInspector, ShowsTheStepUnderTheMicroscope) {
 TEST_F(ChainInspector, BeginsWithTheOutcomeForTheTarget) {
     const auto says = [&](const char* verdict) {
         EXPECT_EQ(state().at("verdict"), verdict);
-        EXPECT_EQ(text().rfind(verdict, 0), 0u) << "it comes first, in:\n" << text();
+        EXPECT_TRUE(text().starts_with(verdict)) << "it comes first, in:\n" << text();
     };
     says("Tail on the target");
     run("chain.mode", {{"mode", "with_index"}, {"index", 3}});
@@ -94,20 +91,16 @@ TEST_F(ChainInspector, BeginsWithTheOutcomeForTheTarget) {
     run("chain.target", {{"to", {1.5, 1, 0}}});
     run("chain.limit", {{"index", 1}, {"kind", "hinge"}, {"min_deg", 0}, {"max_deg", 90}});
     run("chain.target", {{"to", {0.5, 0, 0}}});
-    EXPECT_EQ(state().at("verdict").get<std::string>().rfind("Limited: 0.", 0), 0u) << state().at("verdict");
+    EXPECT_TRUE(state().at("verdict").get<std::string>().starts_with("Limited: 0.")) << state().at("verdict");
     EXPECT_TRUE(test::says(text(), "Joint 1 (hinge) stops at 90 degrees the target needs"));
 }
 
 TEST_F(ChainInspector, ExplainsAStalledSolve) {
     // Straight along +X, with the target on that line: the published FABRIK bends nothing.
-    reach_with(4);
-    run("chain.solver", {{"name", "fabrik_plain"}});
-    run("chain.target", {{"to", {2.5, 0, 0}}});
+    plain_fabrik(4, {2.5, 0, 0});
     ASSERT_EQ(part().result->report.status, ik::Status::Stalled);
     expect_says("Folded onto the line to the target");
-    reach_with(4);
-    run("chain.solver", {{"name", "fabrik_plain"}});
-    run("chain.target", {{"to", {3.5, 0, 0}}});
+    plain_fabrik(4, {3.5, 0, 0});
     ASSERT_EQ(part().result->report.status, ik::Status::Stalled);
     expect_says("Straight, and the target is on its line");
     expect_says("pole target");
@@ -116,10 +109,8 @@ TEST_F(ChainInspector, ExplainsAStalledSolve) {
     run("chain.pole", {{"to", {3, 3, 0}}});
     EXPECT_EQ(part().result->report.status, ik::Status::Converged);
 
-    ReachResult result{
-        .method = ik::Method::Ccd, .report = {.status = ik::Status::Stalled}, .active_limit = {}};
     ChainPart bent = part();
-    bent.result = result;
+    bent.result = {.method = ik::Method::Ccd, .report = {.status = ik::Status::Stalled}, .active_limit = {}};
     EXPECT_TRUE(test::says(status_text(bent), "closer another solver"));
     EXPECT_EQ(status_text(bent).find("restarts"), std::string::npos);
     bent.reach.method = ik::Method::Fabrik;
@@ -129,25 +120,25 @@ TEST_F(ChainInspector, ExplainsAStalledSolve) {
 }
 
 TEST_F(ChainInspector, ShowsTheTableOfTheStep) {
-    reach_with(2);
     run("view.fold", {{"section", "chain: Joints, in metres"}, {"folded", false}});
-    run("chain.solver", {{"name", "fabrik_plain"}});
-    run("chain.target", {{"to", {0.5, 1.25, 0}}});
+    plain_fabrik(2, {0.5, 1.25, 0});
     run("microscope.open", {{"start", "straight"}});
     const auto trace = shown_chain(workspace).trace;
     for (std::size_t step = 0; step <= trace->frames(); ++step) {
         run("microscope.seek", {{"step", step}});
-        const std::vector<glm::vec3> joints = trace->pose(step);
         const std::string said = text();
-        for (const glm::vec3& joint : joints) {
+        for (const glm::vec3& joint : trace->pose(step)) {
             const std::string y = metres(joint.y, "%.2f");
-            EXPECT_NE(said.find(y == "-0.00" ? "0.00" : y), std::string::npos) << "step " << step << "\n"
-                                                                               << said;
+            EXPECT_TRUE(test::has(said, y == "-0.00" ? "0.00" : y)) << "step " << step;
         }
     }
 }
 
-TEST_F(ChainInspector, NamesTheEndsRootAndTipWhereTheChainReaches) {
+TEST_F(ChainInspector, CountsJointsAndNamesTheEndsRootAndTipWhereTheChainReaches) {
+    expect_says("8 joints, 7 bones");
+    run("chain.preset", {{"name", "start"}, {"count", 2}});
+    expect_says("2 joints, 1 bone\n");
+    run("chain.preset", {{"name", "start"}, {"count", 8}});
     run("chain.select", {{"index", 7}});
     expect_says("7 (tail)");
     expect_says("tail to target");
@@ -157,17 +148,8 @@ TEST_F(ChainInspector, NamesTheEndsRootAndTipWhereTheChainReaches) {
     expect_silent_about("tail to target");
 }
 
-TEST_F(ChainInspector, CountsJointsAndBones) {
-    expect_says("8 joints, 7 bones");
-    run("chain.preset", {{"name", "start"}, {"count", 2}});
-    expect_says("2 joints, 1 bone\n");
-}
-
 TEST_F(ChainInspector, CountsTimeFromTheLatestMoment) {
-    for (int i = 0; i < 100; ++i) {
-        workspace.remember_moment();
-        ++workspace.moment;
-    }
+    for (int i = 0; i < 100; ++i) remember();
     workspace.rewind.note({.kind = Incident::Kind::Flip, .tick = 39, .joint = 1, .cause = "it was planted"});
     expect_says("Joint 1 flipped, 1.00 s ago");
     expect_silent_about("discards");
@@ -180,18 +162,144 @@ TEST_F(ChainInspector, CountsTimeFromTheLatestMoment) {
 }
 
 TEST_F(ChainInspector, AMovingTargetWaitsWhileTheMicroscopeIsOpen) {
-    const Lab& lab = *labs.find(chain_lab);
     reach_with(4);
     run("chain.target", {{"to", {2, 2, 0}}});
     run("chain.motion", {{"path", "circle"}});
-    EXPECT_TRUE(lab.moving(workspace));
+    EXPECT_TRUE(lab().moving(workspace));
     run("microscope.open");
-    EXPECT_FALSE(lab.moving(workspace));
+    EXPECT_FALSE(lab().moving(workspace));
     expect_says("The moving target waits while the microscope is open.");
     run("microscope.close");
-    EXPECT_TRUE(lab.moving(workspace)) << "and then goes on";
+    EXPECT_TRUE(lab().moving(workspace)) << "and then goes on";
     run("race.open");
-    EXPECT_TRUE(lab.moving(workspace)) << "a race is run anew each tick";
+    EXPECT_TRUE(lab().moving(workspace)) << "a race is run anew each tick";
+}
+
+// The preset Straight, a chain that FABRIK (2011) cannot bend; and the remedies for it and others.
+
+class StraightChain : public ChainTest {
+  protected:
+    std::string inspector() { return reader_.inspector(lab(), workspace); }
+
+    void apply(const std::optional<Cure>& cure) {
+        ASSERT_TRUE(cure);
+        for (const CommandCall& call : cure->calls) run(call.name.c_str(), to_json(call.arguments), 77);
+    }
+
+  private:
+    test::PanelReader reader_;
+};
+
+TEST_F(StraightChain, KeepsItsPoseWhateverItsLength) {
+    run("chain.preset", {{"name", "straight"}});
+    EXPECT_EQ(part().chain.size(), 5u);
+    for (int count = 3; count <= 64; ++count) {
+        run("chain.preset", {{"name", "straight"}, {"count", count}});
+        const ik::Report& report = part().result->report;
+        EXPECT_EQ(report.status, ik::Status::Stalled) << count;
+        EXPECT_EQ(part().result->method, ik::Method::FabrikPlain);
+        EXPECT_LT(part().target.x, part().chain.position(part().chain.size() - 1).x);
+        for (std::size_t i = 0; i < part().chain.size(); ++i)
+            EXPECT_EQ(part().chain.position(i), glm::vec3(static_cast<float>(i), 0, 0)) << count;
+        EXPECT_TRUE(test::says(status_text(part()), "Straight target on its line")) << status_text(part());
+    }
+    EXPECT_TRUE(test::says(inspector(), "Stalled: 0.75 m short Straight line pole FABRIK (2011)"));
+}
+
+TEST_F(StraightChain, WithTooFewOrTooManyJointsReportsCorrectly) {
+    run("chain.preset", {{"name", "straight"}, {"count", 1}});
+    EXPECT_EQ(chain_verdict(part()).text, "One joint");
+    run("chain.preset", {{"name", "straight"}, {"count", 2}});
+    EXPECT_TRUE(test::says(chain_verdict(part()).text, "Too close")) << "one bone cannot fold";
+    run("chain.preset", {{"name", "straight"}, {"count", 800}});
+    EXPECT_EQ(chain_verdict(part()).text, "Reached") << "three quarters of a bone are within the tolerance";
+}
+
+/// The other solvers would stall too, so they perturb the chain first and report it.
+TEST_F(StraightChain, MovesByAPerturbationThatTheReportMentions) {
+    run("chain.preset", {{"name", "straight"}});
+    run("chain.solver", {{"name", "fabrik"}});
+    run("chain.target", {{"to", {3.25, 0, 0}}});
+    EXPECT_EQ(chain_verdict(part()).text, "Reached");
+    EXPECT_TRUE(test::says(inspector(), "FABRIK, accelerated, 1 perturbation"));
+    // From a bent pose there is nothing to perturb.
+    run("chain.target", {{"to", {3.0, 0.5, 0}}});
+    EXPECT_EQ(inspector().find("perturbation"), std::string::npos) << inspector();
+}
+
+TEST_F(StraightChain, IsCuredByOneButtonInOneStep) {
+    for (const int count : {3, 5, 8, 33, 64}) {
+        run("chain.preset", {{"name", "straight"}, {"count", count}});
+        const std::size_t steps = workspace.history.size();
+        EXPECT_TRUE(test::says(inspector(), "Straight FABRIK (2011) Add a pole target"));
+        apply(reach_cure(part()));
+        EXPECT_EQ(chain_verdict(part()).text, "Reached") << count;
+        EXPECT_FALSE(reach_cure(part())) << "nothing is left to cure";
+        EXPECT_EQ(workspace.history.size(), steps + 1);
+    }
+}
+
+TEST_F(StraightChain, OtherShortfallsHaveTheirOwnCures) {
+    run("chain.preset", {{"name", "start"}, {"count", 9}});
+    run("chain.mode", {{"mode", "reach"}});
+    run("chain.solver", {{"name", "jacobian_transpose"}, {"iterations", 2}});
+    run("chain.target", {{"to", {1, 5, 2}}});
+    ASSERT_EQ(part().result->report.status, ik::Status::IterationLimit);
+    EXPECT_EQ(reach_cure(part())->title, "More iterations");
+    const float before = part().result->report.residual;
+    apply(reach_cure(part()));
+    EXPECT_EQ(part().reach.options.max_iterations, 4);
+    EXPECT_LT(part().result->report.residual, before);
+
+    ChainPart stalled = part();
+    stalled.result->report.status = ik::Status::Stalled;
+    stalled.result->method = stalled.reach.method = ik::Method::Ccd;
+    EXPECT_EQ(reach_cure(stalled)->title, "Another solver");
+    stalled.result->method = stalled.reach.method = ik::Method::Fabrik;
+    EXPECT_FALSE(reach_cure(stalled)) << "without limits there are no restarts";
+    stalled.reach.limits.resize(stalled.chain.size() - 1);
+    EXPECT_EQ(reach_cure(stalled)->title, "More restarts");
+    for (const ik::Status status : {ik::Status::Converged, ik::Status::Stretched, ik::Status::TooClose}) {
+        stalled.result->report.status = status;
+        EXPECT_FALSE(reach_cure(stalled));
+    }
+}
+
+/// The drag of the card's third step, over the pole target and back again.
+TEST_F(StraightChain, AFlipOverThePoleIsPreventedByItsButton) {
+    run("chain.preset", {{"name", "reaching_arm"}});
+    const glm::vec3 from(1.6f, 2.2f, -0.605f), over(0.3f, 2.95f, -0.605f), to(-1.0f, 2.2f, -0.605f);
+    const auto drag = [&](glm::vec3 a, glm::vec3 b) {
+        std::vector<Incident> flips;
+        for (int i = 0; i <= 60; ++i) {
+            const glm::vec3 at = glm::mix(a, b, static_cast<float>(i) / 60.0f);
+            for (const Incident& each : incidents_of("chain.target", {{"to", point(at)}}))
+                if (each.kind == Incident::Kind::Flip && i > 0) flips.push_back(each);
+        }
+        return flips;
+    };
+    drag(from, from);
+    std::vector<Incident> flips = drag(from, over);
+    for (const Incident& each : drag(over, to)) flips.push_back(each);
+    ASSERT_FALSE(flips.empty());
+    EXPECT_TRUE(test::says(flips.back().cause, "line the pole"));
+    ASSERT_EQ(flips.back().buttons.size(), 1u);
+    EXPECT_EQ(flips.back().buttons[0].title, "Move the pole");
+    apply(flips.back().buttons[0]);
+    EXPECT_TRUE(drag(to, over).empty());
+    EXPECT_TRUE(drag(over, from).empty());
+}
+
+TEST_F(StraightChain, AFlipOfAStraightChainOffersAPoleUnlessThereIsOne) {
+    run("chain.preset", {{"name", "straight"}});
+    const ChainPart before = part();
+    const auto pole = flip_cure(FlipCure::AddPole, before, before);
+    ASSERT_TRUE(pole);
+    EXPECT_EQ(pole->calls.front().name, "chain.pole");
+    run("chain.pole", {{"to", {2, 2, 0}}});
+    EXPECT_FALSE(flip_cure(FlipCure::AddPole, before, part()));
+    EXPECT_EQ(flip_cure(FlipCure::NoRestarts, before, part())->calls.front().name, "chain.solver");
+    EXPECT_FALSE(flip_cure(FlipCure::ByHand, before, part()));
 }
 
 }  // namespace

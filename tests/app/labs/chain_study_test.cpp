@@ -1,5 +1,4 @@
 // The microscope and the race.
-#include <glm/geometric.hpp>
 #include <set>
 #include <sstream>
 
@@ -7,7 +6,6 @@
 #include "app/labs/chain/draw.hpp"
 #include "app/view/camera.hpp"
 #include "tests/app/labs/chain_support.hpp"
-#include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::app {
 namespace {
@@ -77,9 +75,7 @@ TEST_F(ChainStudy, TheLastStepOfEverySolverIsTheChainsPose) {
         run("microscope.open");
         run("chain.target", {{"to", {0.9, 1.1, 0.4}}});
         ASSERT_GT(trace().frames(), 0u) << ik::name(method);
-        const std::vector<glm::vec3> last = trace().pose(trace().frames());
-        for (std::size_t i = 0; i < last.size(); ++i)
-            EXPECT_EQ(last[i], part().chain.position(i)) << ik::name(method) << " joint " << i;
+        EXPECT_EQ(trace().pose(trace().frames()), positions(part().chain)) << ik::name(method);
         EXPECT_EQ(trace().residuals.size(), static_cast<std::size_t>(trace().report.iterations) + 1);
         run("microscope.close");
     }
@@ -195,14 +191,13 @@ TEST_F(ChainStudy, ARaceRowShowsItsCurvesEndAndTheSolversThatRan) {
     EXPECT_GT(restored, 0) << "the test wants a solve that ends worse than it was";
 }
 
-TEST_F(ChainStudy, TheRaceIsWrittenAsCsv) {
+TEST_F(ChainStudy, TheRaceIsWrittenAsCsvAndTheChainAsCodeAndAsAScene) {
     run("race.open", {{"start", "straight"}});
     run("chain.target", {{"to", {3, 3, 1}}});
-    const test::TempFolder folder;
-    run("race.save", {{"path", (folder / "race.csv").string()}});
-    EXPECT_EQ(workspace.ui.toasts.back().text, written_text(folder / "race.csv"));
+    run("race.save", {{"path", path("race.csv")}});
+    EXPECT_EQ(workspace.ui.toasts.back().text, written_text(path("race.csv")));
     run("race.copy");
-    const std::string csv = test::read(folder / "race.csv");
+    const std::string csv = test::read(path("race.csv"));
     std::istringstream lines(csv);
     std::string line;
     std::getline(lines, line);
@@ -215,24 +210,17 @@ TEST_F(ChainStudy, TheRaceIsWrittenAsCsv) {
         EXPECT_NE(csv.find("\n\"" + std::string(solver_title(racer.method)) + "\",0,"), csv.npos) << csv;
     }
     EXPECT_EQ(rows, expected);
-    ASSERT_TRUE(workspace.ui.copied);
-    EXPECT_EQ(*workspace.ui.copied, csv);
+    EXPECT_EQ(workspace.ui.copied.value(), csv);
+    run("chain.copy", {{"as", "cpp"}});
+    EXPECT_TRUE(test::has(workspace.ui.copied.value(), "#include <tendril/"));
+    run("chain.copy", {{"as", "json"}});
+    EXPECT_EQ(parse_json(workspace.ui.copied.value()), save_scene(workspace));
     expect_refused("race.save", {{"path", "/nowhere/at/all.csv"}}, {"/nowhere"});
 }
 
-TEST_F(ChainStudy, TheChainIsCopiedAsCodeAndAsAScene) {
-    run("chain.copy", {{"as", "cpp"}});
-    EXPECT_NE(workspace.ui.copied.value().find("#include <tendril/"), std::string::npos);
-    run("chain.copy", {{"as", "json"}});
-    EXPECT_EQ(parse_json(workspace.ui.copied.value()), save_scene(workspace));
-}
-
-/// The microscope's last step is the chain's pose, whatever happens in between.
 TEST_F(ChainStudy, ChainReportAndTraceAlwaysMatch) {
     const auto expect_one = [&](const char* after) {
-        const std::vector<glm::vec3> last = trace().pose(trace().frames());
-        ASSERT_EQ(last.size(), part().chain.size()) << after;
-        for (std::size_t i = 0; i < last.size(); ++i) EXPECT_EQ(last[i], part().chain.position(i)) << after;
+        EXPECT_EQ(trace().pose(trace().frames()), positions(part().chain)) << after;
         ASSERT_TRUE(part().result) << after;
         EXPECT_EQ(part().result->report, trace().report) << after;
     };
@@ -250,7 +238,7 @@ TEST_F(ChainStudy, ChainReportAndTraceAlwaysMatch) {
     then("chain.limit", {{"index", 2}, {"kind", "free"}});
     for (const glm::quat& rotation : part().reach.state.rotations) EXPECT_EQ(rotation, glm::quat(1, 0, 0, 0));
     run("chain.motion", {{"path", "circle"}});
-    for (int i = 0; i < 5; ++i) labs.find(chain_lab)->step(workspace);
+    wait(5);
     expect_one("motion");
 }
 
@@ -273,17 +261,14 @@ TEST_F(ChainStudy, ChangesWithoutEffectOnTheSolveKeepTheTrace) {
 }
 
 TEST_F(ChainStudy, ChangesOfTheChainCloseItAndSoDoOtherModes) {
-    for (const char* kind : {"microscope.open", "race.open"}) {
-        run(kind);
-        run("chain.add", {{"length", 1}});
-        EXPECT_FALSE(study().open()) << kind;
-        run(kind);
-        run("chain.mode", {{"mode", "forward"}});
-        EXPECT_FALSE(study().open()) << kind;
-        run(kind);
-        run("chain.preset", {{"name", "arm"}});
-        EXPECT_FALSE(study().open()) << kind;
-    }
+    for (const char* kind : {"microscope.open", "race.open"})
+        for (const CommandCall& change :
+             {CommandCall{"chain.add", {{"length", 1}}}, CommandCall{"chain.mode", {{"mode", "forward"}}},
+              CommandCall{"chain.preset", {{"name", "arm"}}}}) {
+            run(kind);
+            run(change.name.c_str(), to_json(change.arguments));
+            EXPECT_FALSE(study().open()) << kind << " " << change.name;
+        }
 }
 
 TEST_F(ChainStudy, ChainsThatCannotBeStudiedAreRefused) {

@@ -16,9 +16,14 @@ class ChainTest : public LabTest {
         run("chain.preset", {{"name", "start"}, {"count", bones + 1}});
         run("chain.mode", {{"mode", "reach"}});
     }
-    float tip_distance() const {
-        return glm::distance(part().chain.position(part().chain.size() - 1), part().target);
+    /// Limits for the joints from `first` to before `end`: cones about the bone before.
+    void cones(int first, int end, double degrees, Json more = Json::object()) {
+        more["kind"] = "ball_and_socket";
+        for (int i = first; i < end; ++i) more["joints"].push_back(i);
+        for (const char* const side : {"up_deg", "down_deg", "left_deg", "right_deg"}) more[side] = degrees;
+        run("chain.limit", more);
     }
+    float tip_distance() const { return glm::distance(positions(part().chain).back(), part().target); }
 };
 
 }  // namespace tendril::app

@@ -5,38 +5,36 @@
 #include <fstream>
 #include <limits>
 
-#include "app/document/json_complete.hpp"
 #include "app/labs/chain/code.hpp"
 #include "app/labs/chain/panel.hpp"
 #include "tests/app/io/trace_support.hpp"
 #include "tests/app/labs/chain_support.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
 
-using test::made::Format;
-using test::made::MadeFrame;
-using test::made::MadeTrace;
-using test::made::Plant;
+using test::made::Format, test::made::MadeFrame, test::made::MadeTrace, test::made::Plant;
 
 class ChainTrace : public ChainTest {
   protected:
     std::string file(const char* name, const MadeTrace& made, Format format) {
-        tendril::test::write(folder_ / name, test::made::written(made, test::made::spaces[0], format));
-        return (folder_ / name).string();
+        return write(name, test::made::written(made, test::made::spaces[0], format));
     }
     std::string file(const char* name, Plant plant, Format format = Format::JsonLines) {
         return file(name, test::made::TraceMaker(5).make(plant), format);
     }
     std::vector<Incident> flips() const {
         std::vector<Incident> all;
-        for (const Incident& each : workspace.rewind.incidents())
-            if (each.kind == Incident::Kind::Flip) all.push_back(each);
+        std::ranges::copy_if(workspace.rewind.incidents(), std::back_inserter(all),
+                             [](const Incident& each) { return each.kind == Incident::Kind::Flip; });
         return all;
     }
-    tendril::test::TempFolder folder_;
+    /// Opens a trace with this incident.
+    MadeTrace opened(int seed, Plant plant) {
+        MadeTrace made = test::made::TraceMaker(seed).make(plant);
+        run("chain.trace", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
+        return made;
+    }
 };
 
 TEST_F(ChainTrace, EachFrameIsAMomentAndAFlipIsMarkedWithItsCauseAndCure) {
@@ -45,7 +43,7 @@ TEST_F(ChainTrace, EachFrameIsAMomentAndAFlipIsMarkedWithItsCauseAndCure) {
     EXPECT_EQ(workspace.lab, chain_lab);
     ASSERT_EQ(workspace.rewind.size(), made.frames.size());
     EXPECT_EQ(workspace.moment, made.frame) << "it opens where it goes wrong";
-    EXPECT_TRUE(test::says(labs.find(chain_lab)->invitation(workspace), "Drag strip frame"));
+    EXPECT_TRUE(test::says(lab().invitation(workspace), "Drag strip frame"));
     EXPECT_TRUE(workspace.ui.incident);
     for (std::size_t i = 0; i < made.frames.size(); ++i) {
         const auto& then = dynamic_cast<const ChainPart&>(*workspace.rewind.moments()[i].part);
@@ -174,8 +172,7 @@ TEST_F(ChainTrace, ConventionsCanBeChangedWhileItIsShown) {
 }
 
 TEST_F(ChainTrace, TheStripIsSavedAsATraceThatIsReadBack) {
-    const MadeTrace made = test::made::TraceMaker(5).make(Plant::FlipAtPole);
-    run("chain.trace", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
+    const MadeTrace made = opened(5, Plant::FlipAtPole);
     const std::string saved = (folder_ / "saved.jsonl").string();
     run("chain.save_trace", {{"path", saved}});
     std::ifstream in(saved);
@@ -195,11 +192,9 @@ TEST_F(ChainTrace, TheStripIsSavedAsATraceThatIsReadBack) {
 }
 
 TEST_F(ChainTrace, AFrameThatIsNotFiniteHoldsThePoseBefore) {
-    const MadeTrace made = test::made::TraceMaker(6).make(Plant::NanForNothing);
-    run("chain.trace", {{"path", file("arm.jsonl", made, Format::JsonLines)}});
-    const auto& all = workspace.rewind.incidents();
-    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Incident& each) {
-        return each.tick + 1 == made.frame && each.title.find("NaN at joint") != std::string::npos;
+    const MadeTrace made = opened(6, Plant::NanForNothing);
+    EXPECT_TRUE(std::ranges::any_of(workspace.rewind.incidents(), [&](const Incident& each) {
+        return each.tick + 1 == made.frame && test::has(each.title, "NaN at joint");
     }));
     const glm::vec3 held(made.frames[made.frame - 1].joints[1]);
     EXPECT_LT(glm::distance(part().chain.position(1), held), 1e-4f);
@@ -261,13 +256,10 @@ TEST_F(ChainTrace, PastedTextIsReadAsATraceIfItIsOne) {
 
 TEST_F(ChainTrace, TracesThatCannotBeShownAreRefusedAndNothingIsLost) {
     const Chain before = part().chain;
-    EXPECT_NE(refused("chain.trace", {}).find("path or text"), std::string::npos);
-    EXPECT_NE(refused("chain.trace", {{"path", "missing.jsonl"}}).find("missing.jsonl"), std::string::npos);
-    EXPECT_NE(refused("chain.trace", {{"text", "{\"joints\": [[null, 0, 0], [1, 0, 0]]}"}}).find("finite"),
-              std::string::npos);
-    EXPECT_NE(
-        refused("chain.trace", {{"path", file("arm.jsonl", Plant::None)}, {"chain", "left"}}).find("left"),
-        std::string::npos);
+    refuses("chain.trace", {}, "path or text");
+    refuses("chain.trace", {{"path", "missing.jsonl"}}, "missing.jsonl");
+    refuses("chain.trace", {{"text", "{\"joints\": [[null, 0, 0], [1, 0, 0]]}"}}, "finite");
+    refuses("chain.trace", {{"path", file("arm.jsonl", Plant::None)}, {"chain", "left"}}, "left");
     EXPECT_EQ(part().chain, before);
 }
 

@@ -10,12 +10,10 @@
 #include <tendril/rope/settings.hpp>
 
 #include "app/app.hpp"
-#include "app/document/command.hpp"
 #include "app/labs/chain/chain_lab.hpp"
 #include "app/labs/chain/engine_trace.hpp"
 #include "app/labs/chain/reach.hpp"
 #include "app/labs/humanoid/attachments/attachments.hpp"
-#include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/ik/ik_settings.hpp"
 #include "app/labs/humanoid/springs/springs.hpp"
 #include "app/labs/kit/code_text.hpp"
@@ -30,11 +28,7 @@
 #include "app/labs/signal/signal_part.hpp"
 #include "app/widgets/row_search.hpp"
 #include "tests/app/labs/humanoid/humanoid_support.hpp"
-#include "tests/app/labs/lab_support.hpp"
 #include "tests/app/support/full_scenes.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/places.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -53,8 +47,15 @@ struct Table {
 
 template <class Struct>
 Table table_of(const char* lab, const char* command, const char* path, Json with = Json::object(),
-               Json first = Json::object()) {
-    return {lab, command, path, fields<Struct>(), field_texts<Struct>(), std::move(with), std::move(first)};
+               Json first = Json::object(), CommandCall made = {}) {
+    return {lab,
+            command,
+            path,
+            fields<Struct>(),
+            field_texts<Struct>(),
+            std::move(with),
+            std::move(first),
+            std::move(made)};
 }
 
 /// A filter of that kind, alone in the lab. Fields that bound others are first set to their maximum.
@@ -127,14 +128,8 @@ std::vector<Table> all_tables() {
          .texts = wind_texts(),
          .first = {{"gusts", 0.5}}},
         table_of<rope::Settings>(rope_lab, "rope.settings", "/world/settings"),
-        {.lab = rope_lab,
-         .command = "rope.collider.drive",
-         .path = "/world/colliders/1/drive",
-         .fields = fields<rope::Drive>(),
-         .texts = field_texts<rope::Drive>(),
-         .with = {{"name", "ball"}},
-         .first = {{"velocity", {1, 0, 0}}},
-         .made = {"rope.preset", {{"name", "drape"}}}},
+        table_of<rope::Drive>(rope_lab, "rope.collider.drive", "/world/colliders/1/drive", {{"name", "ball"}},
+                              {{"velocity", {1, 0, 0}}}, {"rope.preset", {{"name", "drape"}}}),
         {.lab = rope_lab,
          .command = "rope.set",
          .path = "/world/bodies/0",
@@ -143,22 +138,12 @@ std::vector<Table> all_tables() {
          .with = {{"rope", "rope"}},
          .first = {{"tear", 0.5}, {"bending", 0.5}, {"friction", 0.125}},  // else files leave them out
          .made = {"rope.add", {{"from", glm::vec3(0.0f)}, {"to", glm::vec3(1.0f)}}}},
-        {.lab = rope_lab,
-         .command = "rope.collider.swing",
-         .path = "/swings/0",
-         .fields = fields<Swing>(),
-         .texts = field_texts<Swing>(),
-         .with = {{"name", "ball"}},
-         .made = {"rope.preset", {{"name", "bridge"}}}},
+        table_of<Swing>(rope_lab, "rope.collider.swing", "/swings/0", {{"name", "ball"}}, Json::object(),
+                        {"rope.preset", {{"name", "bridge"}}}),
         table_of<Jitter>(rope_lab, "rope.jitter", "/jitter"),
         table_of<RopeView>(rope_lab, "rope.view", "/view"),
-        {.lab = rope_lab,
-         .command = "rope.tie.set",
-         .path = "/world/ties/0",
-         .fields = fields<rope::TieShape>(),
-         .texts = field_texts<rope::TieShape>(),
-         .with = {{"name", "tie"}},
-         .made = {"rope.preset", {{"name", "line"}}}},
+        table_of<rope::TieShape>(rope_lab, "rope.tie.set", "/world/ties/0", {{"name", "tie"}}, Json::object(),
+                                 {"rope.preset", {{"name", "line"}}}),
         table_of<humanoid::SpringOptions>(humanoid_lab, "humanoid.spring", "/springs/0",
                                           {{"node", "HeadTop_End"}}),
         table_of<CurveShape>(humanoid_lab, "humanoid.curve", "/curves/0", {{"first", "Spine"}}),
@@ -167,12 +152,8 @@ std::vector<Table> all_tables() {
                                 {{"leave_speed", 1000}}),
         table_of<HandIkSetting>(humanoid_lab, "humanoid.hand_ik", "/ik/hand_ik"),
         table_of<BalanceSetting>(humanoid_lab, "humanoid.balance", "/ik/balance"),
-        {.lab = humanoid_lab,
-         .command = "humanoid.hold",
-         .path = "/ik/hold",
-         .fields = fields<HoldSetting>(),
-         .texts = field_texts<HoldSetting>(),
-         .made = {"humanoid.hold", {{"kind", "wheel"}}}},
+        table_of<HoldSetting>(humanoid_lab, "humanoid.hold", "/ik/hold", Json::object(), Json::object(),
+                              {"humanoid.hold", {{"kind", "wheel"}}}),
         table_of<LookAtSetting>(humanoid_lab, "humanoid.look_at", "/ik/look_at"),
         table_of<HumanoidView>(humanoid_lab, "humanoid.view", "/view"),
         table_of<Playback>(humanoid_lab, "humanoid.clip", "/clip"),
@@ -359,12 +340,7 @@ TEST(FieldFiles, AreRefusedWithTheirPlace) {
         std::string pointer = std::string("/") + place;
         std::ranges::replace(pointer, '.', '/');
         file[Json::json_pointer(pointer)] = value;
-        std::string message;
-        try {
-            read_sketch(file);
-        } catch (const std::runtime_error& error) {
-            message = error.what();
-        }
+        const std::string message = test::message_of([&] { read_sketch(file); });
         EXPECT_TRUE(message.starts_with(std::string("it.") + place + ": ")) << place << ": " << message;
     }
     Json nameless = Json::parse(sketch_file);

@@ -1,8 +1,5 @@
 #include "tests/app/labs/lab_support.hpp"
 
-#include "app/document/command.hpp"
-#include "tests/says.hpp"
-
 namespace tendril::app {
 
 LabTest::LabTest(const char* lab, Labs all)

@@ -3,15 +3,26 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <functional>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "app/document/command.hpp"
 #include "app/document/json_complete.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/document/workspace.hpp"
 #include "app/labs/labs.hpp"
+#include "tests/app/support/temp_folder.hpp"
+#include "tests/labels.hpp"
+#include "tests/places.hpp"
+#include "tests/says.hpp"
 
 namespace tendril::app {
 
@@ -28,6 +39,14 @@ class LabTest : public testing::Test {
   protected:
     const CommandTable& table;
     Workspace workspace;
+    const test::TempFolder folder_;
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    /// Writes a file into the folder; returns its path.
+    std::string write(const std::string& name, std::string_view bytes) const {
+        test::write(folder_ / name, bytes);
+        return path(name);
+    }
 
     const Lab& lab() const { return *labs.find(lab_); }
     Json state() const { return lab().state(workspace); }
@@ -43,9 +62,20 @@ class LabTest : public testing::Test {
     void wait(int ticks) {
         for (int i = 0; i < ticks; ++i) lab().step(workspace);
     }
+    /// Runs ticks while something moves.
+    void tick(int count = 1) {
+        for (int i = 0; i < count; ++i)
+            if (lab().moving(workspace)) lab().step(workspace);
+    }
     void remember() {
         workspace.remember_moment();
         ++workspace.moment;
+    }
+    static glm::dvec3 vector(const Json& at) {
+        return {at[0].get<double>(), at[1].get<double>(), at[2].get<double>()};
+    }
+    static glm::dquat quaternion(const Json& q) {
+        return {q[3].get<double>(), q[0].get<double>(), q[1].get<double>(), q[2].get<double>()};
     }
     /// Runs what a click, a drag or a panel emits.
     void emit(const std::function<void(Emit&)>& act, Gesture gesture = 0);

@@ -1,7 +1,5 @@
 // The Linkage lab's messages about a linkage: ways out of a dead point, transmission angles, rotations,
 // floating links; motors between bars; and the view.
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <map>
 
@@ -25,23 +23,26 @@ class LinkageReading : public LinkageTest {
         run_to_dead_point();
     }
     void run_to_dead_point() {
-        for (int i = 0; i < 240 && lab().moving(workspace); ++i) wait(1);
+        tick(240);
         ASSERT_EQ(state().at("status"), "DeadPoint");
     }
     void take(const char* title) {
-        for (const Cure& each : ways_on(part(), runtime())) {
-            if (each.title != title) continue;
-            for (const CommandCall& call : each.calls) run(call.name.c_str(), to_json(call.arguments));
-            return;
-        }
-        ADD_FAILURE() << "there is no " << title;
+        const auto ways = ways_on(part(), runtime());
+        const auto way = std::ranges::find(ways, std::string(title), &Cure::title);
+        ASSERT_NE(way, ways.end()) << "there is no " << title;
+        for (const CommandCall& call : way->calls) run(call.name.c_str(), to_json(call.arguments));
+    }
+    /// Bars by the names of their ends.
+    void add_bars(const std::vector<std::string>& names) {
+        for (const std::string& name : names)
+            run("linkage.bar", {{"from", name.substr(0, 1)}, {"to", name.substr(1)}, {"name", name}});
     }
     /// The side of the line from B to D on which coupler and rocker meet.
     bool meets_left() const {
         const glm::dvec3 d(3, 0, 0), line = d - at("B"), to = at("C") - at("B");
         return line.x * to.y - line.y * to.x > 0.0;
     }
-    const LinkageTurn& turn() { return workspace.runtimes.of<LinkageRuntime>(linkage_lab).turn(part()); }
+    const LinkageTurn& turn() { return runtime().turn(part()); }
     bool all_in_view() {
         const Camera camera(workspace.camera, {{0, 0}, workspace.ui.view_size});
         PartInTurn in_turn(part());
@@ -229,8 +230,7 @@ TEST_F(LinkageReading, TheTransmissionAngleIsTheFourBarsUnderAnyTriangles) {
         for (const std::string& name : names)
             if (joints.contains(name))
                 run("linkage.joint", {{"at", {joints[name].x, joints[name].y, 0}}, {"name", name}});
-        for (const std::string& bar : bars)
-            run("linkage.bar", {{"from", bar.substr(0, 1)}, {"to", bar.substr(1)}, {"name", bar}});
+        add_bars(bars);
         for (const char* pin : {"A", "D"}) run("linkage.pin", {{"point", pin}});
         run("linkage.motor.add", {{"point", "A"}, {"bar", "AB"}, {"name", "m"}});
         const auto apart = [&](const char* a, const char* b) { return glm::distance(joints[a], joints[b]); };
@@ -294,19 +294,15 @@ TEST_F(LinkageReading, ADeadPointNamesTheCausingJointsBesideAnyTriangles) {
                 {{"at", {x + random.uniform(-spread, spread), y + random.uniform(-spread, spread), 0}},
                  {"name", name}});
         };
-        const auto bars = [&](std::initializer_list<const char*> names) {
-            for (const std::string name : names)
-                run("linkage.bar", {{"from", name.substr(0, 1)}, {"to", name.substr(1)}, {"name", name}});
-        };
         const bool driven_aside = i % 2 == 1;
         run("linkage.clear");
         joint("A", 0, 0), joint("B", 0, 2), joint("C", 3, 2), joint("D", 3, 0),
             joint("E", 1.5, i % 3 == 0 ? 2 : 3);
-        bars({"AB", "BC", "CD", "BE", "CE"});
+        add_bars({"AB", "BC", "CD", "BE", "CE"});
         if (driven_aside)
-            joint("F", 3, 5), joint("G", 5, 4), bars({"EF", "FG"});
+            joint("F", 3, 5), joint("G", 5, 4), add_bars({"EF", "FG"});
         else
-            joint("F", 4, 1, 0.4), bars({"CF", "DF"});
+            joint("F", 4, 1, 0.4), add_bars({"CF", "DF"});
         for (const char* pin : {"A", "D"}) run("linkage.pin", {{"point", pin}});
         if (driven_aside) run("linkage.pin", {{"point", "G"}});
         run("linkage.motor.add",

@@ -1,12 +1,8 @@
 // Shared by tests of the Linkage lab.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include "app/document/json_complete.hpp"
 #include "app/labs/linkage/linkage_lab.hpp"
 #include "tests/app/labs/lab_support.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 
@@ -26,10 +22,7 @@ class LinkageTest : public LabTest {
     LinkageTest() : LabTest(linkage_lab) { workspace.lab = linkage_lab; }
     const LinkagePart& part() const { return linkage_part(workspace); }
     LinkageRuntime& runtime() const { return workspace.runtimes.of<LinkageRuntime>(linkage_lab); }
-    glm::dvec3 at(const char* point) const {
-        const Json place = state().at("points").at(point);
-        return {place[0].get<double>(), place[1].get<double>(), place[2].get<double>()};
-    }
+    glm::dvec3 at(const char* point) const { return vector(state().at("points").at(point)); }
     double driver(const char* name) const { return state().at("drivers").at(name).get<double>(); }
     void four_bar() {
         run("linkage.preset", {{"name", "four_bar"}});

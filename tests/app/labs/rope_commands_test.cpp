@@ -2,7 +2,6 @@
 #include <array>
 
 #include "tests/app/labs/rope_support.hpp"
-#include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::app {
 namespace {

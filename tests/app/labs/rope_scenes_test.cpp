@@ -1,13 +1,10 @@
 // Every scene of the Rope lab for 12 seconds at its own settings: it keeps its lengths and stays in place. Of
 // 14 that were measured for a minute, none was more than 0.05 % worse later.
-#include <algorithm>
-#include <string>
-#include <vector>
-
+#include "app/labs/rope/code.hpp"
 #include "app/labs/rope/rope_time.hpp"
 #include "app/labs/rope/scenes.hpp"
 #include "tests/app/labs/rope_support.hpp"
-#include "tests/labels.hpp"
+#include "tests/app/support/panel_text.hpp"
 
 namespace tendril::app {
 namespace {
@@ -44,12 +41,7 @@ TEST(RopeScenes, AFaultInOneIsNamed) {
     Json world = *entry.world;
     world["bodies"][1]["radius"] = -1;
     entry.world = world;
-    std::string said;
-    try {
-        make_rope_scene(entry);
-    } catch (const std::runtime_error& error) {
-        said = error.what();
-    }
+    const std::string said = test::message_of([&] { make_rope_scene(entry); });
     EXPECT_TRUE(said.starts_with("drape.bodies.1.radius")) << said;
 }
 
@@ -61,6 +53,167 @@ std::vector<std::string> all_rope_scenes() {
 
 INSTANTIATE_TEST_SUITE_P(All, RopeSceneHolds, testing::ValuesIn(all_rope_scenes()),
                          [](const auto& scene) { return scene.param; });
+
+// A character in the Rope lab: its capsules collide, and follow its clip.
+
+class RopeWalker : public RopeTest {
+  protected:
+    RopeWalker() { run("rope.clear"); }
+    /// The maximum distance of a collider from its position in the clip at this time, metres.
+    float off() const {
+        float most = 0.0f;
+        for (const WalkerCapsule& each : walker_capsules(part().walker, part().time)) {
+            const auto shown = std::get<rope::Capsule>(world().shape(*world().find_collider(each.name)));
+            most =
+                std::max({most, glm::distance(shown.a, each.shape.a), glm::distance(shown.b, each.shape.b)});
+        }
+        return most;
+    }
+};
+
+TEST_F(RopeWalker, ItsCapsulesFollowItsClip) {
+    for (const double factor : {1.0, 0.37}) {
+        run("rope.character");
+        run("time.speed", {{"factor", factor}});
+        EXPECT_EQ(part().walker.clip, "walk");
+        const glm::vec3 before = rope::centre(world().find_collider("LeftLowerLeg")->shape);
+        for (int i = 0; i < 200; ++i) {  // over more than one round
+            wait(1);
+            const double ticks = part().time / tick_seconds;
+            if (std::abs(ticks - std::round(ticks)) > 1e-6) continue;
+            ASSERT_LT(off(), 1e-4f) << factor << ", tick " << i;
+        }
+        EXPECT_GT(glm::distance(before, rope::centre(world().find_collider("LeftLowerLeg")->shape)), 0.01f);
+        EXPECT_FALSE(at_rest(part()));
+    }
+}
+
+TEST_F(RopeWalker, WalksThroughACurtain) {
+    run("rope.cloth.add",
+        {{"corner", {-0.6, 2, 0.5}}, {"along", {1.2, 0, 0}}, {"down", {0, -1.6, 0}}, {"pins", "row"}});
+    run("rope.character");
+    float pushed = 0.0f;
+    for (int i = 0; i < 60; ++i) {
+        wait(1);
+        for (std::size_t p = 0; p < world().size(); ++p) pushed = std::max(pushed, world().position(p).z);
+    }
+    EXPECT_GT(pushed, 0.8f) << "the body carries it along";
+}
+
+TEST_F(RopeWalker, IsSavedUndoneAndRemoved) {
+    run("rope.character", {{"clip", "punch"}, {"at", {1, 0, 2}}});
+    const std::size_t capsules = world().state().colliders.size();
+    EXPECT_GT(capsules, 10u);
+    EXPECT_EQ(state().at("character").at("clip"), "punch");
+    const Workspace opened = reopened();
+    EXPECT_EQ(save_scene(opened).at("labs"), save_scene(workspace).at("labs"));
+    EXPECT_EQ(rope_part(opened).walker.at, glm::vec3(1, 0, 2));
+    run("rope.character.remove");
+    EXPECT_TRUE(world().state().colliders.empty());
+    run("undo");
+    EXPECT_EQ(world().state().colliders.size(), capsules);
+    EXPECT_TRUE(part().walker.figure);
+    run("rope.clear");
+    EXPECT_FALSE(part().walker.figure);
+    expect_refused("rope.character.remove", Json::object(), {"no character"});
+}
+
+TEST_F(RopeWalker, ComesFromAFile) {
+    run("rope.character", {{"path", test::source_path("tests/app/golden/faulty_walk.bvh")}});
+    EXPECT_GT(world().state().colliders.size(), 5u);
+    wait(10);
+    EXPECT_LT(off(), 1e-4f);
+    run("rope.preset", {{"name", "drape"}});
+    EXPECT_FALSE(part().walker.figure);
+}
+
+TEST_F(RopeWalker, RefusesWhatItCannotRead) {
+    expect_refused("rope.character", {{"path", "nowhere.bvh"}}, {"nowhere.bvh"});
+    expect_refused("rope.character", {{"clip", "dance"}}, {"dance"});
+    run("rope.collider.add", {{"name", "Head"}, {"kind", "sphere"}, {"centre", {0, 0, 0}}, {"radius", 1}});
+    expect_refused("rope.character", Json::object(), {"Head"});
+}
+
+// Ropes that collide, in the Rope lab: the command, the buttons, files, undo, code, the scene with a knot.
+
+class RopeCollisionTest : public RopeTest {
+  protected:
+    /// A rope that falls across another one, which hangs between two pins.
+    void crossed() {
+        run("rope.clear");
+        add_rope("line", {-0.5, 2, 0}, {0.5, 2, 0},
+                 {{"length", 1.05}, {"pin_start", true}, {"pin_end", true}});
+        add_rope("other", {0, 2.1, -0.4}, {0, 2.1, 0.4});
+    }
+    void add_sail() { add_cloth("sail", {2, 1, 0}, {1, 0, 0}, {0, -1, 0}, 3, 3); }
+    void collide(const char* a, const char* b, bool on = true) {
+        run("rope.collide", {{"a", a}, {"b", b}, {"on", on}});
+    }
+    double lowest(const char* rope) const {
+        const rope::Body& body = *world().find(rope);
+        double y = 1e9;
+        for (std::size_t i = body.first; i < body.first + body.count; ++i)
+            y = std::min(y, world().state().position[i].y);
+        return y;
+    }
+};
+
+TEST_F(RopeCollisionTest, OneRopeStaysOnAnotherUntilSwitchedOff) {
+    crossed();
+    collide("line", "other");
+    wait(30);
+    EXPECT_EQ(state()["collisions"], Json::array({{"line", "other"}}));
+    EXPECT_GT(state()["contacts"], 0);
+    EXPECT_GT(lowest("other"), 1.3) << "it hangs on the other one";
+    collide("other", "line", false);
+    EXPECT_EQ(state()["collisions"], Json::array());
+    wait(90);
+    EXPECT_LT(lowest("other"), 0.0) << "it has fallen";
+}
+
+TEST_F(RopeCollisionTest, AllIsEveryRopeAndClothAndUndoneInOneStep) {
+    crossed();
+    add_sail();
+    collide("all", "all");
+    EXPECT_EQ(
+        state()["collisions"].dump(),
+        R"([["line","line"],["line","other"],["line","sail"],["other","other"],["other","sail"],["sail","sail"]])");
+    EXPECT_EQ(lab().state(reopened())["collisions"], state()["collisions"]);
+    run("undo");
+    EXPECT_EQ(state()["collisions"], Json::array());
+    collide("other", "all");
+    EXPECT_EQ(state()["collisions"], Json::array({{"line", "other"}, {"other", "other"}, {"other", "sail"}}));
+}
+
+TEST_F(RopeCollisionTest, TheInspectorHasAButtonForItselfAndOneForAll) {
+    crossed();
+    add_sail();
+    for (const char* body : {"line", "sail"}) {
+        run("rope.select", {{"rope", body}, {"particle", 3}});
+        EXPECT_TRUE(test::says(test::PanelReader().inspector(lab(), workspace), "Hits itself Hits all"));
+    }
+}
+
+TEST_F(RopeCollisionTest, IsInTheCode) {
+    crossed();
+    collide("all", "all");
+    wait(40);
+    ASSERT_GT(state()["contacts"], 0);
+    EXPECT_TRUE(test::says(rope_code(part()),
+                           "rope::number_slots state.collisions.push_back({state.bodies[0].id, "
+                           "state.bodies[0].id}) state.contacts.push_back .force"));
+    RopePart of_defaults;
+    of_defaults.world = std::make_shared<NamedWorld>();
+    EXPECT_TRUE(test::says(rope_code(of_defaults), "state.settings = {};"));
+}
+
+TEST_F(RopeCollisionTest, Refusals) {
+    crossed();
+    run("rope.hair.add", {{"name", "beard"}, {"centre", {0, 1, 0}}, {"radius", 0.1}});
+    expect_refused("rope.collide", {{"a", "line"}, {"b", "beard"}, {"on", true}}, {"hair"});
+    expect_refused("rope.collide", {{"a", "line"}, {"b", "none"}, {"on", true}}, {"none"});
+    expect_refused("rope.collide", {{"a", "line"}, {"b", "other"}}, {"on"});
+}
 
 }  // namespace
 }  // namespace tendril::app

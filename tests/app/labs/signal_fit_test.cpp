@@ -1,9 +1,5 @@
 // Fitting filters to responses: responses of each kind of filter are matched, with the original parameters.
-#include <gtest/gtest.h>
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <string>
 
 #include "app/labs/signal/analysis.hpp"
 #include "app/labs/signal/fit.hpp"
@@ -12,9 +8,7 @@
 #include "tests/app/labs/fit_support.hpp"
 #include "tests/app/labs/lab_support.hpp"
 #include "tests/app/support/panel_text.hpp"
-#include "tests/app/support/temp_folder.hpp"
 #include "tests/core/random.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -55,24 +49,15 @@ struct NamedRange {
 /// A filter of a kind, with typical parameters.
 signal::Filter some_filter(const signal::Kind& kind, test::Random& random) {
     const auto pick = [&](double low, double high) { return between(random, low, high); };
-    const NamedRange ranges[]{{"speed", 2.0, 20.0},
-                              {"halflife", 0.05, 0.3},
-                              {"rise", 1.0, 6.0},
-                              {"fall", 1.0, 6.0},
-                              {"smooth_time", 0.08, 0.5},
-                              {"max_speed", 3.0, 6.0},
-                              {"strength", 0.8, 2.5},
-                              {"critical_damping", 0.2, 1.5},
-                              {"force", -5.0, 5.0},
-                              {"target_velocity_amount", 0.2, 0.9},
-                              {"min_cutoff", 0.6, 3.0},
-                              {"beta", 0.05, 0.5},
-                              {"derivative_cutoff", 0.8, 3.0},
-                              {"window", 0.08, 0.4},
-                              {"width", 0.1, 0.5},
-                              {"threshold", 0.3, 0.7}};
     signal::Filter filter = kind.blank();
-    for (const auto& [name, low, high] : ranges)
+    for (const auto& [name, low, high] :
+         {NamedRange{"speed", 2.0, 20.0}, NamedRange{"halflife", 0.05, 0.3}, NamedRange{"rise", 1.0, 6.0},
+          NamedRange{"fall", 1.0, 6.0}, NamedRange{"smooth_time", 0.08, 0.5},
+          NamedRange{"max_speed", 3.0, 6.0}, NamedRange{"strength", 0.8, 2.5},
+          NamedRange{"critical_damping", 0.2, 1.5}, NamedRange{"force", -5.0, 5.0},
+          NamedRange{"target_velocity_amount", 0.2, 0.9}, NamedRange{"min_cutoff", 0.6, 3.0},
+          NamedRange{"beta", 0.05, 0.5}, NamedRange{"derivative_cutoff", 0.8, 3.0},
+          NamedRange{"window", 0.08, 0.4}, NamedRange{"width", 0.1, 0.5}, NamedRange{"threshold", 0.3, 0.7}})
         if (const Field* const field = find_field(kind.table(), name))
             field->set_number(signal::fields_in(filter), pick(low, high));
     if (auto* hysteresis = std::get_if<signal::Hysteresis>(&filter)) {
@@ -289,14 +274,13 @@ class SignalFitRows : public LabTest {
 };
 
 TEST_F(SignalFitRows, AreTheRowsThatAreTicked) {
-    const test::TempFolder folder;
     std::string samples = "dt,input\n", response = "output\n";
     for (int i = 0; i < 150; ++i)
         samples += "0.016666666666666666," + std::to_string(std::sin(0.21 * i) + (i / 40) % 2) + "\n";
-    test::write(folder / "in.csv", samples);
+    write("in.csv", samples);
     const Json inputs[] = {{{"kind", "square"}, {"period", 1}},
                            {{"kind", "noise"}, {"period", 1}},
-                           {{"kind", "csv"}, {"path", (folder / "in.csv").string()}}};
+                           {{"kind", "csv"}, {"path", path("in.csv")}}};
     const Json filters[] = {{{"kind", "spring"}, {"strength", 2.3}, {"critical_damping", 0.4}},
                             {{"kind", "rate_limit"}, {"rise", 2.0}, {"fall", 3.5}}};
     for (const Json& input : inputs) {
@@ -323,8 +307,7 @@ TEST_F(SignalFitRows, AreTheRowsThatAreTicked) {
             for (const double value : wanted) response += Json(value).dump() + "\n";
         }
     }
-    test::write(folder / "out.csv", response);
-    run("signal.fit", {{"to", (folder / "out.csv").string()}});
+    run("signal.fit", {{"to", write("out.csv", response)}});
     EXPECT_STREQ(signal::kind(part().fits.front().filter), "rate_limit") << "a row of the file for each tick";
     EXPECT_LT(part().fits.front().residual, 1e-6);
     run("signal.fit.use", {{"rank", 0}});
@@ -359,22 +342,14 @@ Samples wide_input(Wave wave, test::Random& random) {
 signal::Filter wide_filter(const signal::Kind& kind, test::Random& random) {
     signal::Filter filter = kind.blank();
     const double most_damped = std::holds_alternative<signal::SpringSemiImplicit>(filter) ? 1.5 : 40.0;
-    const NamedRange ranges[]{{"speed", 0.3, 40.0},
-                              {"halflife", 0.01, 1.0},
-                              {"rise", 0.3, 30.0},
-                              {"fall", 0.3, 30.0},
-                              {"smooth_time", 0.02, 1.0},
-                              {"max_speed", 0.3, 8.0},
-                              {"strength", 0.3, 5.0},
-                              {"critical_damping", 0.05, most_damped},
-                              {"target_velocity_amount", 0.1, 1.0},
-                              {"min_cutoff", 0.1, 10.0},
-                              {"beta", 0.01, 3.0},
-                              {"derivative_cutoff", 0.3, 5.0},
-                              {"window", 0.03, 1.0},
-                              {"width", 0.05, 0.8},
-                              {"threshold", 0.1, 1.0}};
-    for (const auto& [name, low, high] : ranges) {
+    for (const auto& [name, low, high] :
+         {NamedRange{"speed", 0.3, 40.0}, NamedRange{"halflife", 0.01, 1.0}, NamedRange{"rise", 0.3, 30.0},
+          NamedRange{"fall", 0.3, 30.0}, NamedRange{"smooth_time", 0.02, 1.0},
+          NamedRange{"max_speed", 0.3, 8.0}, NamedRange{"strength", 0.3, 5.0},
+          NamedRange{"critical_damping", 0.05, most_damped}, NamedRange{"target_velocity_amount", 0.1, 1.0},
+          NamedRange{"min_cutoff", 0.1, 10.0}, NamedRange{"beta", 0.01, 3.0},
+          NamedRange{"derivative_cutoff", 0.3, 5.0}, NamedRange{"window", 0.03, 1.0},
+          NamedRange{"width", 0.05, 0.8}, NamedRange{"threshold", 0.1, 1.0}}) {
         const double value = by_ratio(random, low, high);
         if (const Field* const field = find_field(kind.table(), name))
             field->set_number(signal::fields_in(filter), value);

@@ -5,7 +5,7 @@
 #include "app/document/command.hpp"
 #include "app/document/scene_file.hpp"
 #include "app/shell/command_palette.hpp"
-#include "tests/app/e2e/monkey.hpp"
+#include "tests/app/labs/app_support.hpp"
 #include "tests/app/labs/spring/spring_lab.hpp"
 #include "tests/says.hpp"
 
@@ -20,31 +20,18 @@ Labs labs_with_a_spring() {
     return labs;
 }
 
-class ThirdLab : public testing::Test {
+class ThirdLab : public LabAppTest {
   protected:
-    ThirdLab() {
-        app_.run({"lab.open", Json{{"name", "spring"}}});
-        app_.run({"time.pause"});
-    }
-    void send(const Event& event) { app_.tick(&event); }
-    void drag(const std::string& name, glm::vec2 by) {
-        const glm::vec2 from = handle(app_.state(), name);
-        send(MouseMove{from});
-        send(MousePress{MouseButton::Left, true});
-        for (const float share : {0.25f, 0.5f, 1.0f}) send(MouseMove{from + share * by});
-        send(MousePress{MouseButton::Left, false});
-    }
+    ThirdLab() : LabAppTest("spring", true, {1280, 720}, labs_with_a_spring()) {}
     Json ball() { return app_.state().at("ball"); }
-
-    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
-    App app_{*window_, false, labs_with_a_spring()};
 };
 
 TEST_F(ThirdLab, ItsPictureShowsItsHandlesWhereTheyAre) {
     const Image picture = app_.screenshot();
-    const glm::ivec2 at(handle(app_.state(), "ball"));
-    const std::size_t pixel = 4 * (static_cast<std::size_t>(at.y) * static_cast<std::size_t>(picture.size.x) +
-                                   static_cast<std::size_t>(at.x));
+    const glm::ivec2 pixel_at(at("ball"));
+    const std::size_t pixel =
+        4 * (static_cast<std::size_t>(pixel_at.y) * static_cast<std::size_t>(picture.size.x) +
+             static_cast<std::size_t>(pixel_at.x));
     EXPECT_GT(picture.rgba[pixel], picture.rgba[pixel + 2]) << "the ball is orange, the ground is not";
 }
 
@@ -59,7 +46,7 @@ TEST_F(ThirdLab, IsInThePaletteTheHelpAndTheShortcuts) {
     EXPECT_TRUE(has(shortcuts.markdown(), "| Left drag on the ball | holds it there |"));
     EXPECT_TRUE(test::says(shortcuts.mouse_help("spring").back().gesture, "Left drag ball"));
 
-    drag("ball", {90.0f, 0.0f});
+    drag(at("ball"), {{22.5f, 0.0f}, {45.0f, 0.0f}, {90.0f, 0.0f}});
     send(KeyTap{*chord_from_name("r")});
     EXPECT_EQ(ball(), point({0.5f, 1.0f, 0.0f}));
 }

@@ -1,8 +1,6 @@
 // Shared by tests of ropes, hair and cloth on a character: their distance from the body.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <tendril/humanoid/capsules.hpp>
 
 #include "app/labs/humanoid/ik/shown_pose.hpp"

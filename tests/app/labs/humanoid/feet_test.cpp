@@ -1,15 +1,13 @@
 // Grounds, and feet on them, by the lab's commands and --state.
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <fstream>
 
+#include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/ik/shown_pose.hpp"
+#include "app/labs/humanoid/panel.hpp"
 #include "humanoid_support.hpp"
+#include "tests/app/io/gltf_text.hpp"
+#include "tests/app/io/posed.hpp"
 #include "tests/app/support/panel_text.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/places.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -112,34 +110,17 @@ TEST_F(HumanoidFeet, WalkUpStairs) {
 
 /// Two triangles, 40 m wide, rising by 0.2 m from z = -20 to z = 20, as a text glTF.
 std::string ramp() {
-    const float corners[]{-20, 0, -20, 20, 0, -20, -20, 0.2f, 20, 20, 0.2f, 20};
-    const std::uint16_t indices[]{0, 2, 1, 1, 2, 3};
-    std::string bytes(reinterpret_cast<const char*>(corners), sizeof corners);
-    bytes.append(reinterpret_cast<const char*>(indices), sizeof indices);
-    static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {  // 60 bytes: no remainder
-        std::uint32_t bits = 0;
-        for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | static_cast<unsigned char>(bytes[i + k]);
-        for (int k = 18; k >= 0; k -= 6) text += digits[bits >> k & 63];
-    }
-    return Json{{"asset", {{"version", "2.0"}}},
-                {"nodes", {{{"mesh", 0}, {"translation", {0, 0.1, 0}}}}},
-                {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}},
-                {"accessors",
-                 {{{"bufferView", 0}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}},
-                  {{"bufferView", 1}, {"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}}}},
-                {"bufferViews",
-                 {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 48}},
-                  {{"buffer", 0}, {"byteOffset", 48}, {"byteLength", 12}}}},
-                {"buffers", {{{"byteLength", 60}, {"uri", "data:application/octet-stream;base64," + text}}}}}
-        .dump();
+    test_gltf::GltfText file;
+    const std::string corners = file.vectors({-20, 0, -20, 20, 0, -20, -20, 0.2f, 20, 20, 0.2f, 20}),
+                      triangles = file.add<unsigned short>("SCALAR", 1, {0, 2, 1, 1, 2, 3});
+    file.members = R"("nodes":[{"mesh":0,"translation":[0,0.1,0]}],"meshes":[{"primitives":[{"attributes":)"
+                   R"({"POSITION":)" +
+                   corners + R"(},"indices":)" + triangles + "}]}]";
+    return file.gltf();
 }
 
 TEST_F(HumanoidFeet, WalkOnAMeshFromAFile) {
-    const test::TempFolder folder;
-    const std::string path = (folder / "ramp.gltf").string();
-    std::ofstream(path) << ramp();
+    const std::string path = write("ramp.gltf", ramp());
     run("humanoid.ground", {{"kind", "mesh"}, {"path", path}});
     EXPECT_EQ(state().at("ground").at("path"), path);
     expect_walks_on([](double z) { return 0.1 + 0.2 * (z + 20.0) / 40.0; });
@@ -177,8 +158,7 @@ TEST_F(HumanoidFeet, InPlaceMoveBackwardsWithTheGround) {
 
 /// A walk in place whose feet slide under still hips: none is ever slow enough to be planted.
 TEST_F(HumanoidFeet, ExplainWhyTheyNeverStand) {
-    const test::TempFolder folder;
-    run("humanoid.load", {{"path", treadmill_figure(folder.path())}});
+    run("humanoid.load", {{"path", treadmill_figure(folder_.path())}});
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
     run("humanoid.ground", {{"kind", "flat"}});
     run("humanoid.foot_ik", {{"on", true}});
@@ -274,6 +254,191 @@ TEST_F(HumanoidFeet, OnTheGroundCarryABodyThatReaches) {
     for (std::size_t side = 0; side < 2; ++side)
         EXPECT_LT(glm::distance(vector(foot(side).at("toe")), vector(before[side].at("toe"))), 1e-3)
             << "feet stay where the ground has them";
+}
+
+// A moment of a clip with foot IK looks the same whether it is played, scrubbed to or exported.
+
+constexpr double tenth_of_a_millimetre = 1e-4;
+
+class HumanoidFeetHistory : public HumanoidTest {
+  protected:
+    std::vector<humanoid::Placement> shown() const { return shown_pose(workspace).placed; }
+    double seconds() const {
+        const Playback& playback = part().playback;
+        return static_cast<double>(playback.rounds) * part().clip()->duration + playback.time;
+    }
+    static double apart(const std::vector<humanoid::Placement>& a,
+                        const std::vector<humanoid::Placement>& b) {
+        double most = a.size() == b.size() ? 0.0 : 1e9;
+        for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+            most = std::max(most, glm::distance(a[i].position, b[i].position));
+        return most;
+    }
+    /// The poses drawn at moments of the clip while it plays.
+    std::vector<std::pair<double, std::vector<humanoid::Placement>>> played(int ticks) {
+        std::vector<std::pair<double, std::vector<humanoid::Placement>>> moments;
+        for (int i = 0; i < ticks; ++i) {
+            tick();
+            moments.emplace_back(seconds(), shown());
+        }
+        return moments;
+    }
+    void put_on(const Json& ground, const char* clip, double speed, bool in_place = false) {
+        run("humanoid.load");
+        run("humanoid.ground", ground);
+        run("humanoid.foot_ik", {{"on", true}});
+        run("humanoid.clip",
+            {{"name", clip}, {"time", 0}, {"speed", speed}, {"in_place", in_place}, {"play", true}});
+    }
+    const std::vector<Json> grounds{{{"kind", "stairs"}, {"step_height", 0.16}, {"step_depth", 0.36}},
+                                    {{"kind", "slope"}, {"angle_deg", 18}},
+                                    {{"kind", "slope"}, {"angle_deg", -15}},
+                                    {{"kind", "terrain"}}};
+};
+
+LABEL(slow, "HumanoidFeetHistory.IsTheSameAfterMinutes");
+
+TEST_F(HumanoidFeetHistory, LooksScrubbedAsItWasPlayed) {
+    for (const Json& ground : grounds)
+        for (const char* clip : {"walk", "punch"})
+            for (const double speed : {0.37, 1.7}) {
+                put_on(ground, clip, speed);
+                const auto moments = played(200);
+                for (std::size_t i = 0; i < moments.size(); i += 7) {
+                    // Out of order, as when scrubbing by hand.
+                    const auto& [time, pose] = moments[(i * 61) % moments.size()];
+                    run("humanoid.clip", {{"time", time}, {"play", false}});
+                    EXPECT_LT(apart(shown(), pose), tenth_of_a_millimetre)
+                        << ground << ' ' << clip << " at " << time << " s, speed " << speed;
+                }
+            }
+}
+
+TEST_F(HumanoidFeetHistory, LooksTheSameInPlace) {
+    put_on({{"kind", "flat"}}, "walk", 0.8, true);
+    const auto moments = played(300);
+    for (std::size_t i = 0; i < moments.size(); i += 11) {
+        run("humanoid.clip", {{"time", moments[i].first}, {"play", false}});
+        EXPECT_LT(apart(shown(), moments[i].second), tenth_of_a_millimetre) << moments[i].first;
+    }
+}
+
+TEST_F(HumanoidFeetHistory, IsExportedAsItIsShown) {
+    const std::string file = path("out.glb");
+    for (const Json& ground : grounds)
+        for (const char* clip : {"walk", "punch"})
+            for (const double fps : {60.0, 24.0}) {
+                put_on(ground, clip, 1.0);
+                run("humanoid.export", {{"path", file}, {"fps", fps}});
+                const SharedCharacter read = load_character(file);
+                const humanoid::Clip& written = read->clips().front();
+                for (int i = 0; i / fps <= written.duration; i += 3) {
+                    const double time = i / fps;
+                    run("humanoid.clip", {{"time", time}, {"play", false}});
+                    const auto placed = test_posed::placed(read->character, 0, time);
+                    for (std::size_t node = 0; node < part().skeleton().size(); ++node) {
+                        const std::string& name = part().skeleton()[node].name;
+                        EXPECT_LT(glm::distance(placed[*read->skeleton().find(name)].position,
+                                                shown()[node].position),
+                                  tenth_of_a_millimetre)
+                            << ground << ' ' << clip << ' ' << name << " at " << time << " s, " << fps;
+                    }
+                }
+            }
+}
+
+/// The past is bounded: a moment after minutes costs at most two blocks, and looks as it did when played.
+TEST_F(HumanoidFeetHistory, IsTheSameAfterMinutes) {
+    put_on({{"kind", "flat"}}, "walk", 10.0);
+    const auto moments = played(900);  // two and a half minutes of the clip
+    ASSERT_GT(moments.back().first, 4.0 * FeetHistory::block_ticks * tick_seconds);
+    for (std::size_t i = 0; i < moments.size(); i += 97) {
+        run("humanoid.clip", {{"time", moments[i].first}, {"play", false}});
+        EXPECT_LT(apart(shown(), moments[i].second), tenth_of_a_millimetre) << moments[i].first;
+        EXPECT_LT(apart(shown_pose(reopened()).placed, moments[i].second), tenth_of_a_millimetre);
+    }
+}
+
+// Feet that pass through the ground: planted soles stand on treads, and steps that are too fast are reported.
+
+class FootDepth : public HumanoidTest {
+  protected:
+    const ShownPose& shown() const { return shown_pose(workspace); }
+    /// The depth of points along the line from heel to toe.
+    double depth(std::size_t side, int points) {
+        const humanoid::SolePoints& sole = shown().soles[side];
+        const humanoid::Ground& ground = humanoid_runtime(workspace).solvers.ground(part());
+        double deepest = 0.0;
+        for (int i = 0; i <= points; ++i) {
+            const glm::dvec3 at = glm::mix(sole.heel, sole.toe, static_cast<double>(i) / points);
+            if (const auto hit = ground.below(at + glm::dvec3(0.0, 0.5, 0.0)))
+                deepest = std::max(deepest, hit->height - at.y);
+        }
+        return deepest;
+    }
+    void stairs(double height, double deep) {
+        run("humanoid.ground", {{"kind", "stairs"}, {"step_height", height}, {"step_depth", deep}});
+        run("humanoid.foot_ik", {{"on", true}});
+    }
+};
+
+TEST_F(FootDepth, IsReportedWithItsCause) {
+    stairs(0.2, 0.25);
+    run("humanoid.clip", {{"name", "walk"}, {"play", true}});
+    bool told = false;
+    for (int i = 0; i < 400 && !told; ++i) {
+        tick();
+        const Verdict verdict = humanoid_verdict(workspace);
+        told = test::says(verdict.text, "foot mm in the ground") &&
+               test::says(verdict.why, "too fast for the stairs");
+    }
+    EXPECT_TRUE(told);
+    run("humanoid.ground", {{"kind", "flat"}});
+    tick(100);
+    EXPECT_EQ(humanoid_verdict(workspace).text, "Complete body");
+}
+
+TEST_F(FootDepth, IsZeroInTheOpening) {
+    for (const CommandCall& each : lab().opening()) run(each.name.c_str(), to_json(each.arguments));
+    for (int i = 0; i < 600; ++i) {
+        tick();
+        if (i % 10 == 0) {
+            ASSERT_EQ(humanoid_verdict(workspace).text, "Complete body") << "tick " << i;
+        }
+    }
+}
+
+/// Ten third-party clips, if present: no foot is deeper in the ground than the verdict says.
+TEST_F(FootDepth, OfThirdPartyClipsIsAlwaysReported) {
+    const auto folder = test::characters_folder();
+    if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
+    const std::vector<std::pair<std::string, std::size_t>> clips{
+        {"cmu_01_01.bvh", 0},    {"cmu_12_01_walk.bvh", 0}, {"human_clip.glb", 0}, {"robot.glb", 6},
+        {"robot.glb", 10},       {"robot.glb", 11},         {"pab_walk.fbx", 0},   {"cesium_man.gltf", 0},
+        {"mixed_orders.bvh", 0}, {"rigify_names.glb", 0}};
+    for (const auto& [file, clip] : clips) {
+        if (!std::filesystem::exists(folder / file)) continue;
+        SCOPED_TRACE(file);
+        run("humanoid.load", {{"path", (folder / file).string()}});
+        if (humanoid_runtime(workspace).solvers.feet(part()) == nullptr ||
+            part().loaded->clips().size() <= clip)
+            continue;
+        for (const char* kind : {"slope", "stairs"}) {
+            run("humanoid.ground", {{"kind", kind}});
+            run("humanoid.foot_ik", {{"on", true}});
+            run("humanoid.clip", {{"index", clip}, {"time", 0.0}, {"play", true}});
+            for (int i = 0; i < 240; ++i) {
+                tick();
+                if (!shown().feet) continue;
+                for (std::size_t side = 0; side < 2; ++side)
+                    if (shown().feet->feet[side].alone == humanoid::FootAlone::No &&
+                        depth(side, 1) > max_depth + 1e-6) {
+                        EXPECT_TRUE(test::says(humanoid_verdict(workspace).text, "foot mm in the ground"))
+                            << kind << " tick " << i << ": " << humanoid_verdict(workspace).text;
+                    }
+            }
+        }
+    }
 }
 
 }  // namespace

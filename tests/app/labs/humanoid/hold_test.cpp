@@ -1,13 +1,11 @@
 // Hands that hold an object, by the lab's commands and --state.
-#include <algorithm>
-#include <glm/gtc/quaternion.hpp>
+#include <array>
 #include <glm/trigonometric.hpp>
 
 #include "app/labs/humanoid/attachments/attachment_motion.hpp"
 #include "app/labs/humanoid/hold/hold.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
-#include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::app {
 namespace {
@@ -30,7 +28,6 @@ TEST_F(HumanoidHold, PutsBothHandsOnEachObject) {
     }
 }
 
-/// At rest and walking.
 TEST_F(HumanoidHold, ARifleIsBesideTheWristsAndTheChest) {
     run("humanoid.hold", {{"kind", "rifle"}});
     for (int i = 0; i <= 6; ++i) {
@@ -83,7 +80,6 @@ TEST_F(HumanoidHold, ReleasesAndRefusesByName) {
     expect_refused("humanoid.hold_move", {{"to", {0, 1, 1}}}, {"humanoid.hold"});
 }
 
-/// The object follows a character that walks away, and the feet walk.
 TEST_F(HumanoidHold, FollowsWhileWalking) {
     run("humanoid.hold", {{"kind", "box"}});
     run("humanoid.clip", {{"name", "walk"}, {"play", true}});
@@ -151,10 +147,7 @@ TEST_F(HumanoidHold, LetsTheBodySettleAfterATargetWasReleased) {
 }
 
 TEST_F(HumanoidHold, KeepsItsPositionInAnotherUnitLikeTargets) {
-    const test::TempFolder folder;
-    const std::string path = (folder / "figure.bvh").string();
-    test::write(path, bvh_figure());
-    run("humanoid.load", {{"path", path}});
+    run("humanoid.load", {{"path", write("figure.bvh", bvh_figure())}});
     run("humanoid.hold", {{"kind", "box"}, {"hands", "left"}, {"with_body", false}});
     const glm::dvec3 hand = bone("RightHand");
     run("humanoid.target", {{"effector", "right_hand"}, {"to", {hand.x, hand.y + 0.1, hand.z}}});
@@ -181,7 +174,6 @@ TEST_F(HumanoidHold, RefusesAFileWithATargetOfAHandThatHolds) {
     EXPECT_FALSE(save_scene(bad)["labs"]["humanoid"]["ik"].contains("held")) << "there is no object";
 }
 
-/// Effects on the body are reported while the object is dragged.
 TEST_F(HumanoidHold, IsReviewedWhileItIsDragged) {
     run("humanoid.hold", {{"kind", "box"}});
     const glm::dvec3 start = vector(hold().at("position"));
@@ -230,6 +222,135 @@ TEST_F(HumanoidHold, IsDraggedByItsHandle) {
     ASSERT_NE(found, handles.end());
     EXPECT_EQ(lab().gizmo(workspace)->pick, hold_pick);
     EXPECT_EQ(std::ranges::count_if(handles, [](const Handle& each) { return each.name == "left_hand"; }), 0);
+}
+
+// Hand IK, look-at and self-collision, by the lab's commands and --state.
+
+using HumanoidHands = HumanoidTest;
+
+TEST_F(HumanoidHands, BlendByTheTargetsWeight) {
+    run("humanoid.clip", {{"name", "punch"}, {"time", 0.1}});
+    const glm::dvec3 clip = bone("LeftHand"), wanted = clip + glm::dvec3(0.1, 0.1, 0.05);
+    run("humanoid.target",
+        {{"effector", "left_hand"}, {"to", {wanted.x, wanted.y, wanted.z}}, {"weight", 0.5}});
+    run("humanoid.hand_ik", {{"on", true}});
+    EXPECT_LT(glm::distance(bone("LeftHand"), glm::mix(clip, wanted, 0.5)), 5e-3);
+    run("humanoid.target", {{"effector", "left_hand"}, {"weight", 1}});
+    EXPECT_LT(glm::distance(bone("LeftHand"), wanted), 1e-3);
+    run("humanoid.target", {{"effector", "left_hand"}, {"weight", 0.005}});
+    EXPECT_EQ(bone("LeftHand"), clip) << "under 0.01 it is off";
+    run("humanoid.hand_ik", {{"on", false}});
+    EXPECT_LT(glm::distance(bone("LeftHand"), wanted), 1e-3) << "the body reaches for it again";
+}
+
+TEST_F(HumanoidHands, TimesMayBeTypedInAnyOrder) {
+    run("humanoid.target", {{"effector", "left_hand"}});
+    run("humanoid.hand_ik", {{"on", true}, {"hand", "left"}, {"curve", true}});
+    const auto times = [&] {
+        const HandCurve& curve = *part().ik.hand_ik.curves[0];
+        return std::array{curve.begin, curve.full, curve.until, curve.end};
+    };
+    run("humanoid.hand_ik", {{"hand", "left"}, {"begin", 1.0}});  // beyond all the others
+    EXPECT_EQ(times(), (std::array{1.0, 1.0, 1.0, 1.0}));
+    run("humanoid.hand_ik", {{"hand", "left"}, {"full", 1.2}});
+    run("humanoid.hand_ik", {{"hand", "left"}, {"until", 1.5}});
+    run("humanoid.hand_ik", {{"hand", "left"}, {"end", 1.75}});
+    EXPECT_EQ(times(), (std::array{1.0, 1.2, 1.5, 1.75}));
+    run("humanoid.hand_ik", {{"hand", "left"}, {"end", 0.5}});
+    EXPECT_EQ(times(), (std::array{0.5, 0.5, 0.5, 0.5}));
+    expect_refused("humanoid.hand_ik", {{"begin", 0.6}, {"full", 0.5}},
+                   {"from", "full from", "full to", "must be in ascending order"});
+}
+
+TEST_F(HumanoidHands, NeedABody) {
+    run("humanoid.map", {{"bone", "LeftHand"}});
+    for (const char* command :
+         {"humanoid.hand_ik", "humanoid.look_at", "humanoid.self_collision", "humanoid.balance"}) {
+        expect_refused(command, {{"on", true}}, {"full-body IK is off: LeftHand is missing"});
+        run(command, {{"on", false}});
+    }
+}
+
+using HumanoidLook = HumanoidTest;
+
+TEST_F(HumanoidLook, TurnsTheHeadToATarget) {
+    run("humanoid.look_at", {{"on", true}});
+    const glm::dvec3 ahead = vector(state().at("look_at").at("target"));
+    EXPECT_GT(ahead.z, 1.0) << "ahead of the head where nothing was given";
+    const glm::dvec3 target(1.2, 1.9, 1.2);
+    run("humanoid.look_at", {{"to", {target.x, target.y, target.z}}});
+    tick(120);
+    const glm::dvec3 forward = quaternion(bones().at("Head").at("rotation")) * glm::dvec3(0, 0, 1);
+    EXPECT_GT(glm::dot(forward, glm::normalize(target - bone("Head"))), std::cos(glm::radians(3.0)));
+    EXPECT_LT(state().at("look_at").at("left_deg").get<double>(), 3.0);
+    run("humanoid.look_at", {{"weight", 0}});
+    EXPECT_EQ(bone("Neck"), glm::dvec3(0, 1.5, 0));
+    run("humanoid.look_at", {{"on", false}});
+    EXPECT_EQ(quaternion(bones().at("Head").at("rotation")), glm::dquat(1, 0, 0, 0));
+}
+
+// Self-collision in the Humanoid lab: hands that a clip or target would move into the body stay outside.
+
+class HumanoidContacts : public HumanoidTest {
+  protected:
+    /// The depth of hands and lower arms in trunk and head as drawn, metres.
+    double penetration() { return penetration(capsules()); }
+    std::vector<humanoid::BodyCapsule> capsules() const {
+        return humanoid::fitted_capsules(part().skeleton(), *part().map,
+                                         skin_points(part().loaded->character.skin, part().loaded->rest));
+    }
+    double penetration(const std::vector<humanoid::BodyCapsule>& capsules) {
+        const auto& placed = shown_pose(workspace).placed;
+        double deepest = 0.0;
+        for (const auto& arm : capsules) {
+            using humanoid::Bone;
+            if (arm.bone != Bone::LeftHand && arm.bone != Bone::RightHand && arm.bone != Bone::LeftLowerArm &&
+                arm.bone != Bone::RightLowerArm)
+                continue;
+            for (const auto& other : capsules)
+                if (other.bone <= Bone::Head)
+                    deepest = std::max(
+                        deepest, -gap(place(arm, *part().map, placed), place(other, *part().map, placed)));
+        }
+        return deepest;
+    }
+};
+
+TEST_F(HumanoidContacts, WornObjectsAreKeptApart) {
+    run("humanoid.load", {{"path", tendril::test::source_path("tests/app/golden/body.glb")}});
+    run("humanoid.self_collision", {{"on", true}});
+    const std::vector<humanoid::BodyCapsule> capsules = humanoid_runtime(workspace).solvers.capsules(part());
+    const auto usual = humanoid::default_capsules(part().skeleton(), *part().map);
+    ASSERT_EQ(capsules.size(), usual.size());
+    EXPECT_NE(capsules, usual);
+    const Json before = state().at("character").at("nodes");
+    run("humanoid.self_collision", {{"on", false}});
+    EXPECT_EQ(state().at("character").at("nodes"), before) << "nothing is pushed at rest";
+    run("humanoid.self_collision", {{"on", true}});
+    for (int i = 0; i <= 60; ++i) {
+        run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.1, 1.15, 0.5 - 0.01 * i}}});
+        ASSERT_LT(penetration(capsules), 5e-3) << i;
+    }
+    // A fist through the waist and back, by hand IK.
+    run("humanoid.target", {{"effector", "left_hand"}, {"weight", 0}});
+    run("humanoid.hand_ik", {{"on", true}});
+    for (int i = 0; i <= 120; ++i) {
+        const double part_of_way = 0.5 - 0.5 * std::cos(2.0 * 3.14159265 * i / 120.0);
+        run("humanoid.target", {{"effector", "right_hand"}, {"to", {-0.05, 1.12, 0.5 - 0.5 * part_of_way}}});
+        tick();
+        ASSERT_LT(penetration(capsules), 5e-3) << i;
+    }
+}
+
+TEST_F(HumanoidContacts, SwitchedOffItLeavesNoTrace) {
+    for (const char* command : {"humanoid.self_collision", "humanoid.balance"}) {
+        workspace = make_blank_workspace(labs);
+        run("humanoid.target", {{"effector", "left_hand"}, {"to", {0.3, 1.3, 0.4}}});
+        const Json before = state();
+        run(command, {{"on", true}});
+        run(command, {{"on", false}});
+        EXPECT_EQ(state(), before) << command;
+    }
 }
 
 }  // namespace

@@ -1,9 +1,6 @@
 // Shared by tests of the Humanoid lab.
 #pragma once
 
-#include <filesystem>
-#include <string>
-
 #include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/view/palette.hpp"
 #include "tests/app/labs/lab_support.hpp"
@@ -24,17 +21,7 @@ class HumanoidTest : public LabTest {
     HumanoidTest() : LabTest(humanoid_lab) {}
 
     const HumanoidPart& part() const { return humanoid_part(workspace); }
-    void tick(int count = 1) {
-        for (int i = 0; i < count; ++i)
-            if (lab().moving(workspace)) lab().step(workspace);
-    }
 
-    static glm::dvec3 vector(const Json& at) {
-        return {at[0].get<double>(), at[1].get<double>(), at[2].get<double>()};
-    }
-    static glm::dquat quaternion(const Json& q) {
-        return {q[3].get<double>(), q[0].get<double>(), q[1].get<double>(), q[2].get<double>()};
-    }
     Json bones() const { return state().at("character").at("bones"); }
     glm::dvec3 bone(const std::string& name) const { return vector(bones().at(name).at("position")); }
     glm::dvec3 node(const std::string& name) const {

@@ -1,11 +1,11 @@
 // Joint limits: drawn as the solver uses them, learned from clips, adopted for all joints or one.
-#include <glm/gtc/quaternion.hpp>
+#include <array>
+#include <tendril/humanoid/balance.hpp>
 
 #include "app/labs/humanoid/draw.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "humanoid_support.hpp"
-#include "tests/app/support/temp_folder.hpp"
 
 namespace tendril::app {
 namespace {
@@ -155,11 +155,268 @@ TEST_F(HumanoidLimits, LearningIsRefusedWithoutData) {
                    {"the Hips joint has no limits"});
     run("humanoid.map", {{"bone", "LeftToes"}});
     expect_refused("humanoid.limits", {{"from", "none"}, {"bone", "LeftToes"}}, {"has no LeftToes"});
-    const test::TempFolder folder;
-    test::write(folder / "figure.bvh", bvh_figure());
-    run("humanoid.load", {{"path", (folder / "figure.bvh").string()}});
+    run("humanoid.load", {{"path", write("figure.bvh", bvh_figure())}});
     expect_refused("humanoid.limits", {{"from", "motion"}, {"bone", "Head"}},
                    {"no clip turns the Head joint"});
+}
+
+// Balance in the Humanoid lab: its switch, the panel's message, its file, its code and its picture.
+
+class HumanoidBalanceLab : public HumanoidTest {
+  protected:
+    Json balance() { return state().at("body").at("balance"); }
+    std::string text() { return balance().at("text").get<std::string>(); }
+    double margin_now() {
+        const ShownPose& shown = shown_pose(workspace);
+        Solvers& solvers = humanoid_runtime(workspace).solvers;
+        return humanoid::find_support(solvers.feet(part())->soles(), shown.soles)
+            .margin(solvers.masses(part())->centre(shown.placed));
+    }
+    /// Drags a hand from its position, 2 cm at a time for a figure of 1.8 m.
+    void drag(const char* effector, glm::dvec3 to) {
+        const glm::dvec3 from =
+            shown_pose(workspace)
+                .placed[*part().node_of(humanoid::bone_of(*humanoid::effector_named(effector)))]
+                .position;
+        const double stride = 0.011 * part().loaded->height();
+        const int steps = static_cast<int>(std::ceil(glm::distance(from, to) / stride)) + 1;
+        for (int i = 1; i <= steps; ++i) {
+            const glm::dvec3 at = glm::mix(from, to, static_cast<double>(i) / steps);
+            run("humanoid.target", {{"effector", effector}, {"to", {at.x, at.y, at.z}}});
+        }
+    }
+};
+
+LABEL(slow, "HumanoidBalanceLab.CharactersThatOthersMadeStandNoWorseWithIt");
+
+TEST_F(HumanoidBalanceLab, ThePanelSaysWhereTheCentreOfMassIs) {
+    EXPECT_FALSE(balance().contains("text"));
+    run("humanoid.balance", {{"on", true}});
+    EXPECT_TRUE(test::says(text(), "cm inside the feet"));
+    EXPECT_GT(balance().at("margin").get<double>(), 0.03);
+    EXPECT_GE(balance().at("support").size(), 6u);
+    const auto where = [&](glm::dvec3 by) {  // the margin of a body that is pulled along by its hips
+        run("humanoid.target", {{"effector", "left_foot"}});
+        run("humanoid.target", {{"effector", "right_foot"}});
+        ShownPose shown = shown_pose(workspace);
+        shown.balance->centre += by;
+        shown.balance->margin = shown.balance->support.margin(shown.balance->centre);
+        return balance_text(part(), shown, humanoid_runtime(workspace).solvers);
+    };
+    EXPECT_TRUE(test::says(where({0.0, 0.0, 0.3}), "cm ahead of the feet"));
+    EXPECT_TRUE(test::says(where({0.0, 0.0, -0.3}), "cm behind the feet"));
+    EXPECT_TRUE(test::says(where({0.4, 0.0, 0.0}), "cm left of the feet"));
+    EXPECT_TRUE(test::says(where({-4.0, 0.0, 0.0}), "m right of the feet"));
+}
+
+TEST_F(HumanoidBalanceLab, TheGroundShowsTheSupportArea) {
+    const std::size_t before = drawn().strokes.size();
+    run("humanoid.balance", {{"on", true}});
+    const std::size_t corners = balance().at("support").size();
+    EXPECT_EQ(drawn().strokes.size(), before + corners + 3);  // the outline, a line and its two ends
+}
+
+TEST_F(HumanoidBalanceLab, AFootStepsWhileTheSimulationRuns) {
+    run("humanoid.balance", {{"on", true}});
+    const double ahead = node("LeftFoot").z;
+    drag("right_hand", {-0.2, 1.0, 1.6});
+    EXPECT_NEAR(std::max(node("LeftFoot").z, node("RightFoot").z), ahead, 0.03);  // no time has passed
+    EXPECT_GT(shown_pose(workspace).residual(humanoid::Effector::RightHand).value(), 0.3);
+    tick();
+    tick();
+    EXPECT_TRUE(balance().at("stepping").get<bool>());
+    tick(8);
+    const Workspace other = reopened();  // in the middle of a step
+    EXPECT_EQ(humanoid_part(other).ik_state, part().ik_state);
+    EXPECT_TRUE(test::says(lab().code(workspace),
+                           "BodyOptions body_options .balance = true .feet = humanoid::FootShift"));
+    tick(400);
+    EXPECT_FALSE(balance().at("stepping").get<bool>());
+    EXPECT_FALSE(lab().moving(workspace));
+    EXPECT_LT(shown_pose(workspace).residual(humanoid::Effector::RightHand).value(), 0.03);
+    EXPECT_TRUE(test::says(text(), "cm inside the feet"));
+    EXPECT_GT(std::max(node("LeftFoot").z, node("RightFoot").z), ahead + 0.3);
+    // Released, the feet step back.
+    run("humanoid.target", {{"effector", "right_hand"}, {"weight", 0}});
+    tick(400);
+    EXPECT_FALSE(part().ik_state.steps.away());
+    EXPECT_NEAR(node("RightFoot").z, ahead, 1e-6);
+}
+
+TEST_F(HumanoidBalanceLab, AStepIsNotAnIncident) {
+    run("humanoid.balance", {{"on", true}});
+    drag("right_hand", {-0.2, 1.0, 1.6});
+    for (int i = 0; i < 400; ++i) {
+        tick();
+        const ShownPose& shown = shown_pose(workspace);
+        if (part().ik_state.steps.stepping()) {
+            EXPECT_EQ(text(), "stepping");
+            EXPECT_EQ(balance_colour(part(), shown, palette(Theme::Dark)), palette(Theme::Dark).tail);
+        } else {
+            EXPECT_TRUE(test::says(text(), "inside the feet")) << i << ": " << text();
+        }
+    }
+}
+
+TEST_F(HumanoidBalanceLab, ItExplainsWhyItDoesNotAct) {
+    const auto why = [&] { return balance().value("note", std::string()); };
+    run("humanoid.balance", {{"on", true}});
+    EXPECT_TRUE(test::says(why(), "acts once something has a target"));
+    run("humanoid.target", {{"effector", "right_hand"}, {"to", {-0.2, 1.0, 0.5}}});
+    EXPECT_EQ(why(), "");
+    run("humanoid.hand_ik", {{"on", true}});
+    EXPECT_TRUE(test::says(why(), "does not act hand IK moves the arms alone"));
+    run("humanoid.target", {{"effector", "head"}});
+    EXPECT_EQ(why(), "");
+}
+
+TEST_F(HumanoidBalanceLab, CharactersThatOthersMadeStandNoWorseWithIt) {
+    const std::filesystem::path folder = test::characters_folder();
+    if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
+    int read = 0, righted = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string ending = entry.path().extension().string();
+        if (ending != ".glb" && ending != ".gltf" && ending != ".fbx" && ending != ".bvh") continue;
+        run("humanoid.load", {{"path", entry.path().string()}});
+        run("humanoid.clip", {{"name", ""}});
+        if (humanoid_runtime(workspace).solvers.masses(part()) == nullptr) continue;
+        ++read;
+        const humanoid::Facing facing = humanoid::facing(part().skeleton(), *part().map);
+        const double height = part().loaded->height();
+        const glm::dvec3 hand =
+            shown_pose(workspace).placed[*part().node_of(humanoid::Bone::RightHand)].position;
+        for (const auto& [ahead, left, up] :
+             {std::array{0.5, 0.1, -0.1}, std::array{0.3, 0.0, -0.5}, std::array{0.1, -0.4, 0.0}}) {
+            const glm::dvec3 to =
+                hand + height * (ahead * facing.forward + left * facing.left + glm::dvec3(0.0, up, 0.0));
+            std::array<double, 2> margins{};
+            for (const bool on : {false, true}) {
+                run("humanoid.balance", {{"on", on}, {"steps", false}});
+                drag("right_hand", to);
+                margins[on ? 1 : 0] = margin_now() / height;
+                run("humanoid.target", {{"effector", "right_hand"}, {"weight", 0}});
+            }
+            EXPECT_GT(margins[1], std::min(margins[0], 0.0) - 0.005)
+                << entry.path() << ": " << ahead << ' ' << left << ' ' << up;
+            if (margins[0] < 0.0 && margins[1] > 0.0) ++righted;
+        }
+    }
+    EXPECT_GT(read, 5);
+    EXPECT_GT(righted, 5);
+}
+
+// Targets and limits: the body reaches for its targets, by the lab's commands and --state.
+
+class HumanoidTargets : public HumanoidTest {
+  protected:
+    void target(const char* effector, double x, double y, double z) {
+        run("humanoid.target", {{"effector", effector}, {"to", {x, y, z}}});
+    }
+    Json chain(const std::string& end) const {
+        const Json chains = state().at("chains");
+        for (const Json& each : chains)
+            if (each.at("end") == end) return each;
+        ADD_FAILURE() << "no chain ends at " << end;
+        return {};
+    }
+    double residual(const std::string& end) const { return chain(end).at("residual").get<double>(); }
+};
+
+TEST_F(HumanoidTargets, AreReachedWithoutATick) {
+    run("humanoid.clip", {{"name", "punch"}, {"time", 0.4}});
+    target("left_hand", 0.35, 1.5, 0.45);
+    target("right_hand", -0.4, 1.0, 0.3);
+    target("left_foot", 0.2, 0.3, 0.2);
+    target("head", 0.05, 1.48, 0.1);
+    target("hips", 0.02, 0.9, 0.0);
+    EXPECT_LT(glm::distance(bone("LeftHand"), glm::dvec3(0.35, 1.5, 0.45)), 1e-3);
+    EXPECT_LT(glm::distance(bone("RightHand"), glm::dvec3(-0.4, 1.0, 0.3)), 1e-3);
+    EXPECT_LT(glm::distance(bone("LeftFoot"), glm::dvec3(0.2, 0.3, 0.2)), 1e-3);
+    EXPECT_LT(glm::distance(bone("Head"), glm::dvec3(0.05, 1.48, 0.1)), 1e-3);
+    EXPECT_LT(glm::distance(bone("Hips"), glm::dvec3(0.02, 0.9, 0.0)), 1e-3);
+    for (const char* end : {"LeftHand", "RightHand", "LeftFoot", "Head", "Hips"})
+        EXPECT_LT(residual(end), 1e-3) << end;
+    EXPECT_EQ(residual("RightFoot"), 0.0);
+}
+
+TEST_F(HumanoidTargets, WithoutAPositionKeepTheEffectorInPlace) {
+    run("humanoid.clip", {{"name", "walk"}, {"time", 0.3}});
+    const glm::dvec3 hand = bone("LeftHand");
+    run("humanoid.target", {{"effector", "left_hand"}});
+    EXPECT_LT(glm::distance(bone("LeftHand"), hand), 1e-5);
+    run("humanoid.clip", {{"time", 0.5}});
+    const glm::dvec3 along = hand + glm::dvec3(0.0, 0.0, 0.2);  // the walk advances at 1 m/s
+    EXPECT_LT(glm::distance(bone("LeftHand"), along), 1e-3) << "the walk goes on, and the target with it";
+    run("humanoid.clip", {{"time", 0.6}, {"targets_travel", false}});
+    EXPECT_LT(glm::distance(bone("LeftHand"), along), 1e-3) << "or the target stays";
+}
+
+TEST_F(HumanoidTargets, GoToSeveralEffectorsAtOnce) {
+    const Json hands{"right_hand", "left_hand"};
+    run("humanoid.target", {{"effectors", hands}, {"points", {{-0.5, 1.2, 0.3}, {0.5, 1.1, 0.3}}}});
+    const auto targets = [&] { return state().at("body").at("targets"); };
+    EXPECT_EQ(targets().at("right_hand").at("position"), (Json{-0.5, 1.2, 0.3}));
+    EXPECT_EQ(targets().at("left_hand").at("position"), (Json{0.5, 1.1, 0.3}));
+    run("humanoid.target",
+        {{"effectors", hands}, {"rotations", {{0, 0, 0, 1}, {0, 1, 0, 0}}}, {"weight", 2.5}});
+    EXPECT_EQ(quaternion(targets().at("left_hand").at("rotation")), glm::dquat(0, 0, 1, 0));
+    EXPECT_EQ(targets().at("right_hand").at("weight"), 2.5);
+    run("humanoid.target", {{"effectors", hands}, {"weight", 0}});
+    EXPECT_TRUE(targets().empty());
+    run("undo");
+    EXPECT_EQ(targets().size(), 2u) << "one step for all";
+    const Json points{{0, 1, 0}, {0, 1, 0}};
+    const auto refuses = [&](Json arguments, const char* what) {
+        expect_refused("humanoid.target", arguments, {what});
+    };
+    refuses({{"weight", 1}}, "needs either effector or effectors");
+    refuses({{"effectors", {"head", "tail"}}, {"points", points}},
+            "effectors: there is no effector \"tail\"");
+    refuses({{"effectors", {"head", "head"}}, {"points", points}}, "\"head\" is listed twice");
+    refuses({{"effectors", {"head", 3}}, {"points", points}}, "3 is not a name");
+    refuses({{"effectors", Json::array()}}, "effectors: []");
+    refuses({{"effectors", Json::array({"head"})}, {"points", points}},
+            "1 points, one for each of effectors");
+    refuses({{"effectors", hands}, {"points", {{0, 1, 0}, {0, "x", 0}}}}, "points.1");
+    refuses({{"effectors", hands}, {"rotations", {{0, 0, 0, 1}, {0, 0, 0, 9}}}}, "rotations.1");
+    refuses({{"effectors", hands}, {"to", {0, 1, 0}}}, "to is for one effector");
+    refuses({{"effector", "head"}, {"points", points}}, "points is for effectors");
+}
+
+TEST_F(HumanoidTargets, StopAtLimitsWhichSaySo) {
+    target("hips", 0.0, 1.0, 0.0);
+    target("head", 0.0, 1.6, 0.0);
+    target("left_hand", -0.2, 1.4, -0.5);  // behind the back, where no arm can go
+    const double limited = residual("LeftHand");
+    const Json active = chain("LeftHand").at("active_limits");
+    EXPECT_NE(std::ranges::find(active, Json("LeftUpperArm")), active.end()) << active;
+    EXPECT_GT(limited, 0.01);
+    run("humanoid.limits", {{"from", "none"}});
+    EXPECT_EQ(state().at("body").at("limits"), "none");
+    const Json free = state().at("chains");
+    for (const Json& each : free) EXPECT_TRUE(each.at("active_limits").empty());
+    EXPECT_LT(residual("LeftHand"), limited);
+    run("humanoid.limits", {{"from", "motion"}});
+    EXPECT_EQ(state().at("body").at("limits"), "motion");
+    EXPECT_GT(residual("LeftHand"), 0.01) << "the clips never go there";
+}
+
+TEST_F(HumanoidTargets, AreIgnoredWhileABoneIsMissing) {
+    target("left_hand", 0.4, 1.5, 0.4);
+    const Json reached = state();
+    run("humanoid.map", {{"bone", "RightFoot"}});
+    EXPECT_NEAR(bone("LeftHand").x, 0.72, 1e-12);
+    EXPECT_TRUE(state().at("chains").empty());
+    run("humanoid.map", {{"bone", "RightFoot"}, {"node", "RightFoot"}});
+    EXPECT_LT(residual("LeftHand"), 1e-3);
+}
+
+TEST_F(HumanoidTargets, StateOfAnotherBodyIsIgnored) {
+    target("left_hand", 0.4, 1.5, 0.7);
+    Json scene = save_scene(workspace);
+    scene["labs"][humanoid_lab]["ik"]["body"]["turns"].erase(0);
+    load_scene(workspace, scene);
+    EXPECT_LT(glm::distance(bone("LeftHand"), glm::dvec3(0.4, 1.5, 0.7)), 1e-3);
 }
 
 }  // namespace

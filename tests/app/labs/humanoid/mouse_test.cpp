@@ -1,44 +1,26 @@
 // The mouse in the Humanoid lab, in the running program: real events, with picking.
-#include <gtest/gtest.h>
-
 #include <fstream>
 
-#include "app/labs/humanoid/humanoid_lab.hpp"
 #include "app/labs/humanoid/humanoid_runtime.hpp"
 #include "humanoid_support.hpp"
-#include "tests/app/e2e/monkey.hpp"
+#include "tests/app/labs/app_support.hpp"
 #include "tests/app/support/frame_record.hpp"
 #include "tests/app/support/panel_text.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
 
 using namespace app;
 
-class HumanoidMouse : public testing::Test {
+class HumanoidMouse : public LabAppTest {
   protected:
-    HumanoidMouse() {
-        app_.run({"lab.open", Json{{"name", humanoid_lab}}});
-        app_.run({"time.pause"});
-    }
-    void send(const Event& event) { app_.tick(&event); }
-    void click(glm::vec2 at) {
-        send(MouseMove{at});
-        send(MousePress{MouseButton::Left, true});
-        send(MousePress{MouseButton::Left, false});
-    }
-    glm::vec2 at(const std::string& name) { return handle(app_.state(), name); }
+    HumanoidMouse() : LabAppTest(humanoid_lab, true, {1280, 800}) {}
     Json bones() { return app_.state().at("character").at("bones"); }
-
-    const std::unique_ptr<Window> window_ = open_offscreen({1280, 800});
-    App app_{*window_};
+    Json targets() { return app_.state().at("body").at("targets"); }
 };
 
 TEST_F(HumanoidMouse, ClicksMapOneUnmappedBoneAfterAnother) {
-    for (const char* bone : {"LeftHand", "RightHand", "LeftToes"})
-        app_.run({"humanoid.map", Json{{"bone", bone}}});
+    for (const char* bone : {"LeftHand", "RightHand", "LeftToes"}) run("humanoid.map", {{"bone", bone}});
     auto& waiting = humanoid_runtime(app_.workspace()).panel.bone;
     waiting = humanoid::Bone::LeftHand;
     click(at("node.LeftHand"));
@@ -54,49 +36,33 @@ TEST_F(HumanoidMouse, ClicksMapOneUnmappedBoneAfterAnother) {
 
 TEST_F(HumanoidMouse, DragsAnEffectorToATarget) {
     const glm::vec2 from = at("left_hand");
-    send(MouseMove{from});
-    send(MousePress{MouseButton::Left, true});
-    for (int i = 1; i <= 10; ++i) send(MouseMove{from + static_cast<float>(i) * glm::vec2(-8, -6)});
-    send(MousePress{MouseButton::Left, false});
+    drag_by(from, {-80, -60});
     const Json state = app_.state();
     EXPECT_LT(glm::distance(handle(state, "left_hand"), from + glm::vec2(-80, -60)), 2.0f);
     EXPECT_LT(glm::distance(handle(state, "node.LeftHand"), from + glm::vec2(-80, -60)), 2.0f) << "reached";
     EXPECT_TRUE(state.at("body").at("targets").at("left_hand").at("rotation").is_null());
-    app_.run({"undo"});
-    EXPECT_TRUE(app_.state().at("body").at("targets").empty()) << "a drag is one step";
-    app_.run({"redo"});
-    const glm::vec2 ball = at("left_hand");
-    click(ball);
-    send(MousePress{MouseButton::Left, true});
-    send(MousePress{MouseButton::Left, false});
-    EXPECT_TRUE(app_.state().at("body").at("targets").empty()) << "a double click lets go";
+    run("undo");
+    EXPECT_TRUE(targets().empty()) << "a drag is one step";
+    run("redo");
+    click(at("left_hand"));
+    press(true), press(false);
+    EXPECT_TRUE(targets().empty()) << "a double click lets go";
 }
 
 TEST_F(HumanoidMouse, TurnsASelectedEffectorByItsGizmo) {
-    app_.run({"humanoid.select", Json{{"node", "Head"}}});
-    const glm::vec2 ring = at("head.rotate_z");
-    send(MouseMove{ring});
-    send(MousePress{MouseButton::Left, true});
-    for (int i = 1; i <= 10; ++i) send(MouseMove{ring + static_cast<float>(i) * glm::vec2(0, 6)});
-    send(MousePress{MouseButton::Left, false});
-    const Json target = app_.state().at("body").at("targets").at("head");
+    run("humanoid.select", {{"node", "Head"}});
+    drag_by(at("head.rotate_z"), {0, 60});
+    const Json target = targets().at("head");
     ASSERT_FALSE(target.at("rotation").is_null());
     EXPECT_GT(std::abs(target.at("rotation")[2].get<double>()), 0.05);
 }
 
 TEST_F(HumanoidMouse, DragsSeveralEffectorsByOneGizmo) {
-    app_.run({"humanoid.select", Json{{"nodes", {"LeftHand", "Spine", "RightHand"}}}});
-    const Json before = app_.state().at("character").at("bones");
-    const glm::vec2 arrow = at("right_hand.move_y");
-    const auto pull = [&](glm::vec2 from, glm::vec2 by) {
-        send(MouseMove{from});
-        send(MousePress{MouseButton::Left, true});
-        for (int i = 1; i <= 10; ++i) send(MouseMove{from + 0.1f * static_cast<float>(i) * by});
-        send(MousePress{MouseButton::Left, false});
-    };
-    const std::size_t steps = app_.workspace().history.size();
-    pull(arrow, {0, -30});
-    const auto target = [&](const char* name) { return app_.state().at("body").at("targets").at(name); };
+    run("humanoid.select", {{"nodes", {"LeftHand", "Spine", "RightHand"}}});
+    const Json before = bones();
+    const std::size_t history = steps();
+    drag_by(at("right_hand.move_y"), {0, -30});
+    const auto target = [&](const char* name) { return targets().at(name); };
     const auto moved = [&](const char* name, const char* bone, std::size_t axis) {
         return target(name).at("position")[axis].get<double>() -
                before.at(bone).at("position")[axis].get<double>();
@@ -106,18 +72,18 @@ TEST_F(HumanoidMouse, DragsSeveralEffectorsByOneGizmo) {
     EXPECT_NEAR(moved("left_hand", "LeftHand", 0), along, 1e-5) << "the same way";
     EXPECT_NEAR(moved("left_hand", "LeftHand", 1), up, 1e-5);
     EXPECT_TRUE(target("left_hand").at("rotation").is_null());
-    EXPECT_EQ(app_.state().at("body").at("targets").size(), 2u);
-    EXPECT_EQ(app_.workspace().history.size(), steps + 1);
+    EXPECT_EQ(targets().size(), 2u);
+    EXPECT_EQ(steps(), history + 1);
     const Lab& lab = *app_.labs().find(humanoid_lab);
     EXPECT_TRUE(test::says(lab.together(app_.workspace(), Drag::Position).staying, "effectors Spine"));
     const Json right = target("right_hand").at("position"), left = target("left_hand").at("position");
-    pull(at("right_hand.rotate_z"), {0, 40});
+    drag_by(at("right_hand.rotate_z"), {0, 40});
     EXPECT_FALSE(target("left_hand").at("rotation").is_null());
     EXPECT_EQ(target("right_hand").at("position"), right) << "it stands on the one selected last";
     EXPECT_NE(target("left_hand").at("position"), left) << "which the other goes round";
-    app_.run({"undo"});
-    app_.run({"undo"});
-    EXPECT_TRUE(app_.state().at("body").at("targets").empty());
+    run("undo");
+    run("undo");
+    EXPECT_TRUE(targets().empty());
 }
 
 /// Panel sections keep their height while the mouse is over them, but not for another character.
@@ -153,7 +119,7 @@ TEST_F(HumanoidPanels, SayWhatIsMissing) {
     run("humanoid.select", {{"node", "LeftHand"}});
     const std::string inspector = reader_.inspector(lab(), workspace);
     for (const char* says : {"Incomplete body", "LeftHand", "none", "LeftLowerArm"})
-        EXPECT_NE(inspector.find(says), std::string::npos) << says << " is not in:\n" << inspector;
+        EXPECT_TRUE(has(inspector, says));
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // Several selected nodes of a character: by command, and edits of all of them.
 #include <imgui_internal.h>
 
-#include <algorithm>
 #include <set>
 
 #include "app/labs/humanoid/humanoid_part.hpp"
@@ -9,8 +8,6 @@
 #include "app/labs/humanoid/limits/limit_ranges.hpp"
 #include "humanoid_support.hpp"
 #include "tests/app/support/panel_text.hpp"
-#include "tests/app/support/temp_folder.hpp"
-#include "tests/places.hpp"
 
 namespace tendril::app {
 namespace {
@@ -221,9 +218,7 @@ TEST_F(HumanoidSelection, IsRestoredFromAFile) {
 TEST_F(HumanoidSelection, OnAnotherCharacterExistingNodesStaySelected) {
     select({"HeadTop_End", "LeftHand", "Head"});
     const Selection before = part().selection;
-    const test::TempFolder folder;
-    test::write(folder / "figure.bvh", bvh_figure());
-    run("humanoid.load", {{"path", (folder / "figure.bvh").string()}});
+    run("humanoid.load", {{"path", write("figure.bvh", bvh_figure())}});
     for (const std::string& name : selected()) EXPECT_TRUE(name == "Head" || name == "LeftHand") << name;
     EXPECT_EQ(selected().size(), 2u);
     EXPECT_EQ(active(), "Head");

@@ -1,13 +1,8 @@
-// The Rig lab in the running program: dragging controls, and seeking in time.
-#include <algorithm>
-#include <glm/geometric.hpp>
+// The Rig lab in the running program: dragging controls, lists with filters, and the strip below the scene.
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "rig_support.hpp"
 #include "tests/app/support/frame_record.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::test {
 namespace {
@@ -17,7 +12,7 @@ using namespace app;
 class RigApp : public RigAppTest {
   protected:
     void drag(const std::string& name, glm::vec2 by) {
-        RigAppTest::drag(at(name), {0.25f * by, 0.5f * by, by});
+        LabAppTest::drag(at(name), {0.25f * by, 0.5f * by, by});
     }
 };
 
@@ -32,30 +27,18 @@ TEST_F(RigApp, ADragInItsRectangleFollowsThePointer) {
 TEST_F(RigApp, AFilteredListTakesEnterArrowsAndEscape) {
     const std::string first_source = "look 1 1";  // its translation in the scene
     const auto keys = [&](const std::vector<const char*>& pressed) {
-        app_.run({"rig.select", Json{{"element", "head"}, {"unit", "aim"}}});
-        const auto wait = [&] {
-            for (int i = 0; i < 3; ++i) app_.tick(nullptr);
-        };
-        wait();
-        send(MouseMove{{1190.0f, 413.0f}});
-        send(MousePress{MouseButton::Left, true});
-        send(MousePress{MouseButton::Left, false});
-        wait();
-        for (const char* const each : pressed) {
-            if (const auto chord = chord_from_name(each))
-                send(KeyTap{*chord});
-            else
-                send(TextInput{each});
-            wait();
-        }
+        run("rig.select", {{"element", "head"}, {"unit", "aim"}});
+        wait(3);
+        click({1190.0f, 413.0f}, 30);
+        type(pressed);
         const RigPart& part = rig_part(app_.workspace());
         const auto& aim = std::get<rig::Aim>(part.rig.definition().units[1].operation);
         const auto& from = std::get<rig::FromElement>(aim.primary.target.source);
         const std::string found = std::get<std::string>(from.element.which);
         const std::string whole = found + " " + std::to_string(static_cast<int>(from.of)) + " " +
                                   std::to_string(static_cast<int>(from.space));
-        if (whole != first_source) app_.run({"undo"});
-        for (int i = 0; i < 30; ++i) app_.tick(nullptr);
+        if (whole != first_source) run("undo");
+        wait(30);
         return whole;
     };
     EXPECT_EQ(keys({"TILT, tr", "enter"}), "tilt 1 1");
@@ -69,36 +52,22 @@ TEST_F(RigApp, AFilteredListTakesEnterArrowsAndEscape) {
     EXPECT_EQ(keys({"TILT, tr", "down", "down", "down", "enter"}), "tilt 1 0") << "past the end it stays";
 }
 
-/// The tree of elements has the same filter line.
 TEST_F(RigApp, TheTreesFilterTakesEnterAndArrows) {
-    app_.run({"rig.preset", Json{{"name", "loop"}}});
-    app_.run({"view.fold", Json{{"section", "rig: Elements"}, {"folded", false}}});
-    const auto wait = [&] {
-        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
-    };
-    wait();
+    run("rig.preset", {{"name", "loop"}});
+    run("view.fold", {{"section", "rig: Elements"}, {"folded", false}});
+    wait(3);
     const auto& elements = rig_part(app_.workspace()).rig.definition().elements;
     ASSERT_GT(elements.size(), 12u) << "the tree has a filter";
     FrameRecorder recorder;
-    wait();
+    wait(3);
     std::optional<glm::vec2> at;
     for (const DrawnText& each : recorder.frame().texts)
         if (each.text == "Filter by name") at = 0.5f * (each.box.min + each.box.max);
     ASSERT_TRUE(at);
-    const auto selected = [&] { return rig_part(app_.workspace()).selected_element(); };
     const auto keys = [&](const std::vector<const char*>& pressed) {
-        send(MouseMove{*at});
-        send(MousePress{MouseButton::Left, true});
-        send(MousePress{MouseButton::Left, false});
-        for (int i = 0; i < 30; ++i) app_.tick(nullptr);
-        for (const char* const each : pressed) {
-            if (const auto chord = chord_from_name(each))
-                send(KeyTap{*chord});
-            else
-                send(TextInput{each});
-            wait();
-        }
-        return selected();
+        click(*at, 30);
+        type(pressed);
+        return rig_part(app_.workspace()).selected_element();
     };
     const std::string first = keys({"joint", "enter"});
     EXPECT_TRUE(has(first, "joint"));
@@ -108,45 +77,150 @@ TEST_F(RigApp, TheTreesFilterTakesEnterAndArrows) {
 }
 
 TEST_F(RigApp, AUnitIsRenamedInItsPanel) {
-    app_.run({"rig.select", Json{{"element", "head"}, {"unit", "aim"}}});
-    for (int i = 0; i < 3; ++i) app_.tick(nullptr);
-    const auto click = [&](glm::vec2 at) {
-        send(MouseMove{at});
-        send(MousePress{MouseButton::Left, true});
-        send(MousePress{MouseButton::Left, false});
-        for (int i = 0; i < 30; ++i) app_.tick(nullptr);
-    };
+    run("rig.select", {{"element", "head"}, {"unit", "aim"}});
+    wait(3);
     FrameRecorder recorder;
-    const auto type = [&](const char* text, const char* key = "enter") {
+    const auto rename = [&](const char* text, const char* key = "enter") {
         app_.tick(nullptr);
         float height = 0.0f;
         for (const DrawnText& each : recorder.frame().texts)
             if (each.text == "name") height = 0.5f * (each.box.min.y + each.box.max.y);
-        click({1186.0f, height});
+        click({1186.0f, height}, 30);
         send(TextInput{text});
         if (key != nullptr) send(KeyTap{*chord_from_name(key)});
-        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+        wait(3);
     };
     const auto selected = [&] { return rig_part(app_.workspace()).selected.unit; };
-    type("set head");
+    rename("set head");
     EXPECT_TRUE(says(app_.workspace().ui.toasts.back().text, "already unit set head"));
     EXPECT_EQ(selected(), "aim");
-    type("gaze");
+    rename("gaze");
     EXPECT_EQ(selected(), "gaze");
-    app_.run({"undo"});
+    run("undo");
     EXPECT_EQ(selected(), "aim");
-    type("gaze", "escape");
+    rename("gaze", "escape");
     EXPECT_EQ(selected(), "aim") << "Escape puts the name back";
     for (const glm::vec2 elsewhere : {glm::vec2(640.0f, 660.0f), glm::vec2(60.0f, 60.0f)}) {
-        type("gaze", nullptr);
+        rename("gaze", nullptr);
         EXPECT_EQ(selected(), "aim") << "not before it is left";
-        click(elsewhere);
+        click(elsewhere, 30);
         const auto names = rig_part(app_.workspace()).rig.unit_names();
         EXPECT_TRUE(std::ranges::find(names, "gaze") != names.end()) << "left by a click elsewhere";
-        app_.run({"rig.preset", Json{{"name", "aim"}}});
-        app_.run({"rig.select", Json{{"element", "head"}, {"unit", "aim"}}});
-        for (int i = 0; i < 3; ++i) app_.tick(nullptr);
+        run("rig.preset", {{"name", "aim"}});
+        run("rig.select", {{"element", "head"}, {"unit", "aim"}});
+        wait(3);
     }
+}
+
+// Time in the Rig lab of the running program: the strip below the scene, and long work in small slices.
+
+constexpr float left = 443.5f, right = 988.5f, y = 677.0f;  ///< of the strip, in a window of 1280 x 720
+constexpr glm::vec2 replay{297.0f, 664.0f}, other_strip{338.0f, 664.0f}, back{378.0f, 664.0f},
+    on{411.0f, 664.0f};
+
+class RigTimeApp : public LabAppTest {
+  protected:
+    RigTimeApp() : LabAppTest(rig_lab, false) {}
+
+    void walking_head() {
+        run("rig.preset", {{"name", "secondary"}});
+        run("rig.motion", {{"name", "head"}, {"path", "circle"}, {"period", 1.5}});
+    }
+    /// Presses on the strip at the first of these seconds, and drags the playhead to each of the others.
+    void scrub(const std::vector<float>& seconds) {
+        const auto at = [&](float s) { return MouseMove{{left + (right - left) * s / 10.0f, y}}; };
+        send(at(seconds.front()));
+        press(true);
+        for (const float each : seconds) send(at(each));
+        press(false);
+    }
+    const RigPart& part() { return rig_part(app_.workspace()); }
+    std::uint64_t now() { return part().take.now(); }
+};
+
+TEST_F(RigTimeApp, TheStripIsDraggedToAnyTickOfTheTake) {
+    walking_head();
+    std::vector<rig::State> states{part().state};
+    for (int i = 0; i < 240; ++i) {
+        app_.tick(nullptr);
+        states.push_back(part().state);
+    }
+    for (const float seconds : {3.0f, 0.5f, 2.25f, 0.0f, 3.9f}) {
+        scrub({1.0f, seconds});
+        const std::uint64_t tick = now();
+        EXPECT_NEAR(static_cast<double>(tick), 60.0 * static_cast<double>(seconds), 1.0);
+        EXPECT_EQ(part().state, states[tick]) << tick;
+        EXPECT_FALSE(app_.workspace().clock.playing);
+    }
+    EXPECT_DOUBLE_EQ(app_.state().at("time").at("seconds").get<double>(),
+                     static_cast<double>(now()) * tick_seconds);
+    EXPECT_EQ(app_.workspace().history.size(), 2u) << "the preset and the walk";
+}
+
+TEST_F(RigTimeApp, ReplayRepeatsItAndTheStripStaysInPlace) {
+    walking_head();
+    wait(120);
+    const std::uint64_t end = now();
+    click(replay, 1);
+    EXPECT_TRUE(app_.workspace().clock.replaying);
+    EXPECT_LT(now(), 20u);
+    click(replay, 1);
+    EXPECT_FALSE(app_.workspace().clock.replaying) << "paused";
+    const std::uint64_t paused = now();
+    wait(10);
+    EXPECT_EQ(now(), paused);
+    click(on, 1);
+    EXPECT_EQ(now(), paused + 1);
+    click(back, 1);
+    click(back, 1);
+    EXPECT_EQ(now(), paused - 1);
+    click(replay, 1);
+    wait(200);
+    EXPECT_FALSE(app_.workspace().clock.replaying);
+    EXPECT_GE(now(), end);
+}
+
+TEST_F(RigTimeApp, TheOtherStripIsOneClickAway) {
+    walking_head();
+    wait(60);
+    click(other_strip, 1);
+    EXPECT_EQ(app_.workspace().settings.choices.at("rig_strip"), "past");
+    click(other_strip, 1);
+    EXPECT_EQ(app_.workspace().settings.choices.at("rig_strip"), "take");
+}
+
+TEST_F(RigTimeApp, AMarkIsClicked) {
+    run("rig.preset", {{"name", "fk"}});
+    const auto dial = [&](double to, int ticks) {
+        for (int i = 1; i <= ticks; ++i) {
+            run("rig.control.set", {{"name", "dial"}, {"value", to * i / ticks}});
+            app_.tick(nullptr);
+        }
+    };
+    dial(1.0, 120);
+    const auto incidents = app_.workspace().rewind.incidents();
+    ASSERT_EQ(incidents.size(), 2u) << "it leaves its minimum, and comes to its maximum";
+    click({left + (right - left) * 0.02f / 10.0f, y - 4.0f}, 1);
+    ASSERT_TRUE(app_.workspace().ui.incident);
+    EXPECT_TRUE(test::says(app_.workspace().ui.incident->cause, "dial left minimum 0.00"));
+    EXPECT_NEAR(std::get<double>(part().state->controls[0]), 0.0, 0.03);
+    scrub({1.0f, 0.5f});
+    EXPECT_FALSE(app_.workspace().ui.incident) << "one looks elsewhere";
+}
+
+TEST_F(RigTimeApp, AClipIsSolvedInAPauseAndStaysResponsive) {
+    walking_head();
+    run("time.pause");
+    run("rig.clip.record", {{"seconds", 1.0}});
+    run("rig.clip.solve");
+    EXPECT_TRUE(app_.needs_ticks());
+    int ticks = 0;
+    for (; app_.needs_ticks() && ticks < 600; ++ticks) app_.tick(nullptr);
+    EXPECT_FALSE(part().clip_left->running);
+    EXPECT_GT(ticks, 5);
+    EXPECT_EQ(now(), 0u);
+    run("undo");
+    EXPECT_EQ(part().clip_left, nullptr);
 }
 
 }  // namespace

@@ -1,11 +1,8 @@
 // The causes of flips: gestures with a planted cause, and smooth ones; failing units, controls at limits.
-#include <glm/gtc/quaternion.hpp>
-
 #include "app/labs/rig/presets.hpp"
 #include "app/labs/rig/values.hpp"
 #include "tests/app/labs/rig/rig_support.hpp"
 #include "tests/app/support/random_numbers.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -167,11 +164,7 @@ TEST_F(RigIncidents, TheTargetWentThroughTheRoot) {
         element("lower", "upper", transform(0, length, 0));
         element("hand", "lower", {{"translation", {0.4 * length, 0.9 * length, 0}}});
         control("target", "position");
-        unit({{"unit", "two_bone"},
-              {"name", "arm"},
-              {"root", "upper"},
-              {"tip", "hand"},
-              {"target", "target"}});
+        unit(R"({"unit": "two_bone", "name": "arm", "root": "upper", "tip": "hand", "target": "target"})");
         const glm::dvec3 off = uniform(0.0, 0.004) * length * across(along);
         const Path path = line(glm::dvec3(0, 1, 0) + off, along, 0.5 * length, 0.012 * length);
         return drag("target", path, "", {"unit arm: the target went through the root"});
@@ -182,12 +175,9 @@ TEST_F(RigIncidents, AWeightSetByASwitchOfNumbers) {
     element("bone", "", transform(0, 1, 0));
     element("end", "bone", transform(0, 1, 0));
     control("dial", "float", {{"minimum", 0}, {"maximum", 1}});
-    unit({{"unit", "evaluate_curve"},
-          {"name", "gate"},
-          {"value", {{"element", "dial"}, {"of", "value"}}},
-          {"curve",
-           {{"keys",
-             {{{"time", 0}, {"value", 0}, {"piece", "constant"}}, {{"time", 0.503}, {"value", 1}}}}}}});
+    unit(R"({"unit": "evaluate_curve", "name": "gate", "value": {"element": "dial", "of": "value"}, )"
+         R"("curve": {"keys": [{"time": 0, "value": 0, "piece": "constant"}, {"time": 0.503, )"
+         R"("value": 1}]}})");
     unit({{"unit", "offset_transform"},
           {"name", "raise"},
           {"item", "bone"},
@@ -222,15 +212,9 @@ TEST_F(RigIncidents, AnUnknownCauseIsReportedAsUnknown) {
         element("head", "", transform(at.x, at.y, at.z));
         element("nose", "head", transform(0, 0, 0.45));
         control("look", "position");
-        unit({{"unit", "for_each"},
-              {"name", "all"},
-              {"roots", {"head"}},
-              {"recursive", false},
-              {"body",
-               {{{"unit", "aim"},
-                 {"name", "inner"},
-                 {"item", {{"item", "each"}}},
-                 {"primary", {{"axis", {0, 0, 1}}, {"target", "look"}}}}}}});
+        unit(R"({"unit": "for_each", "name": "all", "roots": ["head"], "recursive": false, )"
+             R"("body": [{"unit": "aim", "name": "inner", "item": {"item": "each"}, )"
+             R"("primary": {"axis": [0, 0, 1], "target": "look"}}]})");
         const glm::dvec3 off = uniform(0.0, 0.001) * across(along);
         return drag("look", line(at + off, along, 0.05, 0.007), "", {"unit all: cause not known"});
     });
@@ -239,10 +223,8 @@ TEST_F(RigIncidents, AnUnknownCauseIsReportedAsUnknown) {
 TEST_F(RigIncidents, TheLastUnitToWriteTheBoneIsNamed) {
     const glm::dvec3 at(0, 1, 0), way(0, 0, 1);
     head(at, {{"axis", {0, 1, 0}}, {"target", "tilt"}});
-    unit({{"unit", "offset_transform"},
-          {"name", "nod"},
-          {"item", "head"},
-          {"offset", {{"rotation", {0.1, 0, 0, 1}}}}});
+    unit(R"({"unit": "offset_transform", "name": "nod", "item": "head", "offset": {"rotation": [0.1, )"
+         R"(0, 0, 1]}})");
     set("look", json(at + 2.0 * way));
     const Gesture gesture =
         drag("tilt", line(at + way + glm::dvec3(0, 0.001, 0), {1, 0, 0}, 0.1, 0.015), "head",

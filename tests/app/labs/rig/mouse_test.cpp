@@ -13,21 +13,13 @@ class RigMouse : public RigAppTest {
   protected:
     /// A single control, seen at an angle.
     void one(const char* kind, const Json& more = Json::object()) {
-        app_.run({"rig.clear"});
+        run("rig.clear");
         Json arguments{{"name", "it"}, {"kind", "control"}, {"control", kind}};
         arguments.update(more);
-        app_.run({"rig.element.add", arguments});
-        app_.run({"camera.set", Json{{"target", {0, 0, 0}},
-                                     {"yaw_deg", 30},
-                                     {"pitch_deg", 25},
-                                     {"distance", 5},
-                                     {"orthographic", true}}});
+        run("rig.element.add", arguments);
+        look_from(5);
     }
-    void select(const char* name = "it") { app_.run({"rig.select", Json{{"element", name}}}); }
-    void click(glm::vec2 at) { drag(at, {}); }
-    void wait(int ticks) {
-        for (int i = 0; i < ticks; ++i) app_.tick(nullptr);
-    }
+    void select(const char* name = "it") { run("rig.select", {{"element", name}}); }
     Json value(const std::string& name = "it") { return element(name).at("value"); }
     Json selected() { return app_.state().at("selected").at("element"); }
 };
@@ -109,10 +101,10 @@ TEST_F(RigMouse, ARotationTurnsByItsOwnRingsAndByTheGizmo) {
     EXPECT_GT(degrees, 50.0);
     EXPECT_LT(degrees, 130.0);
     EXPECT_EQ(steps(), before + 1) << "one drag, one step";
-    app_.run({"undo"});
+    run("undo");
     EXPECT_EQ(number(value(), 3), 1.0);
     // The ring that is always visible; its near side moves to the right.
-    app_.run({"rig.select"});
+    run("rig.select");
     const float metre = 720.0f / (2.0f * 5.0f * std::tan(0.35f));
     const glm::vec2 ring = centre + glm::vec2(0.0f, 0.14f * metre * std::sin(glm::radians(25.0f)));
     drag(ring, {{10.0f, 0.0f}, {20.0f, 0.0f}});
@@ -141,22 +133,17 @@ TEST_F(RigMouse, ATransformIsMovedTurnedAndScaledByItsGizmo) {
 class RigMovingSpace : public RigMouse {
   protected:
     RigMovingSpace() {
-        app_.run({"rig.clear"});
-        app_.run({"rig.element.add", Json{{"name", "cart"}, {"kind", "control"}}});
-        app_.run({"rig.element.add", Json{{"name", "it"},
-                                          {"kind", "control"},
-                                          {"space", "cart"},
-                                          {"local", {{"translation", {0, 0.3, 0}}, {"scale", {1, 2, 3}}}}}});
-        app_.run({"camera.set", Json{{"target", {0, 0, 0}},
-                                     {"yaw_deg", 30},
-                                     {"pitch_deg", 25},
-                                     {"distance", 6},
-                                     {"orthographic", true}}});
-        app_.run(
-            {"rig.motion",
-             Json{{"name", "cart"}, {"path", "circle"}, {"radius", 0.5}, {"period", 1}, {"turn", true}}});
+        run("rig.clear");
+        run("rig.element.add", {{"name", "cart"}, {"kind", "control"}});
+        run("rig.element.add", {{"name", "it"},
+                                {"kind", "control"},
+                                {"space", "cart"},
+                                {"local", {{"translation", {0, 0.3, 0}}, {"scale", {1, 2, 3}}}}});
+        look_from(6);
+        run("rig.motion",
+            {{"name", "cart"}, {"path", "circle"}, {"radius", 0.5}, {"period", 1}, {"turn", true}});
         select();
-        app_.run({"time.play"});
+        run("time.play");
     }
 };
 
@@ -205,30 +192,30 @@ TEST_F(RigMouse, TheWheelDoesNothingWhileAGizmoIsHeld) {
     send(MouseMove{from + glm::vec2(0.0f, -41.0f)});
     send(MouseMove{from + glm::vec2(0.0f, -40.0f)});
     EXPECT_NEAR(number(value()["translation"], 1), number(moved["translation"], 1), 1e-5);
-    send(MousePress{MouseButton::Left, false});
+    press(false);
     send(MouseWheel{2.0f});
     EXPECT_LT(distance(), before);
 }
 
 TEST_F(RigMouse, ADragInAPauseKeepsTheTake) {
-    app_.run({"rig.preset", Json{{"name", "secondary"}}});
-    app_.run({"rig.control.set", Json{{"name", "head"}, {"value", {{"translation", {0.2, 1, 0}}}}}});
-    app_.run({"time.play"});
+    run("rig.preset", {{"name", "secondary"}});
+    run("rig.control.set", {{"name", "head"}, {"value", {{"translation", {0.2, 1, 0}}}}});
+    run("time.play");
     wait(60);
-    app_.run({"time.pause"});
+    run("time.pause");
     const Json skull = element("skull");
-    app_.run({"rig.time", Json{{"tick", 20}}});
+    run("rig.time", {{"tick", 20}});
     const Json earlier = element("skull");
-    app_.run({"rig.time", Json{{"tick", 60}}});
+    run("rig.time", {{"tick", 60}});
     EXPECT_EQ(element("skull"), skull);
     drag(at("head"), {{20.0f, 0.0f}, {40.0f, -10.0f}, {60.0f, -20.0f}, {80.0f, -20.0f}});
     const Json moved = element("skull");
     EXPECT_NE(moved["global"], skull["global"]);
     EXPECT_EQ(app_.state()["take"]["began"], 0);
     EXPECT_EQ(app_.state()["take"]["played_to"], 60);
-    app_.run({"rig.time", Json{{"tick", 20}}});
+    run("rig.time", {{"tick", 20}});
     EXPECT_EQ(element("skull"), earlier);
-    app_.run({"rig.time", Json{{"tick", 60}}});
+    run("rig.time", {{"tick", 60}});
     EXPECT_EQ(element("skull"), moved);
 }
 
@@ -241,7 +228,7 @@ TEST_F(RigMouse, EscapeDuringADragRestoresTheOldValue) {
     send(KeyTap{*chord_from_name("escape")});
     EXPECT_EQ(value(), rest);
     send(MouseMove{{600.0f, 400.0f}});
-    send(MousePress{MouseButton::Left, false});
+    press(false);
     EXPECT_EQ(value(), rest);
 }
 
@@ -254,7 +241,7 @@ TEST_F(RigMouse, ADoubleClickResetsAControl) {
     EXPECT_NE(value(), (Json{0.0, 0.0})) << "one click selects";
     click(at("it"));
     EXPECT_EQ(value(), (Json{0.0, 0.0}));
-    EXPECT_THROW(app_.run({"rig.control.reset", Json{{"name", "nobody"}}}), Refused);
+    EXPECT_THROW(run("rig.control.reset", {{"name", "nobody"}}), Refused);
 }
 
 TEST_F(RigMouse, AClickSelectsAndAClickInEmptySpaceDeselects) {
@@ -266,11 +253,11 @@ TEST_F(RigMouse, AClickSelectsAndAClickInEmptySpaceDeselects) {
 
 TEST_F(RigMouse, ShiftAddsABoxSelectsAndDeleteRemovesAll) {
     one("position");
-    app_.run({"rig.element.add", Json{{"name", "bone"}, {"local", {{"translation", {0.8, 0, 0}}}}}});
-    app_.run({"rig.element.add", Json{{"name", "switch"},
-                                      {"kind", "control"},
-                                      {"control", "bool"},
-                                      {"local", {{"translation", {0, 0.9, 0}}}}}});
+    run("rig.element.add", {{"name", "bone"}, {"local", {{"translation", {0.8, 0, 0}}}}});
+    run("rig.element.add", {{"name", "switch"},
+                            {"kind", "control"},
+                            {"control", "bool"},
+                            {"local", {{"translation", {0, 0.9, 0}}}}});
     const auto selection = [&] { return app_.state().at("selection"); };
     const auto hold = [&](Key key, bool down) { send(KeyChange{key, down}); };
     click(at("bone"));
@@ -298,16 +285,16 @@ TEST_F(RigMouse, ShiftAddsABoxSelectsAndDeleteRemovesAll) {
     hold(Key::Ctrl, false);
     EXPECT_EQ(selection(), (Json{"it", "bone"}));
     send(MouseMove{at("it")});
-    send(MousePress{MouseButton::Left, true});
+    press(true);
     send(MouseMove{at("it") + glm::vec2(30.0f, 0.0f)});
     send(KeyTap{*chord_from_name("delete")});
     EXPECT_EQ(selection(), (Json{"it", "bone"})) << "not in a drag";
-    send(MousePress{MouseButton::Left, false});
+    press(false);
     send(KeyTap{*chord_from_name("delete")});
     EXPECT_TRUE(element("it").is_null());
     EXPECT_TRUE(element("bone").is_null());
     EXPECT_FALSE(element("switch").is_null());
-    app_.run({"undo"});
+    run("undo");
     EXPECT_EQ(selection(), (Json{"it", "bone"}));
 }
 
@@ -317,7 +304,7 @@ TEST_F(RigMouse, ABonesGizmoSetsThePoseThatEverySolveStartsWith) {
     drag(at("nose.move_y"), {{0.0f, -20.0f}, {0.0f, -50.0f}});
     EXPECT_GT(number(element("nose")["local"]["translation"], 1), 0.1);
     EXPECT_EQ(element("head"), head);
-    app_.run({"rig.solve"});
+    run("rig.solve");
     EXPECT_GT(number(element("nose")["local"]["translation"], 1), 0.1);
     EXPECT_FALSE(has_handle("nose.scale_x"));
 }

@@ -1,5 +1,4 @@
 // The contents of the Rig lab's panels: their lists, offers and edits.
-#include <algorithm>
 #include <set>
 
 #include "app/document/refused.hpp"
@@ -13,7 +12,6 @@
 #include "app/labs/rig/values.hpp"
 #include "rig_support.hpp"
 #include "tests/app/support/panel_text.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {

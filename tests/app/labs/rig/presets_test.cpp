@@ -1,9 +1,14 @@
 // The five presets: each solves without a warning and does what its documentation says.
 #include <array>
-#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
 
+#include "app/labs/kit/past.hpp"
 #include "app/labs/rig/presets.hpp"
+#include "app/labs/rig/rig_edit.hpp"
+#include "app/view/palette.hpp"
 #include "rig_support.hpp"
+#include "tests/app/labs/rig/rig_support.hpp"
+#include "tests/app/support/random_numbers.hpp"
 
 namespace tendril::app {
 namespace {
@@ -182,6 +187,237 @@ TEST_F(RigPresets, TheAntennaeTrailTheHeadTheirTipsMost) {
             glm::length(translation(numbered("left", i)) - rest[static_cast<std::size_t>(i - 1)] - step),
             1e-6)
             << i;
+}
+
+// An element's rotation at each remembered moment, against an independent computation.
+
+class RigPast : public RigTest, protected test::RandomNumbers {
+  protected:
+    RigPast() : RandomNumbers(23) {}
+
+    glm::dquat rotation() {
+        const double w = uniform(-1, 1), x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1);
+        return glm::normalize(glm::dquat(w, x, y, z + 1e-3));
+    }
+    glm::dvec3 point() {
+        const double x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1);
+        return {x, y, z};
+    }
+
+    /// A tree of bones and nulls, each below a random earlier one.
+    rig::Definition tree(std::size_t count) {
+        rig::Definition definition;
+        for (std::size_t i = 0; i < count; ++i) {
+            rig::Element each{.name = "e" + std::to_string(i)};
+            each.kind = random() % 5 == 0 ? rig::ElementKind::Null : rig::ElementKind::Bone;
+            if (i > 0) each.parent = "e" + std::to_string(random() % i);
+            each.initial.translation = point();
+            each.initial.rotation = rotation();
+            definition.elements.push_back(each);
+        }
+        return definition;
+    }
+    void plot(const std::string& what, const std::string& element) {
+        run("view.rig_plot", {{"of", what}});
+        run("rig.select", {{"element", element}});
+    }
+    std::vector<PastValue> values() const {
+        return past_values(workspace, rig_past(), *rig_past().curve(workspace));
+    }
+};
+
+/// Degrees: swing of the bone's direction, and twist after undoing the swing by the shortest rotation.
+struct Counted {
+    double swing, twist;
+};
+Counted count(const glm::dquat& turn, const glm::dvec3& along) {
+    const glm::dvec3 bone = glm::normalize(along), went = turn * bone;
+    const glm::dvec3 axis = glm::cross(went, bone);
+    const double sine = glm::length(axis), cosine = glm::dot(went, bone);
+    const glm::dquat back =
+        sine > 1e-12 ? glm::angleAxis(std::atan2(sine, cosine), axis / sine) : glm::dquat(1, 0, 0, 0);
+    const glm::dvec3 other = std::abs(bone.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 side = glm::normalize(glm::cross(bone, other)), turned = back * (turn * side);
+    return {glm::degrees(std::atan2(sine, cosine)),
+            glm::degrees(std::atan2(glm::dot(glm::cross(side, turned), bone), glm::dot(side, turned)))};
+}
+
+TEST_F(RigPast, ValuesEqualThePoseAtEachTick) {
+    for (int round = 0; round < 20; ++round) {
+        run("rig.clear");
+        workspace.rewind.clear();
+        const rig::Definition definition = tree(3 + random() % 12);
+        workspace.document.edit<RigPart>(rig_lab) = RigPart(definition);
+        const std::size_t chosen = random() % definition.elements.size();
+        const rig::Element& element = definition.elements[chosen];
+        std::vector<glm::dquat> turns;
+        for (int moment = 0; moment < 30; ++moment) {
+            auto& part = workspace.document.edit<RigPart>(rig_lab);
+            for (int i = 0; i < 3; ++i) {
+                rig::Transform to;
+                to.translation = point();
+                to.rotation = rotation();
+                const auto space = random() % 2 == 0 ? rig::Space::Local : rig::Space::Global;
+                const auto down = random() % 2 == 0 ? rig::Propagate::Yes : rig::Propagate::No;
+                const rig::ElementId id = part.rig.id(random() % definition.elements.size());
+                ASSERT_TRUE(part.state.edit().elements.set(id, space, to, down));
+            }
+            rig::Hierarchy resolved = part.state->elements;
+            turns.push_back(glm::conjugate(element.initial.rotation) *
+                            resolved.get(part.rig.id(chosen), rig::Space::Local).rotation);
+            remember();
+        }
+        glm::dvec3 along(0.0);
+        for (const rig::Element& each : definition.elements)
+            if (each.parent == element.name && each.kind == rig::ElementKind::Bone)
+                along += each.initial.translation;
+        const bool leaf = glm::length(along) < 1e-9;
+        const auto is_led = [&](const rig::Element& each) {
+            return each.name == element.parent && each.kind == rig::ElementKind::Bone;
+        };
+        const bool led = std::any_of(definition.elements.begin(), definition.elements.end(), is_led);
+        if (leaf) along = led ? element.initial.translation : glm::dvec3(0, 1, 0);
+        for (const char* const what : {"swing", "twist", "angle"}) {
+            plot(what, element.name);
+            const std::vector<PastValue> told = values();
+            const bool known = element.kind == rig::ElementKind::Bone || what[0] == 'a';
+            ASSERT_EQ(told.size() >= turns.size(), known);
+            for (std::size_t i = 0; known && i < turns.size(); ++i) {
+                const Counted counted = count(turns[i], along);
+                const double angle = 2.0 * glm::degrees(std::acos(std::min(1.0, std::abs(turns[i].w))));
+                const double expected = what[0] == 's'   ? counted.swing
+                                        : what[0] == 't' ? counted.twist
+                                                         : angle;
+                EXPECT_NEAR(static_cast<double>(told[i].value), expected, 1e-3) << what << " at " << i;
+            }
+        }
+    }
+}
+
+TEST_F(RigPast, AnElementIsFoundByNameInThePast) {
+    element("arm");
+    element("hand", "arm", transform(0, 1, 0));
+    remember();
+    run("rig.element.add", {{"name", "base"}, {"kind", "bone"}});
+    remember();
+    plot("angle", "base");
+    EXPECT_EQ(values().size(), 2u) << "of the moment without it there is none; the present is one more";
+    plot("angle", "hand");
+    EXPECT_EQ(values().size(), 3u);
+}
+
+TEST_F(RigPast, WithoutASelectionItIsTheFirstBoneBelowAnother) {
+    run("view.rig_plot", {{"of", "swing"}});
+    EXPECT_TRUE(test::says(rig_past().curve(workspace)->missing, "rig elements"));
+    control("look", "position");
+    EXPECT_EQ(rig_past().curve(workspace)->name, "swing of look");
+    element("arm");
+    EXPECT_EQ(rig_past().curve(workspace)->name, "swing of arm");
+    element("hand", "arm", transform(0, 1, 0));
+    EXPECT_EQ(rig_past().curve(workspace)->name, "swing of hand");
+    run("rig.select", {{"element", "look"}});
+    EXPECT_TRUE(values().empty());
+    EXPECT_TRUE(test::says(rig_past().curve(workspace)->missing, "look swing twist bone"));
+}
+
+TEST_F(RigPast, GhostsAreThePastBones) {
+    element("arm", "", transform(1, 0, 0));
+    element("hand", "arm", transform(0, 1, 0));
+    const PoseLines lines = rig_past().pose(workspace, now());
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(lines[0].first, glm::vec3(1, 0, 0));
+    EXPECT_EQ(lines[0].second, glm::vec3(1, 1, 0));
+    EXPECT_EQ(lines[1].first, glm::vec3(1, 1, 0));
+}
+
+// Bones below a control that is not at rest: a solve starts with the bones where the control has moved them,
+// for commands, gizmos and ghosts alike.
+
+const glm::dvec3 arm_start(0, 2, -1), hand_start(0, 2, -2);
+
+class RigBelowControl : public RigTest {
+  protected:
+    /// `mover` has moved up and turned by 90 degrees about y: its x axis is now -z. A unit moves the arm.
+    RigBelowControl() {
+        control("mover", "transform");
+        element("arm", "mover", transform(1, 0, 0));
+        element("hand", "arm", transform(1, 0, 0));
+        unit({{"unit", "offset_transform"},
+              {"name", "move on"},
+              {"item", "arm"},
+              {"offset", transform(0, 0.5, 0)}});
+        const double half = std::sqrt(0.5);
+        set("mover", {{"translation", {0, 2, 0}}, {"rotation", {0, half, 0, half}}});
+        tick(2);
+    }
+    void set_global(const char* name, const Json& to) {
+        run("rig.element.set", {{"name", name}, {"space", "global"}, {"transform", to}});
+    }
+    void switch_unit_off() {
+        run("rig.unit.enable", {{"name", "move on"}, {"on", false}});
+        tick();
+    }
+    void drag_to(const Handle& handle, glm::vec3 position) {
+        HandleFrame to = handle.frame;
+        to.position = position;
+        Emit emit;
+        lab().drag(workspace, handle.pick, to, emit);
+        for (const Emitted& each : emit.take()) run(each.name.c_str(), *each.arguments);
+    }
+};
+
+TEST_F(RigBelowControl, OmittedPartsOfAGlobalPoseStayWhereTheControlPutsThem) {
+    set_global("arm", {{"rotation", {0, 0, 0, 1}}});
+    switch_unit_off();
+    expect_near(translation("arm"), arm_start);
+    expect_near(translation("hand"), arm_start + glm::dvec3(1, 0, 0));
+    EXPECT_NEAR(std::abs(rotation("arm").w), 1.0, 1e-12);
+    set("mover", {{"translation", {0, 3, 0}}});
+    tick();
+    expect_near(translation("arm"), arm_start + glm::dvec3(0, 1, 0));  // it follows the control
+}
+
+TEST_F(RigBelowControl, TheGizmoIsWhereASolveStartsTheBone) {
+    run("rig.select", {{"element", "arm"}});
+    const auto gizmo = lab().gizmo(workspace);
+    ASSERT_TRUE(gizmo);
+    expect_near(glm::dvec3(gizmo->frame.position), arm_start, 1e-6);
+    drag_to(*gizmo, gizmo->frame.position + glm::vec3(0, 0.25f, 0));
+    switch_unit_off();
+    expect_near(translation("arm"), arm_start + glm::dvec3(0, 0.25, 0), 1e-6);
+}
+
+TEST_F(RigBelowControl, TheGizmoOfAControlThere) {
+    control("grip", "transform", {{"space", "hand"}, {"local", transform(1, 0, 0)}});
+    tick();
+    run("rig.select", {{"element", "grip"}});
+    const auto gizmo = lab().gizmo(workspace);
+    ASSERT_TRUE(gizmo);
+    const glm::dvec3 is = translation("grip");
+    expect_near(is, hand_start + glm::dvec3(0, 0.5, -1), 1e-6);
+    expect_near(glm::dvec3(gizmo->frame.position), is, 1e-6);
+    drag_to(*gizmo, {1, 1, 1});
+    tick();
+    expect_near(translation("grip"), {1, 1, 1}, 1e-6);
+}
+
+TEST_F(RigBelowControl, GhostsShowThePoseThatASolveStartsWith) {
+    run("rig.select", {{"element", "arm"}});
+    const Camera camera({}, {{0.0f, 0.0f}, {800.0f, 600.0f}});
+    const Palette& colours = palette(Theme::Dark);
+    DrawList list;
+    lab().draw({.workspace = workspace, .camera = camera, .palette = colours}, list);
+    std::size_t arms = 0, hands = 0;
+    for (const Stroke& each : list.strokes) {
+        if (glm::vec3(each.colour) != colours.ghost) continue;
+        const bool at_arm = glm::distance(glm::dvec3(each.a), arm_start) < 1e-5;
+        const bool at_hand = glm::distance(glm::dvec3(each.b), hand_start) < 1e-5;
+        EXPECT_TRUE(at_arm || at_hand) << each.a.x << ' ' << each.a.y << ' ' << each.a.z;
+        arms += at_arm;
+        hands += at_hand;
+    }
+    EXPECT_GE(arms, 2u) << "its joint, and the bone to the hand";
+    EXPECT_GE(hands, 2u);
 }
 
 }  // namespace

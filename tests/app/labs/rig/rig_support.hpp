@@ -1,13 +1,8 @@
 // Shared by tests of the Rig lab.
 #pragma once
 
-#include <algorithm>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "app/labs/rig/rig_lab.hpp"
-#include "tests/app/e2e/monkey.hpp"
+#include "tests/app/labs/app_support.hpp"
 #include "tests/app/labs/lab_support.hpp"
 
 namespace tendril::app {
@@ -39,11 +34,8 @@ class RigTest : public LabTest {
         run("rig.control.set", {{"name", name}, {"value", value}});
     }
     void unit(const Json& unit) { run("rig.unit.add", unit); }
+    void unit(const char* json) { unit(Json::parse(json)); }
     void solve(const char* direction = "forward") { run("rig.solve", {{"direction", direction}}); }
-    void tick(int count = 1) {
-        for (int i = 0; i < count; ++i)
-            if (lab().moving(workspace)) lab().step(workspace);
-    }
 
     Json list(const char* name) const { return state().at(name); }
     Json named(const char* in, const std::string& name) const {
@@ -53,33 +45,29 @@ class RigTest : public LabTest {
         return {};
     }
     glm::dvec3 translation(const std::string& name, const char* space = "global") const {
-        const Json at = named("elements", name).at(space).at("translation");
-        return {at[0].get<double>(), at[1].get<double>(), at[2].get<double>()};
+        return vector(named("elements", name).at(space).at("translation"));
     }
     glm::dquat rotation(const std::string& name, const char* space = "global") const {
-        const Json q = named("elements", name).at(space).at("rotation");
-        return {q[3].get<double>(), q[0].get<double>(), q[1].get<double>(), q[2].get<double>()};
+        return quaternion(named("elements", name).at(space).at("rotation"));
     }
     Json output(const std::string& unit, const char* output = "result") const {
         return named("units", unit).at("outputs").at(output);
     }
 };
 
-/// The lab in the running program, paused: real events, with picking.
-class RigAppTest : public testing::Test {
+/// The lab in the running program, paused.
+class RigAppTest : public LabAppTest {
   protected:
-    RigAppTest() {
-        app_.run({"lab.open", Json{{"name", rig_lab}}});
-        app_.run({"time.pause"});
+    RigAppTest() : LabAppTest(rig_lab) {}
+
+    /// At an angle, without perspective.
+    void look_from(int metres) {
+        run("camera.set", {{"target", {0, 0, 0}},
+                           {"yaw_deg", 30},
+                           {"pitch_deg", 25},
+                           {"distance", metres},
+                           {"orthographic", true}});
     }
-    void send(const Event& event) { app_.tick(&event); }
-    void drag(glm::vec2 from, const std::vector<glm::vec2>& way, bool drop = true) {
-        send(MouseMove{from});
-        send(MousePress{MouseButton::Left, true});
-        for (const glm::vec2 by : way) send(MouseMove{from + by});
-        if (drop) send(MousePress{MouseButton::Left, false});
-    }
-    glm::vec2 at(const std::string& name) { return test::handle(app_.state(), name); }
     bool has_handle(const std::string& name) {
         const Json state = app_.state();
         return std::ranges::any_of(state.at("handles"),
@@ -91,10 +79,6 @@ class RigAppTest : public testing::Test {
             if (each.at("name") == name) return each;
         return nullptr;
     }
-    std::size_t steps() { return app_.workspace().history.size(); }
-
-    std::unique_ptr<Window> window_ = open_offscreen({1280, 720});
-    App app_{*window_, false};
 };
 
 }  // namespace tendril::app

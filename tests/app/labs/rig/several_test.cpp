@@ -1,14 +1,8 @@
 // Several selected elements: by Shift, by a box and in a file.
-#include <algorithm>
-#include <glm/gtc/quaternion.hpp>
-#include <string>
-#include <vector>
-
 #include "app/labs/rig/definition_json.hpp"
 #include "app/labs/rig/rig_edit.hpp"
 #include "rig_support.hpp"
 #include "tests/app/support/panel_text.hpp"
-#include "tests/says.hpp"
 
 namespace tendril::app {
 namespace {
@@ -545,26 +539,21 @@ TEST_F(SeveralValues, InvalidValuesAreRefusedAndChangeNothing) {
 class SeveralDragged : public RigAppTest {
   protected:
     SeveralDragged() {
-        app_.run({"rig.clear"});
-        app_.run({"camera.set", Json{{"target", {0, 0, 0}},
-                                     {"yaw_deg", 30},
-                                     {"pitch_deg", 25},
-                                     {"distance", 6},
-                                     {"orthographic", true}}});
+        run("rig.clear");
+        look_from(6);
         add("whole", "transform", -1.0);
         add("place", "position", 0.0, {{"maximum", {9, 0.3, 9}}, {"minimum", {-9, -9, -9}}});
         add("turn", "rotation", 1.0);
         add("dial", "float", -0.5);
-        app_.run({"rig.element.add", Json{{"name", "bone"}, {"local", transform(0.5, 0.5, 0)}}});
-        app_.run({"rig.element.add",
-                  Json{{"name", "below"}, {"parent", "bone"}, {"local", transform(0.2, 0.2, 0)}}});
+        run("rig.element.add", {{"name", "bone"}, {"local", transform(0.5, 0.5, 0)}});
+        run("rig.element.add", {{"name", "below"}, {"parent", "bone"}, {"local", transform(0.2, 0.2, 0)}});
     }
     void add(const char* name, const char* kind, double x, const Json& more = Json::object()) {
         Json arguments{{"name", name}, {"kind", "control"}, {"control", kind}, {"local", transform(x, 0, 0)}};
         arguments.update(more);
-        app_.run({"rig.element.add", arguments});
+        run("rig.element.add", arguments);
     }
-    void select(const Names& names) { app_.run({"rig.select", Json{{"elements", names}}}); }
+    void select(const Names& names) { run("rig.select", {{"elements", names}}); }
     glm::dvec3 place(const std::string& name) {
         const Json t = element(name)["global"]["translation"];
         return {t[0].get<double>(), t[1].get<double>(), t[2].get<double>()};
@@ -591,21 +580,19 @@ TEST_F(SeveralDragged, AllMoveTheSameWayInOneStep) {
     }
     EXPECT_EQ(element("dial")["value"], 0.0);
     EXPECT_EQ(steps(), history + 1);
-    app_.run({"undo"});
+    run("undo");
     for (std::size_t i = 0; i < all_of_them.size(); ++i)
         EXPECT_NEAR(glm::distance(place(all_of_them[i]), before[i]), 0.0, 1e-9) << all_of_them[i];
 }
 
-/// Undo and removal can happen during a drag.
 TEST_F(SeveralDragged, ElementsRemovedDuringADragAreSkipped) {
     select({"whole", "place"});
     drag(at("place.move_x"), {{20, 5}}, false);
     const double x = place("whole").x;
-    app_.run({"rig.element.remove", Json{{"name", "place"}}});
-    for (const char* name : {"dial", "turn", "below", "bone"})
-        app_.run({"rig.element.remove", Json{{"name", name}}});
+    run("rig.element.remove", {{"name", "place"}});
+    for (const char* name : {"dial", "turn", "below", "bone"}) run("rig.element.remove", {{"name", name}});
     for (int i = 0; i < 3; ++i) send(MouseMove{{600.0f + 10.0f * static_cast<float>(i), 300.0f}});
-    send(MousePress{MouseButton::Left, false});
+    press(false);
     EXPECT_EQ(app_.state().at("elements").size(), 1u);
     EXPECT_TRUE(std::isfinite(place("whole").x)) << x;
 }
@@ -632,7 +619,7 @@ TEST_F(SeveralDragged, OneStoppedByItsLimitIsInPlaceWhenAllReturn) {
     EXPECT_NEAR(place("place").y, 0.3, 1e-9);
     EXPECT_GT(place("whole").y, 0.4);
     const glm::dvec3 there = place("whole");
-    for (int i = 0; i < 5; ++i) app_.tick(nullptr);
+    wait(5);
     EXPECT_EQ(place("whole"), there) << "while the hand is still, so are they";
     send(MouseMove{at("place") + glm::vec2(0, 0)});
     send(KeyTap{*chord_from_name("escape")});
@@ -640,9 +627,9 @@ TEST_F(SeveralDragged, OneStoppedByItsLimitIsInPlaceWhenAllReturn) {
     EXPECT_NEAR(glm::distance(place("place"), origin), 0.0, 1e-9);
     const glm::vec2 grip = at("place.move_y");
     send(MouseMove{grip});
-    send(MousePress{MouseButton::Left, true});
+    press(true);
     for (const float y : {-40.0f, -140.0f, -30.0f, -1.0f, 0.0f}) send(MouseMove{grip + glm::vec2(0, y)});
-    send(MousePress{MouseButton::Left, false});
+    press(false);
     EXPECT_NEAR(glm::distance(place("whole"), whole), 0.0, 1e-5);
     EXPECT_NEAR(glm::distance(place("place"), origin), 0.0, 1e-5);
 }

@@ -78,7 +78,6 @@ TEST_F(RigTime, AWalkStopsAtTheLimitsAndTurnsAlongItsPath) {
     }
 }
 
-/// The path keeps its centre and its phase.
 TEST_F(RigTime, AChangedWalkContinuesFromItsPosition) {
     secondary();
     run("rig.motion", {{"name", "head"}, {"path", "circle"}, {"radius", 0.5}, {"period", 2.0}});
@@ -269,17 +268,11 @@ TEST_F(RigTime, FrameRatesAreComparedAsOneNumber) {
 TEST_F(RigTime, FrameRatesDifferByScaleToo) {
     element("bone");
     control("dial", "float");
-    unit({{"unit", "spring_interpolate"},
-          {"name", "one"},
-          {"target", {{"element", "dial"}, {"of", "value"}}}});
-    unit({{"unit", "spring_interpolate"},
-          {"name", "two"},
-          {"target", {{"unit", "one"}}},
-          {"critical_damping", 1}});
-    unit({{"unit", "set_transform"},
-          {"item", "bone"},
-          {"transform", {{"scale", {3, 1, 1}}}},
-          {"weight", {{"unit", "two"}}}});
+    unit(R"({"unit": "spring_interpolate", "name": "one", "target": {"element": "dial", "of": "value"}})");
+    unit(R"({"unit": "spring_interpolate", "name": "two", "target": {"unit": "one"}, )"
+         R"("critical_damping": 1})");
+    unit(R"({"unit": "set_transform", "item": "bone", "transform": {"scale": [3, 1, 1]}, )"
+         R"("weight": {"unit": "two"}})");
     play(4);
     set("dial", 0.9);
     play(60);
@@ -297,13 +290,9 @@ TEST_F(RigTime, ASpringAloneIsTheSameAtAllRates) {
     control("place", "position", {{"local", {{"translation", {0, 0, 1}}}}});
     element("bone");
     element("tip", "bone", transform(0, 0, 1));
-    unit({{"unit", "spring_interpolate"},
-          {"name", "spring"},
-          {"target", {{"element", "place"}, {"of", "translation"}}},
-          {"strength", 2}});
-    unit({{"unit", "aim"},
-          {"item", "bone"},
-          {"primary", {{"axis", {0, 0, 1}}, {"target", {{"unit", "spring"}}}}}});
+    unit(R"({"unit": "spring_interpolate", "name": "spring", "target": {"element": "place", )"
+         R"("of": "translation"}, "strength": 2})");
+    unit(R"({"unit": "aim", "item": "bone", "primary": {"axis": [0, 0, 1], "target": {"unit": "spring"}}})");
     play(4);
     set("place", {1, 0, 1});
     play(120);
@@ -311,6 +300,65 @@ TEST_F(RigTime, ASpringAloneIsTheSameAtAllRates) {
     EXPECT_GT(glm::distance(translation("tip"), glm::dvec3(0, 0, 1)), 0.3) << "it turns";
     EXPECT_LT(state().at("rates").at("mm"), 1e-3);
     EXPECT_LT(state().at("rates").at("degrees"), 1e-4);
+}
+
+// Comparing frame rates tick by tick, as in the window.
+
+class RigRates : public RigTest {
+  protected:
+    RigRates() {
+        run("rig.preset", {{"name", "secondary"}});
+        run("rig.motion", {{"name", "head"}, {"path", "figure_eight"}, {"radius", 0.6}, {"period", 1.7}});
+    }
+};
+
+TEST_F(RigRates, OfAnEarlierTakeAreNoLongerShown) {
+    run("rig.rates");
+    ASSERT_TRUE(part().rates);
+    // As after a backward solve that found other values for the controls.
+    begin_take(workspace.document.edit<RigPart>(rig_lab));
+    EXPECT_FALSE(part().rates);
+}
+
+/// The result is the same however it is divided into ticks, restarted, or loaded from a file half way.
+TEST_F(RigRates, FrameRatesAreComparedFromTickToTick) {
+    Workspace other = workspace;
+    run("rig.rates");
+    EXPECT_FALSE(lab().working(workspace)) << "a script's next line finds it done";
+    const RateDifference at_once = *part().rates;
+    EXPECT_GT(at_once.mm, 1.0);
+    workspace = other;
+    begin("rig.rates");
+    int ticks = 0;
+    for (; lab().working(workspace) && ticks < 1000; ++ticks) {
+        if (ticks % 2 == 1) workspace.runtimes.clear();
+        if (ticks % 3 == 2) {
+            Workspace again = reopened();
+            ASSERT_EQ(rig_part(again).rates, part().rates) << ticks;
+            workspace.document = again.document;
+        }
+        if (ticks == 3) tick(2);
+        lab().work(workspace);
+    }
+    EXPECT_GT(ticks, 5);
+    EXPECT_EQ(*part().rates, at_once);
+}
+
+TEST_F(RigRates, AComparisonOfFrameRatesIsCancelledAndEndsWithItsTake) {
+    expect_refused("rig.rates.cancel", Json::object(), {"no frame rates are being compared"});
+    begin("rig.rates");
+    lab().work(workspace);
+    ASSERT_TRUE(lab().working(workspace));
+    const std::size_t done = part().rates->done;
+    run("rig.rates.cancel");
+    EXPECT_FALSE(part().rates);
+    run("undo");
+    EXPECT_EQ(part().rates->done, done);
+    run("rig.motion", {{"name", "head"}, {"path", "figure_eight"}});
+    EXPECT_FALSE(lab().working(workspace)) << "it was of the take so far";
+    run("undo");
+    set("head", {{"translation", {0.3, 1, 0}}});
+    EXPECT_FALSE(lab().working(workspace));
 }
 
 }  // namespace
