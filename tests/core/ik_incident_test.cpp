@@ -121,6 +121,26 @@ TEST(Incident, FindsLagDespiteNoiseAndMisses) {
     EXPECT_GE(found, 142u) << "of 150";
 }
 
+// Late from one frame to another, in time before and after.
+TEST(Incident, FindsLagThatLastsForAWhile) {
+    std::size_t found = 0;
+    for (unsigned seed = 0; seed < 100; ++seed) {
+        Random random(seed);
+        const std::size_t lag = 2 + random.below(14), first = 60 + random.below(60);
+        const std::size_t end = first + 20 + random.below(100);
+        const auto targets = moving_target(random, seed % 5, 240, random.uniform(0.008f, 0.02f));
+        const glm::vec3 side = 2.0f * glm::normalize(random.in_ball());
+        const auto all = incidents_of(
+            240, {}, [&](std::size_t i) { return arm(targets[i < first || i >= end ? i : i - lag], side); },
+            [&](std::size_t i) { return targets[i]; }, side);
+        for (const ChainIncident& each : all)
+            found += each.kind == IncidentKind::Lag && each.amount == static_cast<double>(lag) &&
+                     each.frame + 2 > first && each.frame < first + 6 &&
+                     each.last_frame + 6 > std::min<std::size_t>(end, 240);
+    }
+    EXPECT_GE(found, 97u) << "of 100";
+}
+
 TEST(Incident, FindsAPoseRepeatedOverAnyNumberOfFrames) {
     for (unsigned seed = 0; seed < 120; ++seed) {
         Random random(seed);
