@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "app/document/text.hpp"
+#include "app/document/units.hpp"
 
 namespace tendril::app {
 namespace {
@@ -181,6 +182,13 @@ glm::dvec3 Conventions::written(glm::vec3 p) const {
     else if (left)
         turned.z = -turned.z;
     return turned / metres();
+}
+
+std::string Conventions::place(glm::vec3 p) const {
+    const glm::dvec3 at = written(p);
+    const int decimals = unit.value == TraceUnit::Metres ? 3 : 1;
+    return "(" + fixed_text(at.x, decimals) + ", " + fixed_text(at.y, decimals) + ", " +
+           fixed_text(at.z, decimals) + ") " + trace_units.name(unit.value);
 }
 
 glm::quat Conventions::rotation(const glm::dvec4& r) const {

@@ -246,8 +246,8 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
             {.kind = Incident::Kind::Status,
              .tick = *moments.parted > 0 ? *moments.parted - 1 : 0,
              .joint = moments.all.front()->chain.size() - 1,
-             .cause = "the ghost is more than 5 % of the reach from the trace",
-             .title = "Frame " + std::to_string(first + *moments.parted) + ": Tendril's solve departs"});
+             .cause = "the ghost, solved from the same input, is more than 5 % of the reach from the trace",
+             .title = "Frame " + std::to_string(first + *moments.parted) + ": Tendril's solve differs"});
     if (!same_frames) {
         workspace.ui.incident.reset();
         workspace.ui.incident_chosen = false;  // the title names it
@@ -255,8 +255,11 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
     }
     if (same_frames) {
         const std::string solve = std::string("Tendril's solve, ") + solver_title(trace->view.method) + ": ";
+        const auto& pole = moments.all[at]->reach.options.pole;
+        const bool moved = trace->view.pole_by != glm::vec3(0.0f);
         workspace.toast(
-            solve + (moments.flip ? "flips at frame " + std::to_string(first + *moments.flip) : "no flip"));
+            solve + (moments.flip ? "flips at frame " + std::to_string(first + *moments.flip) : "no flip") +
+            (moved ? ", pole target at " + trace->conventions.place(*pole) : ""));
         return;
     }
     const Bounds bounds = ChainLab().bounds(workspace, false);
@@ -333,9 +336,11 @@ void draw_traced_ghost(const View& view, const ChainPart& part, DrawList& list) 
 }
 
 Verdict trace_verdict(const TracedPose& pose) {
-    const TracedIncident* const first = first_shown(*pose.trace);
-    if (first == nullptr) return {"No incidents in these frames", Verdict::Kind::Good};
-    return {first->title(pose.trace->bones), Verdict::Kind::Bad, capitalised(first->cause) + "."};
+    const TracedIncident* found = first_shown(*pose.trace);
+    for (const TracedIncident& each : pose.trace->incidents)
+        if (each.frame <= pose.frame && pose.frame <= each.last_frame) found = &each;
+    if (found == nullptr) return {"No incidents in these frames", Verdict::Kind::Good};
+    return {found->title(pose.trace->bones), Verdict::Kind::Bad, capitalised(found->cause) + "."};
 }
 
 std::vector<glm::vec3> traced_points(const TracedPose& pose) {
