@@ -137,11 +137,13 @@ TEST(Trace, OfAFlipThatNoSolverHasItReportsWhetherOneReaches) {
     EXPECT_TRUE(test::says(one.text(), "Two-bone flips no change prevents it")) << one.text();
     one.flips_in.reset();
     one.reaches = true;
+    EXPECT_TRUE(test::says(one.text(), "no solver flips has pole target, log it")) << one.text();
+    one.has_pole = true;
     EXPECT_EQ(one.text(), "no solver of Tendril flips on the same input");
     const Conventions metres;
     const Prevention pole{
         .kind = Prevention::Kind::Pole, .solve = {.pole_by = {0.042f, 0, 0}}, .pole = glm::vec3(1, 2, 3)};
-    EXPECT_TRUE(test::says(pole.text(metres), "pole target moved by 42.0 mm, to (")) << pole.text(metres);
+    EXPECT_EQ(pole.text(metres), "pole target moved by 42.0 mm, to (1.000, 2.000, 3.000) m");
 }
 
 TEST(Trace, ABoneThatRollsWhileItsEndsStayFlips) {
@@ -334,6 +336,18 @@ TEST(Trace, ATargetIsKnownByItsName) {
         "a_x,a_y,a_z,b_x,b_y,b_z,target_x,target_y,target_z,goal_x,goal_y,goal_z\n"
         "0,1,0,0.5,1,0,1,1,0,1,2,0\n");
     EXPECT_TRUE(test::says(two.notes.at(0), "goal second target")) << two.notes[0];
+    for (const bool aims : {true, false}) {  // without names, by its distance from the joint before
+        std::string text;
+        for (const MadeFrame& frame : TraceMaker(4).make(Plant::Lag).frames) {
+            glm::dvec3 hand = frame.joints[2];
+            for (const glm::dvec3& joint : frame.joints) text += printed(joint, "(%.4f, %.4f, %.4f) ");
+            text += printed(aims ? frame.target : hand += frame.joints[1] - frame.joints[0],
+                            "-> (%.4f, %.4f, %.4f)\n");
+        }
+        const ReadTrace found = read_trace(text);
+        EXPECT_EQ(found.notes.size(), aims ? 1u : 0u);
+        EXPECT_TRUE(!aims || found.incidents().at(0).kind == ik::IncidentKind::Lag) << found.text();
+    }
 }
 
 TEST(Trace, ALagOfAnyLengthIsFoundAlone) {
