@@ -38,8 +38,7 @@ enum class IncidentKind : std::uint8_t {
     Length,
     Limit,   ///< a joint is beyond its limit; amount: degrees beyond it
     Missed,  ///< the tip does not reach a target within its reach; amount: metres short
-    Lag,     ///< the tip is where the target was some frames ago, 30 at most, always or for a while; amount:
-             ///< frames
+    Lag,     ///< over these frames the tip is where the target was some before, 30 at most; amount: frames
     Jitter,  ///< the tip swings while the target is still; amount: metres to either side
     /// Frames that repeat the one before in mid-motion; amount: frames. Evenly spaced repeats are one
     /// incident: the chain is updated at another rate than the log. None if the target repeats with them.
@@ -217,7 +216,6 @@ class IncidentFinder {
         struct Lagged {
             glm::dvec3 sum{0.0};
             double square = 0.0, product = 0.0;
-            void add(const glm::dvec3& tip, const glm::dvec3& target) noexcept;
         };
         std::array<Lagged, max_lag + 1> lags{};
         glm::dvec3 sum{0.0};
@@ -225,7 +223,6 @@ class IncidentFinder {
         std::array<double, max_lag + 1> before{};  ///< residual squares of earlier fits
         std::uint64_t frames = 0;
 
-        void add(const glm::dvec3& tip) noexcept;
         /// Starts a new fit and keeps the residual squares of the old one.
         void close() noexcept;
         /// For each lag, the fit's residual sum of squares.

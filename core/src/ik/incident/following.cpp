@@ -319,9 +319,18 @@ void IncidentFinder::follow(const ReachPose& pose) {
         const std::size_t span = spans[i];
         if (targets_.size() <= max_lag + span) continue;
         const glm::dvec3 from = span == 0 ? origin_ : glm::dvec3(followers_[followers_.size() - 1 - span]);
-        paths_[i].add(tip - from);
-        for (std::size_t lag = 0; lag <= max_lag; ++lag)
-            paths_[i].lags[lag].add(tip - from, aim(lag) - (span == 0 ? origin_ : aim(lag + span)));
+        Following& path = paths_[i];
+        const glm::dvec3 way = tip - from;
+        ++path.frames;
+        path.count += 1.0;
+        path.sum += way;
+        path.square += math::dot(way, way);
+        for (std::size_t lag = 0; lag <= max_lag; ++lag) {
+            const glm::dvec3 target = aim(lag) - (span == 0 ? origin_ : aim(lag + span));
+            path.lags[lag].sum += target;
+            path.lags[lag].square += math::dot(target, target);
+            path.lags[lag].product += math::dot(way, target);
+        }
     }
 }
 
@@ -389,19 +398,6 @@ void IncidentFinder::judge_jitter() {
           .amount = amplitude,
           .hertz = 0.5 * static_cast<double>(crossings) * static_cast<double>(options_.fps) / (count - 1.0),
           .cause = "the target is still, and the tip is not"});
-}
-
-void IncidentFinder::Following::add(const glm::dvec3& tip) noexcept {
-    ++frames;
-    count += 1.0;
-    sum += tip;
-    square += math::dot(tip, tip);
-}
-
-void IncidentFinder::Following::Lagged::add(const glm::dvec3& tip, const glm::dvec3& target) noexcept {
-    sum += target;
-    square += math::dot(target, target);
-    product += math::dot(tip, target);
 }
 
 void IncidentFinder::Following::close() noexcept {
