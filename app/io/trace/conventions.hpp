@@ -42,6 +42,7 @@ struct Conventions {
     bool has_rotations = false;
     std::string target{};  ///< for display: which joints reach for the target, unless they are the last
 
+    glm::dvec3 turned(const glm::dvec3& p) const;  ///< right-handed, Y up, in the file's unit
     /// Metres, right-handed, Y up. NaN stays NaN; what no float holds becomes infinite.
     glm::vec3 point(const glm::dvec3& p) const;
     /// The inverse: as the file would have it.

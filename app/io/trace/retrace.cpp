@@ -239,35 +239,20 @@ PreventedFlip prevent_flip(std::span<const TracedFrame> frames, std::size_t at, 
     return result;
 }
 
-std::string Prevention::title() const {
-    switch (kind) {
-        case Kind::Method:
-            return solver_title(solve.method);
-        case Kind::Pole:
-            if (adds_pole) return "Pole target added";
-            return "Pole moved by " + length_text(static_cast<double>(glm::length(solve.pole_by)));
-        case Kind::SoftZone:
-            return "Soft zone of " + fixed_text(static_cast<double>(solve.soft_zone), 2);
-        case Kind::Hinge:
-            break;
-    }
-    return "Hinge at joint " + std::to_string(solve.hinge);
-}
-
 std::string Prevention::text(const Conventions& space) const {
     switch (kind) {
         case Kind::Method:
             return std::string("solver ") + solver_title(solve.method);
         case Kind::Pole:
             if (adds_pole) return "pole target at " + space.place(*pole);
-            return "pole target moved by " + length_text(static_cast<double>(glm::length(solve.pole_by))) +
-                   ", to " + space.place(*pole);
+            return "pole moved by " + length_text(static_cast<double>(glm::length(solve.pole_by))) + ", to " +
+                   space.place(*pole);
         case Kind::SoftZone:
-            return "soft zone of " + fixed_text(static_cast<double>(solve.soft_zone), 2) + " of the reach";
+            return "soft zone of " + fixed_text(static_cast<double>(solve.soft_zone), 2);
         case Kind::Hinge:
             break;
     }
-    return "joint " + std::to_string(solve.hinge) + " as a hinge";
+    return "hinge at joint " + std::to_string(solve.hinge);
 }
 
 std::string PreventedFlip::text() const {
