@@ -277,7 +277,7 @@ class LogTrace final : public RawTrace {
     /// Whether, of positions without names, the distances between all but the last stay as they are.
     bool last_is_target(const std::vector<const LogVector*>& joints) {
         const std::size_t count = period_ > 0 ? period_ : joints_;
-        /// Of the greatest, leaving out a tenth at either end.
+        /// Of the longest, leaving out a tenth at either end.
         const auto change = [&](std::size_t bone) {
             std::vector<double> lengths;
             for (; bone < joints.size(); bone += count) {
@@ -509,8 +509,7 @@ class LogTrace final : public RawTrace {
     unsigned level_ = 0;      ///< minimum gap between frames; 0: names separate them
     std::size_t joints_ = 0;  ///< in most frames
     std::size_t period_ = 0;  ///< joints of a frame, if only their positions separate frames
-    bool leads_ = false, two_sides_ = false, any_ = false, ended_ = false, named_ = false;
-    bool aims_ = false;  ///< the last position of a frame is the target
+    bool leads_ = false, two_sides_ = false, any_ = false, ended_ = false, named_ = false, aims_ = false;
     std::exception_ptr damage_{};
 };
 
