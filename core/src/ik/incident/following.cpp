@@ -326,10 +326,10 @@ void IncidentFinder::follow(const ReachPose& pose) {
         path.sum += way;
         path.square += math::dot(way, way);
         for (std::size_t lag = 0; lag <= max_lag; ++lag) {
-            const glm::dvec3 target = aim(lag) - (span == 0 ? origin_ : aim(lag + span));
-            path.lags[lag].sum += target;
-            path.lags[lag].square += math::dot(target, target);
-            path.lags[lag].product += math::dot(way, target);
+            const glm::dvec3 step = aim(lag) - (span == 0 ? origin_ : aim(lag + span));
+            path.lags[lag].sum += step;
+            path.lags[lag].square += math::dot(step, step);
+            path.lags[lag].product += math::dot(way, step);
         }
     }
 }
