@@ -61,7 +61,15 @@ float height(const Card& card, const Measure& m, Fold fold, std::size_t current)
     return sum + m.footer;
 }
 
-Fold fold_of(const Card& card, const Measure& m, std::size_t current, float room) {
+/// The incidents of a trace need the room, and its target is not to be dragged.
+bool gives_way(const ShellFrame& frame) {
+    return std::ranges::any_of(frame.workspace.rewind.incidents(),
+                               [](const Incident& each) { return !each.title.empty(); });
+}
+
+Fold fold_of(const ShellFrame& frame, const Measure& m, std::size_t current, float room) {
+    if (gives_way(frame)) return Fold::Title;
+    const Card& card = *frame.card;
     for (const Fold fold : {Fold::Steps, Fold::Current})
         if (height(card, m, fold, current) <= max_panel_share * room) return fold;
     return Fold::Title;
@@ -160,7 +168,7 @@ std::optional<Handle> handle_named(const ShellFrame& frame, const std::string& n
 }  // namespace
 
 const CardStep* step_to_do(const ShellFrame& frame) {
-    if (frame.card == nullptr) return nullptr;
+    if (frame.card == nullptr || gives_way(frame)) return nullptr;
     const std::size_t current = current_step(progress_of(frame), *frame.card);
     return current < frame.card->steps.size() ? &frame.card->steps[current] : nullptr;
 }
@@ -169,7 +177,7 @@ float card_height(const ShellFrame& frame, glm::vec2 panel) {
     if (frame.card == nullptr) return 0.0f;
     const Measure m(frame, panel.x);
     const std::size_t current = current_step(progress_of(frame), *frame.card);
-    return std::round(height(*frame.card, m, fold_of(*frame.card, m, current, panel.y), current));
+    return std::round(height(*frame.card, m, fold_of(frame, m, current, panel.y), current));
 }
 
 void show_card(const ShellFrame& frame, glm::vec2 panel, Emit& emit) {
@@ -178,7 +186,7 @@ void show_card(const ShellFrame& frame, glm::vec2 panel, Emit& emit) {
     const Measure m(frame, panel.x);
     const CardProgress progress = progress_of(frame);
     const std::size_t current = current_step(progress, card);
-    const Fold fold = fold_of(card, m, current, panel.y);
+    const Fold fold = fold_of(frame, m, current, panel.y);
     const ImVec2 low = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
     ImDrawList* const list = ImGui::GetWindowDrawList();
     list->AddRectFilled(low, {low.x + size.x, low.y + size.y},

@@ -118,14 +118,44 @@ TEST(Incident, FindsLagDespiteNoiseAndMisses) {
     EXPECT_GE(found, 142u) << "of 150";
 }
 
+// Late from one frame to another, in time before and after; or from the first frame to the last.
+TEST(Incident, FindsLagThatLastsForAWhile) {
+    std::size_t found = 0;
+    for (unsigned seed = 0; seed < 100; ++seed) {
+        Random random(seed);
+        const bool always = seed % 3 == 0;
+        const std::size_t lag = always ? 1 + random.below(30) : 2 + random.below(14);
+        const std::size_t first = always ? 0 : 60 + random.below(60);
+        const std::size_t end = always ? 240 : first + 20 + random.below(100);
+        const auto targets = moving_target(random, seed % 5, 270, random.uniform(0.008f, 0.02f));
+        const glm::vec3 side = 2.0f * glm::normalize(random.in_ball());
+        const auto all = incidents_of(
+            240, {},
+            [&](std::size_t i) { return arm(targets[30 + i - (i < first || i >= end ? 0 : lag)], side); },
+            [&](std::size_t i) { return targets[30 + i]; }, side);
+        for (const ChainIncident& each : all)
+            found += each.kind == IncidentKind::Lag && each.amount == static_cast<double>(lag) &&
+                     each.frame + 2 > first && each.frame < first + 6 &&
+                     each.last_frame + 6 > std::min<std::size_t>(end, 240);
+    }
+    EXPECT_GE(found, 97u) << "of 100";
+}
+
+/// A pole target far off the line to any of the targets.
+glm::vec3 beside(Random& random, const std::vector<glm::vec3>& targets) {
+    glm::vec3 sum(0.0f);
+    for (const glm::vec3& each : targets) sum += each;
+    return 2.0f * glm::normalize(glm::cross(sum, random.in_ball()));
+}
+
 TEST(Incident, FindsAPoseRepeatedOverAnyNumberOfFrames) {
     for (unsigned seed = 0; seed < 120; ++seed) {
         Random random(seed);
-        const std::size_t held = seed % 6, first = 30 + random.below(20);
+        const std::size_t held = seed % 3 == 0 ? seed / 6 : seed % 6, first = 30 + random.below(20);
         // The target moves on, or it stands still too, and the chain catches up with it or stays late.
         const bool target_goes_on = seed % 3 == 0, catches_up = seed % 2 == 0;
         const auto targets = moving_target(random, 0, 120, 0.015f);
-        const glm::vec3 side = 2.0f * glm::normalize(random.in_ball());
+        const glm::vec3 side = beside(random, targets);
         const auto shown = [&](std::size_t i) {
             if (i < first) return i;
             if (i < first + held) return first - 1;
@@ -137,17 +167,11 @@ TEST(Incident, FindsAPoseRepeatedOverAnyNumberOfFrames) {
         const auto repeated = std::ranges::find(all, IncidentKind::Repeated, &ChainIncident::kind);
         ASSERT_EQ(repeated != all.end(), held > 0) << "seed " << seed << ", " << held;
         if (held == 0) continue;
+        EXPECT_EQ(std::ranges::count(all, IncidentKind::Flip, &ChainIncident::kind), 0) << "seed " << seed;
         EXPECT_EQ(repeated->frame, first) << "seed " << seed;
         EXPECT_EQ(repeated->last_frame, first + held - 1);
         EXPECT_EQ(repeated->amount, static_cast<double>(held));
     }
-}
-
-/// A pole target far off the line to any of the targets.
-glm::vec3 beside(Random& random, const std::vector<glm::vec3>& targets) {
-    glm::vec3 sum(0.0f);
-    for (const glm::vec3& each : targets) sum += each;
-    return 2.0f * glm::normalize(glm::cross(sum, random.in_ball()));
 }
 
 // The chain is updated in every n-th frame, or in 5 of 6 (n = 0); the target likewise, or in every frame.
@@ -170,21 +194,6 @@ TEST(Incident, ALowerUpdateRateIsOneIncidentUnlessTheTargetSharesIt) {
         EXPECT_NEAR(all[0].hertz, n == 0 ? 50.0 : 60.0 / static_cast<double>(n), 0.5) << "seed " << seed;
         EXPECT_LT(all[0].frame, 12u);
         EXPECT_GT(all[0].last_frame, 138u);
-    }
-}
-
-TEST(Incident, AHeldPoseThatCatchesUpDoesNotFlip) {
-    for (unsigned seed = 0; seed < 100; ++seed) {
-        Random random(seed);
-        const std::size_t held = 3 + seed % 18, first = 40 + random.below(20);
-        const auto targets = moving_target(random, seed % 2, 150, random.uniform(0.01f, 0.04f));
-        const glm::vec3 side = beside(random, targets);
-        const auto all = incidents_of(
-            150, {},
-            [&](std::size_t i) { return arm(targets[i < first || i >= first + held ? i : first - 1], side); },
-            [&](std::size_t i) { return targets[i]; }, side);
-        ASSERT_EQ(all.size(), 1u) << "seed " << seed << ": " << said(all);
-        EXPECT_EQ(all[0].kind, IncidentKind::Repeated) << "seed " << seed;
     }
 }
 
@@ -319,17 +328,6 @@ TEST(Incident, AFlipAtAReferenceAxisIsExplained) {
         ASSERT_GE(all.size(), 1u) << "seed " << seed;
         EXPECT_EQ(all[0].flip, FlipCause::PassedAxis) << "seed " << seed << ": " << all[0].cause;
         EXPECT_NEAR(static_cast<double>(all[0].frame), 30.0, 1.0);
-        // Far from any axis, the same flip is unexplained.
-        const auto away = [&](std::size_t i) {
-            return 0.8f *
-                   glm::normalize(glm::vec3(1, 1, 1) + 0.01f * static_cast<float>(i) * glm::vec3(1, -1, 0));
-        };
-        const auto other = incidents_of(
-            60, {},
-            [&](std::size_t i) { return arm(away(i), i < 30 ? glm::vec3(0, 1, 0) : glm::vec3(0, -1, 0)); },
-            away);
-        ASSERT_EQ(other.size(), 1u);
-        EXPECT_EQ(other[0].flip, FlipCause::Unexplained);
         const ReachPose on{.joints = arm(0.8f * axis, a), .target = 0.8f * axis};
         const ReachPose off{.joints = arm(target(30), axis), .target = target(30)};
         EXPECT_TRUE(passed_axis(on, off) && passed_axis(off, on)) << "seed " << seed;

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "app/document/text.hpp"
+#include "app/document/units.hpp"
 
 namespace tendril::app {
 namespace {
@@ -158,14 +159,14 @@ double Conventions::metres() const {
     return unit.value == TraceUnit::Metres ? 1.0 : unit.value == TraceUnit::Centimetres ? 0.01 : 0.001;
 }
 
-glm::vec3 Conventions::point(const glm::dvec3& p) const {
-    glm::dvec3 turned = p;
+glm::dvec3 Conventions::turned(const glm::dvec3& p) const {
     const bool left = handed.value == TraceHand::Left;
-    if (up.value == TraceUp::Z)
-        turned = {p.x, p.z, left ? p.y : -p.y};
-    else if (left)
-        turned.z = -p.z;
-    turned *= metres();
+    if (up.value == TraceUp::Z) return {p.x, p.z, left ? p.y : -p.y};
+    return {p.x, p.y, left ? -p.z : p.z};
+}
+
+glm::vec3 Conventions::point(const glm::dvec3& p) const {
+    glm::dvec3 turned = metres() * this->turned(p);
     constexpr double farthest = 1e12;
     for (int axis = 0; axis < 3; ++axis)
         if (std::abs(turned[axis]) > farthest)
@@ -174,27 +175,24 @@ glm::vec3 Conventions::point(const glm::dvec3& p) const {
 }
 
 glm::dvec3 Conventions::written(glm::vec3 p) const {
-    glm::dvec3 turned(p);
-    const bool left = handed.value == TraceHand::Left;
-    if (up.value == TraceUp::Z)
-        turned = {turned.x, left ? turned.z : -turned.z, turned.y};
-    else if (left)
-        turned.z = -turned.z;
-    return turned / metres();
+    const double z = handed.value == TraceHand::Left ? p.z : -p.z;
+    return (up.value == TraceUp::Z ? glm::dvec3(p.x, z, p.y) : glm::dvec3(p.x, p.y, -z)) / metres();
+}
+
+std::string Conventions::place(glm::vec3 p) const {
+    const glm::dvec3 at = written(p);
+    const int decimals = unit.value == TraceUnit::Metres ? 3 : 1;
+    return "(" + fixed_text(at.x, decimals) + ", " + fixed_text(at.y, decimals) + ", " +
+           fixed_text(at.z, decimals) + ") " + trace_units.name(unit.value);
 }
 
 glm::quat Conventions::rotation(const glm::dvec4& r) const {
     const bool first = rotations.value == QuaternionOrder::Wxyz;
     glm::dvec3 axis = first ? glm::dvec3(r.y, r.z, r.w) : glm::dvec3(r.x, r.y, r.z);
-    const bool left = handed.value == TraceHand::Left;
-    // As points are turned; a mirror also turns the other way round.
-    if (up.value == TraceUp::Z)
-        axis = {axis.x, axis.z, left ? axis.y : -axis.y};
-    else if (left)
-        axis.z = -axis.z;
-    if (left) axis = -axis;
-    const glm::dquat turned(first ? r.x : r.w, axis);
-    return glm::quat(turned / glm::length(turned));
+    axis = turned(axis);
+    if (handed.value == TraceHand::Left) axis = -axis;  // a mirror turns the other way round
+    const glm::dquat q(first ? r.x : r.w, axis);
+    return glm::quat(q / glm::length(q));
 }
 
 std::string Conventions::text() const {

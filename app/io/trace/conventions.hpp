@@ -42,10 +42,12 @@ struct Conventions {
     bool has_rotations = false;
     std::string target{};  ///< for display: which joints reach for the target, unless they are the last
 
+    glm::dvec3 turned(const glm::dvec3& p) const;  ///< right-handed, Y up, in the file's unit
     /// Metres, right-handed, Y up. NaN stays NaN; what no float holds becomes infinite.
     glm::vec3 point(const glm::dvec3& p) const;
     /// The inverse: as the file would have it.
     glm::dvec3 written(glm::vec3 p) const;
+    std::string place(glm::vec3 p) const;  ///< as the file would have it: "(30.0, -50.0, 140.0) cm"
     /// A quaternion as it is written. NaN stays NaN.
     glm::quat rotation(const glm::dvec4& r) const;
     double metres() const;  ///< that one unit is

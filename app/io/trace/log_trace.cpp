@@ -269,9 +269,34 @@ class LogTrace final : public RawTrace {
             2 * labelled < joints.size())
             split_by_positions(joints, gaps);
         if (level_ == NameAgain) level_ = 0;
+        aims_ = 2 * labelled < joints.size() && !two_sides_ && chains_.empty() && last_is_target(joints);
         if (levels.contains(RuleBetween) && scanner_.components()) engine = Engine::Ros;
         const auto first = std::ranges::find_if(sample_, [](const Line& each) { return !each.empty(); });
         leads_ = first != sample_.end() && std::ranges::none_of(*first, &LogVector::is_joint);
+    }
+    /// Whether, of positions without names, the distances between all but the last stay as they are.
+    bool last_is_target(const std::vector<const LogVector*>& joints) {
+        const std::size_t count = period_ > 0 ? period_ : joints_;
+        /// Of the longest, leaving out a tenth at either end.
+        const auto change = [&](std::size_t bone) {
+            std::vector<double> lengths;
+            for (; bone < joints.size(); bone += count) {
+                const auto &a = joints[bone - 1]->numbers, &b = joints[bone]->numbers;
+                const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+                if (std::isfinite(length)) lengths.push_back(length);
+            }
+            std::ranges::sort(lengths);
+            const std::size_t out = lengths.size() / 10;
+            if (lengths.size() < 8) return 0.0;
+            const double longest = lengths[lengths.size() - 1 - out];
+            return longest > 0.0 ? 1.0 - lengths[out] / longest : 1.0;
+        };
+        if (count < 4 || change(count - 1) < 0.25) return false;
+        for (std::size_t bone = 1; bone + 1 < count; ++bone)
+            if (change(bone) > 0.02) return false;
+        notes.push_back("the last of " + std::to_string(count) +
+                        " positions was taken for the target: its distance from the one before changes");
+        return true;
     }
     /// Whether gaps of at least `level` split the joints into groups of one size, or of alternating chains.
     bool splits(const std::vector<const LogVector*>& joints, const std::vector<unsigned>& gaps,
@@ -384,6 +409,10 @@ class LogTrace final : public RawTrace {
         }
         for (const std::size_t i : {0u, 1u}) {
             if (frames[i].joints.empty()) continue;
+            if (aims_ && !frames[i].target) {
+                frames[i].target = frames[i].joints.back();
+                frames[i].joints.pop_back();
+            }
             frames[i].chain = two_sides_ ? i == 0 ? "left" : "right" : chains_.empty() ? column : chain;
             ready_.push_back(std::move(frames[i]));
         }
@@ -480,7 +509,7 @@ class LogTrace final : public RawTrace {
     unsigned level_ = 0;      ///< minimum gap between frames; 0: names separate them
     std::size_t joints_ = 0;  ///< in most frames
     std::size_t period_ = 0;  ///< joints of a frame, if only their positions separate frames
-    bool leads_ = false, two_sides_ = false, any_ = false, ended_ = false, named_ = false;
+    bool leads_ = false, two_sides_ = false, any_ = false, ended_ = false, named_ = false, aims_ = false;
     std::exception_ptr damage_{};
 };
 

@@ -215,6 +215,7 @@ PreventedFlip prevent_flip(std::span<const TracedFrame> frames, std::size_t at, 
     if (frames.front().joints.size() > max_tried_joints || !frames.front().finite() || !frames[at].finite())
         return result;
     result.tried = true;
+    result.has_pole = frames[at].pole.has_value();
     const Attempts attempts(frames, at);
     using enum ik::Method;
     std::optional<ik::Method> stays;
@@ -238,48 +239,29 @@ PreventedFlip prevent_flip(std::span<const TracedFrame> frames, std::size_t at, 
     return result;
 }
 
-std::string Prevention::title() const {
-    switch (kind) {
-        case Kind::Method:
-            return solver_title(solve.method);
-        case Kind::Pole:
-            if (adds_pole) return "Pole target added";
-            return "Pole moved by " + length_text(static_cast<double>(glm::length(solve.pole_by)));
-        case Kind::SoftZone:
-            return "Soft zone of " + fixed_text(static_cast<double>(solve.soft_zone), 2);
-        case Kind::Hinge:
-            break;
-    }
-    return "Hinge at joint " + std::to_string(solve.hinge);
-}
-
 std::string Prevention::text(const Conventions& space) const {
-    const auto place = [&](glm::vec3 p) {
-        const glm::dvec3 written = space.written(p);
-        const int decimals = space.unit.value == TraceUnit::Metres ? 3 : 1;
-        return "(" + fixed_text(written.x, decimals) + ", " + fixed_text(written.y, decimals) + ", " +
-               fixed_text(written.z, decimals) + ")";
-    };
     switch (kind) {
         case Kind::Method:
             return std::string("solver ") + solver_title(solve.method);
         case Kind::Pole:
-            if (adds_pole) return "pole target at " + place(*pole);
-            return "pole target moved by " + length_text(static_cast<double>(glm::length(solve.pole_by))) +
-                   ", to " + place(*pole);
+            if (adds_pole) return "pole target at " + space.place(*pole);
+            return "pole moved by " + length_text(static_cast<double>(glm::length(solve.pole_by))) + ", to " +
+                   space.place(*pole);
         case Kind::SoftZone:
-            return "soft zone of " + fixed_text(static_cast<double>(solve.soft_zone), 2) + " of the reach";
+            return "soft zone of " + fixed_text(static_cast<double>(solve.soft_zone), 2);
         case Kind::Hinge:
             break;
     }
-    return "joint " + std::to_string(solve.hinge) + " as a hinge";
+    return "hinge at joint " + std::to_string(solve.hinge);
 }
 
 std::string PreventedFlip::text() const {
     if (!tried) return {};
     if (!flips_in)
         return std::string("no solver of Tendril flips on the same input") +
-               (reaches ? "" : ", but none reaches the target as well as yours");
+               (!reaches   ? ", but none reaches the target as well as yours"
+                : has_pole ? ""
+                           : "; if yours has a pole target, log it, too");
     return std::string("Tendril's ") + solver_title(*flips_in) + " flips on the same input, too" +
            (by.empty() ? "; no change of pole target, soft zone, limit or solver prevents it" : "");
 }

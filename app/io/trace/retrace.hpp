@@ -83,8 +83,7 @@ struct Prevention {
     std::optional<glm::vec3> pole{};  ///< where the pole target then is, in the flip's frame
     bool adds_pole = false;           ///< the trace has none
 
-    std::string title() const;  ///< "Pole moved by 42.0 mm"
-    /// "pole target moved by 42.0 mm, to (30.0, -50.0, 140.0)": the place as the file has it.
+    /// "pole moved by 42.0 mm, to (30.0, -50.0, 140.0) cm"
     std::string text(const Conventions& space) const;
 };
 inline constexpr const char* prevention_names[]{"method", "pole", "soft_zone", "hinge"};
@@ -94,6 +93,7 @@ struct PreventedFlip {
     std::optional<ik::Method> flips_in;  ///< the method of Tendril that flips on the same input, if one does
     std::vector<Prevention> by;          ///< at most one of each kind
     bool reaches = false;                ///< a method's tip comes as near to the target as the trace's
+    bool has_pole = false;               ///< the trace
     /// For display, a clause about `flips_in`.
     std::string text() const;
 };

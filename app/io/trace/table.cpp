@@ -17,10 +17,9 @@ std::vector<std::string_view> cells(std::string_view line, char separator) {
     while (true) {
         const std::size_t end = std::min(line.find(separator), line.size());
         std::string_view cell = line.substr(0, end);
-        while (!cell.empty() && (cell.front() == ' ' || cell.front() == '"' || cell.front() == '\t'))
-            cell.remove_prefix(1);
-        while (!cell.empty() && (cell.back() == ' ' || cell.back() == '"' || cell.back() == '\t'))
-            cell.remove_suffix(1);
+        constexpr std::string_view blank = " \"\t";
+        cell.remove_prefix(std::min(cell.find_first_not_of(blank), cell.size()));
+        cell = cell.substr(0, cell.find_last_not_of(blank) + 1);
         found.push_back(cell);
         if (end == line.size()) return found;
         line.remove_prefix(end + 1);

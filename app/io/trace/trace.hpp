@@ -1,11 +1,6 @@
 // Reads a trace: what an engine's chains did, frame by frame. JSON Lines, CSV, tables, or text with vectors
-// in it; the space is converted to Tendril's. Streams: memory does not grow with the number of frames.
-//
-// JSON Lines, the first line optional, `joints` required:
-//   {"tendril": "trace", "up": "z", "handed": "left", "unit": "cm", "rotations": "xyzw", "fps": 60,
-//    "bones": ["upper_arm", "lower_arm"], "limits": [null, [0, 150]], "target_joint": 2}
-//   {"t": 0.0, "joints": [[0,0,140],[28,0,138],[52,3,130]], "target": [60,0,130], "pole": [30,-50,140]}
-// CSV: time, j0x, j0y, j0z, ..., tx, ty, tz, px, py, pz.
+// in it; the space is converted to Tendril's. Streams: memory does not grow with the number of frames. The
+// formats: `tendril trace --help`.
 #pragma once
 
 #include <cstddef>
@@ -60,7 +55,6 @@ class TraceReader {
     const TraceHeader& header() const { return raw_->header; }
     /// For display: what was left out, where reading stopped.
     const std::vector<std::string>& notes() const { return notes_; }
-    std::size_t line() const { return raw_->line(); }
 
   private:
     bool next_raw(RawFrame& frame);

@@ -239,7 +239,7 @@ std::vector<LegendRow> ChainLab::legend(const Workspace& workspace) const {
     if (shown.trace) rows.push_back({"this step", colours.accent, true});
     if (shown.trace) rows.push_back({"start, earlier iterations", colours.ghost});
     if (const TracedPose* const pose = traced_pose(part))
-        rows.push_back({"Tendril's solve", solver_colour(colours, traced_method(*pose))});
+        rows.push_back({"Tendril's solve", solver_colour(colours, pose->trace->view.method)});
     if (workspace.ui.incident) rows.push_back({"before it happened", colours.ghost});
     if (!part.study.open()) add_ghost_legend(workspace, chain_past(), rows);
     if (part.mode != ChainMode::Reach) return rows;

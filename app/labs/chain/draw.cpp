@@ -313,15 +313,16 @@ void draw_incident(const View& view, const ChainPart& part, DrawList& list) {
     for (const Segment& joint : was) list.sphere(joint.position, 4.5f * view.scale, Unit::Pixels, ghost);
     list.ring(before->target, 12.0f * view.scale, 1.5f * view.scale, ghost).layer = Layer::Overlay;
     const std::size_t joint = incident->joint;
-    if (incident->kind == Incident::Kind::Jump) draw_incident_mark(view, *incident, is[joint].position, list);
-    if (incident->kind != Incident::Kind::Flip) return;
+    const bool traced = !incident->title.empty(), flip = incident->kind == Incident::Kind::Flip;
+    if (flip || traced || incident->kind == Incident::Kind::Jump)
+        draw_incident_mark(view, *incident, is[joint].position, list);
+    if (!flip) return;
     // Turn about the neighbour that moved less.
     const auto moved = [&](std::size_t i) { return glm::distance(was[i].position, is[i].position); };
     const bool last = joint + 1 == is.size();
     const std::size_t about =
         joint == 0 || (!last && moved(joint + 1) < moved(joint - 1)) ? joint + 1 : joint - 1;
     draw_turn(view, was[joint].position, is[joint].position, is[about].position, list);
-    draw_incident_mark(view, *incident, is[joint].position, list);
 }
 
 namespace {

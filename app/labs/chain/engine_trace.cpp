@@ -29,9 +29,6 @@
 namespace tendril::app {
 namespace {
 
-/// Maximum distance between trace and ghost, as a fraction of the reach, before the ghost has departed.
-constexpr float parted_share = 0.05f;
-
 constexpr std::uint64_t max_from = 2'000'000'000;
 
 /// The rows of a trace's view that say how Tendril solves it.
@@ -131,7 +128,7 @@ Cure cure_of(const Prevention& prevention, const Conventions& space) {
     return {"Show",
             "Runs chain.trace: the ghost is solved with " + prevention.text(space) + ", and does not flip.",
             {std::move(call)},
-            prevention.title()};
+            capitalised(prevention.text(space))};
 }
 
 /// The incident for the strip: between its frame's moment and the one before.
@@ -180,10 +177,6 @@ class Moments {
                 TracedPose{positions(part->chain), ghost.follow(frame), trace,
                            static_cast<std::uint64_t>(trace->view.from) + all.size()});
             flips.add({.joints = traced->ghost, .target = part->target, .pole = part->reach.options.pole});
-            float apart = 0.0f;
-            for (std::size_t i = 0; i < traced->joints.size(); ++i)
-                apart = std::max(apart, glm::distance(traced->joints[i], traced->ghost[i]));
-            if (!parted && apart > parted_share * part->chain.reach()) parted = all.size();
             part->traced = std::move(traced);
             check_range(*part);
             all.push_back(std::move(part));
@@ -193,8 +186,7 @@ class Moments {
     }
 
     std::vector<std::shared_ptr<const ChainPart>> all;
-    std::optional<std::uint64_t> parted;  ///< first frame where Tendril's solve departs from the trace
-    std::optional<std::uint64_t> flip;    ///< first frame where Tendril's solve flips
+    std::optional<std::uint64_t> flip;  ///< first frame where Tendril's solve flips
 };
 
 /// The first incident in the displayed frames.
@@ -241,13 +233,6 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
         workspace.rewind.note(incident_of(each, *trace, moments.all));
         ++shown;
     }
-    if (moments.parted)
-        workspace.rewind.note(
-            {.kind = Incident::Kind::Status,
-             .tick = *moments.parted > 0 ? *moments.parted - 1 : 0,
-             .joint = moments.all.front()->chain.size() - 1,
-             .cause = "the ghost is more than 5 % of the reach from the trace",
-             .title = "Frame " + std::to_string(first + *moments.parted) + ": Tendril's solve departs"});
     if (!same_frames) {
         workspace.ui.incident.reset();
         workspace.ui.incident_chosen = false;  // the title names it
@@ -255,8 +240,11 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
     }
     if (same_frames) {
         const std::string solve = std::string("Tendril's solve, ") + solver_title(trace->view.method) + ": ";
+        const auto& pole = moments.all[at]->reach.options.pole;
+        const bool moved = trace->view.pole_by != glm::vec3(0.0f);
         workspace.toast(
-            solve + (moments.flip ? "flips at frame " + std::to_string(first + *moments.flip) : "no flip"));
+            solve + (moments.flip ? "flips at frame " + std::to_string(first + *moments.flip) : "no flip") +
+            (moved ? ", pole target at " + trace->conventions.place(*pole) : ""));
         return;
     }
     const Bounds bounds = ChainLab().bounds(workspace, false);
@@ -269,15 +257,12 @@ void show_trace(Workspace& workspace, const std::shared_ptr<const ShownTrace>& t
 /// Takes the given arguments on how the trace is read; returns whether there are any.
 bool take_choice(ConventionChoice& choice, const Arguments& given) {
     bool any = false;
-    const auto take = [&](const char* name, std::string& into) {
-        if (!given.has(name)) return;
-        into = given.text(name);
-        any = true;
-    };
-    take("up", choice.up);
-    take("handed", choice.handed);
-    take("unit", choice.unit);
-    take("rotations", choice.rotations);
+    for (const auto& [name, into] :
+         std::initializer_list<std::pair<const char*, std::string*>>{{"up", &choice.up},
+                                                                     {"handed", &choice.handed},
+                                                                     {"unit", &choice.unit},
+                                                                     {"rotations", &choice.rotations}})
+        if (given.has(name)) *into = given.text(name), any = true;
     return any;
 }
 
@@ -318,24 +303,22 @@ const TracedPose* traced_pose(const ChainPart& part) {
     return part.traced.get();
 }
 
-ik::Method traced_method(const TracedPose& pose) {
-    return pose.trace->view.method;
-}
-
 void draw_traced_ghost(const View& view, const ChainPart& part, DrawList& list) {
     const TracedPose* const pose = traced_pose(part);
     if (pose == nullptr) return;
     const std::vector<glm::vec3>& ghost = pose->ghost;
-    const glm::vec4 colour(solver_colour(view.palette, traced_method(*pose)), 0.6f);
+    const glm::vec4 colour(solver_colour(view.palette, pose->trace->view.method), 0.6f);
     for (std::size_t i = 1; i < ghost.size(); ++i)
         list.line(ghost[i - 1], ghost[i], 3.0f * view.scale, colour);
     for (const glm::vec3 joint : ghost) list.sphere(joint, 4.5f * view.scale, Unit::Pixels, colour);
 }
 
 Verdict trace_verdict(const TracedPose& pose) {
-    const TracedIncident* const first = first_shown(*pose.trace);
-    if (first == nullptr) return {"No incidents in these frames", Verdict::Kind::Good};
-    return {first->title(pose.trace->bones), Verdict::Kind::Bad, capitalised(first->cause) + "."};
+    const TracedIncident* found = first_shown(*pose.trace);
+    for (const TracedIncident& each : pose.trace->incidents)
+        if (each.frame <= pose.frame && pose.frame <= each.last_frame) found = &each;
+    if (found == nullptr) return {"No incidents in these frames", Verdict::Kind::Good};
+    return {found->title(pose.trace->bones), Verdict::Kind::Bad, capitalised(found->cause) + "."};
 }
 
 std::vector<glm::vec3> traced_points(const TracedPose& pose) {

@@ -4,7 +4,6 @@
 
 #include <glm/vec3.hpp>
 #include <string>
-#include <tendril/ik/method.hpp>
 #include <vector>
 
 #include "app/document/command.hpp"
@@ -45,10 +44,8 @@ struct ShownTrace {
 
 /// The trace frame that the chain shows; null if it shows none.
 const TracedPose* traced_pose(const ChainPart& part);
-/// The ghost's solver.
-ik::Method traced_method(const TracedPose& pose);
 void draw_traced_ghost(const View& view, const ChainPart& part, DrawList& list);
-/// The first incident in the shown frames.
+/// The incident of the frame that the chain shows, the latest to begin; else the first in the strip's frames.
 Verdict trace_verdict(const TracedPose& pose);
 /// Joints and targets of all shown frames.
 std::vector<glm::vec3> traced_points(const TracedPose& pose);

@@ -362,10 +362,11 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
         return;
     }
     if (const TracedPose* const pose = traced_pose(part))
-        return show_verdict(chain_verdict(part), palette, emit, {.verdict = 2, .notes = 1}, [pose] {
-            note(pose->trace->name + ", frame " + std::to_string(pose->frame) + "; the last is " +
-                 std::to_string(pose->trace->all - 1) + '.');
-        });
+        return show_verdict(chain_verdict(part), palette, emit, {.verdict = 2, .notes = 3, .paragraphs = 3},
+                            [pose] {
+                                note(pose->trace->name + ", frame " + std::to_string(pose->frame) +
+                                     "; the last is " + std::to_string(pose->trace->all - 1) + '.');
+                            });
     const VerdictLines reserved = part.mode == ChainMode::Reach
                                       ? VerdictLines{.verdict = 1, .notes = 3, .paragraphs = 2}
                                       // the status in two lines, what ran

@@ -262,6 +262,16 @@ TEST_P(LabCard, LeavesRoomForTheInspector) {
     }
 }
 
+TEST(CardsTest, ATracesIncidentsFoldIt) {
+    CardOnScene scene({"chain", 1});
+    ASSERT_TRUE(scene.has_ring());
+    const float high = shown_window("card")->Size.y;
+    scene.run("chain.trace", {{"text", "(0, 1, 0) (1, 1, 0)\n(0, 1, 0) (1, nan, 0)\n(0, 1, 0) (1, 1, 0)\n"}});
+    scene.wait(2);
+    EXPECT_LT(shown_window("card")->Size.y, 0.5f * high);
+    EXPECT_FALSE(scene.has_ring());
+}
+
 LABEL(slow, "CardsTest.TheChevronShowsTheNextCardOnItsScene");
 
 /// The chevron is left of the button that hides the card, near the right edge.

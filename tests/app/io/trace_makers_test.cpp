@@ -121,9 +121,8 @@ const Maker makers[]{
     {"blank lines", brackets, "\n", "", "\n\n"},
     {"CSV |", "%.4f|%.4f|%.4f", "|", "", "\n", "ax|ay|az|bx|by|bz|cx|cy|cz\n"},
     {"CSV .x", "%.4f,%.4f,%.4f,0,0,0,1", ",", "", "\n",
-     "a.pos.x,a.pos.y,a.pos.z,a.rot.x,a.rot.y,a.rot.z,a.rot.w,b.pos.x,b.pos.y,b.pos.z,b.rot.x,b.rot.y,b.rot."
-     "z,"
-     "b.rot.w,c.pos.x,c.pos.y,c.pos.z,c.rot.x,c.rot.y,c.rot.z,c.rot.w\n"},
+     "a.pos.x,a.pos.y,a.pos.z,a.rot.x,a.rot.y,a.rot.z,a.rot.w,b.pos.x,b.pos.y,b.pos.z,b.rot.x,b.rot.y,"
+     "b.rot.z,b.rot.w,c.pos.x,c.pos.y,c.pos.z,c.rot.x,c.rot.y,c.rot.z,c.rot.w\n"},
     {"CSV [0]", xyz, ",", "", "\n", "a[0],a[1],a[2],b[0],b[1],b[2],c[0],c[1],c[2]\n"},
     {"CSV prefix", xyz, ",", "", "\n", "x1,y1,z1,x2,y2,z2,x3,y3,z3\n"},
     {"CSV unit", xyz, ",", "", "\n",
@@ -134,12 +133,12 @@ const Maker makers[]{
     {"Markdown", "%.4f|%.4f|%.4f|", "", "|#|", "\n",
      "| frame | ax | ay | az | bx | by | bz | cx | cy | cz |\n|---|---|---|---|---|---|---|---|---|---|\n"},
     {"OpenSim .trc", "%.4f\t%.4f\t%.4f\t", "", "#\t#\t", "\n",
-     "PathFileType\t4\t(X/Y/"
-     "Z)\tarm.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n60\t60\t120\t3\tm\n"
+     "PathFileType\t4\t(X/Y/Z)\t"
+     "arm.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n60\t60\t120\t3\tm\n"
      "Frame_\tTime\tshoulder\t\t\telbow\t\t\thand\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\tX3\tY3\tZ3\n\n"},
     {"Motive", xyz, ",", "#,#,", "\n",
-     "Format Version,1.23,Take Name,Take "
-     "1\n\n,,Marker,Marker,Marker,Marker,Marker,Marker,Marker,Marker,Marker\n"
+     "Format Version,1.23,Take Name,Take 1\n"
+     "\n,,Marker,Marker,Marker,Marker,Marker,Marker,Marker,Marker,Marker\n"
      ",,shoulder,shoulder,shoulder,elbow,elbow,elbow,hand,hand,hand\n,,7,7,7,8,8,8,9,9,9\n"
      "Frame,Time (Seconds),X,Y,Z,X,Y,Z,X,Y,Z\n,,m,m,m,m,m,m,m,m,m\n"},
     {"MATLAB disp", "%10.4f%10.4f%10.4f\n", ""},

@@ -76,6 +76,8 @@ TEST_F(ChainTrace, TheTitleIsTheFirstIncidentAndEveryFrameIsInView) {
         EXPECT_LE(glm::distance(glm::vec3(frame.target), bounds.centre), bounds.radius);
     EXPECT_FALSE(workspace.ui.incident_chosen) << "the inspector would scroll its title away";
     EXPECT_EQ(workspace.camera.target, bounds.centre);
+    run("time.incident", {{"number", 1}});
+    EXPECT_EQ(chain_verdict(part()).text, flips()[0].title) << "and of the shown frame, if that has one";
 }
 
 TEST_F(ChainTrace, CodeIsInTheTracesAxesAndUnitWithTheChosenCure) {

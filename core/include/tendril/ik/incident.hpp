@@ -38,7 +38,7 @@ enum class IncidentKind : std::uint8_t {
     Length,
     Limit,   ///< a joint is beyond its limit; amount: degrees beyond it
     Missed,  ///< the tip does not reach a target within its reach; amount: metres short
-    Lag,     ///< the tip is where the target was some frames ago, 30 at most; amount: frames
+    Lag,     ///< over these frames the tip is where the target was some before, 30 at most; amount: frames
     Jitter,  ///< the tip swings while the target is still; amount: metres to either side
     /// Frames that repeat the one before in mid-motion; amount: frames. Evenly spaced repeats are one
     /// incident: the chain is updated at another rate than the log. None if the target repeats with them.
@@ -148,6 +148,9 @@ class IncidentFinder {
     static bool outpaces_input(const ReachPose& before, const ReachPose& after, std::size_t joint,
                                float times) noexcept;
     void find_missed(const ReachPose& pose);
+    void find_late(const std::array<float, max_lag + 1>& errors, float allowed);
+    void close_late();
+    ChainIncident lag_of(std::size_t lag, std::uint64_t first, std::uint64_t last) const;
     void follow(const ReachPose& pose);
     void find_jitter(const ReachPose& pose);
     void judge_jitter();
@@ -187,7 +190,7 @@ class IncidentFinder {
     };
     Steps steps_, pole_steps_;
     bool root_jumped_ = false;  ///< the tip has not met its target since
-    /// The latest frames in space, newest last.
+    /// The latest frames in space, newest last: max_lag + 1.
     struct MotionSample {
         glm::vec3 root{0.0f}, tip{0.0f};
         std::optional<glm::vec3> target{};
@@ -213,7 +216,6 @@ class IncidentFinder {
         struct Lagged {
             glm::dvec3 sum{0.0};
             double square = 0.0, product = 0.0;
-            void add(const glm::dvec3& tip, const glm::dvec3& target) noexcept;
         };
         std::array<Lagged, max_lag + 1> lags{};
         glm::dvec3 sum{0.0};
@@ -221,14 +223,20 @@ class IncidentFinder {
         std::array<double, max_lag + 1> before{};  ///< residual squares of earlier fits
         std::uint64_t frames = 0;
 
-        void add(const glm::dvec3& tip) noexcept;
         /// Starts a new fit and keeps the residual squares of the old one.
         void close() noexcept;
         /// For each lag, the fit's residual sum of squares.
         std::array<double, max_lag + 1> left() const noexcept;
     };
     std::vector<glm::vec3> targets_, followers_;  ///< targets and tips relative to the root, newest last
-    std::vector<glm::vec3> roots_;                ///< roots of the same frames
+    /// Frames in which the tip may be late, and the squares of its distances to the targets before.
+    struct Late {
+        std::uint64_t first = 0, last = 0, frames = 0;
+        std::array<double, max_lag + 1> squares{};
+    };
+    Late late_;
+    std::vector<ChainIncident> lates_;
+    std::array<std::uint64_t, max_lag + 1> prompt_{};  ///< frames on target, which was elsewhere then
     std::array<Following, spans.size()> paths_{};
     glm::dvec3 origin_{0.0};
     std::optional<std::uint64_t> first_move_;

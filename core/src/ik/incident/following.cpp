@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "ik/incident/thresholds.hpp"
@@ -70,12 +71,12 @@ bool IncidentFinder::find_jumps(const ReachPose& pose) {
 // Compares the middle one of five frames, or the middle two of six, with the path of the others.
 void IncidentFinder::find_misplaced(const ReachPose& pose, bool aimed) {
     samples_.push_back({pose.root(), pose.joints[end_], aimed ? pose.target : std::nullopt});
-    if (samples_.size() > 6) samples_.erase(samples_.begin());
+    if (samples_.size() > max_lag + 1) samples_.erase(samples_.begin());
     const std::size_t n = samples_.size();
     if (n < 5 || frames_ < disturbed_ + 5) return;
     const auto at = [&](std::size_t ago) -> const MotionSample& { return samples_[n - 1 - ago]; };
-    const bool all_aimed =
-        std::ranges::all_of(samples_, [](const MotionSample& m) { return m.target.has_value(); });
+    const bool all_aimed = std::ranges::all_of(std::span(samples_).last(std::min<std::size_t>(n, 6)),
+                                               [](const MotionSample& m) { return m.target.has_value(); });
     const float rounding = rounding_steps * options_.resolution;
     const auto deviation = [](glm::vec3 before, glm::vec3 p, glm::vec3 after) {
         return math::length(p - 0.5f * (before + after));
@@ -213,12 +214,18 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
     const float inner = inner_reach();
     const float allowed = std::max(missed_share * reach_, rounding_steps * options_.resolution);
     const glm::vec3 tip = pose.joints[end_] - pose.root();
-    float error = math::distance(tip, *pose.target - pose.root());
-    if (error <= allowed) root_jumped_ = false;
     // Late targets: relative to the root of that frame, or in space with the root of this one.
-    for (std::size_t i = targets_.size() - std::min(targets_.size(), max_lag); i < targets_.size(); ++i)
-        for (const glm::vec3 target : {targets_[i], within_reach(targets_[i] + roots_[i] - pose.root())})
-            error = std::min(error, math::distance(tip, target));
+    std::array<float, max_lag + 1> errors;
+    errors.fill(std::numeric_limits<float>::infinity());
+    for (std::size_t lag = 0; lag < samples_.size(); ++lag) {
+        const MotionSample& then = samples_[samples_.size() - 1 - lag];
+        if (!then.target) continue;
+        errors[lag] = std::min(math::distance(tip, *then.target - then.root),
+                               math::distance(tip, within_reach(*then.target - pose.root())));
+    }
+    if (errors[0] <= allowed) root_jumped_ = false;
+    find_late(errors, allowed);
+    const float error = std::ranges::min(errors);
     // A bone of another length moves the tip too, and is reported already.
     const bool whole_bones = std::ranges::none_of(length_, &Episode::open);
     const bool reachable = distance < reach_ - allowed && distance > inner + allowed && whole_bones;
@@ -244,6 +251,38 @@ void IncidentFinder::find_missed(const ReachPose& pose) {
     update_episode(missed_, true, now);
 }
 
+// Late for a while: the tip is off its target, and on the one of some frames before.
+void IncidentFinder::find_late(const std::array<float, max_lag + 1>& errors, float allowed) {
+    const auto best = [&] { return std::ranges::min_element(late_.squares) - late_.squares.begin(); };
+    if (late_.frames > 0 && !(errors[static_cast<std::size_t>(best())] <= allowed)) close_late();
+    for (std::size_t lag = 1; lag <= max_lag; ++lag)
+        prompt_[lag] += errors[0] <= 0.5f * allowed && errors[lag] > 1.5f * allowed;
+    if (errors[0] <= allowed || (late_.frames == 0 && std::ranges::min(errors) > 0.5f * allowed)) return;
+    if (late_.frames++ == 0) late_.first = frames_;
+    late_.last = frames_;
+    for (std::size_t lag = 0; lag <= max_lag; ++lag)
+        late_.squares[lag] += static_cast<double>(errors[lag] * errors[lag]);
+}
+
+void IncidentFinder::close_late() {
+    const auto least = std::ranges::min_element(late_.squares);
+    if (late_.frames >= min_lag_frames && *least <= late_ratio * late_.squares[0] &&
+        lates_.size() < max_incidents)
+        lates_.push_back(
+            lag_of(static_cast<std::size_t>(least - late_.squares.begin()), late_.first, late_.last));
+    late_ = {};
+}
+
+ChainIncident IncidentFinder::lag_of(std::size_t lag, std::uint64_t first, std::uint64_t last) const {
+    return {.kind = IncidentKind::Lag,
+            .frame = first,
+            .last_frame = last,
+            .joint = end_,
+            .amount = static_cast<double>(lag),
+            .cause = lag == 1 ? "the tip is where the target was one frame before: the order of updates"
+                              : "the tip is where the target was some frames before: smoothing, or a queue"};
+}
+
 // Adds a frame to the paths of tip and target. A target out of reach becomes the nearest point in reach.
 void IncidentFinder::follow(const ReachPose& pose) {
     const glm::vec3 target = *pose.target - pose.root();
@@ -258,17 +297,14 @@ void IncidentFinder::follow(const ReachPose& pose) {
             longest = std::max(longest, math::distance(targets_[i - 1], targets_[i]));
         if (math::distance(tip_now, followers_.back()) > spike_step_ratio * longest + spike_share * reach_) {
             targets_.clear();
-            roots_.clear();
             followers_.clear();
             for (Following& path : paths_) path.close();
         }
     }
     targets_.push_back(target);
-    roots_.push_back(pose.root());
     followers_.push_back(tip_now);
     if (targets_.size() > max_lag + spans.back() + 1) {
         targets_.erase(targets_.begin());
-        roots_.erase(roots_.begin());
         followers_.erase(followers_.begin());
     }
     const auto aim = [&](std::size_t ago) {
@@ -283,9 +319,18 @@ void IncidentFinder::follow(const ReachPose& pose) {
         const std::size_t span = spans[i];
         if (targets_.size() <= max_lag + span) continue;
         const glm::dvec3 from = span == 0 ? origin_ : glm::dvec3(followers_[followers_.size() - 1 - span]);
-        paths_[i].add(tip - from);
-        for (std::size_t lag = 0; lag <= max_lag; ++lag)
-            paths_[i].lags[lag].add(tip - from, aim(lag) - (span == 0 ? origin_ : aim(lag + span)));
+        Following& path = paths_[i];
+        const glm::dvec3 way = tip - from;
+        ++path.frames;
+        path.count += 1.0;
+        path.sum += way;
+        path.square += math::dot(way, way);
+        for (std::size_t lag = 0; lag <= max_lag; ++lag) {
+            const glm::dvec3 step = aim(lag) - (span == 0 ? origin_ : aim(lag + span));
+            path.lags[lag].sum += step;
+            path.lags[lag].square += math::dot(step, step);
+            path.lags[lag].product += math::dot(way, step);
+        }
     }
 }
 
@@ -353,19 +398,6 @@ void IncidentFinder::judge_jitter() {
           .amount = amplitude,
           .hertz = 0.5 * static_cast<double>(crossings) * static_cast<double>(options_.fps) / (count - 1.0),
           .cause = "the target is still, and the tip is not"});
-}
-
-void IncidentFinder::Following::add(const glm::dvec3& tip) noexcept {
-    ++frames;
-    count += 1.0;
-    sum += tip;
-    square += math::dot(tip, tip);
-}
-
-void IncidentFinder::Following::Lagged::add(const glm::dvec3& tip, const glm::dvec3& target) noexcept {
-    sum += target;
-    square += math::dot(target, target);
-    product += math::dot(tip, target);
 }
 
 void IncidentFinder::Following::close() noexcept {
@@ -438,6 +470,15 @@ void IncidentFinder::finish_following() {
         }
     }
     const std::size_t best = find_lag();
+    close_late();
+    // A tip that never meets its target is off rather than late.
+    std::erase_if(lates_, [&](const ChainIncident& each) {
+        return prompt_[static_cast<std::size_t>(each.amount)] < min_lag_frames;
+    });
+    if (!lates_.empty() && (best == 0 || 8 * prompt_[best] > paths_[0].frames)) {
+        for (const ChainIncident& each : lates_) note(each);
+        return;
+    }
     // A lower update rate explains a lag shorter than its period.
     const bool explained =
         cadence_.size() >= min_cadence && cadence_[0].incident.frame + best < cadence_[1].incident.frame;
@@ -447,13 +488,7 @@ void IncidentFinder::finish_following() {
         return each.kind == IncidentKind::Missed && each.frame == 0 &&
                each.last_frame <= first_move_.value_or(0) + best;
     });
-    note({.kind = IncidentKind::Lag,
-          .frame = first_move_.value_or(0),
-          .last_frame = frames_ > 0 ? frames_ - 1 : 0,
-          .joint = end_,
-          .amount = static_cast<double>(best),
-          .cause = best == 1 ? "the tip is where the target was one frame before: the order of updates"
-                             : "the tip is where the target was some frames before: smoothing, or a queue"});
+    note(lag_of(best, first_move_.value_or(0), frames_ > 0 ? frames_ - 1 : 0));
 }
 
 }  // namespace tendril::ik

@@ -148,7 +148,6 @@ void IncidentFinder::forget_motion() noexcept {
     recent_.clear();
     rotations_.clear();
     targets_.clear();
-    roots_.clear();
     followers_.clear();
     tips_.clear();
     side_.reset();
