@@ -499,8 +499,9 @@ std::size_t clip_for(const HumanoidPart& part, const Arguments& given) {
 ExportReport export_one(Workspace& workspace, const Arguments& given, std::size_t clip,
                         const std::filesystem::path& path) {
     const HumanoidPart& part = humanoid_part(workspace);
-    const Clip& original = part.loaded->clips()[clip];
-    const double rate = given.has("fps") ? given.real("fps") : humanoid::frame_rate(original);
+    const Clip& original = part.loaded->clip_unfixed(clip);
+    const double rate =
+        given.has("fps") ? given.real("fps") : humanoid::frame_rate(part.loaded->clips()[clip]);
     Solvers& solvers = humanoid_runtime(workspace).solvers;
     return export_clip({.character = part.loaded->character,
                         .file = part.loaded->path,
