@@ -24,7 +24,7 @@ namespace tendril::app {
 template <>
 std::span<const FieldText> field_texts<HumanoidView>() {
     static constexpr FieldText texts[] = {
-        {.name = "ghost", .label = "Ghost", .help = "The pose before anything changed it, in grey."},
+        {.name = "ghost", .label = "Ghost", .help = "The pose before fixes and IK, in grey."},
         {.name = "skin",
          .label = "skin",
          .help = "How the skin is drawn: not at all, solid, or so that bones show through",

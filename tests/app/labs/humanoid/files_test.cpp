@@ -211,12 +211,15 @@ TEST_F(HumanoidFiles, FaultsAreFoundAndFixed) {
     EXPECT_EQ(report().findings[0].fault, humanoid::Fault::KneePop);
     EXPECT_EQ(report().findings[0].frame, 20u);
     const humanoid::Clip as_read = *part().clip();
+    run("humanoid.clip", {{"time", report().findings[0].time}});
+    EXPECT_TRUE(shown_pose(workspace).ghost.empty());
     expect_refused("humanoid.cure", {{"kind", "sign_flip"}}, {"walk"});
     expect_refused("humanoid.cure", {{"kind", "knee_pop"}, {"node", "Tail"}}, {"Tail"});
     expect_refused("humanoid.cure", {{"kind", "knee_pop"}, {"frame", 40}}, {"walk"});
     run("humanoid.cure", {{"kind", "knee_pop"}, {"node", "RightLowerLeg"}, {"frame", 20}});
     EXPECT_TRUE(report().findings.empty());
     EXPECT_TRUE(part().loaded->clip_unfixed(*part().playback.clip) == as_read) << "what an export compares";
+    EXPECT_FALSE(shown_pose(workspace).ghost.empty()) << "before the fix";
     run("undo");
     EXPECT_EQ(report().findings.size(), 1u);
 }
