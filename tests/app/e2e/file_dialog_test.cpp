@@ -36,7 +36,9 @@ class FileDialogTest : public testing::Test, protected DrivenApp {
 TEST_F(FileDialogTest, APictureHasTheSizeAndBackgroundThatAreChosen) {
     run("scene.save", {{"path", (folder_ / "arm.json").string()}});
     const glm::ivec2 view = app_.workspace().ui.picture_size;
+    for (const char* const name : {"a.png", "b.png", "c.png"}) write(folder_ / name, "");
     key("ctrl+p");
+    EXPECT_TRUE(says(text(), "a.png b.png c.png")) << "more than a row";
     click({700.0f, at("width, pixels").y});
     key("ctrl+a");
     type("300");
@@ -134,6 +136,20 @@ TEST_F(FileDialogTest, ShowsTheEndOfALongNameUntilItIsTypedInto) {
     EXPECT_NE(typed.find("_b.json"), std::string::npos) << typed;
 }
 
+TEST_F(FileDialogTest, StartsWhereTheLastFileWasOpened) {
+    run("scene.save", {{"path", (folder_ / "arm.json").string()}});
+    open();
+    type(source_path("tests/app/golden/body.glb").c_str());
+    key("enter");
+    open();
+    EXPECT_NE(text().find("a_pose.bvh"), std::string::npos);
+    key("escape");
+    std::filesystem::create_directory(folder_ / "poses");
+    run("scene.save", {{"path", (folder_ / "poses" / "arm.json").string()}});
+    open();
+    EXPECT_EQ(text().find("a_pose.bvh"), std::string::npos) << "the scene is elsewhere now";
+}
+
 /// A BVH dropped on a character: the choice is made by a click, and Escape opens nothing.
 TEST_F(FileDialogTest, AsksHowToOpenAMotionOnACharacter) {
     const std::string motion = source_path("tests/app/golden/faulty_walk.bvh");
@@ -163,7 +179,9 @@ TEST_F(FileDialogTest, BrowsesForTheFileOfARow) {
     run("lab.open", {{"name", "humanoid"}});
     std::filesystem::copy(source_path("tests/app/golden/body.glb"), folder_ / "body.glb");
     run("scene.save", {{"path", (folder_ / "arm.json").string()}});
+    write(folder_ / "walk.jsonl", "");
     click(at("Browse"));
+    EXPECT_EQ(text().find("walk.jsonl"), std::string::npos) << "not for this row";
     click(at("body.glb"));
     click(at("Open"));
     EXPECT_EQ(app_.state().at("character").at("file"), (folder_ / "body.glb").string());
