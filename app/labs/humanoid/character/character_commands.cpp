@@ -253,8 +253,10 @@ void load(Workspace& workspace, const Arguments& given, bool plays) {
 bool is_bare_motion(const std::filesystem::path& file) {
     const std::string ending = lower_case(file.extension().string());
     if (ending == ".bvh" || ending == ".vrma") return true;
+    // Binary files list at the start which kinds of objects they have: their data need not be read.
+    constexpr std::uintmax_t enough = 4u << 20;
     try {
-        const std::string bytes = character_bytes(file);
+        const std::string bytes = character_bytes(file, ending == ".gltf" ? UINTMAX_MAX : enough);
         return bytes.find(ending == ".fbx" ? "Geometry" : "\"meshes\"") == bytes.npos;
     } catch (const std::exception&) {
         return false;  // opening it says why
