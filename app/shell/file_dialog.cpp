@@ -144,7 +144,7 @@ void FileDialog::frame(const Workspace& workspace, const Labs& labs, glm::vec2 s
                        Emit& emit) {
     const auto wanted = workspace.ui.file_dialog;
     const bool open = wanted != UiState::FileDialog::None;
-    const bool appearing = open && shown_ != wanted;
+    const bool appearing = open && (shown_ != wanted || by_ != workspace.ui.browses_for);
     shown_ = wanted;
     if (!open) return;
     if (appearing) start(workspace, labs);

@@ -185,6 +185,9 @@ TEST_F(FileDialogTest, BrowsesForTheFileOfARow) {
     click(at("body.glb"));
     click(at("Open"));
     EXPECT_EQ(app_.state().at("character").at("file"), (folder_ / "body.glb").string());
+    run("scene.open_dialog", {{"by", "humanoid.map.load"}});
+    wait(4);
+    EXPECT_EQ(text().find("body.glb"), std::string::npos) << "it has no bone map";
     run("scene.open_dialog", {{"by", "humanoid.motion.load"}});
     wait(4);
     type("body.glb");
