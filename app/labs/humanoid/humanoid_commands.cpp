@@ -45,8 +45,8 @@ std::span<const FieldText> field_texts<HumanoidView>() {
         {.name = "judged",
          .label = "judge",
          .help =
-             "What Motion lint judges: the clip as it was read, or the result that is shown and exported, "
-             "with everything that IK does to it",
+             "The clip with its fixes alone, or the result that is shown and exported, with everything that "
+             "IK does to it",
          .listed = true,
          .choices = judged_clips.rows},
         {.name = "follow",

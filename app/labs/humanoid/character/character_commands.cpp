@@ -363,8 +363,9 @@ std::vector<FileWay> HumanoidLab::file_ways(const Workspace& workspace,
             return {{"Play it on the figure", "A clip for " + before + ", by the bone maps",
                      "humanoid.motion.load"},
                     alone};
-        return {{"Play " + part.clip()->name + " on it", "With the fixes made on it", "humanoid.motion.take"},
-                alone};
+        return {
+            {"Play \"" + part.clip()->name + "\" on it", "With the fixes made on it", "humanoid.motion.take"},
+            alone};
     }
     return {};
 }

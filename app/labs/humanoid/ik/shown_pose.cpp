@@ -298,8 +298,8 @@ std::optional<FeetHistory::Deepest> foot_in_ground(const ShownPose& shown) {
 std::string why_in_ground(const HumanoidPart& part, const FeetHistory::Deepest& deepest) {
     const bool stairs = part.ik.ground.kind == humanoid::GroundKind::Stairs;
     if (deepest.late > 0.5 * deepest.depth)
-        return stairs ? "It is too fast for the stairs. Use lower steps or a slower clip."
-                      : "It is too fast for the ground. Use a gentler ground or a slower clip.";
+        return stairs ? "It is too fast for the stairs. Use lower steps, or a lower speed under Clip."
+                      : "It is too fast for the ground. Use a gentler ground, or a lower speed under Clip.";
     return stairs ? "It has too little room on the steps. Make them deeper."
                   : "It has too little room on the ground there.";
 }

@@ -145,7 +145,7 @@ TEST_F(HumanoidFiles, AnExportReportsOtherClipsAndWritesThemAll) {
     tells("one.glb 1 of 2 clips: punch");
     run("view.fold", {{"section", "humanoid: Export"}, {"folded", false}});
     const std::string panel = test::PanelReader().panel(lab(), workspace);
-    EXPECT_TRUE(test::says(panel, "Export clip Export all 1 of 2 clips: walk"));
+    EXPECT_TRUE(test::says(panel, "figure_walk.glb Export clip Export all 1 of 2 clips: walk"));
     run("humanoid.export", {{"path", path("all.bvh")}, {"all", true}});
     tells("all_walk.bvh others 2 clips worst joint");
     for (const char* const name : {"walk", "punch"}) {
