@@ -380,15 +380,11 @@ void export_rows(const HumanoidPanel& panel) {
 void map_rows(const HumanoidPanel& panel) {
     auto& state = panel.runtime.panel;
     text_field("map file", state.map_file, "bones.json");
-    explain("A bone map file to save to or load from. It suits every character with the same node names.");
+    explain("A bone map file to save to. It suits every character with the same node names.");
     if (row_button("Save map", 2, !state.map_file.empty(), "To the file; asks before it replaces one"))
         panel.emit("humanoid.map.save", {{"path", state.map_file}});
-    if (row_button("Load map", 2, true, "From the file; without a name, asks which")) {
-        if (state.map_file.empty())
-            panel.emit("scene.open_dialog", {{"by", "humanoid.map.load"}});
-        else
-            panel.emit("humanoid.map.load", {{"path", state.map_file}});
-    }
+    if (row_button("Load map", 2, true, "Chooses a file, and loads it"))
+        panel.emit("scene.open_dialog", {{"by", "humanoid.map.load"}});
     end_row();
 }
 
