@@ -56,17 +56,12 @@ FileRoute route_of(const Labs& labs, const std::string& command) {
     throw Refused("by: no command \"" + command + "\" opens a file");
 }
 
-/// Whether the route's lab opens files of a kind by that command.
-bool opens_kind(const FileRoute& route) {
-    return std::ranges::any_of(route.lab->files(),
-                               [&](const FileKind& kind) { return kind.command == route.kind.command; });
-}
-
 /// Opens the lab last, so that a refusal leaves the present one open.
 void open(const Labs& labs, Workspace& workspace, const Arguments& given) {
     const std::string path = given.text("path"), by = given.has("by") ? given.text("by") : "";
     const FileRoute route = by.empty() ? file_route(labs, path) : route_of(labs, by);
-    if (route.lab != nullptr && opens_kind(route) && given.has("ask") && given.boolean("ask"))
+    if (route.lab != nullptr && given.has("ask") && given.boolean("ask") &&
+        (by.empty() || by == file_route(labs, path).kind.command))
         if (std::vector<FileWay> ways = route.lab->file_ways(workspace, path); !ways.empty()) {
             workspace.close_file_dialog();
             workspace.ui.file_question = {path, std::move(ways)};

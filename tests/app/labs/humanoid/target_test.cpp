@@ -102,16 +102,6 @@ TEST_F(HumanoidTargets, StopAtLimitsWhichSaySo) {
     EXPECT_GT(residual("LeftHand"), 0.01) << "the clips never go there";
 }
 
-TEST_F(HumanoidTargets, AreIgnoredWhileABoneIsMissing) {
-    target("left_hand", 0.4, 1.5, 0.4);
-    const Json reached = state();
-    run("humanoid.map", {{"bone", "RightFoot"}});
-    EXPECT_NEAR(bone("LeftHand").x, 0.72, 1e-12);
-    EXPECT_TRUE(state().at("chains").empty());
-    run("humanoid.map", {{"bone", "RightFoot"}, {"node", "RightFoot"}});
-    EXPECT_LT(residual("LeftHand"), 1e-3);
-}
-
 TEST_F(HumanoidTargets, StateOfAnotherBodyIsIgnored) {
     target("left_hand", 0.4, 1.5, 0.7);
     Json scene = save_scene(workspace);
