@@ -60,7 +60,8 @@ FileRoute route_of(const Labs& labs, const std::string& command) {
 void open(const Labs& labs, Workspace& workspace, const Arguments& given) {
     const std::string path = given.text("path"), by = given.has("by") ? given.text("by") : "";
     const FileRoute route = by.empty() ? file_route(labs, path) : route_of(labs, by);
-    if (by.empty() && route.lab != nullptr && given.has("ask") && given.boolean("ask"))
+    if (route.lab != nullptr && given.has("ask") && given.boolean("ask") &&
+        (by.empty() || by == file_route(labs, path).kind.command))
         if (std::vector<FileWay> ways = route.lab->file_ways(workspace, path); !ways.empty()) {
             workspace.close_file_dialog();
             workspace.ui.file_question = {path, std::move(ways)};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <glm/common.hpp>
 #include <utility>
 
@@ -53,8 +54,10 @@ void FileDialog::open_folder(const fs::path& folder) {
 void FileDialog::send(const fs::path& path, Emit& emit) {
     if (picturing()) return emit(picture_.command(), picture_.arguments(path));
     if (saving()) return emit("scene.save", {{"path", path.string()}});
-    if (by_.empty()) return emit("file.open", {{"path", path.string()}, {"ask", true}});
-    emit("file.open", {{"path", path.string()}, {"by", by_}});
+    opened_ = path.parent_path();
+    ArgumentList given{{"path", path.string()}, {"ask", true}};
+    if (!by_.empty()) given.push_back({"by", by_});
+    emit("file.open", given);
 }
 
 void FileDialog::take(Emit& emit) {
@@ -79,10 +82,14 @@ void FileDialog::start(const Workspace& workspace, const Labs& labs) {
     for (FileRoute& route : file_routes(labs))
         if (by_.empty() || (route.lab != nullptr && by_.starts_with(route.lab->name() + '.')))
             kinds_.push_back(std::move(route.kind));
+    const auto own = [&](const FileKind& kind) { return kind.command == by_; };
+    if (std::ranges::any_of(kinds_, own)) std::erase_if(kinds_, std::not_fn(own));
     filter_ = 0;
     std::error_code error;
-    open_folder(workspace.path.empty() ? fs::current_path(error)
-                                       : fs::absolute(workspace.path).parent_path());
+    const fs::path home =
+        workspace.path.empty() ? fs::current_path(error) : fs::absolute(workspace.path).parent_path();
+    if (std::exchange(home_, home) != home) opened_.clear();
+    open_folder(!saving() && fs::is_directory(opened_, error) ? opened_ : home);
     if (picturing())
         picture_.start(workspace, labs.find(workspace.lab)->labels_pictures(workspace), filming());
     const std::string name = picturing() ? picture_name(workspace, folder_)
@@ -92,7 +99,7 @@ void FileDialog::start(const Workspace& workspace, const Labs& labs) {
 }
 
 void FileDialog::show_filter() {
-    std::vector<std::string> texts{"every kind of file"};
+    std::vector<std::string> texts{by_.empty() ? "every kind of file" : "every file that fits"};
     for (const FileKind& kind : kinds_) texts.push_back(kind_text(kind));
     std::vector<const char*> titles;
     for (const std::string& text : texts) titles.push_back(text.c_str());
@@ -137,12 +144,12 @@ void FileDialog::frame(const Workspace& workspace, const Labs& labs, glm::vec2 s
                        Emit& emit) {
     const auto wanted = workspace.ui.file_dialog;
     const bool open = wanted != UiState::FileDialog::None;
-    const bool appearing = open && shown_ != wanted;
+    const bool appearing = open && (shown_ != wanted || by_ != workspace.ui.browses_for);
     shown_ = wanted;
     if (!open) return;
     if (appearing) start(workspace, labs);
     const glm::vec2 size =
-        glm::max(glm::vec2(520.0f, picturing() ? 200.0f + 31.0f * picture_.rows() : 420.0f) * scale,
+        glm::max(glm::vec2(520.0f, picturing() ? 280.0f + 31.0f * picture_.rows() : 420.0f) * scale,
                  glm::vec2(0.5f, 0.6f) * screen);
     if (!begin_sheet(title(), screen, size)) emit("view.close");
     if (ImGui::Button("Up")) open_folder(folder_.parent_path());

@@ -48,6 +48,8 @@ class FileDialog {
     }
 
     std::filesystem::path folder_;
+    std::filesystem::path home_;    ///< of the scene, or where the program was started
+    std::filesystem::path opened_;  ///< where the last opened file lies: the next is likely there too
     std::vector<Entry> entries_;
     std::vector<FileKind> kinds_;  ///< kinds that can be opened
     std::string by_;               ///< UiState::browses_for

@@ -157,7 +157,7 @@ std::string findings_text(const ExportReport& report) {
 
 std::string ExportReport::text() const {
     char numbers[160];
-    std::snprintf(numbers, sizeof numbers, ", %.4f mm", 1000.0 * worst);
+    std::snprintf(numbers, sizeof numbers, " is %.4f mm off", 1000.0 * worst);
     std::string text = std::to_string(frames) + (frames == 1 ? " frame" : " frames");
     char numbers_of_rate[40];
     std::snprintf(numbers_of_rate, sizeof numbers_of_rate, " at %.5g fps", rate);
@@ -204,7 +204,7 @@ std::string sum_text(const std::vector<ExportReport>& reports) {
     std::string text = std::to_string(reports.size()) + (reports.size() == 1 ? " clip" : " clips");
     if (worst != nullptr) {
         char number[60];
-        std::snprintf(number, sizeof number, ", %.4f mm", 1000.0 * worst->worst);
+        std::snprintf(number, sizeof number, " is %.4f mm off", 1000.0 * worst->worst);
         text += "; worst joint " + worst->worst_joint + number;
     }
     return text + "; " +

@@ -25,7 +25,7 @@ struct ExportReport {
     bool on_ground = false;                   ///< whether the lint used a slope, stairs, hills or a mesh
     std::vector<std::string> new_findings{};  ///< findings that the original lacks
 
-    /// "67 frames at 60 fps; worst joint LeftHand, 0.0001 mm; skating 12.1 mm before, 3.0 mm after; 7
+    /// "67 frames at 60 fps; worst joint LeftHand is 0.0001 mm off; skating 12.1 mm before, 3.0 mm after; 7
     /// findings in the written clip, 2 of them new: LeftLowerLeg pops by 12 degrees (frame 20), ..."
     std::string text() const;
 };
@@ -33,7 +33,7 @@ struct ExportReport {
 struct Export {
     const Character& character;
     std::string file{};                        ///< the character's source file; empty: none
-    const humanoid::Clip& original;            ///< before corrections
+    const humanoid::Clip& original;            ///< before fixes and IK
     const humanoid::Clip& corrected;           ///< the clip to write
     double rate = 60.0;                        ///< frames per second
     const humanoid::Ground* ground = nullptr;  ///< the ground under its feet, for the lint
@@ -51,7 +51,7 @@ std::string one_of_clips_text(const Character& character, const std::string& cli
 /// that file names cannot contain become '_', and no two paths are the same.
 std::vector<std::filesystem::path> paths_of_clips(const Character& character,
                                                   const std::filesystem::path& path);
-/// "14 clips; worst joint Head, 0.0012 mm; no new findings in them"
+/// "14 clips; worst joint Head is 0.0012 mm off; no new findings in them"
 std::string sum_text(const std::vector<ExportReport>& reports);
 
 /// Writes the file atomically, in the format of its extension, with the hierarchy of the character's file,

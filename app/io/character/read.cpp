@@ -32,9 +32,9 @@ void mend_unit(Character& character) {
         '.';
 }
 
-std::string read_bytes(const std::filesystem::path& path) {
+std::string read_bytes(const std::filesystem::path& path, std::uintmax_t most) {
     std::error_code unknown;
-    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+    const std::uintmax_t size = std::min(std::filesystem::file_size(path, unknown), most);
     std::ifstream file(path, std::ios::binary);
     if (unknown || !file) throw std::runtime_error("cannot be opened");
     if (size > max_file_bytes) throw std::runtime_error("is larger than 1 GB");
@@ -47,7 +47,7 @@ std::string read_bytes(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::string character_bytes(const std::filesystem::path& path) {
+std::string character_bytes(const std::filesystem::path& path, std::uintmax_t most) {
     const std::string name = path.filename().string();
     std::error_code unknown;
     if (const auto status = std::filesystem::status(path, unknown); !is_regular_file(status))
@@ -55,7 +55,7 @@ std::string character_bytes(const std::filesystem::path& path) {
                                          : exists(status)     ? " is a pipe or a device, not a file"
                                                               : ": there is no such file"));
     try {
-        return read_bytes(path);
+        return read_bytes(path, most);
     } catch (const std::exception& error) {
         throw std::runtime_error(name + ": " + error.what());
     }

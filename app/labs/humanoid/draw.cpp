@@ -43,7 +43,7 @@ class Drawing {
         balance();
         skin();
         volumes();
-        if (part_.view.ghost && !shown_.before.empty()) ghost();
+        if (part_.view.ghost && !shown_.ghost.empty()) ghost();
         for (std::size_t i = 0; i < part_.skeleton().size(); ++i) {
             if (!body_[i] && !springs_[i] && !helpers_) continue;
             bones_from(i);
@@ -296,7 +296,7 @@ class Drawing {
 
     void ghost() {
         const glm::vec4 paint = faded(view_.palette, view_.palette.ghost, 0.6f);
-        const auto at = [&](std::size_t i) { return glm::vec3(shown_.before[i].position); };
+        const auto at = [&](std::size_t i) { return glm::vec3(shown_.ghost[i].position); };
         for (std::size_t i = 0; i < part_.skeleton().size(); ++i) {
             if (!body_[i] && !springs_[i]) continue;
             for (const std::int32_t each : part_.skeleton().children(i))
@@ -402,7 +402,7 @@ std::vector<LegendRow> HumanoidLab::legend(const Workspace& workspace) const {
     if (!part.springs.empty()) rows.push_back({"on a spring", attached_colour(colours)});
     if (!part.attachments.list.empty()) rows.push_back({"attached", attached_colour(colours)});
     if (shown.hold) rows.push_back({"closed grip", colours.tail});
-    if (part.view.ghost && !shown.before.empty()) rows.push_back({"before", colours.ghost});
+    if (part.view.ghost && !shown.ghost.empty()) rows.push_back({"before", colours.ghost});
     add_ghost_legend(workspace, humanoid_past(), rows);
     return rows;
 }

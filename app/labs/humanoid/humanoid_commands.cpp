@@ -24,7 +24,7 @@ namespace tendril::app {
 template <>
 std::span<const FieldText> field_texts<HumanoidView>() {
     static constexpr FieldText texts[] = {
-        {.name = "ghost", .label = "Ghost", .help = "The pose before anything changed it, in grey."},
+        {.name = "ghost", .label = "Ghost", .help = "The pose before fixes and IK, in grey."},
         {.name = "skin",
          .label = "skin",
          .help = "How the skin is drawn: not at all, solid, or so that bones show through",
@@ -45,8 +45,8 @@ std::span<const FieldText> field_texts<HumanoidView>() {
         {.name = "judged",
          .label = "judge",
          .help =
-             "What Motion lint judges: the clip as it was read, or the result that is shown and exported, "
-             "with everything that IK does to it",
+             "The clip with its fixes alone, or the result that is shown and exported, with everything that "
+             "IK does to it",
          .listed = true,
          .choices = judged_clips.rows},
         {.name = "follow",

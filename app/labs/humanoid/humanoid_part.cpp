@@ -80,6 +80,7 @@ std::size_t bytes_of(const LoadedCharacter& loaded) {
                      bytes_of(channel.scale);
     };
     for (const humanoid::Clip& clip : loaded.clips()) add(clip);
+    for (const auto& [name, clip] : loaded.unfixed) add(*clip);
     for (const ClipEdit& edit : loaded.edits) {
         if (edit.clip) add(*edit.clip);
         if (const auto* motion = std::get_if<LoadedMotion>(&edit.what); motion != nullptr && motion->source)

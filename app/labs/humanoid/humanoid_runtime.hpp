@@ -39,7 +39,7 @@ class HumanoidRuntime final : public Runtime {
         int attach_kind = 0;                 ///< kind of attachment that Add makes
         std::string attach_to = "Hips";      ///< bone or node to attach it to
         bool past = false;                   ///< the strip shows the last ten seconds instead of the clip
-        std::string export_to{}, map_file{}, motion{};  ///< paths typed by the user
+        std::string export_to{}, map_file{};  ///< paths typed by the user
     } panel;
 
   private:

@@ -267,12 +267,14 @@ float size_of(const HumanoidPart& part) {
     return static_cast<float>(std::max(0.01, glm::distance(rest.low, rest.high)));
 }
 
-/// Around its nodes, and as far beyond them as its skin reaches at rest.
+/// Around its nodes but those that a walk leaves behind, such as its root, and as far beyond them as its skin
+/// reaches at rest.
 Box figure_box(const HumanoidPart& part, const ShownPose& shown) {
     const LoadedCharacter& loaded = *part.loaded;
-    Box now(shown.point(0)), rest(glm::vec3(loaded.rest[0].position));
+    const glm::vec3 hips = shown.point(part.node_of(humanoid::Bone::Hips).value_or(0));
+    Box now(hips), rest(glm::vec3(loaded.rest[0].position));
     for (std::size_t i = 0; i < part.skeleton().size(); ++i) {
-        now.take(shown.point(i));
+        if (glm::distance(shown.point(i), hips) < size_of(part)) now.take(shown.point(i));
         rest.take(glm::vec3(loaded.rest[i].position));
     }
     now.low -= glm::max(rest.low - glm::vec3(loaded.bounds.low), 0.0f);

@@ -81,13 +81,15 @@ void kept_map_rows(const HumanoidPanel& panel) {
 void loaded_rows(const HumanoidPanel& panel, MoreRows& more) {
     const LoadedCharacter& loaded = *panel.part.loaded;
     std::string file = loaded.file;
-    const bool entered = loaded.file.empty() ? path_field("file", file, "or drop one", "", panel.emit)
-                                             : text_field("file", file, "");
+    const bool entered = loaded.file.empty()
+                             ? path_field("file", file, "or drop one", "humanoid.load", panel.emit)
+                             : text_field("file", file, "");
     if (entered && file != loaded.file) panel.emit("file.open", {{"path", file}, {"ask", true}});
     explain("A character with its clips: .gltf, .glb, .vrm, .vrma, .fbx or .bvh. Enter reads it.");
     progress_row(panel, "humanoid.load");
     if (!loaded.file.empty()) {
-        if (row_button("Browse", 2, true, "Chooses a character or a motion")) panel.emit("scene.open_dialog");
+        if (row_button("Browse", 2, true, "Chooses a character or a motion"))
+            panel.emit("scene.open_dialog", {{"by", "humanoid.load"}});
         if (row_button("Stick figure", 2, true, "Goes back to the built-in figure"))
             panel.emit("humanoid.load");
         end_row();

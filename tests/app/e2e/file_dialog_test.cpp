@@ -29,7 +29,9 @@ class FileDialogTest : public testing::Test, protected DrivenApp {
 TEST_F(FileDialogTest, APictureHasTheSizeAndBackgroundThatAreChosen) {
     run("scene.save", {{"path", (folder_ / "arm.json").string()}});
     const glm::ivec2 view = app_.workspace().ui.picture_size;
+    for (const char* const name : {"a.png", "b.png", "c.png"}) write(folder_ / name, "");
     key("ctrl+p");
+    EXPECT_TRUE(says(text(), "a.png b.png c.png")) << "more than a row";
     click({700.0f, at("width, pixels").y});
     key("ctrl+a");
     type("300");
@@ -156,12 +158,21 @@ TEST_F(FileDialogTest, BrowsesForTheFileOfARow) {
     run("lab.open", {{"name", "humanoid"}});
     std::filesystem::copy(source_path("tests/app/golden/body.glb"), folder_ / "body.glb");
     run("scene.save", {{"path", (folder_ / "arm.json").string()}});
+    write(folder_ / "walk.jsonl", "");
     click(at("Browse"));
+    EXPECT_EQ(text().find("walk.jsonl"), std::string::npos) << "not for this row";
     click(at("body.glb"));
     click(at("Open"));
     EXPECT_EQ(app_.state().at("character").at("file"), (folder_ / "body.glb").string());
+    open();
+    type(source_path("tests/app/golden/body.glb"));
+    key("enter");
+    run("scene.open_dialog", {{"by", "humanoid.map.load"}});
+    wait(4);
+    EXPECT_EQ(text().find("a_pose.bvh"), std::string::npos) << "it has no bone map";
     run("scene.open_dialog", {{"by", "humanoid.motion.load"}});
     wait(4);
+    EXPECT_NE(text().find("a_pose.bvh"), std::string::npos) << "where the last file was";
     type("body.glb");
     key("enter");
     app_.tick(nullptr);

@@ -253,8 +253,10 @@ void load(Workspace& workspace, const Arguments& given, bool plays) {
 bool is_bare_motion(const std::filesystem::path& file) {
     const std::string ending = lower_case(file.extension().string());
     if (ending == ".bvh" || ending == ".vrma") return true;
+    // Binary files list at the start which kinds of objects they have: their data need not be read.
+    constexpr std::uintmax_t enough = 4u << 20;
     try {
-        const std::string bytes = character_bytes(file);
+        const std::string bytes = character_bytes(file, ending == ".gltf" ? UINTMAX_MAX : enough);
         return bytes.find(ending == ".fbx" ? "Geometry" : "\"meshes\"") == bytes.npos;
     } catch (const std::exception&) {
         return false;  // opening it says why
@@ -361,8 +363,9 @@ std::vector<FileWay> HumanoidLab::file_ways(const Workspace& workspace,
             return {{"Play it on the figure", "A clip for " + before + ", by the bone maps",
                      "humanoid.motion.load"},
                     alone};
-        return {{"Play " + part.clip()->name + " on it", "With the fixes made on it", "humanoid.motion.take"},
-                alone};
+        return {
+            {"Play \"" + part.clip()->name + "\" on it", "With the fixes made on it", "humanoid.motion.take"},
+            alone};
     }
     return {};
 }
@@ -499,8 +502,9 @@ std::size_t clip_for(const HumanoidPart& part, const Arguments& given) {
 ExportReport export_one(Workspace& workspace, const Arguments& given, std::size_t clip,
                         const std::filesystem::path& path) {
     const HumanoidPart& part = humanoid_part(workspace);
-    const Clip& original = part.loaded->clips()[clip];
-    const double rate = given.has("fps") ? given.real("fps") : humanoid::frame_rate(original);
+    const Clip& original = part.loaded->clip_unfixed(clip);
+    const double rate =
+        given.has("fps") ? given.real("fps") : humanoid::frame_rate(part.loaded->clips()[clip]);
     Solvers& solvers = humanoid_runtime(workspace).solvers;
     return export_clip({.character = part.loaded->character,
                         .file = part.loaded->path,

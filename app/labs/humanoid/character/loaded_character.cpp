@@ -27,20 +27,25 @@ const SharedCharacter& source_of(const SharedCharacter& character) {
 }
 
 /// Replaces the clip of that name, or adds it.
-void apply(const ClipEdit& edit, Character& character, std::size_t own_clips) {
+void apply(const ClipEdit& edit, LoadedCharacter& loaded, std::size_t own_clips) {
+    Character& character = loaded.character;
     std::vector<humanoid::Clip>& clips = character.clips;
     const auto place = std::ranges::find(clips, edit.clip->name, &humanoid::Clip::name);
     const bool own = place < clips.begin() + static_cast<std::ptrdiff_t>(own_clips);
     humanoid::Clip clip = edit.as.scale == character.scale && edit.as.space == character.space
                               ? *edit.clip
                               : read_as_now(*edit.clip, edit.as.scale, edit.as.space, character, own);
-    if (place == clips.end())
-        clips.push_back(std::move(clip));
-    else
-        *place = std::move(clip);
+    if (place == clips.end()) return clips.push_back(std::move(clip));
+    loaded.unfixed.try_emplace(clip.name, std::make_shared<const humanoid::Clip>(std::move(*place)));
+    *place = std::move(clip);
 }
 
 }  // namespace
+
+const humanoid::Clip& LoadedCharacter::clip_unfixed(std::size_t clip) const {
+    const auto before = unfixed.find(clips()[clip].name);
+    return before == unfixed.end() ? clips()[clip] : *before->second;
+}
 
 SharedCharacter load_character(const std::string& path, LoadProgress* progress, const std::string& file) {
     if (path.empty()) {
@@ -56,8 +61,8 @@ SharedCharacter read_as(const SharedCharacter& character, double metres, const F
     const SharedCharacter& source = source_of(character);
     Character copy = source->character;
     read_as(copy, metres, space);
-    for (const ClipEdit& each : character->edits) apply(each, copy, source->clips().size());
     auto loaded = std::make_shared<LoadedCharacter>(*shared(*source, std::move(copy)));
+    for (const ClipEdit& each : character->edits) apply(each, *loaded, source->clips().size());
     loaded->edits = character->edits;
     loaded->source = source;
     return loaded;
@@ -66,7 +71,7 @@ SharedCharacter read_as(const SharedCharacter& character, double metres, const F
 SharedCharacter edited(const SharedCharacter& character, ClipEdit edit) {
     auto loaded = std::make_shared<LoadedCharacter>(*character);
     loaded->source = source_of(character);
-    apply(edit, loaded->character, loaded->source->clips().size());
+    apply(edit, *loaded, loaded->source->clips().size());
     loaded->edits.push_back(std::move(edit));
     return loaded;
 }

@@ -68,11 +68,14 @@ struct LoadedCharacter : OutsideFile {
     Character character;
     std::vector<ClipEdit> edits{};                    ///< of its clips, in the order in which they were made
     std::shared_ptr<const LoadedCharacter> source{};  ///< as first read from its file; null: this one
-    humanoid::BoneMap matched;                        ///< as named in the file, or as matched by the library
-    std::vector<humanoid::Placement> rest;            ///< of all nodes
-    RestBounds bounds{};                              ///< at rest
+    std::map<std::string, std::shared_ptr<const humanoid::Clip>> unfixed{};  ///< fixed clips as they were
+    humanoid::BoneMap matched;              ///< as named in the file, or as matched by the library
+    std::vector<humanoid::Placement> rest;  ///< of all nodes
+    RestBounds bounds{};                    ///< at rest
     const humanoid::Skeleton& skeleton() const { return character.skeleton; }
     const std::vector<humanoid::Clip>& clips() const { return character.clips; }
+    /// The clip before its fixes.
+    const humanoid::Clip& clip_unfixed(std::size_t clip) const;
     double height() const { return bounds.height(); }
     std::optional<UnitDoubt> doubted_unit(const humanoid::BoneMap& map) const {
         return app::doubted_unit(height(), character.scale, map);

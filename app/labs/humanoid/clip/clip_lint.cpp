@@ -3,6 +3,7 @@
 #include <imgui.h>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 #include "app/document/units.hpp"
@@ -279,7 +280,7 @@ void finding_row(const HumanoidPanel& panel, const Finding& finding, int id) {
         go_to_finding(panel, finding);
     const std::string why =
         finding.has_cure ? "" : ". No fix: " + why_no_fix(panel.part, finding, panel.part.view.judged) + '.';
-    explain((where + ": " + finding.text + why).c_str());
+    explain((finding.text + why).c_str());
     const ImVec2 after = ImGui::GetCursorPos();
     const std::string value = amount(finding);
     ImGui::SetCursorPos(at);
@@ -326,7 +327,10 @@ static void findings_rows(const HumanoidPanel& panel) {
     if (findings.empty()) return note("No faults found.");
     note(std::to_string(findings.size()) + (findings.size() == 1 ? " finding" : " findings") + ", at " +
          fixed_text(report->rate, report->rate == std::floor(report->rate) ? 0 : 2) + " frames a second");
-    if (row_button("Fix all", 1, true, "Fixes all that can be fixed, as one step to undo; says why not"))
+    const bool any = std::ranges::any_of(findings, &Finding::has_cure);
+    if (row_button("Fix all", 1, any,
+                   any ? "Fixes all that can be fixed, as one step to undo; says why not"
+                       : "None has a fix; each one's tooltip says why"))
         panel.emit("humanoid.cure", {});
     end_row();
     progress_row(panel, "humanoid.cure");
@@ -353,30 +357,34 @@ void export_rows(const HumanoidPanel& panel) {
     picture_rows(panel.emit);
     if (panel.part.loaded->clips().empty()) return note("The character has no clips.");
     std::string& path = panel.runtime.panel.export_to;
-    text_field("write to", path, "walk.glb");
+    const LoadedCharacter& loaded = *panel.part.loaded;
+    const std::vector<Clip>& clips = loaded.clips();
+    const std::size_t clip = panel.part.playback.clip.value_or(0);
+    const std::string stem = std::filesystem::path(loaded.file).stem().string(),
+                      any = path.empty() ? (stem.empty() ? "figure" : stem) + ".glb" : path,
+                      one = path.empty() ? paths_of_clips(loaded.character, any)[clip].string() : path;
+    text_field("write to", path, one.c_str());
     explain(
         "A .gltf, .glb or .bvh file for the chosen clip, or the first, with everything that IK does to it.");
-    const std::vector<Clip>& clips = panel.part.loaded->clips();
     const int buttons = clips.size() > 1 ? 2 : 1;
-    if (row_button("Export clip", buttons, !path.empty(), "Asks before it replaces a file"))
-        panel.emit("humanoid.export", {{"path", path}});
-    if (buttons == 2 && row_button("Export all", 2, !path.empty(),
+    if (row_button("Export clip", buttons, true, "Asks before it replaces a file"))
+        panel.emit("humanoid.export", {{"path", one}});
+    if (buttons == 2 && row_button("Export all", 2, true,
                                    "Each clip to a file of its own: its name is added to the file's name"))
-        panel.emit("humanoid.export", {{"path", path}, {"all", true}});
+        panel.emit("humanoid.export", {{"path", any}, {"all", true}});
     end_row();
-    const std::string which =
-        one_of_clips_text(panel.part.loaded->character, clips[panel.part.playback.clip.value_or(0)].name);
+    const std::string which = one_of_clips_text(loaded.character, clips[clip].name);
     if (!which.empty()) note(which + '.');
 }
 
 void map_rows(const HumanoidPanel& panel) {
     auto& state = panel.runtime.panel;
-    path_field("map file", state.map_file, "bones.json", "humanoid.map.load", panel.emit);
-    explain("A bone map file to save to or load from. It suits every character with the same node names.");
+    text_field("map file", state.map_file, "bones.json");
+    explain("A bone map file to save to. It suits every character with the same node names.");
     if (row_button("Save map", 2, !state.map_file.empty(), "To the file; asks before it replaces one"))
         panel.emit("humanoid.map.save", {{"path", state.map_file}});
-    if (row_button("Load map", 2, !state.map_file.empty(), "From the file"))
-        panel.emit("humanoid.map.load", {{"path", state.map_file}});
+    if (row_button("Load map", 2, true, "Chooses a file, and loads it"))
+        panel.emit("scene.open_dialog", {{"by", "humanoid.map.load"}});
     end_row();
 }
 

@@ -100,15 +100,10 @@ void load_motion(Workspace& workspace, const Arguments& given) {
 
 void motion_rows(const HumanoidPanel& panel, MoreRows& more) {
     more.add("motion", {"humanoid.motion.load", {"path"}}, false, [&panel] {
-        std::string& path = panel.runtime.panel.motion;
-        text_field("motion", path, "walk.vrma");
-        explain(
-            "A file with a motion of another character: .vrma, .vrm, .gltf, .glb, .fbx or .bvh. Its first "
-            "clip is carried over by the two bone maps, with the feet on the ground where the other's are.");
-        if (row_button("Browse", 2, true, "Chooses a motion, and plays it on this character"))
+        if (row_button("Load motion", 1, true,
+                       "Chooses a file with a motion of another character. Its first clip is carried over by "
+                       "the two bone maps, with the feet on the ground where the other's are."))
             panel.emit("scene.open_dialog", {{"by", "humanoid.motion.load"}});
-        if (row_button("Load motion", 2, !path.empty(), "Adds it to this character's clips and plays it"))
-            panel.emit("humanoid.motion.load", {{"path", path}});
         end_row();
     });
     if (!panel.part.playback.clip) return;

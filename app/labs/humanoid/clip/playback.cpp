@@ -116,11 +116,12 @@ void go_to(Playback& playback, const LoadedCharacter& character, double seconds)
 }
 
 std::vector<rig::Transform> animated_pose(const Playback& playback, const LoadedCharacter& character,
-                                          std::optional<std::size_t> hips) {
+                                          std::optional<std::size_t> hips, bool unfixed) {
     const humanoid::Skeleton& skeleton = character.skeleton();
     if (!playback.clip) return humanoid::rest_pose(skeleton);
     const humanoid::Clip& clip = character.clips()[*playback.clip];
-    std::vector<rig::Transform> pose = sampled(clip, skeleton, playback.time);
+    std::vector<rig::Transform> pose =
+        sampled(unfixed ? character.clip_unfixed(*playback.clip) : clip, skeleton, playback.time);
     const bool paces = playback.pace != glm::dvec3(0.0);
     if (!hips || (playback.rounds == 0 && !playback.in_place && !paces)) return pose;
     const OnGround first = hips_at(skeleton, sampled(clip, skeleton, 0.0), *hips);

@@ -44,9 +44,10 @@ void advance(Playback& playback, const LoadedCharacter& character, double second
 void go_to(Playback& playback, const LoadedCharacter& character, double seconds);
 
 /// The clip's local pose at that moment, before anything modifies it. `hips`: the node whose motion carries
-/// over from round to round; without it each round restarts at the same position.
+/// over from round to round; without it each round restarts at the same position. `unfixed`: before the clip
+/// was fixed.
 std::vector<rig::Transform> animated_pose(const Playback& playback, const LoadedCharacter& character,
-                                          std::optional<std::size_t> hips);
+                                          std::optional<std::size_t> hips, bool unfixed = false);
 
 /// How fast a clip that walks in place should travel for its standing feet to stay where they are, m/s; 0 for
 /// one that travels, or stands.

@@ -71,8 +71,8 @@ void look(const HumanoidPart& part, Solvers& solvers, double dt, IkState& state,
     if (report.valid) shown.look = report;
 }
 
-std::vector<rig::Transform> clip_pose(const HumanoidPart& part) {
-    return animated_pose(part.playback, *part.loaded, part.node_of(humanoid::Bone::Hips));
+std::vector<rig::Transform> clip_pose(const HumanoidPart& part, bool unfixed = false) {
+    return animated_pose(part.playback, *part.loaded, part.node_of(humanoid::Bone::Hips), unfixed);
 }
 
 double weight_at(const std::optional<HandCurve>& times, double seconds) {
@@ -144,7 +144,7 @@ humanoid::HandTargets hand_targets(const HumanoidPart& part) {
 
 std::vector<rig::Transform> unsolved_pose(const HumanoidPart& part) {
     if (!part.playback.clip && part.t_pose) return humanoid::t_pose(part.skeleton(), *part.map);
-    return animated_pose(part.playback, *part.loaded, part.node_of(humanoid::Bone::Hips));
+    return clip_pose(part);
 }
 
 std::optional<double> ShownPose::residual(humanoid::Effector effector) const {
@@ -298,10 +298,16 @@ std::optional<FeetHistory::Deepest> foot_in_ground(const ShownPose& shown) {
 std::string why_in_ground(const HumanoidPart& part, const FeetHistory::Deepest& deepest) {
     const bool stairs = part.ik.ground.kind == humanoid::GroundKind::Stairs;
     if (deepest.late > 0.5 * deepest.depth)
-        return stairs ? "It is too fast for the stairs. Use lower steps or a slower clip."
-                      : "It is too fast for the ground. Use a gentler ground or a slower clip.";
+        return stairs ? "It is too fast for the stairs. Use lower steps, or a lower speed under Clip."
+                      : "It is too fast for the ground. Use a gentler ground, or a lower speed under Clip.";
     return stairs ? "It has too little room on the steps. Make them deeper."
                   : "It has too little room on the ground there.";
+}
+
+static std::vector<humanoid::Placement> ghost_of(const HumanoidPart& part, const ShownPose& shown) {
+    if (part.loaded->unfixed.empty() || !part.playback.clip) return shown.before;
+    const std::vector<rig::Transform> read = clip_pose(part, true);
+    return read == shown.local ? std::vector<humanoid::Placement>() : placed(part, read);
 }
 
 const ShownPose& HumanoidRuntime::shown(const Workspace& workspace) {
@@ -310,6 +316,7 @@ const ShownPose& HumanoidRuntime::shown(const Workspace& workspace) {
         part_ = part;
         IkState state = humanoid_part(workspace).ik_state;
         shown_ = solve_pose(humanoid_part(workspace), solvers, 0.0, state);
+        shown_.ghost = ghost_of(humanoid_part(workspace), shown_);
     }
     return shown_;
 }

@@ -16,8 +16,9 @@ struct ShownPose {
     std::vector<rig::Transform> local;
     std::vector<rig::Transform> before_springs;
     std::vector<humanoid::Placement> placed;
-    /// Before anything modified the pose; empty if nothing did.
+    /// Before anything modified the pose of the clip; empty if nothing did.
     std::vector<humanoid::Placement> before;
+    std::vector<humanoid::Placement> ghost;       ///< `before`, also without the clip's fixes
     std::optional<humanoid::BodyReport> body;     ///< if there is a target
     std::optional<humanoid::HoldReport> hold;     ///< if the hands hold an object
     humanoid::ObjectPose hips;                    ///< before IK of the body, turned from rest

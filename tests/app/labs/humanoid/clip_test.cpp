@@ -255,6 +255,12 @@ TEST_F(HumanoidClips, HomeFramesHeadsAndWalkers) {
     if (!std::filesystem::exists(robot)) return;
     run("humanoid.load", {{"path", robot.string()}});
     EXPECT_TRUE(frames(part().loaded->bounds.low) && frames(part().loaded->bounds.high));
+    // Its root and pole targets stay where the walk began.
+    run("humanoid.view", {{"follow", true}});
+    const float standing = lab().bounds(workspace, false).radius;
+    run("humanoid.motion.load", {{"path", test::source_path("tests/app/golden/faulty_walk.bvh")}});
+    run("humanoid.clip", {{"time", 30.0}});
+    EXPECT_LT(lab().bounds(workspace, false).radius, 1.2f * standing);
 }
 
 // A joint's rotation and an effector's distance to its target at each remembered moment, compared with the
