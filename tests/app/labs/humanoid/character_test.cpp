@@ -75,6 +75,9 @@ TEST_F(HumanoidCharacter, WithoutAHandIsNotSolvedAndReportsIt) {
 
 TEST_F(HumanoidCharacter, KeepsThePresentOneIfAFileCannotBeRead) {
     expect_refused("humanoid.load", {{"path", "nowhere.glb"}}, {"nowhere.glb", "no such file"});
+    expect_refused("humanoid.load", {{"path", write("a.obj", "v 0 0 0")}}, {"a.obj", ".bvh"});
+    expect_refused("humanoid.load", {{"path", write("b.bvh", "HIERARCHY\nROOT")}}, {"b.bvh"});
+    expect_refused("humanoid.load", {{"path", write("c.glb", "glTF")}}, {"c.glb"});
     expect_refused("humanoid.load", {{"path", ""}}, {"path is empty"});
 }
 

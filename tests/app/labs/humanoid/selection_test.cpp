@@ -35,12 +35,21 @@ class HumanoidSelection : public HumanoidTest {
     test::PanelReader reader_;
 };
 
-TEST_F(HumanoidSelection, AddsAndClears) {
+TEST_F(HumanoidSelection, AddsAndRemoves) {
     run("humanoid.select", {{"node", "LeftHand"}});
     run("humanoid.select", {{"node", "Head"}, {"add", true}});
     EXPECT_EQ(selected(), (Names{"Head", "LeftHand"}));
     EXPECT_EQ(active(), "Head");
-    EXPECT_EQ(state().at("selection").size(), 2u);
+    run("humanoid.select", {{"node", "Head"}, {"add", true}});
+    EXPECT_EQ(selected(), Names{"LeftHand"});
+    run("humanoid.select", {{"nodes", {"RightFoot", "Hips"}}, {"add", true}});
+    EXPECT_EQ(selected(), (Names{"Hips", "LeftHand", "RightFoot"}));
+    EXPECT_EQ(active(), "Hips") << "the last one";
+    EXPECT_EQ(state().at("selection").size(), 3u);
+    run("humanoid.select", {{"add", true}});
+    EXPECT_EQ(selected().size(), 3u);
+    select({"Spine"});
+    EXPECT_EQ(selected(), Names{"Spine"});
     run("humanoid.select");
     EXPECT_TRUE(selected().empty());
     EXPECT_EQ(active(), "");
@@ -49,11 +58,21 @@ TEST_F(HumanoidSelection, AddsAndClears) {
 TEST_F(HumanoidSelection, OtherNamesAreRefusedAndChangeNothing) {
     select({"Head", "Hips"});
     expect_refused("humanoid.select", {{"nodes", {"Head", "Tail"}}}, {"Tail"});
+    expect_refused("humanoid.select", {{"nodes", {"Head", 3}}}, {"nodes", "3"});
+    expect_refused("humanoid.select", {{"nodes", "Head"}}, {"nodes"});
     expect_refused("humanoid.select", {{"node", "Head"}, {"nodes", Json::array({"Hips"})}},
                    {"needs either node or nodes"});
     expect_refused("humanoid.limits", {{"from", "none"}, {"bones", {"Head", "Tail"}}}, {"Tail"});
     expect_refused("humanoid.limits", {{"from", "none"}, {"bones", {"Head", "Hips"}}},
                    {"the Hips joint has no limits"});
+    expect_refused("humanoid.limits", {{"from", "none"}, {"bones", Json::array({nullptr})}},
+                   {"bones", "null"});
+    expect_refused("humanoid.limits", {{"from", "none"}, {"bones", Json::array()}}, {"bones is empty"});
+    expect_refused("humanoid.limits", {{"from", "none"}, {"bone", "Head"}, {"bones", Json::array({"Neck"})}},
+                   {"needs either bone or bones"});
+    expect_refused("humanoid.spring", {{"nodes", {"HeadTop_End", "LeftHand"}}}, {"LeftHand"});
+    expect_refused("humanoid.spring", {{"nodes", Json::array()}}, {"nodes is empty"});
+    expect_refused("humanoid.spring", {{"strength", 2}}, {"needs either node or nodes"});
 }
 
 TEST_F(HumanoidSelection, ALimitIsSetOnAllAboutTheirOwnAxes) {
@@ -212,11 +231,17 @@ TEST_F(HumanoidSelection, OnAnotherCharacterExistingNodesStaySelected) {
     EXPECT_EQ(active(), "");
 }
 
-TEST_F(HumanoidSelection, PersistsThroughTime) {
+TEST_F(HumanoidSelection, PersistsThroughTimeAndOtherCharacters) {
     const auto then = std::make_shared<HumanoidPart>(part());
     select({"Head", "LeftHand"});
     const auto shown = part().at_moment(then);
     EXPECT_EQ(dynamic_cast<const HumanoidPart&>(*shown).selection, part().selection);
+    const HumanoidPart other(load_character(tendril::test::source_path("tests/app/golden/antennae.bvh")));
+    HumanoidPart now = other;
+    now.selection.take({*now.skeleton().find("Head"), *now.skeleton().find("tail_1")}, false);
+    const auto earlier = now.at_moment(then);
+    const auto& figure = dynamic_cast<const HumanoidPart&>(*earlier);
+    EXPECT_EQ(names_of(figure.selection, figure.skeleton()), Names{"Head"});
 }
 
 }  // namespace
