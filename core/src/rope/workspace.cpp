@@ -26,7 +26,6 @@ void size(Scratch& scratch, const State& state, const Plan& plan) {
     scratch.chunk_high.resize(plan.chunks.size());
     scratch.chain_solved.assign(plan.chains.size(), 0);
     scratch.chain_error.assign(plan.chains.size(), 0.0);
-    scratch.chain_slowdown.assign(plan.chains.size(), {});
     scratch.body_contacts.resize(plan.colliding);
     for (BodyContactScratch& each : scratch.body_contacts) each.listed = false;
     scratch.listed.resize(plan.colliding > 0 ? state.position.size() : 0);
@@ -49,6 +48,7 @@ void size(IslandScratch& scratch, const State& state, const Plan& plan, std::siz
     scratch.touched.clear();
     scratch.touched.reserve(state.position.size());
     scratch.near.reserve(4 * plan.chunks.size());
+    scratch.members.reserve(plan.chains.size() + plan.islands.size() + plan.parts.size());
     const std::size_t cells = plan.grids.empty() && plan.tied.empty() ? 0 : state.position.size();
     scratch.cloth_contacts.reserve(cells);
     scratch.earlier_contacts.reserve(cells);
