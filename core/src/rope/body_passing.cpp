@@ -83,8 +83,8 @@ void BodyContacts::prevent_crossing() {
         if (any && left_search_range()) search(scratch_.x);
     }
     if (!any) return;
-    // Cuts the step of bodies that would still cross, but for the motion as a whole of those that may meet: a
-    // pair that did not cross in a whole step does not in a part of it.
+    // Cuts the step of bodies that would still cross and those near them: a pair that did not cross in a
+    // whole step does not in a part of it.
     for (const Pair& pair : s_.pairs) join(pair);
     sort_members();
     for (int i = 0; i <= max_step_cuts; ++i) {
@@ -96,12 +96,8 @@ void BodyContacts::prevent_crossing() {
             };
             if (std::none_of(s_.pairs.begin(), s_.pairs.end(), crosses_here)) return;
             crossing = true;
-            const auto moved = [&](std::size_t k) { return scratch_.x[k] - state_.position[k]; };
-            const RigidMotion whole =
-                is_free(group) ? rigid_motion(group, state_.position, moved) : RigidMotion{};
             each_particle_of(group, [&](std::size_t k) {
-                const dvec3 by = whole.at(state_.position[k]);
-                scratch_.x[k] = state_.position[k] + by + factor * (moved(k) - by);
+                scratch_.x[k] = state_.position[k] + factor * (scratch_.x[k] - state_.position[k]);
             });
         });
         if (!crossing) break;

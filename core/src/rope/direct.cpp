@@ -105,11 +105,11 @@ void Substep::shorten_steps() {
         if (!std::exchange(found, true)) find_near();
         shorten_step(r);
     }
+    if (found) restore_momentum();
 }
 
 /// Cuts a step that gains energy, ends in a collider, or did not converge. Scaling velocities would not
-/// remove a gain by bending. If halving fails, particles stay or step back, which gains nothing. A chain that
-/// nothing holds falls and turns on all the while: only motion relative to that of the whole is cut.
+/// remove a gain by bending. If halving fails, particles stay or step back, which gains nothing.
 void Substep::shorten_step(std::uint32_t number) {
     const Plan::Chain& chain = plan_.chains[number];
     const std::array<Member, 1> alone{Member{.chain = number}};
@@ -144,23 +144,11 @@ void Substep::shorten_step(std::uint32_t number) {
     };
     if (!is_bad()) return;
     ++report_.fallbacks;
-    const auto whole = [&](auto move) {
-        return is_free(alone) ? rigid_motion(alone, state_.position, move) : RigidMotion{};
-    };
-    const RigidMotion falls = whole([&](std::size_t p) { return scratch_.base[p] - state_.position[p]; }),
-                      solved = whole([&](std::size_t p) { return scratch_.x[p] - state_.position[p]; }),
-                      before = whole([&](std::size_t p) { return state_.displacement[p]; });
-    const auto start = [&](std::uint32_t p) { return state_.position[p] + falls.at(state_.position[p]); };
-    each([&](std::uint32_t p) {
-        return start(p) + (scratch_.x[p] - state_.position[p]) - solved.at(state_.position[p]);
-    });
     for (int i = 0; i < max_step_halvings && is_bad(); ++i)
-        each([&](std::uint32_t p) { return 0.5 * (start(p) + scratch_.x[p]); });
+        each([&](std::uint32_t p) { return 0.5 * (state_.position[p] + scratch_.x[p]); });
     for (const double back : {0.0, 0.5, 1.0}) {
         if (!is_bad()) break;
-        each([&](std::uint32_t p) {
-            return start(p) - back * (state_.displacement[p] - before.at(state_.position[p]));
-        });
+        each([&](std::uint32_t p) { return state_.position[p] - back * state_.displacement[p]; });
     }
 }
 
@@ -370,7 +358,7 @@ void Substep::solve_again(std::uint32_t chain) {
         if (!ledger.gains_over(1e-4)) {
             // Nothing else moves the chain in this substep, so this ledger balances it.
             const bool untouched = scratch_.body_near[it.body] == Scratch::Nearest::None;
-            if (untouched && island_.contacts == 0)
+            if (untouched && island_.contacts == 0 && !is_free(alone))
                 local_.members[chain - island_.chains.first].slowdown = limit_gain(ledger);
             return;
         }

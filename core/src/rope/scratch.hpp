@@ -361,25 +361,27 @@ template <class Move>
 RigidMotion IslandStep::rigid_motion(Group group, const std::vector<glm::dvec3>& at, Move move,
                                      double max_turn) const {
     RigidMotion whole;
-    double mass = 0.0, trace = 0.0;
-    each_particle_of(group, [&](std::size_t i) {
-        mass += state_.mass[i];
-        whole.centre += state_.mass[i] * at[i];
-        whole.mean += state_.mass[i] * move(i);
-    });
-    whole.centre *= 1.0 / mass, whole.mean *= 1.0 / mass;
-    whole.energy = 0.5 * mass * detail::dot(whole.mean, whole.mean);
-    if (max_turn == 0.0) return whole;
-    glm::dvec3 turn(0.0);
+    double mass = 0.0;
+    glm::dvec3 origin(0.0), centre(0.0), turn(0.0);
     detail::Symmetric3 inertia;
     each_particle_of(group, [&](std::size_t i) {
-        const glm::dvec3 from = at[i] - whole.centre;
-        turn += state_.mass[i] * detail::cross(from, move(i) - whole.mean);
-        trace += state_.mass[i] * detail::dot(from, from);
-        inertia.add(-state_.mass[i], from, from);
+        const double m = state_.mass[i];
+        if (mass == 0.0) origin = at[i];
+        const glm::dvec3 from = at[i] - origin, by = move(i);
+        mass += m;
+        centre += m * from;
+        whole.mean += m * by;
+        turn += m * detail::cross(from, by);
+        inertia.add(-m, from, from);
     });
+    centre *= 1.0 / mass, whole.mean *= 1.0 / mass;
+    whole.centre = origin + centre;
+    whole.energy = 0.5 * mass * detail::dot(whole.mean, whole.mean);
+    if (max_turn == 0.0) return whole;
+    turn -= mass * detail::cross(centre, whole.mean);
+    inertia.add(mass, centre, centre);
     constexpr double thin = 1e-12;  // keeps the inertia of collinear particles invertible
-    const double all = (1.0 + thin) * trace;
+    const double all = -(1.0 + thin) * (inertia.xx + inertia.yy + inertia.zz);
     inertia.add({all, 0.0, 0.0, all, 0.0, all});
     const glm::dvec3 spin = detail::inverse_of(inertia) * turn;
     if (!(detail::length(spin) <= max_turn)) return whole;

@@ -27,8 +27,6 @@ constexpr int max_halvings = 8;
 /// For cloth that is a grid, as in cloth_solver.cpp.
 constexpr double accepted_strain = 0.007, relative_residual = 0.1;
 constexpr int min_grid_steps = 2, max_grid_steps = 8;
-/// A free body keeps turning, and so does the error of each step.
-constexpr int min_free_steps = 4;
 constexpr double single_rounding = 1e-6;  ///< error of a potential: grids are in single precision
 
 /// along n n^T + across (I - n n^T)
@@ -328,13 +326,6 @@ void TiedSolver::step(bool first, int iterations, double max_residual) {
     turn_ = turn;
 }
 
-/// Whether nothing external acts: no pins, no contacts.
-bool TiedSolver::is_free() const {
-    bool free = local_.cloth_contacts.empty();
-    each_particle([&](std::size_t i) { free = free && scratch_.weight[i] > 0.0; });
-    return free;
-}
-
 /// Initial guess: unchanged velocities. At rest a single step then suffices.
 void TiedSolver::predict() {
     for (const std::uint32_t number : Plan::part(plan_.bodies, island_.bodies)) {
@@ -348,10 +339,7 @@ void TiedSolver::predict() {
 int TiedSolver::solve(int iterations) {
     const bool has_grids = tied_.grids.count > 0;
     const int step_limit = std::min(max_steps, iterations);
-    const int min_steps = !local_.near.empty() ? steps_near_colliders
-                          : !has_grids         ? 1
-                          : is_free()          ? min_free_steps
-                                               : min_grid_steps;
+    const int min_steps = !local_.near.empty() ? steps_near_colliders : !has_grids ? 1 : min_grid_steps;
     double max_residual = 0.0;
     predict();
     each_grid([&](std::uint32_t number) {
