@@ -191,8 +191,8 @@ void ChainSystem::evaluate(double extra_stiffness) noexcept {
             bond.error = is - bond.rest - bond.compliance * bond.multiplier;
             bond.stiffness = tension / std::max(bond.rest + bond.compliance * tension, 1e-9);
             if (!bends.empty() && dot(bends[k].direction, bond.along) > 0.0) bond.stiffness *= tension_ahead;
-            bond.stiffness =
-                std::min(bond.stiffness + extra_stiffness * node.mass, max_stiffness * node.mass);
+            const double mass = std::max(node.mass, nodes[k + 1].mass);  // an end has half of it
+            bond.stiffness = std::min(bond.stiffness + extra_stiffness * mass, max_stiffness * mass);
             bond.stiffness_ratio = std::max(1.0 - bond.compliance * bond.stiffness, 1e-9);
             pull = bond.multiplier * bond.along;
             if (!bends.empty() && dot(bends[k].direction, bond.along) > 0.0)
