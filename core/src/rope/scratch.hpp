@@ -395,6 +395,7 @@ struct Workspace::Parts {
     Scratch scratch;
     std::vector<IslandScratch> threads{1};
     Tasks tasks;
+    std::vector<TornLink> torn;  ///< in the last advance()
     /// Sizes match the plan, and the last advance() was not cut short.
     bool prepared = false;
 

@@ -103,6 +103,7 @@ Result Workspace::use_threads(int threads, const Tasks& tasks) {
 void Workspace::Parts::prepare(const State& state) {
     if (!std::exchange(prepared, false) || !plan.fits(state)) replan(state);
     scratch.colliders.resize(state.colliders.size());
+    if (plan.tears) torn.reserve(state.links.size());
     if (detail::has_air(state.settings)) scratch.wind_move.assign(state.position.size(), glm::dvec3(0.0));
     for (IslandScratch& thread : threads) thread.close.reserve(state.colliders.size());
     scratch.collider_at.resize(state.collider_slots.size());
