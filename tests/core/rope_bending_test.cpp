@@ -17,7 +17,7 @@ World clamped(int segments, const glm::vec3& way, float bending, float density, 
                            .pin_start = true});
     allow(world.core().pin(1, world.core().position(1)));
     rope::State state = world.state();
-    state.mass.back() = 0.5 * state.mass.back() + tip;  // an end has half a link
+    state.mass.back() += tip;
     return World(state);
 }
 

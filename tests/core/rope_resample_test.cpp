@@ -51,6 +51,8 @@ TEST(RopeResample, ARopeKeepsItsShapeAndMotion) {
         EXPECT_EQ(rope.row, segments + 1);
         EXPECT_NEAR(world.length(rope), 1.2, 1e-6);
         EXPECT_NEAR(world.density(rope), 1.0, 1e-6);
+        EXPECT_NEAR(world.mass(rope), 1.2, 1e-6);
+        EXPECT_NEAR(before.mass(*before.find("rope")), 1.2, 1e-6);
         for (int i = 0; i <= 20; ++i)
             EXPECT_LT(distance(along(world, "rope", i / 20.0), along(before, "rope", i / 20.0)), 0.02)
                 << segments;

@@ -72,6 +72,13 @@ inline glm::dvec3 momentum(const World& world) {
     for (std::size_t i = 0; i < world.size(); ++i) sum += world.state().mass[i] * world.core().velocity(i);
     return sum;
 }
+/// About the origin.
+inline glm::dvec3 angular_momentum(const World& world) {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < world.size(); ++i)
+        sum += world.state().mass[i] * glm::cross(world.state().position[i], world.core().velocity(i));
+    return sum;
+}
 
 /// Speed of the fastest particle, m/s.
 inline double top_speed(const World& world) {

@@ -18,9 +18,10 @@ namespace {
 
 using glm::dvec3;
 
-/// Removes the links over their body's tear strain; returns whether there were any. A rope tears at one link,
-/// the most strained: that relieves the others.
-bool tear_links(State& state) {
+/// Removes the links over their body's tear strain, and lists them in `torn`; returns whether there were any.
+/// A rope tears at one link, the most strained: that relieves the others.
+bool tear_links(State& state, std::vector<TornLink>& torn) {
+    const std::size_t first = torn.size();
     std::size_t b = 0;  // links of a body are nearly always contiguous
     const auto excess = [&](const Link& link) {
         while (link.a < state.bodies[b].first) --b;
@@ -28,25 +29,31 @@ bool tear_links(State& state) {
         const float limit = state.bodies[b].tear;
         if (limit <= 0.0f) return 0.0;
         // Shear lengthens a cell's diagonals without overstretching its threads.
-        const double longest = static_cast<double>(limit) + (link.kind == Link::Kind::Stretch ? 0.0 : 0.5);
+        const double longest = static_cast<double>(limit) + (link.kind == Link::Kind::Stretch ? 1.0 : 1.5);
         const double length = detail::length(state.position[link.b] - state.position[link.a]);
-        return std::max(0.0, length - link.rest * (1.0 + longest));
+        return std::max(0.0, length / std::max(static_cast<double>(link.rest), 1e-9) - longest);
     };
-    if (std::none_of(state.links.begin(), state.links.end(),
-                     [&](const Link& each) { return excess(each) > 0.0; }))
-        return false;
-    std::vector<double> most(state.bodies.size());
+    double most = 0.0;
     for (const Link& link : state.links) {
         const double over = excess(link);
-        most[b] = std::max(most[b], over);
+        if (!(over > 0.0)) continue;
+        const Body& body = state.bodies[b];
+        const bool another =
+            body.kind != Body::Kind::Rope || torn.size() == first || torn.back().body != body.id;
+        if (another)
+            torn.push_back({body.id, link});
+        else if (over > most)
+            torn.back().link = link;
+        most = another ? over : std::max(most, over);
     }
+    auto next = torn.begin() + static_cast<std::ptrdiff_t>(first);
     std::erase_if(state.links, [&](const Link& link) {
-        const double over = excess(link), worst = most[b];
-        const bool tears = over > 0.0 && (state.bodies[b].kind != Body::Kind::Rope || over == worst);
-        if (tears && state.bodies[b].kind == Body::Kind::Rope) most[b] = -1.0;
+        const bool tears = next != torn.end() && next->link == link;
+        next += tears ? 1 : 0;
         return tears;
     });
-    return true;
+    torn.erase(next, torn.end());
+    return torn.size() > first;
 }
 
 /// Removes the ties that pull harder than their strength, except those still drawing their particles
@@ -217,6 +224,7 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
     Advance done;
     done.refused = !(seconds >= 0.0 && seconds <= 1e9) || !workspace.parts_;
     if (done.refused) return done;
+    workspace.parts_->torn.clear();
     const double substep = state_.settings.substep;
     // Drops whole substeps only: a dropped remainder would not be counted.
     constexpr double rounding = 1e-6;  // relative to a substep
@@ -248,10 +256,11 @@ Advance World::advance(double seconds, Workspace& workspace, const AdvanceOption
         detail::advect_gusts(state_);
         state_.displaced_in = substep;
         parts.store_contacts(state_);
-        const bool torn = parts.plan.tears && tear_links(state_), untied = tear_ties(state_);
+        const bool torn = parts.plan.tears && tear_links(state_, parts.torn), untied = tear_ties(state_);
         if (torn || untied) parts.replan(state_);
     }
     if (steps) parts.prepared = true;
+    done.torn = parts.torn;
     return done;
 }
 

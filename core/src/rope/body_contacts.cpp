@@ -200,47 +200,28 @@ void BodyContacts::solve() {
         }
         newton.finish();
     }
-    restore_momentum();
 }
 
-std::span<const std::uint32_t> BodyContacts::group_bodies(Joined by) {
-    std::vector<std::uint32_t>& group = scratch_.body_group;
-    const std::span<const std::uint32_t> bodies = Plan::part(plan_.bodies, island_.bodies);
-    for (const std::uint32_t body : bodies) group[body] = body;
-    for (const Plan::Island& part : plan_.parts_of(island_))
-        for (const std::uint32_t body : Plan::part(plan_.bodies, part.bodies))
-            if (!part.isolated) group[body] = plan_.bodies[part.bodies.first];
-    const auto first_of = [&](std::uint32_t body) {
-        while (group[body] != body) body = group[body];
-        return body;
-    };
-    const auto join = [&](const Pair& pair) {
-        const std::uint32_t a = first_of(pair.body_a), b = first_of(pair.body_b);
-        group[std::max(a, b)] = std::min(a, b);
-    };
-    if (by == Joined::Near) std::for_each(s_.pairs.begin(), s_.pairs.end(), join);
-    std::for_each(s_.contacts.begin(), s_.contacts.end(), join);
-    if (by != Joined::Solved) std::for_each(s_.projected.begin(), s_.projected.end(), join);
-    for (const std::uint32_t body : bodies) group[body] = group[group[body]];
-    s_.groups.clear();
-    for (const std::uint32_t body : bodies)
-        if (group[body] != body) s_.groups.push_back(group[body]);
-    std::sort(s_.groups.begin(), s_.groups.end());
-    s_.groups.erase(std::unique(s_.groups.begin(), s_.groups.end()), s_.groups.end());
-    return s_.groups;
+/// The first of the bodies that contacts join to this one.
+std::uint32_t BodyContacts::first_of(std::uint32_t body) const {
+    while (scratch_.body_group[body] != body) body = scratch_.body_group[body];
+    return body;
 }
 
-/// Contacts whose forces have not converged push their two chains unequally. Moves chains that contacts join
-/// alike, unless something else may hold one, so that together they keep their momentum.
-void BodyContacts::restore_momentum() {
-    if (s_.chains.empty()) return;
-    group_bodies(Joined::Solved);
-    for (const std::uint32_t r : s_.chains) {
-        const std::uint32_t group = plan_.chains[r].body;
-        if (scratch_.body_group[group] != group) continue;
-        const dvec3 pushed = free_mean(group, [&](std::size_t i) { return scratch_.x[i] - scratch_.base[i]; });
-        each_in_group(group, [&](std::size_t i) { scratch_.x[i] -= pushed; });
-    }
+/// Joins two bodies that push each other.
+void BodyContacts::join(const Pair& pair) {
+    const std::uint32_t a = first_of(pair.body_a), b = first_of(pair.body_b);
+    scratch_.body_group[std::max(a, b)] = std::min(a, b);
+}
+
+void BodyContacts::sort_members() {
+    const std::span<const Plan::Island> parts = plan_.parts_of(island_);
+    for (Member& each : local_.members)
+        each.group = first_of(each.chain == Member::no_chain ? plan_.bodies[parts[each.part].bodies.first]
+                                                             : plan_.chains[each.chain].body);
+    std::sort(local_.members.begin(), local_.members.end(), [](const Member& p, const Member& q) {
+        return std::tie(p.group, p.part, p.chain) < std::tie(q.group, q.part, q.chain);
+    });
 }
 
 void BodyContacts::find_self_contacts(const Body& cloth, double stiffness,
@@ -298,6 +279,7 @@ double BodyContacts::project(bool all) {
             slip += found.weights[k] * (x[i] - state_.position[i]);
         }
         if (!(freedom > 0.0)) return;
+        join(contact);
         worst = std::max(worst, depth / contact.thickness);
         slip -= detail::dot(slip, found.normal) * found.normal;
         const double slip_distance = detail::length(slip),

@@ -28,12 +28,8 @@ class BodyContacts : IslandStep {
     void find();  ///< call once particles have moved freely
     /// Solves chains in contact; Scratch::chain_solved says which.
     void solve();
-    /// Contacts that are solved with the chains; also those to project; all pairs that may come near each
-    /// other.
-    enum class Joined : std::uint8_t { Solved, Touching, Near };
-    /// Sets Scratch::body_group for the island's bodies. Returns the groups of more than one body or part,
-    /// ascending.
-    std::span<const std::uint32_t> group_bodies(Joined by);
+    /// Sorts the island's members by group.
+    void sort_members();
     /// The contacts that press within a cloth now, for its own solve. `stiffness`: per contact, times h^2.
     void find_self_contacts(const Body& cloth, double stiffness,
                             std::vector<ClothSelfContact>& self_contacts);
@@ -91,11 +87,8 @@ class BodyContacts : IslandStep {
     Response respond(const Contact& contact) const;
     void set_pushes(std::uint32_t chain, std::span<const Side> sides);
     double update_forces();
-    void restore_momentum();
-    template <class Visit>
-    void each_in_group(std::uint32_t group, Visit visit) const;
-    template <class Motion>
-    glm::dvec3 free_mean(std::uint32_t group, Motion motion) const;
+    std::uint32_t first_of(std::uint32_t body) const;
+    void join(const Pair& pair);
     std::span<const Side> sides_of(std::uint32_t chain) const;
     ContactScratch& chain_scratch(std::uint32_t chain) const { return scratch_.chain_contacts[chain]; }
 
@@ -107,30 +100,5 @@ class BodyContacts : IslandStep {
 
     BodyContactScratch& s_;
 };
-
-template <class Visit>
-void BodyContacts::each_in_group(std::uint32_t group, Visit visit) const {
-    for (const std::uint32_t number : Plan::part(plan_.bodies, island_.bodies)) {
-        if (scratch_.body_group[number] != group) continue;
-        const Body& body = state_.bodies[number];
-        for (std::size_t i = body.first; i < body.first + body.count; ++i) visit(i);
-    }
-}
-
-/// The mean of a motion over a group, by mass; 0 if a pin or a collider may hold it.
-template <class Motion>
-glm::dvec3 BodyContacts::free_mean(std::uint32_t group, Motion motion) const {
-    glm::dvec3 sum(0.0);
-    double mass = 0.0;
-    bool held = false;
-    for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies))
-        held |= scratch_.body_group[body] == group && scratch_.body_near[body] != Scratch::Nearest::None;
-    each_in_group(group, [&](std::size_t i) {
-        held |= scratch_.weight[i] == 0.0;
-        sum += state_.mass[i] * motion(i);
-        mass += state_.mass[i];
-    });
-    return held ? glm::dvec3(0.0) : (1.0 / mass) * sum;
-}
 
 }  // namespace tendril::rope

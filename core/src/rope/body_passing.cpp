@@ -62,6 +62,7 @@ void BodyContacts::separate(const Pair& pair, const Weights& where) {
     }
     const double wanted = std::min(pair.distance, restored_gap * pair.thickness);
     if (!(freedom > 0.0)) return;
+    join(pair);
     const double by = std::max(wanted - distance, 0.1 * wanted) / freedom;
     for (std::size_t k = 0; k < 4; ++k)
         scratch_.x[pair.points[k]] += (by * where[k] * scratch_.weight[pair.points[k]]) * pair.normal;
@@ -82,25 +83,23 @@ void BodyContacts::prevent_crossing() {
         if (any && left_search_range()) search(scratch_.x);
     }
     if (!any) return;
-    // Cuts the step of bodies that would still cross, but for the mean motion of those that may meet: a pair
-    // that did not cross in a whole step does not in a part of it.
-    group_bodies(Joined::Near);
+    // Cuts the step of bodies that would still cross and those near them: a pair that did not cross in a
+    // whole step does not in a part of it.
+    for (const Pair& pair : s_.pairs) join(pair);
+    sort_members();
     for (int i = 0; i <= max_step_cuts; ++i) {
         const double factor = i < max_step_cuts ? 0.5 : 0.0;
         bool crossing = false;
-        for (const std::uint32_t group : Plan::part(plan_.bodies, island_.bodies)) {
+        each_group([&](Group group) {
             const auto crosses_here = [&](const Pair& pair) {
-                return scratch_.body_group[pair.body_a] == group && crosses(pair, where);
+                return first_of(pair.body_a) == group.front().group && crosses(pair, where);
             };
-            if (std::none_of(s_.pairs.begin(), s_.pairs.end(), crosses_here)) continue;
+            if (std::none_of(s_.pairs.begin(), s_.pairs.end(), crosses_here)) return;
             crossing = true;
-            const dvec3 mean =
-                free_mean(group, [&](std::size_t k) { return scratch_.x[k] - state_.position[k]; });
-            each_in_group(group, [&](std::size_t k) {
-                const dvec3 moved = scratch_.x[k] - state_.position[k];
-                scratch_.x[k] = state_.position[k] + mean + factor * (moved - mean);
+            each_particle_of(group, [&](std::size_t k) {
+                scratch_.x[k] = state_.position[k] + factor * (scratch_.x[k] - state_.position[k]);
             });
-        }
+        });
         if (!crossing) break;
     }
     ++local_.done.fallbacks;

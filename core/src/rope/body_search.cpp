@@ -62,6 +62,10 @@ void BodyContacts::find() {
         return contact.force == dvec3(0.0) &&
                respond(contact, points_of(contact, scratch_.base)).gap > touch_distance;
     });
+    for (const Plan::Island& part : plan_.parts_of(island_))
+        for (const std::uint32_t body : Plan::part(plan_.bodies, part.bodies))
+            scratch_.body_group[body] = part.isolated ? body : plan_.bodies[part.bodies.first];
+    for (const Contact& each : s_.contacts) join(each);
 }
 
 /// Finds pairs that may come near each other on the way to `ends`.

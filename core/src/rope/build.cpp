@@ -92,6 +92,9 @@ Expected<BodyId> append(State& state, const char* operation, Draft draft) {
     state.position.insert(state.position.end(), draft.points.begin(), draft.points.end());
     state.displacement.resize(first + count, dvec3(0.0));
     state.mass.resize(first + count, draft.mass);
+    for (std::size_t row = first; draft.body.kind != Body::Kind::Cloth && row < first + count;
+         row += draft.body.row)
+        for (const std::size_t end : {row, row + draft.body.row - 1}) state.mass[end] *= 0.5;  // half a link
     for (Link& link : draft.links) {
         link.a += static_cast<std::uint32_t>(first);
         link.b += static_cast<std::uint32_t>(first);

@@ -14,7 +14,7 @@ namespace tendril::rope::detail {
 struct Draft {
     Body body;
     std::vector<glm::dvec3> points;  ///< at rest, metres
-    double mass = 0.0;               ///< kg per particle
+    double mass = 0.0;               ///< kg per particle; the ends of a rope or strand have half of it
     std::vector<Link> links;
     std::vector<Pin> pins;
 

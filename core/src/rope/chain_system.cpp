@@ -39,18 +39,6 @@ Matrix3 transposed(const Matrix3& a) noexcept {
     return {{a.m[0], a.m[3], a.m[6], a.m[1], a.m[4], a.m[7], a.m[2], a.m[5], a.m[8]}};
 }
 
-Symmetric3 inverse_of(const Symmetric3& m) noexcept {
-    const double xx = m.yy * m.zz - m.yz * m.yz, xy = m.xz * m.yz - m.xy * m.zz,
-                 xz = m.xy * m.yz - m.xz * m.yy;
-    const double by = 1.0 / (m.xx * xx + m.xy * xy + m.xz * xz);
-    return {by * xx,
-            by * xy,
-            by * xz,
-            by * (m.xx * m.zz - m.xz * m.xz),
-            by * (m.xy * m.xz - m.xx * m.yz),
-            by * (m.xx * m.yy - m.xy * m.xy)};
-}
-
 /// Removes a node's freedom to move along the normals of its planes. Skips a plane nearly parallel to an
 /// earlier one, as it would fling the node far sideways.
 void constrain(ChainNode& node, const NodeContact& contact) noexcept {
@@ -203,8 +191,8 @@ void ChainSystem::evaluate(double extra_stiffness) noexcept {
             bond.error = is - bond.rest - bond.compliance * bond.multiplier;
             bond.stiffness = tension / std::max(bond.rest + bond.compliance * tension, 1e-9);
             if (!bends.empty() && dot(bends[k].direction, bond.along) > 0.0) bond.stiffness *= tension_ahead;
-            bond.stiffness =
-                std::min(bond.stiffness + extra_stiffness * node.mass, max_stiffness * node.mass);
+            const double mass = std::max(node.mass, nodes[k + 1].mass);  // an end has half of it
+            bond.stiffness = std::min(bond.stiffness + extra_stiffness * mass, max_stiffness * mass);
             bond.stiffness_ratio = std::max(1.0 - bond.compliance * bond.stiffness, 1e-9);
             pull = bond.multiplier * bond.along;
             if (!bends.empty() && dot(bends[k].direction, bond.along) > 0.0)

@@ -41,6 +41,18 @@ struct Symmetric3 {
     }
 };
 
+inline Symmetric3 inverse_of(const Symmetric3& m) noexcept {
+    const double xx = m.yy * m.zz - m.yz * m.yz, xy = m.xz * m.yz - m.xy * m.zz,
+                 xz = m.xy * m.yz - m.xz * m.yy;
+    const double by = 1.0 / (m.xx * xx + m.xy * xy + m.xz * xz);
+    return {by * xx,
+            by * xy,
+            by * xz,
+            by * (m.xx * m.zz - m.xz * m.xz),
+            by * (m.xy * m.xz - m.xx * m.yz),
+            by * (m.xx * m.yy - m.xy * m.xy)};
+}
+
 /// A general 3 x 3 matrix, by rows.
 struct Matrix3 {
     double m[9] = {};

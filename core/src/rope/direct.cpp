@@ -70,7 +70,7 @@ int Substep::direct_isolated() {
     const auto solve = [&](std::uint32_t r) {
         newton.solve();
         const bool falls = acceleration_ != dvec3(0.0);
-        if (falls && !bends(r) && ledger_of(plan_.chains[r]).gains_over(accepted_gain))
+        if (falls && !bends(r) && ledger_of(std::array{Member{.chain = r}}).gains_over(accepted_gain))
             scale_correction(plan_.chains[r]);
     };
     for (std::uint32_t r = first; r < end; ++r) {
@@ -105,27 +105,14 @@ void Substep::shorten_steps() {
         if (!std::exchange(found, true)) find_near();
         shorten_step(r);
     }
-}
-
-/// The mean of a motion over a chain, by mass; 0 if a pin or a collider may hold it.
-template <class Motion>
-dvec3 Substep::free_mean(const Plan::Chain& chain, const Motion& motion) const {
-    dvec3 sum(0.0);
-    double mass = 0.0;
-    for (std::uint32_t k = 0; k <= chain.links; ++k) {
-        const std::uint32_t i = plan_.nodes[chain.first_node + k];
-        if (scratch_.weight[i] == 0.0 || is_near(chain.body)) return dvec3(0.0);
-        sum += state_.mass[i] * motion(i);
-        mass += state_.mass[i];
-    }
-    return (1.0 / mass) * sum;
+    if (found) restore_momentum();
 }
 
 /// Cuts a step that gains energy, ends in a collider, or did not converge. Scaling velocities would not
-/// remove a gain by bending. If halving fails, particles stay or step back, which gains nothing. A chain that
-/// nothing holds falls on all the while: only motion relative to its mean is cut.
+/// remove a gain by bending. If halving fails, particles stay or step back, which gains nothing.
 void Substep::shorten_step(std::uint32_t number) {
     const Plan::Chain& chain = plan_.chains[number];
+    const std::array<Member, 1> alone{Member{.chain = number}};
     const bool failed = !(scratch_.chain_error[number] <= fallback_error);
     const auto stretch = [&](const std::vector<dvec3>& at) {
         double worst = 0.0;
@@ -142,7 +129,7 @@ void Substep::shorten_step(std::uint32_t number) {
     double deepest = -1.0;
     const auto is_bad = [&] {
         if (failed && !(stretch(scratch_.x) <= max_stretch)) return true;
-        const Ledger ledger = ledger_of(chain);
+        const Ledger ledger = ledger_of(alone);
         if (ledger.leaves_gain(accepted_gain)) return true;
         if (ledger.gains_over(accepted_gain) && correction_scale(chain) < 1.0) return true;
         if (driven || depth_of(chain, scratch_.x) <= penetration_slop) return false;
@@ -157,19 +144,11 @@ void Substep::shorten_step(std::uint32_t number) {
     };
     if (!is_bad()) return;
     ++report_.fallbacks;
-    const dvec3 fall =
-                    free_mean(chain, [&](std::uint32_t p) { return scratch_.base[p] - state_.position[p]; }),
-                solved =
-                    free_mean(chain, [&](std::uint32_t p) { return scratch_.x[p] - state_.position[p]; }),
-                before = free_mean(chain, [&](std::uint32_t p) { return state_.displacement[p]; });
-    each([&](std::uint32_t p) { return scratch_.x[p] + (fall - solved); });
     for (int i = 0; i < max_step_halvings && is_bad(); ++i)
-        each([&](std::uint32_t p) { return 0.5 * (state_.position[p] + fall + scratch_.x[p]); });
+        each([&](std::uint32_t p) { return 0.5 * (state_.position[p] + scratch_.x[p]); });
     for (const double back : {0.0, 0.5, 1.0}) {
         if (!is_bad()) break;
-        each([&](std::uint32_t p) {
-            return state_.position[p] + fall - back * (state_.displacement[p] - before);
-        });
+        each([&](std::uint32_t p) { return state_.position[p] - back * state_.displacement[p]; });
     }
 }
 
@@ -374,11 +353,13 @@ void Substep::solve_again(std::uint32_t chain) {
         has_fallback_contact(plan_.chains[chain].body) ? 10.0 * accepted_error : accepted_error;
     const Plan::Chain& it = plan_.chains[chain];
     if (scratch_.chain_error[chain] <= tolerance) {
-        const Ledger ledger = ledger_of(it);
+        const std::array<Member, 1> alone{Member{.chain = chain}};
+        const Ledger ledger = ledger_of(alone);
         if (!ledger.gains_over(1e-4)) {
             // Nothing else moves the chain in this substep, so this ledger balances it.
             const bool untouched = scratch_.body_near[it.body] == Scratch::Nearest::None;
-            if (untouched && island_.contacts == 0) scratch_.chain_slowdown[chain] = limit_gain(ledger);
+            if (untouched && island_.contacts == 0 && !is_free(alone))
+                local_.members[chain - island_.chains.first].slowdown = limit_gain(ledger);
             return;
         }
     }

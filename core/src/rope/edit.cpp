@@ -285,15 +285,13 @@ class Resampling {
     /// Sets the number of the particle in each cell.
     void add_particles(BodyData& made, std::vector<std::size_t>& number) const {
         const bool cloth = body_.kind == Body::Kind::Cloth;
-        const std::vector<double> columns = detail::lumped_lengths(coordinates(grid_.along, column_)),
-                                  rows = detail::lumped_lengths(coordinates(grid_.down, row_));
-        const std::vector<double> was = detail::lumped_lengths(grid_.along);
+        const double end = cloth ? 1.0 : 0.5;
+        const std::vector<double> columns = detail::lumped_lengths(coordinates(grid_.along, column_), end),
+                                  rows = detail::lumped_lengths(coordinates(grid_.down, row_), end);
         double all = 0.0;  // sum over all filled cells, or over a strand
-        for (std::size_t r = 0; r < to_.rows && cloth; ++r)
+        for (std::size_t r = 0; r < (cloth ? to_.rows : 1); ++r)
             for (std::size_t c = 0; c < to_.columns; ++c)
-                if (filled(c, r)) all += columns[c] * rows[r];
-        if (!cloth)
-            for (const double each : was) all += each;
+                if (filled(c, r)) all += columns[c] * (cloth ? rows[r] : 1.0);
         for (std::size_t r = 0; r < to_.rows; ++r) {
             double mass = 0.0;  // kg in all rows of a cloth, or in this strand
             for (std::size_t i = 0; i < body_.count; ++i)

@@ -4,10 +4,7 @@
 // remove a gain by bending; the step is shortened instead (direct.cpp).
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <utility>
 
-#include "rope/body_contacts.hpp"
 #include "rope/build.hpp"
 #include "rope/geometry.hpp"
 #include "rope/substep.hpp"
@@ -61,7 +58,6 @@ inline void Substep::Ledger::add_particle(std::size_t i) {
     const double half = 0.5 * mass * detail::dot(step_->acceleration_, now);
     mass_ += mass;
     kinetic_ += moving;
-    momentum_ += mass * now;
     gravity_work_ += half;
     const double moved = detail::kinetic_energy(mass, then, step_->h_);
     gained_ += moving - moved - half - step_->before_ * 0.5 * mass * detail::dot(step_->acceleration_, then);
@@ -121,27 +117,29 @@ bool Substep::Ledger::gains_over(double part) const {
     return gained() > 0.0 && gained() > part * mass_ * length_ * detail::length(step_->acceleration_);
 }
 
-/// Removes the gain from motion relative to the mean, and only near a collider from the mean too: a free body
-/// keeps falling freely. A pin takes momentum, so with one all motion is scaled alike. Any remaining gain is
-/// stretch, such as that of a body in which a collider appeared: tensions are scaled down, so that the links
-/// cannot return it as motion.
+/// Removes the gain from motion relative to that of the whole, and only near a collider, relative to the mean
+/// and then from the mean: a free body keeps falling and turning. A pin takes momentum, so with one all
+/// motion is scaled alike. Any remaining gain is stretch, such as that of a body in which a collider
+/// appeared: tensions are scaled down, so that the links cannot return it as motion.
 Substep::Slowdown Substep::Ledger::slowdown() const {
     Slowdown slowdown;
     if (!gains_over(rounding)) return slowdown;
     double remaining_gain = gained_;
     if (pinned_) {
-        slowdown.mean_factor = slowdown.relative_factor =
+        slowdown.whole_factor = slowdown.relative_factor =
             velocity_scale(kinetic_, gravity_work_ + elastic_release_, remaining_gain);
-        remaining_gain -= energy_removed(kinetic_, gravity_work_ + elastic_release_, slowdown.mean_factor);
+        remaining_gain -= energy_removed(kinetic_, gravity_work_ + elastic_release_, slowdown.whole_factor);
     } else {
-        slowdown.mean = (1.0 / mass_) * momentum_;
-        const double whole = detail::kinetic_energy(mass_, slowdown.mean, step_->h_);
+        const auto moved = [&](std::size_t i) { return step_->scratch_.x[i] - step_->state_.position[i]; };
+        const bool free = near_ == Scratch::Nearest::None;
+        slowdown.whole = step_->rigid_motion(group_, step_->scratch_.x, moved, free ? 1e9 : 0.0);
+        const double whole = slowdown.whole.energy / (step_->h_ * step_->h_);
         const double apart = std::max(0.0, kinetic_ - whole);
         slowdown.relative_factor = velocity_scale(apart, elastic_release_, remaining_gain);
         remaining_gain -= energy_removed(apart, elastic_release_, slowdown.relative_factor);
-        if (near_ != Scratch::Nearest::None) {
-            slowdown.mean_factor = velocity_scale(whole, gravity_work_, remaining_gain);
-            remaining_gain -= energy_removed(whole, gravity_work_, slowdown.mean_factor);
+        if (!free) {
+            slowdown.whole_factor = velocity_scale(whole, gravity_work_, remaining_gain);
+            remaining_gain -= energy_removed(whole, gravity_work_, slowdown.whole_factor);
         }
     }
     slowdown.remaining_gain = remaining_gain;
@@ -164,12 +162,6 @@ bool Substep::Ledger::suspended() const {
     const double fall = step_->h_ * step_->h_ * detail::length(step_->acceleration_);
     return near_ == Scratch::Nearest::None && !pinned_ && fall > 0.0 &&
            detail::length(solver_momentum_) > min_force * mass_ * fall;
-}
-
-Substep::Ledger Substep::ledger_of(const Plan::Chain& chain) const {
-    Ledger ledger(*this, scratch_.body_near[chain.body]);
-    add_chain(ledger, chain);
-    return ledger;
 }
 
 void Substep::add_chain(Ledger& ledger, const Plan::Chain& chain) const {
@@ -198,12 +190,14 @@ void Substep::add_part(Ledger& ledger, const Plan::Island& part) const {
         if (!direct || !tied_in_grid(part, k)) ledger.add_link(links[k]);
 }
 
-Substep::Ledger Substep::ledger_of(const Plan::Island& part) const {
-    Scratch::Nearest near = Scratch::Nearest::None;
-    for (const std::uint32_t body : Plan::part(plan_.bodies, part.bodies))
-        near = std::max(near, scratch_.body_near[body]);
-    Ledger ledger(*this, near);
-    add_part(ledger, part);
+Substep::Ledger Substep::ledger_of(Group group) const {
+    Ledger ledger(*this, group);
+    for (const Member& each : group) {
+        if (each.chain == Member::no_chain)
+            add_part(ledger, plan_.parts_of(island_)[each.part]);
+        else
+            add_chain(ledger, plan_.chains[each.chain]);
+    }
     return ledger;
 }
 
@@ -215,86 +209,40 @@ Substep::Slowdown Substep::limit_gain(const Ledger& ledger) {
                                                                                   : Slowdown{};
 }
 
-/// Limits each part of an island by itself, and bodies that contacts join together: one gains the energy that
-/// another loses.
+/// Limits each group by itself: in contact one body gains the energy that another loses.
 void Substep::limit_energy() {
-    const std::span<const Plan::Island> parts = plan_.parts_of(island_);
-    local_.part_slowdown.assign(parts.size(), {});
-    std::span<const std::uint32_t> groups;
-    if (island_.contacts != 0) groups = BodyContacts(*this).group_bodies(BodyContacts::Joined::Touching);
-    const auto group_of = [&](std::uint32_t body) {
-        return groups.empty() ? body : scratch_.body_group[body];
-    };
-    const auto each_part = [&](auto visit, auto visit_chain) {
-        for (std::size_t k = 0; k < parts.size(); ++k) {
-            const Plan::Range& chains = parts[k].chains;
-            if (!parts[k].isolated) visit(k, group_of(plan_.bodies[parts[k].bodies.first]));
-            for (std::uint32_t r = chains.first; parts[k].isolated && r < chains.first + chains.count; ++r)
-                visit_chain(r, group_of(plan_.chains[r].body));
-        }
-    };
-    const auto alone = [&](std::uint32_t group) {
-        return !std::binary_search(groups.begin(), groups.end(), group);
-    };
-    each_part(
-        [&](std::size_t k, std::uint32_t group) {
-            if (alone(group)) local_.part_slowdown[k] = limit_gain(ledger_of(parts[k]));
-        },
-        [&](std::uint32_t r, std::uint32_t group) {
-            if (alone(group) && !scratch_.chain_slowdown[r])
-                scratch_.chain_slowdown[r] = limit_gain(ledger_of(plan_.chains[r]));
-        });
-    for (const std::uint32_t group : groups) {
-        Scratch::Nearest near = Scratch::Nearest::None;
-        for (const std::uint32_t body : Plan::part(plan_.bodies, island_.bodies))
-            if (group_of(body) == group) near = std::max(near, scratch_.body_near[body]);
-        Ledger ledger(*this, near);
-        each_part(
-            [&](std::size_t k, std::uint32_t of) {
-                if (of == group) add_part(ledger, parts[k]);
-            },
-            [&](std::uint32_t r, std::uint32_t of) {
-                if (of == group) add_chain(ledger, plan_.chains[r]);
-            });
-        const Slowdown slowdown = limit_gain(ledger);
-        each_part(
-            [&](std::size_t k, std::uint32_t of) {
-                if (of == group) local_.part_slowdown[k] = slowdown;
-            },
-            [&](std::uint32_t r, std::uint32_t of) {
-                if (of == group) scratch_.chain_slowdown[r] = slowdown;
-            });
-    }
+    each_group([&](std::span<Member> group) {
+        if (group.front().slowdown) return;
+        const Slowdown slowdown = limit_gain(ledger_of(group));
+        for (Member& each : group) each.slowdown = slowdown;
+    });
 }
 
 /// Scales velocities and the tension of elastic links; positions stay.
 void Substep::apply_slowdown() {
-    const auto slow = [&](std::size_t i, const Slowdown& slowdown) {
-        if (scratch_.weight[i] == 0.0) return;
-        dvec3& by = state_.displacement[i];
-        by = slowdown.mean_factor * slowdown.mean + slowdown.relative_factor * (by - slowdown.mean);
-    };
     const auto scale_tension = [&](Link& link, const Slowdown& slowdown, bool grid) {
         if (grid || detail::compliance(state_.settings, link) > 0.0)
             link.tension *= static_cast<float>(slowdown.tension_factor);
     };
-    const std::span<const Plan::Island> parts = plan_.parts_of(island_);
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-        const Slowdown& slowdown = local_.part_slowdown[k];
+    for (const Member& each : local_.members) {
+        const Slowdown& slowdown = *each.slowdown;
         if (!slowdown.any()) continue;
-        each_particle_of(parts[k], [&](std::size_t i) { slow(i, slowdown); });
-        const std::span<const std::uint32_t> links = Plan::part(plan_.links, parts[k].links);
+        each_particle_of({&each, 1}, [&](std::size_t i) {
+            if (scratch_.weight[i] == 0.0) return;
+            dvec3& by = state_.displacement[i];
+            const dvec3 whole = slowdown.whole.at(state_.position[i]);
+            by = slowdown.whole_factor * whole + slowdown.relative_factor * (by - whole);
+        });
+        if (each.chain != Member::no_chain) {
+            const Plan::Chain& chain = plan_.chains[each.chain];
+            for (std::uint32_t k = 0; k < chain.links; ++k)
+                scale_tension(state_.links[chain.first_link + k], slowdown, false);
+            continue;
+        }
+        const Plan::Island& part = plan_.parts_of(island_)[each.part];
+        const std::span<const std::uint32_t> links = Plan::part(plan_.links, part.links);
         for (std::size_t i = 0; i < links.size(); ++i)
-            scale_tension(state_.links[links[i]], slowdown, parts[k].grid != 0 || tied_in_grid(parts[k], i));
-    }
-    for (std::uint32_t r = island_.chains.first; r < island_.chains.first + island_.chains.count; ++r) {
-        const std::optional<Slowdown> balanced = std::exchange(scratch_.chain_slowdown[r], std::nullopt);
-        if (!balanced || !balanced->any()) continue;
-        const Slowdown& slowdown = *balanced;
-        const Plan::Chain& chain = plan_.chains[r];
-        for (std::uint32_t k = 0; k <= chain.links; ++k) slow(plan_.nodes[chain.first_node + k], slowdown);
-        for (std::uint32_t k = 0; k < chain.links; ++k)
-            scale_tension(state_.links[chain.first_link + k], slowdown, false);
+            scale_tension(state_.links[links[i]], slowdown, part.grid != 0 || tied_in_grid(part, i));
     }
 }
 

@@ -1,7 +1,6 @@
 // Changes of a body's material.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "math/checks.hpp"
@@ -72,11 +71,7 @@ double World::density(const Body& body) const {
     const detail::RestGrid grid = detail::rest_grid(state_, body);
     const double filled = static_cast<double>(body.count) / static_cast<double>(body.row * body.rows());
     double extent = filled * grid.length() * grid.width() * std::sqrt(1.0 - grid.cosine * grid.cosine);
-    if (body.kind != Body::Kind::Cloth) {
-        const std::vector<double> each = detail::lumped_lengths(grid.along);
-        const double whole = std::accumulate(each.begin(), each.end(), 0.0);
-        extent = grid.length() > 0.0 ? whole * static_cast<double>(body.count / body.row) : 0.0;
-    }
+    if (body.kind != Body::Kind::Cloth) extent = grid.length() * static_cast<double>(body.count / body.row);
     return extent > 0.0 ? mass(body) / extent : 0.0;
 }
 

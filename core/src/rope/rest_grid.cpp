@@ -64,13 +64,13 @@ double unit_link_compliance(const Body& body, const RestGrid& grid, const Link& 
     return spacing > 0.0 ? link.rest / spacing : 1.0;
 }
 
-std::vector<double> lumped_lengths(const std::vector<double>& at) {
+std::vector<double> lumped_lengths(const std::vector<double>& at, double end) {
     std::vector<double> list(at.size(), 1.0);
     if (at.size() < 2 || !(at.back() > 0.0)) return list;
     const std::size_t last = at.size() - 1;
     for (std::size_t i = 1; i < last; ++i) list[i] = 0.5 * (at[i + 1] - at[i - 1]);
-    list[0] = at[1];
-    list[last] = at[last] - at[last - 1];
+    list[0] = end * at[1];
+    list[last] = end * (at[last] - at[last - 1]);
     return list;
 }
 

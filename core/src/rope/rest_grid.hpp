@@ -35,7 +35,7 @@ RestGrid rest_grid(const State& state, const Body& body);
 double unit_link_compliance(const Body& body, const RestGrid& grid, const Link& link) noexcept;
 
 /// Each point's share of a body's mass, as a length in metres: half the distance to each neighbour; at the
-/// ends all of it.
-std::vector<double> lumped_lengths(const std::vector<double>& at);
+/// ends `end` of it.
+std::vector<double> lumped_lengths(const std::vector<double>& at, double end);
 
 }  // namespace tendril::rope::detail

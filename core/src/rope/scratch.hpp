@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
@@ -23,6 +24,13 @@ inline constexpr double path_margin = 1e-3, touch_distance = 1e-5;
 /// Penetration, metres, that a cloth or a chain with bending stiffness may keep: moving one particle would
 /// strain or bend it, and the next substep turn that into motion.
 inline constexpr double penetration_slop = 5e-5;
+
+/// A displacement of particles as one rigid whole: the mean, and a rotation about the centre of mass.
+struct RigidMotion {
+    glm::dvec3 centre{0.0}, mean{0.0}, spin{0.0};
+    double energy = 0.0;  ///< kinetic, times h^2
+    glm::dvec3 at(const glm::dvec3& x) const { return mean + detail::cross(spin, x - centre); }
+};
 
 /// A particle's contact with a collider in one substep.
 struct Touch {
@@ -155,8 +163,7 @@ struct BodyContactScratch {
     std::vector<Contact> projected;     ///< by depth
     std::vector<Side> sides;            ///< sorted by chain and bond
     std::vector<std::uint32_t> chains;  ///< solved together
-    std::vector<std::uint32_t> groups;
-    std::vector<std::uint8_t> reused;  ///< whether a contact continues each State::contacts
+    std::vector<std::uint8_t> reused;   ///< whether a contact continues each State::contacts
 };
 
 /// Shared by the islands: each writes only data of its own bodies, links, chains and chunks. Colliders have
@@ -171,7 +178,7 @@ struct Scratch {
     /// The colliders near a body. Impact: a resting one displaced it faster than correction_speed.
     enum class Nearest : std::uint8_t { None, Resting, Impact, Moving };
     std::vector<Nearest> body_near;
-    std::vector<std::uint32_t> body_group;  ///< the first of the bodies that contacts join it to
+    std::vector<std::uint32_t> body_group;  ///< an earlier body that contacts join it to, or itself
     std::vector<std::uint8_t> body_failed;  ///< whether a body could not be solved
     std::vector<glm::dvec3> chunk_low, chunk_high;
     struct Moving {
@@ -200,16 +207,15 @@ struct Scratch {
     std::vector<Moving> colliders;
     std::vector<std::uint8_t> chain_solved;  ///< whether a chain is solved with its contacts
     std::vector<double> chain_error;         ///< by chain: relative length error after its last pass
-    /// Factors on the mean velocity of some particles, on the deviations from it, and on the tension of
+    /// Factors on the motion of some particles as a whole, on the deviations from it, and on the tension of
     /// links.
     struct Slowdown {
-        glm::dvec3 mean{0.0};  ///< mean displacement
-        double mean_factor = 1.0, relative_factor = 1.0, tension_factor = 1.0;
+        RigidMotion whole;
+        double whole_factor = 1.0, relative_factor = 1.0, tension_factor = 1.0;
         double remaining_gain = 0.0;  ///< joules of gain that slowing leaves
-        bool any() const { return mean_factor != 1.0 || relative_factor != 1.0 || tension_factor != 1.0; }
+        bool any() const { return whole_factor != 1.0 || relative_factor != 1.0 || tension_factor != 1.0; }
     };
-    std::vector<std::optional<Slowdown>> chain_slowdown;  ///< empty until its energy is balanced
-    std::vector<BodyContactScratch> body_contacts;        ///< by island of the plan with collisions
+    std::vector<BodyContactScratch> body_contacts;  ///< by island of the plan with collisions
     /// A particle that may collide: its position when candidates were listed, the drift and travel per
     /// substep that they allow, metres; and its drift, free travel and move by the solver in this substep,
     /// squared.
@@ -270,9 +276,17 @@ struct IslandScratch {
     ContactScratch contact;
     std::vector<ClothContact> cloth_contacts, earlier_contacts;
     std::vector<ClothSelfContact> self_contacts;
-    std::vector<Scratch::Slowdown> part_slowdown;  ///< by part of the island
-    tendril::detail::ForkJoin loops;               ///< over a cloth; idle threads help
-    Advance done;                                  ///< in this substep; `passes`: maximum over the islands
+    /// A part of the island, or one of its isolated chains. Contacts join members to a group, which keeps
+    /// momentum and energy as one.
+    struct Member {
+        static constexpr std::uint32_t no_chain = 0xffffffffu;
+        std::uint32_t group = 0, part = 0, chain = no_chain;
+        std::optional<Scratch::Slowdown> slowdown{};  ///< empty until its energy is balanced
+    };
+    std::vector<Member> members;      ///< by group
+    bool at_edge = false;             ///< a particle is near the edge of the world, which may hold it
+    tendril::detail::ForkJoin loops;  ///< over a cloth; idle threads help
+    Advance done;                     ///< in this substep; `passes`: maximum over the islands
 };
 
 /// The data that an island's solvers share in one fixed substep. They write only the island's own data, so
@@ -301,6 +315,39 @@ class IslandStep {
             for (std::size_t i = first; i < end; ++i) visit(i);
         }
     }
+    using Member = IslandScratch::Member;
+    using Group = std::span<const Member>;
+    template <class Visit>
+    void each_particle_of(Group group, Visit visit) const {
+        for (const Member& each : group) {
+            if (each.chain == Member::no_chain) {
+                each_particle_of(plan_.parts_of(island_)[each.part], visit);
+                continue;
+            }
+            const Plan::Chain& chain = plan_.chains[each.chain];
+            for (std::uint32_t k = 0; k <= chain.links; ++k) visit(plan_.nodes[chain.first_node + k]);
+        }
+    }
+    template <class Visit>
+    void each_group(Visit visit) const {
+        const std::span<Member> all = local_.members;
+        for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+            while (end < all.size() && all[end].group == all[first].group) ++end;
+            visit(all.subspan(first, end - first));
+        }
+    }
+
+    // momentum.cpp
+    void list_members();
+    Scratch::Nearest nearest_to(Group group) const;
+    /// Whether nothing outside a group may hold it: no pin, no collider, not the edge of the world.
+    bool is_free(Group group) const;
+    /// The rigid motion with the momentum of `move`, a displacement by particle, and with its angular
+    /// momentum about the positions `at`. It does not turn where it would by more than `max_turn`, radians:
+    /// along straight lines, that lengthens links.
+    template <class Move>
+    RigidMotion rigid_motion(Group group, const std::vector<glm::dvec3>& at, Move move,
+                             double max_turn = 0.1) const;
 
     State& state_;
     const Plan& plan_;
@@ -310,11 +357,45 @@ class IslandStep {
     double h_;
 };
 
+template <class Move>
+RigidMotion IslandStep::rigid_motion(Group group, const std::vector<glm::dvec3>& at, Move move,
+                                     double max_turn) const {
+    RigidMotion whole;
+    double mass = 0.0;
+    glm::dvec3 origin(0.0), centre(0.0), turn(0.0);
+    detail::Symmetric3 inertia;
+    each_particle_of(group, [&](std::size_t i) {
+        const double m = state_.mass[i];
+        if (mass == 0.0) origin = at[i];
+        const glm::dvec3 from = at[i] - origin, by = move(i);
+        mass += m;
+        centre += m * from;
+        whole.mean += m * by;
+        turn += m * detail::cross(from, by);
+        inertia.add(-m, from, from);
+    });
+    centre *= 1.0 / mass, whole.mean *= 1.0 / mass;
+    whole.centre = origin + centre;
+    whole.energy = 0.5 * mass * detail::dot(whole.mean, whole.mean);
+    if (max_turn == 0.0) return whole;
+    turn -= mass * detail::cross(centre, whole.mean);
+    inertia.add(mass, centre, centre);
+    constexpr double thin = 1e-12;  // keeps the inertia of collinear particles invertible
+    const double all = -(1.0 + thin) * (inertia.xx + inertia.yy + inertia.zz);
+    inertia.add({all, 0.0, 0.0, all, 0.0, all});
+    const glm::dvec3 spin = detail::inverse_of(inertia) * turn;
+    if (!(detail::length(spin) <= max_turn)) return whole;
+    whole.spin = spin;
+    whole.energy += 0.5 * detail::dot(spin, turn);
+    return whole;
+}
+
 struct Workspace::Parts {
     Plan plan;
     Scratch scratch;
     std::vector<IslandScratch> threads{1};
     Tasks tasks;
+    std::vector<TornLink> torn;  ///< in the last advance()
     /// Sizes match the plan, and the last advance() was not cut short.
     bool prepared = false;
 

@@ -59,6 +59,7 @@ Substep::Substep(const Substep& whole, const Plan::Island& part)
 
 void Substep::run(bool measures) {
     measures_ = measures;
+    list_members();
     move_particles();
     find_near();
     if (island_.contacts != 0) BodyContacts(*this).find();
@@ -68,6 +69,7 @@ void Substep::run(bool measures) {
     depenetrate();
     clamp_to_world();
     if (island_.contacts != 0) BodyContacts(*this).prevent_crossing();
+    restore_momentum();
     limit_energy();
     commit();
 }
@@ -148,17 +150,15 @@ void Substep::measure() {
 }
 
 void Substep::clamp_to_world() {
-    bool stopped = false;
     each_particle([&](std::size_t i) {
         dvec3& x = scratch_.x[i];
-        if (is_within_l1(x, max_magnitude)) return;
-        const dvec3 was = std::exchange(x, clamped_to_world(x, state_.position[i]));
-        stopped |= was != x;
+        if (is_within_l1(x, 0.5 * max_magnitude)) return;
+        x = clamped_to_world(x, state_.position[i]);
+        local_.at_edge = true;
     });
-    if (!stopped) return;
     // Ledgers balanced earlier refer to other positions.
-    for (const Plan::Island& part : plan_.parts_of(island_))
-        std::fill_n(scratch_.chain_slowdown.begin() + part.chains.first, part.chains.count, std::nullopt);
+    for (Member& each : local_.members)
+        if (local_.at_edge) each.slowdown.reset();
 }
 
 void Substep::commit() {

@@ -96,8 +96,6 @@ class Substep : IslandStep {
     void relax_failed_bodies();
     void shorten_steps();
     void shorten_step(std::uint32_t chain);
-    template <class Motion>
-    glm::dvec3 free_mean(const Plan::Chain& chain, const Motion& motion) const;
     double correction_scale(const Plan::Chain& chain) const;
     void scale_correction(const Plan::Chain& chain);
     void gather(const detail::Block& block, const Batch& batch) const;
@@ -109,11 +107,11 @@ class Substep : IslandStep {
     // energy.cpp
     class Ledger;
     using Slowdown = Scratch::Slowdown;
-    Ledger ledger_of(const Plan::Chain& chain) const;
-    Ledger ledger_of(const Plan::Island& part) const;
+    Ledger ledger_of(Group group) const;
     void add_part(Ledger& ledger, const Plan::Island& part) const;
     bool tied_in_grid(const Plan::Island& part, std::size_t link) const;
     void add_chain(Ledger& ledger, const Plan::Chain& chain) const;
+    void restore_momentum();
     void limit_energy();
     Slowdown limit_gain(const Ledger& ledger);
     void apply_slowdown();
@@ -129,8 +127,11 @@ class Substep : IslandStep {
 /// The energy that particles and links gain in this substep, in joules.
 class Substep::Ledger {
   public:
-    Ledger(const Substep& substep, Scratch::Nearest near)
-        : step_(&substep), near_(near), driven_(near == Scratch::Nearest::Moving) {}
+    Ledger(const Substep& substep, Group group)
+        : step_(&substep),
+          group_(group),
+          near_(substep.nearest_to(group)),
+          driven_(near_ == Scratch::Nearest::Moving) {}
 
     void add_particle(std::size_t i);
     void add_link(std::uint32_t link);
@@ -155,10 +156,10 @@ class Substep::Ledger {
 
   private:
     const Substep* step_;
+    Group group_;
     Scratch::Nearest near_;
     double gained_ = 0.0, damping_loss_ = 0.0, kinetic_ = 0.0, kinetic_before_ = 0.0, elastic_ = 0.0,
            mass_ = 0.0, length_ = 0.0;
-    glm::dvec3 momentum_{0.0};         ///< times the substep
     glm::dvec3 solver_momentum_{0.0};  ///< momentum from all but gravity, times the substep
     double gravity_work_ = 0.0,
            elastic_release_ = 0.0;  ///< energy released by gravity and by links, since halfway

@@ -27,8 +27,6 @@ constexpr int max_halvings = 8;
 /// For cloth that is a grid, as in cloth_solver.cpp.
 constexpr double accepted_strain = 0.007, relative_residual = 0.1;
 constexpr int min_grid_steps = 2, max_grid_steps = 8;
-/// A free body keeps turning, and so does the error of each step.
-constexpr int min_free_steps = 4;
 constexpr double single_rounding = 1e-6;  ///< error of a potential: grids are in single precision
 
 /// along n n^T + across (I - n n^T)
@@ -328,57 +326,6 @@ void TiedSolver::step(bool first, int iterations, double max_residual) {
     turn_ = turn;
 }
 
-/// Whether nothing external acts: no pins, no contacts.
-bool TiedSolver::is_free() const {
-    bool free = local_.cloth_contacts.empty();
-    each_particle([&](std::size_t i) { free = free && scratch_.weight[i] > 0.0; });
-    return free;
-}
-
-/// Internal forces cannot move the centre of mass. If nothing external acts, removes the drift due to
-/// rounding: links are ten million times stiffer than particles are heavy.
-void TiedSolver::remove_drift() {
-    if (!is_free()) return;
-    double mass = 0.0;
-    dvec3 moved(0.0);
-    each_particle([&](std::size_t i) {
-        mass += state_.mass[i];
-        moved += state_.mass[i] * (scratch_.x[i] - scratch_.base[i]);
-    });
-    each_particle([&](std::size_t i) { scratch_.x[i] -= (1.0 / mass) * moved; });
-    if (tied_.grids.count > 0) remove_rotation();
-}
-
-/// Internal forces cannot change the angular momentum either. Removes the rotation left by grids, which are
-/// solved only approximately.
-void TiedSolver::remove_rotation() {
-    double mass = 0.0;
-    dvec3 centre(0.0), turn(0.0);
-    each_particle([&](std::size_t i) {
-        mass += state_.mass[i];
-        centre += state_.mass[i] * scratch_.x[i];
-    });
-    centre *= 1.0 / mass;
-    double trace = 0.0;
-    Symmetric3 inertia;
-    each_particle([&](std::size_t i) {
-        const dvec3 from = scratch_.x[i] - centre;
-        turn -= state_.mass[i] * detail::cross(from, scratch_.x[i] - scratch_.base[i]);
-        trace += state_.mass[i] * detail::dot(from, from);
-        inertia.add(-state_.mass[i], from, from);
-    });
-    constexpr double thin = 1e-9;  // keeps the inertia of collinear particles invertible
-    const double all = (1.0 + thin) * trace;
-    const dvec3 a(inertia.xx + all, inertia.xy, inertia.xz), b(inertia.xy, inertia.yy + all, inertia.yz),
-        c(inertia.xz, inertia.yz, inertia.zz + all);
-    const double volume = detail::dot(a, detail::cross(b, c));
-    if (!(volume > 0.0)) return;
-    const dvec3 by =
-        (1.0 / volume) * dvec3(detail::dot(turn, detail::cross(b, c)), detail::dot(a, detail::cross(turn, c)),
-                               detail::dot(a, detail::cross(b, turn)));
-    each_particle([&](std::size_t i) { scratch_.x[i] += detail::cross(by, scratch_.x[i] - centre); });
-}
-
 /// Initial guess: unchanged velocities. At rest a single step then suffices.
 void TiedSolver::predict() {
     for (const std::uint32_t number : Plan::part(plan_.bodies, island_.bodies)) {
@@ -392,10 +339,7 @@ void TiedSolver::predict() {
 int TiedSolver::solve(int iterations) {
     const bool has_grids = tied_.grids.count > 0;
     const int step_limit = std::min(max_steps, iterations);
-    const int min_steps = !local_.near.empty() ? steps_near_colliders
-                          : !has_grids         ? 1
-                          : is_free()          ? min_free_steps
-                                               : min_grid_steps;
+    const int min_steps = !local_.near.empty() ? steps_near_colliders : !has_grids ? 1 : min_grid_steps;
     double max_residual = 0.0;
     predict();
     each_grid([&](std::uint32_t number) {
@@ -417,7 +361,6 @@ int TiedSolver::solve(int iterations) {
                      turn_ <= (taken < strict_steps ? turn_tolerance : late_turn_tolerance) &&
                      (strain_ <= accepted_strain || taken >= max_grid_steps);
     }
-    remove_drift();
     each_grid([&](std::uint32_t number) { Cloth(*this, number).finish(); });
     return taken;
 }

@@ -59,9 +59,6 @@ class TiedSolver : ImplicitStep {
     void move_by(double part);
     void store_tensions(bool exact);
     double potential();
-    bool is_free() const;
-    void remove_drift();
-    void remove_rotation();
 
     double tie_stiffness(const Tie& tie) const;  ///< times h^2 over the mean mass
 

@@ -26,7 +26,6 @@ void size(Scratch& scratch, const State& state, const Plan& plan) {
     scratch.chunk_high.resize(plan.chunks.size());
     scratch.chain_solved.assign(plan.chains.size(), 0);
     scratch.chain_error.assign(plan.chains.size(), 0.0);
-    scratch.chain_slowdown.assign(plan.chains.size(), {});
     scratch.body_contacts.resize(plan.colliding);
     for (BodyContactScratch& each : scratch.body_contacts) each.listed = false;
     scratch.listed.resize(plan.colliding > 0 ? state.position.size() : 0);
@@ -49,6 +48,7 @@ void size(IslandScratch& scratch, const State& state, const Plan& plan, std::siz
     scratch.touched.clear();
     scratch.touched.reserve(state.position.size());
     scratch.near.reserve(4 * plan.chunks.size());
+    scratch.members.reserve(plan.chains.size() + plan.islands.size() + plan.parts.size());
     const std::size_t cells = plan.grids.empty() && plan.tied.empty() ? 0 : state.position.size();
     scratch.cloth_contacts.reserve(cells);
     scratch.earlier_contacts.reserve(cells);
@@ -103,6 +103,7 @@ Result Workspace::use_threads(int threads, const Tasks& tasks) {
 void Workspace::Parts::prepare(const State& state) {
     if (!std::exchange(prepared, false) || !plan.fits(state)) replan(state);
     scratch.colliders.resize(state.colliders.size());
+    if (plan.tears) torn.reserve(state.links.size());
     if (detail::has_air(state.settings)) scratch.wind_move.assign(state.position.size(), glm::dvec3(0.0));
     for (IslandScratch& thread : threads) thread.close.reserve(state.colliders.size());
     scratch.collider_at.resize(state.collider_slots.size());

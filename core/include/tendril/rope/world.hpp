@@ -45,6 +45,12 @@
 
 namespace tendril::rope {
 
+/// A link that its body lost, as it was.
+struct TornLink {
+    BodyId body;
+    Link link;
+};
+
 /// Report of one call of advance().
 struct Advance {
     int substeps = 0;
@@ -60,13 +66,16 @@ struct Advance {
                                     ///< not counted
     std::uint64_t fallbacks = 0;    ///< times a body used the fallback, or a step was taken only in part
     std::uint64_t suspended = 0;    ///< times a body that nothing holds or touches did not fall freely: it is
-                                    ///< at the edge of the world, or the solver held it
+                                    ///< at the edge of the world
     std::uint64_t held_back = 0;    ///< times two segments, or a particle and a triangle, would have
                                     ///< crossed and were held back
     double contact_loss = 0.0;      ///< joules that bodies near resting colliders lost beyond damping: to
                                     ///< contact, friction and the solver. Its rounding depends on threads
-    bool refused = false;           ///< `seconds` was not a number from 0 to 1e9, or the workspace was moved
-                                    ///< from: nothing was done
+    std::span<const TornLink>
+        torn{};            ///< links over their body's tear strain, in order; a rope loses one in
+                           ///< a substep, the most strained. Valid until the workspace's next call
+    bool refused = false;  ///< `seconds` was not a number from 0 to 1e9, or the workspace was moved
+                           ///< from: nothing was done
 };
 
 struct AdvanceOptions {
