@@ -85,6 +85,21 @@ TEST(RopeElastic, TensionIsTheWeightBelow) {
     }
 }
 
+/// Two pins that are too far apart pull with 4e8 N; once one is gone, only weight and swing do.
+TEST(RopeElastic, TensionOfAnOverpulledRopeFallsWhenItIsLetGo) {
+    World world;
+    hang_between(world, 1.2f, 1.7f, 48);
+    allow(world.core().set_length(world.find("rope")->id, 0.5f));
+    run(world, 1.0);
+    const auto strongest = [&] {
+        return std::ranges::max(world.state().links, {}, &rope::Link::tension).tension;
+    };
+    ASSERT_GT(strongest(), 1e8f);
+    world.unpin(48);
+    run(world, 0.25);
+    EXPECT_LT(strongest(), 20.0 * weight(world));
+}
+
 /// A weight on a spring: a period of 2 pi sqrt(m C L).
 TEST(RopeElastic, BouncesWithThePeriodOfASpring) {
     const float compliance = 2e-2f;

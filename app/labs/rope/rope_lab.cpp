@@ -292,8 +292,7 @@ Verdict rope_verdict(const RopePart& part) {
     }
     if (last.report.suspended > 0)
         return {"Neither held nor falling", Verdict::Kind::Bad,
-                "Nothing holds or touches it, and it does not fall: it is at the edge of the world, or the "
-                "solver holds it."};
+                "Nothing holds or touches it, and it does not fall: it is at the edge of the world."};
     if (report.unconverged > 0)
         return {"Did not converge", Verdict::Kind::Open,
                 count_text(report.unconverged, "step") +
