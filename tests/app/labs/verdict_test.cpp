@@ -187,7 +187,9 @@ class SignalVerdict : public VerdictTest {
 };
 
 TEST_F(SignalVerdict, SaysHowTheChainFollows) {
-    EXPECT_TRUE(said().starts_with("Settles in ")) << said();
+    run("signal.filter.add", {{"kind", "one_euro"}, {"beside", true}});
+    run("signal.filter.enable", {{"at", 1}, {"on", false}});
+    EXPECT_TRUE(said().starts_with("Settles in ")) << said() << ", as the filter that is on";
     run("signal.preset", {{"name", "spring_that_explodes"}});
     EXPECT_EQ(said(), "Runs away");
     while (!state()["filters"].empty()) run("signal.filter.remove", {{"at", 0}});
