@@ -114,7 +114,10 @@ void live_lines(const RigPanel& panel, const UnitRow& row) {
 }
 
 void add_unit_menu(const RigPanel& panel) {
-    const bool pressed = row_button("Add a unit", 1, true, "Choose a kind; the new unit runs last");
+    const std::string loop = selected_loop(panel.part);
+    const bool pressed =
+        row_button("Add a unit", 1, true,
+                   ("Choose a kind; the new unit runs last" + (loop.empty() ? "" : " in " + loop)).c_str());
     if (!begin_list_of_button("add unit", pressed)) return;
     for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
         const UnitOffer offer = offered_unit(panel.part, i);
