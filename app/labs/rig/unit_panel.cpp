@@ -390,11 +390,14 @@ void unit_inspector(const RigPanel& panel) {
     const auto row = unit_row(panel.part, panel.part.selected.unit);
     if (!row) return;
     const PanelSection ids(elided("Unit: " + row->unit->name, ImGui::GetContentRegionAvail().x).c_str());
-    std::string operation = rig::operation_name(row->unit->operation.index());
-    std::replace(operation.begin(), operation.end(), '_', ' ');
-    note(operation + (row->inner ? ", run on each element of its for-each" : "") +
-         (row->unit->enabled ? "" : ", switched off"));
-    if (row->unit->enabled) warning_line(panel, panel.part.state->units[row->at].warning);
+    // The warning takes the place of the note, so that the fields stay put.
+    const rig::Warning warning = panel.part.state->units[row->at].warning;
+    if (row->unit->enabled && warning != rig::Warning::None)
+        warning_line(panel, warning);
+    else
+        note(operation_title(row->unit->operation.index()) +
+             (row->inner ? ", run on each element of its for-each" : "") +
+             (row->unit->enabled ? "" : ", switched off"));
     name_field(panel, "rig.unit.rename", row->unit->name, "Another name: units that use its outputs follow.");
     Fields fields(panel, *row);
     for (const UnitInput& input : unit_inputs(panel.part, panel.now, *row->unit)) {
