@@ -206,9 +206,10 @@ TEST_F(RigVerdict, SaysWhetherEveryUnitRan) {
     EXPECT_EQ(said(), "All units ran");
     // Aiming an item at its own position: there is no direction.
     run("rig.clear");
-    EXPECT_EQ(said(), "No units");
+    EXPECT_EQ(said(), "No elements");
     run("rig.element.add", {{"name", "a"}});
     run("rig.element.add", {{"name", "b"}});
+    EXPECT_EQ(said(), "No units");
     run("rig.unit.add", {{"unit", "aim"}, {"item", "a"}, {"primary", {{"target", "b"}}}});
     run("rig.solve");
     EXPECT_EQ(said(), "1 unit with problems");
