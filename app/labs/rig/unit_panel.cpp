@@ -57,7 +57,8 @@ void title_row(const RigPanel& panel, const UnitRow& row, const std::vector<doub
     ImGui::SetCursorPos(at);
     ImGui::TextUnformatted(name.c_str());
     const float left = room - ImGui::CalcTextSize(name.c_str()).x - 0.6f * em;
-    if (operation != unit.name && left > 2.5f * em) {
+    const bool says_more = unit.name != operation && unit.name != rig::operation_name(unit.operation.index());
+    if (says_more && left > 2.5f * em) {
         ImGui::SameLine(0.0f, 0.6f * em);
         ImGui::TextDisabled("%s", elided(operation, left).c_str());
     }
@@ -313,10 +314,8 @@ class Fields {
         chooser("add a " + one, &another, names.size());
     }
     void curve(signal::Curve edited) const {
-        const auto& evaluate = std::get<rig::EvaluateCurve>(row_.unit->operation);
         const double width = edited.source_max - edited.source_min;
         double at = -1.0;  // outside the graph
-        if (const double* literal = evaluate.value.literal()) at = *literal;
         for (const UnitInput& each : unit_inputs(panel_.part, panel_.now, *row_.unit))
             if (each.value && each.path == "/value")
                 if (const auto* number = std::get_if<double>(&*each.value)) at = *number;
