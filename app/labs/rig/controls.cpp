@@ -2,25 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/common.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "app/document/json_complete.hpp"
+#include "app/document/units.hpp"
 #include "app/labs/rig/draw.hpp"
 #include "app/labs/rig/values.hpp"
 #include "app/view/surfaces.hpp"
 
 namespace tendril::app {
 namespace {
-
-/// With two decimals, and without "-0.00".
-std::string fixed(double value) {
-    char text[48];
-    std::snprintf(text, sizeof text, "%.2f", std::abs(value) < 0.005 ? 0.0 : value);
-    return text;
-}
 
 glm::dvec3 along(int axis) {
     glm::dvec3 v(0.0);
@@ -145,28 +138,19 @@ Json ControlShape::value_at(const HandleFrame& from, const HandleFrame& to) cons
     if (to.rotation != from.rotation) wanted.rotation = rig::normalised(glm::dquat(to.rotation));
     if (to.scale != from.scale) wanted.scale = glm::dvec3(to.scale);
     const rig::Transform local = rig::relative(space_, wanted);
-    switch (kind()) {
-        case rig::ControlKind::Position:
-            return value_json(local.translation);
-        case rig::ControlKind::Rotation:
-            return value_json(local.rotation);
-        case rig::ControlKind::Vector2d: {
-            const glm::dvec3 by = glm::inverse(rest_.rotation) * (local.translation - rest_.translation);
-            return Json::array({by[control_.axes[0]], by[control_.axes[1]]});
-        }
-        default:
-            break;
-    }
-    return changed_transform(local, from, to);
+    if (kind() == rig::ControlKind::Position) return value_json(local.translation);
+    if (kind() == rig::ControlKind::Rotation) return value_json(local.rotation);
+    if (kind() != rig::ControlKind::Vector2d) return changed_transform(local, from, to);
+    const glm::dvec3 by = glm::inverse(rest_.rotation) * (local.translation - rest_.translation);
+    return Json::array({by[control_.axes[0]], by[control_.axes[1]]});
 }
 
 std::string ControlShape::text() const {
-    if (kind() == rig::ControlKind::Float) return fixed(number());
+    if (kind() == rig::ControlKind::Float) return fixed_text(number(), 2);
     if (kind() == rig::ControlKind::Bool) return on() ? "on" : "off";
-    if (kind() == rig::ControlKind::Rotation) return {};
     if (const auto* point = std::get_if<glm::dvec3>(&value_)) {
-        const std::string two = fixed(point->x) + ", " + fixed(point->y);
-        return kind() == rig::ControlKind::Vector2d ? two : two + ", " + fixed(point->z);
+        const std::string two = fixed_text(point->x, 2) + ", " + fixed_text(point->y, 2);
+        return kind() == rig::ControlKind::Vector2d ? two : two + ", " + fixed_text(point->z, 2);
     }
     return {};
 }

@@ -77,10 +77,6 @@ void set_elements(RigPart& part, const Arguments& given) {
     if (part.state != before) changed(part);
 }
 
-void remove_elements(RigPart& part, const Arguments& given) {
-    remove_elements(part, elements_given(part, given));
-}
-
 /// Removes the elements or the unit, whichever was selected last.
 void remove_selected(RigPart& part, const Arguments&) {
     const RigSelection selected = part.selected;
@@ -246,9 +242,10 @@ void add_element_commands(CommandTable& table) {
     table.add(rig_command("rig.element.rename", "Rename an element",
                           {element_argument("name", true, "of the element"), new_name_argument()},
                           "Renames an element; units, paths and the clip follow", rename_it<Named::Element>));
-    table.add(rig_command("rig.element.remove", "Remove elements", {name, names},
-                          "Removes elements, unless others are below them or a unit uses them",
-                          remove_elements));
+    table.add(rig_command(
+        "rig.element.remove", "Remove elements", {name, names},
+        "Removes elements, unless others are below them or a unit uses them",
+        [](RigPart& part, const Arguments& given) { remove_elements(part, elements_given(part, given)); }));
     table.add(rig_command("rig.remove_selected", "Delete selection", {},
                           "Removes the elements or the unit, whichever was selected last", remove_selected));
     table.add(rig_command(
@@ -286,11 +283,13 @@ Argument unit_name_argument(bool required) {
     return unit_argument("name", required, "of the unit");
 }
 
-/// Adds a unit. Every member but "at" belongs to the unit, as in a scene file.
+/// Adds a unit. Every member but "at" and "into" belongs to the unit, as in a scene file.
 void add(RigPart& part, const Arguments& given) {
     Json unit = given.json();
     unit.erase("at");
-    add_unit(part, read_unit(JsonPlace(unit, "")), given.has("at") ? given.integer("at") : -1);
+    unit.erase("into");
+    add_unit(part, read_unit(JsonPlace(unit, "")), given.has("at") ? given.integer("at") : -1,
+             text_or_none(given, "into"));
 }
 
 void set(RigPart& part, const Arguments& given) {
@@ -298,18 +297,6 @@ void set(RigPart& part, const Arguments& given) {
     const std::string name = unit.name;
     edit_unit(JsonPlace(given.json(), ""), unit);
     set_unit(part, name, std::move(unit));
-}
-
-void remove_unit(RigPart& part, const Arguments& given) {
-    remove_unit(part, given.text("name"));
-}
-
-void move(RigPart& part, const Arguments& given) {
-    move_unit(part, given.text("name"), given.integer("at"));
-}
-
-void enable(RigPart& part, const Arguments& given) {
-    enable_unit(part, given.text("name"), given.boolean("on"));
 }
 
 /// Appends every member that a unit may have.
@@ -327,15 +314,18 @@ void add_unit_commands(CommandTable& table) {
         unit_arguments({choice_argument("unit", true, "its operation", operation_names()),
                         text_argument("name", false, "a unique name; taken from its operation if omitted"),
                         integer_argument("at", "position in the list of units; at the end if omitted", 0,
-                                         static_cast<double>(max_lab_units))}),
+                                         static_cast<double>(max_lab_units)),
+                        unit_argument("into", false, "of the for-each that runs it; none if omitted")}),
         "Adds a unit with its inputs: literals, outputs of earlier units, elements", add));
     table.add(rig_command("rig.unit.set", "Change a unit's inputs",
                           unit_arguments({unit_name_argument(true)}),
                           "Changes inputs of a unit; omitted ones are kept", set));
     table.add(rig_command("rig.unit.rename", "Rename a unit", {unit_name_argument(true), new_name_argument()},
                           "Renames a unit; units that use its outputs follow", rename_it<Named::Unit>));
-    table.add(rig_command("rig.unit.remove", "Remove a unit", {unit_name_argument(true)},
-                          "Removes a unit whose outputs no other unit uses", remove_unit));
+    table.add(
+        rig_command("rig.unit.remove", "Remove a unit", {unit_name_argument(true)},
+                    "Removes a unit whose outputs no other unit uses",
+                    [](RigPart& part, const Arguments& given) { remove_unit(part, given.text("name")); }));
     table.add(rig_command("rig.unit.move", "Move a unit in the order",
                           {unit_name_argument(true),
                            {.name = "at",
@@ -343,10 +333,15 @@ void add_unit_commands(CommandTable& table) {
                             .help = "its new position in the list of the rig, or of the body that it is in",
                             .low = 0,
                             .high = static_cast<double>(max_lab_units)}},
-                          "Moves a unit, so that it runs earlier or later", move));
+                          "Moves a unit, so that it runs earlier or later",
+                          [](RigPart& part, const Arguments& given) {
+                              move_unit(part, given.text("name"), given.integer("at"));
+                          }));
     table.add(rig_command("rig.unit.enable", "Switch a unit on or off",
                           {unit_name_argument(true), {.name = "on", .type = ArgumentType::Boolean}},
-                          "Switches a unit off or on", enable));
+                          "Switches a unit off or on", [](RigPart& part, const Arguments& given) {
+                              enable_unit(part, given.text("name"), given.boolean("on"));
+                          }));
 }
 
 }  // namespace tendril::app

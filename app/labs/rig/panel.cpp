@@ -282,6 +282,8 @@ Verdict rig_verdict(const RigPart& part) {
         if (warning == rig::Warning::None) continue;
         if (warned++ == 0) first = row.unit->name + ": " + rig::message(warning) + ".";
     }
+    if (part.rig.definition().elements.empty())
+        return {"No elements", Verdict::Kind::Open, "Add bones and a control, then units that move them."};
     if (all == 0) return {"No units", Verdict::Kind::Open, "Add a unit: units move the rig's elements."};
     if (warned > 0) return {count_text(warned, "unit") + " with problems", Verdict::Kind::Bad, first};
     if (on == 0) return {"All units are off", Verdict::Kind::Open, "Switch one on in the list of units."};

@@ -14,6 +14,7 @@
 #include "app/labs/kit/arguments.hpp"
 #include "app/labs/rig/definition_json.hpp"
 #include "app/labs/rig/take.hpp"
+#include "app/labs/rig/unit_inputs.hpp"
 
 namespace tendril::app {
 namespace {
@@ -205,9 +206,16 @@ void move_unit(RigPart& part, const std::string& name, int at) {
     if (!(definition == part.rig.definition())) redefine(part, std::move(definition));
 }
 
-void add_unit(RigPart& part, rig::Unit unit, int at) {
+void add_unit(RigPart& part, rig::Unit unit, int at, const std::string& into) {
     rig::Definition definition = part.rig.definition();
-    const int count = static_cast<int>(definition.units.size());
+    rig::Units* list = &definition.units;
+    const auto body_of = [&](rig::Units& units, std::size_t found) {
+        auto* const loop = std::get_if<rig::ForEach>(&units[found].operation);
+        if (loop == nullptr) throw std::invalid_argument("into: unit " + quoted(into) + " is no for-each");
+        list = &loop->body;
+    };
+    if (!into.empty()) require_unit(definition, into, body_of);
+    const int count = static_cast<int>(list->size());
     if (at > count)
         throw std::invalid_argument("at must be 0 to " + std::to_string(count) + ", got " +
                                     std::to_string(at));
@@ -217,7 +225,7 @@ void add_unit(RigPart& part, rig::Unit unit, int at) {
     collect_names(added, taken);  // the library refuses duplicate names
     name_units(added, taken);
     const std::string name = added[0].name;
-    definition.units.insert(static_cast<std::size_t>(at < 0 ? count : at), std::move(added[0]));
+    list->insert(static_cast<std::size_t>(at < 0 ? count : at), std::move(added[0]));
     redefine(part, std::move(definition));
     part.selected.unit = name;  // the list unfolds it
     part.selected.unit_last = true;
@@ -576,20 +584,7 @@ UnitOffer along_points(const RigPart& part, Json unit) {
         SharedJson(Json{{"unit", "spline"}, {"root", root->name}, {"tip", tip->name}, {"points", points}})};
 }
 
-}  // namespace
-
-std::string free_element_name(const RigPart& part, const std::string& base) {
-    std::string name = base;
-    for (int i = 2; part.rig.element(name); ++i) {
-        name = base;
-        name += ' ';
-        name += std::to_string(i);
-    }
-    return name;
-}
-
-UnitOffer offered_unit(const RigPart& part, std::size_t operation) {
-    const std::string_view kind = rig::operation_name(operation);
+UnitOffer offered(const RigPart& part, std::string_view kind) {
     Json unit{{"unit", kind}};
     if (kind == "aim" || kind == "parent_constraint" || kind == "project_to_parent")
         return follower(part, std::move(unit));
@@ -608,6 +603,38 @@ UnitOffer offered_unit(const RigPart& part, std::size_t operation) {
         if (part.rig.definition().curves.empty()) return {{}, "add a curve first"};
         unit["curve"] = part.rig.definition().curves.front().name;
     }
+    return {SharedJson(std::move(unit))};
+}
+
+}  // namespace
+
+std::string free_element_name(const RigPart& part, const std::string& base) {
+    std::string name = base;
+    for (int i = 2; part.rig.element(name); ++i) {
+        name = base;
+        name += ' ';
+        name += std::to_string(i);
+    }
+    return name;
+}
+
+std::string selected_loop(const RigPart& part) {
+    const auto row = unit_row(part, part.selected.unit);
+    if (!row) return {};
+    const rig::Unit& top = part.rig.definition().units[row->top];
+    return std::holds_alternative<rig::ForEach>(top.operation) ? top.name : std::string();
+}
+
+UnitOffer offered_unit(const RigPart& part, std::size_t operation) {
+    const std::string_view kind = rig::operation_name(operation);
+    const std::string loop = selected_loop(part);
+    if (!loop.empty() && kind == "for_each") return {{}, "a for-each holds no other; deselect it first"};
+    UnitOffer offer = offered(part, kind);
+    if (loop.empty() || !offer.unit) return offer;
+    Json unit = **offer.unit;
+    unit["into"] = loop;
+    if (unit.contains("item")) unit["item"] = {{"item", "each"}};
+    if (kind.starts_with("transform_")) unit["transform"] = {{"item", "each"}, {"of", "transform"}};
     return {SharedJson(std::move(unit))};
 }
 

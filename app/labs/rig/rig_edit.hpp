@@ -26,8 +26,9 @@ void enable_unit(RigPart& part, const std::string& name, bool on);
 /// `at` is the index among the units of the rig, or of the body that contains it. Refuses to move a unit
 /// before one whose output it uses, or after one that uses its output.
 void move_unit(RigPart& part, const std::string& name, int at);
-/// `at` is the index among the units of the rig; -1 appends. Names the unit if it has no name.
-void add_unit(RigPart& part, rig::Unit unit, int at);
+/// `at` is the index among the units of the rig, or of for-each `into`; -1 appends. Names the unit if it has
+/// no name.
+void add_unit(RigPart& part, rig::Unit unit, int at, const std::string& into = "");
 
 /// Replaces a unit, which may be in a body.
 void set_unit(RigPart& part, const std::string& name, rig::Unit unit);
@@ -77,7 +78,10 @@ struct UnitOffer {
     const char* needs = "";  ///< "add an element first", if there is no unit
 };
 /// `operation` is the index in rig::Operation. The active element becomes the item, and follows the other
-/// selected elements. A for-each loops over all selected elements.
+/// selected elements. A for-each loops over all selected elements; while it or a unit in it is selected, it
+/// gets the new unit, for each element.
 UnitOffer offered_unit(const RigPart& part, std::size_t operation);
+/// The for-each that is selected, or has the selected unit; empty if there is none.
+std::string selected_loop(const RigPart& part);
 
 }  // namespace tendril::app

@@ -11,6 +11,11 @@ std::shared_ptr<Part> RigLab::blank() const {
     return std::make_shared<RigPart>(first_rig());
 }
 
+std::string RigLab::invitation(const Workspace& workspace) const {
+    return rig_part(workspace).rig.definition().elements.empty() ? "Add an element, or take a preset."
+                                                                 : "Drag an orange shape.";
+}
+
 CameraPose RigLab::first_view() const {
     return rig_presets().front().view;
 }

@@ -14,7 +14,7 @@ class RigLab final : public Lab {
     std::string title() const override { return "Rig"; }
     std::shared_ptr<Part> blank() const override;
     CameraPose first_view() const override;
-    std::string invitation(const Workspace&) const override { return "Drag an orange shape."; }
+    std::string invitation(const Workspace& workspace) const override;
     void add_commands(CommandTable& table) const override;
 
     bool moving(const Workspace& workspace) const override;

@@ -21,14 +21,6 @@
 namespace tendril::app {
 namespace {
 
-void clear(RigPart& part, const Arguments&) {
-    part = RigPart();
-}
-
-void reset(RigPart& part, const Arguments&) {
-    part = first_rig();
-}
-
 void select_elements(const RigPart& part, Selection& elements, const Arguments& given, bool add) {
     if (!gives_one(given, "element", "elements"))
         return elements.take(element_list(part, given, "elements"), add);
@@ -164,8 +156,10 @@ Argument json_argument(const char* name, bool required, const char* help) {
 
 void add_solve_commands(CommandTable& table) {
     table.add(rig_command("rig.clear", "Remove everything from the rig", {},
-                          "Removes every element, curve and unit", clear));
-    table.add(rig_command("rig.reset", "Reset the Rig lab", {}, "Resets this lab to its first state", reset));
+                          "Removes every element, curve and unit",
+                          [](RigPart& part, const Arguments&) { part = RigPart(); }));
+    table.add(rig_command("rig.reset", "Reset the Rig lab", {}, "Resets this lab to its first state",
+                          [](RigPart& part, const Arguments&) { part = first_rig(); }));
     table.add(part_command<RigPart>(
         rig_lab, "rig.select", "Select elements or a unit",
         {element_argument("element", false, "none if omitted"),

@@ -23,22 +23,9 @@ const char* words_of(rig::Space space, rig::Pose pose) {
 }
 
 rig::Value part_of(const rig::Transform& pose, rig::Of of) {
-    switch (of) {
-        case rig::Of::Translation:
-            return pose.translation;
-        case rig::Of::Rotation:
-            return pose.rotation;
-        case rig::Of::Scale:
-            return pose.scale;
-        case rig::Of::X:
-            return pose.translation.x;
-        case rig::Of::Y:
-            return pose.translation.y;
-        case rig::Of::Z:
-            return pose.translation.z;
-        default:
-            return pose;
-    }
+    const glm::dvec3& at = pose.translation;
+    const rig::Value parts[] = {pose, at, pose.rotation, pose.scale, at.x, at.y, at.z, pose};
+    return parts[static_cast<std::size_t>(of)];
 }
 
 const char* unit_of(const Field& field) {
@@ -477,7 +464,8 @@ constexpr struct {
     {"from_two_vectors", "Outputs the shortest rotation from one direction to another."},
     {"transform_location", "Outputs where a point in a transform's own space is in the scene."},
     {"transform_direction", "Outputs a direction in a transform's own space as a direction in the scene."},
-    {"for_each", "Runs other units on each element of a chain or a tree."},
+    {"for_each",
+     "Runs other units on each element of a chain or a tree. While it is selected, Add a unit adds to it."},
     {"alpha_interpolate", "Maps, scales, clamps and eases a number."},
     {"spring_interpolate", "Follows a number, a vector or a rotation with a spring."},
     {"evaluate_curve", "Outputs a number read from a curve."},

@@ -57,7 +57,8 @@ void title_row(const RigPanel& panel, const UnitRow& row, const std::vector<doub
     ImGui::SetCursorPos(at);
     ImGui::TextUnformatted(name.c_str());
     const float left = room - ImGui::CalcTextSize(name.c_str()).x - 0.6f * em;
-    if (operation != unit.name && left > 2.5f * em) {
+    const bool says_more = unit.name != operation && unit.name != rig::operation_name(unit.operation.index());
+    if (says_more && left > 2.5f * em) {
         ImGui::SameLine(0.0f, 0.6f * em);
         ImGui::TextDisabled("%s", elided(operation, left).c_str());
     }
@@ -114,7 +115,10 @@ void live_lines(const RigPanel& panel, const UnitRow& row) {
 }
 
 void add_unit_menu(const RigPanel& panel) {
-    const bool pressed = row_button("Add a unit", 1, true, "Choose a kind; the new unit runs last");
+    const std::string loop = selected_loop(panel.part);
+    const bool pressed =
+        row_button("Add a unit", 1, true,
+                   ("Choose a kind; the new unit runs last" + (loop.empty() ? "" : " in " + loop)).c_str());
     if (!begin_list_of_button("add unit", pressed)) return;
     for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i) {
         const UnitOffer offer = offered_unit(panel.part, i);
@@ -310,10 +314,8 @@ class Fields {
         chooser("add a " + one, &another, names.size());
     }
     void curve(signal::Curve edited) const {
-        const auto& evaluate = std::get<rig::EvaluateCurve>(row_.unit->operation);
         const double width = edited.source_max - edited.source_min;
         double at = -1.0;  // outside the graph
-        if (const double* literal = evaluate.value.literal()) at = *literal;
         for (const UnitInput& each : unit_inputs(panel_.part, panel_.now, *row_.unit))
             if (each.value && each.path == "/value")
                 if (const auto* number = std::get_if<double>(&*each.value)) at = *number;
@@ -387,11 +389,14 @@ void unit_inspector(const RigPanel& panel) {
     const auto row = unit_row(panel.part, panel.part.selected.unit);
     if (!row) return;
     const PanelSection ids(elided("Unit: " + row->unit->name, ImGui::GetContentRegionAvail().x).c_str());
-    std::string operation = rig::operation_name(row->unit->operation.index());
-    std::replace(operation.begin(), operation.end(), '_', ' ');
-    note(operation + (row->inner ? ", run on each element of its for-each" : "") +
-         (row->unit->enabled ? "" : ", switched off"));
-    if (row->unit->enabled) warning_line(panel, panel.part.state->units[row->at].warning);
+    // The warning takes the place of the note, so that the fields stay put.
+    const rig::Warning warning = panel.part.state->units[row->at].warning;
+    if (row->unit->enabled && warning != rig::Warning::None)
+        warning_line(panel, warning);
+    else
+        note(operation_title(row->unit->operation.index()) +
+             (row->inner ? ", run on each element of its for-each" : "") +
+             (row->unit->enabled ? "" : ", switched off"));
     name_field(panel, "rig.unit.rename", row->unit->name, "Another name: units that use its outputs follow.");
     Fields fields(panel, *row);
     for (const UnitInput& input : unit_inputs(panel.part, panel.now, *row->unit)) {

@@ -74,13 +74,12 @@ std::vector<ShelfPoint> measure_shelf(const SignalPart& part, const ChainAnalysi
         if (measures.lag && measures.jitter)
             points.push_back({filter, stage, *measures.lag, *measures.jitter});
     };
-    const auto on = [](const SignalStage& stage) { return stage.enabled; };
     for (std::size_t i = 0; i < part.stages.size(); ++i)
-        if (on(part.stages[i])) add(part.stages[i].filter, i, chain.stages[i]);
+        if (part.stages[i].enabled) add(part.stages[i].filter, i, chain.stages[i]);
     const InputRows rows = measured_rows(part);
     for (const signal::Kind& kind : signal::kinds()) {
         if (std::ranges::any_of(part.stages, [&](const SignalStage& stage) {
-                return on(stage) && &signal::kind_of(stage.filter) == &kind;
+                return stage.enabled && &signal::kind_of(stage.filter) == &kind;
             }))
             continue;
         const signal::Filter filter = kind.blank();

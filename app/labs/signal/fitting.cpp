@@ -21,8 +21,6 @@ const signal::Filter* of_kind(const std::vector<signal::Filter>& filters, const 
     return found == filters.end() ? nullptr : &*found;
 }
 
-}  // namespace
-
 void start_fitting(SignalPart& part) {
     if (part.wanted.empty())
         throw Refused("there is no response to fit to yet: draw one in the plot Fit, or give one with to");
@@ -32,10 +30,7 @@ void start_fitting(SignalPart& part) {
     part.plot = SignalPlot::Fit;
 }
 
-void cancel_fitting(SignalPart& part) {
-    if (!part.fitting) throw Refused("no fit is running");
-    part.fitting.reset();
-}
+}  // namespace
 
 FitWork::Task::Task(const SignalPart& part)
     : rows(part.fit_input),
@@ -148,7 +143,8 @@ void finish_fit(Workspace& workspace) {
 }
 
 void cancel(SignalPart& part, const Arguments&) {
-    cancel_fitting(part);
+    if (!part.fitting) throw Refused("no fit is running");
+    part.fitting.reset();
 }
 
 void use_fit(SignalPart& part, const Arguments& given) {

@@ -8,11 +8,6 @@
 
 namespace tendril::app {
 
-/// Throws Refused if there is no desired response.
-void start_fitting(SignalPart& part);
-/// Keeps the completed fits, ranked.
-void cancel_fitting(SignalPart& part);
-
 /// The search in progress. It is a function of the part: if lost, it is redone up to the part's progress.
 class FitWork {
   public:

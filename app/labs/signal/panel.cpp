@@ -74,7 +74,7 @@ void input_section(const SignalPart& part, Emit& emit) {
 
 void export_section(Emit& emit) {
     if (row_button("Copy as C++", 2, true,
-                   "Copies the filters that are on as a C++ program that uses the library"))
+                   "Copies the selected filter, with those it works on, as a program that uses the library"))
         emit("signal.copy", {{"as", "cpp"}});
     if (row_button("Copy as CSV", 2, true, "Time, input and every stage of the last ten seconds"))
         emit("signal.copy", {{"as", "csv"}});
@@ -173,7 +173,7 @@ void chain_rows(const SignalPart& part, const Palette& palette, Emit& emit) {
         ImGui::PopID();
     }
     if (part.stages.empty()) note("No filters: the output is the input.");
-    if (part.stages.size() > 1) note("Each works on the input; one that is set in, on the filter above it.");
+    if (part.stages.size() > 1) note("Each works on the input; an indented one, on the filter above it.");
 }
 
 void SignalLab::panel(const Workspace& workspace, Emit& emit) const {
@@ -215,8 +215,7 @@ void spring_rows(const signal::Spring<>& spring, std::size_t at, Emit& emit) {
         changed |= number_field("bounce", bounce, 0.005f, -0.9f, 1.0f, "%.3f");
         explain(
             "How much the spring overshoots: 0 does not, 1 swings for ever, less than 0 is sluggish. Sets "
-            "the "
-            "damping.");
+            "the damping.");
         if (changed) set(signal::of_duration(static_cast<double>(duration), static_cast<double>(bounce)));
     }
 }
@@ -290,8 +289,7 @@ void measure_rows(const signal::Measures& measures) {
         reading("response", "unstable");
         explain(
             "The output is over ten times the range of the input, and still growing: lag, overshoot, "
-            "settling and "
-            "jitter mean nothing.");
+            "settling and jitter mean nothing.");
     } else {
         response_rows(measures);
     }

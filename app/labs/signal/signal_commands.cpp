@@ -173,22 +173,10 @@ void add_filter_commands(CommandTable& table) {
 
 namespace {
 
-void clear(SignalPart& part, const Arguments&) {
-    part.stages.clear();
-    part.selected.reset();
-}
-
-void take(SignalPart& part, SignalPart fresh) {
+void preset(SignalPart& part, const Arguments& given) {
+    auto fresh = named(signal_presets(), std::mem_fn(&SignalPreset::name), given.text("name"), "preset").part;
     fresh.input.recording = part.input.recording;  // keeps the user's recorded gesture
     part = std::move(fresh);
-}
-
-void preset(SignalPart& part, const Arguments& given) {
-    take(part, named(signal_presets(), std::mem_fn(&SignalPreset::name), given.text("name"), "preset").part);
-}
-
-void reset(SignalPart& part, const Arguments&) {
-    part = signal_presets().front().part;
 }
 
 std::shared_ptr<const InputRows> read_rows(const std::string& path, const ColumnChoice& choice) {
@@ -236,9 +224,13 @@ void move_hand(SignalPart& part, const Arguments& given) {
 
 void add_input_commands(CommandTable& table) {
     table.add(part_command<SignalPart>(signal_lab, "signal.clear", "Remove all filters", {},
-                                       "Removes every filter", clear));
-    table.add(part_command<SignalPart>(signal_lab, "signal.reset", "Reset the Signal lab", {},
-                                       "Resets this lab to its first state", reset));
+                                       "Removes every filter", [](SignalPart& part, const Arguments&) {
+                                           part.stages.clear();
+                                           part.selected.reset();
+                                       }));
+    table.add(part_command<SignalPart>(
+        signal_lab, "signal.reset", "Reset the Signal lab", {}, "Resets this lab to its first state",
+        [](SignalPart& part, const Arguments&) { part = signal_presets().front().part; }));
     table.add(part_command<SignalPart>(
         signal_lab, "signal.preset", "Open a signal preset",
         {choice_argument("name", true, "which",

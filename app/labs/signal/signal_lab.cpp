@@ -209,6 +209,8 @@ Verdict signal_verdict(const SignalPart& part, const signal::Measures& whole) {
         add(*whole.overshoot < 5e-4 ? "no overshoot"
                                     : "overshoots by " + fixed_text(100.0 * *whole.overshoot, 1) + " %");
     }
+    if (!why.empty() && std::ranges::count(part.stages, true, &SignalStage::enabled) > 1)
+        why = stage_title(part, *shown_stage(part)) + ": " + why;
     if (!why.empty()) why = capitalised(why) + '.';
     if (whole.settling_time)
         return {"Settles in " + si_text(*whole.settling_time, "s"), Verdict::Kind::Good, why};

@@ -17,6 +17,13 @@ Lane lane_of(const SignalPart& part, std::size_t stage) {
     return lane;
 }
 
+Lane shown_lane(const SignalPart& part) {
+    const auto shown = lane_of(part, part.selected.value_or(0));
+    const auto on = std::ranges::find(part.stages, true, &SignalStage::enabled);
+    if (on == part.stages.end() || !enabled_filters(part, shown).empty()) return shown;
+    return lane_of(part, static_cast<std::size_t>(on - part.stages.begin()));
+}
+
 std::optional<std::size_t> shown_stage(const SignalPart& part) {
     const Lane lane = shown_lane(part);
     for (std::size_t i = lane.end; i-- > lane.first;)

@@ -132,11 +132,9 @@ struct Lane {
     std::size_t first = 0, end = 0;
 };
 Lane lane_of(const SignalPart& part, std::size_t stage);
-/// The lane of the selected filter; else the first. The output is this one's, and what is exported and
-/// fitted.
-inline Lane shown_lane(const SignalPart& part) {
-    return lane_of(part, part.selected.value_or(0));
-}
+/// The lane of the selected filter, or of the first; if all in it are off, the first lane that has one on.
+/// The output is this one's, and what is exported and fitted.
+Lane shown_lane(const SignalPart& part);
 /// Its last stage that is on: the one whose output is shown.
 std::optional<std::size_t> shown_stage(const SignalPart& part);
 /// The lowest colour that no stage has.

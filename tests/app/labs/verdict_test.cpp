@@ -191,7 +191,9 @@ class SignalVerdict : public VerdictTest {
 };
 
 TEST_F(SignalVerdict, SaysHowTheChainFollows) {
-    EXPECT_TRUE(said().starts_with("Settles in ")) << said();
+    run("signal.filter.add", {{"kind", "one_euro"}, {"beside", true}});
+    run("signal.filter.enable", {{"at", 1}, {"on", false}});
+    EXPECT_TRUE(said().starts_with("Settles in ")) << said() << ", as the filter that is on";
     run("signal.preset", {{"name", "spring_that_explodes"}});
     EXPECT_EQ(said(), "Runs away");
     while (!state()["filters"].empty()) run("signal.filter.remove", {{"at", 0}});
@@ -208,9 +210,10 @@ TEST_F(RigVerdict, SaysWhetherEveryUnitRan) {
     EXPECT_EQ(said(), "All units ran");
     // Aiming an item at its own position: there is no direction.
     run("rig.clear");
-    EXPECT_EQ(said(), "No units");
+    EXPECT_EQ(said(), "No elements");
     run("rig.element.add", {{"name", "a"}});
     run("rig.element.add", {{"name", "b"}});
+    EXPECT_EQ(said(), "No units");
     run("rig.unit.add", {{"unit", "aim"}, {"item", "a"}, {"primary", {{"target", "b"}}}});
     run("rig.solve");
     EXPECT_EQ(said(), "1 unit with problems");

@@ -165,6 +165,11 @@ TEST_F(SeveralSelected, UnitsAreOfferedForAll) {
     EXPECT_EQ(offered("parent_constraint").at("item"), "b");
     EXPECT_EQ(offered("parent_constraint").at("parents"), parents);
     EXPECT_EQ(offered("aim").at("primary").at("target"), "right");
+    run("rig.unit.add", offered("for_each"));
+    EXPECT_EQ(offered("aim").at("item"), (Json{{"item", "each"}})) << "a selected for-each gets the new unit";
+    run("rig.unit.add", offered("aim"));
+    EXPECT_EQ(saved().at("units").at(0).at("body").size(), 1u);
+    refuses("rig.unit.add", {{"unit", "aim_math"}, {"into", "aim"}}, "into");
     for (std::size_t i = 0; i < std::variant_size_v<rig::Operation::Variant>; ++i)
         if (const UnitOffer offer = offered_unit(part(), i); offer.unit) run("rig.unit.add", **offer.unit);
     tick(2);
