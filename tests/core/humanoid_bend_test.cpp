@@ -68,10 +68,6 @@ Points random_points(Random& random, std::size_t count, float size) {
     return points;
 }
 
-bool same_bits(const Pose& a, const Pose& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
-}
-
 double angle_between(const glm::dquat& a, const glm::dquat& b) {
     const glm::dquat turn = glm::inverse(a) * b;
     return 2.0 * std::atan2(glm::length(glm::dvec3(turn.x, turn.y, turn.z)), std::abs(turn.w));

@@ -3,11 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <random>
 #include <tendril/humanoid/bone_map.hpp>
 
 namespace tendril::test {
+
+inline bool same_bits(const std::vector<rig::Transform>& a, const std::vector<rig::Transform>& b) {
+    if (a.size() != b.size() || a.empty()) return a.size() == b.size();
+    return std::memcmp(a.data(), b.data(), a.size() * sizeof(rig::Transform)) == 0;
+}
 
 using namespace humanoid;
 

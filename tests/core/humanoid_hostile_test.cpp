@@ -33,10 +33,6 @@ bool is_fine(const rig::Transform& local) {
 bool is_fine(const std::vector<rig::Transform>& pose) {
     return std::all_of(pose.begin(), pose.end(), [](const rig::Transform& each) { return is_fine(each); });
 }
-bool same_bits(const std::vector<rig::Transform>& a, const std::vector<rig::Transform>& b) {
-    if (a.size() != b.size() || a.empty()) return a.size() == b.size();
-    return std::memcmp(a.data(), b.data(), a.size() * sizeof(rig::Transform)) == 0;
-}
 
 class HostileHumanoid : public testing::Test {
   protected:
