@@ -203,6 +203,10 @@ void ChainLab::panel(const Workspace& workspace, Emit& emit) const {
     section("Export", false, [&](MoreRows&) { export_rows(emit); });
 }
 
+bool ChainLab::analyses(const Workspace& workspace) const {
+    return chain_part(workspace).study.open();
+}
+
 float ChainLab::timeline_height(const Workspace& workspace) const {
     const bool magnified = chain_part(workspace).study.kind == Study::Kind::Microscope;
     return magnified ? strip_height : Lab::timeline_height(workspace);

@@ -228,6 +228,22 @@ TEST_P(LabCard, AHiddenCardReopensFresh) {
     EXPECT_EQ(scene.app().state().at("card").at("title"), scene.card().title);
 }
 
+TEST(ChainCard, GivesWayToARaceAndAsksForThePoleInItsFlip) {
+    CardOnScene scene({"chain", 1});
+    ASSERT_TRUE(scene.has_ring());
+    for (const std::string study : {"race", "microscope"}) {
+        scene.run(study + ".open", Json::object());
+        scene.wait(2);
+        EXPECT_FALSE(scene.has_ring()) << study;
+        scene.run(study + ".close", Json::object());
+        scene.wait(2);
+        EXPECT_TRUE(scene.has_ring()) << study;
+    }
+    scene.run("chain.pole", {{"off", true}});
+    scene.play(scene.card().steps[2]);
+    EXPECT_FALSE(scene.done()[2]);
+}
+
 /// The button that hides the card is somewhere near the right edge, above the steps.
 TEST_P(LabCard, OneClickHidesIt) {
     CardOnScene scene(GetParam());
