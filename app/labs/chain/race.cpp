@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <string_view>
 #include <tendril/ik/observer.hpp>
 #include <tendril/ik/solver.hpp>
 
@@ -157,13 +158,14 @@ std::string error_text(const Racer& racer, const RacerAt& at) {
 }
 
 std::string end_text(const Racer& racer) {
-    return capitalised(outcome_name(racer.report.status)) + ", " +
-           si_text(static_cast<double>(racer.residuals.back()), "m") + " from the target";
-}
-
-std::string restored_text(const Racer& racer) {
-    if (!racer.restored) return {};
-    return "best pose restored: " + si_text(static_cast<double>(racer.report.residual), "m");
+    std::string text = capitalised(outcome_name(racer.report.status)) + ", " +
+                       si_text(static_cast<double>(racer.residuals.back()), "m");
+    const std::string ran = ran_text(racer.method, racer.report);
+    const std::size_t more = ran.find_first_not_of(" +,", std::string_view(solver_title(racer.method)).size());
+    if (racer.restored)
+        text += "; best pose restored: " + si_text(static_cast<double>(racer.report.residual), "m");
+    if (more != ran.npos) return text + "; " + ran.substr(more);
+    return racer.restored ? text : text + " from the target";
 }
 
 std::string race_csv(const Race& race) {

@@ -1,7 +1,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <string_view>
 
 #include "app/document/units.hpp"
 #include "app/labs/chain/draw.hpp"
@@ -44,22 +43,19 @@ void racer_row(const ShownChain& shown, ik::Method method, bool time, const Pale
     colour_mark(solver_colour(palette, method));
     if (ImGui::Checkbox(solver_title(method), &on))
         emit("race.solver", {{"name", ik::name(method)}, {"on", on}});
-    explain((std::string("Whether it runs in the race. ") + solver_help(method)).c_str());
     const auto& racers = shown.race->racers;
-    const auto racer =
-        std::find_if(racers.begin(), racers.end(), [&](const Racer& r) { return r.method == method; });
-    if (racer == racers.end()) return;
+    const auto racer = std::ranges::find(racers, method, &Racer::method);
+    const bool raced = racer != racers.end();
+    explain((std::string("Whether it runs in the race. ") + solver_help(method) +
+             (raced ? " It ran as " + ran_text(method, racer->report) + "." : ""))
+                .c_str());
+    if (!raced) return;
     ImGui::SameLine();
     const RacerAt at = racer_at(*racer, shown.step());
     text_flush_right(time ? si_text(1e-6 * racer->microseconds, "s") : std::to_string(racer->iterations()));
     if (racer->report.status == ik::Status::InvalidInput) return small_right("does not support this chain");
-    const std::string ran = ran_text(method, racer->report);
-    // Omit the solver's name, which is above: "least squares, 3 restarts".
-    const std::size_t more = ran.find_first_not_of(" +,", std::string_view(solver_title(method)).size());
-    if (more != ran.npos) small_right(ran.substr(more));
-    // The same number of lines in every iteration, so that no row moves while the race plays.
+    // One line in every iteration and for every target, so that no row moves.
     small_right(at.finished ? end_text(*racer) : progress_text(at) + ", " + error_reading(at));
-    if (racer->restored) small_right(at.finished ? restored_text(*racer) : " ");
 }
 
 /// A solver that does not accept this chain.

@@ -237,7 +237,15 @@ TEST_F(ChainRace, TheLegendHasEachRacersIterationAndError) {
 
 TEST_F(ChainRace, TheLegendSaysWhoStoppedShortAndKeepsItsWidths) {
     race_of(6);
+    test::PanelReader reader;
+    const auto lines_above_the_plot = [&] {
+        const std::string text = reader.inspector(lab(), workspace);
+        return std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("Against")), '\n');
+    };
+    run("chain.target", {{"to", {3, 3, 1}}});
+    const auto lines = lines_above_the_plot();
     run("chain.target", {{"to", {30, 3, 1}}});  // out of reach
+    EXPECT_EQ(lines_above_the_plot(), lines);
     const auto rows = lab().legend(workspace);
     std::size_t short_of_it = 0;
     for (std::size_t i = 0; i < race()->racers.size(); ++i) {
