@@ -389,34 +389,42 @@ void report_rows(const ShownChain& shown, const std::vector<glm::vec3>& joints, 
 
 namespace {
 
-/// Why the method ignores an option, for its row's tooltip; empty if it does not.
-std::string why_unused(const ReachSettings& reach, const Field& option) {
-    const bool limited = is_limited(reach);
+/// Why the solver and its rivals in a race ignore an option, for its row's tooltip; empty if one uses it.
+std::string why_unused(const ChainPart& part, const Field& option) {
+    const ReachSettings& reach = part.reach;
+    const bool limited = is_limited(reach), racing = part.study.kind == Study::Kind::Race;
     const std::string_view name = option.name;
     const bool turns = name == "pole_turn" || name == "twist";
     if (reach.plane && turns) return "A chain in a plane does not use this.";
-    if (ik::honours(reach.method, option, limited)) return {};
+    const auto uses = [&](ik::Method method) {
+        const bool runs =
+            method == reach.method ||
+            (racing && part.study.racers[static_cast<std::size_t>(method)] && takes(method, part.chain));
+        return runs && ik::honours(method, option, limited);
+    };
+    if (std::ranges::any_of(ik::all_methods, uses)) return {};
     const bool otherwise = ik::honours(reach.method, option, !limited);
     const char* const when = !otherwise ? "" : limited ? " within limits" : " without joint limits";
     return std::string(solver_title(reach.method)) + " does not use this" + when + ".";
 }
 
 /// A row of the solver's settings, greyed where the method ignores it.
-void solver_row(const ReachSettings& reach, const Field& field, MoreRows& more, Emit& emit,
+void solver_row(const ChainPart& part, const Field& field, MoreRows& more, Emit& emit,
                 std::optional<double> otherwise = {}) {
-    FieldRows(reach, "chain.solver", emit)
+    FieldRows(part.reach, "chain.solver", emit)
         .under(more)
-        .row(field.name, {.otherwise = otherwise, .why_not = why_unused(reach, field)});
+        .row(field.name, {.otherwise = otherwise, .why_not = why_unused(part, field)});
 }
 
-void option_rows(const ReachSettings& reach, float length, MoreRows& more, Emit& emit) {
+void option_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
+    const ReachSettings& reach = part.reach;
     for (const Field& field : fields<ReachSettings>()) {
         const std::string_view name = field.name;
         if (name == "solver" || name.starts_with("pole")) continue;  // in a row of its own; below its switch
         std::optional<double> otherwise;
-        if (name == "tolerance") otherwise = reach_tolerance(reach, length);
+        if (name == "tolerance") otherwise = reach_tolerance(reach, part.chain.reach());
         if (name == "restarts") otherwise = default_restarts;
-        solver_row(reach, field, more, emit, otherwise);
+        solver_row(part, field, more, emit, otherwise);
     }
     more.add("", {"chain.solver", {"default_tolerance", "default_restarts"}}, false, [&reach, &emit] {
         if (row_button("Default tolerance", 1, reach.options.tolerance.has_value(),
@@ -445,7 +453,7 @@ void pole_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
         if (point_field("pole", pole, 0.01f)) emit.continuously("chain.pole", {{"to", pole}});
         explain("Where the pole target is. Drag the pink ball to move it.");
     });
-    solver_row(part.reach, *find_field(fields<ReachSettings>(), "pole_turn"), more, emit);
+    solver_row(part, *find_field(fields<ReachSettings>(), "pole_turn"), more, emit);
 }
 
 }  // namespace
@@ -464,7 +472,7 @@ void solver_rows(const ChainPart& part, MoreRows& more, Emit& emit) {
         (std::string(solver_help(part.reach.method)) + " Race compares the solvers on this chain.").c_str());
     if (!takes(part.reach.method, part.chain)) note(why_not_taken(part.reach.method, part.chain) + ".");
     pole_rows(part, more, emit);
-    option_rows(part.reach, part.chain.reach(), more, emit);
+    option_rows(part, more, emit);
 }
 
 }  // namespace tendril::app
