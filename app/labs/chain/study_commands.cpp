@@ -191,7 +191,7 @@ void add_microscope_commands(CommandTable& table) {
 void add_study_commands(CommandTable& table) {
     add_microscope_commands(table);
     table.add(opening(chain_command("race.open", "Start a race of solvers", {start_argument()},
-                                    "Runs several solvers from the same start to the same target",
+                                    "Compares solvers from the same start to the same target, with a plot",
                                     open<Study::Kind::Race>, Effect::Edit)));
     table.add(chain_command(
         "race.solver", "Choose which solvers race",
