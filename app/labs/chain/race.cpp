@@ -161,7 +161,8 @@ std::string end_text(const Racer& racer) {
     std::string text = capitalised(outcome_name(racer.report.status)) + ", " +
                        si_text(static_cast<double>(racer.residuals.back()), "m");
     const std::string ran = ran_text(racer.method, racer.report);
-    const std::size_t more = ran.find_first_not_of(" +,", std::string_view(solver_title(racer.method)).size());
+    const std::size_t more =
+        ran.find_first_not_of(" +,", std::string_view(solver_title(racer.method)).size());
     if (racer.restored)
         text += "; best pose restored: " + si_text(static_cast<double>(racer.report.residual), "m");
     if (more != ran.npos) return text + "; " + ran.substr(more);
@@ -169,7 +170,7 @@ std::string end_text(const Racer& racer) {
 }
 
 std::string race_csv(const Race& race) {
-    std::string csv = "solver,iteration,residual,microseconds,status,ran,restored\n";
+    std::string csv = "solver,iteration,tip_to_target_m,microseconds,status,ran,restored_m\n";
     for (const Racer& racer : race.racers) {
         const auto last = static_cast<double>(std::max<std::size_t>(racer.residuals.size() - 1, 1));
         for (std::size_t i = 0; i < racer.residuals.size(); ++i) {

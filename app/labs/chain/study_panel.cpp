@@ -22,9 +22,16 @@ std::vector<glm::vec2> by_iteration(const std::vector<float>& residuals) {
     return points;
 }
 
-/// The lower end of the y axis in plots of residuals: two decades below the tolerance.
-float min_residual(float tolerance) {
-    return std::max(1e-7f, 1e-2f * tolerance);
+/// The y axis begins two decades below the tolerance.
+PlotAxes residual_axes(float tolerance, int iteration) {
+    return {.x = "iterations",
+            .y = "tip to target",
+            .y_unit = "m",
+            .min_y = std::max(1e-7f, 1e-2f * tolerance),
+            .level = tolerance,
+            .level_name = "tolerance",
+            .at_x = static_cast<float>(iteration),
+            .whole_x = true};
 }
 
 void start_buttons(const char* command, Emit& emit) {
@@ -81,17 +88,10 @@ void race_plot(const ShownChain& shown, bool time, const Palette& palette) {
         }
         curves.push_back(std::move(curve));
     }
-    plot("race plot", curves,
-         {.x = time ? "time" : "iterations",
-          .x_unit = time ? "s" : "",
-          .y = "tip to target",
-          .y_unit = "m",
-          .min_y = min_residual(race.tolerance),
-          .min_x = time ? 0.0f : 1.0f,
-          .level = race.tolerance,
-          .at_x = time ? -1.0f : static_cast<float>(shown.step()),
-          .whole_x = !time},
-         plot_lines);
+    PlotAxes axes = residual_axes(race.tolerance, time ? -1 : static_cast<int>(shown.step()));
+    axes.whole_x = !time;
+    if (time) axes.x = "time", axes.x_unit = "s", axes.min_x = 0.0f;
+    plot("race plot", curves, axes, plot_lines);
 }
 
 }  // namespace
@@ -143,7 +143,11 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
     reading("step", "%zu of %zu", step, trace.frames());
     reading("iteration", "%d of %d", trace.iteration(step), trace.report.iterations);
     note(ran_text(trace.method, trace.report) + ".");
+    const float from = ImGui::GetCursorPosY();
     note(describe_frame(trace, step));
+    // Two lines for a shorter text too, so that the plot stays put from step to step.
+    const float below = from + 2.0f * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
+    ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), below));
     if (part.motion.path != Motion::Path::Still)
         note("The moving target waits while the microscope is open.");
     if (trace.cut) note("The solve took more steps than were recorded.");
@@ -155,15 +159,7 @@ void microscope_rows(const ShownChain& shown, const Palette& palette, Emit& emit
     end_row();
     const Curve curve{solver_title(trace.method), palette.accent, by_iteration(trace.residuals)};
     const float tolerance = reach_tolerance(part.reach, part.chain.reach());
-    plot("error", {&curve, 1},
-         {.x = "iterations",
-          .y = "tip to target",
-          .y_unit = "m",
-          .min_y = min_residual(tolerance),
-          .level = tolerance,
-          .at_x = static_cast<float>(trace.iteration(step)),
-          .whole_x = true},
-         plot_lines);
+    plot("error", {&curve, 1}, residual_axes(tolerance, trace.iteration(step)), plot_lines);
 }
 
 void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
@@ -190,7 +186,8 @@ void race_rows(const ShownChain& shown, const Palette& palette, Emit& emit) {
     explain("Shows each solver's chain in its own view, all with the same camera, instead of all in one.");
     start_buttons("race.open", emit);
     end_row();
-    if (row_button("Copy numbers as CSV", 1, true, "Every solver's residual at each iteration"))
+    if (row_button("Copy numbers as CSV", 1, true,
+                   "Every solver's tip to target in metres, at each iteration"))
         emit("race.copy");
     const std::string film = "Writes the race from its start to its end as an animated PNG of " +
                              fixed_text(race_film_seconds(shown.last()), 0) +

@@ -240,7 +240,8 @@ TEST_F(ChainRace, TheLegendSaysWhoStoppedShortAndKeepsItsWidths) {
     test::PanelReader reader;
     const auto lines_above_the_plot = [&] {
         const std::string text = reader.inspector(lab(), workspace);
-        return std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("Against")), '\n');
+        return std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("Against")),
+                          '\n');
     };
     run("chain.target", {{"to", {3, 3, 1}}});
     const auto lines = lines_above_the_plot();
